@@ -1,0 +1,26 @@
+# Options that every target of this project is compiled with.
+# Floating-point results are part of the interface: contraction stays off and the compiler may not
+# reorder arithmetic, so that g++ and clang, scalar and vector code give the same bits.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+find_program(DECK_CCACHE ccache)
+if(DECK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${DECK_CCACHE})
+endif()
+
+set(DECK_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thread")
+
+add_library(deck_options INTERFACE)
+target_compile_options(deck_options INTERFACE -ffp-contract=off -fno-math-errno)
+if(DECK_SANITIZE)
+  target_compile_options(deck_options INTERFACE -fsanitize=${DECK_SANITIZE}
+                         -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+  target_link_options(deck_options INTERFACE -fsanitize=${DECK_SANITIZE})
+endif()
+
+add_library(deck_warnings INTERFACE)
+target_compile_options(deck_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                       -Woverloaded-virtual -Wcast-align -Wunused -Wformat=2
+                       $<$<BOOL:${LIBDECK_WERROR}>:-Werror>)
