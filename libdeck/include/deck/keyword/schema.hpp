@@ -1,0 +1,118 @@
+// Schema: what a keyword's cards look like — columns, types, dimensions, legal values, defaults and
+// conditions per input version. The single source of truth is schemas/keywords/*.json.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/text/result.hpp"
+
+namespace deck {
+
+/// Exponents of mass, length, time and temperature. Half-integers do not occur.
+struct Dimension {
+  std::int8_t mass = 0, length = 0, time = 0, temperature = 0;
+  friend bool operator==(const Dimension&, const Dimension&) = default;
+  bool dimensionless() const { return *this == Dimension{}; }
+};
+
+enum class FieldType : std::uint8_t {
+  integer,  ///< whole number
+  real,     ///< number, converted with its dimension
+  text,     ///< raw columns, trailing blanks removed
+  flag,     ///< one column, only the digit 1 counts
+  id,       ///< integer that refers to another entity (see Field::ref)
+};
+
+/// A test on an integer field of the same block that was read on an earlier card.
+struct Condition {
+  std::string field;
+  std::vector<std::int64_t> in;           ///< the value is one of these (empty: not tested)
+  std::optional<std::int64_t> min, max;   ///< and within these bounds
+  bool holds(std::int64_t value) const;
+};
+
+/// One fixed-column cell. Columns are 1-based and inclusive.
+struct Field {
+  std::string name;                       ///< the manual's name, e.g. "Fscalegap"
+  int first = 0, last = 0;                ///< columns
+  FieldType type = FieldType::integer;
+  std::string ref;                        ///< for ids: kind of the target ("grnod", "surf", "node", ...)
+  int from = 0, until = 9999;             ///< input versions that have this cell
+  std::vector<std::int64_t> values;       ///< legal values (empty: any)
+  std::optional<double> min, max;         ///< legal range, inclusive
+  bool min_open = false, max_open = false;///< the bound itself is not legal
+  std::string default_text;               ///< the effective value of 0/blank, in words or a number
+  Dimension dimension;
+  bool dimension_known = true;            ///< false: unit conversion must refuse this field
+  /// Dimension that depends on an integer field, first match wins.
+  std::vector<std::pair<std::vector<Condition>, Dimension>> dimension_when;
+  bool ignored = false;                   ///< the reference solver reads it and does nothing with it
+  std::string doc;                        ///< one line
+  std::string from_manual;                ///< where manual and reference solver differ, one line
+  bool in_version(int version) const { return version >= from && version <= until; }
+};
+
+enum class Repeat : std::uint8_t {
+  once,
+  rows,   ///< this card repeats to the end of the block
+  ids,    ///< id list: cells of the first field's width to the end of every line
+  group,  ///< this and the following cards marked `group` repeat together to the end of the block
+};
+
+/// One line of a block.
+struct CardSchema {
+  std::string name;               ///< what the card holds ("ids and flags", "friction")
+  int from = 0, until = 9999;     ///< input versions that have this card
+  std::vector<Condition> when;    ///< all must hold; empty: always present
+  Repeat repeat = Repeat::once;
+  bool optional = false;          ///< may be missing at the end of the block without a complaint
+  std::vector<Field> fields;
+  std::string doc;
+  bool in_version(int version) const { return version >= from && version <= until; }
+};
+
+struct Schema {
+  std::string keyword;               ///< canonical, e.g. "/INTER/TYPE7"
+  std::vector<std::string> aliases;  ///< e.g. "/PROP/TYPE1" for "/PROP/SHELL"
+  std::string kind;                  ///< entity kind whose ids it defines ("inter", "surf", ...); may be empty
+  bool has_id = true;                ///< header carries an id
+  bool has_title = true;             ///< a title line follows the header
+  bool has_unit = true;              ///< header may carry a unit id after the id
+  bool bulk = false;                 ///< read by the fast path straight into arrays
+  bool opaque_tail = false;          ///< lines after the described cards are legal and not interpreted
+  int from = 0;                      ///< first input version that knows the keyword
+  std::string doc;
+  std::vector<CardSchema> cards;
+  std::string source;                ///< file name the schema came from
+
+  const Field* find_field(std::string_view name) const;
+};
+
+/// All known schemas and the longest-prefix lookup of header lines.
+class SchemaSet {
+ public:
+  /// The schemas compiled into the library. Never fails in a correct build (tested).
+  static const SchemaSet& built_in();
+  /// Adds or replaces schemas from one JSON text. Error: where and what is wrong.
+  Result<void> add_json(std::string_view name, std::string_view text);
+  /// Adds every *.json of a directory, in name order.
+  Result<void> add_directory(const std::string& dir);
+
+  /// Schema whose keyword or alias is the longest prefix (by header fields) of `header`
+  /// ("/SURF/PART/EXT/12"); nullptr if none.
+  const Schema* match(std::string_view header) const;
+  const Schema* find(std::string_view keyword) const;  ///< exact keyword or alias
+  /// Every schema once, ordered by keyword.
+  std::vector<const Schema*> all() const;
+
+ private:
+  std::map<std::string, std::shared_ptr<const Schema>, std::less<>> by_name_;
+};
+
+}  // namespace deck
