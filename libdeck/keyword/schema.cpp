@@ -1,0 +1,130 @@
+// SchemaSet: the table of keywords and aliases, and the search for the longest one that begins a
+// header. Reading the JSON is in schema_json.cpp.
+#include "deck/keyword/schema.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "keyword/embedded.hpp"
+#include "keyword/schema_json.hpp"
+
+namespace deck {
+
+bool Condition::holds(std::int64_t value) const {
+  if (!in.empty() && std::find(in.begin(), in.end(), value) == in.end()) return false;
+  return (!min || value >= *min) && (!max || value <= *max);
+}
+
+const Field* Schema::find_field(std::string_view name) const {
+  // A field may be listed once per layout; the newest one speaks for the keyword.
+  const Field* best = nullptr;
+  int best_until = -1;
+  for (const auto& card : cards)
+    for (const auto& field : card.fields)
+      if (const int until = std::min(card.until, field.until);
+          field.name == name && until > best_until) {
+        best = &field;
+        best_until = until;
+      }
+  return best;
+}
+
+const SchemaSet& SchemaSet::built_in() {
+  static const SchemaSet set = [] {
+    SchemaSet all;
+    // The files are checked by the tests of the build, so a failure cannot be met here.
+    for (const auto& file : detail::embedded_schemas())
+      static_cast<void>(all.add_json(file.name, file.text));
+    return all;
+  }();
+  return set;
+}
+
+Result<void> SchemaSet::add_json(std::string_view name, std::string_view text) {
+  auto parsed = detail::parse_schemas(name, text);
+  if (!parsed) return parsed.error();
+
+  // Build the new table first so that a bad file leaves the set as it was.
+  auto table = by_name_;
+  std::set<std::string> fresh;
+  for (auto& schema : *parsed) {
+    const auto added = std::make_shared<const Schema>(std::move(schema));
+    if (const auto it = table.find(added->keyword);
+        it != table.end() && it->second->keyword == added->keyword && !fresh.count(added->keyword))
+      std::erase_if(table, [old = it->second](const auto& entry) { return entry.second == old; });
+    std::vector<std::string> names = added->aliases;
+    names.insert(names.begin(), added->keyword);
+    for (const auto& key : names) {
+      const auto [it, inserted] = table.emplace(key, added);
+      if (!inserted)
+        return Error{Error::Code::config,
+                     fmt::format("{}: {} of {} already names {} ({})", name, key, added->keyword,
+                                 it->second->keyword, it->second->source)};
+      fresh.insert(key);
+    }
+  }
+  by_name_ = std::move(table);
+  return {};
+}
+
+Result<void> SchemaSet::add_directory(const std::string& dir) {
+  std::error_code error;
+  std::vector<std::filesystem::path> files;
+  for (std::filesystem::directory_iterator it(dir, error), end; !error && it != end;
+       it.increment(error))
+    if (it->path().extension() == ".json") files.push_back(it->path());
+  if (error)
+    return Error{Error::Code::io,
+                 fmt::format("{}: cannot list the schema directory: {}", dir, error.message())};
+  std::sort(files.begin(), files.end());
+  for (const auto& path : files) {
+    std::ifstream in(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (!in && !in.eof())
+      return Error{Error::Code::io, fmt::format("{}: cannot read the file", path.string())};
+    if (auto added = add_json(path.string(), text); !added) return added;
+  }
+  return {};
+}
+
+const Schema* SchemaSet::match(std::string_view header) const {
+  const auto blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
+  const auto trim = [&](std::string_view text) {
+    while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+    return text;
+  };
+  header = trim(header);
+  if (header.empty() || header.front() != '/') return nullptr;
+  const Schema* best = nullptr;
+  std::string prefix;
+  for (std::size_t begin = 1; begin <= header.size();) {
+    const auto end = std::min(header.find('/', begin), header.size());
+    const auto field = trim(header.substr(begin, end - begin));
+    begin = end + 1;
+    if (field == "ADDD") continue;  // a sub-field without meaning, dropped before matching
+    prefix += '/';
+    prefix += field;
+    if (const auto it = by_name_.find(prefix); it != by_name_.end()) best = it->second.get();
+  }
+  return best;
+}
+
+const Schema* SchemaSet::find(std::string_view keyword) const {
+  const auto it = by_name_.find(keyword);
+  return it == by_name_.end() ? nullptr : it->second.get();
+}
+
+std::vector<const Schema*> SchemaSet::all() const {
+  std::vector<const Schema*> schemas;
+  for (const auto& [name, schema] : by_name_)
+    if (name == schema->keyword) schemas.push_back(schema.get());
+  return schemas;
+}
+
+}  // namespace deck

@@ -1,0 +1,467 @@
+// Strict reader of keyword schemas. It is strict because a mistyped key would otherwise become a
+// column that is silently never read.
+#include "keyword/schema_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace deck::detail {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Thrown inside this file only: the first thing that is wrong, with its JSON path.
+struct Wrong {
+  std::string what;
+};
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) {
+  throw Wrong{fmt::format("{}: {}", path.empty() ? "/" : path, what)};
+}
+
+std::string at(const std::string& path, std::string_view key) {
+  return fmt::format("{}/{}", path, key);
+}
+std::string at(const std::string& path, std::size_t index) {
+  return fmt::format("{}/{}", path, index);
+}
+
+void expect_object(const Json& json, const std::string& path,
+                   std::initializer_list<std::string_view> keys) {
+  if (!json.is_object()) fail(path, fmt::format("expected an object, found {}", json.type_name()));
+  for (const auto& item : json.items())
+    if (std::find(keys.begin(), keys.end(), item.key()) == keys.end())
+      fail(path, fmt::format("unknown key \"{}\" (known: {})", item.key(), fmt::join(keys, ", ")));
+}
+
+const Json& expect_array(const Json& json, const std::string& path) {
+  if (!json.is_array()) fail(path, fmt::format("expected a list, found {}", json.type_name()));
+  return json;
+}
+
+std::string text_of(const Json& json, const std::string& path) {
+  if (!json.is_string()) fail(path, fmt::format("expected text, found {}", json.type_name()));
+  return json.get<std::string>();
+}
+
+std::int64_t integer_of(const Json& json, const std::string& path) {
+  if (!json.is_number_integer())
+    fail(path, fmt::format("expected a whole number, found {}", json.dump()));
+  return json.get<std::int64_t>();
+}
+
+int small_of(const Json& json, const std::string& path) {
+  const auto value = integer_of(json, path);
+  if (value < -9999 || value > 9999) fail(path, fmt::format("{} is out of range", value));
+  return static_cast<int>(value);
+}
+
+double number_of(const Json& json, const std::string& path) {
+  if (!json.is_number()) fail(path, fmt::format("expected a number, found {}", json.dump()));
+  return json.get<double>();
+}
+
+void read(const Json& json, const std::string& path, const char* key, std::string& out) {
+  if (const auto it = json.find(key); it != json.end()) out = text_of(*it, at(path, key));
+}
+
+void read(const Json& json, const std::string& path, const char* key, bool& out) {
+  const auto it = json.find(key);
+  if (it == json.end()) return;
+  if (!it->is_boolean()) fail(at(path, key), "expected true or false");
+  out = it->get<bool>();
+}
+
+std::vector<std::int64_t> integers_of(const Json& json, const std::string& path) {
+  std::vector<std::int64_t> values;
+  for (const auto& item : expect_array(json, path))
+    values.push_back(integer_of(item, at(path, values.size())));
+  if (values.empty()) fail(path, "the list is empty");
+  return values;
+}
+
+void require(const Json& json, const std::string& path, const char* key) {
+  if (!json.contains(key)) fail(path, fmt::format("the key \"{}\" is missing", key));
+}
+
+int version_of(const Json& json, const std::string& path) {
+  const int version = small_of(json, path);
+  const auto& known = known_versions();
+  if (std::find(known.begin(), known.end(), version) == known.end())
+    fail(path, fmt::format("{} is not an input version ({})", version, fmt::join(known, ", ")));
+  return version;
+}
+
+/// "versions": [from, until or null]; the last one may lie between two versions (119 = below 120).
+void read_versions(const Json& json, const std::string& path, int& from, int& until) {
+  const auto it = json.find("versions");
+  if (it == json.end()) return;
+  const auto here = at(path, "versions");
+  if (expect_array(*it, here).size() != 2) fail(here, "expected [from, until or null]");
+  from = version_of((*it)[0], at(here, std::size_t{0}));
+  if (!(*it)[1].is_null()) until = small_of((*it)[1], at(here, std::size_t{1}));
+  if (until < from) fail(here, "the range is empty");
+}
+
+std::vector<Condition> conditions_of(const Json& json, const std::string& path) {
+  std::vector<Condition> conditions;
+  for (const auto& item : expect_array(json, path)) {
+    const auto here = at(path, conditions.size());
+    expect_object(item, here, {"field", "in", "min", "max"});
+    require(item, here, "field");
+    Condition condition;
+    read(item, here, "field", condition.field);
+    if (item.contains("in")) condition.in = integers_of(item["in"], at(here, "in"));
+    if (item.contains("min")) condition.min = integer_of(item["min"], at(here, "min"));
+    if (item.contains("max")) condition.max = integer_of(item["max"], at(here, "max"));
+    if (condition.in.empty() && !condition.min && !condition.max)
+      fail(here, "the condition tests nothing: give \"in\", \"min\" or \"max\"");
+    conditions.push_back(std::move(condition));
+  }
+  if (conditions.empty()) fail(path, "the list is empty");
+  return conditions;
+}
+
+Dimension dimension_of(const Json& json, const std::string& path) {
+  const auto size = expect_array(json, path).size();
+  if (size != 3 && size != 4)
+    fail(path, "expected the exponents [mass, length, time] or [mass, length, time, temperature]");
+  std::array<std::int8_t, 4> power{};
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto value = integer_of(json[i], at(path, i));
+    if (std::abs(value) > 20) fail(at(path, i), "exponent out of range");
+    power[i] = static_cast<std::int8_t>(value);
+  }
+  return {power[0], power[1], power[2], power[3]};
+}
+
+FieldType type_of(const Json& json, const std::string& path) {
+  const auto name = text_of(json, path);
+  if (name == "int") return FieldType::integer;
+  if (name == "real") return FieldType::real;
+  if (name == "text") return FieldType::text;
+  if (name == "flag") return FieldType::flag;
+  if (name == "id") return FieldType::id;
+  fail(path, fmt::format("\"{}\" is not a field type (int, real, text, flag, id)", name));
+}
+
+void read_columns(const Json& json, const std::string& path, Field& field) {
+  require(json, path, "cols");
+  const auto here = at(path, "cols");
+  const auto& cols = expect_array(json["cols"], here);
+  if (cols.size() != 2) fail(here, "expected [first, last]");
+  field.first = small_of(cols[0], at(here, std::size_t{0}));
+  field.last = small_of(cols[1], at(here, std::size_t{1}));
+  if (field.first < 1 || field.last < field.first || field.last > 100)
+    fail(here, fmt::format("columns {}-{} do not lie in 1-100", field.first, field.last));
+}
+
+void read_dimension(const Json& json, const std::string& path, Field& field) {
+  if (json.contains("dim")) field.dimension = dimension_of(json["dim"], at(path, "dim"));
+  bool unknown = false;
+  read(json, path, "dim_unknown", unknown);
+  field.dimension_known = !unknown;
+  if (unknown && json.contains("dim")) fail(path, "\"dim\" and \"dim_unknown\" exclude each other");
+  if (json.contains("dim_when")) {
+    const auto here = at(path, "dim_when");
+    std::size_t n = 0;
+    for (const auto& item : expect_array(json["dim_when"], here)) {
+      const auto entry = at(here, n++);
+      expect_object(item, entry, {"when", "dim"});
+      require(item, entry, "when");
+      require(item, entry, "dim");
+      field.dimension_when.emplace_back(conditions_of(item["when"], at(entry, "when")),
+                                        dimension_of(item["dim"], at(entry, "dim")));
+    }
+  }
+  const bool any = json.contains("dim") || json.contains("dim_when") || unknown;
+  if (any && field.type != FieldType::real) fail(path, "only real fields have a dimension");
+}
+
+void read_range(const Json& json, const std::string& path, Field& field) {
+  if (json.contains("values")) field.values = integers_of(json["values"], at(path, "values"));
+  if (json.contains("min")) field.min = number_of(json["min"], at(path, "min"));
+  if (json.contains("max")) field.max = number_of(json["max"], at(path, "max"));
+  read(json, path, "min_open", field.min_open);
+  read(json, path, "max_open", field.max_open);
+  if ((field.min_open && !field.min) || (field.max_open && !field.max))
+    fail(path, "an open bound needs the bound itself");
+  if (field.min && field.max && *field.min > *field.max) fail(path, "min is above max");
+  const bool whole = field.type == FieldType::integer || field.type == FieldType::id ||
+                     field.type == FieldType::flag;
+  if (!field.values.empty() && !whole) fail(path, "only integer fields have a list of values");
+  if ((field.min || field.max) && field.type == FieldType::text)
+    fail(path, "a text field has no range");
+}
+
+Field field_of(const Json& json, const std::string& path) {
+  expect_object(
+      json, path,
+      {"name", "cols", "type", "ref", "versions", "values", "min", "max", "min_open", "max_open",
+       "default", "dim", "dim_unknown", "dim_when", "ignored", "doc", "manual"});
+  Field field;
+  require(json, path, "name");
+  read(json, path, "name", field.name);
+  if (field.name.empty()) fail(at(path, "name"), "the name is empty");
+  read_columns(json, path, field);
+  require(json, path, "type");
+  field.type = type_of(json["type"], at(path, "type"));
+  if (field.type == FieldType::flag && field.first != field.last)
+    fail(at(path, "cols"), "a flag has exactly one column");
+  read(json, path, "ref", field.ref);
+  if ((field.type == FieldType::id) == field.ref.empty())
+    fail(path, "\"ref\" is required for fields of type id and only for those");
+  read_versions(json, path, field.from, field.until);
+  read_range(json, path, field);
+  read(json, path, "default", field.default_text);
+  read_dimension(json, path, field);
+  read(json, path, "ignored", field.ignored);
+  read(json, path, "doc", field.doc);
+  read(json, path, "manual", field.from_manual);
+  return field;
+}
+
+CardSchema card_of(const Json& json, const std::string& path) {
+  expect_object(json, path, {"name", "doc", "versions", "when", "repeat", "optional", "fields"});
+  CardSchema card;
+  require(json, path, "name");
+  read(json, path, "name", card.name);
+  read(json, path, "doc", card.doc);
+  read_versions(json, path, card.from, card.until);
+  if (json.contains("when")) card.when = conditions_of(json["when"], at(path, "when"));
+  std::string repeat;
+  read(json, path, "repeat", repeat);
+  if (repeat == "rows") {
+    card.repeat = Repeat::rows;
+  } else if (repeat == "ids") {
+    card.repeat = Repeat::ids;
+  } else if (repeat == "group") {
+    card.repeat = Repeat::group;
+  } else if (json.contains("repeat")) {
+    fail(at(path, "repeat"), fmt::format("\"{}\" is not rows, ids or group", repeat));
+  }
+  read(json, path, "optional", card.optional);
+  require(json, path, "fields");
+  const auto here = at(path, "fields");
+  for (const auto& item : expect_array(json["fields"], here))
+    card.fields.push_back(field_of(item, at(here, card.fields.size())));
+  return card;
+}
+
+void check_keyword(const std::string& keyword, const std::string& path) {
+  std::string_view rest = keyword;
+  if (rest.substr(0, 2) == "//") rest.remove_prefix(1);
+  bool good = rest.size() > 1 && rest[0] == '/' && rest.back() != '/' &&
+              rest.find("//") == std::string_view::npos;
+  for (const char c : rest) good = good && c > ' ';
+  if (!good) fail(path, fmt::format("\"{}\" is not a keyword like /INTER/TYPE7", keyword));
+}
+
+Schema schema_of(const Json& json, const std::string& path, std::string_view source) {
+  expect_object(json, path,
+                {"$schema", "keyword", "aliases", "kind", "id", "title", "unit", "bulk",
+                 "opaque_tail", "from", "doc", "cards"});
+  Schema schema;
+  schema.source = source;
+  require(json, path, "keyword");
+  read(json, path, "keyword", schema.keyword);
+  check_keyword(schema.keyword, at(path, "keyword"));
+  if (json.contains("aliases")) {
+    const auto here = at(path, "aliases");
+    for (const auto& item : expect_array(json["aliases"], here)) {
+      const auto entry = at(here, schema.aliases.size());
+      schema.aliases.push_back(text_of(item, entry));
+      check_keyword(schema.aliases.back(), entry);
+    }
+  }
+  read(json, path, "kind", schema.kind);
+  read(json, path, "id", schema.has_id);
+  read(json, path, "title", schema.has_title);
+  read(json, path, "unit", schema.has_unit);
+  read(json, path, "bulk", schema.bulk);
+  read(json, path, "opaque_tail", schema.opaque_tail);
+  if (json.contains("from")) schema.from = version_of(json["from"], at(path, "from"));
+  read(json, path, "doc", schema.doc);
+  if (json.contains("cards")) {
+    const auto here = at(path, "cards");
+    for (const auto& item : expect_array(json["cards"], here))
+      schema.cards.push_back(card_of(item, at(here, schema.cards.size())));
+  }
+  if (const auto wrong = check_schema(schema); !wrong.empty()) throw Wrong{path + wrong};
+  return schema;
+}
+
+/// JSON lets a key occur twice and the last one wins; in a schema that is a mistake.
+class DuplicateKeys {
+ public:
+  bool operator()(Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) {
+      open_.emplace_back();
+    } else if (event == Json::parse_event_t::object_end) {
+      open_.pop_back();
+    } else if (event == Json::parse_event_t::key) {
+      const auto key = parsed.get<std::string>();
+      if (!open_.back().insert(key).second)
+        throw Wrong{fmt::format("the key \"{}\" occurs twice in one object", key)};
+    }
+    return true;
+  }
+
+ private:
+  std::vector<std::set<std::string>> open_;
+};
+
+/// Versions from..until in which a field of a card exists.
+struct Range {
+  int from, until;
+  bool meets(const Range& other) const {
+    return std::max(from, other.from) <= std::min(until, other.until);
+  }
+};
+
+Range range_of(const CardSchema& card, const Field& field) {
+  return {std::max(card.from, field.from), std::min(card.until, field.until)};
+}
+
+/// Whether `schema` has, in `version`, an integer field `name` on the first `cards` cards.
+bool knows_before(const Schema& schema, std::size_t cards, int version, std::string_view name) {
+  for (std::size_t i = 0; i < cards; ++i)
+    for (const auto& field : schema.cards[i].fields)
+      if (field.name == name && field.type != FieldType::real && field.type != FieldType::text &&
+          schema.cards[i].in_version(version) && field.in_version(version))
+        return true;
+  return false;
+}
+
+/// The first version in which a condition tests a field that is not known yet; 0 if there is none.
+int unknown_in(const Schema& schema, std::size_t cards, Range range, const Condition& condition) {
+  for (const int version : known_versions())
+    if (version >= std::max(range.from, schema.from) && version <= range.until &&
+        !knows_before(schema, cards, version, condition.field))
+      return version;
+  return 0;
+}
+
+std::string check_conditions(const Schema& schema, std::size_t index) {
+  const auto& card = schema.cards[index];
+  for (const auto& condition : card.when)
+    if (const int version = unknown_in(schema, index, {card.from, card.until}, condition))
+      return fmt::format(
+          "/cards/{}/when: in version {} no earlier card has an integer field \"{}\"", index,
+          version, condition.field);
+  for (std::size_t f = 0; f < card.fields.size(); ++f)
+    for (const auto& entry : card.fields[f].dimension_when)
+      for (const auto& condition : entry.first)
+        if (const int version =
+                unknown_in(schema, index + 1, range_of(card, card.fields[f]), condition))
+          return fmt::format(
+              "/cards/{}/fields/{}/dim_when: in version {} neither this nor an earlier card has an "
+              "integer field \"{}\"",
+              index, f, version, condition.field);
+  return {};
+}
+
+std::string check_columns(const CardSchema& card, std::size_t index) {
+  for (std::size_t j = 0; j < card.fields.size(); ++j) {
+    const auto& field = card.fields[j];
+    const auto range = range_of(card, field);
+    if (range.from > range.until)
+      return fmt::format("/cards/{}/fields/{}: \"{}\" exists in no version of its card", index, j,
+                         field.name);
+    if (range.until < 51 && field.last > 80)
+      return fmt::format("/cards/{}/fields/{}/cols: lines have 80 columns before version 51", index,
+                         j);
+    for (std::size_t i = 0; i < j; ++i) {
+      const auto& other = card.fields[i];
+      if (range.meets(range_of(card, other)) && field.first <= other.last &&
+          other.first <= field.last)
+        return fmt::format("/cards/{}/fields/{}/cols: {}-{} of \"{}\" overlap {}-{} of \"{}\"",
+                           index, j, field.first, field.last, field.name, other.first, other.last,
+                           other.name);
+    }
+  }
+  return {};
+}
+
+/// Names must be unique within a version, or conditions and look-ups would be ambiguous.
+std::string check_names(const Schema& schema, std::size_t index) {
+  const auto& card = schema.cards[index];
+  for (std::size_t f = 0; f < card.fields.size(); ++f)
+    for (std::size_t c = 0; c <= index; ++c) {
+      const auto& earlier = schema.cards[c];
+      const auto count = c == index ? f : earlier.fields.size();
+      for (std::size_t g = 0; g < count; ++g)
+        if (earlier.fields[g].name == card.fields[f].name &&
+            range_of(earlier, earlier.fields[g]).meets(range_of(card, card.fields[f])))
+          return fmt::format("/cards/{}/fields/{}: the name \"{}\" is already used by card {}",
+                             index, f, card.fields[f].name, c);
+    }
+  return {};
+}
+
+std::string check_repeat(const Schema& schema, std::size_t index) {
+  const auto& card = schema.cards[index];
+  if (card.repeat == Repeat::ids && card.fields.size() != 1)
+    return fmt::format("/cards/{}: an id list has exactly one field", index);
+  if (card.repeat == Repeat::rows && card.fields.empty())
+    return fmt::format("/cards/{}: repeated rows without fields", index);
+  for (std::size_t c = 0; c < index; ++c) {
+    const auto& earlier = schema.cards[c];
+    if (earlier.repeat == Repeat::once ||
+        !Range{earlier.from, earlier.until}.meets({card.from, card.until}))
+      continue;
+    if (earlier.repeat != Repeat::group || card.repeat != Repeat::group)
+      return fmt::format("/cards/{}: nothing can follow card {}, which repeats to the end", index,
+                         c);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string check_schema(const Schema& schema) {
+  for (std::size_t c = 0; c < schema.cards.size(); ++c) {
+    std::string wrong = check_columns(schema.cards[c], c);
+    if (wrong.empty()) wrong = check_names(schema, c);
+    if (wrong.empty()) wrong = check_repeat(schema, c);
+    if (wrong.empty()) wrong = check_conditions(schema, c);
+    if (!wrong.empty()) return wrong;
+  }
+  return {};
+}
+
+const std::vector<int>& known_versions() {
+  static const std::vector<int> versions = {41,   42,   44,   51,   90,   100,  110,
+                                            120,  130,  140,  2017, 2018, 2019, 2020,
+                                            2021, 2022, 2023, 2024, 2025, 2026};
+  return versions;
+}
+
+Result<std::vector<Schema>> parse_schemas(std::string_view name, std::string_view text) {
+  try {
+    DuplicateKeys duplicates;
+    const auto json = Json::parse(text, [&](int, Json::parse_event_t event, Json& parsed) {
+      return duplicates(event, parsed);
+    });
+    std::vector<Schema> schemas;
+    if (json.is_object() && json.contains("schemas")) {
+      expect_object(json, "", {"$schema", "schemas"});
+      for (const auto& item : expect_array(json["schemas"], "/schemas"))
+        schemas.push_back(schema_of(item, at("/schemas", schemas.size()), name));
+    } else {
+      schemas.push_back(schema_of(json, "", name));
+    }
+    return schemas;
+  } catch (const Wrong& wrong) {
+    return Error{Error::Code::config, fmt::format("{}: {}", name, wrong.what)};
+  } catch (const Json::exception& error) {
+    return Error{Error::Code::config, fmt::format("{}: not valid JSON: {}", name, error.what())};
+  }
+}
+
+}  // namespace deck::detail

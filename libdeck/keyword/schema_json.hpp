@@ -1,0 +1,22 @@
+// Reading of keyword schemas from JSON text: every key checked, errors name the file and JSON path.
+// Private to the keyword stage; the public face is SchemaSet.
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "deck/keyword/schema.hpp"
+
+namespace deck::detail {
+
+/// Input versions that have a layout of their own, ascending.
+const std::vector<int>& known_versions();
+
+/// Parses one schema file: an object with "keyword", or one with "schemas" (a list of such
+/// objects). `name` goes into messages and into Schema::source.
+Result<std::vector<Schema>> parse_schemas(std::string_view name, std::string_view text);
+
+/// Checks that go across cards: overlapping columns, repeated names, conditions on fields that are
+/// not yet known, misplaced repetition. Returns an empty string, or "json/path: what is wrong".
+std::string check_schema(const Schema& schema);
+
+}  // namespace deck::detail
