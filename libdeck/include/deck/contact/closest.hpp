@@ -1,0 +1,556 @@
+// Closest points of a node and a segment, and of two edges, in two forms: the reference solver's
+// formulas, guard for guard, and a robust one without absolute floors.
+//
+// Templates on the number type: the same text runs as float, double, double-double, interval and
+// exact rational. Types without a square root (NumberTraits<T>::has_sqrt == false) get squared
+// distances only and compare those.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace deck {
+
+// Which formulas are used.
+enum class Form : std::uint8_t {
+  reference,  // the published solver's, with its absolute floors 1e-30 and 1e-20
+  robust      // exact closest point, relative guards only, residual form of the distance
+};
+
+// What the templates need to know about a number type beyond its operators.
+template <class T>
+struct NumberTraits {
+  static constexpr bool has_sqrt = true;
+  // True if multiplying by a power of two is exact and exponents are bounded.
+  static constexpr bool is_machine_float = std::is_floating_point_v<T>;
+  // Squared sine below which two directions count as parallel: their cross product is round-off.
+  static T parallel_guard() {
+    if constexpr (is_machine_float) {
+      return T(16) * std::numeric_limits<T>::epsilon() * std::numeric_limits<T>::epsilon();
+    } else {
+      return T(0);
+    }
+  }
+};
+
+template <class T>
+struct Point3 {
+  T x{}, y{}, z{};
+};
+
+template <class T>
+Point3<T> operator+(const Point3<T>& a, const Point3<T>& b) {
+  return {T(a.x + b.x), T(a.y + b.y), T(a.z + b.z)};
+}
+template <class T>
+Point3<T> operator-(const Point3<T>& a, const Point3<T>& b) {
+  return {T(a.x - b.x), T(a.y - b.y), T(a.z - b.z)};
+}
+template <class T>
+Point3<T> operator-(const Point3<T>& a) {
+  return {T(-a.x), T(-a.y), T(-a.z)};
+}
+template <class T>
+Point3<T> operator*(const T& f, const Point3<T>& a) {
+  return {T(f * a.x), T(f * a.y), T(f * a.z)};
+}
+template <class T>
+T dot(const Point3<T>& a, const Point3<T>& b) {
+  return T(a.x * b.x + a.y * b.y + a.z * b.z);
+}
+template <class T>
+Point3<T> cross(const Point3<T>& a, const Point3<T>& b) {
+  return {T(a.y * b.z - a.z * b.y), T(a.z * b.x - a.x * b.z), T(a.x * b.y - a.y * b.x)};
+}
+
+// The part of a segment that holds its closest point. Index (0-based):
+// face: sub-triangle; edge: i joins corner i and i+1; corner: i; spoke: joins the centre and
+// corner i; centre: 0. A triangle has no spokes and no centre; its edges are 0, 1, 2 as well.
+enum class Feature : std::uint8_t { face, edge, corner, spoke, centre };
+
+// Closest point on one sub-triangle O, A, B (centre, corner k, corner k+1) of a segment.
+template <class T>
+struct SubTriangleClosest {
+  T weight_o{}, weight_a{}, weight_b{};  // closest point = sum of weight * vertex
+  Point3<T> vector;                      // from the closest point to the node, not normalised
+  T distance_squared{};
+  T distance{};  // left 0 where the number type has no square root
+};
+
+// Closest point on a segment: the four sub-triangles and the best of them.
+template <class T>
+struct SegmentClosest {
+  std::array<SubTriangleClosest<T>, 4> sub;
+  int best = 0;  // sub-triangle with the smallest distance, the first of ties
+  Feature feature = Feature::face;
+  int feature_index = 0;
+  std::array<T, 4> weights{};  // of the four corners, sum 1; a triangle's fourth is 0
+  const SubTriangleClosest<T>& closest() const { return sub[static_cast<std::size_t>(best)]; }
+  const T& distance() const { return closest().distance; }
+  const T& distance_squared() const { return closest().distance_squared; }
+};
+
+// Initial penetration of a node-segment pair.
+template <class T>
+struct Penetration {
+  T value{};                // max over the sub-triangles of max(0, gap - distance); > 0: penetrated
+  int sub = 0;              // first sub-triangle that has that value
+  Point3<T> normal;         // unit vector from the segment to the node; zero if the node is on it
+  bool on_surface = false;  // the distance is exactly 0: no direction exists
+};
+
+enum class EdgeFeature : std::uint8_t { interior, first_node, second_node };
+
+// Closest points of two edges.
+template <class T>
+struct EdgeClosest {
+  T weight_s{}, weight_m{};  // weight of the *first* node of the secondary and the main edge
+  Point3<T> vector;          // from the main point to the secondary point, not normalised
+  T distance_squared{};
+  T distance{};  // left 0 where the number type has no square root
+  EdgeFeature feature_s = EdgeFeature::interior, feature_m = EdgeFeature::interior;
+  bool parallel = false;  // robust form: parallel and overlapping, middle of the overlap taken
+};
+
+namespace closest_detail {
+
+template <class T>
+T larger(const T& a, const T& b) {
+  using std::max;
+  return max(a, b);
+}
+template <class T>
+T smaller(const T& a, const T& b) {
+  using std::min;
+  return min(a, b);
+}
+template <class T>
+T magnitude(const T& a) {
+  using std::abs;
+  return T(abs(a));
+}
+template <class T>
+T clamp01(const T& a) {
+  return larger(T(0), smaller(T(1), a));
+}
+template <class T>
+T square_root(const T& a) {
+  if constexpr (NumberTraits<T>::has_sqrt) {
+    using std::sqrt;
+    return sqrt(a);
+  } else {
+    return T(0);
+  }
+}
+
+template <class T>
+T largest_component(const Point3<T>& v) {
+  return larger(magnitude(v.x), larger(magnitude(v.y), magnitude(v.z)));
+}
+
+// Euclidean length. Squares that would leave the exponent range are scaled by a power of two.
+template <class T>
+T length(const Point3<T>& v) {
+  if constexpr (std::is_floating_point_v<T>) {
+    constexpr int kSafe = std::numeric_limits<T>::max_exponent / 3;
+    const T big = largest_component(v);
+    if (big > T(0) && (big < std::ldexp(T(1), -kSafe) || big > std::ldexp(T(1), kSafe))) {
+      const int shift = -std::ilogb(big);
+      const Point3<T> w{std::ldexp(v.x, shift), std::ldexp(v.y, shift), std::ldexp(v.z, shift)};
+      return std::ldexp(std::sqrt(dot(w, w)), -shift);
+    }
+  }
+  return square_root(dot(v, v));
+}
+
+// Reference formula on one sub-triangle; `p` the node, absolute coordinates.
+template <class T>
+SubTriangleClosest<T> reference_sub_triangle(const Point3<T>& p, const Point3<T>& o,
+                                             const Point3<T>& corner_a, const Point3<T>& corner_b) {
+  const T floor30(1e-30), floor20(1e-20), zero(0);
+  const Point3<T> a = corner_a - o, b = corner_b - o, r = p - o;
+  const Point3<T> n = cross(a, b);
+  const T s = T(1) / larger(floor30, dot(n, n));
+  T la = s * dot(n, cross(r, b));
+  T lb = s * dot(n, cross(a, r));
+  T lo = T(1) - la - lb;
+  const Point3<T> e = corner_b - corner_a;
+  const T ee = larger(floor20, dot(e, e));
+  const T bb = larger(floor30, dot(b, b));
+  const T aa = larger(floor30, dot(a, a));
+  const T ho = lo * magnitude(lo) / ee;
+  const T ha = la * magnitude(la) / bb;
+  const T hb = lb * magnitude(lb) / aa;
+  if (lo < zero && ho <= ha && ho <= hb) {
+    la = clamp01(T(dot(corner_b - p, e) / ee));
+    lb = T(1) - la;
+    lo = zero;
+  } else if (la < zero && ha <= hb && ha <= ho) {
+    la = zero;
+    lb = clamp01(T(dot(r, b) / bb));
+    lo = T(1) - lb;
+  } else if (lb < zero && hb <= ho && hb <= ha) {
+    lb = zero;
+    la = clamp01(T(dot(r, a) / aa));
+    lo = T(1) - la;
+  }
+  SubTriangleClosest<T> out;
+  out.vector = p - (o + la * a + lb * b);
+  out.weight_o = lo;
+  out.weight_a = la;
+  out.weight_b = lb;
+  out.distance_squared = dot(out.vector, out.vector);
+  out.distance = square_root(out.distance_squared);
+  return out;
+}
+
+// Closest point on the edge from u (weight 1-t) to v (weight t); `u`, `v` seen from the node,
+// `e` = v - u. Residual form: the distance is |e x u| / |e|, which does not cancel.
+template <class T>
+struct EdgePoint {
+  T t{}, distance{}, distance_squared{};
+  Point3<T> vector;
+};
+template <class T>
+EdgePoint<T> closest_on_edge(const Point3<T>& u, const Point3<T>& v, const Point3<T>& e) {
+  EdgePoint<T> out;
+  const T ee = dot(e, e);
+  const T along = -dot(e, u);
+  if (along <= T(0) || ee <= T(0)) {
+    out.t = T(0);
+    out.vector = -u;
+  } else if (along >= ee) {
+    out.t = T(1);
+    out.vector = -v;
+  } else {
+    const Point3<T> moment = cross(u, e);  // e x (node - u)
+    out.t = along / ee;
+    out.vector = T(T(1) / ee) * cross(moment, e);
+    if constexpr (NumberTraits<T>::has_sqrt) {
+      out.distance = length(moment) / square_root(ee);
+      out.distance_squared = out.distance * out.distance;
+    } else {
+      out.distance_squared = dot(moment, moment) / ee;
+    }
+    return out;
+  }
+  out.distance = length(out.vector);
+  out.distance_squared = dot(out.vector, out.vector);
+  return out;
+}
+
+template <class T>
+bool nearer(const T& distance_a, const T& squared_a, const T& distance_b, const T& squared_b) {
+  if constexpr (NumberTraits<T>::has_sqrt) {
+    (void)squared_a, (void)squared_b;
+    return distance_a < distance_b;
+  } else {
+    (void)distance_a, (void)distance_b;
+    return squared_a < squared_b;
+  }
+}
+
+// Robust formula on one sub-triangle. Vertices as seen from the node (vertex - node); a, b, e the
+// edge vectors A-O, B-O, B-A, formed from the input where that loses less than from the vertices.
+template <class T>
+SubTriangleClosest<T> robust_sub_triangle(const Point3<T>& vo, const Point3<T>& va,
+                                          const Point3<T>& vb, const Point3<T>& a,
+                                          const Point3<T>& b, const Point3<T>& e) {
+  SubTriangleClosest<T> out;
+  const Point3<T> n = cross(a, b);
+  const T nn = dot(n, n);
+  if (nn > NumberTraits<T>::parallel_guard() * dot(a, a) * dot(b, b)) {
+    const T fa = dot(n, cross(b, vo)), fb = dot(n, cross(vo, a)), fo = dot(n, cross(va, vb));
+    if (fa >= T(0) && fb >= T(0) && fo >= T(0)) {
+      const T sum = fa + fb + fo;
+      const T height = -dot(n, vo);
+      out.weight_a = fa / sum;
+      out.weight_b = fb / sum;
+      out.weight_o = fo / sum;
+      out.vector = T(height / nn) * n;
+      if constexpr (NumberTraits<T>::has_sqrt) {
+        out.distance = magnitude(height) / square_root(nn);
+        out.distance_squared = out.distance * out.distance;
+      } else {
+        out.distance_squared = height * height / nn;
+      }
+      return out;
+    }
+  }
+  const EdgePoint<T> ab = closest_on_edge(va, vb, e);
+  const EdgePoint<T> ob = closest_on_edge(vo, vb, b);
+  const EdgePoint<T> oa = closest_on_edge(vo, va, a);
+  const EdgePoint<T>* best = &ab;
+  if (nearer(ob.distance, ob.distance_squared, best->distance, best->distance_squared)) best = &ob;
+  if (nearer(oa.distance, oa.distance_squared, best->distance, best->distance_squared)) best = &oa;
+  const T first = T(1) - best->t;
+  out.weight_o = best == &ab ? T(0) : first;
+  out.weight_a = best == &ab ? first : (best == &oa ? best->t : T(0));
+  out.weight_b = best == &oa ? T(0) : best->t;
+  out.vector = best->vector;
+  out.distance = best->distance;
+  out.distance_squared = best->distance_squared;
+  return out;
+}
+
+template <class T>
+using Corners = std::array<Point3<T>, 4>;
+
+template <class T>
+std::array<SubTriangleClosest<T>, 4> reference_sub_triangles(const Point3<T>& p,
+                                                             const Corners<T>& x, bool triangle) {
+  Point3<T> o = x[2];
+  if (!triangle) o = T(0.25) * (x[0] + x[1] + x[2] + x[3]);
+  return {reference_sub_triangle(p, o, x[0], x[1]), reference_sub_triangle(p, o, x[1], x[2]),
+          reference_sub_triangle(p, o, x[2], x[3]), reference_sub_triangle(p, o, x[3], x[0])};
+}
+
+template <class T>
+std::array<SubTriangleClosest<T>, 4> robust_sub_triangles(const Point3<T>& p, const Corners<T>& x,
+                                                          bool triangle) {
+  if constexpr (std::is_floating_point_v<T>) {
+    // Products of up to six lengths must stay inside the exponent range: otherwise scale.
+    constexpr int kSafe = std::numeric_limits<T>::max_exponent / 10;
+    T big(0);
+    for (const Point3<T>& corner : x) big = larger(big, largest_component(corner - p));
+    if (big > T(0) && !(big >= std::ldexp(T(1), -kSafe) && big <= std::ldexp(T(1), kSafe))) {
+      const int shift = big <= std::numeric_limits<T>::max() ? -std::ilogb(big) : -kSafe * 10 + 8;
+      const auto scaled = [shift](const Point3<T>& v) {
+        return Point3<T>{std::ldexp(v.x, shift), std::ldexp(v.y, shift), std::ldexp(v.z, shift)};
+      };
+      const Corners<T> y{scaled(x[0]), scaled(x[1]), scaled(x[2]), scaled(x[3])};
+      auto out = robust_sub_triangles(scaled(p), y, triangle);
+      for (auto& sub : out) {
+        sub.vector = {std::ldexp(sub.vector.x, -shift), std::ldexp(sub.vector.y, -shift),
+                      std::ldexp(sub.vector.z, -shift)};
+        sub.distance = std::ldexp(sub.distance, -shift);
+        sub.distance_squared = std::ldexp(sub.distance_squared, -2 * shift);
+      }
+      return out;
+    }
+  }
+  const Corners<T> v{x[0] - p, x[1] - p, x[2] - p, x[3] - p};
+  std::array<SubTriangleClosest<T>, 4> out;
+  if (triangle) {
+    out[0] = robust_sub_triangle(v[2], v[0], v[1], x[0] - x[2], x[1] - x[2], x[1] - x[0]);
+    // The three degenerate sub-triangles are the third node.
+    SubTriangleClosest<T> node;
+    node.weight_o = T(1);
+    node.vector = -v[2];
+    node.distance = length(node.vector);
+    node.distance_squared = dot(node.vector, node.vector);
+    out[1] = out[2] = out[3] = node;
+    return out;
+  }
+  const Point3<T> vo = T(0.25) * ((v[0] + v[2]) + (v[1] + v[3]));
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t next = (k + 1) % 4;
+    out[k] = robust_sub_triangle(vo, v[k], v[next], v[k] - vo, v[next] - vo, x[next] - x[k]);
+  }
+  return out;
+}
+
+// Names the feature from the weights that are exactly 0 and spreads them over the corners.
+template <class T>
+void classify(SegmentClosest<T>& out, bool triangle) {
+  const auto k = static_cast<std::size_t>(out.best);
+  const std::size_t next = (k + 1) % 4;
+  const SubTriangleClosest<T>& s = out.sub[k];
+  const bool has_o = s.weight_o != T(0), has_a = s.weight_a != T(0), has_b = s.weight_b != T(0);
+  const auto set = [&out](Feature feature, std::size_t index) {
+    out.feature = feature;
+    out.feature_index = static_cast<int>(index);
+  };
+  if (triangle) {
+    // Sub-triangle 0 is (n3, n1, n2); the others are the third node.
+    out.weights = {T(0), T(0), T(0), T(0)};
+    if (k == 0) {
+      out.weights = {s.weight_a, s.weight_b, s.weight_o, T(0)};
+    } else {
+      out.weights[2] = T(1);
+    }
+    if (k != 0 || (!has_a && !has_b)) return set(Feature::corner, 2);
+    if (has_o && has_a && has_b) return set(Feature::face, 0);
+    if (has_a && has_b) return set(Feature::edge, 0);
+    if (has_o && has_b) return set(Feature::edge, 1);
+    if (has_o && has_a) return set(Feature::edge, 2);
+    return set(Feature::corner, has_a ? 0 : 1);
+  }
+  const T quarter = s.weight_o * T(0.25);
+  out.weights = {quarter, quarter, quarter, quarter};
+  out.weights[k] = out.weights[k] + s.weight_a;
+  out.weights[next] = out.weights[next] + s.weight_b;
+  if (has_o && has_a && has_b) return set(Feature::face, k);
+  if (has_a && has_b) return set(Feature::edge, k);
+  if (has_o && has_a) return set(Feature::spoke, k);
+  if (has_o && has_b) return set(Feature::spoke, next);
+  if (has_o) return set(Feature::centre, 0);
+  return set(Feature::corner, has_a ? k : next);
+}
+
+template <class T>
+EdgeFeature edge_feature(const T& weight_of_first) {
+  if (weight_of_first == T(1)) return EdgeFeature::first_node;
+  return weight_of_first == T(0) ? EdgeFeature::second_node : EdgeFeature::interior;
+}
+
+template <class T>
+EdgeClosest<T> reference_edges(const Point3<T>& s1, const Point3<T>& s2, const Point3<T>& m1,
+                               const Point3<T>& m2) {
+  const T floor20(1e-20);
+  const Point3<T> s = s2 - s1, m = m2 - m1, w = m2 - s2;
+  const T aa = dot(s, s), cc = dot(m, m), q = -dot(s, m), xa = dot(s, w), xb = -dot(m, w);
+  const T det = larger(floor20, T(cc * aa - q * q));
+  EdgeClosest<T> out;
+  out.weight_m = clamp01(T((xa * q - xb * aa) / det));
+  out.weight_s = clamp01(T(-(xa + out.weight_m * q) / larger(aa, floor20)));
+  out.weight_m = clamp01(T(-(xb + out.weight_s * q) / larger(cc, floor20)));
+  const T rest_s = T(1) - out.weight_s, rest_m = T(1) - out.weight_m;
+  out.vector = (out.weight_s * s1 + rest_s * s2) - (out.weight_m * m1 + rest_m * m2);
+  out.distance_squared = dot(out.vector, out.vector);
+  out.distance = square_root(out.distance_squared);
+  return out;
+}
+
+// Quotient clamped to [0,1] without dividing unless the result is inside; 0/0 gives 0.
+template <class T>
+T clamped_ratio(const T& numerator, const T& denominator) {
+  if (numerator <= T(0)) return T(0);
+  if (numerator >= denominator) return T(1);
+  return numerator / denominator;
+}
+
+template <class T>
+EdgeClosest<T> robust_edges(const Point3<T>& s1, const Point3<T>& s2, const Point3<T>& m1,
+                            const Point3<T>& m2) {
+  if constexpr (std::is_floating_point_v<T>) {
+    constexpr int kSafe = std::numeric_limits<T>::max_exponent / 10;
+    T big = largest_component(s2 - s1);
+    big = larger(big, larger(largest_component(m2 - m1), largest_component(m2 - s2)));
+    if (big > T(0) && !(big >= std::ldexp(T(1), -kSafe) && big <= std::ldexp(T(1), kSafe))) {
+      const int shift = big <= std::numeric_limits<T>::max() ? -std::ilogb(big) : -kSafe * 10 + 8;
+      const auto scaled = [shift](const Point3<T>& v) {
+        return Point3<T>{std::ldexp(v.x, shift), std::ldexp(v.y, shift), std::ldexp(v.z, shift)};
+      };
+      EdgeClosest<T> out = robust_edges(scaled(s1), scaled(s2), scaled(m1), scaled(m2));
+      out.vector = {std::ldexp(out.vector.x, -shift), std::ldexp(out.vector.y, -shift),
+                    std::ldexp(out.vector.z, -shift)};
+      out.distance = std::ldexp(out.distance, -shift);
+      out.distance_squared = std::ldexp(out.distance_squared, -2 * shift);
+      return out;
+    }
+  }
+  // Edge points: s2 - hs*s and m2 - hm*m with h the weight of the first node.
+  const Point3<T> s = s2 - s1, m = m2 - m1, w = m2 - s2;
+  const T aa = dot(s, s), cc = dot(m, m), q = dot(s, m);
+  const Point3<T> n = cross(s, m);
+  const T nn = dot(n, n);
+  EdgeClosest<T> out;
+  if (nn > NumberTraits<T>::parallel_guard() * aa * cc) {
+    // Lines: w + hs*s - hm*m parallel to n. Clamp, then project back and forth once: exact for
+    // edges that are not parallel, and insensitive to the round-off of hm for those that nearly
+    // are.
+    const T hm = clamped_ratio(T(dot(n, cross(s, w))), nn);
+    out.weight_s = clamped_ratio(T(hm * q - dot(s, w)), aa);
+    out.weight_m = clamped_ratio(T(out.weight_s * q + dot(m, w)), cc);
+    const T hs = clamped_ratio(T(out.weight_m * q - dot(s, w)), aa);
+    out.weight_s = hs;
+  } else if (!(aa > T(0)) || !(cc > T(0))) {
+    out.weight_s = clamped_ratio(T(-dot(s, w)), aa);
+    out.weight_m = clamped_ratio(T(out.weight_s * q + dot(m, w)), cc);
+  } else {
+    // Parallel: parameters of the two ends of M on S, as weight of s1; overlap with [0,1].
+    const T at_m2 = -dot(s, w) / aa;
+    const T at_m1 = at_m2 + q / aa;
+    const T low = larger(T(0), smaller(at_m1, at_m2));
+    const T high = smaller(T(1), larger(at_m1, at_m2));
+    out.parallel = low < high;
+    out.weight_s = clamp01(T(T(0.5) * (low + high)));
+    if (!(low < high)) out.weight_s = high < T(0.5) ? T(0) : T(1);
+    out.weight_m = clamped_ratio(T(out.weight_s * q + dot(m, w)), cc);
+  }
+  out.vector = out.weight_m * m - out.weight_s * s - w;
+  if (out.parallel) {
+    const Point3<T> moment = cross(s, w);
+    out.vector = T(T(1) / aa) * cross(s, moment);
+  }
+  out.distance_squared = dot(out.vector, out.vector);
+  out.distance = length(out.vector);
+  return out;
+}
+
+}  // namespace closest_detail
+
+// Closest point of node `p` on a segment with corners `x` (in order; triangle: x[3] == x[2] and
+// `triangle` set). Quads are four triangles round the mean of the corners.
+//
+// Form::reference follows the reference solver operation by operation: it is the exact closest
+// point except for very obtuse sub-triangles. Form::robust is the closest point in exact
+// arithmetic; scaling the input by a power of two scales the answer and changes no decision.
+//
+//   const auto c = deck::closest_on_segment<deck::Form::reference>(p, corners, false);
+//   if (c.distance() < gap) ...
+template <Form F, class T>
+SegmentClosest<T> closest_on_segment(const Point3<T>& p, const std::array<Point3<T>, 4>& x,
+                                     bool triangle) {
+  SegmentClosest<T> out;
+  if constexpr (F == Form::reference) {
+    out.sub = closest_detail::reference_sub_triangles(p, x, triangle);
+  } else {
+    out.sub = closest_detail::robust_sub_triangles(p, x, triangle);
+  }
+  for (std::size_t k = 1; k < 4; ++k) {
+    const SubTriangleClosest<T>&a = out.sub[k], &b = out.closest();
+    if (closest_detail::nearer(a.distance, a.distance_squared, b.distance, b.distance_squared)) {
+      out.best = static_cast<int>(k);
+    }
+  }
+  closest_detail::classify(out, triangle);
+  return out;
+}
+
+// Penetration of that node for pair gap `gap`. Needs a number type with a square root.
+template <class T>
+Penetration<T> penetration(const SegmentClosest<T>& closest, const T& gap) {
+  using closest_detail::larger;
+  Penetration<T> out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const T value = larger(T(0), T(gap - closest.sub[k].distance));
+    if (k == 0 || value > out.value) {
+      out.value = value;
+      out.sub = static_cast<int>(k);
+    }
+  }
+  const SubTriangleClosest<T>& sub = closest.sub[static_cast<std::size_t>(out.sub)];
+  out.on_surface = !(sub.distance > T(0));
+  if (!out.on_surface) {
+    const T factor = T(1) / larger(T(1e-30), sub.distance);
+    out.normal = factor * sub.vector;
+  }
+  return out;
+}
+
+// Closest points of edge s1-s2 and edge m1-m2.
+//
+// Form::reference: one fixed-point sweep with floors 1e-20 (a valid pair of points, not always
+// the closest for nearly parallel edges). Form::robust: the closest points; parallel edges that
+// overlap meet in the middle of the overlap.
+template <Form F, class T>
+EdgeClosest<T> closest_between_edges(const Point3<T>& s1, const Point3<T>& s2, const Point3<T>& m1,
+                                     const Point3<T>& m2) {
+  EdgeClosest<T> out;
+  if constexpr (F == Form::reference) {
+    out = closest_detail::reference_edges(s1, s2, m1, m2);
+  } else {
+    out = closest_detail::robust_edges(s1, s2, m1, m2);
+  }
+  out.feature_s = closest_detail::edge_feature(out.weight_s);
+  out.feature_m = closest_detail::edge_feature(out.weight_m);
+  return out;
+}
+
+}  // namespace deck

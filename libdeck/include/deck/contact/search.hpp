@@ -1,0 +1,91 @@
+// Finds every node-segment and every edge-edge pair that is closer than its gap plus a margin.
+// Works on plain arrays; knows nothing of decks or interfaces.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "deck/contact/closest.hpp"
+#include "deck/contact/pair_gap.hpp"
+
+namespace deck {
+
+// Node coordinates, one array per axis, all of the same length. Finite numbers only.
+struct NodeArrays {
+  std::span<const double> x, y, z;
+};
+
+// One result. Both members are positions in the input lists, not node numbers.
+struct CandidatePair {
+  std::uint32_t secondary = 0;  // position in the list of secondary nodes (or secondary edges)
+  std::uint32_t main = 0;       // position in the list of main segments (or main edges)
+  friend bool operator==(const CandidatePair&, const CandidatePair&) = default;
+  friend auto operator<=>(const CandidatePair&, const CandidatePair&) = default;
+};
+
+// Node-to-segment input. Every span of gaps, lengths or stiffnesses may be empty: gap 0, length
+// infinite, stiffness not 0. Otherwise it is as long as the list it describes.
+struct NodeSegmentInput {
+  NodeArrays nodes;
+  std::span<const std::uint32_t> secondary;  // node positions; duplicates allowed
+  std::span<const double> secondary_gap;
+  std::span<const double> secondary_length;                // gs_l, GapRule::sum_limited only
+  std::span<const double> secondary_stiffness;             // exactly 0: the node takes no part
+  std::span<const std::array<std::uint32_t, 4>> segments;  // triangle: last two nodes equal
+  std::span<const double> segment_gap;
+  std::span<const double> segment_length;     // gm_l, GapRule::sum_limited only
+  std::span<const double> segment_stiffness;  // exactly 0: the segment takes no part
+};
+
+// Edge-to-edge input; the same conventions.
+struct EdgeEdgeInput {
+  NodeArrays nodes;
+  std::span<const std::array<std::uint32_t, 2>> secondary;
+  std::span<const double> secondary_gap;
+  std::span<const double> secondary_length;
+  std::span<const double> secondary_stiffness;
+  std::span<const std::array<std::uint32_t, 2>> main;
+  std::span<const double> main_gap;
+  std::span<const double> main_length;
+  std::span<const double> main_stiffness;
+};
+
+struct SearchOptions {
+  PairGap gap;
+  double drad = 0.0;            // radiation distance: the pair gap is at least this long
+  double margin = 0.0;          // added to the pair gap
+  Form form = Form::reference;  // which distance decides
+  int threads = 1;              // 0: one per core. The result does not depend on it
+  std::size_t max_pairs = std::size_t{1} << 31;  // give up beyond this many pairs
+};
+
+struct SearchResult {
+  std::vector<CandidatePair> pairs;  // sorted by secondary, then main; no duplicates
+  bool complete = true;              // false: more than max_pairs exist; `pairs` is empty then
+  std::size_t structure_bytes = 0;   // largest size of the search structure, pairs not counted
+  std::size_t tested = 0;            // pairs whose distance was computed
+};
+
+// All pairs with distance < max(drad, gap(secondary, main)) + margin, where the distance is the
+// smallest of the segment's sub-triangle distances (closest_on_segment). Pairs whose node belongs
+// to the segment are left out, and so is everything of stiffness 0. No pair is ever missed,
+// whatever the mesh grading. Expected time O((n + m) log(n + m) + pairs).
+SearchResult find_node_segment_pairs(const NodeSegmentInput& input, const SearchOptions& options);
+
+// All pairs of edges without a common node with distance^2 < (max(drad, gap) + margin)^2
+// (closest_between_edges).
+SearchResult find_edge_edge_pairs(const EdgeEdgeInput& input, const SearchOptions& options);
+
+// Rule of the reference solver for the margin of its candidate count: 0.2 (as a single-precision
+// number) times the mean edge length of the segments, four edges each, also for triangles.
+double candidate_margin(const NodeArrays& nodes,
+                        std::span<const std::array<std::uint32_t, 4>> segments);
+// The same for two lists of edges: mean length over both lists.
+double candidate_margin(const NodeArrays& nodes,
+                        std::span<const std::array<std::uint32_t, 2>> secondary,
+                        std::span<const std::array<std::uint32_t, 2>> main);
+
+}  // namespace deck
