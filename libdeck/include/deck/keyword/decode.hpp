@@ -1,0 +1,64 @@
+// Decoding: the lines of a block against its schema. Every value keeps its span, so that a diagnostic
+// can point at the columns and an edit can change them and nothing else.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/keyword/deck.hpp"
+#include "deck/text/number.hpp"
+
+namespace deck {
+
+/// One decoded cell.
+struct Cell {
+  const Field* field = nullptr;
+  Span span;                ///< its columns on the line, clipped to the line (may be empty)
+  std::string_view text;    ///< trimmed
+  NumberStatus status = NumberStatus::blank;
+  std::int64_t integer = 0; ///< int, id, flag; what the reference solver reads
+  double real = 0;          ///< real cells, in the deck's units
+  bool parameter = false;   ///< the value came from a &parameter
+  bool blank() const { return status == NumberStatus::blank; }
+};
+
+struct DecodedCard {
+  const CardSchema* schema = nullptr;
+  Line line;                ///< invalid: the line is missing
+  std::vector<Cell> cells;  ///< one per field of this version; for Repeat::ids one per non-blank id
+  bool free_format = false;
+  bool missing() const { return !line.valid(); }
+};
+
+struct DecodedBlock {
+  const Block* block = nullptr;
+  std::string title;
+  Line title_line;
+  std::vector<DecodedCard> cards;  ///< in line order; repeated cards appear once per line
+  std::vector<Line> extra;         ///< data lines after the last card of the schema
+  /// First cell of that name; nullptr if this version or this block does not have it.
+  const Cell* find(std::string_view field) const;
+  /// Value of an integer/id/flag cell, 0 if absent.
+  std::int64_t integer(std::string_view field) const;
+  /// Value of a real cell in the deck's units, 0 if absent.
+  double real(std::string_view field) const;
+  /// Spot for messages about the block as a whole.
+  Span span() const { return block->header_span; }
+};
+
+/// Reads every cell of `block`. Lines may be fewer or more than the schema's: that is data, and
+/// with `diagnostics` also findings (missing and extra lines, text in blank columns, unreadable
+/// numbers, tabs, text beyond the last cell).
+DecodedBlock decode(const Deck& deck, const Block& block, Diagnostics* diagnostics = nullptr);
+
+/// Dimension of a field in a given block (resolves Field::dimension_when).
+Dimension dimension_of(const Field& field, const DecodedBlock& block);
+/// Value of a real cell in working units.
+double working_value(const Deck& deck, const DecodedBlock& block, const Cell& cell);
+
+/// Cells of one line. Free format if the line holds a comma (titles never are).
+DecodedCard decode_line(const Deck& deck, const Block& block, const CardSchema& card,
+                        const Line& line, Diagnostics* diagnostics);
+
+}  // namespace deck

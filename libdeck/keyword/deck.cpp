@@ -1,0 +1,178 @@
+#include "deck/keyword/deck.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "deck/text/number.hpp"
+#include "keyword/reader.hpp"
+
+namespace deck {
+
+Span Line::columns(int first, int last) const {
+  const auto size = static_cast<std::int64_t>(text.size());
+  const std::int64_t begin = std::min<std::int64_t>(first - 1, size);
+  const std::int64_t end = std::min<std::int64_t>(last, size);
+  return {file, static_cast<std::uint32_t>(std::max<std::int64_t>(end - begin, 0)),
+          offset + static_cast<std::uint64_t>(begin)};
+}
+
+Line LineCursor::next_physical() {
+  while (piece_ < block_->body.size()) {
+    const Piece& p = block_->body[piece_];
+    if (offset_ < p.begin) offset_ = p.begin;
+    if (offset_ >= p.end) {
+      ++piece_;
+      offset_ = 0;
+      continue;
+    }
+    const std::string_view bytes = (*sources_)[p.file].bytes();
+    const char* const start = bytes.data() + offset_;
+    const void* const nl = std::memchr(start, '\n', p.end - offset_);
+    const std::uint64_t length =
+        nl ? static_cast<std::uint64_t>(static_cast<const char*>(nl) - start) : p.end - offset_;
+    const Line line{detail::trim_right({start, length}), p.file, offset_};
+    offset_ += length + 1;
+    return line;
+  }
+  return {};
+}
+
+Line LineCursor::next() {
+  for (;;) {
+    const Line line = next_physical();
+    if (!line.valid() || line.text.empty() || (line.text[0] != '#' && line.text[0] != '$'))
+      return line;
+  }
+}
+
+std::int64_t Submodel::offset_for(std::string_view kind) const {
+  constexpr std::string_view element_kinds[] = {
+      "shell", "sh3n",   "brick", "tetra4", "penta6", "tetra10", "bric20",
+      "shel16", "quad",  "tria",  "truss",  "beam",   "spring",  "element"};
+  if (kind == "node") return nodes;
+  if (kind == "part") return parts;
+  if (kind == "mat") return materials;
+  if (kind == "prop") return properties;
+  if (kind == "submodel") return submodels;
+  for (const auto e : element_kinds)
+    if (kind == e) return elements;
+  return definitions;
+}
+
+const Parameter* Deck::find_parameter(std::string_view name, std::uint32_t file) const {
+  const auto [first, last] = parameters.equal_range(name);
+  for (std::uint32_t f = file; f != Span::no_file; f = parent_of(f))
+    for (auto it = first; it != last; ++it)
+      if (it->second.local && it->second.file == f) return &it->second;
+  for (auto it = first; it != last; ++it)
+    if (!it->second.local) return &it->second;
+  return nullptr;
+}
+
+const UnitSystem* Deck::units_of(const Block& block) const {
+  if (block.unit_id.present && block.unit_id.value != 0) {
+    const auto it = units.find(block.unit_id.value + offset_of(block, "unit"));
+    return it == units.end() ? nullptr : &it->second;
+  }
+  if (block.submodel >= 0) {
+    const auto& own = submodels[static_cast<std::size_t>(block.submodel)].units;
+    if (own) return &*own;
+  }
+  return &begin.input;
+}
+
+std::int64_t Deck::offset_of(const Block& block, std::string_view kind) const {
+  return block.submodel < 0 ? 0
+                            : submodels[static_cast<std::size_t>(block.submodel)].offset_for(kind);
+}
+
+std::uint32_t Deck::parent_of(std::uint32_t file) const {
+  for (const IncludeEdge& e : includes)
+    if (e.file == file) return e.parent;
+  return Span::no_file;
+}
+
+namespace detail {
+namespace {
+
+bool all_digits(std::string_view s) {
+  return !s.empty() && std::all_of(s.begin(), s.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Length of `name` if `header` starts with it as whole header fields, else 0.
+std::size_t name_length(std::string_view header, std::string_view name) {
+  if (!header.starts_with(name)) return 0;
+  return header.size() == name.size() || header[name.size()] == '/' ? name.size() : 0;
+}
+
+}  // namespace
+
+void parse_header(const SchemaSet& schemas, Block& block) {
+  const std::string_view header = block.header;
+  block.schema = schemas.match(header);
+  std::size_t length = 0;
+  if (block.schema != nullptr) {
+    length = name_length(header, block.schema->keyword);
+    for (const std::string& alias : block.schema->aliases)
+      length = std::max(length, name_length(header, alias));
+  }
+  // Header fields after the keyword; for unknown keywords everything before the first number.
+  struct Part {
+    std::size_t begin, size;
+  };
+  std::vector<Part> parts;
+  std::size_t at = length;
+  bool in_keyword = length == 0;
+  std::size_t keyword_end = length;
+  while (at < header.size()) {
+    const std::size_t begin = at + 1;
+    const std::size_t end = std::min(header.find('/', begin), header.size());
+    const std::string_view raw = header.substr(std::min(begin, end), end - std::min(begin, end));
+    const std::string_view text = trim(raw);
+    const bool number = all_digits(text) || text.starts_with('&');
+    if (in_keyword && !number) {
+      keyword_end = end;
+    } else {
+      in_keyword = false;
+      const auto skip = text.empty() ? 0 : static_cast<std::size_t>(text.data() - raw.data());
+      parts.push_back({begin + skip, text.size()});
+    }
+    at = end;
+  }
+  block.keyword = header.substr(0, keyword_end);
+  const auto take = [&](const Part& part, HeaderId& id) {
+    const std::string_view text = header.substr(part.begin, part.size);
+    id.span = {block.header_span.file, static_cast<std::uint32_t>(part.size),
+               block.header_span.offset + part.begin};
+    id.present = true;
+    if (text.starts_with('&')) return true;
+    if (!all_digits(text)) {
+      id.present = false;
+      return false;
+    }
+    id.value = read_integer(text).value;
+    return true;
+  };
+  const bool wants_id = block.schema == nullptr || block.schema->has_id;
+  std::size_t next = 0;
+  if (wants_id) {
+    // The identifier is the first header field that is a number; names may stand before it.
+    while (next < parts.size() && !take(parts[next], block.id)) ++next;
+    ++next;
+    if (!block.id.present) {
+      block.id = {};
+      next = parts.size();
+    }
+    const bool parameter = block.id.span.length > 0 &&
+                           header[block.id.span.offset - block.header_span.offset] == '&';
+    if (block.id.value == 0 && !parameter) block.id.value = 1;
+  }
+  if (block.version < 51) {
+    if (next < parts.size()) block.inline_title = header.substr(parts[next].begin);
+  } else if (next < parts.size() && (block.schema == nullptr || block.schema->has_unit)) {
+    if (!take(parts[next], block.unit_id)) block.unit_id = {};
+  }
+}
+
+}  // namespace detail
+}  // namespace deck

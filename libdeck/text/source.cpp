@@ -1,0 +1,179 @@
+#include "deck/text/source.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+namespace deck {
+namespace {
+
+constexpr std::uint64_t checkpoint_step = 64 * 1024;
+
+Error io_error(const std::string& path, const std::string& why) {
+  return {Error::Code::io, path + ": " + why};
+}
+
+Error limit_error(const std::string& path, std::uint64_t size, std::uint64_t limit) {
+  return {Error::Code::limit, path + ": " + std::to_string(size) +
+                                  " bytes are more than the limit of " + std::to_string(limit)};
+}
+
+std::string system_reason(int code) { return std::generic_category().message(code); }
+
+/// Owns a file descriptor for the length of a scope.
+struct Descriptor {
+  int fd;
+  ~Descriptor() {
+    if (fd > 0) ::close(fd);
+  }
+};
+
+Result<void> read_all(int fd, const std::string& path, std::uint64_t limit, std::string& out) {
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t n = ::read(fd, buffer, sizeof buffer);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return io_error(path, system_reason(errno));
+    if (n == 0) return {};
+    out.append(buffer, static_cast<std::size_t>(n));
+    if (out.size() > limit) return limit_error(path, out.size(), limit);
+  }
+}
+
+Result<void> read_sized(int fd, const std::string& path, std::size_t size, std::string& out) {
+  out.resize(size);
+  std::size_t have = 0;
+  while (have < size) {
+    const ssize_t n = ::read(fd, out.data() + have, size - have);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return io_error(path, system_reason(errno));
+    if (n == 0) break;  // the file became shorter while it was read: keep what there is
+    have += static_cast<std::size_t>(n);
+  }
+  out.resize(have);
+  return {};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Source>> Source::open(const std::string& path, const Limits& limits) {
+  std::unique_ptr<Source> source(new Source);
+  source->path_ = path;
+  if (path == "-") {
+    if (auto r = read_all(0, "standard input", limits.stdin_bytes, source->storage_); !r)
+      return r.error();
+    source->bytes_ = source->storage_;
+    return source;
+  }
+  // O_NONBLOCK: opening a FIFO must not wait for a writer that never comes.
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  if (file.fd < 0) return io_error(path, system_reason(errno));
+  struct stat info {};
+  if (::fstat(file.fd, &info) != 0) return io_error(path, system_reason(errno));
+  if (S_ISDIR(info.st_mode)) return io_error(path, "is a directory, not a deck");
+  if (!S_ISREG(info.st_mode))
+    return io_error(path, "is not a regular file (FIFO, socket or device)");
+  source->device_ = info.st_dev;
+  source->inode_ = info.st_ino;
+  const auto size = static_cast<std::uint64_t>(info.st_size);
+  if (size > limits.total_bytes) return limit_error(path, size, limits.total_bytes);
+  if (size <= limits.map_threshold) {
+    if (auto r = read_sized(file.fd, path, size, source->storage_); !r) return r.error();
+    source->bytes_ = source->storage_;
+    return source;
+  }
+  void* map = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.fd, 0);
+  if (map == MAP_FAILED) return io_error(path, system_reason(errno));
+  ::madvise(map, size, MADV_SEQUENTIAL);
+  source->map_ = map;
+  source->map_size_ = size;
+  source->bytes_ = {static_cast<const char*>(map), size};
+  return source;
+}
+
+std::unique_ptr<Source> Source::from_bytes(std::string name, std::string bytes) {
+  std::unique_ptr<Source> source(new Source);
+  source->path_ = std::move(name);
+  source->storage_ = std::move(bytes);
+  source->bytes_ = source->storage_;
+  return source;
+}
+
+Source::~Source() {
+  if (map_ != nullptr) ::munmap(map_, map_size_);
+}
+
+Position Source::position(std::uint64_t offset) const {
+  offset = std::min<std::uint64_t>(offset, bytes_.size());
+  const std::uint64_t slot = offset / checkpoint_step;
+  std::uint64_t lines = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (checkpoints_.empty()) checkpoints_.push_back(0);
+    while (checkpoints_.size() <= slot) {
+      const std::uint64_t from = (checkpoints_.size() - 1) * checkpoint_step;
+      const auto* first = bytes_.data() + from;
+      checkpoints_.push_back(checkpoints_.back() +
+                             static_cast<std::uint64_t>(
+                                 std::count(first, first + checkpoint_step, '\n')));
+    }
+    lines = checkpoints_[slot];
+  }
+  const auto* data = bytes_.data();
+  lines += static_cast<std::uint64_t>(
+      std::count(data + slot * checkpoint_step, data + offset, '\n'));
+  const auto* start = offset == 0 ? nullptr : ::memrchr(data, '\n', offset);
+  const std::uint64_t begin =
+      start == nullptr ? 0 : static_cast<std::uint64_t>(static_cast<const char*>(start) - data) + 1;
+  return {lines + 1, offset - begin + 1};
+}
+
+std::string_view Source::line_at(std::uint64_t offset) const {
+  offset = std::min<std::uint64_t>(offset, bytes_.size());
+  const auto* data = bytes_.data();
+  const auto* before = offset == 0 ? nullptr : ::memrchr(data, '\n', offset);
+  const std::size_t begin =
+      before == nullptr ? 0 : static_cast<std::size_t>(static_cast<const char*>(before) - data) + 1;
+  const void* after = ::memchr(data + offset, '\n', bytes_.size() - offset);
+  std::size_t end = after == nullptr
+                        ? bytes_.size()
+                        : static_cast<std::size_t>(static_cast<const char*>(after) - data);
+  if (end > begin && bytes_[end - 1] == '\r') --end;
+  return bytes_.substr(begin, end - begin);
+}
+
+void Source::release(std::uint64_t begin, std::uint64_t end) const {
+  if (map_ == nullptr) return;
+  constexpr std::uint64_t page = 4096;
+  begin = (begin + page - 1) / page * page;
+  end = std::min<std::uint64_t>(end, map_size_) / page * page;
+  if (end > begin) ::madvise(static_cast<char*>(map_) + begin, end - begin, MADV_DONTNEED);
+}
+
+std::uint32_t SourceSet::add(std::unique_ptr<Source> source) {
+  sources_.push_back(std::move(source));
+  return size() - 1;
+}
+
+std::string_view SourceSet::text(const Span& span) const {
+  if (!span.valid()) return {};
+  return (*this)[span.file].bytes().substr(span.offset, span.length);
+}
+
+Position SourceSet::position(const Span& span) const {
+  return span.valid() ? (*this)[span.file].position(span.offset) : Position{};
+}
+
+std::string SourceSet::where(const Span& span) const {
+  if (!span.valid()) return "(no place)";
+  const Position p = position(span);
+  return (*this)[span.file].path() + ":" + std::to_string(p.line) + ":" + std::to_string(p.column);
+}
+
+}  // namespace deck
