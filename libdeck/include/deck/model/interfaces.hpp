@@ -1,0 +1,149 @@
+// The contact interfaces as plain structs of effective values: what the solver will use for every
+// field of /INTER/TYPE7, 10, 11, 19, where each value came from, and what the card said.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/model/model.hpp"
+
+namespace deck {
+
+using EffectiveInt = Effective<std::int64_t>;
+using EffectiveReal = Effective<double>;
+using EffectiveText = Effective<std::string>;
+
+/// What every interface has.
+struct InterBase {
+  std::int64_t id = 0;
+  int type = 0;  ///< 7, 10, 11, 19
+  std::string title;
+  const Block* block = nullptr;
+  Span span;     ///< header
+};
+
+/// The fields common to types 7, 11 and 19. IBC is "xyz", one digit each.
+struct InterType7 : InterBase {
+  EffectiveInt grnd_IDs, surf_IDm, Istf, Ithe, Igap, Ibag, Idel, Icurv, Iadm;
+  EffectiveReal Fscalegap, Gapmax, Fpenmax;
+  EffectiveInt ITIED;
+  EffectiveReal Stmin, Stmax, mesh_size, dtmin;  ///< mesh_size is "%mesh_size"
+  EffectiveInt Irem_gap, Irem_i2, node_ID1, node_ID2;
+  EffectiveReal Stfac, Fric, Gapmin, Tstart, Tstop;
+  EffectiveText IBC;
+  EffectiveInt Inacti;
+  EffectiveReal VISs, VISF, Bumult;
+  EffectiveInt Ifric, Ifiltr;
+  EffectiveReal Xfreq;
+  EffectiveInt Iform, sens_ID, fct_IDF;
+  EffectiveReal AscaleF;
+  EffectiveInt fric_ID;
+  EffectiveReal C1, C2, C3, C4, C5, C6;
+  EffectiveInt NRadm;
+  EffectiveReal Padm, Angladm, Kthe;
+  EffectiveInt fct_IDK;
+  EffectiveReal Tint;
+  EffectiveInt Ithe_form;
+  EffectiveReal AscaleK, Frad, Drad, Fheats, Fheatm;
+  /// Calls f(name, field) for every field in the order of the manual.
+  template <class F> void for_each(F&& f);
+  template <class F> void for_each(F&& f) const;
+};
+
+struct InterType10 : InterBase {
+  EffectiveInt grnd_IDs, surf_IDm, Idel;
+  EffectiveReal Stfac, Gap, Tstart, Tstop;
+  EffectiveInt ITIED, Inacti;
+  EffectiveReal VISs, Bumult;
+  template <class F> void for_each(F&& f);
+  template <class F> void for_each(F&& f) const;
+};
+
+struct InterType11 : InterBase {
+  EffectiveInt line_IDs, line_IDm, Istf, Ithe, Igap, Irem_gap, Idel;
+  EffectiveReal Stmin, Stmax, mesh_size, dtmin;
+  EffectiveInt Iform, sens_ID;
+  EffectiveReal Stfac, Fric, Gapmin, Tstart, Tstop;
+  EffectiveText IBC;
+  EffectiveInt Inacti;
+  EffectiveReal VISs, VISF, Bumult;
+  EffectiveInt fric_ID;
+  EffectiveReal Kthe;
+  EffectiveInt fct_IDK;
+  EffectiveReal AscaleK, Tint;
+  EffectiveInt Ithe_form;
+  EffectiveReal Frad, Drad;
+  template <class F> void for_each(F&& f);
+  template <class F> void for_each(F&& f) const;
+};
+
+struct InterType19 : InterBase {
+  EffectiveInt surf_IDs, surf_IDm, Istf, Ithe, Igap, Iedge, Ibag, Idel, Icurv;
+  EffectiveReal Fscalegap, Gapmax, Edge_scale_gap, Stmin, Stmax, mesh_size, dtmin;
+  EffectiveInt Irem_gap, Irem_i2, node_ID1, node_ID2;
+  EffectiveReal Stfac, Fric, Gapmin, Tstart, Tstop;
+  EffectiveText IBC;
+  EffectiveInt Inacti;
+  EffectiveReal VISs, VISF, Bumult;
+  EffectiveInt Ifric, Ifiltr;
+  EffectiveReal Xfreq;
+  EffectiveInt Iform, sens_ID, fric_ID;
+  EffectiveReal C1, C2, C3, C4, C5, C6, Kthe;
+  EffectiveInt fct_IDK;
+  EffectiveReal Tint;
+  EffectiveInt Ithe_form;
+  EffectiveReal AscaleK, Frad, Drad, Fheats, Fheatm;
+  template <class F> void for_each(F&& f);
+  template <class F> void for_each(F&& f) const;
+};
+
+/// /DEFAULT/INTER/TYPEn: the non-zero fields.
+struct DefaultInter {
+  int type = 0;
+  std::vector<std::pair<std::string, Effective<std::int64_t>>> values;
+  Span span;
+  const Effective<std::int64_t>* find(std::string_view field) const;
+};
+
+/// One /FRICTION: global values, then part pairs.
+struct FrictionValues {
+  std::array<double, 6> C{};
+  double Fric = 0, VISF = 0;
+};
+struct FrictionPair {
+  std::int64_t grpart_ID1 = 0, grpart_ID2 = 0, part_ID1 = 0, part_ID2 = 0;
+  int Idir = 0;
+  FrictionValues values, second;  ///< second: orthotropic direction, only if Idir = 1
+  Span span;
+};
+struct Friction {
+  std::int64_t id = 0;
+  std::string title;
+  std::int64_t Ifric = 0, Ifiltr = 0, Iform = 0;
+  double Xfreq = 0;
+  FrictionValues values;
+  std::vector<FrictionPair> pairs;
+  Span span;
+};
+
+struct Interfaces {
+  std::vector<InterType7> type7;
+  std::vector<InterType10> type10;
+  std::vector<InterType11> type11;
+  std::vector<InterType19> type19;
+  std::vector<DefaultInter> defaults;  ///< honoured ones only
+  std::vector<Friction> frictions;
+  /// All interfaces in deck order.
+  std::vector<const InterBase*> ordered;
+  const Friction* friction(std::int64_t id) const;
+};
+
+/// Decodes the interface blocks and forms the effective values in the reference solver's order of
+/// evaluation. `model` supplies what some defaults depend on (thermal materials, adaptive meshing,
+/// monitored volumes, number of nodes). Reading-level findings go to `diagnostics`.
+Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& diagnostics);
+
+}  // namespace deck
+
+#include "deck/model/interfaces_fields.hpp"
