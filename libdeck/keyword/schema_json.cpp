@@ -20,18 +20,28 @@ struct Wrong {
   std::string what;
 };
 
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
-  throw Wrong{fmt::format("{}: {}", path.empty() ? "/" : path, what)};
+/// Where we are in the JSON text. Turned into text only when something is wrong: the built-in
+/// schemas are read at every start of the tools.
+struct Path {
+  const Path* parent = nullptr;
+  std::string_view key;
+  std::size_t index = 0;
+
+  std::string text() const {
+    if (!parent) return {};
+    return parent->text() + (key.empty() ? fmt::format("/{}", index) : fmt::format("/{}", key));
+  }
+};
+
+[[noreturn]] void fail(const Path& path, const std::string& what) {
+  const auto text = path.text();
+  throw Wrong{fmt::format("{}: {}", text.empty() ? "/" : text, what)};
 }
 
-std::string at(const std::string& path, std::string_view key) {
-  return fmt::format("{}/{}", path, key);
-}
-std::string at(const std::string& path, std::size_t index) {
-  return fmt::format("{}/{}", path, index);
-}
+Path at(const Path& path, std::string_view key) { return {&path, key, 0}; }
+Path at(const Path& path, std::size_t index) { return {&path, {}, index}; }
 
-void expect_object(const Json& json, const std::string& path,
+void expect_object(const Json& json, const Path& path,
                    std::initializer_list<std::string_view> keys) {
   if (!json.is_object()) fail(path, fmt::format("expected an object, found {}", json.type_name()));
   for (const auto& item : json.items())
@@ -39,45 +49,45 @@ void expect_object(const Json& json, const std::string& path,
       fail(path, fmt::format("unknown key \"{}\" (known: {})", item.key(), fmt::join(keys, ", ")));
 }
 
-const Json& expect_array(const Json& json, const std::string& path) {
+const Json& expect_array(const Json& json, const Path& path) {
   if (!json.is_array()) fail(path, fmt::format("expected a list, found {}", json.type_name()));
   return json;
 }
 
-std::string text_of(const Json& json, const std::string& path) {
+std::string text_of(const Json& json, const Path& path) {
   if (!json.is_string()) fail(path, fmt::format("expected text, found {}", json.type_name()));
   return json.get<std::string>();
 }
 
-std::int64_t integer_of(const Json& json, const std::string& path) {
+std::int64_t integer_of(const Json& json, const Path& path) {
   if (!json.is_number_integer())
     fail(path, fmt::format("expected a whole number, found {}", json.dump()));
   return json.get<std::int64_t>();
 }
 
-int small_of(const Json& json, const std::string& path) {
+int small_of(const Json& json, const Path& path) {
   const auto value = integer_of(json, path);
   if (value < -9999 || value > 9999) fail(path, fmt::format("{} is out of range", value));
   return static_cast<int>(value);
 }
 
-double number_of(const Json& json, const std::string& path) {
+double number_of(const Json& json, const Path& path) {
   if (!json.is_number()) fail(path, fmt::format("expected a number, found {}", json.dump()));
   return json.get<double>();
 }
 
-void read(const Json& json, const std::string& path, const char* key, std::string& out) {
+void read(const Json& json, const Path& path, const char* key, std::string& out) {
   if (const auto it = json.find(key); it != json.end()) out = text_of(*it, at(path, key));
 }
 
-void read(const Json& json, const std::string& path, const char* key, bool& out) {
+void read(const Json& json, const Path& path, const char* key, bool& out) {
   const auto it = json.find(key);
   if (it == json.end()) return;
   if (!it->is_boolean()) fail(at(path, key), "expected true or false");
   out = it->get<bool>();
 }
 
-std::vector<std::int64_t> integers_of(const Json& json, const std::string& path) {
+std::vector<std::int64_t> integers_of(const Json& json, const Path& path) {
   std::vector<std::int64_t> values;
   for (const auto& item : expect_array(json, path))
     values.push_back(integer_of(item, at(path, values.size())));
@@ -85,11 +95,11 @@ std::vector<std::int64_t> integers_of(const Json& json, const std::string& path)
   return values;
 }
 
-void require(const Json& json, const std::string& path, const char* key) {
+void require(const Json& json, const Path& path, const char* key) {
   if (!json.contains(key)) fail(path, fmt::format("the key \"{}\" is missing", key));
 }
 
-int version_of(const Json& json, const std::string& path) {
+int version_of(const Json& json, const Path& path) {
   const int version = small_of(json, path);
   const auto& known = known_versions();
   if (std::find(known.begin(), known.end(), version) == known.end())
@@ -98,7 +108,7 @@ int version_of(const Json& json, const std::string& path) {
 }
 
 /// "versions": [from, until or null]; the last one may lie between two versions (119 = below 120).
-void read_versions(const Json& json, const std::string& path, int& from, int& until) {
+void read_versions(const Json& json, const Path& path, int& from, int& until) {
   const auto it = json.find("versions");
   if (it == json.end()) return;
   const auto here = at(path, "versions");
@@ -108,7 +118,7 @@ void read_versions(const Json& json, const std::string& path, int& from, int& un
   if (until < from) fail(here, "the range is empty");
 }
 
-std::vector<Condition> conditions_of(const Json& json, const std::string& path) {
+std::vector<Condition> conditions_of(const Json& json, const Path& path) {
   std::vector<Condition> conditions;
   for (const auto& item : expect_array(json, path)) {
     const auto here = at(path, conditions.size());
@@ -127,7 +137,7 @@ std::vector<Condition> conditions_of(const Json& json, const std::string& path) 
   return conditions;
 }
 
-Dimension dimension_of(const Json& json, const std::string& path) {
+Dimension dimension_of(const Json& json, const Path& path) {
   const auto size = expect_array(json, path).size();
   if (size != 3 && size != 4)
     fail(path, "expected the exponents [mass, length, time] or [mass, length, time, temperature]");
@@ -140,7 +150,7 @@ Dimension dimension_of(const Json& json, const std::string& path) {
   return {power[0], power[1], power[2], power[3]};
 }
 
-FieldType type_of(const Json& json, const std::string& path) {
+FieldType type_of(const Json& json, const Path& path) {
   const auto name = text_of(json, path);
   if (name == "int") return FieldType::integer;
   if (name == "real") return FieldType::real;
@@ -150,7 +160,7 @@ FieldType type_of(const Json& json, const std::string& path) {
   fail(path, fmt::format("\"{}\" is not a field type (int, real, text, flag, id)", name));
 }
 
-void read_columns(const Json& json, const std::string& path, Field& field) {
+void read_columns(const Json& json, const Path& path, Field& field) {
   require(json, path, "cols");
   const auto here = at(path, "cols");
   const auto& cols = expect_array(json["cols"], here);
@@ -161,7 +171,7 @@ void read_columns(const Json& json, const std::string& path, Field& field) {
     fail(here, fmt::format("columns {}-{} do not lie in 1-100", field.first, field.last));
 }
 
-void read_dimension(const Json& json, const std::string& path, Field& field) {
+void read_dimension(const Json& json, const Path& path, Field& field) {
   if (json.contains("dim")) field.dimension = dimension_of(json["dim"], at(path, "dim"));
   bool unknown = false;
   read(json, path, "dim_unknown", unknown);
@@ -183,7 +193,7 @@ void read_dimension(const Json& json, const std::string& path, Field& field) {
   if (any && field.type != FieldType::real) fail(path, "only real fields have a dimension");
 }
 
-void read_range(const Json& json, const std::string& path, Field& field) {
+void read_range(const Json& json, const Path& path, Field& field) {
   if (json.contains("values")) field.values = integers_of(json["values"], at(path, "values"));
   if (json.contains("min")) field.min = number_of(json["min"], at(path, "min"));
   if (json.contains("max")) field.max = number_of(json["max"], at(path, "max"));
@@ -199,7 +209,7 @@ void read_range(const Json& json, const std::string& path, Field& field) {
     fail(path, "a text field has no range");
 }
 
-Field field_of(const Json& json, const std::string& path) {
+Field field_of(const Json& json, const Path& path) {
   expect_object(
       json, path,
       {"name", "cols", "type", "ref", "versions", "values", "min", "max", "min_open", "max_open",
@@ -226,7 +236,7 @@ Field field_of(const Json& json, const std::string& path) {
   return field;
 }
 
-CardSchema card_of(const Json& json, const std::string& path) {
+CardSchema card_of(const Json& json, const Path& path) {
   expect_object(json, path, {"name", "doc", "versions", "when", "repeat", "optional", "fields"});
   CardSchema card;
   require(json, path, "name");
@@ -253,7 +263,7 @@ CardSchema card_of(const Json& json, const std::string& path) {
   return card;
 }
 
-void check_keyword(const std::string& keyword, const std::string& path) {
+void check_keyword(const std::string& keyword, const Path& path) {
   std::string_view rest = keyword;
   if (rest.substr(0, 2) == "//") rest.remove_prefix(1);
   bool good = rest.size() > 1 && rest[0] == '/' && rest.back() != '/' &&
@@ -262,7 +272,7 @@ void check_keyword(const std::string& keyword, const std::string& path) {
   if (!good) fail(path, fmt::format("\"{}\" is not a keyword like /INTER/TYPE7", keyword));
 }
 
-Schema schema_of(const Json& json, const std::string& path, std::string_view source) {
+Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   expect_object(json, path,
                 {"$schema", "keyword", "aliases", "kind", "id", "title", "unit", "bulk",
                  "opaque_tail", "from", "doc", "cards"});
@@ -292,7 +302,7 @@ Schema schema_of(const Json& json, const std::string& path, std::string_view sou
     for (const auto& item : expect_array(json["cards"], here))
       schema.cards.push_back(card_of(item, at(here, schema.cards.size())));
   }
-  if (const auto wrong = check_schema(schema); !wrong.empty()) throw Wrong{path + wrong};
+  if (const auto wrong = check_schema(schema); !wrong.empty()) throw Wrong{path.text() + wrong};
   return schema;
 }
 
@@ -450,11 +460,13 @@ Result<std::vector<Schema>> parse_schemas(std::string_view name, std::string_vie
     });
     std::vector<Schema> schemas;
     if (json.is_object() && json.contains("schemas")) {
-      expect_object(json, "", {"$schema", "schemas"});
-      for (const auto& item : expect_array(json["schemas"], "/schemas"))
-        schemas.push_back(schema_of(item, at("/schemas", schemas.size()), name));
+      const Path root;
+      expect_object(json, root, {"$schema", "schemas"});
+      const auto list = at(root, "schemas");
+      for (const auto& item : expect_array(json["schemas"], list))
+        schemas.push_back(schema_of(item, at(list, schemas.size()), name));
     } else {
-      schemas.push_back(schema_of(json, "", name));
+      schemas.push_back(schema_of(json, {}, name));
     }
     return schemas;
   } catch (const Wrong& wrong) {
