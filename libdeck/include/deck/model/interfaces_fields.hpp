@@ -1,0 +1,231 @@
+// The fields of every interface type by name, in the order of the manual: what makes reports, rules
+// and tests treat them alike. Included at the end of interfaces.hpp.
+#pragma once
+#include <type_traits>
+
+#include "deck/model/interfaces.hpp"
+
+namespace deck {
+namespace detail {
+
+template <class Self, class F>
+requires std::is_same_v<std::remove_const_t<Self>, InterType7>
+void visit_fields(Self& s, F& f) {
+  f("grnd_IDs", s.grnd_IDs);
+  f("surf_IDm", s.surf_IDm);
+  f("Istf", s.Istf);
+  f("Ithe", s.Ithe);
+  f("Igap", s.Igap);
+  f("Ibag", s.Ibag);
+  f("Idel", s.Idel);
+  f("Icurv", s.Icurv);
+  f("Iadm", s.Iadm);
+  f("Fscalegap", s.Fscalegap);
+  f("Gapmax", s.Gapmax);
+  f("Fpenmax", s.Fpenmax);
+  f("ITIED", s.ITIED);
+  f("Stmin", s.Stmin);
+  f("Stmax", s.Stmax);
+  f("%mesh_size", s.mesh_size);
+  f("dtmin", s.dtmin);
+  f("Irem_gap", s.Irem_gap);
+  f("Irem_i2", s.Irem_i2);
+  f("node_ID1", s.node_ID1);
+  f("node_ID2", s.node_ID2);
+  f("Stfac", s.Stfac);
+  f("Fric", s.Fric);
+  f("Gapmin", s.Gapmin);
+  f("Tstart", s.Tstart);
+  f("Tstop", s.Tstop);
+  f("IBC", s.IBC);
+  f("Inacti", s.Inacti);
+  f("VISs", s.VISs);
+  f("VISF", s.VISF);
+  f("Bumult", s.Bumult);
+  f("Ifric", s.Ifric);
+  f("Ifiltr", s.Ifiltr);
+  f("Xfreq", s.Xfreq);
+  f("Iform", s.Iform);
+  f("sens_ID", s.sens_ID);
+  f("fct_IDF", s.fct_IDF);
+  f("AscaleF", s.AscaleF);
+  f("fric_ID", s.fric_ID);
+  f("C1", s.C1);
+  f("C2", s.C2);
+  f("C3", s.C3);
+  f("C4", s.C4);
+  f("C5", s.C5);
+  f("C6", s.C6);
+  f("NRadm", s.NRadm);
+  f("Padm", s.Padm);
+  f("Angladm", s.Angladm);
+  f("Kthe", s.Kthe);
+  f("fct_IDK", s.fct_IDK);
+  f("Tint", s.Tint);
+  f("Ithe_form", s.Ithe_form);
+  f("AscaleK", s.AscaleK);
+  f("Frad", s.Frad);
+  f("Drad", s.Drad);
+  f("Fheats", s.Fheats);
+  f("Fheatm", s.Fheatm);
+}
+
+template <class Self, class F>
+requires std::is_same_v<std::remove_const_t<Self>, InterType10>
+void visit_fields(Self& s, F& f) {
+  f("grnd_IDs", s.grnd_IDs);
+  f("surf_IDm", s.surf_IDm);
+  f("Idel", s.Idel);
+  f("Stfac", s.Stfac);
+  f("Gap", s.Gap);
+  f("Tstart", s.Tstart);
+  f("Tstop", s.Tstop);
+  f("ITIED", s.ITIED);
+  f("Inacti", s.Inacti);
+  f("VISs", s.VISs);
+  f("Bumult", s.Bumult);
+}
+
+template <class Self, class F>
+requires std::is_same_v<std::remove_const_t<Self>, InterType11>
+void visit_fields(Self& s, F& f) {
+  f("line_IDs", s.line_IDs);
+  f("line_IDm", s.line_IDm);
+  f("Istf", s.Istf);
+  f("Ithe", s.Ithe);
+  f("Igap", s.Igap);
+  f("Irem_gap", s.Irem_gap);
+  f("Idel", s.Idel);
+  f("Stmin", s.Stmin);
+  f("Stmax", s.Stmax);
+  f("%mesh_size", s.mesh_size);
+  f("dtmin", s.dtmin);
+  f("Iform", s.Iform);
+  f("sens_ID", s.sens_ID);
+  f("Stfac", s.Stfac);
+  f("Fric", s.Fric);
+  f("Gapmin", s.Gapmin);
+  f("Tstart", s.Tstart);
+  f("Tstop", s.Tstop);
+  f("IBC", s.IBC);
+  f("Inacti", s.Inacti);
+  f("VISs", s.VISs);
+  f("VISF", s.VISF);
+  f("Bumult", s.Bumult);
+  f("fric_ID", s.fric_ID);
+  f("Kthe", s.Kthe);
+  f("fct_IDK", s.fct_IDK);
+  f("AscaleK", s.AscaleK);
+  f("Tint", s.Tint);
+  f("Ithe_form", s.Ithe_form);
+  f("Frad", s.Frad);
+  f("Drad", s.Drad);
+}
+
+template <class Self, class F>
+requires std::is_same_v<std::remove_const_t<Self>, InterType19>
+void visit_fields(Self& s, F& f) {
+  f("surf_IDs", s.surf_IDs);
+  f("surf_IDm", s.surf_IDm);
+  f("Istf", s.Istf);
+  f("Ithe", s.Ithe);
+  f("Igap", s.Igap);
+  f("Iedge", s.Iedge);
+  f("Ibag", s.Ibag);
+  f("Idel", s.Idel);
+  f("Icurv", s.Icurv);
+  f("Fscalegap", s.Fscalegap);
+  f("Gapmax", s.Gapmax);
+  f("Edge_scale_gap", s.Edge_scale_gap);
+  f("Stmin", s.Stmin);
+  f("Stmax", s.Stmax);
+  f("%mesh_size", s.mesh_size);
+  f("dtmin", s.dtmin);
+  f("Irem_gap", s.Irem_gap);
+  f("Irem_i2", s.Irem_i2);
+  f("node_ID1", s.node_ID1);
+  f("node_ID2", s.node_ID2);
+  f("Stfac", s.Stfac);
+  f("Fric", s.Fric);
+  f("Gapmin", s.Gapmin);
+  f("Tstart", s.Tstart);
+  f("Tstop", s.Tstop);
+  f("IBC", s.IBC);
+  f("Inacti", s.Inacti);
+  f("VISs", s.VISs);
+  f("VISF", s.VISF);
+  f("Bumult", s.Bumult);
+  f("Ifric", s.Ifric);
+  f("Ifiltr", s.Ifiltr);
+  f("Xfreq", s.Xfreq);
+  f("Iform", s.Iform);
+  f("sens_ID", s.sens_ID);
+  f("fric_ID", s.fric_ID);
+  f("C1", s.C1);
+  f("C2", s.C2);
+  f("C3", s.C3);
+  f("C4", s.C4);
+  f("C5", s.C5);
+  f("C6", s.C6);
+  f("Kthe", s.Kthe);
+  f("fct_IDK", s.fct_IDK);
+  f("Tint", s.Tint);
+  f("Ithe_form", s.Ithe_form);
+  f("AscaleK", s.AscaleK);
+  f("Frad", s.Frad);
+  f("Drad", s.Drad);
+  f("Fheats", s.Fheats);
+  f("Fheatm", s.Fheatm);
+}
+
+}  // namespace detail
+
+template <class F>
+void InterType7::for_each(F&& f) {
+  detail::visit_fields(*this, f);
+}
+template <class F>
+void InterType7::for_each(F&& f) const {
+  detail::visit_fields(*this, f);
+}
+template <class F>
+void InterType10::for_each(F&& f) {
+  detail::visit_fields(*this, f);
+}
+template <class F>
+void InterType10::for_each(F&& f) const {
+  detail::visit_fields(*this, f);
+}
+template <class F>
+void InterType11::for_each(F&& f) {
+  detail::visit_fields(*this, f);
+}
+template <class F>
+void InterType11::for_each(F&& f) const {
+  detail::visit_fields(*this, f);
+}
+template <class F>
+void InterType19::for_each(F&& f) {
+  detail::visit_fields(*this, f);
+}
+template <class F>
+void InterType19::for_each(F&& f) const {
+  detail::visit_fields(*this, f);
+}
+
+/// Calls f(interface) with the interface as its own type; `base` must be an element of Interfaces.
+template <class F>
+decltype(auto) visit_interface(const InterBase& base, F&& f) {
+  switch (base.type) {
+    case 10:
+      return f(static_cast<const InterType10&>(base));
+    case 11:
+      return f(static_cast<const InterType11&>(base));
+    case 19:
+      return f(static_cast<const InterType19&>(base));
+    default:
+      return f(static_cast<const InterType7&>(base));
+  }
+}
+
+}  // namespace deck

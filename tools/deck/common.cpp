@@ -1,0 +1,326 @@
+#include "common.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <thread>
+
+namespace deck::cli {
+namespace fs = std::filesystem;
+
+// ---- verbs ----------------------------------------------------------------------------------
+
+namespace {
+std::vector<Verb>& registry() {
+  static std::vector<Verb> all;
+  return all;
+}
+}  // namespace
+
+VerbRegistration::VerbRegistration(const Verb& verb) { registry().push_back(verb); }
+
+std::vector<Verb> verbs() {
+  std::vector<Verb> all = registry();
+  // Registration follows link order, which means nothing.
+  std::sort(all.begin(), all.end(), [](const Verb& a, const Verb& b) {
+    return a.rank != b.rank ? a.rank < b.rank : a.name < b.name;
+  });
+  return all;
+}
+
+// ---- options --------------------------------------------------------------------------------
+
+int CommonOptions::thread_count() const {
+  if (threads > 0) return threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+bool CommonOptions::color_on(int fd) const {
+  if (color == "always") return true;
+  if (color == "never") return false;
+  const char* no_color = std::getenv("NO_COLOR");
+  if (no_color != nullptr && *no_color != '\0') return false;
+  const char* term = std::getenv("TERM");
+  return isatty(fd) == 1 && (term == nullptr || std::strcmp(term, "dumb") != 0);
+}
+
+void add_common_without_decks(CLI::App& app, CommonOptions& options) {
+  app.add_option("--json", options.json, "Write JSON to FILE; '-' is standard output")
+      ->type_name("FILE");
+  app.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  app.add_option("--color", options.color, "Colours: auto, always or never (NO_COLOR is honoured)")
+      ->check(CLI::IsMember({"auto", "always", "never"}))
+      ->type_name("WHEN");
+  app.add_option("--schemas", options.schema_dirs, "Add the keyword schemas (*.json) of DIR")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+}
+
+void add_common(CLI::App& app, CommonOptions& options, bool with_json) {
+  app.add_option("decks", options.decks, "Starter decks (*_0000.rad); '-' is standard input")
+      ->required()
+      ->type_name("DECK");
+  add_common_without_decks(app, options);
+  if (!with_json) app.remove_option(app.get_option("--json"));
+  app.add_option("--threads", options.threads, "Threads; 0 takes all processors")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N");
+  app.add_option("--include-path", options.include_paths,
+                 "Search included files in DIR as well (repeatable)")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+}
+
+// ---- loading --------------------------------------------------------------------------------
+
+Result<SchemaSet> load_schemas(const CommonOptions& options) {
+  SchemaSet set = SchemaSet::built_in();
+  for (const std::string& dir : options.schema_dirs)
+    if (auto added = set.add_directory(dir); !added) return added.error();
+  return set;
+}
+
+bool Loaded::incomplete() const {
+  const auto& counts = deck.diagnostics.counts();
+  // Included files that are missing, form a cycle or exceed the limits.
+  return counts.contains("DK004") || counts.contains("DK005") || counts.contains("DK006");
+}
+
+Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& schemas,
+                                     const CommonOptions& options, Stage stage) {
+  Progress progress(!options.quiet);
+  progress.step("reading " + path);
+  ReadOptions read;
+  read.include_paths = options.include_paths;
+  auto deck = read_deck(path, schemas, read);
+  if (!deck) return deck.error();
+  auto loaded = std::make_unique<Loaded>();
+  loaded->path = path;
+  loaded->deck = std::move(*deck);
+  if (stage == Stage::blocks) return loaded;
+  progress.step("building the model of " + path);
+  ModelOptions build;
+  build.threads = options.thread_count();
+  build.limits = read.limits;
+  loaded->model = build_model(loaded->deck, schemas, loaded->diagnostics, build);
+  if (stage == Stage::model) return loaded;
+  loaded->interfaces = read_interfaces(loaded->deck, loaded->model, loaded->diagnostics);
+  return loaded;
+}
+
+int for_each_deck(const CommonOptions& options, Stage stage,
+                  const std::function<int(Loaded&)>& body) {
+  const auto schemas = load_schemas(options);
+  if (!schemas) {
+    print_error(options, schemas.error().message);
+    return exit_usage;
+  }
+  int worst = exit_clean;
+  for (const std::string& path : options.decks) {
+    auto loaded = load(path, *schemas, options, stage);
+    if (!loaded) {
+      print_error(options, loaded.error().message);
+      worst = std::max<int>(worst, exit_input);
+      continue;
+    }
+    worst = std::max(worst, body(**loaded));
+    if ((*loaded)->incomplete()) worst = std::max<int>(worst, exit_input);
+  }
+  return worst;
+}
+
+// ---- printing -------------------------------------------------------------------------------
+
+namespace {
+
+const char* name_of(Severity severity) {
+  switch (severity) {
+    case Severity::error:
+      return "error";
+    case Severity::warning:
+      return "warning";
+    case Severity::info:
+      break;
+  }
+  return "info";
+}
+
+const char* color_of(Severity severity) {
+  switch (severity) {
+    case Severity::error:
+      return "\x1b[1;31m";
+    case Severity::warning:
+      return "\x1b[1;33m";
+    case Severity::info:
+      break;
+  }
+  return "\x1b[1;36m";
+}
+
+}  // namespace
+
+void print_error(const CommonOptions& options, std::string_view message) {
+  const bool color = options.color_on(2);
+  fmt::print(stderr, "deck: {}error:{} {}\n", color ? "\x1b[1;31m" : "", color ? "\x1b[0m" : "",
+             message);
+}
+
+std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options, bool errors_only,
+                             std::size_t limit) {
+  const bool color = options.color_on(2);
+  std::uint64_t errors = 0, shown = 0, hidden = 0;
+  for (const Diagnostics* list : {&loaded.deck.diagnostics, &loaded.diagnostics}) {
+    for (const Diagnostic& d : list->all()) {
+      if (d.severity == Severity::error) ++errors;
+      if (errors_only && d.severity != Severity::error) continue;
+      if (shown == limit) {
+        ++hidden;
+        continue;
+      }
+      ++shown;
+      const std::string where = d.span.valid() ? loaded.deck.sources.where(d.span) : loaded.path;
+      fmt::print(stderr, "{}: {}{}:{} {} [{}]\n", where, color ? color_of(d.severity) : "",
+                 name_of(d.severity), color ? "\x1b[0m" : "", d.message, d.rule);
+    }
+  }
+  if (hidden > 0)
+    fmt::print(stderr, "{}: {} more like these; 'deck lint {}' shows them all\n", loaded.path,
+               hidden, loaded.path);
+  return errors;
+}
+
+// ---- output ---------------------------------------------------------------------------------
+
+namespace {
+
+std::string reason(const std::string& what, const std::string& path) {
+  return what + " " + path + ": " + std::strerror(errno);
+}
+
+/// Writes and flushes a new file; removes it if that fails.
+Result<void> write_new_file(const std::string& path, std::string_view bytes, mode_t mode) {
+  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  if (fd < 0) return Error{Error::Code::io, reason("cannot create", path)};
+  const auto fail = [&](const char* what) {
+    Error error{Error::Code::io, reason(what, path)};
+    close(fd);
+    unlink(path.c_str());
+    return error;
+  };
+  while (!bytes.empty()) {
+    const ssize_t n = write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return fail("cannot write");
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+  if (fsync(fd) != 0 && errno != EINVAL && errno != EROFS) return fail("cannot flush");
+  if (close(fd) != 0) {
+    Error error{Error::Code::io, reason("cannot close", path)};
+    unlink(path.c_str());
+    return error;
+  }
+  return {};
+}
+
+std::string temporary_name(const std::string& path, std::size_t number) {
+  const fs::path p(path);
+  return (p.parent_path() / ("." + p.filename().string() + "." + std::to_string(getpid()) + "-" +
+                             std::to_string(number) + ".tmp"))
+      .string();
+}
+
+/// Devices and pipes (/dev/stdout, a named pipe) are written through; they cannot be replaced.
+bool is_special(const std::string& path) {
+  std::error_code ec;
+  const auto status = fs::status(path, ec);
+  return !ec && fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+Result<void> write_through(const std::string& path, std::string_view bytes) {
+  std::FILE* const f = std::fopen(path.c_str(), "wb");
+  if (f == nullptr) return Error{Error::Code::io, reason("cannot open", path)};
+  const bool ok = std::fwrite(bytes.data(), 1, bytes.size(), f) == bytes.size();
+  if (std::fclose(f) != 0 || !ok) return Error{Error::Code::io, reason("cannot write", path)};
+  return {};
+}
+
+}  // namespace
+
+Result<void> write_files_atomic(const std::vector<OutputFile>& files) {
+  std::vector<std::string> temporaries;
+  const auto undo = [&] {
+    for (const std::string& t : temporaries) unlink(t.c_str());
+  };
+  for (const OutputFile& f : files) {
+    std::error_code ec;
+    const fs::path parent = fs::path(f.path).parent_path();
+    if (!parent.empty()) fs::create_directories(parent, ec);
+    if (ec) {
+      undo();
+      return Error{Error::Code::io,
+                   "cannot make directory " + parent.string() + ": " + ec.message()};
+    }
+    if (fs::is_directory(f.path, ec)) {
+      undo();
+      return Error{Error::Code::io, "cannot write " + f.path + ": it is a directory"};
+    }
+    const std::string temporary = temporary_name(f.path, temporaries.size());
+    if (auto written = write_new_file(temporary, f.bytes, 0666); !written) {
+      undo();
+      return written.error();
+    }
+    temporaries.push_back(temporary);
+  }
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (std::rename(temporaries[i].c_str(), files[i].path.c_str()) == 0) continue;
+    Error error{Error::Code::io, reason("cannot put in place", files[i].path)};
+    undo();
+    return error;
+  }
+  return {};
+}
+
+Result<void> write_file_atomic(const std::string& path, std::string_view bytes) {
+  if (is_special(path)) return write_through(path, bytes);
+  return write_files_atomic({{path, bytes}});
+}
+
+Result<void> write_output(const std::string& path, std::string_view bytes) {
+  if (path != "-") return write_file_atomic(path, bytes);
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
+      std::fflush(stdout) != 0)
+    return Error{Error::Code::io, reason("cannot write", "standard output")};
+  return {};
+}
+
+int JsonOutput::finish(int code) const {
+  if (!wanted() || documents_.empty()) return code;
+  std::string text;
+  if (options_.decks.size() <= 1) {
+    text = documents_.front();
+  } else {
+    text = "[\n";
+    for (std::size_t i = 0; i < documents_.size(); ++i) {
+      if (i > 0) text += ",\n";
+      std::string_view document = documents_[i];
+      while (document.ends_with('\n')) document.remove_suffix(1);
+      text += document;
+    }
+    text += "\n]\n";
+  }
+  if (auto written = write_output(options_.json, text); !written) {
+    print_error(options_, written.error().message);
+    return std::max<int>(code, exit_usage);
+  }
+  return code;
+}
+
+}  // namespace deck::cli

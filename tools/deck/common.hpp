@@ -1,0 +1,112 @@
+// What all verbs share: options, loading of decks, exit codes, output to files and terminals.
+// Messages for people go to standard error, results to standard output or the files asked for.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/keyword/deck.hpp"
+#include "deck/model/interfaces.hpp"
+#include "deck/model/model.hpp"
+#include "progress.hpp"
+#include "verbs.hpp"
+
+namespace deck::cli {
+
+enum ExitCode : int {
+  exit_clean = 0,  ///< nothing at or above the threshold
+  exit_findings = 1,
+  exit_usage = 2,  ///< wrong usage or configuration, or an output that cannot be written
+  exit_input = 3,  ///< input could not be read
+  exit_internal = 4,
+};
+
+struct CommonOptions {
+  std::vector<std::string> decks;  ///< "-" is standard input
+  std::string json;                ///< file, "-" for standard output, empty: none
+  int threads = 0;                 ///< 0: all processors
+  bool quiet = false;
+  std::string color = "auto";
+  std::vector<std::string> include_paths, schema_dirs;
+
+  int thread_count() const;
+  /// True if text to this descriptor (1, 2) is to be coloured.
+  bool color_on(int fd) const;
+  /// True if results for people are to be printed: not --quiet, and standard output not taken.
+  bool wants_text() const { return !quiet && json != "-"; }
+};
+
+/// Adds the shared options. With `with_json` false the verb has no --json.
+void add_common(CLI::App& app, CommonOptions& options, bool with_json = true);
+/// Only those that do not need a deck: --json, --quiet, --color, --schemas.
+void add_common_without_decks(CLI::App& app, CommonOptions& options);
+
+/// Built-in schemas plus those of --schemas. A directory that cannot be used is a usage error.
+Result<SchemaSet> load_schemas(const CommonOptions& options);
+
+/// How far to read.
+enum class Stage { blocks, model, interfaces };
+
+/// A deck with what was made of it. Never moved: the parts point to one another.
+struct Loaded {
+  std::string path;  ///< as given
+  Deck deck;         ///< with the findings of reading in deck.diagnostics
+  Model model;
+  Interfaces interfaces;
+  Diagnostics diagnostics;  ///< findings of the model and interface stages
+
+  /// True if a file of the include tree could not be read.
+  bool incomplete() const;
+};
+
+/// Reads one deck. Error: the main file cannot be read, or is no deck. `schemas` must outlive it.
+Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& schemas,
+                                     const CommonOptions& options, Stage stage = Stage::interfaces);
+
+/// Loads the decks one after the other and calls `body`; returns the worst exit code. What cannot
+/// be read is reported and counts as exit_input; a missing include too, after `body` has run.
+int for_each_deck(const CommonOptions& options, Stage stage,
+                  const std::function<int(Loaded&)>& body);
+
+/// Prints findings of reading and building on standard error, one line each: errors only, or all.
+/// At most `limit`, then how many more there are. Returns the number of errors.
+std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options,
+                             bool errors_only = true, std::size_t limit = 20);
+
+/// "deck: error: ..." on standard error.
+void print_error(const CommonOptions& options, std::string_view message);
+
+/// Writes bytes to standard output ("-") or atomically to a file.
+Result<void> write_output(const std::string& path, std::string_view bytes);
+
+/// Collects the JSON documents of a run: one deck gives the document itself, several an array.
+class JsonOutput {
+ public:
+  explicit JsonOutput(const CommonOptions& options) : options_(options) {}
+  bool wanted() const { return !options_.json.empty(); }
+  void add(std::string document) { documents_.push_back(std::move(document)); }
+  /// Writes what was added; returns `code`, or exit_usage if the file cannot be written.
+  int finish(int code) const;
+
+ private:
+  const CommonOptions& options_;
+  std::vector<std::string> documents_;
+};
+
+/// Puts a file in place in one step: written beside it, flushed to the disk, renamed. The old file
+/// stays as it was if anything fails.
+Result<void> write_file_atomic(const std::string& path, std::string_view bytes);
+
+/// A file to be written as part of a set.
+struct OutputFile {
+  std::string path;
+  std::string_view bytes;
+};
+/// All or nothing as far as a file system allows it: every file is written and flushed beside its
+/// place before the first one is renamed. Directories are made. On failure no temporary is left.
+Result<void> write_files_atomic(const std::vector<OutputFile>& files);
+
+}  // namespace deck::cli

@@ -1,0 +1,60 @@
+#include "progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace deck::cli {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+constexpr milliseconds patience{300}, refresh{100};
+
+}  // namespace
+
+Progress::Progress(bool enabled)
+    : enabled_(enabled && isatty(2) == 1), start_(steady_clock::now()), last_(start_) {}
+
+Progress::~Progress() { clear(); }
+
+void Progress::step(std::string_view what) {
+  if (!enabled_) return;
+  what_ = what;
+  if (steady_clock::now() - start_ > patience) draw(-1);
+}
+
+void Progress::update(std::uint64_t done, std::uint64_t total) {
+  if (!enabled_) return;
+  const auto now = steady_clock::now();
+  if (now - start_ < patience || now - last_ < refresh) return;
+  last_ = now;
+  draw(total == 0 ? -1 : static_cast<double>(done) / static_cast<double>(total));
+}
+
+void Progress::draw(double share) {
+  constexpr int width = 30;
+  std::string line = "\r\x1b[K" + what_;
+  if (share >= 0) {
+    const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * width);
+    line += fmt::format(" [{}{}] {:3.0f} %", std::string(static_cast<std::size_t>(full), '#'),
+                        std::string(static_cast<std::size_t>(width - full), '.'),
+                        100 * std::clamp(share, 0.0, 1.0));
+  } else {
+    line += " ...";
+  }
+  std::fwrite(line.data(), 1, line.size(), stderr);
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void Progress::clear() {
+  if (!drawn_) return;
+  std::fputs("\r\x1b[K", stderr);
+  std::fflush(stderr);
+  drawn_ = false;
+}
+
+}  // namespace deck::cli

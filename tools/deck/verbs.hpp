@@ -1,0 +1,46 @@
+// Verbs: how a subcommand announces itself to `deck`. A verb is one file, tools/deck/NAME.cpp,
+// holding one VerbRegistration; no other file is edited.
+//
+//   namespace {
+//   struct Options { deck::cli::CommonOptions common; bool all = false; };
+//   deck::cli::Action setup(CLI::App& app) {
+//     auto options = std::make_shared<Options>();
+//     deck::cli::add_common(app, options->common);
+//     app.add_flag("--all", options->all, "Show everything");
+//     return [options] { return run(*options); };   // the exit code
+//   }
+//   const deck::cli::VerbRegistration registration{
+//       {"gaps", 30, "Gaps, stiffness and initial penetrations",
+//        "  deck gaps car_0000.rad\n  deck gaps car_0000.rad --json gaps.json\n", setup}};
+//   }  // namespace
+#pragma once
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace deck::cli {
+
+/// Does the work once the command line is understood; returns the exit code.
+using Action = std::function<int()>;
+
+struct Verb {
+  std::string_view name;
+  int rank = 100;             ///< place in the list of verbs; ties by name
+  std::string_view summary;   ///< one line
+  std::string_view examples;  ///< command lines, two blanks before each, for the end of --help
+  Action (*setup)(CLI::App&) = nullptr;  ///< adds the options
+};
+
+/// Makes a verb known; meant for one static object per verb.
+struct VerbRegistration {
+  explicit VerbRegistration(const Verb& verb);
+};
+
+/// All verbs, ordered.
+std::vector<Verb> verbs();
+
+}  // namespace deck::cli
