@@ -1,0 +1,147 @@
+// Scene: the interfaces of a deck as elementary contacts — node to segment and edge to edge — with
+// segments, gaps and stiffness as the reference solver forms them at start-up, and the initial
+// penetrations with what Inacti and Fpenmax do about each of them.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "deck/contact/pair_gap.hpp"
+#include "deck/contact/search.hpp"
+#include "deck/model/interfaces.hpp"
+#include "deck/model/model.hpp"
+
+namespace deck {
+
+enum class ContactKind : std::uint8_t { node_segment, edge_edge };
+/// Which part of its interface a contact is. TYPE19 gives up to three.
+enum class ContactRole : std::uint8_t { primary, reversed, edges };
+
+/// What the solver does about one initial penetration.
+enum class PenetrationAction : std::uint8_t {
+  none,
+  node_stiffness_zero,     ///< Inacti 1, or Fpenmax exceeded
+  segment_stiffness_zero,  ///< Inacti 2
+  node_moved,              ///< Inacti 3
+  gap_reduced,             ///< Inacti 5, 6
+  edge_stiffness_zero,     ///< TYPE11: Inacti 1, 2, or deeper than 99.5 % of the gap with 5, 6
+};
+const char* to_string(PenetrationAction action);  ///< "none", "node-stiffness-zero", ...
+const char* to_string(ContactKind kind);          ///< "node_segment", "edge_edge"
+const char* to_string(ContactRole role);          ///< "primary", "reversed", "edges"
+
+/// Where the minimum gap of a contact came from.
+enum class GapminOrigin : std::uint8_t {
+  card,
+  mean_thickness,     ///< mean over shell-carried segments
+  minimum_thickness,  ///< minimum over shell-carried segments
+  half_edge,          ///< half the shortest main side was smaller
+  solid_edge,         ///< no shells: a tenth of the shortest main side
+  both_sides,         ///< TYPE11: mean of the two sides' defaults
+};
+const char* to_string(GapminOrigin origin);
+
+/// One main segment. Arrays of a Contact are parallel to each other.
+struct MainSegment {
+  std::array<NodeIndex, 4> nodes{};  ///< after repair and re-orientation; triangle: last two equal
+  Carrier carrier = Carrier::none;   ///< the element that decides gap and stiffness
+  std::uint32_t element = no_index;
+  double stiffness = 0;   ///< as stored at start-up: no 1/2; constant stiffness stores |Stfac|
+  double gap = 0;         ///< half thickness times Fscalegap; 0 for solids
+  double thickness = 0;   ///< contact thickness of the carrying shell, 0 for solids
+  double length = 0;      ///< Igap 3: mesh-size limit of this segment
+};
+struct SecondaryNode {
+  NodeIndex node = no_index;
+  double multiplier = 1;  ///< 0: de-activated
+  double gap = 0;
+  double length = 0;      ///< Igap 3 limit; 1e30 for nodes on no main segment
+  double nodal_stiffness = 0;  ///< filled where Istf 2..5 needs it
+};
+struct ContactEdge {
+  std::array<NodeIndex, 2> nodes{};
+  Carrier carrier = Carrier::none;
+  std::uint32_t element = no_index;
+  double stiffness = 0, gap = 0, length = 0;
+  double shell = 0;    ///< contact thickness of the shell that carries it, 0: none
+  double section = 0;  ///< sqrt(area) of the truss or beam that carries it, 0: none
+  double stored_penetration = 0;  ///< Inacti 5, 6: what the solver takes off every pair gap
+};
+
+struct PenetrationRow {
+  std::uint32_t secondary = 0, main = 0;  ///< positions in the contact's lists
+  double depth = 0;      ///< gap - distance
+  double gap = 0;        ///< pair gap
+  double distance = 0;
+  std::array<double, 3> normal{};  ///< unit, main to secondary; zero when on_surface
+  bool on_surface = false;
+  Feature feature = Feature::face;
+  PenetrationAction action = PenetrationAction::none;
+  bool has_gap0 = false;
+  double p0 = 0, gap0 = 0;  ///< Inacti 5, 6: stored penetration and gap left
+  std::array<double, 3> moved_by{};  ///< Inacti 3
+  double weight_s = 0, weight_m = 0; ///< edge pairs: weights of the first nodes
+};
+
+/// One elementary contact.
+struct Contact {
+  const InterBase* inter = nullptr;
+  ContactKind kind = ContactKind::node_segment;
+  ContactRole role = ContactRole::primary;
+  int type = 7;            ///< 7, 10 or 11: whose rules it follows
+  bool dropped = false;    ///< TYPE19 edges: no edges, the solver drops the part
+
+  // Effective options, 1000 already turned into 0.
+  int istf = 0, igap = 0, inacti = 0, irem_gap = 1, itied = 0;
+  double factor = 1;       ///< < 0: constant stiffness |factor|
+  double stmin = 0, stmax = 1e30, fpenmax = 0, gap_scale = 1, mesh_fraction = 0;
+
+  PairGap gap_rule;
+  double gapmin = 0, gapmax = 1e30, drad = 0;
+  GapminOrigin gapmin_origin = GapminOrigin::card;
+  double max_gap = 0;      ///< largest pair gap that the solver's search expects
+  double shortest_side = 0;///< of all main segments (or of both line sets)
+
+  std::vector<SecondaryNode> secondary;      ///< node_segment
+  std::vector<MainSegment> main;
+  std::vector<ContactEdge> secondary_edges;  ///< edge_edge
+  std::vector<ContactEdge> main_edges;
+
+  std::uint64_t candidates = 0;  ///< pairs within gap + margin
+  std::uint64_t removed_pairs = 0;  ///< candidates taken out by Irem_gap = 2
+  std::vector<PenetrationRow> penetrations;
+
+  int repaired_segments = 0;   ///< solver warning 106
+  int degenerate_segments = 0; ///< solver error 558
+  int reoriented_segments = 0; ///< solver warning 3025
+  std::vector<std::uint32_t> degenerate, no_carrier;  ///< positions in `main`
+};
+
+struct Coordinates {
+  std::vector<double> x, y, z;
+};
+
+struct Scene {
+  const Model* model = nullptr;
+  const Interfaces* interfaces = nullptr;
+  Coordinates coordinates;           ///< after Inacti 3 moved nodes
+  std::vector<Contact> contacts;     ///< in the solver's processing order
+};
+
+struct SceneOptions {
+  int threads = 1;
+  bool candidates = true;  ///< also count candidates (needs the wider search)
+  bool penetrations = true;
+  bool nodal_stiffness = false;  ///< fill SecondaryNode::nodal_stiffness (needed for forces)
+  /// Called with (contacts done, contacts in all); may be empty.
+  std::function<void(std::size_t, std::size_t)> progress;
+};
+
+/// Builds all contacts of the model: expansion of TYPE19, segments, gaps, stiffness, penetrations and
+/// Inacti, in the reference solver's order (Inacti 3 moves nodes that later contacts see).
+Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics& diagnostics,
+                  const SceneOptions& options = {});
+
+}  // namespace deck
