@@ -1,5 +1,6 @@
 #include "deck/contact/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "contact/scene_parts.hpp"
@@ -93,6 +94,20 @@ Contact make_contact(const Card& card, int type, ContactRole role) {
   return c;
 }
 
+void apply(const std::vector<WhatIf>& all, Card& card) {
+  for (const WhatIf& w : all) {
+    if (w.interface_id != card.inter->id) continue;
+    if (w.Gapmin) card.gapmin = *w.Gapmin;
+    if (w.Fscalegap) card.gap_scale = *w.Fscalegap;
+    if (w.Gapmax) card.gapmax = *w.Gapmax;
+    if (w.Fpenmax) card.fpenmax = *w.Fpenmax;
+    if (w.mesh_size) card.mesh_fraction = *w.mesh_size;
+    if (w.Igap) card.igap = *w.Igap == 1000 ? 0 : *w.Igap;
+    if (w.Inacti) card.inacti = *w.Inacti == 1000 ? 0 : *w.Inacti;
+    if (w.Irem_gap) card.irem_gap = *w.Irem_gap;
+  }
+}
+
 class Builder {
  public:
   Builder(SceneContext& context, Selections& selections)
@@ -109,6 +124,8 @@ class Builder {
       if (c_.options.progress) c_.options.progress(done, total);
     };
     for (const InterBase* base : all.ordered) {
+      const auto& only = c_.options.only;
+      if (!only.empty() && std::find(only.begin(), only.end(), base->id) == only.end()) continue;
       switch (base->type) {
         case 7: type7(static_cast<const InterType7&>(*base)); break;
         case 10: type10(static_cast<const InterType10&>(*base)); break;
@@ -133,8 +150,15 @@ class Builder {
   }
 
  private:
+  template <class Inter>
+  Card card_for(const Inter& i) const {
+    Card card = card_of(i);
+    apply(c_.options.what_if, card);
+    return card;
+  }
+
   void type7(const InterType7& i) {
-    const Card card = card_of(i);
+    const Card card = card_for(i);
     Contact contact = make_contact(card, 7, ContactRole::primary);
     const Surface* surface = selections_.surface(i.surf_IDm.value);
     if (i.grnd_IDs.value != 0) {
@@ -147,7 +171,7 @@ class Builder {
   }
 
   void type10(const InterType10& i) {
-    const Card card = card_of(i);
+    const Card card = card_for(i);
     Contact contact = make_contact(card, 10, ContactRole::primary);
     if (const NodeSet* group = selections_.node_group(i.grnd_IDs.value))
       set_secondary(contact, group->nodes);
@@ -155,7 +179,7 @@ class Builder {
   }
 
   void type11(const InterType11& i) {
-    const Card card = card_of(i);
+    const Card card = card_for(i);
     Contact contact = make_contact(card, 11, ContactRole::primary);
     const std::int64_t main = i.line_IDm.value == 0 ? i.line_IDs.value : i.line_IDm.value;
     if (const LineSet* line = selections_.line(i.line_IDs.value))
@@ -165,7 +189,7 @@ class Builder {
   }
 
   void type19_nodes(const InterType19& i, ContactRole role) {
-    Card card = card_of(i);
+    Card card = card_for(i);
     if (card.igap == 4) {  // undocumented: variable gap with curvilinear removal
       card.igap = 2;
       card.irem_gap = 2;
@@ -179,7 +203,7 @@ class Builder {
   }
 
   void type19_edges(const InterType19& i) {
-    Card card = card_of(i);
+    Card card = card_for(i);
     card.igap = card.igap == 2 ? 1 : card.igap == 4 ? 0 : card.igap;
     if (i.Edge_scale_gap.value != 0) card.gapmin *= i.Edge_scale_gap.value;
     Contact contact = make_contact(card, 11, ContactRole::edges);

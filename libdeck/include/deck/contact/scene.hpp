@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -119,10 +120,6 @@ struct Contact {
   std::vector<std::uint32_t> degenerate, no_carrier;  ///< positions in `main`
 };
 
-struct Coordinates {
-  std::vector<double> x, y, z;
-};
-
 struct Scene {
   const Model* model = nullptr;
   const Interfaces* interfaces = nullptr;
@@ -130,11 +127,20 @@ struct Scene {
   std::vector<Contact> contacts;     ///< in the solver's processing order
 };
 
+/// Other values for one interface, to see what they would do; the deck is not read again.
+struct WhatIf {
+  std::int64_t interface_id = 0;
+  std::optional<double> Gapmin, Fscalegap, Gapmax, Fpenmax, mesh_size;
+  std::optional<int> Igap, Inacti, Irem_gap;
+};
+
 struct SceneOptions {
   int threads = 1;
   bool candidates = true;  ///< also count candidates (needs the wider search)
   bool penetrations = true;
   bool nodal_stiffness = false;  ///< fill SecondaryNode::nodal_stiffness (needed for forces)
+  std::vector<std::int64_t> only;  ///< interface ids to build; empty: all
+  std::vector<WhatIf> what_if;
   /// Called with (contacts done, contacts in all); may be empty.
   std::function<void(std::size_t, std::size_t)> progress;
 };

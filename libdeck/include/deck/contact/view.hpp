@@ -1,0 +1,59 @@
+// Views of a scene for people: every penetration with its node, element and part ids, one row per
+// node (the deepest), part pairs sorted by depth, and totals for the verdict.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "deck/contact/scene.hpp"
+
+namespace deck {
+
+/// An element as a person names it.
+struct ElementName {
+  ElementKind kind{};
+  std::uint32_t index = no_index;
+  std::int64_t id = 0, part = 0;
+  bool valid() const { return index != no_index; }
+};
+
+/// One penetration with names instead of positions.
+struct NamedPenetration {
+  std::uint32_t contact = 0, row = 0;       ///< Scene::contacts, Contact::penetrations
+  std::array<std::int64_t, 2> secondary{};  ///< node id (second 0), or the two nodes of an edge
+  std::array<std::int64_t, 4> main{};       ///< segment nodes, or edge nodes and zeros
+  ElementName secondary_element, main_element;
+  std::array<double, 3> at{};               ///< secondary node (edge: closest point), working units
+};
+
+struct PartPair {
+  std::int64_t secondary = 0, main = 0;  ///< part ids, 0: no part
+  std::uint64_t pairs = 0, nodes = 0, on_surface = 0;
+  double max_depth = 0, mean_depth = 0, p95_depth = 0, max_ratio = 0;
+  std::uint32_t worst = 0;  ///< index into Named view
+};
+
+struct ContactTotals {
+  std::uint64_t pairs = 0;
+  std::uint64_t nodes = 0;       ///< distinct secondary nodes or edges
+  std::uint64_t on_surface = 0;
+  std::uint64_t solver_errors = 0;  ///< pairs for which the solver stops: 611, 612
+  std::uint64_t acted = 0;          ///< pairs on which Inacti or Fpenmax do something
+  double max_depth = 0, max_ratio = 0;
+};
+
+struct SceneView {
+  std::vector<NamedPenetration> penetrations;  ///< deepest first; ties by contact and row
+  std::vector<std::uint32_t> deepest_per_node; ///< indices into penetrations, one per contact side node
+  std::vector<PartPair> part_pairs;            ///< deepest first
+  std::vector<ContactTotals> contacts;         ///< parallel to Scene::contacts
+  ContactTotals total;
+};
+
+/// Forms all views. Costs time in proportion to the penetrations, not to the model.
+SceneView make_view(const Scene& scene);
+
+/// Solver error for a node exactly on a segment: 611, 612, or 0 where the options avoid it.
+int on_surface_error(const Contact& contact);
+
+}  // namespace deck
