@@ -254,6 +254,24 @@ bool nearer(const T& distance_a, const T& squared_a, const T& distance_b, const 
   }
 }
 
+// The distance along the normal can only be believed if the point with the computed weights, which
+// lies in the triangle whatever the round-off, is not clearly farther away. On needles it is: then
+// the normal is noise and the edges give the better answer.
+template <class T>
+bool normal_is_trustworthy(const SubTriangleClosest<T>& face, const Point3<T>& vo,
+                           const Point3<T>& va, const Point3<T>& vb) {
+  if constexpr (std::is_floating_point_v<T>) {
+    const Point3<T> q = face.weight_o * vo + face.weight_a * va + face.weight_b * vb;
+    const T size =
+        larger(largest_component(vo), larger(largest_component(va), largest_component(vb)));
+    return square_root(dot(q, q)) - face.distance <=
+           T(256) * std::numeric_limits<T>::epsilon() * size;
+  } else {
+    (void)face, (void)vo, (void)va, (void)vb;
+    return true;
+  }
+}
+
 // Robust formula on one sub-triangle. Vertices as seen from the node (vertex - node); a, b, e the
 // edge vectors A-O, B-O, B-A, formed from the input where that loses less than from the vertices.
 template <class T>
@@ -265,8 +283,8 @@ SubTriangleClosest<T> robust_sub_triangle(const Point3<T>& vo, const Point3<T>& 
   const T nn = dot(n, n);
   if (nn > NumberTraits<T>::parallel_guard() * dot(a, a) * dot(b, b)) {
     const T fa = dot(n, cross(b, vo)), fb = dot(n, cross(vo, a)), fo = dot(n, cross(va, vb));
-    if (fa >= T(0) && fb >= T(0) && fo >= T(0)) {
-      const T sum = fa + fb + fo;
+    const T sum = fa + fb + fo;
+    if (fa >= T(0) && fb >= T(0) && fo >= T(0) && sum > T(0)) {
       const T height = -dot(n, vo);
       out.weight_a = fa / sum;
       out.weight_b = fb / sum;
@@ -278,7 +296,7 @@ SubTriangleClosest<T> robust_sub_triangle(const Point3<T>& vo, const Point3<T>& 
       } else {
         out.distance_squared = height * height / nn;
       }
-      return out;
+      if (normal_is_trustworthy(out, vo, va, vb)) return out;
     }
   }
   const EdgePoint<T> ab = closest_on_edge(va, vb, e);

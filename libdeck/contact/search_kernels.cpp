@@ -1,0 +1,101 @@
+// The sweeps of the pair search, compiled once per instruction set and chosen at run time. Wider
+// vectors do the same operations on more lanes: contraction is off, so the bits do not change.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contact/search_sweep.hpp"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace deck::sweep {
+
+#if defined(__x86_64__)
+
+namespace baseline {
+#define DECK_LANES 2
+#define DECK_LANE_BITS(m) static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(m)))
+#include "contact/search_lanes.hpp"
+#undef DECK_LANES
+#undef DECK_LANE_BITS
+}  // namespace baseline
+
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#endif
+namespace avx2 {
+#define DECK_LANES 4
+#define DECK_LANE_BITS(m) static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(m)))
+#include "contact/search_lanes.hpp"
+#undef DECK_LANES
+#undef DECK_LANE_BITS
+}  // namespace avx2
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx512f,avx512dq"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512dq")
+#endif
+namespace avx512 {
+#define DECK_LANES 8
+#define DECK_LANE_BITS(m) static_cast<unsigned>(_mm512_movepi64_mask(reinterpret_cast<__m512i>(m)))
+#include "contact/search_lanes.hpp"
+#undef DECK_LANES
+#undef DECK_LANE_BITS
+}  // namespace avx512
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+
+namespace {
+const std::array<Kernels, 3> kAll{Kernels{baseline::sweep_nodes, baseline::sweep_edges, "sse2"},
+                                  Kernels{avx2::sweep_nodes, avx2::sweep_edges, "avx2"},
+                                  Kernels{avx512::sweep_nodes, avx512::sweep_edges, "avx512"}};
+}  // namespace
+
+std::span<const Kernels> all_kernels() {
+  std::size_t usable = 1;
+  if (__builtin_cpu_supports("avx2")) {
+    usable = 2;
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) usable = 3;
+  }
+  return std::span(kAll).first(usable);
+}
+
+#else  // any other processor: two lanes, left to the compiler
+
+namespace generic {
+#define DECK_LANES 2
+#define DECK_LANE_BITS(m) (static_cast<unsigned>(-(m)[0]) | static_cast<unsigned>(-(m)[1]) << 1)
+#include "contact/search_lanes.hpp"
+#undef DECK_LANES
+#undef DECK_LANE_BITS
+}  // namespace generic
+
+namespace {
+const std::array<Kernels, 1> kAll{Kernels{generic::sweep_nodes, generic::sweep_edges, "generic"}};
+}  // namespace
+
+std::span<const Kernels> all_kernels() { return kAll; }
+
+#endif
+
+const Kernels& kernels() {
+  static const Kernels& best = all_kernels().back();
+  return best;
+}
+
+}  // namespace deck::sweep

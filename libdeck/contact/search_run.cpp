@@ -1,0 +1,76 @@
+// Runs a sweep on several threads and brings the pairs of all threads into one sorted list.
+#include <algorithm>
+#include <atomic>
+
+#include "contact/search_parallel.hpp"
+#include "contact/search_sweep.hpp"
+
+namespace deck::sweep {
+namespace {
+
+// Counting sort by secondary, then each secondary's few mains by insertion. Every thread owns a
+// range of secondaries and reads all pairs.
+void merge(std::vector<Sink>& sinks, std::size_t secondaries, int threads, SearchResult& result) {
+  std::vector<std::size_t> next(secondaries + 1, 0);
+  parallel_parts(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (const Sink& sink : sinks) {
+      for (const CandidatePair& pair : sink.pairs) {
+        if (pair.secondary >= begin && pair.secondary < end) ++next[pair.secondary + 1];
+      }
+    }
+  });
+  for (std::size_t i = 0; i < secondaries; ++i) next[i + 1] += next[i];
+  result.pairs.resize(next[secondaries]);
+  CandidatePair* const out = result.pairs.data();
+  parallel_parts(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
+    if (begin == end) return;
+    // next[i] runs from the first to one past the last pair of i; the range end is kept aside.
+    for (const Sink& sink : sinks) {
+      for (const CandidatePair& pair : sink.pairs) {
+        if (pair.secondary < begin || pair.secondary >= end) continue;
+        out[next[pair.secondary]++] = pair;
+      }
+    }
+  });
+  parallel_parts(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      CandidatePair* const first = out + (i == 0 ? 0 : next[i - 1]);
+      std::sort(first, out + next[i]);
+    }
+  });
+}
+
+}  // namespace
+
+void run(const std::function<void(std::size_t, std::size_t, Sink&)>& body, std::size_t count,
+         std::size_t secondaries, const SearchOptions& options, SearchResult& result) {
+  constexpr std::size_t kChunk = 64 * kGroup;
+  const std::size_t chunks = (count + kChunk - 1) / kChunk;
+  const int threads = effective_threads(options.threads);
+  std::vector<Sink> sinks(static_cast<std::size_t>(threads));
+  std::atomic<std::size_t> next_chunk{0}, found{0};
+  const auto work = [&](Sink& sink) {
+    for (;;) {
+      const std::size_t chunk = next_chunk.fetch_add(1);
+      if (chunk >= chunks || found.load() > options.max_pairs) return;
+      const std::size_t before = sink.pairs.size();
+      body(chunk * kChunk, std::min(count, (chunk + 1) * kChunk), sink);
+      found += sink.pairs.size() - before;
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (std::size_t t = 1; t < sinks.size() && t < chunks; ++t) {
+      workers.emplace_back([&work, &sinks, t] { work(sinks[t]); });
+    }
+    work(sinks[0]);
+  }
+  for (const Sink& sink : sinks) result.tested += sink.tested;
+  if (found.load() > options.max_pairs) {
+    result.complete = false;
+    return;
+  }
+  merge(sinks, secondaries, threads, result);
+}
+
+}  // namespace deck::sweep

@@ -1,0 +1,341 @@
+// The pair search finds exactly the pairs of the brute-force loop, on meshes made to break it.
+#include "deck/contact/search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "contact/box_order.hpp"
+#include "contact/search_scenes.hpp"
+#include "contact/search_sweep.hpp"
+
+namespace deck {
+namespace {
+
+using scenes::Dice;
+using scenes::Mesh;
+
+NodeSegmentInput node_input(const Mesh& mesh) {
+  NodeSegmentInput in;
+  in.nodes = mesh.nodes();
+  in.secondary = mesh.secondary;
+  in.segments = mesh.segments;
+  return in;
+}
+EdgeEdgeInput edge_input(const Mesh& mesh) {
+  EdgeEdgeInput in;
+  in.nodes = mesh.nodes();
+  in.secondary = mesh.edges;
+  in.main = mesh.edges;
+  return in;
+}
+
+// Options of every kind, by the number of the scene.
+SearchOptions options_for(int scene, double gap) {
+  SearchOptions o;
+  const int igap = scene % 4;
+  o.gap = PairGap::from_igap(igap, igap == 0 ? gap : 0.3 * gap, igap >= 2 ? 1.2 * gap : 1e30);
+  if (scene % 3 == 1) o.margin = 0.25 * gap;
+  if (scene % 5 == 2) o.drad = 1.1 * gap;
+  o.form = scene % 2 == 0 ? Form::reference : Form::robust;
+  return o;
+}
+
+template <class Find, class Input>
+void expect_brute_force(const Find& find, const Input& in, SearchOptions o, int family) {
+  const auto expected = scenes::brute_force(in, o);
+  for (const int threads : {1, 2}) {
+    o.threads = threads;
+    const SearchResult result = find(in, o);
+    EXPECT_TRUE(result.complete);
+    EXPECT_EQ(result.pairs, expected) << "family " << family << ", threads " << threads;
+    EXPECT_GE(result.tested, result.pairs.size());
+  }
+}
+
+class SceneFamily : public testing::TestWithParam<int> {};
+
+TEST_P(SceneFamily, NodeSegmentPairsEqualBruteForce) {
+  std::size_t found = 0;
+  for (int k = 0; k < 60; ++k) {
+    Dice dice(static_cast<std::uint64_t>(1000 * GetParam() + k));
+    double gap = 0;
+    const Mesh mesh = scenes::make(GetParam(), dice, gap);
+    const std::size_t n = mesh.secondary.size(), m = mesh.segments.size();
+    const auto gs = scenes::random_gaps(dice, n, gap), gm = scenes::random_gaps(dice, m, gap);
+    const auto ls = scenes::random_gaps(dice, n, gap), lm = scenes::random_gaps(dice, m, gap);
+    const auto ks = scenes::random_stiffness(dice, n), km = scenes::random_stiffness(dice, m);
+    NodeSegmentInput in = node_input(mesh);
+    in.secondary_gap = gs;
+    in.segment_gap = gm;
+    in.secondary_length = ls;
+    in.segment_length = lm;
+    if (k % 2 == 1) {
+      in.secondary_stiffness = ks;
+      in.segment_stiffness = km;
+    }
+    const SearchOptions o = options_for(k, gap);
+    expect_brute_force(find_node_segment_pairs, in, o, GetParam());
+    found += find_node_segment_pairs(in, o).pairs.size();
+  }
+  EXPECT_GT(found, 1000U);  // the scenes are not empty
+}
+
+TEST_P(SceneFamily, EdgeEdgePairsEqualBruteForce) {
+  std::size_t found = 0;
+  for (int k = 0; k < 40; ++k) {
+    Dice dice(static_cast<std::uint64_t>(1000 * GetParam() + k + 500));
+    double gap = 0;
+    const Mesh mesh = scenes::make(GetParam(), dice, gap);
+    const std::size_t n = mesh.edges.size();
+    const auto gs = scenes::random_gaps(dice, n, gap), gm = scenes::random_gaps(dice, n, gap);
+    const auto ks = scenes::random_stiffness(dice, n);
+    EdgeEdgeInput in = edge_input(mesh);
+    in.secondary_gap = gs;
+    in.main_gap = gm;
+    if (k % 2 == 1) in.main_stiffness = ks;
+    const SearchOptions o = options_for(k, gap);
+    expect_brute_force(find_edge_edge_pairs, in, o, GetParam());
+    found += find_edge_edge_pairs(in, o).pairs.size();
+  }
+  EXPECT_GT(found, 1000U);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SceneFamily, testing::Range(0, scenes::kFamilies));
+
+// A larger scene without ties: found pairs as (secondary, main).
+Mesh two_sheets(int n) {
+  Mesh mesh;
+  Dice dice(77);
+  for (const double level : {0.0, 0.4}) {
+    scenes::add_sheet(mesh, n, false, [&](int i, int j) {
+      return std::array{i + dice.uniform(-0.2, 0.2), j + dice.uniform(-0.2, 0.2),
+                        level + std::sin(0.1 * i) + dice.uniform(-0.1, 0.1)};
+    });
+  }
+  mesh.all_nodes_secondary();
+  mesh.edges_of_segments();
+  return mesh;
+}
+
+TEST(SearchThreads, AnyNumberGivesTheSameList) {
+  const Mesh mesh = two_sheets(90);
+  SearchOptions o;
+  o.gap = PairGap::constant(0.6);
+  const auto one = find_node_segment_pairs(node_input(mesh), o);
+  const auto one_edges = find_edge_edge_pairs(edge_input(mesh), o);
+  EXPECT_GT(one.pairs.size(), 10000U);
+  EXPECT_TRUE(std::is_sorted(one.pairs.begin(), one.pairs.end()));
+  for (const int threads : {0, 2, 3, 7}) {
+    o.threads = threads;
+    const auto many = find_node_segment_pairs(node_input(mesh), o);
+    EXPECT_EQ(many.pairs, one.pairs);
+    EXPECT_EQ(many.tested, one.tested);
+    EXPECT_EQ(find_edge_edge_pairs(edge_input(mesh), o).pairs, one_edges.pairs);
+  }
+}
+
+TEST(SearchKernels, EveryInstructionSetFindsTheSamePairs) {
+  const Mesh mesh = two_sheets(40);
+  const NodeSegmentInput in = node_input(mesh);
+  SearchOptions o;
+  o.gap = PairGap::constant(0.6);
+  sweep::NodeSweep w;
+  w.input = &in;
+  w.options = &o;
+  w.points.resize((in.secondary.size() + 7) / 8);
+  std::vector<BoxBlock> leaves((w.points.size() + 7) / 8);
+  for (std::uint32_t i = 0; i < in.secondary.size(); ++i) {
+    sweep::PointBlock& leaf = w.points[i / 8];
+    leaf.x[i % 8] = mesh.x[i];
+    leaf.y[i % 8] = mesh.y[i];
+    leaf.z[i % 8] = mesh.z[i];
+    leaf.item[i % 8] = i;
+    leaf.reach = 0.6;
+    leaf.used |= 1U << (i % 8);
+  }
+  const Box everything{{-1e9, -1e9, -1e9}, {1e9, 1e9, 1e9}};
+  for (std::size_t i = 0; i < w.points.size(); ++i) leaves[i / 8].set(i % 8, everything);
+  w.tree = BoxTree(leaves, 1);
+  w.segments.resize(in.segments.size());
+  std::iota(w.segments.begin(), w.segments.end(), 0U);
+  for (const auto& kernels : sweep::all_kernels()) {
+    sweep::Sink sink;
+    kernels.nodes(w, 0, w.segments.size(), sink);
+    std::sort(sink.pairs.begin(), sink.pairs.end());
+    EXPECT_EQ(sink.pairs, find_node_segment_pairs(in, o).pairs) << kernels.name;
+  }
+}
+
+TEST(SearchInvariance, PowerOfTwoScalingAndAxisPermutation) {
+  const Mesh mesh = two_sheets(20);
+  SearchOptions o;
+  o.gap = PairGap::constant(0.6);
+  o.form = Form::robust;
+  const auto base = find_node_segment_pairs(node_input(mesh), o).pairs;
+  const auto base_edges = find_edge_edge_pairs(edge_input(mesh), o).pairs;
+  for (const int k : {-300, -120, -20, 33, 120, 300}) {
+    Mesh scaled = mesh;
+    for (auto* axis : {&scaled.x, &scaled.y, &scaled.z}) {
+      for (double& v : *axis) v = std::ldexp(v, k);
+    }
+    SearchOptions s = o;
+    s.gap = PairGap::constant(std::ldexp(0.6, k));
+    EXPECT_EQ(find_node_segment_pairs(node_input(scaled), s).pairs, base) << k;
+    EXPECT_EQ(find_edge_edge_pairs(edge_input(scaled), s).pairs, base_edges) << k;
+  }
+  Mesh turned = mesh;
+  turned.x.swap(turned.y);
+  turned.y.swap(turned.z);
+  EXPECT_EQ(find_node_segment_pairs(node_input(turned), o).pairs, base);
+  EXPECT_EQ(find_edge_edge_pairs(edge_input(turned), o).pairs, base_edges);
+}
+
+TEST(SearchInvariance, ReferenceFormInTheRangeOfItsFloors) {
+  const Mesh mesh = two_sheets(20);
+  SearchOptions o;
+  o.gap = PairGap::constant(0.6);
+  const auto base = find_node_segment_pairs(node_input(mesh), o).pairs;
+  for (const int k : {-10, 10}) {
+    Mesh scaled = mesh;
+    for (auto* axis : {&scaled.x, &scaled.y, &scaled.z}) {
+      for (double& v : *axis) v = std::ldexp(v, k);
+    }
+    SearchOptions s = o;
+    s.gap = PairGap::constant(std::ldexp(0.6, k));
+    EXPECT_EQ(find_node_segment_pairs(node_input(scaled), s).pairs, base) << k;
+  }
+}
+
+TEST(SearchLimits, TooManyPairsAreReportedNotStored) {
+  const Mesh mesh = two_sheets(20);
+  SearchOptions o;
+  o.gap = PairGap::constant(1e3);
+  o.max_pairs = 1000;
+  const auto result = find_node_segment_pairs(node_input(mesh), o);
+  EXPECT_FALSE(result.complete);
+  EXPECT_TRUE(result.pairs.empty());
+  o.max_pairs = std::size_t{1} << 31;
+  const auto all = find_node_segment_pairs(node_input(mesh), o);
+  EXPECT_TRUE(all.complete);
+  // Every pair but the four nodes of each segment.
+  EXPECT_EQ(all.pairs.size(), mesh.segments.size() * (mesh.secondary.size() - 4));
+}
+
+TEST(SearchLimits, EmptyInputsGiveNothing) {
+  const Mesh mesh = two_sheets(3);
+  SearchOptions o;
+  o.gap = PairGap::constant(1.0);
+  NodeSegmentInput in = node_input(mesh);
+  in.secondary = {};
+  EXPECT_TRUE(find_node_segment_pairs(in, o).pairs.empty());
+  in = node_input(mesh);
+  in.segments = {};
+  EXPECT_TRUE(find_node_segment_pairs(in, o).pairs.empty());
+  EXPECT_TRUE(find_node_segment_pairs(NodeSegmentInput{}, o).pairs.empty());
+  EXPECT_TRUE(find_edge_edge_pairs(EdgeEdgeInput{}, o).pairs.empty());
+}
+
+TEST(SearchLimits, DistanceEqualToGapIsNotAPair) {
+  Mesh mesh;
+  scenes::add_sheet(mesh, 1, false, [](int i, int j) {
+    return std::array{10.0 * i, 10.0 * j, 0.0};
+  });
+  const auto node = mesh.add(3, 4, 1.0);
+  mesh.secondary = {node, node};  // a repeated node counts twice
+  SearchOptions o;
+  o.gap = PairGap::constant(1.0);
+  EXPECT_EQ(find_node_segment_pairs(node_input(mesh), o).pairs.size(), 0U);
+  o.gap = PairGap::constant(std::nextafter(1.0, 2.0));
+  EXPECT_EQ(find_node_segment_pairs(node_input(mesh), o).pairs.size(), 2U);
+}
+
+TEST(SearchMemory, StructureStaysBelowSixtyFourBytesPerSegment) {
+  const Mesh mesh = two_sheets(150);
+  SearchOptions o;
+  o.gap = PairGap::constant(0.6);
+  const auto nodes = find_node_segment_pairs(node_input(mesh), o);
+  EXPECT_LE(nodes.structure_bytes, 64 * mesh.segments.size());
+  const auto edges = find_edge_edge_pairs(edge_input(mesh), o);
+  EXPECT_LE(edges.structure_bytes, 72 * mesh.edges.size());
+}
+
+TEST(CandidateMargin, FifthOfTheMeanEdgeInSinglePrecision) {
+  Mesh mesh;
+  const auto a = mesh.add(0, 0, 0), b = mesh.add(3, 0, 0), c = mesh.add(3, 4, 0),
+             d = mesh.add(0, 4, 0);
+  mesh.segments = {{a, b, c, d}, {a, b, c, c}};
+  // Edges 3 4 3 4 and 3 4 0 5: sum 26 over eight.
+  EXPECT_DOUBLE_EQ(candidate_margin(mesh.nodes(), mesh.segments),
+                   static_cast<double>(0.2F) * 26.0 / 8.0);
+  const std::vector<std::array<std::uint32_t, 2>> s{{a, b}}, m{{b, c}, {a, c}};
+  EXPECT_DOUBLE_EQ(candidate_margin(mesh.nodes(), s, m), static_cast<double>(0.2F) * 12.0 / 3.0);
+}
+
+TEST(PairGapRule, GapminWinsOverGapmax) {
+  EXPECT_EQ(PairGap::from_igap(0, 2.0)(5, 7), 2.0);
+  EXPECT_EQ(PairGap::from_igap(1000, 2.0)(5, 7), 2.0);
+  EXPECT_EQ(PairGap::from_igap(1, 2.0)(0.5, 1), 2.0);
+  EXPECT_EQ(PairGap::from_igap(1, 2.0)(1.5, 1), 2.5);
+  EXPECT_EQ(PairGap::from_igap(2, 0.5, 2.0)(1.5, 1), 2.0);
+  EXPECT_EQ(PairGap::from_igap(2, 3.0, 2.0)(1.5, 1), 3.0);
+  EXPECT_EQ(PairGap::from_igap(3, 0.1, 9.0)(1.5, 1, 0.25, 0.5), 0.75);
+  EXPECT_EQ(PairGap::from_igap(3, 0.1, 9.0)(1.5, 1), 2.5);
+}
+
+TEST(PairGapRule, SharesOfTheTwoSidesCoverThePairGap) {
+  Dice dice(5);
+  for (int i = 0; i < 1000; ++i) {
+    const auto gap = PairGap::from_igap(i % 4, dice.uniform(0, 2), dice.uniform(0, 3));
+    const double a = dice.uniform(0, 2), b = dice.uniform(0, 2);
+    EXPECT_LE(gap(a, b, 1.0, 1.0), (gap.share(a) + gap.share(b)) * (1 + 1e-15));
+  }
+}
+
+TEST(SpaceOrder, HilbertCurveVisitsEveryCellAndMovesByOne) {
+  constexpr unsigned kBits = 3, kSide = 1U << kBits;
+  std::vector<std::array<int, 3>> cell(kSide * kSide * kSide, {-1, -1, -1});
+  for (unsigned x = 0; x < kSide; ++x) {
+    for (unsigned y = 0; y < kSide; ++y) {
+      for (unsigned z = 0; z < kSide; ++z) {
+        cell.at(order_detail::hilbert_index(x, y, z, kBits)) = {
+            static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)};
+      }
+    }
+  }
+  for (std::size_t i = 0; i + 1 < cell.size(); ++i) {
+    const int step = std::abs(cell[i][0] - cell[i + 1][0]) + std::abs(cell[i][1] - cell[i + 1][1]) +
+                     std::abs(cell[i][2] - cell[i + 1][2]);
+    EXPECT_EQ(step, 1) << i;
+  }
+}
+
+TEST(SpaceOrder, IsAPermutationForAnyGradingAndThreads) {
+  Dice dice(3);
+  std::vector<Point3<double>> p(20000);
+  for (auto& q : p) {
+    const double scale = std::pow(10.0, dice.uniform(-12, 6));
+    q = {scale * dice.uniform(0, 1), scale * dice.uniform(0, 1), 0.0};
+  }
+  for (std::size_t i = 0; i < 3000; ++i) p[i] = {1, 1, 1};
+  const auto order = [&p](int threads) {
+    std::vector<std::uint32_t> ids(p.size());
+    std::iota(ids.begin(), ids.end(), 0U);
+    order_in_space(
+        std::span(ids),
+        [&p](std::uint32_t i) {
+          return Place{p[i], 0};
+        },
+        threads);
+    return ids;
+  };
+  const auto one = order(1);
+  EXPECT_EQ(order(2), one);
+  auto sorted = one;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::uint32_t i = 0; i < sorted.size(); ++i) ASSERT_EQ(sorted[i], i);
+}
+
+}  // namespace
+}  // namespace deck
