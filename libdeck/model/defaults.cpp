@@ -1,0 +1,185 @@
+#include "model/defaults.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "model/interfaces_card.hpp"
+
+namespace deck {
+
+const Effective<std::int64_t>* DefaultInter::find(std::string_view field) const {
+  for (const auto& [name, value] : values)
+    if (name == field) return &value;
+  return nullptr;
+}
+
+const Friction* Interfaces::friction(std::int64_t id) const {
+  for (const Friction& f : frictions)
+    if (f.id == id) return &f;
+  return nullptr;
+}
+
+namespace detail {
+namespace {
+
+constexpr std::string_view default_prefix = "/DEFAULT/INTER/TYPE";
+
+void report_default(Diagnostics& diagnostics, const Block& block, std::string_view rule,
+                    Severity severity, std::string message, std::string behaviour, std::string help,
+                    const Span* earlier) {
+  if (!diagnostics.wants(rule)) return;
+  Diagnostic d;
+  d.rule = rule;
+  d.severity = severity;
+  d.span = block.header_span;
+  d.message = std::move(message);
+  d.reference_behaviour = std::move(behaviour);
+  d.help = std::move(help);
+  d.keyword = block.schema->keyword;
+  if (earlier != nullptr) {
+    d.reference = ReferenceMessage{1073, Severity::error};
+    d.notes.emplace_back(*earlier, "the first one is here");
+  }
+  diagnostics.add(std::move(d));
+}
+
+DefaultInter read_default(const Deck& deck, const Block& block, int type) {
+  DefaultInter out;
+  out.type = type;
+  out.span = block.header_span;
+  const DecodedBlock decoded = decode(deck, block);
+  for (const DecodedCard& card : decoded.cards)
+    for (const Cell& cell : card.cells) {
+      if (cell.integer == 0 || cell.field->ignored) continue;
+      Effective<std::int64_t> value;
+      value.value = value.input = cell.integer;
+      // Old manuals list 3 for "no deletion".
+      if (type == 19 && cell.field->name == "Idel" && cell.integer == 3) value.value = 1000;
+      value.has_input = true;
+      value.origin = Origin::default_block;
+      value.span = cell.span;
+      out.values.emplace_back(cell.field->name, value);
+    }
+  return out;
+}
+
+/// The values of one part pair (or of all others) from the cells that carry `suffix`.
+class FrictionCells {
+ public:
+  FrictionCells(const Deck& deck, const DecodedBlock& block, const Friction& friction)
+      : deck_(deck), block_(block), friction_(friction) {}
+
+  void coefficients(const DecodedCard& card, FrictionValues& out) const {
+    for (std::size_t i = 0; i < std::min<std::size_t>(card.cells.size(), 5); ++i)
+      out.C[i] = working_value(deck_, block_, card.cells[i]);
+  }
+  void friction(const DecodedCard& card, FrictionValues& out) const {
+    if (card.cells.size() < 3) return;
+    out.C[5] = working_value(deck_, block_, card.cells[0]);
+    out.Fric = working_value(deck_, block_, card.cells[1]);
+    out.VISF = working_value(deck_, block_, card.cells[2]);
+    finish(out);
+  }
+  /// VISF 0 is 1 where there is friction; the incremental formulation knows no VISF.
+  void finish(FrictionValues& v) const {
+    if (v.VISF == 0 && (v.Fric != 0 || friction_.Ifric != 0)) v.VISF = 1;
+    if (friction_.Iform == 2) v.VISF = 0;
+  }
+
+ private:
+  const Deck& deck_;
+  const DecodedBlock& block_;
+  const Friction& friction_;
+};
+
+void read_pairs(const Deck& deck, const DecodedBlock& block, const FrictionCells& cells,
+                Friction& out) {
+  for (const DecodedCard& card : block.cards) {
+    if (card.schema->repeat != Repeat::group || card.cells.empty()) continue;
+    const std::string& first = card.cells[0].field->name;
+    if (first == "grpart_ID1") {
+      FrictionPair pair;
+      pair.span = card.line.whole();
+      for (const Cell& cell : card.cells) {
+        const auto id = shifted_id(deck, *block.block, cell.field->ref, cell.integer);
+        if (cell.field->name == "grpart_ID1") pair.grpart_ID1 = id;
+        if (cell.field->name == "grpart_ID2") pair.grpart_ID2 = id;
+        if (cell.field->name == "part_ID1") pair.part_ID1 = id;
+        if (cell.field->name == "part_ID2") pair.part_ID2 = id;
+        if (cell.field->name == "Idir") pair.Idir = static_cast<int>(cell.integer);
+      }
+      out.pairs.push_back(pair);
+    } else if (!out.pairs.empty()) {
+      FrictionPair& pair = out.pairs.back();
+      if (first == "C1_pair") cells.coefficients(card, pair.values);
+      if (first == "C6_pair") cells.friction(card, pair.values);
+      if (first == "C1_dir2") cells.coefficients(card, pair.second);
+      if (first == "C6_dir2") cells.friction(card, pair.second);
+    }
+  }
+}
+
+Friction read_friction(const Deck& deck, const Block& block) {
+  const DecodedBlock decoded = decode(deck, block);
+  Friction out;
+  out.id = shifted_id(deck, block, "friction", block.id.value);
+  out.title = decoded.title;
+  out.span = block.header_span;
+  out.Ifric = decoded.integer("Ifric");
+  out.Ifiltr = decoded.integer("Ifiltr");
+  out.Iform = decoded.integer("Iform");
+  if (out.Iform == 0) out.Iform = 1;
+  if (const Cell* cell = decoded.find("Xfreq")) out.Xfreq = working_value(deck, decoded, *cell);
+  if (out.Xfreq == 0) out.Ifiltr = 0;
+  const FrictionCells cells(deck, decoded, out);
+  for (const DecodedCard& card : decoded.cards) {
+    if (card.schema->repeat == Repeat::group || card.cells.empty()) continue;
+    const std::string& first = card.cells[0].field->name;
+    if (first == "C1") cells.coefficients(card, out.values);
+    if (first == "C6") cells.friction(card, out.values);
+  }
+  read_pairs(deck, decoded, cells, out);
+  return out;
+}
+
+}  // namespace
+
+std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnostics) {
+  std::vector<DefaultInter> out;
+  for (const Block& block : deck.blocks) {
+    if (block.schema == nullptr || block.schema->kind != "default_inter") continue;
+    const std::string& keyword = block.schema->keyword;
+    const std::string_view number = std::string_view(keyword).substr(default_prefix.size());
+    int type = 0;
+    std::from_chars(number.data(), number.data() + number.size(), type);
+    if (block.submodel >= 0 || block.header_span.file != 0) {
+      report_default(diagnostics, block, "DK151", Severity::warning,
+                     keyword +
+                         (block.submodel >= 0 ? " inside a submodel" : " in an included file") +
+                         " has no effect",
+                     "it honours defaults of the main file only",
+                     "move the block to the main file, outside submodels", nullptr);
+      continue;
+    }
+    const auto earlier =
+        std::find_if(out.begin(), out.end(), [&](const DefaultInter& d) { return d.type == type; });
+    if (earlier != out.end()) {
+      report_default(diagnostics, block, "DK150", Severity::error, "a second " + keyword,
+                     "it stops with an error", "keep one of them", &earlier->span);
+      continue;
+    }
+    out.push_back(read_default(deck, block, type));
+  }
+  return out;
+}
+
+std::vector<Friction> read_frictions(const Deck& deck) {
+  std::vector<Friction> out;
+  for (const Block& block : deck.blocks)
+    if (block.schema != nullptr && block.schema->keyword == "/FRICTION")
+      out.push_back(read_friction(deck, block));
+  return out;
+}
+
+}  // namespace detail
+}  // namespace deck

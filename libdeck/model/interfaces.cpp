@@ -1,0 +1,334 @@
+#include "deck/model/interfaces.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "model/defaults.hpp"
+#include "model/interfaces_card.hpp"
+
+namespace deck {
+namespace {
+
+using detail::InterfaceCard;
+
+constexpr double never = 1e30;  ///< the solver's "no limit"
+constexpr std::int64_t nothing = 1000;
+
+/// 1000 is how a deck says "explicitly nothing".
+std::int64_t flag(const EffectiveInt& e) { return e.value == nothing ? 0 : e.value; }
+
+/// Gives a field a value that the card did not ask for.
+template <class T>
+void settle(Effective<T>& e, T value) {
+  if (e.value == value) return;
+  e.origin = e.value == T{} ? Origin::built_in : Origin::derived;
+  e.value = value;
+}
+
+/// 0 and blank mean `value`.
+template <class T>
+void fallback(Effective<T>& e, T value) {
+  if (e.value == T{}) settle(e, value);
+}
+
+/// Marks a field that the geometry has to fill.
+void leave_to_geometry(EffectiveReal& e) {
+  e.value = 0;
+  e.origin = Origin::derived;
+}
+
+/// The rules of the reference solver for one interface, in its order of evaluation.
+class Rules {
+ public:
+  Rules(const Model& model, const Interfaces& all, int type) : model_(model), all_(all) {
+    for (const DefaultInter& d : all.defaults)
+      if (d.type == type) defaults_ = &d;
+  }
+
+  void apply(InterType7& t) const {
+    default_flag(t.Istf, "Istf", nothing);
+    default_flag(t.Irem_i2, "Irem_i2", model_.implicit ? 1 : 3);
+    default_flag(t.Ibag, "Ibag", nothing);
+    common_flags(t);
+    airbag(t.Ibag);
+    if (!model_.has_adaptive_mesh) settle<std::int64_t>(t.Iadm, 0);
+    scaled_gap(t);
+    stiffness_bounds(t, flag(t.Istf) > 1);
+    fallback(t.AscaleF, 1.0);
+    if (t.Iadm.value == 2) {
+      fallback<std::int64_t>(t.NRadm, 3);
+      fallback(t.Padm, 1.0);
+    }
+    friction_law(t);
+    surface_friction_damping(t);
+    heat(t, 1e-30);
+    rest(t);
+  }
+
+  void apply(InterType10& t) const {
+    deletion(t.Idel, 0);
+    fallback(t.Stfac, 0.2);
+    fallback(t.VISs, 0.05);
+    fallback(t.Bumult, 0.2);
+    fallback(t.Tstop, never);
+    if (t.Gap.value <= 0) leave_to_geometry(t.Gap);
+  }
+
+  void apply(InterType11& t) const {
+    if (t.line_IDm.value == 0 && t.line_IDs.value != 0) self_contact(t.line_IDm, t.line_IDs);
+    default_flag(t.Istf, "Istf", 5);
+    // The line contact has no main-only stiffness.
+    if (t.Istf.value == nothing) settle<std::int64_t>(t.Istf, 5);
+    common_flags(t);
+    stiffness_bounds(t, t.Istf.value != 1);
+    mesh_fraction(t);
+    if (const Friction* f = friction_of(t)) {
+      take(t.Iform, f->Iform, f->span);
+      take(t.Fric, f->values.Fric, f->span);
+      take(t.VISF, f->values.VISF, f->span);
+    } else if (t.Fric.value != 0 && t.Iform.value != 2) {
+      fallback(t.VISF, 1.0);
+    }
+    heat(t, 0);
+    rest(t);
+  }
+
+  void apply(InterType19& t) const {
+    if (t.surf_IDm.value == 0 && t.surf_IDs.value != 0) self_contact(t.surf_IDm, t.surf_IDs);
+    if (t.surf_IDs.value == 0 && t.surf_IDm.value != 0) self_contact(t.surf_IDs, t.surf_IDm);
+    default_flag(t.Istf, "Istf", nothing);
+    // The card's Iedge is not read by the solver.
+    t.Iedge.value = 0;
+    t.Iedge.origin = Origin::built_in;
+    default_flag(t.Iedge, "Iedge", 2);
+    default_flag(t.Irem_i2, "Irem_i2", model_.implicit ? 1 : 3);
+    default_flag(t.Ibag, "Ibag", nothing);
+    common_flags(t);
+    airbag(t.Ibag);
+    scaled_gap(t);
+    fallback(t.Edge_scale_gap, 1.0);
+    stiffness_bounds(t, flag(t.Istf) > 1);
+    friction_law(t);
+    surface_friction_damping(t);
+    heat(t, 1e-30);
+    rest(t);
+  }
+
+ private:
+  void default_flag(EffectiveInt& e, std::string_view name, std::int64_t hard) const {
+    if (e.value != 0) return;
+    const auto* given = defaults_ ? defaults_->find(name) : nullptr;
+    if (given != nullptr) {
+      e.value = given->value;
+      e.origin = Origin::default_block;
+      e.span = given->span;
+    } else {
+      e.value = hard;
+      e.origin = Origin::built_in;
+    }
+  }
+
+  /// Only 0, 1, 2 and their negatives delete; a negative sign keeps orphan nodes.
+  static void deletion(EffectiveInt& idel, std::int64_t none) {
+    if (std::abs(flag(idel)) > 2) settle(idel, none);
+  }
+
+  template <class Inter>
+  void common_flags(Inter& t) const {
+    default_flag(t.Igap, "Igap", nothing);
+    default_flag(t.Idel, "Idel", nothing);
+    default_flag(t.Inacti, "Inacti", nothing);
+    default_flag(t.Iform, "Iform", 1);
+    default_flag(t.Irem_gap, "Irem_gap", 1);
+    deletion(t.Idel, nothing);
+  }
+
+  void airbag(EffectiveInt& ibag) const {
+    if (flag(ibag) == 0 || model_.has_monitored_volume || model_.has_ale || model_.has_sol2sph)
+      return;
+    settle(ibag, nothing);
+  }
+
+  template <class Inter>
+  static void scaled_gap(Inter& t) {
+    if (flag(t.Igap) >= 2) {
+      fallback(t.Fscalegap, 1.0);
+      fallback(t.Gapmax, never);
+    } else {
+      settle(t.Fscalegap, 1.0);
+      settle(t.Gapmax, never);
+    }
+    mesh_fraction(t);
+  }
+
+  template <class Inter>
+  static void mesh_fraction(Inter& t) {
+    if (t.Igap.value == 3) fallback(t.mesh_size, 0.4);
+  }
+
+  template <class Inter>
+  static void stiffness_bounds(Inter& t, bool used) {
+    if (!used) settle(t.Stmin, 0.0);
+    if (used)
+      fallback(t.Stmax, never);
+    else
+      settle(t.Stmax, never);
+  }
+
+  template <class Inter>
+  const Friction* friction_of(const Inter& t) const {
+    return t.fric_ID.value == 0 ? nullptr : all_.friction(t.fric_ID.value);
+  }
+
+  template <class T>
+  static void take(Effective<T>& e, T value, Span span) {
+    e.value = value;
+    e.origin = Origin::derived;
+    e.span = span;
+  }
+
+  /// Where the values come from /FRICTION they are final.
+  template <class Inter>
+  void friction_law(Inter& t) const {
+    const Friction* f = friction_of(t);
+    if (f == nullptr) {
+      if (t.Xfreq.value == 0) settle<std::int64_t>(t.Ifiltr, 0);
+      return;
+    }
+    take(t.Ifric, f->Ifric, f->span);
+    take(t.Ifiltr, f->Ifiltr, f->span);
+    take(t.Xfreq, f->Xfreq, f->span);
+    take(t.Iform, f->Iform, f->span);
+    take(t.Fric, f->values.Fric, f->span);
+    take(t.VISF, f->values.VISF, f->span);
+    EffectiveReal* const c[] = {&t.C1, &t.C2, &t.C3, &t.C4, &t.C5, &t.C6};
+    for (std::size_t i = 0; i < 6; ++i) take(*c[i], f->values.C[i], f->span);
+  }
+
+  template <class Inter>
+  void surface_friction_damping(Inter& t) const {
+    if (friction_of(t) != nullptr) return;
+    if (t.Iform.value == 2)
+      settle(t.VISF, 0.0);
+    else if (t.Fric.value != 0 || t.Ifric.value != 0)
+      fallback(t.VISF, 1.0);
+  }
+
+  /// `no_function`: heat exchange coefficient where neither it nor a function is given.
+  template <class Inter>
+  void heat(Inter& t, double no_function) const {
+    if (t.Ithe.value <= 0) return;
+    fallback(t.Kthe, t.fct_IDK.value != 0 ? 1.0 : no_function);
+    fallback(t.AscaleK, 1.0);
+    if (t.Drad.value == 0) leave_to_geometry(t.Drad);
+    if (!model_.has_thermal_material) settle<std::int64_t>(t.Ithe, 0);
+  }
+
+  static void self_contact(EffectiveInt& to, const EffectiveInt& from) {
+    to.value = from.value;
+    to.origin = Origin::derived;
+  }
+
+  template <class Inter>
+  void rest(Inter& t) const {
+    fallback(t.Stfac, 1.0);
+    fallback(t.Tstop, never);
+    fallback(t.VISs, 0.05);
+    const std::size_t nodes = model_.nodes.size();
+    fallback(t.Bumult, nodes > 2500000 ? 0.4 : nodes > 1500000 ? 0.3 : 0.2);
+    if (t.Gapmin.value <= 0) leave_to_geometry(t.Gapmin);
+  }
+
+  const Model& model_;
+  const Interfaces& all_;
+  const DefaultInter* defaults_ = nullptr;
+};
+
+int type_of(const Block& block) {
+  if (block.schema == nullptr) return 0;
+  for (const auto& [keyword, type] : {std::pair<std::string_view, int>{"/INTER/TYPE7", 7},
+                                      {"/INTER/TYPE10", 10},
+                                      {"/INTER/TYPE11", 11},
+                                      {"/INTER/TYPE19", 19}})
+    if (block.schema->keyword == keyword) return type;
+  return 0;
+}
+
+template <class Inter>
+Inter read_one(const InterfaceCard& card, int type, const Rules& rules) {
+  Inter t;
+  card.head(type, t);
+  card.read_all(t);
+  rules.apply(t);
+  return t;
+}
+
+/// Version 2026 can turn grnd_IDs into a surface; nothing here can act on that.
+void check_smoothing(const InterfaceCard& card, const InterBase& inter, Diagnostics& diagnostics) {
+  const Cell* cell = card.decoded().find("Ists");
+  if (cell == nullptr || cell->integer == 0 || !diagnostics.wants("DK152")) return;
+  Diagnostic d;
+  d.rule = "DK152";
+  d.severity = Severity::warning;
+  d.span = cell->span;
+  d.message = "Ists = " + std::to_string(cell->integer) +
+              " (surface-to-surface smoothing) is not evaluated; the interface is treated as if "
+              "Ists were 0";
+  d.reference_behaviour = "it takes grnd_IDs for a surface";
+  d.help = "expect differences for this interface";
+  d.keyword = "/INTER/TYPE7";
+  d.id = inter.id;
+  diagnostics.add(std::move(d));
+}
+
+}  // namespace
+
+Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  Interfaces out;
+  out.defaults = detail::read_defaults(deck, diagnostics);
+  out.frictions = detail::read_frictions(deck);
+  std::vector<std::pair<int, std::size_t>> order;
+  for (const Block& block : deck.blocks) {
+    const int type = type_of(block);
+    if (type == 0) continue;
+    const InterfaceCard card(deck, block);
+    const Rules rules(model, out, type);
+    const auto keep = [&](auto& list, auto inter) {
+      order.emplace_back(type, list.size());
+      list.push_back(std::move(inter));
+    };
+    switch (type) {
+      case 7:
+        keep(out.type7, read_one<InterType7>(card, type, rules));
+        check_smoothing(card, out.type7.back(), diagnostics);
+        break;
+      case 10:
+        keep(out.type10, read_one<InterType10>(card, type, rules));
+        break;
+      case 11:
+        keep(out.type11, read_one<InterType11>(card, type, rules));
+        break;
+      default:
+        keep(out.type19, read_one<InterType19>(card, type, rules));
+        break;
+    }
+  }
+  // Only now do the lists stay where they are.
+  for (const auto& [type, i] : order) switch (type) {
+      case 7:
+        out.ordered.push_back(&out.type7[i]);
+        break;
+      case 10:
+        out.ordered.push_back(&out.type10[i]);
+        break;
+      case 11:
+        out.ordered.push_back(&out.type11[i]);
+        break;
+      default:
+        out.ordered.push_back(&out.type19[i]);
+        break;
+    }
+  return out;
+}
+
+}  // namespace deck
