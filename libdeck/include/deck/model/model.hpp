@@ -70,6 +70,7 @@ struct Part {
   std::int64_t prop_id = 0, mat_id = 0, subset_id = 0;
   std::uint32_t prop = no_index, mat = no_index;  ///< indices, no_index: missing
   double thickness = 0;  ///< contact thickness, 0: none
+  std::int32_t submodel = -1;  ///< index into Deck::submodels
   Span span;             ///< header
 };
 
@@ -154,11 +155,23 @@ struct BulkBlock {
   std::uint32_t first = 0, count = 0;  ///< index range in the family
 };
 
-struct Model;
+/// Coordinates of all nodes.
+struct Coordinates {
+  std::vector<double> x, y, z;
+};
+
+/// x' = matrix x + shift; matrix by rows.
+struct AffineMap {
+  std::array<double, 9> matrix{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  std::array<double, 3> shift{};
+  std::array<double, 3> apply(const std::array<double, 3>& p) const;
+  std::array<double, 3> turn(const std::array<double, 3>& direction) const;  ///< without the shift
+};
+
 /// Resolves references lazily and keeps the results; see selection.hpp.
 class Selections;
 
-struct Model {
+struct ModelData {
   const Deck* deck = nullptr;
   Nodes nodes;
   std::vector<BulkBlock> node_blocks, element_blocks;
@@ -177,7 +190,17 @@ struct Model {
   bool has_thermal_material = false;
   double random_noise = 0;      ///< /RANDOM amplitude, working units
   bool has_random = false;
-  std::shared_ptr<Selections> selections;
+  /// Coordinates before the /TRANSFORM of node groups; nullptr if there are none. Boxes use them.
+  std::shared_ptr<const Coordinates> before_transforms;
+  std::vector<AffineMap> submodel_motions;  ///< per Deck::submodels: its own /TRANSFORM, in sequence
+  std::shared_ptr<Selections> selections;  ///< of this model; set by build_model
+};
+
+/// The deck as arrays. Movable; its selections move with it.
+struct Model : ModelData {
+  Model() = default;
+  Model(Model&& other) noexcept;
+  Model& operator=(Model&& other) noexcept;
 
   Elements& family(ElementKind kind);
   const Elements& family(ElementKind kind) const;

@@ -1,0 +1,126 @@
+// Curves and the entities that others only refer to by id: sensors, skews, frictions, rigid bodies,
+// submodels, subsets; and the options that concern the whole run.
+#include "model/model_build.hpp"
+
+namespace deck::detail {
+namespace {
+
+void read_curve(BuildContext& c, const Block& block) {
+  const DecodedBlock d = decode(c.deck, block);
+  Curve curve;
+  curve.id = c.own_id(block, "funct");
+  curve.title = d.title;
+  curve.span = block.header_span;
+  const bool smooth = header_starts(block, "/FUNCT_SMOOTH");
+  const double scale_x = smooth && d.real("Ascale_x") != 0 ? d.real("Ascale_x") : 1;
+  const double scale_y = smooth && d.real("Ascale_y") != 0 ? d.real("Ascale_y") : 1;
+  const double shift_x = smooth ? d.real("Ashift_x") : 0;
+  const double shift_y = smooth ? d.real("Ashift_y") : 0;
+  for (const DecodedCard& card : d.cards) {
+    if (card.cells.size() < 2 || card.cells[0].field->name != "X") continue;
+    // A blank line inside a curve is no point.
+    if (card.cells[0].blank() && card.cells[1].blank()) continue;
+    curve.x.push_back(scale_x * card.cells[0].real + shift_x);
+    curve.y.push_back(scale_y * card.cells[1].real + shift_y);
+  }
+  c.model.curves.emplace(curve.id, std::move(curve));
+}
+
+/// /MOVE_FUNCT/id scales the curve of the same id.
+void move_curve(BuildContext& c, const Block& block) {
+  const auto it = c.model.curves.find(c.own_id(block, "funct"));
+  if (it == c.model.curves.end()) return;
+  const DecodedBlock d = decode(c.deck, block);
+  const double scale_x = d.real("Ascale_x") != 0 ? d.real("Ascale_x") : 1;
+  const double scale_y = d.real("Ascale_y") != 0 ? d.real("Ascale_y") : 1;
+  for (double& x : it->second.x) x = scale_x * x + d.real("Ashift_x");
+  for (double& y : it->second.y) y = scale_y * y + d.real("Ashift_y");
+}
+
+void read_subset(BuildContext& c, const Block& block) {
+  const DecodedBlock d = decode(c.deck, block);
+  auto& children = c.model.subset_children[c.own_id(block, "subset")];
+  for (const DecodedCard& card : d.cards)
+    for (const Cell& cell : card.cells)
+      if (cell.integer != 0) children.push_back(c.shift(block, "subset", cell.integer));
+}
+
+void check_subset_children(BuildContext& c) {
+  for (const Block& block : c.deck.blocks) {
+    if (!header_starts(block, "/SUBSET") && !header_starts(block, "/ASSEMBLY")) continue;
+    const std::int64_t id = c.own_id(block, "subset");
+    const auto it = c.model.subset_children.find(id);
+    if (it == c.model.subset_children.end()) continue;
+    for (const std::int64_t child : it->second)
+      if (c.model.subset_children.count(child) == 0)
+        report(c.diagnostics,
+               {"DK108", Severity::warning, block.header_span,
+                "subset " + std::to_string(id) + " lists subset " + std::to_string(child) +
+                    ", which does not exist",
+                "it ignores the entry", "define the subset or remove it from the list", 0,
+                Severity::warning, std::string(block.keyword), id});
+  }
+}
+
+}  // namespace
+
+void read_other_entities(BuildContext& c) {
+  Model& m = c.model;
+  for (const Block& block : c.deck.blocks) {
+    if (block.schema == nullptr) continue;
+    const std::string& kind = block.schema->kind;
+    const Span span = block.header_span;
+    if (kind == "funct" && !block.opaque)
+      read_curve(c, block);
+    else if (kind == "sensor")
+      m.sensors.emplace(c.own_id(block, "sensor"), span);
+    else if (kind == "skew")
+      m.skews.emplace(c.own_id(block, "skew"), span);
+    else if (kind == "friction")
+      m.frictions.emplace(c.own_id(block, "friction"), span);
+    else if (kind == "subset")
+      read_subset(c, block);
+    else if (header_starts(block, "/RBODY"))
+      m.rbodies.emplace(c.own_id(block, "rbody"), span);
+  }
+  for (const Block& block : c.deck.blocks)
+    if (header_starts(block, "/MOVE_FUNCT")) move_curve(c, block);
+  for (const Submodel& s : c.deck.submodels) {
+    const std::int64_t above =
+        s.parent < 0 ? 0 : c.deck.submodels[static_cast<std::size_t>(s.parent)].submodels;
+    m.submodels.emplace(s.id + above, s.span);
+  }
+  check_subset_children(c);
+}
+
+void read_run_options(BuildContext& c) {
+  Model& m = c.model;
+  const Block* thickness = nullptr;
+  for (const Block& block : c.deck.blocks) {
+    if (header_starts(block, "/ANALY")) {
+      m.two_dimensional = decode(c.deck, block).integer("N2D3D") != 0;
+    } else if (header_starts(block, "/INTTHICK/V5")) {
+      if (thickness != nullptr)
+        report(c.diagnostics, {"DK112", Severity::error, block.header_span, "a second /INTTHICK/V5",
+                               "it stops with an error", "keep one of them", 725, Severity::error,
+                               "/INTTHICK/V5"});
+      thickness = &block;
+      m.intthick_v5 = true;
+    } else if (header_starts(block, "/RANDOM")) {
+      const DecodedBlock d = decode(c.deck, block);
+      const double noise = c.value(d, "Noise");
+      m.has_random = m.has_random || noise != 0;
+      if (noise != 0) m.random_noise = noise;
+    } else if (header_starts(block, "/IMPLICIT")) {
+      m.implicit = true;
+    } else if (header_starts(block, "/MONVOL")) {
+      m.has_monitored_volume = true;
+    } else if (header_starts(block, "/ALE/MAT") || header_starts(block, "/EULER/MAT")) {
+      m.has_ale = true;
+    } else if (header_starts(block, "/ADMESH")) {
+      m.has_adaptive_mesh = true;
+    }
+  }
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,241 @@
+// build_model: the order in which a deck becomes arrays. Nodes, submodel transforms, elements, then
+// everything that refers to them; node-group transforms come last because groups see the
+// coordinates before them.
+#include "deck/model/model.hpp"
+
+#include <algorithm>
+
+#include "deck/model/selection.hpp"
+#include "model/bulk.hpp"
+#include "model/model_build.hpp"
+
+namespace deck {
+namespace detail {
+
+Diagnostic make_diagnostic(Finding f) {
+  Diagnostic d;
+  d.rule = f.rule;
+  d.severity = f.severity;
+  d.span = f.span;
+  d.message = std::move(f.message);
+  d.reference_behaviour = std::move(f.behaviour);
+  d.help = std::move(f.help);
+  if (f.number != 0) d.reference = ReferenceMessage{f.number, f.number_severity};
+  d.keyword = std::move(f.keyword);
+  d.id = f.id;
+  return d;
+}
+
+void report(Diagnostics& diagnostics, Finding f) {
+  if (diagnostics.wants(f.rule)) diagnostics.add(make_diagnostic(std::move(f)));
+}
+
+std::vector<std::string_view> header_fields(const Block& block) {
+  std::vector<std::string_view> fields;
+  const std::string_view header = block.header;
+  std::size_t at = header.starts_with('/') ? 1 : 0;
+  while (at <= header.size()) {
+    const std::size_t end = std::min(header.find('/', at), header.size());
+    std::string_view field = header.substr(at, end - at);
+    while (!field.empty() && field.back() == ' ') field.remove_suffix(1);
+    while (!field.empty() && field.front() == ' ') field.remove_prefix(1);
+    const bool number =
+        !field.empty() &&
+        (field.front() == '&' ||
+         std::all_of(field.begin(), field.end(), [](char ch) { return ch >= '0' && ch <= '9'; }));
+    if (number || field.empty()) break;
+    if (field != "ADDD") fields.push_back(field);
+    at = end + 1;
+  }
+  return fields;
+}
+
+void register_id(BuildContext& c, std::map<std::int64_t, std::uint32_t>& map, std::int64_t id,
+                 std::uint32_t index, const Block& block, Span first) {
+  constexpr std::int64_t largest_id = 2147483647;
+  if (id > largest_id)
+    report(c.diagnostics,
+           {"DK114", Severity::error, block.header_span,
+            "id " + std::to_string(id) + " is above the largest id " + std::to_string(largest_id),
+            "it stops with an error", "use a smaller id or a smaller submodel offset", 509,
+            Severity::error, std::string(block.keyword), id});
+  if (map.emplace(id, index).second) return;
+  if (!c.diagnostics.wants("DK100")) return;
+  Diagnostic d =
+      make_diagnostic({"DK100", Severity::error, block.header_span,
+                       std::string(block.keyword) + " " + std::to_string(id) + " is defined twice",
+                       "it stops with an error", "give one of them another id", 79, Severity::error,
+                       std::string(block.keyword), id});
+  d.notes.emplace_back(first, "first defined here");
+  c.diagnostics.add(std::move(d));
+}
+
+namespace {
+
+/// Duplicate ids of nodes and elements. Nodes written twice with the same coordinates are legal
+/// decks' most frequent slip, so the message tells the two cases apart.
+void check_duplicates(BuildContext& c) {
+  const Model& m = c.model;
+  for (const std::uint32_t n : m.nodes.map.duplicates()) {
+    if (!c.diagnostics.wants("DK105")) continue;
+    const std::uint32_t first = m.nodes.map.find(m.nodes.id[n]);
+    const bool same = m.nodes.x[n] == m.nodes.x[first] && m.nodes.y[n] == m.nodes.y[first] &&
+                      m.nodes.z[n] == m.nodes.z[first];
+    Diagnostic d =
+        make_diagnostic({"DK105", Severity::error, m.node_span(n),
+                         "node " + std::to_string(m.nodes.id[n]) + " is defined twice" +
+                             (same ? " with the same coordinates" : " with different coordinates"),
+                         "it stops with an error", "remove one of the two lines", 79,
+                         Severity::error, "/NODE", m.nodes.id[n]});
+    d.notes.emplace_back(m.node_span(first), "first defined here");
+    c.diagnostics.add(std::move(d));
+  }
+  for (const ElementKind kind :
+       {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8, ElementKind::quad,
+        ElementKind::tria, ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
+    const Elements& family = m.family(kind);
+    for (const std::uint32_t e : family.map.duplicates()) {
+      if (!c.diagnostics.wants("DK105")) continue;
+      const Block* block = m.element_blocks[family.block[e]].block;
+      Diagnostic d = make_diagnostic({"DK105", Severity::error, m.element_span(kind, e),
+                                      "element " + std::to_string(family.id[e]) + " of " +
+                                          std::string(block->keyword) + " is defined twice",
+                                      "it stops with an error", "give one of them another id", 79,
+                                      Severity::error, std::string(block->keyword), family.id[e]});
+      d.notes.emplace_back(m.element_span(kind, family.map.find(family.id[e])),
+                           "first defined here");
+      c.diagnostics.add(std::move(d));
+    }
+  }
+}
+
+/// Blocks whose header names a unit system that is not defined.
+void check_units(BuildContext& c) {
+  for (const Block& block : c.deck.blocks) {
+    if (block.schema == nullptr || c.deck.units_of(block) != nullptr) continue;
+    const bool bulk = block.schema->bulk;
+    report(c.diagnostics, {"DK109", Severity::error, block.unit_id.span,
+                           std::string(block.keyword) + " names unit system " +
+                               std::to_string(block.unit_id.value) + ", which does not exist",
+                           "it stops with an error; here the values are taken in working units",
+                           "define it with /UNIT or remove the id", bulk ? 643 : 659,
+                           Severity::error, std::string(block.keyword), block.id.value});
+  }
+}
+
+/// The line of item `index` of a bulk block. Blank lines between items are no items.
+Span item_span(const Deck& deck, const BulkBlock& range, std::uint32_t index) {
+  LineCursor cursor(deck.sources, *range.block);
+  std::size_t lines_per_item = 1;
+  if (range.block->schema != nullptr) {
+    std::size_t grouped = 0;
+    for (const CardSchema& card : range.block->schema->cards)
+      grouped += card.repeat == Repeat::group && card.in_version(range.block->version);
+    lines_per_item = std::max<std::size_t>(grouped, 1);
+  }
+  for (std::uint32_t i = range.first;; ++i) {
+    Line line = cursor.next();
+    while (line.valid() && line.text.empty()) line = cursor.next();
+    if (!line.valid()) return range.block->header_span;
+    if (i == index) return line.whole();
+    for (std::size_t k = 1; k < lines_per_item; ++k) cursor.next();
+  }
+}
+
+}  // namespace
+}  // namespace detail
+
+const char* to_string(Origin origin) {
+  switch (origin) {
+    case Origin::card:
+      return "card";
+    case Origin::default_block:
+      return "default-block";
+    case Origin::built_in:
+      return "built-in";
+    case Origin::derived:
+      return "derived";
+  }
+  return "built-in";
+}
+
+Model::Model(Model&& other) noexcept : ModelData(std::move(other)) {
+  if (selections) selections->rebind(*this);
+}
+
+Model& Model::operator=(Model&& other) noexcept {
+  ModelData::operator=(std::move(other));
+  if (selections) selections->rebind(*this);
+  return *this;
+}
+
+Elements& Model::family(ElementKind kind) {
+  return const_cast<Elements&>(static_cast<const Model*>(this)->family(kind));
+}
+
+const Elements& Model::family(ElementKind kind) const {
+  switch (kind) {
+    case ElementKind::shell4:
+      return shell4;
+    case ElementKind::shell3:
+      return shell3;
+    case ElementKind::solid8:
+      return solid8;
+    case ElementKind::quad:
+      return quad;
+    case ElementKind::tria:
+      return tria;
+    case ElementKind::truss:
+      return truss;
+    case ElementKind::beam:
+      return beam;
+    case ElementKind::spring:
+      return spring;
+  }
+  return shell4;
+}
+
+Span Model::node_span(NodeIndex n) const {
+  if (deck == nullptr || n >= nodes.size()) return {};
+  // Ranges ascend; empty blocks share their `first` with the next one.
+  const auto after =
+      std::upper_bound(node_blocks.begin(), node_blocks.end(), n,
+                       [](NodeIndex index, const BulkBlock& b) { return index < b.first; });
+  for (auto it = after; it != node_blocks.begin();) {
+    --it;
+    if (n < it->first + it->count) return detail::item_span(*deck, *it, n);
+  }
+  return {};
+}
+
+Span Model::element_span(ElementKind kind, std::uint32_t e) const {
+  const Elements& f = family(kind);
+  if (deck == nullptr || e >= f.size()) return {};
+  return detail::item_span(*deck, element_blocks[f.block[e]], e);
+}
+
+Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagnostics,
+                  const ModelOptions& options) {
+  Model model;
+  model.deck = &deck;
+  detail::BuildContext context{deck, diagnostics, model};
+  detail::check_units(context);
+  detail::read_run_options(context);
+  detail::read_nodes(deck, detail::node_blocks(deck), model.nodes, model.node_blocks, diagnostics,
+                     options.threads);
+  detail::apply_submodel_transforms(context);
+  detail::read_parts(context);
+  detail::read_properties(context);
+  detail::read_materials(context);
+  detail::read_other_entities(context);
+  detail::read_elements(deck, detail::element_blocks(deck), model, diagnostics, options.threads);
+  detail::orient_solids(model);
+  detail::link_parts(context);
+  detail::check_duplicates(context);
+  detail::check_elements(context);
+  model.selections = std::make_shared<Selections>(model, schemas);
+  detail::apply_group_transforms(context);
+  return model;
+}
+
+}  // namespace deck

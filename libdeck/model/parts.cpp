@@ -1,0 +1,175 @@
+// Parts and what they refer to: property, material, subset; findings where one of them is missing,
+// and the checks of elements against their parts.
+#include <algorithm>
+
+#include "model/model_build.hpp"
+
+namespace deck::detail {
+namespace {
+
+struct PartTally {
+  std::uint32_t count = 0;
+  std::uint32_t first = no_index;
+};
+
+void tally(std::vector<PartTally>& all, std::uint32_t part, std::uint32_t element) {
+  PartTally& t = all[part];
+  if (t.count++ == 0) t.first = element;
+}
+
+std::string plural(std::uint32_t n, const char* what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+bool is_spring_property(int number) {
+  constexpr int springs[] = {4, 8, 12, 13, 23, 25, 26, 27, 28, 32, 33, 35, 36, 44, 45, 46};
+  return std::find(std::begin(springs), std::end(springs), number) != std::end(springs);
+}
+
+/// Thickness that contact and element routines find for shell `e` without the part thickness.
+double own_thickness(const Elements& shells, std::size_t e) {
+  return e < shells.thickness.size() ? shells.thickness[e] : 0;
+}
+
+void check_shells(BuildContext& c, const Elements& shells, const char* what) {
+  const Model& m = c.model;
+  std::vector<PartTally> thin(m.parts.size()), collapsed(m.parts.size());
+  for (std::size_t e = 0; e < shells.size(); ++e) {
+    const std::uint32_t p = shells.part[e];
+    if (p == no_index) continue;
+    const auto index = static_cast<std::uint32_t>(e);
+    const NodeIndex* n = shells.of(e);
+    if (shells.width == 4 && n[2] == n[3]) tally(collapsed, p, index);
+    const Part& part = m.parts[p];
+    if (part.prop == no_index || own_thickness(shells, e) != 0) continue;
+    const Property& prop = m.properties[part.prop];
+    // Stacks add up their plies; an encrypted property hides its thickness.
+    const bool layered = prop.number == 17 || prop.number == 51 || prop.number == 52;
+    if (prop.thickness == 0 && !layered && prop.block != nullptr && !prop.block->opaque)
+      tally(thin, p, index);
+  }
+  for (std::size_t p = 0; p < m.parts.size(); ++p) {
+    const Part& part = m.parts[p];
+    if (thin[p].count > 0 && c.diagnostics.wants("DK106")) {
+      Diagnostic d = make_diagnostic(
+          {"DK106", Severity::error, m.element_span(shells.kind, thin[p].first),
+           plural(thin[p].count, what) + " of part " + std::to_string(part.id) +
+               " have no thickness: neither on the element nor in property " +
+               std::to_string(part.prop_id) + "; first is element " +
+               std::to_string(shells.id[thin[p].first]),
+           "it stops with an error", "give the property or the elements a thickness above 0", 495,
+           Severity::error, "/PART", part.id});
+      d.notes.emplace_back(m.properties[part.prop].span, "the property");
+      c.diagnostics.add(std::move(d));
+    }
+    if (collapsed[p].count > 0)
+      report(c.diagnostics,
+             {"DK107", Severity::warning, m.element_span(shells.kind, collapsed[p].first),
+              plural(collapsed[p].count, what) + " of part " + std::to_string(part.id) +
+                  " have the same third and fourth node; first is element " +
+                  std::to_string(shells.id[collapsed[p].first]),
+              "it keeps them as degenerate quadrangles and warns", "write them as /SH3N", 430,
+              Severity::warning, "/PART", part.id});
+  }
+}
+
+/// Elements whose block header names a part that does not exist, one finding per block header id.
+void check_orphans(BuildContext& c, const Elements& family, const char* what) {
+  std::map<std::int64_t, std::pair<std::uint32_t, const Block*>> missing;
+  for (std::size_t e = 0; e < family.size(); ++e) {
+    if (family.part[e] != no_index) continue;
+    const Block* block = c.model.element_blocks[family.block[e]].block;
+    auto& entry = missing[c.own_id(*block, "part")];
+    if (entry.first++ == 0) entry.second = block;
+  }
+  for (const auto& [id, entry] : missing)
+    report(c.diagnostics,
+           {"DK104", Severity::error, entry.second->header_span,
+            plural(entry.first, what) + " belong to part " + std::to_string(id) +
+                ", which does not exist",
+            "it stops with an error", "define the part or correct the id in the header", 402,
+            Severity::error, std::string(entry.second->keyword), id});
+}
+
+}  // namespace
+
+void read_parts(BuildContext& c) {
+  Model& m = c.model;
+  for (const Block& block : c.deck.blocks) {
+    if (!header_starts(block, "/PART")) continue;
+    const DecodedBlock d = decode(c.deck, block);
+    Part part;
+    part.id = c.own_id(block, "part");
+    part.title = d.title;
+    part.prop_id = c.reference(d, "prop_ID", "prop");
+    part.mat_id = c.reference(d, "mat_ID", "mat");
+    part.subset_id = c.reference(d, "subset_ID", "subset");
+    part.thickness = c.value(d, "Thick");
+    part.submodel = block.submodel;
+    part.span = block.header_span;
+    const auto index = static_cast<std::uint32_t>(m.parts.size());
+    const auto known = m.part_of_id.find(part.id);
+    register_id(c, m.part_of_id, part.id, index, block,
+                known == m.part_of_id.end() ? Span{} : m.parts[known->second].span);
+    m.parts.push_back(std::move(part));
+  }
+}
+
+void link_parts(BuildContext& c) {
+  Model& m = c.model;
+  std::vector<std::uint8_t> used(m.parts.size());  // bit 0: any element, bit 1: other than springs
+  for (const Elements* f :
+       {&m.shell4, &m.shell3, &m.solid8, &m.quad, &m.tria, &m.truss, &m.beam, &m.spring})
+    for (const std::uint32_t p : f->part)
+      if (p != no_index) used[p] |= f->kind == ElementKind::spring ? 1 : 3;
+  if (m.parts.empty() && !m.nodes.id.empty())
+    report(c.diagnostics,
+           {"DK111", Severity::warning, c.deck.begin.span, "the deck has no part",
+            "it warns and goes on with nodes only",
+            "define parts with /PART if the deck should hold elements", 1114, Severity::warning});
+  for (std::size_t i = 0; i < m.parts.size(); ++i) {
+    Part& part = m.parts[i];
+    if (const auto it = m.property_of_id.find(part.prop_id); it != m.property_of_id.end())
+      part.prop = it->second;
+    else
+      report(c.diagnostics,
+             {"DK102", Severity::error, part.span,
+              "part " + std::to_string(part.id) + " refers to property " +
+                  std::to_string(part.prop_id) + ", which does not exist",
+              "it reports an error and goes on with the first property of the deck",
+              "define the property or correct prop_ID", 178, Severity::error, "/PART", part.id});
+    if (const auto it = m.material_of_id.find(part.mat_id); it != m.material_of_id.end())
+      part.mat = it->second;
+    const bool spring = part.prop != no_index && is_spring_property(m.properties[part.prop].number);
+    if (part.mat == no_index && (used[i] & 2) != 0 && !(spring && part.mat_id == 0))
+      report(c.diagnostics,
+             {"DK103", Severity::error, part.span,
+              "part " + std::to_string(part.id) + " has elements and refers to material " +
+                  std::to_string(part.mat_id) + ", which does not exist",
+              "it stops with an error", "define the material or correct mat_ID", 179,
+              Severity::error, "/PART", part.id});
+    if (part.subset_id > 0 && m.subset_children.count(part.subset_id) == 0)
+      report(c.diagnostics,
+             {"DK108", Severity::warning, part.span,
+              "part " + std::to_string(part.id) + " names subset " +
+                  std::to_string(part.subset_id) + ", which does not exist",
+              "it puts the part into the global subset",
+              "define the subset or leave the cell blank", 0, Severity::warning, "/PART", part.id});
+  }
+}
+
+void check_elements(BuildContext& c) {
+  const Model& m = c.model;
+  check_orphans(c, m.shell4, "shell");
+  check_orphans(c, m.shell3, "triangular shell");
+  check_orphans(c, m.solid8, "solid");
+  check_orphans(c, m.quad, "plane quadrangle");
+  check_orphans(c, m.tria, "plane triangle");
+  check_orphans(c, m.truss, "truss element");
+  check_orphans(c, m.beam, "beam");
+  check_orphans(c, m.spring, "spring");
+  check_shells(c, m.shell4, "shell");
+  check_shells(c, m.shell3, "triangular shell");
+}
+
+}  // namespace deck::detail

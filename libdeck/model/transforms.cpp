@@ -1,0 +1,269 @@
+// /TRANSFORM: every type is one affine map; submodel transforms move the nodes of their submodel
+// right after reading, the others move a node group after all groups are known.
+#include <cmath>
+#include <numbers>
+
+#include "deck/model/selection.hpp"
+#include "model/model_build.hpp"
+
+namespace deck {
+
+std::array<double, 3> AffineMap::turn(const std::array<double, 3>& d) const {
+  return {matrix[0] * d[0] + matrix[1] * d[1] + matrix[2] * d[2],
+          matrix[3] * d[0] + matrix[4] * d[1] + matrix[5] * d[2],
+          matrix[6] * d[0] + matrix[7] * d[1] + matrix[8] * d[2]};
+}
+
+std::array<double, 3> AffineMap::apply(const std::array<double, 3>& p) const {
+  const std::array<double, 3> r = turn(p);
+  return {r[0] + shift[0], r[1] + shift[1], r[2] + shift[2]};
+}
+
+namespace detail {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double length(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
+
+/// Map with the given matrix that leaves `centre` where it is.
+AffineMap about(const std::array<double, 9>& matrix, const Vector& centre) {
+  AffineMap map;
+  map.matrix = matrix;
+  const Vector moved = map.turn(centre);
+  map.shift = minus(centre, moved);
+  return map;
+}
+
+AffineMap then(const AffineMap& first, const AffineMap& second) {
+  AffineMap map;
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c) {
+      double sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) sum += second.matrix[3 * r + k] * first.matrix[3 * k + c];
+      map.matrix[3 * r + c] = sum;
+    }
+  map.shift = second.apply(first.shift);
+  return map;
+}
+
+/// Rotation by `angle` degrees about the axis through `p` along `direction`.
+AffineMap rotation(const Vector& p, const Vector& direction, double angle) {
+  const double n = length(direction);
+  const double x = direction[0] / n, y = direction[1] / n, z = direction[2] / n;
+  const double radians = angle * std::numbers::pi / 180;
+  const double s = std::sin(radians), c = std::cos(radians), v = 1 - c;
+  return about(
+      {c + x * x * v, x * y * v - z * s, x * z * v + y * s, y * x * v + z * s, c + y * y * v,
+       y * z * v - x * s, z * x * v - y * s, z * y * v + x * s, c + z * z * v},
+      p);
+}
+
+/// Mirror image in the plane through `p` normal to `direction`.
+AffineMap reflection(const Vector& p, const Vector& direction) {
+  const double n = length(direction);
+  const double x = direction[0] / n, y = direction[1] / n, z = direction[2] / n;
+  return about({1 - 2 * x * x, -2 * x * y, -2 * x * z, -2 * y * x, 1 - 2 * y * y, -2 * y * z,
+                -2 * z * x, -2 * z * y, 1 - 2 * z * z},
+               p);
+}
+
+class TransformReader {
+ public:
+  TransformReader(BuildContext& c, const Block& block)
+      : c_(c), d_(decode(c.deck, block)), type_(type_of(block)) {}
+
+  std::int64_t group() const { return c_.reference(d_, "GR_NODE", "grnod"); }
+  std::int64_t submodel() const { return c_.reference(d_, "SUBMODEL", "submodel"); }
+  const DecodedBlock& decoded() const { return d_; }
+
+  /// nullopt: the card cannot be evaluated; a finding says why.
+  std::optional<AffineMap> map() {
+    if (type_ == "TRA") return translation();
+    if (type_ == "SCA") return scaling();
+    if (type_ == "MATRIX") return matrix();
+    if (type_ == "ROT" || type_ == "SYM") {
+      const auto axis = two_points();
+      if (!axis) return std::nullopt;
+      if (!(length(axis->second) > 0))
+        return fail("its two points coincide", "give two different points");
+      return type_ == "ROT" ? rotation(axis->first, axis->second, d_.real("Angle"))
+                            : reflection(axis->first, axis->second);
+    }
+    return fail("transforms of this type are not evaluated here: the nodes keep their coordinates",
+                "write it as /TRANSFORM/MATRIX if the contacts of these nodes are to be checked",
+                Severity::warning);
+  }
+
+ private:
+  static std::string_view type_of(const Block& block) {
+    const auto fields = header_fields(block);
+    return fields.size() > 1 ? fields[1] : std::string_view();
+  }
+
+  std::nullopt_t fail(std::string what, std::string help, Severity severity = Severity::error,
+                      int number = 0) {
+    report(c_.diagnostics,
+           {"DK110", severity, d_.span(),
+            std::string(d_.block->keyword) + " " + std::to_string(d_.block->id.value) + ": " + what,
+            severity == Severity::error ? "it stops with an error" : "it applies the transform",
+            std::move(help), number, Severity::error, std::string(d_.block->keyword),
+            d_.block->id.value});
+    return std::nullopt;
+  }
+
+  /// Coordinates of the node in field `name`; nullopt with a finding where it does not exist.
+  std::optional<Vector> node(const char* name) {
+    const std::int64_t id = c_.reference(d_, name, "node");
+    const NodeIndex n = c_.model.nodes.map.find(id);
+    if (n == no_index)
+      return fail("node " + std::to_string(id) + " does not exist", "correct the node id",
+                  Severity::error, 694);
+    const Nodes& nodes = c_.model.nodes;
+    return Vector{nodes.x[n], nodes.y[n], nodes.z[n]};
+  }
+
+  Vector point(const char* x, const char* y, const char* z) const {
+    return {c_.value(d_, x), c_.value(d_, y), c_.value(d_, z)};
+  }
+
+  bool has_nodes() const { return d_.integer("node_ID1") > 0 && d_.integer("node_ID2") > 0; }
+
+  /// First point, and the way to the second one.
+  std::optional<std::pair<Vector, Vector>> two_points() {
+    if (!has_nodes()) {
+      const Vector p = point("X1", "Y1", "Z1");
+      return std::pair{p, minus(point("X2", "Y2", "Z2"), p)};
+    }
+    const auto p = node("node_ID1");
+    const auto q = node("node_ID2");
+    if (!p || !q) return std::nullopt;
+    return std::pair{*p, minus(*q, *p)};
+  }
+
+  std::optional<AffineMap> translation() {
+    AffineMap map;
+    if (has_nodes()) {
+      const auto p = node("node_ID1");
+      const auto q = node("node_ID2");
+      if (!p || !q) return std::nullopt;
+      map.shift = minus(*q, *p);
+      return map;
+    }
+    if (d_.integer("skew_ID") != 0)
+      return fail("translations in a skew are not evaluated here: the nodes keep their coordinates",
+                  "give the translation in global axes", Severity::warning);
+    map.shift = point("TX", "TY", "TZ");
+    return map;
+  }
+
+  std::optional<AffineMap> scaling() {
+    Vector centre{};
+    if (d_.integer("node_ID1") > 0) {
+      const auto p = node("node_ID1");
+      if (!p) return std::nullopt;
+      centre = *p;
+    }
+    const auto factor = [&](const char* name) {
+      const double f = d_.real(name);
+      return f == 0 ? 1 : f;
+    };
+    return about({factor("FX"), 0, 0, 0, factor("FY"), 0, 0, 0, factor("FZ")}, centre);
+  }
+
+  std::optional<AffineMap> matrix() {
+    AffineMap map;
+    constexpr const char* names[9] = {"M11", "M12", "M13", "M21", "M22",
+                                      "M23", "M31", "M32", "M33"};
+    for (std::size_t i = 0; i < 9; ++i) map.matrix[i] = d_.real(names[i]);
+    map.shift = point("TX", "TY", "TZ");
+    return map;
+  }
+
+  BuildContext& c_;
+  DecodedBlock d_;
+  std::string_view type_;
+};
+
+void move_node(Nodes& nodes, NodeIndex n, const AffineMap& map) {
+  const Vector p = map.apply({nodes.x[n], nodes.y[n], nodes.z[n]});
+  nodes.x[n] = p[0];
+  nodes.y[n] = p[1];
+  nodes.z[n] = p[2];
+}
+
+/// True if `submodel` is `ancestor` or lies inside it.
+bool inside(const Deck& deck, std::int32_t submodel, std::int32_t ancestor) {
+  for (; submodel >= 0; submodel = deck.submodels[static_cast<std::size_t>(submodel)].parent)
+    if (submodel == ancestor) return true;
+  return false;
+}
+
+std::int32_t find_submodel(const Deck& deck, std::int64_t id) {
+  for (std::size_t i = 0; i < deck.submodels.size(); ++i) {
+    const Submodel& s = deck.submodels[i];
+    const std::int64_t above =
+        s.parent < 0 ? 0 : deck.submodels[static_cast<std::size_t>(s.parent)].submodels;
+    if (s.id + above == id) return static_cast<std::int32_t>(i);
+  }
+  return -1;
+}
+
+void missing_target(BuildContext& c, const DecodedBlock& d, const std::string& what,
+                    std::int64_t id) {
+  report(c.diagnostics, {"DK110", Severity::error, d.span(),
+                         std::string(d.block->keyword) + " " + std::to_string(d.block->id.value) +
+                             " moves " + what + " " + std::to_string(id) + ", which does not exist",
+                         "it stops with an error", "correct the id", 1865, Severity::error,
+                         std::string(d.block->keyword), d.block->id.value});
+}
+
+}  // namespace
+
+void apply_submodel_transforms(BuildContext& c) {
+  c.model.submodel_motions.assign(c.deck.submodels.size(), {});
+  for (const Block& block : c.deck.blocks) {
+    if (!header_starts(block, "/TRANSFORM")) continue;
+    TransformReader reader(c, block);
+    const std::int64_t id = reader.submodel();
+    if (id == 0) continue;
+    const std::int32_t target = find_submodel(c.deck, id);
+    if (target < 0) {
+      missing_target(c, reader.decoded(), "submodel", id);
+      continue;
+    }
+    const auto map = reader.map();
+    if (!map) continue;
+    for (const BulkBlock& range : c.model.node_blocks)
+      if (inside(c.deck, range.block->submodel, target))
+        for (std::uint32_t n = range.first; n < range.first + range.count; ++n)
+          move_node(c.model.nodes, n, *map);
+    for (std::size_t s = 0; s < c.deck.submodels.size(); ++s)
+      if (inside(c.deck, static_cast<std::int32_t>(s), target))
+        c.model.submodel_motions[s] = then(c.model.submodel_motions[s], *map);
+  }
+}
+
+void apply_group_transforms(BuildContext& c) {
+  Model& m = c.model;
+  for (const Block& block : c.deck.blocks) {
+    if (!header_starts(block, "/TRANSFORM")) continue;
+    TransformReader reader(c, block);
+    if (reader.submodel() != 0) continue;
+    if (!m.before_transforms)
+      m.before_transforms =
+          std::make_shared<Coordinates>(Coordinates{m.nodes.x, m.nodes.y, m.nodes.z});
+    const NodeSet* group = m.selections->node_group(reader.group());
+    if (group == nullptr) {
+      missing_target(c, reader.decoded(), "node group", reader.group());
+      continue;
+    }
+    const auto map = reader.map();
+    if (!map) continue;
+    for (const NodeIndex n : group->nodes) move_node(m.nodes, n, *map);
+  }
+}
+
+}  // namespace detail
+}  // namespace deck
