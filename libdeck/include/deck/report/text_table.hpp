@@ -1,0 +1,43 @@
+// TextTable: columns of text lined up for a terminal or a file, with optional colour per cell.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace deck {
+
+enum class Align : unsigned char { left, right };
+enum class Tone : unsigned char { plain, bold, dim, red, yellow, green, cyan };
+
+/// Escape codes around `text` if `color` is set.
+std::string toned(std::string_view text, Tone tone, bool color);
+/// Columns a text takes on a terminal: UTF-8 characters, not bytes.
+std::size_t display_width(std::string_view text);
+
+class TextTable {
+ public:
+  struct Column {
+    std::string title;
+    Align align = Align::left;
+  };
+  explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
+
+  struct Cell {
+    std::string text;
+    Tone tone = Tone::plain;
+    Cell(std::string t, Tone n = Tone::plain) : text(std::move(t)), tone(n) {}  // NOLINT
+    Cell(const char* t) : text(t) {}                                            // NOLINT
+  };
+  /// Missing cells at the end are blank.
+  void row(std::vector<Cell> cells) { rows_.push_back(std::move(cells)); }
+  std::size_t size() const { return rows_.size(); }
+
+  /// Every line indented by `indent` blanks; no blanks at line ends.
+  std::string render(bool color = false, std::size_t indent = 0) const;
+
+ private:
+  std::vector<Column> columns_;
+  std::vector<std::vector<Cell>> rows_;
+};
+
+}  // namespace deck
