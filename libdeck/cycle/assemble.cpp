@@ -1,0 +1,173 @@
+#include "deck/cycle/assemble.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+namespace deck::cycle {
+namespace {
+
+void pick(const double* from, const std::vector<std::uint32_t>& index, std::vector<double>& to) {
+  to.resize(index.size());
+  for (std::size_t i = 0; i < index.size(); ++i) to[i] = from[index[i]];
+}
+
+template <class Arrays>
+auto pointers(const Arrays& arrays) {
+  std::array<const double*, std::tuple_size_v<Arrays>> out{};
+  for (std::size_t c = 0; c < out.size(); ++c) {
+    out[c] = arrays[c].empty() ? nullptr : arrays[c].data();
+  }
+  return out;
+}
+
+/// Share of the pair force (main side) that a role receives.
+double force_share(ContactKind kind, const PacketResult& r, std::size_t pair, std::size_t role) {
+  if (kind == ContactKind::edge_edge) {
+    return role < 2 ? -r.weights[role][pair] : r.weights[role][pair];
+  }
+  return role == 0 ? -1.0 : r.weights[role - 1][pair];
+}
+
+struct NodeSum {
+  double f[3] = {0.0, 0.0, 0.0};
+  double stiffness = 0.0, heat = 0.0, conductance = 0.0;
+  std::int64_t all = 0;        ///< status bits of its pairs
+  std::int64_t secondary = 0;  ///< of pairs where it is on the secondary side
+};
+
+NodeSum sum_node(const KernelPlan& plan, const Incidence& incidence, const PacketResult& r,
+                 std::size_t node) {
+  const ContactKind kind = plan.card.kind;
+  const bool heated = contains(plan.writes, Field::heat);
+  const std::size_t secondary_roles = kind == ContactKind::edge_edge ? 2 : 1;
+  NodeSum s;
+  for (const std::uint64_t* e = incidence.begin(node); e != incidence.end(node); ++e) {
+    const std::size_t pair = *e / 8, role = *e % 8;
+    const double share = force_share(kind, r, pair, role);
+    for (std::size_t c = 0; c < 3; ++c) s.f[c] += share * r.force[c][pair];
+    s.stiffness += std::abs(share) * r.k_nodal[pair];
+    s.all |= r.status[pair];
+    if (role < secondary_roles) s.secondary |= r.status[pair];
+    if (!heated) continue;
+    s.heat += r.heat[role][pair];
+    if (role == 0 || plan.card.ithe_form == 1)
+      s.conductance += std::abs(share) * r.conductance[pair];
+  }
+  return s;
+}
+
+}  // namespace
+
+void PacketBuffer::gather(const NodalState& nodes, const PairList& pairs, Field needs) {
+  size_ = pairs.size();
+  triangle_ = pairs.triangle;
+  const std::size_t roles = pairs.kind == ContactKind::edge_edge ? 4 : 5;
+  for (std::size_t role = 0; role < roles; ++role) {
+    const auto& index = pairs.node[role];
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (contains(needs, Field::position)) pick(nodes.position[c], index, position_[role][c]);
+      if (contains(needs, Field::velocity)) pick(nodes.velocity[c], index, velocity_[role][c]);
+    }
+    const Field mass = role == 0 ? Field::mass_secondary : Field::mass_main;
+    const bool edge_mass = role == 1 && pairs.kind == ContactKind::edge_edge;
+    if (contains(needs, edge_mass ? Field::mass_secondary : mass)) {
+      pick(nodes.mass, index, mass_[role]);
+    }
+    if (contains(needs, Field::temperature)) pick(nodes.temperature, index, temperature_[role]);
+  }
+}
+
+PacketView PacketBuffer::view() const {
+  PacketView v;
+  v.size = size_;
+  for (std::size_t role = 0; role < 5; ++role) {
+    v.position[role] = pointers(position_[role]);
+    v.velocity[role] = pointers(velocity_[role]);
+  }
+  v.mass = pointers(mass_);
+  v.temperature = pointers(temperature_);
+  v.triangle = triangle_.empty() ? nullptr : triangle_.data();
+  return v;
+}
+
+Incidence::Incidence(const PairList& pairs, std::size_t node_count) {
+  const std::size_t roles = pairs.kind == ContactKind::edge_edge ? 4 : 5;
+  const auto skip = [&](std::size_t pair, std::size_t role) {
+    return role == 4 && !pairs.triangle.empty() && pairs.triangle[pair] != 0;
+  };
+  first_.assign(node_count + 1, 0);
+  for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
+    for (std::size_t role = 0; role < roles; ++role) {
+      if (!skip(pair, role)) ++first_[pairs.node[role][pair] + 1];
+    }
+  }
+  for (std::size_t n = 0; n < node_count; ++n) first_[n + 1] += first_[n];
+  entry_.resize(first_.back());
+  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+  for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
+    for (std::size_t role = 0; role < roles; ++role) {
+      if (!skip(pair, role)) entry_[next[pairs.node[role][pair]]++] = pair * 8 + role;
+    }
+  }
+}
+
+void NodalSums::resize(std::size_t nodes) {
+  for (auto& f : force) f.assign(nodes, 0.0);
+  for (auto* a : {&stiffness, &heat, &conductance}) a->assign(nodes, 0.0);
+  for (auto* a : {&contact, &removed, &released}) a->assign(nodes, 0);
+}
+
+void assemble(const KernelPlan& plan, const Incidence& incidence, const PacketResult& result,
+              NodalSums& sums, unsigned threads) {
+  const std::size_t nodes = incidence.node_count();
+  const std::size_t parts = std::max<std::size_t>(1, std::min<std::size_t>(threads, nodes));
+  const auto run = [&](std::size_t part) {
+    for (std::size_t n = part * nodes / parts; n < (part + 1) * nodes / parts; ++n) {
+      if (incidence.begin(n) == incidence.end(n)) continue;
+      const NodeSum s = sum_node(plan, incidence, result, n);
+      for (std::size_t c = 0; c < 3; ++c) sums.force[c][n] += s.f[c];
+      sums.stiffness[n] += s.stiffness;
+      sums.heat[n] += s.heat;
+      sums.conductance[n] += s.conductance;
+      if ((s.all & status_contact) != 0) sums.contact[n] = 1;
+      if ((s.secondary & (status_gap_closed | status_step_deleted)) != 0) sums.removed[n] = 1;
+      if ((s.secondary & status_bc_release) != 0) {
+        sums.released[n] |= static_cast<std::uint8_t>(plan.card.ibc & 7);
+      }
+    }
+  };
+  std::vector<std::jthread> pool;
+  for (std::size_t part = 1; part < parts; ++part) pool.emplace_back(run, part);
+  run(0);
+}
+
+StepLimit step_limit(const Totals& t, const NodalSums& sums, const double* mass, double factor,
+                     double velocity_limit) {
+  StepLimit limit;
+  const auto propose = [&](StepLimit::Source source, double dt, std::size_t index) {
+    if (dt < limit.dt) limit = {source, dt, index};
+  };
+  propose(StepLimit::Source::kinematic, t.dt_kinematic, t.dt_kinematic_pair);
+  for (std::size_t n = 0; mass != nullptr && n < sums.stiffness.size(); ++n) {
+    if (sums.stiffness[n] > 0.0 && mass[n] > 0.0) {
+      propose(StepLimit::Source::nodal, factor * std::sqrt(2.0 * mass[n] / sums.stiffness[n]), n);
+    }
+  }
+  propose(StepLimit::Source::velocity, velocity_limit, SIZE_MAX);
+  return limit;
+}
+
+double velocity_step(double gap, const std::array<double, 3>& secondary_min,
+                     const std::array<double, 3>& secondary_max,
+                     const std::array<double, 3>& main_min, const std::array<double, 3>& main_max) {
+  double v2 = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double v =
+        std::max({secondary_max[c] - main_min[c], main_max[c] - secondary_min[c], 0.0});
+    v2 += v * v;
+  }
+  return v2 > 0.0 ? 0.9 * gap / std::sqrt(v2) : 1e30;
+}
+
+}  // namespace deck::cycle

@@ -1,0 +1,91 @@
+// What the stages of one evaluation share: constants derived from the card, the scratch of a block
+// of pairs between geometry and force, and the table of compiled kernels.
+#ifndef DECK_CYCLE_BLOCK_HPP_
+#define DECK_CYCLE_BLOCK_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "deck/cycle/card.hpp"
+#include "deck/cycle/packet.hpp"
+#include "deck/cycle/plan.hpp"
+
+namespace deck::cycle::detail {
+
+inline constexpr std::size_t kBlock = 64;  ///< pairs per block; a multiple of every pack width
+
+/// Numbers of the law, from the card and the step.
+struct Constants {
+  const ContactCard* card = nullptr;
+  double kappa_factor = 0.5;  ///< initial stiffness = factor * K0 + fixed (where K0 is not 0)
+  double kappa_fixed = 0.0;
+  double inacti_share = 0.0;  ///< Inacti 6 leaves 5 % of the remaining gap
+  double xi = 0.0;            ///< VISs
+  double quadratic = 0.0;     ///< factor of the quadratic damping, 0.32 with damping
+  double zeta = 0.0;          ///< VISF, 0 for Iform 2
+  double mu = 0.0;
+  double alpha = 1.0;            ///< filter weight
+  bool filter_low_pass = false;  ///< Iform 2 in the robust model: filter the force, not the step
+  double reach = 0.0;            ///< pairs are kept to max(gap, reach): radiation distance
+  double dt1 = 0.0;
+  double inverse_dt1 = 0.0;
+  double dt12 = 0.0;
+  double delete_below = -1.0;  ///< contact time step at which a pair is deleted; -1 never
+  bool filtered_work = false;
+};
+
+/// Geometry of a block: one slot per pair.
+struct alignas(64) GeometryBlock {
+  double penetration[kBlock];
+  double distance[kBlock];
+  double keep[kBlock];  ///< 1 when the pair is within reach, else 0
+  double normal[3][kBlock];
+  double raw[4][kBlock];     ///< weights for velocities
+  double weight[4][kBlock];  ///< weights for forces
+};
+
+/// Slot s of the block starting at pair `begin` holds pair min(begin + s, last full pack): the last
+/// pack of a packet steps back instead of reading past the end.
+using GeometryFn = void (*)(const Constants&, const PacketView&, std::size_t begin, std::size_t n,
+                            GeometryBlock&);
+using ForceFn = void (*)(const Constants&, EffectSet, const PacketView&, std::size_t begin,
+                         std::size_t n, const GeometryBlock&, PacketResult&);
+
+struct KernelTable {
+  EffectSet effects = 0;
+  bool composed = false;
+  int width = 0;
+  GeometryFn geometry = nullptr;            ///< any mixture of triangles and quadrangles
+  GeometryFn geometry_triangles = nullptr;  ///< triangles only; null for edges
+  ForceFn force = nullptr;
+};
+
+/// First pair of the pack that serves slot `slot`.
+template <int W>
+constexpr std::size_t pack_start(std::size_t begin, std::size_t slot, std::size_t size) {
+  const std::size_t i = begin + slot;
+  return i + W <= size ? i : size - W;
+}
+
+/// Tables of one instruction set. `find_*` returns null when that set was not compiled.
+const KernelTable* find_baseline(ContactKind kind, Model model, EffectSet effects, bool generic);
+const KernelTable* find_avx2(ContactKind kind, Model model, EffectSet effects, bool generic);
+
+Constants make_constants(const KernelPlan& plan, const PacketView& view);
+
+// Stages in plain scalar code, for effects too rare to be worth a composition.
+void apply_curvature(const KernelPlan& plan, const PacketView& view, std::size_t begin,
+                     std::size_t n, int width, GeometryBlock& block);
+void force_tied_block(const KernelPlan& plan, const PacketView& view, std::size_t begin,
+                      std::size_t n, int width, const GeometryBlock& block, PacketResult& out);
+void apply_time_step_tie(const KernelPlan& plan, const PacketView& view, std::size_t begin,
+                         std::size_t end, PacketResult& out);
+void apply_heat(const KernelPlan& plan, const PacketView& view, std::size_t begin, std::size_t end,
+                PacketResult& out);
+void apply_criteria(const KernelPlan& plan, const PacketView& view, std::size_t begin,
+                    std::size_t end, PacketResult& out);
+
+}  // namespace deck::cycle::detail
+
+#endif  // DECK_CYCLE_BLOCK_HPP_

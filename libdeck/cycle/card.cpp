@@ -1,0 +1,41 @@
+#include "deck/cycle/card.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace deck::cycle {
+
+double Curve::operator()(double abscissa) const {
+  if (x.empty() || x.size() != y.size()) return 0.0;
+  if (x.size() == 1) return y.front();
+  // The segment whose right end is the first abscissa not below the argument; the end segments
+  // carry on outside.
+  const auto it = std::lower_bound(x.begin() + 1, x.end() - 1, abscissa);
+  const std::size_t right = static_cast<std::size_t>(it - x.begin());
+  const double dx = std::max(x[right] - x[right - 1], 1e-16);
+  return y[right - 1] + (y[right] - y[right - 1]) / dx * (abscissa - x[right - 1]);
+}
+
+bool is_active(const ContactCard& card, double t, bool sensor_overrides) {
+  const bool window = card.tstart <= t && t <= card.tstop;
+  if (!card.sensor_time) return window;
+  const bool sensor = t >= *card.sensor_time;
+  return sensor_overrides ? sensor : sensor && window;
+}
+
+bool segment_stays(int idel, int live_elements, bool own_element_alive) {
+  switch (std::abs(idel)) {
+    case 1:
+      return live_elements > 0;
+    case 2:
+      return own_element_alive;
+    default:
+      return true;
+  }
+}
+
+bool secondary_stays(int idel, int live_elements) {
+  return (idel != 1 && idel != 2) || live_elements > 0;
+}
+
+}  // namespace deck::cycle

@@ -1,0 +1,17 @@
+// Curved main sides (Icurv 1 to 3) on top of the facet geometry.
+#ifndef DECK_CYCLE_CURVATURE_HPP_
+#define DECK_CYCLE_CURVATURE_HPP_
+
+#include <cstddef>
+
+#include "deck/cycle/packet.hpp"
+
+namespace deck::cycle::detail {
+
+/// How far the bicubic surface of pair i may leave its facet: added to the gap for weights and
+/// search. 0 for a triangle, which keeps its facet.
+double bicubic_allowance(const PacketView& view, std::size_t i);
+
+}  // namespace deck::cycle::detail
+
+#endif  // DECK_CYCLE_CURVATURE_HPP_

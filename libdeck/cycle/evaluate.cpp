@@ -1,0 +1,350 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "cycle/block.hpp"
+#include "cycle/curvature.hpp"
+#include "cycle/vector.hpp"
+#include "deck/cycle/kernel.hpp"
+
+namespace deck::cycle {
+namespace detail {
+namespace {
+
+/// Weight of a filter: how much of the new force enters.
+double filter_weight(const KernelPlan& plan, const PacketView& view) {
+  const ContactCard& card = plan.card;
+  if (card.ifiltr <= 0 || card.xfreq == 0.0) return 1.0;
+  const double turn = 2.0 * std::numbers::pi;
+  if (plan.model == Model::robust) {
+    const double alpha = card.ifiltr == 1   ? card.xfreq
+                         : card.ifiltr == 2 ? turn * card.xfreq
+                                            : turn * card.xfreq * view.dt12;
+    return std::min(1.0, alpha);
+  }
+  if (card.ifiltr == 1) return card.xfreq;
+  if (card.ifiltr == 2) return turn / card.xfreq;
+  return std::max(1.0, turn * card.xfreq * view.dt12);  // the reference: never below 1
+}
+
+}  // namespace
+
+Constants make_constants(const KernelPlan& plan, const PacketView& view) {
+  const ContactCard& card = plan.card;
+  Constants k;
+  k.card = &plan.card;
+  if (card.kind == ContactKind::node_segment && card.istf == 1) {
+    k.kappa_factor = 0.0;
+    k.kappa_fixed = std::abs(card.stfac);
+  }
+  k.inacti_share = card.inacti == 6 ? 0.05 : 0.0;
+  k.xi = card.viss;
+  k.quadratic = card.viss != 0.0 ? 0.32 : 0.0;
+  const bool rubs =
+      (plan.effects & (bit(Effect::friction_viscous) | bit(Effect::friction_incremental))) != 0;
+  if (card.iform != 2) k.zeta = card.visf != 0.0 ? card.visf : (rubs ? 1.0 : 0.0);
+  k.mu = card.fric;
+  k.alpha = filter_weight(plan, view);
+  k.filter_low_pass = plan.model == Model::robust && k.alpha < 1.0;
+  if (k.filter_low_pass == false && plan.model == Model::robust) k.alpha = 1.0;
+  k.reach = card.ithe > 0 && card.kind == ContactKind::node_segment ? card.drad : 0.0;
+  k.dt1 = view.dt1;
+  k.inverse_dt1 = view.dt1 != 0.0 ? 1.0 / view.dt1 : 0.0;
+  k.dt12 = view.dt12;
+  if (card.dtmin > 0.0 && card.itied == 0) k.delete_below = card.dtmin;
+  return k;
+}
+
+}  // namespace detail
+
+namespace {
+
+using detail::GeometryBlock;
+using detail::kBlock;
+
+template <std::size_t N>
+bool present(const std::array<const double*, N>& arrays, std::size_t from = 0, std::size_t to = N) {
+  return std::all_of(arrays.begin() + static_cast<std::ptrdiff_t>(from),
+                     arrays.begin() + static_cast<std::ptrdiff_t>(to),
+                     [](const double* p) { return p != nullptr; });
+}
+
+bool present3(const std::array<std::array<const double*, 3>, 5>& arrays, std::size_t roles) {
+  return std::all_of(arrays.begin(), arrays.begin() + static_cast<std::ptrdiff_t>(roles),
+                     [](const auto& a) { return present(a); });
+}
+
+bool all_triangles(const PacketView& view, std::size_t begin, std::size_t n) {
+  return view.triangle != nullptr && std::all_of(view.triangle + begin, view.triangle + begin + n,
+                                                 [](std::uint8_t t) { return t != 0; });
+}
+
+/// Geometry and force of pairs [begin, end), block by block. Packets shorter than a pack are padded
+/// by the caller.
+void evaluate_range(const KernelPlan& plan, const PacketView& view, const PacketView& wide,
+                    std::size_t begin, std::size_t end, PacketResult& out) {
+  const detail::Constants k = detail::make_constants(plan, view);
+  const int width = plan.table->width;
+  const bool tied = plan.card.kind == ContactKind::tied;
+  const bool curved = plan.card.icurv != 0 && plan.card.kind == ContactKind::node_segment;
+  const bool triangles = plan.table->geometry_triangles != nullptr;
+  for (std::size_t b = begin; b < end; b += kBlock) {
+    GeometryBlock block;
+    const std::size_t n = std::min(kBlock, end - b);
+    // A pack that steps back may meet a quadrangle of the block before.
+    const bool only =
+        triangles && n % static_cast<std::size_t>(width) == 0 && all_triangles(view, b, n);
+    (only ? plan.table->geometry_triangles : plan.table->geometry)(k, wide, b, n, block);
+    if (curved) detail::apply_curvature(plan, view, b, n, width, block);
+    if (tied) {
+      detail::force_tied_block(plan, view, b, n, width, block, out);
+    } else {
+      plan.table->force(k, plan.effects, view, b, n, block, out);
+    }
+  }
+}
+
+/// Effects outside the composition, on finished pairs.
+void evaluate_rest(const KernelPlan& plan, const PacketView& view, std::size_t begin,
+                   std::size_t end, PacketResult& out) {
+  const ContactCard& card = plan.card;
+  if (card.kind != ContactKind::node_segment) return;
+  if (card.itied != 0) detail::apply_time_step_tie(plan, view, begin, end, out);
+  if (card.ithe > 0) detail::apply_heat(plan, view, begin, end, out);
+  if (card.iadm != 0) detail::apply_criteria(plan, view, begin, end, out);
+  if (card.ibc == 0) return;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (out.penetration[i] != 0.0) out.status[i] |= status_bc_release;
+  }
+}
+
+/// Copies of short arrays, each filled up to one pack with its last value.
+class PaddedView {
+ public:
+  PaddedView(const PacketView& view, std::size_t width) : view_(view), width_(width) {
+    const std::size_t n = view.size;
+    for (auto* group : {&view_.position, &view_.velocity}) {
+      for (auto& role : *group) pad(role, n);
+    }
+    pad(view_.mass, n);
+    for (const double** p : {&view_.k0, &view_.gap, &view_.p0, &view_.area, &view_.conductivity,
+                             &view_.fric, &view_.visf2}) {
+      *p = pad(*p, n);
+    }
+    pad(view_.ft_old, n);
+    pad(view_.tie, n);
+    pad(view_.temperature, n);
+    pad(view_.c, n);
+    for (auto& corner : view_.normal) pad(corner, n);
+    if (view.triangle != nullptr) {
+      triangle_.assign(width, view.triangle[n - 1]);
+      std::copy(view.triangle, view.triangle + n, triangle_.begin());
+      view_.triangle = triangle_.data();
+    }
+    view_.size = width;
+  }
+  [[nodiscard]] const PacketView& view() const { return view_; }
+
+ private:
+  const double* pad(const double* p, std::size_t n) {
+    if (p == nullptr) return nullptr;
+    store_.emplace_back(width_, p[n - 1]);
+    std::copy(p, p + n, store_.back().begin());
+    return store_.back().data();
+  }
+  template <std::size_t N>
+  void pad(std::array<const double*, N>& arrays, std::size_t n) {
+    for (const double*& p : arrays) p = pad(p, n);
+  }
+
+  PacketView view_;
+  std::size_t width_;
+  std::vector<std::vector<double>> store_;
+  std::vector<std::uint8_t> triangle_;
+};
+
+void shrink(PacketResult& out, std::size_t n) {
+  out.size = n;
+  const auto cut = [n](auto& arrays) {
+    for (auto& a : arrays) a.resize(n);
+  };
+  cut(out.weights);
+  cut(out.force);
+  cut(out.normal);
+  cut(out.ft);
+  cut(out.tie);
+  cut(out.heat);
+  cut(out.criteria);
+  for (auto* a : {&out.normal_force, &out.k_nodal, &out.penetration, &out.distance,
+                  &out.effective_gap, &out.p0, &out.elastic_energy, &out.friction_energy,
+                  &out.damping_energy, &out.friction_heat, &out.conductance, &out.dt_kinematic}) {
+    a->resize(n);
+  }
+  out.status.resize(n);
+}
+
+void evaluate_split(const KernelPlan& plan, const PacketView& view, const PacketView& wide,
+                    PacketResult& out, unsigned threads) {
+  const std::size_t n = view.size;
+  const std::size_t blocks = std::max<std::size_t>(1, n / kBlock);  // the last may be longer
+  const std::size_t parts = std::min<std::size_t>(std::max(1u, threads), blocks);
+  const auto bound = [&](std::size_t part) {
+    return part == parts ? n : part * blocks / parts * kBlock;
+  };
+  const auto run = [&](std::size_t part) {
+    evaluate_range(plan, view, wide, bound(part), bound(part + 1), out);
+    evaluate_rest(plan, view, bound(part), bound(part + 1), out);
+  };
+  std::vector<std::jthread> pool;
+  for (std::size_t part = 1; part < parts; ++part) pool.emplace_back(run, part);
+  run(0);
+}
+
+}  // namespace
+
+Field missing_fields(const KernelPlan& plan, const PacketView& view) {
+  const std::size_t roles = plan.card.kind == ContactKind::edge_edge ? 4 : 5;
+  Field missing = Field::none;
+  const auto check = [&](Field field, bool there) {
+    if (contains(plan.needs, field) && !there) missing |= field;
+  };
+  check(Field::position, present3(view.position, roles));
+  check(Field::velocity, present3(view.velocity, roles));
+  check(Field::mass_secondary, view.mass[0] != nullptr);
+  check(Field::mass_main, present(view.mass, 0, roles));
+  check(Field::stiffness, view.k0 != nullptr);
+  check(Field::gap, view.gap != nullptr);
+  check(Field::residual_penetration, view.p0 != nullptr);
+  check(Field::friction_memory, present(view.ft_old));
+  const std::size_t tie = plan.card.kind == ContactKind::tied ? 6 : 8;
+  check(Field::tie_record, present(view.tie, 0, tie));
+  check(Field::temperature, present(view.temperature));
+  check(Field::nodal_normals, std::all_of(view.normal.begin(), view.normal.end(),
+                                          [](const auto& corner) { return present(corner); }));
+  return missing;
+}
+
+void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& result,
+              unsigned threads) {
+  if (view.size == 0) {
+    result.resize(0);
+    return;
+  }
+  if (plan.table == nullptr || missing_fields(plan, view) != Field::none) {
+    throw std::invalid_argument("evaluate: the packet lacks arrays that the plan needs");
+  }
+  const auto width = static_cast<std::size_t>(plan.table->width);
+  if (view.size < width) {
+    const PaddedView padded(view, width);
+    evaluate(plan, padded.view(), result, 1);
+    shrink(result, view.size);
+    return;
+  }
+  result.resize(view.size);
+  if (plan.card.icurv == 3 && plan.card.kind == ContactKind::node_segment) {
+    // The curved surface leaves the facet: weights are wanted further out than the gap.
+    std::vector<double> reach(view.size);
+    for (std::size_t i = 0; i < view.size; ++i) {
+      reach[i] = view.gap[i] + detail::bicubic_allowance(view, i);
+    }
+    PacketView wide = view;
+    wide.gap = reach.data();
+    evaluate_split(plan, view, wide, result, threads);
+    return;
+  }
+  evaluate_split(plan, view, view, result, threads);
+}
+
+Totals totals(const KernelPlan& plan, const PacketView& view, const PacketResult& r) {
+  const bool edges = plan.card.kind == ContactKind::edge_edge;
+  const double side = plan.model == Model::reference ? 1.0 : -1.0;
+  Totals all;
+  for (std::size_t begin = 0; begin < r.size; begin += 4096) {
+    Totals t;
+    const std::size_t end = std::min(r.size, begin + 4096);
+    for (std::size_t i = begin; i < end; ++i) {
+      const detail::Vec n{r.normal[0][i], r.normal[1][i], r.normal[2][i]};
+      const detail::Vec f{r.force[0][i], r.force[1][i], r.force[2][i]};
+      const detail::Vec fn = r.normal_force[i] * n;
+      const detail::Vec ft = f - fn;
+      const detail::Vec s = edges ? r.weights[0][i] * detail::at(view.position[0], i) +
+                                        r.weights[1][i] * detail::at(view.position[1], i)
+                                  : detail::at(view.position[0], i);
+      // The reference takes the moment at x_s + pi n, outward; the robust model at x_s - pi n.
+      const detail::Vec m = cross(s + (side * r.penetration[i]) * n, f);
+      t.normal = {t.normal[0] + fn.x, t.normal[1] + fn.y, t.normal[2] + fn.z};
+      t.tangential = {t.tangential[0] + ft.x, t.tangential[1] + ft.y, t.tangential[2] + ft.z};
+      t.moment = {t.moment[0] + m.x, t.moment[1] + m.y, t.moment[2] + m.z};
+      t.normal_abs += std::abs(r.normal_force[i]);
+      t.total_abs += norm(f);
+      t.elastic_energy += r.elastic_energy[i];
+      t.friction_energy += r.friction_energy[i];
+      t.damping_energy += r.damping_energy[i];
+      const double share =
+          plan.card.fheats +
+          (plan.model == Model::robust && plan.card.ithe_form == 0 ? 0.0 : plan.card.fheatm);
+      if (plan.card.ithe > 0) t.friction_heat += share * r.friction_heat[i];
+      if (r.dt_kinematic[i] < t.dt_kinematic) {
+        t.dt_kinematic = r.dt_kinematic[i];
+        t.dt_kinematic_pair = i;
+      }
+      if ((r.status[i] & status_contact) != 0) ++t.contacts;
+    }
+    all.add(t);
+  }
+  return all;
+}
+
+double pair_stiffness(const ContactCard& card, double k_main, double k_secondary, Model model) {
+  if (card.kind == ContactKind::tied) return k_main;
+  const bool edges = card.kind == ContactKind::edge_edge;
+  const auto clamp = [&](double z) { return std::max(card.stmin, std::min(z, card.stmax)); };
+  const double floor = edges ? 1e-20 : 1e-30;
+  const double sum = k_main + k_secondary;
+  const double guard = model == Model::reference ? floor : 0.0;
+  const double series =
+      std::max(guard, sum) > 0.0 ? k_main * k_secondary / std::max(guard, sum) : 0.0;
+  switch (card.istf) {
+    case 2:
+      return clamp(0.5 * sum);
+    case 3:
+      return clamp(std::max(k_main, k_secondary));
+    case 4:
+      return clamp(std::min(k_main, k_secondary));
+    case 5:
+      return clamp(series);
+    case 1:
+      if (edges)
+        return model == Model::robust ? 2.0 * std::abs(card.stfac) : 0.5 * std::abs(card.stfac);
+      if (model == Model::robust) return std::abs(card.stfac);
+      return k_main * std::abs(k_secondary);
+    default:
+      return edges ? clamp(series) : k_main * std::abs(k_secondary);
+  }
+}
+
+double pair_gap(const ContactCard& card, double gap_secondary, double gap_main,
+                double length_secondary, double length_main) {
+  if (card.igap < 1 || card.igap > 3 || card.kind == ContactKind::tied) return card.gapmin;
+  double g = gap_secondary + gap_main;
+  if (card.igap == 3) g = std::min(card.fscalegap * g, length_secondary + length_main);
+  if (card.kind == ContactKind::node_segment) g = std::min(g, card.gapmax);
+  return std::max(card.gapmin, g);
+}
+
+double initial_residual(const ContactCard& card, double penetration, double gap) {
+  if (penetration <= 0.0 || (card.inacti != 5 && card.inacti != 6)) return 0.0;
+  const double p = penetration * (1.0 + 1e-8);
+  return card.inacti == 5 ? p : p + 0.05 * (gap - p);
+}
+
+double edge_residual(const ContactCard& card, double penetration, double gap) {
+  if (card.inacti == 5) return 0.5 * penetration;
+  if (card.inacti == 6) return 0.5 * (penetration + 0.05 * (gap - penetration));
+  return 0.0;
+}
+
+}  // namespace deck::cycle

@@ -1,0 +1,101 @@
+#include "deck/cycle/heat.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cycle/block.hpp"
+#include "cycle/vector.hpp"
+
+namespace deck::cycle {
+namespace {
+
+using detail::Vec;
+
+/// Plane of the segment: half of N is its area vector; distance is signed by its orientation.
+struct Plane {
+  double area;
+  double distance;
+};
+
+Plane plane_of(const HeatState& s) {
+  std::array<Vec, 5> x;
+  for (std::size_t c = 0; c < 5; ++c) x[c] = detail::of(s.position[c]);
+  const Vec n = cross(x[1] - x[3], x[2] - x[4]);
+  const Vec centre = 0.25 * (x[1] + x[2] + x[3] + x[4]);
+  const double size = norm(n);
+  return {0.5 * size, dot(centre - x[0], n) / std::max(1e-15, size)};
+}
+
+/// Heat exchange coefficient of the contact: Kthe, or Kthe times a function of the pressure.
+double exchange(const ContactCard& card, double normal_force, double area) {
+  if (!card.fct_idk) return card.kthe != 0.0 ? card.kthe : 1e-30;
+  const double scale = card.kthe != 0.0 ? card.kthe : 1.0;
+  const double pressure = area > 0.0 ? card.ascalek * std::abs(normal_force) / area : 0.0;
+  return scale * std::max(1e-30, (*card.fct_idk)(pressure));
+}
+
+}  // namespace
+
+HeatFlow pair_heat(const ContactCard& card, const HeatState& s, Model model) {
+  HeatFlow flow;
+  const Plane plane = plane_of(s);
+  const double area = s.area != 0.0 ? s.area : plane.area;
+  const bool both = card.ithe_form == 1;
+  const double ts = s.temperature[0];
+  double tm = card.tint;
+  if (both) {
+    tm = 0.0;
+    for (std::size_t c = 0; c < 4; ++c) tm += s.weight[c] * s.temperature[c + 1];
+  }
+  const double tau = s.dt1 * card.thermal_speed_up;
+  const double away = std::abs(plane.distance);
+  double h;
+  if (card.frad != 0.0 && s.gap <= away && away <= card.drad) {
+    h = card.frad * (tm * tm + ts * ts) * (tm + ts);
+    flow.conductance = model == Model::robust ? area * h * card.thermal_speed_up : 0.0;
+  } else {
+    h = exchange(card, s.normal_force, area);
+    if (!both && s.conductivity > 0.0) {
+      // The reference counts the gap as a resistance only on one side of the segment.
+      const double width = model == Model::robust ? away : std::max(plane.distance, 0.0);
+      h = 1.0 / (width / s.conductivity + 1.0 / h);
+    }
+    flow.conductance = area * h * card.thermal_speed_up;
+  }
+  const double q = area * (tm - ts) * tau * h;
+  flow.q[0] = q + card.fheats * s.friction_heat;
+  if (!both && card.fct_idk && model == Model::reference) flow.q[0] = q;
+  if (both) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      flow.q[c + 1] = s.weight[c] * (card.fheatm * s.friction_heat) - s.weight[c] * q;
+    }
+  }
+  return flow;
+}
+
+namespace detail {
+
+void apply_heat(const KernelPlan& plan, const PacketView& view, std::size_t begin, std::size_t end,
+                PacketResult& out) {
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!(out.distance[i] < std::max(view.gap[i], plan.card.drad))) continue;  // not a pair
+    HeatState s;
+    for (std::size_t r = 0; r < 5; ++r) {
+      for (std::size_t c = 0; c < 3; ++c) s.position[r][c] = view.position[r][c][i];
+      s.temperature[r] = view.temperature[r][i];
+    }
+    for (std::size_t c = 0; c < 4; ++c) s.weight[c] = out.weights[c][i];
+    s.area = view.area != nullptr ? view.area[i] : 0.0;
+    s.normal_force = out.normal_force[i];
+    s.friction_heat = out.friction_heat[i];
+    s.gap = out.effective_gap[i];
+    s.conductivity = view.conductivity != nullptr ? view.conductivity[i] : 0.0;
+    s.dt1 = view.dt1;
+    const HeatFlow flow = pair_heat(plan.card, s, plan.model);
+    for (std::size_t r = 0; r < 5; ++r) out.heat[r][i] = flow.q[r];
+    out.conductance[i] = flow.conductance;
+  }
+}
+
+}  // namespace detail
+}  // namespace deck::cycle

@@ -1,0 +1,171 @@
+// W doubles side by side, with the arithmetic the pair kernels need. Every operation is the IEEE
+// operation on each lane, so results do not depend on W or on the instruction set.
+#ifndef DECK_CYCLE_PACK_HPP_
+#define DECK_CYCLE_PACK_HPP_
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace deck::cycle::detail {
+
+// Register types by width (compilers take the vector_size attribute of a concrete type only).
+template <int W>
+struct Registers;
+template <>
+struct Registers<2> {
+  typedef double Real __attribute__((vector_size(16)));
+  typedef std::int64_t Bits __attribute__((vector_size(16)));
+};
+template <>
+struct Registers<4> {
+  typedef double Real __attribute__((vector_size(32)));
+  typedef std::int64_t Bits __attribute__((vector_size(32)));
+};
+
+// All functions below are templates on W: a translation unit compiled for a newer instruction set
+// must not emit symbols that another one could link to.
+template <int W>
+struct Mask {
+  using Reg = typename Registers<W>::Bits;
+  Reg r;
+  friend Mask operator&(const Mask& a, const Mask& b) { return {a.r & b.r}; }
+  friend Mask operator|(const Mask& a, const Mask& b) { return {a.r | b.r}; }
+  friend Mask operator~(const Mask& a) { return {~a.r}; }
+};
+
+template <int W>
+struct Pack {
+  static constexpr int width = W;
+  using Reg = typename Registers<W>::Real;
+  Reg r;
+
+  static Pack load(const double* p) {
+    Pack out;
+    std::memcpy(&out.r, p, sizeof(Reg));
+    return out;
+  }
+  static Pack fill(double v) {
+    Pack out;
+    for (int l = 0; l < W; ++l) out.r[l] = v;
+    return out;
+  }
+  void store(double* p) const { std::memcpy(p, &r, sizeof(Reg)); }
+  double operator[](int lane) const { return r[lane]; }
+
+  friend Pack operator+(const Pack& a, const Pack& b) { return {a.r + b.r}; }
+  friend Pack operator-(const Pack& a, const Pack& b) { return {a.r - b.r}; }
+  friend Pack operator*(const Pack& a, const Pack& b) { return {a.r * b.r}; }
+  friend Pack operator/(const Pack& a, const Pack& b) { return {a.r / b.r}; }
+  friend Pack operator-(const Pack& a) { return {-a.r}; }
+  friend Pack operator+(const Pack& a, double b) { return {a.r + b}; }
+  friend Pack operator-(double a, const Pack& b) { return {a - b.r}; }
+  friend Pack operator*(double a, const Pack& b) { return {a * b.r}; }
+  friend Pack operator/(double a, const Pack& b) { return {a / b.r}; }
+  friend Mask<W> operator<(const Pack& a, const Pack& b) { return {a.r < b.r}; }
+  friend Mask<W> operator<=(const Pack& a, const Pack& b) { return {a.r <= b.r}; }
+  friend Mask<W> operator>(const Pack& a, const Pack& b) { return {a.r > b.r}; }
+  friend Mask<W> operator==(const Pack& a, const Pack& b) { return {a.r == b.r}; }
+  friend Mask<W> operator!=(const Pack& a, const Pack& b) { return {a.r != b.r}; }
+};
+
+template <int W>
+Pack<W> select(const Mask<W>& m, const Pack<W>& yes, const Pack<W>& no) {
+  return {m.r ? yes.r : no.r};
+}
+template <int W>
+bool any(const Mask<W>& m) {
+  std::int64_t bits = 0;
+  for (int l = 0; l < W; ++l) bits |= m.r[l];
+  return bits != 0;
+}
+/// a where a > b, else b: a NaN in `a` gives b, as a comparison in scalar code would.
+template <int W>
+Pack<W> max(const Pack<W>& a, const Pack<W>& b) {
+  return {a.r > b.r ? a.r : b.r};
+}
+template <int W>
+Pack<W> min(const Pack<W>& a, const Pack<W>& b) {
+  return {a.r < b.r ? a.r : b.r};
+}
+template <int W>
+Pack<W> abs(const Pack<W>& a) {
+  typename Mask<W>::Reg bits;
+  std::memcpy(&bits, &a.r, sizeof bits);
+  bits &= INT64_MAX;
+  Pack<W> out;
+  std::memcpy(&out.r, &bits, sizeof bits);
+  return out;
+}
+template <int W>
+Pack<W> sqrt(const Pack<W>& a) {
+  Pack<W> out;
+#if defined(__AVX__)
+  if constexpr (W == 4) {
+    const __m256d v = _mm256_sqrt_pd((__m256d)a.r);
+    std::memcpy(&out.r, &v, sizeof v);
+    return out;
+  }
+#endif
+#if defined(__SSE2__)
+  if constexpr (W == 2) {
+    const __m128d v = _mm_sqrt_pd((__m128d)a.r);
+    std::memcpy(&out.r, &v, sizeof v);
+    return out;
+  }
+#endif
+  for (int l = 0; l < W; ++l) out.r[l] = std::sqrt(a.r[l]);
+  return out;
+}
+/// Applies a scalar function lane by lane: for the rare and the transcendental.
+template <int W, class F>
+Pack<W> map(const Pack<W>& a, F f) {
+  Pack<W> out;
+  for (int l = 0; l < W; ++l) out.r[l] = f(a.r[l]);
+  return out;
+}
+template <int W>
+void store_bits(const Mask<W>& m, std::int64_t* p) {
+  std::memcpy(p, &m.r, sizeof m.r);
+}
+template <int W>
+Mask<W> bits_if(const Mask<W>& m, std::int64_t value) {
+  return {m.r & value};
+}
+
+template <class V>
+struct Vec3 {
+  V x, y, z;
+  friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec3 operator*(const V& s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
+  static Vec3 load(const std::array<const double*, 3>& p, std::size_t i) {
+    return {V::load(p[0] + i), V::load(p[1] + i), V::load(p[2] + i)};
+  }
+};
+template <class V>
+V dot(const Vec3<V>& a, const Vec3<V>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class V>
+Vec3<V> cross(const Vec3<V>& a, const Vec3<V>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <int W>
+Vec3<Pack<W>> select(const Mask<W>& m, const Vec3<Pack<W>>& a, const Vec3<Pack<W>>& b) {
+  return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
+}
+template <class V>
+V clamp01(const V& t) {
+  return max(min(t, V::fill(1.0)), V::fill(0.0));
+}
+
+}  // namespace deck::cycle::detail
+
+#endif  // DECK_CYCLE_PACK_HPP_

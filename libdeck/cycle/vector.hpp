@@ -1,0 +1,47 @@
+// Three-component arithmetic for the stages that work on one pair at a time.
+#ifndef DECK_CYCLE_VECTOR_HPP_
+#define DECK_CYCLE_VECTOR_HPP_
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace deck::cycle::detail {
+
+struct Vec {
+  double x = 0.0, y = 0.0, z = 0.0;
+  friend Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec operator*(double s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
+};
+inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec cross(Vec a, Vec b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double norm(Vec a) { return std::sqrt(dot(a, a)); }
+/// Unit vector; the null vector stays null.
+inline Vec unit(Vec a) {
+  const double l = norm(a);
+  return l > 0.0 ? (1.0 / l) * a : Vec{};
+}
+inline Vec at(const std::array<const double*, 3>& p, std::size_t i) {
+  return {p[0][i], p[1][i], p[2][i]};
+}
+inline Vec of(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
+
+/// The frame that ties ride on: first diagonal, its companion in the surface, the normal.
+struct Frame {
+  Vec t1, t2, n;
+  Frame(const std::array<Vec, 4>& corner) {
+    t1 = unit(corner[2] - corner[0]);
+    n = unit(cross(t1, corner[3] - corner[1]));
+    t2 = cross(n, t1);
+  }
+  [[nodiscard]] Vec along(double fn, double f1, double f2) const {
+    return fn * n + (f1 * t1 + f2 * t2);
+  }
+};
+
+}  // namespace deck::cycle::detail
+
+#endif  // DECK_CYCLE_VECTOR_HPP_

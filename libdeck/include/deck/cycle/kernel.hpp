@@ -1,0 +1,56 @@
+// One-cycle contact forces: evaluates a packet of pairs under a plan.
+// Example: auto plan = make_plan(card); PacketResult out; evaluate(plan, view, out);
+#ifndef DECK_CYCLE_KERNEL_HPP_
+#define DECK_CYCLE_KERNEL_HPP_
+
+#include <vector>
+
+#include "deck/cycle/packet.hpp"
+#include "deck/cycle/plan.hpp"
+
+namespace deck::cycle {
+
+/// Arrays that the plan needs and the view does not have.
+[[nodiscard]] Field missing_fields(const KernelPlan& plan, const PacketView& view);
+
+/// Evaluates all pairs of the view into `result` (resized). Inputs and outputs must not overlap.
+/// Each pair depends on its own inputs only, so any split into packets gives the same numbers.
+/// Throws std::invalid_argument when a needed array is missing (a broken promise of the caller).
+/// With threads > 1 the packet is split into contiguous ranges; the result is the same.
+void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& result,
+              unsigned threads = 1);
+
+/// Sums of a result, added in a fixed order that does not depend on threads or instruction set.
+/// Moments need view.position.
+[[nodiscard]] Totals totals(const KernelPlan& plan, const PacketView& view,
+                            const PacketResult& result);
+
+/// Pair stiffness K0 from main and secondary values by Istf (before the 1/2 of the law), clamped
+/// to [Stmin, Stmax] for Istf 2..5. TYPE10: the main value. TYPE11: Istf 0 and 5 in series, Istf 1
+/// two springs of |Stfac| in series (robust: 2 Stfac, so that the law starts at Stfac).
+[[nodiscard]] double pair_stiffness(const ContactCard& card, double k_main, double k_secondary,
+                                    Model model = Model::reference);
+
+/// Pair gap from secondary and main gaps by Igap; lengths limit the gap for Igap 3 only.
+[[nodiscard]] double pair_gap(const ContactCard& card, double gap_secondary, double gap_main,
+                              double length_secondary = 1e30, double length_main = 1e30);
+
+/// Residual penetration P0 that Inacti 5 or 6 gives a pair at start-up; 0 for other values.
+[[nodiscard]] double initial_residual(const ContactCard& card, double penetration, double gap);
+
+/// Edge values for TYPE11's Inacti: what a pair contributes to P_max of both its edges.
+[[nodiscard]] double edge_residual(const ContactCard& card, double penetration, double gap);
+
+/// The friction coefficient of the card's law (Ifric 0..4) at pressure P and speed V.
+[[nodiscard]] double friction_coefficient(int ifric, double mu0, const std::array<double, 6>& c,
+                                          double pressure, double speed);
+
+/// Orthotropic Coulomb limit: returns the trial force (f1, f2) brought back to the ellipse
+/// (f1/mu1)^2 + (f2/mu2)^2 = fn^2 if it lies outside. `reference` projects along the gradient and
+/// then returns radially; `robust` scales the trial. A coefficient of 0 removes its direction.
+[[nodiscard]] std::array<double, 2> orthotropic_return(double f1, double f2, double mu1, double mu2,
+                                                       double fn, Model model);
+
+}  // namespace deck::cycle
+
+#endif  // DECK_CYCLE_KERNEL_HPP_

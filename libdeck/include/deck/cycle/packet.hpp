@@ -1,0 +1,136 @@
+// A packet of contact pairs as structure of arrays: what the kernel reads, what it writes.
+// Arrays belong to the caller; one that no active effect needs may be null.
+#ifndef DECK_CYCLE_PACKET_HPP_
+#define DECK_CYCLE_PACKET_HPP_
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace deck::cycle {
+
+/// Groups of arrays, as bits: what an effect needs, what it writes.
+enum class Field : std::uint32_t {
+  none = 0,
+  position = 1u << 0,
+  velocity = 1u << 1,
+  mass_secondary = 1u << 2,
+  mass_main = 1u << 3,
+  stiffness = 1u << 4,
+  gap = 1u << 5,
+  residual_penetration = 1u << 6,
+  friction_memory = 1u << 7,
+  tie_record = 1u << 8,
+  temperature = 1u << 9,
+  contact_area = 1u << 10,
+  conductivity = 1u << 11,
+  pair_friction = 1u << 12,
+  nodal_normals = 1u << 13,
+  step_times = 1u << 14,
+  // Results.
+  force = 1u << 16,
+  nodal_stiffness = 1u << 17,
+  weights = 1u << 18,
+  elastic_energy = 1u << 19,
+  friction_energy = 1u << 20,
+  damping_energy = 1u << 21,
+  heat = 1u << 22,
+  kinematic_step = 1u << 23,
+  status = 1u << 24,
+  criteria = 1u << 25,
+};
+constexpr Field operator|(Field a, Field b) {
+  return static_cast<Field>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
+}
+constexpr Field operator&(Field a, Field b) {
+  return static_cast<Field>(static_cast<std::uint32_t>(a) & static_cast<std::uint32_t>(b));
+}
+constexpr Field& operator|=(Field& a, Field b) { return a = a | b; }
+constexpr bool contains(Field set, Field part) { return (set & part) == part; }
+
+/// Inputs of n pairs; every array has n entries. Roles of a node–segment pair: 0 the secondary
+/// node, 1..4 the corners of the segment (a triangle repeats corner 3 and sets `triangle`).
+/// Roles of an edge–edge pair: 0, 1 the secondary edge, 2, 3 the main edge.
+struct PacketView {
+  std::size_t size = 0;
+  double dt1 = 0.0;   ///< last completed step; 0 at the start
+  double dt12 = 0.0;  ///< mid-step interval, for incremental friction
+
+  std::array<std::array<const double*, 3>, 5> position{};
+  std::array<std::array<const double*, 3>, 5> velocity{};
+  std::array<const double*, 5> mass{};
+  const std::uint8_t* triangle = nullptr;  ///< null: every segment has four corners
+
+  const double* k0 = nullptr;   ///< pair stiffness before the 1/2 of the law
+  const double* gap = nullptr;  ///< pair gap
+  const double* p0 = nullptr;   ///< residual penetration (TYPE11: sum of both edges')
+  std::array<const double*, 3> ft_old{};
+  std::array<const double*, 8> tie{};  ///< Fn Ft1 Ft2 H1 H2 H3 [p side]; TYPE10 has six
+
+  std::array<const double*, 5> temperature{};
+  const double* area = nullptr;          ///< secondary contact area; 0: take the segment's
+  const double* conductivity = nullptr;  ///< of the secondary side's material, 0: none
+  const double* fric = nullptr;          ///< per-pair friction coefficient
+  const double* visf2 = nullptr;         ///< per-pair square of the tangential damping factor
+  std::array<const double*, 6> c{};      ///< per-pair friction law coefficients
+  std::array<std::array<const double*, 3>, 4> normal{};  ///< nodal normals of the corners
+};
+
+/// Bits of PacketResult::status.
+enum Status : std::int64_t {
+  status_contact = 1,       ///< the pair has a force
+  status_gap_closed = 2,    ///< mid-surface reached: node (edge) to be removed from the interface
+  status_step_deleted = 4,  ///< contact time step at or below dtmin: to be removed
+  status_tied = 8,          ///< a tie is live after this cycle
+  status_released = 16,     ///< a tie ended in this cycle
+  status_bc_release = 32,   ///< fixed translations named by IBC are to be released
+};
+
+/// Sums over a packet (or over a whole interface), on the main side.
+struct Totals {
+  std::array<double, 3> normal{};      ///< sum of normal forces
+  std::array<double, 3> tangential{};  ///< sum of tangential forces
+  std::array<double, 3> moment{};      ///< of the total force about the origin
+  double normal_abs = 0.0;             ///< sum of |Fn|
+  double total_abs = 0.0;              ///< sum of |F|
+  double elastic_energy = 0.0;
+  double friction_energy = 0.0;
+  double damping_energy = 0.0;
+  double friction_heat = 0.0;  ///< part of the friction work that became heat
+  double dt_kinematic = 1e30;  ///< smallest pair limit
+  std::size_t dt_kinematic_pair = SIZE_MAX;
+  std::size_t contacts = 0;
+  void add(const Totals& other);
+};
+
+/// Outputs of n pairs. `resize` makes all arrays n long; those that the plan does not write stay 0.
+struct PacketResult {
+  std::array<std::vector<double>, 4> weights;  ///< H1..H4, or h_s, 1-h_s, h_m, 1-h_m
+  std::array<std::vector<double>, 3> force;    ///< on the main side; secondary: the opposite
+  std::array<std::vector<double>, 3> normal;   ///< from main towards secondary
+  std::vector<double> normal_force;            ///< signed scalar Fn, negative repels
+  std::vector<double> k_nodal;                 ///< stiffness given to the secondary node (edge)
+  std::vector<double> penetration;             ///< effective, after Inacti
+  std::vector<double> distance;
+  std::vector<double> effective_gap;
+  std::vector<double> p0;
+  std::array<std::vector<double>, 3> ft;  ///< friction memory to keep
+  std::array<std::vector<double>, 8> tie;
+  std::vector<double> elastic_energy;
+  std::vector<double> friction_energy;  ///< dt1 V.Ft
+  std::vector<double> damping_energy;
+  std::vector<double> friction_heat;  ///< dissipated by sliding in this cycle
+  std::vector<double> dt_kinematic;
+  std::vector<std::int64_t> status;
+  std::array<std::vector<double>, 5> heat;  ///< given to secondary and the four corners
+  std::vector<double> conductance;
+  std::array<std::vector<double>, 3> criteria;  ///< radius, relative penetration, angle (Iadm)
+
+  std::size_t size = 0;
+  void resize(std::size_t n);
+};
+
+}  // namespace deck::cycle
+
+#endif  // DECK_CYCLE_PACKET_HPP_

@@ -1,0 +1,207 @@
+// Small helpers of the cycle tests: packets written out by hand, and where the corpus is.
+#ifndef DECK_TESTS_CYCLE_SUPPORT_HPP_
+#define DECK_TESTS_CYCLE_SUPPORT_HPP_
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "deck/cycle/kernel.hpp"
+
+namespace deck::cycle::testing {
+
+using Vec = std::array<double, 3>;
+inline Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Vec operator*(double s, const Vec& a) { return {s * a[0], s * a[1], s * a[2]}; }
+inline double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double norm(const Vec& a) { return std::sqrt(dot(a, a)); }
+
+/// One pair written out; roles as in PacketView.
+struct Pair {
+  std::array<Vec, 5> x{};
+  std::array<Vec, 5> v{};
+  std::array<double, 5> m{1.0, 1.0, 1.0, 1.0, 1.0};
+  bool triangle = false;
+  double k0 = 0.0;
+  double gap = 1.0;
+  double p0 = 0.0;
+  Vec ft{};
+  std::array<double, 8> tie{};
+  std::array<double, 5> temperature{};
+  double area = 0.0;
+  double conductivity = 0.0;
+  double fric = 0.0;
+  std::array<Vec, 4> normal{};
+};
+
+/// A packet that owns its arrays.
+class Packet {
+ public:
+  explicit Packet(const std::vector<Pair>& pairs) : n_(pairs.size()) {
+    for (const Pair& p : pairs) {
+      for (std::size_t r = 0; r < 5; ++r) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          x_[r][c].push_back(p.x[r][c]);
+          v_[r][c].push_back(p.v[r][c]);
+        }
+        m_[r].push_back(p.m[r]);
+        t_[r].push_back(p.temperature[r]);
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        ft_[c].push_back(p.ft[c]);
+        for (std::size_t k = 0; k < 4; ++k) n3_[k][c].push_back(p.normal[k][c]);
+      }
+      for (std::size_t k = 0; k < 8; ++k) tie_[k].push_back(p.tie[k]);
+      triangle_.push_back(p.triangle);
+      k0_.push_back(p.k0);
+      gap_.push_back(p.gap);
+      p0_.push_back(p.p0);
+      area_.push_back(p.area);
+      conductivity_.push_back(p.conductivity);
+      fric_.push_back(p.fric);
+    }
+  }
+  [[nodiscard]] PacketView view(double dt1 = 0.0, double dt12 = 0.0) const {
+    PacketView w;
+    w.size = n_;
+    w.dt1 = dt1;
+    w.dt12 = dt12;
+    for (std::size_t r = 0; r < 5; ++r) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        w.position[r][c] = x_[r][c].data();
+        w.velocity[r][c] = v_[r][c].data();
+      }
+      w.mass[r] = m_[r].data();
+      w.temperature[r] = t_[r].data();
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      w.ft_old[c] = ft_[c].data();
+      for (std::size_t k = 0; k < 4; ++k) w.normal[k][c] = n3_[k][c].data();
+    }
+    for (std::size_t k = 0; k < 8; ++k) w.tie[k] = tie_[k].data();
+    w.triangle = triangle_.data();
+    w.k0 = k0_.data();
+    w.gap = gap_.data();
+    w.p0 = p0_.data();
+    w.area = area_.data();
+    w.conductivity = conductivity_.data();
+    w.fric = fric_.data();
+    return w;
+  }
+
+ private:
+  using Triple = std::array<std::vector<double>, 3>;
+  std::size_t n_;
+  std::array<Triple, 5> x_, v_;
+  std::array<std::vector<double>, 5> m_, t_;
+  Triple ft_;
+  std::array<Triple, 4> n3_;
+  std::array<std::vector<double>, 8> tie_;
+  std::vector<std::uint8_t> triangle_;
+  std::vector<double> k0_, gap_, p0_, area_, conductivity_, fric_;
+};
+
+/// Result of one pair.
+struct Outcome {
+  PacketResult all;
+  [[nodiscard]] Vec force() const { return {all.force[0][0], all.force[1][0], all.force[2][0]}; }
+  [[nodiscard]] Vec normal() const {
+    return {all.normal[0][0], all.normal[1][0], all.normal[2][0]};
+  }
+  [[nodiscard]] std::array<double, 4> weights() const {
+    return {all.weights[0][0], all.weights[1][0], all.weights[2][0], all.weights[3][0]};
+  }
+  [[nodiscard]] Vec memory() const { return {all.ft[0][0], all.ft[1][0], all.ft[2][0]}; }
+};
+
+inline Outcome run(const ContactCard& card, const Pair& pair, double dt1 = 0.0, double dt12 = 0.0,
+                   Model model = Model::reference) {
+  const Packet packet({pair});
+  Outcome out;
+  evaluate(make_plan(card, model), packet.view(dt1, dt12), out.all);
+  return out;
+}
+
+/// A card of elastic contact alone.
+inline ContactCard elastic_card() {
+  ContactCard card;
+  card.viss = 0.0;
+  return card;
+}
+
+inline Pair quad_pair(const Vec& node) {
+  Pair p;
+  p.x = {node, Vec{0, 0, 0}, Vec{10, 0, 0}, Vec{10, 10, 0}, Vec{0, 10, 0}};
+  p.k0 = 1e5;
+  return p;
+}
+
+inline Pair triangle_pair(const Vec& node) {
+  Pair p;
+  p.x = {node, Vec{0, 0, 0}, Vec{10, 0, 0}, Vec{0, 10, 0}, Vec{0, 10, 0}};
+  p.triangle = true;
+  p.k0 = 1e5;
+  return p;
+}
+
+/// Random pairs in contact: quads and triangles of every shape, some out of reach.
+inline std::vector<Pair> random_pairs(std::size_t n, unsigned seed, bool edges = false) {
+  std::mt19937_64 rng(seed);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  const auto vec = [&](double s) { return Vec{s * u(rng), s * u(rng), s * u(rng)}; };
+  std::vector<Pair> pairs(n);
+  for (Pair& p : pairs) {
+    if (edges) {
+      p.x = {Vec{-5, 0.5 * u(rng), 0.4 * u(rng)}, Vec{5, 0.5 * u(rng), 0.4 * u(rng)},
+             Vec{u(rng), -5, 0.4 * u(rng)}, Vec{u(rng), 5, 0.4 * u(rng)}, Vec{}};
+    } else {
+      p.x = {Vec{6 * u(rng), 6 * u(rng), 1.1 * u(rng)}, Vec{-5, -5, 0} + vec(1),
+             Vec{5, -5, 0} + vec(1), Vec{5, 5, 0} + vec(1), Vec{-5, 5, 0} + vec(1)};
+      p.triangle = u(rng) > 0.6;
+      if (p.triangle) p.x[4] = p.x[3];
+    }
+    for (std::size_t r = 0; r < 5; ++r) {
+      p.v[r] = vec(50.0);
+      p.m[r] = 1e-3 * (1.5 + u(rng));
+      p.temperature[r] = 400.0 + 100.0 * u(rng);
+      if (r > 0) p.normal[r - 1] = Vec{0, 0, 1} + vec(0.2);
+    }
+    p.k0 = 1e5 * (1.5 + u(rng));
+    p.gap = 1.2 + 0.5 * u(rng);
+    p.p0 = 0.2 * (1.0 + u(rng));
+    p.ft = vec(500.0);
+    p.area = 1.0 + 0.5 * u(rng);
+    p.conductivity = 40.0;
+    p.fric = 0.3 + 0.2 * u(rng);
+  }
+  return pairs;
+}
+
+/// Directory of the reference material, or nothing when it is not there.
+inline std::optional<std::filesystem::path> corpus() {
+  const char* env = std::getenv("DECK_CORPUS");
+  const std::filesystem::path dir =
+      env != nullptr ? env : std::filesystem::path(DECK_SOURCE_DIR) / ".." / "shared";
+  if (!std::filesystem::is_directory(dir / "oracle" / "kernel")) return std::nullopt;
+  return dir;
+}
+
+inline std::string slurp(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace deck::cycle::testing
+
+#endif  // DECK_TESTS_CYCLE_SUPPORT_HPP_
