@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <thread>
 
+#include "deck/report/json.hpp"
+
 namespace deck::cli {
 namespace fs = std::filesystem;
 
@@ -307,14 +309,15 @@ int JsonOutput::finish(int code) const {
   if (options_.decks.size() <= 1) {
     text = documents_.front();
   } else {
-    text = "[\n";
-    for (std::size_t i = 0; i < documents_.size(); ++i) {
-      if (i > 0) text += ",\n";
-      std::string_view document = documents_[i];
-      while (document.ends_with('\n')) document.remove_suffix(1);
-      text += document;
+    JsonWriter json(text);
+    json.begin_object();
+    write_json_head(json, schema_id_, schema_version_);
+    json.key("decks").begin_array();
+    for (const std::string& d : documents_) {
+      const std::string_view document(d);
+      json.raw(document.substr(0, document.find_last_not_of('\n') + 1));
     }
-    text += "\n]\n";
+    json.end_array().end_object();
   }
   if (auto written = write_output(options_.json, text); !written) {
     print_error(options_, written.error().message);

@@ -82,10 +82,12 @@ void print_error(const CommonOptions& options, std::string_view message);
 /// Writes bytes to standard output ("-") or atomically to a file.
 Result<void> write_output(const std::string& path, std::string_view bytes);
 
-/// Collects the JSON documents of a run: one deck gives the document itself, several an array.
+/// Collects the JSON documents of a run: one deck gives the document itself; several are the list
+/// "decks" of a document with the same schema id.
 class JsonOutput {
  public:
-  explicit JsonOutput(const CommonOptions& options) : options_(options) {}
+  JsonOutput(const CommonOptions& options, std::string_view schema_id, int schema_version)
+      : options_(options), schema_id_(schema_id), schema_version_(schema_version) {}
   bool wanted() const { return !options_.json.empty(); }
   void add(std::string document) { documents_.push_back(std::move(document)); }
   /// Writes what was added; returns `code`, or exit_usage if the file cannot be written.
@@ -93,6 +95,8 @@ class JsonOutput {
 
  private:
   const CommonOptions& options_;
+  std::string schema_id_;
+  int schema_version_;
   std::vector<std::string> documents_;
 };
 
