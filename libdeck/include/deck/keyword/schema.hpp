@@ -85,7 +85,9 @@ struct Schema {
   bool has_title = true;             ///< a title line follows the header
   bool has_unit = true;              ///< header may carry a unit id after the id
   bool bulk = false;                 ///< read by the fast path straight into arrays
-  bool opaque_tail = false;          ///< lines after the described cards are legal and not interpreted
+  /// Described in part: lines after the described cards, and columns between the described cells,
+  /// are legal and not interpreted.
+  bool opaque_tail = false;
   int from = 0;                      ///< first input version that knows the keyword
   std::string doc;
   std::vector<CardSchema> cards;

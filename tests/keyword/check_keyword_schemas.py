@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""Validates schemas/keywords/*.json against schemas/keyword.schema.json, as 2020-12 and as draft-7.
+
+Prints every violation with file and JSON path, then "N passed, 0 failed"; exit code 1 on failure.
+Some deliberately wrong documents must be refused as well, so that a lax schema is noticed.
+"""
+import copy
+import json
+import pathlib
+import sys
+
+import jsonschema
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+GOOD = {"keyword": "/A", "doc": "d", "cards": [{"name": "c", "fields": [
+    {"name": "f", "cols": [1, 10], "type": "id", "ref": "node"}]}]}
+FIELD = ("cards", 0, "fields", 0)
+
+
+def changed(path, value):
+    """GOOD with one entry replaced, or removed when value is None."""
+    document = copy.deepcopy(GOOD)
+    place = document
+    for key in path[:-1]:
+        place = place[key]
+    if value is None:
+        del place[path[-1]]
+    else:
+        place[path[-1]] = value
+    return document
+
+
+BAD = {
+    "unknown key": changed(("colour",), "red"),
+    "no keyword": changed(("keyword",), None),
+    "keyword without slash": changed(("keyword",), "A"),
+    "unknown kind": changed(("kind",), "interface"),
+    "no columns": changed(FIELD + ("cols",), None),
+    "column 101": changed(FIELD + ("cols",), [1, 101]),
+    "unknown type": changed(FIELD + ("type",), "integer"),
+    "id without target": changed(FIELD + ("ref",), None),
+    "dimension of an id": changed(FIELD + ("dim",), [0, 1, 0]),
+    "version that does not exist": changed(("from",), 111),
+    "condition that tests nothing": changed(("cards", 0, "when"), [{"field": "f"}]),
+    "empty family": {"schemas": []},
+}
+
+
+def check(validator_class, schema):
+    """Returns (passed, failed) of all documents with one validator."""
+    validator_class.check_schema(schema)
+    validator = validator_class(schema)
+    dialect = validator_class.__name__
+    passed = failed = 0
+    if not validator.is_valid(GOOD):
+        print(f"{dialect}: the good document is refused")
+        failed += 1
+    for name, document in BAD.items():
+        if validator.is_valid(document):
+            print(f"{dialect}: accepts a document with: {name}")
+            failed += 1
+        else:
+            passed += 1
+    files = sorted((ROOT / "schemas/keywords").glob("*.json"))
+    if not files:
+        print("no schema files found")
+        failed += 1
+    for file in files:
+        errors = list(validator.iter_errors(json.loads(file.read_text(encoding="utf-8"))))
+        for error in errors:
+            where = "/".join(str(part) for part in error.absolute_path)
+            print(f"{dialect}: {file.name}: /{where}: {error.message}")
+        failed += bool(errors)
+        passed += not errors
+    return passed, failed
+
+
+def main():
+    schema = json.loads((ROOT / "schemas/keyword.schema.json").read_text(encoding="utf-8"))
+    counts = [check(cls, schema) for cls in (jsonschema.Draft202012Validator,
+                                             jsonschema.Draft7Validator)]
+    passed, failed = (sum(column) for column in zip(*counts))
+    print(f"{passed} passed, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

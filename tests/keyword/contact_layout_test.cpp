@@ -1,0 +1,393 @@
+// The layouts of the contact keywords against the published tables: number of lines, cells that
+// came or moved with a version, legal values, defaults, dimensions.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <initializer_list>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "deck/keyword/schema.hpp"
+
+namespace deck {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAreArray;
+
+constexpr int kVersions[] = {41,   42,   44,   51,   90,   100,  110,  120,  130,  140,
+                             2017, 2018, 2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026};
+std::vector<int> versions_from(int first) {
+  std::vector<int> versions;
+  for (const int version : kVersions)
+    if (version >= first) versions.push_back(version);
+  return versions;
+}
+
+using Values = std::map<std::string, std::int64_t>;
+
+const Schema& schema(std::string_view keyword) {
+  const auto* found = SchemaSet::built_in().find(keyword);
+  if (!found) throw std::runtime_error("no schema " + std::string(keyword));
+  return *found;
+}
+
+bool holds(const std::vector<Condition>& conditions, const Values& values) {
+  for (const auto& condition : conditions) {
+    const auto it = values.find(condition.field);
+    if (!condition.holds(it == values.end() ? 0 : it->second)) return false;
+  }
+  return true;
+}
+
+/// Names of the cards of one block, repetition not followed.
+std::vector<std::string> cards(std::string_view keyword, int version, const Values& values = {}) {
+  std::vector<std::string> names;
+  for (const auto& card : schema(keyword).cards)
+    if (card.in_version(version) && holds(card.when, values)) names.push_back(card.name);
+  return names;
+}
+
+std::size_t lines(std::string_view keyword, int version, const Values& values = {}) {
+  return cards(keyword, version, values).size();
+}
+
+/// The cell `name` of a version as "first-last", empty if the version has none.
+std::string columns(std::string_view keyword, std::string_view name, int version) {
+  for (const auto& card : schema(keyword).cards)
+    for (const auto& field : card.fields)
+      if (field.name == name && card.in_version(version) && field.in_version(version))
+        return std::to_string(field.first) + "-" + std::to_string(field.last);
+  return {};
+}
+
+Dimension dimension(std::string_view keyword, std::string_view name, const Values& values) {
+  const auto& field = *schema(keyword).find_field(name);
+  for (const auto& [when, dim] : field.dimension_when)
+    if (holds(when, values)) return dim;
+  return field.dimension;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Number of lines after the title
+
+TEST(InterType7Layout, FixedLines) {
+  for (const int version : {41, 42}) EXPECT_EQ(lines("/INTER/TYPE7", version), 3u) << version;
+  EXPECT_EQ(lines("/INTER/TYPE7", 44), 4u);
+  for (const int version : versions_from(51))
+    EXPECT_EQ(lines("/INTER/TYPE7", version), 6u) << version;
+}
+
+TEST(InterType7Layout, CurvatureLineForSphereAndCylinderOnly) {
+  for (const int version : versions_from(51)) {
+    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Icurv", 1}}), 7u) << version;
+    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Icurv", 2}}), 7u) << version;
+    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Icurv", 3}}), 6u) << version;
+  }
+}
+
+TEST(InterType7Layout, FrictionCoefficients) {
+  for (const int version : versions_from(51)) {
+    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Ifric", 1}}), 7u) << version;
+    for (const int law : {2, 3, 4})
+      EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Ifric", law}}), 8u) << version;
+  }
+}
+
+TEST(InterType7Layout, AdaptiveLineFromVersion90) {
+  EXPECT_EQ(lines("/INTER/TYPE7", 51, {{"Iadm", 2}}), 6u);
+  for (const int version : versions_from(90)) {
+    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Iadm", 2}}), 7u) << version;
+    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Iadm", 1}}), 6u) << version;
+  }
+}
+
+TEST(InterType7Layout, ThermalLines) {
+  EXPECT_EQ(lines("/INTER/TYPE7", 51, {{"Ithe", 1}}), 6u);
+  EXPECT_EQ(lines("/INTER/TYPE7", 90, {{"Ithe", 1}}), 6u) << "version 90 wants Ithe above 1";
+  EXPECT_EQ(lines("/INTER/TYPE7", 90, {{"Ithe", 2}}), 7u);
+  for (const int version : {100, 110, 120})
+    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Ithe", 1}}), 7u) << version;
+  for (const int version : versions_from(130))
+    EXPECT_EQ(lines("/INTER/TYPE7", version, {{"Ithe", 1}}), 8u) << version;
+}
+
+TEST(InterType7Layout, ThermalLineComesBeforeAdaptiveLineUpTo100) {
+  const Values both{{"Ithe", 1}, {"Iadm", 2}};
+  const auto tail = [&](int version, std::size_t n, Values values) {
+    auto names = cards("/INTER/TYPE7", version, values);
+    return std::vector<std::string>(names.end() - static_cast<std::ptrdiff_t>(n), names.end());
+  };
+  EXPECT_THAT(tail(90, 2, {{"Ithe", 2}, {"Iadm", 2}}),
+              ElementsAre("heat exchange", "adaptive meshing"));
+  EXPECT_THAT(tail(100, 2, both), ElementsAre("heat exchange", "adaptive meshing"));
+  for (const int version : {110, 120})
+    EXPECT_THAT(tail(version, 2, both), ElementsAre("adaptive meshing", "heat exchange"));
+  EXPECT_THAT(tail(2026, 3, both),
+              ElementsAre("adaptive meshing", "heat exchange", "radiation and frictional heat"));
+}
+
+TEST(InterType10Layout, ThreeLinesInEveryVersion) {
+  for (const int version : kVersions) EXPECT_EQ(lines("/INTER/TYPE10", version), 3u) << version;
+}
+
+TEST(InterType11Layout, FixedLinesGrowWithTheVersion) {
+  for (const int version : {51, 90, 100}) EXPECT_EQ(lines("/INTER/TYPE11", version), 3u) << version;
+  for (const int version : {110, 120, 130, 140, 2017})
+    EXPECT_EQ(lines("/INTER/TYPE11", version), 4u) << version;
+  for (const int version : versions_from(2018))
+    EXPECT_EQ(lines("/INTER/TYPE11", version), 5u) << version;
+}
+
+TEST(InterType11Layout, TwoThermalLinesFrom140ForAnyIthe) {
+  EXPECT_EQ(lines("/INTER/TYPE11", 130, {{"Ithe", 1}}), 4u);
+  for (const int ithe : {1, 2}) {
+    EXPECT_EQ(lines("/INTER/TYPE11", 140, {{"Ithe", ithe}}), 6u);
+    EXPECT_EQ(lines("/INTER/TYPE11", 2026, {{"Ithe", ithe}}), 7u);
+  }
+}
+
+TEST(InterType19Layout, LinesOfEveryVersion) {
+  for (const int version : versions_from(100)) {
+    EXPECT_EQ(lines("/INTER/TYPE19", version), 6u) << version;
+    EXPECT_EQ(lines("/INTER/TYPE19", version, {{"Icurv", 1}}), 7u) << version;
+    EXPECT_EQ(lines("/INTER/TYPE19", version, {{"Icurv", 2}}), 7u) << version;
+    EXPECT_EQ(lines("/INTER/TYPE19", version, {{"Icurv", 3}}), 6u) << version;
+    EXPECT_EQ(lines("/INTER/TYPE19", version, {{"Ifric", 1}}), 7u) << version;
+    EXPECT_EQ(lines("/INTER/TYPE19", version, {{"Ifric", 2}}), 8u) << version;
+    EXPECT_EQ(lines("/INTER/TYPE19", version, {{"Ithe", 1}}), version >= 2021 ? 8u : 6u) << version;
+  }
+}
+
+TEST(InterType19Layout, Version90HasTheCurvatureLineForIcurv0And1) {
+  EXPECT_EQ(lines("/INTER/TYPE19", 90, {{"Icurv", 0}}), 7u);
+  EXPECT_EQ(lines("/INTER/TYPE19", 90, {{"Icurv", 1}}), 7u);
+  EXPECT_EQ(lines("/INTER/TYPE19", 90, {{"Icurv", 2}}), 6u);
+}
+
+TEST(InterLagmulLayout, BlankLinesMoveWithTheVersion) {
+  EXPECT_EQ(lines("/INTER/LAGMUL/TYPE7", 51), 6u);
+  EXPECT_EQ(lines("/INTER/LAGMUL/TYPE7", 90), 8u);
+  EXPECT_EQ(lines("/INTER/LAGMUL/TYPE7", 100), 6u);
+  EXPECT_EQ(lines("/INTER/LAGMUL/TYPE7", 2026), 6u);
+  EXPECT_EQ(cards("/INTER/LAGMUL/TYPE7", 51)[1], "gap");
+  for (const int version : {90, 100, 140}) {
+    EXPECT_EQ(cards("/INTER/LAGMUL/TYPE7", version)[3], "gap") << version;
+    EXPECT_EQ(cards("/INTER/LAGMUL/TYPE7", version)[4], "sorting") << version;
+  }
+}
+
+TEST(DefaultInterLayout, LinesPerTypeAndVersion) {
+  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE7", 140), 4u);
+  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE11", 140), 3u);
+  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE19", 140), 3u);
+  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE19", 2018), 3u);
+  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE19", 2020), 4u);
+  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE2", 140), 1u);
+  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE2", 140, {{"Spotflag", 27}}), 2u);
+  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE24", 140), 3u);
+  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE24", 2017), 4u);
+  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE25", 2018), 3u);
+  EXPECT_FALSE(schema("/DEFAULT/INTER/TYPE7").has_title);
+  EXPECT_FALSE(schema("/DEFAULT/INTER/TYPE7").has_id);
+}
+
+TEST(FrictionLayout, ThreeLinesThenGroupsOfThreeOrFive) {
+  std::size_t once = 0, group = 0, second = 0;
+  for (const auto& card : schema("/FRICTION").cards) {
+    if (card.repeat == Repeat::once) ++once;
+    if (card.repeat == Repeat::group && card.when.empty()) ++group;
+    if (card.repeat == Repeat::group && !card.when.empty()) ++second;
+  }
+  EXPECT_EQ(once, 3u);
+  EXPECT_EQ(group, 3u);
+  EXPECT_EQ(second, 2u);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Cells that moved or came with a version
+
+TEST(InterType7Cells, ComeWithTheirVersion) {
+  const std::string k = "/INTER/TYPE7";
+  EXPECT_EQ(columns(k, "grnd_IDs", 41), "1-8");
+  EXPECT_EQ(columns(k, "grnd_IDs", 51), "1-10");
+  EXPECT_EQ(columns(k, "Multimp", 110), "51-60");
+  EXPECT_EQ(columns(k, "Multimp", 120), "");
+  EXPECT_EQ(columns(k, "Fpenmax", 110), "");
+  EXPECT_EQ(columns(k, "Fpenmax", 120), "41-60");
+  EXPECT_EQ(columns(k, "%mesh_size", 100), "");
+  EXPECT_EQ(columns(k, "%mesh_size", 110), "41-60");
+  EXPECT_EQ(columns(k, "ITIED", 2019), "");
+  EXPECT_EQ(columns(k, "ITIED", 2020), "81-90");
+  EXPECT_EQ(columns(k, "Irem_i2", 120), "");
+  EXPECT_EQ(columns(k, "Irem_i2", 130), "91-100");
+  EXPECT_EQ(columns(k, "fric_ID", 2017), "");
+  EXPECT_EQ(columns(k, "fric_ID", 2018), "91-100");
+  EXPECT_EQ(columns(k, "Ists", 2025), "");
+  EXPECT_EQ(columns(k, "Ists", 2026), "91-100");
+  EXPECT_EQ(columns(k, "AscaleK", 2024), "71-90");
+  EXPECT_EQ(columns(k, "Ithe_form", 90), "");
+}
+
+TEST(InterType11Cells, DifferFromType7) {
+  const std::string k = "/INTER/TYPE11";
+  EXPECT_EQ(columns(k, "AscaleK", 2024), "31-50");
+  EXPECT_EQ(columns(k, "Tint", 2024), "51-70");
+  EXPECT_EQ(columns(k, "Ithe_form", 2024), "71-80");
+  EXPECT_EQ(columns(k, "Irem_gap", 2019), "");
+  EXPECT_EQ(columns(k, "Irem_gap", 2020), "61-70");
+  EXPECT_EQ(columns(k, "Iform", 110), "");
+  EXPECT_EQ(columns(k, "Iform", 120), "81-90");
+  EXPECT_EQ(columns(k, "fric_ID", 2018), "91-100");
+}
+
+TEST(InterType19Cells, IedgeIsMissingIn140Only) {
+  for (const int version : {90, 100, 120, 2017, 2026})
+    EXPECT_EQ(columns("/INTER/TYPE19", "Iedge", version), "51-60") << version;
+  EXPECT_EQ(columns("/INTER/TYPE19", "Iedge", 140), "");
+  EXPECT_EQ(columns("/INTER/TYPE19", "Edge_scale_gap", 2023), "");
+  EXPECT_EQ(columns("/INTER/TYPE19", "Edge_scale_gap", 2024), "41-60");
+}
+
+TEST(InterType10Cells, OldLayoutHasNarrowCellsWithoutIdel) {
+  EXPECT_EQ(columns("/INTER/TYPE10", "Gap", 41), "33-48");
+  EXPECT_EQ(columns("/INTER/TYPE10", "ITIED", 41), "17-24");
+  EXPECT_EQ(columns("/INTER/TYPE10", "Idel", 42), "");
+  EXPECT_EQ(columns("/INTER/TYPE10", "Idel", 51), "71-80");
+}
+
+TEST(FindField, SpeaksForTheNewestLayout) {
+  EXPECT_EQ(schema("/INTER/TYPE7").find_field("grnd_IDs")->last, 10);
+  EXPECT_EQ(schema("/INTER/TYPE7").find_field("nothing"), nullptr);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Contact fields: documentation, legal values, dimensions
+
+const char* const kContact[] = {
+    "/INTER/TYPE7",          "/INTER/TYPE10",      "/INTER/TYPE11",        "/INTER/TYPE19",
+    "/INTER/LAGMUL/TYPE7",   "/INTER/LAGDT/TYPE7", "/DEFAULT/INTER/TYPE7", "/DEFAULT/INTER/TYPE11",
+    "/DEFAULT/INTER/TYPE19", "/FRICTION"};
+
+TEST(ContactFields, EveryFieldIsDocumentedAndBounded) {
+  const std::map<std::string, std::vector<std::int64_t>> legal = {
+      {"Istf", {0, 1, 2, 3, 4, 5, 1000}},
+      {"Ibag", {0, 1, 2, 1000}},
+      {"Icurv", {0, 1, 2, 3}},
+      {"Iadm", {0, 1, 2}},
+      {"Ifric", {0, 1, 2, 3, 4}},
+      {"Ifiltr", {0, 1, 2, 3}},
+      {"Iform", {0, 1, 2}},
+      {"Irem_gap", {0, 1, 2}},
+      {"Irem_i2", {0, 1, 3}}};
+  const std::set<std::string> nonnegative = {"Fscalegap",  "Gapmax", "Fpenmax", "Stmin",  "Stmax",
+                                             "%mesh_size", "dtmin",  "Stfac",   "Fric",   "Gapmin",
+                                             "Gap",        "VISs",   "VISF",    "Bumult", "Tstart",
+                                             "Tstop",      "Frad",   "Drad",    "Xfreq",  "Padm"};
+  for (const char* keyword : kContact)
+    for (const auto& card : schema(keyword).cards)
+      for (const auto& field : card.fields) {
+        const std::string where = std::string(keyword) + "." + field.name;
+        EXPECT_FALSE(field.doc.empty()) << where;
+        if (const auto it = legal.find(field.name); it != legal.end()) {
+          EXPECT_THAT(field.values, UnorderedElementsAreArray(it->second)) << where;
+        }
+        if (nonnegative.count(field.name)) {
+          ASSERT_TRUE(field.min.has_value()) << where;
+          EXPECT_EQ(*field.min, 0.0) << where;
+        }
+        EXPECT_EQ(field.type == FieldType::id, !field.ref.empty()) << where;
+        EXPECT_TRUE(field.dimension_known) << where;
+      }
+}
+
+TEST(ContactFields, LegalValuesThatDifferByType) {
+  const auto values = [](const char* keyword, const char* field) {
+    return schema(keyword).find_field(field)->values;
+  };
+  EXPECT_THAT(values("/INTER/TYPE7", "Igap"), ElementsAre(0, 1, 2, 3, 1000));
+  EXPECT_THAT(values("/INTER/TYPE11", "Igap"), ElementsAre(0, 1, 3, 1000));
+  EXPECT_THAT(values("/INTER/TYPE19", "Igap"), ElementsAre(0, 1, 2, 3, 4, 1000));
+  EXPECT_THAT(values("/INTER/TYPE7", "Ithe"), ElementsAre(0, 1));
+  EXPECT_THAT(values("/INTER/TYPE11", "Ithe"), ElementsAre(0, 1, 2));
+  EXPECT_THAT(values("/INTER/TYPE10", "ITIED"), ElementsAre(0, 1));
+  EXPECT_THAT(values("/INTER/TYPE10", "Inacti"), ElementsAre(0, 1, 2, 3, 6, 1000));
+  EXPECT_THAT(values("/INTER/TYPE19", "Idel"), ElementsAre(0, 1, 2, -1, -2, 1000));
+  EXPECT_THAT(values("/DEFAULT/INTER/TYPE19", "Idel"), ElementsAre(0, 1, 2, 3, -1, -2, 1000));
+}
+
+TEST(ContactFields, DefaultsAreThoseTheSolverApplies) {
+  const auto text = [](const char* keyword, const char* field) {
+    return schema(keyword).find_field(field)->default_text;
+  };
+  EXPECT_EQ(text("/INTER/TYPE7", "VISs"), "0.05");
+  EXPECT_EQ(text("/INTER/TYPE10", "Stfac"), "0.2");
+  EXPECT_EQ(text("/INTER/TYPE7", "Stfac"), "1");
+  EXPECT_EQ(text("/INTER/TYPE7", "%mesh_size"), "0.4");
+  EXPECT_EQ(text("/INTER/TYPE7", "Gapmax"), "1e30");
+  EXPECT_THAT(text("/INTER/TYPE7", "Istf"), HasSubstr("else 1000"));
+  EXPECT_THAT(text("/INTER/TYPE11", "Istf"), HasSubstr("else 5"));
+  EXPECT_THAT(text("/INTER/TYPE7", "Irem_i2"), HasSubstr("else 3"));
+  EXPECT_EQ(text("/DEFAULT/INTER/TYPE7", "Irem_gap"), "1");
+}
+
+TEST(ContactFields, NotesWhereManualAndSolverDiffer) {
+  for (const auto& [keyword, field] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"/INTER/TYPE11", "Istf"},
+                                                                  {"/INTER/TYPE7", "Xfreq"},
+                                                                  {"/INTER/TYPE7", "Fric"},
+                                                                  {"/INTER/TYPE7", "VISF"},
+                                                                  {"/INTER/TYPE7", "Stmin"},
+                                                                  {"/INTER/TYPE7", "Ibag"},
+                                                                  {"/INTER/TYPE19", "Iedge"},
+                                                                  {"/INTER/TYPE19", "Istf"},
+                                                                  {"/INTER/TYPE19", "Idel"},
+                                                                  {"/INTER/TYPE19", "Stfac"},
+                                                                  {"/INTER/TYPE19", "Igap"},
+                                                                  {"/INTER/TYPE7", "Irem_i2"},
+                                                                  {"/SH3N", "Thick"},
+                                                                  {"/INTER/TYPE7", "Ifric"}})
+    EXPECT_FALSE(schema(keyword).find_field(field)->from_manual.empty()) << keyword << "." << field;
+  bool quirk = false;  // Ithe of version 90 is a cell of its own
+  for (const auto& field : schema("/INTER/TYPE7").cards[4].fields)
+    quirk |= field.name == "Ithe" && field.until < 100 && !field.from_manual.empty();
+  EXPECT_TRUE(quirk);
+}
+
+TEST(ContactDimensions, StfacIsAStiffnessForIstf1Only) {
+  for (const char* keyword : {"/INTER/TYPE7", "/INTER/TYPE11", "/INTER/TYPE19"}) {
+    EXPECT_EQ(dimension(keyword, "Stfac", {{"Istf", 1}}), (Dimension{1, 0, -2, 0}));
+    for (const int istf : {0, 2, 5, 1000})
+      EXPECT_TRUE(dimension(keyword, "Stfac", {{"Istf", istf}}).dimensionless());
+  }
+}
+
+TEST(ContactDimensions, FrictionCoefficientsFollowTheLaw) {
+  const Dimension p_inv{-1, 1, 2, 0}, p_inv2{-2, 2, 4, 0}, pv_inv{-1, 0, 3, 0}, v_inv{0, -1, 1, 0},
+      v_inv2{0, -2, 2, 0}, v{0, 1, -1, 0}, one{};
+  const std::map<int, std::array<Dimension, 6>> table = {
+      {1, {p_inv, v_inv, pv_inv, p_inv2, v_inv2, one}},
+      {2, {p_inv2, v_inv, p_inv, v_inv, one, v_inv}},
+      {3, {one, one, one, one, v, v}},
+      {4, {one, v_inv, one, one, one, one}}};
+  for (const char* keyword : {"/INTER/TYPE7", "/INTER/TYPE19", "/FRICTION"})
+    for (const auto& [law, expected] : table)
+      for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_EQ(dimension(keyword, "C" + std::to_string(i + 1), {{"Ifric", law}}), expected[i])
+            << keyword << " Ifric " << law << " C" << i + 1;
+}
+
+TEST(ContactDimensions, HeatExchangeWithAndWithoutFunction) {
+  EXPECT_EQ(dimension("/INTER/TYPE7", "Kthe", {}), (Dimension{1, 0, -3, -1}));
+  EXPECT_TRUE(dimension("/INTER/TYPE7", "Kthe", {{"fct_IDK", 4}}).dimensionless());
+  EXPECT_EQ(dimension("/INTER/TYPE7", "Frad", {}), (Dimension{1, 0, -3, -4}));
+  EXPECT_EQ(dimension("/INTER/TYPE7", "AscaleK", {}), (Dimension{1, -1, -2, 0}));
+  EXPECT_EQ(dimension("/INTER/TYPE7", "Xfreq", {}), (Dimension{0, 0, -1, 0}));
+}
+
+}  // namespace
+}  // namespace deck
