@@ -1,0 +1,111 @@
+"""What the checks of the command line share: counting, running `deck` under limits, finding decks.
+
+A check prints one line when it fails and nothing when it passes; the script ends with
+'N passed, N failed' and exits 1 if anything failed."""
+import argparse
+import glob
+import os
+import re
+import resource
+import subprocess
+import sys
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SAMPLES = sorted(glob.glob(os.path.join(ROOT, "samples", "*_0000.rad")))
+CRASH = re.compile(rb"AddressSanitizer|LeakSanitizer|ThreadSanitizer|UndefinedBehavior|runtime error:|"
+                   rb"internal error|terminate called|Assertion")
+
+
+class Result:
+    def __init__(self, code, out, err, seconds):
+        self.code, self.out, self.err, self.seconds = code, out, err, seconds
+
+    @property
+    def text(self):
+        return (self.out + self.err).decode("utf-8", "replace")
+
+    def crash(self):
+        """Why this run counts as a crash, or ''."""
+        if self.code is None:
+            return "no answer in time"
+        if self.code < 0:
+            return "killed by signal %d" % -self.code
+        if self.code not in (0, 1, 2, 3):
+            return "exit code %d" % self.code
+        found = CRASH.search(self.out) or CRASH.search(self.err)
+        return found.group(0).decode() if found else ""
+
+
+class Checks:
+    def __init__(self):
+        parser = argparse.ArgumentParser(description=sys.modules["__main__"].__doc__)
+        parser.add_argument("deck", nargs="?", default=os.path.join(ROOT, "build", "dev", "tools", "deck"),
+                            help="the program to test")
+        parser.add_argument("--corpus", default=os.environ.get("DECK_CORPUS") or os.path.join(ROOT, os.pardir, "shared"))
+        parser.add_argument("--all", action="store_true", help="the slow cases too")
+        self.options = parser.parse_args()
+        self.program = os.path.abspath(self.options.deck)
+        self.passed = self.failed = self.skipped = 0
+        if not os.access(self.program, os.X_OK):
+            sys.exit("%s: no such program; build the target 'deck' first" % self.program)
+        with open(self.program, "rb") as f:
+            self.sanitized = b"__asan_init" in f.read()
+        self._verbs = {}
+
+    def check(self, name, ok, why=""):
+        if ok:
+            self.passed += 1
+        else:
+            self.failed += 1
+            print("FAILED  %s%s" % (name, ": " + why if why else ""), flush=True)
+        return ok
+
+    def skip(self, name, why):
+        self.skipped += 1
+        print("skipped %s: %s" % (name, why), flush=True)
+
+    def has(self, verb):
+        if verb not in self._verbs:
+            self._verbs[verb] = self.run(verb, "--help").code == 0
+        return self._verbs[verb]
+
+    def run(self, *args, timeout=120, stdin=None, cwd=None, env=None, memory_mb=4096):
+        """Runs the program; address space bounded unless a sanitizer needs it."""
+        def limits():
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            if not self.sanitized:
+                resource.setrlimit(resource.RLIMIT_AS, (memory_mb << 20, memory_mb << 20))
+        if self.sanitized:
+            timeout *= 10
+        full = dict(os.environ, NO_COLOR="1", **(env or {}))
+        start = time.monotonic()
+        process = subprocess.Popen([self.program, *map(str, args)], stdin=subprocess.PIPE if stdin is not None else subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=cwd, env=full, preexec_fn=limits)
+        try:
+            out, err = process.communicate(stdin, timeout=timeout)
+            code = process.returncode
+        except subprocess.TimeoutExpired:
+            process.kill()
+            out, err = process.communicate()
+            code = None
+        return Result(code, out, err, time.monotonic() - start)
+
+    def no_crash(self, name, result, codes=(0, 1, 3)):
+        """Passes if the run ended orderly with one of `codes`."""
+        crash = result.crash()
+        if crash:
+            return self.check(name, False, crash + "; " + result.text[-300:].strip().replace("\n", " | "))
+        return self.check(name, result.code in codes, "exit code %s, expected one of %s; %s" % (
+            result.code, list(codes), result.text[-300:].strip().replace("\n", " | ")))
+
+    def corpus_decks(self):
+        """[(stem, path)] of the decks outside the project, smallest first; [] where there are none."""
+        found = glob.glob(os.path.join(self.options.corpus, "corpus", "**", "*_0000.rad"), recursive=True)
+        found += glob.glob(os.path.join(self.options.corpus, "oracle", "params", "*_0000.rad"))
+        return [(os.path.basename(p)[:-len("_0000.rad")], p) for p in sorted(found, key=os.path.getsize)]
+
+    def finish(self):
+        tail = ", %d skipped" % self.skipped if self.skipped else ""
+        print("%d passed, %d failed%s" % (self.passed, self.failed, tail))
+        sys.exit(1 if self.failed else 0)

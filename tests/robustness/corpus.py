@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""Every deck at hand (samples, and the corpus where it is present) through lint, params, convert:
+no crash, unchanged bytes, effective values as the reference solver printed them."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from common import SAMPLES, Checks
+
+INCLUDE = re.compile(rb"^#include\s+(.*?)\s*$", re.I | re.M)
+
+
+def include_tree(path):
+    """The files of a deck below its own directory, as paths relative to it."""
+    top = os.path.dirname(path)
+    todo, seen = [os.path.basename(path)], []
+    while todo:
+        name = todo.pop()
+        full = os.path.join(top, name)
+        if name in seen or not os.path.isfile(full):
+            continue
+        seen.append(name)
+        with open(full, "rb") as f:
+            for written in INCLUDE.findall(f.read()):
+                written = written.decode("latin-1").strip("'\" ")
+                for base in (os.path.dirname(name), ""):
+                    candidate = os.path.normpath(os.path.join(base, written))
+                    if os.path.isfile(os.path.join(top, candidate)):
+                        todo.append(candidate)
+                        break
+    return seen
+
+
+def same_bytes(a, b):
+    try:
+        with open(a, "rb") as fa, open(b, "rb") as fb:
+            return fa.read() == fb.read()
+    except OSError:
+        return False
+
+
+def main():
+    c = Checks()
+    decks = [(os.path.basename(p)[:-9], p) for p in SAMPLES] + c.corpus_decks()
+    if len(decks) == len(SAMPLES):
+        c.skip("corpus", "no decks under %s (set DECK_CORPUS)" % c.options.corpus)
+    tmp = tempfile.mkdtemp(prefix="deck-corpus-")
+    try:
+        for stem, path in decks:
+            lacking = "missing_include" in path
+            codes = (3,) if lacking else (0, 1)
+            if c.has("lint"):
+                r = c.run("lint", path)
+                if c.no_crash("lint " + stem, r, codes) and lacking:
+                    for name in (b"Hybrid_III_50TH_0000.rad", b"example_h350_sled_belt_0000.inc", b":21:", b":22:"):
+                        c.check("lint %s names %s" % (stem, name.decode()), name in r.out + r.err)
+            if c.has("params"):
+                target = os.path.join(tmp, stem + ".json")
+                c.no_crash("params " + stem, c.run("params", path, "--json", target), (3,) if lacking else (0,))
+                compare_params(c, stem, target)
+            if c.has("gaps") and not lacking:
+                c.no_crash("gaps " + stem, c.run("gaps", path, "--quiet", timeout=600), (0, 1))
+            if c.has("convert"):
+                out = os.path.join(tmp, stem)
+                c.no_crash("convert " + stem, c.run("convert", path, "--to", "rad", "-o", out), (3,) if lacking else (0, 1))
+                for name in include_tree(path):
+                    c.check("convert %s keeps the bytes of %s" % (stem, name),
+                            same_bytes(os.path.join(os.path.dirname(path), name), os.path.join(out, name)))
+                shutil.rmtree(out, ignore_errors=True)
+    finally:
+        shutil.rmtree(tmp, ignore_errors=True)
+    c.finish()
+
+
+def compare_params(c, stem, computed):
+    """Holds the values against what the reference solver echoed, with the judge beside the corpus."""
+    judge = os.path.join(c.options.corpus, "check", "compare_params.py")
+    for folder in ("params", "gaps"):
+        golden = os.path.join(c.options.corpus, "oracle", folder, stem + ".json.gz")
+        if os.path.exists(golden) and os.path.exists(judge) and os.path.exists(computed):
+            r = subprocess.run([sys.executable, judge, golden, computed], capture_output=True, text=True)
+            last = r.stdout.strip().split("\n")[-1]
+            c.check("params %s against the reference echo (%s)" % (stem, folder), r.returncode == 0,
+                    last + " " + r.stderr[-200:])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,233 @@
+#!/usr/bin/env python3
+"""Input that is wrong in every way: the program must answer with an orderly exit code and a message,
+in bounded time and memory, and never crash."""
+import os
+import random
+import shutil
+import sys
+import tempfile
+
+from common import ROOT, SAMPLES, Checks
+
+BEGIN = (b"#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n"
+         b"                  kg                  mm                  ms\n"
+         b"                  kg                  mm                  ms\n")
+FINDINGS, UNREADABLE = (1,), (3,)
+ORDERLY = (0, 1, 3)
+
+
+def cases():
+    """(name, files, exit codes, texts the answer must contain); the deck is d_0000.rad."""
+    yield "empty file", {"d_0000.rad": b""}, (1, 3), ["d_0000.rad"]
+    yield "one newline", {"d_0000.rad": b"\n"}, (1, 3), ["d_0000.rad"]
+    yield "only comments", {"d_0000.rad": b"#RADIOSS STARTER\n# nothing\n"}, (1, 3), ["d_0000.rad"]
+    yield "program file", {"d_0000.rad": open(sys.executable, "rb").read(200000)}, (1, 3), ["d_0000.rad"]
+    yield "random bytes", {"d_0000.rad": random.Random(1).randbytes(100000)}, (1, 3), ["d_0000.rad"]
+    yield "all NUL", {"d_0000.rad": b"\0" * 100000}, (1, 3), ["d_0000.rad"]
+    yield "NUL bytes inside", {"d_0000.rad": BEGIN + b"/NODE\n         1\0        0.0\n/END\n"}, (1, 3), ["d_0000.rad"]
+    yield "UTF-16", {"d_0000.rad": BEGIN.decode().encode("utf-16")}, (1, 3), ["d_0000.rad"]
+    yield "missing include", {"d_0000.rad": BEGIN + b"#include sub/none.inc\n/END\n"}, UNREADABLE, \
+        ["d_0000.rad:7", "none.inc"]
+    yield "include of a directory", {"d_0000.rad": BEGIN + b"#include sub\n", "sub/x": b""}, UNREADABLE, ["d_0000.rad:7"]
+    yield "include of a FIFO", {"d_0000.rad": BEGIN + b"#include pipe\n/END\n", "pipe": None}, UNREADABLE, \
+        ["d_0000.rad:7", "pipe"]
+    yield "include of itself", {"d_0000.rad": BEGIN + b"#include d_0000.rad\n"}, (1, 3), ["d_0000.rad:7"]
+    yield "include cycle", {"d_0000.rad": BEGIN + b"#include a\n", "a": b"#include b\n", "b": b"# x\n#include a\n"}, \
+        (1, 3), ["b:2"]
+    yield "include of /dev/zero", {"d_0000.rad": BEGIN + b"#include /dev/zero\n"}, UNREADABLE, ["/dev/zero"]
+    yield "include without a name", {"d_0000.rad": BEGIN + b"#include\n#include ''\n"}, (1, 3), ["d_0000.rad:7"]
+    deep = {"d_0000.rad": BEGIN + b"#include i0\n/END\n"}
+    deep.update({"i%d" % k: b"#include i%d\n" % (k + 1) for k in range(10000)})
+    yield "10000 nested includes", deep, (1, 3), ["include"]
+    bomb = {"d_0000.rad": BEGIN + b"#include b0\n"}
+    bomb.update({"b%d" % k: b"#include b%d\n" % (k + 1) * 10 for k in range(12)})
+    bomb["b12"] = b"/NODE\n"
+    yield "includes that multiply (10^12)", bomb, (1, 3), ["include"]
+    wide = {"d_0000.rad": BEGIN + b"#include same\n" * 5000, "same": b"# nothing\n"}
+    yield "one file included 5000 times", wide, ORDERLY, []
+    for n in (3, 30, 60, 200):
+        yield "cut after %d bytes" % n, {"d_0000.rad": BEGIN[:n]}, ORDERLY, []
+    yield "CRLF", {"d_0000.rad": BEGIN.replace(b"\n", b"\r\n") + b"/END\r\n"}, ORDERLY, []
+    yield "no final newline", {"d_0000.rad": BEGIN + b"/NODE\n         1"}, ORDERLY, []
+    yield "line of 20 MB", {"d_0000.rad": BEGIN + b"/NODE\n" + b" " * 20_000_000 + b"1\n/END\n"}, ORDERLY, []
+    yield "header of 5 MB", {"d_0000.rad": BEGIN + b"/SURF/PART" + b"/1" * 2_500_000 + b"\n"}, ORDERLY, []
+    yield "a million headers", {"d_0000.rad": BEGIN + b"/X\n" * 1_000_000}, ORDERLY, []
+    yield "200000 broken nodes", {"d_0000.rad": BEGIN + b"/NODE\n" + b"       x-1    abc  1e  --5\n" * 200_000}, FINDINGS, \
+        ["d_0000.rad"]
+    yield "huge ids and numbers", {"d_0000.rad": BEGIN + b"/NODE\n99999999999999999999" + b"1e999999".rjust(20) + b"\n"
+                                   b"/SURF/PART/99999999999999999999\nt\n-9223372036854775808\n"}, ORDERLY, []
+    yield "parameter in terms of itself", {"d_0000.rad": BEGIN + b"/PARAMETER/GLOBAL/REAL_EXPR/1\nt\na         &b+1\n"
+                                           b"/PARAMETER/GLOBAL/REAL_EXPR/2\nt\nb         &a+1\n/NODE\n         1"
+                                           + b"&a".rjust(20) + b"\n"}, FINDINGS, ["d_0000.rad"]
+    yield "expression of 100000 brackets", {"d_0000.rad": BEGIN + b"/PARAMETER/GLOBAL/REAL_EXPR/1\nt\na         "
+                                            + b"(" * 100000 + b"\n"}, ORDERLY, []
+    chain = b"".join(b"/PARAMETER/GLOBAL/REAL_EXPR/%d\nt\np%-9d&p%d+&p%d\n" % (k, k, k + 1, k + 1) for k in range(1, 5000))
+    yield "chain of 5000 parameters, doubling", {"d_0000.rad": BEGIN + chain}, ORDERLY, []
+    ring = b"/SURF/SURF/1\na\n         2\n/SURF/SURF/2\nb\n         1\n/GRNOD/GRNOD/1\na\n         1\n"
+    ring += b"/SUBSET/1\na\n         2\n/SUBSET/2\nb\n         1\n/BOX/BOX/1\na\n         1\n"
+    ring += b"/SET/GENERAL/7\na\nSET                8\n/SET/GENERAL/8\nb\nSET                7\n"
+    ring += b"/GRNOD/SUBSET/9\nx\n         1\n/GRNOD/BOX/10\nx\n         1\n/LINE/LINE/1\na\n         1\n"
+    inter = b"/INTER/TYPE7/1\nx\n         1         1\n\n\n\n\n\n/INTER/TYPE7/2\nx\n         7         8\n\n\n\n\n\n"
+    inter += b"/INTER/TYPE11/3\nx\n         1         1\n\n\n\n\n/INTER/TYPE7/4\nx\n         9         2\n\n\n\n\n\n"
+    inter += b"/INTER/TYPE7/5\nx\n        10         2\n\n\n\n\n\n"
+    yield "sets, surfaces, boxes that contain one another", {"d_0000.rad": BEGIN + ring + inter}, FINDINGS, []
+    line = b"".join(b"/SURF/SURF/%d\nt\n%10d\n" % (k, k + 1) for k in range(1, 20000))
+    yield "surfaces of surfaces, 20000 deep", {"d_0000.rad": BEGIN + line + inter}, ORDERLY, []
+    double = b"".join(b"/SURF/SURF/%d\nt\n%10d%10d\n" % (k, k + 1, k + 1) for k in range(1, 60))
+    double += b"/NODE\n" + b"".join(b"%10d%20d%20d%20d\n" % (k, k % 2, k // 2, 0) for k in range(4))
+    double += b"/SHELL/1\n         1         0         1         3         2\n/SURF/PART/60\nt\n         1\n"
+    yield "a surface listed 2^59 times over", {"d_0000.rad": BEGIN + double + inter}, ORDERLY, []
+    yield "10000 open submodels", {"d_0000.rad": BEGIN + b"//SUBMODEL/1\nt\n 999999999 999999999\n" * 10000}, ORDERLY, []
+    yield "10000 closed submodels too many", {"d_0000.rad": BEGIN + b"//ENDSUB\n" * 10000}, ORDERLY, []
+    yield "generated ids over the whole range", {"d_0000.rad": BEGIN + b"/GRNOD/GENE/1\nt\n         12147483647\n"
+                                                 b"/GRNOD/GEN_INCR/2\nt\n         12147483647         0\n"
+                                                 b"/SET/GENERAL/3\nt\nNODE_G             12147483647         1\n" + inter}, ORDERLY, []
+    nan = (b"/NODE\n" + b"".join(b"%10d%20s%20s%20s\n" % (k, v, b"1e308", b"-1e308")
+                                 for k, v in enumerate((b"nan", b"inf", b"-inf", b"1e308"), 1))
+           + b"/SHELL/1\n         1         1         2         3         4\n/SURF/PART/1\nt\n         1\n" + inter)
+    yield "coordinates that are no numbers", {"d_0000.rad": BEGIN + nan}, ORDERLY, []
+    huge = (b"/NODE\n" + b"".join(b"%10d%20s%20s%20s\n" % (k, x, y, b"0") for k, (x, y) in enumerate(
+        ((b"0", b"0"), (b"1e300", b"0"), (b"1e300", b"1e-300"), (b"0", b"1e300")), 1))
+            + b"/SHELL/1\n         1         1         2         3         4\n/SURF/PART/1\nt\n         1\n" + inter)
+    yield "a shell of size 1e300", {"d_0000.rad": BEGIN + huge}, ORDERLY, []
+
+
+def write(folder, files):
+    for name, data in files.items():
+        path = os.path.join(folder, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        if data is None:
+            os.mkfifo(path)
+        else:
+            with open(path, "wb") as f:
+                f.write(data)
+
+
+def mutations(text, count):
+    """Decks with a few damaged bytes or lines, always the same ones."""
+    rng = random.Random(20240607)
+    lines = text.split(b"\n")
+    for k in range(count):
+        kind = k % 5
+        if kind == 0:
+            data = bytearray(text)
+            for _ in range(rng.randint(1, 20)):
+                data[rng.randrange(len(data))] = rng.randrange(256)
+            yield bytes(data)
+        elif kind == 1:
+            yield text[:rng.randrange(len(text))]
+        elif kind == 2:
+            copy = list(lines)
+            for _ in range(rng.randint(1, 4)):
+                del copy[rng.randrange(6, len(copy))]
+            yield b"\n".join(copy)
+        elif kind == 3:
+            copy = list(lines)
+            for _ in range(rng.randint(1, 4)):
+                i, j = rng.randrange(6, len(copy)), rng.randrange(6, len(copy))
+                copy[i], copy[j] = copy[j], copy[i]
+            yield b"\n".join(copy)
+        else:
+            copy = list(lines)
+            i = rng.randrange(len(copy))
+            copy[i] = copy[i].replace(rng.choice((b"1", b"0", b"2", b" ")), rng.choice((b"-", b"9999999999", b"1e400", b"\t", b",")))
+            yield b"\n".join(copy)
+
+
+def usage(c, verbs, folder):
+    """Wrong usage is exit code 2 and says why."""
+    good = SAMPLES[0]
+    for args in ((), ("no-such-verb", good), *[(v,) for v in verbs], *[(v, good, "--no-such-option") for v in verbs],
+                 *[(v, good, "--threads", "x") for v in verbs], *[(v, good, "--color", "mauve") for v in verbs],
+                 *[(v, good, "--schemas", os.path.join(folder, "none")) for v in verbs]):
+        r = c.run(*args)
+        c.no_crash("usage: deck " + " ".join(args), r, (2,)) and c.check("usage message: deck " + " ".join(args), bool(r.err or r.out))
+    if c.has("params"):
+        r = c.run("params", good, "--json", os.path.join(folder, "no", "such", "dir", "x.json"))
+        c.no_crash("output into a missing folder", r, (0, 2))
+        c.no_crash("output onto a full disk", c.run("params", good, "--json", "/dev/full"), (2,))
+        r = c.run("params", "-", "--json", "-", stdin=open(good, "rb").read())
+        c.no_crash("deck from standard input", r, (0,))
+        c.no_crash("schemas of a user that are broken", c.run("params", good, "--schemas", broken_schemas(folder)), (2,))
+
+
+def broken_schemas(folder):
+    path = os.path.join(folder, "schemas")
+    write(path, {"a.json": b"{\"keyword\": 7, "})
+    return path
+
+
+def main():
+    c = Checks()
+    folder = tempfile.mkdtemp(prefix="deck-hostile-")
+    verbs = [v for v in ("lint", "params", "gaps", "cycle") if c.has(v)]
+    try:
+        for name, files, codes, texts in cases():
+            here = os.path.join(folder, "case")
+            shutil.rmtree(here, ignore_errors=True)
+            write(here, files)
+            for verb in verbs:
+                deck = os.path.join(here, "d_0000.rad")
+                r = c.run(verb, deck, timeout=60)
+                # Only lint turns findings into exit code 1; the others answer as far as they can.
+                allowed = codes if verb == "lint" else ORDERLY if codes != UNREADABLE else codes
+                if c.no_crash("%s: %s" % (verb, name), r, allowed) and verb == "lint":
+                    for text in texts:
+                        c.check("lint: %s names %s" % (name, text), text in r.text, r.text[:300].replace("\n", " | "))
+            if c.has("convert") and all(isinstance(v, bytes) for v in files.values()):
+                out = os.path.join(folder, "out")
+                shutil.rmtree(out, ignore_errors=True)
+                r = c.run("convert", os.path.join(here, "d_0000.rad"), "--to", "rad", "-o", out, timeout=60)
+                c.no_crash("convert: " + name, r, (0, 1, 2, 3))
+                if r.code in (0, 1):
+                    with open(os.path.join(out, "d_0000.rad"), "rb") as f:
+                        c.check("convert: %s keeps every byte" % name, f.read() == files["d_0000.rad"])
+        for verb in verbs:
+            for name, path in (("missing file", os.path.join(folder, "none_0000.rad")), ("directory", folder),
+                               ("/dev/null/x", "/dev/null/x")):
+                r = c.run(verb, path)
+                c.no_crash("%s: %s" % (verb, name), r, UNREADABLE)
+                c.check("%s: %s is named" % (verb, name), path in r.text)
+        fifo = os.path.join(folder, "fifo_0000.rad")
+        os.mkfifo(fifo)
+        for verb in verbs:
+            c.no_crash(verb + ": main file is a FIFO", c.run(verb, fifo, timeout=20), UNREADABLE)
+        usage(c, ["params"] if c.has("params") else [], folder)
+        if "lint" in verbs or "params" in verbs:
+            verb = "lint" if "lint" in verbs else "params"
+            count = 2000 if c.options.all else 100 if c.sanitized else 200
+            for name in ("every_mistake", "variable_gap", "solid_and_skin"):
+                with open(os.path.join(ROOT, "samples", name + "_0000.rad"), "rb") as f:
+                    text = f.read()
+                for k, data in enumerate(mutations(text, count)):
+                    path = os.path.join(folder, "m_0000.rad")
+                    with open(path, "wb") as f:
+                        f.write(data)
+                    r = c.run(verb if k % 4 else verbs[k // 4 % len(verbs)], path, timeout=20)
+                    if not c.no_crash("%s with damage %d" % (name, k), r):
+                        keep = os.path.join(tempfile.gettempdir(), "deck-damaged-%s-%d_0000.rad" % (name, k))
+                        shutil.copy(path, keep)
+                        print("        kept as " + keep)
+        if c.options.all:
+            one_gigabyte(c, folder, verbs)
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+    c.finish()
+
+
+def one_gigabyte(c, folder, verbs):
+    path = os.path.join(folder, "big_0000.rad")
+    with open(path, "wb") as f:
+        f.write(BEGIN + b"/NODE\n")
+        for _ in range(1024):
+            f.write(b"1" * (1 << 20))
+        f.write(b"\n/END\n")
+    for verb in verbs[:2]:
+        r = c.run(verb, path, timeout=120)
+        c.no_crash(verb + ": line of 1 GB", r, ORDERLY)
+        print("%s of a 1 GB line: %.2f s" % (verb, r.seconds))
+    os.remove(path)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+"""What the tools write: every JSON document valid against its schema, SARIF valid against 2.1.0, the
+same bytes for any number of threads and any locale."""
+import glob
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import xml.dom.minidom
+
+from common import ROOT, SAMPLES, Checks
+
+try:
+    import jsonschema
+except ImportError:
+    jsonschema = None
+
+
+def schema_of(verb):
+    found = glob.glob(os.path.join(ROOT, "schemas", "output", verb + "*.schema.json"))
+    if not found:
+        return None
+    with open(found[0]) as f:
+        return json.load(f)
+
+
+def strict(text):
+    """JSON as the standard has it: no NaN, no Infinity."""
+    def refuse(word):
+        raise ValueError(word + " is not JSON")
+    return json.loads(text, parse_constant=refuse)
+
+
+def validator_of(c, verb):
+    schema = schema_of(verb)
+    if not c.check("schema of %s is there" % verb, schema is not None, "schemas/output/%s*.schema.json" % verb):
+        return None
+    kind = jsonschema.validators.validator_for(schema)
+    try:
+        kind.check_schema(schema)
+        c.check("schema of %s is a schema" % verb, True)
+    except jsonschema.SchemaError as e:
+        c.check("schema of %s is a schema" % verb, False, e.message)
+    # The promise is the draft-7 subset: the same documents must pass when read that way.
+    return [kind(schema), jsonschema.Draft7Validator(schema)]
+
+
+def check_document(c, name, text, validators):
+    try:
+        document = strict(text)
+    except ValueError as e:
+        c.check(name + " is JSON", False, str(e))
+        return
+    c.check(name + " is JSON", True)
+    for v in validators or ():
+        errors = sorted(v.iter_errors(document), key=lambda e: list(map(str, e.path)))
+        c.check("%s against its schema (%s)" % (name, type(v).__name__), not errors,
+                "; ".join("%s: %s" % ("/".join(map(str, e.path)), e.message[:150]) for e in errors[:3]))
+
+
+def verbs_with_json(c):
+    for verb, extra in (("params", []), ("gaps", []), ("gaps", ["--all"]), ("cycle", []), ("cycle", ["--all"])):
+        if c.has(verb):
+            yield verb, extra
+
+
+def sarif_tool():
+    """Path of the SARIF validator, installed once below the build folder by npm; None without it."""
+    folder = os.path.join(ROOT, "build", "sarif-tool")
+    program = os.path.join(folder, "node_modules", "@microsoft", "sarif-multitool-linux", "Sarif.Multitool")
+    if not os.path.exists(program) and shutil.which("npm"):
+        os.makedirs(folder, exist_ok=True)
+        with open(os.path.join(folder, "package.json"), "w") as f:
+            f.write('{"name": "sarif-tool", "private": true}\n')
+        subprocess.run(["npm", "install", "--no-audit", "--no-fund", "--silent", "@microsoft/sarif-multitool@5.7.0"],
+                       cwd=folder, capture_output=True, timeout=300, stdin=subprocess.DEVNULL)
+    if not os.path.exists(program):
+        return None
+    os.chmod(program, 0o755)
+    return program
+
+
+def check_sarif(c, files):
+    tool = sarif_tool()
+    if tool is None:
+        c.skip("SARIF against the 2.1.0 schema", "npm could not install @microsoft/sarif-multitool")
+        return
+    def errors_in(paths):
+        r = subprocess.run([tool, "validate", *paths], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        return r.returncode, [x for x in r.stdout.split("\n") if ": error " in x], r.stdout + r.stderr
+    # The judge must be able to say no.
+    bad = os.path.join(os.path.dirname(files[0]), "bad.sarif")
+    with open(bad, "w") as f:
+        f.write('{"version":"2.1.0","$schema":"https://json.schemastore.org/sarif-2.1.0.json",'
+                '"runs":[{"tool":{"driver":{"name":"x","bogus":1}},"results":[]}]}')
+    _, errors, out = errors_in([bad])
+    if not c.check("the SARIF validator refuses a wrong file", bool(errors), out[-300:]):
+        return
+    for f in files:
+        code, errors, out = errors_in([f])
+        c.check("SARIF of " + os.path.basename(f), not errors and "scanned" in out, "; ".join(errors[:3]) or out[-300:])
+
+
+def lint_formats(c, tmp):
+    sarifs = []
+    validators = validator_of(c, "lint")
+    for path in SAMPLES:
+        stem = os.path.basename(path)[:-9]
+        out = {k: os.path.join(tmp, stem + "." + k) for k in ("json", "sarif", "junit")}
+        r = c.run("lint", path, *[a for k, v in out.items() for a in ("-o", k + "=" + v)])
+        if not c.no_crash("lint -o of " + stem, r, (0, 1, 3)):
+            continue
+        check_document(c, "lint json of " + stem, open(out["json"]).read(), validators)
+        sarifs.append(out["sarif"])
+        try:
+            xml.dom.minidom.parse(out["junit"])
+            c.check("junit of " + stem, True)
+        except Exception as e:  # any parser error
+            c.check("junit of " + stem, False, str(e))
+        for fmt in ("human", "json", "sarif", "github", "junit", "gitlab"):
+            one = c.run("lint", path, "--format", fmt)
+            c.check("--format %s keeps the exit code of %s" % (fmt, stem), one.code == r.code, "%s, was %s" % (one.code, r.code))
+            if fmt == "gitlab":
+                check_document(c, "gitlab report of " + stem, one.out.decode(), None)
+    if sarifs:
+        check_sarif(c, sarifs)
+
+
+def same_bytes(c, tmp):
+    decks = list(SAMPLES)
+    runs = [(v, ["--json", "-", *extra]) for v, extra in verbs_with_json(c)]
+    if c.has("lint"):
+        runs += [("lint", ["--format", "json"]), ("lint", ["--format", "human"])]
+    for verb, extra in runs:
+        first = None
+        for threads, locale in ((1, "C"), (2, "C.UTF-8"), (7, "de_DE.UTF-8")):
+            r = c.run(verb, *decks, *extra, "--threads", threads, env={"LC_ALL": locale})
+            first = r if first is None else first
+            c.check("%s %s: same bytes with %d threads" % (verb, extra[1], threads), r.out == first.out and r.code == first.code)
+
+
+def main():
+    c = Checks()
+    if jsonschema is None:
+        sys.exit("python3-jsonschema is missing: run tools/setup --test")
+    tmp = tempfile.mkdtemp(prefix="deck-outputs-")
+    try:
+        for verb, extra in verbs_with_json(c):
+            validators = validator_of(c, verb)
+            for path in SAMPLES:
+                name = " ".join([verb, *extra, os.path.basename(path)[:-9]])
+                r = c.run(verb, path, "--json", "-", *extra)
+                if c.no_crash(name, r, (0, 1)):
+                    check_document(c, name, r.out.decode(), validators)
+        if c.has("lint"):
+            lint_formats(c, tmp)
+        for verb in ("rules",):
+            if c.has(verb):
+                r = c.run(verb, "--json", "-")
+                if c.no_crash("rules --json", r, (0,)):
+                    check_document(c, "rules", r.out.decode(), validator_of(c, "rules"))
+        same_bytes(c, tmp)
+    finally:
+        shutil.rmtree(tmp, ignore_errors=True)
+    c.finish()
+
+
+if __name__ == "__main__":
+    main()
