@@ -138,8 +138,8 @@ void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   contact.gap_rule = PairGap::from_igap(contact.igap, contact.gapmin, contact.gapmax);
   double sum = thickest_main + thickest_node;
   if (contact.igap == 3) sum = std::min(sum, longest_main + longest_node);
-  contact.max_gap = variable ? std::min(std::max(sum, contact.gapmin), contact.gapmax)
-                             : contact.gapmin;
+  contact.max_gap =
+      variable ? std::min(std::max(sum, contact.gapmin), contact.gapmax) : contact.gapmin;
 }
 
 void set_edge_gaps(SceneContext& c, Contact& contact, double gapmin_input) {

@@ -60,8 +60,8 @@ struct NodeSegmentArrays {
     }
   }
   NodeSegmentInput view(const Coordinates& c) const {
-    return {arrays(c),   secondary,   secondary_gap,  secondary_length, secondary_stiffness,
-            segments,    segment_gap, segment_length, segment_stiffness};
+    return {arrays(c), secondary,   secondary_gap,  secondary_length, secondary_stiffness,
+            segments,  segment_gap, segment_length, segment_stiffness};
   }
 };
 
@@ -117,7 +117,8 @@ void act(SceneContext& c, Contact& contact, PenetrationRow& row,
       row.gap0 = row.gap - row.p0;
       row.has_gap0 = true;
       break;
-    default: break;
+    default:
+      break;
   }
 }
 
@@ -195,9 +196,9 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     search.drad = contact.drad;
     search.threads = c.options.threads;
     search.max_pairs = most_pairs;
-    found = find_edge_edge_pairs({arrays(x), s.edges, s.gap, s.length, s.stiffness, m.edges, m.gap,
-                                  m.length, m.stiffness},
-                                 search);
+    found = find_edge_edge_pairs(
+        {arrays(x), s.edges, s.gap, s.length, s.stiffness, m.edges, m.gap, m.length, m.stiffness},
+        search);
   }
   if (!found.complete) {
     report_overflow(c, contact);
@@ -252,7 +253,8 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
         m.stored_penetration = std::max(m.stored_penetration, 0.5 * p);
         break;
       }
-      default: break;
+      default:
+        break;
     }
     contact.penetrations.push_back(row);
   }

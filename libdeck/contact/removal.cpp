@@ -132,8 +132,8 @@ RemovalLists curvilinear_removal(SceneContext& c, const Contact& contact) {
       const SecondaryNode& s = contact.secondary[position[b]];
       double bound = limit;
       if (contact.igap != 0)
-        bound = root2 * std::max(contact.drad,
-                                 contact.gap_rule(s.gap, main.gap, s.length, main.length));
+        bound = root2 *
+                std::max(contact.drad, contact.gap_rule(s.gap, main.gap, s.length, main.length));
       if (f.dist[b] <= bound) removed[i].push_back(position[b]);
     }
     std::sort(removed[i].begin(), removed[i].end());

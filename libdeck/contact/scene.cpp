@@ -110,8 +110,7 @@ void apply(const std::vector<WhatIf>& all, Card& card) {
 
 class Builder {
  public:
-  Builder(SceneContext& context, Selections& selections)
-      : c_(context), selections_(selections) {}
+  Builder(SceneContext& context, Selections& selections) : c_(context), selections_(selections) {}
 
   void build() {
     const Interfaces& all = *c_.scene.interfaces;
@@ -127,14 +126,21 @@ class Builder {
       const auto& only = c_.options.only;
       if (!only.empty() && std::find(only.begin(), only.end(), base->id) == only.end()) continue;
       switch (base->type) {
-        case 7: type7(static_cast<const InterType7&>(*base)); break;
-        case 10: type10(static_cast<const InterType10&>(*base)); break;
-        case 11: type11(static_cast<const InterType11&>(*base)); break;
+        case 7:
+          type7(static_cast<const InterType7&>(*base));
+          break;
+        case 10:
+          type10(static_cast<const InterType10&>(*base));
+          break;
+        case 11:
+          type11(static_cast<const InterType11&>(*base));
+          break;
         case 19:
           type19_nodes(static_cast<const InterType19&>(*base), ContactRole::primary);
           later.push_back(static_cast<const InterType19*>(base));
           break;
-        default: break;
+        default:
+          break;
       }
       step();
     }
@@ -226,8 +232,7 @@ class Builder {
     if (!selections_.is_plain("surf", id))
       if (const SetGeneral* set = selections_.set(id)) return set->nodes;
     const Surface* surface = selections_.surface(id);
-    return surface == nullptr ? std::vector<NodeIndex>{}
-                              : selections_.nodes_of(surface->segments);
+    return surface == nullptr ? std::vector<NodeIndex>{} : selections_.nodes_of(surface->segments);
   }
 
   std::vector<Edge> edges_of_surface(std::int64_t id, bool free_only) {
@@ -260,8 +265,7 @@ class Builder {
     detail::set_gaps(c_, contact, card.gapmin);
     detail::set_radiation_distance(contact, card.thermal, card.drad);
     if (c_.options.penetrations) detail::find_penetrations(c_, contact);
-    if (c_.options.nodal_stiffness && contact.istf >= 2)
-      detail::set_nodal_stiffness(c_, contact);
+    if (c_.options.nodal_stiffness && contact.istf >= 2) detail::set_nodal_stiffness(c_, contact);
     c_.scene.contacts.push_back(std::move(contact));
   }
 
@@ -282,12 +286,18 @@ class Builder {
 
 const char* to_string(PenetrationAction action) {
   switch (action) {
-    case PenetrationAction::none: return "none";
-    case PenetrationAction::node_stiffness_zero: return "node-stiffness-zero";
-    case PenetrationAction::segment_stiffness_zero: return "segment-stiffness-zero";
-    case PenetrationAction::node_moved: return "node-moved";
-    case PenetrationAction::gap_reduced: return "gap-reduced";
-    case PenetrationAction::edge_stiffness_zero: return "edge-stiffness-zero";
+    case PenetrationAction::none:
+      return "none";
+    case PenetrationAction::node_stiffness_zero:
+      return "node-stiffness-zero";
+    case PenetrationAction::segment_stiffness_zero:
+      return "segment-stiffness-zero";
+    case PenetrationAction::node_moved:
+      return "node-moved";
+    case PenetrationAction::gap_reduced:
+      return "gap-reduced";
+    case PenetrationAction::edge_stiffness_zero:
+      return "edge-stiffness-zero";
   }
   return "none";
 }
@@ -297,18 +307,25 @@ const char* to_string(ContactKind kind) {
 }
 
 const char* to_string(ContactRole role) {
-  return role == ContactRole::primary ? "primary"
-                                      : role == ContactRole::reversed ? "reversed" : "edges";
+  return role == ContactRole::primary    ? "primary"
+         : role == ContactRole::reversed ? "reversed"
+                                         : "edges";
 }
 
 const char* to_string(GapminOrigin origin) {
   switch (origin) {
-    case GapminOrigin::card: return "card";
-    case GapminOrigin::mean_thickness: return "mean thickness of the main shells";
-    case GapminOrigin::minimum_thickness: return "smallest thickness of the main shells";
-    case GapminOrigin::half_edge: return "half the shortest main side";
-    case GapminOrigin::solid_edge: return "a tenth of the shortest main side";
-    case GapminOrigin::both_sides: return "mean of the defaults of both sides";
+    case GapminOrigin::card:
+      return "card";
+    case GapminOrigin::mean_thickness:
+      return "mean thickness of the main shells";
+    case GapminOrigin::minimum_thickness:
+      return "smallest thickness of the main shells";
+    case GapminOrigin::half_edge:
+      return "half the shortest main side";
+    case GapminOrigin::solid_edge:
+      return "a tenth of the shortest main side";
+    case GapminOrigin::both_sides:
+      return "mean of the defaults of both sides";
   }
   return "card";
 }

@@ -3,8 +3,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "contact/node_elements.hpp"
 #include "deck/contact/scene.hpp"
-#include "deck/model/connectivity.hpp"
 #include "deck/model/selection.hpp"
 
 namespace deck::detail {

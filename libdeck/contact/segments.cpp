@@ -42,7 +42,8 @@ bool solid_contains(const Model& model, std::uint32_t e, const Quad& segment) {
   const int mids = solids.shape[e] == SolidShape::tetra10   ? 6
                    : solids.shape[e] == SolidShape::brick20 ? 12
                                                             : 8;
-  for (int i = 0; i < mids; ++i) all[count++] = solids.extra_nodes[solids.extra[e] + static_cast<std::uint32_t>(i)];
+  for (int i = 0; i < mids; ++i)
+    all[count++] = solids.extra_nodes[solids.extra[e] + static_cast<std::uint32_t>(i)];
   return contains_all(all, count, segment);
 }
 
@@ -121,7 +122,6 @@ bool degenerate(const Coordinates& c, const Quad& n) {
   const Vec sum = a1 + a2 + a3 + a4;
   return dot(sum, a1) == 0 && dot(sum, a3) == 0;
 }
-
 
 }  // namespace
 

@@ -39,8 +39,8 @@ void set_main_stiffness(SceneContext& c, Contact& contact) {
     }
     if (m.carrier == Carrier::solid) {
       const Coordinates& x = c.scene.coordinates;
-      const Vec d = cross(at(x, m.nodes[2]) - at(x, m.nodes[0]),
-                          at(x, m.nodes[3]) - at(x, m.nodes[1]));
+      const Vec d =
+          cross(at(x, m.nodes[2]) - at(x, m.nodes[0]), at(x, m.nodes[3]) - at(x, m.nodes[1]));
       const double area = 0.5 * std::sqrt(dot(d, d));
       const double volume = solid_volume(x, c.model.solid8.of(m.element));
       m.stiffness = volume > 0 ? f * area * area * bulk_of(c.model, m.element) / volume : 0;

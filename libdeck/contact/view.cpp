@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "deck/model/connectivity.hpp"
+#include "contact/node_elements.hpp"
 
 namespace deck {
 namespace {
@@ -22,13 +22,20 @@ ElementName name_of(const Model& model, ElementKind kind, std::uint32_t e) {
 ElementName carrier_of(const Model& model, Carrier carrier, std::uint32_t e) {
   if (e == no_index) return {};
   switch (carrier) {
-    case Carrier::solid: return name_of(model, ElementKind::solid8, e);
-    case Carrier::shell4: return name_of(model, ElementKind::shell4, e);
-    case Carrier::shell3: return name_of(model, ElementKind::shell3, e);
-    case Carrier::truss: return name_of(model, ElementKind::truss, e);
-    case Carrier::beam: return name_of(model, ElementKind::beam, e);
-    case Carrier::spring: return name_of(model, ElementKind::spring, e);
-    default: return {};
+    case Carrier::solid:
+      return name_of(model, ElementKind::solid8, e);
+    case Carrier::shell4:
+      return name_of(model, ElementKind::shell4, e);
+    case Carrier::shell3:
+      return name_of(model, ElementKind::shell3, e);
+    case Carrier::truss:
+      return name_of(model, ElementKind::truss, e);
+    case Carrier::beam:
+      return name_of(model, ElementKind::beam, e);
+    case Carrier::spring:
+      return name_of(model, ElementKind::spring, e);
+    default:
+      return {};
   }
 }
 

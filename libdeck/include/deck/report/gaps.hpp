@@ -1,0 +1,32 @@
+// Reports of the geometry stage: gaps, stiffness, initial penetrations and what the solver does
+// about them, as text for people, JSON and CSV. Pure functions from a scene to bytes.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "deck/contact/view.hpp"
+#include "deck/keyword/deck.hpp"
+
+namespace deck {
+
+struct GapsTextOptions {
+  std::size_t worst = 20;       ///< rows of the worst list
+  std::size_t part_pairs = 15;  ///< rows of the part-pair table
+  bool color = false;
+};
+
+/// Verdict, interface table, part pairs, worst list.
+std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
+                      const GapsTextOptions& options = {});
+/// One sentence: how many, how deep, and whether the solver stops.
+std::string gaps_verdict(const Scene& scene, const SceneView& view);
+
+/// The document of `deck gaps --json`. With `all`, every secondary node and main segment.
+std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
+                      const SceneView& view, bool all);
+
+/// One line per penetration, deepest first, RFC 4180.
+std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view);
+
+}  // namespace deck

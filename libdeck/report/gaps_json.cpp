@@ -1,0 +1,173 @@
+// The JSON of `deck gaps`. For edge pairs the members "penetration" and "gap" follow what the
+// reference solver stores there — it keeps the square of the pair gap — and "depth" and "pair_gap"
+// give the lengths.
+#include "deck/report/gaps.hpp"
+#include "deck/report/json.hpp"
+
+namespace deck {
+namespace {
+
+void write_nodes(JsonWriter& j, const Model& model, const NodeIndex* nodes, std::size_t count) {
+  j.begin_array(true);
+  for (std::size_t i = 0; i < count; ++i) j.value(model.node_id(nodes[i]));
+  j.end_array();
+}
+
+void write_vector(JsonWriter& j, const std::array<double, 3>& v) {
+  j.begin_array(true);
+  for (const double x : v) j.value(x);
+  j.end_array();
+}
+
+void write_sides(JsonWriter& j, const Model& model, const Contact& c) {
+  if (c.kind == ContactKind::node_segment) {
+    j.key("secondary").begin_array();
+    for (const SecondaryNode& s : c.secondary) {
+      j.begin_object(true).field("node", model.node_id(s.node)).field("stiffness", s.multiplier);
+      j.field("gap", s.gap);
+      if (c.istf >= 2) j.field("nodal_stiffness", s.nodal_stiffness);
+      j.end_object();
+    }
+    j.end_array().key("main").begin_array();
+    for (const MainSegment& m : c.main) {
+      j.begin_object(true).key("nodes");
+      write_nodes(j, model, m.nodes.data(), 4);
+      j.field("stiffness", m.stiffness).field("gap", m.gap).end_object();
+    }
+    j.end_array();
+    return;
+  }
+  const auto side = [&](const char* name, const std::vector<ContactEdge>& edges) {
+    j.key(name).begin_array();
+    for (const ContactEdge& e : edges) {
+      j.begin_object(true).key("edge");
+      write_nodes(j, model, e.nodes.data(), 2);
+      j.field("stiffness", e.stiffness).field("gap", e.gap).end_object();
+    }
+    j.end_array();
+  };
+  side("secondary", c.secondary_edges);
+  side("main", c.main_edges);
+}
+
+void write_penetrations(JsonWriter& j, const Deck& deck, const Scene& scene,
+                        const std::vector<const NamedPenetration*>& named, const Contact& c) {
+  const Model& model = *scene.model;
+  j.key("penetrations").begin_array();
+  for (const NamedPenetration* p : named) {
+    const PenetrationRow& r = c.penetrations[p->row];
+    const bool edges = c.kind == ContactKind::edge_edge;
+    j.begin_object(true);
+    NodeIndex first = no_index;
+    if (edges) {
+      const ContactEdge& s = c.secondary_edges[r.secondary];
+      first = s.nodes[0];
+      j.key("edge");
+      write_nodes(j, model, s.nodes.data(), 2);
+      j.key("main_edge");
+      write_nodes(j, model, c.main_edges[r.main].nodes.data(), 2);
+      j.field("penetration", r.gap * r.gap - r.distance).field("gap", r.gap * r.gap);
+      j.field("depth", r.depth).field("pair_gap", r.gap);
+    } else {
+      first = c.secondary[r.secondary].node;
+      j.field("node", model.node_id(first)).key("segment");
+      write_nodes(j, model, c.main[r.main].nodes.data(), 4);
+      j.field("penetration", r.depth).field("gap", r.gap);
+    }
+    j.field("distance", r.distance).key("normal");
+    write_vector(j, r.normal);
+    j.field("on_surface", r.on_surface).field("action", to_string(r.action));
+    j.key("gap0");
+    r.has_gap0 ? j.value(r.gap0) : j.null();
+    j.key("p0");
+    r.has_gap0 ? j.value(r.p0) : j.null();
+    j.key("moved_by");
+    if (r.action == PenetrationAction::node_moved)
+      write_vector(j, r.moved_by);
+    else
+      j.null();
+    j.key("at");
+    write_vector(j, p->at);
+    const auto element = [&](const char* name, const ElementName& e) {
+      j.key(name);
+      if (!e.valid())
+        j.null();
+      else
+        j.begin_object(true).field("id", e.id).field("part", e.part).end_object();
+    };
+    element("secondary_element", p->secondary_element);
+    element("main_element", p->main_element);
+    j.key("source");
+    write_json_place(j, deck, model.node_span(first));
+    j.end_object();
+  }
+  j.end_array();
+}
+
+void write_totals(JsonWriter& j, const ContactTotals& t) {
+  j.field("pairs", t.pairs).field("nodes", t.nodes).field("on_surface", t.on_surface);
+  j.field("solver_errors", t.solver_errors).field("acted", t.acted);
+  j.field("max_depth", t.max_depth).field("max_ratio", t.max_ratio);
+}
+
+}  // namespace
+
+std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
+                      const SceneView& view, bool all) {
+  std::string out;
+  JsonWriter j(out);
+  j.begin_object();
+  write_json_head(j, "deck-gaps", 1);
+  write_json_deck(j, path, deck, scene.model, scene.interfaces);
+  j.field("verdict", gaps_verdict(scene, view));
+  j.key("summary").begin_object(true);
+  write_totals(j, view.total);
+  j.end_object();
+  j.key("part_pairs").begin_array();
+  for (const PartPair& p : view.part_pairs) {
+    j.begin_object(true).field("secondary", p.secondary).field("main", p.main);
+    j.field("pairs", p.pairs).field("nodes", p.nodes).field("on_surface", p.on_surface);
+    j.field("max_depth", p.max_depth).field("mean_depth", p.mean_depth);
+    j.field("p95_depth", p.p95_depth).field("max_ratio", p.max_ratio).end_object();
+  }
+  j.end_array();
+  // The pairs of each contact in the solver's order.
+  std::vector<std::vector<const NamedPenetration*>> named(scene.contacts.size());
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c)
+    named[c].resize(scene.contacts[c].penetrations.size());
+  for (const NamedPenetration& p : view.penetrations) named[p.contact][p.row] = &p;
+  j.key("interfaces").begin_array();
+  for (const InterBase* inter : scene.interfaces->ordered) {
+    j.begin_object().field("id", inter->id).field("type", inter->type);
+    j.field("title", inter->title).key("source");
+    write_json_place(j, deck, inter->span);
+    j.key("contacts").begin_array();
+    for (const ContactRole role :
+         {ContactRole::primary, ContactRole::reversed, ContactRole::edges}) {
+      for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+        const Contact& c = scene.contacts[i];
+        if (c.inter != inter || c.role != role) continue;
+        j.begin_object().field("kind", to_string(c.kind));
+        // A TYPE11 of the user is the primary contact of its interface; that of a TYPE19 its edges.
+        j.field("role", to_string(c.role)).field("igap", c.igap == 0 ? 1000 : c.igap);
+        j.field("gapmin", c.gapmin).field("gapmax", c.gapmax).field("drad", c.drad);
+        j.field("gapmin_origin", c.gapmin_origin == GapminOrigin::card ? "card" : "derived");
+        j.field("gapmin_from", to_string(c.gapmin_origin));
+        j.field("inacti", c.inacti).field("candidates", c.candidates);
+        j.field("removed_pairs", c.removed_pairs).field("max_gap", c.max_gap);
+        j.field("shortest_main_side", c.shortest_side).key("totals").begin_object(true);
+        write_totals(j, view.contacts[i]);
+        j.end_object();
+        if (all) write_sides(j, *scene.model, c);
+        write_penetrations(j, deck, scene, named[i], c);
+        j.end_object();
+      }
+    }
+    j.end_array().end_object();
+  }
+  j.end_array().end_object();
+  out += '\n';
+  return out;
+}
+
+}  // namespace deck

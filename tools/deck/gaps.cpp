@@ -1,0 +1,144 @@
+// deck gaps: gaps, stiffness, initial penetrations and what the solver does about them.
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+#include "common.hpp"
+#include "deck/contact/view.hpp"
+#include "deck/report/gaps.hpp"
+#include "deck/text/number.hpp"
+
+namespace {
+
+using namespace deck;
+using namespace deck::cli;
+
+struct Options {
+  CommonOptions common;
+  bool all = false;
+  bool fail = false;
+  std::size_t worst = 20;
+  std::string csv;
+  std::vector<std::int64_t> only;
+  std::vector<std::string> what_if;
+};
+
+/// "ID:Gapmin=2,Inacti=6" as values; the error says what is wrong with it.
+Result<WhatIf> parse_what_if(const std::string& text) {
+  const auto bad = [&](const std::string& why) {
+    return Error{Error::Code::config,
+                 "--what-if " + text + ": " + why +
+                     "; expected ID:FIELD=VALUE[,FIELD=VALUE...] with FIELD one "
+                     "of Gapmin Fscalegap Gapmax Fpenmax %mesh_size Igap Inacti "
+                     "Irem_gap"};
+  };
+  WhatIf w;
+  const auto colon = text.find(':');
+  if (colon == std::string::npos) return bad("there is no ':'");
+  const IntegerCell id = read_integer(std::string_view(text).substr(0, colon));
+  if (id.status != NumberStatus::ok) return bad("the interface id is not a number");
+  w.interface_id = id.value;
+  for (std::size_t at = colon + 1; at <= text.size();) {
+    const auto comma = std::min(text.find(',', at), text.size());
+    const std::string item = text.substr(at, comma - at);
+    at = comma + 1;
+    const auto equal = item.find('=');
+    if (equal == std::string::npos) return bad("'" + item + "' has no '='");
+    const std::string name = item.substr(0, equal);
+    const RealCell v = read_real(std::string_view(item).substr(equal + 1));
+    if (v.status != NumberStatus::ok) return bad("the value of '" + name + "' is not a number");
+    const int flag = static_cast<int>(v.value);
+    if (name == "Gapmin")
+      w.Gapmin = v.value;
+    else if (name == "Fscalegap")
+      w.Fscalegap = v.value;
+    else if (name == "Gapmax")
+      w.Gapmax = v.value;
+    else if (name == "Fpenmax")
+      w.Fpenmax = v.value;
+    else if (name == "%mesh_size")
+      w.mesh_size = v.value;
+    else if (name == "Igap")
+      w.Igap = flag;
+    else if (name == "Inacti")
+      w.Inacti = flag;
+    else if (name == "Irem_gap")
+      w.Irem_gap = flag;
+    else
+      return bad("there is no field '" + name + "'");
+  }
+  return w;
+}
+
+int run(const Options& o) {
+  SceneOptions scene_options;
+  scene_options.threads = o.common.thread_count();
+  scene_options.only = o.only;
+  for (const std::string& text : o.what_if) {
+    auto w = parse_what_if(text);
+    if (!w) {
+      print_error(o.common, w.error().message);
+      return exit_usage;
+    }
+    scene_options.what_if.push_back(*w);
+  }
+  JsonOutput json(o.common, "deck-gaps", 1);
+  int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
+    print_findings(loaded, o.common);
+    Scene scene;
+    {
+      Progress progress(!o.common.quiet);
+      progress.step("contacts");
+      scene_options.nodal_stiffness = o.all && json.wanted();
+      scene_options.progress = [&](std::size_t done, std::size_t total) {
+        progress.update(done, total);
+      };
+      scene = build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
+    }
+    const SceneView view = make_view(scene);
+    if (json.wanted()) json.add(gaps_json(loaded.path, loaded.deck, scene, view, o.all));
+    if (!o.csv.empty())
+      if (auto r = write_output(o.csv, gaps_csv(loaded.deck, scene, view)); !r) {
+        print_error(o.common, r.error().message);
+        return static_cast<int>(exit_usage);
+      }
+    if (o.common.wants_text() && o.csv != "-") {
+      GapsTextOptions text;
+      text.worst = o.worst;
+      text.color = o.common.color_on(1);
+      std::fputs(gaps_text(loaded.deck, scene, view, text).c_str(), stdout);
+    }
+    const bool found = o.fail ? view.total.pairs > 0 : view.total.solver_errors > 0;
+    return static_cast<int>(found ? exit_findings : exit_clean);
+  });
+  return json.finish(code);
+}
+
+Action setup(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  add_common(app, options->common);
+  app.add_flag("--all", options->all,
+               "JSON with every secondary node, main segment and edge, not only penetrations");
+  app.add_option("--csv", options->csv,
+                 "Write one line per penetration to FILE ('-': standard output)")
+      ->type_name("FILE");
+  app.add_option("--worst", options->worst, "Rows of the list of deepest penetrations")
+      ->capture_default_str();
+  app.add_option("--interface", options->only, "Only these interface ids")->type_name("ID");
+  app.add_option("--what-if", options->what_if,
+                 "Evaluate an interface with other values, e.g. 3:Gapmin=2,Inacti=6 (repeatable); "
+                 "the deck is not changed")
+      ->type_name("ID:FIELD=VALUE,...");
+  app.add_flag("--fail-on-penetration", options->fail,
+               "Exit 1 for any initial penetration (default: only where the solver stops)");
+  return [options] { return run(*options); };
+}
+
+const VerbRegistration registration{{"gaps", 30,
+                                     "Gaps, stiffness and initial penetrations of every contact",
+                                     "  deck gaps car_0000.rad\n"
+                                     "  deck gaps car_0000.rad --json gaps.json --all\n"
+                                     "  deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6\n",
+                                     setup}};
+
+}  // namespace
