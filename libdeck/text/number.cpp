@@ -1,207 +1,230 @@
-// Reading is a single pass over the cell for the spellings that decks are full of (up to 19 digits,
-// small exponents: exact by Clinger's argument) and std::from_chars for the rest.
+// Reading: number_scan.hpp for the spellings that decks are full of (up to 19 digits, small
+// exponents), std::from_chars for the rest. Writing: the candidates of every form, checked by
+// reading them back.
 #include "deck/text/number.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
+#include "text/number_scan.hpp"
+
 namespace deck {
+namespace detail {
 namespace {
 
-constexpr double power_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-constexpr std::uint64_t exact_mantissa = std::uint64_t{1} << 53;
+/// About the power of ten of a number that is not zero, only for telling huge from tiny.
+std::int64_t decimal_exponent(std::string_view mantissa, std::string_view exponent, bool minus) {
+  constexpr std::int64_t enough = 1'000'000'000'000;
+  std::int64_t written = 0;
+  for (const char c : exponent) written = std::min(written * 10 + (c - '0'), enough);
+  const auto point = static_cast<std::int64_t>(std::min(mantissa.find('.'), mantissa.size()));
+  const auto first = static_cast<std::int64_t>(mantissa.find_first_of("123456789"));
+  return (minus ? -written : written) + point - first;
+}
 
-bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
-bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20; }
-
-/// The general case: any length, any exponent, any malformed text. `s` is trimmed and not empty.
-RealCell read_real_slow(std::string_view s) {
-  std::string text;
-  text.reserve(s.size() + 2);
-  std::size_t i = 0;
-  if (s[0] == '+' || s[0] == '-') {
-    if (s[0] == '-') text += '-';
-    ++i;
-  }
+/// Reads "mantissa e exponent" that scan_real() found too long or too large for exact arithmetic,
+/// or that is malformed. `s` is trimmed and not empty.
+RealCell convert(std::string_view s) {
+  std::size_t i = s[0] == '+' || s[0] == '-' ? 1 : 0;
+  const bool negative = s[0] == '-';
   const std::size_t digits_begin = i;
   std::size_t digits = 0;
-  bool point = false;
+  bool point = false, nonzero = false;
   for (; i < s.size(); ++i) {
     if (is_digit(s[i])) {
       ++digits;
+      nonzero = nonzero || s[i] != '0';
     } else if (s[i] == '.' && !point) {
       point = true;
     } else {
       break;
     }
-    text += s[i];
   }
   if (digits == 0) {
     const std::string_view rest = s.substr(digits_begin);
-    const auto starts = [&](const char* word) {
-      for (std::size_t k = 0; k < 3; ++k)
-        if (k >= rest.size() || (rest[k] | 0x20) != word[k]) return false;
+    const auto starts = [&](std::string_view word) {
+      if (rest.size() < word.size()) return false;
+      for (std::size_t k = 0; k < word.size(); ++k)
+        if ((rest[k] | 0x20) != word[k]) return false;
       return true;
     };
-    return {0, starts("nan") || starts("inf") ? NumberStatus::not_finite
-                                              : NumberStatus::not_a_number};
+    return {0,
+            starts("nan") || starts("inf") ? NumberStatus::not_finite : NumberStatus::not_a_number};
   }
+  const std::string_view mantissa = s.substr(digits_begin, i - digits_begin);
   NumberStatus status = NumberStatus::ok;
+  std::string_view exponent;
+  bool minus = false, letter = true;
   if (i < s.size()) {
     std::size_t j = i;
-    const bool letter = s[j] == 'e' || s[j] == 'E' || s[j] == 'd' || s[j] == 'D';
+    letter = (s[j] | 0x20) == 'e' || (s[j] | 0x20) == 'd';
     if (letter) ++j;
     const bool sign = j < s.size() && (s[j] == '+' || s[j] == '-');
-    const std::size_t exponent_digits = j + (sign ? 1 : 0);
-    if ((letter || sign) && exponent_digits < s.size() && is_digit(s[exponent_digits])) {
-      text += 'e';
-      if (sign && s[j] == '-') text += '-';
-      for (i = exponent_digits; i < s.size() && is_digit(s[i]); ++i) text += s[i];
+    minus = sign && s[j] == '-';
+    const std::size_t first = j + (sign ? 1 : 0);
+    if ((letter || sign) && first < s.size() && is_digit(s[first])) {
+      for (i = first; i < s.size() && is_digit(s[i]);) ++i;
+      exponent = s.substr(first, i - first);
       if (!letter) status = NumberStatus::implicit_exponent;
     }
     if (i < s.size()) status = NumberStatus::trailing_text;
   }
   double value = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec == std::errc::result_out_of_range) {
-    // Too large or too small: the mantissa is not zero here, so the exponent decides.
-    const auto e = text.find('e');
-    const bool small = e != std::string::npos && e + 1 < text.size() && text[e + 1] == '-';
-    if (small) return {0, NumberStatus::underflow};
-    return {text[0] == '-' ? -std::numeric_limits<double>::max()
-                           : std::numeric_limits<double>::max(),
-            NumberStatus::overflow};
+  std::from_chars_result result;
+  if (exponent.empty()) {
+    result = std::from_chars(mantissa.data(), mantissa.data() + mantissa.size(), value);
+  } else {
+    // The library reads neither D nor a missing letter: spell the number its way. Cells of a deck
+    // fit the buffer; only hostile ones need the heap.
+    char buffer[64];
+    std::string heap;
+    char* text = buffer;
+    const std::size_t size = mantissa.size() + exponent.size() + 2;
+    if (size > sizeof buffer) {
+      heap.resize(size);
+      text = heap.data();
+    }
+    char* to = text;
+    to = std::copy(mantissa.begin(), mantissa.end(), to);
+    *to++ = 'e';
+    if (minus) *to++ = '-';
+    to = std::copy(exponent.begin(), exponent.end(), to);
+    result = std::from_chars(text, to, value);
   }
-  return {value, status};
+  if (result.ec == std::errc::result_out_of_range) {
+    if (!nonzero) {
+      value = 0;  // 0e99999: zero whatever the exponent
+    } else if (decimal_exponent(mantissa, exponent, minus) < 0) {
+      return {0, NumberStatus::underflow};
+    } else {
+      const double largest = std::numeric_limits<double>::max();
+      return {negative ? -largest : largest, NumberStatus::overflow};
+    }
+  }
+  return {negative ? -value : value, status};
 }
 
 }  // namespace
 
+RealCell read_real_general(const char* begin, const char* end) {
+  return convert({begin, static_cast<std::size_t>(end - begin)});
+}
+
+}  // namespace detail
+
 RealCell read_real(std::string_view cell) {
-  const char* p = cell.data();
-  const char* end = p + cell.size();
-  while (p != end && is_blank(*p)) ++p;
-  if (p == end) return {0, NumberStatus::blank};
-  while (is_blank(end[-1])) --end;
-  const char* const begin = p;
-  const bool negative = *p == '-';
-  if (negative || *p == '+') ++p;
-  std::uint64_t mantissa = 0;
-  const char* const digits = p;
-  while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<unsigned>(*p++ - '0');
-  std::ptrdiff_t count = p - digits;
-  int exponent = 0;
-  if (p != end && *p == '.') {
-    const char* const fraction = ++p;
-    while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<unsigned>(*p++ - '0');
-    exponent = -static_cast<int>(p - fraction);
-    count += p - fraction;
-  }
-  if (count == 0 || count > 19)
-    return read_real_slow({begin, static_cast<std::size_t>(end - begin)});
-  bool implicit = false;
-  if (p != end) {
-    const bool letter = *p == 'e' || *p == 'E' || *p == 'd' || *p == 'D';
-    implicit = !letter;
-    if (letter) ++p;
-    const bool sign = p != end && (*p == '-' || *p == '+');
-    const bool minus = sign && *p == '-';
-    if (sign) ++p;
-    int written = 0, length = 0;
-    while (p != end && is_digit(*p) && length < 5) {
-      written = written * 10 + (*p++ - '0');
-      ++length;
-    }
-    if (p != end || length == 0 || (!letter && !sign))
-      return read_real_slow({begin, static_cast<std::size_t>(end - begin)});
-    exponent += minus ? -written : written;
-  }
-  if (mantissa > exact_mantissa || exponent < -22 || exponent > 22) {
-    if (mantissa == 0)
-      return {negative ? -0.0 : 0.0,
-              implicit ? NumberStatus::implicit_exponent : NumberStatus::ok};
-    return read_real_slow({begin, static_cast<std::size_t>(end - begin)});
-  }
-  // Mantissa and power of ten are exact doubles, so one rounding happens: the result is correct.
-  auto value = static_cast<double>(mantissa);
-  value = exponent < 0 ? value / power_of_ten[-exponent] : value * power_of_ten[exponent];
-  return {negative ? -value : value,
-          implicit ? NumberStatus::implicit_exponent : NumberStatus::ok};
+  return detail::scan_real(cell.data(), cell.data() + cell.size());
 }
 
 IntegerCell read_integer(std::string_view cell) {
-  const char* p = cell.data();
-  const char* end = p + cell.size();
-  while (p != end && is_blank(*p)) ++p;
-  if (p == end) return {0, NumberStatus::blank};
-  const bool negative = *p == '-';
-  if (negative || *p == '+') ++p;
-  std::uint64_t value = 0;
-  const char* const digits = p;
-  while (p != end && is_digit(*p)) {
-    if (p - digits >= 18) return {0, NumberStatus::overflow};
-    value = value * 10 + static_cast<unsigned>(*p++ - '0');
-  }
-  if (p == digits) return {0, NumberStatus::not_a_number};
-  const auto signed_value =
-      negative ? -static_cast<std::int64_t>(value) : static_cast<std::int64_t>(value);
-  while (p != end && is_blank(*p)) ++p;
-  return {signed_value, p == end ? NumberStatus::ok : NumberStatus::trailing_text};
+  return detail::scan_integer(cell.data(), cell.data() + cell.size());
 }
+
+namespace {
+
+/// value = 0.d1d2d3… * 10^point, without trailing zeros.
+struct Decimal {
+  bool negative = false;
+  std::string_view digits;
+  int point = 0;
+};
+
+/// `significant` digits, correctly rounded; 0: the fewest that read back to the same double.
+Decimal to_decimal(double value, int significant, char (&buffer)[32]) {
+  const auto result =
+      significant == 0
+          ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific)
+          : std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific,
+                          significant - 1);
+  // "-d.ddde+XX": move the digits together over the point.
+  Decimal out;
+  char* first = buffer;
+  if (*first == '-') {
+    out.negative = true;
+    ++first;
+  }
+  char* const mark = std::find(first, result.ptr, 'e');
+  const char* number = mark + 1;
+  if (*number == '+') ++number;
+  int exponent = 0;
+  std::from_chars(number, result.ptr, exponent);
+  char* last = mark;
+  if (mark - first > 1) {
+    first[1] = first[0];
+    ++first;
+  }
+  while (last - first > 1 && last[-1] == '0') --last;
+  out.digits = {first, static_cast<std::size_t>(last - first)};
+  out.point = exponent + 1;
+  return out;
+}
+
+std::string fixed_text(const Decimal& d, bool leading_zero) {
+  std::string text = d.negative ? "-" : "";
+  const int count = static_cast<int>(d.digits.size());
+  if (d.point <= 0) {
+    text += leading_zero ? "0." : ".";
+    text.append(static_cast<std::size_t>(-d.point), '0').append(d.digits);
+  } else if (d.point >= count) {
+    text.append(d.digits).append(static_cast<std::size_t>(d.point - count), '0') += '.';
+  } else {
+    const auto split = static_cast<std::size_t>(d.point);
+    text.append(d.digits.substr(0, split)).append(1, '.').append(d.digits.substr(split));
+  }
+  return text;
+}
+
+/// `before`: digits in front of the point; all of them: no point at all.
+std::string scientific_text(const Decimal& d, std::size_t before) {
+  std::string text = d.negative ? "-" : "";
+  text += d.digits.substr(0, before);
+  if (before < d.digits.size()) text.append(1, '.').append(d.digits.substr(before));
+  return text + "e" + std::to_string(d.point - static_cast<int>(before));
+}
+
+/// The most readable text of these digits that fits, empty if none does.
+std::string text_of(const Decimal& d, std::size_t room) {
+  const bool plain = d.point > -4 && d.point <= 10;
+  // A fixed text longer than any cell is not worth forming: 1e300 has 300 zeros.
+  const auto fixed = [&](bool leading_zero) {
+    return d.point > 340 || d.point < -340 ? std::string(room + 1, ' ')
+                                           : fixed_text(d, leading_zero);
+  };
+  std::string text = plain ? fixed(true) : scientific_text(d, 1);
+  if (text.size() <= room) return text;
+  for (const bool leading_zero : {true, false})
+    if (text = fixed(leading_zero); text.size() <= room) return text;
+  if (text = scientific_text(d, 1); text.size() <= room) return text;
+  // Without the point one more digit fits.
+  if (text = scientific_text(d, d.digits.size()); text.size() <= room) return text;
+  return {};
+}
+
+}  // namespace
 
 std::optional<FormattedReal> format_real(double value, int width) {
   if (!std::isfinite(value) || width < 1) return std::nullopt;
   if (value == 0) value = 0;  // a deck has no use for -0
   const auto room = static_cast<std::size_t>(width);
-  const auto reads_back = [&](std::string_view text) { return read_real(text).value == value; };
-  std::optional<FormattedReal> best;
-  const auto consider = [&](std::string text) {
-    // "e+05" and "e-05" waste columns; a point keeps the cell recognisable as a real.
-    if (const auto e = text.find('e'); e != std::string::npos) {
-      std::string exponent = text.substr(e + 1);
-      const bool minus = exponent[0] == '-';
-      exponent.erase(0, exponent.find_first_not_of("+-0"));
-      text.resize(e);
-      if (text.find('.') != std::string::npos)
-        while (text.back() == '0') text.pop_back();
-      if (!exponent.empty() && exponent != std::string()) text += (minus ? "e-" : "e") + exponent;
-    } else {
-      if (text.find('.') == std::string::npos) text += '.';
-    }
-    if (text.size() > room && text.starts_with("0.")) text.erase(0, 1);
-    if (text.size() > room && text.starts_with("-0.")) text.erase(1, 1);
-    if (text.size() > room) return;
-    const bool exact = reads_back(text);
-    const auto error = [&](const std::string& t) {
-      return std::fabs(read_real(t).value / (value == 0 ? 1 : value) - (value == 0 ? 0 : 1));
-    };
-    if (!best || (exact && !best->exact) ||
-        (exact == best->exact && (exact ? text.size() < best->text.size()
-                                        : error(text) < error(best->text))))
-      best = FormattedReal{std::move(text), exact};
-  };
-  char buffer[400];
-  const auto shortest = std::to_chars(buffer, buffer + sizeof buffer, value);
-  consider({buffer, shortest.ptr});
-  const auto fixed =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed);
-  if (fixed.ec == std::errc{}) consider({buffer, fixed.ptr});
-  const auto scientific =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific);
-  consider({buffer, scientific.ptr});
-  for (int precision = 17; precision >= 0 && !(best && best->exact); --precision) {
-    const auto s = std::to_chars(buffer, buffer + sizeof buffer, value,
-                                 std::chars_format::scientific, precision);
-    consider({buffer, s.ptr});
-    const auto f = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed,
-                                 precision);
-    if (f.ec == std::errc{}) consider({buffer, f.ptr});
+  char buffer[32];
+  const Decimal shortest = to_decimal(value, 0, buffer);
+  if (value == 0) {
+    if (room < 2) return std::nullopt;
+    return FormattedReal{room > 2 ? "0.0" : "0.", true};
   }
-  return best;
+  if (std::string text = text_of(shortest, room); !text.empty())
+    return FormattedReal{std::move(text), true};
+  for (int digits = static_cast<int>(shortest.digits.size()) - 1; digits > 0; --digits) {
+    char other[32];
+    std::string text = text_of(to_decimal(value, digits, other), room);
+    if (text.empty()) continue;
+    // Rounding up may leave the range: "2e308" is no number.
+    const RealCell read = read_real(text);
+    if (read.status == NumberStatus::ok) return FormattedReal{std::move(text), read.value == value};
+  }
+  return std::nullopt;
 }
 
 std::optional<std::string> format_integer(std::int64_t value, int width) {

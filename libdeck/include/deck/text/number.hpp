@@ -33,10 +33,12 @@ RealCell read_real(std::string_view cell);
 /// Reads one integer cell.
 IntegerCell read_integer(std::string_view cell);
 
-/// The text of `value` with the most significant digits that fits `width` columns, in fixed or
-/// scientific form, always with a decimal point or exponent; shortest that reads back to the same
-/// value if that fits. nullopt: not even one digit fits (or not finite).
-/// `exact` tells whether reading the text gives `value` back.
+/// The text of `value` with the most significant digits that fit `width` columns, always with a
+/// decimal point or an exponent: fixed form where that reads well (1e-4 … 1e10), scientific form
+/// elsewhere, and whichever fits when only one does ("12345678901234567e-30" saves the column of
+/// the point). Never more digits than are needed to read the same value back. nullopt: not even one
+/// digit fits, or the value is not finite. `exact` tells whether reading the text gives `value`
+/// back.
 struct FormattedReal {
   std::string text;
   bool exact = false;

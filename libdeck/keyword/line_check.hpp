@@ -1,0 +1,121 @@
+// What can be wrong with a data line, shared by decode_line() and by the bulk reader: both must
+// find the same, one with messages and one by counting. Private to the library.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+#include "deck/keyword/schema.hpp"
+#include "deck/text/number.hpp"
+
+namespace deck::detail {
+
+/// Meaningful columns of a data line.
+inline constexpr int line_columns = 100;
+inline constexpr int old_line_columns = 80;  ///< before version 51
+inline int columns_of_version(int version) {
+  return version < 51 ? old_line_columns : line_columns;
+}
+
+enum class LineRule : std::uint8_t {
+  tail,
+  tab,
+  nul,
+  integer,
+  real,
+  trailing,
+  range,
+  tiny,
+  not_finite,
+  letterless,
+  gap,
+  after,
+  none,
+};
+inline constexpr std::string_view line_rule_ids[] = {"DK012", "DK013", "DK014", "DK020",
+                                                     "DK021", "DK022", "DK023", "DK024",
+                                                     "DK025", "DK026", "DK027", "DK028"};
+inline std::string_view id_of(LineRule rule) {
+  return line_rule_ids[static_cast<std::size_t>(rule)];
+}
+
+/// The finding about a number cell, if any. `text_size`: length of the trimmed cell.
+inline LineRule number_rule(const Field& field, NumberStatus status, std::size_t text_size,
+                            double value) {
+  const bool real = field.type == FieldType::real;
+  switch (status) {
+    case NumberStatus::not_a_number:
+      return real ? LineRule::real : LineRule::integer;
+    case NumberStatus::trailing_text:
+      return LineRule::trailing;
+    case NumberStatus::overflow:
+      return LineRule::range;
+    case NumberStatus::underflow:
+      return LineRule::tiny;
+    case NumberStatus::not_finite:
+      return LineRule::not_finite;
+    case NumberStatus::implicit_exponent:
+      if (static_cast<int>(text_size) > field.last - field.first) return LineRule::letterless;
+      break;
+    case NumberStatus::ok:
+    case NumberStatus::blank:
+      break;
+  }
+  if (real && value != 0 && std::fabs(value) < std::numeric_limits<double>::min())
+    return LineRule::tiny;
+  return LineRule::none;
+}
+
+/// Status of an integer cell: the reference solver holds integers in 32 bits.
+inline NumberStatus narrowed(IntegerCell cell) {
+  if (cell.status == NumberStatus::ok && (cell.value > 2147483647 || cell.value < -2147483648LL))
+    return NumberStatus::overflow;
+  return cell.status;
+}
+
+/// Columns that belong to a cell of a card in one version.
+struct ColumnMap {
+  bool covered[line_columns + 2] = {};  // 1-based; the last entry is never covered
+  int last = 0;
+  ColumnMap(const CardSchema& card, int version) {
+    for (const Field& f : card.fields) {
+      if (!f.in_version(version)) continue;
+      for (int c = f.first; c <= std::min(f.last, line_columns); ++c) covered[c] = true;
+      last = std::max(last, f.last);
+    }
+  }
+};
+
+/// Text beyond the meaningful columns, without blanks in front.
+inline std::string_view tail_of(std::string_view line) {
+  if (line.size() <= line_columns) return {};
+  line.remove_prefix(line_columns);
+  while (!line.empty() && static_cast<unsigned char>(line.front()) <= ' ') line.remove_prefix(1);
+  return line;
+}
+
+/// Calls f(first, last, after, zero) for every word outside the cells, in columns: `after` the last
+/// cell or between cells; `zero` if it is a spelling of 0. A word ends at a blank or at a cell.
+template <class F>
+void for_each_gap_text(const ColumnMap& map, std::string_view line, F&& f) {
+  const int size = static_cast<int>(std::min<std::size_t>(line.size(), line_columns));
+  const auto blank = [&](int k) {
+    return static_cast<unsigned char>(line[static_cast<std::size_t>(k - 1)]) <= ' ';
+  };
+  for (int c = 1; c <= size;) {
+    if (map.covered[c] || blank(c)) {
+      ++c;
+      continue;
+    }
+    int end = c;
+    while (end < size && !map.covered[end + 1] && !blank(end + 1)) ++end;
+    const std::string_view text =
+        line.substr(static_cast<std::size_t>(c - 1), static_cast<std::size_t>(end - c + 1));
+    f(c, end, c > map.last, text.find_first_not_of("0.+-") == std::string_view::npos);
+    c = end + 1;
+  }
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,176 @@
+// Number cells without a function call: the inner loops of read_real(), read_integer() and of the
+// bulk reader. Eight digits at a time in one register; never reads outside [p, end).
+#pragma once
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#include "deck/text/number.hpp"
+
+namespace deck::detail {
+
+inline constexpr std::uint64_t every_byte = 0x0101010101010101u;
+inline constexpr std::uint64_t high_bits = 0x80 * every_byte;
+
+inline bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20; }
+inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
+
+/// Eight bytes, the first one in the low bits whatever the machine's byte order.
+inline std::uint64_t load8(const char* p) {
+  std::uint64_t x;
+  std::memcpy(&x, p, 8);
+  if constexpr (std::endian::native == std::endian::big) x = __builtin_bswap64(x);
+  return x;
+}
+
+/// High bit of every byte that is not '0'..'9', exact per byte. `x` holds digit ^ '0'.
+inline std::uint64_t not_digits(std::uint64_t x) {
+  return (((x & ~high_bits) + 0x76 * every_byte) | x) & high_bits;
+}
+
+/// Value of eight digits (values, not characters), the first one in the low byte.
+inline std::uint64_t value_of_digits(std::uint64_t x) {
+  x = x * 10 + (x >> 8);
+  constexpr std::uint64_t mask = 0x000000ff000000ffu;
+  constexpr std::uint64_t upper = 0x000f424000000064u;  // 100 + (1000000 << 32)
+  constexpr std::uint64_t lower = 0x0000271000000001u;  // 1 + (10000 << 32)
+  return ((x & mask) * upper + ((x >> 16) & mask) * lower) >> 32;
+}
+
+inline constexpr std::uint64_t small_power_of_ten[] = {1,      10,      100,      1000,     10000,
+                                                       100000, 1000000, 10000000, 100000000};
+
+/// Appends the digits at p to `mantissa` (wraps beyond 19 of them) and moves p behind them. `begin`
+/// is the start of the cell: a load may look back to it, not ahead of `end`.
+inline void scan_digits(const char* begin, const char*& p, const char* end,
+                        std::uint64_t& mantissa) {
+  if (end - begin < 8) {
+    while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<unsigned>(*p++ - '0');
+    return;
+  }
+  while (p != end) {
+    const auto left = end - p;
+    const std::uint64_t x = left >= 8 ? load8(p) : load8(end - 8) >> (8 * (8 - left));
+    const std::uint64_t digits = x ^ ('0' * every_byte);
+    const std::uint64_t stop = not_digits(digits);
+    if (stop == 0) {
+      mantissa = mantissa * 100000000 + value_of_digits(digits);
+      p += 8;
+      continue;
+    }
+    const int count = std::countr_zero(stop) / 8;
+    if (count == 0) return;
+    mantissa = mantissa * small_power_of_ten[count] + value_of_digits(digits << (8 * (8 - count)));
+    p += count;
+    return;
+  }
+}
+
+/// Skips blanks (bytes <= 0x20) in front.
+inline void skip_blanks(const char*& p, const char* end) {
+  while (end - p >= 8) {
+    const std::uint64_t x = load8(p) ^ (' ' * every_byte);
+    if (x == 0) {
+      p += 8;
+      continue;
+    }
+    p += std::countr_zero(x) / 8;
+    break;
+  }
+  while (p != end && is_blank(*p)) ++p;
+}
+
+inline constexpr double power_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                          1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                          1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+inline constexpr std::uint64_t exact_mantissa = std::uint64_t{1} << 53;
+
+/// Everything scan_real() does not decide. `begin`..`end` is trimmed and not empty.
+RealCell read_real_general(const char* begin, const char* end);
+
+/// Reads a real cell. One rounding at most where mantissa and power of ten are exact doubles
+/// (Clinger), else the general case.
+inline RealCell scan_real(const char* p, const char* end) {
+  const char* const cell = p;
+  skip_blanks(p, end);
+  if (p == end) return {0, NumberStatus::blank};
+  while (is_blank(end[-1])) --end;
+  const char* const begin = p;
+  const bool negative = *p == '-';
+  if (negative || *p == '+') ++p;
+  std::uint64_t mantissa = 0;
+  const char* const digits = p;
+  scan_digits(cell, p, end, mantissa);
+  std::ptrdiff_t count = p - digits;
+  std::ptrdiff_t exponent = 0;
+  if (p != end && *p == '.') {
+    const char* const fraction = ++p;
+    scan_digits(cell, p, end, mantissa);
+    exponent = fraction - p;
+    count -= exponent;
+  }
+  if (count == 0 || count > 19) return read_real_general(begin, end);
+  NumberStatus status = NumberStatus::ok;
+  if (p != end) {
+    const char mark = static_cast<char>(*p | 0x20);
+    const bool letter = mark == 'e' || mark == 'd';
+    if (letter)
+      ++p;
+    else
+      status = NumberStatus::implicit_exponent;
+    const bool sign = p != end && (*p == '-' || *p == '+');
+    const bool minus = sign && *p == '-';
+    if (sign) ++p;
+    int written = 0;
+    const char* const first = p;
+    while (p != end && is_digit(*p) && p - first < 5) written = written * 10 + (*p++ - '0');
+    if (p != end || p == first || (!letter && !sign)) return read_real_general(begin, end);
+    exponent += minus ? -written : written;
+  }
+  if (mantissa > exact_mantissa || exponent < -22 || exponent > 22) {
+    if (mantissa == 0) return {negative ? -0.0 : 0.0, status};
+    return read_real_general(begin, end);
+  }
+  auto value = static_cast<double>(mantissa);
+  value = exponent < 0 ? value / power_of_ten[-exponent] : value * power_of_ten[exponent];
+  return {negative ? -value : value, status};
+}
+
+/// Reads an integer cell.
+inline IntegerCell scan_integer(const char* p, const char* end) {
+  const char* const cell = p;
+  skip_blanks(p, end);
+  if (p == end) return {0, NumberStatus::blank};
+  const bool negative = *p == '-';
+  if (negative || *p == '+') ++p;
+  std::uint64_t value = 0;
+  const char* const digits = p;
+  scan_digits(cell, p, end, value);
+  if (p == digits) return {0, NumberStatus::not_a_number};
+  if (p - digits > 18) return {0, NumberStatus::overflow};
+  const auto whole =
+      negative ? -static_cast<std::int64_t>(value) : static_cast<std::int64_t>(value);
+  while (p != end && is_blank(*p)) ++p;
+  return {whole, p == end ? NumberStatus::ok : NumberStatus::trailing_text};
+}
+
+/// The spelling ids have in practice: blanks, then one to eight digits up to the last column of a
+/// cell of eight or more columns. False: use scan_integer().
+inline bool scan_plain_integer(const char* p, const char* end, std::uint64_t& value) {
+  const std::uint64_t x = load8(end - 8);
+  const std::uint64_t digits = x ^ ('0' * every_byte);
+  const std::uint64_t stop = not_digits(digits);
+  if (stop == 0) {
+    value = value_of_digits(digits);
+  } else {
+    const int bits = 64 - std::countl_zero(stop);  // width of the blanks in front, 8 … 64
+    if (bits == 64) return false;
+    if (((x ^ (' ' * every_byte)) << (64 - bits)) != 0) return false;
+    value = value_of_digits((digits >> bits) << bits);
+  }
+  for (end -= 8; p != end; ++p)
+    if (*p != ' ') return false;
+  return true;
+}
+
+}  // namespace deck::detail
