@@ -136,9 +136,14 @@ void node_triangle_pack(const Constants& k, const PacketView& view, std::size_t 
                         GeometryBlock& g) {
   const V zero = V::fill(0.0);
   const Vec3<V> node = Vec3<V>::load(view.position[0], i);
-  const Vec3<V> apex = Vec3<V>::load(view.position[3], i);
-  const Vec3<V> e1 = Vec3<V>::load(view.position[1], i) - apex;
-  const Vec3<V> e2 = Vec3<V>::load(view.position[2], i) - apex;
+  Vec3<V> apex = Vec3<V>::load(view.position[3], i);
+  Vec3<V> x1 = Vec3<V>::load(view.position[1], i), x2 = Vec3<V>::load(view.position[2], i);
+  if constexpr (M == Model::robust) {  // the node is the origin
+    apex = apex - node;
+    x1 = x1 - node;
+    x2 = x2 - node;
+  }
+  const Vec3<V> e1 = x1 - apex, e2 = x2 - apex;
   const V gap = V::load(view.gap + i);
   const V far = max(gap, V::fill(k.reach));
   const V l1 = dot(e1, e1), l2 = dot(e2, e2);
@@ -149,7 +154,7 @@ void node_triangle_pack(const Constants& k, const PacketView& view, std::size_t 
                               node, apex);
     n = (1.0 / max(t.d, V::fill(1e-30))) * t.toward_node;
   } else {
-    t = subtriangle_robust(e1, l1, e2, l2, node - apex);
+    t = subtriangle_robust(e1, l1, e2, l2, Vec3<V>{-apex.x, -apex.y, -apex.z});
     const auto clear = t.d > 1e-15 * sqrt(max(l1, l2));
     const V size = sqrt(dot(t.area, t.area));
     n = select(clear, ratio(V::fill(1.0), t.d) * t.toward_node, ratio(V::fill(1.0), size) * t.area);

@@ -75,13 +75,10 @@ void tied_pair(const KernelPlan& plan, const PacketView& view, std::size_t i, do
   const std::array<double, 3> rate{dot(v, frame.n), dot(v, frame.t1), dot(v, frame.t2)};
   const double c = plan.card.viss * std::sqrt(2.0 * k0 * tie_mass(plan, view, i, h));
   std::array<double, 3> now{}, applied{};
-  double work = 0.0;
   for (std::size_t j = 0; j < 3; ++j) {
     now[j] = old[j] + k0 * rate[j] * view.dt1;
     applied[j] = now[j] + c * rate[j];
-    work += 0.5 * view.dt1 * (old[j] + now[j]) * rate[j];
   }
-  out.elastic_energy[i] = work;
   out.damping_energy[i] = c * dot(v, v) * view.dt1;
   std::int64_t status = status_tied;
   if (plan.card.itied == 0 && old[0] * now[0] < 0.0) {
@@ -94,6 +91,10 @@ void tied_pair(const KernelPlan& plan, const PacketView& view, std::size_t i, do
     now[0] = 1e-30;
   }
   if (status == status_tied) status |= status_contact;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const double after = status == status_released ? 0.0 : now[j];
+    out.elastic_energy[i] += 0.5 * view.dt1 * (old[j] + after) * rate[j];
+  }
   set_force(out, i, frame.along(applied[0], applied[1], applied[2]));
   set_normal(out, i, frame.n);
   out.normal_force[i] = applied[0];

@@ -1,0 +1,624 @@
+// Worked numeric vectors of the kernel's rules, to ten digits: geometry, law, damping, friction,
+// filters, edges, ties, heat, gap reduction, time steps, curvature.
+#include <gtest/gtest.h>
+
+#include "cycle/support.hpp"
+#include "deck/cycle/assemble.hpp"
+#include "deck/cycle/heat.hpp"
+
+namespace deck::cycle {
+namespace {
+
+using testing::elastic_card;
+using testing::Outcome;
+using testing::Pair;
+using testing::quad_pair;
+using testing::run;
+using testing::triangle_pair;
+using testing::Vec;
+using testing::operator*;
+using testing::operator+;
+using testing::operator-;
+
+void expect_digits(double computed, double expected, const char* what = "") {
+  EXPECT_NEAR(computed, expected, 6e-10 * std::abs(expected) + 1e-13) << what;
+}
+template <std::size_t N>
+void expect_digits(const std::array<double, N>& computed, const std::array<double, N>& expected) {
+  double size = 0.0;
+  for (const double e : expected) size = std::max(size, std::abs(e));
+  for (std::size_t k = 0; k < N; ++k) {
+    EXPECT_NEAR(computed[k], expected[k], 6e-10 * std::max(std::abs(expected[k]), 1e-2 * size))
+        << "component " << k;
+  }
+}
+
+TEST(Geometry, FlatQuadNearItsDiagonalTiltsTheReferenceNormal) {
+  const Outcome r = run(elastic_card(), quad_pair({6, 3.2, 0.4}));
+  expect_digits(r.normal(), {-0.2171253081, -0.2171253081, 0.9516896559});
+  expect_digits(r.weights(), {0.2764556191, 0.3900000000, 0.2235443809, 0.1100000000});
+  expect_digits(-1.0 * r.force(), {-16284.39811, -16284.39811, 71376.72419});
+  const Outcome robust = run(elastic_card(), quad_pair({6, 3.2, 0.4}), 0, 0, Model::robust);
+  expect_digits(-1.0 * robust.force(), {0, 0, 75000});
+}
+
+TEST(Geometry, FlatQuadBetweenFanTriangles) {
+  const Outcome r = run(elastic_card(), quad_pair({6, 5.7, 0.4}));
+  expect_digits(r.normal(), {0.1628333313, -0.1628333313, 0.9731241506});
+  expect_digits(r.weights(), {0.1650000000, 0.2578449781, 0.3350000000, 0.2421550219});
+}
+
+TEST(Geometry, SharedEdgeDoublesTheForceInTheReference) {
+  Pair a = quad_pair({10, 5, 0.4});
+  Pair b = a;
+  b.x = {Vec{9.7, 5, 0.4}, Vec{10, 0, 0}, Vec{20, 0, 0}, Vec{20, 10, 0}, Vec{10, 10, 0}};
+  expect_digits(run(elastic_card(), a).force(), {0, 0, -75000});
+  expect_digits(run(elastic_card(), b).force(), {30000, 0, -40000});
+}
+
+TEST(Geometry, WarpedQuadNodeOutsideAnEdge) {
+  Pair p;
+  p.x = {Vec{5.2, -0.3, 0.7}, Vec{0, 0, 0}, Vec{10, 0, 0.5}, Vec{10, 10, 0}, Vec{0, 10, 0.5}};
+  p.gap = 1.2;
+  p.k0 = 1e5;
+  const Outcome r = run(elastic_card(), p);
+  expect_digits(r.all.penetration[0], 0.6679124067);
+  expect_digits(r.normal(), {-0.04124346711, -0.5638169425, 0.8248693423});
+  expect_digits(r.weights(), {0.4778054863, 0.5221945137, 0, 0});
+}
+
+TEST(Geometry, TriangleInteriorEdgeAndCorner) {
+  const Outcome inside = run(elastic_card(), triangle_pair({2, 3, 0.6}));
+  expect_digits(inside.weights(), {0.5, 0.2, 0.3, 0});
+  expect_digits(inside.normal(), {0, 0, 1});
+  const Outcome edge = run(elastic_card(), triangle_pair({6, 5, 0.3}));
+  expect_digits(edge.all.penetration[0], 0.2318854252);
+  expect_digits(edge.normal(), {0.6509445549, 0.6509445549, 0.3905667329});
+  expect_digits(edge.weights(), {0, 0.55, 0.45, 0});
+  const Outcome corner = run(elastic_card(), triangle_pair({-0.2, -0.1, 0.3}));
+  expect_digits(corner.normal(), {-0.5345224838, -0.2672612419, 0.8017837257});
+  expect_digits(corner.weights(), {1, 0, 0, 0});
+}
+
+TEST(ElasticLaw, StiffensHyperbolically) {
+  const struct {
+    double pi, fn, k_tan, energy;
+  } rows[] = {{0.4, -33333.33333, 138888.8889, 5541.281188},
+              {0.9, -450000, 5000000, 70129.25465},
+              {0.999, -4.995e7, 5e10, 295437.7639}};
+  for (const auto& row : rows) {
+    const Outcome r = run(elastic_card(), triangle_pair({2, 3, 1.0 - row.pi}));
+    expect_digits(r.all.normal_force[0], row.fn);
+    expect_digits(r.all.k_nodal[0], row.k_tan);
+    expect_digits(r.all.elastic_energy[0], row.energy);
+  }
+}
+
+TEST(ElasticLaw, FixedStiffnessHasNoHalf) {
+  ContactCard card = elastic_card();
+  card.istf = 1;
+  card.stfac = 1e5;
+  const Outcome r = run(card, triangle_pair({2, 3, 0.6}));
+  expect_digits(r.all.normal_force[0], -66666.66667);
+  expect_digits(r.all.elastic_energy[0], 11082.56238);
+  expect_digits(r.all.k_nodal[0], 277777.7778);
+}
+
+TEST(ElasticLaw, RobustModelKeepsTheDistanceNearTheMidSurface) {
+  const Pair deep = triangle_pair({2, 3, 1e-7});
+  const Outcome robust = run(elastic_card(), deep, 0, 0, Model::robust);
+  expect_digits(robust.all.normal_force[0], -5e4 * (1.0 - 1e-7) / 1e-7);
+  expect_digits(robust.all.elastic_energy[0], 5e4 * (1e-7 - 1.0 - std::log(1e-7)));
+  EXPECT_GT(
+      std::abs(run(elastic_card(), deep).all.normal_force[0] / robust.all.normal_force[0] - 1.0),
+      1e-11);
+}
+
+TEST(ElasticLaw, AbsoluteFloorHalvesTheReferenceForceInMetres) {
+  Pair p = triangle_pair({2, 3, 5e-11});
+  p.gap = 1e-6;
+  expect_digits(run(elastic_card(), p).all.normal_force[0], -499.975);
+  expect_digits(run(elastic_card(), p, 0, 0, Model::robust).all.normal_force[0], -999.95);
+}
+
+TEST(ElasticLaw, ReferenceDropsTheNodeAtTheMidSurfaceRobustDoesNot) {
+  const Pair p = triangle_pair({2, 3, 0.5e-10});
+  const Outcome reference = run(elastic_card(), p);
+  EXPECT_EQ(reference.all.normal_force[0], 0.0);
+  EXPECT_NE(reference.all.status[0] & status_gap_closed, 0);
+  const Outcome robust = run(elastic_card(), p, 0, 0, Model::robust);
+  EXPECT_LT(robust.all.normal_force[0], -5e12);
+  EXPECT_EQ(robust.all.status[0] & status_gap_closed, 0);
+}
+
+ContactCard damped() {
+  ContactCard card;
+  card.visf = 1.0;
+  return card;
+}
+
+Pair moving(const Vec& v) {
+  Pair p = triangle_pair({2, 3, 0.6});
+  p.v[0] = v;
+  p.m[0] = 2e-3;
+  return p;
+}
+
+TEST(Damping, ApproachIsStifferThanSeparation) {
+  const Outcome in = run(damped(), moving({0, 0, -20}), 1e-6, 1e-6);
+  expect_digits(in.all.normal_force[0], -33357.33023);
+  expect_digits(in.all.k_nodal[0], 23570226.04);
+  expect_digits(in.all.dt_kinematic[0], 0.015);
+  const Outcome away = run(damped(), moving({0, 0, 20}), 1e-6, 1e-6);
+  expect_digits(away.all.normal_force[0], -33315.07591);
+  expect_digits(away.all.k_nodal[0], 18257418.58);
+}
+
+TEST(Damping, PullsInTheReferenceAndNeverInTheRobustModel) {
+  Pair p = triangle_pair({2, 3, 0.999});
+  p.m[0] = 2e-3;
+  p.v[0] = {0, 0, 20};
+  expect_digits(run(damped(), p, 1e-6, 1e-6).all.normal_force[0], -35.90083805);
+  p.v[0] = {0, 0, 100};
+  expect_digits(run(damped(), p, 1e-6, 1e-6).all.normal_force[0], 20.69600995);
+  EXPECT_EQ(run(damped(), p, 1e-6, 1e-6, Model::robust).all.normal_force[0], 0.0);
+}
+
+TEST(FrictionViscous, SticksThenSlips) {
+  ContactCard card = damped();
+  card.fric = 0.2;
+  const Outcome stick = run(card, moving({30, -40, -20}), 1e-6, 1e-6);
+  expect_digits(stick.force(), {707.1067812, -942.8090416, -33357.33023});
+  // Booked is dt1 V.Ft: here V has no part along Ft but the sliding.
+  expect_digits(stick.all.friction_energy[0], 0.0589255651);
+  const Outcome slip = run(card, moving({3000, -4000, -20}), 1e-6, 1e-6);
+  expect_digits(slip.force(), {4002.879627, -5337.172836, -33357.33023});
+  expect_digits(slip.all.friction_energy[0], 33.35733023);
+  expect_digits(slip.all.friction_heat[0], 33.35733023);
+}
+
+TEST(FrictionViscous, SplitsToTheNodesAndSumsToNothing) {
+  ContactCard card = damped();
+  card.fric = 0.2;
+  const testing::Packet packet({moving({30, -40, -20})});
+  const KernelPlan plan = make_plan(card);
+  PacketResult r;
+  evaluate(plan, packet.view(1e-6, 1e-6), r);
+  PairList pairs;
+  pairs.node = {std::vector<std::uint32_t>{0}, {1}, {2}, {3}, {3}};
+  pairs.triangle = {1};
+  NodalSums sums;
+  sums.resize(4);
+  assemble(plan, Incidence(pairs, 4), r, sums);
+  const double main[3][3] = {{353.5533906, -471.4045208, -16678.66511},
+                             {141.4213562, -188.5618083, -6671.466046},
+                             {212.1320344, -282.8427125, -10007.19907}};
+  for (std::size_t n = 0; n < 3; ++n) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(sums.force[c][n + 1], main[n][c], 1e-8 * std::abs(main[n][c]));
+    }
+  }
+  // Impulse and moment of one step, and the moment that the split leaves.
+  const Totals t = totals(plan, packet.view(1e-6, 1e-6), r);
+  EXPECT_NEAR(1e-6 * t.normal[2], -0.03335733023, 1e-11);
+  EXPECT_NEAR(1e-6 * t.total_abs, 0.03337814208, 1e-11);
+  const double moment[3] = {-0.09912918165, 0.06742176724, -0.004006938427};
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(1e-6 * t.moment[c], moment[c], 1e-10);
+}
+
+TEST(FrictionIncremental, SpringThenLimitWithHeatOfTheLostPath) {
+  ContactCard card = damped();
+  card.fric = 0.2;
+  card.iform = 2;
+  Pair p = moving({30, -40, -20});
+  const double steps[] = {1e-6, 1e-4, 4e-3};
+  const Vec expected[] = {{3, -4, 0}, {303, -404, 0}, {4002.879627, -5337.172836, 0}};
+  const double heat[] = {0, 0, 922.8995206}, work[] = {0.00025, 2.525, 1334.293209};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Outcome r = run(card, p, steps[c], steps[c]);
+    expect_digits(r.memory(), expected[c]);
+    expect_digits(r.all.friction_heat[0], heat[c]);
+    expect_digits(r.all.friction_energy[0], work[c]);
+    p.ft = r.memory();
+  }
+}
+
+TEST(FrictionLaw, CoefficientsByPressureAndSpeed) {
+  using C = std::array<double, 6>;
+  const auto mu = [](int law, double mu0, const C& c, double v) {
+    return friction_coefficient(law, mu0, c, 300.0, v);
+  };
+  expect_digits(mu(1, 0.1, C{1e-4, 2e-2, 1e-6, 1e-8, 1e-3, 0}, 2.5), 0.1879);
+  expect_digits(mu(2, 0.1, C{1e-7, -0.3, 2e-5, -0.2, 0.05, -0.5}, 2.5), 0.1222157228);
+  const C renard{0.2, 0.15, 0.3, 0.1, 1, 4};
+  expect_digits(mu(3, 0.0, renard, 0.5), 0.275);
+  expect_digits(mu(3, 0.0, renard, 1.0), 0.3);
+  expect_digits(mu(3, 0.0, renard, 2.5), 0.2);
+  expect_digits(mu(3, 0.0, renard, 4.0), 0.1);
+  expect_digits(mu(3, 0.0, renard, 6.0), 0.1083333333);
+}
+
+TEST(FrictionLaw, OrthotropicForceReturnsToTheEllipse) {
+  const auto reference = orthotropic_return(400, 150, 0.3, 0.1, -1000, Model::reference);
+  expect_digits(reference, {293.2412913, 21.10698960});
+  const auto robust = orthotropic_return(400, 150, 0.3, 0.1, -1000, Model::robust);
+  EXPECT_NEAR(std::hypot(robust[0] / 300.0, robust[1] / 100.0), 1.0, 1e-15);
+  EXPECT_NEAR(robust[0] / robust[1], 400.0 / 150.0, 1e-14);
+  EXPECT_EQ(orthotropic_return(10, 5, 0.3, 0.1, -1000, Model::reference)[0], 10.0);
+}
+
+TEST(Filter, WeightsByKind) {
+  ContactCard card = damped();
+  card.fric = 10.0;  // never slips: the unfiltered force is the dashpot's
+  Pair p = moving({30, -40, -20});
+  p.ft = {10, -5, 0};
+  const Vec raw = {707.1067812, -942.8090416, 0};
+  const auto filtered = [&](int kind, double xfreq, Model model = Model::reference) {
+    card.ifiltr = kind;
+    card.xfreq = xfreq;
+    return run(card, p, 1e-6, 1e-6, model).memory();
+  };
+  const auto mix = [&](double a) { return a * raw + (1.0 - a) * p.ft; };
+  expect_digits(filtered(1, 0.3), mix(0.3));
+  expect_digits(filtered(2, 40.0), mix(0.1570796327));
+  expect_digits(filtered(3, 1000.0), raw);  // the reference's weight is never below 1
+  // As documented, with the reduced mass of the robust model in the dashpot.
+  card.ifiltr = 0;
+  Pair rest = p;
+  rest.ft = {};
+  const Outcome r = run(card, rest, 1e-6, 1e-6, Model::robust);
+  const Vec ft = r.force() - r.all.normal_force[0] * r.normal();
+  expect_digits(filtered(3, 1000.0, Model::robust),
+                0.006283185307 * ft + (1.0 - 0.006283185307) * p.ft);
+}
+
+Pair edges(const Vec& s1, const Vec& s2, const Vec& m1, const Vec& m2) {
+  Pair p;
+  p.x = {s1, s2, m1, m2, Vec{}};
+  p.k0 = 48000;
+  return p;
+}
+
+ContactCard edge_card() {
+  ContactCard card = elastic_card();
+  card.kind = ContactKind::edge_edge;
+  return card;
+}
+
+TEST(EdgeGeometry, SkewAndClamped) {
+  Pair p = edges({0, 0, 0}, {10, 0, 0}, {3, -4, .6}, {5, 6, .8});
+  const Outcome skew = run(edge_card(), p);
+  expect_digits(skew.weights()[0], 0.6202718912);
+  expect_digits(skew.weights()[2], 0.6013594562);
+  expect_digits(skew.all.distance[0], 0.6798640408);
+  const Outcome end = run(edge_card(), edges({0, 0, 0}, {4, 0, 0}, {4.5, .2, .3}, {9, 5, .3}));
+  EXPECT_EQ(end.weights()[0], 0.0);
+  EXPECT_EQ(end.weights()[2], 1.0);
+  expect_digits(end.all.distance[0], 0.6164414003);
+}
+
+TEST(EdgeGeometry, ParallelEdgesMeetInTheMiddleOnlyInTheRobustModel) {
+  const Pair a = edges({0, 0, 0}, {10, 0, 0}, {2, .5, 0}, {8, .5, 0});
+  const Pair b = edges({0, 0, 0}, {10, 0, 0}, {8, .5, 0}, {2, .5, 0});
+  expect_digits(run(edge_card(), a).weights()[0], 0.2);
+  expect_digits(run(edge_card(), b).weights()[0], 0.8);
+  for (const Pair& p : {a, b}) {
+    const Outcome r = run(edge_card(), p, 0, 0, Model::robust);
+    expect_digits(r.weights()[0], 0.5);
+    expect_digits(r.weights()[2], 0.5);
+    expect_digits(r.all.distance[0], 0.5);
+  }
+}
+
+TEST(EdgeForce, SkewEdgesWithDampingAndFriction) {
+  ContactCard card;
+  card.kind = ContactKind::edge_edge;
+  card.fric = 0.25;
+  card.visf = 1.0;
+  expect_digits(pair_stiffness(card, 8e4, 1.2e5), 48000);
+  Pair p = edges({0, 0, 0}, {10, 0, 0}, {3, -4, .6}, {5, 6, .8});
+  p.v = {Vec{0, 5, 8}, Vec{1, 0, 12}, Vec{0, 0, -3}, Vec{0, 1, -2}, Vec{}};
+  p.m = {1e-3, 1.5e-3, 2e-3, 2.5e-3, 0};
+  const Outcome r = run(card, p, 1e-6, 1e-6);
+  expect_digits(r.all.penetration[0], 0.3201359592);
+  expect_digits(r.all.normal_force[0], -11932.27086);
+  expect_digits(r.all.elastic_energy[0], 1630.908659);
+  expect_digits(r.all.k_nodal[0], 23459330.76);
+  expect_digits(r.force(), {4.454083651, -204.0661920, 11930.57575});
+  expect_digits(r.all.dt_kinematic[0], 0.02403321511);
+  card.iform = 2;
+  card.fric = 0.002;
+  p.ft = {};
+  // The spring is the stabilised stiffness k_tan + c/dt1 (recorded states: no VISF with Iform 2).
+  const double spring = 37250.11120 * 1.552087967 + 0.5944047330 / 1e-6;
+  expect_digits(run(card, p, 1e-6, 1e-6).memory(),
+                (spring * 1e-6) * Vec{0.3797281088, 2.943946772, 0.05887893543});
+  p.v = {Vec{0, 0, -9e6}, Vec{0, 0, -9e6}, Vec{}, Vec{}, Vec{}};
+  EXPECT_EQ(run(card, p, 1e-6, 1e-6).all.normal_force[0], 0.0);  // separation never pulls
+}
+
+ContactCard tied_card(int itied) {
+  ContactCard card;
+  card.kind = ContactKind::tied;
+  card.itied = itied;
+  return card;
+}
+
+TEST(Tie, Type10RidesThenReboundsOrHolds) {
+  for (const int itied : {0, 1}) {
+    Pair p = quad_pair({6, 3.2, 0.4});
+    p.k0 = 2e4;
+    p.m[0] = 2e-3;
+    const Vec v[] = {{1, 2, -5}, {1, 2, -1}, {-3, 0, 4}, {0, 0, 9}};
+    const Vec stored[] = {{-1, 0.4242640687, 0.1414213562},
+                          {-1.2, 0.8485281374, 0.2828427125},
+                          {-0.4, 0.4242640687, 0.7071067812}};
+    const Vec force[] = {{0.6472135955, 1.294427191, -3.236067977},
+                         {0.8472135955, 1.694427191, -1.647213595},
+                         {-1.541640786, 0.8, 1.388854382}};
+    double elastic = 0.0, damping = 0.0;
+    const double e[] = {3.0e-5, 5.6e-5, 2.1e-5, itied == 0 ? 3.0e-6 : 6.6e-5};
+    const double d[] = {1.341640786e-4, 1.609968944e-4, 2.728002933e-4, 6.350433056e-4};
+    for (std::size_t c = 0; c < 4; ++c) {
+      p.v[0] = v[c];
+      const Outcome r = run(tied_card(itied), p, 1e-5, 1e-5);
+      elastic += r.all.elastic_energy[0];
+      damping += r.all.damping_energy[0];
+      EXPECT_NEAR(elastic, e[c], 1e-13);
+      EXPECT_NEAR(damping, d[c], 1e-12);
+      const Vec now{r.all.tie[0][0], r.all.tie[1][0], r.all.tie[2][0]};
+      if (c < 3) {
+        expect_digits(now, stored[c]);
+        expect_digits(r.force(), force[c]);
+        expect_digits(r.all.k_nodal[0], 109442.7191);
+      } else if (itied == 0) {
+        EXPECT_EQ(now[0], -1e-30);
+        EXPECT_EQ(testing::norm(r.force()), 0.0);
+        EXPECT_EQ(r.all.status[0], status_released);
+      } else {
+        expect_digits(now, {1.4, 0.4242640687, 0.7071067812});
+        expect_digits(r.all.normal_force[0], 5.424922360);
+      }
+      for (std::size_t k = 0; k < 6; ++k) p.tie[k] = r.all.tie[k][0];
+    }
+  }
+}
+
+TEST(Tie, Type7LiveTieIsAStiffSpringInThreeDirections) {
+  ContactCard card;
+  card.itied = 2;
+  Pair p = quad_pair({5, 5, 0.1});
+  p.m[0] = 2e-3;
+  p.v[0] = {0, 0, 0};
+  p.tie = {-450000, 0, 0, 0.25, 0.25, 0.25, 0.9, 0.1};
+  // The frame: t1 along the diagonal, t2 = n x t1.
+  const double h = std::sqrt(0.5);
+  p.v[0] = {2 * h, 2 * h, -3};
+  const Outcome r = run(card, p, 1e-6, 1e-6);
+  expect_digits(r.all.tie[0][0], -450015);
+  expect_digits(r.all.tie[1][0], 10);
+  expect_digits(r.all.normal_force[0], -450021.7082);
+  expect_digits(r.all.k_nodal[0], 9472135.955);
+  expect_digits(r.force(), {14.47213595 * h, 14.47213595 * h, -450021.7082});
+}
+
+HeatState heat_state(double delta) {
+  HeatState s;
+  s.position = {Vec{2, 3, -delta}, Vec{0, 0, 0}, Vec{10, 0, 0}, Vec{0, 10, 0}, Vec{0, 10, 0}};
+  s.temperature = {350, 600, 620, 650, 650};
+  s.weight = {0.5, 0.2, 0.3, 0.0};
+  s.area = 2e-4;
+  s.dt1 = 1e-6;
+  return s;
+}
+
+ContactCard heat_card(int form) {
+  ContactCard card;
+  card.ithe = 1;
+  card.ithe_form = form;
+  card.kthe = 500;
+  card.tint = 700;
+  return card;
+}
+
+TEST(Heat, ConductionBetweenSidesAndFromTheInterface) {
+  const HeatFlow both = pair_heat(heat_card(1), heat_state(0));
+  expect_digits(both.q, {2.69e-5, -1.345e-5, -5.38e-6, -8.07e-6, 0});
+  expect_digits(both.conductance, 0.1);
+  expect_digits(pair_heat(heat_card(0), heat_state(-6e-4)).q[0], 3.5e-5);
+  HeatState s = heat_state(6e-4);
+  s.conductivity = 45;
+  const HeatFlow flow = pair_heat(heat_card(0), s);
+  // The plane's normal points to +z, the centroid lies 6e-4 above the node.
+  expect_digits(flow.q[0], 3.476821192e-5);
+  expect_digits(flow.conductance, 0.09933774834);
+}
+
+TEST(Heat, PressureFunctionRadiationAndFriction) {
+  ContactCard card = heat_card(1);
+  card.fct_idk = Curve{{0, 1e8, 3e8}, {0, 1, 1.5}};
+  HeatState s = heat_state(0);
+  s.normal_force = -33357.33023;
+  expect_digits(pair_heat(card, s).q[0], 3.139140229e-5);
+  card = heat_card(1);
+  card.frad = 4e-8;
+  card.drad = 1.0;
+  expect_digits(pair_heat(card, heat_state(0.5)).q[0], 1.054448815e-6);
+  card = heat_card(1);
+  card.kthe = 0;
+  card.fheats = 0.4;
+  card.fheatm = 0.5;
+  s.friction_heat = 33.35733023;
+  expect_digits(pair_heat(card, s).q, {13.34293209, 8.339332558, 3.335733023, 5.003599535, 0});
+}
+
+TEST(GapReduction, InactiFiveAndSixFollowThePenetration) {
+  const double p[] = {.40, .42, .45, .30, .28, .25, .50};
+  const double p5[] = {0.4000000038, 0.4000000038, 0.4000000038, 0.3950000036,
+                       0.3892500034, 0.3822875033, 0.3822875033};
+  const double f5[] = {0, 1034.482556, 2727.272503, 0, 0, 0, 7271.248026};
+  const double p6[] = {0.4300000036, 0.4300000036, 0.4300000036, 0.4252500034,
+                       0.4197875033, 0.4131731281, 0.4131731281};
+  const double f6[] = {0, 0, 1036.363443, 0, 0, 0, 5095.234164};
+  for (const int inacti : {5, 6}) {
+    ContactCard card = elastic_card();
+    card.inacti = inacti;
+    Pair pair = triangle_pair({});
+    pair.p0 = initial_residual(card, 0.4, 1.0);
+    expect_digits(pair.p0, inacti == 5 ? 0.4000000040 : 0.4300000038);
+    for (std::size_t c = 0; c < 7; ++c) {
+      pair.x[0] = {2, 3, 1.0 - p[c]};
+      const Outcome r = run(card, pair);
+      EXPECT_NEAR(r.all.p0[0], (inacti == 5 ? p5 : p6)[c], 1e-10);
+      // Ten digits of P0 leave seven of a small difference.
+      EXPECT_NEAR(-r.all.normal_force[0], (inacti == 5 ? f5 : f6)[c], 2e-5);
+      pair.p0 = r.all.p0[0];
+    }
+  }
+}
+
+TEST(TimeStep, KinematicVelocityAndNodal) {
+  expect_digits(velocity_step(1.0, {0, 0, 0}, {20, 30, 40}, {0, 0, 0}, {0, 0, 0}), 0.01671258044);
+  Totals none;
+  NodalSums sums;
+  sums.resize(2);
+  sums.stiffness = {23570226.04, 0.5 * 23570226.04};
+  const double mass[] = {2e-3, 2e-3};
+  const StepLimit limit = step_limit(none, sums, mass);
+  EXPECT_EQ(limit.source, StepLimit::Source::nodal);
+  EXPECT_EQ(limit.index, 0u);
+  expect_digits(limit.dt, 1.172440012e-5);
+}
+
+TEST(TimeStep, PairsBelowDtminAreDeleted) {
+  ContactCard card = damped();
+  card.dtmin = 0.02;
+  const Outcome r = run(card, moving({0, 0, -20}), 1e-6, 1e-6);
+  EXPECT_EQ(r.all.normal_force[0], 0.0);
+  EXPECT_EQ(r.all.status[0], status_step_deleted);
+  card.dtmin = 0.01;
+  EXPECT_NE(run(card, moving({0, 0, -20}), 1e-6, 1e-6).all.normal_force[0], 0.0);
+}
+
+TEST(Curvature, SphereSeenFromInside) {
+  ContactCard card = elastic_card();
+  card.icurv = 1;
+  Pair p;
+  p.x = {Vec{8.6, .2, .8}, Vec{9, -1, 0}, Vec{9, 1, 0}, Vec{9, 1, 2}, Vec{9, -1, 2}};
+  p.gap = 0.5;
+  p.k0 = 1e5;
+  const Outcome r = run(card, p);
+  EXPECT_NEAR(r.all.penetration[0], 0.08405928844, 1e-10);
+  expect_digits(r.normal(), {-0.9954343793, -0.02314963673, -0.09259854691});
+  expect_digits(r.weights(), {0.25, 0.340824829, 0.25, 0.159175171});
+}
+
+TEST(Curvature, CylinderTakesTheRadialPenetration) {
+  ContactCard card = elastic_card();
+  card.icurv = 2;
+  card.curv_node2 = {0, 0, 1};
+  Pair p;  // a chord of the cylinder of radius sqrt(82) about z
+  p.x = {Vec{9.4, 0, 1}, Vec{9, -1, 0}, Vec{9, 1, 0}, Vec{9, 1, 2}, Vec{9, -1, 2}};
+  p.gap = 0.5;
+  p.k0 = 1e5;
+  const Outcome outside = run(card, p);
+  EXPECT_NEAR(outside.all.penetration[0], 0.5 + std::sqrt(82.0) - 9.4, 1e-12);
+  expect_digits(outside.normal(), {1, 0, 0});
+  p.x[0] = {8.7, 0, 1};
+  const Outcome inside = run(card, p);
+  EXPECT_NEAR(inside.all.penetration[0], 8.7 - std::sqrt(82.0) + 0.5, 1e-12);
+  expect_digits(inside.normal(), {-1, 0, 0});
+}
+
+TEST(Curvature, BicubicSurfaceOverAFlatQuad) {
+  ContactCard card = elastic_card();
+  card.icurv = 3;
+  Pair p = quad_pair({5.5, 5, .9});
+  p.normal = {Vec{-.2, 0, 1}, Vec{.2, 0, 1}, Vec{.2, 0, 1}, Vec{-.2, 0, 1}};
+  const Outcome r = run(card, p);
+  expect_digits(r.normal(), {0.01031266832, 0, 0.9999468230});
+  expect_digits(r.all.penetration[0], 0.5961943964);
+  expect_digits(r.weights(), {.2371084791, .2628915209, .2628915209, .2371084791});
+}
+
+TEST(Adaptivity, RadiusPenetrationAndAngle) {
+  ContactCard card = elastic_card();
+  card.iadm = 2;
+  card.nradm = 3;
+  card.padm = 0.5;
+  card.angladm = 60;
+  Pair p = quad_pair({5, 5, 0.6});
+  p.normal = {Vec{-0.5, 0, 1}, Vec{0.5, 0, 1}, Vec{0.5, 0, 1}, Vec{-0.5, 0, 1}};
+  const Outcome r = run(card, p);
+  const double sine = 0.5 / std::sqrt(1.25);
+  expect_digits(r.all.criteria[0][0], 5.0 / sine);
+  expect_digits(r.all.criteria[1][0], 0.4 / 0.5);
+  expect_digits(r.all.criteria[2][0], (1.0 / std::sqrt(1.25)) / 0.5);
+}
+
+TEST(BoundaryRelease, OnlyPenetratingPairsOfType7Release) {
+  ContactCard card = elastic_card();
+  card.ibc = 5;
+  EXPECT_NE(run(card, triangle_pair({2, 3, 0.6})).all.status[0] & status_bc_release, 0);
+  EXPECT_EQ(run(card, triangle_pair({2, 3, 1.6})).all.status[0] & status_bc_release, 0);
+}
+
+TEST(PairGap, GapminWinsOverGapmax) {
+  ContactCard card;
+  card.igap = 1;
+  card.gapmax = 1.0;
+  card.gapmin = 0.2;
+  EXPECT_EQ(pair_gap(card, 0.3, 0.4), 0.7);
+  EXPECT_EQ(pair_gap(card, 0.8, 0.4), 1.0);
+  EXPECT_EQ(pair_gap(card, 0.05, 0.05), 0.2);
+  card.gapmin = 2.0;
+  EXPECT_EQ(pair_gap(card, 0.8, 0.4), 2.0);
+  card.igap = 3;
+  card.gapmin = 0.1;
+  card.fscalegap = 0.5;
+  EXPECT_EQ(pair_gap(card, 0.8, 0.4, 0.2, 0.3), 0.5);
+  card.igap = 0;
+  EXPECT_EQ(pair_gap(card, 0.8, 0.4), 0.1);
+}
+
+TEST(PairStiffness, CombinesAndClamps) {
+  ContactCard card;
+  card.stmin = 10;
+  card.stmax = 100;
+  const auto k = [&](int istf, double main, double secondary) {
+    card.istf = istf;
+    return pair_stiffness(card, main, secondary);
+  };
+  EXPECT_EQ(k(0, 500, 1), 500);
+  EXPECT_EQ(k(2, 40, 20), 30);
+  EXPECT_EQ(k(3, 40, 20), 40);
+  EXPECT_EQ(k(4, 40, 20), 20);
+  EXPECT_EQ(k(5, 40, 40), 20);
+  EXPECT_EQ(k(3, 400, 20), 100);
+  EXPECT_EQ(k(4, 400, 2), 10);
+}
+
+TEST(Activity, WindowAndSensor) {
+  ContactCard card;
+  card.tstart = 1.0;
+  card.tstop = 2.0;
+  EXPECT_FALSE(is_active(card, 0.5));
+  EXPECT_TRUE(is_active(card, 1.0));
+  EXPECT_FALSE(is_active(card, 2.5));
+  card.sensor_time = 0.2;
+  EXPECT_FALSE(is_active(card, 0.5));
+  EXPECT_TRUE(is_active(card, 0.5, true));
+  EXPECT_FALSE(is_active(card, 0.1, true));
+}
+
+TEST(ElementLoss, FollowsIdel) {
+  EXPECT_TRUE(segment_stays(0, 0, false));
+  EXPECT_TRUE(segment_stays(1, 1, false));
+  EXPECT_FALSE(segment_stays(-1, 0, true));
+  EXPECT_FALSE(segment_stays(2, 1, false));
+  EXPECT_FALSE(secondary_stays(2, 0));
+  EXPECT_TRUE(secondary_stays(-2, 0));
+}
+
+}  // namespace
+}  // namespace deck::cycle
