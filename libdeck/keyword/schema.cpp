@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <mutex>
 #include <set>
 
 #include "keyword/embedded.hpp"
@@ -34,12 +35,41 @@ const Field* Schema::find_field(std::string_view name) const {
   return best;
 }
 
+/// A schema, or the text it is parsed from at the first use. Threads may share entries.
+struct SchemaSet::Entry {
+  std::string keyword;
+  std::string source;
+  std::string_view text;  ///< of the built-in schemas, which live as long as the program
+
+  explicit Entry(Schema parsed)
+      : keyword(parsed.keyword), source(parsed.source), schema_(std::move(parsed)), ready_(true) {}
+  Entry(std::string name, std::string file, std::string_view json)
+      : keyword(std::move(name)), source(std::move(file)), text(json) {}
+
+  const Schema& get() const {
+    if (!ready_)
+      std::call_once(once_, [this] {
+        // The built-in files are checked by the tests of the build, so parsing cannot fail here.
+        if (auto parsed = detail::parse_schemas(source, text)) schema_ = std::move(parsed->front());
+      });
+    return schema_;
+  }
+
+ private:
+  mutable std::once_flag once_;
+  mutable Schema schema_;
+  bool ready_ = false;  ///< parsed from the beginning
+};
+
 const SchemaSet& SchemaSet::built_in() {
   static const SchemaSet set = [] {
     SchemaSet all;
-    // The files are checked by the tests of the build, so a failure cannot be met here.
     for (const auto& file : detail::embedded_schemas())
-      static_cast<void>(all.add_json(file.name, file.text));
+      for (auto& piece : detail::split_schemas(file.text)) {
+        const auto entry = std::make_shared<const Entry>(piece.keyword, file.name, piece.text);
+        all.by_name_.emplace(std::move(piece.keyword), entry);
+        for (auto& alias : piece.aliases) all.by_name_.emplace(std::move(alias), entry);
+      }
     return all;
   }();
   return set;
@@ -53,12 +83,12 @@ Result<void> SchemaSet::add_json(std::string_view name, std::string_view text) {
   auto table = by_name_;
   std::set<std::string> fresh;
   for (auto& schema : *parsed) {
-    const auto added = std::make_shared<const Schema>(std::move(schema));
+    std::vector<std::string> names = schema.aliases;
+    names.insert(names.begin(), schema.keyword);
+    const auto added = std::make_shared<const Entry>(std::move(schema));
     if (const auto it = table.find(added->keyword);
         it != table.end() && it->second->keyword == added->keyword && !fresh.count(added->keyword))
       std::erase_if(table, [old = it->second](const auto& entry) { return entry.second == old; });
-    std::vector<std::string> names = added->aliases;
-    names.insert(names.begin(), added->keyword);
     for (const auto& key : names) {
       const auto [it, inserted] = table.emplace(key, added);
       if (!inserted)
@@ -101,7 +131,7 @@ const Schema* SchemaSet::match(std::string_view header) const {
   };
   header = trim(header);
   if (header.empty() || header.front() != '/') return nullptr;
-  const Schema* best = nullptr;
+  const Entry* best = nullptr;
   std::string prefix;
   for (std::size_t begin = 1; begin <= header.size();) {
     const auto end = std::min(header.find('/', begin), header.size());
@@ -112,18 +142,18 @@ const Schema* SchemaSet::match(std::string_view header) const {
     prefix += field;
     if (const auto it = by_name_.find(prefix); it != by_name_.end()) best = it->second.get();
   }
-  return best;
+  return best ? &best->get() : nullptr;
 }
 
 const Schema* SchemaSet::find(std::string_view keyword) const {
   const auto it = by_name_.find(keyword);
-  return it == by_name_.end() ? nullptr : it->second.get();
+  return it == by_name_.end() ? nullptr : &it->second->get();
 }
 
 std::vector<const Schema*> SchemaSet::all() const {
   std::vector<const Schema*> schemas;
-  for (const auto& [name, schema] : by_name_)
-    if (name == schema->keyword) schemas.push_back(schema.get());
+  for (const auto& [name, entry] : by_name_)
+    if (name == entry->keyword) schemas.push_back(&entry->get());
   return schemas;
 }
 

@@ -33,6 +33,13 @@ struct Path {
   }
 };
 
+template <class List>
+std::string joined(const List& list) {
+  std::string text;
+  for (const auto& item : list) text += fmt::format("{}{}", text.empty() ? "" : ", ", item);
+  return text;
+}
+
 [[noreturn]] void fail(const Path& path, const std::string& what) {
   const auto text = path.text();
   throw Wrong{fmt::format("{}: {}", text.empty() ? "/" : text, what)};
@@ -46,7 +53,7 @@ void expect_object(const Json& json, const Path& path,
   if (!json.is_object()) fail(path, fmt::format("expected an object, found {}", json.type_name()));
   for (const auto& item : json.items())
     if (std::find(keys.begin(), keys.end(), item.key()) == keys.end())
-      fail(path, fmt::format("unknown key \"{}\" (known: {})", item.key(), fmt::join(keys, ", ")));
+      fail(path, fmt::format("unknown key \"{}\" (known: {})", item.key(), joined(keys)));
 }
 
 const Json& expect_array(const Json& json, const Path& path) {
@@ -103,7 +110,7 @@ int version_of(const Json& json, const Path& path) {
   const int version = small_of(json, path);
   const auto& known = known_versions();
   if (std::find(known.begin(), known.end(), version) == known.end())
-    fail(path, fmt::format("{} is not an input version ({})", version, fmt::join(known, ", ")));
+    fail(path, fmt::format("{} is not an input version ({})", version, joined(known)));
   return version;
 }
 
@@ -450,6 +457,46 @@ const std::vector<int>& known_versions() {
                                             120,  130,  140,  2017, 2018, 2019, 2020,
                                             2021, 2022, 2023, 2024, 2025, 2026};
   return versions;
+}
+
+std::vector<SchemaText> split_schemas(std::string_view text) {
+  std::vector<SchemaText> found;
+  int depth = 0, level = 0;  // level: depth of the schema objects, 1 or 3; 0: not known yet
+  std::size_t begin = 0;     // of the current schema object
+  std::string_view key;      // last string at `level` that was followed by ':'
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '{' || c == '[') {
+      if (++depth == level && c == '{') {
+        begin = i;
+        found.emplace_back();
+      } else if (depth == 1) {
+        begin = i;
+      }
+    } else if (c == '}' || c == ']') {
+      if (depth == level && !found.empty()) found.back().text = text.substr(begin, i + 1 - begin);
+      if (--depth <= level) key = {};
+    } else if (c == '"') {
+      const std::size_t first = i + 1;
+      while (++i < text.size() && text[i] != '"')
+        if (text[i] == '\\') ++i;
+      const auto string = text.substr(std::min(first, text.size()), i - first);
+      const auto next = text.find_first_not_of(" \t\r\n", i + 1);
+      const bool is_key = next != std::string_view::npos && text[next] == ':';
+      if (level == 0 && is_key && string != "$schema") {
+        level = string == "schemas" ? 3 : 1;
+        if (level == 1) found.emplace_back();
+      }
+      if (is_key && depth == level) {
+        key = string;
+      } else if (!found.empty() && key == "keyword" && depth == level) {
+        found.back().keyword = string;
+      } else if (!found.empty() && key == "aliases" && depth == level + 1) {
+        found.back().aliases.emplace_back(string);
+      }
+    }
+  }
+  return found;
 }
 
 Result<std::vector<Schema>> parse_schemas(std::string_view name, std::string_view text) {

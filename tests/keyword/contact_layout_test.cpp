@@ -1,5 +1,6 @@
 // The layouts of the contact keywords against the published tables: number of lines, cells that
 // came or moved with a version, legal values, defaults, dimensions.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -377,7 +378,7 @@ TEST(ContactDimensions, FrictionCoefficientsFollowTheLaw) {
   for (const char* keyword : {"/INTER/TYPE7", "/INTER/TYPE19", "/FRICTION"})
     for (const auto& [law, expected] : table)
       for (std::size_t i = 0; i < 6; ++i)
-        EXPECT_EQ(dimension(keyword, "C" + std::to_string(i + 1), {{"Ifric", law}}), expected[i])
+        EXPECT_EQ(dimension(keyword, fmt::format("C{}", i + 1), {{"Ifric", law}}), expected[i])
             << keyword << " Ifric " << law << " C" << i + 1;
 }
 

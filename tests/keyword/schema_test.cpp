@@ -11,8 +11,10 @@
 #include <map>
 #include <set>
 #include <string>
+#include <thread>
 
 #include "keyword/embedded.hpp"
+#include "keyword/schema_json.hpp"
 
 namespace deck {
 namespace {
@@ -46,6 +48,49 @@ TEST(BuiltInSchemas, EveryFileLoadsAndNoneIsLost) {
   EXPECT_GT(files, 20u);
   EXPECT_GT(set.all().size(), 500u);
   EXPECT_EQ(set.all().size(), SchemaSet::built_in().all().size());
+}
+
+TEST(BuiltInSchemas, ParsingOnFirstUseGivesWhatParsingAtOnceGives) {
+  for (const auto& file : detail::embedded_schemas()) {
+    SchemaSet set;
+    ASSERT_TRUE(set.add_json(file.name, file.text));
+    for (const auto* eager : set.all()) {
+      auto names = eager->aliases;
+      names.push_back(eager->keyword);
+      for (const auto& name : names) {
+        const auto* lazy = SchemaSet::built_in().find(name);
+        ASSERT_NE(lazy, nullptr) << name;
+        EXPECT_EQ(lazy->keyword, eager->keyword);
+        EXPECT_EQ(lazy->doc, eager->doc);
+        EXPECT_EQ(lazy->cards.size(), eager->cards.size());
+        EXPECT_EQ(lazy->source, file.name);
+      }
+    }
+  }
+}
+
+TEST(BuiltInSchemas, MayBeAskedForByManyThreadsAtOnce) {
+  const auto& set = SchemaSet::built_in();
+  std::vector<std::thread> threads;
+  std::array<std::vector<const Schema*>, 4> seen;
+  for (auto& result : seen) threads.emplace_back([&] { result = set.all(); });
+  for (auto& thread : threads) thread.join();
+  for (const auto& result : seen) EXPECT_EQ(result, seen[0]);
+  for (const auto* s : seen[0]) EXPECT_FALSE(s->keyword.empty());
+}
+
+TEST(SplitSchemas, FindsNamesInAnyOrderAndIgnoresThoseOfFields) {
+  const auto one = detail::split_schemas(
+      R"({"$schema":"x","cards":[{"name":"keyword","fields":[{"keyword":"/no"}]}],)"
+      R"("doc":"\"}{[","aliases":["/B","/C"],"keyword":"/A"})");
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].keyword, "/A");
+  EXPECT_EQ(one[0].aliases, (std::vector<std::string>{"/B", "/C"}));
+  const auto two = detail::split_schemas(R"({"schemas":[{"keyword":"/A"},{"keyword":"/B"}]})");
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(two[1].keyword, "/B");
+  EXPECT_EQ(two[1].text, R"({"keyword":"/B"})");
+  EXPECT_TRUE(two[1].aliases.empty());
 }
 
 TEST(BuiltInSchemas, NoTwoFilesDescribeTheSameKeyword) {

@@ -114,7 +114,8 @@ class SchemaSet {
   std::vector<const Schema*> all() const;
 
  private:
-  std::map<std::string, std::shared_ptr<const Schema>, std::less<>> by_name_;
+  struct Entry;  ///< one schema; the built-in ones are parsed when they are first asked for
+  std::map<std::string, std::shared_ptr<const Entry>, std::less<>> by_name_;
 };
 
 }  // namespace deck
