@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 
 #include "model/defaults.hpp"
 #include "model/interfaces_card.hpp"
@@ -40,10 +41,9 @@ void leave_to_geometry(EffectiveReal& e) {
 /// The rules of the reference solver for one interface, in its order of evaluation.
 class Rules {
  public:
-  Rules(const Model& model, const Interfaces& all, int type) : model_(model), all_(all) {
-    for (const DefaultInter& d : all.defaults)
-      if (d.type == type) defaults_ = &d;
-  }
+  /// `defaults`: the default card of this type, nullptr if there is none.
+  Rules(const Model& model, const Interfaces& all, const DefaultInter* defaults)
+      : model_(model), all_(all), defaults_(defaults) {}
 
   void apply(InterType7& t) const {
     default_flag(t.Istf, "Istf", nothing);
@@ -104,6 +104,7 @@ class Rules {
     default_flag(t.Irem_i2, "Irem_i2", model_.implicit ? 1 : 3);
     default_flag(t.Ibag, "Ibag", nothing);
     common_flags(t);
+    if (t.Igap.value == 4) settle<std::int64_t>(t.Irem_gap, 2);
     airbag(t.Ibag);
     scaled_gap(t);
     fallback(t.Edge_scale_gap, 1.0);
@@ -241,7 +242,7 @@ class Rules {
 
   const Model& model_;
   const Interfaces& all_;
-  const DefaultInter* defaults_ = nullptr;
+  const DefaultInter* defaults_;
 };
 
 int type_of(const Block& block) {
@@ -281,6 +282,25 @@ void check_smoothing(const InterfaceCard& card, const InterBase& inter, Diagnost
   diagnostics.add(std::move(d));
 }
 
+/// A default card behind interfaces of its type, which do not see it.
+void report_too_early(const DefaultInter& defaults, const std::vector<const Block*>& interfaces,
+                      Diagnostics& diagnostics) {
+  if (interfaces.empty() || !diagnostics.wants("DK153")) return;
+  Diagnostic d;
+  d.rule = "DK153";
+  d.severity = Severity::warning;
+  d.span = defaults.span;
+  const std::string keyword = "TYPE" + std::to_string(defaults.type);
+  d.message = "this default card stands after " + std::to_string(interfaces.size()) + " " +
+              keyword + " interface" + (interfaces.size() == 1 ? "" : "s") +
+              ", which it does not change";
+  d.reference_behaviour = "it uses its built-in defaults for interfaces in front of the card";
+  d.help = "put /DEFAULT/INTER/" + keyword + " in front of the interfaces, or delete it";
+  d.keyword = "/DEFAULT/INTER/" + keyword;
+  d.notes.emplace_back(interfaces.front()->header_span, "the first of these interfaces");
+  diagnostics.add(std::move(d));
+}
+
 }  // namespace
 
 Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
@@ -288,11 +308,18 @@ Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& di
   out.defaults = detail::read_defaults(deck, diagnostics);
   out.frictions = detail::read_frictions(deck);
   std::vector<std::pair<int, std::size_t>> order;
+  // Measured: a default card does nothing for the interfaces that stand before it.
+  std::map<int, const DefaultInter*> in_force;
+  std::map<int, std::vector<const Block*>> too_early;
   for (const Block& block : deck.blocks) {
+    for (const DefaultInter& d : out.defaults)
+      if (d.span == block.header_span) in_force[d.type] = &d;
     const int type = type_of(block);
     if (type == 0) continue;
     const InterfaceCard card(deck, block);
-    const Rules rules(model, out, type);
+    const auto given = in_force.find(type);
+    if (given == in_force.end()) too_early[type].push_back(&block);
+    const Rules rules(model, out, given == in_force.end() ? nullptr : given->second);
     const auto keep = [&](auto& list, auto inter) {
       order.emplace_back(type, list.size());
       list.push_back(std::move(inter));
@@ -313,6 +340,7 @@ Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& di
         break;
     }
   }
+  for (const DefaultInter& d : out.defaults) report_too_early(d, too_early[d.type], diagnostics);
   // Only now do the lists stay where they are.
   for (const auto& [type, i] : order) switch (type) {
       case 7:

@@ -172,6 +172,8 @@ std::string params_json(const ParamsInput& in) {
       t.for_each(
           [&](std::string_view name, const auto& e) { json_field(json, in, *inter, name, e); });
     });
+    // No such cell on the card; its node-to-surface parts have the field all the same.
+    if (inter->type == 19) json_field(json, in, *inter, "Fpenmax", EffectiveReal{});
     json.end_object().end_object();
   }
   json.end_array();

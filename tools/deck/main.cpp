@@ -74,7 +74,7 @@ int check_verb(int argc, char** argv, const std::vector<Verb>& all) {
 int run(int argc, char** argv) {
   const std::vector<Verb> all = verbs();
   if (const int code = check_verb(argc, argv, all); code != 0) return code;
-  CLI::App app("Radioss contact decks (TYPE7, 10, 11, 19): read, check, measure, rewrite.");
+  CLI::App app("Radioss contact decks (TYPE7, 10, 11, 19): read, check, measure, rewrite.", "deck");
   app.set_version_flag("--version", version_text(), "Version and compiler");
   app.set_help_flag("-h,--help", "This help; 'deck VERB --help' explains a verb");
   std::map<CLI::App*, Action> actions;
