@@ -15,6 +15,15 @@ void Diagnostics::report(Diagnostic d) {
   if (wants(d.rule)) kept_.push_back(std::move(d));
 }
 
+void Diagnostics::count(std::string_view rule, std::uint64_t n) {
+  if (n > 0) counts_[rule] += n;
+}
+
+bool Diagnostics::saturated(std::string_view rule) const {
+  const auto it = counts_.find(rule);
+  return (it == counts_.end() ? 0 : it->second) >= static_cast<std::uint64_t>(per_rule_);
+}
+
 void Diagnostics::merge(Diagnostics&& other) {
   std::map<std::string_view, std::uint64_t> kept;
   for (Diagnostic& d : other.kept_) {

@@ -66,7 +66,17 @@ inline void scan_digits(const char* begin, const char*& p, const char* end,
   }
 }
 
-/// Skips blanks (bytes <= 0x20) in front.
+/// What counts as a blank in a cell: every byte <= 0x20, or only the space, so that tabs and other
+/// control characters make a cell unclean.
+enum class Blanks { all, spaces };
+
+template <Blanks blanks>
+inline bool blank_as(char c) {
+  return blanks == Blanks::all ? is_blank(c) : c == ' ';
+}
+
+/// Skips blanks in front.
+template <Blanks blanks>
 inline void skip_blanks(const char*& p, const char* end) {
   while (end - p >= 8) {
     const std::uint64_t x = load8(p) ^ (' ' * every_byte);
@@ -77,7 +87,7 @@ inline void skip_blanks(const char*& p, const char* end) {
     p += std::countr_zero(x) / 8;
     break;
   }
-  while (p != end && is_blank(*p)) ++p;
+  while (p != end && blank_as<blanks>(*p)) ++p;
 }
 
 inline constexpr double power_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
@@ -90,11 +100,12 @@ RealCell read_real_general(const char* begin, const char* end);
 
 /// Reads a real cell. One rounding at most where mantissa and power of ten are exact doubles
 /// (Clinger), else the general case.
+template <Blanks blanks = Blanks::all>
 inline RealCell scan_real(const char* p, const char* end) {
   const char* const cell = p;
-  skip_blanks(p, end);
+  skip_blanks<blanks>(p, end);
   if (p == end) return {0, NumberStatus::blank};
-  while (is_blank(end[-1])) --end;
+  while (blank_as<blanks>(end[-1])) --end;
   const char* const begin = p;
   const bool negative = *p == '-';
   if (negative || *p == '+') ++p;
@@ -137,9 +148,10 @@ inline RealCell scan_real(const char* p, const char* end) {
 }
 
 /// Reads an integer cell.
+template <Blanks blanks = Blanks::all>
 inline IntegerCell scan_integer(const char* p, const char* end) {
   const char* const cell = p;
-  skip_blanks(p, end);
+  skip_blanks<blanks>(p, end);
   if (p == end) return {0, NumberStatus::blank};
   const bool negative = *p == '-';
   if (negative || *p == '+') ++p;
@@ -150,7 +162,7 @@ inline IntegerCell scan_integer(const char* p, const char* end) {
   if (p - digits > 18) return {0, NumberStatus::overflow};
   const auto whole =
       negative ? -static_cast<std::int64_t>(value) : static_cast<std::int64_t>(value);
-  while (p != end && is_blank(*p)) ++p;
+  while (p != end && blank_as<blanks>(*p)) ++p;
   return {whole, p == end ? NumberStatus::ok : NumberStatus::trailing_text};
 }
 

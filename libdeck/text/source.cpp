@@ -119,15 +119,14 @@ Position Source::position(std::uint64_t offset) const {
     while (checkpoints_.size() <= slot) {
       const std::uint64_t from = (checkpoints_.size() - 1) * checkpoint_step;
       const auto* first = bytes_.data() + from;
-      checkpoints_.push_back(checkpoints_.back() +
-                             static_cast<std::uint64_t>(
-                                 std::count(first, first + checkpoint_step, '\n')));
+      checkpoints_.push_back(checkpoints_.back() + static_cast<std::uint64_t>(std::count(
+                                                       first, first + checkpoint_step, '\n')));
     }
     lines = checkpoints_[slot];
   }
   const auto* data = bytes_.data();
-  lines += static_cast<std::uint64_t>(
-      std::count(data + slot * checkpoint_step, data + offset, '\n'));
+  lines +=
+      static_cast<std::uint64_t>(std::count(data + slot * checkpoint_step, data + offset, '\n'));
   const auto* start = offset == 0 ? nullptr : ::memrchr(data, '\n', offset);
   const std::uint64_t begin =
       start == nullptr ? 0 : static_cast<std::uint64_t>(static_cast<const char*>(start) - data) + 1;

@@ -1,5 +1,5 @@
-// Diagnostic: one finding about the input, with its place. Everything the library has to say about a
-// deck is one of these; printing them is somebody else's job.
+// Diagnostic: one finding about the input, with its place. Everything the library has to say about
+// a deck is one of these; printing them is somebody else's job.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -37,11 +37,11 @@ struct Diagnostic {
   std::string_view rule;  ///< stable id, e.g. "DK104"; points to a string literal
   Severity severity = Severity::error;
   Span span;
-  std::string message;    ///< what was read and what was expected
+  std::string message;              ///< what was read and what was expected
   std::string reference_behaviour;  ///< what the reference solver does with it
-  std::string help;       ///< how to fix it
+  std::string help;                 ///< how to fix it
   std::optional<ReferenceMessage> reference;
-  std::string keyword;    ///< entity the finding is about, e.g. "/INTER/TYPE7"; may be empty
+  std::string keyword;  ///< entity the finding is about, e.g. "/INTER/TYPE7"; may be empty
   std::int64_t id = 0;
   std::vector<std::pair<Span, std::string>> notes;  ///< related places
   std::optional<Fix> fix;
@@ -59,6 +59,10 @@ class Diagnostics {
   Diagnostic& add(Diagnostic d);
   /// wants() and add() in one step, for rare findings.
   void report(Diagnostic d);
+  /// Counts `n` further findings of `rule` without messages.
+  void count(std::string_view rule, std::uint64_t n);
+  /// True if wants() would say false.
+  bool saturated(std::string_view rule) const;
   /// Adds what another collector (of a parallel part) has found.
   void merge(Diagnostics&& other);
 
