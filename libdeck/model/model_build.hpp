@@ -13,13 +13,13 @@ namespace deck::detail {
 struct Finding {
   std::string_view rule;
   Severity severity = Severity::error;
-  Span span;
-  std::string message;
-  std::string behaviour;
-  std::string help;
+  Span span{};
+  std::string message{};
+  std::string behaviour{};
+  std::string help{};
   int number = 0;
   Severity number_severity = Severity::error;
-  std::string keyword;
+  std::string keyword{};
   std::int64_t id = 0;
 };
 Diagnostic make_diagnostic(Finding f);

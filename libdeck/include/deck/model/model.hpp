@@ -1,5 +1,6 @@
-// Model: the deck as arrays. Nodes and elements are structures of arrays with 32-bit indices in order
-// of appearance (the reference solver's internal order); ids are 64-bit; all values in working units.
+// Model: the deck as arrays. Nodes and elements are structures of arrays with 32-bit indices in
+// order of appearance (the reference solver's internal order); ids are 64-bit; all values in
+// working units.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -20,7 +21,8 @@ inline constexpr std::uint32_t no_index = 0xffffffffu;
 /// id -> index; built once, then constant time for dense ids and logarithmic otherwise.
 class IdMap {
  public:
-  /// `ids[i]` belongs to index i. Duplicates: the first one wins; they are returned by duplicates().
+  /// `ids[i]` belongs to index i. Duplicates: the first one wins; they are returned by
+  /// duplicates().
   void build(const std::vector<std::int64_t>& ids);
   std::uint32_t find(std::int64_t id) const;  ///< no_index if absent
   const std::vector<std::uint32_t>& duplicates() const { return duplicates_; }
@@ -40,7 +42,14 @@ struct Nodes {
 };
 
 enum class ElementKind : std::uint8_t {
-  shell4, shell3, solid8, quad, tria, truss, beam, spring,
+  shell4,
+  shell3,
+  solid8,
+  quad,
+  tria,
+  truss,
+  beam,
+  spring,
 };
 
 /// Solids as the reference solver stores them: eight slots, degenerate ones repeat nodes
@@ -52,16 +61,19 @@ struct Elements {
   ElementKind kind{};
   int width = 0;
   std::vector<std::int64_t> id;
-  std::vector<std::uint32_t> part;      ///< index into Model::parts, no_index: part missing
-  std::vector<NodeIndex> nodes;         ///< width per element; no_index: node missing
-  std::vector<double> thickness;        ///< shells: own thickness, 0 where absent (may be empty)
-  std::vector<SolidShape> shape;        ///< solids only
-  std::vector<std::uint32_t> extra;     ///< solids only: first slot in extra_nodes (10/20/16-node mid nodes), no_index: none
+  std::vector<std::uint32_t> part;  ///< index into Model::parts, no_index: part missing
+  std::vector<NodeIndex> nodes;     ///< width per element; no_index: node missing
+  std::vector<double> thickness;    ///< shells: own thickness, 0 where absent (may be empty)
+  std::vector<SolidShape> shape;    ///< solids only
+  std::vector<std::uint32_t>
+      extra;  ///< solids only: first slot in extra_nodes (10/20/16-node mid nodes), no_index: none
   std::vector<NodeIndex> extra_nodes;
-  std::vector<std::uint32_t> block;     ///< index into Model::element_blocks
+  std::vector<std::uint32_t> block;  ///< index into Model::element_blocks
   IdMap map;
   std::size_t size() const { return id.size(); }
-  const NodeIndex* of(std::size_t e) const { return nodes.data() + e * static_cast<std::size_t>(width); }
+  const NodeIndex* of(std::size_t e) const {
+    return nodes.data() + e * static_cast<std::size_t>(width);
+  }
 };
 
 struct Part {
@@ -69,32 +81,33 @@ struct Part {
   std::string title;
   std::int64_t prop_id = 0, mat_id = 0, subset_id = 0;
   std::uint32_t prop = no_index, mat = no_index;  ///< indices, no_index: missing
-  double thickness = 0;  ///< contact thickness, 0: none
-  std::int32_t submodel = -1;  ///< index into Deck::submodels
-  Span span;             ///< header
+  double thickness = 0;                           ///< contact thickness, 0: none
+  std::int32_t submodel = -1;                     ///< index into Deck::submodels
+  Span span;                                      ///< header
 };
 
 struct Property {
   std::int64_t id = 0;
-  std::string title, type;   ///< canonical keyword, e.g. "/PROP/SHELL"
-  int number = -1;           ///< TYPEn, -1 unknown
-  double thickness = 0;      ///< shells
-  double area = 0;           ///< truss, beam, integrated beam
-  std::array<double, 3> stiffness{};  ///< springs: K (types 4, 12: first; 8, 13: x y z) divided by their scale
-  int icontrol = 0;          ///< solids
+  std::string title, type;  ///< canonical keyword, e.g. "/PROP/SHELL"
+  int number = -1;          ///< TYPEn, -1 unknown
+  double thickness = 0;     ///< shells
+  double area = 0;          ///< truss, beam, integrated beam
+  std::array<double, 3>
+      stiffness{};   ///< springs: K (types 4, 12: first; 8, 13: x y z) divided by their scale
+  int icontrol = 0;  ///< solids
   Span span;
   const Block* block = nullptr;
 };
 
 struct Material {
   std::int64_t id = 0;
-  std::string title, type;   ///< canonical keyword
+  std::string title, type;  ///< canonical keyword
   int law = -1;
   double density = 0;
-  double young = 0;          ///< E used for contact stiffness; 0: none
-  double bulk = 0;           ///< B used for contact stiffness of solids; 0: none
+  double young = 0;             ///< E used for contact stiffness; 0: none
+  double bulk = 0;              ///< B used for contact stiffness of solids; 0: none
   bool stiffness_known = true;  ///< false: the law's contact stiffness is not established
-  bool thermal = false;      ///< a /HEAT/MAT refers to it
+  bool thermal = false;         ///< a /HEAT/MAT refers to it
   Span span;
   const Block* block = nullptr;
 };
@@ -110,12 +123,19 @@ struct Effective {
   T input{};               ///< as read from the card (working units); meaningful if has_input
   bool has_input = false;  ///< false: blank cell or no such cell in this version
   Origin origin = Origin::built_in;
-  Span span;               ///< the columns on the card, or of the default card
+  Span span;  ///< the columns on the card, or of the default card
 };
 
 /// Kind of a segment's carrier; the reference solver's sort key.
 enum class Carrier : std::uint8_t {
-  none = 0, solid = 1, quad = 2, shell4 = 3, truss = 4, beam = 5, spring = 6, shell3 = 7,
+  none = 0,
+  solid = 1,
+  quad = 2,
+  shell4 = 3,
+  truss = 4,
+  beam = 5,
+  spring = 6,
+  shell3 = 7,
 };
 
 /// Four node indices; triangles repeat the third node.
@@ -133,9 +153,25 @@ struct Edge {
 };
 
 /// A resolved node group, surface or line. `found` is false where the id names nothing.
-struct NodeSet { std::int64_t id = 0; std::string title; std::vector<NodeIndex> nodes; Span span; };
-struct Surface { std::int64_t id = 0; std::string title; std::vector<Segment> segments; bool analytical = false; Span span; };
-struct LineSet { std::int64_t id = 0; std::string title; std::vector<Edge> edges; Span span; };
+struct NodeSet {
+  std::int64_t id = 0;
+  std::string title;
+  std::vector<NodeIndex> nodes;
+  Span span;
+};
+struct Surface {
+  std::int64_t id = 0;
+  std::string title;
+  std::vector<Segment> segments;
+  bool analytical = false;
+  Span span;
+};
+struct LineSet {
+  std::int64_t id = 0;
+  std::string title;
+  std::vector<Edge> edges;
+  Span span;
+};
 /// /SET/GENERAL, /SET/COLLECT: three projections of one selection.
 struct SetGeneral {
   std::int64_t id = 0;
@@ -147,7 +183,12 @@ struct SetGeneral {
   Span span;
 };
 
-struct Curve { std::int64_t id = 0; std::string title; std::vector<double> x, y; Span span; };
+struct Curve {
+  std::int64_t id = 0;
+  std::string title;
+  std::vector<double> x, y;
+  Span span;
+};
 
 /// A block of elements or nodes, to get from an index back to the line in the file.
 struct BulkBlock {
@@ -180,19 +221,21 @@ struct ModelData {
   std::vector<Property> properties;
   std::vector<Material> materials;
   std::map<std::int64_t, std::uint32_t> part_of_id, property_of_id, material_of_id;
-  std::map<std::int64_t, std::vector<std::int64_t>> subset_children;   ///< child subset ids
+  std::map<std::int64_t, std::vector<std::int64_t>> subset_children;  ///< child subset ids
   std::map<std::int64_t, Curve> curves;
   std::map<std::int64_t, Span> sensors, frictions, skews, submodels, rbodies;
-  bool intthick_v5 = false;     ///< /INTTHICK/V5
-  bool two_dimensional = false; ///< /ANALY N2D != 0
+  bool intthick_v5 = false;      ///< /INTTHICK/V5
+  bool two_dimensional = false;  ///< /ANALY N2D != 0
   bool implicit = false;
-  bool has_monitored_volume = false, has_ale = false, has_sol2sph = false, has_adaptive_mesh = false;
+  bool has_monitored_volume = false, has_ale = false, has_sol2sph = false,
+       has_adaptive_mesh = false;
   bool has_thermal_material = false;
-  double random_noise = 0;      ///< /RANDOM amplitude, working units
+  double random_noise = 0;  ///< /RANDOM amplitude, working units
   bool has_random = false;
   /// Coordinates before the /TRANSFORM of node groups; nullptr if there are none. Boxes use them.
   std::shared_ptr<const Coordinates> before_transforms;
-  std::vector<AffineMap> submodel_motions;  ///< per Deck::submodels: its own /TRANSFORM, in sequence
+  std::vector<AffineMap>
+      submodel_motions;                    ///< per Deck::submodels: its own /TRANSFORM, in sequence
   std::shared_ptr<Selections> selections;  ///< of this model; set by build_model
 };
 

@@ -33,7 +33,8 @@ class Selections {
   const std::vector<std::uint32_t>* part_group(std::int64_t id);
   /// True if the id is that of a plain /GRNOD, /SURF, /LINE (not a set).
   bool is_plain(std::string_view kind, std::int64_t id) const;
-  /// Definition of an id, for "defined here" notes: kind is "grnod", "surf", "line", "set", "box", ...
+  /// Definition of an id, for "defined here" notes: kind is "grnod", "surf", "line", "set", "box",
+  /// ...
   std::optional<Span> where(std::string_view kind, std::int64_t id) const;
   /// All ids of a kind in order of definition.
   std::vector<std::int64_t> ids(std::string_view kind) const;
@@ -51,8 +52,9 @@ class Selections {
   /// For Model: the model has moved to this address.
   void rebind(const Model& model);
 
- private:
   struct Impl;
+
+ private:
   std::unique_ptr<Impl> impl_;
 };
 

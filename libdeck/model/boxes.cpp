@@ -1,0 +1,216 @@
+// /BOX: reading and the inside test. Boxes see the coordinates before the /TRANSFORM of node
+// groups.
+#include "model/boxes.hpp"
+
+#include <cmath>
+
+#include "model/selection_impl.hpp"
+
+namespace deck {
+
+using detail::Box;
+using detail::Definition;
+
+namespace detail {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+bool normalise_vector(Vector& v) {
+  const double n = std::hypot(v[0], v[1], v[2]);
+  if (!(n > 0)) return false;
+  for (double& c : v) c /= n;
+  return true;
+}
+
+Vector in_axes(const std::array<double, 9>& axes, const Vector& p) {
+  return {dot({axes[0], axes[1], axes[2]}, p), dot({axes[3], axes[4], axes[5]}, p),
+          dot({axes[6], axes[7], axes[8]}, p)};
+}
+
+/// On one axis: within the corners, whatever their order; a flat box holds its plane exactly.
+bool between(double x, double from, double to) {
+  const double d = to - from;
+  const double s = (x - from) * d;
+  return d == 0 ? x == from : s >= 0 && s <= d * d;
+}
+
+}  // namespace
+
+bool Box::contains(double x, double y, double z) const {
+  const Vector point{x, y, z};
+  switch (type) {
+    case Type::none: {
+      bool in = false;
+      for (std::size_t i = 0; i < members.size(); ++i)
+        if (members[i]->contains(x, y, z)) in = !subtracted[i];
+      return in;
+    }
+    case Type::rectangle: {
+      const Vector local = global ? point : in_axes(axes, point);
+      return between(local[0], p[0], q[0]) && between(local[1], p[1], q[1]) &&
+             between(local[2], p[2], q[2]);
+    }
+    case Type::cylinder: {
+      const Vector axis = minus(q, p), r = minus(point, p);
+      const double along = dot(r, axis), square = dot(axis, axis);
+      if (along < 0 || along > square) return false;
+      const Vector c = cross(r, axis);
+      return dot(c, c) <= 0.25 * diameter * diameter * square;
+    }
+    case Type::sphere: {
+      const Vector r = minus(point, p);
+      return dot(r, r) <= 0.25 * diameter * diameter;
+    }
+  }
+  return false;
+}
+
+}  // namespace detail
+
+std::array<double, 3> Selections::Impl::box_point(NodeIndex n) const {
+  if (const Coordinates* c = model->before_transforms.get()) return {c->x[n], c->y[n], c->z[n]};
+  const Nodes& nodes = model->nodes;
+  return {nodes.x[n], nodes.y[n], nodes.z[n]};
+}
+
+const Box* Selections::Impl::box(std::int64_t id, const Block& from, int missing_number) {
+  if (const auto it = boxes.find(id); it != boxes.end()) return &it->second;
+  const Definition* def = definition("box", id);
+  if (def == nullptr) {
+    report({"DK159", Severity::error, from.header_span,
+            std::string(from.keyword) + " " + std::to_string(from.id.value) + " refers to box " +
+                std::to_string(id) + ", which does not exist",
+            "it stops with an error", "define the box or correct the id", missing_number,
+            Severity::error, std::string(from.keyword), from.id.value});
+    return nullptr;
+  }
+  if (recursive("box", id, *def->block, 797)) return nullptr;
+  const auto guard = open.emplace("box", id).first;
+  Box b;
+  fill_box(b, *def, decode(deck(), *def->block));
+  open.erase(guard);
+  return &boxes.emplace(id, std::move(b)).first->second;
+}
+
+/// Rows of `axes` are the axes of skew `id`, with the coordinates the boxes see.
+bool Selections::Impl::skew_axes(std::int64_t id, std::array<double, 9>& axes) {
+  const Definition* def = definition("skew", id);
+  if (def == nullptr) return false;
+  const DecodedBlock d = decode(deck(), *def->block);
+  detail::Vector x{}, y{}, z{};
+  if (def->type == "FIX") {
+    y = {d.real("X_Y"), d.real("Y_Y"), d.real("Z_Y")};
+    z = {d.real("X_Z"), d.real("Y_Z"), d.real("Z_Z")};
+    if (const std::int32_t s = def->block->submodel;
+        s >= 0 && static_cast<std::size_t>(s) < model->submodel_motions.size()) {
+      const AffineMap& motion = model->submodel_motions[static_cast<std::size_t>(s)];
+      y = motion.turn(y);
+      z = motion.turn(z);
+    }
+    x = detail::cross(y, z);
+    if (!detail::normalise_vector(y) || !detail::normalise_vector(x)) return false;
+  } else if (def->type == "MOV") {
+    std::array<detail::Vector, 3> p;
+    constexpr const char* names[3] = {"N1", "N2", "N3"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const NodeIndex n = node(shift(*def->block, "node", d.integer(names[i])));
+      if (n == no_index) return false;
+      p[i] = box_point(n);
+    }
+    x = detail::minus(p[1], p[0]);
+    z = detail::cross(x, detail::minus(p[2], p[0]));
+    y = detail::cross(z, x);
+    if (!detail::normalise_vector(x) || !detail::normalise_vector(y)) return false;
+  } else {
+    return false;
+  }
+  z = detail::cross(x, y);
+  axes = {x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]};
+  return true;
+}
+
+void Selections::Impl::fill_box(Box& b, const Definition& def, const DecodedBlock& d) {
+  const Block& block = *def.block;
+  const auto fail = [&](std::string what, std::string help, int number) {
+    report({"DK159", Severity::error, block.header_span,
+            std::string(block.keyword) + " " + std::to_string(block.id.value) + ": " + what,
+            "it stops with an error", std::move(help), number, Severity::error,
+            std::string(block.keyword), block.id.value});
+  };
+  if (def.type == "BOX") {
+    const detail::IdList list = id_list(d);
+    if (list.positive.empty() && list.negative.empty())
+      fail("the list of boxes is empty", "list boxes or remove it", 801);
+    for (const auto* refs : {&list.positive, &list.negative})
+      for (const detail::IdRef& ref : *refs)
+        if (const Box* member = box(ref.id, block, 795)) {
+          b.members.push_back(member);
+          b.subtracted.push_back(refs == &list.negative);
+        }
+    return;
+  }
+  const AffineMap motion = block.submodel >= 0 && static_cast<std::size_t>(block.submodel) <
+                                                      model->submodel_motions.size()
+                               ? model->submodel_motions[static_cast<std::size_t>(block.submodel)]
+                               : AffineMap{};
+  const auto value = [&](const char* name) {
+    const Cell* cell = d.find(name);
+    return cell == nullptr ? 0 : working_value(deck(), d, *cell);
+  };
+  // A point from its node if one is named, else from its coordinates.
+  const auto point = [&](const char* node_field, const char* x, const char* y, const char* z,
+                         bool use_node) -> detail::Vector {
+    if (use_node) {
+      const std::int64_t id = shift(block, "node", d.integer(node_field));
+      if (const NodeIndex n = node(id); n != no_index) return box_point(n);
+      fail("node " + std::to_string(id) + " does not exist", "correct the node id", 78);
+      return {};
+    }
+    return motion.apply({value(x), value(y), value(z)});
+  };
+  const auto blank = [&](std::initializer_list<const char*> fields) {
+    for (const char* f : fields)
+      if (const Cell* cell = d.find(f); cell != nullptr && !cell->blank()) return false;
+    return true;
+  };
+  const bool sphere = def.type == "SPHER";
+  const bool nodes = d.integer("node_ID1") > 0 && (sphere || d.integer("node_ID2") > 0);
+  b.diameter = value("Diam");
+  b.p = point("node_ID1", "X1", "Y1", "Z1", nodes);
+  if (!sphere) b.q = point("node_ID2", "X2", "Y2", "Z2", nodes);
+  const bool undefined = !nodes && (sphere ? blank({"X1", "Y1", "Z1"}) && b.diameter == 0
+                                           : blank({"X1", "Y1", "Z1", "X2", "Y2", "Z2"}));
+  if (undefined) fail("its limits are not given", "give coordinates or nodes", 752);
+  if (sphere) {
+    b.type = Box::Type::sphere;
+  } else if (def.type == "CYLIN") {
+    b.type = Box::Type::cylinder;
+  } else {
+    b.type = Box::Type::rectangle;
+    const std::int64_t skew = shift(block, "skew", d.integer("skew_ID"));
+    if (skew != 0) {
+      b.global = false;
+      if (!skew_axes(skew, b.axes))
+        fail("skew " + std::to_string(skew) + " does not exist or has no axes",
+             "define the skew or use 0 for the global axes", 748);
+    } else if (block.submodel >= 0) {
+      // Without a skew a box turns with its submodel.
+      const detail::Vector x = motion.turn({1, 0, 0}), y = motion.turn({0, 1, 0}),
+                           z = motion.turn({0, 0, 1});
+      b.axes = {x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]};
+      b.global = b.axes == std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1};
+    }
+    if (!b.global) {
+      b.p = detail::in_axes(b.axes, b.p);
+      b.q = detail::in_axes(b.axes, b.q);
+    }
+  }
+}
+
+}  // namespace deck

@@ -1,0 +1,234 @@
+// Exterior faces by hashing: every face is a key made of its nodes in a canonical order and one bit
+// for the sense of traversal; a face met again in the opposite sense is interior.
+#include "model/faces.hpp"
+
+#include <algorithm>
+
+namespace deck::detail {
+namespace {
+
+// Outward faces of the stored slots, in the order the reference solver creates them.
+constexpr int face_slots[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                  {2, 3, 7, 6}, {1, 2, 6, 5}, {0, 4, 7, 3}};
+// Mid-side nodes (0-based on the card) of faces 2..5 of a 10-node tetrahedron.
+constexpr int tetra_mids[6][3] = {{-1, -1, -1}, {-1, -1, -1}, {2, 5, 3},
+                                  {4, 5, 1},    {0, 1, 2},    {3, 4, 0}};
+
+struct OrientedKey {
+  NodeKey key;
+  bool forward = false;
+};
+
+/// Smallest node first, then the smaller of its two neighbours: the same key for both senses.
+OrientedKey oriented_key(const Face& face) {
+  const auto n = static_cast<std::size_t>(face.corners);
+  std::size_t least = 0;
+  for (std::size_t i = 1; i < n; ++i)
+    if (face.nodes[i] < face.nodes[least]) least = i;
+  const NodeIndex next = face.nodes[(least + 1) % n];
+  const NodeIndex previous = face.nodes[(least + n - 1) % n];
+  OrientedKey out;
+  out.forward = next < previous;
+  out.key.nodes = {face.nodes[least], std::min(next, previous), std::max(next, previous),
+                   n == 4 ? face.nodes[(least + 2) % n] : no_index};
+  return out;
+}
+
+bool complete(const Elements& solids, std::size_t e) {
+  const NodeIndex* n = solids.of(e);
+  return std::find(n, n + 8, no_index) == n + 8;
+}
+
+/// Owners of a face per sense of traversal; `several` where more than one solid has it.
+struct Owners {
+  std::uint32_t solid[2] = {no_index, no_index};
+  bool several[2] = {false, false};
+};
+
+class FaceOwners {
+ public:
+  FaceOwners(const Elements& solids, const std::vector<std::uint32_t>& members)
+      : table_(members.size() * 4) {
+    owners_.reserve(members.size() * 4);
+    for (const std::uint32_t e : members) {
+      if (!complete(solids, e)) continue;
+      for (int f = 0; f < 6; ++f)
+        if (const Face face = solid_face(solids.of(e), f); face.corners > 0) add(face, e);
+    }
+  }
+
+  /// True if another solid than `e` has this face the other way round.
+  bool interior(const Face& face, std::uint32_t e) const {
+    const OrientedKey k = oriented_key(face);
+    const std::uint32_t at = table_.find(k.key);
+    if (at == no_index) return false;
+    const Owners& o = owners_[at];
+    const int other = k.forward ? 0 : 1;
+    return o.solid[other] != no_index && (o.solid[other] != e || o.several[other]);
+  }
+
+ private:
+  void add(const Face& face, std::uint32_t e) {
+    const OrientedKey k = oriented_key(face);
+    const std::uint32_t at = table_.insert(k.key);
+    if (at == owners_.size()) owners_.emplace_back();
+    Owners& o = owners_[at];
+    const int sense = k.forward ? 1 : 0;
+    if (o.solid[sense] == no_index)
+      o.solid[sense] = e;
+    else if (o.solid[sense] != e)
+      o.several[sense] = true;
+  }
+
+  KeyTable table_;
+  std::vector<Owners> owners_;
+};
+
+void append_face(const Elements& solids, std::uint32_t e, int f, const Face& face,
+                 std::vector<Segment>& out) {
+  if (solids.shape[e] != SolidShape::tetra10 || face.corners != 3) {
+    out.push_back({face.nodes, Carrier::solid, e});
+    return;
+  }
+  std::array<std::array<NodeIndex, 4>, 4> pieces;
+  const int count = cut_triangle({face.nodes[0], face.nodes[1], face.nodes[2]},
+                                 tetra10_mids(solids, e, f), pieces);
+  for (int i = 0; i < count; ++i)
+    out.push_back({pieces[static_cast<std::size_t>(i)], Carrier::solid, e});
+}
+
+}  // namespace
+
+Face solid_face(const NodeIndex* slots, int face) {
+  Face out;
+  std::size_t n = 0;
+  for (const int s : face_slots[face]) {
+    const NodeIndex node = slots[s];
+    if (std::find(out.nodes.begin(), out.nodes.begin() + static_cast<std::ptrdiff_t>(n), node) ==
+        out.nodes.begin() + static_cast<std::ptrdiff_t>(n))
+      out.nodes[n++] = node;
+  }
+  if (n == 3) out.nodes[3] = out.nodes[2];
+  out.corners = n >= 3 ? static_cast<int>(n) : 0;
+  return out;
+}
+
+NodeKey node_key(const NodeIndex* nodes, int count) {
+  NodeKey key;
+  std::size_t n = 0;
+  for (int i = 0; i < count; ++i) {
+    std::size_t at = 0;
+    while (at < n && key.nodes[at] < nodes[i]) ++at;
+    if (at < n && key.nodes[at] == nodes[i]) continue;
+    for (std::size_t k = n; k > at; --k) key.nodes[k] = key.nodes[k - 1];
+    key.nodes[at] = nodes[i];
+    ++n;
+  }
+  return key;
+}
+
+KeyTable::KeyTable(std::size_t expected) {
+  std::size_t size = 16;
+  while (size < expected * 2) size *= 2;
+  slots_.assign(size, no_index);
+  keys_.reserve(expected);
+}
+
+std::size_t KeyTable::slot(const NodeKey& key) const {
+  std::uint64_t h = 0x9e3779b97f4a7c15u;
+  for (const NodeIndex n : key.nodes) {
+    h ^= n;
+    h *= 0xff51afd7ed558ccdu;
+    h ^= h >> 32;
+  }
+  std::size_t at = static_cast<std::size_t>(h) & (slots_.size() - 1);
+  while (slots_[at] != no_index && !(keys_[slots_[at]] == key)) at = (at + 1) & (slots_.size() - 1);
+  return at;
+}
+
+void KeyTable::grow() {
+  slots_.assign(slots_.size() * 2, no_index);
+  for (std::uint32_t i = 0; i < keys_.size(); ++i) slots_[slot(keys_[i])] = i;
+}
+
+std::uint32_t KeyTable::insert(const NodeKey& key) {
+  if ((keys_.size() + 1) * 2 > slots_.size()) grow();
+  const std::size_t at = slot(key);
+  if (slots_[at] == no_index) {
+    slots_[at] = static_cast<std::uint32_t>(keys_.size());
+    keys_.push_back(key);
+  }
+  return slots_[at];
+}
+
+std::uint32_t KeyTable::find(const NodeKey& key) const { return slots_[slot(key)]; }
+
+std::vector<Segment> solid_segments(const Elements& solids, const FaceQuery& query) {
+  std::vector<Segment> out;
+  const auto& members = *query.solids;
+  if (members.empty()) return out;
+  const std::vector<std::uint32_t> nobody;
+  const auto& neighbours = query.neighbours != nullptr ? *query.neighbours : members;
+  const FaceOwners owners(solids, query.exterior_only ? neighbours : nobody);
+  for (const std::uint32_t e : members) {
+    if (!complete(solids, e)) continue;
+    const bool all = !query.exterior_only || (query.all_faces_of != nullptr &&
+                                              std::binary_search(query.all_faces_of->begin(),
+                                                                 query.all_faces_of->end(), e));
+    for (int f = 0; f < 6; ++f) {
+      const Face face = solid_face(solids.of(e), f);
+      if (face.corners == 0) continue;
+      if (!all && owners.interior(face, e)) continue;
+      if (query.hidden != nullptr &&
+          query.hidden->find(node_key(face.nodes.data(), face.corners)) != no_index)
+        continue;
+      append_face(solids, e, f, face, out);
+    }
+  }
+  return out;
+}
+
+std::array<NodeIndex, 3> tetra10_mids(const Elements& solids, std::size_t e, int face) {
+  std::array<NodeIndex, 3> mids{no_index, no_index, no_index};
+  const std::uint32_t first = solids.extra[e];
+  if (first == no_index) return mids;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int k = tetra_mids[face][i];
+    if (k >= 0) mids[i] = solids.extra_nodes[first + static_cast<std::uint32_t>(k)];
+  }
+  return mids;
+}
+
+int cut_triangle(const std::array<NodeIndex, 3>& c, const std::array<NodeIndex, 3>& m,
+                 std::array<std::array<NodeIndex, 4>, 4>& out) {
+  const auto triangle = [&](std::size_t at, NodeIndex a, NodeIndex b, NodeIndex d) {
+    out[at] = {a, b, d, d};
+  };
+  const int present = (m[0] != no_index) + (m[1] != no_index) + (m[2] != no_index);
+  if (present == 3) {
+    triangle(0, c[0], m[0], m[2]);
+    triangle(1, c[1], m[1], m[0]);
+    triangle(2, c[2], m[2], m[1]);
+    triangle(3, m[0], m[1], m[2]);
+    return 4;
+  }
+  if (present == 0) {
+    triangle(0, c[0], c[1], c[2]);
+    return 1;
+  }
+  // Turn the triangle so that the odd one out is the first side.
+  std::size_t k = 0;
+  while ((m[k] != no_index) != (present == 1)) ++k;
+  const NodeIndex a = c[k], b = c[(k + 1) % 3], d = c[(k + 2) % 3];
+  if (present == 1) {
+    triangle(0, a, m[k], d);
+    triangle(1, m[k], b, d);
+  } else {
+    const NodeIndex mb = m[(k + 1) % 3], md = m[(k + 2) % 3];  // between b and d, d and a
+    out[0] = {a, b, mb, md};
+    triangle(1, d, md, mb);
+  }
+  return 2;
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,64 @@
+// Faces of solids: the six faces of the stored eight slots, which of them are exterior, which lie
+// under a shell, and how the faces of 10-node tetrahedra are cut.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "deck/model/model.hpp"
+
+namespace deck::detail {
+
+/// A face with repeated nodes removed: 3 or 4 distinct nodes in outward order.
+struct Face {
+  std::array<NodeIndex, 4> nodes{};  ///< triangles repeat the third node
+  int corners = 0;                   ///< 3 or 4; 0: no face
+};
+/// Face 0..5 of the eight stored slots.
+Face solid_face(const NodeIndex* slots, int face);
+
+/// A node set as a key: sorted, padded with no_index.
+struct NodeKey {
+  std::array<NodeIndex, 4> nodes{no_index, no_index, no_index, no_index};
+  friend bool operator==(const NodeKey&, const NodeKey&) = default;
+};
+/// Distinct nodes of a segment or face.
+NodeKey node_key(const NodeIndex* nodes, int count);
+
+/// Hash table from node keys to small integers 0, 1, 2 … in order of insertion.
+class KeyTable {
+ public:
+  explicit KeyTable(std::size_t expected);
+  /// Number of `key`; a new one if it is not there yet.
+  std::uint32_t insert(const NodeKey& key);
+  std::uint32_t find(const NodeKey& key) const;  ///< no_index if absent
+  std::size_t size() const { return keys_.size(); }
+
+ private:
+  std::size_t slot(const NodeKey& key) const;
+  void grow();
+  std::vector<NodeKey> keys_;
+  std::vector<std::uint32_t> slots_;
+};
+
+/// Which solids count as neighbours when exterior faces are looked for.
+struct FaceQuery {
+  const std::vector<std::uint32_t>* solids = nullptr;      ///< indices, ascending
+  const std::vector<std::uint32_t>* neighbours = nullptr;  ///< nullptr: the same solids
+  bool exterior_only = true;
+  /// Solids (ascending) whose faces are all wanted although exterior_only is set; may be nullptr.
+  const std::vector<std::uint32_t>* all_faces_of = nullptr;
+  const KeyTable* hidden = nullptr;  ///< node sets of shells that replace a face; may be nullptr
+};
+/// Segments of the faces, solid after solid, face after face. Solids with missing nodes have none;
+/// 10-node tetrahedra are cut into their small triangles.
+std::vector<Segment> solid_segments(const Elements& solids, const FaceQuery& query);
+
+/// Cuts a triangle with mid-side nodes (no_index: missing; mids[0] between corners 0 and 1).
+/// Returns the number of pieces written to `out`.
+int cut_triangle(const std::array<NodeIndex, 3>& corners, const std::array<NodeIndex, 3>& mids,
+                 std::array<std::array<NodeIndex, 4>, 4>& out);
+/// Mid-side nodes of a face of 10-node tetrahedron `e`, in the order of the face's corners.
+std::array<NodeIndex, 3> tetra10_mids(const Elements& solids, std::size_t e, int face);
+
+}  // namespace deck::detail

@@ -1,0 +1,209 @@
+// Inside of Selections: where definitions are, the lists they hold, the results kept, and the
+// resolvers, which are spread over the selection_*.cpp files by kind.
+#pragma once
+#include <map>
+#include <memory>
+#include <set>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "deck/model/connectivity.hpp"
+#include "deck/model/selection.hpp"
+#include "model/boxes.hpp"
+#include "model/faces.hpp"
+#include "model/model_build.hpp"
+
+namespace deck {
+
+namespace detail {
+
+struct IdRef {
+  std::int64_t id = 0;  ///< above 0, submodel offset applied
+  Span span;
+};
+/// An id list: positive ids first, whatever their order on the card.
+struct IdList {
+  std::vector<IdRef> positive, negative;
+};
+
+/// One definition: /KIND/TYPE/OPTION/id.
+struct Definition {
+  const Block* block = nullptr;
+  std::string_view type, option;
+};
+
+struct DefinitionTable {
+  std::map<std::int64_t, std::vector<Definition>> by_id;  ///< several only for /SET/COLLECT
+  std::vector<std::int64_t> order;
+};
+
+using Indices = std::vector<std::uint32_t>;
+/// Sorts and removes repetitions.
+void normalise(Indices& v);
+
+/// How elements of a family name themselves in groups.
+struct FamilyName {
+  ElementKind kind;
+  std::string_view group;    ///< "grshel"
+  std::string_view keyword;  ///< "GRSHEL"
+  std::string_view member;   ///< type keyword of the id list: "SHEL"
+  std::string_view id_kind;  ///< for the submodel offset
+  Carrier carrier;
+};
+const std::vector<FamilyName>& family_names();
+const FamilyName& family_name(ElementKind kind);
+/// Nodes that carry the element: for beams and springs without the orientation nodes.
+int carrying_nodes(ElementKind kind);
+
+/// What a /SET clause selects, and what a set holds while its clauses are evaluated.
+struct SetState {
+  static constexpr std::size_t families = 8;
+  std::array<Indices, families> elements;  ///< ascending, by ElementKind
+  Indices reversed4, reversed3;            ///< shells whose normal is turned, ascending
+  Indices all_faces;                       ///< solids with all their faces, ascending
+  Indices nodes;                           ///< named as nodes, ascending
+  Indices removed;                         ///< nodes taken away by name, ascending
+  std::vector<Segment> segments;           ///< SEG rows with three or four nodes
+  std::vector<Edge> edges;                 ///< SEG rows with two nodes
+  Indices parts;                           ///< ascending
+  bool external = false;                   ///< option E
+};
+
+}  // namespace detail
+
+struct Selections::Impl {
+  const Model* model = nullptr;
+  const SchemaSet* schemas = nullptr;
+  Diagnostics found;
+
+  std::map<std::string, detail::DefinitionTable, std::less<>> tables;
+  std::set<std::pair<std::string, std::int64_t>> open;  ///< being resolved now
+
+  std::map<std::int64_t, NodeSet> node_groups;
+  std::map<std::int64_t, Surface> surfaces;
+  std::map<std::int64_t, LineSet> lines;
+  std::map<std::int64_t, SetGeneral> sets;
+  std::map<std::int64_t, detail::SetState> set_states;
+  std::map<std::int64_t, detail::Box> boxes;
+  std::map<std::pair<std::string, std::int64_t>, detail::Indices> element_groups;
+  std::map<std::int64_t, detail::Indices> part_groups;
+  // Views of sets as other kinds.
+  std::map<std::int64_t, NodeSet> set_nodes;
+  std::map<std::int64_t, Surface> set_surfaces;
+  std::map<std::int64_t, LineSet> set_lines;
+
+  // ---- built once, when first needed ------------------------------------------------------------
+  std::array<PartElements, detail::SetState::families> part_elements_cache;
+  std::array<bool, detail::SetState::families> part_elements_ready{};
+  const PartElements& elements_of_parts(ElementKind kind);
+  std::unique_ptr<detail::KeyTable> tetra_faces;             ///< faces of 10-node tetrahedra
+  std::vector<std::pair<std::uint32_t, int>> tetra_face_of;  ///< solid and face per key
+  std::vector<std::uint32_t> stamp;                          ///< per node, see mark()
+  std::uint32_t generation = 0;
+
+  explicit Impl(const Model& m, const SchemaSet& s);
+  const Deck& deck() const { return *model->deck; }
+
+  // ---- definitions and lists (selection.cpp)
+  // ------------------------------------------------------
+  const detail::Definition* definition(std::string_view kind, std::int64_t id) const;
+  std::int64_t own_id(const Block& block, std::string_view kind) const;
+  std::int64_t shift(const Block& block, std::string_view kind, std::int64_t id) const;
+  /// Ids of the block's list; their kind is that of the schema's field.
+  detail::IdList id_list(const DecodedBlock& d) const;
+  /// Values as written, zeros and blanks skipped, no offset: for ranges.
+  std::vector<std::int64_t> raw_values(const DecodedBlock& d) const;
+  void report(detail::Finding f) { detail::report(found, std::move(f)); }
+  /// Members of a list that do not exist, in one finding per list.
+  void report_missing(std::string_view rule, const Block& block, const std::string& what,
+                      const std::vector<detail::IdRef>& missing, int number, Severity severity);
+  /// True if (kind, id) is being resolved already, which is reported.
+  bool recursive(std::string_view kind, std::int64_t id, const Block& from, int number);
+
+  // ---- nodes (selection_nodes.cpp)
+  // ------------------------------------------------------------------
+  NodeIndex node(std::int64_t id) const { return model->nodes.map.find(id); }
+  /// Appends the nodes that are not yet marked in this generation.
+  void start_marks();
+  void mark(NodeIndex n, std::vector<NodeIndex>& out);
+  const NodeSet* node_group(std::int64_t id);
+  std::vector<NodeIndex> resolve_nodes(const detail::Definition& def, const DecodedBlock& d);
+  std::vector<NodeIndex> nodes_by_id(const detail::Definition& def, const DecodedBlock& d);
+  std::vector<NodeIndex> nodes_of_ranges(const Block& block, const DecodedBlock& d,
+                                         bool increments);
+  std::vector<NodeIndex> nodes_of_parts(const Block& block, std::string_view type,
+                                        const DecodedBlock& d);
+  std::vector<NodeIndex> nodes_in_boxes(const Block& block, const DecodedBlock& d);
+  std::vector<NodeIndex> nodes_of_groups(const Block& block, const DecodedBlock& d,
+                                         bool keep_order);
+  std::vector<NodeIndex> nodes_of_surfaces(const Block& block, const DecodedBlock& d);
+  std::vector<NodeIndex> nodes_of_lines(const Block& block, const DecodedBlock& d);
+  std::vector<NodeIndex> nodes_of_elements(const Block& block, const DecodedBlock& d,
+                                           ElementKind kind);
+  void add_element_nodes(const Elements& family, std::uint32_t e, std::vector<NodeIndex>& out);
+
+  // ---- parts and elements (selection_elements.cpp)
+  // -------------------------------------------------
+  /// +1, -1 or 0 per part for a list of the given type (PART, MAT, PROP, SUBSET, SUBMODEL).
+  std::vector<std::int8_t> part_tags(const Block& block, std::string_view type,
+                                     const detail::IdList& list);
+  /// Parts named by one id of that type; empty where the id names nothing.
+  detail::Indices parts_of(std::string_view type, std::int64_t id, bool& known) const;
+  static bool is_part_type(std::string_view type);
+  const detail::Indices* element_group(const detail::FamilyName& name, std::int64_t id);
+  detail::Indices resolve_elements(const detail::FamilyName& name, const detail::Definition& def,
+                                   const DecodedBlock& d);
+  const detail::Indices* part_group(std::int64_t id);
+  detail::Indices resolve_part_group(const detail::Definition& def, const DecodedBlock& d);
+  /// Elements of a family whose nodes are all (or, for BOX2, any of them) in one of the boxes.
+  detail::Indices elements_in_boxes(const Block& block, const std::vector<detail::IdRef>& ids,
+                                    ElementKind kind, bool any_node, int missing_number);
+  detail::Indices elements_in_box(const detail::Box& box, ElementKind kind, bool any_node) const;
+  std::int64_t element_id(Carrier carrier, std::uint32_t e) const;
+
+  // ---- surfaces (selection_surfaces.cpp)
+  // --------------------------------------------------------------
+  const Surface* surface(std::int64_t id);
+  std::vector<Segment> resolve_surface(const detail::Definition& def, const DecodedBlock& d,
+                                       bool& analytical);
+  std::vector<Segment> segments_by_nodes(const Block& block, const DecodedBlock& d);
+  std::vector<Segment> segments_of_parts(const detail::Definition& def, const DecodedBlock& d);
+  std::vector<Segment> segments_in_boxes(const detail::Definition& def, const DecodedBlock& d);
+  std::vector<Segment> segments_of_groups(const detail::Definition& def, const DecodedBlock& d);
+  std::vector<Segment> segments_of_surfaces(const Block& block, const DecodedBlock& d);
+  std::vector<Segment> difference_of_surfaces(const Block& block, const DecodedBlock& d);
+  void add_shells(const Elements& shells, Carrier carrier, const detail::Indices& members,
+                  bool reversed, std::vector<Segment>& out) const;
+  void add_solids(const Block& block, std::string_view option, detail::Indices solids,
+                  const std::vector<Segment>& shells, std::vector<Segment>& out);
+  /// Cuts a plain triangle that lies on the face of a 10-node tetrahedron.
+  void add_plain_segment(const Segment& s, std::vector<Segment>& out);
+  void sort_segments(std::vector<Segment>& segments) const;
+  const std::vector<Segment>* listed_surface(const Block& block, const detail::IdRef& ref,
+                                             std::vector<detail::IdRef>& missing);
+
+  // ---- lines (selection_lines.cpp)
+  // ------------------------------------------------------------------
+  const LineSet* line(std::int64_t id);
+  std::vector<Edge> resolve_line(const detail::Definition& def, const DecodedBlock& d);
+  std::vector<Edge> edges_of(const std::vector<Segment>& segments, bool free_only) const;
+  void add_line_elements(ElementKind kind, const detail::Indices& members,
+                         std::vector<Edge>& out) const;
+
+  // ---- boxes (boxes.cpp)
+  // ------------------------------------------------------------------------------
+  const detail::Box* box(std::int64_t id, const Block& from, int missing_number);
+  void fill_box(detail::Box& b, const detail::Definition& def, const DecodedBlock& d);
+  bool skew_axes(std::int64_t id, std::array<double, 9>& axes);
+  std::array<double, 3> box_point(NodeIndex n) const;
+
+  // ---- sets (sets.cpp, selection_set_views.cpp)
+  // ---------------------------------------------------
+  const SetGeneral* set(std::int64_t id);
+  const detail::SetState* set_state(std::int64_t id);
+  std::vector<NodeIndex> node_projection(const detail::SetState& state);
+  std::vector<Segment> surface_projection(const detail::SetState& state);
+};
+
+}  // namespace deck
