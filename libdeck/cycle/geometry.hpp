@@ -160,7 +160,8 @@ void node_triangle_pack(const Constants& k, const PacketView& view, std::size_t 
     n = select(clear, ratio(V::fill(1.0), t.d) * t.toward_node, ratio(V::fill(1.0), size) * t.area);
   }
   const V p = max(zero, max(zero, far - t.d) + (gap - far));
-  const std::array<V, 4> h{t.b, t.c, 1.0 - t.b - t.c, zero};
+  std::array<V, 4> h{t.b, t.c, 1.0 - t.b - t.c, zero};
+  if constexpr (M == Model::robust) close_sum(h);
   store_geometry(g, s, p, t.d, select(t.d < far, V::fill(1.0), zero), n, h, h);
 }
 
@@ -220,6 +221,22 @@ void node_segment_reference(const Constants& k, const PacketView& view, std::siz
                  raw, weight);
 }
 
+/// Makes weights add up to 1 within half a rounding error: the largest takes what the others leave.
+template <class V>
+void close_sum(std::array<V, 4>& h) {
+  const V largest = max(max(h[0], h[1]), max(h[2], h[3]));
+  auto open = V::fill(0.0) == V::fill(0.0);
+  std::array<V, 4> rest;
+  for (std::size_t k = 0; k < 4; ++k) {
+    rest[k] = 1.0 - ((h[(k + 1) % 4] + h[(k + 2) % 4]) + h[(k + 3) % 4]);
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto take = open & (h[k] == largest);
+    h[k] = select(take, rest[k], h[k]);
+    open = open & ~take;
+  }
+}
+
 template <class V>
 void node_segment_robust(const Constants& k, const PacketView& view, std::size_t i, std::size_t s,
                          GeometryBlock& g) {
@@ -264,6 +281,7 @@ void node_segment_robust(const Constants& k, const PacketView& view, std::size_t
     area = select(closer, t.area, area);
     for (std::size_t c = 0; c < 4; ++c) h[c] = select(closer, hq[c], h[c]);
   }
+  close_sum(h);
   const V size = sqrt(max(max(ee[0], ee[1]), max(ee[2], ee[3])));
   const auto clear = d > 1e-15 * size;
   const Vec3<V> n = select(clear, ratio(one, d) * toward, ratio(one, sqrt(dot(area, area))) * area);
