@@ -1,0 +1,137 @@
+// The effective values of whole decks against what the reference Starter echoed for them. The
+// comparison itself is the corpus' own script; it and the decks are skipped where absent.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "deck/report/params_report.hpp"
+
+namespace deck {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path corpus() {
+  const char* given = std::getenv("DECK_CORPUS");
+  return given != nullptr ? fs::path(given) : fs::path(DECK_SOURCE_DIR).parent_path() / "shared";
+}
+
+/// A directory that goes with the test.
+class Scratch {
+ public:
+  Scratch() : path_(fs::temp_directory_path() / ("params_test_" + std::to_string(getpid()))) {
+    fs::create_directories(path_);
+  }
+  ~Scratch() {
+    std::error_code ec;
+    fs::remove_all(path_, ec);
+  }
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+int shell(const std::string& command) { return std::system(command.c_str()); }
+std::string quote(const fs::path& path) { return "'" + path.string() + "'"; }
+
+/// The document of `deck params --no-geometry`.
+std::string params_of(const fs::path& path, int threads = 1) {
+  auto deck = read_deck(path.string(), SchemaSet::built_in());
+  EXPECT_TRUE(deck.ok()) << path;
+  if (!deck) return {};
+  Diagnostics diagnostics;
+  ModelOptions options;
+  options.threads = threads;
+  const Model model = build_model(*deck, SchemaSet::built_in(), diagnostics, options);
+  const Interfaces interfaces = read_interfaces(*deck, model, diagnostics);
+  return params_json({path.string(), &*deck, &model, &interfaces, {}});
+}
+
+fs::path deck_for(const fs::path& golden, const Scratch& scratch) {
+  const std::string stem = golden.filename().string();
+  const std::string name = stem.substr(0, stem.find(".json"));
+  if (golden.parent_path().filename() == "params")
+    return golden.parent_path() / (name + "_0000.rad");
+  const fs::path base = corpus() / "corpus";
+  if (name.ends_with("_inflated")) {
+    const fs::path plain = base / "EuroSID_II" / (name.substr(0, name.size() - 9) + "_0000.rad");
+    const fs::path out = scratch / (name + "_0000.rad");
+    const int code = shell("python3 " + quote(corpus() / "check" / "inflate_gaps.py") + " " +
+                           quote(plain) + " " + quote(out) + " 2.5 zero > /dev/null");
+    return code == 0 ? out : fs::path();
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(base)) {
+    if (!entry.is_regular_file()) continue;
+    const std::string file = entry.path().filename().string();
+    if (file == name + "_0000.rad") return entry.path();
+    if (file == "model_0000.rad" && entry.path().parent_path().filename() == name)
+      return entry.path();
+  }
+  return {};
+}
+
+class GoldenParams : public testing::TestWithParam<const char*> {};
+
+TEST_P(GoldenParams, AgreeWithTheEchoOfTheReferenceSolver) {
+  const fs::path goldens = corpus() / "oracle" / GetParam();
+  const fs::path script = corpus() / "check" / "compare_params.py";
+  if (!fs::exists(goldens) || !fs::exists(script))
+    GTEST_SKIP() << "no reference results under " << corpus();
+  if (shell("python3 -c pass") != 0) GTEST_SKIP() << "no python3";
+  const Scratch scratch;
+  int compared = 0;
+  for (const auto& entry : fs::directory_iterator(goldens)) {
+    if (!entry.path().string().ends_with(".json.gz")) continue;
+    const fs::path deck = deck_for(entry.path(), scratch);
+    ASSERT_FALSE(deck.empty()) << "no deck for " << entry.path();
+    const fs::path json = scratch / "params.json";
+    std::ofstream(json) << params_of(deck);
+    const fs::path report = scratch / "report.txt";
+    const int code = shell("python3 " + quote(script) + " " + quote(entry.path()) + " " +
+                           quote(json) + " > " + quote(report));
+    std::ifstream text(report);
+    EXPECT_EQ(code, 0) << deck << "\n" << std::string(std::istreambuf_iterator<char>(text), {});
+    ++compared;
+  }
+  EXPECT_GT(compared, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Oracle, GoldenParams, testing::Values("params", "gaps"));
+
+TEST(GoldenParams, SameBytesForAnyNumberOfThreads) {
+  const fs::path deck = corpus() / "corpus" / "EuroSID_II" / "EuroSID_II_0000.rad";
+  if (!fs::exists(deck)) GTEST_SKIP() << "no deck " << deck;
+  EXPECT_EQ(params_of(deck, 1), params_of(deck, 2));
+}
+
+TEST(ParamsDocument, FollowsItsSchema) {
+  if (shell("python3 -c 'import jsonschema' 2> /dev/null") != 0)
+    GTEST_SKIP() << "no python3 with jsonschema";
+  const Scratch scratch;
+  const fs::path deck = scratch / "small_0000.rad";
+  std::ofstream(deck) << "#RADIOSS STARTER\n/BEGIN\nsmall \xe9\n      2022\n"
+                         "                  Mg                  mm                   s\n"
+                         "                  Mg                  mm                   s\n"
+                         "/INTER/TYPE7/1\na\n         1         2\n\n\n\n\n\n"
+                         "/INTER/TYPE10/2\nb\n         1         2\n\n\n"
+                         "/INTER/TYPE11/3\nc\n         1         2\n\n\n\n\n"
+                         "/INTER/TYPE19/4\nd\n         1         2\n\n\n\n\n\n"
+                         "/INTER/TYPE2/5\ne\n         1         2\n/END\n";
+  const fs::path json = scratch / "params.json";
+  std::ofstream(json) << params_of(deck);
+  const fs::path schema = fs::path(DECK_SOURCE_DIR) / "schemas/output/params.schema.json";
+  EXPECT_EQ(shell("python3 -c 'import json,sys,jsonschema; s=json.load(open(sys.argv[1])); "
+                  "d=json.load(open(sys.argv[2])); jsonschema.validate(d,s); "
+                  "jsonschema.Draft7Validator(s).validate(d); "
+                  "sys.exit(0 if len(d[\"interfaces\"])==4 and len(d[\"not_evaluated\"])==1 else 1)"
+                  "' " +
+                  quote(schema) + " " + quote(json)),
+            0);
+}
+
+}  // namespace
+}  // namespace deck

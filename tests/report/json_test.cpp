@@ -1,0 +1,84 @@
+#include "deck/report/json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "deck/report/text_table.hpp"
+
+namespace deck {
+namespace {
+
+TEST(JsonWriter, NestsObjectsAndArrays) {
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object().field("a", 1).key("b").begin_array(true).value(2).value("x").null();
+  json.end_array().key("c").begin_object().end_object().end_object();
+  EXPECT_EQ(out, "{\n  \"a\": 1,\n  \"b\": [2, \"x\", null],\n  \"c\": {}\n}\n");
+}
+
+TEST(JsonWriter, EscapesQuotesAndControls) {
+  std::string out;
+  append_json_string(out, "a\"b\\c\n\x01");
+  EXPECT_EQ(out, "\"a\\\"b\\\\c\\u000a\\u0001\"");
+}
+
+TEST(JsonWriter, KeepsUtf8AndTakesOtherBytesForLatin1) {
+  std::string out;
+  append_json_string(out, "\xc3\xa9\xe9\xff");
+  EXPECT_EQ(out, "\"\xc3\xa9\xc3\xa9\xc3\xbf\"");
+}
+
+TEST(JsonWriter, EveryByteSequenceIsValidJson) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 5000; ++round) {
+    std::string text;
+    for (int i = 0; i < 8; ++i) text += static_cast<char>(random() & 0xff);
+    std::string out;
+    append_json_string(out, text);
+    EXPECT_TRUE(nlohmann::json::accept(out)) << round;
+  }
+}
+
+TEST(JsonWriter, RealsShowThatTheyAreReal) {
+  EXPECT_EQ(shortest(1.0), "1.0");
+  EXPECT_EQ(shortest(0.1), "0.1");
+  EXPECT_EQ(shortest(1e30), "1e+30");
+  EXPECT_EQ(shortest(-0.0), "-0.0");
+}
+
+TEST(JsonWriter, RealsReadBackToTheSameBits) {
+  std::mt19937_64 random(2);
+  for (int round = 0; round < 20000; ++round) {
+    double value;
+    const std::uint64_t bits = random();
+    std::memcpy(&value, &bits, sizeof value);
+    if (!std::isfinite(value)) continue;
+    const std::string text = shortest(value);
+    double back = 0;
+    std::from_chars(text.data(), text.data() + text.size(), back);
+    EXPECT_EQ(std::memcmp(&back, &value, sizeof value), 0) << text;
+  }
+}
+
+TEST(JsonWriter, WhatIsNoNumberIsNull) {
+  std::string out;
+  JsonWriter json(out);
+  json.begin_array(true).value(std::nan("")).value(std::numeric_limits<double>::infinity());
+  json.end_array();
+  EXPECT_EQ(out, "[null, null]\n");
+}
+
+TEST(TextTable, AlignsColumnsByCharactersAndLeavesNoBlanksAtTheEnd) {
+  TextTable table({{"name", Align::left}, {"n", Align::right}, {"note", Align::left}});
+  table.row({"\xc3\xa9", "12", "x"});
+  table.row({"abcdef", "3"});
+  EXPECT_EQ(table.render(), "name     n  note\n\xc3\xa9       12  x\nabcdef   3\n");
+}
+
+}  // namespace
+}  // namespace deck
