@@ -492,8 +492,8 @@ def hot_contact():
 
 
 def sets_and_friction():
-    d = Deck("sets_and_friction", "/SET/GENERAL as contact sides, /FRICTION by part pairs", version=2024)
-    d.note("""The sides of the interfaces are sets: set 11 deletes an element from a part, set 12 is a box-free pick of
+    d = Deck("sets_and_friction", "sets as contact sides, friction by part pairs", version=2024)
+    d.note("""The sides of the interfaces are sets: set 11 deletes an element from a part, set 12 picks a range of
               shells. The friction of part 1 against part 3 differs from the rest.""")
     d.elastic(1, "steel")
     d.shell_prop(1, "sheet", 1.0)
@@ -523,8 +523,9 @@ def sets_and_friction():
 def crash_box():
     d = Deck("crash_box", "a crash box against a barrier, with mistakes in its geometry")
     d.note("""A beaded tube with an inner web, on a base plate, 0.8 mm in front of a slightly bulged barrier.
-              Built to show something: the front rim and the middle of the barrier overlap by up to 1.2 mm,
-              the web touches the tube walls (distance 0 at four rows of nodes), and the beads come close to the web.""")
+              Built to show something: the rim stands up to 1.0 mm inside the gap of the barrier, the web is
+              3 mm from the walls but the inward beads reach it (four web nodes lie exactly on the wall), and
+              the tube is tied to its base.""")
     d.elastic(1, "steel")
     for pid, name, t in ((1, "tube 2.0", 2.0), (2, "web 1.2", 1.2), (3, "barrier 3.0", 3.0), (4, "base 4.0", 4.0)):
         d.shell_prop(pid, name, t)
@@ -565,7 +566,7 @@ def crash_box():
             a, b = 1 + 100 * k + i, 1 + 100 * k + (i + 1) % around
             tube.append((1 + 100 * k + i, a, b, b + 100, a + 100))
     web, webq = plate(10001, 10001, 8, 16, 0.0, 9.5, lambda u, v: (0.0, 0.0, 0.0))
-    web = [(n, (round(-38.5 + 77.0 * ((n - 10001) % 9) / 8, 6), 4.0, round(4.0 + 9.5 * ((n - 10001) // 9), 6))) for n, _ in web]
+    web = [(n, (-37.0 + 9.25 * ((n - 10001) % 9), 4.0, round(4.8 + 9.6 * ((n - 10001) // 9), 6))) for n, _ in web]
     barrier, barq = plate(20001, 20001, 10, 10, 14.0, 14.0, lambda u, v: (
         u - 70.0, v - 70.0, round(length + 0.8 + 2.0 * ((u - 70.0) ** 2 + (v - 70.0) ** 2) / 70.0 ** 2, 6)))
     base, baseq = plate(30001, 30001, 6, 6, 20.0, 20.0, lambda u, v: (u - 60.0, v - 60.0, -2.4))
