@@ -71,6 +71,7 @@ constexpr std::size_t pack_start(std::size_t begin, std::size_t slot, std::size_
 /// Tables of one instruction set. `find_*` returns null when that set was not compiled.
 const KernelTable* find_baseline(ContactKind kind, Model model, EffectSet effects, bool generic);
 const KernelTable* find_avx2(ContactKind kind, Model model, EffectSet effects, bool generic);
+const KernelTable* find_avx512(ContactKind kind, Model model, EffectSet effects, bool generic);
 
 Constants make_constants(const KernelPlan& plan, const PacketView& view);
 

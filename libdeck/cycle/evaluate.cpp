@@ -243,7 +243,7 @@ void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& resu
     shrink(result, view.size);
     return;
   }
-  result.resize(view.size);
+  result.prepare(view.size, plan.writes);
   if (plan.card.icurv == 3 && plan.card.kind == ContactKind::node_segment) {
     // The curved surface leaves the facet: weights are wanted further out than the gap.
     std::vector<double> reach(view.size);

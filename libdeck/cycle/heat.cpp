@@ -78,7 +78,11 @@ namespace detail {
 void apply_heat(const KernelPlan& plan, const PacketView& view, std::size_t begin, std::size_t end,
                 PacketResult& out) {
   for (std::size_t i = begin; i < end; ++i) {
-    if (!(out.distance[i] < std::max(view.gap[i], plan.card.drad))) continue;  // not a pair
+    if (!(out.distance[i] < std::max(view.gap[i], plan.card.drad))) {  // not a pair
+      for (auto& q : out.heat) q[i] = 0.0;
+      out.conductance[i] = 0.0;
+      continue;
+    }
     HeatState s;
     for (std::size_t r = 0; r < 5; ++r) {
       for (std::size_t c = 0; c < 3; ++c) s.position[r][c] = view.position[r][c][i];

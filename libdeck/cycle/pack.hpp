@@ -28,6 +28,11 @@ struct Registers<4> {
   typedef double Real __attribute__((vector_size(32)));
   typedef std::int64_t Bits __attribute__((vector_size(32)));
 };
+template <>
+struct Registers<8> {
+  typedef double Real __attribute__((vector_size(64)));
+  typedef std::int64_t Bits __attribute__((vector_size(64)));
+};
 
 // All functions below are templates on W: a translation unit compiled for a newer instruction set
 // must not emit symbols that another one could link to.
@@ -106,6 +111,14 @@ Pack<W> abs(const Pack<W>& a) {
 template <int W>
 Pack<W> sqrt(const Pack<W>& a) {
   Pack<W> out;
+#if defined(__AVX512F__)
+  if constexpr (W == 8) {
+    // Not _mm512_sqrt_pd: its undefined pass-through operand trips -Wuninitialized in g++ 12.
+    const __m512d v = _mm512_maskz_sqrt_pd(0xff, (__m512d)a.r);
+    std::memcpy(&out.r, &v, sizeof v);
+    return out;
+  }
+#endif
 #if defined(__AVX__)
   if constexpr (W == 4) {
     const __m256d v = _mm256_sqrt_pd((__m256d)a.r);

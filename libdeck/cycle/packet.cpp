@@ -28,6 +28,30 @@ void PacketResult::resize(std::size_t n) {
   }
   dt_kinematic.assign(n, 1e30);
   status.assign(n, 0);
+  dirty_ = Field::none;
+}
+
+void PacketResult::prepare(std::size_t n, Field writes) {
+  if (n != size) resize(n);
+  if (contains(writes, Field::tie_record)) {
+    // Ties write here and there, in arrays of any group.
+    resize(n);
+    dirty_ = static_cast<Field>(~0u);
+    return;
+  }
+  const auto clear = [&](Field group, double value, auto&... arrays) {
+    if (contains(dirty_, group) && !contains(writes, group)) (arrays.assign(n, value), ...);
+  };
+  clear(Field::residual_penetration, 0.0, p0);
+  clear(Field::friction_memory, 0.0, ft[0], ft[1], ft[2]);
+  clear(Field::elastic_energy, 0.0, elastic_energy);
+  clear(Field::friction_energy, 0.0, friction_energy, friction_heat);
+  clear(Field::damping_energy, 0.0, damping_energy);
+  clear(Field::kinematic_step, 1e30, dt_kinematic);
+  clear(Field::heat, 0.0, heat[0], heat[1], heat[2], heat[3], heat[4], conductance);
+  clear(Field::criteria, 0.0, criteria[0], criteria[1], criteria[2]);
+  clear(Field::tie_record, 0.0, tie[0], tie[1], tie[2], tie[3], tie[4], tie[5], tie[6], tie[7]);
+  dirty_ = writes;
 }
 
 void Totals::add(const Totals& other) {

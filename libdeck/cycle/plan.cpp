@@ -202,13 +202,19 @@ std::string composition_name(const KernelPlan& plan) {
   return text;
 }
 
-bool use_avx2(Isa isa) {
-  if (isa == Isa::baseline) return false;
+/// Widest instruction set that is asked for and that the processor has.
+Isa choose_isa(Isa wish) {
 #if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2");
+  const bool wide = wish == Isa::automatic || wish == Isa::avx512;
+  if (wide && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl")) {
+    return Isa::avx512;
+  }
+  if (wish != Isa::baseline && __builtin_cpu_supports("avx2")) return Isa::avx2;
 #else
-  return false;
+  static_cast<void>(wish);
 #endif
+  return Isa::baseline;
 }
 
 }  // namespace
@@ -230,12 +236,18 @@ KernelPlan make_plan(const ContactCard& card, Model model, const PlanOptions& op
       card.kind == ContactKind::tied ? bit(Effect::elastic) : choose_effects(card, options);
   collect_fields(plan);
   plan.composition = card.kind == ContactKind::tied ? "tie" : composition_name(plan);
-  if (use_avx2(options.isa)) {
-    plan.table = detail::find_avx2(card.kind, model, plan.effects, options.force_generic);
+  const Isa isa = choose_isa(options.isa);
+  const bool generic = options.force_generic;
+  if (isa == Isa::avx512) {
+    plan.table = detail::find_avx512(card.kind, model, plan.effects, generic);
+    plan.isa = "avx512";
+  }
+  if (plan.table == nullptr && isa != Isa::baseline) {
+    plan.table = detail::find_avx2(card.kind, model, plan.effects, generic);
     plan.isa = "avx2";
   }
   if (plan.table == nullptr) {
-    plan.table = detail::find_baseline(card.kind, model, plan.effects, options.force_generic);
+    plan.table = detail::find_baseline(card.kind, model, plan.effects, generic);
     plan.isa = "baseline";
   }
   plan.composed = plan.table->composed;

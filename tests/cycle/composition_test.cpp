@@ -150,8 +150,10 @@ TEST(Composition, InstructionSetsGiveTheSameBits) {
   for (const Case& c : all) {
     const Packet& p = c.card.kind == ContactKind::edge_edge ? edges : packet;
     for (const Model model : {Model::reference, Model::robust}) {
-      expect_same(evaluate_as(c, model, p, {true, false, Isa::baseline}),
-                  evaluate_as(c, model, p, {true, false, Isa::automatic}), c.name);
+      const PacketResult base = evaluate_as(c, model, p, {true, false, Isa::baseline});
+      for (const Isa isa : {Isa::avx2, Isa::avx512, Isa::automatic}) {
+        expect_same(base, evaluate_as(c, model, p, {true, false, isa}), c.name);
+      }
     }
   }
 }
@@ -168,6 +170,22 @@ TEST(Composition, SplittingIntoPacketsAndThreadsChangesNoBit) {
       const PacketResult alone = evaluate_as(c, Model::reference, Packet({pairs[last]}), {});
       EXPECT_EQ(alone.force[2][0], whole.force[2][last]) << c.name << " of " << n;
       EXPECT_EQ(alone.heat[0][0], whole.heat[0][last]) << c.name << " of " << n;
+    }
+  }
+}
+
+TEST(Composition, AResultUsedAgainKeepsNothingOfThePlanBefore) {
+  const Packet packet(testing::random_pairs(150, 31));
+  std::vector<Case> all = rare_cases();
+  for (const Case& c : cases(ContactKind::node_segment)) all.push_back(c);
+  PacketResult reused;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    for (const Case& c : {all[k], all[(7 * k + 3) % all.size()]}) {
+      const KernelPlan plan = make_plan(c.card);
+      evaluate(plan, packet.view(1e-5, 1e-5), reused);
+      PacketResult fresh;
+      evaluate(plan, packet.view(1e-5, 1e-5), fresh);
+      expect_same(fresh, reused, c.name);
     }
   }
 }

@@ -104,7 +104,7 @@ struct Totals {
   void add(const Totals& other);
 };
 
-/// Outputs of n pairs. `resize` makes all arrays n long; those that the plan does not write stay 0.
+/// Outputs of n pairs. All arrays are n long; those that the plan does not write are 0.
 struct PacketResult {
   std::array<std::vector<double>, 4> weights;  ///< H1..H4, or h_s, 1-h_s, h_m, 1-h_m
   std::array<std::vector<double>, 3> force;    ///< on the main side; secondary: the opposite
@@ -128,7 +128,13 @@ struct PacketResult {
   std::array<std::vector<double>, 3> criteria;  ///< radius, relative penetration, angle (Iadm)
 
   std::size_t size = 0;
+  /// All arrays n long and 0 (dt_kinematic 1e30).
   void resize(std::size_t n);
+  /// As resize, but leaves to the kernel what it overwrites anyway, and alone what is 0 already.
+  void prepare(std::size_t n, Field writes);
+
+ private:
+  Field dirty_ = Field::none;  ///< optional groups that the last kernel wrote
 };
 
 }  // namespace deck::cycle

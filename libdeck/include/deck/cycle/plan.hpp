@@ -36,8 +36,8 @@ namespace deck::cycle {
 /// before the 1/2, the viscosity scale sqrt(2 k M).
 enum class Model { reference, robust };
 
-/// Instruction set of the compiled kernels. All give the same bits.
-enum class Isa { automatic, baseline, avx2 };
+/// Instruction set of the compiled kernels, as far as the processor has it. All give the same bits.
+enum class Isa { automatic, baseline, avx2, avx512 };
 
 struct PlanOptions {
   bool energies = true;        ///< book elastic energy (costs one logarithm per pair)

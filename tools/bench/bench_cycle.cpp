@@ -1,0 +1,383 @@
+// Cost of the contact force kernel: composed against hand-written, composed against run-time flags,
+// and what each further effect adds, in ns per pair on one core. No time before the answers agree.
+// Pairs are gathered already (structure of arrays); tables say whether geometry is included.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "cycle/block.hpp"
+#include "cycle/pack.hpp"
+#include "deck/cycle/assemble.hpp"
+
+namespace {
+
+using namespace deck::cycle;  // NOLINT: a program, not a header
+
+/// A sheet of quads with nodes close to it, one candidate pair per node, as a search would leave.
+struct Scene {
+  PairList pairs;
+  std::array<std::vector<double>, 3> x, v;
+  std::vector<double> mass, temperature, k0, gap, p0, area;
+  std::array<std::vector<double>, 3> ft;
+  PacketBuffer buffer;
+
+  [[nodiscard]] NodalState nodes() const {
+    return {{x[0].data(), x[1].data(), x[2].data()},
+            {v[0].data(), v[1].data(), v[2].data()},
+            mass.data(),
+            temperature.data()};
+  }
+  [[nodiscard]] PacketView view() const {
+    PacketView w = buffer.view();
+    w.k0 = k0.data();
+    w.gap = gap.data();
+    w.p0 = p0.data();
+    w.area = area.data();
+    for (std::size_t c = 0; c < 3; ++c) w.ft_old[c] = ft[c].data();
+    w.dt1 = w.dt12 = 1e-6;
+    return w;
+  }
+};
+
+Scene make_scene(std::size_t cells, bool edges) {
+  Scene s;
+  s.pairs.kind = edges ? ContactKind::edge_edge : ContactKind::node_segment;
+  std::mt19937_64 rng(1);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  const auto add = [&](double a, double b, double c) {
+    const double at[] = {a + 0.1 * u(rng), b + 0.1 * u(rng), c};
+    for (std::size_t k = 0; k < 3; ++k) {
+      s.x[k].push_back(at[k]);
+      s.v[k].push_back(10.0 * u(rng));
+    }
+    s.mass.push_back(1e-3 * (1.5 + u(rng)));
+    s.temperature.push_back(300.0 + 50.0 * u(rng));
+    return static_cast<std::uint32_t>(s.mass.size() - 1);
+  };
+  const auto row = static_cast<std::uint32_t>(cells + 1);
+  for (std::uint32_t j = 0; j < row; ++j) {
+    for (std::uint32_t i = 0; i < row; ++i) add(i, j, 0.05 * u(rng));
+  }
+  for (std::uint32_t j = 0; j < cells; ++j) {
+    for (std::uint32_t i = 0; i < cells; ++i) {
+      const std::uint32_t c = j * row + i;
+      const double height = 0.2 + 0.1 * u(rng);
+      if (edges) {
+        const std::uint32_t a = add(i, j + 0.5, height), b = add(i + 1.0, j + 0.5, height);
+        const std::uint32_t role[] = {a, b, c, c + row};
+        for (std::size_t r = 0; r < 4; ++r) s.pairs.node[r].push_back(role[r]);
+      } else {
+        const std::uint32_t n = add(i + 0.5 + 0.4 * u(rng), j + 0.5 + 0.4 * u(rng), height);
+        const std::uint32_t role[] = {n, c, c + 1, c + row + 1, c + row};
+        for (std::size_t r = 0; r < 5; ++r) s.pairs.node[r].push_back(role[r]);
+      }
+      s.k0.push_back(1e5 * (1.5 + u(rng)));
+      s.gap.push_back(0.5);
+      s.p0.push_back(0.05 * (1.0 + u(rng)));
+      s.area.push_back(1.0);
+      for (auto& f : s.ft) f.push_back(5.0 * u(rng));
+    }
+  }
+  s.buffer.gather(s.nodes(), s.pairs,
+                  Field::position | Field::velocity | Field::mass_secondary | Field::mass_main |
+                      Field::temperature);
+  return s;
+}
+
+double seconds(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Best of several rounds, contestants in turn so that a slow spell hits all alike.
+std::vector<double> race(const std::vector<std::function<void()>>& contestants, int rounds) {
+  std::vector<double> best(contestants.size(), 1e30);
+  for (const auto& c : contestants) c();  // warm
+  for (int r = 0; r < rounds; ++r) {
+    for (std::size_t k = 0; k < contestants.size(); ++k) {
+      best[k] = std::min(best[k], seconds(contestants[k]));
+    }
+  }
+  return best;
+}
+
+/// The force stage alone, over geometry computed before.
+class ForceStage {
+ public:
+  ForceStage(const KernelPlan& plan, const PacketView& view) : plan_(plan), view_(view) {
+    const detail::Constants k = detail::make_constants(plan_, view_);
+    blocks_.resize(view.size / detail::kBlock);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      plan_.table->geometry(k, view_, b * detail::kBlock, detail::kBlock, blocks_[b]);
+    }
+    out_.resize(view.size);
+  }
+  void geometry() {
+    const detail::Constants k = detail::make_constants(plan_, view_);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      plan_.table->geometry(k, view_, b * detail::kBlock, detail::kBlock, blocks_[b]);
+    }
+  }
+  void force() {
+    const detail::Constants k = detail::make_constants(plan_, view_);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      plan_.table->force(k, plan_.effects, view_, b * detail::kBlock, detail::kBlock, blocks_[b],
+                         out_);
+    }
+  }
+  [[nodiscard]] std::size_t pairs() const { return blocks_.size() * detail::kBlock; }
+  [[nodiscard]] const std::vector<detail::GeometryBlock>& blocks() const { return blocks_; }
+  [[nodiscard]] const PacketResult& out() const { return out_; }
+
+ private:
+  KernelPlan plan_;
+  PacketView view_;
+  std::vector<detail::GeometryBlock> blocks_;
+  PacketResult out_;
+};
+
+/// The hand-written minimal loop: the same elastic force and outputs, written for nothing else.
+/// Plain code that the compiler vectorises; `copy` is what any kernel must move.
+__attribute__((noinline, target_clones("avx2", "default"))) void hand_written(
+    const detail::GeometryBlock& g, const double* __restrict gap, const double* __restrict k0,
+    std::size_t at, PacketResult& out) {
+  double* __restrict h[4] = {out.weights[0].data() + at, out.weights[1].data() + at,
+                             out.weights[2].data() + at, out.weights[3].data() + at};
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t i = 0; i < detail::kBlock; ++i) h[c][i] = g.weight[c][i];
+  }
+  double* __restrict f[3] = {out.force[0].data() + at, out.force[1].data() + at,
+                             out.force[2].data() + at};
+  double* __restrict n[3] = {out.normal[0].data() + at, out.normal[1].data() + at,
+                             out.normal[2].data() + at};
+  double* __restrict fn = out.normal_force.data() + at;
+  double* __restrict kn = out.k_nodal.data() + at;
+  double* __restrict pen = out.penetration.data() + at;
+  double* __restrict dist = out.distance.data() + at;
+  double* __restrict ge = out.effective_gap.data() + at;
+  std::int64_t* __restrict status = out.status.data() + at;
+  for (std::size_t i = 0; i < detail::kBlock; ++i) {
+    double k = g.keep[i] != 0.0 ? k0[i] : 0.0;
+    const double p = g.penetration[i];
+    const double d = gap[i] - p;
+    const double rho = d / gap[i];
+    const bool closed = (rho < 1e-10) & (k > 0.0);
+    k = closed ? 0.0 : k;
+    const double phi = gap[i] / (d > 1e-10 ? d : 1e-10);
+    const double sec = 0.5 * k * phi;
+    const double force = -(sec * p);
+    fn[i] = force;
+    kn[i] = sec * phi;
+    pen[i] = p;
+    dist[i] = g.distance[i];
+    ge[i] = gap[i];
+    status[i] = static_cast<std::int64_t>((force != 0.0) & (k != 0.0)) * status_contact |
+                static_cast<std::int64_t>(closed) * status_gap_closed;
+    for (std::size_t c = 0; c < 3; ++c) {
+      f[c][i] = force * g.normal[c][i];
+      n[c][i] = g.normal[c][i];
+    }
+  }
+}
+
+double worst_difference(const PacketResult& a, const PacketResult& b, std::size_t n) {
+  double size = 0.0, off = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t i = 0; i < n; ++i) {
+      size = std::max(size, std::abs(a.force[c][i]));
+      off = std::max(off, std::abs(a.force[c][i] - b.force[c][i]));
+      if (std::isnan(a.force[c][i]) || std::isnan(b.force[c][i])) return INFINITY;
+    }
+  }
+  return size > 0.0 ? off / size : INFINITY;  // all zero would prove nothing
+}
+
+void require_equal(double difference, const char* what) {
+  if (difference == 0.0) return;
+  std::fprintf(stderr, "bench_cycle: %s: answers differ by %.3e of the largest; no times\n", what,
+               difference);
+  std::exit(1);
+}
+
+struct Composition {
+  std::string name;
+  ContactCard card;
+  bool energies = false;
+};
+
+std::vector<Composition> compositions(ContactKind kind) {
+  ContactCard card;
+  card.kind = kind;
+  card.viss = 0.0;
+  std::vector<Composition> out;
+  out.push_back({"elastic", card});
+  out.push_back({"+ energy", card, true});
+  card.viss = 0.05;
+  out.push_back({"+ damping", card});
+  card.fric = 0.2;
+  out.push_back({"+ damping, friction Iform 1", card});
+  card.iform = 2;
+  out.push_back({"+ damping, friction Iform 2", card});
+  card.inacti = 6;
+  out.push_back({"+ damping, friction Iform 2, Inacti 6", card});
+  out.push_back({"all mechanical (and energy)", card, true});
+  if (kind == ContactKind::edge_edge) return out;
+  card.ifric = 3;
+  card.c = {0.15, 0.1, 0.3, 0.05, 1, 5};
+  out.push_back({"all mechanical, Renard law (generic)", card, true});
+  card.ifric = 0;
+  card.ithe = 1;
+  card.ithe_form = 1;
+  card.kthe = 500;
+  card.fheats = card.fheatm = 0.4;
+  out.push_back({"all mechanical and heat", card, true});
+  return out;
+}
+
+PlanOptions option(bool energies, bool generic, Isa isa = Isa::automatic) {
+  PlanOptions o;
+  o.energies = energies;
+  o.force_generic = generic;
+  o.isa = isa;
+  return o;
+}
+
+nlohmann::json composition_table(ContactKind kind, Model model, const Scene& scene, int rounds) {
+  const PacketView view = scene.view();
+  const double per_pair = 1e9 / static_cast<double>(view.size);
+  std::printf("\n%s, %s model: ns per pair, geometry included in the first three columns\n",
+              kind == ContactKind::edge_edge ? "edge-edge" : "node-quad",
+              model == Model::reference ? "reference" : "robust");
+  std::printf("%-40s %9s %9s %9s %9s %9s %9s\n", "composition", "composed", "flags", "baseline",
+              "force", "f.flags", "Mpairs/s");
+  nlohmann::json rows = nlohmann::json::array();
+  for (const Composition& c : compositions(kind)) {
+    const KernelPlan fixed = make_plan(c.card, model, option(c.energies, false));
+    const KernelPlan flags = make_plan(c.card, model, option(c.energies, true));
+    const KernelPlan base = make_plan(c.card, model, option(c.energies, false, Isa::baseline));
+    PacketResult a, b, d;
+    evaluate(fixed, view, a);
+    evaluate(flags, view, b);
+    evaluate(base, view, d);
+    require_equal(worst_difference(a, b, view.size), (c.name + ", flags").c_str());
+    require_equal(worst_difference(a, d, view.size), (c.name + ", baseline").c_str());
+    ForceStage stage(fixed, view), stage_flags(flags, view);
+    const std::vector<double> t = race(
+        {[&] { evaluate(fixed, view, a); }, [&] { evaluate(flags, view, b); },
+         [&] { evaluate(base, view, d); }, [&] { stage.force(); }, [&] { stage_flags.force(); }},
+        rounds);
+    std::printf("%-40s %9.1f %9.1f %9.1f %9.1f %9.1f %9.1f\n", c.name.c_str(), t[0] * per_pair,
+                t[1] * per_pair, t[2] * per_pair, t[3] * per_pair, t[4] * per_pair,
+                1e3 / (t[0] * per_pair));
+    rows.push_back({{"composition", c.name},
+                    {"composed_ns", t[0] * per_pair},
+                    {"flags_ns", t[1] * per_pair},
+                    {"baseline_ns", t[2] * per_pair},
+                    {"force_only_ns", t[3] * per_pair},
+                    {"force_only_flags_ns", t[4] * per_pair}});
+  }
+  return rows;
+}
+
+nlohmann::json hand_written_race(const Scene& scene, int rounds) {
+  const PacketView view = scene.view();
+  ContactCard card;
+  card.viss = 0.0;
+  ForceStage stage(make_plan(card, Model::reference, option(false, false)), view);
+  stage.force();
+  PacketResult out;
+  out.resize(view.size);
+  const auto by_hand = [&] {
+    for (std::size_t b = 0; b < stage.blocks().size(); ++b) {
+      const std::size_t at = b * detail::kBlock;
+      hand_written(stage.blocks()[b], view.gap + at, view.k0 + at, at, out);
+    }
+  };
+  by_hand();
+  require_equal(worst_difference(stage.out(), out, stage.pairs()), "hand-written loop");
+  const std::vector<double> t =
+      race({[&] { stage.force(); }, by_hand, [&] { stage.geometry(); }}, 3 * rounds);
+  const double per_pair = 1e9 / static_cast<double>(stage.pairs());
+  std::printf(
+      "elastic force, geometry excluded: composed %.2f ns, hand-written %.2f ns, "
+      "ratio of speeds %.3f; geometry alone %.1f ns\n",
+      t[0] * per_pair, t[1] * per_pair, t[1] / t[0], t[2] * per_pair);
+  return {{"composed_ns", t[0] * per_pair},
+          {"hand_written_ns", t[1] * per_pair},
+          {"speed_ratio", t[1] / t[0]},
+          {"geometry_ns", t[2] * per_pair}};
+}
+
+/// Gather from nodes, evaluate, add to nodes in fixed order: against an unordered scatter.
+nlohmann::json assembly_race(const Scene& scene, int rounds) {
+  ContactCard card;
+  card.fric = 0.2;
+  const KernelPlan plan = make_plan(card, Model::reference, option(false, false));
+  PacketResult r;
+  evaluate(plan, scene.view(), r);
+  const Incidence incidence(scene.pairs, scene.mass.size());
+  NodalSums ordered, scattered;
+  const auto in_order = [&] {
+    ordered.resize(scene.mass.size());
+    assemble(plan, incidence, r, ordered);
+  };
+  const auto scatter = [&] {
+    scattered.resize(scene.mass.size());
+    for (std::size_t i = 0; i < r.size; ++i) {
+      for (std::size_t role = 0; role < 5; ++role) {
+        const double share = role == 0 ? -1.0 : r.weights[role - 1][i];
+        const std::uint32_t n = scene.pairs.node[role][i];
+        for (std::size_t c = 0; c < 3; ++c) scattered.force[c][n] += share * r.force[c][i];
+        scattered.stiffness[n] += std::abs(share) * r.k_nodal[i];
+        scattered.contact[n] |= static_cast<std::uint8_t>(r.status[i] & status_contact);
+      }
+    }
+  };
+  PacketBuffer buffer;
+  const auto gather = [&] { buffer.gather(scene.nodes(), scene.pairs, plan.needs); };
+  in_order();
+  scatter();
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (ordered.force[c] != scattered.force[c]) require_equal(1.0, "assembly");
+  }
+  const std::vector<double> t = race({gather, in_order, scatter}, rounds);
+  const double per_pair = 1e9 / static_cast<double>(r.size);
+  std::printf("gather %.1f ns, ordered sums %.1f ns, plain scatter %.1f ns, ratio %.2f\n",
+              t[0] * per_pair, t[1] * per_pair, t[2] * per_pair, t[1] / t[2]);
+  return {{"gather_ns", t[0] * per_pair},
+          {"ordered_ns", t[1] * per_pair},
+          {"scatter_ns", t[2] * per_pair}};
+}
+
+}  // namespace
+
+/// bench_cycle [CELLS] [ROUNDS] [OUT.json]: CELLS^2 pairs.
+int main(int argc, char** argv) {
+  const std::size_t cells = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 128;
+  const int rounds = argc > 2 ? std::atoi(argv[2]) : 15;
+  const Scene nodes = make_scene(cells, false), edges = make_scene(cells, true);
+  std::printf("%zu pairs, one thread\n", nodes.pairs.size());
+  nlohmann::json all;
+  all["hand_written"] = hand_written_race(nodes, rounds);
+  all["assembly"] = assembly_race(nodes, rounds);
+  for (const Model model : {Model::reference, Model::robust}) {
+    const char* name = model == Model::reference ? "reference" : "robust";
+    all[name]["node_segment"] = composition_table(ContactKind::node_segment, model, nodes, rounds);
+    all[name]["edge_edge"] = composition_table(ContactKind::edge_edge, model, edges, rounds);
+  }
+  if (argc > 3) {
+    if (std::FILE* file = std::fopen(argv[3], "w")) {
+      std::fputs((all.dump(2) + "\n").c_str(), file);
+      std::fclose(file);
+    }
+  }
+  return 0;
+}
