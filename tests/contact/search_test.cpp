@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "contact/box_order.hpp"
 #include "contact/search_scenes.hpp"
@@ -141,30 +140,14 @@ TEST(SearchKernels, EveryInstructionSetFindsTheSamePairs) {
   const NodeSegmentInput in = node_input(mesh);
   SearchOptions o;
   o.gap = PairGap::constant(0.6);
-  sweep::NodeSweep w;
-  w.input = &in;
-  w.options = &o;
-  w.points.resize((in.secondary.size() + 7) / 8);
-  std::vector<BoxBlock> leaves((w.points.size() + 7) / 8);
-  for (std::uint32_t i = 0; i < in.secondary.size(); ++i) {
-    sweep::PointBlock& leaf = w.points[i / 8];
-    leaf.x[i % 8] = mesh.x[i];
-    leaf.y[i % 8] = mesh.y[i];
-    leaf.z[i % 8] = mesh.z[i];
-    leaf.item[i % 8] = i;
-    leaf.reach = 0.6;
-    leaf.used |= 1U << (i % 8);
-  }
-  const Box everything{{-1e9, -1e9, -1e9}, {1e9, 1e9, 1e9}};
-  for (std::size_t i = 0; i < w.points.size(); ++i) leaves[i / 8].set(i % 8, everything);
-  w.tree = BoxTree(leaves, 1);
-  w.segments.resize(in.segments.size());
-  std::iota(w.segments.begin(), w.segments.end(), 0U);
+  const sweep::NodeSweep w(in, o, 1);
   for (const auto& kernels : sweep::all_kernels()) {
     sweep::Sink sink;
     kernels.nodes(w, 0, w.segments.size(), sink);
-    std::sort(sink.pairs.begin(), sink.pairs.end());
-    EXPECT_EQ(sink.pairs, find_node_segment_pairs(in, o).pairs) << kernels.name;
+    std::vector<CandidatePair> pairs;
+    sink.for_each([&pairs](const CandidatePair& pair) { pairs.push_back(pair); });
+    std::sort(pairs.begin(), pairs.end());
+    EXPECT_EQ(pairs, find_node_segment_pairs(in, o).pairs) << kernels.name;
   }
 }
 

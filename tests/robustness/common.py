@@ -14,7 +14,7 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SAMPLES = sorted(glob.glob(os.path.join(ROOT, "samples", "*_0000.rad")))
 CRASH = re.compile(rb"AddressSanitizer|LeakSanitizer|ThreadSanitizer|UndefinedBehavior|runtime error:|"
-                   rb"internal error|terminate called|Assertion")
+                   rb"deck: internal error|terminate called|Assertion")
 
 
 class Result:

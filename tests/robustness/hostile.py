@@ -54,6 +54,8 @@ def cases():
     yield "a million headers", {"d_0000.rad": BEGIN + b"/X\n" * 1_000_000}, ORDERLY, []
     yield "200000 broken nodes", {"d_0000.rad": BEGIN + b"/NODE\n" + b"       x-1    abc  1e  --5\n" * 200_000}, FINDINGS, \
         ["d_0000.rad"]
+    yield "blocks without a line", {"d_0000.rad": BEGIN + b"/NODE\n/NODE\n/SHELL/1\n/BRICK/1\n/SURF/SEG/1\n/FUNCT/1\n/SET/GENERAL/1\n"
+                                    b"/INTER/TYPE7/1\n/INTER/TYPE11/2\n/PART/1\n/MAT/ELAST/1\n/END\n"}, ORDERLY, []
     yield "huge ids and numbers", {"d_0000.rad": BEGIN + b"/NODE\n99999999999999999999" + b"1e999999".rjust(20) + b"\n"
                                    b"/SURF/PART/99999999999999999999\nt\n-9223372036854775808\n"}, ORDERLY, []
     yield "parameter in terms of itself", {"d_0000.rad": BEGIN + b"/PARAMETER/GLOBAL/REAL_EXPR/1\nt\na         &b+1\n"
