@@ -146,7 +146,7 @@ class ForceStage {
 
 /// The hand-written minimal loop: the same elastic force and outputs, written for nothing else.
 /// Plain code that the compiler vectorises; `copy` is what any kernel must move.
-__attribute__((noinline, target_clones("avx2", "default"))) void hand_written(
+__attribute__((target_clones("avx512f", "avx2", "default"))) void hand_written(
     const detail::GeometryBlock& g, const double* __restrict gap, const double* __restrict k0,
     std::size_t at, PacketResult& out) {
   double* __restrict h[4] = {out.weights[0].data() + at, out.weights[1].data() + at,
