@@ -46,9 +46,9 @@ Line LineCursor::next() {
 }
 
 std::int64_t Submodel::offset_for(std::string_view kind) const {
-  constexpr std::string_view element_kinds[] = {
-      "shell", "sh3n",   "brick", "tetra4", "penta6", "tetra10", "bric20",
-      "shel16", "quad",  "tria",  "truss",  "beam",   "spring",  "element"};
+  constexpr std::string_view element_kinds[] = {"shell",   "sh3n",   "brick",  "tetra4", "penta6",
+                                                "tetra10", "bric20", "shel16", "quad",   "tria",
+                                                "truss",   "beam",   "spring", "element"};
   if (kind == "node") return nodes;
   if (kind == "part") return parts;
   if (kind == "mat") return materials;
@@ -87,9 +87,8 @@ std::int64_t Deck::offset_of(const Block& block, std::string_view kind) const {
 }
 
 std::uint32_t Deck::parent_of(std::uint32_t file) const {
-  for (const IncludeEdge& e : includes)
-    if (e.file == file) return e.parent;
-  return Span::no_file;
+  // Every file but the main one came with exactly one edge, in the same order.
+  return file == 0 || file > includes.size() ? Span::no_file : includes[file - 1].parent;
 }
 
 namespace detail {
@@ -163,13 +162,15 @@ void parse_header(const SchemaSet& schemas, Block& block) {
       block.id = {};
       next = parts.size();
     }
-    const bool parameter = block.id.span.length > 0 &&
-                           header[block.id.span.offset - block.header_span.offset] == '&';
+    const bool parameter =
+        block.id.span.length > 0 && header[block.id.span.offset - block.header_span.offset] == '&';
     if (block.id.value == 0 && !parameter) block.id.value = 1;
   }
+  // The formats up to 51 have no unit field; before 51 the title stands in the header.
   if (block.version < 51) {
     if (next < parts.size()) block.inline_title = header.substr(parts[next].begin);
-  } else if (next < parts.size() && (block.schema == nullptr || block.schema->has_unit)) {
+  } else if (block.version > 51 && next < parts.size() &&
+             (block.schema == nullptr || block.schema->has_unit)) {
     if (!take(parts[next], block.unit_id)) block.unit_id = {};
   }
 }

@@ -135,8 +135,7 @@ void apply_parameter(const Deck& deck, Findings& findings, Cell& cell) {
                     "define it with /PARAMETER in this file or globally", 100105, Severity::error);
     return;
   }
-  cell.integer =
-      p->type == Parameter::Type::integer ? p->integer : static_cast<std::int64_t>(p->real);
+  cell.integer = detail::as_integer(*p);
   cell.real = p->type == Parameter::Type::integer ? static_cast<double>(p->integer) : p->real;
   if (minus) {
     cell.integer = -cell.integer;

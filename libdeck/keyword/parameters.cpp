@@ -1,5 +1,6 @@
 // /PARAMETER blocks and their expressions. All files are read before anything is evaluated, so a
 // definition may follow its use, as in the open reader.
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -9,16 +10,24 @@
 namespace deck::detail {
 namespace {
 
-/// Recursive-descent evaluation of + - * / ^ ** ( ) numbers, &names and a few functions, with a
-/// bound on steps so that a hostile deck cannot keep us busy.
+constexpr std::size_t longest_reason = 200;
+
+// The locale of the process must not decide what a name is.
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Recursive-descent evaluation of + - * / ^ ** ( ) numbers, &names and a few functions, with
+/// bounds on steps and depth so that a hostile deck neither keeps us busy nor exhausts the stack.
+/// The depth counts through the parameters that refer to one another.
 class Expression {
  public:
-  using Lookup = std::optional<double> (*)(void*, std::string_view);
+  /// Value of a parameter; on failure the reason is left in the string.
+  using Lookup = std::optional<double> (*)(void*, std::string_view name, int depth, std::string&);
   Expression(std::string_view text, int steps, Lookup lookup, void* context)
       : text_(text), steps_(steps), lookup_(lookup), context_(context) {}
 
-  std::optional<double> evaluate() {
-    const auto value = sum(0);
+  std::optional<double> evaluate(int depth) {
+    const auto value = sum(depth);
     blanks();
     if (!value || at_ != text_.size()) return fail("unexpected text at position ");
     return std::isfinite(*value) ? value : fail("the value is not finite; position ");
@@ -26,7 +35,7 @@ class Expression {
   const std::string& error() const { return error_; }
 
  private:
-  static constexpr int max_depth = 60;
+  static constexpr int max_depth = 300;
 
   void blanks() {
     while (at_ < text_.size() && static_cast<unsigned char>(text_[at_]) <= ' ') ++at_;
@@ -41,11 +50,12 @@ class Expression {
     if (error_.empty()) error_ = why + std::to_string(at_ + 1);
     return std::nullopt;
   }
+  bool spent(int depth) { return depth > max_depth || --steps_ < 0; }
 
   std::optional<double> sum(int depth) {
-    if (depth > max_depth || --steps_ < 0) return fail("expression too deep or too long at ");
+    if (spent(depth)) return fail("too deep or too long at position ");
     auto left = product(depth);
-    while (left) {
+    while (left && !spent(depth)) {
       if (eat("+")) {
         const auto right = product(depth);
         if (!right) return right;
@@ -62,7 +72,7 @@ class Expression {
   }
   std::optional<double> product(int depth) {
     auto left = power(depth);
-    while (left && --steps_ >= 0) {
+    while (left && !spent(depth)) {
       blanks();
       if (!text_.substr(at_).starts_with("**") && eat("*")) {
         const auto right = power(depth);
@@ -80,7 +90,7 @@ class Expression {
     return left;
   }
   std::optional<double> power(int depth) {
-    if (depth > max_depth || --steps_ < 0) return fail("expression too deep or too long at ");
+    if (spent(depth)) return fail("too deep or too long at position ");
     if (eat("-")) {
       const auto v = power(depth + 1);
       return v ? std::optional(-*v) : v;
@@ -97,28 +107,15 @@ class Expression {
       const auto v = sum(depth + 1);
       return v && !eat(")") ? fail("expected ')' at position ") : v;
     }
-    if (at_ < text_.size() && (text_[at_] == '&' || std::isalpha(
-                                   static_cast<unsigned char>(text_[at_])))) {
-      const bool parameter = text_[at_] == '&';
-      const std::size_t begin = at_ + (parameter ? 1 : 0);
-      at_ = begin;
-      while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) ||
-                                    text_[at_] == '_'))
-        ++at_;
-      const std::string_view name = text_.substr(begin, at_ - begin);
-      if (!parameter && eat("(")) return function(name, depth);
-      const auto v = lookup_(context_, name);
-      return v ? v : fail("undefined parameter before position ");
-    }
+    if (at_ < text_.size() && (text_[at_] == '&' || is_letter(text_[at_]))) return name(depth);
     std::size_t end = at_;
-    while (end < text_.size() && (std::isdigit(static_cast<unsigned char>(text_[end])) ||
-                                  text_[end] == '.'))
-      ++end;
-    if (end < text_.size() && end > at_ && std::string_view("eEdD").find(text_[end]) != std::string_view::npos) {
+    while (end < text_.size() && (is_digit(text_[end]) || text_[end] == '.')) ++end;
+    constexpr std::string_view marks = "eEdD";
+    if (end < text_.size() && end > at_ && marks.find(text_[end]) != std::string_view::npos) {
       std::size_t e = end + 1;
       if (e < text_.size() && (text_[e] == '+' || text_[e] == '-')) ++e;
-      if (e < text_.size() && std::isdigit(static_cast<unsigned char>(text_[e]))) {
-        while (e < text_.size() && std::isdigit(static_cast<unsigned char>(text_[e]))) ++e;
+      if (e < text_.size() && is_digit(text_[e])) {
+        while (e < text_.size() && is_digit(text_[e])) ++e;
         end = e;
       }
     }
@@ -126,6 +123,21 @@ class Expression {
     if (number.status != NumberStatus::ok) return fail("expected a number at position ");
     at_ = end;
     return number.value;
+  }
+  /// "&name", "name" or "function(".
+  std::optional<double> name(int depth) {
+    const bool parameter = text_[at_] == '&';
+    if (parameter) ++at_;
+    const std::size_t begin = at_;
+    while (at_ < text_.size() &&
+           (is_letter(text_[at_]) || is_digit(text_[at_]) || text_[at_] == '_'))
+      ++at_;
+    const std::string_view word = text_.substr(begin, at_ - begin);
+    if (!parameter && eat("(")) return function(word, depth);
+    std::string why;
+    const auto v = lookup_(context_, word, depth + 1, why);
+    if (!v && error_.empty()) error_ = "parameter '" + std::string(word) + "' " + why;
+    return v;
   }
   std::optional<double> function(std::string_view name, int depth) {
     const auto x = sum(depth + 1);
@@ -159,36 +171,42 @@ struct Context {
 };
 
 bool evaluate(Deck& deck, const Limits& limits, Parameter& p, std::set<const Parameter*>& open,
-              std::string& why);
+              int depth, std::string& why);
 
-std::optional<double> lookup(void* context, std::string_view name) {
+std::optional<double> lookup(void* context, std::string_view name, int depth, std::string& why) {
   auto& c = *static_cast<Context*>(context);
   auto* p = const_cast<Parameter*>(c.deck->find_parameter(name, c.file));
-  if (p == nullptr || p->type == Parameter::Type::text) return std::nullopt;
-  std::string why;
-  if (!p->valid && !evaluate(*c.deck, *c.limits, *p, *c.open, why)) return std::nullopt;
+  if (p == nullptr || p->type == Parameter::Type::text) {
+    why = p == nullptr ? "is not defined here" : "is a text";
+    return std::nullopt;
+  }
+  if (!p->valid && !evaluate(*c.deck, *c.limits, *p, *c.open, depth, why)) return std::nullopt;
   return p->type == Parameter::Type::integer ? static_cast<double>(p->integer) : p->real;
 }
 
 bool evaluate(Deck& deck, const Limits& limits, Parameter& p, std::set<const Parameter*>& open,
-              std::string& why) {
-  if (p.expression.empty()) return false;
-  if (open.size() > 100 || !open.insert(&p).second) {
-    why = "the definition refers to itself";
+              int depth, std::string& why) {
+  if (p.expression.empty()) {
+    why = "has no readable value";
+    return false;
+  }
+  if (!open.insert(&p).second) {
+    why = "refers to itself";
     return false;
   }
   Context context{&deck, &limits, p.file, &open};
   Expression expression(p.expression, limits.expression_steps, lookup, &context);
-  const auto value = expression.evaluate();
+  const auto value = expression.evaluate(depth);
   open.erase(&p);
   if (!value) {
-    why = expression.error();
+    why = "cannot be evaluated: " + expression.error();
+    if (why.size() > longest_reason) why.resize(longest_reason);
     return false;
   }
   p.real = *value;
   if (p.type == Parameter::Type::integer) {
     if (std::fabs(*value) > 9e15) {
-      why = "the value does not fit an integer";
+      why = "does not fit an integer";
       return false;
     }
     p.integer = std::llround(*value);
@@ -198,74 +216,102 @@ bool evaluate(Deck& deck, const Limits& limits, Parameter& p, std::set<const Par
 }
 
 void report(Deck& deck, Span span, std::string message) {
-  if (!deck.diagnostics.wants("DK019")) return;
-  Diagnostic d;
-  d.rule = "DK019";
-  d.span = span;
-  d.message = std::move(message);
-  d.reference_behaviour = "it reads 0 wherever the parameter is used";
-  d.help = "write the name in columns 1-10 and the value (or expression) from column 11 on";
-  deck.diagnostics.add(std::move(d));
+  detail::report(deck, "DK019", Severity::error, span, std::move(message),
+                 "it reads 0 wherever the parameter is used",
+                 "write the name in columns 1-10 and the value (or expression) from column 11 on");
+}
+
+/// The parameter of one block without its evaluation; nullopt: reported.
+std::optional<std::pair<std::string, Parameter>> read_definition(Deck& deck, const Block& b) {
+  // /PARAMETER/GLOBAL|LOCAL/kind/id
+  const std::string_view rest = b.header.substr(11);
+  const auto slash = rest.find('/');
+  const std::string_view kind =
+      slash == std::string_view::npos ? std::string_view() : rest.substr(slash + 1);
+  const bool text = kind.starts_with("TEXT");
+  const bool expression = kind.starts_with("REAL_EXPR") || kind.starts_with("INT_EXPR");
+  const bool integer = kind.starts_with("INT");
+  Parameter p;
+  p.local = rest.starts_with("LOCAL");
+  p.type = text      ? Parameter::Type::text
+           : integer ? Parameter::Type::integer
+                     : Parameter::Type::real;
+  LineCursor cursor(deck.sources, b);
+  if (!text) cursor.next();  // title
+  const Line line = cursor.next();
+  if (!line.valid()) {
+    report(deck, b.header_span, "/PARAMETER without its data line");
+    return std::nullopt;
+  }
+  p.file = line.file;
+  p.span = line.whole();
+  std::string name(trim(columns(line.text, 1, 10)));
+  if (name.empty()) {
+    report(deck, p.span, "/PARAMETER without a name in columns 1-10");
+    return std::nullopt;
+  }
+  if (text) {
+    p.text = std::string(cursor.next().text.substr(0, 100));
+    p.valid = true;
+  } else if (expression) {
+    p.expression = std::string(trim(columns(line.text, 11, 100)));
+  } else if (integer) {
+    const IntegerCell cell = read_integer(columns(line.text, 11, 20));
+    p.integer = cell.value;
+    p.real = static_cast<double>(cell.value);
+    p.valid = cell.status == NumberStatus::ok;
+  } else {
+    const RealCell cell = read_real(columns(line.text, 11, 30));
+    p.real = cell.value;
+    p.valid = cell.status == NumberStatus::ok || cell.status == NumberStatus::implicit_exponent;
+  }
+  if (!p.valid && p.expression.empty())
+    report(deck, p.span,
+           "parameter '" + name + "' has no readable value in '" +
+               std::string(line.text.substr(0, 100)) + "'");
+  return std::pair{std::move(name), std::move(p)};
 }
 
 }  // namespace
 
+std::int64_t as_integer(const Parameter& p) {
+  if (p.type == Parameter::Type::integer) return p.integer;
+  constexpr double most = 9e18;
+  return static_cast<std::int64_t>(std::clamp(p.real, -most, most));
+}
+
+std::int64_t read_offset(const Deck& deck, const Span& cell) {
+  std::string_view text = trim(deck.sources.text(cell));
+  const bool minus = text.starts_with("-&");
+  if (!minus && !text.starts_with('&')) return read_integer(text).value;
+  const Parameter* p = deck.find_parameter(text.substr(minus ? 2 : 1), cell.file);
+  if (p == nullptr || !p->valid || p->type == Parameter::Type::text) return 0;
+  return minus ? -as_integer(*p) : as_integer(*p);
+}
+
 void read_parameters(Deck& deck, const Limits& limits) {
   std::vector<Parameter*> pending;
+  // One entry per name and scope: a deck with a million equal names must not slow every look-up.
+  std::set<std::pair<std::string, std::uint32_t>> seen;
   for (const Block& b : deck.blocks) {
     if (!b.header.starts_with("/PARAMETER/")) continue;
-    const std::string_view rest = b.header.substr(11);
-    Parameter p;
-    p.local = rest.starts_with("LOCAL");
-    const auto slash = rest.find('/');
-    const std::string_view kind =
-        slash == std::string_view::npos ? std::string_view() : rest.substr(slash + 1);
-    const bool text = kind.starts_with("TEXT");
-    const bool expression = kind.starts_with("REAL_EXPR") || kind.starts_with("INT_EXPR");
-    const bool integer = kind.starts_with("INT");
-    p.type = text ? Parameter::Type::text
-                  : integer ? Parameter::Type::integer : Parameter::Type::real;
-    LineCursor cursor(deck.sources, b);
-    if (!text) cursor.next();  // title
-    const Line line = cursor.next();
-    if (!line.valid()) {
-      report(deck, b.header_span, "/PARAMETER without its data line");
+    auto definition = read_definition(deck, b);
+    if (!definition) continue;
+    auto& [name, p] = *definition;
+    if (!seen.emplace(name, p.local ? p.file : Span::no_file).second) {
+      detail::report(deck, "DK044", Severity::warning, p.span,
+                     "parameter '" + name + "' is defined twice in the same scope",
+                     "it keeps one of the two", "remove one; the first one is used");
       continue;
     }
-    p.file = line.file;
-    p.span = line.whole();
-    const std::string name(trim(columns(line.text, 1, 10)));
-    if (name.empty()) {
-      report(deck, p.span, "/PARAMETER without a name in columns 1-10");
-      continue;
-    }
-    if (text) {
-      p.text = std::string(cursor.next().text);
-      p.valid = true;
-    } else if (expression) {
-      p.expression = std::string(trim(columns(line.text, 11, 100)));
-    } else if (integer) {
-      const IntegerCell cell = read_integer(columns(line.text, 11, 20));
-      p.integer = cell.value;
-      p.real = static_cast<double>(cell.value);
-      p.valid = cell.status == NumberStatus::ok;
-    } else {
-      const RealCell cell = read_real(columns(line.text, 11, 30));
-      p.real = cell.value;
-      p.valid = cell.status == NumberStatus::ok || cell.status == NumberStatus::implicit_exponent;
-    }
-    const bool bad = !p.valid && p.expression.empty();
-    if (bad)
-      report(deck, p.span, "parameter '" + name + "' has no readable value in '" +
-                               std::string(line.text) + "'");
-    Parameter& kept = deck.parameters.emplace(name, std::move(p))->second;
+    Parameter& kept = deck.parameters.emplace(std::move(name), std::move(p))->second;
     if (!kept.expression.empty()) pending.push_back(&kept);
   }
   for (Parameter* p : pending) {
     std::set<const Parameter*> open;
     std::string why;
-    if (!p->valid && !evaluate(deck, limits, *p, open, why))
-      report(deck, p->span, "expression '" + p->expression + "' cannot be evaluated: " + why);
+    if (!p->valid && !evaluate(deck, limits, *p, open, 0, why))
+      report(deck, p->span, "expression '" + p->expression + "' " + why);
   }
 }
 

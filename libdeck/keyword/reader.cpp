@@ -1,6 +1,5 @@
 // One pass over the bytes of every file: only header lines and directives are looked at, everything
-// else becomes part of the block that is open. A few hundred lines because the walk, its limits and
-// its findings belong together.
+// else becomes part of the block that is open. What needs the whole deck is in reader_finish.cpp.
 #include "keyword/reader.hpp"
 
 #include <algorithm>
@@ -13,18 +12,23 @@ namespace deck {
 namespace {
 
 using detail::columns;
+using detail::make_span;
 using detail::starts_with_nocase;
 using detail::trim;
 using detail::trim_right;
 namespace fs = std::filesystem;
 
+bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20; }
+
+constexpr std::size_t header_columns = 202;  // the line buffer of the reference solver
+constexpr std::size_t longest_path = 4096;
+constexpr int deepest_include = 1000;  // the walk is recursive; more would endanger the stack
+constexpr std::size_t most_blocks = 20'000'000;
+constexpr std::int64_t largest_id = 2147483647;
+constexpr std::uint64_t release_step = 8 << 20;
+
 constexpr int known_versions[] = {2026, 2025, 2024, 2023, 2022, 2021, 2020, 2019, 2018, 2017,
                                   140,  130,  120,  110,  100,  90,   51,   44,   42,   41};
-
-Span make_span(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
-  constexpr std::uint64_t longest = 1 << 20;
-  return {file, static_cast<std::uint32_t>(std::min(end - begin, longest)), begin};
-}
 
 class Reader {
  public:
@@ -34,7 +38,8 @@ class Reader {
   }
 
   Result<Deck> read(std::unique_ptr<Source> main) {
-    if (auto bad = refuse(*main); !bad) return bad.error();
+    if (auto bad = refuse_empty(*main); !bad) return bad.error();
+    if (auto bad = refuse_binary(*main); !bad) return bad.error();
     deck_.total_bytes = main->bytes().size();
     main_directory_ = directory_of(main->path());
     deck_.sources.add(std::move(main));
@@ -42,44 +47,36 @@ class Reader {
     stack_.push_back(0);
     scan(0, newest_version);
     stack_.pop_back();
-    finish();
+    if (!submodel_stack_.empty()) notes_.unclosed_submodel = submodel_stack_.back();
+    detail::finish_deck(deck_, notes_, options_);
     return std::move(deck_);
   }
 
  private:
-  // ---- findings -----------------------------------------------------------------------------
-
   void report(std::string_view rule, Severity severity, Span span, std::string message,
-              std::string behaviour, std::string help, int number = 0,
-              Severity number_severity = Severity::error) {
-    if (!deck_.diagnostics.wants(rule)) return;
-    Diagnostic d;
-    d.rule = rule;
-    d.severity = severity;
-    d.span = span;
-    d.message = std::move(message);
-    d.reference_behaviour = std::move(behaviour);
-    d.help = std::move(help);
-    if (number != 0) d.reference = ReferenceMessage{number, number_severity};
-    deck_.diagnostics.add(std::move(d));
+              std::string behaviour, std::string help, int number = 0) {
+    detail::report(deck_, rule, severity, span, std::move(message), std::move(behaviour),
+                   std::move(help), number);
   }
 
-  /// Files that are no decks at all.
-  static Result<void> refuse(const Source& source) {
+  // ---- what is no deck ----------------------------------------------------------------------
+
+  static Result<void> refuse_empty(const Source& source) {
     const std::string_view bytes = source.bytes();
-    if (trim(bytes.substr(0, 1 << 16)).empty() && trim(bytes).empty())
-      return Error{Error::Code::syntax, source.path() + ": is empty (" +
-                                            std::to_string(bytes.size()) +
-                                            " bytes of nothing but blanks); expected a Starter "
-                                            "deck with /BEGIN … /END"};
-    const std::string_view head = bytes.substr(0, 4096);
+    if (!std::all_of(bytes.begin(), bytes.end(), [](char c) { return is_blank(c); })) return {};
+    return Error{Error::Code::syntax, source.path() + ": is empty (" +
+                                          std::to_string(bytes.size()) +
+                                          " bytes of nothing but blanks); expected a Starter "
+                                          "deck with /BEGIN … /END"};
+  }
+
+  static Result<void> refuse_binary(const Source& source) {
+    const std::string_view head = source.bytes().substr(0, 4096);
     const auto nul = static_cast<std::size_t>(std::count(head.begin(), head.end(), '\0'));
-    if (nul * 10 > head.size())
-      return Error{Error::Code::syntax,
-                   source.path() + ": is a binary file (" + std::to_string(nul) +
-                       " NUL bytes in the first " + std::to_string(head.size()) +
-                       "); expected the text of a Starter deck"};
-    return {};
+    if (nul * 10 <= head.size()) return {};
+    return Error{Error::Code::syntax, source.path() + ": is a binary file (" + std::to_string(nul) +
+                                          " NUL bytes in the first " + std::to_string(head.size()) +
+                                          "); expected the text of a Starter deck"};
   }
 
   void check_banner() {
@@ -89,8 +86,14 @@ class Reader {
              "the file starts with a UTF-8 byte order mark",
              "it takes the three bytes for the start of the first line, so the banner is not found",
              "save the file without byte order mark");
-    const auto end = std::min(bytes.find('\n'), bytes.size());
-    if (!trim(bytes.substr(0, end)).starts_with("#RADIOSS STARTER"))
+    const std::string_view start = bytes.substr(0, 1 << 16);
+    const auto end = std::min(start.find('\n'), start.size());
+    const std::string_view first = bytes.substr(0, std::min<std::size_t>(end, header_columns));
+    if (const auto cr = start.find('\r'); cr < end && end == start.size() && cr + 1 < end)
+      report("DK045", Severity::error, make_span(0, cr, cr + 1),
+             "the lines end with a carriage return alone", "it takes the whole file for one line",
+             "save the file with line feeds");
+    if (!trim(first).starts_with("#RADIOSS STARTER"))
       report("DK001", Severity::warning, make_span(0, 0, end),
              "the first line is not '#RADIOSS STARTER'",
              "official builds stop at once; open-reader builds take the line for a comment",
@@ -123,15 +126,23 @@ class Reader {
 
   void include(std::string written, Span directive, std::uint32_t parent, int version) {
     std::replace(written.begin(), written.end(), '\\', '/');
+    if (written.size() > longest_path) {
+      report("DK004", Severity::error, directive,
+             "#include with a file name of " + std::to_string(written.size()) +
+                 " characters was not read",
+             "it stops with an error", "shorten the path", 100002);
+      return;
+    }
     if (written.empty()) {
       report("DK004", Severity::error, directive, "#include without a file name",
              "it stops with an error", "name the file or remove the line", 100002);
       return;
     }
-    if (static_cast<int>(stack_.size()) > options_.limits.include_depth) {
+    const int depth = std::min(options_.limits.include_depth, deepest_include);
+    if (static_cast<int>(stack_.size()) > depth) {
       report("DK006", Severity::error, directive,
-             "includes are nested deeper than " + std::to_string(options_.limits.include_depth) +
-                 " levels; '" + written + "' was not read",
+             "includes are nested deeper than " + std::to_string(depth) + " levels; '" + written +
+                 "' was not read",
              "it stops at about 10 levels", "flatten the include tree");
       return;
     }
@@ -143,12 +154,20 @@ class Reader {
       return;
     }
     std::string tried;
+    Limits limits = options_.limits;
+    // A file that many others include is opened again and again: beyond a bound the text is mapped,
+    // so that it does not pile up in memory.
+    if (memory_bytes_ > 8 * limits.map_threshold) limits.map_threshold = 0;
     for (const std::string& path : candidates(written, parent)) {
-      auto source = Source::open(path, options_.limits);
+      auto source = Source::open(path, limits);
+      if (source)
+        if (auto bad = refuse_binary(**source); !bad) source = bad.error();
       if (!source) {
         tried += (tried.empty() ? "" : "; ") + source.error().message;
         continue;
       }
+      if ((*source)->bytes().size() <= limits.map_threshold)
+        memory_bytes_ += (*source)->bytes().size();
       enter(std::move(*source), std::move(written), directive, parent, version);
       return;
     }
@@ -203,7 +222,7 @@ class Reader {
           break;
         }
       }
-      path += trim(line);
+      if (path.size() <= longest_path) path += trim(line);
       if (pos < bytes.size() && bytes[pos] == '+') more = true;
     }
     std::erase(path, '\'');
@@ -214,7 +233,11 @@ class Reader {
 
   /// Adds the lines [begin, end) to the open block.
   void append_lines(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
-    if (begin >= end || open_block_ < 0) return;
+    if (begin >= end) return;
+    if (open_block_ < 0) {
+      report_stray(file, begin, end);
+      return;
+    }
     auto& body = deck_.blocks[static_cast<std::size_t>(open_block_)].body;
     if (!body.empty() && body.back().file == file && body.back().end == begin)
       body.back().end = end;
@@ -222,26 +245,81 @@ class Reader {
       body.push_back({file, begin, end});
   }
 
-  void scan(std::uint32_t file, int version) {
-    const std::string_view bytes = deck_.sources[file].bytes();
-    const std::uint64_t size = bytes.size();
-    const bool is_main = file == 0;
-    std::uint64_t pos = 0, run = 0;
+  /// First line of [begin, end) that is neither blank nor a comment; empty span if there is none.
+  Span first_text(std::uint32_t file, std::uint64_t begin, std::uint64_t end) const {
+    const std::string_view bytes = deck_.sources[file].bytes().substr(0, end);
+    for (std::uint64_t at = begin; at < end;) {
+      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), end);
+      const std::string_view line = bytes.substr(at, nl - at);
+      const bool comment = line.starts_with('#') || line.starts_with('$');
+      if (!comment && !std::all_of(line.begin(), line.end(), is_blank))
+        return make_span(file, at, nl);
+      at = nl + 1;
+    }
+    return {};
+  }
+
+  void report_stray(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
+    const Span text = first_text(file, begin, end);
+    if (!text.valid() || (begin == 0 && file == 0 && text.offset == 0 &&
+                          deck_.sources[0].bytes().starts_with("\xef\xbb\xbf")))
+      return;
+    report("DK042", Severity::warning, text, "text that belongs to no keyword",
+           "it skips everything up to the next keyword",
+           "add the keyword line, or turn the text into a comment");
+  }
+
+  /// Position of the next line of [pos, size) that is a header or begins with '#'; `size` if there
+  /// is none. In bulk data neither '/' nor '#' occurs, so most lines are never looked at one by
+  /// one.
+  /// `released` says how far the pages of the file were given back on the way.
+  static std::uint64_t next_candidate(const Source& source, std::uint64_t pos,
+                                      std::uint64_t& released) {
+    const char* const data = source.bytes().data();
+    const std::uint64_t size = source.bytes().size();
+    constexpr std::uint64_t window = 32 * 1024;
     while (pos < size) {
-      const char* const start = bytes.data() + pos;
-      const void* const found = std::memchr(start, '\n', size - pos);
-      const std::uint64_t end =
-          found ? static_cast<std::uint64_t>(static_cast<const char*>(found) - bytes.data()) : size;
-      const std::uint64_t next = std::min(end + 1, size);
-      const char* c = start;
-      const char* const stop = bytes.data() + end;
-      while (c != stop && (*c == ' ' || *c == '\t')) ++c;
-      if (c == stop || (*c != '/' && *start != '#')) {
-        pos = next;
+      const std::uint64_t length = std::min(window, size - pos);
+      const void* const slash = std::memchr(data + pos, '/', length);
+      const std::uint64_t until =
+          slash == nullptr
+              ? length
+              : static_cast<std::uint64_t>(static_cast<const char*>(slash) - data) - pos;
+      const void* const hash = until == 0 ? nullptr : std::memchr(data + pos, '#', until);
+      if (pos - released > release_step) {
+        source.release(released, pos);
+        released = pos;
+      }
+      if (slash == nullptr && hash == nullptr) {
+        pos += length;
         continue;
       }
-      if (*start == '#') {
-        const std::string_view line(start, end - pos);
+      const std::uint64_t hit =
+          hash != nullptr ? static_cast<std::uint64_t>(static_cast<const char*>(hash) - data)
+                          : pos + until;
+      // Only the first character of a line that is not blank makes it special.
+      std::uint64_t first = hit;
+      while (first > 0 && (data[first - 1] == ' ' || data[first - 1] == '\t')) --first;
+      const bool line_start = first == 0 || data[first - 1] == '\n';
+      if (line_start && (data[hit] == '/' || first == hit)) return first;
+      const void* const nl = std::memchr(data + hit, '\n', size - hit);
+      if (nl == nullptr) return size;
+      pos = static_cast<std::uint64_t>(static_cast<const char*>(nl) - data) + 1;
+    }
+    return size;
+  }
+
+  void scan(std::uint32_t file, int version) {
+    const Source& source = deck_.sources[file];
+    const std::string_view bytes = source.bytes();
+    const std::uint64_t size = bytes.size();
+    const bool is_main = file == 0;
+    std::uint64_t run = 0, released = 0;
+    for (std::uint64_t pos = 0; (pos = next_candidate(source, pos, released)) < size;) {
+      const std::uint64_t end = std::min<std::uint64_t>(bytes.find('\n', pos), size);
+      const std::uint64_t next = std::min(end + 1, size);
+      if (bytes[pos] == '#') {
+        const std::string_view line = bytes.substr(pos, end - pos);
         if (starts_with_nocase(line, "#include") && line.size() > 8 &&
             (line[8] == ' ' || line[8] == '\t' || line[8] == '\'')) {
           append_lines(file, run, pos);
@@ -260,21 +338,21 @@ class Reader {
         continue;
       }
       append_lines(file, run, pos);
-      const std::string_view header =
-          trim_right({c, static_cast<std::size_t>(stop - c)});
       run = next;
+      const auto slash = bytes.find('/', pos);
+      const std::string_view header =
+          trim_right(bytes.substr(slash, std::min(end - slash, header_columns)));
+      pos = next;
       if (header == "/END") {
         open_block_ = -1;
-        if (is_main) {
-          deck_.end_seen = true;
-          check_tail(next);
-        }
+        if (is_main) deck_.end_seen = true;
+        check_tail(file, next);
         return;
       }
-      open(file, header, static_cast<std::uint64_t>(c - bytes.data()), next, version);
-      pos = next;
+      if (!open(file, header, slash, next, version)) return;
     }
     append_lines(file, run, size);
+    source.release(released, size);
   }
 
   bool in_submodel_without_begin() const {
@@ -282,28 +360,29 @@ class Reader {
            !deck_.submodels[static_cast<std::size_t>(submodel_stack_.back())].units;
   }
 
-  void check_tail(std::uint64_t from) {
-    std::string_view rest = deck_.sources[0].bytes().substr(from);
-    std::uint64_t at = from;
-    while (!rest.empty()) {
-      const auto nl = std::min(rest.find('\n'), rest.size());
-      const std::string_view line = trim(rest.substr(0, nl));
-      if (!line.empty() && line[0] != '#' && line[0] != '$') {
-        report("DK011", Severity::warning, make_span(0, at, at + nl),
-               "text after /END in the main file",
-               "it stops reading at /END: nothing below exists for it",
-               "move the lines above /END or delete them");
-        return;
-      }
-      at += nl + 1;
-      rest.remove_prefix(std::min(nl + 1, rest.size()));
-    }
+  void check_tail(std::uint32_t file, std::uint64_t from) {
+    const Span text = first_text(file, from, deck_.sources[file].bytes().size());
+    if (!text.valid()) return;
+    report("DK011", Severity::warning, text,
+           file == 0 ? "text after /END in the main file" : "text after /END in an included file",
+           file == 0 ? "it stops reading at /END: nothing below exists for it"
+                     : "it skips the rest of this file",
+           "move the lines above /END or delete them");
   }
 
   // ---- headers ------------------------------------------------------------------------------
 
-  void open(std::uint32_t file, std::string_view header, std::uint64_t offset, std::uint64_t next,
+  /// False: the limit on blocks is reached and reading stops.
+  bool open(std::uint32_t file, std::string_view header, std::uint64_t offset, std::uint64_t next,
             int& version) {
+    if (deck_.blocks.size() >= most_blocks) {
+      if (open_block_ >= 0)
+        report("DK006", Severity::error, make_span(file, offset, offset + header.size()),
+               "more than " + std::to_string(most_blocks) + " keywords; the rest is not read", "",
+               "check the deck for an include that multiplies itself");
+      open_block_ = -1;
+      return false;
+    }
     Block block;
     block.header = header;
     block.header_span = make_span(file, offset, offset + header.size());
@@ -313,39 +392,60 @@ class Reader {
       read_begin(file, block.header_span, next, version);
       block.version = version;
     } else if (header.starts_with("//SUBMODEL")) {
-      Submodel sub;
-      sub.parent = submodel_stack_.empty() ? -1 : submodel_stack_.back();
-      sub.span = block.header_span;
-      deck_.submodels.push_back(std::move(sub));
-      submodel_stack_.push_back(static_cast<std::int32_t>(deck_.submodels.size()) - 1);
-      submodel_blocks_.push_back(deck_.blocks.size());
+      open_submodel(block.header_span, version);
     } else if (header.starts_with("//ENDSUB")) {
-      if (submodel_stack_.empty())
-        report("DK035", Severity::error, block.header_span, "//ENDSUB without //SUBMODEL",
-               "the line is an unknown keyword for it", "remove the line");
-      else
-        submodel_stack_.pop_back();
+      close_submodel(block.header_span, version);
     }
-    if (begin_count_ == 0 && !header.starts_with("/PARAMETER")) before_begin_.push_back(
-        deck_.blocks.size());
+    if (notes_.begin_count == 0 && !header.starts_with("/PARAMETER"))
+      notes_.before_begin.push_back(deck_.blocks.size());
     detail::parse_header(schemas_, block);
+    check_ids(block);
     deck_.blocks.push_back(std::move(block));
     open_block_ = static_cast<std::int64_t>(deck_.blocks.size()) - 1;
+    return true;
+  }
+
+  void open_submodel(Span header, int version) {
+    Submodel sub;
+    sub.parent = submodel_stack_.empty() ? -1 : submodel_stack_.back();
+    sub.span = header;
+    deck_.submodels.push_back(std::move(sub));
+    submodel_stack_.push_back(static_cast<std::int32_t>(deck_.submodels.size()) - 1);
+    notes_.submodel_blocks.push_back(deck_.blocks.size());
+    outer_versions_.push_back(version);
+  }
+
+  void close_submodel(Span header, int& version) {
+    if (submodel_stack_.empty()) {
+      report("DK035", Severity::error, header, "//ENDSUB without //SUBMODEL",
+             "the line is an unknown keyword for it", "remove the line");
+      return;
+    }
+    // A /BEGIN inside the submodel has set the version of its lines only.
+    version = outer_versions_.back();
+    submodel_stack_.pop_back();
+    outer_versions_.pop_back();
+  }
+
+  void check_ids(const Block& block) {
+    for (const HeaderId* id : {&block.id, &block.unit_id}) {
+      const std::string_view text = deck_.sources.text(id->span);
+      if (text.empty() || text[0] == '&') continue;
+      if (const IntegerCell n = read_integer(text);
+          n.status != NumberStatus::overflow && n.value <= largest_id)
+        continue;
+      report(
+          "DK037", Severity::error, id->span,
+          "id " + std::string(text.substr(0, 30)) + " is larger than " + std::to_string(largest_id),
+          "it reads another number or stops with an error", "give the entity a smaller id", 509);
+    }
   }
 
   /// /BEGIN is needed before anything else can be read: its four lines are read on the spot.
   void read_begin(std::uint32_t file, Span header, std::uint64_t pos, int& version) {
-    const std::string_view bytes = deck_.sources[file].bytes();
     Line lines[4];
-    for (int have = 0; have < 4 && pos < bytes.size();) {
-      const auto nl = std::min(bytes.find('\n', pos), bytes.size());
-      const std::string_view text = trim_right(bytes.substr(pos, nl - pos));
-      const bool comment = text.starts_with('#') || text.starts_with('$');
-      if (!comment && trim(text).starts_with('/')) break;
-      if (!comment) lines[have++] = {text.substr(0, 100), file, pos};
-      pos = nl + 1;
-    }
-    ++begin_count_;
+    begin_lines(file, pos, lines);
+    ++notes_.begin_count;
     Begin begin;
     begin.span = header;
     begin.run_name = std::string(trim(lines[0].text));
@@ -355,199 +455,38 @@ class Reader {
     begin.version_written = static_cast<int>(std::clamp<std::int64_t>(number.value, 0, 99999));
     begin.version_known = is_known_version(begin.version_written);
     version = begin.version_known ? begin.version_written : newest_version;
-    read_units(lines[2], begin.input, begin.has_input);
-    read_units(lines[3], begin.working, begin.has_working);
-    if (file == 0 || begin_count_ == 1) {
+    begin.has_input = detail::read_units(deck_, lines[2], begin.input);
+    begin.has_working = detail::read_units(deck_, lines[3], begin.working);
+    if (!begin.version_known)
+      report("DK003", Severity::error, begin.version_span,
+             "input version " + std::string(trim(cell).empty() ? "(blank)" : trim(cell)) +
+                 " is unknown; the columns of version " + std::to_string(newest_version) +
+                 " are assumed",
+             "open-reader builds take the newest layout, official builds may refuse the deck",
+             "write the version the deck was made for (90 … 2026) in columns 1-10", 100202);
+    if (notes_.begin_count == 1) {
       deck_.begin = std::move(begin);
       deck_.version = version;
-      if (!deck_.begin.version_known)
-        report("DK003", Severity::error, deck_.begin.version_span,
-               "input version " + std::string(trim(cell).empty() ? "(blank)" : trim(cell)) +
-                   " is unknown; the columns of version " + std::to_string(newest_version) +
-                   " are assumed",
-               "open-reader builds take the newest layout, official builds may refuse the deck",
-               "write the version the deck was made for (90 … 2026) in columns 1-10", 100202);
-      settle_units();
-    } else if (!submodel_stack_.empty() && begin.has_input) {
-      deck_.submodels[static_cast<std::size_t>(submodel_stack_.back())].units = begin.input;
+    } else if (!submodel_stack_.empty()) {
+      if (begin.has_input)
+        deck_.submodels[static_cast<std::size_t>(submodel_stack_.back())].units = begin.input;
+    } else if (file == 0) {
+      report("DK043", Severity::warning, header, "a second /BEGIN in the main file",
+             "it takes the version of the last one for the lines that follow",
+             "keep one /BEGIN; the first one's units are used");
     }
   }
 
-  void read_units(const Line& line, UnitSystem& units, bool& present) {
-    const std::string_view cells[3] = {trim(columns(line.text, 1, 20)),
-                                       trim(columns(line.text, 21, 40)),
-                                       trim(columns(line.text, 41, 60))};
-    present = !cells[0].empty() || !cells[1].empty() || !cells[2].empty();
-    if (!present) return;
-    units.mass_code = cells[0];
-    units.length_code = cells[1];
-    units.time_code = cells[2];
-    double* const factors[3] = {&units.mass, &units.length, &units.time};
-    constexpr char bases[3] = {'g', 'm', 's'};
-    constexpr const char* names[3] = {"mass", "length", "time"};
-    for (int i = 0; i < 3; ++i) {
-      if (const auto factor = unit_factor(cells[i], bases[i])) {
-        *factors[i] = *factor;
-        continue;
-      }
-      report("DK015", Severity::error, line.columns(20 * i + 1, 20 * i + 20),
-             std::string("'") + std::string(cells[i]) + "' is not a " + names[i] +
-                 " unit; expected a prefix and '" + bases[i] + "', or a positive number",
-             "it stops with an error", "write for example Mg, mm, s or kg, mm, ms", 573);
-    }
-  }
-
-  void settle_units() {
-    Begin& b = deck_.begin;
-    if (!b.has_input && b.has_working) b.input = b.working;
-    if (b.has_input && !b.has_working) b.working = b.input;
-  }
-
-  // ---- after the last line ------------------------------------------------------------------
-
-  void finish() {
-    if (begin_count_ == 0) {
-      report("DK002", Severity::error, make_span(0, 0, 0),
-             "no /BEGIN: version and units are unknown; version " +
-                 std::to_string(newest_version) + " is assumed",
-             "it ignores everything before /BEGIN, that is the whole deck",
-             "start the deck with /BEGIN, run name, version and units");
-    } else {
-      drop_before_begin();
-    }
-    if (!deck_.end_seen)
-      report("DK010", Severity::warning, make_span(0, deck_.total_bytes ? main_size() : 0,
-                                                   main_size()),
-             "the main file has no /END", "it reads to the end of the file",
-             "close the deck with /END", 100215);
-    detail::read_parameters(deck_, options_.limits);
-    resolve_header_parameters();
-    fill_submodels();
-    fill_units();
-    mark_opaque();
-  }
-
-  std::uint64_t main_size() const { return deck_.sources[0].bytes().size(); }
-
-  void drop_before_begin() {
-    std::vector<Block> kept;
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
-      const bool early = k < before_begin_.size() && before_begin_[k] == i;
-      if (early) ++k;
-      if (!early || deck_.blocks[i].header.starts_with("/BEGIN")) {
-        for (std::size_t& s : submodel_blocks_)
-          if (s == i) s = kept.size();
-        kept.push_back(std::move(deck_.blocks[i]));
-      } else {
-        report("DK002", Severity::warning, deck_.blocks[i].header_span,
-               std::string(deck_.blocks[i].header) + " stands before /BEGIN",
-               "it ignores everything before /BEGIN except /PARAMETER",
-               "move the block behind /BEGIN");
-      }
-    }
-    deck_.blocks = std::move(kept);
-  }
-
-  void resolve_header_parameters() {
-    for (Block& b : deck_.blocks) {
-      for (HeaderId* id : {&b.id, &b.unit_id}) {
-        const std::string_view text = deck_.sources.text(id->span);
-        if (!text.starts_with('&')) continue;
-        const Parameter* p = deck_.find_parameter(text.substr(1), id->span.file);
-        if (p != nullptr && p->valid) {
-          id->value = p->type == Parameter::Type::integer ? p->integer
-                                                          : static_cast<std::int64_t>(p->real);
-        } else {
-          report("DK018", Severity::error, id->span,
-                 "parameter '" + std::string(text) + "' is not defined here",
-                 "it reads 0", "define it with /PARAMETER before its first use", 100105);
-        }
-      }
-    }
-  }
-
-  void fill_submodels() {
-    for (std::size_t i = 0; i < deck_.submodels.size(); ++i) {
-      Submodel& s = deck_.submodels[i];
-      if (i >= submodel_blocks_.size()) break;
-      const Block& block = deck_.blocks[submodel_blocks_[i]];
-      s.id = block.id.value;
-      LineCursor cursor(deck_.sources, block);
-      s.title = std::string(cursor.next().text);
-      const Line line = cursor.next();
-      std::int64_t* const cells[7] = {&s.definitions, &s.nodes,      &s.elements, &s.parts,
-                                      &s.materials,   &s.properties, &s.submodels};
-      for (int c = 0; c < 7; ++c)
-        *cells[c] = read_integer(columns(line.text, 10 * c + 1, 10 * c + 10)).value;
-      for (int c = 1; c < 7; ++c)
-        if (*cells[c] == 0) *cells[c] = s.definitions;
-      if (s.parent < 0) continue;
-      const Submodel& p = deck_.submodels[static_cast<std::size_t>(s.parent)];
-      const std::int64_t above[7] = {p.definitions, p.nodes,      p.elements, p.parts,
-                                     p.materials,   p.properties, p.submodels};
-      for (int c = 0; c < 7; ++c) *cells[c] += above[c];
-      if (!s.units && p.units) s.units = p.units;
-    }
-    if (!submodel_stack_.empty())
-      report("DK035", Severity::error,
-             deck_.submodels[static_cast<std::size_t>(submodel_stack_.back())].span,
-             "//SUBMODEL is not closed by //ENDSUB", "everything below belongs to the submodel",
-             "close it with //ENDSUB");
-  }
-
-  void fill_units() {
-    for (const Block& b : deck_.blocks) {
-      if (b.header.starts_with("/UNIT/LENGTH") || b.header.starts_with("/UNIT/MASS") ||
-          b.header.starts_with("/UNIT/TIME")) {
-        const auto slash = b.header.rfind('/');
-        const char kind = b.header[6];
-        const std::string_view code = b.header.substr(slash + 1);
-        const char base = kind == 'L' ? 'm' : kind == 'M' ? 'g' : 's';
-        if (const auto f = unit_factor(code, base)) {
-          UnitSystem& u = deck_.begin.input;
-          (kind == 'L' ? u.length : kind == 'M' ? u.mass : u.time) = *f;
-          (kind == 'L' ? u.length_code : kind == 'M' ? u.mass_code : u.time_code) = code;
-          deck_.begin.has_input = true;
-        }
-        continue;
-      }
-      if (!b.header.starts_with("/UNIT/")) continue;
-      LineCursor cursor(deck_.sources, b);
-      cursor.next();
-      UnitSystem units;
-      bool present = false;
-      if (const Line line = cursor.next(); line.valid()) read_unit_line(line, units, present);
-      deck_.units[b.id.value + deck_.offset_of(b, "unit")] = units;
-    }
-    settle_units();
-    if (begin_count_ > 0 && !deck_.begin.has_input && !deck_.begin.has_working)
-      report("DK016", Severity::error, deck_.begin.span,
-             "/BEGIN names neither input nor working units",
-             "it stops with an error", "add the unit lines, for example 'kg mm ms' twice", 574);
-    else if (begin_count_ > 0 && !(deck_.begin.input == deck_.begin.working))
-      report("DK017", Severity::info, deck_.begin.span,
-             "input units differ from working units: every value is converted",
-             "it converts and warns", "nothing to do if this is meant", 754, Severity::warning);
-  }
-
-  /// As read_units, but a blank or 0 cell means factor 1.
-  void read_unit_line(const Line& line, UnitSystem& units, bool& present) {
-    Line copy = line;
-    read_units(copy, units, present);
-  }
-
-  void mark_opaque() {
-    for (Block& b : deck_.blocks) {
-      if (!b.header.starts_with("/MAT") && !b.header.starts_with("/PROP") &&
-          !b.header.starts_with("/FAIL") && !b.header.starts_with("/FUNCT"))
-        continue;
-      LineCursor cursor(deck_.sources, b);
-      cursor.next();
-      const Line line = cursor.next();
-      // Cipher text: a full line without a single blank that is not a number either.
-      if (line.text.size() < 60 || line.text.find(' ') != std::string_view::npos) continue;
-      b.opaque = line.text.find_first_not_of("0123456789.,+-eEdD") != std::string_view::npos;
+  /// The first four data lines behind /BEGIN, as far as there are any.
+  void begin_lines(std::uint32_t file, std::uint64_t pos, Line (&lines)[4]) const {
+    const std::string_view bytes = deck_.sources[file].bytes();
+    for (int have = 0; have < 4 && pos < bytes.size();) {
+      const auto nl = std::min(bytes.find('\n', pos), bytes.size());
+      const std::string_view text = bytes.substr(pos, std::min<std::size_t>(nl - pos, 100));
+      const bool comment = text.starts_with('#') || text.starts_with('$');
+      if (!comment && trim(text).starts_with('/')) break;
+      if (!comment) lines[have++] = {trim_right(text), file, pos};
+      pos = nl + 1;
     }
   }
 
@@ -557,10 +496,10 @@ class Reader {
   fs::path main_directory_;
   std::vector<std::uint32_t> stack_;  // files being read, outermost first
   std::vector<std::int32_t> submodel_stack_;
-  std::vector<std::size_t> submodel_blocks_;
-  std::vector<std::size_t> before_begin_;
+  std::vector<int> outer_versions_;  // version outside of every open submodel
+  detail::ReaderNotes notes_;
+  std::uint64_t memory_bytes_ = 0;  // of included files that are not mapped
   std::int64_t open_block_ = -1;
-  int begin_count_ = 0;
 };
 
 }  // namespace

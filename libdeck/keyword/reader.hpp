@@ -11,8 +11,40 @@ namespace deck::detail {
 /// Splits a header line into keyword, ids and schema. `header` is trimmed and starts with '/'.
 void parse_header(const SchemaSet& schemas, Block& block);
 
+/// Adds a finding of reading. `number`: the reference solver's message, as an error; warnings have
+/// `number_severity`.
+void report(Deck& deck, std::string_view rule, Severity severity, Span span, std::string message,
+            std::string behaviour, std::string help, int number = 0,
+            Severity number_severity = Severity::error);
+
+/// Bytes [begin, end) of a file, cut to a length that a message can show.
+inline Span make_span(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
+  constexpr std::uint64_t longest = 1 << 20;
+  return {file, static_cast<std::uint32_t>(end - begin < longest ? end - begin : longest), begin};
+}
+
+/// Three unit codes in columns 1-20, 21-40, 41-60 (DK015 for unreadable ones). False: all blank.
+/// `blank_is_one`: in a /UNIT block a blank or 0 cell means the factor 1.
+bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_one = false);
+
+/// What the walk through the files leaves for the end.
+struct ReaderNotes {
+  std::vector<std::size_t> before_begin;     ///< blocks in front of the first /BEGIN
+  std::vector<std::size_t> submodel_blocks;  ///< header block of every submodel
+  std::int32_t unclosed_submodel = -1;
+  int begin_count = 0;
+};
+
+/// Drops what stands before /BEGIN; parameters, submodel offsets, unit systems, opaque blocks.
+void finish_deck(Deck& deck, ReaderNotes& notes, const ReadOptions& options);
+
 /// Fills Deck::parameters from the /PARAMETER blocks (all files first, then evaluation).
 void read_parameters(Deck& deck, const Limits& limits);
+
+/// Value of a numeric parameter in an integer place; reals are cut, as far as they fit.
+std::int64_t as_integer(const Parameter& parameter);
+/// An integer cell that is a number or a parameter; 0 if it is neither.
+std::int64_t read_offset(const Deck& deck, const Span& cell);
 
 inline std::string_view trim(std::string_view s) {
   while (!s.empty() && static_cast<unsigned char>(s.front()) <= ' ') s.remove_prefix(1);

@@ -1,0 +1,208 @@
+// The end of reading, when all files are known: blocks before /BEGIN, parameters in headers,
+// submodel offsets, unit systems, encrypted blocks.
+#include <algorithm>
+
+#include "deck/text/number.hpp"
+#include "keyword/reader.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr std::size_t no_block = static_cast<std::size_t>(-1);
+
+void drop_before_begin(Deck& deck, ReaderNotes& notes) {
+  if (notes.before_begin.empty()) return;
+  std::vector<Block> kept;
+  std::vector<std::size_t> place(deck.blocks.size(), no_block);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < deck.blocks.size(); ++i) {
+    if (k < notes.before_begin.size() && notes.before_begin[k] == i) {
+      ++k;
+      report(deck, "DK002", Severity::warning, deck.blocks[i].header_span,
+             std::string(deck.blocks[i].header) + " stands before /BEGIN",
+             "it ignores everything before /BEGIN except /PARAMETER",
+             "move the block behind /BEGIN");
+      continue;
+    }
+    place[i] = kept.size();
+    kept.push_back(std::move(deck.blocks[i]));
+  }
+  deck.blocks = std::move(kept);
+  for (std::size_t& block : notes.submodel_blocks) block = place[block];
+}
+
+void resolve_header_parameters(Deck& deck) {
+  for (Block& b : deck.blocks) {
+    for (HeaderId* id : {&b.id, &b.unit_id}) {
+      const std::string_view text = deck.sources.text(id->span);
+      if (!text.starts_with('&')) continue;
+      const Parameter* p = deck.find_parameter(text.substr(1), id->span.file);
+      if (p != nullptr && p->valid && p->type != Parameter::Type::text) {
+        id->value = as_integer(*p);
+      } else {
+        report(deck, "DK018", Severity::error, id->span,
+               "parameter '" + std::string(text) + "' is not defined here", "it reads 0",
+               "define it with /PARAMETER before its first use", 100105);
+      }
+    }
+  }
+}
+
+void fill_submodels(Deck& deck, const ReaderNotes& notes) {
+  for (std::size_t i = 0; i < deck.submodels.size(); ++i) {
+    Submodel& s = deck.submodels[i];
+    if (notes.submodel_blocks[i] != no_block) {
+      const Block& block = deck.blocks[notes.submodel_blocks[i]];
+      s.id = block.id.value;
+      LineCursor cursor(deck.sources, block);
+      s.title = std::string(trim_right(cursor.next().text.substr(0, 100)));
+      const Line line = cursor.next();
+      std::int64_t* const cells[7] = {&s.definitions, &s.nodes,      &s.elements, &s.parts,
+                                      &s.materials,   &s.properties, &s.submodels};
+      for (int c = 0; c < 7; ++c)
+        *cells[c] = read_offset(deck, line.columns(10 * c + 1, 10 * c + 10));
+      for (int c = 1; c < 7; ++c)
+        if (*cells[c] == 0) *cells[c] = s.definitions;
+    }
+    if (s.parent < 0) continue;
+    // Parents stand before their children, so theirs are complete.
+    const Submodel& p = deck.submodels[static_cast<std::size_t>(s.parent)];
+    s.definitions += p.definitions;
+    s.nodes += p.nodes;
+    s.elements += p.elements;
+    s.parts += p.parts;
+    s.materials += p.materials;
+    s.properties += p.properties;
+    s.submodels += p.submodels;
+    if (!s.units && p.units) s.units = p.units;
+  }
+  if (notes.unclosed_submodel >= 0)
+    report(deck, "DK035", Severity::error,
+           deck.submodels[static_cast<std::size_t>(notes.unclosed_submodel)].span,
+           "//SUBMODEL is not closed by //ENDSUB", "everything below belongs to the submodel",
+           "close it with //ENDSUB");
+}
+
+/// /UNIT/LENGTH|MASS|TIME/code: how versions up to 90 name the global units.
+void read_global_unit(Deck& deck, const Block& b) {
+  const char kind = b.header[6];
+  const std::string_view code = trim(b.header.substr(b.header.rfind('/') + 1));
+  const char base = kind == 'L' ? 'm' : kind == 'M' ? 'g' : 's';
+  UnitSystem& u = deck.begin.input;
+  if (const auto f = unit_factor(code, base)) {
+    (kind == 'L' ? u.length : kind == 'M' ? u.mass : u.time) = *f;
+    (kind == 'L' ? u.length_code : kind == 'M' ? u.mass_code : u.time_code) = code;
+    deck.begin.has_input = true;
+  } else {
+    report(deck, "DK015", Severity::error, b.header_span,
+           "'" + std::string(code) + "' in " + std::string(b.header) + " is not a unit",
+           "it stops with an error", "write for example /UNIT/LENGTH/mm", 573);
+  }
+}
+
+void fill_units(Deck& deck, const ReaderNotes& notes) {
+  Begin& begin = deck.begin;
+  const bool units_in_begin = begin.has_input || begin.has_working;
+  for (const Block& b : deck.blocks) {
+    if (b.header.starts_with("/UNIT/LENGTH") || b.header.starts_with("/UNIT/MASS") ||
+        b.header.starts_with("/UNIT/TIME")) {
+      if (!units_in_begin) read_global_unit(deck, b);
+      continue;
+    }
+    if (!b.header.starts_with("/UNIT/")) continue;
+    LineCursor cursor(deck.sources, b);
+    if (b.version >= 51) cursor.next();  // title
+    UnitSystem units;
+    if (const Line line = cursor.next(); line.valid()) read_units(deck, line, units, true);
+    deck.units[b.id.value + deck.offset_of(b, "unit")] = units;
+  }
+  if (!begin.has_input && begin.has_working) begin.input = begin.working;
+  if (begin.has_input && !begin.has_working) begin.working = begin.input;
+  if (notes.begin_count == 0) return;
+  if (!begin.has_input && !begin.has_working)
+    report(deck, "DK016", Severity::error, begin.span,
+           "/BEGIN names neither input nor working units", "it stops with an error",
+           "add the unit lines, for example 'kg mm ms' twice", 574);
+  else if (!(begin.input == begin.working))
+    report(deck, "DK017", Severity::info, begin.span,
+           "input units differ from working units: every value is converted",
+           "it converts and warns", "nothing to do if this is meant", 754, Severity::warning);
+}
+
+void mark_opaque(Deck& deck) {
+  for (Block& b : deck.blocks) {
+    if (!b.header.starts_with("/MAT") && !b.header.starts_with("/PROP") &&
+        !b.header.starts_with("/FAIL") && !b.header.starts_with("/FUNCT"))
+      continue;
+    LineCursor cursor(deck.sources, b);
+    cursor.next();
+    const std::string_view text = cursor.next().text.substr(0, 200);
+    // Cipher text: a full line without a single blank that is not a number either.
+    if (text.size() < 60 || text.find(' ') != std::string_view::npos) continue;
+    b.opaque = text.find_first_not_of("0123456789.,+-eEdD") != std::string_view::npos;
+  }
+}
+
+}  // namespace
+
+void report(Deck& deck, std::string_view rule, Severity severity, Span span, std::string message,
+            std::string behaviour, std::string help, int number, Severity number_severity) {
+  if (!deck.diagnostics.wants(rule)) return;
+  Diagnostic d;
+  d.rule = rule;
+  d.severity = severity;
+  d.span = span;
+  d.message = std::move(message);
+  d.reference_behaviour = std::move(behaviour);
+  d.help = std::move(help);
+  if (number != 0) d.reference = ReferenceMessage{number, number_severity};
+  deck.diagnostics.add(std::move(d));
+}
+
+bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_one) {
+  const std::string_view cells[3] = {trim(columns(line.text, 1, 20)),
+                                     trim(columns(line.text, 21, 40)),
+                                     trim(columns(line.text, 41, 60))};
+  if (cells[0].empty() && cells[1].empty() && cells[2].empty()) return false;
+  units.mass_code = cells[0];
+  units.length_code = cells[1];
+  units.time_code = cells[2];
+  double* const factors[3] = {&units.mass, &units.length, &units.time};
+  constexpr char bases[3] = {'g', 'm', 's'};
+  constexpr const char* names[3] = {"mass", "length", "time"};
+  for (int i = 0; i < 3; ++i) {
+    if (blank_is_one && cells[i].find_first_not_of("0.+-") == std::string_view::npos) continue;
+    if (const auto factor = unit_factor(cells[i], bases[i])) {
+      *factors[i] = *factor;
+      continue;
+    }
+    report(deck, "DK015", Severity::error, line.columns(20 * i + 1, 20 * i + 20),
+           "'" + std::string(cells[i]) + "' is not a " + names[i] +
+               " unit; expected a prefix and '" + bases[i] + "', or a positive number",
+           "it stops with an error", "write for example Mg, mm, s or kg, mm, ms", 573);
+  }
+  return true;
+}
+
+void finish_deck(Deck& deck, ReaderNotes& notes, const ReadOptions& options) {
+  const std::uint64_t main_size = deck.sources[0].bytes().size();
+  if (notes.begin_count == 0)
+    report(deck, "DK002", Severity::error, make_span(0, 0, 0),
+           "no /BEGIN: version and units are unknown; version " + std::to_string(newest_version) +
+               " is assumed",
+           "it ignores everything before /BEGIN, that is the whole deck",
+           "start the deck with /BEGIN, run name, version and units");
+  else
+    drop_before_begin(deck, notes);
+  if (!deck.end_seen)
+    report(deck, "DK010", Severity::warning, make_span(0, main_size, main_size),
+           "the main file has no /END", "it reads to the end of the file",
+           "close the deck with /END", 100215);
+  read_parameters(deck, options.limits);
+  resolve_header_parameters(deck);
+  fill_submodels(deck, notes);
+  fill_units(deck, notes);
+  mark_opaque(deck);
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,398 @@
+// Parsing speed: the typed bulk reader, diagnostics on, against the bare loop "columns to numbers
+// to arrays", against the same loop on std::from_chars, and against an sscanf reader. All
+// contestants must give the same arrays before a time is printed. Usage: bench_parse [--quick]
+// [--megabytes N]
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "deck/keyword/deck.hpp"
+#include "deck/text/number.hpp"
+#include "model/bulk.hpp"
+
+namespace {
+
+using deck::Model;
+using Clock = std::chrono::steady_clock;
+
+// ---- decks --------------------------------------------------------------------------------------
+
+enum class Kind { nodes, mixed, broken };
+
+/// xorshift: the same deck on every machine.
+struct Random {
+  std::uint64_t state = 88172645463325252u;
+  std::uint64_t next() {
+    state ^= state << 13;
+    state ^= state >> 7;
+    state ^= state << 17;
+    return state;
+  }
+  double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+};
+
+constexpr std::string_view head =
+    "#RADIOSS STARTER\n/BEGIN\nbench\n      2024         0\n"
+    "                  Mg                  mm                   s\n"
+    "                  Mg                  mm                   s\n";
+
+/// Nodes of 71 bytes, half of the coordinates in fixed, half in scientific form; in a mixed deck
+/// also shells and bricks, 9 elements for 10 nodes. Broken: 4 of 10 node lines have a fault.
+void write_deck(const std::string& path, Kind kind, std::uint64_t bytes) {
+  std::FILE* const out = std::fopen(path.c_str(), "wb");
+  if (out == nullptr) throw std::runtime_error("cannot write " + path);
+  std::fwrite(head.data(), 1, head.size(), out);
+  Random random;
+  const std::uint64_t per_node = kind == Kind::mixed ? 71 + 6 * 51 / 10 + 3 * 91 / 10 : 71;
+  const std::uint64_t count = std::max<std::uint64_t>(bytes / per_node, 100);
+  std::fputs("/NODE\n", out);
+  std::string line;
+  for (std::uint64_t i = 1; i <= count; ++i) {
+    line = fmt::format("{:10}", i);
+    for (int c = 0; c < 3; ++c) {
+      const double v = (random.uniform() - 0.5) * 2000;
+      line += random.next() % 2 ? fmt::format("{:20.9f}", v) : fmt::format("{:20.12e}", v);
+    }
+    if (kind == Kind::broken && i % 5 < 2) {
+      static constexpr std::string_view faults[] = {"12x4", "1.5.2", "abc", "1e999", "--3"};
+      const std::string_view fault = faults[random.next() % 5];
+      line.replace(50 - fault.size(), fault.size(), fault);
+    }
+    line += '\n';
+    std::fwrite(line.data(), 1, line.size(), out);
+  }
+  if (kind == Kind::mixed) {
+    const auto element = [&](std::uint64_t id, int nodes) {
+      line = fmt::format("{:10}", id);
+      const std::uint64_t first = random.next() % (count - 8) + 1;
+      for (int n = 0; n < nodes; ++n)
+        line += fmt::format("{:10}", first + static_cast<std::uint64_t>(n));
+      line += '\n';
+      std::fwrite(line.data(), 1, line.size(), out);
+    };
+    std::fputs("/SHELL/1\n", out);
+    for (std::uint64_t i = 1; i <= count * 6 / 10; ++i) element(i, 4);
+    std::fputs("/BRICK/2\n", out);
+    for (std::uint64_t i = 1; i <= count * 3 / 10; ++i) element(10'000'000 + i, 8);
+  }
+  std::fputs("/END\n", out);
+  std::fclose(out);
+}
+
+// ---- contestants --------------------------------------------------------------------------------
+
+struct Arrays {
+  std::vector<std::int64_t> id;
+  std::vector<double> x, y, z;
+  std::vector<std::int64_t> element, corner;  // ids as written
+
+  friend bool operator==(const Arrays&, const Arrays&) = default;
+};
+
+struct Mapping {
+  const char* data = nullptr;
+  std::size_t size = 0;
+  explicit Mapping(const std::string& path) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    size = static_cast<std::size_t>(::lseek(fd, 0, SEEK_END));
+    data = static_cast<const char*>(::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd, 0));
+    ::close(fd);
+  }
+  ~Mapping() { ::munmap(const_cast<char*>(data), size); }
+};
+
+/// The loop that every reader needs: lines, columns, numbers, arrays. No check of any kind.
+template <class Integer, class Real>
+Arrays bare(const std::string& path, Integer integer, Real real) {
+  const Mapping file(path);
+  Arrays out;
+  out.id.reserve(file.size / 71);
+  out.x.reserve(file.size / 71);
+  out.y.reserve(file.size / 71);
+  out.z.reserve(file.size / 71);
+  const char* p = file.data;
+  const char* const end = file.data + file.size;
+  int nodes = -1;  // 0: in /NODE; n: elements of n nodes
+  while (p < end) {
+    const char* const line = p;
+    const void* const nl = std::memchr(p, '\n', static_cast<std::size_t>(end - p));
+    p = nl == nullptr ? end : static_cast<const char*>(nl) + 1;
+    if (*line == '/') {
+      nodes = line[1] == 'N' ? 0 : line[1] == 'S' ? 4 : line[2] == 'R' ? 8 : -1;
+      continue;
+    }
+    if (nodes < 0) continue;
+    if (nodes == 0) {
+      out.id.push_back(integer(line, line + 10));
+      out.x.push_back(real(line + 10, line + 30));
+      out.y.push_back(real(line + 30, line + 50));
+      out.z.push_back(real(line + 50, line + 70));
+    } else {
+      out.element.push_back(integer(line, line + 10));
+      for (int n = 1; n <= nodes; ++n)
+        out.corner.push_back(integer(line + 10 * n, line + 10 * n + 10));
+    }
+  }
+  return out;
+}
+
+Arrays bare_libdeck(const std::string& path) {
+  return bare(
+      path,
+      [](const char* a, const char* b) {
+        return deck::read_integer({a, static_cast<std::size_t>(b - a)}).value;
+      },
+      [](const char* a, const char* b) {
+        return deck::read_real({a, static_cast<std::size_t>(b - a)}).value;
+      });
+}
+
+Arrays bare_from_chars(const std::string& path) {
+  const auto read = [](auto value, const char* a, const char* b) {
+    while (a != b && *a == ' ') ++a;
+    std::from_chars(a, b, value);
+    return value;
+  };
+  return bare(
+      path, [&](const char* a, const char* b) { return read(std::int64_t{0}, a, b); },
+      [&](const char* a, const char* b) { return read(0.0, a, b); });
+}
+
+/// Every cell copied, closed with a NUL and given to sscanf, line by line from fgets.
+Arrays with_sscanf(const std::string& path) {
+  std::FILE* const in = std::fopen(path.c_str(), "rb");
+  Arrays out;
+  char line[256], cell[32];
+  int nodes = -1;
+  const auto cut = [&](int first, int width) {
+    std::memcpy(cell, line + first, static_cast<std::size_t>(width));
+    cell[width] = '\0';
+  };
+  const auto integer = [&](int first) {
+    long long value = 0;
+    cut(first, 10);
+    static_cast<void>(std::sscanf(cell, "%lld", &value));
+    return static_cast<std::int64_t>(value);
+  };
+  const auto real = [&](int first) {
+    double value = 0;
+    cut(first, 20);
+    static_cast<void>(std::sscanf(cell, "%lg", &value));
+    return value;
+  };
+  while (std::fgets(line, sizeof line, in) != nullptr) {
+    if (line[0] == '/') {
+      nodes = line[1] == 'N' ? 0 : line[1] == 'S' ? 4 : line[2] == 'R' ? 8 : -1;
+      continue;
+    }
+    if (nodes < 0) continue;
+    if (nodes == 0) {
+      out.id.push_back(integer(0));
+      out.x.push_back(real(10));
+      out.y.push_back(real(30));
+      out.z.push_back(real(50));
+    } else {
+      out.element.push_back(integer(0));
+      for (int n = 1; n <= nodes; ++n) out.corner.push_back(integer(10 * n));
+    }
+  }
+  std::fclose(in);
+  return out;
+}
+
+struct Parsed {
+  deck::Deck deck;
+  Model model;
+  deck::Diagnostics diagnostics;
+  double blocks = 0, typed = 0;  // seconds
+};
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The library: include tree and blocks, then nodes and elements with all diagnostics.
+std::unique_ptr<Parsed> library(const std::string& path, int threads) {
+  auto out = std::make_unique<Parsed>();
+  auto start = Clock::now();
+  auto deck = deck::read_deck(path, deck::SchemaSet::built_in());
+  if (!deck) throw std::runtime_error(deck.error().message);
+  out->deck = std::move(*deck);
+  out->blocks = seconds_since(start);
+  start = Clock::now();
+  const auto nodes = deck::detail::node_blocks(out->deck);
+  const auto elements = deck::detail::element_blocks(out->deck);
+  deck::detail::read_nodes(out->deck, nodes, out->model.nodes, out->model.node_blocks,
+                           out->diagnostics, threads);
+  deck::detail::read_elements(out->deck, elements, out->model, out->diagnostics, threads);
+  out->typed = seconds_since(start);
+  return out;
+}
+
+Arrays arrays_of(const Parsed& parsed) {
+  const Model& m = parsed.model;
+  Arrays out{m.nodes.id, m.nodes.x, m.nodes.y, m.nodes.z, {}, {}};
+  for (const deck::Elements* family : {&m.shell4, &m.solid8}) {
+    out.element.insert(out.element.end(), family->id.begin(), family->id.end());
+    for (const deck::NodeIndex n : family->nodes) out.corner.push_back(m.node_id(n));
+  }
+  return out;
+}
+
+// ---- measuring ----------------------------------------------------------------------------------
+
+/// Peak memory of a process of its own that reads the deck: the measuring process holds more.
+double peak_megabytes(const std::string& self, const std::string& path, int threads) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execl(self.c_str(), self.c_str(), "--child", path.c_str(), std::to_string(threads).c_str(),
+            nullptr);
+    ::_exit(127);
+  }
+  int status = 0;
+  struct rusage usage {};
+  if (::wait4(child, &status, 0, &usage) < 0 || status != 0) return 0;
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+double best_of(int runs, const std::function<double()>& run) {
+  double best = run();
+  for (int i = 1; i < runs; ++i) best = std::min(best, run());
+  return best;
+}
+
+template <class F>
+double time_of(int runs, F&& f) {
+  return best_of(runs, [&] {
+    const auto start = Clock::now();
+    f();
+    return seconds_since(start);
+  });
+}
+
+void row(std::string_view what, double seconds, double base, double bytes) {
+  fmt::print("  {:<44} {:8.3f} s {:7.3f} GB/s {:7.2f}x\n", what, seconds, bytes / seconds / 1e9,
+             base / seconds);
+}
+
+struct Times {
+  double typed = 0, all = 0;
+};
+
+Times library_times(const std::string& path, int threads, int runs) {
+  Times best{1e30, 1e30};
+  for (int i = 0; i < runs; ++i) {
+    const auto parsed = library(path, threads);
+    best.typed = std::min(best.typed, parsed->typed);
+    best.all = std::min(best.all, parsed->typed + parsed->blocks);
+  }
+  return best;
+}
+
+bool same_findings(const deck::Diagnostics& a, const deck::Diagnostics& b) {
+  if (a.counts() != b.counts() || a.all().size() != b.all().size()) return false;
+  for (std::size_t i = 0; i < a.all().size(); ++i)
+    if (a.all()[i].message != b.all()[i].message || !(a.all()[i].span == b.all()[i].span))
+      return false;
+  return true;
+}
+
+int compare(const std::string& self, const std::string& path, std::string_view title, int runs) {
+  const auto bytes = static_cast<double>(std::filesystem::file_size(path));
+  {
+    const Arrays expected = bare_libdeck(path);
+    const auto one = library(path, 1);
+    const auto two = library(path, 2);
+    if (!(bare_from_chars(path) == expected) || !(with_sscanf(path) == expected) ||
+        !(arrays_of(*one) == expected) || !(arrays_of(*two) == expected) ||
+        !same_findings(one->diagnostics, two->diagnostics)) {
+      fmt::print("{}: the contestants disagree; no times\n", title);
+      return 1;
+    }
+    std::uint64_t findings = 0;
+    for (const auto& [rule, count] : one->diagnostics.counts()) findings += count;
+    fmt::print("{}: {:.0f} MB, {} nodes, {} elements, {} findings; all answers agree\n", title,
+               bytes / 1e6, expected.id.size(), expected.element.size(), findings);
+  }
+  const double base = time_of(runs, [&] { bare_libdeck(path); });
+  row("bare loop, read_real (base of the ratios)", base, base, bytes);
+  row("bare loop, std::from_chars", time_of(runs, [&] { bare_from_chars(path); }), base, bytes);
+  row("sscanf reader", time_of(1, [&] { with_sscanf(path); }), base, bytes);
+  const Times one = library_times(path, 1, runs), two = library_times(path, 2, runs);
+  row("typed parse with diagnostics, 1 thread", one.typed, base, bytes);
+  row("typed parse with diagnostics, 2 threads", two.typed, base, bytes);
+  row("with the include tree and blocks, 1 thread", one.all, base, bytes);
+  row("with the include tree and blocks, 2 threads", two.all, base, bytes);
+  fmt::print("  2 threads against 1: {:.2f}x (all: {:.2f}x)\n", one.typed / two.typed,
+             one.all / two.all);
+  for (const int threads : {1, 2}) {
+    const double peak = peak_megabytes(self, path, threads);
+    fmt::print("  peak memory, {} thread(s): {:.0f} MB = {:.2f} x deck\n", threads, peak,
+               peak * 1048576 / bytes);
+  }
+  return 0;
+}
+
+/// A broken deck is compared with the clean one, not with readers that see no faults.
+void compare_broken(const std::string& clean, const std::string& broken, int runs) {
+  const auto size = [](const std::string& p) {
+    return static_cast<double>(std::filesystem::file_size(p));
+  };
+  const auto parsed = library(broken, 1);
+  std::uint64_t findings = 0;
+  for (const auto& [rule, count] : parsed->diagnostics.counts()) findings += count;
+  const double base = library_times(clean, 1, runs).typed;
+  const double faulty = library_times(broken, 1, runs).typed * size(clean) / size(broken);
+  fmt::print("broken lines: {} findings, {} kept; {:.3f} s against {:.3f} s clean = {:.2f}x\n",
+             findings, parsed->diagnostics.all().size(), faulty, base, faulty / base);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  double megabytes = 177;
+  int runs = 3;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word == "--child" && i + 2 < argc) {
+      const auto parsed = library(argv[i + 1], std::atoi(argv[i + 2]));
+      return parsed->model.nodes.size() > 0 ? 0 : 1;
+    }
+    if (word == "--quick") {
+      megabytes = 40;
+      runs = 1;
+    }
+    if (word == "--megabytes" && i + 1 < argc) megabytes = std::atof(argv[++i]);
+  }
+  const std::filesystem::path dir =
+      std::filesystem::temp_directory_path() / fmt::format("bench_parse_{}", ::getpid());
+  std::filesystem::create_directories(dir);
+  const auto bytes = static_cast<std::uint64_t>(megabytes * 1e6);
+  const std::string nodes = dir / "nodes_0000.rad", mixed = dir / "mixed_0000.rad",
+                    broken = dir / "broken_0000.rad";
+  write_deck(nodes, Kind::nodes, bytes);
+  write_deck(mixed, Kind::mixed, bytes);
+  write_deck(broken, Kind::broken, bytes);
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe");
+  int status = compare(self, nodes, "node deck", runs);
+  status |= compare(self, mixed, "node and element deck", runs);
+  compare_broken(nodes, broken, runs);
+  std::filesystem::remove_all(dir);
+  return status;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "bench_parse: {}\n", error.what());
+  return 1;
+}
