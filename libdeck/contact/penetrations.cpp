@@ -85,17 +85,17 @@ void act(SceneContext& c, Contact& contact, PenetrationRow& row,
   const double pene = row.on_surface ? row.depth : row.depth * (1 + inflation);
   if (contact.fpenmax != 0 && pene > contact.fpenmax * row.gap) {
     row.action = PenetrationAction::node_stiffness_zero;
-    s.multiplier = 0;
+    s.off = true;
     return;
   }
   switch (contact.inacti) {
     case 1:
       row.action = PenetrationAction::node_stiffness_zero;
-      s.multiplier = 0;
+      s.off = true;
       break;
     case 2:
       row.action = PenetrationAction::segment_stiffness_zero;
-      contact.main[row.main].stiffness = 0;
+      contact.main[row.main].off = true;
       break;
     case 3: {
       row.action = PenetrationAction::node_moved;
@@ -233,17 +233,17 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     switch (contact.inacti) {
       case 1:
         row.action = PenetrationAction::edge_stiffness_zero;
-        s.stiffness = 0;
+        s.off = true;
         break;
       case 2:
         row.action = PenetrationAction::edge_stiffness_zero;
-        m.stiffness = 0;
+        m.off = true;
         break;
       case 5:
       case 6: {
         if (deep) {
           row.action = PenetrationAction::edge_stiffness_zero;
-          s.stiffness = 0;
+          s.off = true;
           break;
         }
         row.action = PenetrationAction::gap_reduced;

@@ -245,8 +245,12 @@ class Builder {
 
   static void set_secondary(Contact& contact, const std::vector<NodeIndex>& nodes) {
     contact.secondary.reserve(nodes.size());
-    for (const NodeIndex n : nodes)
-      if (n != no_index) contact.secondary.push_back({n});
+    for (const NodeIndex n : nodes) {
+      if (n == no_index) continue;
+      SecondaryNode s;
+      s.node = n;
+      contact.secondary.push_back(s);
+    }
   }
 
   static void set_edges(std::vector<ContactEdge>& out, const std::vector<Edge>& edges) {

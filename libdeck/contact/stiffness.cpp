@@ -41,7 +41,8 @@ void set_main_stiffness(SceneContext& c, Contact& contact) {
       const Coordinates& x = c.scene.coordinates;
       const Vec d =
           cross(at(x, m.nodes[2]) - at(x, m.nodes[0]), at(x, m.nodes[3]) - at(x, m.nodes[1]));
-      const double area = 0.5 * std::sqrt(dot(d, d));
+      // The solver's floor: a segment without area keeps a stiffness that is not quite zero.
+      const double area = 0.5 * std::max(1e-20, std::sqrt(dot(d, d)));
       const double volume = solid_volume(x, c.model.solid8.of(m.element));
       m.stiffness = volume > 0 ? f * area * area * bulk_of(c.model, m.element) / volume : 0;
     } else if (m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3) {
@@ -74,9 +75,12 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
       edge.carrier = Carrier::solid;
       edge.element = solid;
     }
+    // The thickest shell, of equally thick ones the stiffest; a 3-node shell goes before any 4-node
+    // shell (as measured on the reference solver).
     double thickness = 0, young = 0;
     bool shell = false;
-    for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
+    for (const ElementKind kind : {ElementKind::shell3, ElementKind::shell4}) {
+      if (shell) break;
       const Elements& family = model.family(kind);
       for (const std::uint32_t e : c.connectivity.elements(kind, a)) {
         if (!holds(family.of(e), family.width, b)) continue;
@@ -164,7 +168,7 @@ void set_nodal_stiffness(SceneContext& c, Contact& contact) {
       weighted += share * v * bulk_of(model, e);
     }
     if (volume > 0) k += weighted / volume * std::cbrt(2 * volume);
-    s.nodal_stiffness = s.multiplier == 0 ? 0 : k;
+    s.nodal_stiffness = s.off ? 0 : k;
   }
 }
 

@@ -53,10 +53,12 @@ struct MainSegment {
   double gap = 0;         ///< half thickness times Fscalegap; 0 for solids
   double thickness = 0;   ///< contact thickness of the carrying shell, 0 for solids
   double length = 0;      ///< Igap 3: mesh-size limit of this segment
+  bool off = false;       ///< switched off by Inacti = 2; `stiffness` stays what it was
 };
 struct SecondaryNode {
   NodeIndex node = no_index;
-  double multiplier = 1;  ///< 0: de-activated
+  double multiplier = 1;  ///< of the stiffness, as stored at start-up
+  bool off = false;       ///< switched off by Inacti = 1 or Fpenmax
   double gap = 0;
   double length = 0;      ///< Igap 3 limit; 1e30 for nodes on no main segment
   double nodal_stiffness = 0;  ///< filled where Istf 2..5 needs it
@@ -68,6 +70,7 @@ struct ContactEdge {
   double stiffness = 0, gap = 0, length = 0;
   double shell = 0;    ///< contact thickness of the shell that carries it, 0: none
   double section = 0;  ///< sqrt(area) of the truss or beam that carries it, 0: none
+  bool off = false;    ///< switched off by Inacti; `stiffness` stays what it was
   double stored_penetration = 0;  ///< Inacti 5, 6: what the solver takes off every pair gap
 };
 
