@@ -113,11 +113,9 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-/// Gives the text of a chunk back; its first page was shared with the chunk before.
+/// Gives the text of a chunk back.
 void release(const Deck& deck, const Chunk& chunk) {
-  constexpr std::uint64_t page = 4096;
-  for (const Segment& s : chunk.segments)
-    deck.sources[s.file].release(s.begin < page ? 0 : s.begin - page, s.end);
+  for (const Segment& s : chunk.segments) deck.sources[s.file].release(s.begin, s.end);
 }
 
 /// True while 32-bit indices suffice; reports once otherwise.

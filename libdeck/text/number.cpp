@@ -218,11 +218,19 @@ std::optional<FormattedReal> format_real(double value, int width) {
     return FormattedReal{std::move(text), true};
   for (int digits = static_cast<int>(shortest.digits.size()) - 1; digits > 0; --digits) {
     char other[32];
-    std::string text = text_of(to_decimal(value, digits, other), room);
-    if (text.empty()) continue;
-    // Rounding up may leave the range: "2e308" is no number.
-    const RealCell read = read_real(text);
-    if (read.status == NumberStatus::ok) return FormattedReal{std::move(text), read.value == value};
+    Decimal decimal = to_decimal(value, digits, other);
+    // Rounding up may leave the range ("2e308" is no number): then the digits are cut.
+    if (std::string text = text_of(decimal, room); !text.empty()) {
+      RealCell read = read_real(text);
+      if (read.status != NumberStatus::ok) {
+        decimal = shortest;
+        decimal.digits = decimal.digits.substr(0, static_cast<std::size_t>(digits));
+        text = text_of(decimal, room);
+        read = read_real(text);
+      }
+      if (read.status == NumberStatus::ok)
+        return FormattedReal{std::move(text), read.value == value};
+    }
   }
   return std::nullopt;
 }

@@ -30,7 +30,7 @@ std::string system_reason(int code) { return std::generic_category().message(cod
 struct Descriptor {
   int fd;
   ~Descriptor() {
-    if (fd > 0) ::close(fd);
+    if (fd >= 0) ::close(fd);
   }
 };
 
@@ -150,7 +150,7 @@ std::string_view Source::line_at(std::uint64_t offset) const {
 void Source::release(std::uint64_t begin, std::uint64_t end) const {
   if (map_ == nullptr) return;
   constexpr std::uint64_t page = 4096;
-  begin = (begin + page - 1) / page * page;
+  begin = begin / page * page;  // a page that is shared with earlier bytes goes, too
   end = std::min<std::uint64_t>(end, map_size_) / page * page;
   if (end > begin) ::madvise(static_cast<char*>(map_) + begin, end - begin, MADV_DONTNEED);
 }
@@ -162,7 +162,8 @@ std::uint32_t SourceSet::add(std::unique_ptr<Source> source) {
 
 std::string_view SourceSet::text(const Span& span) const {
   if (!span.valid()) return {};
-  return (*this)[span.file].bytes().substr(span.offset, span.length);
+  const std::string_view bytes = (*this)[span.file].bytes();
+  return span.offset < bytes.size() ? bytes.substr(span.offset, span.length) : std::string_view();
 }
 
 Position SourceSet::position(const Span& span) const {

@@ -1,0 +1,362 @@
+#include "deck/text/number.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <random>
+
+namespace deck {
+namespace {
+
+constexpr double largest = std::numeric_limits<double>::max();
+
+struct RealCase {
+  const char* text;
+  double value;
+  NumberStatus status;
+};
+
+TEST(ReadReal, AcceptsEverySpellingOfTheFormat) {
+  const RealCase cases[] = {
+      {"1.5", 1.5, NumberStatus::ok},
+      {"5", 5, NumberStatus::ok},
+      {"  -2.25  ", -2.25, NumberStatus::ok},
+      {"+1.5", 1.5, NumberStatus::ok},
+      {".5", .5, NumberStatus::ok},
+      {"5.", 5, NumberStatus::ok},
+      {"1e3", 1000, NumberStatus::ok},
+      {"1E+3", 1000, NumberStatus::ok},
+      {"1.D+3", 1000, NumberStatus::ok},
+      {"1.0d-3", 1e-3, NumberStatus::ok},
+      {"1.5-3", 1.5e-3, NumberStatus::implicit_exponent},
+      {"2+6", 2e6, NumberStatus::implicit_exponent},
+      {"-1.5+3", -1500, NumberStatus::implicit_exponent},
+      {"\t7\t", 7, NumberStatus::ok},
+      {"0", 0, NumberStatus::ok},
+      {"0e99999", 0, NumberStatus::ok},
+      {"0.000e-99999", 0, NumberStatus::ok},
+      {"00000000000000000000000000000001", 1, NumberStatus::ok},
+      {"123456789012345678901234567890", 123456789012345678901234567890.0, NumberStatus::ok},
+      {"9007199254740993", 9007199254740992.0, NumberStatus::ok},
+      {"1e22", 1e22, NumberStatus::ok},
+      {"1e23", 1e23, NumberStatus::ok},
+      {"1.7976931348623157e308", largest, NumberStatus::ok},
+      {"4e-320", 4e-320, NumberStatus::ok},
+      {"5e-324", 5e-324, NumberStatus::ok},
+      {"1.5d0 ", 1.5, NumberStatus::ok},
+  };
+  for (const auto& c : cases) {
+    const RealCell r = read_real(c.text);
+    EXPECT_EQ(r.value, c.value) << c.text;
+    EXPECT_EQ(r.status, c.status) << c.text;
+  }
+}
+
+TEST(ReadReal, NamesEveryFault) {
+  const RealCase cases[] = {
+      {"", 0, NumberStatus::blank},
+      {"                    ", 0, NumberStatus::blank},
+      {"abc", 0, NumberStatus::not_a_number},
+      {".", 0, NumberStatus::not_a_number},
+      {"-", 0, NumberStatus::not_a_number},
+      {"+-1", 0, NumberStatus::not_a_number},
+      {"e5", 0, NumberStatus::not_a_number},
+      {"nan", 0, NumberStatus::not_finite},
+      {"-INF", 0, NumberStatus::not_finite},
+      {"Infinity", 0, NumberStatus::not_finite},
+      {"1 2", 1, NumberStatus::trailing_text},
+      {"1.0 5", 1, NumberStatus::trailing_text},
+      {"1,5", 1, NumberStatus::trailing_text},
+      {"1_0", 1, NumberStatus::trailing_text},
+      {"1e", 1, NumberStatus::trailing_text},
+      {"1.5e+", 1.5, NumberStatus::trailing_text},
+      {"1.5.2", 1.5, NumberStatus::trailing_text},
+      {"0x1p3", 0, NumberStatus::trailing_text},
+      {"12abc", 12, NumberStatus::trailing_text},
+      {"1e5 x", 1e5, NumberStatus::trailing_text},
+      {"1e400", largest, NumberStatus::overflow},
+      {"-1e400", -largest, NumberStatus::overflow},
+      {"1+999", largest, NumberStatus::overflow},
+      {"1e99999999999999999999", largest, NumberStatus::overflow},
+      {"1e-400", 0, NumberStatus::underflow},
+      {"1-999", 0, NumberStatus::underflow},
+      {"1e-99999999999999999999", 0, NumberStatus::underflow},
+  };
+  for (const auto& c : cases) {
+    const RealCell r = read_real(c.text);
+    EXPECT_EQ(r.value, c.value) << c.text;
+    EXPECT_EQ(r.status, c.status) << c.text;
+  }
+}
+
+TEST(ReadReal, TellsHugeFromTinyByTheWholeNumberNotByTheExponentSign) {
+  const std::string zeros(400, '0');
+  EXPECT_EQ(read_real("1" + zeros + "e-50").status, NumberStatus::overflow);
+  EXPECT_EQ(read_real("0." + zeros + "1e50").status, NumberStatus::underflow);
+  EXPECT_EQ(read_real("1" + zeros + "e-400").value, 1);
+  EXPECT_EQ(read_real("0." + zeros + "1").status, NumberStatus::underflow);
+  EXPECT_EQ(read_real("1" + zeros).status, NumberStatus::overflow);
+}
+
+/// Reads the same text with std::from_chars after spelling it the C++ way.
+double reference(const std::string& text) {
+  double value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+TEST(ReadReal, AgreesWithFromCharsOnRandomSpellings) {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 1000000; ++i) {
+    std::string text;
+    if (random() % 2) text += '-';
+    const auto digits = [&](std::uint64_t most) {
+      for (auto n = random() % (most + 1); n > 0; --n)
+        text += static_cast<char>('0' + random() % 10);
+    };
+    text += static_cast<char>('0' + random() % 10);
+    digits(10);
+    if (random() % 4) {
+      text += '.';
+      digits(20);
+    }
+    if (random() % 2) {
+      text += 'e';
+      text += std::to_string(static_cast<int>(random() % 60) - 30);
+    }
+    const std::string cell =
+        std::string(random() % 12, ' ') + text + std::string(random() % 3, ' ');
+    const RealCell r = read_real(cell);
+    ASSERT_EQ(r.status, NumberStatus::ok) << cell;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(r.value), std::bit_cast<std::uint64_t>(reference(text)))
+        << cell;
+  }
+}
+
+TEST(ReadReal, NeverLooksOutsideTheCell) {
+  // Exact-size heap copies, so that a sanitizer sees a byte too many; without one the digits that
+  // stand around the cell must not change the value.
+  const std::string line = "99999999123456.5e199999999";
+  for (std::size_t first = 0; first < line.size(); ++first)
+    for (std::size_t size = 0; size <= line.size() - first; ++size) {
+      const std::unique_ptr<char[]> copy(new char[size]);
+      std::memcpy(copy.get(), line.data() + first, size);
+      const RealCell alone = read_real({copy.get(), size});
+      const RealCell within = read_real(std::string_view(line).substr(first, size));
+      EXPECT_EQ(alone.value, within.value);
+      EXPECT_EQ(alone.status, within.status);
+      const IntegerCell a = read_integer({copy.get(), size});
+      const IntegerCell b = read_integer(std::string_view(line).substr(first, size));
+      EXPECT_EQ(a.value, b.value);
+      EXPECT_EQ(a.status, b.status);
+    }
+}
+
+TEST(ReadInteger, ReadsLikeTheFormatSays) {
+  struct Case {
+    const char* text;
+    std::int64_t value;
+    NumberStatus status;
+  };
+  const Case cases[] = {
+      {"12", 12, NumberStatus::ok},
+      {"   12   ", 12, NumberStatus::ok},
+      {"+12", 12, NumberStatus::ok},
+      {"-12", -12, NumberStatus::ok},
+      {"1.5", 1, NumberStatus::trailing_text},
+      {"12 34", 12, NumberStatus::trailing_text},
+      {"1e3", 1, NumberStatus::trailing_text},
+      {"", 0, NumberStatus::blank},
+      {"          ", 0, NumberStatus::blank},
+      {"x", 0, NumberStatus::not_a_number},
+      {"-", 0, NumberStatus::not_a_number},
+      {"--3", 0, NumberStatus::not_a_number},
+      {"9999999999", 9999999999, NumberStatus::ok},
+      {"123456789012345678", 123456789012345678, NumberStatus::ok},
+      {"1234567890123456789", 0, NumberStatus::overflow},
+      {"99999999999999999999999999", 0, NumberStatus::overflow},
+      {"       7", 7, NumberStatus::ok},
+      {"  123456", 123456, NumberStatus::ok},
+      {"12345678", 12345678, NumberStatus::ok},
+  };
+  for (const auto& c : cases) {
+    const IntegerCell n = read_integer(c.text);
+    EXPECT_EQ(n.value, c.value) << c.text;
+    EXPECT_EQ(n.status, c.status) << c.text;
+  }
+}
+
+TEST(ReadInteger, EveryShortTextOfASmallAlphabetMatchesTheDefinition) {
+  // All texts of up to six characters: blanks, sign, digits, text.
+  const std::string alphabet = " -+09x";
+  std::string text;
+  const auto expected = [&](const std::string& s) -> IntegerCell {
+    std::size_t i = s.find_first_not_of(' ');
+    if (i == std::string::npos) return {0, NumberStatus::blank};
+    const bool minus = s[i] == '-';
+    if (minus || s[i] == '+') ++i;
+    std::int64_t value = 0;
+    std::size_t digits = 0;
+    for (; i < s.size() && s[i] >= '0' && s[i] <= '9'; ++i, ++digits)
+      value = value * 10 + (s[i] - '0');
+    if (digits == 0) return {0, NumberStatus::not_a_number};
+    const bool rest = s.find_first_not_of(' ', i) != std::string::npos;
+    return {minus ? -value : value, rest ? NumberStatus::trailing_text : NumberStatus::ok};
+  };
+  for (int length = 0; length <= 6; ++length) {
+    std::vector<std::size_t> at(static_cast<std::size_t>(length), 0);
+    for (bool more = true; more;) {
+      text.clear();
+      for (const std::size_t a : at) text += alphabet[a];
+      for (const std::string& cell : {text, "    " + text, text + "    "}) {
+        const IntegerCell n = read_integer(cell), e = expected(cell);
+        ASSERT_EQ(n.status, e.status) << '[' << cell << ']';
+        ASSERT_EQ(n.value, e.value) << '[' << cell << ']';
+      }
+      more = false;
+      for (std::size_t& a : at) {
+        if (++a < alphabet.size()) {
+          more = true;
+          break;
+        }
+        a = 0;
+      }
+    }
+  }
+}
+
+// ---- writing ------------------------------------------------------------------------------------
+
+/// The smallest distance any spelling of `value` in `width` columns can be from it, by trying them
+/// all: every number of digits, every place of the point, with and without exponent.
+double best_distance(double value, int width) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int digits = 1; digits <= 17; ++digits) {
+    char buffer[64];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, std::fabs(value),
+                                   std::chars_format::scientific, digits - 1);
+    const std::string text(buffer, end.ptr);
+    const auto mark = text.find('e');
+    std::string mantissa = text.substr(0, mark);
+    std::erase(mantissa, '.');
+    while (mantissa.size() > 1 && mantissa.back() == '0') mantissa.pop_back();
+    const int exponent = std::stoi(text.substr(mark + 1));
+    const auto consider = [&](std::string spelled) {
+      if (value < 0) spelled.insert(0, "-");
+      if (spelled.size() > static_cast<std::size_t>(width)) return;
+      best = std::min(best, std::fabs(reference(spelled) - value));
+    };
+    const int count = static_cast<int>(mantissa.size());
+    for (int point = -25; point <= 25; ++point) {
+      // `point`: digits in front of the decimal point.
+      std::string spelled;
+      if (point <= 0)
+        spelled = "." + std::string(static_cast<std::size_t>(-point), '0') + mantissa;
+      else if (point >= count)
+        spelled = mantissa + std::string(static_cast<std::size_t>(point - count), '0') + ".";
+      else
+        spelled = mantissa.substr(0, static_cast<std::size_t>(point)) + "." +
+                  mantissa.substr(static_cast<std::size_t>(point));
+      const int left = exponent + 1 - point;
+      if (left == 0) consider(spelled);
+      consider(spelled + "e" + std::to_string(left));
+      if (point >= count)
+        consider(spelled.substr(0, spelled.size() - 1) + "e" + std::to_string(left));
+    }
+  }
+  return best;
+}
+
+double random_double(std::mt19937_64& random) {
+  for (;;) {
+    const double v = std::bit_cast<double>(random());
+    if (std::isfinite(v)) return v;
+  }
+}
+
+TEST(FormatReal, NoSpellingThatFitsIsCloser) {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 6000; ++i) {
+    double v = random_double(random);
+    if (i % 2)
+      v = std::ldexp(static_cast<double>(random() >> 11), -53) *
+          std::pow(10.0, static_cast<int>(random() % 40) - 20);
+    if (i % 3 == 0) v = static_cast<double>(static_cast<float>(v));
+    if (v == 0 || !std::isfinite(v)) continue;
+    for (const int width : {20, 16, 10, 8}) {
+      const auto text = format_real(v, width);
+      const double best = best_distance(v, width);
+      ASSERT_EQ(text.has_value(), std::isfinite(best)) << v << ' ' << width;
+      if (!text) continue;
+      ASSERT_LE(text->text.size(), static_cast<std::size_t>(width));
+      const double read = read_real(text->text).value;
+      EXPECT_LE(std::fabs(read - v), best) << text->text << ' ' << width;
+      EXPECT_EQ(text->exact, read == v);
+    }
+  }
+}
+
+TEST(FormatReal, MillionsOfRandomDoublesReadBackAsSaid) {
+  std::mt19937_64 random(11);
+  for (int i = 0; i < 1000000; ++i) {
+    const double v = random_double(random);
+    const auto text = format_real(v, 20);
+    ASSERT_TRUE(text.has_value()) << v;
+    ASSERT_LE(text->text.size(), 20u);
+    const RealCell r = read_real(text->text);
+    ASSERT_EQ(r.status, NumberStatus::ok) << text->text;
+    ASSERT_EQ(text->exact, r.value == v) << text->text;
+    ASSERT_NE(text->text.find_first_of(".e"), std::string::npos) << text->text;
+  }
+}
+
+TEST(FormatReal, EveryFloatSurvivesTwentyColumns) {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 1000000; ++i) {
+    const auto f = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+    if (!std::isfinite(f)) continue;
+    const auto text = format_real(static_cast<double>(f), 20);
+    ASSERT_TRUE(text.has_value()) << f;
+    ASSERT_EQ(static_cast<float>(read_real(text->text).value), f) << text->text;
+  }
+}
+
+TEST(FormatReal, WritesReadableNumbersReadably) {
+  const std::pair<double, const char*> cases[] = {
+      {1, "1."},      {0, "0.0"},     {-0.0, "0.0"},      {0.001, "0.001"}, {1000, "1000."},
+      {-2.5, "-2.5"}, {1e22, "1e22"}, {1.5e-7, "1.5e-7"}, {0.1, "0.1"},     {210000, "210000."},
+  };
+  for (const auto& [value, text] : cases) EXPECT_EQ(format_real(value, 20)->text, text);
+}
+
+TEST(FormatReal, GivesUpOnlyWhereNothingFits) {
+  EXPECT_FALSE(format_real(std::nan(""), 20));
+  EXPECT_FALSE(format_real(largest * 10, 20));
+  EXPECT_FALSE(format_real(1, 0));
+  EXPECT_FALSE(format_real(1e-300, 5));
+  EXPECT_EQ(format_real(1e-300, 6)->text, "1e-300");
+  EXPECT_EQ(format_real(123456, 3)->text, "1e5");
+  EXPECT_FALSE(format_real(123456, 3)->exact);
+  EXPECT_FALSE(format_real(-0.5, 2));
+}
+
+TEST(FormatReal, DoesNotRoundUpBeyondTheLargestNumber) {
+  const auto text = format_real(largest, 8);
+  ASSERT_TRUE(text.has_value());
+  EXPECT_EQ(text->text, "1797e305");
+}
+
+TEST(FormatInteger, RefusesWhatDoesNotFit) {
+  EXPECT_EQ(*format_integer(-12, 3), "-12");
+  EXPECT_FALSE(format_integer(-12, 2));
+  EXPECT_FALSE(format_integer(1, -1));
+  EXPECT_EQ(*format_integer(std::numeric_limits<std::int64_t>::min(), 20), "-9223372036854775808");
+}
+
+}  // namespace
+}  // namespace deck
