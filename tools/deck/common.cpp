@@ -256,7 +256,9 @@ Result<void> write_through(const std::string& path, std::string_view bytes) {
 
 }  // namespace
 
-Result<void> write_files_atomic(const std::vector<OutputFile>& files) {
+namespace {
+
+Result<void> write_set(const std::vector<OutputFile>& files, bool make_directories) {
   std::vector<std::string> temporaries;
   const auto undo = [&] {
     for (const std::string& t : temporaries) unlink(t.c_str());
@@ -264,7 +266,7 @@ Result<void> write_files_atomic(const std::vector<OutputFile>& files) {
   for (const OutputFile& f : files) {
     std::error_code ec;
     const fs::path parent = fs::path(f.path).parent_path();
-    if (!parent.empty()) fs::create_directories(parent, ec);
+    if (make_directories && !parent.empty()) fs::create_directories(parent, ec);
     if (ec) {
       undo();
       return Error{Error::Code::io,
@@ -290,10 +292,18 @@ Result<void> write_files_atomic(const std::vector<OutputFile>& files) {
   return {};
 }
 
+}  // namespace
+
+Result<void> write_files_atomic(const std::vector<OutputFile>& files) {
+  return write_set(files, true);
+}
+
 Result<void> write_file_atomic(const std::string& path, std::string_view bytes) {
   if (is_special(path)) return write_through(path, bytes);
-  return write_files_atomic({{path, bytes}});
+  return write_set({{path, bytes}}, false);
 }
+
+void print_text(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 Result<void> write_output(const std::string& path, std::string_view bytes) {
   if (path != "-") return write_file_atomic(path, bytes);

@@ -79,6 +79,9 @@ std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options,
 /// "deck: error: ..." on standard error.
 void print_error(const CommonOptions& options, std::string_view message);
 
+/// Prints results on standard output. A failure (full disk) is noticed at the end of the program.
+void print_text(std::string_view text);
+
 /// Writes bytes to standard output ("-") or atomically to a file.
 Result<void> write_output(const std::string& path, std::string_view bytes);
 

@@ -72,8 +72,7 @@ Result<Layout> lay_out(const Deck& deck) {
   // Files above the main file's directory: the main file moves down into directories of the same
   // names, so that ".." leads where it should.
   fs::path prefix;
-  fs::path dir = fs::absolute(fs::path(deck.sources[0].path()).parent_path()).lexically_normal();
-  if (dir.filename().empty()) dir = dir.parent_path();
+  fs::path dir = fs::absolute(deck.sources[0].path()).lexically_normal().parent_path();
   for (int i = 0; i < up; ++i) {
     if (!dir.has_relative_path())
       return Error{Error::Code::config,
@@ -136,7 +135,7 @@ int write_tree(const Loaded& loaded, const Options& options,
                path);
   if (!options.common.quiet)
     for (const auto& [target, file] : layout->files)
-      fmt::print("{}\n", (fs::path(options.directory) / target).string());
+      print_text((fs::path(options.directory) / target).string() + "\n");
   return exit_clean;
 }
 

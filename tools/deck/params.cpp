@@ -1,5 +1,4 @@
 // deck params: every interface with its effective values and where each came from.
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -61,7 +60,7 @@ int run(const Options& options) {
       ParamsTextOptions text;
       text.color = common.color_on(1);
       text.changed_only = options.changed;
-      fmt::print("{}", params_text(input, text));
+      print_text(params_text(input, text));
     }
     return errors > 0 ? exit_findings : exit_clean;
   });
