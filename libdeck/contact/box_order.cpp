@@ -1,8 +1,12 @@
-// Hilbert curve by state table, and the radix sort of its keys.
+// Hilbert curve by state table, radix sort of its keys, and the ordering built on them.
 #include "contact/box_order.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 namespace deck::order_detail {
 namespace {
@@ -50,16 +54,43 @@ constexpr auto make_steps() {
 }
 constexpr auto kSteps = make_steps();
 
+// Two steps at once: index by state and by two bits of each axis (zzyyxx).
+struct DoubleStep {
+  std::uint8_t rank;
+  std::uint8_t state;
+};
+constexpr auto make_double_steps() {
+  std::array<std::array<DoubleStep, 64>, kStates> steps{};
+  for (unsigned state = 0; state < kStates; ++state) {
+    for (unsigned c = 0; c < 64; ++c) {
+      const unsigned x = c & 3U, y = (c >> 2) & 3U, z = c >> 4;
+      const Step one = kSteps[state][(x >> 1) | (y >> 1) << 1 | (z >> 1) << 2];
+      const Step two = kSteps[one.state][(x & 1U) | (y & 1U) << 1 | (z & 1U) << 2];
+      steps[state][c] = {static_cast<std::uint8_t>(one.octant << 3 | two.octant), two.state};
+    }
+  }
+  return steps;
+}
+constexpr auto kDoubleSteps = make_double_steps();
+
 }  // namespace
 
 std::uint64_t hilbert_index(std::uint32_t x, std::uint32_t y, std::uint32_t z, unsigned bits) {
   std::uint64_t index = 0;
   unsigned state = 0;
-  for (unsigned level = bits; level-- > 0;) {
-    const unsigned cell =
-        ((x >> level) & 1U) | (((y >> level) & 1U) << 1) | (((z >> level) & 1U) << 2);
-    const Step step = kSteps[state][cell];
-    index = (index << 3) | step.octant;
+  // Two levels at a time; an odd first one alone.
+  if (bits % 2 != 0) {
+    const unsigned top = bits - 1;
+    const Step step =
+        kSteps[0][((x >> top) & 1U) | ((y >> top) & 1U) << 1 | ((z >> top) & 1U) << 2];
+    index = step.octant;
+    state = step.state;
+  }
+  for (unsigned level = bits & ~1U; level > 0;) {
+    level -= 2;
+    const unsigned cell = ((x >> level) & 3U) | ((y >> level) & 3U) << 2 | ((z >> level) & 3U) << 4;
+    const DoubleStep step = kDoubleSteps[state][cell];
+    index = (index << 6) | step.rank;
     state = step.state;
   }
   return index;
@@ -111,4 +142,90 @@ void radix_sort(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& sp
   }
 }
 
+namespace {
+
+struct Scratch {
+  std::vector<std::uint64_t> keys, spare;
+  std::vector<std::uint32_t> ids;
+};
+
+struct Bounds {
+  static constexpr double kInf = std::numeric_limits<double>::infinity();
+  Point3<double> low{kInf, kInf, kInf}, high{-kInf, -kInf, -kInf};
+  void add(const Point3<double>& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+};
+
+Bounds bounds_of(std::span<const std::uint32_t> ids, std::span<const Place> places, int threads) {
+  std::vector<Bounds> parts(static_cast<std::size_t>(threads));
+  parallel_parts(threads, ids.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    Bounds bounds;
+    for (std::size_t i = begin; i < end; ++i) bounds.add(places[ids[i]].centre);
+    parts[part] = bounds;
+  });
+  Bounds all;
+  for (const Bounds& b : parts) {
+    all.add(b.low);
+    all.add(b.high);
+  }
+  return all;
+}
+
+// Sorts `ids` by size class and curve position, then crowded cells again on their own grids.
+void order_range(std::span<std::uint32_t> ids, std::span<const Place> places, Scratch& scratch,
+                 int threads, int depth) {
+  constexpr std::size_t kSmall = 32;  // runs up to this length are left as they are
+  constexpr int kDeepest = 64;        // beyond it only coincident points are left
+  constexpr unsigned kClassBits = 3;
+  const std::size_t n = ids.size();
+  if (n < 2 || depth > kDeepest) return;
+  const Bounds all = bounds_of(ids, places, threads);
+  // Key: class, curve position, place in the list; all in 64 bits.
+  const auto id_bits = static_cast<unsigned>(std::bit_width(n - 1));
+  const unsigned wanted = std::max(4U, id_bits / 2 + 2);
+  const unsigned bits = std::min(wanted, (64 - kClassBits - id_bits) / 3);
+  const CurveGrid grid(all.low, all.high, bits);
+  if (!grid.usable() && depth > 0) return;
+  scratch.keys.resize(n);
+  parallel_parts(threads, n, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Place& place = places[ids[i]];
+      const std::uint64_t curve = grid.usable() ? grid.index(place.centre) : 0;
+      const std::uint64_t key = (std::uint64_t{place.size_class} << (3 * bits)) | curve;
+      scratch.keys[i] = (key << id_bits) | i;
+    }
+  });
+  radix_sort(scratch.keys, scratch.spare, id_bits, id_bits + 3 * bits + kClassBits, threads);
+  scratch.ids.assign(ids.begin(), ids.end());
+  const std::uint64_t mask = (std::uint64_t{1} << id_bits) - 1;
+  for (std::size_t i = 0; i < n; ++i) ids[i] = scratch.ids[scratch.keys[i] & mask];
+  if (!grid.usable()) return;
+  // Remember the runs first, since the recursion reuses the scratch arrays.
+  std::vector<std::pair<std::size_t, std::size_t>> runs;
+  for (std::size_t i = 0; i < n;) {
+    std::size_t j = i + 1;
+    while (j < n && (scratch.keys[j] >> id_bits) == (scratch.keys[i] >> id_bits)) ++j;
+    if (j - i > kSmall) runs.emplace_back(i, j - i);
+    i = j;
+  }
+  for (const auto& [first, count] : runs) {
+    order_range(ids.subspan(first, count), places, scratch, threads, depth + 1);
+  }
+}
+
+}  // namespace
 }  // namespace deck::order_detail
+
+namespace deck {
+
+std::vector<std::uint32_t> order_in_space(std::span<const Place> places, int threads) {
+  std::vector<std::uint32_t> ids(places.size());
+  std::iota(ids.begin(), ids.end(), 0U);
+  order_detail::Scratch scratch;
+  order_detail::order_range(ids, places, scratch, threads, 0);
+  return ids;
+}
+
+}  // namespace deck

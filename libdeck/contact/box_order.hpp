@@ -3,10 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -51,78 +49,19 @@ class CurveGrid {
   bool usable_ = false;
 };
 
-struct Scratch {
-  std::vector<std::uint64_t> keys, spare;
-  std::vector<std::uint32_t> ids;
-};
-
-template <class PlaceOf>
-void order_range(std::span<std::uint32_t> ids, const PlaceOf& place_of, Scratch& scratch,
-                 int threads, int depth) {
-  constexpr std::size_t kSmall = 32;  // runs below this length are left as they are
-  constexpr int kDeepest = 64;        // beyond it only coincident points are left
-  constexpr unsigned kClassBits = 3;
-  const std::size_t n = ids.size();
-  if (n < 2 || depth > kDeepest) return;
-  constexpr double kInf = std::numeric_limits<double>::infinity();
-  struct Bounds {
-    Point3<double> low{kInf, kInf, kInf}, high{-kInf, -kInf, -kInf};
-    void add(const Point3<double>& p) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  };
-  std::vector<Bounds> parts(static_cast<std::size_t>(threads));
-  parallel_parts(threads, n, [&](std::size_t part, std::size_t begin, std::size_t end) {
-    Bounds bounds;
-    for (std::size_t i = begin; i < end; ++i) bounds.add(place_of(ids[i]).centre);
-    parts[part] = bounds;
-  });
-  Bounds all;
-  for (const Bounds& b : parts) {
-    all.add(b.low);
-    all.add(b.high);
-  }
-  const auto id_bits = static_cast<unsigned>(std::bit_width(n - 1));
-  const unsigned wanted = std::max(4U, id_bits / 2 + 2);
-  const unsigned bits = std::min(wanted, (64 - kClassBits - id_bits) / 3);
-  const CurveGrid grid(all.low, all.high, bits);
-  if (!grid.usable() && depth > 0) return;
-  scratch.keys.resize(n);
-  parallel_parts(threads, n, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Place place = place_of(ids[i]);
-      const std::uint64_t curve = grid.usable() ? grid.index(place.centre) : 0;
-      const std::uint64_t key = (std::uint64_t{place.size_class} << (3 * bits)) | curve;
-      scratch.keys[i] = (key << id_bits) | i;
-    }
-  });
-  radix_sort(scratch.keys, scratch.spare, id_bits, id_bits + 3 * bits + kClassBits, threads);
-  scratch.ids.assign(ids.begin(), ids.end());
-  const std::uint64_t mask = (std::uint64_t{1} << id_bits) - 1;
-  for (std::size_t i = 0; i < n; ++i) ids[i] = scratch.ids[scratch.keys[i] & mask];
-  // Crowded cells: remember the runs first, since the recursion reuses the scratch arrays.
-  std::vector<std::pair<std::size_t, std::size_t>> runs;
-  for (std::size_t i = 0; i < n;) {
-    std::size_t j = i + 1;
-    while (j < n && (scratch.keys[j] >> id_bits) == (scratch.keys[i] >> id_bits)) ++j;
-    if (j - i > kSmall) runs.emplace_back(i, j - i);
-    i = j;
-  }
-  if (!grid.usable()) return;
-  for (const auto& [first, count] : runs) {
-    order_range(ids.subspan(first, count), place_of, scratch, threads, depth + 1);
-  }
-}
-
 }  // namespace order_detail
 
-// Reorders `ids` along the curve; place_of(id) gives the Place of one. The result depends only on
-// the places and on the order of `ids` at entry.
+// Positions 0 ... places.size()-1 along the curve. The result depends only on the places.
+std::vector<std::uint32_t> order_in_space(std::span<const Place> places, int threads);
+
+// The places of `count` things, place_of(i) each, computed by several threads.
 template <class PlaceOf>
-void order_in_space(std::span<std::uint32_t> ids, const PlaceOf& place_of, int threads) {
-  order_detail::Scratch scratch;
-  order_detail::order_range(ids, place_of, scratch, threads, 0);
+std::vector<Place> places_of(std::size_t count, const PlaceOf& place_of, int threads) {
+  std::vector<Place> places(count);
+  parallel_parts(threads, count, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) places[i] = place_of(i);
+  });
+  return places;
 }
 
 }  // namespace deck

@@ -21,6 +21,7 @@ struct Box {
       high[k] = b.high[k] > high[k] ? b.high[k] : high[k];
     }
   }
+  double size() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
 };
 
 // Eight boxes. Unused places hold the empty box, which overlaps nothing.

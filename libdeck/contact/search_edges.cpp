@@ -10,53 +10,43 @@ namespace deck {
 namespace {
 
 using sweep::at;
-using Edge = std::array<std::uint32_t, 2>;
-
-Place edge_place(const NodeArrays& nodes, const Edge& edge, double reach) {
-  const Point3<double> a = sweep::point(nodes, edge[0]), b = sweep::point(nodes, edge[1]);
-  const Point3<double> d = b - a;
-  const double size = std::max(std::abs(d.x), std::max(std::abs(d.y), std::abs(d.z)));
-  return {0.5 * a + 0.5 * b, sweep::size_class(size + reach)};
-}
-
 }  // namespace
 
-SearchResult find_edge_edge_pairs(const EdgeEdgeInput& in, const SearchOptions& options) {
-  const int threads = effective_threads(options.threads);
-  SearchResult result;
-  sweep::EdgeSweep w;
-  w.input = &in;
-  w.options = &options;
-  const auto secondary_reach = [&in, &options](std::uint32_t i) {
-    return sweep::secondary_reach(options, at(in.secondary_gap, i, 0.0));
-  };
-  w.items = sweep::active(in.secondary.size(), in.secondary_stiffness);
-  order_in_space(
-      std::span(w.items),
-      [&](std::uint32_t i) { return edge_place(in.nodes, in.secondary[i], secondary_reach(i)); },
-      threads);
+namespace sweep {
+
+EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads)
+    : input(&in), options(&o) {
   constexpr std::size_t kWidth = BoxBlock::kWidth;
-  std::vector<BoxBlock> leaves((w.items.size() + kWidth - 1) / kWidth);
-  parallel_parts(threads, leaves.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    const std::size_t last = std::min(w.items.size(), end * kWidth);
-    for (std::size_t k = begin * kWidth; k < last; ++k) {
-      const std::uint32_t item = w.items[k];
-      leaves[k / kWidth].set(k % kWidth,
-                             sweep::edge_box(in.nodes, in.secondary[item], secondary_reach(item)));
+  const auto secondary_box = [&](std::uint32_t i) {
+    return edge_box(in.nodes, in.secondary[i], secondary_reach(o, at(in.secondary_gap, i, 0.0)));
+  };
+  items = active(in.secondary.size(), in.secondary_stiffness);
+  sort_in_space(items, secondary_box, threads);
+  std::vector<BoxBlock> blocks((items.size() + kWidth - 1) / kWidth);
+  parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin * kWidth; k < std::min(items.size(), end * kWidth); ++k) {
+      blocks[k / kWidth].set(k % kWidth, secondary_box(items[k]));
     }
   });
-  w.tree = BoxTree(std::move(leaves), threads);
+  tree = BoxTree(std::move(blocks), threads);
 
-  w.mains = sweep::active(in.main.size(), in.main_stiffness);
-  order_in_space(
-      std::span(w.mains),
-      [&](std::uint32_t i) {
-        return edge_place(in.nodes, in.main[i],
-                          sweep::main_reach(options, at(in.main_gap, i, 0.0)));
-      },
-      threads);
-  result.structure_bytes =
-      w.tree.bytes() + (w.items.size() + w.mains.size()) * sizeof(std::uint32_t);
+  mains = active(in.main.size(), in.main_stiffness);
+  const auto main_box = [&](std::uint32_t i) {
+    return edge_box(in.nodes, in.main[i], main_reach(o, at(in.main_gap, i, 0.0)));
+  };
+  put_in_order(mains, main_box, threads);
+}
+
+std::size_t EdgeSweep::bytes() const {
+  return tree.bytes() + (items.size() + mains.size()) * sizeof(std::uint32_t);
+}
+
+}  // namespace sweep
+
+SearchResult find_edge_edge_pairs(const EdgeEdgeInput& in, const SearchOptions& options) {
+  const sweep::EdgeSweep w(in, options, effective_threads(options.threads));
+  SearchResult result;
+  result.structure_bytes = w.bytes();
   sweep::run([&w](std::size_t begin, std::size_t end,
                   sweep::Sink& sink) { sweep::kernels().edges(w, begin, end, sink); },
              w.mains.size(), in.secondary.size(), options, result);

@@ -17,9 +17,11 @@ namespace deck::sweep {
 namespace baseline {
 #define DECK_LANES 2
 #define DECK_LANE_BITS(m) static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(m)))
+#define DECK_SUB_BITS(m) (((m)[0] | (m)[1] | (m)[2] | (m)[3]) != 0)
 #include "contact/search_lanes.hpp"
 #undef DECK_LANES
 #undef DECK_LANE_BITS
+#undef DECK_SUB_BITS
 }  // namespace baseline
 
 #if defined(__clang__)
@@ -31,9 +33,11 @@ namespace baseline {
 namespace avx2 {
 #define DECK_LANES 4
 #define DECK_LANE_BITS(m) static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(m)))
+#define DECK_SUB_BITS(m) _mm256_movemask_pd(reinterpret_cast<__m256d>(m))
 #include "contact/search_lanes.hpp"
 #undef DECK_LANES
 #undef DECK_LANE_BITS
+#undef DECK_SUB_BITS
 }  // namespace avx2
 #if defined(__clang__)
 #pragma clang attribute pop
@@ -41,38 +45,13 @@ namespace avx2 {
 #pragma GCC pop_options
 #endif
 
-#if defined(__clang__)
-#pragma clang attribute push(__attribute__((target("avx512f,avx512dq"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512dq")
-#endif
-namespace avx512 {
-#define DECK_LANES 8
-#define DECK_LANE_BITS(m) static_cast<unsigned>(_mm512_movepi64_mask(reinterpret_cast<__m512i>(m)))
-#include "contact/search_lanes.hpp"
-#undef DECK_LANES
-#undef DECK_LANE_BITS
-}  // namespace avx512
-#if defined(__clang__)
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
-
 namespace {
-const std::array<Kernels, 3> kAll{Kernels{baseline::sweep_nodes, baseline::sweep_edges, "sse2"},
-                                  Kernels{avx2::sweep_nodes, avx2::sweep_edges, "avx2"},
-                                  Kernels{avx512::sweep_nodes, avx512::sweep_edges, "avx512"}};
+const std::array<Kernels, 2> kAll{Kernels{baseline::sweep_nodes, baseline::sweep_edges, "sse2"},
+                                  Kernels{avx2::sweep_nodes, avx2::sweep_edges, "avx2"}};
 }  // namespace
 
 std::span<const Kernels> all_kernels() {
-  std::size_t usable = 1;
-  if (__builtin_cpu_supports("avx2")) {
-    usable = 2;
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) usable = 3;
-  }
-  return std::span(kAll).first(usable);
+  return std::span(kAll).first(__builtin_cpu_supports("avx2") ? 2 : 1);
 }
 
 #else  // any other processor: two lanes, left to the compiler
@@ -80,9 +59,11 @@ std::span<const Kernels> all_kernels() {
 namespace generic {
 #define DECK_LANES 2
 #define DECK_LANE_BITS(m) (static_cast<unsigned>(-(m)[0]) | static_cast<unsigned>(-(m)[1]) << 1)
+#define DECK_SUB_BITS(m) (((m)[0] | (m)[1] | (m)[2] | (m)[3]) != 0)
 #include "contact/search_lanes.hpp"
 #undef DECK_LANES
 #undef DECK_LANE_BITS
+#undef DECK_SUB_BITS
 }  // namespace generic
 
 namespace {

@@ -14,7 +14,6 @@ inline Lanes load(const double* from) {
 inline void store(double* to, Lanes v) { __builtin_memcpy(to, &v, sizeof v); }
 inline Lanes all(double value) { return value - Lanes{}; }
 inline Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
-inline Lanes smaller(Lanes a, Lanes b) { return a < b ? a : b; }
 
 // Which of eight boxes overlap box `b`, as bit mask.
 inline unsigned overlaps(const BoxBlock& block, const Box& b) {
@@ -120,215 +119,268 @@ inline unsigned near_points(const PointBlock& p, const Shape& s, double r) {
     in &= (h <= all(s.slab_high + r));
     bits |= DECK_LANE_BITS(in) << c;
   }
-  return bits & p.used;
+  return bits;
 }
 
-// Points that passed the box test of one segment, side by side.
-struct Batch {
-  static constexpr std::size_t kCapacity = 128;
-  std::size_t count = 0;
-  alignas(64) std::array<double, kCapacity + 8> x, y, z, distance;
-  std::array<std::uint32_t, kCapacity> item;
+// The four sub-triangles of a segment side by side.
+typedef double Subs __attribute__((vector_size(32)));
+typedef long long SubMask __attribute__((vector_size(32)));
 
-  void add(const PointBlock& p, std::size_t place) {
-    x[count] = p.x[place];
-    y[count] = p.y[place];
-    z[count] = p.z[place];
-    item[count++] = p.item[place];
+struct SubPoint {
+  Subs x, y, z;
+};
+
+// The part of the reference formula that does not depend on the node, for all sub-triangles.
+struct SubTriangles {
+  SubPoint o, a, b, n, e, corner_b;
+  Subs s, ee, bb, aa;
+
+  void set(const Shape& shape) {
+    // A triangle's O is its third node and only its first sub-triangle has area: the same four
+    // sub-triangles as in the formula, the last three of which collapse to a point.
+    const auto& c = shape.corner;
+    const Point3<double> centre = shape.triangle ? c[2] : 0.25 * (c[0] + c[1] + c[2] + c[3]);
+    const SubPoint ca{Subs{c[0].x, c[1].x, c[2].x, c[3].x}, Subs{c[0].y, c[1].y, c[2].y, c[3].y},
+                      Subs{c[0].z, c[1].z, c[2].z, c[3].z}};
+    corner_b = {Subs{c[1].x, c[2].x, c[3].x, c[0].x}, Subs{c[1].y, c[2].y, c[3].y, c[0].y},
+                Subs{c[1].z, c[2].z, c[3].z, c[0].z}};
+    const Subs zero{};
+    o = {zero + centre.x, zero + centre.y, zero + centre.z};
+    a = {ca.x - o.x, ca.y - o.y, ca.z - o.z};
+    b = {corner_b.x - o.x, corner_b.y - o.y, corner_b.z - o.z};
+    e = {corner_b.x - ca.x, corner_b.y - ca.y, corner_b.z - ca.z};
+    n = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    const Subs floor30 = zero + 1e-30, floor20 = zero + 1e-20;
+    const Subs nn = n.x * n.x + n.y * n.y + n.z * n.z;
+    s = 1.0 / (floor30 < nn ? nn : floor30);
+    ee = e.x * e.x + e.y * e.y + e.z * e.z;
+    ee = floor20 < ee ? ee : floor20;
+    bb = b.x * b.x + b.y * b.y + b.z * b.z;
+    bb = floor30 < bb ? bb : floor30;
+    aa = a.x * a.x + a.y * a.y + a.z * a.z;
+    aa = floor30 < aa ? aa : floor30;
+  }
+
+  // Squared distances of a node to the sub-triangles.
+  void squared_distance(const Point3<double>& node, Subs& squared) const {
+    const Subs zero{}, one = zero + 1.0;
+    const SubPoint p{zero + node.x, zero + node.y, zero + node.z};
+    const Subs rx = p.x - o.x, ry = p.y - o.y, rz = p.z - o.z;
+    Subs la = s * (n.x * (ry * b.z - rz * b.y) + n.y * (rz * b.x - rx * b.z) +
+                   n.z * (rx * b.y - ry * b.x));
+    Subs lb = s * (n.x * (a.y * rz - a.z * ry) + n.y * (a.z * rx - a.x * rz) +
+                   n.z * (a.x * ry - a.y * rx));
+    const Subs lo = 1.0 - la - lb;
+    const SubMask minus_o = lo < zero, minus_a = la < zero, minus_b = lb < zero;
+    const Subs ho = lo * (minus_o ? -lo : lo) / ee;
+    const Subs ha = la * (minus_a ? -la : la) / bb;
+    const Subs hb = lb * (minus_b ? -lb : lb) / aa;
+    const SubMask on_ab = minus_o & (ho <= ha) & (ho <= hb);
+    const SubMask on_ob = ~on_ab & minus_a & (ha <= hb) & (ha <= ho);
+    const SubMask on_oa = ~on_ab & ~on_ob & minus_b & (hb <= ho) & (hb <= ha);
+    const Subs along_ab =
+        (corner_b.x - p.x) * e.x + (corner_b.y - p.y) * e.y + (corner_b.z - p.z) * e.z;
+    const Subs along_ob = rx * b.x + ry * b.y + rz * b.z;
+    const Subs along_oa = rx * a.x + ry * a.y + rz * a.z;
+    const Subs numerator = on_ab ? along_ab : (on_ob ? along_ob : along_oa);
+    const Subs denominator = on_ab ? ee : (on_ob ? bb : aa);
+    Subs ratio = numerator / denominator;
+    ratio = ratio < one ? ratio : one;
+    ratio = zero < ratio ? ratio : zero;
+    la = on_ab ? ratio : (on_ob ? zero : (on_oa ? ratio : la));
+    lb = on_ab ? one - ratio : (on_ob ? ratio : (on_oa ? zero : lb));
+    const Subs vx = p.x - (o.x + la * a.x + lb * b.x);
+    const Subs vy = p.y - (o.y + la * a.y + lb * b.y);
+    const Subs vz = p.z - (o.z + la * a.z + lb * b.z);
+    squared = vx * vx + vy * vy + vz * vz;
   }
 };
 
-// The part of the reference formula that depends on the sub-triangle only.
-struct SubTriangle {
-  Point3<double> o, a, b, n, e, corner_b;
-  double s, ee, bb, aa;
-
-  SubTriangle(const Point3<double>& centre, const Point3<double>& ca, const Point3<double>& cb)
-      : o(centre), a(ca - centre), b(cb - centre), n(cross(a, b)), e(cb - ca), corner_b(cb) {
-    s = 1.0 / std::max(1e-30, dot(n, n));
-    ee = std::max(1e-20, dot(e, e));
-    bb = std::max(1e-30, dot(b, b));
-    aa = std::max(1e-30, dot(a, a));
+// The test distance < limit on squared distances: certain below `low` and from `high` on, in
+// between the square root decides.
+struct Threshold {
+  double limit, low, high;
+  explicit Threshold(double l) : limit(l), low(-1.0), high(-1.0) {
+    if (!(l > 0.0)) return;  // no distance is below
+    const double square = l * l;
+    high = square * (1.0 + 0x1p-48);
+    low = square * (1.0 - 0x1p-48);
+    if (square < 0x1p-960) low = -1.0, high = 0x1p-900;
   }
 };
 
-// Squared distance of points to one sub-triangle.
-inline Lanes squared_distance(const SubTriangle& t, Lanes px, Lanes py, Lanes pz) {
-  const Lanes zero = all(0.0), one = all(1.0);
-  const Lanes rx = px - t.o.x, ry = py - t.o.y, rz = pz - t.o.z;
-  Lanes la = t.s * (t.n.x * (ry * t.b.z - rz * t.b.y) + t.n.y * (rz * t.b.x - rx * t.b.z) +
-                    t.n.z * (rx * t.b.y - ry * t.b.x));
-  Lanes lb = t.s * (t.n.x * (t.a.y * rz - t.a.z * ry) + t.n.y * (t.a.z * rx - t.a.x * rz) +
-                    t.n.z * (t.a.x * ry - t.a.y * rx));
-  const Lanes lo = 1.0 - la - lb;
-  const LaneMask minus_o = lo < zero, minus_a = la < zero, minus_b = lb < zero;
-  const Lanes ho = lo * (minus_o ? -lo : lo) / t.ee;
-  const Lanes ha = la * (minus_a ? -la : la) / t.bb;
-  const Lanes hb = lb * (minus_b ? -lb : lb) / t.aa;
-  const LaneMask on_ab = minus_o & (ho <= ha) & (ho <= hb);
-  const LaneMask on_ob = ~on_ab & minus_a & (ha <= hb) & (ha <= ho);
-  const LaneMask on_oa = ~on_ab & ~on_ob & minus_b & (hb <= ho) & (hb <= ha);
-  const Lanes along_ab =
-      (t.corner_b.x - px) * t.e.x + (t.corner_b.y - py) * t.e.y + (t.corner_b.z - pz) * t.e.z;
-  const Lanes along_ob = rx * t.b.x + ry * t.b.y + rz * t.b.z;
-  const Lanes along_oa = rx * t.a.x + ry * t.a.y + rz * t.a.z;
-  const Lanes numerator = on_ab ? along_ab : (on_ob ? along_ob : along_oa);
-  const Lanes denominator = on_ab ? all(t.ee) : (on_ob ? all(t.bb) : all(t.aa));
-  const Lanes ratio = larger(zero, smaller(one, numerator / denominator));
-  la = on_ab ? ratio : (on_ob ? zero : (on_oa ? ratio : la));
-  lb = on_ab ? one - ratio : (on_ob ? ratio : (on_oa ? zero : lb));
-  const Lanes vx = px - (t.o.x + la * t.a.x + lb * t.b.x);
-  const Lanes vy = py - (t.o.y + la * t.a.y + lb * t.b.y);
-  const Lanes vz = pz - (t.o.z + la * t.a.z + lb * t.b.z);
-  return vx * vx + vy * vy + vz * vz;
-}
-
-inline Lanes root(Lanes v) {
-  Lanes out = v;
-  for (unsigned i = 0; i < DECK_LANES; ++i) out[i] = __builtin_sqrt(v[i]);
-  return out;
-}
-
-// Distances of a batch to a segment, reference form.
-inline void distances(const Shape& s, Batch& batch) {
-  const auto& x = s.corner;
-  for (std::size_t i = batch.count; i < batch.count + DECK_LANES - 1; ++i) {
-    batch.x[i] = batch.x[0];
-    batch.y[i] = batch.y[0];
-    batch.z[i] = batch.z[0];
+// The smallest of the four distances is below the limit if any is.
+inline bool any_below(const Subs& squared, const Threshold& t) {
+  const Subs zero{};
+  if (DECK_SUB_BITS((squared < zero + t.low)) != 0) return true;
+  if (DECK_SUB_BITS((squared < zero + t.high)) == 0) return false;
+  for (unsigned k = 0; k < 4; ++k) {
+    if (std::sqrt(squared[k]) < t.limit) return true;
   }
-  if (s.triangle) {
-    const SubTriangle first(x[2], x[0], x[1]);
-    for (std::size_t i = 0; i < batch.count; i += DECK_LANES) {
-      const Lanes px = load(&batch.x[i]), py = load(&batch.y[i]), pz = load(&batch.z[i]);
-      // The three degenerate sub-triangles are the third node.
-      const Lanes vx = px - x[2].x, vy = py - x[2].y, vz = pz - x[2].z;
-      const Lanes node = vx * vx + vy * vy + vz * vz;
-      store(&batch.distance[i], root(smaller(node, squared_distance(first, px, py, pz))));
+  return false;
+}
+
+// Tests points against one segment.
+struct SegmentTest {
+  const NodeSweep& w;
+  const Shape& shape;
+  const std::array<std::uint32_t, 4>& corners;
+  std::uint32_t segment;
+  double gap_m, length_m;
+  bool constant, lengths, reference;
+  Threshold threshold;
+  SubTriangles sub;
+
+  SegmentTest(const NodeSweep& sweep, const Shape& s, std::uint32_t which)
+      : w(sweep),
+        shape(s),
+        corners(w.input->segments[which]),
+        segment(which),
+        gap_m(at(w.input->segment_gap, which, 0.0)),
+        length_m(at(w.input->segment_length, which, kInfinity)),
+        constant(w.options->gap.rule == GapRule::constant),
+        lengths(w.options->gap.rule == GapRule::sum_limited),
+        reference(w.options->form == Form::reference),
+        threshold(pair_limit(*w.options, 0.0, 0.0, 0.0, 0.0)) {
+    if (reference) sub.set(s);
+  }
+
+  void point(const PointBlock& leaf, std::uint32_t rank, Sink& sink) {
+    const std::size_t place = rank % 8;
+    const Point3<double> p{leaf.x[place], leaf.y[place], leaf.z[place]};
+    if (!constant) {
+      const double length_s =
+          lengths ? at(w.input->secondary_length, w.items[rank], kInfinity) : kInfinity;
+      threshold = Threshold(pair_limit(*w.options, leaf.gap[place], gap_m, length_s, length_m));
     }
-    return;
+    ++sink.tested;
+    if (reference) {
+      Subs squared;
+      sub.squared_distance(p, squared);
+      if (!any_below(squared, threshold)) return;
+    } else if (!(closest_on_segment<Form::robust>(p, shape.corner, shape.triangle).distance() <
+                 threshold.limit)) {
+      return;
+    }
+    const std::uint32_t node = w.nodes[rank];
+    if (node == corners[0] || node == corners[1] || node == corners[2] || node == corners[3]) {
+      return;
+    }
+    sink.push({w.items[rank], segment});
   }
-  const Point3<double> o = 0.25 * (x[0] + x[1] + x[2] + x[3]);
-  const std::array<SubTriangle, 4> sub{SubTriangle(o, x[0], x[1]), SubTriangle(o, x[1], x[2]),
-                                       SubTriangle(o, x[2], x[3]), SubTriangle(o, x[3], x[0])};
-  for (std::size_t i = 0; i < batch.count; i += DECK_LANES) {
-    const Lanes px = load(&batch.x[i]), py = load(&batch.y[i]), pz = load(&batch.z[i]);
-    Lanes best = squared_distance(sub[0], px, py, pz);
-    for (std::size_t k = 1; k < 4; ++k) best = smaller(squared_distance(sub[k], px, py, pz), best);
-    store(&batch.distance[i], root(best));
-  }
-}
+};
 
-inline void flush(const NodeSweep& w, std::uint32_t segment, const Shape& s, Batch& batch,
-                  Sink& sink) {
-  if (batch.count == 0) return;
-  const NodeSegmentInput& in = *w.input;
-  const SearchOptions& options = *w.options;
-  sink.tested += batch.count;
-  if (options.form == Form::reference) {
-    distances(s, batch);
-  } else {
-    for (std::size_t i = 0; i < batch.count; ++i) {
-      batch.distance[i] =
-          closest_on_segment<Form::robust>(Point3<double>{batch.x[i], batch.y[i], batch.z[i]},
-                                           s.corner, s.triangle)
-              .distance();
+// The part of a group's walk that belongs to one segment. Masks of eight blocks, then of eight
+// leaves, are put together into words of 64 bits: few long loops are predicted better than many
+// short ones.
+inline void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, const Shape& s,
+                          std::uint32_t segment, Sink& sink) {
+  const std::vector<BoxBlock>& blocks = w.tree.level(0);
+  const auto last_leaf = static_cast<std::uint32_t>(w.points.size() - 1);
+  const unsigned last_bits = (2U << ((w.items.size() - 1) % 8)) - 1U;
+  SegmentTest test(w, s, segment);
+  std::array<std::uint32_t, 8> leaf{};
+  unsigned leaves = 0;
+  std::uint64_t points = 0;
+  const auto test_points = [&] {
+    for (; points != 0; points &= points - 1) {
+      const auto bit = static_cast<unsigned>(__builtin_ctzll(points));
+      const std::uint32_t i = leaf[bit / 8];
+      test.point(w.points[i], i * 8 + bit % 8, sink);
+    }
+    leaves = 0;
+  };
+  for (std::size_t first = 0; first < hits.size(); first += 8) {
+    const std::size_t count = std::min<std::size_t>(8, hits.size() - first);
+    std::uint64_t masks = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Hit& hit = hits[first + k];
+      masks |= std::uint64_t{overlaps(blocks[hit.block], s.wide) & hit.mask} << (8 * k);
+    }
+    for (; masks != 0; masks &= masks - 1) {
+      const auto bit = static_cast<unsigned>(__builtin_ctzll(masks));
+      const std::uint32_t i = hits[first + bit / 8].block * 8 + bit % 8;
+      unsigned bits = near_points(w.points[i], s, Reach::widened(s.reach + w.reach[i], s.largest));
+      if (i == last_leaf) bits &= last_bits;
+      points |= std::uint64_t{bits} << (8 * leaves);
+      leaf[leaves++] = i;
+      if (leaves == 8) test_points();
     }
   }
-  const double gap_m = at(in.segment_gap, segment, 0.0);
-  const double length_m = at(in.segment_length, segment, kInfinity);
-  const bool constant = options.gap.rule == GapRule::constant;
-  const double one_limit = pair_limit(options, 0.0, 0.0, 0.0, 0.0);
-  const auto& nodes = in.segments[segment];
-  for (std::size_t i = 0; i < batch.count; ++i) {
-    const std::uint32_t item = batch.item[i];
-    const double limit = constant ? one_limit
-                                  : pair_limit(options, at(in.secondary_gap, item, 0.0), gap_m,
-                                               at(in.secondary_length, item, kInfinity), length_m);
-    if (!(batch.distance[i] < limit)) continue;
-    const std::uint32_t node = in.secondary[item];
-    if (node == nodes[0] || node == nodes[1] || node == nodes[2] || node == nodes[3]) continue;
-    sink.pairs.push_back({item, segment});
-  }
-  batch.count = 0;
+  test_points();
 }
 
 inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, Sink& sink) {
   const NodeSegmentInput& in = *w.input;
   Walk walk;
-  Batch batch;
   std::array<Shape, kGroup> shapes;
-  if (w.tree.levels() == 0) return;
-  const std::vector<BoxBlock>& leaves = w.tree.level(0);
   for (std::size_t first = begin; first < end; first += kGroup) {
     const std::size_t count = std::min(kGroup, end - first);
     Box group;
+    double sizes = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t segment = w.segments[first + i];
       shapes[i].set(in.nodes, in.segments[segment],
                     main_reach(*w.options, at(in.segment_gap, segment, 0.0)));
       group.add(shapes[i].wide);
+      sizes += shapes[i].wide.size();
     }
-    walk.find(w.tree, group);
+    const bool shared = worth_sharing(group.size(), sizes);
+    if (shared) walk.find(w.tree, group);
     for (std::size_t i = 0; i < count; ++i) {
-      const Shape& s = shapes[i];
-      const std::uint32_t segment = w.segments[first + i];
-      for (const Hit& hit : walk.hits) {
-        unsigned mask = overlaps(leaves[hit.block], s.wide) & hit.mask;
-        for (; mask != 0; mask &= mask - 1) {
-          const PointBlock& leaf =
-              w.points[hit.block * 8 + static_cast<std::size_t>(__builtin_ctz(mask))];
-          const double r = Reach::widened(s.reach + leaf.reach, s.largest);
-          unsigned near = near_points(leaf, s, r);
-          for (; near != 0; near &= near - 1) {
-            batch.add(leaf, static_cast<std::size_t>(__builtin_ctz(near)));
-          }
-          if (batch.count > Batch::kCapacity - 8) flush(w, segment, s, batch, sink);
-        }
+      if (!shared) walk.find(w.tree, shapes[i].wide);
+      sweep_segment(w, walk.hits, shapes[i], w.segments[first + i], sink);
+    }
+  }
+}
+
+// The part of a group's walk that belongs to one main edge.
+inline void sweep_edge(const EdgeSweep& w, const std::vector<Hit>& hits, const Box& box,
+                       std::uint32_t edge, Sink& sink) {
+  const EdgeEdgeInput& in = *w.input;
+  const SearchOptions& options = *w.options;
+  const std::vector<BoxBlock>& leaves = w.tree.level(0);
+  const auto m = in.main[edge];
+  const Point3<double> m1 = point(in.nodes, m[0]), m2 = point(in.nodes, m[1]);
+  const double gap_m = at(in.main_gap, edge, 0.0);
+  const double length_m = at(in.main_length, edge, kInfinity);
+  for (const Hit& hit : hits) {
+    unsigned mask = overlaps(leaves[hit.block], box) & hit.mask;
+    for (; mask != 0; mask &= mask - 1) {
+      const std::uint32_t item =
+          w.items[hit.block * 8 + static_cast<std::size_t>(__builtin_ctz(mask))];
+      const auto s = in.secondary[item];
+      if (s[0] == m[0] || s[0] == m[1] || s[1] == m[0] || s[1] == m[1]) continue;
+      const double limit = pair_limit(options, at(in.secondary_gap, item, 0.0), gap_m,
+                                      at(in.secondary_length, item, kInfinity), length_m);
+      ++sink.tested;
+      if (edges_are_near(options, point(in.nodes, s[0]), point(in.nodes, s[1]), m1, m2, limit)) {
+        sink.push({item, edge});
       }
-      flush(w, segment, s, batch, sink);
     }
   }
 }
 
 inline void sweep_edges(const EdgeSweep& w, std::size_t begin, std::size_t end, Sink& sink) {
   const EdgeEdgeInput& in = *w.input;
-  const SearchOptions& options = *w.options;
   Walk walk;
   std::array<Box, kGroup> boxes;
-  if (w.tree.levels() == 0) return;
-  const std::vector<BoxBlock>& leaves = w.tree.level(0);
   for (std::size_t first = begin; first < end; first += kGroup) {
     const std::size_t count = std::min(kGroup, end - first);
     Box group;
+    double sizes = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t edge = w.mains[first + i];
-      boxes[i] = edge_box(in.nodes, in.main[edge], main_reach(options, at(in.main_gap, edge, 0.0)));
+      boxes[i] =
+          edge_box(in.nodes, in.main[edge], main_reach(*w.options, at(in.main_gap, edge, 0.0)));
       group.add(boxes[i]);
+      sizes += boxes[i].size();
     }
-    walk.find(w.tree, group);
+    const bool shared = worth_sharing(group.size(), sizes);
+    if (shared) walk.find(w.tree, group);
     for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t edge = w.mains[first + i];
-      const auto m = in.main[edge];
-      const Point3<double> m1 = point(in.nodes, m[0]), m2 = point(in.nodes, m[1]);
-      const double gap_m = at(in.main_gap, edge, 0.0);
-      const double length_m = at(in.main_length, edge, kInfinity);
-      for (const Hit& hit : walk.hits) {
-        unsigned mask = overlaps(leaves[hit.block], boxes[i]) & hit.mask;
-        for (; mask != 0; mask &= mask - 1) {
-          const std::uint32_t item =
-              w.items[hit.block * 8 + static_cast<std::size_t>(__builtin_ctz(mask))];
-          const auto s = in.secondary[item];
-          if (s[0] == m[0] || s[0] == m[1] || s[1] == m[0] || s[1] == m[1]) continue;
-          const double limit = pair_limit(options, at(in.secondary_gap, item, 0.0), gap_m,
-                                          at(in.secondary_length, item, kInfinity), length_m);
-          ++sink.tested;
-          if (edges_are_near(options, point(in.nodes, s[0]), point(in.nodes, s[1]), m1, m2,
-                             limit)) {
-            sink.pairs.push_back({item, edge});
-          }
-        }
-      }
+      if (!shared) walk.find(w.tree, boxes[i]);
+      sweep_edge(w, walk.hits, boxes[i], w.mains[first + i], sink);
     }
   }
 }

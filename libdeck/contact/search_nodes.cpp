@@ -11,76 +11,76 @@ namespace {
 
 using sweep::at;
 
-// Leaves of eight nodes each and the tree of their boxes.
-void pack_points(std::span<const std::uint32_t> order, int threads, sweep::NodeSweep& w) {
-  using sweep::PointBlock;
-  const NodeSegmentInput& in = *w.input;
-  constexpr std::size_t kWidth = PointBlock::kWidth;
-  w.points.resize((order.size() + kWidth - 1) / kWidth);
-  std::vector<BoxBlock> leaves((w.points.size() + kWidth - 1) / kWidth);
-  parallel_parts(threads, leaves.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    const std::size_t last = std::min(w.points.size(), end * kWidth);
-    for (std::size_t block = begin * kWidth; block < last; ++block) {
-      PointBlock& leaf = w.points[block];
-      Box box;
-      const std::size_t count = std::min(kWidth, order.size() - block * kWidth);
-      for (std::size_t k = 0; k < count; ++k) {
-        const std::uint32_t item = order[block * kWidth + k];
-        const Point3<double> p = sweep::point(in.nodes, in.secondary[item]);
-        leaf.x[k] = p.x;
-        leaf.y[k] = p.y;
-        leaf.z[k] = p.z;
-        leaf.item[k] = item;
-        const double reach = sweep::secondary_reach(*w.options, at(in.secondary_gap, item, 0.0));
-        leaf.reach = k == 0 ? reach : std::max(leaf.reach, reach);
-        const double r = sweep::Reach::widened(reach, 0.0);
-        box.add({{p.x - r, p.y - r, p.z - r}, {p.x + r, p.y + r, p.z + r}});
-      }
-      leaf.used = (1U << count) - 1U;
-      leaves[block / kWidth].set(block % kWidth, box);
-    }
-  });
-  w.tree = BoxTree(std::move(leaves), threads);
-}
-
-// Where a segment is, from its diagonals.
-Place segment_place(const NodeSegmentInput& in, const SearchOptions& options, std::uint32_t i) {
-  const auto& s = in.segments[i];
-  const Point3<double> a = sweep::point(in.nodes, s[0]), b = sweep::point(in.nodes, s[1]);
-  const Point3<double> c = sweep::point(in.nodes, s[2]), d = sweep::point(in.nodes, s[3]);
-  const auto span = [](double u, double v, double s_, double t) {
-    return std::max(std::max(u, v), std::max(s_, t)) - std::min(std::min(u, v), std::min(s_, t));
-  };
-  const double size = std::max(span(a.x, b.x, c.x, d.x),
-                               std::max(span(a.y, b.y, c.y, d.y), span(a.z, b.z, c.z, d.z)));
+// Box of a segment, widened by its own reach; only for judging order and size.
+Box segment_box(const NodeSegmentInput& in, const SearchOptions& options, std::uint32_t i) {
   const double reach = sweep::main_reach(options, at(in.segment_gap, i, 0.0));
-  return {0.5 * a + 0.5 * c, sweep::size_class(size + reach)};
+  Box box;
+  for (const std::uint32_t node : in.segments[i]) {
+    const Point3<double> p = sweep::point(in.nodes, node);
+    box.add({{p.x - reach, p.y - reach, p.z - reach}, {p.x + reach, p.y + reach, p.z + reach}});
+  }
+  return box;
 }
 
 }  // namespace
 
+namespace sweep {
+
+NodeSweep::NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads)
+    : input(&in), options(&o) {
+  constexpr std::size_t kWidth = PointBlock::kWidth;
+  const std::vector<std::uint32_t> chosen = active(in.secondary.size(), in.secondary_stiffness);
+  const std::vector<Place> places = places_of(
+      chosen.size(), [&](std::size_t i) { return Place{point(in.nodes, in.secondary[chosen[i]])}; },
+      threads);
+  const std::vector<std::uint32_t> order = order_in_space(places, threads);
+  const std::size_t leaf_count = (order.size() + kWidth - 1) / kWidth;
+  points.resize(leaf_count);
+  reach.resize(leaf_count);
+  items.resize(order.size());
+  nodes.resize(order.size());
+  std::vector<BoxBlock> blocks((leaf_count + kWidth - 1) / kWidth);
+  parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    const std::size_t last = std::min(leaf_count, end * kWidth);
+    for (std::size_t i = begin * kWidth; i < last; ++i) {
+      PointBlock& leaf = points[i];
+      Box box;
+      for (std::size_t rank = i * kWidth; rank < std::min(order.size(), (i + 1) * kWidth); ++rank) {
+        const std::size_t k = rank % kWidth;
+        const Point3<double>& p = places[order[rank]].centre;
+        const std::uint32_t item = chosen[order[rank]];
+        items[rank] = item;
+        nodes[rank] = in.secondary[item];
+        leaf.x[k] = p.x;
+        leaf.y[k] = p.y;
+        leaf.z[k] = p.z;
+        leaf.gap[k] = at(in.secondary_gap, item, 0.0);
+        const double own = secondary_reach(o, leaf.gap[k]);
+        reach[i] = k == 0 ? own : std::max(reach[i], own);
+        const double r = Reach::widened(own, 0.0);
+        box.add({{p.x - r, p.y - r, p.z - r}, {p.x + r, p.y + r, p.z + r}});
+      }
+      blocks[i / kWidth].set(i % kWidth, box);
+    }
+  });
+  tree = BoxTree(std::move(blocks), threads);
+
+  segments = active(in.segments.size(), in.segment_stiffness);
+  const auto box_of = [&](std::uint32_t i) { return segment_box(in, o, i); };
+  put_in_order(segments, box_of, threads);
+}
+
+std::size_t NodeSweep::bytes() const {
+  return points.size() * sizeof(PointBlock) + reach.size() * sizeof(double) + tree.bytes() +
+         (items.size() + nodes.size() + segments.size()) * sizeof(std::uint32_t);
+}
+
+}  // namespace sweep
+
 SearchResult find_node_segment_pairs(const NodeSegmentInput& in, const SearchOptions& options) {
-  const int threads = effective_threads(options.threads);
+  const sweep::NodeSweep w(in, options, effective_threads(options.threads));
   SearchResult result;
-  sweep::NodeSweep w;
-  w.input = &in;
-  w.options = &options;
-  {
-    std::vector<std::uint32_t> order = sweep::active(in.secondary.size(), in.secondary_stiffness);
-    order_in_space(
-        std::span(order),
-        [&in](std::uint32_t i) {
-          return Place{sweep::point(in.nodes, in.secondary[i]), 0};
-        },
-        threads);
-    pack_points(order, threads, w);
-  }
-  w.segments = sweep::active(in.segments.size(), in.segment_stiffness);
-  order_in_space(
-      std::span(w.segments),
-      [&in, &options](std::uint32_t i) { return segment_place(in, options, i); }, threads);
-  result.structure_bytes = w.points.size() * sizeof(sweep::PointBlock) + w.tree.bytes() +
-                           w.segments.size() * sizeof(std::uint32_t);
+  result.structure_bytes = w.bytes();
   sweep::run([&w](std::size_t begin, std::size_t end,
                   sweep::Sink& sink) { sweep::kernels().nodes(w, begin, end, sink); },
              w.segments.size(), in.secondary.size(), options, result);

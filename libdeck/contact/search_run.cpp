@@ -8,34 +8,46 @@
 namespace deck::sweep {
 namespace {
 
+// Mostly a handful, mostly in order already.
+void sort_by_main(CandidatePair* first, CandidatePair* last) {
+  if (last - first > 32) {
+    std::sort(first, last);
+    return;
+  }
+  for (CandidatePair* i = first; i < last; ++i) {
+    const CandidatePair pair = *i;
+    CandidatePair* hole = i;
+    for (; hole > first && pair.main < hole[-1].main; --hole) *hole = hole[-1];
+    *hole = pair;
+  }
+}
+
 // Counting sort by secondary, then each secondary's few mains by insertion. Every thread owns a
 // range of secondaries and reads all pairs.
 void merge(std::vector<Sink>& sinks, std::size_t secondaries, int threads, SearchResult& result) {
   std::vector<std::size_t> next(secondaries + 1, 0);
   parallel_parts(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (const Sink& sink : sinks) {
-      for (const CandidatePair& pair : sink.pairs) {
+      sink.for_each([&](const CandidatePair& pair) {
         if (pair.secondary >= begin && pair.secondary < end) ++next[pair.secondary + 1];
-      }
+      });
     }
   });
   for (std::size_t i = 0; i < secondaries; ++i) next[i + 1] += next[i];
   result.pairs.resize(next[secondaries]);
   CandidatePair* const out = result.pairs.data();
   parallel_parts(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
-    if (begin == end) return;
-    // next[i] runs from the first to one past the last pair of i; the range end is kept aside.
+    // next[i] runs from the first to one past the last pair of i.
     for (const Sink& sink : sinks) {
-      for (const CandidatePair& pair : sink.pairs) {
-        if (pair.secondary < begin || pair.secondary >= end) continue;
-        out[next[pair.secondary]++] = pair;
-      }
+      sink.for_each([&](const CandidatePair& pair) {
+        if (pair.secondary >= begin && pair.secondary < end) out[next[pair.secondary]++] = pair;
+      });
     }
   });
   parallel_parts(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       CandidatePair* const first = out + (i == 0 ? 0 : next[i - 1]);
-      std::sort(first, out + next[i]);
+      sort_by_main(first, out + next[i]);
     }
   });
 }
@@ -53,9 +65,9 @@ void run(const std::function<void(std::size_t, std::size_t, Sink&)>& body, std::
     for (;;) {
       const std::size_t chunk = next_chunk.fetch_add(1);
       if (chunk >= chunks || found.load() > options.max_pairs) return;
-      const std::size_t before = sink.pairs.size();
+      const std::size_t before = sink.size();
       body(chunk * kChunk, std::min(count, (chunk + 1) * kChunk), sink);
-      found += sink.pairs.size() - before;
+      found += sink.size() - before;
     }
   };
   {

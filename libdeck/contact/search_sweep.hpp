@@ -10,9 +10,11 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "contact/box_order.hpp"
 #include "contact/box_tree.hpp"
 #include "deck/contact/search.hpp"
 
@@ -24,13 +26,12 @@ inline double at(std::span<const double> values, std::size_t i, double otherwise
   return values.empty() ? otherwise : values[i];
 }
 
-// Eight secondary nodes, neighbours in space: a leaf of the tree.
+// Eight secondary nodes, neighbours in space: a leaf of the tree. A node's rank is 8 * (number of
+// its leaf) + its place in it.
 struct alignas(64) PointBlock {
   static constexpr std::size_t kWidth = BoxBlock::kWidth;
   std::array<double, kWidth> x{}, y{}, z{};
-  std::array<std::uint32_t, kWidth> item{};  // position in the list of secondary nodes
-  double reach = 0.0;                        // largest share of the gap among them
-  unsigned used = 0;                         // bit mask of the places in use
+  std::array<double, kWidth> gap{};
 };
 
 // How far beyond a segment or edge its tests reach. Computed distances may be smaller than exact
@@ -45,10 +46,30 @@ struct Reach {
   }
 };
 
-// Pairs found by one thread, in the order found.
-struct Sink {
-  std::vector<CandidatePair> pairs;
-  std::size_t tested = 0;
+// Pairs found by one thread, in the order found. Grows by whole chunks: nothing is ever copied.
+class Sink {
+ public:
+  void push(CandidatePair pair) {
+    if (fill_ == kChunk) {
+      chunks_.push_back(std::make_unique_for_overwrite<CandidatePair[]>(kChunk));
+      fill_ = 0;
+    }
+    chunks_.back()[fill_++] = pair;
+  }
+  std::size_t size() const { return chunks_.empty() ? 0 : (chunks_.size() - 1) * kChunk + fill_; }
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::size_t c = 0; c < chunks_.size(); ++c) {
+      const std::size_t count = c + 1 == chunks_.size() ? fill_ : kChunk;
+      for (std::size_t i = 0; i < count; ++i) visit(chunks_[c][i]);
+    }
+  }
+  std::size_t tested = 0;  // distances computed
+
+ private:
+  static constexpr std::size_t kChunk = 16384;
+  std::vector<std::unique_ptr<CandidatePair[]>> chunks_;
+  std::size_t fill_ = kChunk;
 };
 
 // Everything a sweep over the main side reads. Filled by search_nodes.cpp and search_edges.cpp.
@@ -57,7 +78,14 @@ struct NodeSweep {
   const SearchOptions* options = nullptr;
   std::vector<std::uint32_t> segments;  // active ones in spatial order
   std::vector<PointBlock> points;
-  BoxTree tree;  // leaves: boxes of the point blocks, widened by their reach
+  std::vector<double> reach;         // per leaf: largest share of the gap among its nodes
+  std::vector<std::uint32_t> items;  // per rank: position in the list of secondary nodes
+  std::vector<std::uint32_t> nodes;  // per rank: node
+  BoxTree tree;                      // leaves: boxes of the point blocks, widened by their reach
+
+  // The search structure over the secondary nodes of an input, and its segments in order.
+  NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads);
+  std::size_t bytes() const;
 };
 struct EdgeSweep {
   const EdgeEdgeInput* input = nullptr;
@@ -65,6 +93,9 @@ struct EdgeSweep {
   std::vector<std::uint32_t> mains;  // active main edges in spatial order
   std::vector<std::uint32_t> items;  // active secondary edges in spatial order
   BoxTree tree;                      // leaves: boxes of single secondary edges, widened
+
+  EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads);
+  std::size_t bytes() const;
 };
 
 // The gap of a side's share that its own boxes are widened by; the other half of drad and the
@@ -108,6 +139,40 @@ inline Point3<double> point(const NodeArrays& nodes, std::uint32_t i) {
 
 inline constexpr std::size_t kGroup = 8;  // main items that share one walk through the tree
 
+// A group walks the tree as one only if its box is not much larger than its members': a giant or a
+// stray among small ones would make the others test far too much.
+inline bool worth_sharing(double group_size, double sum_of_sizes) {
+  return group_size <= 0.75 * sum_of_sizes;
+}
+
+// Whether a list of main items is already in spatial order, well enough for groups of neighbours to
+// share walks and memory. Looks at samples; decides speed only, never the result.
+template <class BoxOf>
+bool is_coherent(std::span<const std::uint32_t> ids, const BoxOf& box_of) {
+  constexpr std::size_t kWindow = 64, kStride = 16 * kWindow;
+  std::size_t windows = 0, good = 0;
+  for (std::size_t first = 0; first + kWindow <= ids.size(); first += kStride) {
+    Box window;
+    double window_sum = 0.0;
+    bool in_order = true;
+    for (std::size_t g = 0; g < kWindow; g += kGroup) {
+      Box group;
+      double group_sum = 0.0;
+      for (std::size_t i = 0; i < kGroup; ++i) {
+        const Box b = box_of(ids[first + g + i]);
+        group.add(b);
+        group_sum += b.size();
+      }
+      in_order = in_order && worth_sharing(group.size(), group_sum);
+      window.add(group);
+      window_sum += group_sum;
+    }
+    ++windows;
+    if (in_order && window.size() <= window_sum) ++good;
+  }
+  return good * 10 >= windows * 9;
+}
+
 // Positions of everything whose stiffness is not 0.
 inline std::vector<std::uint32_t> active(std::size_t count, std::span<const double> stiffness) {
   std::vector<std::uint32_t> ids;
@@ -141,6 +206,29 @@ inline Box edge_box(const NodeArrays& nodes, const std::array<std::uint32_t, 2>&
     box.high[k] += r;
   }
   return box;
+}
+
+// Orders things in space by the centres and sizes of their boxes.
+template <class BoxOf>
+void sort_in_space(std::vector<std::uint32_t>& ids, const BoxOf& box_of, int threads) {
+  const std::vector<Place> places = places_of(
+      ids.size(),
+      [&](std::size_t i) {
+        const Box b = box_of(ids[i]);
+        return Place{{0.5 * b.low[0] + 0.5 * b.high[0], 0.5 * b.low[1] + 0.5 * b.high[1],
+                      0.5 * b.low[2] + 0.5 * b.high[2]},
+                     size_class(b.size())};
+      },
+      threads);
+  std::vector<std::uint32_t> order = order_in_space(places, threads);
+  for (std::uint32_t& i : order) i = ids[i];
+  ids.swap(order);
+}
+
+// The same, unless they are in good order already.
+template <class BoxOf>
+void put_in_order(std::vector<std::uint32_t>& ids, const BoxOf& box_of, int threads) {
+  if (!is_coherent(ids, box_of)) sort_in_space(ids, box_of, threads);
 }
 
 // Runs `body(begin, end, sink)` over `count` main items on several threads and leaves the pairs,

@@ -303,15 +303,9 @@ TEST(SpaceOrder, IsAPermutationForAnyGradingAndThreads) {
   }
   for (std::size_t i = 0; i < 3000; ++i) p[i] = {1, 1, 1};
   const auto order = [&p](int threads) {
-    std::vector<std::uint32_t> ids(p.size());
-    std::iota(ids.begin(), ids.end(), 0U);
-    order_in_space(
-        std::span(ids),
-        [&p](std::uint32_t i) {
-          return Place{p[i], 0};
-        },
-        threads);
-    return ids;
+    return order_in_space(places_of(
+                              p.size(), [&p](std::size_t i) { return Place{p[i]}; }, threads),
+                          threads);
   };
   const auto one = order(1);
   EXPECT_EQ(order(2), one);

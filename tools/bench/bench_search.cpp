@@ -1,0 +1,214 @@
+// Node-segment search against CGAL and Embree: all pairs within their gap, build and query, one
+// thread, the same arrays. No time is printed unless all answers agree. Ratios are of processor
+// time, which does not suffer from other work on the machine.
+//
+//   bench_search [--quick] [--size N]... [--repeat K] [--largest N] [--scene NAME] [--no-rivals]
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "rivals/cgal.hpp"
+#include "rivals/scenes.hpp"
+#ifdef DECK_HAVE_EMBREE
+#include "rivals/embree.hpp"
+#endif
+
+namespace bench {
+namespace {
+
+struct Settings {
+  std::vector<std::size_t> sizes;
+  std::size_t largest = 0;  // also measure the library alone at this size
+  int repeat = 3;
+  std::string scene;
+  bool rivals = true;
+};
+
+struct Contestant {
+  std::string name;
+  std::function<Answer(const Scene&)> run;
+};
+
+Answer ours(const Scene& s, int threads, std::size_t* bytes = nullptr,
+            std::size_t* tested = nullptr) {
+  deck::SearchOptions o = s.options();
+  o.threads = threads;
+  const deck::SearchResult result = deck::find_node_segment_pairs(s.input(), o);
+  Answer answer;
+  for (const auto& pair : result.pairs) answer.add(pair.secondary, pair.main);
+  if (bytes != nullptr) *bytes = result.structure_bytes;
+  if (tested != nullptr) *tested = result.tested;
+  return answer;
+}
+
+// Wall time and processor time of this process.
+struct Time {
+  double wall = 0.0, cpu = 0.0;
+};
+
+Time time_of(const std::function<void()>& body) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t cpu_start = std::clock();
+  body();
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+          static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC};
+}
+
+double median(std::vector<double> v) {
+  std::sort(v.begin(), v.end());
+  return v[v.size() / 2];
+}
+
+std::vector<Contestant> rivals() {
+  std::vector<Contestant> list;
+  list.push_back({"CGAL AABB_tree", cgal_aabb_tree});
+  list.push_back({"CGAL box_intersection_d (cutoff 10)",
+                  [](const Scene& s) { return cgal_box_intersection(s, 10); }});
+  list.push_back({"CGAL box_intersection_d (cutoff 2000)",
+                  [](const Scene& s) { return cgal_box_intersection(s, 2000); }});
+#ifdef DECK_HAVE_EMBREE
+  list.push_back({"Embree 3 point query", embree_point_query});
+#endif
+  return list;
+}
+
+// Slope of log(time) over log(size), least squares.
+double exponent(const std::vector<std::pair<double, double>>& points) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  const auto n = static_cast<double>(points.size());
+  for (const auto& [size, time] : points) {
+    const double a = std::log(size), b = std::log(time);
+    sx += a, sy += b, sxx += a * a, sxy += a * b;
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+struct Measured {
+  Answer answer;
+  Time time;
+};
+
+Measured measure(const Contestant& c, const Scene& s, int repeat) {
+  Measured m;
+  std::vector<double> wall, cpu;
+  for (int k = 0; k < repeat; ++k) {
+    const Time time = time_of([&] { m.answer = c.run(s); });
+    wall.push_back(time.wall);
+    cpu.push_back(time.cpu);
+  }
+  m.time = {median(wall), median(cpu)};
+  return m;
+}
+
+bool run_scene(const std::string& title, const std::function<Scene(std::size_t)>& make,
+               const Settings& settings) {
+  std::vector<std::pair<double, double>> growth;
+  for (const std::size_t size : settings.sizes) {
+    const Scene s = make(size);
+    std::size_t bytes = 0, tested = 0;
+    const Contestant one{"libdeck, 1 thread",
+                         [&](const Scene& scene) { return ours(scene, 1, &bytes, &tested); }};
+    const Contestant two{"libdeck, 2 threads", [](const Scene& scene) { return ours(scene, 2); }};
+    std::vector<Contestant> all{one, two};
+    if (settings.rivals) {
+      for (auto& rival : rivals()) all.push_back(rival);
+    }
+    std::vector<Measured> measured;
+    for (const auto& c : all) measured.push_back(measure(c, s, settings.repeat));
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      if (measured[i].answer == measured[0].answer) continue;
+      fmt::print(stderr, "{} ({}): {} finds {} pairs, {} finds {}\n", title, size, all[0].name,
+                 measured[0].answer.count, all[i].name, measured[i].answer.count);
+      return false;
+    }
+    const auto count = static_cast<double>(s.segments.size());
+    fmt::print(
+        "\n{}: {} segments, {} secondary nodes, {} pairs; structure {:.1f} B/segment, "
+        "{:.2f} distances per pair\n",
+        title, s.segments.size(), s.secondary.size(), measured[0].answer.count,
+        static_cast<double>(bytes) / count,
+        static_cast<double>(tested) / static_cast<double>(measured[0].answer.count));
+    fmt::print("  {:<40} {:>9} {:>9} {:>9} {:>7}\n", "", "wall s", "cpu s", "ns/node", "ratio");
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Time& t = measured[i].time;
+      fmt::print("  {:<40} {:>9.4f} {:>9.4f} {:>9.1f} {:>7.2f}\n", all[i].name, t.wall, t.cpu,
+                 1e9 * t.cpu / static_cast<double>(s.secondary.size()),
+                 t.cpu / measured[0].time.cpu);
+    }
+    growth.emplace_back(count, measured[0].time.cpu);
+  }
+  if (settings.largest != 0) {
+    const Scene s = make(settings.largest);
+    const Time time = time_of([&] { ours(s, 1); });
+    fmt::print("  {} segments: {:.3f} s\n", s.segments.size(), time.cpu);
+    growth.emplace_back(static_cast<double>(s.segments.size()), time.cpu);
+  }
+  if (growth.size() > 1) fmt::print("  growth exponent of libdeck: {:.3f}\n", exponent(growth));
+  return true;
+}
+
+std::optional<Settings> parse(int argc, char** argv) {
+  Settings settings;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view arg = argv[i];
+    const auto number = [&] { return ++i < argc ? std::strtoull(argv[i], nullptr, 10) : 0ULL; };
+    if (arg == "--quick") {
+      settings.sizes = {10000, 50000};
+      settings.repeat = 1;
+    } else if (arg == "--size") {
+      settings.sizes.push_back(number());
+    } else if (arg == "--repeat") {
+      settings.repeat = static_cast<int>(number());
+    } else if (arg == "--largest") {
+      settings.largest = number();
+    } else if (arg == "--scene" && i + 1 < argc) {
+      settings.scene = argv[++i];
+    } else if (arg == "--no-rivals") {
+      settings.rivals = false;
+    } else {
+      return std::nullopt;
+    }
+  }
+  if (settings.sizes.empty()) settings.sizes = {100000, 1000000};
+  return settings;
+}
+
+int run(const Settings& settings) {
+  const std::vector<std::pair<std::string, std::function<Scene(std::size_t)>>> scenes{
+      {"uniform", uniform_scene},
+      {"graded 1:1000", graded_scene},
+      {"one outlier at 1e6", outlier_scene},
+      {"folded shell, self contact", folded_scene}};
+  for (const bool shuffled : {false, true}) {
+    for (const auto& [name, make] : scenes) {
+      const std::string title = name + (shuffled ? ", secondary nodes shuffled" : ", mesh order");
+      if (title.find(settings.scene) == std::string::npos) continue;
+      const auto build = [&make, shuffled](std::size_t size) {
+        Scene s = make(size);
+        if (shuffled) shuffle_secondary(s);
+        return s;
+      };
+      if (!run_scene(title, build, settings)) return 1;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace bench
+
+int main(int argc, char** argv) {
+  const auto settings = bench::parse(argc, argv);
+  if (!settings) {
+    fmt::print(stderr,
+               "usage: bench_search [--quick] [--size N]... [--repeat K] [--largest N] "
+               "[--scene NAME] [--no-rivals]\n");
+    return 2;
+  }
+  return bench::run(*settings);
+}
