@@ -428,7 +428,8 @@ EdgeClosest<T> reference_edges(const Point3<T>& s1, const Point3<T>& s2, const P
   out.weight_s = clamp01(T(-(xa + out.weight_m * q) / larger(aa, floor20)));
   out.weight_m = clamp01(T(-(xb + out.weight_s * q) / larger(cc, floor20)));
   const T rest_s = T(1) - out.weight_s, rest_m = T(1) - out.weight_m;
-  out.vector = (out.weight_s * s1 + rest_s * s2) - (out.weight_m * m1 + rest_m * m2);
+  // Summed from left to right like the reference: this order decides pairs that touch the gap.
+  out.vector = out.weight_s * s1 + rest_s * s2 - out.weight_m * m1 - rest_m * m2;
   out.distance_squared = dot(out.vector, out.vector);
   out.distance = square_root(out.distance_squared);
   return out;
