@@ -1,0 +1,139 @@
+// Lint: runs all rules over a deck and gives back sorted findings, with suppressions, baseline and
+// severities applied, and the list of what was not checked and why.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "deck/keyword/decode.hpp"
+#include "deck/lint/rule.hpp"
+#include "deck/model/interfaces.hpp"
+#include "deck/model/model.hpp"
+#include "deck/model/selection.hpp"
+#include "deck/text/diagnostic.hpp"
+
+namespace deck {
+
+/// One field of an interface as the rules see it; integers are exact in `value`.
+struct FieldView {
+  std::string_view name = {};
+  double value = 0;        ///< what the reference solver uses (working units)
+  double input = 0;        ///< what the card says (working units)
+  bool has_input = false;  ///< the cell exists and is not blank
+  Origin origin = Origin::built_in;
+  Span span = {};
+  std::string_view text = {};    ///< the cell as written
+  const Field* field = nullptr;  ///< its schema; nullptr: no such cell on the card
+};
+
+/// One /INTER block of a type with a schema, decoded; effective values where the model knows them.
+struct ContactCard {
+  const Block* block = nullptr;
+  DecodedBlock decoded;
+  const InterBase* inter = nullptr;  ///< nullptr: LAGMUL and other types without typed struct
+  int type = 0;                      ///< 7, 10, 11, 19; 0 for the others
+  std::vector<FieldView> fields;
+
+  const FieldView* find(std::string_view name) const;
+  /// Effective value; 0 if there is no such field.
+  double value(std::string_view name) const;
+  /// The same for a flag, with 1000 ("explicitly nothing") as 0.
+  std::int64_t flag(std::string_view name) const;
+  /// Value on the card; 0 if blank or absent.
+  double input(std::string_view name) const;
+  /// The card has a non-zero value there.
+  bool given(std::string_view name) const { return input(name) != 0; }
+  /// Columns of the field, or the header where the card has none.
+  Span span(std::string_view name) const;
+  /// "Gapmin = 1.5" as written on the card, or with the effective value where the cell is blank.
+  std::string show(std::string_view name) const;
+};
+
+/// What the rules may look at.
+class LintContext {
+ public:
+  const Deck& deck;
+  const SchemaSet& schemas;
+  const Model* model;            ///< nullptr: model rules are skipped
+  const Interfaces* interfaces;  ///< nullptr: likewise
+  Selections* selections;        ///< nullptr: likewise
+  std::vector<ContactCard> contacts;
+  std::vector<DecodedBlock> defaults;   ///< /DEFAULT/INTER blocks
+  std::vector<DecodedBlock> frictions;  ///< /FRICTION blocks
+  /// Definitions by kind ("inter", "sensor", "funct", "surf", ...) and id (submodel offset added).
+  std::map<std::string_view, std::multimap<std::int64_t, const Block*>> defined;
+  /// Ids that decoded cells refer to, by kind.
+  std::map<std::string_view, std::set<std::int64_t>> referenced;
+  /// Every whole number in blocks whose cards are not described: any of them may be a reference.
+  std::unordered_set<std::int64_t> loose_numbers;
+
+  /// Id of a reference as the model knows it (submodel offset added).
+  std::int64_t resolved(const Block& block, std::string_view kind, std::int64_t id) const;
+  std::string_view text(const Span& span) const { return deck.sources.text(span); }
+};
+
+/// Takes findings of one rule; fills in what the rule's page already says.
+class Reporter {
+ public:
+  explicit Reporter(Diagnostics& sink) : sink_(&sink) {}
+  /// nullptr: enough findings of this rule were kept already (it is counted).
+  Diagnostic* report(const Rule& rule, Span span, std::string message);
+  /// The same, about a block.
+  Diagnostic* report(const Rule& rule, const Block& block, Span span, std::string message);
+
+ private:
+  Diagnostics* sink_;
+};
+
+struct LintOptions {
+  std::vector<std::string> select;  ///< ids or prefixes; empty: all
+  std::vector<std::string> ignore;
+  std::map<std::string, Severity> severity;  ///< per id or prefix
+  std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;  ///< glob, rules
+  std::map<std::string, std::uint64_t> baseline;  ///< fingerprint -> count
+  int diagnostics_per_rule = Limits{}.diagnostics_per_rule;
+};
+
+/// Input of a run. `earlier` are the collectors of the model, the selections and the interfaces;
+/// what reading said is taken from the deck itself. `extra_checks` is where later stages (geometry)
+/// hook in: each reports rules of RuleStage::extra.
+struct LintInput {
+  const Deck& deck;
+  const SchemaSet& schemas;
+  const Model* model = nullptr;
+  const Interfaces* interfaces = nullptr;
+  Selections* selections = nullptr;
+  std::vector<const Diagnostics*> earlier = {};
+  std::vector<std::function<void(const LintContext&, Reporter&)>> extra_checks = {};
+};
+
+struct NotChecked {
+  std::string what, why;
+};
+
+struct LintResult {
+  std::vector<Diagnostic> diagnostics;                ///< sorted by file, line, column, rule
+  std::vector<std::string> fingerprints;              ///< one per diagnostic
+  std::map<std::string_view, std::uint64_t> counts;   ///< per rule, kept or not
+  std::map<std::string_view, std::uint64_t> dropped;  ///< per rule: found but not kept
+  std::uint64_t errors = 0, warnings = 0, infos = 0;
+  std::uint64_t suppressed = 0, baselined = 0;
+  std::vector<NotChecked> not_checked;
+};
+
+LintResult run_lint(const LintInput& input, const LintOptions& options = {});
+
+/// Reads nothing but the deck: builds the model, the selections and the interfaces, then run_lint.
+LintResult lint_deck(const Deck& deck, const SchemaSet& schemas, const LintOptions& options = {},
+                     int threads = 1);
+
+/// Rule, entity and the text of the card with runs of blanks made one: stays the same when lines
+/// move. Sixteen hexadecimal digits.
+std::string fingerprint(const Deck& deck, const Diagnostic& diagnostic);
+
+}  // namespace deck

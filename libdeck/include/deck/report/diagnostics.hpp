@@ -1,0 +1,43 @@
+// Writers of lint results: for people, and for the machines that read JSON, SARIF, JUnit, GitHub
+// and GitLab. Pure functions from results to text.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/lint/lint.hpp"
+
+namespace deck {
+
+/// One deck with its findings.
+struct LintedDeck {
+  std::string path;            ///< as given
+  const Deck* deck = nullptr;  ///< nullptr: could not be read
+  const LintResult* result = nullptr;
+  std::string error;  ///< why it could not be read
+};
+
+struct HumanOptions {
+  bool color = false;
+  bool ruler = false;  ///< a line with column numbers above the card
+  int per_rule = 10;   ///< findings shown per rule, 0: all
+  bool quiet = false;  ///< only the findings, no summary and no "not checked"
+};
+
+/// rustc-like text.
+std::string lint_human(const std::vector<LintedDeck>& decks, const HumanOptions& options);
+/// The JSON of `deck lint --format json`; one document for one deck, a list under "decks" for more.
+std::string lint_json(const std::vector<LintedDeck>& decks);
+/// SARIF 2.1.0 with every rule in the driver.
+std::string lint_sarif(const std::vector<LintedDeck>& decks, const SchemaSet& schemas);
+/// Workflow commands (::error file=…), worst first.
+std::string lint_github(const std::vector<LintedDeck>& decks);
+std::string lint_junit(const std::vector<LintedDeck>& decks);
+/// GitLab code quality.
+std::string lint_gitlab(const std::vector<LintedDeck>& decks);
+
+/// All rules: a table, and JSON.
+std::string rules_table(bool color);
+std::string rules_json();
+
+}  // namespace deck

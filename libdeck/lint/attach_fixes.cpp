@@ -1,0 +1,70 @@
+#include "lint/attach_fixes.hpp"
+
+#include "deck/lint/fix.hpp"
+
+namespace deck::detail {
+namespace {
+
+Fix missing_end(const Deck& deck) {
+  const std::string_view bytes = deck.sources[0].bytes();
+  const bool crlf = bytes.size() > 1 && bytes.find("\r\n") != std::string_view::npos;
+  const std::string eol = crlf ? "\r\n" : "\n";
+  const bool open_line = !bytes.empty() && bytes.back() != '\n';
+  Fix fix;
+  fix.title = "append /END";
+  fix.safe = true;
+  fix.edits.push_back({Span{0, 0, bytes.size()}, (open_line ? eol : "") + "/END" + eol});
+  return fix;
+}
+
+/// Every tab of the line becomes one blank: the columns stay where the reference solver sees them.
+Fix tabs_to_blanks(const Deck& deck, const Span& span) {
+  const Source& source = deck.sources[span.file];
+  const std::string_view line = source.line_at(span.offset);
+  const auto begin = static_cast<std::uint64_t>(line.data() - source.bytes().data());
+  Fix fix;
+  fix.title = "replace each tab by one blank, as the reference solver reads it";
+  fix.safe = true;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (line[i] == '\t') fix.edits.push_back({Span{span.file, 1, begin + i}, " "});
+  return fix;
+}
+
+Fix remove_line(const Deck& deck, const Span& span, bool safe, std::string title) {
+  const Source& source = deck.sources[span.file];
+  const std::string_view bytes = source.bytes();
+  const std::string_view line = source.line_at(span.offset);
+  const auto begin = static_cast<std::uint64_t>(line.data() - bytes.data());
+  const auto nl = bytes.find('\n', begin);
+  const std::uint64_t end = nl == std::string_view::npos ? bytes.size() : nl + 1;
+  Fix fix;
+  fix.title = std::move(title);
+  fix.safe = safe;
+  fix.edits.push_back({Span{span.file, static_cast<std::uint32_t>(end - begin), begin}, ""});
+  return fix;
+}
+
+}  // namespace
+
+void attach_fix(const LintContext& context, Diagnostic& d) {
+  if (d.fix) return;
+  const Deck& deck = context.deck;
+  if (d.rule == "DK010") {
+    d.fix = missing_end(deck);
+  } else if (!d.span.valid()) {
+    return;
+  } else if (d.rule == "DK013") {
+    d.fix = tabs_to_blanks(deck, d.span);
+  } else if (d.rule == "DK012" || d.rule == "DK027" || d.rule == "DK028") {
+    // The reference solver drops this text, so blanking it changes nothing for it. Text that is not
+    // just zeros may be a value in the wrong columns: that is for a person to decide.
+    const bool zeros = context.text(d.span).find_first_not_of("0.+- ") == std::string_view::npos;
+    d.fix = Fix{"blank the text that is not read", zeros, {blank_edit(d.span)}};
+  } else if (d.rule == "DK030") {
+    d.fix = remove_line(deck, d.span, false, "delete the line that is one too many");
+  } else if (d.rule == "DK091") {
+    d.fix = remove_line(deck, d.span, true, "delete the unused suppression");
+  }
+}
+
+}  // namespace deck::detail

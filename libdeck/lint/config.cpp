@@ -1,0 +1,225 @@
+// The configuration is the one place of the library that reads TOML; the parser is header-only.
+#include "deck/lint/config.hpp"
+
+#define TOML_EXCEPTIONS 0
+#define TOML_ENABLE_FORMATTERS 0
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpragmas"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wold-style-cast"
+#endif
+#include <toml++/toml.h>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace deck {
+namespace fs = std::filesystem;
+namespace {
+
+Error config_error(const std::string& path, std::uint64_t line, const std::string& what) {
+  return {Error::Code::config,
+          path + (line > 0 ? ":" + std::to_string(line) : std::string()) + ": " + what};
+}
+
+std::uint64_t line_of(const toml::node& node) { return node.source().begin.line; }
+
+/// A list of strings; `rules`: each must select a known rule.
+Result<std::vector<std::string>> string_list(const toml::node& node, const std::string& path,
+                                             std::string_view key) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr)
+    return config_error(path, line_of(node), "'" + std::string(key) + "' is not a list of strings");
+  std::vector<std::string> out;
+  for (const toml::node& item : *array) {
+    const auto text = item.value<std::string>();
+    if (!text)
+      return config_error(path, line_of(item),
+                          "'" + std::string(key) + "' holds something that is not a string");
+    if (!known_selector(*text))
+      return config_error(path, line_of(item), "no rule is called '" + *text + "'");
+    out.push_back(*text);
+  }
+  return out;
+}
+
+std::optional<Severity> severity_of(std::string_view text) {
+  if (text == "error") return Severity::error;
+  if (text == "warning") return Severity::warning;
+  if (text == "info") return Severity::info;
+  return std::nullopt;
+}
+
+Result<void> read_severity(const toml::node& node, LintConfig& config) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr)
+    return config_error(config.path, line_of(node), "'severity' is not a table");
+  for (const auto& [key, value] : *table) {
+    const auto text = value.value<std::string>();
+    const auto severity = text ? severity_of(*text) : std::nullopt;
+    if (!severity)
+      return config_error(config.path, line_of(value),
+                          "a severity is \"error\", \"warning\" or \"info\"");
+    if (!known_selector(key.str()))
+      return config_error(config.path, line_of(value),
+                          "no rule is called '" + std::string(key.str()) + "'");
+    config.severity[std::string(key.str())] = *severity;
+  }
+  return {};
+}
+
+Result<void> read_key(std::string_view key, const toml::node& node, LintConfig& config) {
+  if (key == "select" || key == "ignore") {
+    auto list = string_list(node, config.path, key);
+    if (!list) return list.error();
+    (key == "select" ? config.select : config.ignore) = std::move(*list);
+    return {};
+  }
+  if (key == "fail-on") {
+    const auto text = node.value<std::string>();
+    if (!text || (*text != "error" && *text != "warning" && *text != "never"))
+      return config_error(config.path, line_of(node),
+                          "'fail-on' is \"error\", \"warning\" or \"never\"");
+    config.fail_on = *text;
+    return {};
+  }
+  if (key == "baseline") {
+    const auto text = node.value<std::string>();
+    if (!text) return config_error(config.path, line_of(node), "'baseline' is not a path");
+    config.baseline = (fs::path(config.path).parent_path() / *text).string();
+    return {};
+  }
+  if (key == "severity") return read_severity(node, config);
+  if (key == "per-file-ignores") {
+    const toml::table* table = node.as_table();
+    if (table == nullptr)
+      return config_error(config.path, line_of(node), "'per-file-ignores' is not a table");
+    for (const auto& [glob, rules] : *table) {
+      auto list = string_list(rules, config.path, glob.str());
+      if (!list) return list.error();
+      config.per_file_ignores.emplace_back(std::string(glob.str()), std::move(*list));
+    }
+    return {};
+  }
+  return config_error(config.path, line_of(node),
+                      "unknown key '" + std::string(key) +
+                          "'; known: select, ignore, fail-on, baseline, severity, "
+                          "per-file-ignores");
+}
+
+}  // namespace
+
+Result<LintConfig> parse_lint_config(std::string_view text, const std::string& path) {
+  const toml::parse_result parsed = toml::parse(text, path);
+  if (!parsed)
+    return config_error(path, parsed.error().source().begin.line,
+                        std::string(parsed.error().description()));
+  LintConfig config;
+  config.path = path;
+  for (const auto& [key, node] : parsed.table())
+    if (auto done = read_key(key.str(), node, config); !done) return done.error();
+  return config;
+}
+
+Result<LintConfig> find_lint_config(const std::string& deck_path) {
+  std::error_code ec;
+  fs::path dir =
+      deck_path == "-" ? fs::current_path(ec) : fs::absolute(fs::path(deck_path), ec).parent_path();
+  while (!dir.empty()) {
+    const fs::path file = dir / ".decklint.toml";
+    if (fs::is_regular_file(file, ec)) {
+      std::ifstream in(file, std::ios::binary);
+      std::ostringstream text;
+      text << in.rdbuf();
+      if (!in) return config_error(file.string(), 0, "cannot be read");
+      return parse_lint_config(text.str(), file.string());
+    }
+    if (dir == dir.parent_path()) break;
+    dir = dir.parent_path();
+  }
+  return LintConfig{};
+}
+
+Result<std::map<std::string, std::uint64_t>> parse_baseline(std::string_view text) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_discarded() || !json.is_object() || json.value("schema", "") != "deck.baseline/1" ||
+      !json.contains("findings") || !json["findings"].is_object())
+    return Error{Error::Code::config,
+                 "not a baseline: expected JSON with \"schema\": \"deck.baseline/1\""};
+  std::map<std::string, std::uint64_t> out;
+  for (const auto& [print, entry] : json["findings"].items()) {
+    if (!entry.is_object() || !entry.contains("count") || !entry["count"].is_number_unsigned())
+      return Error{Error::Code::config, "baseline entry " + print + " has no count"};
+    out[print] = entry["count"].get<std::uint64_t>();
+  }
+  return out;
+}
+
+std::string write_baseline(const std::vector<const LintResult*>& results) {
+  struct Entry {
+    std::string rule, entity;
+    std::uint64_t count = 0;
+  };
+  std::map<std::string, Entry> entries;
+  for (const LintResult* r : results)
+    for (std::size_t i = 0; i < r->diagnostics.size(); ++i) {
+      const Diagnostic& d = r->diagnostics[i];
+      Entry& e = entries[r->fingerprints[i]];
+      e.rule = d.rule;
+      e.entity = d.keyword.empty() ? std::string() : d.keyword + "/" + std::to_string(d.id);
+      ++e.count;
+    }
+  nlohmann::ordered_json json;
+  json["schema"] = "deck.baseline/1";
+  json["findings"] = nlohmann::ordered_json::object();
+  for (const auto& [print, e] : entries)
+    json["findings"][print] = {{"rule", e.rule}, {"entity", e.entity}, {"count", e.count}};
+  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+namespace {
+
+bool match_here(std::string_view p, std::string_view s) {
+  while (!p.empty()) {
+    if (p[0] == '*') {
+      const bool deep = p.starts_with("**");
+      p.remove_prefix(deep ? 2 : 1);
+      if (deep && p.starts_with('/') && match_here(p.substr(1), s)) return true;
+      for (std::size_t i = 0; i <= s.size(); ++i) {
+        if (match_here(p, s.substr(i))) return true;
+        if (i < s.size() && !deep && s[i] == '/') return false;
+      }
+      return false;
+    }
+    if (s.empty() || (p[0] == '?' ? s[0] == '/' : p[0] != s[0])) return false;
+    p.remove_prefix(1);
+    s.remove_prefix(1);
+  }
+  return s.empty();
+}
+
+}  // namespace
+
+bool glob_match(std::string_view pattern, std::string_view path) {
+  while (path.starts_with("./")) path.remove_prefix(2);
+  if (match_here(pattern, path)) return true;
+  if (pattern.find('/') == std::string_view::npos) {
+    const auto slash = path.rfind('/');
+    return slash != std::string_view::npos && match_here(pattern, path.substr(slash + 1));
+  }
+  // A relative pattern with folders matches the end of the path.
+  for (std::size_t at = path.find('/'); at != std::string_view::npos; at = path.find('/', at + 1))
+    if (match_here(pattern, path.substr(at + 1))) return true;
+  return false;
+}
+
+}  // namespace deck

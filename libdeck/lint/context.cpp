@@ -1,0 +1,223 @@
+#include "lint/context.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <type_traits>
+
+namespace deck {
+namespace {
+
+template <class T>
+FieldView view_of(const Deck& deck, std::string_view name, const Effective<T>& e) {
+  FieldView v;
+  v.name = name;
+  if constexpr (std::is_arithmetic_v<T>) {
+    v.value = static_cast<double>(e.value);
+    v.input = static_cast<double>(e.input);
+  } else {
+    // IBC: the three digits as one number.
+    for (const char c : e.value) v.value = v.value * 10 + (c == '1' ? 1 : 0);
+    for (const char c : e.input) v.input = v.input * 10 + (c == '1' ? 1 : 0);
+  }
+  v.has_input = e.has_input;
+  v.origin = e.origin;
+  v.span = e.span;
+  if (e.span.valid()) v.text = detail::trim(deck.sources.text(e.span));
+  return v;
+}
+
+/// Fields of a typed interface, with the cell of the card as span where the block has one.
+template <class Inter>
+void add_fields(const Deck& deck, const Inter& inter, ContactCard& card) {
+  inter.for_each([&](std::string_view name, const auto& effective) {
+    FieldView v = view_of(deck, name, effective);
+    if (const Cell* cell = card.decoded.find(name)) {
+      v.span = cell->span;
+      v.text = cell->text;
+      v.field = cell->field;
+    } else if (v.origin != Origin::default_block) {
+      v.span = {};
+      v.text = {};
+    }
+    card.fields.push_back(v);
+  });
+}
+
+/// Cells of the card that the typed struct has no member for; all cells if there is none.
+void add_plain_fields(ContactCard& card) {
+  for (const DecodedCard& line : card.decoded.cards)
+    for (const Cell& cell : line.cells) {
+      if (card.find(cell.field->name) != nullptr) continue;
+      FieldView v;
+      v.name = cell.field->name;
+      v.value = v.input =
+          cell.field->type == FieldType::real ? cell.real : static_cast<double>(cell.integer);
+      v.has_input = !cell.blank();
+      v.origin = Origin::card;
+      v.span = cell.span;
+      v.text = cell.text;
+      v.field = cell.field;
+      card.fields.push_back(v);
+    }
+}
+
+void bind(const Deck& deck, const InterBase& inter, ContactCard& card) {
+  card.inter = &inter;
+  card.type = inter.type;
+  switch (inter.type) {
+    case 7:
+      add_fields(deck, static_cast<const InterType7&>(inter), card);
+      break;
+    case 10:
+      add_fields(deck, static_cast<const InterType10&>(inter), card);
+      break;
+    case 11:
+      add_fields(deck, static_cast<const InterType11&>(inter), card);
+      break;
+    case 19:
+      add_fields(deck, static_cast<const InterType19&>(inter), card);
+      break;
+    default:
+      break;
+  }
+  add_plain_fields(card);
+}
+
+}  // namespace
+
+const FieldView* ContactCard::find(std::string_view name) const {
+  for (const FieldView& f : fields)
+    if (f.name == name) return &f;
+  return nullptr;
+}
+
+double ContactCard::value(std::string_view name) const {
+  const FieldView* f = find(name);
+  return f ? f->value : 0;
+}
+
+std::int64_t ContactCard::flag(std::string_view name) const {
+  const auto v = static_cast<std::int64_t>(value(name));
+  return v == 1000 ? 0 : v;
+}
+
+double ContactCard::input(std::string_view name) const {
+  const FieldView* f = find(name);
+  return f && f->has_input ? f->input : 0;
+}
+
+Span ContactCard::span(std::string_view name) const {
+  const FieldView* f = find(name);
+  return f && f->span.valid() ? f->span : block->header_span;
+}
+
+std::string ContactCard::show(std::string_view name) const {
+  const FieldView* f = find(name);
+  if (f == nullptr) return std::string(name);
+  std::string out = std::string(name) + " = ";
+  if (f->origin == Origin::card && f->has_input && !f->text.empty())
+    return out + std::string(f->text);
+  out += detail::number_text(f->value);
+  if (f->origin == Origin::default_block) out += " (from /DEFAULT/INTER)";
+  if (f->origin == Origin::built_in || f->origin == Origin::derived) out += " (default)";
+  return out;
+}
+
+std::int64_t LintContext::resolved(const Block& block, std::string_view kind,
+                                   std::int64_t id) const {
+  return id > 0 ? id + deck.offset_of(block, kind) : id;
+}
+
+namespace detail {
+
+std::string number_text(double value) {
+  if (value == std::floor(value) && std::fabs(value) < 1e15)
+    return std::to_string(static_cast<std::int64_t>(value));
+  return fmt::format("{:.6g}", value);
+}
+
+namespace {
+
+/// Whole numbers of a block that nobody decodes, as written and with the submodel's offset.
+void collect_numbers(const Deck& deck, const Block& block, std::unordered_set<std::int64_t>& out) {
+  const std::int64_t offset = deck.offset_of(block, "");
+  LineCursor cursor(deck.sources, block);
+  for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
+    std::string_view rest = line.text;
+    while (!rest.empty()) {
+      const auto begin = std::min(rest.find_first_of("0123456789"), rest.size());
+      rest.remove_prefix(begin);
+      std::int64_t value = 0;
+      std::size_t digits = 0;
+      while (digits < rest.size() && digits < 18 && rest[digits] >= '0' && rest[digits] <= '9')
+        value = value * 10 + (rest[digits++] - '0');
+      rest.remove_prefix(std::max<std::size_t>(digits, rest.empty() ? 0 : 1));
+      out.insert(value);
+      if (offset != 0) out.insert(value + offset);
+    }
+  }
+}
+
+void collect_references(LintContext& context, const DecodedBlock& block) {
+  for (const DecodedCard& card : block.cards)
+    for (const Cell& cell : card.cells) {
+      if (cell.field->type != FieldType::id || cell.integer == 0) continue;
+      const std::int64_t id = std::abs(cell.integer);
+      context.referenced[cell.field->ref].insert(
+          context.resolved(*block.block, cell.field->ref, id));
+    }
+}
+
+}  // namespace
+
+LintContext build_context(const LintInput& input, Diagnostics& sink) {
+  LintContext context{input.deck,
+                      input.schemas,
+                      input.model,
+                      input.interfaces,
+                      input.selections,
+                      {},
+                      {},
+                      {},
+                      {},
+                      {},
+                      {}};
+  std::map<const Block*, const InterBase*> typed;
+  if (input.interfaces != nullptr)
+    for (const InterBase* inter : input.interfaces->ordered) typed[inter->block] = inter;
+  for (const Block& block : input.deck.blocks) {
+    if (block.schema != nullptr && !block.schema->kind.empty() && block.schema->has_id)
+      context.defined[block.schema->kind].emplace(
+          context.resolved(block, block.schema->kind, block.id.value), &block);
+    if (block.opaque || (block.schema != nullptr && block.schema->bulk)) continue;
+    if (block.schema == nullptr || block.schema->opaque_tail || block.schema->kind == "set")
+      collect_numbers(input.deck, block, context.loose_numbers);
+    if (block.schema == nullptr) continue;
+    const std::string_view keyword = block.schema->keyword;
+    DecodedBlock decoded = decode(input.deck, block, &sink);
+    collect_references(context, decoded);
+    if (keyword.starts_with("/INTER/")) {
+      ContactCard card;
+      card.block = &block;
+      card.decoded = std::move(decoded);
+      context.contacts.push_back(std::move(card));
+      ContactCard& kept = context.contacts.back();
+      if (const auto it = typed.find(&block); it != typed.end())
+        bind(input.deck, *it->second, kept);
+      else
+        add_plain_fields(kept);
+    } else if (keyword.starts_with("/DEFAULT/INTER/")) {
+      context.defaults.push_back(std::move(decoded));
+    } else if (keyword == "/FRICTION") {
+      context.frictions.push_back(std::move(decoded));
+    }
+  }
+  return context;
+}
+
+}  // namespace detail
+}  // namespace deck

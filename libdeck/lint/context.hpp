@@ -1,0 +1,20 @@
+// Builds what the rules look at: contact, default and friction blocks decoded once, effective
+// values beside the cells they came from. Private to the lint stage.
+#pragma once
+#include "deck/lint/lint.hpp"
+
+namespace deck::detail {
+
+/// Decodes every block that has a schema and is not read by the fast path; findings go to `sink`.
+LintContext build_context(const LintInput& input, Diagnostics& sink);
+
+/// Formats a value the way people write it: whole numbers without a point, else up to six digits.
+std::string number_text(double value);
+
+inline std::string_view trim(std::string_view s) {
+  while (!s.empty() && static_cast<unsigned char>(s.front()) <= ' ') s.remove_prefix(1);
+  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
+  return s;
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,230 @@
+#include "deck/lint/example.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace deck {
+namespace {
+
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+std::vector<std::string_view> words(std::string_view line) {
+  std::vector<std::string_view> out;
+  for (std::size_t at = 0; at < line.size();) {
+    at = std::min(line.find_first_not_of(' ', at), line.size());
+    const auto end = std::min(line.find(' ', at), line.size());
+    if (end > at) out.push_back(line.substr(at, end - at));
+    at = end;
+  }
+  return out;
+}
+
+const std::string* value_of(const Values& values, std::string_view name) {
+  for (const auto& [key, value] : values)
+    if (key == name) return &value;
+  return nullptr;
+}
+
+std::int64_t integer_of(const Values& values, std::string_view name) {
+  const std::string* text = value_of(values, name);
+  std::int64_t v = 0;
+  if (text != nullptr) std::from_chars(text->data(), text->data() + text->size(), v);
+  return v;
+}
+
+void put(std::string& line, int last, std::string_view text) {
+  const auto begin = static_cast<std::size_t>(std::max<std::int64_t>(
+      0, static_cast<std::int64_t>(last) - static_cast<std::int64_t>(text.size())));
+  if (line.size() < begin) line.resize(begin, ' ');
+  line.resize(begin);
+  line += text;
+}
+
+/// Two plates of shells with everything an interface needs; four nodes apart by a gap.
+constexpr std::string_view model_text = R"(/MAT/ELAST/1
+steel
+             7.8e-06
+               210.0                 0.3
+/PROP/SHELL/1
+sheet
+        24         0         0         0
+                 0.0                 0.0                 0.0                 0.0                 0.0
+         5                           1.0                 0.0                   0         0
+/PART/1
+lower
+         1         1         0
+/PART/2
+upper
+         1         1         0
+/NODE
+         1                 0.0                 0.0                 0.0
+         2                10.0                 0.0                 0.0
+         3                10.0                10.0                 0.0
+         4                 0.0                10.0                 0.0
+        11                 0.0                 0.0                 3.0
+        12                10.0                 0.0                 3.0
+        13                10.0                10.0                 3.0
+        14                 0.0                10.0                 3.0
+/SHELL/1
+         1         1         2         3         4
+/SHELL/2
+         2        11        12        13        14
+/SURF/PART/1
+lower
+         1
+/SURF/PART/2
+upper
+         2
+/GRNOD/PART/2
+upper
+         2
+/LINE/SURF/1
+lower
+         1
+/LINE/SURF/2
+upper
+         2
+/FUNCT/1
+ramp
+                 0.0                 0.0
+                 1.0                 1.0
+/SENSOR/TIME/1
+late
+                 5.0
+)";
+
+std::string render_at_line(std::string_view line, int version, const SchemaSet& schemas) {
+  const auto parts = words(line.substr(1));
+  const std::string_view header = parts.empty() ? std::string_view() : parts[0];
+  Values values;
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const auto equal = parts[i].find('=');
+    if (equal == std::string_view::npos) continue;
+    values.emplace_back(parts[i].substr(0, equal), parts[i].substr(equal + 1));
+  }
+  const Schema* schema = schemas.match(header);
+  if (schema == nullptr) return "# no schema for " + std::string(header) + "\n";
+  const auto fallback = [&](const char* name, const char* value) {
+    if (schema->find_field(name) != nullptr && value_of(values, name) == nullptr)
+      values.emplace_back(name, value);
+  };
+  if (schema->kind == "inter") {
+    fallback("grnd_IDs", "2");
+    fallback("surf_IDs", "2");
+    fallback("surf_IDm", "1");
+    fallback("line_IDs", "2");
+    fallback("line_IDm", "1");
+    fallback("Stfac", "1.0");
+  }
+  return render_card(*schema, header, version, values);
+}
+
+struct Parsed {
+  int version = 2022;
+  bool bare = false, whole = false;
+  std::vector<std::pair<std::string, std::string>> texts;  // file name ("" = main), content
+  std::vector<std::pair<std::string, int>> limits;
+};
+
+Parsed parse(std::string_view example, const SchemaSet& schemas) {
+  Parsed out;
+  out.texts.emplace_back();
+  while (!example.empty()) {
+    const auto nl = std::min(example.find('\n'), example.size());
+    const std::string_view line = example.substr(0, nl);
+    const bool ended = nl < example.size();
+    example.remove_prefix(std::min(nl + 1, example.size()));
+    const auto parts = words(line);
+    const std::string_view first = parts.empty() ? std::string_view() : parts[0];
+    const auto number = [&](std::size_t i) {
+      int v = 0;
+      if (i < parts.size()) std::from_chars(parts[i].data(), parts[i].data() + parts[i].size(), v);
+      return v;
+    };
+    if (first == "@version")
+      out.version = number(1);
+    else if (first == "@bare")
+      out.bare = true;
+    else if (first == "@deck")
+      out.whole = true;
+    else if (first == "@file" && parts.size() > 1)
+      out.texts.emplace_back(parts[1], "");
+    else if (first == "@limit" && parts.size() > 2)
+      out.limits.emplace_back(parts[1], number(2));
+    else if (first.starts_with("@/"))
+      out.texts.back().second += render_at_line(line, out.version, schemas);
+    else
+      out.texts.back().second += std::string(line) + (ended ? "\n" : "");
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string render_card(const Schema& schema, std::string_view header, int version,
+                        const Values& values) {
+  std::string out = std::string(header) + "\n";
+  if (schema.has_title && version >= 51) out += "example\n";
+  std::vector<std::string> used;
+  const auto holds = [&](const Condition& c) {
+    return c.holds(c.field.empty() ? 0 : integer_of(values, c.field));
+  };
+  for (const CardSchema& card : schema.cards) {
+    if (!card.in_version(version)) continue;
+    if (!std::all_of(card.when.begin(), card.when.end(), holds)) continue;
+    std::string head = "#", line;
+    bool any = false;
+    for (const Field& f : card.fields) {
+      if (!f.in_version(version)) continue;
+      const auto width = static_cast<std::size_t>(f.last - f.first + 1);
+      if (width > 3 && static_cast<std::size_t>(f.last) > head.size() + 1) {
+        const std::string name = f.name.substr(0, std::max<std::size_t>(width - 1, 3));
+        put(head, f.last, name);
+      }
+      if (const std::string* value = value_of(values, f.name)) {
+        put(line, f.last, *value);
+        used.push_back(f.name);
+        any = true;
+      }
+    }
+    if ((card.repeat != Repeat::once || card.optional) && !any) continue;
+    out += head + "\n" + line + "\n";
+  }
+  for (const auto& [name, value] : values)
+    if (std::find(used.begin(), used.end(), name) == used.end())
+      out += "# unused: " + name + "=" + value + "\n";
+  return out;
+}
+
+ExampleDeck example_deck(std::string_view example, const SchemaSet& schemas) {
+  const Parsed p = parse(example, schemas);
+  ExampleDeck out;
+  out.limits = p.limits;
+  for (std::size_t i = 1; i < p.texts.size(); ++i) out.files.push_back(p.texts[i]);
+  if (p.whole) {
+    out.main = p.texts[0].second;
+    return out;
+  }
+  std::string version = std::to_string(p.version);
+  version.insert(0, 10 - std::min<std::size_t>(version.size(), 10), ' ');
+  const std::string units = "                  kg                  mm                  ms\n";
+  out.main = "#RADIOSS STARTER\n/BEGIN\nexample\n" + version + "         0\n" + units + units;
+  if (!p.bare) out.main += model_text;
+  out.main += p.texts[0].second;
+  if (!out.main.ends_with('\n')) out.main += '\n';
+  out.main += "/END\n";
+  return out;
+}
+
+std::string example_text(std::string_view example, const SchemaSet& schemas) {
+  const Parsed p = parse(example, schemas);
+  std::string out;
+  for (const auto& [name, text] : p.texts) {
+    if (!name.empty()) out += "--- " + name + "\n";
+    out += text;
+    if (!out.empty() && out.back() != '\n') out += '\n';
+  }
+  return out;
+}
+
+}  // namespace deck

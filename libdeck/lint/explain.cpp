@@ -1,0 +1,202 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "deck/lint/example.hpp"
+#include "deck/lint/rule.hpp"
+#include "lint/context.hpp"
+
+namespace deck {
+namespace {
+
+constexpr std::size_t page_width = 92;
+
+/// Text broken at blanks, every line behind `indent` blanks.
+std::string wrapped(std::string_view text, std::size_t indent) {
+  std::string out, line;
+  const std::string margin(indent, ' ');
+  const auto flush = [&] {
+    if (!line.empty()) out += margin + line + "\n";
+    line.clear();
+  };
+  while (!text.empty()) {
+    const auto end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    if (!line.empty() && indent + line.size() + 1 + word.size() > page_width) flush();
+    if (!word.empty()) line += (line.empty() ? "" : " ") + std::string(word);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  flush();
+  return out;
+}
+
+std::string section(std::string_view name, std::string_view text) {
+  return text.empty() ? std::string() : std::string(name) + "\n" + wrapped(text, 2) + "\n";
+}
+
+std::string indented(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const auto nl = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, nl);
+    out += line.empty() ? "  |\n" : "  | " + std::string(line) + "\n";
+    text.remove_prefix(std::min(nl + 1, text.size()));
+  }
+  return out;
+}
+
+const char* severity_name(Severity s) {
+  return s == Severity::error ? "error" : s == Severity::warning ? "warning" : "info";
+}
+
+std::string versions(int from, int until) {
+  if (from == 0 && until == 9999) return "all versions";
+  if (until == 9999) return "from version " + std::to_string(from);
+  if (from == 0) return "up to version " + std::to_string(until);
+  return "versions " + std::to_string(from) + " to " + std::to_string(until);
+}
+
+/// Wider of the two spans says when the cell exists at all.
+std::string field_versions(const CardSchema& card, const Field& f) {
+  return versions(std::max(card.from, f.from), std::min(card.until, f.until));
+}
+
+std::string type_name(const Field& f) {
+  switch (f.type) {
+    case FieldType::integer:
+      return "integer";
+    case FieldType::real:
+      return "real";
+    case FieldType::text:
+      return "text";
+    case FieldType::flag:
+      return "one column";
+    case FieldType::id:
+      return "id of " + f.ref;
+  }
+  return "";
+}
+
+std::string dimension_text(const Dimension& d) {
+  std::string out;
+  const auto add = [&](const char* symbol, int power) {
+    if (power == 0) return;
+    out += (out.empty() ? "" : " ") + std::string(symbol);
+    if (power != 1) out += "^" + std::to_string(power);
+  };
+  add("mass", d.mass);
+  add("length", d.length);
+  add("time", d.time);
+  add("temperature", d.temperature);
+  return out.empty() ? "none" : out;
+}
+
+std::string conditions(const std::vector<Condition>& when) {
+  std::string out;
+  for (const Condition& c : when) {
+    std::string one = c.field;
+    if (!c.in.empty()) {
+      one += c.in.size() == 1 ? " = " : " in ";
+      for (std::size_t i = 0; i < c.in.size(); ++i)
+        one += (i > 0 ? ", " : "") + std::to_string(c.in[i]);
+    }
+    if (c.min) one += " >= " + std::to_string(*c.min);
+    if (c.max) one += " <= " + std::to_string(*c.max);
+    out += (out.empty() ? "" : " and ") + one;
+  }
+  return out;
+}
+
+std::string range_text(const Field& f) {
+  if (!f.values.empty()) {
+    std::string out;
+    for (const std::int64_t v : f.values) out += (out.empty() ? "" : ", ") + std::to_string(v);
+    return out;
+  }
+  std::string out;
+  if (f.min) out += std::string(f.min_open ? "> " : ">= ") + detail::number_text(*f.min);
+  if (f.max)
+    out += (out.empty() ? "" : ", ") + std::string(f.max_open ? "< " : "<= ") +
+           detail::number_text(*f.max);
+  return out;
+}
+
+std::string field_page(const Schema& schema, const CardSchema& card, const Field& f) {
+  std::string out =
+      fmt::format("{} of {}: {}\n", f.name, schema.keyword, f.doc.empty() ? card.name : f.doc);
+  const auto row = [&](std::string_view name, const std::string& text) {
+    if (!text.empty()) out += fmt::format("  {:<12}{}\n", name, text);
+  };
+  row("columns", fmt::format("{}-{} of the line '{}', {}", f.first, f.last, card.name,
+                             field_versions(card, f)));
+  row("present if", conditions(card.when));
+  row("type", type_name(f));
+  row("legal", range_text(f));
+  row("default", f.default_text);
+  if (f.type == FieldType::real) {
+    std::string dimension = f.dimension_known ? dimension_text(f.dimension) : "not known";
+    for (const auto& [when, d] : f.dimension_when)
+      dimension += "; " + dimension_text(d) + " if " + conditions(when);
+    row("dimension", dimension);
+  }
+  if (f.ignored) row("effect", "none: the reference solver does not use it");
+  row("manual", f.from_manual);
+  return out;
+}
+
+}  // namespace
+
+std::string explain_rule(const Rule& rule, const SchemaSet& schemas) {
+  std::string out = fmt::format("{}: {}\n{}, {}", rule.id, rule.title, severity_name(rule.severity),
+                                family_of(rule.id));
+  if (rule.fixable != Fixable::no)
+    out += rule.fixable == Fixable::safe ? ", fixed by --fix" : ", fixed by --unsafe-fixes";
+  out += "\n\n" + section("What is wrong", rule.problem) + section("Why it matters", rule.why);
+  std::string solver(rule.solver);
+  if (rule.message != 0)
+    solver += fmt::format(" ({} {})", severity_name(rule.message_severity), rule.message);
+  out += section("What the reference solver does", solver) + section("How to fix", rule.fix);
+  if (!rule.bad.empty())
+    out += "Fires on\n" + indented(example_text(rule.bad, schemas)) + "\nStays silent on\n" +
+           indented(example_text(rule.good, schemas)) + "\n";
+  out += section("When to ignore", rule.ignore);
+  out += "Suppress it for one block with a comment in or above the block:\n";
+  out += fmt::format("  # decklint: ignore[{}] reason=...\n", rule.id);
+  return out;
+}
+
+std::string explain_keyword(const Schema& schema, std::string_view field) {
+  if (!field.empty()) {
+    std::string out;
+    for (const CardSchema& card : schema.cards)
+      for (const Field& f : card.fields)
+        if (f.name == field) out += (out.empty() ? "" : "\n") + field_page(schema, card, f);
+    return out;
+  }
+  std::string out = schema.keyword;
+  for (const std::string& alias : schema.aliases) out += ", " + alias;
+  out += "\n" + wrapped(schema.doc, 2);
+  if (schema.from > 0) out += fmt::format("  from version {}\n", schema.from);
+  out += std::string("  header: ") + schema.keyword + (schema.has_id ? "/id" : "") +
+         (schema.has_id && schema.has_unit ? "/unit_ID" : "") +
+         (schema.has_title ? ", then a title line" : ", no title line") + "\n";
+  for (const CardSchema& card : schema.cards) {
+    out += fmt::format("\n{} ({}{}{})\n", card.name, versions(card.from, card.until),
+                       card.when.empty() ? "" : "; only if " + conditions(card.when),
+                       card.repeat == Repeat::once ? "" : "; repeats");
+    for (const Field& f : card.fields) {
+      out += fmt::format("  {:>3}-{:<3} {:<15} {}", f.first, f.last, f.name, f.doc);
+      if (const std::string range = range_text(f); !range.empty()) out += " [" + range + "]";
+      if (!f.default_text.empty()) out += "; 0 or blank: " + f.default_text;
+      if (f.from != 0 || f.until != 9999) out += " (" + versions(f.from, f.until) + ")";
+      if (f.ignored) out += " (not used)";
+      out += "\n";
+      if (!f.from_manual.empty()) out += wrapped("Manual: " + f.from_manual, 12);
+    }
+  }
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,310 @@
+#include "deck/lint/lint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "deck/lint/config.hpp"
+#include "lint/attach_fixes.hpp"
+#include "lint/context.hpp"
+#include "lint/suppress.hpp"
+
+namespace deck {
+namespace {
+
+bool any_selects(const std::vector<std::string>& selectors, std::string_view rule) {
+  return std::any_of(selectors.begin(), selectors.end(),
+                     [&](const std::string& s) { return selects(s, rule); });
+}
+
+bool enabled(const LintOptions& options, std::string_view rule) {
+  if (!options.select.empty() && !any_selects(options.select, rule)) return false;
+  return !any_selects(options.ignore, rule);
+}
+
+bool ignored_in_file(const Deck& deck, const LintOptions& options, const Diagnostic& d) {
+  if (!d.span.valid()) return false;
+  for (const auto& [glob, rules] : options.per_file_ignores)
+    if (any_selects(rules, d.rule) && glob_match(glob, deck.sources[d.span.file].path()))
+      return true;
+  return false;
+}
+
+/// The severity override with the longest matching selector.
+void override_severity(const LintOptions& options, Diagnostic& d) {
+  std::size_t best = 0;
+  for (const auto& [selector, severity] : options.severity)
+    if (selector.size() > best && selects(selector, d.rule)) {
+      best = selector.size();
+      d.severity = severity;
+    }
+}
+
+/// The registry's id of a finding. The stage that types interfaces numbers its findings about
+/// default cards like the groups' findings; they are told apart by the keyword.
+std::string_view registered_id(const Diagnostic& d) {
+  if (d.keyword.starts_with("/DEFAULT/INTER/")) {
+    if (d.rule == "DK150") return "DK504";
+    if (d.rule == "DK151") return "DK503";
+    if (d.rule == "DK153") return "DK508";
+  }
+  if (d.keyword.starts_with("/INTER/") && d.rule == "DK152") return "DK299";
+  return d.rule;
+}
+
+/// Where two findings stand at one place and one says more, the other is left out.
+constexpr std::pair<std::string_view, std::string_view> says_more[] = {
+    {"DK047", "DK027"},
+    {"DK047", "DK028"},
+    {"DK240", "DK029"},
+    {"DK241", "DK030"},
+};
+
+/// Everything that was found, by whoever found it, each finding once.
+struct Pool {
+  std::vector<Diagnostic> kept;
+  std::map<std::string_view, std::uint64_t> counts, dropped;
+
+  void take(const Diagnostics& from, const LintOptions& options) {
+    std::map<std::string_view, std::uint64_t> seen;
+    for (const Diagnostic& d : from.all()) {
+      ++seen[d.rule];
+      const std::string_view id = registered_id(d);
+      if (!enabled(options, id)) continue;
+      kept.push_back(d);
+      kept.back().rule = id;
+    }
+    for (const auto& [rule, count] : from.counts())
+      if (enabled(options, rule) && count > seen[rule]) dropped[rule] += count - seen[rule];
+  }
+
+  void sort_and_unite() {
+    const auto key = [](const Diagnostic& d) {
+      return std::tie(d.span.file, d.span.offset, d.rule, d.span.length, d.message);
+    };
+    // Span::no_file is the largest file number; findings without a place come first.
+    std::stable_sort(kept.begin(), kept.end(), [&](const Diagnostic& a, const Diagnostic& b) {
+      if (a.span.valid() != b.span.valid()) return !a.span.valid();
+      return key(a) < key(b);
+    });
+    kept.erase(
+        std::unique(kept.begin(), kept.end(),
+                    [&](const Diagnostic& a, const Diagnostic& b) { return key(a) == key(b); }),
+        kept.end());
+    drop_lesser();
+  }
+
+  /// `kept` is sorted by place.
+  void drop_lesser() {
+    std::set<std::tuple<std::uint32_t, std::uint64_t, std::string_view>> lesser;
+    for (const Diagnostic& d : kept)
+      for (const auto& [more, less] : says_more)
+        if (d.rule == more) lesser.emplace(d.span.file, d.span.offset, less);
+    if (lesser.empty()) return;
+    std::erase_if(kept, [&](const Diagnostic& d) {
+      return lesser.count({d.span.file, d.span.offset, d.rule}) > 0;
+    });
+  }
+};
+
+void report_unused(const std::vector<detail::Suppression>& suppressions, const LintOptions& options,
+                   Reporter& reporter) {
+  const Rule& rule = *find_rule("DK091");
+  for (const detail::Suppression& s : suppressions) {
+    if (s.used) continue;
+    // A rule that is switched off cannot fire; its suppression is then not known to be useless.
+    const bool active = std::any_of(s.rules.begin(), s.rules.end(), [&](const std::string& r) {
+      return std::any_of(all_rules().begin(), all_rules().end(), [&](const Rule& known) {
+        return selects(r, known.id) && enabled(options, known.id);
+      });
+    });
+    if (!active) continue;
+    std::string list;
+    for (const std::string& r : s.rules) list += (list.empty() ? "" : ", ") + r;
+    reporter.report(rule, s.span, "nothing here violates " + list);
+  }
+}
+
+std::string joined(const std::map<std::string, std::uint64_t>& counts) {
+  std::string out;
+  for (const auto& [name, count] : counts)
+    out += (out.empty() ? "" : ", ") + name +
+           (count > 1 ? " (" + std::to_string(count) + ")" : std::string());
+  return out;
+}
+
+std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& options,
+                                    const std::vector<Diagnostic>& found) {
+  std::vector<NotChecked> out;
+  std::map<std::string, std::uint64_t> unknown, opaque, untyped;
+  for (const Block& b : input.deck.blocks) {
+    if (b.opaque)
+      ++opaque[std::string(b.keyword)];
+    else if (b.schema == nullptr && !b.header.starts_with("//"))
+      ++unknown[std::string(b.keyword)];
+    if (b.header.starts_with("/INTER/") && (b.schema == nullptr || b.schema->cards.empty()))
+      ++untyped[std::string(b.keyword)];
+  }
+  if (!unknown.empty())
+    out.push_back({"blocks of " + std::to_string(unknown.size()) + " keywords: " + joined(unknown),
+                   "no schema describes their cards; --schemas DIR adds some"});
+  if (!untyped.empty())
+    out.push_back({"interfaces " + joined(untyped), "only types 7, 10, 11 and 19 have rules"});
+  if (!opaque.empty())
+    out.push_back({"encrypted blocks: " + joined(opaque), "their cards cannot be read"});
+  std::set<std::string> missing;
+  for (const Diagnostic& d : found)
+    if (d.rule == "DK004" || d.rule == "DK005" || d.rule == "DK006")
+      missing.insert(std::string(detail::trim(input.deck.sources.text(d.span))));
+  for (const std::string& m : missing)
+    out.push_back({"the files behind '" + m + "'", "they could not be read"});
+  if (input.model == nullptr || input.selections == nullptr)
+    out.push_back({"references between entities", "the model was not built"});
+  if (input.interfaces == nullptr)
+    out.push_back({"effective values of the interfaces", "they were not formed"});
+  if (input.extra_checks.empty())
+    out.push_back({"geometry: penetrations, gaps against mesh size, contact time step",
+                   "needs the contact model; run deck gaps"});
+  out.push_back({"the Engine file (*_0001.rad)", "only the Starter deck is read"});
+  const auto off = std::count_if(all_rules().begin(), all_rules().end(),
+                                 [&](const Rule& r) { return !enabled(options, r.id); });
+  if (off > 0)
+    out.push_back({std::to_string(off) + " of " + std::to_string(all_rules().size()) + " rules",
+                   "switched off by --select, --ignore or the configuration"});
+  return out;
+}
+
+std::uint64_t fnv1a(std::uint64_t hash, std::string_view text) {
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3ULL;
+  }
+  return hash;
+}
+
+}  // namespace
+
+Diagnostic* Reporter::report(const Rule& rule, Span span, std::string message) {
+  if (!sink_->wants(rule.id)) return nullptr;
+  Diagnostic d;
+  d.rule = rule.id;
+  d.severity = rule.severity;
+  d.span = span;
+  d.message = std::move(message);
+  d.reference_behaviour = rule.solver;
+  d.help = rule.fix;
+  if (rule.message != 0) d.reference = ReferenceMessage{rule.message, rule.message_severity};
+  return &sink_->add(std::move(d));
+}
+
+Diagnostic* Reporter::report(const Rule& rule, const Block& block, Span span, std::string message) {
+  Diagnostic* d = report(rule, span, std::move(message));
+  if (d != nullptr) {
+    d->keyword =
+        std::string(block.schema ? std::string_view(block.schema->keyword) : block.keyword);
+    d->id = block.id.value;
+  }
+  return d;
+}
+
+std::string fingerprint(const Deck& deck, const Diagnostic& d) {
+  std::uint64_t hash = fnv1a(0xcbf29ce484222325ULL, d.rule);
+  hash = fnv1a(hash, "|" + d.keyword + "|" + std::to_string(d.id) + "|");
+  if (d.span.valid()) {
+    const std::string_view line = deck.sources[d.span.file].line_at(d.span.offset);
+    bool blank = true;  // leading blanks count for nothing
+    for (const char c : line) {
+      const bool space = static_cast<unsigned char>(c) <= ' ';
+      if (!space) hash = fnv1a(blank ? fnv1a(hash, " ") : hash, std::string_view(&c, 1));
+      blank = space;
+    }
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+LintResult run_lint(const LintInput& input, const LintOptions& options) {
+  const Deck& deck = input.deck;
+  Pool pool;
+  pool.take(deck.diagnostics, options);
+  for (const Diagnostics* d : input.earlier)
+    if (d != nullptr) pool.take(*d, options);
+
+  Diagnostics own(options.diagnostics_per_rule);
+  Reporter reporter(own);
+  const LintContext context = detail::build_context(input, own);
+  for (const Rule& rule : all_rules())
+    if (rule.check != nullptr && enabled(options, rule.id)) rule.check(context, rule, reporter);
+  for (const auto& check : input.extra_checks) check(context, reporter);
+  // Groups that no contact uses have findings too.
+  if (input.selections != nullptr) input.selections->resolve_all();
+  if (input.selections != nullptr) pool.take(input.selections->diagnostics(), options);
+
+  const detail::BlockIndex index(deck);
+  std::vector<detail::Suppression> suppressions = detail::find_suppressions(deck, index, reporter);
+  pool.take(own, options);
+  pool.sort_and_unite();
+
+  LintResult result;
+  result.not_checked = not_checked(input, options, pool.kept);
+  const auto hidden = [&](const Diagnostic& d) {
+    if (ignored_in_file(deck, options, d)) return true;
+    if (detail::Suppression* s = detail::covering(suppressions, index, d)) {
+      s->used = true;
+      ++result.suppressed;
+      return true;
+    }
+    return false;
+  };
+  std::erase_if(pool.kept, hidden);
+  Diagnostics late(options.diagnostics_per_rule);
+  Reporter late_reporter(late);
+  report_unused(suppressions, options, late_reporter);
+  pool.take(late, options);
+  pool.sort_and_unite();
+
+  std::map<std::string, std::uint64_t> known = options.baseline;
+  for (Diagnostic& d : pool.kept) {
+    std::string print = fingerprint(deck, d);
+    if (const auto it = known.find(print); it != known.end() && it->second > 0) {
+      --it->second;
+      ++result.baselined;
+      continue;
+    }
+    override_severity(options, d);
+    detail::attach_fix(context, d);
+    ++result.counts[d.rule];
+    ++(d.severity == Severity::error     ? result.errors
+       : d.severity == Severity::warning ? result.warnings
+                                         : result.infos);
+    result.diagnostics.push_back(std::move(d));
+    result.fingerprints.push_back(std::move(print));
+  }
+  // Findings beyond the bound were counted but not kept; they weigh as the rule's kept ones do.
+  for (const auto& [rule, count] : pool.dropped) {
+    const auto kept = std::find_if(result.diagnostics.begin(), result.diagnostics.end(),
+                                   [&r = rule](const Diagnostic& d) { return d.rule == r; });
+    if (kept == result.diagnostics.end()) continue;
+    result.dropped[rule] = count;
+    result.counts[rule] += count;
+    (kept->severity == Severity::error     ? result.errors
+     : kept->severity == Severity::warning ? result.warnings
+                                           : result.infos) += count;
+  }
+  return result;
+}
+
+LintResult lint_deck(const Deck& deck, const SchemaSet& schemas, const LintOptions& options,
+                     int threads) {
+  Diagnostics of_model, of_interfaces;
+  ModelOptions model_options;
+  model_options.threads = threads;
+  const Model model = build_model(deck, schemas, of_model, model_options);
+  const Interfaces interfaces = read_interfaces(deck, model, of_interfaces);
+  LintInput input{
+      deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces}, {}};
+  return run_lint(input, options);
+}
+
+}  // namespace deck

@@ -1,0 +1,25 @@
+// The tables all_rules() is made of, one per file. Private to the lint stage.
+#pragma once
+#include <vector>
+
+#include "deck/lint/rule.hpp"
+
+namespace deck::detail {
+
+void add_reading_rules(std::vector<Rule>& out);      // DK001-DK039: found by the keyword stage
+void add_header_rules(std::vector<Rule>& out);       // DK040-DK059: keywords, titles, versions
+void add_linter_rules(std::vector<Rule>& out);       // DK090-DK099: suppressions
+void add_model_rules(std::vector<Rule>& out);        // DK100-DK159: found by the model stage
+void add_reference_rules(std::vector<Rule>& out);    // DK160-DK189: what interfaces refer to
+void add_flag_rules(std::vector<Rule>& out);         // DK201-DK219: legal values of flags
+void add_value_rules(std::vector<Rule>& out);        // DK220-DK239: ranges of numbers
+void add_line_rules(std::vector<Rule>& out);         // DK240-DK249: optional lines
+void add_combination_rules(std::vector<Rule>& out);  // DK250-DK264: fields that contradict
+void add_ignored_rules(std::vector<Rule>& out);      // DK265-DK285: fields without effect
+void add_manual_rules(std::vector<Rule>& out);       // DK286-DK299: where manual and solver differ
+void add_geometry_rules(std::vector<Rule>& out);     // DK3xx, DK4xx: found by extra checks
+void add_default_rules(std::vector<Rule>& out);      // DK5xx: /DEFAULT/INTER
+void add_advice_rules(std::vector<Rule>& out);       // DK9xx: known traps
+void add_friction_pair_rules(std::vector<Rule>& out);  // DK183-DK188, part of the references
+
+}  // namespace deck::detail

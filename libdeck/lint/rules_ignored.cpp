@@ -1,0 +1,266 @@
+// Fields that have no effect, because the solver never reads them or because another flag of the
+// same card switches them off. A table: one entry per reason.
+#include <functional>
+
+#include "lint/check.hpp"
+#include "lint/rule_tables.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// Reports those of `fields` that the card gives although `cause` makes them useless.
+void ignored(const LintContext& c, const Rule& rule, Reporter& r, const ContactCard& card,
+             std::initializer_list<std::string_view> fields, std::string_view cause,
+             const std::string& reason, bool safe) {
+  for (const std::string_view field : fields) {
+    if (!card.given(field)) continue;
+    const FieldView* f = card.find(field);
+    if (f == nullptr || f->field == nullptr) continue;  // not on this card
+    Diagnostic* d = report_at(
+        r, rule, card, field,
+        fmt::format("{} of {} has no effect: {}", std::string(field) + " = " + std::string(f->text),
+                    name_of(card), reason));
+    if (!cause.empty()) note_field(d, card, cause);
+    fix_field(d, c, card, field, "", safe, "blank " + std::string(field));
+  }
+}
+
+void check_gap_scale(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 19}, [&](const ContactCard& card) {
+    if (card.flag("Igap") >= 2) return;
+    ignored(c, rule, r, card, {"Gapmax"}, "Igap", card.show("Igap") + " knows no upper bound",
+            false);
+    if (card.input("Fscalegap") != 1)
+      ignored(c, rule, r, card, {"Fscalegap"}, "Igap", card.show("Igap") + " scales no gap", false);
+  });
+}
+
+void check_mesh_size(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+    if (card.flag("Igap") != 3)
+      ignored(c, rule, r, card, {"%mesh_size"}, "Igap",
+              "only Igap 3 limits the gap by the mesh, here " + card.show("Igap"), false);
+  });
+}
+
+void check_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+    const auto istf = card.flag("Istf");
+    const bool used = card.type == 11 ? istf != 1 : istf > 1;
+    if (!used)
+      ignored(c, rule, r, card, {"Stmin", "Stmax"}, "Istf", card.show("Istf") + " is not bounded",
+              false);
+  });
+}
+
+void check_sensor_times(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+    if (card.given("sens_ID"))
+      ignored(c, rule, r, card, {"Tstart", "Tstop"}, "sens_ID", "the sensor decides", false);
+  });
+}
+
+void check_friction_source(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+    if (card.given("fric_ID"))
+      ignored(c, rule, r, card,
+              {"Fric", "VISF", "Ifric", "Ifiltr", "Xfreq", "C1", "C2", "C3", "C4", "C5", "C6"},
+              "fric_ID", "friction comes from /FRICTION", false);
+  });
+}
+
+void check_second_node(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 19}, [&](const ContactCard& card) {
+    if (card.flag("Icurv") == 1)
+      ignored(c, rule, r, card, {"node_ID2"}, "Icurv", "a sphere has one centre", false);
+  });
+}
+
+void check_visf(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+    if (card.given("fric_ID")) return;
+    if (card.flag("Iform") == 2)
+      ignored(c, rule, r, card, {"VISF"}, "Iform",
+              "the incremental formulation (Iform 2) has no viscosity", false);
+  });
+}
+
+void check_no_friction(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 19}, [&](const ContactCard& card) {
+    if (card.given("fric_ID") || card.given("Fric") || card.given("Ifric") || card.given("fct_IDF"))
+      return;
+    ignored(c, rule, r, card, {"Ifiltr", "Fheats", "Fheatm"}, "Fric", "there is no friction",
+            false);
+  });
+}
+
+/// Coefficients that a law does not have: Ifric 1 has C1-C5, 4 has C1 and C2.
+void check_coefficients(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 19}, [&](const ContactCard& card) {
+    if (card.given("fric_ID")) return;
+    if (card.input("Ifric") == 4)
+      ignored(c, rule, r, card, {"C3", "C4", "C5", "C6"}, "Ifric",
+              "the law Ifric 4 has C1 and C2 only", false);
+  });
+}
+
+void check_never_read(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const ContactCard& card : c.contacts) {
+    if (rule.id == "DK275")
+      ignored(c, rule, r, card, {"Multimp"}, "", "the size of the impact list is found by itself",
+              true);
+    else if (card.type == 19)
+      ignored(c, rule, r, card, {"Iedge"}, "", "the solver never reads this cell", true);
+  }
+}
+
+void check_function_scale(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+    if (!card.given("fct_IDF") && card.input("AscaleF") != 1)
+      ignored(c, rule, r, card, {"AscaleF"}, "fct_IDF", "there is no fct_IDF", false);
+    if (!card.given("fct_IDK") && card.input("AscaleK") != 1)
+      ignored(c, rule, r, card, {"AscaleK"}, "fct_IDK", "there is no fct_IDK", false);
+  });
+}
+
+void check_tint(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+    if (card.input("Ithe_form") == 1)
+      ignored(c, rule, r, card, {"Tint"}, "Ithe_form",
+              "with Ithe_form 1 the main side has its own temperature", false);
+  });
+}
+
+void check_drad(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+    if (!card.given("Frad"))
+      ignored(c, rule, r, card, {"Drad"}, "Frad", "Frad is 0, nothing radiates", false);
+  });
+}
+
+void check_type10_penetration(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {10}, [&](const ContactCard& card) {
+    if (const double v = card.input("Inacti"); v != 5 && v != 1000)
+      ignored(c, rule, r, card, {"Inacti"}, "",
+              "initial penetrations of a tied contact are only counted", true);
+  });
+}
+
+void check_removal(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+    if (card.input("Irem_gap") != 2) return;
+    std::string_view one = card.type == 7 ? "grnd_IDs" : card.type == 11 ? "line_IDs" : "surf_IDs";
+    std::string_view two = card.type == 11 ? "line_IDm" : "surf_IDm";
+    if (card.type == 7 || !card.given(one) || !card.given(two)) return;  // may touch itself
+    if (card.input(one) == card.input(two)) return;
+    if (c.selections == nullptr) return;
+    ignored(c, rule, r, card, {"Irem_gap"}, one, "the two sides are different: no self contact",
+            false);
+  });
+}
+
+constexpr std::string_view problem = "A field has a value that nothing reads.";
+constexpr std::string_view why = "Whoever reads the card believes in an effect that is not there.";
+
+void add(std::vector<Rule>& out, std::string_view id, std::string_view title,
+         std::string_view reason, std::string_view solver, std::string_view fix,
+         std::string_view bad, std::string_view good,
+         void (*check)(const LintContext&, const Rule&, Reporter&),
+         Severity severity = Severity::warning, Fixable fixable = Fixable::unsafe) {
+  out.push_back({.id = id,
+                 .title = title,
+                 .severity = severity,
+                 .problem = problem,
+                 .why = reason.empty() ? why : reason,
+                 .solver = solver,
+                 .fix = fix,
+                 .ignore = "When the value is kept for later on purpose.",
+                 .fixable = fixable,
+                 .bad = bad,
+                 .good = good,
+                 .check = check});
+}
+
+}  // namespace
+
+void add_ignored_rules(std::vector<Rule>& out) {
+  add(out, "DK265", "Fscalegap or Gapmax without Igap 2 or 3",
+      "The gap is constant (Igap 1000) or plainly variable (Igap 1); only Igap 2 and 3 scale and "
+      "cap it.",
+      "it ignores both and sets Gapmax to 1e30", "set Igap 2 or 3, or blank the fields",
+      "@/INTER/TYPE7/1 Igap=1000 Gapmin=1.0 Gapmax=2.0\n",
+      "@/INTER/TYPE7/1 Igap=2 Gapmin=1.0 Gapmax=2.0\n", check_gap_scale);
+  add(out, "DK266", "%mesh_size without Igap 3", "Only Igap 3 limits the gap by the mesh size.",
+      "it reads the value and does not use it", "set Igap 3, or blank the field",
+      "@/INTER/TYPE7/1 Igap=2 %mesh_size=0.4\n", "@/INTER/TYPE7/1 Igap=3 %mesh_size=0.4\n",
+      check_mesh_size);
+  add(out, "DK267", "Stmin or Stmax without a combined stiffness",
+      "The bounds apply to the combined stiffness of Istf 2 to 5.",
+      "it sets Stmin to 0 and Stmax to 1e30", "set Istf 2 to 5, or blank the fields",
+      "@/INTER/TYPE7/1 Istf=1000 Stmax=5.0\n", "@/INTER/TYPE7/1 Istf=4 Stmax=5.0\n", check_bounds);
+  add(out, "DK268", "Tstart or Tstop with a sensor",
+      "A sensor switches the contact; times on the card are not looked at.",
+      "it uses the sensor only", "put the times into the sensor, or remove sens_ID",
+      "@/INTER/TYPE7/1 sens_ID=1 Tstop=5.0\n", "@/INTER/TYPE7/1 sens_ID=1\n", check_sensor_times);
+  add(out, "DK269", "friction on the card with fric_ID",
+      "fric_ID replaces the friction of the interface as a whole, law, filter and coefficients.",
+      "it uses /FRICTION only", "blank the fields, or set fric_ID 0",
+      "@/FRICTION/1 C1=0.0 Fric=0.1\n@/INTER/TYPE7/1 Fric=0.3 fric_ID=1\n",
+      "@/FRICTION/1 C1=0.0 Fric=0.1\n@/INTER/TYPE7/1 fric_ID=1\n", check_friction_source);
+  add(out, "DK270", "node_ID2 with a spherical gap", "Icurv 1 needs the centre of the sphere only.",
+      "it reads the node and does not use it", "blank node_ID2, or set Icurv 2",
+      "@/INTER/TYPE7/1 Icurv=1 node_ID1=1 node_ID2=2\n", "@/INTER/TYPE7/1 Icurv=1 node_ID1=1\n",
+      check_second_node);
+  add(out, "DK271", "VISF with the incremental formulation",
+      "VISF is the viscosity of the viscous formulation, Iform 1.", "it sets VISF to 0",
+      "blank VISF, or set Iform 1", "@/INTER/TYPE7/1 Fric=0.2 Iform=2 VISF=0.5\n",
+      "@/INTER/TYPE7/1 Fric=0.2 Iform=1 VISF=0.5\n", check_visf, Severity::info);
+  add(out, "DK272", "filter or friction heat without friction",
+      "Fric is 0 and no law is selected: there is no tangential force to filter and no heat.",
+      "it computes no friction", "give Fric, or blank the fields",
+      "@/INTER/TYPE7/1 Fric=0 Ifiltr=1 Xfreq=0.5\n",
+      "@/INTER/TYPE7/1 Fric=0.2 Ifiltr=1 Xfreq=0.5\n", check_no_friction, Severity::info);
+  add(out, "DK273", "coefficient that the friction law does not have",
+      "mu = C1 + (Fric - C1) exp(-C2 v) for Ifric 4.", "it ignores the others",
+      "blank them, or check Ifric", "@/INTER/TYPE7/1 Fric=0.2 Ifric=4 C1=0.1 C2=0.01 C3=0.5\n",
+      "@/INTER/TYPE7/1 Fric=0.2 Ifric=4 C1=0.1 C2=0.01\n", check_coefficients);
+  add(out, "DK274", "Iedge of TYPE19 is never read",
+      "Manuals let Iedge choose the edges of the TYPE11 part. The cell is not read: the edges "
+      "follow Iedge of /DEFAULT/INTER/TYPE19, or are all edges.",
+      "it ignores the cell", "set Iedge in /DEFAULT/INTER/TYPE19", "@/INTER/TYPE19/1 Iedge=1\n",
+      "@/DEFAULT/INTER/TYPE19 Iedge=1\n@/INTER/TYPE19/1\n", check_never_read, Severity::warning,
+      Fixable::safe);
+  add(out, "DK275", "Multimp is never used",
+      "Old versions let Multimp size the list of impacts; it is sized by itself now.",
+      "it reads the cell and uses 4", "blank the cell",
+      "@version 110\n@/INTER/TYPE7/1 Multimp=12\n", "@version 110\n@/INTER/TYPE7/1\n",
+      check_never_read, Severity::info, Fixable::safe);
+  add(out, "DK276", "scale of a function that is not there",
+      "AscaleF and AscaleK scale the abscissa of fct_IDF and fct_IDK.",
+      "it reads the value and does not use it", "name the function, or blank the scale",
+      "@/INTER/TYPE7/1 Fric=0.2 AscaleF=2.0\n", "@/INTER/TYPE7/1 Fric=0.2 fct_IDF=1 AscaleF=2.0\n",
+      check_function_scale);
+  add(out, "DK277", "Tint with heat exchange between both sides",
+      "Tint is the temperature of the interface where only the secondary side is warm "
+      "(Ithe_form 0).",
+      "it does not use Tint", "blank Tint, or set Ithe_form 0",
+      "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Ithe_form=1 Tint=300.0\n",
+      "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Ithe_form=0 Tint=300.0\n", check_tint);
+  add(out, "DK278", "radiation distance without radiation",
+      "Drad is the reach of radiation, Frad its factor.",
+      "it stores the distance, and the search may use it", "give Frad, or blank Drad",
+      "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Drad=5.0\n",
+      "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Frad=1.0e-12 Drad=5.0\n", check_drad, Severity::info);
+  add(out, "DK279", "Inacti of a tied contact does nothing",
+      "TYPE10 allows initial penetrations inside its gap.",
+      "it prints Inacti and only counts penetrations", "blank Inacti",
+      "@/INTER/TYPE10/1 Inacti=6\n", "@/INTER/TYPE10/1\n", check_type10_penetration, Severity::info,
+      Fixable::safe);
+  add(out, "DK280", "Irem_gap 2 between two different sides",
+      "Irem_gap 2 drops neighbours along the same mesh, so it matters in self contact only.",
+      "it finds nothing to drop unless the sides share nodes", "set Irem_gap 1",
+      "@/INTER/TYPE11/1 line_IDs=2 line_IDm=1 Irem_gap=2\n",
+      "@/INTER/TYPE11/1 line_IDs=1 line_IDm=1 Irem_gap=2\n", check_removal, Severity::info);
+}
+
+}  // namespace deck::detail

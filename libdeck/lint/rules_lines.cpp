@@ -1,0 +1,294 @@
+// Optional lines: a flag that asks for a line which is not there, a line without the flag.
+// Everything behind the mistake is then read as the wrong line, so the message names the flag, not
+// the symptom.
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "lint/check.hpp"
+#include "lint/rule_tables.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// Card of the release flags (IBC, Inacti) in a decoded interface, and its position.
+struct Flags {
+  std::size_t index = 0;
+  const DecodedCard* card = nullptr;
+};
+
+std::optional<Flags> flags_card(const DecodedBlock& block) {
+  for (std::size_t i = 0; i < block.cards.size(); ++i)
+    for (const Cell& cell : block.cards[i].cells)
+      if (cell.field->name == "IBCX") return Flags{i, &block.cards[i]};
+  return std::nullopt;
+}
+
+char column(std::string_view text, std::size_t c) { return c <= text.size() ? text[c - 1] : ' '; }
+
+bool blank_columns(std::string_view text, std::size_t first, std::size_t last) {
+  for (std::size_t c = first; c <= last; ++c)
+    if (static_cast<unsigned char>(column(text, c)) > ' ') return false;
+  return true;
+}
+
+/// How a line looks that carries IBC: only columns 8-10 hold something before column 31.
+enum class Look { no, maybe, yes };
+Look looks_like_flags(const Line& line) {
+  if (!line.valid()) return Look::no;
+  if (!blank_columns(line.text, 1, 7) || !blank_columns(line.text, 11, 30)) return Look::no;
+  int digits = 0;
+  for (std::size_t c = 8; c <= 10; ++c) {
+    const char k = column(line.text, c);
+    if (k == '0' || k == '1')
+      ++digits;
+    else if (static_cast<unsigned char>(k) > ' ')
+      return Look::no;
+  }
+  return digits >= 2 ? Look::yes : Look::maybe;
+}
+
+/// The conditional cards of the schema at this version, with the flag that switches them.
+struct Optional {
+  const CardSchema* card = nullptr;
+  std::string flag;
+  bool present = false;
+  std::int64_t wants = 0;  ///< a value of the flag that asks for the line
+};
+
+std::vector<Optional> optional_cards(const ContactCard& contact) {
+  std::vector<Optional> out;
+  for (const CardSchema& card : contact.block->schema->cards) {
+    if (!card.in_version(contact.block->version) || card.when.empty()) continue;
+    const Condition& when = card.when.front();
+    Optional o;
+    o.card = &card;
+    o.flag = when.field;
+    o.present = when.holds(contact.decoded.integer(when.field));
+    o.wants = !when.in.empty() ? when.in.front() : when.min.value_or(1);
+    out.push_back(std::move(o));
+  }
+  return out;
+}
+
+std::size_t missing_lines(const DecodedBlock& block) {
+  return static_cast<std::size_t>(std::count_if(block.cards.begin(), block.cards.end(),
+                                                [](const DecodedCard& c) { return c.missing(); }));
+}
+
+std::size_t extra_lines(const DecodedBlock& block) {
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < block.extra.size(); ++i)
+    if (!trim(block.extra[i].text).empty()) last = i + 1;
+  return last;
+}
+
+bool second_line_missing(const ContactCard& contact) {
+  const auto flags = flags_card(contact.decoded);
+  return contact.type == 11 && contact.block->version >= 110 && flags && flags->index == 3 &&
+         looks_like_flags(flags->card->line) != Look::yes &&
+         looks_like_flags(contact.decoded.cards[2].line) == Look::yes;
+}
+
+bool second_line_extra(const ContactCard& contact) {
+  const auto flags = flags_card(contact.decoded);
+  if (contact.type != 11 || contact.block->version >= 110 || !flags || flags->index != 2)
+    return false;
+  if (looks_like_flags(flags->card->line) == Look::yes || contact.decoded.extra.empty())
+    return false;
+  return looks_like_flags(contact.decoded.extra.front()) == Look::yes;
+}
+
+void check_second_line(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, {11}, [&](const ContactCard& card) {
+    const bool missing = second_line_missing(card);
+    if (!missing && !second_line_extra(card)) return;
+    Diagnostic* d = r.report(
+        rule, *card.block, card.decoded.cards[1].line.whole(),
+        missing ? fmt::format("{} lacks its second line (Stmin, Stmax, ...), which exists from "
+                              "version 110 on; this deck is of version {}",
+                              name_of(card), card.block->version)
+                : fmt::format("{} has a second line (Stmin, Stmax, ...), which exists from version "
+                              "110 on only; this deck is of version {}",
+                              name_of(card), card.block->version));
+    if (d == nullptr) return;
+    if (!missing) d->help = "delete the line, or raise the version in /BEGIN";
+    if (missing) {
+      Span at = card.decoded.cards[1].line.whole();
+      at.length = 0;
+      d->fix = Fix{"insert a blank second line", false, {{at, "\n"}}};
+    }
+  });
+}
+
+void check_missing(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const ContactCard& card : c.contacts) {
+    const std::size_t missing = missing_lines(card.decoded);
+    if (missing == 0 || second_line_missing(card)) continue;
+    std::string causes;
+    std::vector<std::string> flags;
+    for (const Optional& o : optional_cards(card)) {
+      if (!o.present) continue;
+      causes += (causes.empty() ? "" : ", ") + card.show(o.flag) + " asks for the line '" +
+                o.card->name + "'";
+      if (std::find(flags.begin(), flags.end(), o.flag) == flags.end()) flags.push_back(o.flag);
+    }
+    if (causes.empty()) continue;
+    Diagnostic* d = r.report(rule, *card.block, card.block->header_span,
+                             fmt::format("{} is {} line{} short: {}", name_of(card), missing,
+                                         missing > 1 ? "s" : "", causes));
+    for (const std::string& f : flags) note_field(d, card, f);
+  }
+}
+
+void check_extra(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const ContactCard& card : c.contacts) {
+    const std::size_t extra = extra_lines(card.decoded);
+    if (extra == 0 || second_line_extra(card)) continue;
+    std::string causes;
+    for (const Optional& o : optional_cards(card))
+      if (!o.present)
+        causes += (causes.empty() ? "" : ", ") + std::string("'") + o.card->name + "' with " +
+                  o.flag + " = " + std::to_string(o.wants);
+    if (causes.empty()) continue;
+    r.report(rule, *card.block, card.decoded.extra.front().whole(),
+             fmt::format("{} has {} line{} too many; optional lines that its flags do not ask for: "
+                         "{}",
+                         name_of(card), extra, extra > 1 ? "s" : "", causes));
+  }
+}
+
+void check_shift(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const ContactCard& card : c.contacts) {
+    const auto flags = flags_card(card.decoded);
+    if (!flags || !flags->card->line.valid() || flags->card->free_format) continue;
+    if (looks_like_flags(flags->card->line) == Look::yes) continue;
+    if (second_line_missing(card) || second_line_extra(card)) continue;
+    const auto& cards = card.decoded.cards;
+    const std::size_t i = flags->index;
+    const bool above = i > 0 && looks_like_flags(cards[i - 1].line) == Look::yes;
+    const Line next = i + 1 < cards.size()         ? cards[i + 1].line
+                      : card.decoded.extra.empty() ? Line{}
+                                                   : card.decoded.extra.front();
+    const bool below = looks_like_flags(next) == Look::yes;
+    if (!above && !below && looks_like_flags(flags->card->line) == Look::maybe) continue;
+    std::string message = fmt::format("the line read as '{}' of {} does not look like it: ",
+                                      flags->card->schema->name, name_of(card));
+    message += above   ? "the one above does, so a line is missing further up"
+               : below ? "the one below does, so there is a line too many further up"
+                       : "data stands in columns 1-7 or 11-30";
+    Diagnostic* d = r.report(rule, *card.block, flags->card->line.whole(), std::move(message));
+    for (const Optional& o : optional_cards(card))
+      if (o.present && above) note_field(d, card, o.flag);
+  }
+}
+
+/// Versions up to 100 read heat before adaptive meshing, later ones after it.
+void check_order(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const ContactCard& card : c.contacts) {
+    const DecodedCard *adaptive = nullptr, *heat = nullptr;
+    for (const DecodedCard& line : card.decoded.cards)
+      for (const Cell& cell : line.cells) {
+        if (cell.field->name == "NRadm") adaptive = &line;
+        if (cell.field->name == "Kthe" || cell.field->name == "Rthe") heat = &line;
+      }
+    if (adaptive == nullptr || heat == nullptr || adaptive->missing() || heat->missing()) continue;
+    // NRadm is an integer in columns 1-10; a coefficient in 1-20 reaches beyond column 10.
+    const std::string_view first = adaptive->line.text, second = heat->line.text;
+    const bool heat_like = blank_columns(first, 1, 10) && !blank_columns(first, 11, 20);
+    const bool adaptive_like = !blank_columns(second, 1, 10);
+    if (!heat_like || !adaptive_like) continue;
+    r.report(rule, *card.block, adaptive->line.whole(),
+             fmt::format("the lines of adaptive meshing and heat exchange of {} seem to be "
+                         "swapped: version {} reads {} first",
+                         name_of(card), card.block->version,
+                         card.block->version < 110 ? "heat exchange" : "adaptive meshing"));
+  }
+}
+
+}  // namespace
+
+void add_line_rules(std::vector<Rule>& out) {
+  constexpr std::string_view why =
+      "Whether an optional line is there depends on flags only, never on what the line holds. One "
+      "line more or less and every line behind it is read as another one.";
+  out.push_back({.id = "DK240",
+                 .title = "line missing that a flag asks for",
+                 .severity = Severity::error,
+                 .problem = "The block is too short, and a flag asks for a line that may not be "
+                            "there.",
+                 .why = why,
+                 .solver = "it takes the next line for the one that is missing, and blanks at the "
+                           "end",
+                 .message = 100217,
+                 .fix = "add the line (blanks where defaults are wanted), or set the flag to 0",
+                 .ignore = "When only trailing lines are missing and blanks are meant.",
+                 .bad = "/INTER/TYPE7/1\nexample\n         2         1\n\n\n"
+                        "                 1.0                 0.0                 0.5\n"
+                        "       000\n         1\n",
+                 .good = "@/INTER/TYPE7/1 Ifric=1 C1=0.1\n",
+                 .check = check_missing});
+  out.push_back({.id = "DK241",
+                 .title = "line that no flag asks for",
+                 .severity = Severity::error,
+                 .problem = "The block has more lines than its flags ask for.",
+                 .why = why,
+                 .solver = "it reads the first lines as they come and ignores those left over",
+                 .message = 100219,
+                 .fix = "set the flag of the line that is too many, or delete the line",
+                 .ignore = "When the line left over is the one that is meant to be ignored.",
+                 .bad = "@/INTER/TYPE7/1 Ifric=0\n                 0.1                 0.0\n",
+                 .good = "@/INTER/TYPE7/1 Ifric=1 C1=0.1\n",
+                 .check = check_extra});
+  out.push_back({.id = "DK242",
+                 .title = "TYPE11: second line missing or superfluous",
+                 .severity = Severity::error,
+                 .problem = "The line Stmin, Stmax, %mesh_size, dtmin, Iform, sens_ID of TYPE11 "
+                            "exists from version 110 on, and this card does not follow the version "
+                            "of its deck.",
+                 .why = "A card copied from an older or newer deck is read shifted by one line; "
+                        "the flags that must stand in columns 8-10 give it away.",
+                 .solver = "it reads Stfac as Stmin, Fric as Stmax, and so on",
+                 .fix = "insert a blank second line",
+                 .ignore = "Never.",
+                 .fixable = Fixable::unsafe,
+                 .bad = "/INTER/TYPE11/1\nexample\n         2         1         5\n"
+                        "                 1.0                 0.1                 0.5\n"
+                        "       000                             6\n\n",
+                 .good = "@/INTER/TYPE11/1 Istf=5 Fric=0.1 Gapmin=0.5 IBCX=0 IBCY=0 IBCZ=0 "
+                         "Inacti=6\n",
+                 .check = check_second_line});
+  out.push_back({.id = "DK243",
+                 .title = "line of the release flags holds other data",
+                 .severity = Severity::error,
+                 .problem = "The line with IBC and Inacti has data where it must be blank.",
+                 .why = "Only columns 8-10 may be used before column 31 of that line. Anything "
+                        "else means that the lines above are one too many or one too few.",
+                 .solver = "it reads the columns of that line as IBC, Inacti and damping all the "
+                           "same",
+                 .fix = "compare the lines of the card with 'deck explain KEYWORD'",
+                 .ignore = "Never without a look at the card.",
+                 .bad = "/INTER/TYPE7/1\nexample\n         2         1\n\n\n\n"
+                        "                 1.0                 0.2                 0.5\n"
+                        "       000                             6\n\n",
+                 .good = "@/INTER/TYPE7/1 Fric=0.2 Gapmin=0.5 IBCX=0 IBCY=0 IBCZ=0 Inacti=6\n",
+                 .check = check_shift});
+  out.push_back({.id = "DK244",
+                 .title = "heat exchange and adaptive meshing lines swapped",
+                 .severity = Severity::error,
+                 .problem = "The two optional lines stand in the order of another version.",
+                 .why = "Versions 90 and 100 read heat exchange before adaptive meshing, later "
+                        "versions the other way round.",
+                 .solver = "it reads each line as the other",
+                 .fix = "exchange the lines",
+                 .ignore = "When the values happen to stand in those columns.",
+                 .bad = "@version 110\n/INTER/TYPE7/1\nexample\n"
+                        "         2         1                   1"
+                        "                                                           2\n"
+                        "\n\n                 1.0\n       000\n\n"
+                        "                 0.5\n         3                 1.0\n",
+                 .good = "@version 110\n@/INTER/TYPE7/1 Ithe=1 Iadm=2 NRadm=3 Padm=1.0 Rthe=0.5\n",
+                 .check = check_order});
+}
+
+}  // namespace deck::detail

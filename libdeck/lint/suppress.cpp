@@ -1,0 +1,173 @@
+#include "lint/suppress.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+
+#include "lint/context.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr std::string_view marker = "decklint:";
+
+template <class Ranges>
+auto at_or_before(const Ranges& ranges, std::uint32_t file, std::uint64_t offset) {
+  auto it = std::upper_bound(
+      ranges.begin(), ranges.end(), std::pair{file, offset}, [](const auto& key, const auto& r) {
+        return key.first != r.file ? key.first < r.file : key.second < r.begin;
+      });
+  if (it == ranges.begin() || std::prev(it)->file != file) return ranges.end();
+  return std::prev(it);
+}
+
+}  // namespace
+
+BlockIndex::BlockIndex(const Deck& deck) : deck_(&deck) {
+  for (std::size_t i = 0; i < deck.blocks.size(); ++i) {
+    const Block& b = deck.blocks[i];
+    const auto index = static_cast<std::int64_t>(i);
+    const Range header{b.header_span.file, b.header_span.offset,
+                       b.header_span.offset + b.header_span.length, index};
+    headers_.push_back(header);
+    ranges_.push_back(header);
+    for (const Piece& p : b.body) ranges_.push_back({p.file, p.begin, p.end, index});
+  }
+  const auto less = [](const Range& a, const Range& b) {
+    return a.file != b.file ? a.file < b.file : a.begin < b.begin;
+  };
+  std::sort(ranges_.begin(), ranges_.end(), less);
+  std::sort(headers_.begin(), headers_.end(), less);
+}
+
+std::int64_t BlockIndex::find(std::uint32_t file, std::uint64_t offset) const {
+  const auto it = at_or_before(ranges_, file, offset);
+  if (it == ranges_.end()) return -1;
+  // A caret may stand behind the last byte of a line.
+  return offset <= it->end ? it->block : -1;
+}
+
+std::int64_t BlockIndex::next_header_after_comments(std::uint32_t file,
+                                                    std::uint64_t offset) const {
+  const auto it =
+      std::upper_bound(headers_.begin(), headers_.end(), std::pair{file, offset},
+                       [](const auto& key, const auto& r) {
+                         return key.first != r.file ? key.first < r.file : key.second < r.begin;
+                       });
+  if (it == headers_.end() || it->file != file) return -1;
+  const std::string_view bytes = deck_->sources[file].bytes();
+  std::uint64_t at = offset;
+  while (at < it->begin) {
+    const auto nl = std::min(bytes.find('\n', at), bytes.size());
+    const std::string_view line = bytes.substr(at, nl - at);
+    // The header itself may have blanks before it.
+    if (it->begin <= nl) break;
+    if (!line.empty() && line[0] != '#' && line[0] != '$') return -1;
+    if (line.empty()) return -1;
+    at = nl + 1;
+  }
+  return it->block;
+}
+
+bool BlockIndex::before_first_header(std::uint32_t file, std::uint64_t offset) const {
+  return at_or_before(headers_, file, offset) == headers_.end();
+}
+
+namespace {
+
+/// "ignore[DK1,DK203] reason=text" behind the marker; false: not understood.
+bool parse(std::string_view text, Suppression& out) {
+  text = trim(text);
+  if (text.starts_with("ignore-file")) {
+    out.whole_file = true;
+    text.remove_prefix(11);
+  } else if (text.starts_with("ignore")) {
+    text.remove_prefix(6);
+  } else {
+    return false;
+  }
+  if (!text.starts_with('[')) return false;
+  const auto close = text.find(']');
+  if (close == std::string_view::npos) return false;
+  std::string_view list = text.substr(1, close - 1);
+  while (!list.empty()) {
+    const auto comma = std::min(list.find(','), list.size());
+    const std::string_view rule = trim(list.substr(0, comma));
+    if (rule.empty()) return false;
+    out.rules.emplace_back(rule);
+    list.remove_prefix(std::min(comma + 1, list.size()));
+  }
+  if (out.rules.empty()) return false;
+  text = trim(text.substr(close + 1));
+  if (text.starts_with("reason=")) out.reason = std::string(trim(text.substr(7)));
+  return true;
+}
+
+}  // namespace
+
+std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& index,
+                                           Reporter& reporter) {
+  std::vector<Suppression> out;
+  const Rule& no_reason = *find_rule("DK090");
+  const Rule& unknown = *find_rule("DK092");
+  const Rule& malformed = *find_rule("DK093");
+  for (std::uint32_t file = 0; file < deck.sources.size(); ++file) {
+    const std::string_view bytes = deck.sources[file].bytes();
+    const char* at = bytes.data();
+    const char* const end = bytes.data() + bytes.size();
+    while (at < end) {
+      const void* const hit =
+          memmem(at, static_cast<std::size_t>(end - at), marker.data(), marker.size());
+      if (hit == nullptr) break;
+      const auto offset = static_cast<std::uint64_t>(static_cast<const char*>(hit) - bytes.data());
+      const auto before = offset == 0 ? std::string_view::npos : bytes.rfind('\n', offset - 1);
+      const std::uint64_t begin = before == std::string_view::npos ? 0 : before + 1;
+      const std::uint64_t stop = std::min<std::uint64_t>(bytes.find('\n', offset), bytes.size());
+      at = bytes.data() + std::min<std::uint64_t>(stop + 1, bytes.size());
+      const bool comment = bytes[begin] == '#' || bytes[begin] == '$';
+      if (!comment || !trim(bytes.substr(begin + 1, offset - begin - 1)).empty()) continue;
+      Suppression s;
+      s.file = file;
+      const std::string_view line = trim(bytes.substr(begin, stop - begin));
+      s.span = {file, static_cast<std::uint32_t>(line.size()), begin};
+      if (!parse(bytes.substr(offset + marker.size(), stop - offset - marker.size()), s)) {
+        reporter.report(malformed, s.span, "this suppression comment cannot be read");
+        continue;
+      }
+      for (const std::string& rule : s.rules)
+        if (!known_selector(rule))
+          reporter.report(unknown, s.span, "no rule is called '" + rule + "'");
+      if (s.reason.empty()) {
+        reporter.report(no_reason, s.span, "the suppression gives no reason and has no effect");
+        continue;
+      }
+      if (s.whole_file) {
+        if (!index.before_first_header(file, begin)) {
+          reporter.report(malformed, s.span,
+                          "ignore-file must stand above the first keyword of its file");
+          continue;
+        }
+      } else {
+        s.block = index.next_header_after_comments(file, begin);
+        if (s.block < 0) s.block = index.find(file, begin);
+      }
+      out.push_back(std::move(s));
+    }
+  }
+  return out;
+}
+
+Suppression* covering(std::vector<Suppression>& suppressions, const BlockIndex& index,
+                      const Diagnostic& d) {
+  if (suppressions.empty() || !d.span.valid() || d.rule.starts_with("DK09")) return nullptr;
+  const std::int64_t block = index.find(d.span.file, d.span.offset);
+  for (Suppression& s : suppressions) {
+    const bool place = s.whole_file ? s.file == d.span.file : s.block >= 0 && s.block == block;
+    if (!place) continue;
+    for (const std::string& rule : s.rules)
+      if (selects(rule, d.rule)) return &s;
+  }
+  return nullptr;
+}
+
+}  // namespace deck::detail

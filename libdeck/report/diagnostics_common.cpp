@@ -1,0 +1,56 @@
+#include "report/diagnostics_common.hpp"
+
+#include <algorithm>
+
+namespace deck::detail {
+
+Place place_of(const LintedDeck& linted, const Span& span) {
+  Place out;
+  out.file = linted.path;
+  if (linted.deck == nullptr || !span.valid()) return out;
+  const Source& source = linted.deck->sources[span.file];
+  out.file = source.path();
+  const Position begin = source.position(span.offset);
+  out.line = begin.line;
+  out.column = begin.column;
+  // A span never crosses its line here: editors want one line per finding.
+  const std::string_view line = source.line_at(span.offset);
+  const std::uint64_t end_of_line = line.size() + 1;
+  out.end_column = std::clamp<std::uint64_t>(begin.column + span.length, begin.column,
+                                             std::max(end_of_line, begin.column));
+  out.known = true;
+  return out;
+}
+
+const char* severity_name(Severity severity) {
+  switch (severity) {
+    case Severity::error:
+      return "error";
+    case Severity::warning:
+      return "warning";
+    case Severity::info:
+      break;
+  }
+  return "info";
+}
+
+std::string details(const Diagnostic& d) {
+  std::string out;
+  if (!d.reference_behaviour.empty() || d.reference) {
+    out += "Reference solver: " +
+           (d.reference_behaviour.empty() ? std::string("reports it") : d.reference_behaviour);
+    if (d.reference)
+      out += " (" + std::string(severity_name(d.reference->severity)) + " " +
+             std::to_string(d.reference->number) + ")";
+    out += ".";
+  }
+  if (!d.help.empty()) out += (out.empty() ? "" : " ") + std::string("Fix: ") + d.help + ".";
+  return out;
+}
+
+std::string relative_path(std::string_view path) {
+  while (path.starts_with("./")) path.remove_prefix(2);
+  return std::string(path);
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <map>
+
+#include "deck/report/json.hpp"
+#include "report/diagnostics_common.hpp"
+
+namespace deck {
+namespace {
+
+const char* level_of(Severity severity) {
+  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
+}
+
+/// Percent-encodes what may not stand in a URI reference.
+std::string uri_of(std::string_view path) {
+  constexpr char hex[] = "0123456789ABCDEF";
+  const bool absolute = path.starts_with('/');
+  std::string out = absolute ? "file://" : "";
+  for (const char c : detail::relative_path(path)) {
+    const auto u = static_cast<unsigned char>(c);
+    const bool plain = (u >= 'a' && u <= 'z') || (u >= 'A' && u <= 'Z') || (u >= '0' && u <= '9') ||
+                       std::string_view("-._~/!$&'()*+,;=@").find(c) != std::string_view::npos;
+    if (plain) {
+      out += c;
+    } else {
+      out += '%';
+      out += hex[u >> 4];
+      out += hex[u & 15];
+    }
+  }
+  return out;
+}
+
+class Sarif {
+ public:
+  explicit Sarif(JsonWriter& json, const SchemaSet& schemas) : json_(json), schemas_(schemas) {}
+
+  void write(const std::vector<LintedDeck>& decks) {
+    json_.begin_object();
+    json_.field("$schema", "https://json.schemastore.org/sarif-2.1.0.json")
+        .field("version", "2.1.0")
+        .key("runs")
+        .begin_array()
+        .begin_object();
+    tool();
+    json_.field("columnKind", "unicodeCodePoints");
+    invocation(decks);
+    json_.key("results").begin_array();
+    for (const LintedDeck& deck : decks)
+      if (deck.result != nullptr)
+        for (std::size_t i = 0; i < deck.result->diagnostics.size(); ++i)
+          result(deck, deck.result->diagnostics[i], deck.result->fingerprints[i]);
+    json_.end_array().end_object().end_array().end_object();
+  }
+
+ private:
+  void text(std::string_view name, std::string_view content) {
+    json_.key(name).begin_object(true).field("text", content).end_object();
+  }
+
+  void tool() {
+    json_.key("tool").begin_object().key("driver").begin_object();
+    json_.field("name", "deck").field("version", library_version());
+    json_.key("rules").begin_array();
+    for (const Rule& r : all_rules()) {
+      json_.begin_object();
+      json_.field("id", r.id);
+      text("shortDescription", r.title);
+      text("fullDescription", std::string(r.problem.empty() ? r.title : r.problem));
+      text("help", explain_rule(r, schemas_));
+      json_.key("defaultConfiguration")
+          .begin_object(true)
+          .field("level", level_of(r.severity))
+          .end_object();
+      json_.key("properties").begin_object(true).key("tags").begin_array(true);
+      json_.value(family_of(r.id)).end_array().end_object();
+      json_.end_object();
+    }
+    json_.end_array().end_object().end_object();
+  }
+
+  void invocation(const std::vector<LintedDeck>& decks) {
+    const bool good = std::all_of(decks.begin(), decks.end(),
+                                  [](const LintedDeck& d) { return d.result != nullptr; });
+    json_.key("invocations").begin_array().begin_object();
+    json_.field("executionSuccessful", good);
+    json_.key("toolExecutionNotifications").begin_array();
+    for (const LintedDeck& deck : decks) {
+      if (deck.result == nullptr)
+        notification("error", deck.error);
+      else
+        for (const NotChecked& n : deck.result->not_checked)
+          notification("note", deck.path + ": not checked: " + n.what + ": " + n.why);
+    }
+    json_.end_array().end_object().end_array();
+  }
+
+  void notification(std::string_view level, const std::string& message) {
+    json_.begin_object().field("level", level);
+    text("message", message);
+    json_.end_object();
+  }
+
+  void region(const LintedDeck& deck, const Span& span, bool with_end_line = false) {
+    const Source& source = deck.deck->sources[span.file];
+    const detail::Place at = detail::place_of(deck, span);
+    const Position end = source.position(span.offset + span.length);
+    // SARIF columns count characters, spans count bytes.
+    const auto characters = [&](std::uint64_t offset, std::uint64_t column) {
+      const std::string_view line = source.line_at(offset);
+      const auto upto = std::min<std::size_t>(static_cast<std::size_t>(column) - 1, line.size());
+      const auto inner = static_cast<std::uint64_t>(
+          std::count_if(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(upto),
+                        [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }));
+      return column - inner;
+    };
+    json_.key(with_end_line ? "deletedRegion" : "region").begin_object(true);
+    json_.field("startLine", at.line).field("startColumn", characters(span.offset, at.column));
+    if (with_end_line) {
+      json_.field("endLine", end.line);
+      json_.field("endColumn", characters(span.offset + span.length, end.column));
+    } else {
+      json_.field("endColumn", characters(span.offset, at.end_column));
+    }
+    json_.end_object();
+  }
+
+  void location(const LintedDeck& deck, const Diagnostic* d, const Span& span,
+                const std::string* message) {
+    const detail::Place at = detail::place_of(deck, span);
+    json_.begin_object();
+    if (message != nullptr) text("message", *message);
+    json_.key("physicalLocation").begin_object();
+    json_.key("artifactLocation").begin_object(true).field("uri", uri_of(at.file)).end_object();
+    if (at.known) region(deck, span);
+    json_.end_object();
+    if (d != nullptr && !d->keyword.empty())
+      json_.key("logicalLocations")
+          .begin_array()
+          .begin_object(true)
+          .field("fullyQualifiedName", d->keyword + "/" + std::to_string(d->id))
+          .field("kind", "object")
+          .end_object()
+          .end_array();
+    json_.end_object();
+  }
+
+  void fixes(const LintedDeck& deck, const Fix& fix) {
+    std::map<std::uint32_t, std::vector<const TextEdit*>> by_file;
+    for (const TextEdit& e : fix.edits) by_file[e.span.file].push_back(&e);
+    json_.key("fixes").begin_array().begin_object();
+    text("description", fix.title);
+    json_.key("artifactChanges").begin_array();
+    for (const auto& [file, edits] : by_file) {
+      json_.begin_object();
+      json_.key("artifactLocation")
+          .begin_object(true)
+          .field("uri", uri_of(deck.deck->sources[file].path()))
+          .end_object();
+      json_.key("replacements").begin_array();
+      for (const TextEdit* e : edits) {
+        json_.begin_object();
+        region(deck, e->span, true);
+        text("insertedContent", e->text);
+        json_.end_object();
+      }
+      json_.end_array().end_object();
+    }
+    json_.end_array().end_object().end_array();
+  }
+
+  void result(const LintedDeck& deck, const Diagnostic& d, const std::string& print) {
+    json_.begin_object();
+    json_.field("ruleId", d.rule);
+    const Rule* rule = find_rule(d.rule);
+    if (rule != nullptr)
+      json_.field("ruleIndex", static_cast<std::int64_t>(rule - all_rules().data()));
+    json_.field("level", level_of(d.severity));
+    const std::string more = detail::details(d);
+    text("message", d.message + "." + (more.empty() ? "" : " " + more));
+    json_.key("locations").begin_array();
+    location(deck, &d, d.span, nullptr);
+    json_.end_array();
+    if (!d.notes.empty()) {
+      json_.key("relatedLocations").begin_array();
+      for (const auto& [span, message] : d.notes) location(deck, nullptr, span, &message);
+      json_.end_array();
+    }
+    json_.key("partialFingerprints").begin_object(true).field("deckFinding/v1", print).end_object();
+    if (d.fix && d.fix->safe) fixes(deck, *d.fix);
+    json_.end_object();
+  }
+
+  JsonWriter& json_;
+  const SchemaSet& schemas_;
+};
+
+}  // namespace
+
+std::string lint_sarif(const std::vector<LintedDeck>& decks, const SchemaSet& schemas) {
+  std::string out;
+  JsonWriter json(out);
+  Sarif(json, schemas).write(decks);
+  if (out.back() != '\n') out += '\n';
+  return out;
+}
+
+}  // namespace deck
