@@ -22,7 +22,7 @@ class InterfaceCard {
   /// Every field of an interface struct.
   template <class Inter>
   void read_all(Inter& out) const {
-    out.for_each([this](std::string_view name, auto& field) { read(name, field); });
+    out.for_each([this](std::string_view name, auto& field) { this->read(name, field); });
   }
   const DecodedBlock& decoded() const { return decoded_; }
 
