@@ -381,6 +381,43 @@ struct FrictionTemperature {
   }
 };
 
+/// Brings the tangential force of a pair back to its ellipse. Compiled once, outside the kernels: a
+/// plain function in a header could be linked from a translation unit of another instruction set.
+void orthotropic_slip(const PacketView& view, std::size_t pair, const double (&normal)[3],
+                      double normal_force, Model model, double (&ft)[3]);
+
+/// Orthotropic coefficients of a pair of parts: the sticking force of the chosen form is brought
+/// back to an ellipse whose axes follow the segment. One return for both forms (the reference
+/// uses other ones in its viscous form, with the sign of the slip force reversed).
+struct FrictionOrthotropic {
+  static constexpr Field needs = Field::position | Field::pair_friction;
+  static constexpr Field writes = Field::friction_energy;
+
+  template <Model M, class V>
+  static void apply(const Constants& k, bool incremental, const PacketView& view, std::size_t i,
+                    PairState<V>& s) {
+    const Vec3<V> trial = s.ft;
+    for (int l = 0; l < V::width; ++l) {
+      const double limit = M == Model::robust ? (s.fn[l] < 0.0 ? -s.fn[l] : 0.0) : s.fn[l];
+      double ft[3] = {trial.x[l], trial.y[l], trial.z[l]};
+      const double n[3] = {s.n.x[l], s.n.y[l], s.n.z[l]};
+      orthotropic_slip(view, i + static_cast<std::size_t>(l), n, limit, M, ft);
+      s.ft.x.r[l] = ft[0];
+      s.ft.y.r[l] = ft[1];
+      s.ft.z.r[l] = ft[2];
+    }
+    if (!incremental) {
+      s.slip_heat = k.dt1 * dot(s.ft, s.vt);
+      return;
+    }
+    const V zero = V::fill(0.0), one = V::fill(1.0);
+    const V spring = M == Model::robust ? min(s.k0, s.k_tan) : s.k0;
+    const V lost = dot(trial - s.ft, s.ft);
+    s.slip_heat = select(spring != zero, lost / select(spring != zero, spring, one), zero);
+    s.ft_keep = s.ft;
+  }
+};
+
 /// Ifiltr with Iform 1: the tangential force is smoothed with the last one.
 struct Filter {
   static constexpr Field needs = Field::friction_memory;

@@ -138,6 +138,8 @@ class PaddedView {
     pad(view_.tie, n);
     pad(view_.temperature, n);
     pad(view_.c, n);
+    pad(view_.ortho_mu, n);
+    pad(view_.ortho_direction, n);
     for (auto& corner : view_.normal) pad(corner, n);
     if (view.triangle != nullptr) {
       triangle_.assign(width, view.triangle[n - 1]);
@@ -222,6 +224,8 @@ Field missing_fields(const KernelPlan& plan, const PacketView& view) {
   const std::size_t tie = plan.card.kind == ContactKind::tied ? 6 : 8;
   check(Field::tie_record, present(view.tie, 0, tie));
   check(Field::temperature, present(view.temperature));
+  check(Field::pair_friction,
+        !plan.card.fric_orthotropic || (present(view.ortho_mu) && present(view.ortho_direction)));
   check(Field::nodal_normals, std::all_of(view.normal.begin(), view.normal.end(),
                                           [](const auto& corner) { return present(corner); }));
   return missing;

@@ -49,15 +49,23 @@ void apply_friction(const Effects& on, const Constants& k, const PacketView& vie
   if (on.has(Effect::friction_law)) {
     FrictionLaw::apply<M>(view, i, *k.card, on.has(Effect::friction_pairs), s);
   }
+  // The ellipse is the limit then: the form itself only sticks.
+  if (on.has(Effect::friction_orthotropic)) s.mu = V::fill(1e30);
   if (on.has(Effect::friction_viscous)) {
     if (on.has(Effect::friction_pairs)) {
       s.k_nodal = max(s.k_nodal, k.inverse_dt1 * sqrt(s.zeta2 * s.a));
     }
     FrictionViscous::apply<M>(k, s);
+    if (on.has(Effect::friction_orthotropic)) {
+      FrictionOrthotropic::apply<M>(k, false, view, i, s);
+    }
     if (on.has(Effect::filter)) Filter::apply<M>(k, view, i, s);
   }
   if (on.has(Effect::friction_incremental)) {
     FrictionIncremental::apply<M, K>(k, view, i, s);
+    if (on.has(Effect::friction_orthotropic)) {
+      FrictionOrthotropic::apply<M>(k, true, view, i, s);
+    }
   }
   s.e_friction = k.dt1 * dot(s.v, s.ft);
 }

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cycle/effects.hpp"
+#include "cycle/vector.hpp"
 #include "deck/cycle/kernel.hpp"
 
 namespace deck::cycle {
@@ -62,4 +64,36 @@ std::array<double, 2> orthotropic_return(double f1, double f2, double mu1, doubl
   return {std::copysign(std::abs(p1 * scale), f1), std::copysign(std::abs(p2 * scale), f2)};
 }
 
+namespace detail {
+namespace {
+
+/// Material direction of a pair in the tangent plane of the contact.
+Vec material_direction(const PacketView& view, std::size_t i, const Vec& n) {
+  const Vec x1 = at(view.position[1], i), x2 = at(view.position[2], i);
+  const Vec x3 = at(view.position[3], i), x4 = at(view.position[4], i);
+  const bool triangle = view.triangle != nullptr && view.triangle[i] != 0;
+  const Vec a = triangle ? x2 - x1 : (x2 + x3) - (x1 + x4);
+  const Vec b = triangle ? x3 - x1 : (x3 + x4) - (x1 + x2);
+  const Vec e3 = unit(cross(a, b));
+  const double ratio = norm(b) > 0.0 ? norm(a) / norm(b) : 0.0;
+  const Vec e1 = unit(a + ratio * cross(b, e3));
+  const Vec t = view.ortho_direction[0][i] * e1 + view.ortho_direction[1][i] * cross(e3, e1);
+  return unit(t - dot(t, n) * n);
+}
+
+}  // namespace
+
+void orthotropic_slip(const PacketView& view, std::size_t pair, const double (&normal)[3],
+                      double normal_force, Model model, double (&ft)[3]) {
+  const Vec n{normal[0], normal[1], normal[2]}, trial{ft[0], ft[1], ft[2]};
+  const Vec t1 = material_direction(view, pair, n), t2 = cross(n, t1);
+  const auto f = orthotropic_return(dot(trial, t1), dot(trial, t2), view.ortho_mu[0][pair],
+                                    view.ortho_mu[1][pair], normal_force, model);
+  const Vec back = f[0] * t1 + f[1] * t2;
+  ft[0] = back.x;
+  ft[1] = back.y;
+  ft[2] = back.z;
+}
+
+}  // namespace detail
 }  // namespace deck::cycle

@@ -77,6 +77,10 @@ void account_friction(const ContactCard& card, Account& out) {
           !card.fct_idf ? "fct_IDF = 0" : (card.ithe ? "fct_IDF" : "Ithe = 0"));
   out.row("friction-filter", rubs && has_filter(card), card.ifiltr > 0 ? "Xfreq" : "Ifiltr",
           card.ifiltr > 0 ? number("Xfreq", card.xfreq) : "Ifiltr = 0");
+  const bool ortho = card.fric_id && card.fric_orthotropic && node_segment(card);
+  out.row("orthotropic-friction", ortho, "fric_ID",
+          card.fric_id ? (ortho ? "directions in /FRICTION" : "no directions in /FRICTION")
+                       : "fric_ID = 0");
   out.row("part-pair-friction", card.fric_id, "fric_ID", card.fric_id ? "fric_ID" : "fric_ID = 0");
 }
 
@@ -123,6 +127,7 @@ EffectSet choose_effects(const ContactCard& card, const PlanOptions& options) {
   if (card.ifric > 0) set |= bit(Effect::friction_law);
   if (card.ithe && card.fct_idf && !card.fric_id) set |= bit(Effect::friction_temperature);
   if (card.fric_id) set |= bit(Effect::friction_pairs);
+  if (card.fric_id && card.fric_orthotropic) set |= bit(Effect::friction_orthotropic);
   if (has_filter(card) && card.iform != 2) set |= bit(Effect::filter);
   return set;
 }
@@ -161,6 +166,7 @@ void collect_fields(KernelPlan& plan) {
                       : mass_needs<ContactKind::node_segment>(plan.model);
   }
   if ((set & bit(Effect::friction_pairs)) != 0) plan.needs |= Field::pair_friction;
+  collect<detail::FrictionOrthotropic>(set, Effect::friction_orthotropic, plan);
   if (card.kind == ContactKind::tied) {
     plan.needs |= Field::tie_record | Field::velocity | Field::mass_secondary | Field::step_times;
     if (plan.model == Model::robust) plan.needs |= Field::mass_main;
@@ -192,7 +198,8 @@ std::string composition_name(const KernelPlan& plan) {
                {Effect::friction_law, "friction_law"},
                {Effect::friction_temperature, "friction_temperature"},
                {Effect::friction_pairs, "friction_pairs"},
-               {Effect::filter, "filter"}};
+               {Effect::filter, "filter"},
+               {Effect::friction_orthotropic, "friction_orthotropic"}};
   std::string text;
   for (const auto& n : names) {
     if ((plan.effects & bit(n.effect)) == 0) continue;

@@ -62,6 +62,12 @@ std::vector<Case> rare_cases() {
     c.ithe = 1, c.ithe_form = 1, c.kthe = 10, c.fct_idf = Curve{{300, 500}, {0.8, 1.4}};
   });
   add("part pairs", [](ContactCard& c) { c.fric_id = true; });
+  for (const int iform : {1, 2}) {
+    add("orthotropic", [&](ContactCard& c) {
+      c.fric_id = c.fric_orthotropic = true;
+      c.iform = iform;
+    });
+  }
   add("heat", [](ContactCard& c) {
     c.ithe = 1, c.ithe_form = 1, c.kthe = 10, c.frad = 1e-8, c.drad = 2.5, c.fheats = .5;
   });

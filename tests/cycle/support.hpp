@@ -2,6 +2,9 @@
 #ifndef DECK_TESTS_CYCLE_SUPPORT_HPP_
 #define DECK_TESTS_CYCLE_SUPPORT_HPP_
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -43,6 +46,8 @@ struct Pair {
   double conductivity = 0.0;
   double fric = 0.0;
   std::array<Vec, 4> normal{};
+  std::array<double, 2> ortho_mu{0.3, 0.1};
+  std::array<double, 2> ortho_direction{1.0, 0.0};
 };
 
 /// A packet that owns its arrays.
@@ -63,6 +68,10 @@ class Packet {
         for (std::size_t k = 0; k < 4; ++k) n3_[k][c].push_back(p.normal[k][c]);
       }
       for (std::size_t k = 0; k < 8; ++k) tie_[k].push_back(p.tie[k]);
+      for (std::size_t k = 0; k < 2; ++k) {
+        ortho_mu_[k].push_back(p.ortho_mu[k]);
+        ortho_direction_[k].push_back(p.ortho_direction[k]);
+      }
       triangle_.push_back(p.triangle);
       k0_.push_back(p.k0);
       gap_.push_back(p.gap);
@@ -89,6 +98,10 @@ class Packet {
       w.ft_old[c] = ft_[c].data();
       for (std::size_t k = 0; k < 4; ++k) w.normal[k][c] = n3_[k][c].data();
     }
+    for (std::size_t k = 0; k < 2; ++k) {
+      w.ortho_mu[k] = ortho_mu_[k].data();
+      w.ortho_direction[k] = ortho_direction_[k].data();
+    }
     for (std::size_t k = 0; k < 8; ++k) w.tie[k] = tie_[k].data();
     w.triangle = triangle_.data();
     w.k0 = k0_.data();
@@ -108,6 +121,7 @@ class Packet {
   Triple ft_;
   std::array<Triple, 4> n3_;
   std::array<std::vector<double>, 8> tie_;
+  std::array<std::vector<double>, 2> ortho_mu_, ortho_direction_;
   std::vector<std::uint8_t> triangle_;
   std::vector<double> k0_, gap_, p0_, area_, conductivity_, fric_;
 };
@@ -186,6 +200,20 @@ inline std::vector<Pair> random_pairs(std::size_t n, unsigned seed, bool edges =
     p.fric = 0.3 + 0.2 * u(rng);
   }
   return pairs;
+}
+
+/// Ten printed digits agree; components of a vector relative to its size where they are small.
+inline void expect_digits(double computed, double expected, const char* what = "") {
+  EXPECT_NEAR(computed, expected, 6e-10 * std::abs(expected) + 1e-13) << what;
+}
+template <std::size_t N>
+void expect_digits(const std::array<double, N>& computed, const std::array<double, N>& expected) {
+  double size = 0.0;
+  for (const double e : expected) size = std::max(size, std::abs(e));
+  for (std::size_t k = 0; k < N; ++k) {
+    EXPECT_NEAR(computed[k], expected[k], 6e-10 * std::max(std::abs(expected[k]), 1e-2 * size))
+        << "component " << k;
+  }
 }
 
 /// Directory of the reference material, or nothing when it is not there.

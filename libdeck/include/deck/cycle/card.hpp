@@ -61,7 +61,8 @@ struct ContactCard {
   double xfreq = 0.0;
   std::optional<Curve> fct_idf;  ///< friction against temperature; needs ithe
   double ascalef = 1.0;
-  bool fric_id = false;  ///< part-pair coefficients come with the packet
+  bool fric_id = false;           ///< part-pair coefficients come with the packet
+  bool fric_orthotropic = false;  ///< and they are orthotropic, with a direction per pair
 
   // Curvature of the main side, and criteria for adaptive meshing.
   int icurv = 0;                       ///< 0 none, 1 sphere, 2 cylinder, 3 bicubic

@@ -69,11 +69,13 @@ struct PacketView {
   std::array<const double*, 8> tie{};  ///< Fn Ft1 Ft2 H1 H2 H3 [p side]; TYPE10 has six
 
   std::array<const double*, 5> temperature{};
-  const double* area = nullptr;          ///< secondary contact area; 0: take the segment's
-  const double* conductivity = nullptr;  ///< of the secondary side's material, 0: none
-  const double* fric = nullptr;          ///< per-pair friction coefficient
-  const double* visf2 = nullptr;         ///< per-pair square of the tangential damping factor
-  std::array<const double*, 6> c{};      ///< per-pair friction law coefficients
+  const double* area = nullptr;             ///< secondary contact area; 0: take the segment's
+  const double* conductivity = nullptr;     ///< of the secondary side's material, 0: none
+  const double* fric = nullptr;             ///< per-pair friction coefficient
+  const double* visf2 = nullptr;            ///< per-pair square of the tangential damping factor
+  std::array<const double*, 6> c{};         ///< per-pair friction law coefficients
+  std::array<const double*, 2> ortho_mu{};  ///< per pair, along and across the direction
+  std::array<const double*, 2> ortho_direction{};        ///< A, B in the segment's own axes
   std::array<std::array<const double*, 3>, 4> normal{};  ///< nodal normals of the corners
 };
 

@@ -58,6 +58,7 @@ enum class Effect : std::uint32_t {
   friction_temperature = 1u << 7,
   friction_pairs = 1u << 8,
   filter = 1u << 9,
+  friction_orthotropic = 1u << 10,
 };
 using EffectSet = std::uint32_t;
 constexpr EffectSet bit(Effect e) { return static_cast<EffectSet>(e); }
