@@ -1,0 +1,450 @@
+// The walk through a deck: blocks, headers, /BEGIN, includes, submodels, ends.
+#include <gmock/gmock.h>
+
+#include "keyword/reading.hpp"
+
+namespace deck {
+namespace {
+
+using namespace testing_support;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// ---- blocks -------------------------------------------------------------------------------------
+
+TEST(ReaderBlocks, KeepEveryLineUpToTheNextHeader) {
+  const Deck d =
+      read(deck_of("/GRNOD/NODE/7\ntitle\n# note\n         1\n\n$ note\n         2\n"
+                   "  /SURF/SEG/8\nt\n"));
+  ASSERT_EQ(d.blocks.size(), 3u);
+  EXPECT_EQ(d.blocks[1].header, "/GRNOD/NODE/7");
+  EXPECT_THAT(lines(d, d.blocks[1]), ElementsAre("title", "         1", "", "         2"));
+  EXPECT_EQ(d.blocks[2].header, "/SURF/SEG/8");
+  EXPECT_EQ(d.sources.text(d.blocks[2].header_span), "/SURF/SEG/8");
+  LineCursor cursor(d.sources, d.blocks[1]);
+  cursor.next_physical();
+  EXPECT_EQ(cursor.next_physical().text, "# note");
+  EXPECT_TRUE(d.end_seen);
+  EXPECT_TRUE(d.diagnostics.all().empty());
+}
+
+TEST(ReaderBlocks, CarriageReturnsAndMissingLastNewlineChangeNothing) {
+  std::string text = banner + begin() + "/GRNOD/NODE/7\ntitle\n         1\n/END";
+  std::string crlf;
+  for (const char c : text) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  for (const std::string& t : {text, crlf}) {
+    const Deck d = read(t);
+    const Block* b = block(d, "/GRNOD/NODE/7");
+    ASSERT_NE(b, nullptr);
+    EXPECT_THAT(lines(d, *b), ElementsAre("title", "         1"));
+    EXPECT_TRUE(d.end_seen);
+    EXPECT_TRUE(d.diagnostics.all().empty());
+  }
+}
+
+TEST(ReaderBlocks, SlashAndHashInsideALineAreData) {
+  const Deck d =
+      read(deck_of("/GRNOD/NODE/7\na/b #include x /END\n   # 5 /X\n\t \t/SUBSET/3\nt\n"));
+  ASSERT_EQ(d.blocks.size(), 3u);
+  EXPECT_THAT(lines(d, d.blocks[1]), ElementsAre("a/b #include x /END", "   # 5 /X"));
+  EXPECT_EQ(d.blocks[2].header, "/SUBSET/3");
+}
+
+TEST(ReaderBlocks, HeadersAreFoundOnBothSidesOfEveryWindow) {
+  // The walk searches in windows of 32 KiB: shift a deck byte by byte across one border.
+  for (int shift = 0; shift < 80; ++shift) {
+    std::string body =
+        "/NODE\n" + std::string(32 * 1024 - 300 + static_cast<std::size_t>(shift), ' ');
+    body += "\n         1  /x\n  /GRNOD/NODE/7\nt\n#c /\n         5\n";
+    const Deck d = read(deck_of(body));
+    ASSERT_EQ(d.blocks.size(), 3u) << shift;
+    EXPECT_EQ(d.blocks[2].header, "/GRNOD/NODE/7");
+    EXPECT_THAT(lines(d, d.blocks[2]), ElementsAre("t", "         5"));
+  }
+}
+
+TEST(ReaderBlocks, TextThatBelongsToNoKeywordIsNamed) {
+  const Deck d = read(banner + "\nlost\n" + begin() + "/END\n");
+  const Diagnostic* f = first(d.diagnostics, "DK042");
+  ASSERT_NE(f, nullptr);
+  EXPECT_EQ(d.sources.where(f->span), "test_0000.rad:3:1");
+}
+
+TEST(ReaderBlocks, EverythingBeforeBeginButParametersIsDropped) {
+  const Deck d = read(banner + "/NODE\n         1\n/PARAMETER/GLOBAL/REAL/1\nt\nA         2.\n" +
+                      "//SUBMODEL/3\n\n         5\n//ENDSUB\n" + begin() + "/GRNOD/NODE/7\n/END\n");
+  EXPECT_EQ(block(d, "/NODE"), nullptr);
+  EXPECT_NE(block(d, "/GRNOD/NODE/7"), nullptr);
+  EXPECT_EQ(d.parameters.count("A"), 1u);
+  EXPECT_EQ(count(d.diagnostics, "DK002"), 3u);
+  ASSERT_EQ(d.submodels.size(), 1u);
+  EXPECT_EQ(d.submodels[0].nodes, 0);
+}
+
+TEST(ReaderBlocks, WithoutBeginAllBlocksStayAndOneErrorSaysSo) {
+  const Deck d = read(banner + "/NODE\n         1\n/END\n");
+  EXPECT_NE(block(d, "/NODE"), nullptr);
+  EXPECT_EQ(count(d.diagnostics, "DK002"), 1u);
+}
+
+// ---- ends ---------------------------------------------------------------------------------------
+
+TEST(ReaderEnd, TextBehindEndIsReportedWithItsLine) {
+  const Deck d = read(deck_of("") + "# fine\n\n  /NODE\n");
+  const Diagnostic* f = first(d.diagnostics, "DK011");
+  ASSERT_NE(f, nullptr);
+  EXPECT_EQ(d.sources.position(f->span).line, 10u);
+  EXPECT_EQ(block(d, "/NODE"), nullptr);
+}
+
+TEST(ReaderEnd, OnlyTheExactHeaderEndsTheDeck) {
+  const Deck d = read(banner + begin() + "/END/ENGINE\n/NODE\n/END   \r\n");
+  EXPECT_NE(block(d, "/END/ENGINE"), nullptr);
+  EXPECT_NE(block(d, "/NODE"), nullptr);
+  EXPECT_TRUE(d.end_seen);
+}
+
+TEST(ReaderEnd, AMissingEndIsReportedAtTheEndOfTheFile) {
+  const Deck d = read(banner + begin());
+  const Diagnostic* f = first(d.diagnostics, "DK010");
+  ASSERT_NE(f, nullptr);
+  EXPECT_EQ(d.sources.position(f->span).line, 7u);
+}
+
+// ---- first line ---------------------------------------------------------------------------------
+
+TEST(ReaderBanner, MissingBannerAndByteOrderMarkAreNamed) {
+  EXPECT_EQ(count(read(begin() + "/END\n").diagnostics, "DK001"), 1u);
+  const Deck bom = read("\xef\xbb\xbf" + deck_of(""));
+  EXPECT_EQ(count(bom.diagnostics, "DK033"), 1u);
+  EXPECT_EQ(count(bom.diagnostics, "DK042"), 0u);
+  EXPECT_EQ(count(read(deck_of("")).diagnostics, "DK001"), 0u);
+}
+
+TEST(ReaderBanner, LoneCarriageReturnsAreNamed) {
+  std::string text = deck_of("/NODE\n");
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  EXPECT_EQ(count(read(text).diagnostics, "DK045"), 1u);
+  EXPECT_EQ(count(read(deck_of("/NODE\r\n")).diagnostics, "DK045"), 0u);
+}
+
+// ---- /BEGIN -------------------------------------------------------------------------------------
+
+TEST(ReaderBegin, GivesVersionRunNameAndUnits) {
+  const Deck d = read(banner + "/BEGIN\n# comment\nmy run  \n      2019         0\n" +
+                      "                  Mg                  mm                   s\n" +
+                      "                  kg                   m                   s\n/END\n");
+  EXPECT_EQ(d.version, 2019);
+  EXPECT_EQ(d.begin.version_written, 2019);
+  EXPECT_EQ(d.begin.run_name, "my run");
+  EXPECT_EQ(d.begin.input.mass, 1000);
+  EXPECT_EQ(d.begin.input.length, 1e-3);
+  EXPECT_EQ(d.begin.working.length, 1);
+  EXPECT_EQ(count(d.diagnostics, "DK017"), 1u);
+  EXPECT_EQ(first(d.diagnostics, "DK017")->reference->severity, Severity::warning);
+}
+
+TEST(ReaderBegin, UnknownVersionsTakeTheNewestLayout) {
+  for (const char* version : {"0", "150", "2027", "2612", "x"}) {
+    const Deck d = read(deck_of("", version));
+    EXPECT_EQ(d.version, newest_version) << version;
+    EXPECT_FALSE(d.begin.version_known);
+    EXPECT_EQ(count(d.diagnostics, "DK003"), 1u) << version;
+  }
+  for (const int version : {41,   42,   44,   51,   90,   100,  110,  120,  130,  140,
+                            2017, 2018, 2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026}) {
+    EXPECT_EQ(read(deck_of("", std::to_string(version))).version, version);
+    EXPECT_TRUE(is_known_version(version));
+  }
+}
+
+TEST(ReaderBegin, AMissingUnitLineTakesTheOther) {
+  const std::string units = "                  Mg                  mm                   s\n";
+  const std::string head = banner + "/BEGIN\nrun\n      2024         0\n";
+  const Deck no_input = read(head + "\n" + units + "/END\n");
+  EXPECT_EQ(no_input.begin.input.mass, 1000);
+  const Deck no_working = read(head + units + "/END\n");
+  EXPECT_EQ(no_working.begin.working.mass, 1000);
+  EXPECT_EQ(count(no_working.diagnostics, "DK016"), 0u);
+  EXPECT_EQ(count(read(head + "/END\n").diagnostics, "DK016"), 1u);
+}
+
+TEST(ReaderBegin, AnUnreadableUnitPointsAtItsCell) {
+  const Deck d = read(banner +
+                      "/BEGIN\nrun\n      2024\n                  kg                  mn"
+                      "                  ms\n/END\n");
+  const Diagnostic* f = first(d.diagnostics, "DK015");
+  ASSERT_NE(f, nullptr);
+  EXPECT_EQ(d.sources.position(f->span).column, 21u);
+  EXPECT_THAT(f->message, HasSubstr("'mn' is not a length unit"));
+}
+
+TEST(ReaderBegin, OldVersionsNameTheirUnitsInBlocks) {
+  const Deck d = read(banner +
+                      "/BEGIN\nrun\n        90\n/UNIT/LENGTH/mm\n/UNIT/MASS/Mg\n"
+                      "/UNIT/TIME/s\n/END\n");
+  EXPECT_EQ(d.begin.input.length, 1e-3);
+  EXPECT_EQ(d.begin.input.mass, 1000);
+  EXPECT_EQ(d.begin.working.mass, 1000);
+  EXPECT_EQ(count(d.diagnostics, "DK016"), 0u);
+  EXPECT_EQ(
+      count(read(banner + "/BEGIN\nrun\n        90\n/UNIT/LENGTH/zz\n/END\n").diagnostics, "DK015"),
+      1u);
+}
+
+TEST(ReaderBegin, ASecondOneInTheMainFileKeepsTheFirstUnits) {
+  const Deck d = read(banner + begin("2024") + "/NODE\n" + begin("100") + "/GRNOD/NODE/1\n/END\n");
+  EXPECT_EQ(d.version, 2024);
+  EXPECT_EQ(block(d, "/NODE")->version, 2024);
+  EXPECT_EQ(block(d, "/GRNOD/NODE/1")->version, 100);
+  EXPECT_EQ(count(d.diagnostics, "DK043"), 1u);
+}
+
+// ---- headers ------------------------------------------------------------------------------------
+
+TEST(ReaderHeader, FindsIdAndUnitBehindTheKeyword) {
+  const Deck d =
+      read(deck_of("/INTER/TYPE7/12/3\nt\n/GRNOD/PART/0005\nt\n/INTER/TYPE11\nt\n"
+                   "/NODE/4\n/SHELL/9\n/UNKNOWN/THING/8/2\n"));
+  const auto check = [&](const char* header, std::int64_t id, bool present, std::int64_t unit) {
+    const Block* b = block(d, header);
+    ASSERT_NE(b, nullptr) << header;
+    EXPECT_EQ(b->id.value, id) << header;
+    EXPECT_EQ(b->id.present, present) << header;
+    EXPECT_EQ(b->unit_id.value, unit) << header;
+  };
+  check("/INTER/TYPE7/12/3", 12, true, 3);
+  check("/GRNOD/PART/0005", 5, true, 0);
+  check("/INTER/TYPE11", 1, false, 0);
+  check("/NODE/4", 0, false, 4);
+  check("/SHELL/9", 9, true, 0);
+  check("/UNKNOWN/THING/8/2", 8, true, 2);
+  EXPECT_EQ(block(d, "/INTER/TYPE7/12/3")->keyword, "/INTER/TYPE7");
+  EXPECT_EQ(d.sources.text(block(d, "/INTER/TYPE7/12/3")->id.span), "12");
+  EXPECT_EQ(d.sources.text(block(d, "/INTER/TYPE7/12/3")->unit_id.span), "3");
+}
+
+TEST(ReaderHeader, OldFormatsCarryTheTitleInTheHeader) {
+  const Deck d = read(deck_of("/INTER/TYPE7/12/my 1/2 title\n", "44"));
+  const Block* b = block(d, "/INTER/TYPE7/12/my 1/2 title");
+  ASSERT_NE(b, nullptr);
+  EXPECT_EQ(b->id.value, 12);
+  EXPECT_EQ(b->inline_title, "my 1/2 title");
+  EXPECT_EQ(decode(d, *b).title, "my 1/2 title");
+}
+
+TEST(ReaderHeader, Format51HasATitleLineAndNoUnitField) {
+  const Deck d = read(deck_of("/INTER/TYPE7/12/3\nthe title\n", "51"));
+  const Block* b = block(d, "/INTER/TYPE7/12/3");
+  EXPECT_FALSE(b->unit_id.present);
+  EXPECT_EQ(decode(d, *b).title, "the title");
+}
+
+TEST(ReaderHeader, IdsBeyondTheLimitAreErrors) {
+  const Deck d =
+      read(deck_of("/INTER/TYPE7/2147483648\nt\n/INTER/TYPE7/2147483647\nt\n"
+                   "/INTER/TYPE7/99999999999999999999999\nt\n"));
+  EXPECT_EQ(count(d.diagnostics, "DK037"), 2u);
+  EXPECT_EQ(first(d.diagnostics, "DK037")->reference->number, 509);
+}
+
+// ---- includes -----------------------------------------------------------------------------------
+
+class ReaderInclude : public Folder {};
+
+TEST_F(ReaderInclude, IsSearchedBesideTheIncludingFileThenBesideTheMainFile) {
+  file("sub/inner.inc", "/GRNOD/NODE/1\nfrom sub\n");
+  file("inner.inc", "/GRNOD/NODE/1\nfrom main\n");
+  file("only_main.inc", "/GRNOD/NODE/2\n");
+  file("sub/outer.inc", "#include inner.inc\n#INCLUDE 'only_main.inc'\n");
+  const Deck d = read_file(file("m_0000.rad", deck_of("#include sub/outer.inc\n")));
+  EXPECT_THAT(lines(d, *block(d, "/GRNOD/NODE/1")), ElementsAre("from sub"));
+  EXPECT_NE(block(d, "/GRNOD/NODE/2"), nullptr);
+  ASSERT_EQ(d.includes.size(), 3u);
+  EXPECT_EQ(d.parent_of(0), Span::no_file);
+  EXPECT_EQ(d.parent_of(1), 0u);
+  EXPECT_EQ(d.parent_of(2), 1u);
+  EXPECT_EQ(d.parent_of(3), 1u);
+  EXPECT_EQ(d.includes[1].written, "inner.inc");
+}
+
+TEST_F(ReaderInclude, ExtraFoldersAreSearchedLast) {
+  file("lib/a.inc", "/GRNOD/NODE/1\n");
+  const std::string main = file("m_0000.rad", deck_of("#include a.inc\n"));
+  EXPECT_EQ(block(read_file(main), "/GRNOD/NODE/1"), nullptr);
+  ReadOptions options;
+  options.include_paths = {dir_ / "lib"};
+  EXPECT_NE(block(read_file(main, options), "/GRNOD/NODE/1"), nullptr);
+}
+
+TEST_F(ReaderInclude, AMissingFileNamesEveryPlaceThatWasTried) {
+  file("sub/a.inc", "#include none.inc\n");
+  ReadOptions options;
+  options.include_paths = {dir_ / "lib"};
+  const Deck d = read_file(file("m_0000.rad", deck_of("#include sub/a.inc\n/NODE\n")), options);
+  const Diagnostic* f = first(d.diagnostics, "DK004");
+  ASSERT_NE(f, nullptr);
+  for (const char* place : {"sub/none.inc", "/none.inc", "lib/none.inc"})
+    EXPECT_THAT(f->message, HasSubstr((dir_ / place).string())) << place;
+  EXPECT_THAT(f->message, HasSubstr("No such file"));
+  EXPECT_EQ(d.sources.position(f->span).line, 1u);
+  EXPECT_NE(block(d, "/NODE"), nullptr);  // reading goes on
+}
+
+TEST_F(ReaderInclude, PathsContinueOverLines) {
+  file("a long name.inc", "/GRNOD/NODE/1\n");
+  for (const char* directive : {"#include a long name.inc", "#include a long +\n name.inc",
+                                "#include a lo...\nng name.inc", "#include a lo&\nng name.inc",
+                                "#include a lo\n+ng name.inc", "#include 'a long name.inc'"}) {
+    const std::string text = std::string(directive) + "\n/NODE\n         1\n";
+    std::string spaced = text;
+    // Blanks around a break are not part of the name; the first continued spelling needs one.
+    if (const auto at = spaced.find("long +\n name"); at != std::string::npos)
+      spaced.replace(at, 12, "lo +\nng name");
+    const Deck d = read_file(file("m_0000.rad", deck_of(spaced)));
+    EXPECT_NE(block(d, "/GRNOD/NODE/1"), nullptr) << directive;
+    ASSERT_NE(block(d, "/NODE"), nullptr) << directive;
+    EXPECT_THAT(lines(d, *block(d, "/NODE")), ElementsAre("         1")) << directive;
+  }
+}
+
+TEST_F(ReaderInclude, InsideABlockContinuesTheBlock) {
+  file("a.inc", "# nodes\n         2\n         3\n");
+  const Deck d =
+      read_file(file("m_0000.rad", deck_of("/NODE\n         1\n#include a.inc\n         4\n")));
+  const Block* b = block(d, "/NODE");
+  ASSERT_NE(b, nullptr);
+  EXPECT_EQ(b->body.size(), 3u);
+  EXPECT_THAT(lines(d, *b), ElementsAre("         1", "         2", "         3", "         4"));
+}
+
+TEST_F(ReaderInclude, EndAndEnddataSkipTheRestOfTheIncludeOnly) {
+  file("a.inc", "/GRNOD/NODE/1\n/END\n/GRNOD/NODE/2\n");
+  file("b.inc", "/GRNOD/NODE/3\n#EndData\n/GRNOD/NODE/4\n");
+  const Deck d = read_file(file("m_0000.rad", deck_of("#include a.inc\n#include b.inc\n#enddata\n"
+                                                      "/GRNOD/NODE/5\n")));
+  for (const char* here : {"/GRNOD/NODE/1", "/GRNOD/NODE/3", "/GRNOD/NODE/5"})
+    EXPECT_NE(block(d, here), nullptr) << here;
+  for (const char* gone : {"/GRNOD/NODE/2", "/GRNOD/NODE/4"})
+    EXPECT_EQ(block(d, gone), nullptr) << gone;
+  EXPECT_EQ(count(d.diagnostics, "DK011"), 1u);
+}
+
+TEST_F(ReaderInclude, CyclesEndWithTheNameOfTheFile) {
+  file("a.inc", "/GRNOD/NODE/1\n#include b.inc\n/GRNOD/NODE/2\n");
+  file("b.inc", "#include ./a.inc\n#include m_0000.rad\n/GRNOD/NODE/3\n");
+  const Deck d = read_file(file("m_0000.rad", deck_of("#include a.inc\n")));
+  EXPECT_EQ(count(d.diagnostics, "DK005"), 2u);
+  EXPECT_EQ(d.sources.size(), 3u);
+  EXPECT_NE(block(d, "/GRNOD/NODE/2"), nullptr);
+  EXPECT_NE(block(d, "/GRNOD/NODE/3"), nullptr);
+}
+
+TEST_F(ReaderInclude, TheSameFileTwiceInARowIsNoCycle) {
+  file("a.inc", "/GRNOD/NODE/1\n");
+  const Deck d = read_file(file("m_0000.rad", deck_of("#include a.inc\n#include a.inc\n")));
+  EXPECT_EQ(count(d.diagnostics, "DK005"), 0u);
+  EXPECT_EQ(d.sources.size(), 3u);
+}
+
+TEST_F(ReaderInclude, InheritsTheVersionUnlessItHasItsOwnBegin) {
+  file("plain.inc", "/GRNOD/NODE/1\n");
+  file("own.inc", begin("100") + "/GRNOD/NODE/2\n#include plain2.inc\n");
+  file("plain2.inc", "/GRNOD/NODE/3\n");
+  const Deck d = read_file(file("m_0000.rad", deck_of("#include plain.inc\n#include own.inc\n"
+                                                      "/GRNOD/NODE/4\n",
+                                                      "2019")));
+  EXPECT_EQ(block(d, "/GRNOD/NODE/1")->version, 2019);
+  EXPECT_EQ(block(d, "/GRNOD/NODE/2")->version, 100);
+  EXPECT_EQ(block(d, "/GRNOD/NODE/3")->version, 100);
+  EXPECT_EQ(block(d, "/GRNOD/NODE/4")->version, 2019);
+  EXPECT_EQ(d.version, 2019);
+}
+
+TEST_F(ReaderInclude, IsOnlyADirectiveAtTheStartOfALine) {
+  const Deck d = read(deck_of("/NODE\n #include x\n#includex\n#include_y\n"));
+  EXPECT_EQ(count(d.diagnostics, "DK004"), 0u);
+  EXPECT_EQ(count(read(deck_of("#include   \n")).diagnostics, "DK004"), 1u);
+}
+
+// ---- submodels ----------------------------------------------------------------------------------
+
+const std::string offsets_a =
+    "       100       200       300         0         0         0         0\n";
+
+TEST(ReaderSubmodel, OffsetsFallBackAndAddUp) {
+  const Deck d =
+      read(deck_of("//SUBMODEL/1\na\n" + offsets_a + "/GRNOD/NODE/7\nt\n//SUBMODEL/2\nb\n" +
+                   "      1000\n/NODE\n//ENDSUB\n/PART/1\nt\n//ENDSUB   \n/NODE/1\n"));
+  ASSERT_EQ(d.submodels.size(), 2u);
+  const Submodel& a = d.submodels[0];
+  const Submodel& b = d.submodels[1];
+  EXPECT_EQ(a.definitions, 100);
+  EXPECT_EQ(a.nodes, 200);
+  EXPECT_EQ(a.parts, 100);
+  EXPECT_EQ(b.definitions, 1100);
+  EXPECT_EQ(b.nodes, 1200);
+  EXPECT_EQ(b.elements, 1300);
+  EXPECT_EQ(b.parent, 0);
+  EXPECT_EQ(a.title, "a");
+  const auto offset = [&](const char* header, const char* kind) {
+    return d.offset_of(*block(d, header), kind);
+  };
+  EXPECT_EQ(offset("/GRNOD/NODE/7", "grnod"), 100);
+  EXPECT_EQ(offset("/GRNOD/NODE/7", "node"), 200);
+  EXPECT_EQ(offset("/NODE", "node"), 1200);
+  EXPECT_EQ(offset("/NODE", "shell"), 1300);
+  EXPECT_EQ(offset("/PART/1", "part"), 100);
+  EXPECT_EQ(offset("/NODE/1", "node"), 0);
+  EXPECT_EQ(count(d.diagnostics, "DK035"), 0u);
+}
+
+TEST(ReaderSubmodel, ItsOwnBeginGivesItsUnitsAndVersionOnlyInside) {
+  const std::string own =
+      "/BEGIN\nsub\n       100         0\n"
+      "                  Mg                   m                   s\n";
+  const Deck d = read(deck_of("//SUBMODEL/1\n\n\n" + own +
+                              "/GRNOD/NODE/7\n//SUBMODEL/2\n\n\n/NODE\n"
+                              "//ENDSUB\n//ENDSUB\n/GRNOD/NODE/8\n"));
+  EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/7"))->length, 1);
+  EXPECT_EQ(d.units_of(*block(d, "/NODE"))->length, 1);  // inherited by the nested one
+  EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/8"))->length, 1e-3);
+  EXPECT_EQ(block(d, "/GRNOD/NODE/7")->version, 100);
+  EXPECT_EQ(block(d, "/GRNOD/NODE/8")->version, 2024);
+  EXPECT_EQ(d.begin.input.length, 1e-3);
+}
+
+TEST(ReaderSubmodel, UnbalancedMarksAreErrors) {
+  EXPECT_EQ(count(read(deck_of("//ENDSUB\n")).diagnostics, "DK035"), 1u);
+  EXPECT_EQ(count(read(deck_of("//SUBMODEL/1\n\n\n")).diagnostics, "DK035"), 1u);
+}
+
+// ---- units --------------------------------------------------------------------------------------
+
+TEST(ReaderUnits, UnitBlocksAreFoundWithSubmodelOffsets) {
+  const std::string line = "                  Mg                                       0\n";
+  const Deck d = read(deck_of("/UNIT/3\nt\n" + line +
+                              "/GRNOD/NODE/1/3\n/GRNOD/NODE/2/4\n"
+                              "//SUBMODEL/1\n\n        10\n/UNIT/4\nt\n" +
+                              line + "/GRNOD/NODE/5/4\n//ENDSUB\n"));
+  EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/1/3"))->mass, 1000);
+  EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/1/3"))->length, 1);
+  EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/2/4")), nullptr);
+  EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/5/4"))->mass, 1000);
+  EXPECT_EQ(count(d.diagnostics, "DK015"), 0u);
+  EXPECT_EQ(d.units.count(14), 1u);
+}
+
+// ---- encrypted ----------------------------------------------------------------------------------
+
+TEST(ReaderOpaque, CipherTextIsKeptAndNotInterpreted) {
+  const std::string cipher(80, 'Q');
+  const Deck d = read(deck_of("/MAT/LAW2/5\nsteel\n" + cipher + "\n/MAT/LAW1/6\nt\n     7.8e-9\n"));
+  EXPECT_TRUE(block(d, "/MAT/LAW2/5")->opaque);
+  EXPECT_FALSE(block(d, "/MAT/LAW1/6")->opaque);
+  const DecodedBlock decoded = decode(d, *block(d, "/MAT/LAW2/5"));
+  EXPECT_TRUE(decoded.cards.empty());
+}
+
+}  // namespace
+}  // namespace deck
