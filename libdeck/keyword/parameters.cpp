@@ -10,8 +10,6 @@
 namespace deck::detail {
 namespace {
 
-constexpr std::size_t longest_reason = 200;
-
 // The locale of the process must not decide what a name is.
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -136,7 +134,7 @@ class Expression {
     if (!parameter && eat("(")) return function(word, depth);
     std::string why;
     const auto v = lookup_(context_, word, depth + 1, why);
-    if (!v && error_.empty()) error_ = "parameter '" + std::string(word) + "' " + why;
+    if (!v && error_.empty()) error_ = why;
     return v;
   }
   std::optional<double> function(std::string_view name, int depth) {
@@ -176,11 +174,16 @@ bool evaluate(Deck& deck, const Limits& limits, Parameter& p, std::set<const Par
 std::optional<double> lookup(void* context, std::string_view name, int depth, std::string& why) {
   auto& c = *static_cast<Context*>(context);
   auto* p = const_cast<Parameter*>(c.deck->find_parameter(name, c.file));
+  const std::string subject = "parameter '" + std::string(name.substr(0, 40)) + "' ";
   if (p == nullptr || p->type == Parameter::Type::text) {
-    why = p == nullptr ? "is not defined here" : "is a text";
+    why = subject + (p == nullptr ? "is not defined here" : "is a text");
     return std::nullopt;
   }
-  if (!p->valid && !evaluate(*c.deck, *c.limits, *p, *c.open, depth, why)) return std::nullopt;
+  if (!p->valid && !evaluate(*c.deck, *c.limits, *p, *c.open, depth, why)) {
+    // The innermost cause is the one to tell.
+    if (!why.starts_with("parameter '")) why = subject + why;
+    return std::nullopt;
+  }
   return p->type == Parameter::Type::integer ? static_cast<double>(p->integer) : p->real;
 }
 
@@ -199,8 +202,7 @@ bool evaluate(Deck& deck, const Limits& limits, Parameter& p, std::set<const Par
   const auto value = expression.evaluate(depth);
   open.erase(&p);
   if (!value) {
-    why = "cannot be evaluated: " + expression.error();
-    if (why.size() > longest_reason) why.resize(longest_reason);
+    why = expression.error();
     return false;
   }
   p.real = *value;
@@ -311,7 +313,7 @@ void read_parameters(Deck& deck, const Limits& limits) {
     std::set<const Parameter*> open;
     std::string why;
     if (!p->valid && !evaluate(deck, limits, *p, open, 0, why))
-      report(deck, p->span, "expression '" + p->expression + "' " + why);
+      report(deck, p->span, "expression '" + p->expression + "': " + why);
   }
 }
 

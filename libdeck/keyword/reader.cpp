@@ -342,6 +342,7 @@ class Reader {
       const auto slash = bytes.find('/', pos);
       const std::string_view header =
           trim_right(bytes.substr(slash, std::min(end - slash, header_columns)));
+      if (end - slash > header_columns) check_header_tail(file, slash, end);
       pos = next;
       if (header == "/END") {
         open_block_ = -1;
@@ -353,6 +354,16 @@ class Reader {
     }
     append_lines(file, run, size);
     source.release(released, size);
+  }
+
+  void check_header_tail(std::uint32_t file, std::uint64_t slash, std::uint64_t end) {
+    const std::uint64_t from = slash + header_columns;
+    const std::string_view tail = deck_.sources[file].bytes().substr(from, end - from);
+    if (std::all_of(tail.begin(), tail.end(), is_blank)) return;
+    report("DK012", Severity::warning, make_span(file, from, end),
+           "a keyword line of " + std::to_string(end - slash) + " characters; " +
+               std::to_string(header_columns) + " are read",
+           "it drops the text silently", "shorten the line", 100213);
   }
 
   bool in_submodel_without_begin() const {

@@ -129,6 +129,22 @@ void fill_units(Deck& deck, const ReaderNotes& notes) {
            "it converts and warns", "nothing to do if this is meant", 754, Severity::warning);
 }
 
+/// /BEGIN has four lines; blank ones may follow.
+void check_begin(Deck& deck) {
+  for (const Block& b : deck.blocks) {
+    if (b.header != "/BEGIN") continue;
+    LineCursor cursor(deck.sources, b);
+    int have = 0;
+    for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
+      if (++have <= 4 || line.text.empty()) continue;
+      report(deck, "DK030", Severity::warning, line.whole(),
+             "/BEGIN is complete after four lines; this line is one too many",
+             "it ignores the line", "delete the line, or add the keyword it belongs to", 100219,
+             Severity::warning);
+    }
+  }
+}
+
 void mark_opaque(Deck& deck) {
   for (Block& b : deck.blocks) {
     if (!b.header.starts_with("/MAT") && !b.header.starts_with("/PROP") &&
@@ -203,6 +219,7 @@ void finish_deck(Deck& deck, ReaderNotes& notes, const ReadOptions& options) {
   fill_submodels(deck, notes);
   fill_units(deck, notes);
   mark_opaque(deck);
+  check_begin(deck);
 }
 
 }  // namespace deck::detail

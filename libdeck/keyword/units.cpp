@@ -1,4 +1,5 @@
-#include <cmath>
+#include <cstdlib>
+#include <string>
 
 #include "deck/keyword/deck.hpp"
 #include "deck/text/number.hpp"
@@ -11,11 +12,11 @@ struct Prefix {
   int power;
 };
 // Longest spelling first, so that "mu" is not taken for "m" + "u".
-constexpr Prefix prefixes[] = {
-    {"mu", -6},  {"\xc2\xb5", -6}, {"da", 1}, {"y", -24}, {"z", -21}, {"a", -18}, {"f", -15},
-    {"p", -12},  {"n", -9},        {"u", -6}, {"\xb5", -6}, {"m", -3}, {"c", -2}, {"d", -1},
-    {"h", 2},    {"k", 3},         {"K", 3},  {"M", 6},   {"G", 9},   {"T", 12},  {"P", 15},
-    {"E", 18},   {"Z", 21},        {"Y", 24}, {"", 0}};
+constexpr Prefix prefixes[] = {{"mu", -6},   {"\xc2\xb5", -6}, {"da", 1},  {"y", -24}, {"z", -21},
+                               {"a", -18},   {"f", -15},       {"p", -12}, {"n", -9},  {"u", -6},
+                               {"\xb5", -6}, {"m", -3},        {"c", -2},  {"d", -1},  {"h", 2},
+                               {"k", 3},     {"K", 3},         {"M", 6},   {"G", 9},   {"T", 12},
+                               {"P", 15},    {"E", 18},        {"Z", 21},  {"Y", 24},  {"", 0}};
 
 /// factor^power without rounding surprises for the small integer powers of dimensions.
 double integer_power(double base, int power) {
@@ -39,8 +40,8 @@ std::optional<double> unit_factor(std::string_view code, char base) {
   const int offset = base == 'g' ? -3 : 0;
   for (const Prefix& p : prefixes) {
     if (p.code != prefix) continue;
-    const int power = p.power + offset;
-    return power < 0 ? 1 / std::pow(10.0, -power) : std::pow(10.0, power);
+    // Correctly rounded, so that "mm" and "0.001" are the same unit.
+    return read_real("1e" + std::to_string(p.power + offset)).value;
   }
   return std::nullopt;
 }

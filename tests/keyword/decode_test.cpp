@@ -1,0 +1,318 @@
+// Cells of a block against a schema written for the test.
+#include "deck/keyword/decode.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstring>
+
+#include "keyword/reading.hpp"
+
+namespace deck {
+namespace {
+
+using namespace testing_support;
+using ::testing::HasSubstr;
+
+constexpr std::string_view schema_text = R"({"schemas":[
+ {"keyword":"/X/CARDS","kind":"x","cards":[
+  {"name":"flags","fields":[
+    {"name":"id1","cols":[1,10],"type":"id","ref":"surf"},
+    {"name":"n","cols":[11,20],"type":"int"},
+    {"name":"old","cols":[21,30],"type":"int","versions":[90,2019]},
+    {"name":"fx","cols":[39,39],"type":"flag"},
+    {"name":"mode","cols":[41,50],"type":"int"}]},
+  {"name":"extra","when":[{"field":"mode","in":[1,2]}],"fields":[
+    {"name":"v","cols":[1,20],"type":"real","dim":[0,1,0]},
+    {"name":"w","cols":[21,40],"type":"real","dim":[1,0,-1],
+     "dim_when":[{"when":[{"field":"mode","in":[2]}],"dim":[0,0,0]}]}]},
+  {"name":"last","optional":true,"fields":[{"name":"t","cols":[1,40],"type":"text"}]}]},
+ {"keyword":"/X/IDS","cards":[{"name":"ids","repeat":"ids","fields":[
+    {"name":"item","cols":[1,10],"type":"id","ref":"node"}]}]},
+ {"keyword":"/X/OLD","cards":[{"name":"ids","versions":[41,50],"repeat":"ids","fields":[
+    {"name":"item","cols":[1,8],"type":"id","ref":"node"}]},
+    {"name":"new","versions":[51,null],"fields":[{"name":"r","cols":[1,20],"type":"real"}]}]},
+ {"keyword":"/X/ROWS","cards":[
+    {"name":"head","fields":[{"name":"k","cols":[1,10],"type":"int"}]},
+    {"name":"row","repeat":"rows","fields":[{"name":"a","cols":[1,10],"type":"int"},
+                                            {"name":"b","cols":[11,30],"type":"real"}]}]},
+ {"keyword":"/X/GROUP","cards":[
+    {"name":"pair","repeat":"group","fields":[{"name":"p","cols":[1,10],"type":"int"},
+                                              {"name":"two","cols":[11,20],"type":"int"}]},
+    {"name":"values","repeat":"group","fields":[{"name":"c","cols":[1,20],"type":"real"}]},
+    {"name":"second","repeat":"group","when":[{"field":"two","in":[1]}],
+     "fields":[{"name":"d","cols":[1,20],"type":"real"}]}]},
+ {"keyword":"/X/NEWGROUP","cards":[
+    {"name":"pair","versions":[2024,null],"repeat":"group",
+     "fields":[{"name":"p","cols":[1,10],"type":"int"}]}]},
+ {"keyword":"/X/TAIL","opaque_tail":true,"cards":[
+    {"name":"one","fields":[{"name":"a","cols":[1,10],"type":"int"}]}]}
+]})";
+
+const SchemaSet& schemas() {
+  static const SchemaSet set = [] {
+    SchemaSet s = SchemaSet::built_in();
+    const auto added = s.add_json("test", schema_text);
+    EXPECT_TRUE(added.ok()) << (added.ok() ? "" : added.error().message);
+    return s;
+  }();
+  return set;
+}
+
+/// The only block of a deck with its decoded form.
+struct Decoded {
+  explicit Decoded(const std::string& body, const std::string& version = "2024")
+      : deck(read(deck_of(body, version), {}, schemas())),
+        result(decode(deck, deck.blocks[1], &findings)) {}
+  Position at(const Span& span) const { return deck.sources.position(span); }
+  Deck deck;
+  Diagnostics findings;
+  DecodedBlock result;
+};
+
+std::string cells(std::initializer_list<std::pair<int, const char*>> parts) {
+  std::string line(100, ' ');
+  for (const auto& [column, text] : parts)
+    line.replace(static_cast<std::size_t>(column - 1), std::strlen(text), text);
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+TEST(Decode, ReadsCellsByColumnWithTheirSpans) {
+  const Decoded d("/X/CARDS/5\nthe title  \n" +
+                  cells({{8, "12"}, {11, "-7"}, {39, "1"}, {50, "0"}}));
+  EXPECT_EQ(d.result.title, "the title");
+  EXPECT_EQ(d.result.integer("id1"), 12);
+  EXPECT_EQ(d.result.integer("n"), -7);
+  EXPECT_EQ(d.result.integer("fx"), 1);
+  EXPECT_EQ(d.result.find("old"), nullptr);  // 2024 has no such cell
+  EXPECT_EQ(d.result.find("v"), nullptr);    // mode is 0
+  const Cell* n = d.result.find("n");
+  EXPECT_EQ(d.at(n->span).line, 9u);
+  EXPECT_EQ(d.at(n->span).column, 11u);
+  EXPECT_EQ(n->span.length, 10u);
+  EXPECT_EQ(n->text, "-7");
+  EXPECT_TRUE(d.findings.all().empty());
+}
+
+TEST(Decode, ConditionalLinesFollowTheirFlag) {
+  const Decoded d("/X/CARDS/5\nt\n" + cells({{50, "1"}}) + cells({{1, "2.5"}, {21, "1d3"}}));
+  EXPECT_EQ(d.result.real("v"), 2.5);
+  EXPECT_EQ(d.result.real("w"), 1000);
+  EXPECT_TRUE(d.findings.all().empty());
+}
+
+TEST(Decode, AMissingLineNamesTheFlagThatAsksForIt) {
+  const Decoded d("/X/CARDS/5\nt\n" + cells({{50, "2"}}));
+  const Diagnostic* f = first(d.findings, "DK029");
+  ASSERT_NE(f, nullptr);
+  EXPECT_THAT(f->message, HasSubstr("'extra'"));
+  EXPECT_THAT(f->message, HasSubstr("mode = 2"));
+  ASSERT_EQ(f->notes.size(), 1u);
+  EXPECT_EQ(d.at(f->notes[0].first).column, 41u);
+  EXPECT_EQ(f->reference->number, 100217);
+  ASSERT_EQ(d.result.cards.size(), 2u);
+  EXPECT_TRUE(d.result.cards[1].missing());
+  EXPECT_EQ(d.result.real("v"), 0);
+}
+
+TEST(Decode, OptionalLinesMayBeMissingAndExtraLinesAreNamed) {
+  const Decoded none("/X/CARDS/5\nt\n" + cells({{50, "0"}}));
+  EXPECT_TRUE(none.findings.all().empty());
+  const Decoded extra("/X/CARDS/5\nt\n" + cells({{50, "0"}}) + "free, text\n   \nmore\n");
+  EXPECT_EQ(extra.result.find("t")->text, "free, text");  // text cards know no commas
+  EXPECT_EQ(count(extra.findings, "DK030"), 1u);          // the blank line is none
+  EXPECT_EQ(extra.at(first(extra.findings, "DK030")->span).line, 12u);
+  EXPECT_EQ(extra.result.extra.size(), 2u);
+  EXPECT_EQ(count(Decoded("/X/TAIL/5\nt\n         1\nmore\n").findings, "DK030"), 0u);
+}
+
+TEST(Decode, AVersionDecidesWhichCellsExist) {
+  const std::string body = "/X/CARDS/5\nt\n" + cells({{30, "9"}});
+  const Decoded old(body, "2019");
+  EXPECT_EQ(old.result.integer("old"), 9);
+  EXPECT_TRUE(old.findings.all().empty());
+  const Decoded now(body);
+  EXPECT_EQ(now.result.find("old"), nullptr);
+  const Diagnostic* f = first(now.findings, "DK027");
+  ASSERT_NE(f, nullptr);
+  EXPECT_EQ(now.at(f->span).column, 30u);
+  EXPECT_EQ(f->severity, Severity::warning);
+  const Decoded zero("/X/CARDS/5\nt\n" + cells({{30, "0"}}));
+  EXPECT_EQ(first(zero.findings, "DK027")->severity, Severity::info);
+}
+
+TEST(Decode, TextBehindTheCellsIsNamedUnlessItIsZero) {
+  const Decoded d("/X/CARDS/5\nt\n" + cells({{50, "0"}, {60, "7"}, {70, "0.0"}, {80, "ab cd"}}));
+  EXPECT_EQ(count(d.findings, "DK028"), 3u);
+  EXPECT_EQ(d.at(first(d.findings, "DK028")->span).column, 60u);
+  const Decoded tail("/X/CARDS/5\nt\n" + std::string(100, ' ') + "   beyond\n");
+  EXPECT_EQ(count(tail.findings, "DK012"), 1u);
+  EXPECT_EQ(count(tail.findings, "DK028"), 0u);
+}
+
+TEST(Decode, ACommaSwitchesTheLineToFreeFormat) {
+  const Decoded d("/X/CARDS/5\nt\n12, 7,,1 \t 2\n3.5,4\n");
+  EXPECT_TRUE(d.result.cards[0].free_format);
+  EXPECT_EQ(d.result.integer("id1"), 12);
+  EXPECT_EQ(d.result.integer("n"), 7);
+  EXPECT_TRUE(d.result.find("fx")->blank());
+  EXPECT_EQ(d.result.integer("mode"), 1);
+  EXPECT_EQ(d.at(d.result.find("mode")->span).column, 8u);
+  EXPECT_EQ(d.result.real("v"), 3.5);
+  EXPECT_EQ(count(d.findings, "DK028"), 1u);  // the fifth value has no cell
+  EXPECT_EQ(count(d.findings, "DK013"), 0u);  // tabs separate as blanks do
+  const Decoded short_line("/X/CARDS/5\nt\n12,\n");
+  EXPECT_EQ(short_line.result.integer("id1"), 12);
+  EXPECT_TRUE(short_line.result.find("n")->blank());
+  EXPECT_TRUE(short_line.findings.all().empty());
+}
+
+TEST(Decode, TabsAndNulBytesInFixedColumnsAreNamed) {
+  const Decoded tab("/X/CARDS/5\nt\n12\t7\n");
+  EXPECT_EQ(tab.at(first(tab.findings, "DK013")->span).column, 3u);
+  EXPECT_EQ(tab.result.integer("id1"), 12);
+  EXPECT_EQ(count(tab.findings, "DK022"), 1u);
+  const Decoded nul(std::string("/X/CARDS/5\nt\n12\0", 16) + "\n" + "\n");
+  EXPECT_EQ(count(nul.findings, "DK014"), 0u);  // at the end of a line it is trimmed like a blank
+  const Decoded inner(std::string("/X/CARDS/5\nt\n1\0  5\n", 19));
+  EXPECT_EQ(count(inner.findings, "DK014"), 1u);
+}
+
+struct Fault {
+  const char* text;
+  const char* rule;
+  int number;
+};
+
+TEST(Decode, EveryUnreadableNumberHasItsRule) {
+  const Fault reals[] = {{"abc", "DK021", 100102},
+                         {"1.5.2", "DK022", 0},
+                         {"1e999", "DK023", 100104},
+                         {"1e-999", "DK024", 0},
+                         {"4e-320", "DK024", 0},
+                         {"nan", "DK025", 0},
+                         {"1.2345678901234567-3", "DK026", 0}};
+  for (const Fault& fault : reals) {
+    const Decoded d("/X/CARDS/5\nt\n" + cells({{50, "1"}}) + fault.text + "\n");
+    ASSERT_EQ(d.findings.all().size(), 1u) << fault.text;
+    EXPECT_EQ(d.findings.all()[0].rule, fault.rule) << fault.text;
+    EXPECT_EQ(d.findings.all()[0].reference ? d.findings.all()[0].reference->number : 0,
+              fault.number)
+        << fault.text;
+    EXPECT_THAT(d.findings.all()[0].message, HasSubstr("v (columns 1-20)"));
+  }
+  const Fault integers[] = {{"abc", "DK020", 100101},
+                            {"1.5", "DK022", 0},
+                            {"12x", "DK022", 0},
+                            {"3000000000", "DK023", 100103}};
+  for (const Fault& fault : integers) {
+    const Decoded d("/X/CARDS/5\nt\n" + std::string(fault.text) + "\n");
+    ASSERT_EQ(d.findings.all().size(), 1u) << fault.text;
+    EXPECT_EQ(d.findings.all()[0].rule, fault.rule) << fault.text;
+  }
+  EXPECT_TRUE(Decoded("/X/CARDS/5\nt\n" + cells({{50, "1"}}) + "1.5-3\n").findings.all().empty());
+}
+
+TEST(Decode, FlagsCountOnlyTheDigitOne) {
+  for (const char* text : {"1", "2", "x", "-"}) {
+    const Decoded d("/X/CARDS/5\nt\n" + cells({{39, text}}));
+    EXPECT_EQ(d.result.integer("fx"), text[0] == '1') << text;
+    EXPECT_TRUE(d.findings.all().empty()) << text;
+  }
+}
+
+TEST(Decode, IdListsSkipBlankCellsAndTakeAllLines) {
+  const Decoded d("/X/IDS/5\nt\n" + cells({{10, "1"}, {29, "-3"}, {91, "9"}}) + "# c\n\n" +
+                  cells({{10, "4"}}) + "5,6 7\n");
+  std::vector<std::int64_t> ids;
+  for (const DecodedCard& card : d.result.cards)
+    for (const Cell& cell : card.cells)
+      if (!cell.blank()) ids.push_back(cell.integer);
+  EXPECT_THAT(ids, ::testing::ElementsAre(1, -3, 9, 4, 5, 6, 7));
+}
+
+TEST(Decode, OldFormatsHaveEightColumnsAndEightyPerLine) {
+  std::string line;
+  for (int i = 1; i <= 12; ++i)
+    line += std::string(7 - std::to_string(i).size() + 1, ' ') + std::to_string(i);
+  const Decoded d("/X/OLD/5/title\n" + line + "\n", "44");
+  EXPECT_EQ(d.result.title, "title");
+  ASSERT_EQ(d.result.cards.size(), 1u);
+  EXPECT_EQ(d.result.cards[0].cells.size(), 10u);
+  EXPECT_EQ(d.result.cards[0].cells[9].integer, 10);
+}
+
+TEST(Decode, RowsRepeatToTheEnd) {
+  const Decoded d("/X/ROWS/5\nt\n         3\n         1                 1.5\n         2\n");
+  ASSERT_EQ(d.result.cards.size(), 3u);
+  EXPECT_EQ(d.result.cards[1].cells[1].real, 1.5);
+  EXPECT_EQ(d.result.cards[2].cells[0].integer, 2);
+  EXPECT_TRUE(d.result.extra.empty());
+}
+
+TEST(Decode, GroupsLookAtTheCellsOfTheirOwnRound) {
+  const Decoded d("/X/GROUP/5\nt\n" + cells({{10, "1"}, {20, "1"}}) + "1.\n2.\n" +
+                  cells({{10, "2"}}) + "3.\n" + cells({{10, "3"}, {20, "1"}}) + "4.\n5.\n");
+  std::string order;
+  for (const DecodedCard& card : d.result.cards) order += card.schema->name[0];
+  EXPECT_EQ(order, "pvspvpvs");
+  EXPECT_EQ(count(d.findings, "DK029"), 0u);
+  const Decoded broken("/X/GROUP/5\nt\n" + cells({{10, "1"}, {20, "1"}}) + "1.\n");
+  EXPECT_EQ(count(broken.findings, "DK029"), 1u);
+}
+
+TEST(Decode, AGroupWithoutAMemberInThisVersionEnds) {
+  const Decoded d("/X/NEWGROUP/5\nt\n         1\n         2\n", "2019");
+  EXPECT_TRUE(d.result.cards.empty());
+  EXPECT_EQ(d.result.extra.size(), 2u);
+  EXPECT_EQ(Decoded("/X/NEWGROUP/5\nt\n         1\n         2\n").result.cards.size(), 2u);
+}
+
+TEST(Decode, ParametersStandForWholeCells) {
+  const std::string parameters =
+      "/PARAMETER/GLOBAL/INTEGER/1\nt\nN                 7\n/PARAMETER/GLOBAL/REAL/2\nt\n"
+      "X                          2.5\n";
+  const Deck deck =
+      read(deck_of("/X/CARDS/5\nt\n" + cells({{1, "&N"}, {17, "-&N"}, {49, "&X"}}) +
+                   cells({{19, "&X"}, {30, "-&X"}}) + parameters + "/X/CARDS/6\nt\n     &NONE\n"),
+           {}, schemas());
+  Diagnostics findings;
+  const DecodedBlock b = decode(deck, deck.blocks[1], &findings);
+  EXPECT_EQ(b.integer("id1"), 7);
+  EXPECT_EQ(b.integer("n"), -7);
+  EXPECT_TRUE(b.find("id1")->parameter);
+  EXPECT_EQ(b.integer("mode"), 2);  // a real parameter in an integer cell is cut
+  EXPECT_EQ(b.real("v"), 2.5);
+  EXPECT_EQ(b.real("w"), -2.5);
+  EXPECT_TRUE(findings.all().empty());
+  const DecodedBlock none = decode(deck, *block(deck, "/X/CARDS/6"), &findings);
+  EXPECT_EQ(none.integer("id1"), 0);
+  EXPECT_EQ(count(findings, "DK018"), 1u);
+}
+
+TEST(Decode, DimensionsFollowTheirCondition) {
+  const std::string card = "                 2.5                  4.\n";
+  const std::string head = banner +
+                           "/BEGIN\nrun\n      2024\n"
+                           "                  Mg                   m                   s\n"
+                           "                  kg                  mm                  ms\n";
+  const Deck deck = read(head + "/X/CARDS/5\nt\n" + cells({{50, "1"}}) + card + "/X/CARDS/6\nt\n" +
+                             cells({{50, "2"}}) + card + "/END\n",
+                         {}, schemas());
+  const DecodedBlock one = decode(deck, *block(deck, "/X/CARDS/5"));
+  EXPECT_EQ(working_value(deck, one, *one.find("v")), 2500);
+  EXPECT_NEAR(working_value(deck, one, *one.find("w")), 4., 1e-12);  // Mg/s = 1 kg/ms
+  const DecodedBlock two = decode(deck, *block(deck, "/X/CARDS/6"));
+  EXPECT_TRUE(dimension_of(*two.find("w")->field, two).dimensionless());
+  EXPECT_EQ(working_value(deck, two, *two.find("w")), 4);
+}
+
+TEST(Decode, WithoutSchemaNothingIsGuessed) {
+  const Deck deck = read(deck_of("/NO/SUCH/5\nt\n         1\n"));
+  const DecodedBlock b = decode(deck, deck.blocks[1]);
+  EXPECT_TRUE(b.cards.empty());
+  EXPECT_TRUE(b.extra.empty());
+}
+
+}  // namespace
+}  // namespace deck
