@@ -1,0 +1,528 @@
+// The bulk reader against decode(): same values, same findings, whatever the lines look like, and
+// the same for every number of threads.
+#include "model/bulk.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+#include "keyword/reading.hpp"
+#include "model/bulk_plan.hpp"
+
+namespace deck {
+namespace {
+
+using namespace testing_support;
+using detail::element_blocks;
+using detail::node_blocks;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+struct Bulk {
+  explicit Bulk(Deck from, int threads = 1, int per_rule = 1000)
+      : deck(std::move(from)), findings(per_rule) {
+    for (const Block& b : deck.blocks)
+      if (b.keyword == "/PART") model.part_of_id.emplace(b.id.value + deck.offset_of(b, "part"), 0);
+    detail::read_nodes(deck, node_blocks(deck), model.nodes, model.node_blocks, findings, threads);
+    detail::read_elements(deck, element_blocks(deck), model, findings, threads);
+  }
+  Deck deck;
+  Model model;
+  Diagnostics findings;
+};
+
+Bulk bulk(const std::string& body, const std::string& version = "2024") {
+  return Bulk(read(deck_of(body, version)));
+}
+
+std::string ids(std::initializer_list<std::int64_t> values) {
+  std::string line;
+  for (const std::int64_t v : values) {
+    const std::string text = v == 0 ? "" : std::to_string(v);
+    line += std::string(10 - text.size(), ' ') + text;
+  }
+  return line + "\n";
+}
+
+/// Nodes 1 … n along a space curve, so that no four of them lie in a plane.
+std::string nodes(int n) {
+  std::string text = "/NODE\n";
+  for (int i = 1; i <= n; ++i) {
+    char line[128];
+    std::snprintf(line, sizeof line, "%10d%20d%20d%20d\n", i, i, i * i, i * i * i);
+    text += line;
+  }
+  return text;
+}
+
+std::vector<std::int64_t> corner_ids(const Model& m, const Elements& f, std::size_t e) {
+  std::vector<std::int64_t> all;
+  for (int k = 0; k < f.width; ++k) all.push_back(m.node_id(f.of(e)[k]));
+  return all;
+}
+
+// ---- nodes --------------------------------------------------------------------------------------
+
+TEST(BulkNodes, KeepDeckOrderAcrossBlocksCommentsAndIncludes) {
+  const Bulk b = bulk("/NODE\n" + ids({7}) + "# c\n$ c\n" + ids({3}) +
+                      "/PART/1\nt\n/NODE\n/NODE\n" + ids({9}));
+  EXPECT_THAT(b.model.nodes.id, ElementsAre(7, 3, 9));
+  ASSERT_EQ(b.model.node_blocks.size(), 3u);
+  EXPECT_EQ(b.model.node_blocks[0].count, 2u);
+  EXPECT_EQ(b.model.node_blocks[1].count, 0u);
+  EXPECT_EQ(b.model.node_blocks[2].first, 2u);
+  EXPECT_EQ(b.model.nodes.map.find(9), 2u);
+  EXPECT_EQ(b.model.nodes.map.find(8), no_index);
+  EXPECT_TRUE(b.findings.all().empty());
+}
+
+TEST(BulkNodes, TakeUnitsAndSubmodelOffsets) {
+  const std::string line =
+      "         1                 1.5                 -2.                 3.\n";
+  const std::string unit = "                  kg                   m                   s\n";
+  const Bulk b = bulk("/UNIT/5\nt\n" + unit + "/NODE/5\n" + line + "//SUBMODEL/1\n\n" +
+                      ids({100, 200}) + "/NODE\n" + line + "//ENDSUB\n/NODE/6\n" + ids({2}));
+  EXPECT_THAT(b.model.nodes.id, ElementsAre(1, 201, 2));
+  EXPECT_DOUBLE_EQ(b.model.nodes.x[0], 1500);
+  EXPECT_EQ(b.model.nodes.x[1], 1.5);
+  EXPECT_EQ(b.model.nodes.y[1], -2);
+  EXPECT_EQ(b.model.nodes.z[1], 3);
+  ASSERT_EQ(count(b.findings, "DK040"), 1u);
+  EXPECT_EQ(first(b.findings, "DK040")->reference->number, 643);
+}
+
+TEST(BulkNodes, OldColumnsBelongToOldVersions) {
+  const Bulk b = bulk("/NODE\n       5             1.5              2.              3.\n", "44");
+  EXPECT_THAT(b.model.nodes.id, ElementsAre(5));
+  EXPECT_THAT(b.model.nodes.x, ElementsAre(1.5));
+  EXPECT_THAT(b.model.nodes.z, ElementsAre(3));
+}
+
+TEST(BulkNodes, BlankLinesAreNoNodesAndBadIdsAreNamed) {
+  const Bulk b = bulk("/NODE\n" + ids({1}) + "\n   \n" + ids({-4}) + "                  1.0\n");
+  EXPECT_THAT(b.model.nodes.id, ElementsAre(1, -4, 0));
+  EXPECT_EQ(count(b.findings, "DK036"), 2u);
+  EXPECT_EQ(count(b.findings, "DK037"), 2u);
+  EXPECT_EQ(b.deck.sources.position(first(b.findings, "DK036")->span).line, 9u);
+}
+
+TEST(BulkNodes, FreeFormatParametersTabsAndOddSpellingsAreReadAsDecodeReadsThem) {
+  const Bulk b = bulk(
+      "/PARAMETER/GLOBAL/REAL/1\nt\nX                          2.5\n/NODE\n"
+      "1,1.5,,3.\n"
+      "         2                  &X                 -&X                1.\n"
+      "         3\t                 1.                1d2              1.5-3\n");
+  EXPECT_THAT(b.model.nodes.id, ElementsAre(1, 2, 3));
+  EXPECT_THAT(b.model.nodes.x, ElementsAre(1.5, 2.5, 1));
+  EXPECT_THAT(b.model.nodes.y, ElementsAre(0, -2.5, 100));
+  EXPECT_THAT(b.model.nodes.z, ElementsAre(3, 1, 1.5e-3));
+  EXPECT_EQ(count(b.findings, "DK013"), 1u);
+  EXPECT_EQ(b.findings.all().size(), 1u);
+}
+
+TEST(BulkNodes, MergedNodesAreAnnounced) {
+  const Bulk b = bulk("/CNODE/0.1\n" + ids({1}));
+  EXPECT_THAT(b.model.nodes.id, ElementsAre(1));
+  EXPECT_EQ(count(b.findings, "DK041"), 1u);
+}
+
+TEST(BulkNodes, TheLastLineNeedsNoNewline) {
+  auto deck = read_deck_text("x", banner + begin() + "/NODE\n         5                  2.",
+                             SchemaSet::built_in());
+  const Bulk b(std::move(*deck));
+  EXPECT_THAT(b.model.nodes.id, ElementsAre(5));
+  EXPECT_THAT(b.model.nodes.x, ElementsAre(2));
+}
+
+// ---- elements -----------------------------------------------------------------------------------
+
+TEST(BulkElements, EveryFamilyTakesItsNodes) {
+  const Bulk b =
+      bulk(nodes(9) + "/PART/4\nt\n/SHELL/4\n" + ids({1, 1, 2, 3, 4}) + "/SH3N/4\n" +
+           ids({1, 1, 2, 3}) + "/TRUSS/4\n" + ids({1, 5, 6}) + "/BEAM/5\n" + ids({1, 5, 6, 7}) +
+           ids({2, 5, 6}) + "/SPRING/4\n" + ids({1, 5, 6}) + "/QUAD/4\n" + ids({1, 1, 2, 3, 4}) +
+           "/TRIA/4\n" + ids({1, 1, 2, 3}) + "/SHELL/4\n" + ids({2, 4, 3, 2, 1}));
+  const Model& m = b.model;
+  EXPECT_THAT(corner_ids(m, m.shell4, 0), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(corner_ids(m, m.shell4, 1), ElementsAre(4, 3, 2, 1));
+  EXPECT_THAT(corner_ids(m, m.shell3, 0), ElementsAre(1, 2, 3));
+  EXPECT_THAT(corner_ids(m, m.truss, 0), ElementsAre(5, 6));
+  EXPECT_THAT(corner_ids(m, m.beam, 0), ElementsAre(5, 6, 7));
+  EXPECT_THAT(corner_ids(m, m.beam, 1), ElementsAre(5, 6, 0));
+  EXPECT_THAT(corner_ids(m, m.spring, 0), ElementsAre(5, 6, 0, 0, 0, 0));
+  EXPECT_THAT(corner_ids(m, m.quad, 0), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(corner_ids(m, m.tria, 0), ElementsAre(1, 2, 3));
+  EXPECT_EQ(m.shell4.part[0], 0u);
+  EXPECT_EQ(m.beam.part[0], no_index);
+  EXPECT_TRUE(m.shell4.thickness.empty());
+  ASSERT_EQ(m.element_blocks.size(), 8u);
+  EXPECT_EQ(m.shell4.block[1], 7u);
+  EXPECT_EQ(m.element_blocks[7].first, 1u);
+  EXPECT_EQ(m.element_blocks[7].count, 1u);
+  EXPECT_TRUE(b.findings.all().empty());
+}
+
+TEST(BulkElements, SolidsHaveEightSlots) {
+  const Bulk b =
+      bulk(nodes(20) + "/BRICK/1\n" + ids({1, 1, 2, 3, 4, 5, 6, 7, 8}) + ids({2, 1, 2, 3, 4}) +
+           ids({3, 1, 2, 3, 4, 5, 6}) + "/TETRA4/1\n" + ids({4, 1, 2, 3, 4}) + "/PENTA6/1\n" +
+           ids({5, 1, 2, 3, 4, 5, 6}) + "/TETRA10/1\n" + ids({6}) +
+           ids({1, 2, 3, 4, 5, 6, 7, 8, 9, 0}) + "/BRIC20/1\n" + ids({7, 1, 2, 3, 4, 5, 6, 7, 8}) +
+           ids({9, 10, 11, 12, 13, 14, 15, 16}) + ids({17, 18, 19, 20}) + "/SHEL16/1\n" +
+           ids({8, 1, 2, 3, 4, 5, 6, 7, 8}) + ids({9, 10, 11, 12}) + ids({13, 14, 15, 16}));
+  const Model& m = b.model;
+  ASSERT_EQ(m.solid8.size(), 8u);
+  const auto corners = [&](std::size_t e) { return corner_ids(m, m.solid8, e); };
+  EXPECT_THAT(corners(0), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+  EXPECT_THAT(corners(1), ElementsAre(1, 1, 2, 2, 4, 3, 3, 4));
+  EXPECT_THAT(corners(2), ElementsAre(1, 2, 3, 1, 4, 5, 6, 4));
+  EXPECT_EQ(corners(3), corners(1));
+  EXPECT_EQ(corners(4), corners(2));
+  EXPECT_EQ(corners(5), corners(1));
+  EXPECT_EQ(corners(6), corners(0));
+  EXPECT_THAT(m.solid8.shape,
+              ElementsAre(SolidShape::brick8, SolidShape::tetra4, SolidShape::penta6,
+                          SolidShape::tetra4, SolidShape::penta6, SolidShape::tetra10,
+                          SolidShape::brick20, SolidShape::thick16));
+  EXPECT_EQ(m.solid8.extra[0], no_index);
+  const auto mid = [&](std::size_t e, std::size_t k) {
+    return m.node_id(m.solid8.extra_nodes[m.solid8.extra[e] + k]);
+  };
+  EXPECT_EQ(mid(5, 0), 5);
+  EXPECT_EQ(mid(5, 5), 0);
+  EXPECT_EQ(mid(6, 0), 9);
+  EXPECT_EQ(mid(6, 11), 20);
+  EXPECT_EQ(mid(7, 7), 16);
+  EXPECT_EQ(m.solid8.extra_nodes.size(), 6u + 12u + 8u);
+  EXPECT_TRUE(b.findings.all().empty());
+}
+
+TEST(BulkElements, UnknownNodesAreErrorsAtTheirColumns) {
+  const Bulk b =
+      bulk(nodes(4) + "/SHELL/1\n" + ids({1, 1, 2, 99, 4}) + ids({2, 1, 2, 3}) + "/TETRA10/1\n" +
+           ids({3}) + ids({1, 2, 3, 77, 88}) + "/BRICK/1\n" + ids({4, 1, 2, 3, 4, 0, 0, 0, 4}));
+  EXPECT_EQ(b.model.shell4.nodes[2], no_index);
+  EXPECT_EQ(count(b.findings, "DK101"), 2u + 2u + 3u);
+  const Diagnostic& f = *first(b.findings, "DK101");
+  EXPECT_EQ(f.reference->number, 78);
+  EXPECT_EQ(b.deck.sources.position(f.span).column, 31u);
+  EXPECT_EQ(f.id, 1);
+  EXPECT_THAT(f.message, HasSubstr("/SHELL 1: N3 names node 99"));
+  EXPECT_THAT(b.findings.all()[1].help, HasSubstr("write N4 = N3"));
+  EXPECT_EQ(b.findings.all()[2].id, 3);
+}
+
+TEST(BulkElements, TakeSubmodelOffsetsOfTheirKind) {
+  const Bulk b = bulk("//SUBMODEL/1\n\n" + ids({1000, 200, 300, 400}) + "/NODE\n" + ids({1}) +
+                      ids({2}) + "/PART/7\nt\n/TRUSS/7\n" + ids({5, 1, 2}) + "//ENDSUB\n");
+  EXPECT_THAT(b.model.truss.id, ElementsAre(305));
+  EXPECT_THAT(corner_ids(b.model, b.model.truss, 0), ElementsAre(201, 202));
+  EXPECT_EQ(b.model.truss.part[0], 0u);
+}
+
+TEST(BulkElements, OwnThicknessIsKeptInWorkingUnits) {
+  const std::string thick = ids({2, 1, 2, 3, 4});
+  const std::string line = thick.substr(0, 50) + std::string(48, ' ') + "2.";
+  const std::string unit = "                  kg                   m                   s\n";
+  const Bulk b = bulk("/UNIT/5\nt\n" + unit + nodes(4) + "/SHELL/1\n" + ids({1, 1, 2, 3, 4}) +
+                      line + "\n/SHELL/1/5\n" + line + "\n/SH3N/1\n" + ids({3, 1, 2, 3}));
+  ASSERT_EQ(b.model.shell4.thickness.size(), 3u);
+  EXPECT_EQ(b.model.shell4.thickness[0], 0);
+  EXPECT_EQ(b.model.shell4.thickness[1], 2);
+  EXPECT_DOUBLE_EQ(b.model.shell4.thickness[2], 2000);
+  EXPECT_TRUE(b.model.shell3.thickness.empty());
+  EXPECT_EQ(count(b.findings, "DK039"), 1u);
+}
+
+TEST(BulkElements, TriangleThicknessLeftOfColumn91IsNamed) {
+  const std::string head = ids({1, 1, 2, 3}).substr(0, 40) + std::string(40, ' ');
+  const Bulk b =
+      bulk(nodes(3) + "/SH3N/1\n" + head + "1.5\n" + head + std::string(17, ' ') + "1.5\n");
+  EXPECT_THAT(b.model.shell3.thickness, ElementsAre(1.5, 1.5));
+  EXPECT_EQ(count(b.findings, "DK038"), 1u);
+  EXPECT_EQ(b.deck.sources.position(first(b.findings, "DK038")->span).column, 81u);
+}
+
+TEST(BulkElements, AnUnfinishedElementAtTheEndOfABlockIsLeftOutAndNamed) {
+  const Bulk b = bulk(nodes(4) + "/TETRA10/1\n" + ids({1}) + ids({1, 2, 3, 4}) + ids({2}) +
+                      "/TETRA4/1\n" + ids({3, 1, 2, 3, 4}));
+  EXPECT_THAT(b.model.solid8.id, ElementsAre(1, 3));
+  EXPECT_EQ(count(b.findings, "DK029"), 1u);
+}
+
+TEST(BulkElements, ItemsMayCrossIncludesButNotBlocks) {
+  const Bulk b = bulk(nodes(4) + "/TETRA10/1\n" + ids({1}) + "#include /no/such/file\n# c\n" +
+                      ids({1, 2, 3, 4}));
+  EXPECT_THAT(b.model.solid8.id, ElementsAre(1));
+}
+
+// ---- against decode() ---------------------------------------------------------------------------
+
+std::string random_line(std::mt19937_64& random, int node_count) {
+  static const char* const odd[] = {"abc",    "1.5",    "1.5.2", "nan",         "1e999",
+                                    "1e-999", "4e-320", "12x",   "-7",          "0",
+                                    "1.5-3",  "2d3",    "+4",    "99999999999", "3000000000",
+                                    ".",      "-",      "1 2",   "&P",          "&NONE"};
+  std::string line(random() % 8 == 0 ? 120 : 100, ' ');
+  for (std::size_t c = 0; c < 10; ++c) {
+    std::string text = std::to_string(random() % static_cast<std::uint64_t>(node_count) + 1);
+    if (random() % 12 == 0) text = odd[random() % std::size(odd)];
+    if (random() % 9 == 0) text.clear();
+    const std::size_t at =
+        10 * c + (random() % 20 ? 10 - std::min<std::size_t>(text.size(), 10) : 0);
+    line.replace(at, std::min(text.size(), line.size() - at), text);
+  }
+  if (random() % 30 == 0) line[random() % line.size()] = '\t';
+  if (random() % 30 == 0) line[random() % line.size()] = '\0';
+  if (random() % 30 == 0) line[random() % line.size()] = 'Z';
+  if (random() % 20 == 0) line[random() % line.size()] = ',';
+  if (random() % 15 == 0) line.resize(random() % line.size());
+  if (random() % 40 == 0) line.clear();
+  if (random() % 40 == 0) line = "# comment";
+  if (random() % 10 == 0) line += '\r';
+  return line + "\n";
+}
+
+std::string random_deck(std::uint64_t seed, int items, bool wrong_nodes) {
+  std::mt19937_64 random(seed);
+  const char* const keywords[] = {"/NODE",     "/SHELL/1",   "/SH3N/1",   "/BRICK/1",  "/TETRA4/2",
+                                  "/PENTA6/2", "/TETRA10/1", "/BRIC20/1", "/SHEL16/1", "/BEAM/1",
+                                  "/SPRING/1", "/TRUSS/1",   "/QUAD/1",   "/TRIA/1"};
+  std::string text = "/PARAMETER/GLOBAL/INTEGER/1\nt\nP                 3\n" + nodes(50);
+  for (const char* keyword : keywords) {
+    text += std::string(keyword) + "\n";
+    for (int i = 0; i < items; ++i) text += random_line(random, wrong_nodes ? 60 : 50);
+  }
+  return text;
+}
+
+/// Reads the blocks by decode() alone, one line after the other.
+struct Slow {
+  std::vector<std::int64_t> node_id, element_id;
+  std::vector<double> x;
+  Diagnostics findings{1 << 30};
+};
+
+Slow by_decode(const Deck& deck) {
+  Slow out;
+  for (const Block& block : deck.blocks) {
+    if (block.schema == nullptr || !block.schema->bulk) continue;
+    LineCursor cursor(deck.sources, block);
+    const auto& cards = block.schema->cards;
+    std::vector<const CardSchema*> active;
+    for (const CardSchema& card : cards)
+      if (card.in_version(block.version)) active.push_back(&card);
+    std::size_t k = 0;
+    std::int64_t id = 0;
+    for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
+      if (k == 0 && line.text.empty()) continue;
+      const DecodedCard card = decode_line(deck, block, *active[k], line, &out.findings);
+      if (k == 0) id = card.cells[0].integer;
+      if (++k < active.size()) continue;
+      k = 0;
+      (block.keyword == "/NODE" ? out.node_id : out.element_id).push_back(id);
+      if (block.keyword == "/NODE") out.x.push_back(card.cells[1].real);
+    }
+  }
+  return out;
+}
+
+std::uint64_t bits(double v) { return std::bit_cast<std::uint64_t>(v); }
+
+TEST(BulkAgainstDecode, ValuesAndFindingsAreTheSame) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const std::string text = deck_of(random_deck(seed, 60, false));
+    const Deck deck = read(text);
+    const Slow slow = by_decode(deck);
+    const Bulk fast(read(text), 1, 1 << 30);
+    EXPECT_EQ(fast.model.nodes.id, slow.node_id);
+    ASSERT_EQ(fast.model.nodes.x.size(), slow.x.size());
+    for (std::size_t i = 0; i < slow.x.size(); ++i)
+      ASSERT_EQ(bits(fast.model.nodes.x[i]), bits(slow.x[i])) << i;
+    std::size_t elements = 0;
+    for (const Elements* f :
+         {&fast.model.shell4, &fast.model.shell3, &fast.model.solid8, &fast.model.quad,
+          &fast.model.tria, &fast.model.truss, &fast.model.beam, &fast.model.spring})
+      elements += f->size();
+    EXPECT_EQ(elements, slow.element_id.size());
+    for (const auto& [rule, n] : slow.findings.counts())
+      EXPECT_EQ(count(fast.findings, rule), n) << rule << " seed " << seed;
+    // Messages of the shared rules, in the same order.
+    std::vector<std::string> a, b;
+    for (const Diagnostic& d : slow.findings.all())
+      if (d.rule < "DK029") a.push_back(deck.sources.where(d.span) + d.message);
+    for (const Diagnostic& d : fast.findings.all())
+      if (d.rule < "DK029") b.push_back(fast.deck.sources.where(d.span) + d.message);
+    EXPECT_EQ(a, b);
+  }
+}
+
+TEST(BulkAgainstDecode, CountsDoNotDependOnHowManyMessagesAreKept) {
+  for (std::uint64_t seed = 100; seed < 130; ++seed) {
+    const std::string text = deck_of(random_deck(seed, 60, true));
+    const Bulk all(read(text), 1, 1 << 30), few(read(text), 1, 3), none(read(text), 1, 0);
+    EXPECT_GT(count(all.findings, "DK101"), 10u);
+    EXPECT_EQ(all.findings.counts(), few.findings.counts());
+    EXPECT_EQ(all.findings.counts(), none.findings.counts());
+    EXPECT_TRUE(none.findings.all().empty());
+    // Kept are the first ones of every rule.
+    std::map<std::string_view, int> kept;
+    std::size_t next = 0;
+    for (const Diagnostic& d : all.findings.all()) {
+      if (kept[d.rule]++ >= 3) continue;
+      ASSERT_LT(next, few.findings.all().size());
+      EXPECT_EQ(d.message, few.findings.all()[next++].message);
+    }
+  }
+}
+
+bool same(const Elements& a, const Elements& b) {
+  return a.id == b.id && a.part == b.part && a.nodes == b.nodes && a.thickness == b.thickness &&
+         a.shape == b.shape && a.extra == b.extra && a.extra_nodes == b.extra_nodes &&
+         a.block == b.block && a.width == b.width;
+}
+
+TEST(BulkThreads, GiveTheSameArraysAndFindings) {
+  const std::string text = deck_of(random_deck(5, 12000, true));
+  const Bulk one(read(text), 1, 200);
+  for (const int threads : {2, 3, 8}) {
+    const Bulk many(read(text), threads, 200);
+    EXPECT_EQ(one.model.nodes.id, many.model.nodes.id);
+    EXPECT_EQ(one.model.nodes.x, many.model.nodes.x);
+    EXPECT_TRUE(same(one.model.shell4, many.model.shell4));
+    EXPECT_TRUE(same(one.model.shell3, many.model.shell3));
+    EXPECT_TRUE(same(one.model.solid8, many.model.solid8));
+    EXPECT_TRUE(same(one.model.spring, many.model.spring));
+    for (std::size_t i = 0; i < one.model.element_blocks.size(); ++i) {
+      EXPECT_EQ(one.model.element_blocks[i].first, many.model.element_blocks[i].first);
+      EXPECT_EQ(one.model.element_blocks[i].count, many.model.element_blocks[i].count);
+    }
+    EXPECT_EQ(one.findings.counts(), many.findings.counts());
+    ASSERT_EQ(one.findings.all().size(), many.findings.all().size());
+    for (std::size_t i = 0; i < one.findings.all().size(); ++i)
+      EXPECT_EQ(one.findings.all()[i].message, many.findings.all()[i].message);
+  }
+}
+
+TEST(BulkChunks, CutsNeverSplitALineOrAnItem) {
+  const Deck deck = read(deck_of(random_deck(9, 300, false)));
+  const auto blocks = element_blocks(deck);
+  Diagnostics none;
+  auto plans = detail::plan_blocks(deck, blocks, none);
+  for (auto& plan : plans) plan.format = *detail::element_format(*plan.block);
+  for (const std::uint64_t target : {1u, 100u, 1000u, 7777u, 1000000u}) {
+    std::uint64_t bytes = 0, expected = 0;
+    for (const Block* b : blocks)
+      for (const Piece& p : b->body) expected += p.end - p.begin;
+    for (const detail::Chunk& chunk : detail::cut_chunks(deck, plans, target)) {
+      for (const detail::Segment& s : chunk.segments) {
+        bytes += s.end - s.begin;
+        EXPECT_EQ(deck.sources[s.file].bytes()[s.end - 1], '\n');
+        EXPECT_EQ(plans[s.plan].format.kind, chunk.kind);
+      }
+    }
+    EXPECT_EQ(bytes, expected) << target;
+  }
+}
+
+// ---- orientation --------------------------------------------------------------------------------
+
+std::string unit_cube() {
+  const int at[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  std::string text = "/NODE\n";
+  for (int i = 0; i < 8; ++i) {
+    char line[128];
+    std::snprintf(line, sizeof line, "%10d%20d%20d%20d\n", i + 1, at[i][0], at[i][1], at[i][2]);
+    text += line;
+  }
+  return text;
+}
+
+TEST(OrientSolids, NegativeVolumesAreTurnedAsTheSolverDoes) {
+  Bulk b = bulk(unit_cube() + "/BRICK/1\n" + ids({1, 1, 2, 3, 4, 5, 6, 7, 8}) +
+                ids({2, 5, 6, 7, 8, 1, 2, 3, 4}) + "/PENTA6/1\n" + ids({3, 1, 2, 4, 5, 6, 8}) +
+                ids({4, 5, 6, 8, 1, 2, 4}));
+  EXPECT_EQ(detail::orient_solids(b.model), 2u);
+  const auto corners = [&](std::size_t e) { return corner_ids(b.model, b.model.solid8, e); };
+  EXPECT_THAT(corners(0), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+  EXPECT_THAT(corners(1), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+  EXPECT_THAT(corners(2), ElementsAre(1, 2, 4, 1, 5, 6, 8, 5));
+  EXPECT_THAT(corners(3), ElementsAre(1, 2, 4, 1, 5, 6, 8, 5));
+  EXPECT_EQ(detail::orient_solids(b.model), 0u);
+}
+
+TEST(OrientSolids, TetrasExchangeTheSecondAndFourthNodeWithTheirMidNodes) {
+  // Mid-side nodes 9 … 14 lie on the edges 1-2, 2-3, 3-1, 1-4, 2-4, 3-4 of the card's numbering.
+  std::string mids = "/NODE\n";
+  for (int i = 9; i <= 14; ++i) mids += ids({i});
+  Bulk b = bulk(unit_cube() + mids + "/TETRA4/1\n" + ids({1, 1, 2, 4, 5}) + ids({2, 1, 5, 4, 2}) +
+                "/TETRA10/1\n" + ids({3}) + ids({1, 2, 4, 5, 9, 10, 11, 12, 13, 14}));
+  EXPECT_EQ(detail::orient_solids(b.model), 2u);
+  const auto corners = [&](std::size_t e) { return corner_ids(b.model, b.model.solid8, e); };
+  // Stored 1 1 2 2 4 3 3 4 of (1, 5, 4, 2): the faces' normals point outward.
+  EXPECT_THAT(corners(0), ElementsAre(1, 1, 5, 5, 2, 4, 4, 2));
+  EXPECT_EQ(corners(1), corners(0));
+  EXPECT_EQ(corners(2), corners(0));
+  std::vector<std::int64_t> mid;
+  for (const NodeIndex n : b.model.solid8.extra_nodes) mid.push_back(b.model.node_id(n));
+  // 1-2 and 1-4 change places, 2-3 and 3-4 do; 3-1 and 2-4 stay.
+  EXPECT_THAT(mid, ElementsAre(12, 14, 11, 9, 13, 10));
+}
+
+TEST(OrientSolids, FarFromTheOriginNothingChanges) {
+  Bulk b = bulk(unit_cube() + "/BRICK/1\n" + ids({1, 1, 2, 3, 4, 5, 6, 7, 8}));
+  for (double& x : b.model.nodes.x) x += 1e8;
+  for (double& y : b.model.nodes.y) y -= 1e9;
+  EXPECT_EQ(detail::orient_solids(b.model), 0u);
+}
+
+TEST(OrientSolids, SolidsWithMissingNodesStay) {
+  Bulk b = bulk(unit_cube() + "/BRICK/1\n" + ids({1, 5, 6, 7, 8, 1, 2, 3, 99}));
+  EXPECT_EQ(detail::orient_solids(b.model), 0u);
+}
+
+// ---- id map -------------------------------------------------------------------------------------
+
+TEST(IdMap, FindsEveryIdHoweverTheyAreSpread) {
+  std::mt19937_64 random(4);
+  for (const std::int64_t spread : {1, 3, 1000, 1000000000}) {
+    std::vector<std::int64_t> all;
+    std::map<std::int64_t, std::uint32_t> expected;
+    std::vector<std::uint32_t> duplicates;
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+      const auto id = static_cast<std::int64_t>(random() % 2000) * spread - 5;
+      if (!expected.emplace(id, i).second) duplicates.push_back(i);
+      all.push_back(id);
+    }
+    IdMap map;
+    map.build(all);
+    for (const auto& [id, index] : expected) EXPECT_EQ(map.find(id), index);
+    for (int i = 0; i < 2000; ++i) {
+      const auto id = static_cast<std::int64_t>(random());
+      const auto it = expected.find(id);
+      EXPECT_EQ(map.find(id), it == expected.end() ? no_index : it->second);
+    }
+    EXPECT_EQ(map.duplicates(), duplicates) << spread;
+  }
+}
+
+TEST(IdMap, HandlesTheEndsOfTheRange) {
+  constexpr std::int64_t low = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t high = std::numeric_limits<std::int64_t>::max();
+  IdMap map;
+  EXPECT_EQ(map.find(0), no_index);
+  map.build({low, high, 0});
+  EXPECT_EQ(map.find(low), 0u);
+  EXPECT_EQ(map.find(high), 1u);
+  EXPECT_EQ(map.find(1), no_index);
+  map.build({high, high - 1});
+  EXPECT_EQ(map.find(high), 0u);
+  EXPECT_EQ(map.find(low), no_index);
+  map.build({});
+  EXPECT_EQ(map.find(high), no_index);
+}
+
+}  // namespace
+}  // namespace deck
