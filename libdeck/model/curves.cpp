@@ -109,8 +109,20 @@ void read_run_options(BuildContext& c) {
     } else if (header_starts(block, "/RANDOM")) {
       const DecodedBlock d = decode(c.deck, block);
       const double noise = c.value(d, "Noise");
-      m.has_random = m.has_random || noise != 0;
-      if (noise != 0) m.random_noise = noise;
+      if (noise == 0) continue;
+      const Cell* seed = d.find("Seed");
+      const bool other_seed = seed != nullptr && seed->real != 0;
+      if (other_seed || block.header.starts_with("/RANDOM/GRNOD"))
+        report(c.diagnostics,
+               {"DK114", Severity::warning, block.header_span,
+                other_seed ? "/RANDOM with a seed: the noise is not reproduced"
+                           : "/RANDOM of a node group: the noise is not reproduced",
+                "it moves the coordinates by up to the noise before it looks at contact",
+                "check penetrations with seed 0, or without noise", 0, Severity::warning, "/RANDOM"});
+      else {
+        m.has_random = true;
+        m.random_noise = noise;
+      }
     } else if (header_starts(block, "/IMPLICIT")) {
       m.implicit = true;
     } else if (header_starts(block, "/MONVOL")) {

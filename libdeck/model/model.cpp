@@ -235,6 +235,7 @@ Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagn
   detail::check_elements(context);
   model.selections = std::make_shared<Selections>(model, schemas);
   detail::apply_group_transforms(context);
+  detail::apply_random_noise(context);
   return model;
 }
 

@@ -75,6 +75,9 @@ void apply_submodel_transforms(BuildContext& context);
 /// The other /TRANSFORM: after all groups and sets, in the order of the deck.
 void apply_group_transforms(BuildContext& context);
 
+/// /RANDOM: the solver's noise on all coordinates, reproduced for seed 0.
+void apply_random_noise(BuildContext& context);
+
 /// Adds `index` to `map` under `id`; the first object of an id wins, the second is a finding.
 void register_id(BuildContext& context, std::map<std::int64_t, std::uint32_t>& map, std::int64_t id,
                  std::uint32_t index, const Block& block, Span first);
