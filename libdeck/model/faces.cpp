@@ -3,6 +3,7 @@
 #include "model/faces.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace deck::detail {
 namespace {
@@ -163,6 +164,53 @@ std::uint32_t KeyTable::insert(const NodeKey& key) {
 
 std::uint32_t KeyTable::find(const NodeKey& key) const { return slots_[slot(key)]; }
 
+ShellCover::ShellCover(const Elements& shell4, const Elements& shell3)
+    : shell4_(&shell4),
+      shell3_(&shell3),
+      table_(shell4.size() + shell3.size()),
+      stamp4_(shell4.size(), 0),
+      stamp3_(shell3.size(), 0) {
+  entries_.reserve(shell4.size() + shell3.size());
+  add(shell4, true);
+  add(shell3, false);
+}
+
+void ShellCover::add(const Elements& shells, bool four) {
+  for (std::uint32_t e = 0; e < shells.size(); ++e) {
+    const std::uint32_t key = table_.insert(node_key(shells.of(e), shells.width));
+    if (key == first_.size()) first_.push_back(no_index);
+    entries_.push_back({four, e, first_[key]});
+    first_[key] = static_cast<std::uint32_t>(entries_.size()) - 1;
+  }
+}
+
+void ShellCover::select(const std::vector<std::uint32_t>& shells4,
+                        const std::vector<std::uint32_t>& shells3) {
+  ++generation_;
+  for (const std::uint32_t e : shells4) stamp4_[e] = generation_;
+  for (const std::uint32_t e : shells3) stamp3_[e] = generation_;
+}
+
+bool ShellCover::hides(const Face& face) const {
+  const std::uint32_t key = table_.find(node_key(face.nodes.data(), face.corners));
+  if (key == no_index) return false;
+  const Entry* best = nullptr;
+  std::pair<std::ptrdiff_t, std::uint32_t> best_place;
+  for (std::uint32_t i = first_[key]; i != no_index; i = entries_[i].next) {
+    const Entry& entry = entries_[i];
+    const Elements& shells = entry.four ? *shell4_ : *shell3_;
+    const NodeIndex* n = shells.of(entry.element);
+    const std::pair place(std::find(n, n + shells.width, face.nodes[0]) - n, entry.element);
+    // Quadrangles are looked through before triangles.
+    if (best == nullptr || (entry.four && !best->four) ||
+        (entry.four == best->four && place < best_place)) {
+      best = &entry;
+      best_place = place;
+    }
+  }
+  return (best->four ? stamp4_ : stamp3_)[best->element] == generation_;
+}
+
 std::vector<Segment> solid_segments(const Elements& solids, const FaceQuery& query) {
   std::vector<Segment> out;
   const auto& members = *query.solids;
@@ -179,9 +227,7 @@ std::vector<Segment> solid_segments(const Elements& solids, const FaceQuery& que
       const Face face = solid_face(solids.of(e), f);
       if (face.corners == 0) continue;
       if (!all && owners.interior(face, e)) continue;
-      if (query.hidden != nullptr &&
-          query.hidden->find(node_key(face.nodes.data(), face.corners)) != no_index)
-        continue;
+      if (query.cover != nullptr && query.cover->hides(face)) continue;
       append_face(solids, e, f, face, out);
     }
   }

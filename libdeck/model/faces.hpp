@@ -41,6 +41,33 @@ class KeyTable {
   std::vector<std::uint32_t> slots_;
 };
 
+/// Shells that lie on faces of solids. A selected shell replaces the face under it. Where several
+/// shells have the same nodes only one decides: the first in the list of elements at the first node
+/// of the face, which holds those that have it as their first node, then as their second, and so
+/// on. If that one is not selected the face stays.
+class ShellCover {
+ public:
+  ShellCover(const Elements& shell4, const Elements& shell3);
+  /// Forgets the previous selection.
+  void select(const std::vector<std::uint32_t>& shells4, const std::vector<std::uint32_t>& shells3);
+  bool hides(const Face& face) const;
+
+ private:
+  struct Entry {
+    bool four;
+    std::uint32_t element;
+    std::uint32_t next;  ///< entry with the same nodes
+  };
+  void add(const Elements& shells, bool four);
+  const Elements* shell4_;
+  const Elements* shell3_;
+  KeyTable table_;
+  std::vector<std::uint32_t> first_;  ///< per key: entry
+  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> stamp4_, stamp3_;
+  std::uint32_t generation_ = 0;
+};
+
 /// Which solids count as neighbours when exterior faces are looked for.
 struct FaceQuery {
   const std::vector<std::uint32_t>* solids = nullptr;      ///< indices, ascending
@@ -48,7 +75,7 @@ struct FaceQuery {
   bool exterior_only = true;
   /// Solids (ascending) whose faces are all wanted although exterior_only is set; may be nullptr.
   const std::vector<std::uint32_t>* all_faces_of = nullptr;
-  const KeyTable* hidden = nullptr;  ///< node sets of shells that replace a face; may be nullptr
+  const ShellCover* cover = nullptr;  ///< shells that replace faces; may be nullptr
 };
 /// Segments of the faces, solid after solid, face after face. Solids with missing nodes have none;
 /// 10-node tetrahedra are cut into their small triangles.

@@ -84,6 +84,20 @@ Selections::Impl::Impl(const Model& m, const SchemaSet& s) : model(&m), schemas(
     }
     list.push_back(def);
   }
+  const auto& id = m.nodes.id;
+  if (!std::is_sorted(id.begin(), id.end())) {
+    std::vector<NodeIndex> by_id(id.size());
+    for (NodeIndex n = 0; n < by_id.size(); ++n) by_id[n] = n;
+    std::stable_sort(by_id.begin(), by_id.end(),
+                     [&](NodeIndex a, NodeIndex b) { return id[a] < id[b]; });
+    ranks.resize(id.size());
+    for (std::uint32_t r = 0; r < by_id.size(); ++r) ranks[by_id[r]] = r;
+  }
+}
+
+void Selections::Impl::sort_nodes(std::vector<NodeIndex>& nodes) const {
+  std::sort(nodes.begin(), nodes.end(),
+            [&](NodeIndex a, NodeIndex b) { return rank(a) < rank(b); });
 }
 
 const Definition* Selections::Impl::definition(std::string_view kind, std::int64_t id) const {
@@ -197,7 +211,7 @@ std::vector<NodeIndex> Selections::nodes_of(const std::vector<Segment>& segments
   std::vector<NodeIndex> nodes;
   for (const Segment& s : segments)
     for (const NodeIndex n : s.nodes) impl_->mark(n, nodes);
-  std::sort(nodes.begin(), nodes.end());
+  impl_->sort_nodes(nodes);
   return nodes;
 }
 

@@ -143,8 +143,13 @@ const Indices* Selections::Impl::element_group(const FamilyName& name, std::int6
   if (def == nullptr) {
     const detail::SetState* state = set_state(id);
     if (state == nullptr) return nullptr;
-    return &element_groups.emplace(key, state->elements[static_cast<std::size_t>(name.kind)])
-                .first->second;
+    Indices members;
+    for (const detail::SetGroup& group : state->groups) {
+      const Indices& some = group.elements[static_cast<std::size_t>(name.kind)];
+      members.insert(members.end(), some.begin(), some.end());
+    }
+    detail::normalise(members);
+    return &element_groups.emplace(key, std::move(members)).first->second;
   }
   if (recursive(name.group, id, *def->block, 176)) return nullptr;
   const auto guard = open.insert(key).first;

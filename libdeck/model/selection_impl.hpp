@@ -56,18 +56,24 @@ const FamilyName& family_name(ElementKind kind);
 /// Nodes that carry the element: for beams and springs without the orientation nodes.
 int carrying_nodes(ElementKind kind);
 
-/// What a /SET clause selects, and what a set holds while its clauses are evaluated.
-struct SetState {
+/// What one or more clauses of a /SET select.
+struct SetGroup {
   static constexpr std::size_t families = 8;
   std::array<Indices, families> elements;  ///< ascending, by ElementKind
   Indices reversed4, reversed3;            ///< shells whose normal is turned, ascending
   Indices all_faces;                       ///< solids with all their faces, ascending
-  Indices nodes;                           ///< named as nodes, ascending
-  Indices removed;                         ///< nodes taken away by name, ascending
-  std::vector<Segment> segments;           ///< SEG rows with three or four nodes
-  std::vector<Edge> edges;                 ///< SEG rows with two nodes
-  Indices parts;                           ///< ascending
+  Indices named;                           ///< nodes named as such, ascending
+  std::vector<Segment> rows;               ///< SEG rows with three or four nodes
+  std::vector<Edge> row_edges;             ///< SEG rows with two nodes
   bool external = false;                   ///< option E
+};
+/// A /SET while its clauses are evaluated. Every group has projections of its own: exterior faces
+/// and edges are looked for within a group. The first group holds all clauses of parts, and
+/// everything that is left after a removal or an intersection.
+struct SetState {
+  std::vector<SetGroup> groups{1};
+  Indices parts;    ///< ascending
+  Indices removed;  ///< nodes taken away by name, ascending
 };
 
 }  // namespace detail
@@ -94,13 +100,21 @@ struct Selections::Impl {
   std::map<std::int64_t, LineSet> set_lines;
 
   // ---- built once, when first needed ------------------------------------------------------------
-  std::array<PartElements, detail::SetState::families> part_elements_cache;
-  std::array<bool, detail::SetState::families> part_elements_ready{};
+  std::array<PartElements, detail::SetGroup::families> part_elements_cache;
+  std::array<bool, detail::SetGroup::families> part_elements_ready{};
   const PartElements& elements_of_parts(ElementKind kind);
+  std::unique_ptr<detail::ShellCover> shell_cover;
+  detail::ShellCover& cover();
   std::unique_ptr<detail::KeyTable> tetra_faces;             ///< faces of 10-node tetrahedra
   std::vector<std::pair<std::uint32_t, int>> tetra_face_of;  ///< solid and face per key
   std::vector<std::uint32_t> stamp;                          ///< per node, see mark()
   std::uint32_t generation = 0;
+
+  /// Position of each node in the reference solver's internal order, which is that of the ids;
+  /// empty if nodes are written in that order.
+  std::vector<std::uint32_t> ranks;
+  std::uint32_t rank(NodeIndex n) const { return ranks.empty() ? n : ranks[n]; }
+  void sort_nodes(std::vector<NodeIndex>& nodes) const;
 
   explicit Impl(const Model& m, const SchemaSet& s);
   const Deck& deck() const { return *model->deck; }
@@ -176,7 +190,7 @@ struct Selections::Impl {
   void add_shells(const Elements& shells, Carrier carrier, const detail::Indices& members,
                   bool reversed, std::vector<Segment>& out) const;
   void add_solids(const Block& block, std::string_view option, detail::Indices solids,
-                  const std::vector<Segment>& shells, std::vector<Segment>& out);
+                  std::vector<Segment>& out);
   /// Cuts a plain triangle that lies on the face of a 10-node tetrahedron.
   void add_plain_segment(const Segment& s, std::vector<Segment>& out);
   void sort_segments(std::vector<Segment>& segments) const;
@@ -202,8 +216,17 @@ struct Selections::Impl {
   // ---------------------------------------------------
   const SetGeneral* set(std::int64_t id);
   const detail::SetState* set_state(std::int64_t id);
-  std::vector<NodeIndex> node_projection(const detail::SetState& state);
-  std::vector<Segment> surface_projection(const detail::SetState& state);
+  std::vector<Segment> group_segments(const detail::SetGroup& group);
+  std::vector<Edge> group_edges(const detail::SetGroup& group);
+  detail::Indices group_nodes(const detail::SetGroup& group);
+  std::vector<NodeIndex> set_node_list(const detail::SetState& state);
+  std::vector<Segment> set_segment_list(const detail::SetState& state);
+  std::vector<Edge> set_edge_list(const detail::SetState& state);
+  /// Title and place of a set.
+  std::pair<std::string, Span> set_heading(std::int64_t id) const;
+  /// Sorts by nodes and merges what is the same segment (edge) of the same element.
+  void merge_segments(std::vector<Segment>& segments) const;
+  void merge_edges(std::vector<Edge>& edges) const;
 };
 
 }  // namespace deck

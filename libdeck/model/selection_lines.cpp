@@ -14,9 +14,10 @@ const LineSet* Selections::Impl::line(std::int64_t id) {
   const Definition* def = definition("line", id);
   if (def == nullptr) {
     if (const auto it = set_lines.find(id); it != set_lines.end()) return &it->second;
-    const SetGeneral* s = set(id);
-    if (s == nullptr) return nullptr;
-    return &set_lines.emplace(id, LineSet{id, s->title, s->edges, s->span}).first->second;
+    const detail::SetState* state = set_state(id);
+    if (state == nullptr) return nullptr;
+    const auto [title, span] = set_heading(id);
+    return &set_lines.emplace(id, LineSet{id, title, set_edge_list(*state), span}).first->second;
   }
   if (recursive("line", id, *def->block, 176)) return nullptr;
   const auto guard = open.emplace("line", id).first;
@@ -123,17 +124,19 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
 std::vector<Edge> Selections::Impl::edges_of(const std::vector<Segment>& segments,
                                              bool free_only) const {
   struct Side {
-    std::uint64_t key;
+    std::uint64_t key;  // later node, then earlier node
     std::uint32_t segment;
+    NodeIndex first, second;
   };
   std::vector<Side> sides;
   sides.reserve(segments.size() * 4);
   for (std::uint32_t i = 0; i < segments.size(); ++i) {
     const auto& n = segments[i].nodes;
     for (std::size_t k = 0; k < 4; ++k) {
-      const NodeIndex a = n[k], b = n[(k + 1) % 4];
+      NodeIndex a = n[k], b = n[(k + 1) % 4];
       if (a == b) continue;
-      sides.push_back({(std::uint64_t{std::min(a, b)} << 32) | std::max(a, b), i});
+      if (rank(b) < rank(a)) std::swap(a, b);
+      sides.push_back({(std::uint64_t{rank(b)} << 32) | rank(a), i, a, b});
     }
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
@@ -145,10 +148,7 @@ std::vector<Edge> Selections::Impl::edges_of(const std::vector<Segment>& segment
     while (end < sides.size() && sides[end].key == sides[i].key) ++end;
     if (!free_only || end == i + 1) {
       const Segment& s = segments[sides[i].segment];
-      out.push_back({{static_cast<NodeIndex>(sides[i].key >> 32),
-                      static_cast<NodeIndex>(sides[i].key & 0xffffffffu)},
-                     s.carrier,
-                     s.element});
+      out.push_back({{sides[i].first, sides[i].second}, s.carrier, s.element});
     }
     i = end;
   }

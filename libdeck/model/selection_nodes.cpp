@@ -33,9 +33,10 @@ const NodeSet* Selections::Impl::node_group(std::int64_t id) {
   const Definition* def = definition("grnod", id);
   if (def == nullptr) {
     if (const auto it = set_nodes.find(id); it != set_nodes.end()) return &it->second;
-    const SetGeneral* s = set(id);
-    if (s == nullptr) return nullptr;
-    return &set_nodes.emplace(id, NodeSet{id, s->title, s->nodes, s->span}).first->second;
+    const detail::SetState* state = set_state(id);
+    if (state == nullptr) return nullptr;
+    const auto [title, span] = set_heading(id);
+    return &set_nodes.emplace(id, NodeSet{id, title, set_node_list(*state), span}).first->second;
   }
   if (recursive("grnod", id, *def->block, 176)) return nullptr;
   const auto key = open.emplace("grnod", id).first;
@@ -74,7 +75,7 @@ std::vector<NodeIndex> Selections::Impl::resolve_nodes(const Definition& def,
       if (name.keyword == type) nodes = nodes_of_elements(block, d, name.kind);
   }
   const bool keeps_order = type == "NODENS" || type == "GRNODNS";
-  if (!keeps_order) std::sort(nodes.begin(), nodes.end());
+  if (!keeps_order) sort_nodes(nodes);
   return nodes;
 }
 
@@ -208,7 +209,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_groups(const Block& block, con
       for (const NodeIndex n : group->nodes) stamp[n] = generation;
     std::erase_if(nodes, [&](NodeIndex n) { return stamp[n] == generation; });
   }
-  if (!keep_order) std::sort(nodes.begin(), nodes.end());
+  if (!keep_order) sort_nodes(nodes);
   return nodes;
 }
 

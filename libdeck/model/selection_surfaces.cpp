@@ -22,11 +22,12 @@ Segment turned(Segment s) {
 }
 
 /// Starts at the smallest node, keeping the sense; triangles repeat the last node again.
-std::array<NodeIndex, 4> from_smallest(const std::array<NodeIndex, 4>& n) {
+template <class Rank>
+std::array<NodeIndex, 4> from_smallest(const std::array<NodeIndex, 4>& n, Rank rank) {
   const std::size_t corners = n[2] == n[3] ? 3 : 4;
   std::size_t least = 0;
   for (std::size_t i = 1; i < corners; ++i)
-    if (n[i] < n[least]) least = i;
+    if (rank(n[i]) < rank(n[least])) least = i;
   std::array<NodeIndex, 4> out{};
   for (std::size_t i = 0; i < corners; ++i) out[i] = n[(least + i) % corners];
   if (corners == 3) out[3] = out[2];
@@ -40,9 +41,10 @@ const Surface* Selections::Impl::surface(std::int64_t id) {
   const Definition* def = definition("surf", id);
   if (def == nullptr) {
     if (const auto it = set_surfaces.find(id); it != set_surfaces.end()) return &it->second;
-    const SetGeneral* s = set(id);
-    if (s == nullptr) return nullptr;
-    return &set_surfaces.emplace(id, Surface{id, s->title, s->segments, false, s->span})
+    const detail::SetState* state = set_state(id);
+    if (state == nullptr) return nullptr;
+    const auto [title, span] = set_heading(id);
+    return &set_surfaces.emplace(id, Surface{id, title, set_segment_list(*state), false, span})
                 .first->second;
   }
   if (recursive("surf", id, *def->block, 189)) return nullptr;
@@ -172,8 +174,14 @@ void Selections::Impl::add_shells(const Elements& shells, Carrier carrier, const
   }
 }
 
+detail::ShellCover& Selections::Impl::cover() {
+  if (!shell_cover)
+    shell_cover = std::make_unique<detail::ShellCover>(model->shell4, model->shell3);
+  return *shell_cover;
+}
+
 void Selections::Impl::add_solids(const Block& block, std::string_view option, Indices members,
-                                  const std::vector<Segment>& shells, std::vector<Segment>& out) {
+                                  std::vector<Segment>& out) {
   const Elements& solids = model->solid8;
   if (members.empty()) return;
   detail::normalise(members);
@@ -210,13 +218,17 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
       return solids.shape[e] == SolidShape::brick20 || solids.shape[e] == SolidShape::thick16;
     });
   }
-  detail::KeyTable hidden(shells.size());
-  for (const Segment& s : shells) hidden.insert(detail::node_key(s.nodes.data(), 4));
+  Indices shells4, shells3;
+  for (const Segment& s : out)
+    (s.carrier == Carrier::shell4 ? shells4 : shells3).push_back(s.element);
   Indices everyone;
   detail::FaceQuery query;
   query.solids = &members;
   query.exterior_only = option != "ALL";
-  query.hidden = shells.empty() ? nullptr : &hidden;
+  if (!out.empty()) {
+    cover().select(shells4, shells3);
+    query.cover = &cover();
+  }
   if (option == "FREE") {
     everyone.resize(solids.size());
     for (std::uint32_t e = 0; e < everyone.size(); ++e) everyone[e] = e;
@@ -246,8 +258,7 @@ std::vector<Segment> Selections::Impl::segments_of_parts(const Definition& def,
     for (std::size_t p = 0; p < tags.size(); ++p)
       if (tags[p] != 0) solids.insert(solids.end(), rows.row(p).begin(), rows.row(p).end());
   }
-  const std::vector<Segment> shells = out;
-  add_solids(*def.block, def.option, std::move(solids), shells, out);
+  add_solids(*def.block, def.option, std::move(solids), out);
   return out;
 }
 
@@ -271,8 +282,7 @@ std::vector<Segment> Selections::Impl::segments_in_boxes(const Definition& def,
   const Indices more =
       elements_in_boxes(*def.block, list.negative, ElementKind::solid8, any_node, 800);
   solids.insert(solids.end(), more.begin(), more.end());
-  const std::vector<Segment> shells = out;
-  add_solids(*def.block, def.option, std::move(solids), shells, out);
+  add_solids(*def.block, def.option, std::move(solids), out);
   return out;
 }
 
@@ -310,7 +320,7 @@ std::vector<Segment> Selections::Impl::segments_of_groups(const Definition& def,
             479, Severity::error, std::string(block.keyword), block.id.value});
     return out;
   }
-  add_solids(block, def.option, std::move(solids), {}, out);
+  add_solids(block, def.option, std::move(solids), out);
   return out;
 }
 
@@ -358,11 +368,15 @@ std::vector<Segment> Selections::Impl::difference_of_surfaces(const Block& block
     for (const IdRef& ref : refs)
       if (const auto* segments = listed_surface(block, ref, missing))
         for (Segment s : *segments) {
-          s.nodes = from_smallest(s.nodes);
+          s.nodes = from_smallest(s.nodes, [&](NodeIndex n) { return rank(n); });
           into.push_back(s);
         }
   };
-  const auto before = [](const Segment& a, const Segment& b) { return a.nodes < b.nodes; };
+  const auto before = [&](const Segment& a, const Segment& b) {
+    return std::lexicographical_compare(
+        a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
+        [&](NodeIndex p, NodeIndex q) { return rank(p) < rank(q); });
+  };
   collect(list.positive, out);
   collect(list.negative, gone);
   report_missing("DK151", block, "surface", missing, 188, Severity::warning);

@@ -23,6 +23,7 @@ struct Clause {
   Span span;            ///< the clause keyword
   std::vector<const DecodedCard*> lines;
   std::vector<IdRef> ids;  ///< no offset yet
+  bool of_parts() const { return kind == "PART" || kind == "SUBS" || kind == "SUBM"; }
   bool has(char option) const { return options.find(option) != std::string::npos; }
 };
 
@@ -74,33 +75,58 @@ bool same_edge(const Edge& a, const Edge& b) {
   return std::minmax(a.nodes[0], a.nodes[1]) == std::minmax(b.nodes[0], b.nodes[1]);
 }
 
-/// Adds, removes or keeps what `clause` selects.
-void apply(SetState& set, const SetState& clause, Operator op) {
-  for (std::size_t k = 0; k < SetState::families; ++k)
-    set.elements[k] = combine(set.elements[k], clause.elements[k], op);
+void add(SetGroup& group, const SetGroup& clause) {
+  const auto join = [](Indices& a, const Indices& b) { a = combine(a, b, Operator::add); };
+  for (std::size_t k = 0; k < SetGroup::families; ++k) join(group.elements[k], clause.elements[k]);
+  join(group.reversed4, clause.reversed4);
+  join(group.reversed3, clause.reversed3);
+  join(group.all_faces, clause.all_faces);
+  join(group.named, clause.named);
+  const auto append = [](auto& a, const auto& b) { a.insert(a.end(), b.begin(), b.end()); };
+  append(group.rows, clause.rows);
+  append(group.row_edges, clause.row_edges);
+  group.external = group.external || clause.external;
+}
+
+/// Moves all groups of a set into the first one.
+SetGroup& unite(SetState& set) {
+  for (std::size_t i = 1; i < set.groups.size(); ++i) add(set.groups[0], set.groups[i]);
+  set.groups.resize(1);
+  return set.groups[0];
+}
+
+/// Removes what `clause` selects, or keeps nothing else.
+void reduce(SetState& set, const SetState& clause, Operator op) {
+  SetGroup& group = unite(set);
+  SetGroup other;
+  for (const SetGroup& g : clause.groups) add(other, g);
+  for (std::size_t k = 0; k < SetGroup::families; ++k)
+    group.elements[k] = combine(group.elements[k], other.elements[k], op);
   set.parts = combine(set.parts, clause.parts, op);
-  if (op == Operator::add) {
-    set.reversed4 = combine(set.reversed4, clause.reversed4, op);
-    set.reversed3 = combine(set.reversed3, clause.reversed3, op);
-    set.all_faces = combine(set.all_faces, clause.all_faces, op);
-    set.nodes = combine(set.nodes, clause.nodes, op);
-    set.removed = combine(set.removed, clause.nodes, Operator::subtract);
-    set.segments.insert(set.segments.end(), clause.segments.begin(), clause.segments.end());
-    set.edges.insert(set.edges.end(), clause.edges.begin(), clause.edges.end());
-    set.external = set.external || clause.external;
-    return;
-  }
   const bool removes = op == Operator::subtract;
-  set.nodes = combine(set.nodes, clause.nodes, op);
-  if (removes) set.removed = combine(set.removed, clause.nodes, Operator::add);
-  std::erase_if(set.segments, [&](const Segment& s) {
-    return std::any_of(clause.segments.begin(), clause.segments.end(),
-                       [&](const Segment& other) { return same_segment(s, other); }) == removes;
+  group.named = combine(group.named, other.named, op);
+  if (removes) set.removed = combine(set.removed, other.named, Operator::add);
+  std::erase_if(group.rows, [&](const Segment& s) {
+    return std::any_of(other.rows.begin(), other.rows.end(),
+                       [&](const Segment& o) { return same_segment(s, o); }) == removes;
   });
-  std::erase_if(set.edges, [&](const Edge& e) {
-    return std::any_of(clause.edges.begin(), clause.edges.end(),
-                       [&](const Edge& other) { return same_edge(e, other); }) == removes;
+  std::erase_if(group.row_edges, [&](const Edge& e) {
+    return std::any_of(other.row_edges.begin(), other.row_edges.end(),
+                       [&](const Edge& o) { return same_edge(e, o); }) == removes;
   });
+}
+
+/// Adds what a clause selects: clauses of parts to the first group, others as groups of their own.
+void join(Selections::Impl& all, SetState& set, const SetState& clause, bool of_parts) {
+  set.parts = combine(set.parts, clause.parts, Operator::add);
+  for (const SetGroup& group : clause.groups) {
+    if (!set.removed.empty())
+      set.removed = combine(set.removed, all.group_nodes(group), Operator::subtract);
+    if (of_parts)
+      add(set.groups[0], group);
+    else
+      set.groups.push_back(group);
+  }
 }
 
 struct ElementClause {
@@ -166,12 +192,12 @@ class ClauseReader {
   void finish() {
     for (const char option : clause_.options) {
       if (option == 'O') {
-        state_.reversed4 = state_.elements[static_cast<std::size_t>(ElementKind::shell4)];
-        state_.reversed3 = state_.elements[static_cast<std::size_t>(ElementKind::shell3)];
+        group().reversed4 = of(ElementKind::shell4);
+        group().reversed3 = of(ElementKind::shell3);
       } else if (option == 'A') {
-        state_.all_faces = state_.elements[static_cast<std::size_t>(ElementKind::solid8)];
+        group().all_faces = of(ElementKind::solid8);
       } else if (option == 'E') {
-        state_.external = true;
+        group().external = true;
       } else if (option == 'B' || option == 'C') {
         unsupported(std::string("option ") + option + " is not evaluated here");
       }
@@ -209,22 +235,23 @@ class ClauseReader {
       if (n == no_index)
         absent.push_back(ref);
       else
-        state_.nodes.push_back(n);
+        group().named.push_back(n);
     }
-    normalise(state_.nodes);
+    normalise(group().named);
     missing("node", absent);
   }
 
   void add_parts(const Indices& parts) {
     state_.parts.insert(state_.parts.end(), parts.begin(), parts.end());
     normalise(state_.parts);
-    for (std::size_t k = 0; k < SetState::families; ++k) {
+    for (std::size_t k = 0; k < SetGroup::families; ++k) {
       const auto kind = static_cast<ElementKind>(k);
       if (all_.model->family(kind).size() == 0) continue;
       const PartElements& rows = all_.elements_of_parts(kind);
       for (const std::uint32_t p : state_.parts)
-        state_.elements[k].insert(state_.elements[k].end(), rows.row(p).begin(), rows.row(p).end());
-      normalise(state_.elements[k]);
+        group().elements[k].insert(group().elements[k].end(), rows.row(p).begin(),
+                                   rows.row(p).end());
+      normalise(group().elements[k]);
     }
   }
 
@@ -260,8 +287,8 @@ class ClauseReader {
     Indices parts(all_.model->parts.size());
     for (std::uint32_t p = 0; p < parts.size(); ++p) parts[p] = p;
     add_parts(parts);
-    state_.nodes.resize(all_.model->nodes.size());
-    for (NodeIndex n = 0; n < state_.nodes.size(); ++n) state_.nodes[n] = n;
+    group().named.resize(all_.model->nodes.size());
+    for (NodeIndex n = 0; n < group().named.size(); ++n) group().named[n] = n;
   }
 
   void elements(ElementKind kind) {
@@ -276,7 +303,7 @@ class ClauseReader {
       return;
     }
     std::vector<IdRef> absent;
-    Indices& out = state_.elements[static_cast<std::size_t>(kind)];
+    Indices& out = of(kind);
     for (const IdRef& ref : ids(family_name(kind).id_kind, family.id)) {
       const std::uint32_t e = family.map.find(ref.id);
       if (e == no_index)
@@ -299,9 +326,18 @@ class ClauseReader {
       if (other == nullptr)
         absent.push_back(ref);
       else
-        apply(state_, *other, Operator::add);
+        add_set(*other);
     }
     missing("set", absent);
+  }
+
+  SetGroup& group() { return state_.groups[0]; }
+  Indices& of(ElementKind kind) { return group().elements[static_cast<std::size_t>(kind)]; }
+
+  /// The groups of another set come as they are.
+  void add_set(const SetState& other) {
+    state_.groups.insert(state_.groups.end(), other.groups.begin(), other.groups.end());
+    state_.parts = combine(state_.parts, other.parts, Operator::add);
   }
 
   void boxes() {
@@ -310,16 +346,16 @@ class ClauseReader {
     for (const IdRef& ref : clause_.ids) {
       const Box* b = all_.box(ref.id + offset, block_, 796);
       if (b == nullptr) continue;
-      for (std::size_t k = 0; k < SetState::families; ++k) {
+      for (std::size_t k = 0; k < SetGroup::families; ++k) {
         const Indices in = all_.elements_in_box(*b, static_cast<ElementKind>(k), any_node);
-        state_.elements[k] = combine(state_.elements[k], in, Operator::add);
+        group().elements[k] = combine(group().elements[k], in, Operator::add);
       }
       for (NodeIndex n = 0; n < all_.model->nodes.size(); ++n) {
         const auto p = all_.box_point(n);
-        if (b->contains(p[0], p[1], p[2])) state_.nodes.push_back(n);
+        if (b->contains(p[0], p[1], p[2])) group().named.push_back(n);
       }
     }
-    normalise(state_.nodes);
+    normalise(group().named);
   }
 
   void segments() {
@@ -342,9 +378,9 @@ class ClauseReader {
       }
       if (!complete || have < 2) continue;
       if (have == 2)
-        state_.edges.push_back({{n[0], n[1]}, Carrier::none, no_index});
+        group().row_edges.push_back({{n[0], n[1]}, Carrier::none, no_index});
       else
-        all_.add_plain_segment({{n[0], n[1], n[2], have == 4 ? n[3] : n[2]}}, state_.segments);
+        all_.add_plain_segment({{n[0], n[1], n[2], have == 4 ? n[3] : n[2]}}, group().rows);
     }
     all_.report_missing("DK162", block_, "node", absent, 1903, Severity::error);
   }
@@ -375,11 +411,16 @@ const SetState* Selections::Impl::set_state(std::int64_t id) {
                                         : detail::Operator::add;
       SetState selected = detail::ClauseReader(*this, *def.block, clause).read();
       if (op == detail::Operator::intersect) {
-        // Nodes of elements count as well as nodes named; a clause of nodes keeps no element.
-        selected.nodes = node_projection(selected);
-        state.nodes = node_projection(state);
+        // Nodes of elements count as well as nodes named.
+        detail::unite(selected).named = set_node_list(selected);
+        detail::unite(state).named = set_node_list(state);
+        detail::normalise(selected.groups[0].named);
+        detail::normalise(state.groups[0].named);
       }
-      detail::apply(state, selected, op);
+      if (op == detail::Operator::add)
+        detail::join(*this, state, selected, clause.of_parts());
+      else
+        detail::reduce(state, selected, op);
     }
   }
   open.erase(guard);
