@@ -41,12 +41,13 @@ class Cutter {
 
   void add(std::uint32_t index, const BlockPlan& plan) {
     if (plan.item == nullptr) return;
-    if (chunks_.empty() || chunks_.back().kind != plan.format.kind) open(plan.format.kind);
     std::size_t line = 0;  // of the current item, only where items have several lines
     for (const Piece& piece : plan.block->body) {
       std::uint64_t begin = piece.begin;
       while (begin < piece.end) {
-        if (chunks_.back().bytes >= target_ && line == 0) open(plan.format.kind);
+        if (chunks_.empty() || chunks_.back().kind != plan.format.kind ||
+            (chunks_.back().bytes >= target_ && line == 0))
+          open(plan.format.kind);
         const std::uint64_t room = target_ - std::min(chunks_.back().bytes, target_);
         const std::uint64_t end = plan.item->cards.size() == 1
                                       ? line_end(piece, begin + room)
@@ -56,7 +57,7 @@ class Cutter {
         begin = end;
       }
     }
-    if (!chunks_.back().segments.empty() && chunks_.back().segments.back().plan == index)
+    if (!chunks_.empty() && chunks_.back().segments.back().plan == index)
       chunks_.back().segments.back().block_ends = true;
   }
 
