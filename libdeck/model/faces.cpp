@@ -40,51 +40,6 @@ bool complete(const Elements& solids, std::size_t e) {
   return std::find(n, n + 8, no_index) == n + 8;
 }
 
-/// Owners of a face per sense of traversal; `several` where more than one solid has it.
-struct Owners {
-  std::uint32_t solid[2] = {no_index, no_index};
-  bool several[2] = {false, false};
-};
-
-class FaceOwners {
- public:
-  FaceOwners(const Elements& solids, const std::vector<std::uint32_t>& members)
-      : table_(members.size() * 4) {
-    owners_.reserve(members.size() * 4);
-    for (const std::uint32_t e : members) {
-      if (!complete(solids, e)) continue;
-      for (int f = 0; f < 6; ++f)
-        if (const Face face = solid_face(solids.of(e), f); face.corners > 0) add(face, e);
-    }
-  }
-
-  /// True if another solid than `e` has this face the other way round.
-  bool interior(const Face& face, std::uint32_t e) const {
-    const OrientedKey k = oriented_key(face);
-    const std::uint32_t at = table_.find(k.key);
-    if (at == no_index) return false;
-    const Owners& o = owners_[at];
-    const int other = k.forward ? 0 : 1;
-    return o.solid[other] != no_index && (o.solid[other] != e || o.several[other]);
-  }
-
- private:
-  void add(const Face& face, std::uint32_t e) {
-    const OrientedKey k = oriented_key(face);
-    const std::uint32_t at = table_.insert(k.key);
-    if (at == owners_.size()) owners_.emplace_back();
-    Owners& o = owners_[at];
-    const int sense = k.forward ? 1 : 0;
-    if (o.solid[sense] == no_index)
-      o.solid[sense] = e;
-    else if (o.solid[sense] != e)
-      o.several[sense] = true;
-  }
-
-  KeyTable table_;
-  std::vector<Owners> owners_;
-};
-
 void append_face(const Elements& solids, std::uint32_t e, int f, const Face& face,
                  std::vector<Segment>& out) {
   if (solids.shape[e] != SolidShape::tetra10 || face.corners != 3) {
@@ -131,38 +86,50 @@ NodeKey node_key(const NodeIndex* nodes, int count) {
 KeyTable::KeyTable(std::size_t expected) {
   std::size_t size = 16;
   while (size < expected * 2) size *= 2;
-  slots_.assign(size, no_index);
+  slots_.assign(size, {});
   keys_.reserve(expected);
 }
 
-std::size_t KeyTable::slot(const NodeKey& key) const {
-  std::uint64_t h = 0x9e3779b97f4a7c15u;
-  for (const NodeIndex n : key.nodes) {
-    h ^= n;
-    h *= 0xff51afd7ed558ccdu;
-    h ^= h >> 32;
-  }
-  std::size_t at = static_cast<std::size_t>(h) & (slots_.size() - 1);
-  while (slots_[at] != no_index && !(keys_[slots_[at]] == key)) at = (at + 1) & (slots_.size() - 1);
+std::uint64_t KeyTable::hash(const NodeKey& key) {
+  const std::uint64_t a = (std::uint64_t{key.nodes[0]} << 32) | key.nodes[1];
+  const std::uint64_t b = (std::uint64_t{key.nodes[2]} << 32) | key.nodes[3];
+  std::uint64_t h = a * 0x9e3779b97f4a7c15u;
+  h ^= h >> 29;
+  h = (h + b) * 0xbf58476d1ce4e5b9u;
+  return h ^ (h >> 32);
+}
+
+std::size_t KeyTable::slot(const NodeKey& key, std::uint64_t h) const {
+  const std::size_t mask = slots_.size() - 1;
+  const auto tag = static_cast<std::uint32_t>(h >> 32);
+  std::size_t at = static_cast<std::size_t>(h) & mask;
+  while (slots_[at].index != no_index && !(slots_[at].tag == tag && keys_[slots_[at].index] == key))
+    at = (at + 1) & mask;
   return at;
 }
 
 void KeyTable::grow() {
-  slots_.assign(slots_.size() * 2, no_index);
-  for (std::uint32_t i = 0; i < keys_.size(); ++i) slots_[slot(keys_[i])] = i;
+  slots_.assign(slots_.size() * 2, {});
+  for (std::uint32_t i = 0; i < keys_.size(); ++i) {
+    const std::uint64_t h = hash(keys_[i]);
+    slots_[slot(keys_[i], h)] = {i, static_cast<std::uint32_t>(h >> 32)};
+  }
 }
 
 std::uint32_t KeyTable::insert(const NodeKey& key) {
   if ((keys_.size() + 1) * 2 > slots_.size()) grow();
-  const std::size_t at = slot(key);
-  if (slots_[at] == no_index) {
-    slots_[at] = static_cast<std::uint32_t>(keys_.size());
+  const std::uint64_t h = hash(key);
+  const std::size_t at = slot(key, h);
+  if (slots_[at].index == no_index) {
+    slots_[at] = {static_cast<std::uint32_t>(keys_.size()), static_cast<std::uint32_t>(h >> 32)};
     keys_.push_back(key);
   }
-  return slots_[at];
+  return slots_[at].index;
 }
 
-std::uint32_t KeyTable::find(const NodeKey& key) const { return slots_[slot(key)]; }
+std::uint32_t KeyTable::find(const NodeKey& key) const {
+  return slots_[slot(key, hash(key))].index;
+}
 
 ShellCover::ShellCover(const Elements& shell4, const Elements& shell3)
     : shell4_(&shell4),
@@ -211,24 +178,55 @@ bool ShellCover::hides(const Face& face) const {
   return (best->four ? stamp4_ : stamp3_)[best->element] == generation_;
 }
 
-std::vector<Segment> solid_segments(const Elements& solids, const FaceQuery& query) {
+SolidFaces::SolidFaces(const Elements& solids)
+    : solids_(&solids),
+      key_(solids.size() * 6, no_index),
+      forward_(solids.size() * 6),
+      stamp_(solids.size(), 0) {
+  KeyTable table(solids.size() * 4);
+  owners_.reserve(solids.size() * 6);
+  for (std::uint32_t e = 0; e < solids.size(); ++e) {
+    if (!complete(solids, e)) continue;
+    for (std::uint32_t f = 0; f < 6; ++f) {
+      const Face face = solid_face(solids.of(e), static_cast<int>(f));
+      if (face.corners == 0) continue;
+      const OrientedKey k = oriented_key(face);
+      const std::uint32_t key = table.insert(k.key);
+      if (key == first_.size()) first_.push_back(no_index);
+      owners_.push_back({e, first_[key], k.forward});
+      first_[key] = static_cast<std::uint32_t>(owners_.size()) - 1;
+      key_[e * std::size_t{6} + f] = key;
+      forward_[e * std::size_t{6} + f] = k.forward;
+    }
+  }
+}
+
+bool SolidFaces::interior(std::uint32_t solid, int face, bool against_all) const {
+  const std::size_t at = solid * std::size_t{6} + static_cast<std::size_t>(face);
+  for (std::uint32_t i = first_[key_[at]]; i != no_index; i = owners_[i].next) {
+    const Owner& o = owners_[i];
+    if (o.solid != solid && o.forward != forward_[at] &&
+        (against_all || stamp_[o.solid] == generation_))
+      return true;
+  }
+  return false;
+}
+
+std::vector<Segment> SolidFaces::segments(const FaceQuery& query) {
   std::vector<Segment> out;
   const auto& members = *query.solids;
-  if (members.empty()) return out;
-  const std::vector<std::uint32_t> nobody;
-  const auto& neighbours = query.neighbours != nullptr ? *query.neighbours : members;
-  const FaceOwners owners(solids, query.exterior_only ? neighbours : nobody);
+  ++generation_;
+  for (const std::uint32_t e : members) stamp_[e] = generation_;
   for (const std::uint32_t e : members) {
-    if (!complete(solids, e)) continue;
     const bool all = !query.exterior_only || (query.all_faces_of != nullptr &&
                                               std::binary_search(query.all_faces_of->begin(),
                                                                  query.all_faces_of->end(), e));
     for (int f = 0; f < 6; ++f) {
-      const Face face = solid_face(solids.of(e), f);
-      if (face.corners == 0) continue;
-      if (!all && owners.interior(face, e)) continue;
+      if (key_[e * std::size_t{6} + static_cast<std::size_t>(f)] == no_index) continue;
+      if (!all && interior(e, f, query.against_all)) continue;
+      const Face face = solid_face(solids_->of(e), f);
       if (query.cover != nullptr && query.cover->hides(face)) continue;
-      append_face(solids, e, f, face, out);
+      append_face(*solids_, e, f, face, out);
     }
   }
   return out;

@@ -20,7 +20,10 @@ Face solid_face(const NodeIndex* slots, int face);
 /// A node set as a key: sorted, padded with no_index.
 struct NodeKey {
   std::array<NodeIndex, 4> nodes{no_index, no_index, no_index, no_index};
-  friend bool operator==(const NodeKey&, const NodeKey&) = default;
+  friend bool operator==(const NodeKey& a, const NodeKey& b) {
+    return ((a.nodes[0] ^ b.nodes[0]) | (a.nodes[1] ^ b.nodes[1]) | (a.nodes[2] ^ b.nodes[2]) |
+            (a.nodes[3] ^ b.nodes[3])) == 0;
+  }
 };
 /// Distinct nodes of a segment or face.
 NodeKey node_key(const NodeIndex* nodes, int count);
@@ -35,10 +38,15 @@ class KeyTable {
   std::size_t size() const { return keys_.size(); }
 
  private:
-  std::size_t slot(const NodeKey& key) const;
+  struct Slot {
+    std::uint32_t index = no_index;
+    std::uint32_t tag = 0;  ///< upper half of the hash, to look at keys rarely
+  };
+  static std::uint64_t hash(const NodeKey& key);
+  std::size_t slot(const NodeKey& key, std::uint64_t h) const;
   void grow();
   std::vector<NodeKey> keys_;
-  std::vector<std::uint32_t> slots_;
+  std::vector<Slot> slots_;
 };
 
 /// Shells that lie on faces of solids. A selected shell replaces the face under it. Where several
@@ -68,18 +76,40 @@ class ShellCover {
   std::uint32_t generation_ = 0;
 };
 
-/// Which solids count as neighbours when exterior faces are looked for.
+/// Which faces of a group of solids are wanted.
 struct FaceQuery {
-  const std::vector<std::uint32_t>* solids = nullptr;      ///< indices, ascending
-  const std::vector<std::uint32_t>* neighbours = nullptr;  ///< nullptr: the same solids
+  const std::vector<std::uint32_t>* solids = nullptr;  ///< indices, ascending
+  bool against_all = false;  ///< every solid of the model counts as a neighbour, not only the group
   bool exterior_only = true;
   /// Solids (ascending) whose faces are all wanted although exterior_only is set; may be nullptr.
   const std::vector<std::uint32_t>* all_faces_of = nullptr;
   const ShellCover* cover = nullptr;  ///< shells that replace faces; may be nullptr
 };
-/// Segments of the faces, solid after solid, face after face. Solids with missing nodes have none;
-/// 10-node tetrahedra are cut into their small triangles.
-std::vector<Segment> solid_segments(const Elements& solids, const FaceQuery& query);
+
+/// All faces of all solids, hashed once: which solids have a face, and in which sense. A face is
+/// interior where another solid of the group has the same nodes in the opposite sense.
+class SolidFaces {
+ public:
+  explicit SolidFaces(const Elements& solids);
+  /// Segments of the faces, solid after solid, face after face. Solids with missing nodes have
+  /// none; 10-node tetrahedra are cut into their small triangles.
+  std::vector<Segment> segments(const FaceQuery& query);
+
+ private:
+  struct Owner {
+    std::uint32_t solid;
+    std::uint32_t next;  ///< owner of the same face
+    bool forward;
+  };
+  bool interior(std::uint32_t solid, int face, bool against_all) const;
+  const Elements* solids_;
+  std::vector<std::uint32_t> key_;    ///< per solid and face; no_index: no face
+  std::vector<bool> forward_;         ///< per solid and face
+  std::vector<std::uint32_t> first_;  ///< per key: owner
+  std::vector<Owner> owners_;
+  std::vector<std::uint32_t> stamp_;  ///< per solid: generation in which it was a member
+  std::uint32_t generation_ = 0;
+};
 
 /// Cuts a triangle with mid-side nodes (no_index: missing; mids[0] between corners 0 and 1).
 /// Returns the number of pieces written to `out`.

@@ -105,6 +105,8 @@ struct Selections::Impl {
   const PartElements& elements_of_parts(ElementKind kind);
   std::unique_ptr<detail::ShellCover> shell_cover;
   detail::ShellCover& cover();
+  std::unique_ptr<detail::SolidFaces> all_solid_faces;
+  detail::SolidFaces& solid_faces();
   std::unique_ptr<detail::KeyTable> tetra_faces;             ///< faces of 10-node tetrahedra
   std::vector<std::pair<std::uint32_t, int>> tetra_face_of;  ///< solid and face per key
   std::vector<std::uint32_t> stamp;                          ///< per node, see mark()

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "model/selection_impl.hpp"
+#include "model/selection_sort.hpp"
 
 namespace deck {
 
@@ -124,9 +125,10 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
 std::vector<Edge> Selections::Impl::edges_of(const std::vector<Segment>& segments,
                                              bool free_only) const {
   struct Side {
-    std::uint64_t key;  // later node, then earlier node
-    std::uint32_t segment;
-    NodeIndex first, second;
+    std::uint32_t late = 0, early = 0;  // ranks
+    std::uint32_t segment = 0;
+    NodeIndex first = 0, second = 0;
+    bool same(const Side& o) const { return late == o.late && early == o.early; }
   };
   std::vector<Side> sides;
   sides.reserve(segments.size() * 4);
@@ -136,16 +138,17 @@ std::vector<Edge> Selections::Impl::edges_of(const std::vector<Segment>& segment
       NodeIndex a = n[k], b = n[(k + 1) % 4];
       if (a == b) continue;
       if (rank(b) < rank(a)) std::swap(a, b);
-      sides.push_back({(std::uint64_t{rank(b)} << 32) | rank(a), i, a, b});
+      sides.push_back({rank(b), rank(a), i, a, b});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.key != b.key ? a.key < b.key : a.segment < b.segment;
-  });
+  // Stable, so that the first segment of an edge stays in front.
+  detail::sort_by_bucket(
+      sides, [](const Side& side) { return side.late; },
+      [](const Side& p, const Side& q) { return p.early < q.early; });
   std::vector<Edge> out;
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
-    while (end < sides.size() && sides[end].key == sides[i].key) ++end;
+    while (end < sides.size() && sides[end].same(sides[i])) ++end;
     if (!free_only || end == i + 1) {
       const Segment& s = segments[sides[i].segment];
       out.push_back({{sides[i].first, sides[i].second}, s.carrier, s.element});

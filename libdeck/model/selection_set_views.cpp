@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "model/selection_impl.hpp"
+#include "model/selection_sort.hpp"
 
 namespace deck {
 
@@ -28,28 +29,35 @@ Indices common(const Indices& a, const Indices& b) {
 
 }  // namespace
 
+// In the order of carriers, so that the final sort has little left to do.
 std::vector<Segment> Selections::Impl::group_segments(const SetGroup& group) {
-  std::vector<Segment> out;
-  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
-    const Elements& shells = model->family(kind);
-    const Indices& members = group.elements[at(kind)];
-    const Indices turned =
-        common(members, kind == ElementKind::shell4 ? group.reversed4 : group.reversed3);
-    const Carrier carrier = detail::family_name(kind).carrier;
-    add_shells(shells, carrier, without(members, turned), false, out);
-    add_shells(shells, carrier, turned, true, out);
-  }
+  std::vector<Segment> out = group.rows;
+  const Indices& shells4 = group.elements[at(ElementKind::shell4)];
+  const Indices& shells3 = group.elements[at(ElementKind::shell3)];
   detail::FaceQuery query;
   query.solids = &group.elements[at(ElementKind::solid8)];
   query.all_faces_of = &group.all_faces;
-  if (!out.empty() && !query.solids->empty()) {
-    cover().select(group.elements[at(ElementKind::shell4)],
-                   group.elements[at(ElementKind::shell3)]);
-    query.cover = &cover();
+  if (!query.solids->empty()) {
+    if (!shells4.empty() || !shells3.empty()) {
+      cover().select(shells4, shells3);
+      query.cover = &cover();
+    }
+    const auto faces = solid_faces().segments(query);
+    out.insert(out.end(), faces.begin(), faces.end());
   }
-  const auto faces = detail::solid_segments(model->solid8, query);
-  out.insert(out.end(), faces.begin(), faces.end());
-  out.insert(out.end(), group.rows.begin(), group.rows.end());
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
+    const Elements& shells = model->family(kind);
+    const bool four = kind == ElementKind::shell4;
+    const Indices& members = four ? shells4 : shells3;
+    const Indices turned = common(members, four ? group.reversed4 : group.reversed3);
+    const Carrier carrier = detail::family_name(kind).carrier;
+    if (turned.empty()) {
+      add_shells(shells, carrier, members, false, out);
+      continue;
+    }
+    add_shells(shells, carrier, without(members, turned), false, out);
+    add_shells(shells, carrier, turned, true, out);
+  }
   return out;
 }
 
@@ -85,62 +93,57 @@ Indices Selections::Impl::group_nodes(const SetGroup& group) {
 }
 
 void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
-  struct Keyed {
-    // Ranks plus 1. Plain segments: ascending, a triangle starts with 0.
-    std::array<std::uint32_t, 4> nodes;
-    std::uint32_t carrier, element, index;
-    bool operator<(const Keyed& o) const {
-      if (nodes != o.nodes) return nodes < o.nodes;
-      return carrier != o.carrier ? carrier < o.carrier : element < o.element;
-    }
-    bool same(const Keyed& o) const {
-      return nodes == o.nodes && carrier == o.carrier && element == o.element;
-    }
-  };
-  std::vector<Keyed> keyed;
-  keyed.reserve(segments.size());
-  for (std::uint32_t i = 0; i < segments.size(); ++i) {
-    const Segment& s = segments[i];
-    Keyed k{{}, static_cast<std::uint32_t>(s.carrier), s.element, i};
-    for (std::size_t n = 0; n < 4; ++n) k.nodes[n] = rank(s.nodes[n]) + 1;
+  // Plain segments are compared by their ascending nodes, a triangle starting with 0; others by
+  // their nodes as they stand.
+  const auto key = [&](const Segment& s) {
+    std::array<std::uint32_t, 4> k;
+    for (std::size_t n = 0; n < 4; ++n) k[n] = rank(s.nodes[n]) + 1;
     if (s.carrier == Carrier::none) {
-      if (s.nodes[2] == s.nodes[3]) k.nodes[3] = 0;
-      std::sort(k.nodes.begin(), k.nodes.end());
+      if (s.nodes[2] == s.nodes[3]) k[3] = 0;
+      std::sort(k.begin(), k.end());
     }
-    keyed.push_back(k);
+    return k;
+  };
+  const auto before = [&](const Segment& a, const Segment& b) {
+    if (a.carrier != b.carrier) return a.carrier < b.carrier;
+    if (a.element != b.element)
+      return element_id(a.carrier, a.element) < element_id(b.carrier, b.element);
+    return key(a) < key(b);
+  };
+  // Faces of one solid first: often everything else is in order already.
+  for (std::size_t i = 0; i < segments.size();) {
+    std::size_t end = i + 1;
+    while (end < segments.size() && segments[end].carrier == segments[i].carrier &&
+           segments[end].element == segments[i].element)
+      ++end;
+    const auto first = segments.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto last = segments.begin() + static_cast<std::ptrdiff_t>(end);
+    if (end - i > 1) std::stable_sort(first, last, before);
+    i = end;
   }
-  std::stable_sort(keyed.begin(), keyed.end());
-  std::vector<Segment> out;
-  out.reserve(segments.size());
-  for (std::size_t i = 0; i < keyed.size(); ++i)
-    if (i == 0 || !keyed[i - 1].same(keyed[i])) out.push_back(segments[keyed[i].index]);
-  segments = std::move(out);
+  if (!std::is_sorted(segments.begin(), segments.end(), before))
+    std::stable_sort(segments.begin(), segments.end(), before);
+  segments.erase(std::unique(segments.begin(), segments.end(),
+                             [&](const Segment& a, const Segment& b) {
+                               return a.carrier == b.carrier && a.element == b.element &&
+                                      key(a) == key(b);
+                             }),
+                 segments.end());
 }
 
 void Selections::Impl::merge_edges(std::vector<Edge>& edges) const {
-  struct Keyed {
-    std::uint64_t nodes;  // earlier node, then later node
-    std::uint64_t owner;
-    std::uint32_t index;
-    bool operator<(const Keyed& o) const {
-      return nodes != o.nodes ? nodes < o.nodes : owner < o.owner;
-    }
-  };
-  std::vector<Keyed> keyed;
-  keyed.reserve(edges.size());
-  for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    const Edge& e = edges[i];
-    const std::uint64_t a = rank(e.nodes[0]), b = rank(e.nodes[1]);
-    keyed.push_back({(std::min(a, b) << 32) | std::max(a, b),
-                     (std::uint64_t{static_cast<std::uint8_t>(e.carrier)} << 32) | e.element, i});
-  }
-  std::stable_sort(keyed.begin(), keyed.end());
-  std::vector<Edge> out;
-  out.reserve(edges.size());
-  for (std::size_t i = 0; i < keyed.size(); ++i)
-    if (i == 0 || keyed[i - 1].nodes != keyed[i].nodes || keyed[i - 1].owner != keyed[i].owner)
-      out.push_back(edges[keyed[i].index]);
-  edges = std::move(out);
+  const auto early = [&](const Edge& e) { return std::min(rank(e.nodes[0]), rank(e.nodes[1])); };
+  const auto late = [&](const Edge& e) { return std::max(rank(e.nodes[0]), rank(e.nodes[1])); };
+  detail::sort_by_bucket(edges, early, [&](const Edge& a, const Edge& b) {
+    if (late(a) != late(b)) return late(a) < late(b);
+    return a.carrier != b.carrier ? a.carrier < b.carrier : a.element < b.element;
+  });
+  edges.erase(std::unique(edges.begin(), edges.end(),
+                          [&](const Edge& a, const Edge& b) {
+                            return early(a) == early(b) && late(a) == late(b) &&
+                                   a.carrier == b.carrier && a.element == b.element;
+                          }),
+              edges.end());
 }
 
 std::vector<NodeIndex> Selections::Impl::set_node_list(const SetState& state) {
@@ -162,7 +165,6 @@ std::vector<Segment> Selections::Impl::set_segment_list(const SetState& state) {
     out.insert(out.end(), some.begin(), some.end());
   }
   merge_segments(out);
-  sort_segments(out);
   return out;
 }
 

@@ -180,6 +180,11 @@ detail::ShellCover& Selections::Impl::cover() {
   return *shell_cover;
 }
 
+detail::SolidFaces& Selections::Impl::solid_faces() {
+  if (!all_solid_faces) all_solid_faces = std::make_unique<detail::SolidFaces>(model->solid8);
+  return *all_solid_faces;
+}
+
 void Selections::Impl::add_solids(const Block& block, std::string_view option, Indices members,
                                   std::vector<Segment>& out) {
   const Elements& solids = model->solid8;
@@ -221,7 +226,6 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
   Indices shells4, shells3;
   for (const Segment& s : out)
     (s.carrier == Carrier::shell4 ? shells4 : shells3).push_back(s.element);
-  Indices everyone;
   detail::FaceQuery query;
   query.solids = &members;
   query.exterior_only = option != "ALL";
@@ -229,12 +233,8 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
     cover().select(shells4, shells3);
     query.cover = &cover();
   }
-  if (option == "FREE") {
-    everyone.resize(solids.size());
-    for (std::uint32_t e = 0; e < everyone.size(); ++e) everyone[e] = e;
-    query.neighbours = &everyone;
-  }
-  const auto faces = detail::solid_segments(solids, query);
+  query.against_all = option == "FREE";
+  const auto faces = solid_faces().segments(query);
   out.insert(out.end(), faces.begin(), faces.end());
 }
 
