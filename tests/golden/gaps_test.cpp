@@ -1,0 +1,121 @@
+// Segments, gaps, stiffness and initial penetrations of whole decks against what the reference
+// Starter formed for them. The comparison itself is the corpus' own script; it and the decks are
+// skipped where absent.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path corpus() {
+  const char* given = std::getenv("DECK_CORPUS");
+  return given != nullptr ? fs::path(given) : fs::path(DECK_SOURCE_DIR).parent_path() / "shared";
+}
+
+fs::path binary() { return fs::path(DECK_BINARY_DIR) / "tools" / "deck"; }
+
+/// A directory that goes with the test.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "gaps_test_XXXXXX").string();
+    if (mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~Scratch() {
+    std::error_code ec;
+    if (!path_.empty()) fs::remove_all(path_, ec);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+int shell(const std::string& command) { return std::system(command.c_str()); }
+std::string quote(const fs::path& path) { return "'" + path.string() + "'"; }
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The deck whose reference results are in `golden`; empty if it cannot be found or made.
+fs::path deck_for(const fs::path& golden, const Scratch& scratch) {
+  const std::string stem = golden.filename().string();
+  const std::string name = stem.substr(0, stem.find(".json"));
+  if (golden.parent_path().filename() == "params")
+    return golden.parent_path() / (name + "_0000.rad");
+  const fs::path base = corpus() / "corpus";
+  const std::string tail = "_inflated";
+  if (name.ends_with(tail)) {
+    const fs::path plain =
+        base / "EuroSID_II" / (name.substr(0, name.size() - tail.size()) + "_0000.rad");
+    const fs::path out = scratch / (name + "_0000.rad");
+    const int code = shell("python3 " + quote(corpus() / "check" / "inflate_gaps.py") + " " +
+                           quote(plain) + " " + quote(out) + " 2.5 zero > /dev/null");
+    return code == 0 ? out : fs::path();
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(base)) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path& file = entry.path();
+    if (file.filename() == name + "_0000.rad") return file;
+    if (file.filename() == "model_0000.rad" && file.parent_path().filename() == name) return file;
+  }
+  return {};
+}
+
+class GoldenGaps : public testing::TestWithParam<const char*> {};
+
+TEST_P(GoldenGaps, EveryContactAgreesWithTheReferenceSolver) {
+  const fs::path goldens = corpus() / "oracle" / GetParam();
+  const fs::path script = corpus() / "check" / "compare_gaps.py";
+  if (!fs::exists(goldens) || !fs::exists(script))
+    GTEST_SKIP() << "no reference results under " << corpus();
+  if (shell("python3 -c pass") != 0) GTEST_SKIP() << "no python3";
+  if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
+  const Scratch scratch;
+  int compared = 0;
+  for (const auto& entry : fs::directory_iterator(goldens)) {
+    if (!entry.path().string().ends_with(".json.gz")) continue;
+    const fs::path deck = deck_for(entry.path(), scratch);
+    ASSERT_FALSE(deck.empty()) << "no deck for " << entry.path();
+    const fs::path json = scratch / "gaps.json", report = scratch / "report.txt";
+    // 1 is the code for nodes on which the solver stops; some of the decks are made of them.
+    const int made = shell(quote(binary()) + " gaps --all --quiet --json " + quote(json) + " " +
+                           quote(deck) + " 2> " + quote(report));
+    ASSERT_TRUE(WIFEXITED(made) && WEXITSTATUS(made) <= 1) << deck << "\n" << text_of(report);
+    const int code = shell("python3 " + quote(script) + " " + quote(entry.path()) + " " +
+                           quote(json) + " > " + quote(report));
+    EXPECT_EQ(code, 0) << deck << "\n" << text_of(report);
+    ++compared;
+  }
+  EXPECT_GT(compared, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Oracle, GoldenGaps, testing::Values("params", "gaps"));
+
+TEST(GoldenGaps, SameBytesForAnyNumberOfThreads) {
+  const fs::path deck = corpus() / "corpus" / "EuroSID_II" / "EuroSID_II_0000.rad";
+  if (!fs::exists(deck)) GTEST_SKIP() << "no deck " << deck;
+  if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
+  const Scratch scratch;
+  const auto run = [&](const std::string& threads) {
+    const fs::path json = scratch / ("gaps" + threads + ".json");
+    shell(quote(binary()) + " gaps --all --quiet --threads " + threads + " --json " + quote(json) +
+          " " + quote(deck) + " 2> /dev/null");
+    return text_of(json);
+  };
+  const std::string one = run("1");
+  EXPECT_FALSE(one.empty());
+  EXPECT_TRUE(one == run("2")) << "the documents differ";
+}
+
+}  // namespace
