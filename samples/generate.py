@@ -21,7 +21,7 @@ def number(value, width):
         return value
     if isinstance(value, int):
         return str(value)
-    text = repr(round(value, 9))
+    text = repr(round(value, 9) if abs(value) > 1e-3 else value)
     return text if len(text) < width else "%.*g" % (width - 7, value)
 
 
@@ -189,8 +189,8 @@ def plate(n0, e0, nx, ny, dx, dy, place):
     return nodes, quads
 
 
-def two_plates(deck, distance, thick=(1.5, 1.0), lower=(2, 2), upper=(2, 2)):
-    """Part 1: a plate at z = 0. Part 2: a smaller plate above it. Surfaces and groups 1 and 2."""
+def two_plates(deck, distance, thick=(1.5, 1.0), lower=(2, 2), upper=(2, 2), node_group=True):
+    """Part 1: a plate at z = 0. Part 2: a smaller plate above it. Surface 1 and a group or surface 2."""
     deck.elastic(1, "steel")
     deck.shell_prop(1, "lower sheet", thick[0])
     deck.shell_prop(2, "upper sheet", thick[1])
@@ -202,8 +202,10 @@ def two_plates(deck, distance, thick=(1.5, 1.0), lower=(2, 2), upper=(2, 2)):
     deck.elements("SHELL", 1, lowq)
     deck.elements("SHELL", 2, upq)
     deck.ids("/SURF/PART/1", "lower plate", [1])
-    deck.ids("/SURF/PART/2", "upper plate", [2])
-    deck.ids("/GRNOD/SURF/2", "nodes of the upper plate", [2])
+    if not node_group:
+        deck.ids("/SURF/PART/2", "upper plate", [2])
+    else:
+        deck.ids("/GRNOD/PART/2", "nodes of the upper plate", [2])
 
 
 def clean_plates():
@@ -211,8 +213,8 @@ def clean_plates():
     d.note("""The upper plate hangs 2 mm above the lower one and the contact gap is 1.25 mm = (1.5 + 1.0) / 2.
               Nothing touches, every flag says what it means, lint has nothing to say.""")
     two_plates(d, 2.0)
-    d.type7(1, "upper on lower", 2, 1, Istf=4, Igap=1000, Idel=1, Stmin=1.0, Stmax=1e3, Irem_gap=1, Irem_i2=3,
-            Stfac=1.0, Fric=0.2, Gapmin=1.25, Inacti=1000, VISs=0.05, VISF=1.0, Bumult=0.2, Iform=2)
+    d.type7(1, "upper on lower", 2, 1, Istf=4, Igap=1000, Idel=2, Stmin=1.0, Stmax=1e3, Irem_gap=1, Irem_i2=3,
+            Stfac=1.0, Fric=0.2, Gapmin=1.25, Inacti=1000, VISs=0.05, Bumult=0.2, Iform=2)
     return d.end()
 
 
@@ -221,8 +223,8 @@ def too_close():
     d.note("""The plates are 0.9 mm apart, the gap is 1.25 mm: all nine upper nodes start 0.35 mm inside the gap.
               Inacti is 0, so the solver leaves them there and pushes with full force in the first cycle.""")
     two_plates(d, 0.9)
-    d.type7(1, "upper on lower", 2, 1, Istf=4, Igap=1000, Idel=1, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.2,
-            Gapmin=1.25, Inacti=0, VISs=0.05, VISF=1.0, Bumult=0.2, Iform=2)
+    d.type7(1, "upper on lower", 2, 1, Istf=4, Igap=1000, Idel=2, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.2,
+            Gapmin=1.25, Inacti=0, VISs=0.05, Bumult=0.2, Iform=2)
     return d.end()
 
 
@@ -285,10 +287,10 @@ def crossing_edges():
     d.ids("/LINE/PART/3", "rod", [3])
     d.ids("/LINE/LINE/4", "upright plate and rod", [2, 3])
     d.type11(1, "edges against edges", 4, 1, Istf=5, Igap=1, Irem_gap=1, Stfac=1.0, Fric=0.1, Gapmin=0.1,
-             Inacti=5, VISs=0.05, VISF=1.0, Bumult=0.2, Iform=2)
+             Inacti=5, VISs=0.05, Bumult=0.2, Iform=2)
     d.ids("/GRNOD/PART/2", "upright plate and rod", [2, 3])
     d.type7(2, "nodes on the flat strip", 2, 1, Istf=4, Igap=1, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.1, Gapmin=0.1,
-            Inacti=5, VISs=0.05, VISF=1.0, Bumult=0.2, Iform=2)
+            Inacti=5, VISs=0.05, Bumult=0.2, Iform=2)
     return d.end()
 
 
@@ -296,9 +298,9 @@ def two_surfaces():
     d = Deck("two_surfaces", "TYPE19: two surfaces, three contacts")
     d.note("""One TYPE19 card stands for a TYPE7 with the upper nodes, a TYPE7 with the lower nodes and a TYPE11
               with the edges of both. The plates overlap by 0.3 mm, so all three find something.""")
-    two_plates(d, 0.95, lower=(4, 3), upper=(3, 3))
-    d.type19(1, "upper and lower", 2, 1, Istf=4, Igap=1, Idel=1, Stmin=1.0, Stmax=1e3, Irem_gap=1, Irem_i2=3,
-             Stfac=1.0, Fric=0.1, Gapmin=0.5, Inacti=6, VISs=0.05, VISF=1.0, Bumult=0.2, Iform=2)
+    two_plates(d, 0.95, lower=(4, 3), upper=(3, 3), node_group=False)
+    d.type19(1, "upper and lower", 2, 1, Istf=4, Igap=1, Idel=2, Stmin=1.0, Stmax=1e3, Irem_gap=1, Irem_i2=3,
+             Stfac=1.0, Fric=0.1, Gapmin=0.5, Inacti=6, VISs=0.05, Bumult=0.2, Iform=2)
     return d.end()
 
 
@@ -320,8 +322,8 @@ def tied_layer():
     d.elements("SHELL", 3, s)
     d.ids("/SURF/PART/1", "panel", [1, 2])
     d.ids("/GRNOD/PART/1", "strip", [3])
-    d.type10(1, "tied for good, gap given", 1, 1, Idel=1, Stfac=0.2, Gap=1.5, ITIED=1, VISs=0.05, Bumult=0.2)
-    d.type10(2, "rebound allowed, gap by default", 1, 1, Idel=1, Stfac=0.2, ITIED=0, VISs=0.05, Bumult=0.2)
+    d.type10(1, "tied for good, gap given", 1, 1, Idel=2, Stfac=0.2, Gap=1.5, ITIED=1, VISs=0.05, Bumult=0.2)
+    d.type10(2, "rebound allowed, gap by default", 1, 1, Idel=2, Stfac=0.2, ITIED=0, VISs=0.05, Bumult=0.2)
     return d.end()
 
 
@@ -371,8 +373,8 @@ def include_tree():
     d.raw("#include include_tree/mesh.inc\n")
     d.ids("/SURF/PART/1", "lower plate", [1])
     d.ids("/GRNOD/PART/2", "nodes of the upper plate", [2])
-    d.type7(1, "upper on lower", 2, 1, Istf=4, Igap=1, Idel=1, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.2, Gapmin=0.5,
-            Inacti=5, VISs=0.05, VISF=1.0, Bumult=0.2, Iform=2)
+    d.type7(1, "upper on lower", 2, 1, Istf=4, Igap=1, Idel=2, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.2, Gapmin=0.5,
+            Inacti=5, VISs=0.05, Bumult=0.2, Iform=2)
     out = d.end()
     sheets = Deck("x", "x")
     sheets.text = ""
@@ -421,7 +423,7 @@ def units_and_parameters():
     d.elements("SHELL", 2, uq)
     d.ids("/GRNOD/PART/2", "nodes of the upper plate", [2])
     d.raw("//ENDSUB\n")
-    common = dict(Istf=4, Igap=1000, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.1, Inacti=6, VISs=0.05, VISF=1.0, Bumult=0.2, Iform=2)
+    common = dict(Istf=4, Igap=1000, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.1, Inacti=6, VISs=0.05, Bumult=0.2, Iform=2)
     d.type7(1, "gap from a parameter", "&upper", 1, Gapmin="&gap", **common)
     d.type7(2, "gap typed in inches", 1002, 1, Gapmin=0.05, unit=7, **common)
     d.type7(3, "half the gap, by expression", 1002, 1, Gapmin="&half", **common)
@@ -486,8 +488,8 @@ def hot_contact():
     d.ids("/SURF/PART/1", "cold plate", [1])
     d.ids("/GRNOD/PART/2", "hot plate", [2])
     d.type7(1, "hot on cold", 2, 1, Istf=4, Ithe=1, Igap=1000, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.1, Gapmin=1.5,
-            Inacti=6, VISs=0.05, VISF=1.0, Bumult=0.2, Iform=2,
-            thermal=(0.5, None, 293.15, 1, None, 5.67e-11, 3.0, 0.5, 0.5))
+            Inacti=6, VISs=0.05, Bumult=0.2, Iform=2,
+            thermal=(0.5, None, None, 1, None, 5.67e-11, 3.0, 0.5, 0.5))
     return d.end()
 
 
@@ -516,7 +518,7 @@ def sets_and_friction():
             cells(*reals(1, *[("C%d" % i, 0.0) for i in range(1, 6)])),
             cells(*reals(1, ("C6", 0.0), ("Fric", 0.3), ("VISF", 1.0))))
     d.type19(1, "slider on panels", 12, 11, Istf=4, Igap=1, Irem_gap=1, Irem_i2=3, Stfac=1.0, Gapmin=0.5,
-             Inacti=6, VISs=0.05, VISF=1.0, Bumult=0.2, fric=5)
+             Inacti=6, VISs=0.05, Bumult=0.2, fric=5)
     return d.end()
 
 
@@ -579,13 +581,13 @@ def crash_box():
         d.ids("/SURF/PART/%d" % pid, name, [pid])
         d.ids("/GRNOD/PART/%d" % pid, name, [pid])
     d.ids("/GRNOD/GENE/11", "rear rim of the tube", [1, around])
-    d.type7(1, "tube rim on barrier", 1, 3, Istf=4, Igap=1, Idel=1, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.2, Gapmin=0.5,
-            Inacti=0, VISs=0.05, VISF=1.0, Bumult=0.2, Iform=2)
-    d.type19(2, "web against tube", 2, 1, Istf=4, Igap=1, Idel=1, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.2, Gapmin=0.5,
-             Inacti=6, VISs=0.05, VISF=1.0, Bumult=0.2, Iform=2)
-    d.type7(3, "tube against itself", 1, 1, Istf=4, Igap=3, Idel=1, mesh=0.4, Irem_gap=2, Irem_i2=3, Stfac=1.0, Fric=0.2,
-            Gapmin=0.5, Inacti=6, VISs=0.05, VISF=1.0, Bumult=0.2, Iform=2)
-    d.type10(4, "tube on base plate", 11, 4, Idel=1, Stfac=0.2, Gap=3.0, ITIED=1, VISs=0.05, Bumult=0.2)
+    d.type7(1, "tube rim on barrier", 1, 3, Istf=4, Igap=1, Idel=2, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.2, Gapmin=0.5,
+            Inacti=0, VISs=0.05, Bumult=0.2, Iform=2)
+    d.type19(2, "web against tube", 2, 1, Istf=4, Igap=1, Idel=2, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.2, Gapmin=0.5,
+             Inacti=6, VISs=0.05, Bumult=0.2, Iform=2)
+    d.type7(3, "tube against itself", 1, 1, Istf=4, Igap=3, Idel=2, mesh=0.4, Irem_gap=2, Irem_i2=3, Stfac=1.0, Fric=0.2,
+            Gapmin=0.5, Inacti=6, VISs=0.05, Bumult=0.2, Iform=2)
+    d.type10(4, "tube on base plate", 11, 4, Idel=2, Stfac=0.2, Gap=3.0, ITIED=1, VISs=0.05, Bumult=0.2)
     return d.end()
 
 
