@@ -35,7 +35,7 @@ def cases():
     yield "include cycle", {"d_0000.rad": BEGIN + b"#include a\n", "a": b"#include b\n", "b": b"# x\n#include a\n"}, \
         (1, 3), ["b:2"]
     yield "include of /dev/zero", {"d_0000.rad": BEGIN + b"#include /dev/zero\n"}, UNREADABLE, ["/dev/zero"]
-    yield "include without a name", {"d_0000.rad": BEGIN + b"#include\n#include ''\n"}, (1, 3), ["d_0000.rad:7"]
+    yield "include without a name", {"d_0000.rad": BEGIN + b"#include ''\n"}, (1, 3), ["d_0000.rad:7"]
     deep = {"d_0000.rad": BEGIN + b"#include i0\n/END\n"}
     deep.update({"i%d" % k: b"#include i%d\n" % (k + 1) for k in range(10000)})
     yield "10000 nested includes", deep, (1, 3), ["include"]
