@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -147,15 +148,17 @@ void collect_numbers(const Deck& deck, const Block& block, std::unordered_set<st
   const std::int64_t offset = deck.offset_of(block, "");
   LineCursor cursor(deck.sources, block);
   for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
+    // Only words of digits: "7.8e-06" is no reference to 6.
+    constexpr std::string_view blanks = " \t,";
     std::string_view rest = line.text;
     while (!rest.empty()) {
-      const auto begin = std::min(rest.find_first_of("0123456789"), rest.size());
-      rest.remove_prefix(begin);
+      rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+      const std::string_view word = rest.substr(0, rest.find_first_of(blanks));
+      rest.remove_prefix(word.size());
       std::int64_t value = 0;
-      std::size_t digits = 0;
-      while (digits < rest.size() && digits < 18 && rest[digits] >= '0' && rest[digits] <= '9')
-        value = value * 10 + (rest[digits++] - '0');
-      rest.remove_prefix(std::max<std::size_t>(digits, rest.empty() ? 0 : 1));
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+      if (word.empty() || error != std::errc() || end != word.data() + word.size()) continue;
+      value = std::abs(value);
       out.insert(value);
       if (offset != 0) out.insert(value + offset);
     }

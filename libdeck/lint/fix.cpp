@@ -1,14 +1,6 @@
 #include "deck/lint/fix.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <map>
 
 namespace deck {
@@ -155,42 +147,6 @@ std::string unified_diff(std::string_view path, std::string_view before, std::st
     for (; at < a1; ++at) put_line(out, ' ', a[at]);
   }
   return out;
-}
-
-Result<void> write_atomically(const std::string& asked, std::string_view text) {
-  // Through a symbolic link the file behind it is replaced, not the link.
-  char* const real = ::realpath(asked.c_str(), nullptr);
-  const std::string path = real != nullptr ? real : asked;
-  std::free(real);
-  const auto fail = [&](const std::string& what) {
-    return Result<void>(
-        Error{Error::Code::io, "cannot write " + path + ": " + what + ": " + std::strerror(errno)});
-  };
-  struct stat info {};
-  const bool exists = ::stat(path.c_str(), &info) == 0;
-  std::string temporary = path + ".deck-XXXXXX";
-  const int fd = ::mkstemp(temporary.data());
-  if (fd < 0) return fail("no temporary file beside it");
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t n = ::write(fd, text.data() + done, text.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) {
-      const auto error = fail("writing");
-      ::close(fd);
-      ::unlink(temporary.c_str());
-      return error;
-    }
-    done += static_cast<std::size_t>(n);
-  }
-  const mode_t mode = exists ? info.st_mode & 07777 : 0644;
-  const bool ok = ::fchmod(fd, mode) == 0 && ::fsync(fd) == 0;
-  if (::close(fd) != 0 || !ok || ::rename(temporary.c_str(), path.c_str()) != 0) {
-    const auto error = fail("renaming");
-    ::unlink(temporary.c_str());
-    return error;
-  }
-  return {};
 }
 
 TextEdit cell_edit(const SourceSet& sources, Span on_line, int first, int last,

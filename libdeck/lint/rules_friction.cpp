@@ -173,8 +173,8 @@ void add_friction_pair_rules(std::vector<Rule>& out) {
                  .fix = "delete it, or refer to it",
                  .ignore = "When a library include defines more than one deck needs.",
                  .bad = "/SURF/PART/1234567\nspare\n         1\n",
-                 .good = "/SURF/PART/1234567\nspare\n         1\n"
-                         "@/INTER/TYPE7/1 surf_IDm=1234567\n",
+                 .good = "@bare\n/SURF/PART/1234567\nspare\n         1\n"
+                         "@/INTER/TYPE7/1 grnd_IDs=0 surf_IDm=1234567\n",
                  .check = check_unused});
 }
 

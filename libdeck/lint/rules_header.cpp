@@ -229,6 +229,18 @@ void add_header_rules(std::vector<Rule>& out) {
                  .bad = "/ANIM/DT\n                 0.0                 1.0\n",
                  .good = "/TITLE\nexample\n",
                  .check = check_engine});
+  out.push_back({.id = "DK043",
+                 .title = "second /BEGIN",
+                 .severity = Severity::warning,
+                 .stage = RuleStage::reading,
+                 .problem = "The main file has more than one /BEGIN.",
+                 .why = "Lines behind the second one may follow another version, hence other "
+                        "columns.",
+                 .solver = "it takes the version of the last one for the lines that follow",
+                 .fix = "keep one /BEGIN",
+                 .ignore = "Never.",
+                 .bad = "/BEGIN\nagain\n      2024         0\n",
+                 .good = "/TITLE\nexample\n"});
   out.push_back({.id = "DK044",
                  .title = "obsolete interface type",
                  .severity = Severity::error,

@@ -51,10 +51,10 @@ void add_model_1(std::vector<Rule>& out) {
                  .ignore = "Never.",
                  .bad = "/SH3N/1\n"
                         "         9         1         2         3                                  "
-                        "       0.0           1.2500000\n",
+                        "   0.0        1.2500000000\n",
                  .good = "/SH3N/1\n"
                          "         9         1         2         3                                 "
-                         "        0.0                1.25\n"});
+                         "    0.0                1.25\n"});
   out.push_back({.id = "DK039",
                  .title = "element thicknesses under a unit id",
                  .severity = Severity::warning,

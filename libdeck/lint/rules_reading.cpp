@@ -33,7 +33,7 @@ void add_file_rules(std::vector<Rule>& out) {
                  .solver = "everything before /BEGIN except /PARAMETER is ignored",
                  .fix = "start the deck with /BEGIN: run name, version, input and working units",
                  .ignore = "Never in a main file.",
-                 .bad = "@deck\n#RADIOSS STARTER\n/NODE\n/END\n",
+                 .bad = "@deck\n#RADIOSS STARTER\n/TITLE\nnote\n/END\n",
                  .good = "@bare\n"});
   out.push_back({.id = "DK003",
                  .title = "unknown input version",
@@ -61,7 +61,7 @@ void add_file_rules(std::vector<Rule>& out) {
                  .fix = "correct the path, or name its folder with --include-path",
                  .ignore = "When the include is delivered separately and cannot be had.",
                  .bad = "@bare\n#include nowhere.inc\n",
-                 .good = "@bare\n#include here.inc\n@file here.inc\n/NODE\n"});
+                 .good = "@bare\n#include here.inc\n@file here.inc\n/TITLE\nnote\n"});
   out.push_back({.id = "DK005",
                  .title = "include cycle",
                  .severity = Severity::error,
@@ -72,7 +72,7 @@ void add_file_rules(std::vector<Rule>& out) {
                  .fix = "remove the directive",
                  .ignore = "Never.",
                  .bad = "@bare\n#include loop.inc\n@file loop.inc\n#include loop.inc\n",
-                 .good = "@bare\n#include one.inc\n@file one.inc\n/NODE\n"});
+                 .good = "@bare\n#include one.inc\n@file one.inc\n/TITLE\nnote\n"});
   out.push_back(
       {.id = "DK006",
        .title = "include tree beyond a limit",
@@ -84,8 +84,8 @@ void add_file_rules(std::vector<Rule>& out) {
        .fix = "flatten the include tree",
        .ignore = "Never; what lies behind the limit was not read.",
        .bad = "@bare\n@limit include_depth 1\n#include a.inc\n"
-              "@file a.inc\n#include b.inc\n@file b.inc\n/NODE\n",
-       .good = "@bare\n#include a.inc\n@file a.inc\n#include b.inc\n@file b.inc\n/NODE\n"});
+              "@file a.inc\n#include b.inc\n@file b.inc\n/TITLE\nnote\n",
+       .good = "@bare\n#include a.inc\n@file a.inc\n#include b.inc\n@file b.inc\n/TITLE\nnote\n"});
   out.push_back({.id = "DK010",
                  .title = "no /END",
                  .severity = Severity::warning,
@@ -101,19 +101,19 @@ void add_file_rules(std::vector<Rule>& out) {
                  .bad = "@deck\n#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n"
                         "                  kg                  mm                  ms\n",
                  .good = "@bare\n"});
-  out.push_back({.id = "DK011",
-                 .title = "text after /END",
-                 .severity = Severity::warning,
-                 .stage = reading,
-                 .problem = "Data stands behind /END of the main file.",
-                 .why = "It looks like part of the model and is none.",
-                 .solver = "it stops reading at /END",
-                 .fix = "move the lines above /END or delete them",
-                 .ignore = "When the tail is kept as a note on purpose; better make it comments.",
-                 .bad =
-                     "@deck\n#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n"
-                     "                  kg                  mm                  ms\n/END\n/NODE\n",
-                 .good = "@bare\n"});
+  out.push_back(
+      {.id = "DK011",
+       .title = "text after /END",
+       .severity = Severity::warning,
+       .stage = reading,
+       .problem = "Data stands behind /END of the main file.",
+       .why = "It looks like part of the model and is none.",
+       .solver = "it stops reading at /END",
+       .fix = "move the lines above /END or delete them",
+       .ignore = "When the tail is kept as a note on purpose; better make it comments.",
+       .bad = "@deck\n#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n"
+              "                  kg                  mm                  ms\n/END\n/TITLE\nnote\n",
+       .good = "@bare\n"});
   out.push_back({.id = "DK015",
                  .title = "unknown unit code",
                  .severity = Severity::error,
@@ -202,8 +202,8 @@ void add_file_rules(std::vector<Rule>& out) {
                  .solver = "everything up to the end of the deck belongs to the submodel",
                  .fix = "close each //SUBMODEL with //ENDSUB",
                  .ignore = "Never.",
-                 .bad = "//SUBMODEL/1\ndummy\n\n/NODE\n",
-                 .good = "//SUBMODEL/1\ndummy\n\n/NODE\n//ENDSUB\n"});
+                 .bad = "//SUBMODEL/1\ndummy\n\n/TITLE\nnote\n",
+                 .good = "//SUBMODEL/1\ndummy\n\n/TITLE\nnote\n//ENDSUB\n"});
 }
 
 void add_cell_rules(std::vector<Rule>& out) {
@@ -395,8 +395,15 @@ void add_cell_rules(std::vector<Rule>& out) {
                  .fix = "set the flag that asks for the line, or delete the line",
                  .ignore = "Never without a look at the card.",
                  .fixable = Fixable::unsafe,
-                 .bad = "@/INTER/TYPE7/1 Gapmin=0.5\n                 0.1\n",
-                 .good = "@/INTER/TYPE7/1 Gapmin=0.5\n"});
+                 .bad = "/SKEW/FIX/1\naxes\n"
+                        "                 0.0                 0.0                 0.0\n"
+                        "                 1.0                 0.0                 0.0\n"
+                        "                 0.0                 1.0                 0.0\n"
+                        "                 0.0                 0.0                 1.0\n",
+                 .good = "/SKEW/FIX/1\naxes\n"
+                         "                 0.0                 0.0                 0.0\n"
+                         "                 1.0                 0.0                 0.0\n"
+                         "                 0.0                 1.0                 0.0\n"});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Fixes: turns the repairs of diagnostics into new file contents, as a unified diff or on disk.
+// Fixes: turns the repairs of diagnostics into new file contents or a unified diff.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "deck/text/diagnostic.hpp"
-#include "deck/text/result.hpp"
 #include "deck/text/source.hpp"
 
 namespace deck {
@@ -32,9 +31,6 @@ FixResult apply_fixes(const SourceSet& sources, const std::vector<Diagnostic>& d
 /// Unified diff of one file, three lines of context, that `git apply` takes. Empty if equal. `path`
 /// is put behind a/ and b/.
 std::string unified_diff(std::string_view path, std::string_view before, std::string_view after);
-
-/// Writes beside the file and renames; keeps the permissions. Errors: the system's reason.
-Result<void> write_atomically(const std::string& path, std::string_view text);
 
 /// Edit that puts `text` right-aligned into the columns first..last (1-based) of the line that
 /// holds `on_line`. Nothing else on the line moves; a line that is too short grows. `text` longer

@@ -1,0 +1,173 @@
+// Fixes: what they write, that nothing else changes, and that the finding is gone afterwards.
+#include "deck/lint/fix.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "lint/support.hpp"
+
+namespace deck::test {
+namespace {
+
+std::string fixed(const Linted& run, bool unsafe = false) {
+  const FixResult r = apply_fixes(run.deck->sources, run.result.diagnostics, unsafe);
+  return r.files.empty() ? std::string(run.deck->sources[0].bytes()) : r.files[0].text;
+}
+
+class EveryFix : public testing::TestWithParam<std::string> {};
+
+std::vector<std::string> fixable_ids() {
+  std::vector<std::string> ids;
+  for (const Rule& r : all_rules())
+    if (r.fixable != Fixable::no && !r.bad.empty()) ids.emplace_back(r.id);
+  return ids;
+}
+
+TEST_P(EveryFix, RemovesItsFinding) {
+  const Rule& rule = *find_rule(GetParam());
+  LintOptions only;
+  only.select = {std::string(rule.id)};
+  // An unused suppression is one only where the suppressed rule runs as well.
+  if (rule.id == "DK091") only.select.emplace_back("DK223");
+  const Linted before = lint_example(rule.bad, only);
+  ASSERT_TRUE(before.fires(rule.id));
+  std::size_t with_fix = 0;
+  for (const Diagnostic& d : before.result.diagnostics)
+    if (d.rule == rule.id && d.fix) ++with_fix;
+  if (rule.fixable == Fixable::safe) {
+    EXPECT_GT(with_fix, 0u) << before.list();
+  }
+  if (with_fix == 0) return;
+  const Linted after = lint_text(fixed(before, true), only);
+  EXPECT_LT(after.count(rule.id), before.count(rule.id)) << fixed(before, true);
+}
+
+TEST_P(EveryFix, SafeOnesLeaveTheEffectiveValuesAlone) {
+  const Rule& rule = *find_rule(GetParam());
+  const Linted before = lint_example(rule.bad);
+  const std::string text = fixed(before);
+  const SchemaSet& schemas = SchemaSet::built_in();
+  auto one = read_deck_text("a", std::string(before.deck->sources[0].bytes()), schemas);
+  auto two = read_deck_text("b", text, schemas);
+  ASSERT_TRUE(one);
+  ASSERT_TRUE(two);
+  Diagnostics ignored;
+  const Model model_one = build_model(*one, schemas, ignored);
+  const Model model_two = build_model(*two, schemas, ignored);
+  const Interfaces a = read_interfaces(*one, model_one, ignored);
+  const Interfaces b = read_interfaces(*two, model_two, ignored);
+  ASSERT_EQ(a.ordered.size(), b.ordered.size());
+  const auto values = [](const auto& list) {
+    std::vector<std::pair<std::string, std::string>> out;
+    for (const auto& inter : list)
+      inter.for_each([&](std::string_view name, const auto& e) {
+        // Inacti of a tied contact and Iedge are printed and never used.
+        if (inter.type == 10 && name == "Inacti") return;
+        if constexpr (std::is_arithmetic_v<std::decay_t<decltype(e.value)>>) {
+          const double v = static_cast<double>(e.value);
+          out.emplace_back(std::string(name), std::to_string(v == 1000 ? 0 : v));
+        } else {
+          out.emplace_back(std::string(name), e.value);
+        }
+      });
+    return out;
+  };
+  EXPECT_EQ(values(a.type7), values(b.type7));
+  EXPECT_EQ(values(a.type10), values(b.type10));
+  EXPECT_EQ(values(a.type11), values(b.type11));
+  EXPECT_EQ(values(a.type19), values(b.type19));
+}
+
+INSTANTIATE_TEST_SUITE_P(Fixes, EveryFix, testing::ValuesIn(fixable_ids()),
+                         [](const auto& one) { return one.param; });
+
+TEST(CellEdit, KeepsTheLengthOfTheLineAndAlignsRight) {
+  const Linted run = lint_text("#RADIOSS STARTER\n/BEGIN\nabcdefghij0123456789tail\n/END\n");
+  const SourceSet& sources = run.deck->sources;
+  const auto at = static_cast<std::uint64_t>(sources[0].bytes().find("abc"));
+  const TextEdit e = cell_edit(sources, {0, 1, at}, 11, 20, "42");
+  EXPECT_EQ(e.span.offset, at + 10);
+  EXPECT_EQ(e.span.length, 10u);
+  EXPECT_EQ(e.text, "        42");
+}
+
+TEST(CellEdit, GrowsALineThatIsTooShort) {
+  const Linted run = lint_text("#RADIOSS STARTER\n/BEGIN\nabc\n/END\n");
+  const SourceSet& sources = run.deck->sources;
+  const auto at = static_cast<std::uint64_t>(sources[0].bytes().find("abc"));
+  const TextEdit e = cell_edit(sources, {0, 0, at}, 11, 20, "42");
+  EXPECT_EQ(e.span.offset, at + 3);
+  EXPECT_EQ(e.span.length, 0u);
+  EXPECT_EQ(e.text, "               42");
+  const TextEdit clipped = cell_edit(sources, {0, 0, at}, 1, 10, "42");
+  EXPECT_EQ(clipped.span.offset, at);
+  EXPECT_EQ(clipped.span.length, 3u);
+  EXPECT_EQ(clipped.text, "        42");
+}
+
+Diagnostic with_edit(Span span, std::string text, bool safe = true) {
+  Diagnostic d;
+  d.rule = "DK010";
+  d.span = span;
+  d.fix = Fix{"test", safe, {{span, std::move(text)}}};
+  return d;
+}
+
+TEST(ApplyFixes, TakesTheFirstOfTwoThatOverlap) {
+  SourceSet sources;
+  sources.add(Source::from_bytes("x", "0123456789"));
+  const FixResult r = apply_fixes(sources,
+                                  {with_edit({0, 4, 2}, "A"), with_edit({0, 2, 5}, "B"),
+                                   with_edit({0, 1, 6}, "C"), with_edit({0, 0, 10}, "D")},
+                                  false);
+  ASSERT_EQ(r.files.size(), 1u);
+  EXPECT_EQ(r.files[0].text, "01AC789D");
+  EXPECT_EQ(r.applied, 3u);
+  EXPECT_EQ(r.skipped, 1u);
+}
+
+TEST(ApplyFixes, LeavesUnsafeOnesUnlessAsked) {
+  SourceSet sources;
+  sources.add(Source::from_bytes("x", "0123456789"));
+  const std::vector<Diagnostic> all = {with_edit({0, 1, 2}, "A", false)};
+  EXPECT_TRUE(apply_fixes(sources, all, false).files.empty());
+  EXPECT_EQ(apply_fixes(sources, all, true).files[0].text, "01A3456789");
+}
+
+TEST(UnifiedDiff, IsEmptyForEqualTexts) { EXPECT_EQ(unified_diff("x", "a\nb\n", "a\nb\n"), ""); }
+
+TEST(UnifiedDiff, ShowsContextAndJoinsNearChanges) {
+  const std::string before = "1\n2\n3\n4\n5\n6\n7\n8\n9\n";
+  const std::string after = "1\n2\nX\n4\n5\n6\n7\nY\n9\n";
+  EXPECT_EQ(unified_diff("d/x", before, after),
+            "--- a/d/x\n+++ b/d/x\n@@ -1,9 +1,9 @@\n 1\n 2\n-3\n+X\n 4\n 5\n 6\n 7\n-8\n+Y\n 9\n");
+}
+
+/// The patch, given to git, makes the file what the fix makes it.
+void expect_git_applies(const std::string& before, const std::string& after) {
+  const Folder folder;
+  folder.write("x.rad", before);
+  folder.write("p.diff", unified_diff("x.rad", before, after));
+  const std::string command = "cd '" + folder.path() + "' && git apply p.diff 2>error.txt";
+  ASSERT_EQ(std::system(command.c_str()), 0) << folder.read("p.diff") << folder.read("error.txt");
+  EXPECT_EQ(folder.read("x.rad"), after);
+}
+
+TEST(UnifiedDiff, AppliesWithGit) {
+  if (std::system("git --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "git is not installed";
+  std::string lines;
+  for (int i = 0; i < 60; ++i) lines += "line " + std::to_string(i) + "\n";
+  std::string changed = lines;
+  changed.replace(changed.find("line 5\n"), 7, "line five\nand more\n");
+  changed.erase(changed.find("line 40\n"), 8);
+  expect_git_applies(lines, changed);
+  expect_git_applies(lines, "first\n" + lines);
+  expect_git_applies(lines, lines + "/END\n");
+  expect_git_applies("no end of line", "no end of line\n/END\n");
+  expect_git_applies("a\r\nb\r\nc\r\n", "a\r\nX\r\nc\r\n/END\r\n");
+  expect_git_applies("x\n" + lines, lines);
+}
+
+}  // namespace
+}  // namespace deck::test

@@ -1,0 +1,250 @@
+// The engine: suppressions, baseline, selection, order, bounds, what was not checked.
+#include <gtest/gtest.h>
+
+#include "deck/lint/config.hpp"
+#include "deck/report/diagnostics.hpp"
+#include "lint/support.hpp"
+
+namespace deck::test {
+namespace {
+
+constexpr const char* negative = "@/INTER/TYPE7/1 Stfac=-1.0\n";
+
+TEST(Suppression, InFrontOfTheHeaderCoversTheBlockBehindIt) {
+  const Linted run =
+      lint_example(std::string("# decklint: ignore[DK223] reason=a test\n") + negative);
+  EXPECT_FALSE(run.fires("DK223")) << run.list();
+  EXPECT_EQ(run.result.suppressed, 1u);
+  EXPECT_FALSE(run.fires("DK091"));
+}
+
+TEST(Suppression, InsideABlockCoversTheWholeBlock) {
+  const std::string text = example_deck(negative, SchemaSet::built_in()).main;
+  const auto at = text.find("example\n", text.find("/INTER/TYPE7/1"));
+  const Linted run = lint_text(
+      std::string(text).insert(at + 8, "# decklint: ignore[DK2] reason=a prefix works too\n"));
+  EXPECT_FALSE(run.fires("DK223")) << run.list();
+  EXPECT_EQ(run.result.suppressed, 1u);
+}
+
+TEST(Suppression, DoesNotReachTheNextBlock) {
+  const Linted run = lint_example(std::string("# decklint: ignore[DK223] reason=a test\n") +
+                                  "@/INTER/TYPE7/2 Fric=0.1\n" + negative);
+  EXPECT_TRUE(run.fires("DK223"));
+  EXPECT_TRUE(run.fires("DK091")) << "the suppression covers nothing";
+}
+
+TEST(Suppression, WithoutReasonHasNoEffectAndIsAFinding) {
+  const Linted run = lint_example(std::string("# decklint: ignore[DK223]\n") + negative);
+  EXPECT_TRUE(run.fires("DK223"));
+  EXPECT_TRUE(run.fires("DK090"));
+  EXPECT_EQ(run.result.suppressed, 0u);
+}
+
+TEST(Suppression, OfAFileStandsAtItsTop) {
+  std::string text = example_deck(negative, SchemaSet::built_in()).main;
+  const std::string comment = "# decklint: ignore-file[DK223] reason=a test\n";
+  const Linted top = lint_text(std::string(text).insert(text.find("/BEGIN"), comment));
+  EXPECT_FALSE(top.fires("DK223")) << top.list();
+  const Linted late = lint_text(std::string(text).insert(text.find("/INTER"), comment));
+  EXPECT_TRUE(late.fires("DK223"));
+  EXPECT_TRUE(late.fires("DK093"));
+}
+
+TEST(Suppression, OfARuleThatIsSwitchedOffIsNotCalledUnused) {
+  LintOptions options;
+  options.ignore = {"DK223"};
+  const Linted run = lint_example(
+      std::string("# decklint: ignore[DK223] reason=a test\n") + "@/INTER/TYPE7/1\n", options);
+  EXPECT_FALSE(run.fires("DK091")) << run.list();
+}
+
+TEST(Selection, SelectAndIgnoreTakeIdsAndPrefixes) {
+  LintOptions only;
+  only.select = {"DK223"};
+  const Linted a = lint_example(negative, only);
+  ASSERT_EQ(a.result.diagnostics.size(), 1u) << a.list();
+  EXPECT_EQ(a.result.diagnostics[0].rule, "DK223");
+  LintOptions without;
+  without.ignore = {"DK2"};
+  EXPECT_FALSE(lint_example(negative, without).fires("DK223"));
+}
+
+TEST(Selection, SeverityOverrideWithTheLongestSelectorWins) {
+  LintOptions options;
+  options.severity = {{"DK2", Severity::info}, {"DK223", Severity::warning}};
+  const Linted run = lint_example(negative, options);
+  ASSERT_TRUE(run.fires("DK223"));
+  EXPECT_EQ(run.find("DK223")->severity, Severity::warning);
+}
+
+TEST(Selection, PerFileIgnoresFollowTheGlob) {
+  LintOptions options;
+  options.per_file_ignores = {{"*_0000.rad", {"DK223"}}};
+  EXPECT_FALSE(lint_example(negative, options).fires("DK223"));
+  options.per_file_ignores = {{"*.inc", {"DK223"}}};
+  EXPECT_TRUE(lint_example(negative, options).fires("DK223"));
+}
+
+TEST(Baseline, HidesAsManyFindingsAsItCounts) {
+  const Linted first = lint_example(negative);
+  const std::string file = write_baseline({&first.result});
+  auto parsed = parse_baseline(file);
+  ASSERT_TRUE(parsed);
+  LintOptions options;
+  options.baseline = *parsed;
+  const Linted again = lint_example(negative, options);
+  EXPECT_TRUE(again.result.diagnostics.empty()) << again.list();
+  EXPECT_EQ(again.result.baselined, first.result.diagnostics.size());
+  // Lines above move the card, but not its fingerprint; a changed value is a new finding.
+  EXPECT_FALSE(
+      lint_example(std::string("# a comment\n/TITLE\nx\n") + negative, options).fires("DK223"));
+  EXPECT_TRUE(lint_example("@/INTER/TYPE7/1 Stfac=-2.0\n", options).fires("DK223"));
+}
+
+TEST(Baseline, RefusesWhatIsNoBaseline) {
+  EXPECT_FALSE(parse_baseline("{}"));
+  EXPECT_FALSE(parse_baseline("not json"));
+  EXPECT_FALSE(parse_baseline(R"({"schema":"deck.baseline/1","findings":{"a":{"count":-1}}})"));
+  EXPECT_TRUE(parse_baseline(R"({"schema":"deck.baseline/1","findings":{}})"));
+}
+
+TEST(Order, FollowsFileLineColumnRule) {
+  const Linted run = lint_example(std::string(negative) + "@/INTER/TYPE7/2 Istf=7 Fric=-1.0\n");
+  const auto& all = run.result.diagnostics;
+  ASSERT_GT(all.size(), 2u);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (all[i - 1].span.file != all[i].span.file) {
+      EXPECT_LT(all[i - 1].span.file, all[i].span.file);
+      continue;
+    }
+    EXPECT_LE(all[i - 1].span.offset, all[i].span.offset);
+    if (all[i - 1].span.offset == all[i].span.offset) {
+      EXPECT_LE(all[i - 1].rule, all[i].rule);
+    }
+  }
+}
+
+TEST(Order, NoFindingAppearsTwice) {
+  const Linted run = lint_example("@/INTER/TYPE7/1 Istf=two\n");
+  EXPECT_EQ(run.count("DK020"), 1u) << run.list();
+}
+
+TEST(Floods, AreCountedBeyondTheBound) {
+  std::string text;
+  for (int i = 1; i <= 40; ++i) text += "@/INTER/TYPE7/" + std::to_string(i) + " Stfac=-1.0\n";
+  LintOptions options;
+  options.diagnostics_per_rule = 5;
+  const Linted run = lint_example(text, options);
+  EXPECT_EQ(run.count("DK223"), 5u);
+  EXPECT_EQ(run.result.counts.at("DK223"), 40u);
+  EXPECT_EQ(run.result.dropped.at("DK223"), 35u);
+  EXPECT_GE(run.result.errors, 40u);
+}
+
+TEST(NotChecked, NamesWhatWasLeftOutAndWhy) {
+  const Linted run = lint_example("/NONSENSE/4\nsomething\n#include nowhere.inc\n");
+  std::string all;
+  for (const NotChecked& n : run.result.not_checked) all += n.what + ": " + n.why + "\n";
+  EXPECT_NE(all.find("/NONSENSE"), std::string::npos) << all;
+  EXPECT_NE(all.find("nowhere.inc"), std::string::npos) << all;
+  EXPECT_NE(all.find("Engine"), std::string::npos) << all;
+  EXPECT_NE(all.find("geometry"), std::string::npos) << all;
+}
+
+TEST(ExtraChecks, ReportThroughTheEngine) {
+  const ExampleDeck example = example_deck("@/INTER/TYPE7/1\n", SchemaSet::built_in());
+  auto deck = read_deck_text("x", example.main, SchemaSet::built_in());
+  ASSERT_TRUE(deck);
+  LintInput input{*deck, SchemaSet::built_in()};
+  input.extra_checks.push_back([](const LintContext& c, Reporter& r) {
+    ASSERT_EQ(c.contacts.size(), 1u);
+    r.report(*find_rule("DK390"), *c.contacts[0].block, c.contacts[0].block->header_span, "many");
+  });
+  const LintResult result = run_lint(input);
+  ASSERT_EQ(result.counts.count("DK390"), 1u);
+  for (const NotChecked& n : result.not_checked)
+    EXPECT_EQ(n.what.find("geometry"), std::string::npos);
+}
+
+TEST(KindOfEntity, SaysWhatTheIdBelongsTo) {
+  const Linted run = lint_example("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1\n");
+  ASSERT_TRUE(run.fires("DK171")) << run.list();
+  EXPECT_NE(run.find("DK171")->message.find("/SURF"), std::string::npos);
+  EXPECT_NE(run.find("DK171")->help.find("/GRNOD/SURF"), std::string::npos);
+  EXPECT_FALSE(run.fires("DK170"));
+}
+
+TEST(MissingLine, NamesTheFlagThatAsksForIt) {
+  const Linted run = lint_example(find_rule("DK240")->bad);
+  ASSERT_TRUE(run.fires("DK240"));
+  EXPECT_NE(run.find("DK240")->message.find("Ifric = 1"), std::string::npos)
+      << run.find("DK240")->message;
+}
+
+TEST(UnknownKeyword, SuggestsTheClosestOne) {
+  const Linted run = lint_example("/INTER/TYP7/1\nexample\n");
+  ASSERT_TRUE(run.fires("DK040"));
+  EXPECT_NE(run.find("DK040")->message.find("did you mean /INTER/TYPE7"), std::string::npos);
+}
+
+TEST(Config, ReadsEveryKey) {
+  const auto config = parse_lint_config(
+      "select = [\"DK2\"]\nignore = [\"DK223\"]\nfail-on = \"warning\"\nbaseline = \"base.json\"\n"
+      "[severity]\nDK271 = \"error\"\n[per-file-ignores]\n\"*.inc\" = [\"DK0\"]\n",
+      "/some/where/.decklint.toml");
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->select, std::vector<std::string>{"DK2"});
+  EXPECT_EQ(config->ignore, std::vector<std::string>{"DK223"});
+  EXPECT_EQ(config->fail_on, "warning");
+  EXPECT_EQ(config->baseline, "/some/where/base.json");
+  EXPECT_EQ(config->severity.at("DK271"), Severity::error);
+  ASSERT_EQ(config->per_file_ignores.size(), 1u);
+  EXPECT_EQ(config->per_file_ignores[0].first, "*.inc");
+}
+
+TEST(Config, RefusesUnknownKeysRulesAndValuesWithTheLine) {
+  const auto key = parse_lint_config("\nselct = []\n", "c.toml");
+  ASSERT_FALSE(key);
+  EXPECT_NE(key.error().message.find("c.toml:2"), std::string::npos) << key.error().message;
+  EXPECT_FALSE(parse_lint_config("select = [\"DK777\"]", "c.toml"));
+  EXPECT_FALSE(parse_lint_config("select = \"DK2\"", "c.toml"));
+  EXPECT_FALSE(parse_lint_config("fail-on = \"maybe\"", "c.toml"));
+  EXPECT_FALSE(parse_lint_config("[severity]\nDK2 = \"fatal\"", "c.toml"));
+  EXPECT_FALSE(parse_lint_config("= broken", "c.toml"));
+}
+
+TEST(Config, IsFoundAboveTheDeck) {
+  const Folder folder;
+  folder.write(".decklint.toml", "ignore = [\"DK2\"]\n");
+  const std::string deck = folder.write("a/b/x_0000.rad", "");
+  const auto config = find_lint_config(deck);
+  ASSERT_TRUE(config);
+  EXPECT_EQ(config->ignore, std::vector<std::string>{"DK2"});
+}
+
+TEST(Glob, MatchesNamesPathsAndDepth) {
+  EXPECT_TRUE(glob_match("*.rad", "x.rad"));
+  EXPECT_TRUE(glob_match("*.rad", "deep/er/x.rad"));
+  EXPECT_FALSE(glob_match("*.rad", "x.inc"));
+  EXPECT_TRUE(glob_match("lib/*.inc", "model/lib/x.inc"));
+  EXPECT_FALSE(glob_match("lib/*.inc", "model/lib/sub/x.inc"));
+  EXPECT_TRUE(glob_match("lib/**/*.inc", "lib/a/b/x.inc"));
+  EXPECT_TRUE(glob_match("lib/**/*.inc", "lib/x.inc"));
+  EXPECT_TRUE(glob_match("x?.rad", "x1.rad"));
+  EXPECT_FALSE(glob_match("x?.rad", "x/.rad"));
+}
+
+TEST(Explain, KeywordPageListsColumnsValuesAndDefaults) {
+  const Schema* schema = SchemaSet::built_in().find("/INTER/TYPE7");
+  ASSERT_NE(schema, nullptr);
+  const std::string page = explain_keyword(*schema);
+  EXPECT_NE(page.find("21-30  Istf"), std::string::npos) << page.substr(0, 2000);
+  EXPECT_NE(page.find("only if Icurv in 1, 2"), std::string::npos);
+  const std::string field = explain_keyword(*schema, "Gapmin");
+  EXPECT_NE(field.find("length"), std::string::npos) << field;
+  EXPECT_TRUE(explain_keyword(*schema, "Nonsense").empty());
+}
+
+}  // namespace
+}  // namespace deck::test

@@ -1,0 +1,147 @@
+// Every rule fires on its own bad example and stays silent on its good one.
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+#include "lint/support.hpp"
+
+namespace deck::test {
+namespace {
+
+class EveryRule : public testing::TestWithParam<std::string> {
+ protected:
+  const Rule& rule() const { return *find_rule(GetParam()); }
+};
+
+std::vector<std::string> ids_with_examples() {
+  std::vector<std::string> ids;
+  for (const Rule& r : all_rules())
+    if (!r.bad.empty()) ids.emplace_back(r.id);
+  return ids;
+}
+
+TEST_P(EveryRule, FiresOnItsBadExample) {
+  const Linted run = lint_example(rule().bad);
+  EXPECT_TRUE(run.fires(rule().id))
+      << example_deck(rule().bad, SchemaSet::built_in()).main << run.list();
+}
+
+TEST_P(EveryRule, StaysSilentOnItsGoodExample) {
+  const Linted run = lint_example(rule().good);
+  EXPECT_FALSE(run.fires(rule().id))
+      << example_deck(rule().good, SchemaSet::built_in()).main << run.list();
+}
+
+TEST_P(EveryRule, ExamplesNameFieldsThatExist) {
+  for (const std::string_view text : {rule().bad, rule().good}) {
+    const std::string deck = example_deck(text, SchemaSet::built_in()).main;
+    EXPECT_EQ(deck.find("# unused:"), std::string::npos) << deck;
+    EXPECT_EQ(deck.find("# no schema"), std::string::npos) << deck;
+  }
+}
+
+TEST_P(EveryRule, FindingHasPlaceMessageAndHelp) {
+  const Linted run = lint_example(rule().bad);
+  const Diagnostic* d = run.find(rule().id);
+  ASSERT_NE(d, nullptr);
+  EXPECT_TRUE(d->span.valid());
+  EXPECT_FALSE(d->message.empty());
+  EXPECT_FALSE(d->help.empty() && d->reference_behaviour.empty());
+  if (d->fix) {
+    EXPECT_FALSE(d->fix->edits.empty());
+    EXPECT_NE(rule().fixable, Fixable::no) << "the rule does not promise a fix";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, EveryRule, testing::ValuesIn(ids_with_examples()),
+                         [](const auto& one) { return one.param; });
+
+/// A data line with a NUL byte cannot be written into the rule table.
+TEST(NulByte, FiresInDataAndNotInCleanData) {
+  const std::string clean =
+      example_deck("/GRNOD/NODE/7\nnodes\n         1         2\n", SchemaSet::built_in()).main;
+  std::string broken = clean;
+  broken[broken.find("         1         2") + 12] = '\0';
+  EXPECT_TRUE(lint_text(broken).fires("DK014")) << lint_text(broken).list();
+  EXPECT_FALSE(lint_text(clean).fires("DK014"));
+}
+
+/// No built-in keyword reaches DK165; one that somebody adds can.
+TEST(UnknownCombination, FiresForAnAddedSurfaceKeyword) {
+  SchemaSet schemas = SchemaSet::built_in();
+  ASSERT_TRUE(schemas.add_json("extra", R"({"keyword": "/SURF/CLOUD", "kind": "surf",
+      "doc": "A surface of no known kind.", "cards": []})"));
+  const auto fires = [&](const std::string& block) {
+    const std::string text = example_deck(block, schemas).main;
+    auto deck = read_deck_text("deck_0000.rad", text, schemas);
+    const LintResult r = lint_deck(*deck, schemas);
+    return r.counts.count("DK165") > 0;
+  };
+  EXPECT_TRUE(fires("/SURF/CLOUD/9\nnothing\n"));
+  EXPECT_FALSE(fires("/SURF/PART/9\nlower\n         1\n"));
+}
+
+TEST(RuleTable, HasBothExamplesExceptWhereAnotherTestBringsThem) {
+  // DK014 and DK165 above; geometry rules are reported by checks that bring their own tests.
+  for (const Rule& r : all_rules()) {
+    EXPECT_EQ(r.bad.empty(), r.good.empty()) << r.id;
+    if (r.bad.empty()) {
+      EXPECT_TRUE(r.id == "DK014" || r.id == "DK165" || r.stage == RuleStage::extra) << r.id;
+    }
+  }
+}
+
+TEST(RuleTable, IdsAreSortedAndUnique) {
+  std::set<std::string_view> seen;
+  for (const Rule& r : all_rules()) EXPECT_TRUE(seen.insert(r.id).second) << r.id;
+  EXPECT_GE(seen.size(), 90u);
+}
+
+TEST(RuleTable, EveryRuleHasAFullPage) {
+  for (const Rule& r : all_rules()) {
+    EXPECT_FALSE(r.title.empty()) << r.id;
+    EXPECT_FALSE(r.problem.empty()) << r.id;
+    EXPECT_FALSE(r.why.empty()) << r.id;
+    EXPECT_FALSE(r.solver.empty()) << r.id;
+    EXPECT_FALSE(r.fix.empty()) << r.id;
+    EXPECT_FALSE(r.ignore.empty()) << r.id;
+    EXPECT_EQ(r.check != nullptr, r.stage == RuleStage::check) << r.id;
+    const std::string page = explain_rule(r, SchemaSet::built_in());
+    EXPECT_NE(page.find(r.id), std::string::npos);
+    EXPECT_NE(page.find("What the reference solver does"), std::string::npos) << r.id;
+  }
+}
+
+/// Every id that any source of the library mentions has an entry, whoever wrote the source.
+TEST(RuleTable, KnowsEveryIdOfTheSources) {
+  const std::filesystem::path root = std::filesystem::path(DECK_SOURCE_DIR) / "libdeck";
+  const std::regex id("\"(DK[0-9]{3})\"");
+  int found = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    const auto name = entry.path().extension();
+    if (name != ".cpp" && name != ".hpp") continue;
+    std::ifstream in(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), id); it != std::sregex_iterator();
+         ++it) {
+      ++found;
+      EXPECT_NE(find_rule((*it)[1].str()), nullptr) << (*it)[1] << " in " << entry.path();
+    }
+  }
+  EXPECT_GT(found, 100);
+}
+
+TEST(RuleTable, FamiliesFollowTheLeadingDigit) {
+  EXPECT_EQ(family_of("DK001"), "syntax, columns, version");
+  EXPECT_EQ(family_of("DK250"), "contact options");
+  EXPECT_TRUE(selects("DK2", "DK250"));
+  EXPECT_TRUE(selects("all", "DK250"));
+  EXPECT_FALSE(selects("DK25", "DK205"));
+  EXPECT_FALSE(selects("", "DK205"));
+  EXPECT_TRUE(known_selector("DK5"));
+  EXPECT_FALSE(known_selector("DK7"));
+}
+
+}  // namespace
+}  // namespace deck::test

@@ -1,0 +1,108 @@
+// Runs lint on an example: writes its files, reads the deck, builds the model, lints.
+#pragma once
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/lint/example.hpp"
+#include "deck/lint/lint.hpp"
+
+namespace deck::test {
+
+/// A folder that goes away with the test.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "deck-lint-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~Folder() {
+    std::error_code ec;
+    std::filesystem::remove_all(path_, ec);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string write(const std::string& name, std::string_view text) const {
+    const auto file = path_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream out(file, std::ios::binary);
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    return file.string();
+  }
+  std::string read(const std::string& name) const {
+    std::ifstream in(path_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A deck with its lint result. Keeps the deck alive, which the result points into.
+struct Linted {
+  std::unique_ptr<Deck> deck;
+  LintResult result;
+
+  bool fires(std::string_view rule) const { return find(rule) != nullptr; }
+  const Diagnostic* find(std::string_view rule) const {
+    for (const Diagnostic& d : result.diagnostics)
+      if (d.rule == rule) return &d;
+    return nullptr;
+  }
+  std::size_t count(std::string_view rule) const {
+    return static_cast<std::size_t>(
+        std::count_if(result.diagnostics.begin(), result.diagnostics.end(),
+                      [&](const Diagnostic& d) { return d.rule == rule; }));
+  }
+  /// Ids of all findings, for messages of failed tests.
+  std::string list() const {
+    std::string out;
+    for (const Diagnostic& d : result.diagnostics)
+      out += std::string(d.rule) + " " + d.message + "\n";
+    return out;
+  }
+};
+
+inline Linted lint_file(const std::string& path, const LintOptions& options = {},
+                        const ReadOptions& read = {}) {
+  const SchemaSet& schemas = SchemaSet::built_in();
+  auto deck = read_deck(path, schemas, read);
+  if (!deck) throw std::runtime_error(deck.error().message);
+  Linted out;
+  out.deck = std::make_unique<Deck>(std::move(*deck));
+  out.result = lint_deck(*out.deck, schemas, options);
+  return out;
+}
+
+inline Linted lint_text(const std::string& text, const LintOptions& options = {}) {
+  const SchemaSet& schemas = SchemaSet::built_in();
+  auto deck = read_deck_text("deck_0000.rad", text, schemas);
+  if (!deck) throw std::runtime_error(deck.error().message);
+  Linted out;
+  out.deck = std::make_unique<Deck>(std::move(*deck));
+  out.result = lint_deck(*out.deck, schemas, options);
+  return out;
+}
+
+/// Lints an example in the notation of deck/lint/example.hpp.
+inline Linted lint_example(std::string_view example, const LintOptions& options = {}) {
+  const ExampleDeck deck = example_deck(example, SchemaSet::built_in());
+  if (deck.files.empty() && deck.limits.empty()) return lint_text(deck.main, options);
+  Folder folder;
+  for (const auto& [name, text] : deck.files) folder.write(name, text);
+  ReadOptions read;
+  for (const auto& [name, value] : deck.limits)
+    if (name == "include_depth") read.limits.include_depth = value;
+  return lint_file(folder.write("deck_0000.rad", deck.main), options, read);
+}
+
+}  // namespace deck::test

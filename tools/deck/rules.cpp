@@ -1,0 +1,31 @@
+// deck rules: all rules of deck lint, as a table or as JSON.
+#include <CLI/CLI.hpp>
+
+#include "common.hpp"
+#include "deck/report/diagnostics.hpp"
+
+namespace {
+
+using namespace deck;
+using namespace deck::cli;
+
+int run(const CommonOptions& common) {
+  if (!common.json.empty())
+    if (auto written = write_output(common.json, rules_json()); !written) {
+      print_error(common, written.error().message);
+      return exit_usage;
+    }
+  if (common.wants_text()) print_text(rules_table(common.color_on(1)));
+  return exit_clean;
+}
+
+Action setup(CLI::App& app) {
+  auto options = std::make_shared<CommonOptions>();
+  add_common_without_decks(app, *options);
+  return [options] { return run(*options); };
+}
+
+const VerbRegistration registration{{"rules", 80, "All rules of deck lint",
+                                     "  deck rules\n  deck rules --json rules.json\n", setup}};
+
+}  // namespace
