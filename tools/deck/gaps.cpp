@@ -6,6 +6,7 @@
 #include "common.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/report/gaps.hpp"
+#include "deck/report/html.hpp"
 #include "deck/text/number.hpp"
 
 namespace {
@@ -18,7 +19,7 @@ struct Options {
   bool all = false;
   bool fail = false;
   std::size_t worst = 20;
-  std::string csv;
+  std::string csv, html, compare;
   std::vector<std::int64_t> only;
   std::vector<std::string> what_if;
 };
@@ -70,7 +71,44 @@ Result<WhatIf> parse_what_if(const std::string& text) {
   return w;
 }
 
+/// Writes the HTML report; what can be wrong is wrong usage or a file.
+Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& scene,
+                        const SceneView& view, const SceneOptions& scene_options) {
+  EarlierGaps earlier;
+  if (!o.compare.empty()) {
+    const auto source = Source::open(o.compare, Limits{});
+    if (!source) return source.error();
+    auto read = read_earlier_gaps(o.compare, (*source)->bytes(), loaded.path);
+    if (!read) return read.error();
+    earlier = std::move(*read);
+  }
+  HtmlInput input;
+  input.path = loaded.path;
+  input.deck = &loaded.deck;
+  input.scene = &scene;
+  input.view = &view;
+  input.what_if = scene_options.what_if;
+  input.only = scene_options.only;
+  input.threads = scene_options.threads;
+  if (!o.compare.empty()) input.earlier = &earlier;
+  auto page = gaps_html(input);
+  if (!page) return page.error();
+  return write_output(o.html, *page);
+}
+
 int run(const Options& o) {
+  if (std::string why; !o.html.empty() && !html_available(&why)) {
+    print_error(o.common, "--html: this build has no viewer: " + why);
+    return exit_usage;
+  }
+  if (!o.compare.empty() && o.html.empty()) {
+    print_error(o.common, "--compare needs --html");
+    return exit_usage;
+  }
+  if (!o.html.empty() && o.common.decks.size() > 1) {
+    print_error(o.common, "--html takes one deck at a time");
+    return exit_usage;
+  }
   SceneOptions scene_options;
   scene_options.threads = o.common.thread_count();
   scene_options.only = o.only;
@@ -102,7 +140,12 @@ int run(const Options& o) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }
-    if (o.common.wants_text() && o.csv != "-") {
+    if (!o.html.empty())
+      if (auto r = write_html(o, loaded, scene, view, scene_options); !r) {
+        print_error(o.common, r.error().message);
+        return static_cast<int>(exit_usage);
+      }
+    if (o.common.wants_text() && o.csv != "-" && o.html != "-") {
       GapsTextOptions text;
       text.worst = o.worst;
       text.color = o.common.color_on(1);
@@ -122,6 +165,12 @@ Action setup(CLI::App& app) {
   app.add_option("--csv", options->csv,
                  "Write one line per penetration to FILE ('-': standard output)")
       ->type_name("FILE");
+  app.add_option("--html", options->html,
+                 "Write the interactive report to FILE: one page, no network needed")
+      ->type_name("FILE");
+  app.add_option("--compare", options->compare,
+                 "With --html: an earlier 'deck gaps --json' FILE to compare with")
+      ->type_name("FILE");
   app.add_option("--worst", options->worst, "Rows of the list of deepest penetrations")
       ->capture_default_str();
   app.add_option("--interface", options->only, "Only these interface ids")->type_name("ID");
@@ -137,6 +186,7 @@ Action setup(CLI::App& app) {
 const VerbRegistration registration{{"gaps", 30,
                                      "Gaps, stiffness and initial penetrations of every contact",
                                      "  deck gaps car_0000.rad\n"
+                                     "  deck gaps car_0000.rad --html gaps.html\n"
                                      "  deck gaps car_0000.rad --json gaps.json --all\n"
                                      "  deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6\n",
                                      setup}};

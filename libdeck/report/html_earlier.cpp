@@ -1,0 +1,99 @@
+// Reads an earlier `deck gaps --json` for comparison.
+#include <map>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "deck/report/html.hpp"
+
+namespace deck {
+namespace {
+
+using Json = nlohmann::json;
+
+Error wrong(const std::string& path, const std::string& why) {
+  return {Error::Code::syntax,
+          path + ": " + why + "; expected the document that 'deck gaps --json' writes"};
+}
+
+bool is_gaps(const Json& d) {
+  return d.is_object() && d.contains("interfaces") && d["interfaces"].is_array();
+}
+
+std::string text(const Json& object, const char* key) {
+  const auto it = object.find(key);
+  return it != object.end() && it->is_string() ? it->get<std::string>() : std::string();
+}
+
+std::string deck_path_of(const Json& d) {
+  return d.contains("deck") && d["deck"].is_object() ? text(d["deck"], "path") : std::string();
+}
+
+double number(const Json& object, const char* key) {
+  const auto it = object.find(key);
+  return it != object.end() && it->is_number() ? it->get<double>() : 0;
+}
+
+std::int64_t whole(const Json& v) { return v.is_number_integer() ? v.get<std::int64_t>() : 0; }
+
+EarlierGaps::Row row_of(const Json& p) {
+  EarlierGaps::Row row;
+  const auto edge = p.find("edge");
+  if (edge != p.end() && edge->is_array() && edge->size() == 2) {
+    row.secondary = {whole((*edge)[0]), whole((*edge)[1])};
+    row.depth = number(p, "depth");
+    row.gap = number(p, "pair_gap");
+  } else {
+    row.secondary = {p.contains("node") ? whole(p["node"]) : 0, 0};
+    row.depth = number(p, "penetration");
+    row.gap = number(p, "gap");
+  }
+  return row;
+}
+
+}  // namespace
+
+Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
+                                      std::string_view deck_path) {
+  const Json all = Json::parse(json.begin(), json.end(), nullptr, false);
+  if (all.is_discarded()) return wrong(path, "this is not JSON");
+  const Json* document = is_gaps(all) ? &all : nullptr;
+  if (document == nullptr && all.is_object() && all.contains("decks") && all["decks"].is_array()) {
+    for (const Json& d : all["decks"]) {
+      if (!is_gaps(d)) continue;
+      if (document == nullptr) document = &d;
+      if (deck_path_of(d) == deck_path) {
+        document = &d;
+        break;
+      }
+    }
+  }
+  if (document == nullptr) return wrong(path, "there is no list \"interfaces\"");
+  EarlierGaps out;
+  out.path = std::move(path);
+  out.deck_path = deck_path_of(*document);
+  for (const Json& inter : (*document)["interfaces"]) {
+    if (!inter.is_object() || !inter.contains("contacts") || !inter["contacts"].is_array())
+      return wrong(out.path, "an interface has no list \"contacts\"");
+    const std::int64_t id = inter.contains("id") ? whole(inter["id"]) : 0;
+    for (const Json& contact : inter["contacts"]) {
+      if (!contact.is_object() || !contact.contains("penetrations") ||
+          !contact["penetrations"].is_array())
+        return wrong(out.path, "a contact has no list \"penetrations\"");
+      std::map<std::array<std::int64_t, 2>, std::size_t> deepest;
+      for (const Json& p : contact["penetrations"]) {
+        if (!p.is_object()) return wrong(out.path, "a penetration is no object");
+        EarlierGaps::Row row = row_of(p);
+        row.interface_id = id;
+        row.role = text(contact, "role");
+        const auto [it, fresh] = deepest.emplace(row.secondary, out.rows.size());
+        if (fresh)
+          out.rows.push_back(std::move(row));
+        else if (row.depth > out.rows[it->second].depth)
+          out.rows[it->second] = std::move(row);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,54 @@
+// ByteStream: the compact binary blocks of the HTML report — variable-length integers, differences
+// and byte planes, made to compress well — and how a block becomes text.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace deck::detail {
+
+class ByteStream {
+ public:
+  /// Unsigned, seven bits per byte, lowest first.
+  void u(std::uint64_t v) {
+    while (v >= 0x80) {
+      bytes_ += static_cast<char>(v | 0x80);
+      v >>= 7;
+    }
+    bytes_ += static_cast<char>(v);
+  }
+  /// Signed: sign in the lowest bit.
+  void s(std::int64_t v) {
+    u((static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63));
+  }
+  /// Doubles as eight planes of bytes: first all lowest bytes, last all highest ones.
+  void f64(std::span<const double> values);
+  void f64(double value) { f64(std::span(&value, 1)); }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+/// Running difference for ByteStream::s.
+class Delta {
+ public:
+  std::int64_t operator()(std::int64_t v) {
+    const std::int64_t d = v - last_;
+    last_ = v;
+    return d;
+  }
+
+ private:
+  std::int64_t last_ = 0;
+};
+
+/// zlib stream of `bytes` as base64 text.
+std::string packed_text(std::string_view bytes);
+
+/// HTML text: & < > " ' as references, bytes that are no UTF-8 as Latin-1.
+std::string html_escaped(std::string_view text);
+
+}  // namespace deck::detail

@@ -1,0 +1,102 @@
+// Values per page node for the coloured surface.
+import { pairGap, sideGaps } from "./evaluate";
+import type { ContourKind } from "./look";
+import type { Hit, Report } from "./report";
+
+export interface Contour {
+  /** In [0, 1], NaN: no value; by page node. */
+  values: Float32Array | null;
+  top: number;
+  of(hit: Hit): number; // value of a row in [0, 1]
+}
+
+/** Positions of page nodes as drawn. */
+function positions(report: Report): Float32Array {
+  const out = new Float32Array(3 * report.mesh.nodeId.length).fill(NaN);
+  for (const p of report.mesh.parts)
+    p.node.forEach((n, i) => out.set(p.position.subarray(3 * i, 3 * i + 3), 3 * n));
+  const d = report.data;
+  d.exactNode.forEach((n, i) => out.set([d.x[i], d.y[i], d.z[i]], 3 * n));
+  return out;
+}
+const known = new WeakMap<Report, Float32Array>();
+function positionsOf(report: Report): Float32Array {
+  let p = known.get(report);
+  if (!p) known.set(report, (p = positions(report)));
+  return p;
+}
+
+export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Contour {
+  const n = report.mesh.nodeId.length;
+  const pick = kind === "ratio" ? (x: Hit) => x.ratio : kind === "gap" ? (x: Hit) => x.row.gap : (x: Hit) => x.depth;
+  if (kind === "none" || kind === "depth" || kind === "ratio") {
+    const top = hits.reduce((m, x) => Math.max(m, pick(x)), 0) || 1;
+    const of = (x: Hit) => pick(x) / top;
+    if (kind === "none") return { values: null, top, of };
+    const values = new Float32Array(n).fill(NaN);
+    for (const x of hits) {
+      const v = of(x);
+      for (const node of report.secondaryNodes(x.row).concat(report.mainNodes(x.row)))
+        if (!(values[node] >= v)) values[node] = v;
+    }
+    return { values, top, of };
+  }
+  const raw = new Float32Array(n).fill(NaN);
+  const position = positionsOf(report);
+  const set = (node: number, v: number) => {
+    if (!(raw[node] >= v)) raw[node] = v;
+  };
+  report.meta.contacts.forEach((meta, i) => {
+    if (report.filter.interface !== null && meta.interface !== report.filter.interface) return;
+    const data = report.data.contacts[i];
+    const edges = meta.kind === "edge_edge";
+    const s = report.results[i].setting;
+    const { gs, gm } = sideGaps(s, edges, data);
+    const thickest = (count: number, f: (k: number) => number) => {
+      let m = 0;
+      for (let k = 0; k < count; k++) m = Math.max(m, f(k));
+      return m;
+    };
+    const width = edges ? 2 : 4;
+    const mains = data.mainNode.length / width;
+    const perSecondary = edges ? 2 : 1;
+    const secondaries = data.secondaryNode.length / perSecondary;
+    const gsTop = thickest(secondaries, gs);
+    const gmTop = thickest(mains, gm);
+    for (let m = 0; m < mains; m++) {
+      const at = data.mainListed[m];
+      const length = at >= 0 ? data.mainLength[at] : Infinity;
+      const gap = pairGap(s, edges, gsTop, gm(m), meta.longest_node || Infinity, length);
+      const nodes = data.mainNode.subarray(width * m, width * m + width);
+      const v = kind === "gap" ? gap : gap / shortestSide(position, nodes);
+      if (Number.isFinite(v)) for (const node of nodes) set(node, v);
+    }
+    if (kind === "gap")
+      for (let k = 0; k < secondaries; k++) {
+        const gap = pairGap(s, edges, gs(k), gmTop, Infinity, Infinity);
+        for (let j = 0; j < perSecondary; j++) set(data.secondaryNode[perSecondary * k + j], gap);
+      }
+  });
+  let top = 0;
+  for (const v of raw) if (v > top) top = v;
+  top = top || 1;
+  const values = raw.map((v) => v / top);
+  const rowValue = (x: Hit) => {
+    if (kind === "gap") return x.row.gap / top;
+    const side = shortestSide(position, Uint32Array.from(report.mainNodes(x.row)));
+    return Math.min(1, x.row.gap / side / top);
+  };
+  return { values, top, of: rowValue };
+}
+
+function shortestSide(position: Float32Array, nodes: Uint32Array): number {
+  let best = Infinity;
+  for (let k = 0; k < nodes.length; k++) {
+    const a = 3 * nodes[k];
+    const b = 3 * nodes[(k + 1) % nodes.length];
+    if (a === b) continue;
+    const d = Math.hypot(position[a] - position[b], position[a + 1] - position[b + 1], position[a + 2] - position[b + 2]);
+    if (d > 0 && d < best) best = d;
+  }
+  return best;
+}

@@ -1,0 +1,252 @@
+// Decodes the binary blocks of the page (see libdeck/report/html_*.cpp for the writers).
+import { unzlibSync } from "fflate";
+import type { ContactMeta, Earlier, Meta } from "./meta";
+
+export const kindNames = ["shell", "sh3n", "solid", "quad", "tria", "truss", "beam", "spring"];
+
+function blockText(id: string): string | null {
+  return document.getElementById(id)?.textContent ?? null;
+}
+
+export function fromBase64(text: string): Uint8Array {
+  const table = new Uint8Array(128);
+  const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  for (let i = 0; i < 64; i++) table[digits.charCodeAt(i)] = i;
+  let end = text.length;
+  while (end > 0 && text.charCodeAt(end - 1) === 61) end--;
+  const out = new Uint8Array((end * 3) >> 2);
+  let o = 0;
+  for (let i = 0; i < end; i += 4) {
+    const v =
+      (table[text.charCodeAt(i)] << 18) |
+      (table[text.charCodeAt(i + 1)] << 12) |
+      (i + 2 < end ? table[text.charCodeAt(i + 2)] << 6 : 0) |
+      (i + 3 < end ? table[text.charCodeAt(i + 3)] : 0);
+    out[o++] = v >> 16;
+    if (o < out.length) out[o++] = (v >> 8) & 255;
+    if (o < out.length) out[o++] = v & 255;
+  }
+  return out;
+}
+
+class Reader {
+  private at = 0;
+  constructor(private readonly b: Uint8Array) {}
+
+  u(): number {
+    let v = this.b[this.at++];
+    if (v < 0x80) return v;
+    v &= 0x7f;
+    let scale = 128;
+    for (;;) {
+      const c = this.b[this.at++];
+      v += (c & 0x7f) * scale;
+      if (c < 0x80) return v;
+      scale *= 128;
+    }
+  }
+  s(): number {
+    const v = this.u();
+    return v % 2 === 0 ? v / 2 : -(v + 1) / 2;
+  }
+  f64(n: number): Float64Array {
+    const bytes = new Uint8Array(8 * n);
+    for (let plane = 0; plane < 8; plane++)
+      for (let i = 0; i < n; i++) bytes[8 * i + plane] = this.b[this.at++];
+    return new Float64Array(bytes.buffer);
+  }
+  deltas32(n: number): Uint32Array {
+    const out = new Uint32Array(n);
+    let v = 0;
+    for (let i = 0; i < n; i++) out[i] = v += this.s();
+    return out;
+  }
+  deltas(n: number): Float64Array {
+    const out = new Float64Array(n);
+    let v = 0;
+    for (let i = 0; i < n; i++) out[i] = v += this.s();
+    return out;
+  }
+  /** Values by index into a list of distinct ones. */
+  palette(n: number): Float64Array {
+    const values = this.f64(this.u());
+    const out = new Float64Array(n);
+    if (values.length === 1) out.fill(values[0]);
+    if (values.length > 1) for (let i = 0; i < n; i++) out[i] = values[this.u()];
+    return out;
+  }
+}
+
+export interface Owners {
+  kind: Uint8Array; // index into kindNames plus 1, 0: none
+  id: Float64Array;
+  part: Int32Array; // index into Meta.parts, -1: none
+}
+
+function owners(r: Reader, n: number): Owners {
+  const out = { kind: new Uint8Array(n), id: new Float64Array(n), part: new Int32Array(n) };
+  let id = 0;
+  let part = 0;
+  for (let i = 0; i < n; i++) {
+    out.kind[i] = r.u();
+    out.id[i] = id += r.s();
+    part += r.s();
+    out.part[i] = part - 1;
+  }
+  return out;
+}
+
+export interface MeshPart {
+  part: number; // index into Meta.parts, -1: no part
+  node: Uint32Array; // page node of each vertex
+  position: Float32Array;
+  /** Corners of faces and lines: `corners` vertices each. */
+  groups: { kind: number; corners: number; count: number; vertex: Uint32Array; element: Float64Array }[];
+}
+
+export interface Mesh {
+  nodeId: Float64Array;
+  parts: MeshPart[];
+  low: [number, number, number];
+  high: [number, number, number];
+}
+
+/** One contact's items and its pairs. Edges have two nodes per item, segments four. */
+export interface ContactData {
+  secondaryNode: Uint32Array; // page nodes: 1 per node, 2 per edge
+  mainNode: Uint32Array; // 4 per segment, 2 per edge
+  secondaryThickness: Float64Array; // nodes: half thickness; edges: thickness
+  mainThickness: Float64Array; // whole thickness
+  secondaryOwner: Owners; // nodes: only of listed ones, see `listed`
+  mainOwner: Owners;
+  secondaryListed: Int32Array; // item -> position among items that occur in pairs, -1: none
+  mainListed: Int32Array;
+  file: Int32Array; // by listed position: where the (first) node is defined
+  line: Float64Array;
+  secondaryLength: Float64Array; // by listed position: mesh-size limits of Igap 3
+  mainLength: Float64Array;
+  pairSecondary: Uint32Array;
+  pairMain: Uint32Array;
+}
+
+export interface Contacts {
+  exactNode: Uint32Array; // page nodes with exact coordinates, ascending
+  exactOf: Int32Array; // page node -> index into x, y, z; -1: none
+  x: Float64Array;
+  y: Float64Array;
+  z: Float64Array;
+  contacts: ContactData[];
+}
+
+function readMesh(bytes: Uint8Array): Mesh {
+  const r = new Reader(bytes);
+  const nodeId = r.deltas(r.u());
+  const parts: MeshPart[] = [];
+  const low: Mesh["low"] = [Infinity, Infinity, Infinity];
+  const high: Mesh["high"] = [-Infinity, -Infinity, -Infinity];
+  for (let left = r.u(); left > 0; left--) {
+    const part = r.u() - 1;
+    const count = r.u();
+    const node = r.deltas32(count);
+    const position = new Float32Array(3 * count);
+    for (let axis = 0; axis < 3; axis++) {
+      const [base, step] = r.f64(2);
+      let q = 0;
+      for (let i = 0; i < count; i++) {
+        q += r.s();
+        const v = base + q * step;
+        position[3 * i + axis] = v;
+        if (v < low[axis]) low[axis] = v;
+        if (v > high[axis]) high[axis] = v;
+      }
+    }
+    const groups: MeshPart["groups"] = [];
+    let next = 0;
+    for (let g = r.u(); g > 0; g--) {
+      const kind = r.u();
+      const corners = r.u();
+      const items = r.u();
+      const vertex = new Uint32Array(items * corners);
+      for (let i = 0; i < vertex.length; i++) {
+        const back = r.u();
+        vertex[i] = next - back;
+        if (back === 0) next++;
+      }
+      groups.push({ kind, corners, count: items, vertex, element: r.deltas(items) });
+    }
+    parts.push({ part, node, position, groups });
+  }
+  return { nodeId, parts, low, high };
+}
+
+function listPositions(pairs: Uint32Array, items: number, all: boolean): [Int32Array, number] {
+  const out = new Int32Array(items).fill(all ? 0 : -1);
+  for (const i of pairs) out[i] = 0;
+  let n = 0;
+  for (let i = 0; i < items; i++) if (out[i] === 0) out[i] = n++;
+  return [out, n];
+}
+
+function readContact(r: Reader, meta: ContactMeta): ContactData {
+  const edges = meta.kind === "edge_edge";
+  const d = {} as ContactData;
+  const pairs = r.u();
+  d.pairSecondary = r.deltas32(pairs);
+  d.pairMain = r.deltas32(pairs);
+  const secondaries = r.u();
+  d.secondaryNode = r.deltas32(secondaries * (edges ? 2 : 1));
+  d.secondaryThickness = r.palette(secondaries);
+  const mains = r.u();
+  d.mainNode = r.deltas32(mains * (edges ? 2 : 4));
+  d.mainThickness = r.palette(mains);
+  d.mainOwner = owners(r, mains);
+  const all = meta.irem_gap === 2;
+  const [sl, sn] = listPositions(d.pairSecondary, secondaries, all);
+  const [ml, mn] = listPositions(d.pairMain, mains, all);
+  d.secondaryListed = sl;
+  d.mainListed = ml;
+  d.secondaryOwner = owners(r, sn);
+  d.file = new Int32Array(sn);
+  d.line = new Float64Array(sn);
+  let file = 0;
+  let line = 0;
+  for (let i = 0; i < sn; i++) {
+    d.file[i] = file += r.s();
+    d.line[i] = line += r.s();
+  }
+  d.secondaryLength = r.f64(sn);
+  d.mainLength = r.f64(mn);
+  return d;
+}
+
+function readContacts(bytes: Uint8Array, meta: Meta, nodes: number): Contacts {
+  const r = new Reader(bytes);
+  const count = r.u();
+  const exactNode = r.deltas32(count);
+  const exactOf = new Int32Array(nodes).fill(-1);
+  exactNode.forEach((n, i) => (exactOf[n] = i));
+  const [x, y, z] = [r.f64(count), r.f64(count), r.f64(count)];
+  return { exactNode, exactOf, x, y, z, contacts: meta.contacts.map((c) => readContact(r, c)) };
+}
+
+const inflate = (id: string): Uint8Array | null => {
+  const text = blockText(id);
+  return text === null ? null : unzlibSync(fromBase64(text));
+};
+
+export function loadMeta(): Meta {
+  return JSON.parse(blockText("deck-meta")!) as Meta;
+}
+
+export function loadMesh(): Mesh {
+  return readMesh(inflate("deck-mesh")!);
+}
+
+export function loadContacts(meta: Meta, mesh: Mesh): Contacts {
+  return readContacts(inflate("deck-contacts")!, meta, mesh.nodeId.length);
+}
+
+export function loadEarlier(): Earlier | null {
+  const bytes = inflate("deck-earlier");
+  return bytes ? (JSON.parse(new TextDecoder().decode(bytes)) as Earlier) : null;
+}

@@ -1,0 +1,124 @@
+// What is known about the selected row, and what every Inacti would do to this node.
+import { button, fileName, group, h, num, percent, replace } from "./dom";
+import { on_surface_error, type Row } from "./evaluate";
+import type { Hit, Report } from "./report";
+import { actionLong, inactiWords } from "./words";
+
+export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
+  const element = h("section", { class: "detail", id: "detail", "aria-live": "polite" });
+  const draw = () => {
+    const x = report.selected;
+    if (!x) {
+      replace(element, h("p", { class: "note" }, report.hits.length > 0
+        ? "Choose a row of a list or a dot in the picture to see the pair, its distance and what the solver will do about it."
+        : "Nothing penetrates."));
+      element.classList.add("empty");
+      return;
+    }
+    element.classList.remove("empty");
+    const r = x.row;
+    const edge = report.isEdge(r);
+    const meta = report.meta.contacts[x.contact];
+    const setting = report.results[x.contact].setting;
+    const error = report.solverError(r);
+    const place = report.place(r);
+    const item = (name: string, value: string | Node, title = "") => [h("dt", null, name), h("dd", { title }, value)];
+    const p = report.point(r);
+    replace(
+      element,
+      h("div", { class: "panel-head" },
+        h("h3", null, `${edge ? "Edge" : "Node"} ${report.secondaryText(r)}`, h("span", { class: "muted" }, ` in ${edge ? "edge" : "segment"} ${report.mainText(r)}`)),
+        h("span", { class: "buttons" }, button("Fly there", "fit", () => fly(x), { class: "small", title: "Enter" }), button("", "close", () => report.select(null), { "aria-label": "Close", title: "Esc", class: "tool" }))),
+      h("div", { class: "detail-grid" },
+        h("dl", null,
+          ...item("Depth", h("b", null, num(x.depth, 6)), String(x.depth)),
+          ...item("Pair gap", `${num(r.gap, 6)} (${percent(x.ratio)} used)`, String(r.gap)),
+          ...item("Distance left", num(r.distance, 6), String(r.distance)),
+          ...item("Gap formed by", gapWords(report, x)),
+          ...item("Normal", r.onSurface ? "none: exactly on the surface" : r.normal.map((v) => v.toFixed(3)).join("  ")),
+          ...item("Position", p.map((v) => num(v, 6)).join("  "), p.join(" "))),
+        h("dl", null,
+          ...item("Interface", `${report.interfaceName(meta.interface)} (${report.roleText(x.contact)})`),
+          ...item("Element", `${report.elementText(r, "secondary")} · ${report.partText(x.secondaryPart)}`),
+          ...item("Main element", `${report.elementText(r, "main")} · ${report.partText(x.mainPart)}`),
+          ...item(edge ? "First node at" : "Node at", place ? `${fileName(place.file)}:${place.line}` : "–", place ? `${place.file}:${place.line}` : ""),
+          ...item("Card at", `${fileName(report.meta.interfaces[meta.interface].card.file)}:${report.meta.interfaces[meta.interface].card.line}`),
+          ...(x.status ? item("Earlier", x.earlier === null ? "did not penetrate" : `${num(x.earlier, 6)} (${x.status})`) : []))),
+      h("p", { class: "fate" }, h("b", null, error ? `The solver stops with error ${error}. ` : ""), error ? "The node lies exactly on the segment, so no direction exists. " : fate(report, r)),
+      edge || meta.type === 10 ? null : alternatives(report, x, setting.inacti, setting.fpenmax),
+    );
+  };
+  report.on("selection", draw);
+  draw();
+  return element;
+}
+
+function gapWords(report: Report, x: Hit): string {
+  const s = report.results[x.contact].setting;
+  if (s.igap === 0) return `Gapmin (${s.gapminFrom})`;
+  if (x.row.gap === s.gapmin) return `Gapmin ${num(s.gapmin)} (the thickness gives less)`;
+  if (x.row.gap === s.gapmax) return `Gapmax ${num(s.gapmax)}`;
+  return s.igap === 1 || s.scale === 1 ? "half thicknesses of both sides" : `half thicknesses × ${num(s.scale)}`;
+}
+
+function fate(report: Report, r: Row): string {
+  const s = report.results[r.contact].setting;
+  let text = actionLong[r.action];
+  if (r.action === "node-stiffness-zero" && s.inacti !== 1) text = `Deeper than Fpenmax ${num(s.fpenmax)} × gap. ${text}`;
+  if (r.gap0 !== null) text += ` Gap left ${num(r.gap0, 5)}, taken off ${num(r.p0!, 5)}.`;
+  if (r.movedBy) {
+    const d = Math.hypot(...r.movedBy);
+    text += d > 0 ? ` Moved by ${num(d, 5)}.` : " An earlier pair has moved it far enough already.";
+  }
+  return text;
+}
+
+/** The same pair under every Inacti. */
+function alternatives(report: Report, x: Hit, current: number, fpenmax: number): HTMLElement {
+  const r = x.row;
+  const meta = report.meta.contacts[x.contact];
+  const setting = report.results[x.contact].setting;
+  const pene = r.onSurface ? r.depth : r.depth * (1 + 1e-8);
+  const off = fpenmax !== 0 && pene > fpenmax * r.gap;
+  const text = (inacti: number): string => {
+    const error = r.onSurface ? on_surface_error(meta, { ...setting, inacti }) : 0;
+    if (error) return `error ${error}`;
+    if (off) return "node off (Fpenmax)";
+    switch (inacti) {
+      case 1: return "node off for the whole run";
+      case 2: return "segment off for the whole run";
+      case 3: return `moved by ${num(pene, 5)}`;
+      case 5: return `gap ${num(r.gap)} → ${num(r.gap - pene, 5)}`;
+      case 6: return `gap ${num(r.gap)} → ${num(r.gap - (pene + 0.05 * (r.gap - pene)), 5)}`;
+      default: return "pushed out from the first cycle on";
+    }
+  };
+  return h("div", { class: "alternatives", role: "table", "aria-label": "What each Inacti does to this node" },
+    ...[0, 1, 2, 3, 5, 6].map((k) => h("div", { class: `alternative${k === current ? " on" : ""}`, role: "row" },
+      h("b", null, `Inacti ${k === 0 ? "0" : k}`), h("span", { class: "muted" }, inactiWords[k]), h("span", null, text(k)))));
+}
+
+export function notChecked(report: Report): HTMLElement {
+  const meta = report.meta;
+  const beyond = meta.contacts.filter((c) => !c.complete).length;
+  const items: (Node | string)[] = [
+    "Gaps, distances and actions follow the Starter of the reference solver at cycle 0. Forces and time steps are not part of this page.",
+    "Crossed elements are not searched for: an edge through a face shows as a penetration only within the gap.",
+    "Settings under test are evaluated in this page with the same double-precision operations as the command line. Inacti 3 moves nodes, and later interfaces see the moved nodes; default gaps and mesh-size limits stay those of the deck.",
+    `Pairs are carried up to about three times the largest gap of each interface${beyond ? `; for ${beyond} of them only what penetrates, because there are too many` : ""}. Beyond that the page says so.`,
+  ];
+  const odd = meta.contacts.filter((c) => c.repaired + c.degenerate + c.reoriented + c.no_carrier > 0);
+  const counts = meta.deck.counts;
+  return h("section", { id: "notes" },
+    h("h2", null, "About this report"),
+    h("p", { class: "note" }, report.verified
+      ? `Recomputed in this page: counts and depths of all ${group(meta.contacts.length)} contacts are those of deck ${meta.tool.version}.`
+      : meta.what_if.length > 0 ? "The page was written with --what-if settings." : h("b", { class: "bad" }, "Recomputing in this page gave other counts than the program. Please report this.")),
+    h("ul", null, ...items.map((t) => h("li", null, t))),
+    odd.length ? h("table", { class: "plain" },
+      h("thead", null, h("tr", null, ...["Interface", "Segments repaired", "Turned outward", "Degenerate", "Without element"].map((t) => h("th", null, t)))),
+      h("tbody", null, ...odd.map((c) => h("tr", null, h("td", null, report.interfaceName(c.interface)), ...[c.repaired, c.reoriented, c.degenerate, c.no_carrier].map((n) => h("td", { class: "right" }, n)))))) : null,
+    h("p", { class: "note" }, `${meta.deck.path} · ${group(counts.nodes ?? 0)} nodes, ${group(counts.shells ?? 0)} shells, ${group(counts.solids ?? 0)} solids, ${group(counts.parts ?? 0)} parts`,
+      meta.deck.includes.length ? ` · ${meta.deck.includes.length} included files` : ""),
+    meta.deck.includes.length ? h("details", null, h("summary", null, "Included files"), h("ul", null, ...meta.deck.includes.slice(0, 200).map((i) => h("li", null, i.path)))) : null);
+}

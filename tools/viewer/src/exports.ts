@@ -1,0 +1,103 @@
+// What can be taken out of the page: node lists, a node group for the deck, a table, changed cards,
+// a picture.
+import { cardText, changedCard } from "./card";
+import { shortest } from "./dom";
+import type { Hit, Report } from "./report";
+
+export function save(name: string, content: string | Blob): void {
+  const blob = typeof content === "string" ? new Blob([content], { type: "text/plain" }) : content;
+  const url = URL.createObjectURL(blob);
+  const a = document.createElement("a");
+  a.href = url;
+  a.download = name;
+  a.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}
+
+export function saveDataUrl(name: string, url: string): void {
+  const a = document.createElement("a");
+  a.href = url;
+  a.download = name;
+  a.click();
+}
+
+export async function copyText(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    // Pages opened from a file may have no clipboard; the old way works there.
+    const area = document.createElement("textarea");
+    area.value = text;
+    area.style.position = "fixed";
+    area.style.opacity = "0";
+    document.body.append(area);
+    area.select();
+    const ok = document.execCommand("copy");
+    area.remove();
+    return ok;
+  }
+}
+
+/** Secondary node ids of rows, ascending, each once. */
+export function nodeIds(hits: Hit[]): number[] {
+  const ids = new Set<number>();
+  for (const x of hits) for (const n of x.nodes) if (n > 0) ids.add(n);
+  return [...ids].sort((a, b) => a - b);
+}
+
+export function plainNodes(hits: Hit[]): string {
+  return nodeIds(hits).join("\n") + "\n";
+}
+
+export function grnodBlock(hits: Hit[], id: number, title: string): string {
+  const lines = [`/GRNOD/NODE/${id}`, title.slice(0, 100)];
+  const ids = nodeIds(hits);
+  for (let i = 0; i < ids.length; i += 10)
+    lines.push(ids.slice(i, i + 10).map((n) => String(n).padStart(10)).join(""));
+  return lines.join("\n") + "\n";
+}
+
+/** The table of `deck gaps --csv`. */
+export function csv(report: Report, hits: Hit[]): string {
+  const head =
+    "interface,type,role,kind,secondary_1,secondary_2,main_1,main_2,main_3,main_4,depth,gap," +
+    "distance,ratio,normal_x,normal_y,normal_z,on_surface,action,gap0,p0,x,y,z," +
+    "secondary_element,secondary_part,main_element,main_part,file,line";
+  const quote = (t: string) => (/[",\r\n]/.test(t) ? `"${t.replace(/"/g, '""')}"` : t);
+  const id = (v: number | undefined) => (v ? String(v) : "");
+  const lines = hits.map((x) => {
+    const r = x.row;
+    const c = report.meta.contacts[x.contact];
+    const inter = report.meta.interfaces[c.interface];
+    const main = report.mainNodes(r).map((n) => report.nodeId(n));
+    if (!report.isEdge(r) && main.length === 3) main.push(main[2]);
+    const place = report.place(r);
+    return [
+      inter.id, inter.type, c.role, c.kind, x.nodes[0], id(x.nodes[1]),
+      id(main[0]), id(main[1]), id(main[2]), id(main[3]), r.depth, r.gap, r.distance, x.ratio,
+      ...r.normal, r.onSurface ? 1 : 0, r.action, r.gap0 ?? "", r.p0 ?? "", ...report.point(r),
+      id(report.elementId(r, "secondary")), id(report.partId(x.secondaryPart)),
+      id(report.elementId(r, "main")), id(report.partId(x.mainPart)),
+      place ? quote(place.file) : "", place ? place.line : "",
+    ].join(",");
+  });
+  return [head, ...lines].join("\r\n") + "\r\n";
+}
+
+/** All cards with changed values, one below the other. */
+export function allChangedCards(report: Report): string {
+  return report.meta.interfaces
+    .map((inter, i) => (report.changed(i) ? cardText(changedCard(inter, report.overrides[i])) : ""))
+    .join("");
+}
+
+/** The command that evaluates the settings of the page outside of it. */
+export function whatIfCommand(report: Report): string {
+  const parts = report.meta.interfaces.flatMap((inter, i) => {
+    const fields = Object.entries(report.overrides[i]).map(([k, v]) => `${k}=${k.startsWith("I") ? v : shortest(v)}`);
+    return fields.length > 0 ? [`--what-if ${inter.id}:${fields.join(",")}`] : [];
+  });
+  const path = report.meta.deck.path;
+  return ["deck gaps", /[^\w./-]/.test(path) ? `'${path.replace(/'/g, `'\\''`)}'` : path, ...parts].join(" ");
+}

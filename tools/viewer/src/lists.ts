@@ -1,0 +1,292 @@
+// Part pairs as table and matrix, distributions, and the list of penetrations.
+import { colorAt, cssColor } from "./colormap";
+import { button, fileName, group, h, num, percent, plural, replace, svg } from "./dom";
+import type { Look } from "./look";
+import type { Hit, Report } from "./report";
+import { VirtualTable, type Column } from "./table";
+import { actionWords } from "./words";
+
+interface PairRow {
+  secondary: number;
+  main: number;
+  pairs: number;
+  nodes: number;
+  max: number;
+  mean: number;
+  p95: number;
+  ratio: number;
+}
+
+export function partPairs(report: Report, hits: Hit[]): PairRow[] {
+  const groups = new Map<string, Hit[]>();
+  for (const x of hits) {
+    const k = `${x.secondaryPart},${x.mainPart}`;
+    const list = groups.get(k);
+    if (list) list.push(x);
+    else groups.set(k, [x]);
+  }
+  return [...groups.values()]
+    .map((list) => ({
+      secondary: list[0].secondaryPart,
+      main: list[0].mainPart,
+      pairs: list.length,
+      nodes: new Set(list.map((x) => `${x.contact}/${x.row.secondary}`)).size,
+      max: list[0].depth,
+      mean: list.reduce((s, x) => s + x.depth, 0) / list.length,
+      p95: list[Math.floor(list.length / 20)].depth, // deepest first
+      ratio: list.reduce((m, x) => Math.max(m, x.ratio), 0),
+    }))
+    .sort((a, b) => b.max - a.max || report.partId(a.secondary) - report.partId(b.secondary));
+}
+
+export function pairsSection(report: Report, look: Look): HTMLElement {
+  const table = new VirtualTable<PairRow>(
+    [
+      { key: "s", title: "Secondary part", width: "minmax(110px,1.4fr)", value: (r) => report.partText(r.secondary), cell: (r) => report.partText(r.secondary) },
+      { key: "m", title: "Main part", width: "minmax(110px,1.4fr)", value: (r) => report.partText(r.main), cell: (r) => report.partText(r.main) },
+      { key: "pairs", title: "Pairs", width: "64px", right: true, value: (r) => r.pairs, cell: (r) => group(r.pairs) },
+      { key: "nodes", title: "Nodes", width: "62px", right: true, value: (r) => r.nodes, cell: (r) => group(r.nodes) },
+      { key: "max", title: "Deepest", width: "78px", right: true, value: (r) => r.max, cell: (r) => num(r.max) },
+      { key: "mean", title: "Mean", width: "70px", right: true, value: (r) => r.mean, cell: (r) => num(r.mean) },
+      { key: "p95", title: "p95", hint: "95 % of the pairs are not deeper", width: "70px", right: true, value: (r) => r.p95, cell: (r) => num(r.p95) },
+      { key: "ratio", title: "Of gap", width: "62px", right: true, value: (r) => r.ratio, cell: (r) => percent(r.ratio) },
+    ],
+    {
+      label: "Part pairs", sort: "max", descending: true,
+      select: (r) => {
+        const on = r && report.filter.pair?.[0] === r.secondary && report.filter.pair[1] === r.main;
+        report.setFilter({ pair: !r || on ? null : [r.secondary, r.main] });
+      },
+      same: (a, b) => a.secondary === b.secondary && a.main === b.main,
+    },
+  );
+  const matrix = h("div", { class: "matrix-wrap" });
+  const count = h("span", { class: "muted count" });
+  const empty = h("p", { class: "note" }, "No part penetrates another.");
+  const section = h("section", { id: "pairs" }, h("h2", null, "Part pairs", count), table.element, matrix, empty);
+  const draw = () => {
+    const rows = partPairs(report, report.passing("pair").length ? rowsWithout(report) : []);
+    table.setRows(rows);
+    const pair = report.filter.pair;
+    table.setSelected(pair ? (rows.find((r) => r.secondary === pair[0] && r.main === pair[1]) ?? null) : null, true);
+    table.element.style.setProperty("--rows", String(Math.max(1, Math.min(rows.length, 8))));
+    table.element.hidden = rows.length === 0;
+    empty.hidden = rows.length > 0;
+    count.textContent = rows.length ? plural(rows.length, "pair", "pairs") : "";
+    replace(matrix, rows.length > 1 ? drawMatrix(report, rows, look) : null);
+  };
+  report.on("filter", draw);
+  report.on("look", draw);
+  draw();
+  return section;
+}
+
+/** All pairs count in the part tables, whatever the list shows. */
+function rowsWithout(report: Report): Hit[] {
+  const keep = report.filter.perNode;
+  report.filter.perNode = false;
+  const out = report.passing("pair");
+  report.filter.perNode = keep;
+  return out;
+}
+
+const matrixSize = 26;
+
+function drawMatrix(report: Report, rows: PairRow[], look: Look): HTMLElement {
+  const order = (pick: (r: PairRow) => number) => {
+    const best = new Map<number, number>();
+    for (const r of rows) best.set(pick(r), Math.max(best.get(pick(r)) ?? 0, r.max));
+    return [...best].sort((a, b) => b[1] - a[1]).slice(0, matrixSize).map(([p]) => p);
+  };
+  const down = order((r) => r.secondary);
+  const across = order((r) => r.main);
+  const top = rows.reduce((m, r) => Math.max(m, r.max), 0);
+  const cells = new Map(rows.map((r) => [`${r.secondary},${r.main}`, r]));
+  const pair = report.filter.pair;
+  const short = (p: number) => {
+    const t = report.partText(p);
+    return t.length > 26 ? `${t.slice(0, 25)}…` : t;
+  };
+  const grid = h("div", { class: "matrix", role: "table", "aria-label": "Deepest penetration by part pair" });
+  grid.style.gridTemplateColumns = `max-content repeat(${across.length}, minmax(26px, 46px))`;
+  grid.append(h("div", { class: "matrix-corner" }, "secondary \u2193   main \u2192"));
+  for (const p of across) grid.append(h("div", { class: "matrix-col", title: report.partText(p) }, h("span", null, short(p))));
+  for (const s of down) {
+    grid.append(h("div", { class: "matrix-row", title: report.partText(s) }, short(s)));
+    for (const m of across) {
+      const r = cells.get(`${s},${m}`);
+      if (!r) {
+        grid.append(h("div", { class: "matrix-cell none" }));
+        continue;
+      }
+      const t = top > 0 ? r.max / top : 0;
+      const [red, green, blue] = colorAt(look.map, t, look.flip);
+      const light = 0.299 * red + 0.587 * green + 0.114 * blue > 150;
+      const on = pair?.[0] === s && pair[1] === m;
+      grid.append(h("button", {
+        type: "button", class: `matrix-cell${on ? " on" : ""}`, style: `background:rgb(${red} ${green} ${blue});color:${light ? "#10151b" : "#fff"}`,
+        title: `${report.partText(s)} into ${report.partText(m)}: ${plural(r.pairs, "pair", "pairs")}, deepest ${num(r.max)}`,
+        onclick: () => report.setFilter({ pair: on ? null : [s, m] }),
+      }, r.pairs > 999 ? `${Math.round(r.pairs / 1000)}k` : String(r.pairs)));
+    }
+  }
+  const left = new Set(rows.map((r) => r.secondary)).size - down.length + new Set(rows.map((r) => r.main)).size - across.length;
+  return h("div", null, grid, left > 0 ? h("p", { class: "note" }, `${left} shallower parts are only in the table above.`) : null);
+}
+
+// ---- distributions ----------------------------------------------------------------------------
+
+export function distribution(report: Report, look: Look): HTMLElement {
+  const left = h("div", { class: "chart" });
+  const right = h("div", { class: "chart" });
+  const section = h("section", { id: "distribution" }, h("h2", null, "Distribution"), h("div", { class: "charts" }, left, right));
+  const draw = () => {
+    section.hidden = report.hits.length === 0;
+    replace(left, histogram(report, look, "depth", "Depth"));
+    replace(right, histogram(report, look, "ratio", "Depth ÷ gap"));
+  };
+  report.on("filter", draw);
+  report.on("look", draw);
+  draw();
+  return section;
+}
+
+function ticks(top: number): number[] {
+  const raw = top / 4;
+  const p = 10 ** Math.floor(Math.log10(raw));
+  const step = [1, 2, 2.5, 5, 10].map((k) => k * p).find((s) => s >= raw) ?? raw;
+  const out = [];
+  for (let i = 0; i * step <= top * 1.0001; i++) out.push(i * step);
+  return out;
+}
+
+function histogram(report: Report, look: Look, field: "depth" | "ratio", title: string): HTMLElement {
+  const values = report.passing(field).map((x) => x[field]);
+  const all = report.hits.reduce((m, x) => Math.max(m, x[field]), 0);
+  const top = field === "ratio" ? Math.max(1, all) : all;
+  const bins = 24;
+  const count = new Array<number>(bins).fill(0);
+  for (const v of values) count[Math.min(bins - 1, Math.floor((v / top) * bins))]++;
+  const most = Math.max(...count, 1);
+  const [w, hgt, x0, y0, x1, y1] = [360, 176, 38, 10, 350, 142];
+  const x = (v: number) => x0 + ((x1 - x0) * v) / top;
+  const y = (n: number) => y1 - ((y1 - y0) * n) / most;
+  const g: SVGElement[] = [];
+  for (const t of [0, most / 2, most])
+    g.push(svg("line", { x1: x0, x2: x1, y1: y(t), y2: y(t), class: "grid" }),
+      svg("text", { x: x0 - 6, y: y(t) + 4, class: "tick end" }, group(Math.round(t))));
+  for (const t of ticks(top)) g.push(svg("text", { x: x(t), y: y1 + 16, class: "tick mid" }, num(t, 3)));
+  const range = report.filter[field];
+  let sum = 0;
+  let path = `M${x0} ${y1}`;
+  count.forEach((n, i) => {
+    const low = (i * top) / bins;
+    const high = ((i + 1) * top) / bins;
+    const inside = !range || (low >= range[0] - 1e-12 * top && high <= range[1] * (1 + 1e-9));
+    sum += n;
+    path += ` L${x(high)} ${y1 - ((y1 - y0) * sum) / Math.max(values.length, 1)}`;
+    const bar = svg("rect", {
+      x: x(low) + 1, width: Math.max(1, x(high) - x(low) - 2), y: n ? Math.min(y(n), y1 - 2) : y1, height: n ? Math.max(2, y1 - y(n)) : 0,
+      rx: 1.5, fill: cssColor(look.map, (i + 0.5) / bins, look.flip), opacity: inside ? 1 : 0.25,
+    });
+    const hit = svg("rect", {
+      x: x(low), width: x(high) - x(low), y: y0, height: y1 - y0, fill: "transparent", class: "bin",
+      onclick: () => report.setFilter({ [field]: range && range[0] === low ? null : [low, i === bins - 1 ? Infinity : high] }),
+    }, svg("title", null, `${num(low)} to ${num(high)}: ${plural(n, "row", "rows")}`));
+    g.push(bar, hit);
+  });
+  g.push(svg("path", { d: path, class: "cumulative" }));
+  return h("figure", null,
+    h("figcaption", null, title, h("span", { class: "muted" }, ` · ${plural(values.length, "row", "rows")}, line: cumulative share`)),
+    svg("svg", { viewBox: `0 0 ${w} ${hgt - 12}`, role: "img", "aria-label": `Histogram of ${title}` }, ...g));
+}
+
+// ---- list -------------------------------------------------------------------------------------
+
+export function listSection(report: Report, open: (hit: Hit) => void, exportsMenu: HTMLElement): { element: HTMLElement; table: VirtualTable<Hit> } {
+  const columns: Column<Hit>[] = [
+    { key: "depth", title: "Depth", width: "78px", right: true, value: (x) => x.depth, cell: (x) => num(x.depth, 5) },
+    { key: "gap", title: "Gap", width: "64px", right: true, value: (x) => x.row.gap, cell: (x) => num(x.row.gap) },
+    { key: "ratio", title: "Of gap", width: "58px", right: true, value: (x) => x.ratio, cell: (x) => percent(x.ratio) },
+    { key: "distance", title: "Distance", hint: "Residual distance of node and segment, or of the two edges", width: "70px", right: true, value: (x) => x.row.distance, cell: (x) => num(x.row.distance) },
+    { key: "inter", title: "Int.", hint: "Interface id", width: "56px", right: true, value: (x) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id, cell: (x) => String(report.meta.interfaces[report.meta.contacts[x.contact].interface].id) },
+    { key: "node", title: "Node / edge", width: "minmax(92px,1fr)", value: (x) => x.nodes[0], cell: (x) => report.secondaryText(x.row) },
+    { key: "segment", title: "Segment / edge", width: "minmax(120px,1.5fr)", value: (x) => report.nodeId(report.mainNodes(x.row)[0]), cell: (x) => report.mainText(x.row) },
+    { key: "sp", title: "Part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.secondaryPart), cell: (x) => report.partText(x.secondaryPart) },
+    { key: "mp", title: "Main part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.mainPart), cell: (x) => report.partText(x.mainPart) },
+    { key: "action", title: "The solver does", width: "minmax(92px,.8fr)", value: (x) => x.row.action,
+      cell: (x) => {
+        const error = report.solverError(x.row);
+        if (error) return h("span", { class: "bad" }, `error ${error}`);
+        return x.row.gap0 !== null ? `gap to ${num(x.row.gap0)}` : actionWords[x.row.action];
+      } },
+    { key: "place", title: "Defined at", width: "minmax(80px,.9fr)", value: (x) => report.place(x.row)?.line ?? 0,
+      cell: (x) => {
+        const p = report.place(x.row);
+        return p ? h("span", { title: `${p.file}:${p.line}` }, `${fileName(p.file)}:${p.line}`) : "";
+      } },
+  ];
+  if (report.earlier)
+    columns.unshift({
+      key: "status", title: "Change", hint: `Against ${report.earlier.path}`, width: "84px", value: (x) => x.status ?? "",
+      cell: (x) => (x.status ? h("span", { class: `chip tiny ${x.status}`, title: x.earlier !== null ? `was ${num(x.earlier)}` : "" }, x.status) : ""),
+    });
+  const table = new VirtualTable<Hit>(columns, {
+    label: "Penetrations", sort: "depth", descending: true,
+    select: (x) => report.select(x),
+    open,
+    same: (a, b) => a.key === b.key,
+  });
+  table.element.classList.add("list-table");
+  const chips = h("div", { class: "filters" });
+  const count = h("span", { class: "muted count" });
+  const search = h("input", { type: "search", placeholder: "Node, element or part", "aria-label": "Filter the list", id: "search", oninput: () => report.setFilter({ text: search.value }) });
+  const perNode = h("input", { type: "checkbox", checked: true, onchange: () => report.setFilter({ perNode: perNode.checked }) });
+  const solved = h("div", { class: "solved" });
+  const empty = h("p", { class: "note" }, "Nothing to list.");
+  const element = h("section", { id: "worst" },
+    h("div", { class: "section-head" }, h("h2", null, "Worst first", count), h("div", { class: "tools" }, h("label", { class: "check" }, perNode, "deepest per node"), search, exportsMenu)),
+    chips, table.element, empty, solved);
+  const draw = () => {
+    const f = report.filter;
+    table.setRows(report.filtered);
+    table.setSelected(report.selected, false);
+    table.element.hidden = report.filtered.length === 0;
+    empty.hidden = report.filtered.length > 0;
+    empty.textContent = report.hits.length ? "No row passes the filters." : "Nothing penetrates with these settings.";
+    table.element.style.setProperty("--rows", String(Math.max(3, Math.min(report.filtered.length, 15))));
+    perNode.checked = f.perNode;
+    count.textContent = report.hits.length ? `${group(report.filtered.length)} of ${plural(report.hits.length, "pair", "pairs")}` : "";
+    const chip = (text: string, clear: Partial<typeof f>) =>
+      h("button", { type: "button", class: "chip filter", title: "Remove this filter", onclick: () => report.setFilter(clear) }, text, h("span", { "aria-hidden": "true" }, " ×"));
+    const span = (r: [number, number]) => (r[1] === Infinity ? `≥ ${num(r[0])}` : `${num(r[0])} – ${num(r[1])}`);
+    replace(chips,
+      f.interface !== null && chip(`interface ${report.interfaceName(f.interface)}`, { interface: null }),
+      f.pair && chip(`${report.partText(f.pair[0])} × ${report.partText(f.pair[1])}`, { pair: null }),
+      f.depth && chip(`depth ${span(f.depth)}`, { depth: null }),
+      f.ratio && chip(`depth ÷ gap ${span(f.ratio)}`, { ratio: null }),
+      f.status && chip(f.status, { status: null }));
+    const gone = report.solved;
+    replace(solved, f.status === "solved" && gone.length > 0
+      ? h("table", { class: "plain" }, h("thead", null, h("tr", null, ...["Interface", "Part of it", "Node / edge", "Depth before", "Gap before"].map((t) => h("th", null, t)))),
+          h("tbody", null, ...gone.slice(0, 500).map((s) => h("tr", null, h("td", null, s.interfaceId), h("td", null, s.role), h("td", null, s.nodes.filter((n) => n).join("–")), h("td", null, num(s.depth)), h("td", null, num(s.gap))))))
+      : null);
+  };
+  report.on("filter", draw);
+  report.on("selection", () => table.setSelected(report.selected, true));
+  draw();
+  return { element, table };
+}
+
+export function exportMenu(report: Report, actions: { label: string; run: () => void; hint?: string }[], id: string): HTMLElement {
+  void report;
+  const menu = h("details", { class: "menu", id }, h("summary", { class: "button" }, "Export"), h("div", { class: "menu-list", role: "menu" },
+    ...actions.map((a) => button(a.label, null, () => {
+      menu.open = false;
+      a.run();
+    }, { role: "menuitem", title: a.hint }))));
+  document.addEventListener("click", (e) => {
+    if (!menu.contains(e.target as Node)) menu.open = false;
+  });
+  return menu;
+}

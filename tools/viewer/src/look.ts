@@ -1,0 +1,22 @@
+// How things look: theme, colour map, what the colours mean.
+import type { MapName } from "./colormap";
+
+export type ContourKind = "depth" | "ratio" | "gap" | "edge" | "none";
+
+export interface Look {
+  map: MapName;
+  /** Dark is deep: on light ground. */
+  flip: boolean;
+  dark: boolean;
+  contour: ContourKind;
+  /** Colours in steps instead of a smooth change. */
+  bands: number;
+}
+
+export const contourNames: Record<ContourKind, string> = {
+  depth: "Penetration depth",
+  ratio: "Depth ÷ gap",
+  gap: "Largest pair gap",
+  edge: "Pair gap ÷ shortest side",
+  none: "Part colours",
+};

@@ -1,0 +1,221 @@
+// The page: reads its data, builds the sections, wires keys and exports.
+import { loadContacts, loadEarlier, loadMesh, loadMeta } from "./data";
+import { detail, notChecked } from "./detail";
+import { button, fileName, group, h, num, percent } from "./dom";
+import { allChangedCards, copyText, csv, grnodBlock, plainNodes, save } from "./exports";
+import { distribution, exportMenu, listSection, pairsSection, partPairs } from "./lists";
+import type { ContourKind, Look } from "./look";
+import type { FieldName, Overrides } from "./meta";
+import { interfaces, verdict } from "./overview";
+import { Report, type Hit } from "./report";
+import { Viewport } from "./viewport";
+
+const started = performance.now();
+
+function build(): void {
+  const meta = loadMeta();
+  const mesh = loadMesh();
+  const report = new Report(meta, mesh, loadContacts(meta, mesh), loadEarlier());
+  const look: Look = { map: "viridis", flip: true, dark: false, contour: "depth", bands: 0 };
+  const changeLook = (change: Partial<Look>) => {
+    Object.assign(look, change);
+    look.flip = !look.dark;
+    document.documentElement.dataset.theme = look.dark ? "dark" : "light";
+    report.emit("look");
+  };
+  look.dark = matchMedia("(prefers-color-scheme: dark)").matches;
+  look.flip = !look.dark;
+  document.documentElement.dataset.theme = look.dark ? "dark" : "light";
+
+  const viewport = new Viewport(report, look, changeLook);
+  const fly = (x: Hit) => viewport.open(x);
+  const stem = fileName(meta.deck.path).replace(/\.rad$/i, "");
+  const exports = exportMenu(report, [
+    { label: "Node ids, one per line", run: () => save(`${stem}_nodes.txt`, plainNodes(report.filtered)) },
+    { label: "Node ids to the clipboard", run: () => void copyText(plainNodes(report.filtered)) },
+    { label: "/GRNOD/NODE block", hint: "A node group for the deck, with an id that is free", run: () => save(`${stem}_grnod.inc`, grnodBlock(report.filtered, meta.free_group_id, "initial penetrations")) },
+    { label: "Table (CSV)", run: () => save(`${stem}_penetrations.csv`, csv(report, report.filtered)) },
+    { label: "Changed cards", hint: "Cards of all interfaces with settings under test", run: () => save(`${stem}_cards.inc`, allChangedCards(report)) },
+    { label: "Picture (PNG)", run: () => viewport.savePicture() },
+  ], "export");
+  const list = listSection(report, fly, exports);
+  // Choosing a row flies there: the picture follows the list.
+  report.on("selection", () => report.selected && fly(report.selected));
+
+  const help = helpDialog();
+  const units = meta.deck.units.working;
+  const header = h("header", { class: "top" },
+    h("div", { class: "brand" }, h("span", { class: "mark", "aria-hidden": "true" }), h("b", null, "deck gaps")),
+    h("div", { class: "deck-name", title: meta.deck.path }, h("h1", null, fileName(meta.deck.path)), meta.deck.title ? h("span", { class: "muted ellipsis" }, meta.deck.title) : null),
+    h("div", { class: "facts" },
+      h("span", null, `version ${meta.deck.version}`),
+      units ? h("span", null, `${units.mass} · ${units.length} · ${units.time}`) : null,
+      h("span", null, `${group(meta.deck.counts.nodes ?? 0)} nodes`)),
+    h("div", { class: "buttons" },
+      button("", "sun", () => changeLook({ dark: !look.dark }), { "aria-label": "Dark or light (t)", title: "Dark or light (t)", class: "tool" }),
+      button("", "print", () => window.print(), { "aria-label": "Print", title: "Print", class: "tool" }),
+      button("", "help", () => help.showModal(), { "aria-label": "Keys (?)", title: "Keys (?)", class: "tool" })));
+  const nav = h("nav", { "aria-label": "Sections" },
+    ...([["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["distribution", "Distribution"], ["worst", "Worst first"], ["notes", "About"]] as const)
+      .map(([id, name]) => h("a", { href: `#${id}` }, name)));
+  const left = h("div", { class: "left", id: "tables" }, nav, verdict(report), interfaces(report), pairsSection(report, look), distribution(report, look), list.element, notChecked(report));
+  const divider = h("div", { class: "divider", role: "separator", "aria-orientation": "vertical", "aria-label": "Width of the tables", tabindex: 0 });
+  const right = h("aside", { class: "right" }, viewport.element, detail(report, fly));
+  const split = h("div", { class: "split" }, left, divider, right);
+  const app = h("div", { class: "app" }, header, split, help);
+  document.getElementById("static")?.remove();
+  document.body.append(app);
+  dragDivider(divider, split);
+  keys(report, viewport, list.table, help, look, changeLook);
+  printing(report, viewport, right);
+  performance.mark("tables");
+
+  // Tables first; the picture comes with the next frame.
+  const times: Record<string, number> = { tables: performance.now() - started };
+  requestAnimationFrame(() => {
+    setTimeout(() => {
+      viewport.start();
+      times.picture = performance.now() - started;
+      times.pictureSinceNavigation = performance.now();
+      document.documentElement.dataset.ready = "true";
+    });
+  });
+  (window as unknown as Record<string, unknown>).deckReport = { report, viewport, times, whatIf: (id: number, o: Overrides) => evaluateFor(report, id, o), csv: () => csv(report, report.hits), grnod: () => grnodBlock(report.filtered, meta.free_group_id, "initial penetrations") };
+}
+
+/** For scripts: rows of all contacts with other settings of one interface, named as in the JSON. */
+function evaluateFor(report: Report, id: number, change: Overrides): unknown {
+  const overrides = report.meta.interfaces.map((inter, i) => ({ ...report.overrides[i], ...(inter.id === id ? change : {}) }));
+  const known = { overrides: report.overrides, results: report.results };
+  return report.evaluator.evaluate(overrides, known).map((r, i) => {
+    const c = report.meta.contacts[i];
+    return {
+      interface: report.meta.interfaces[c.interface].id,
+      role: c.role,
+      gapmin: r.setting.gapmin,
+      igap: r.setting.igap,
+      max_gap: r.setting.maxGap,
+      complete: r.complete,
+      totals: r.totals,
+      penetrations: r.rows.map((row) => ({
+        secondary: report.secondaryNodes(row).map((n) => report.nodeId(n)),
+        main: report.mainNodes(row).map((n) => report.nodeId(n)),
+        depth: row.depth, gap: row.gap, distance: row.distance, normal: row.normal, on_surface: row.onSurface,
+        action: row.action, gap0: row.gap0, p0: row.p0, moved_by: row.movedBy,
+      })),
+    };
+  });
+}
+export type { FieldName };
+
+function dragDivider(divider: HTMLElement, split: HTMLElement): void {
+  const set = (share: number) => split.style.setProperty("--left", `${Math.min(Math.max(share, 0.25), 0.8) * 100}%`);
+  let share = 0.53;
+  divider.addEventListener("pointerdown", (e) => {
+    divider.setPointerCapture(e.pointerId);
+    const move = (m: PointerEvent) => set((share = (m.clientX - split.getBoundingClientRect().left) / split.clientWidth));
+    divider.addEventListener("pointermove", move);
+    divider.addEventListener("pointerup", () => divider.removeEventListener("pointermove", move), { once: true });
+  });
+  divider.addEventListener("keydown", (e) => {
+    if (e.key === "ArrowLeft") set((share -= 0.03));
+    if (e.key === "ArrowRight") set((share += 0.03));
+  });
+}
+
+const keyList: [string, string][] = [
+  ["j  k", "next and previous row"],
+  ["Enter", "fly to the chosen row"],
+  ["Esc", "clear the selection, then the filters"],
+  ["/", "find in the list"],
+  ["f", "fit the visible parts"],
+  ["i", "isolate the chosen pair, or not"],
+  ["h", "rest see-through or hidden"],
+  ["s", "show everything again"],
+  ["a", "arrows"],
+  ["w", "element sides"],
+  ["x", "clip plane"],
+  ["p", "list of parts"],
+  ["1 … 5", "colours: depth, depth ÷ gap, gap, gap ÷ side, parts"],
+  ["t", "dark or light"],
+  ["drag · shift-drag · wheel", "turn · move · zoom"],
+  ["← ↑ → ↓", "turn the picture when it has the focus"],
+];
+
+function helpDialog(): HTMLDialogElement {
+  const dialog = h("dialog", { class: "help", "aria-label": "Keys" },
+    h("div", { class: "panel-head" }, h("h3", null, "Keys"), button("", "close", () => dialog.close(), { "aria-label": "Close", class: "tool" })),
+    h("dl", null, ...keyList.flatMap(([k, t]) => [h("dt", null, ...k.split(/  | · /).map((x) => h("kbd", null, x))), h("dd", null, t)])));
+  return dialog;
+}
+
+function keys(report: Report, viewport: Viewport, list: { move(by: number): void }, help: HTMLDialogElement, look: Look, changeLook: (l: Partial<Look>) => void): void {
+  const contours: ContourKind[] = ["depth", "ratio", "gap", "edge", "none"];
+  const run: Record<string, () => void> = {
+    j: () => list.move(1),
+    k: () => list.move(-1),
+    Enter: () => report.selected && viewport.open(report.selected),
+    f: () => viewport.fit(),
+    i: () => viewport.toggleFollow(),
+    h: () => viewport.toggleRest(),
+    s: () => viewport.showAll(),
+    a: () => viewport.toggleArrows(),
+    w: () => viewport.toggleEdges(),
+    x: () => viewport.toggleClip(),
+    p: () => viewport.toggleParts(),
+    t: () => changeLook({ dark: !look.dark }),
+    "?": () => help.showModal(),
+    "/": () => document.getElementById("search")?.focus(),
+    Escape: () => {
+      if (report.selected) report.select(null);
+      else report.setFilter({ interface: null, pair: null, depth: null, ratio: null, status: null, text: "" });
+    },
+  };
+  contours.forEach((c, i) => (run[String(i + 1)] = () => changeLook({ contour: c })));
+  document.addEventListener("keydown", (e) => {
+    const at = e.target as HTMLElement;
+    const typing = at.matches("input:not([type=range]):not([type=checkbox]), select, textarea");
+    if (e.ctrlKey || e.metaKey || e.altKey || help.open) return;
+    if (typing) {
+      if (e.key === "Escape") at.blur();
+      return;
+    }
+    if (at instanceof HTMLCanvasElement && e.key.startsWith("Arrow")) {
+      const step = 24;
+      viewport.view?.control.rotate(e.key === "ArrowLeft" ? -step : e.key === "ArrowRight" ? step : 0, e.key === "ArrowUp" ? -step : e.key === "ArrowDown" ? step : 0);
+      e.preventDefault();
+      return;
+    }
+    if (e.key === "Enter" && at.matches("button, summary, a, .vt-body")) return;
+    const action = run[e.key];
+    if (action) {
+      action();
+      e.preventDefault();
+    }
+  });
+}
+
+/** Paper gets the picture as an image and the first rows as a real table. */
+function printing(report: Report, viewport: Viewport, right: HTMLElement): void {
+  const paper = h("div", { class: "paper" });
+  document.querySelector(".left")!.append(paper);
+  window.addEventListener("beforeprint", () => {
+    paper.replaceChildren();
+    if (viewport.view) {
+      const img = h("img", { alt: "3D view", src: viewport.view.picture(1.5) });
+      paper.append(h("h2", null, "Picture"), img);
+    }
+    const cells = (tag: "th" | "td", list: (string | number)[]) => list.map((t) => h(tag, null, t));
+    paper.append(
+      h("h2", null, "Part pairs"),
+      h("table", { class: "plain" }, h("thead", null, h("tr", null, ...cells("th", ["Secondary part", "Main part", "Pairs", "Deepest", "Mean", "Of gap"]))),
+        h("tbody", null, ...partPairs(report, report.hits).slice(0, 60).map((p) => h("tr", null, ...cells("td", [report.partText(p.secondary), report.partText(p.main), p.pairs, num(p.max), num(p.mean), percent(p.ratio)]))))),
+      h("h2", null, "Worst first"),
+      h("table", { class: "plain" }, h("thead", null, h("tr", null, ...cells("th", ["Depth", "Gap", "Interface", "Node / edge", "Segment / edge", "Part", "Main part", "Action"]))),
+        h("tbody", null, ...report.filtered.slice(0, 100).map((x) => h("tr", null, ...cells("td", [num(x.depth, 5), num(x.row.gap), report.meta.interfaces[report.meta.contacts[x.contact].interface].id, report.secondaryText(x.row), report.mainText(x.row), report.partText(x.secondaryPart), report.partText(x.mainPart), x.row.action]))))),
+      report.filtered.length > 100 ? h("p", { class: "note" }, `… and ${group(report.filtered.length - 100)} more`) : "");
+    void right;
+  });
+}
+
+build();

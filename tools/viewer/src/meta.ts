@@ -1,0 +1,127 @@
+// The JSON part of the page's data as `deck gaps --html` writes it.
+
+export interface Totals {
+  pairs: number;
+  nodes: number;
+  on_surface: number;
+  solver_errors: number;
+  acted: number;
+  max_depth: number;
+  max_ratio: number;
+}
+
+export interface Cell {
+  field: FieldName;
+  line: number; // index into Card.lines
+  first: number; // columns, 1-based and inclusive
+  last: number;
+  real: boolean;
+  factor: number; // working unit per unit of the card
+  parameter: boolean;
+  free: boolean;
+  nothing: number; // what an integer cell takes for "no": 1000 where legal, else 0
+}
+
+export interface Card {
+  file: string;
+  line: number;
+  lines: string[];
+  cells: Cell[];
+}
+
+export interface InterfaceMeta {
+  id: number;
+  type: number;
+  title: string;
+  card: Card;
+  values: Record<string, { value: number | string; origin: string; input: number | string | null }>;
+}
+
+export type FieldName = "Gapmin" | "Fscalegap" | "Gapmax" | "Fpenmax" | "Igap" | "Inacti";
+export const fieldNames: FieldName[] = ["Igap", "Gapmin", "Fscalegap", "Gapmax", "Inacti", "Fpenmax"];
+export type Overrides = Partial<Record<FieldName, number>>;
+
+/** What card and defaults say, before the rules of the contact's kind apply. */
+export interface CardValues {
+  Gapmin: number; // 0: to be derived from the mesh
+  Igap: number;
+  Inacti: number;
+  Irem_gap: number;
+  Fscalegap: number;
+  Gapmax: number;
+  Fpenmax: number;
+  Edge_scale_gap: number;
+  thermal: boolean;
+  Drad: number;
+}
+
+export interface ContactMeta {
+  interface: number;
+  kind: "node_segment" | "edge_edge";
+  role: "primary" | "reversed" | "edges";
+  type: number;
+  dropped: boolean;
+  igap: number;
+  inacti: number;
+  istf: number;
+  irem_gap: number;
+  itied: number;
+  fpenmax: number;
+  gap_scale: number;
+  gapmin: number;
+  gapmin_from: string;
+  gapmax: number;
+  drad: number;
+  max_gap: number;
+  shortest_side: number;
+  mesh_fraction: number;
+  longest_main: number;
+  longest_node: number;
+  secondary: number;
+  main: number;
+  candidates: number;
+  removed_pairs: number;
+  repaired: number;
+  degenerate: number;
+  reoriented: number;
+  no_carrier: number;
+  reach: number;
+  margin: number;
+  complete: boolean;
+  pairs: number;
+  totals: Totals;
+  card: CardValues;
+  default: (number | null)[]; // see evaluate.ts
+}
+
+export interface Units {
+  mass: string;
+  length: string;
+  time: string;
+}
+
+export interface Meta {
+  tool: { name: string; version: string };
+  deck: {
+    path: string;
+    title: string;
+    version: number;
+    units: { input: Units | null; working: Units | null };
+    counts: Record<string, number>;
+    includes: { path: string; written: string; from: { file: string; line: number } | null }[];
+  };
+  verdict: string;
+  summary: Totals;
+  files: string[];
+  parts: { id: number; title: string; prop: number; mat: number }[];
+  free_group_id: number;
+  what_if: (Overrides & { interface: number; "%mesh_size"?: number; Irem_gap?: number })[];
+  interfaces: InterfaceMeta[];
+  contacts: ContactMeta[];
+}
+
+export interface Earlier {
+  path: string;
+  deck: string;
+  rows: [number, string, number, number, number, number][]; // interface, role, s1, s2, depth, gap
+}

@@ -1,0 +1,321 @@
+// The upper part of the report: verdict, interfaces, settings under test.
+import { cardText, changedCard } from "./card";
+import { button, group, h, num, percent, plural, replace } from "./dom";
+import { settingOf } from "./evaluate";
+import { copyText, whatIfCommand } from "./exports";
+import type { FieldName } from "./meta";
+import type { Report } from "./report";
+import { VirtualTable } from "./table";
+import { actionWords, flagText } from "./words";
+
+export function verdict(report: Report): HTMLElement {
+  const sentence = h("p", { class: "verdict-text" });
+  const tiles = h("div", { class: "tiles" });
+  const compare = h("div", { class: "compare" });
+  const element = h("section", { class: "verdict", id: "verdict", "aria-label": "Verdict" }, sentence, tiles, compare);
+  const draw = () => {
+    const now = report.totals("now", null);
+    const base = report.totals("base", null);
+    const changed = report.anyChanged;
+    const stops = now.solver_errors > 0;
+    element.dataset.level = stops ? "error" : now.pairs > 0 ? "warning" : "good";
+    replace(
+      sentence,
+      h("strong", null, now.pairs === 0 ? "No initial penetration" : plural(now.pairs, "initial penetration", "initial penetrations")),
+      now.pairs === 0
+        ? ` in ${plural(report.meta.contacts.length, "contact", "contacts")}.`
+        : stops
+          ? `. The solver will stop: ${plural(now.solver_errors, "node lies", "nodes lie")} exactly on a segment (error 611/612).`
+          : now.on_surface > 0
+            ? `. ${plural(now.on_surface, "node lies", "nodes lie")} exactly on a segment.`
+            : ".",
+      changed ? h("span", { class: "tag test" }, "with settings under test") : null,
+    );
+    const deepest = report.hits[0];
+    const tile = (name: string, value: string, note: string, old: string | null) =>
+      h("div", { class: "tile" }, h("div", { class: "tile-name" }, name), h("div", { class: "tile-value" }, value),
+        h("div", { class: "tile-note" }, old !== null && changed && old !== value ? `deck: ${old}` : note));
+    replace(
+      tiles,
+      tile("Penetrations", group(now.pairs), `in ${plural(report.meta.contacts.length, "contact", "contacts")}`, group(base.pairs)),
+      tile("Nodes and edges", group(now.nodes), now.acted > 0 ? `${group(now.acted)} pairs acted on` : "none acted on", group(base.nodes)),
+      tile("Deepest", deepest ? num(deepest.depth) : "–", deepest ? `of a gap of ${num(deepest.row.gap)}` : "", num(base.max_depth)),
+      tile("Worst share of a gap", now.pairs ? percent(now.max_ratio) : "–", "depth ÷ gap", percent(base.max_ratio)),
+      tile("Solver errors", group(now.solver_errors), now.on_surface > 0 ? `${group(now.on_surface)} on a surface` : "none on a surface", group(base.solver_errors)),
+    );
+    if (report.earlier) drawCompare(report, compare);
+  };
+  report.on("results", draw);
+  report.on("filter", () => report.earlier && drawCompare(report, compare));
+  draw();
+  return element;
+}
+
+function drawCompare(report: Report, element: HTMLElement): void {
+  const count = { new: 0, worse: 0, better: 0, same: 0 };
+  for (const x of report.hits) if (x.status && x.status !== "solved") count[x.status]++;
+  const chip = (status: "new" | "worse" | "better" | "same" | "solved", n: number) =>
+    h("button", {
+      type: "button", class: `chip ${status}${report.filter.status === status ? " on" : ""}`, disabled: n === 0,
+      "aria-pressed": report.filter.status === status ? "true" : "false",
+      onclick: () => report.setFilter({ status: report.filter.status === status ? null : status, perNode: true }),
+    }, h("b", null, group(n)), ` ${status}`);
+  replace(
+    element,
+    h("span", { class: "muted" }, `Compared with ${report.earlier!.path}:`),
+    chip("new", count.new), chip("worse", count.worse), chip("better", count.better), chip("same", count.same),
+    chip("solved", report.solved.length),
+  );
+}
+
+interface ContactRow {
+  contact: number;
+  inter: number;
+}
+
+/** Table of contacts; choosing one filters everything and opens its settings. */
+export function interfaces(report: Report): HTMLElement {
+  const rows: ContactRow[] = report.meta.contacts
+    .map((c, i) => ({ contact: i, inter: c.interface }))
+    .sort((a, b) => a.inter - b.inter || a.contact - b.contact);
+  const now = (r: ContactRow) => report.results[r.contact];
+  const inter = (r: ContactRow) => report.meta.interfaces[r.inter];
+  const changedCell = (text: string, was: string) =>
+    text === was ? text : h("span", { class: "changed", title: `deck: ${was}` }, text);
+  const table = new VirtualTable<ContactRow>(
+    [
+      { key: "id", title: "Id", width: "64px", right: true, value: (r) => inter(r).id, cell: (r) => String(inter(r).id) },
+      { key: "title", title: "Interface", width: "minmax(120px,1.6fr)", value: (r) => inter(r).title.toLowerCase(),
+        cell: (r) => inter(r).title || "(no title)" },
+      { key: "kind", title: "Kind", width: "minmax(70px,.8fr)", value: (r) => report.roleText(r.contact), cell: (r) => report.roleText(r.contact) },
+      { key: "igap", title: "Igap", width: "46px", right: true, value: (r) => now(r).setting.igap,
+        cell: (r) => changedCell(String(now(r).setting.igap), String(report.base[r.contact].setting.igap)) },
+      { key: "gapmin", title: "Gapmin", hint: "Smallest pair gap, and where it comes from", width: "72px", right: true, value: (r) => now(r).setting.gapmin,
+        cell: (r) => {
+          const s = now(r).setting;
+          const was = report.base[r.contact].setting.gapmin;
+          return h("span", { class: s.gapmin !== was ? "changed" : "", title: `${s.gapmin} (${s.gapminFrom})` },
+            num(s.gapmin), s.gapminFrom === "card" ? null : h("i", { class: "derived" }, " *"));
+        } },
+      { key: "pairs", title: "Pairs", hint: "Penetrating pairs", width: "62px", right: true, value: (r) => now(r).totals.pairs,
+        cell: (r) => changedCell(group(now(r).totals.pairs), group(report.base[r.contact].totals.pairs)) },
+      { key: "nodes", title: "Nodes", hint: "Distinct secondary nodes or edges", width: "60px", right: true, value: (r) => now(r).totals.nodes,
+        cell: (r) => changedCell(group(now(r).totals.nodes), group(report.base[r.contact].totals.nodes)) },
+      { key: "depth", title: "Deepest", width: "72px", right: true, value: (r) => now(r).totals.max_depth,
+        cell: (r) => changedCell(now(r).totals.pairs ? num(now(r).totals.max_depth) : "–", report.base[r.contact].totals.pairs ? num(report.base[r.contact].totals.max_depth) : "–") },
+      { key: "ratio", title: "Of gap", width: "58px", right: true, value: (r) => now(r).totals.max_ratio,
+        cell: (r) => (now(r).totals.pairs ? percent(now(r).totals.max_ratio) : "–") },
+      { key: "action", title: "The solver does", width: "minmax(90px,1fr)", value: (r) => actionsText(report, r.contact),
+        cell: (r) => {
+          const e = now(r).totals.solver_errors;
+          return e > 0 ? h("span", { class: "bad", title: "A node lies exactly on a segment and the options do not avoid the error" }, `stops (${e})`) : actionsText(report, r.contact);
+        } },
+    ],
+    {
+      label: "Interfaces", sort: "id", descending: false,
+      select: (r) => report.setFilter({ interface: r && report.filter.interface !== r.inter ? r.inter : null, pair: null, depth: null, ratio: null }),
+      classOf: (r) => `${now(r).totals.pairs === 0 ? "quiet" : ""} ${report.filter.interface === r.inter ? "group" : ""}`,
+    },
+  );
+  table.element.classList.add("interfaces-table");
+  const fit = () => table.element.style.setProperty("--rows", String(Math.min(rows.length, 11)));
+  fit();
+  table.setRows(rows);
+  report.on("results", () => table.setRows(rows));
+  report.on("filter", () => {
+    const i = report.filter.interface;
+    table.setSelected(i === null ? null : (rows.find((r) => r.inter === i) ?? null), false);
+  });
+  return h(
+    "section", { id: "interfaces" },
+    h("h2", null, "Interfaces", h("span", { class: "muted count" }, plural(report.meta.interfaces.length, "interface", "interfaces"))),
+    table.element,
+    h("p", { class: "note" }, h("i", { class: "derived" }, "*"), " Gapmin derived from the mesh. Choose a row to filter everything below and to try other settings."),
+    whatIf(report),
+  );
+}
+
+function actionsText(report: Report, contact: number): string {
+  const rows = report.results[contact].rows;
+  if (rows.length === 0) return "–";
+  const count = new Map<string, number>();
+  for (const r of rows) count.set(r.action, (count.get(r.action) ?? 0) + 1);
+  return [...count].map(([a, n]) => (n === rows.length ? actionWords[a] : `${n} ${actionWords[a]}`)).join(", ");
+}
+
+// ---- settings under test ----------------------------------------------------------------------
+
+function fieldsOf(type: number): FieldName[] {
+  if (type === 10) return ["Gapmin"];
+  if (type === 11) return ["Igap", "Gapmin", "Inacti"];
+  if (type === 19) return ["Igap", "Gapmin", "Fscalegap", "Gapmax", "Inacti"];
+  return ["Igap", "Gapmin", "Fscalegap", "Gapmax", "Inacti", "Fpenmax"];
+}
+
+/** Value of a field as the deck has it; Gapmin 0 means: from the mesh. */
+function deckValue(report: Report, inter: number, field: FieldName): number {
+  const card = report.meta.contacts[report.contactsOf(inter)[0]].card;
+  return field === "Gapmax" && card.Gapmax >= 1e30 ? 0 : card[field];
+}
+
+function whatIf(report: Report): HTMLElement {
+  const panel = h("div", { class: "panel whatif", id: "whatif", hidden: true });
+  let shown: number | null = null;
+  let update: (() => void) | null = null;
+  const draw = () => {
+    const i = report.filter.interface;
+    panel.hidden = i === null;
+    if (i === null) {
+      shown = null;
+      update = null;
+      return;
+    }
+    if (i !== shown) update = build(report, i, panel);
+    shown = i;
+    update?.();
+  };
+  report.on("filter", draw);
+  report.on("results", draw);
+  return panel;
+}
+
+function build(report: Report, inter: number, panel: HTMLElement): () => void {
+  const meta = report.meta.interfaces[inter];
+  const contacts = report.contactsOf(inter);
+  const controls: (() => void)[] = [];
+  const grid = h("div", { class: "controls" });
+  if (contacts.length === 0) {
+    replace(panel, h("p", { class: "note" }, "This interface has no contact that could be evaluated."));
+    return () => {};
+  }
+  for (const field of fieldsOf(meta.type)) {
+    const c = control(report, inter, field);
+    grid.append(c.element);
+    controls.push(c.update);
+  }
+  const outcome = h("p", { class: "outcome", "aria-live": "polite" });
+  const reach = h("p", { class: "note warn" });
+  const card = h("pre", { class: "card", tabindex: 0, "aria-label": "Card" });
+  const notes = h("p", { class: "note" });
+  const reset = button("Reset", "reset", () => report.clearOverrides(inter), { class: "small" });
+  const copy = button("Copy card", "copy", async () => flash(copy, await copyText(cardText(changedCard(meta, report.overrides[inter])))), { class: "small" });
+  const command = button("Copy command", "copy", async () => flash(command, await copyText(whatIfCommand(report))), {
+    class: "small", title: "deck gaps … --what-if …: the same settings evaluated on the command line",
+  });
+  replace(
+    panel,
+    h("div", { class: "panel-head" }, h("h3", null, "What if? ", h("span", { class: "muted" }, `Interface ${report.interfaceName(inter)}`)), reset),
+    grid, outcome, reach,
+    h("div", { class: "panel-head" }, h("h4", null, "Card"), h("span", { class: "buttons" }, command, copy)),
+    card, notes,
+  );
+  return () => {
+    for (const c of controls) c();
+    const now = report.totals("now", inter);
+    const base = report.totals("base", inter);
+    const part = (name: string, a: string, b: string) =>
+      h("span", { class: "change" }, `${name} `, a === b ? h("b", null, b) : h("span", null, h("s", null, a), " → ", h("b", null, b)));
+    replace(
+      outcome,
+      part("pairs", group(base.pairs), group(now.pairs)),
+      part("nodes", group(base.nodes), group(now.nodes)),
+      part("deepest", num(base.max_depth), num(now.max_depth)),
+      part("of gap", percent(base.max_ratio), percent(now.max_ratio)),
+      part("solver errors", group(base.solver_errors), group(now.solver_errors)),
+    );
+    outcome.dataset.pairs = String(now.pairs);
+    const beyond = contacts.filter((i) => !report.results[i].complete);
+    reach.hidden = beyond.length === 0;
+    reach.textContent = beyond
+      .map((i) => {
+        const c = report.meta.contacts[i];
+        return c.complete
+          ? `${report.roleText(i)}: gaps up to ${num(report.results[i].reached)} occur, this page carries pairs up to ${num(c.reach)}; what you see is a lower bound.`
+          : `${report.roleText(i)}: too many pairs for a page; only gaps that are not larger than the deck's are complete.`;
+      })
+      .join(" ");
+    const changed = changedCard(meta, report.overrides[inter]);
+    replace(
+      card,
+      ...changed.lines.map((l, i) => {
+        const changes = changed.changes.filter((c) => c.line === i).sort((a, b) => a.first - b.first);
+        const line = h("span", { class: l.text.startsWith("#") ? "comment" : l.text.startsWith("/") ? "keyword" : "" });
+        let at = 0;
+        for (const c of changes) {
+          line.append(l.text.slice(at, c.first - 1), h("mark", { title: `was ${c.was || "blank"}` }, l.text.slice(c.first - 1, c.last)));
+          at = c.last;
+        }
+        line.append(l.text.slice(at) + "\n");
+        return line;
+      }),
+    );
+    notes.textContent = [`${meta.card.file}:${meta.card.line}`, ...changed.notes].join(" · ");
+    reset.disabled = !report.changed(inter);
+  };
+}
+
+function flash(b: HTMLButtonElement, ok: boolean): void {
+  b.classList.add(ok ? "done" : "failed");
+  setTimeout(() => b.classList.remove("done", "failed"), 1200);
+}
+
+function control(report: Report, inter: number, field: FieldName): { element: HTMLElement; update: () => void } {
+  const id = `f-${field}`;
+  const deck = deckValue(report, inter, field);
+  const current = () => report.overrides[inter][field] ?? deck;
+  const set = (v: number) => report.setOverride(inter, field, v === deck ? undefined : v);
+  if (field === "Igap" || field === "Inacti") {
+    const type = report.meta.interfaces[inter].type;
+    const options = field === "Igap" ? (type === 11 ? [0, 1, 3] : [0, 1, 2, 3]) : type === 11 ? [0, 1, 2, 5, 6] : [0, 1, 2, 3, 5, 6];
+    for (const v of [deck, current()]) if (!options.includes(v)) options.push(v);
+    const select = h("select", { id, onchange: () => set(Number(select.value)) },
+      ...options.map((v) => h("option", { value: v }, flagText(field, v) + (v === deck ? " (deck)" : ""))));
+    const element = h("div", { class: "control wide" }, h("label", { for: id }, field), select);
+    return { element, update: () => { select.value = String(current()); element.classList.toggle("on", current() !== deck); } };
+  }
+  const contacts = report.contactsOf(inter);
+  const limits = contacts.map((i) => report.meta.contacts[i]);
+  const gaps = contacts.map((i) => report.base[i].setting);
+  const largest = Math.max(...limits.map((c) => (c.complete ? c.reach - c.margin : c.max_gap)), 0);
+  const top = {
+    Gapmin: niceTop(Math.max(largest, ...gaps.map((s) => s.gapmin), deck)),
+    Gapmax: niceTop(Math.max(...gaps.map((s) => s.maxGap)) * 1.5),
+    Fscalegap: Math.max(2, deck),
+    Fpenmax: Math.max(1, deck),
+  }[field];
+  const meaning = { Gapmin: "from the mesh", Gapmax: "no limit", Fscalegap: "", Fpenmax: "off" }[field];
+  const step = top / 400;
+  const slider = h("input", { type: "range", id, min: field === "Fscalegap" ? step : 0, max: top, step, oninput: () => set(tidy(Number(slider.value), step)) });
+  const number = h("input", { type: "number", min: 0, step: "any", "aria-label": field, onchange: () => {
+    const v = Number(number.value);
+    if (number.value !== "" && Number.isFinite(v) && v >= 0) set(v);
+  } });
+  const note = h("span", { class: "control-note" });
+  const element = h("div", { class: "control" }, h("label", { for: id }, field), slider, number, note);
+  const update = () => {
+    const v = current();
+    if (document.activeElement !== slider) slider.value = String(Math.min(v, top));
+    number.value = v === 0 && meaning ? "0" : String(v);
+    element.classList.toggle("on", v !== deck);
+    const s = settingOf(limits[0], report.data.contacts[contacts[0]], report.overrides[inter], report.meta.interfaces[inter].type === 19);
+    const unused = (field === "Fscalegap" || field === "Gapmax") && s.igap < 2;
+    element.classList.toggle("unused", unused);
+    note.textContent = unused ? "no effect with this Igap"
+      : v === 0 && field === "Gapmin" ? `${meaning}: ${num(s.gapmin)}`
+      : v === 0 ? meaning
+      : v !== deck ? `deck: ${deck === 0 && meaning ? meaning : num(deck, 6)}` : "";
+  };
+  return { element, update };
+}
+
+/** Slider positions as numbers that a person would write. */
+function tidy(v: number, step: number): number {
+  const digits = Math.max(0, Math.ceil(-Math.log10(step)) + 1);
+  return Number(v.toFixed(Math.min(digits, 12)));
+}
+
+function niceTop(v: number): number {
+  if (!(v > 0) || !Number.isFinite(v)) return 1;
+  const p = 10 ** Math.floor(Math.log10(v));
+  return (Math.ceil((v / p) * 2) / 2) * p;
+}

@@ -1,0 +1,271 @@
+// The model as drawn: per part one mesh of faces, one set of element sides, sharing their vertices.
+// A pair of numbers per vertex carries the contour: value times weight, and weight, so that colours
+// fade into the part's own colour at the rim of a patch.
+import {
+  BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, DynamicDrawUsage, LineBasicMaterial, LineSegments, LinearFilter,
+  Mesh as Mesh3, MeshLambertMaterial, Object3D, type Plane, RGBAFormat, Sphere, SRGBColorSpace, Vector3,
+} from "three";
+import { acceleratedRaycast, MeshBVH } from "three-mesh-bvh";
+import type { Mesh, MeshPart } from "./data";
+
+Mesh3.prototype.raycast = acceleratedRaycast;
+
+export type Look = "solid" | "ghost" | "hidden";
+
+export interface Part3D {
+  index: number; // into Mesh.parts
+  data: MeshPart;
+  faces: Mesh3 | null;
+  lines: LineSegments | null; // sides of faces
+  wires: LineSegments | null; // one-dimensional elements
+  color: Color;
+  look: Look;
+  sphere: Sphere;
+  /** Triangle -> position of the element in `element`, and its kind. */
+  triangleElement: Uint32Array;
+  element: Float64Array;
+  elementKind: Uint8Array;
+}
+
+// Muted colours that leave room for the contour.
+const palette = ["#8fa3b8", "#b3a58f", "#94ad9b", "#b79a9c", "#a49bb8", "#8fb0b5", "#b8ac84", "#9aa7a0", "#a88f86", "#8c99c0"];
+
+export class Parts3D {
+  readonly group = new Object3D();
+  readonly parts: Part3D[] = [];
+  readonly texture: DataTexture;
+  private readonly ghost: MeshLambertMaterial;
+  private readonly line: LineBasicMaterial;
+  private readonly ghostLine: LineBasicMaterial;
+  private readonly wire: LineBasicMaterial;
+  private readonly uniforms = { contourMap: { value: null as DataTexture | null } };
+  private edgesOn = true;
+
+  constructor(mesh: Mesh) {
+    this.texture = new DataTexture(new Uint8Array(256 * 4), 256, 1, RGBAFormat);
+    this.texture.magFilter = this.texture.minFilter = LinearFilter;
+    this.texture.colorSpace = SRGBColorSpace;
+    this.uniforms.contourMap.value = this.texture;
+    this.ghost = new MeshLambertMaterial({
+      color: "#8794a3", transparent: true, opacity: 0.09, depthWrite: false, side: DoubleSide, flatShading: true,
+    });
+    this.line = new LineBasicMaterial({ color: "#1c2733", transparent: true, opacity: 0.28 });
+    this.ghostLine = new LineBasicMaterial({ color: "#7b8896", transparent: true, opacity: 0.05, depthWrite: false });
+    this.wire = new LineBasicMaterial({ color: "#5b6b7d" });
+    mesh.parts.forEach((data, i) => this.add(data, i));
+  }
+
+  private add(data: MeshPart, index: number): void {
+    const color = new Color(palette[index % palette.length]);
+    const triangles = data.groups.reduce((n, g) => n + (g.corners === 4 ? 2 : g.corners === 3 ? 1 : 0) * g.count, 0);
+    const items = data.groups.reduce((n, g) => n + g.count, 0);
+    const triangleElement = new Uint32Array(triangles);
+    const element = new Float64Array(items);
+    const elementKind = new Uint8Array(items);
+    const Index = data.node.length > 65535 ? Uint32Array : Uint16Array;
+    const index3 = new Index(3 * triangles);
+    const wires: number[] = [];
+    let t = 0;
+    let e = 0;
+    for (const g of data.groups) {
+      for (let i = 0; i < g.count; i++, e++) {
+        element[e] = g.element[i];
+        elementKind[e] = g.kind;
+        const v = g.vertex.subarray(g.corners * i, g.corners * (i + 1));
+        if (g.corners === 2) {
+          wires.push(v[0], v[1]);
+          continue;
+        }
+        for (let k = 2; k < g.corners; k++) {
+          triangleElement[t] = e;
+          index3.set([v[0], v[k - 1], v[k]], 3 * t++);
+        }
+      }
+    }
+    const position = new BufferAttribute(data.position, 3);
+    const contour = new BufferAttribute(new Float32Array(2 * data.node.length), 2).setUsage(DynamicDrawUsage);
+    const part: Part3D = {
+      index, data, faces: null, lines: null, wires: null, color, look: "solid",
+      sphere: new Sphere(), triangleElement, element, elementKind,
+    };
+    if (triangles > 0) {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", position);
+      geometry.setAttribute("contour", contour);
+      geometry.setIndex(new BufferAttribute(index3, 1));
+      geometry.computeBoundingSphere();
+      part.sphere.copy(geometry.boundingSphere!);
+      const material = new MeshLambertMaterial({
+        color, side: DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+      });
+      this.addContour(material);
+      part.faces = new Mesh3(geometry, material);
+      part.faces.userData.part = part;
+      this.group.add(part.faces);
+    }
+    if (wires.length > 0) {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", position);
+      geometry.setIndex(new BufferAttribute(new Index(wires), 1));
+      geometry.computeBoundingSphere();
+      if (triangles === 0) part.sphere.copy(geometry.boundingSphere!);
+      part.wires = new LineSegments(geometry, this.wire);
+      this.group.add(part.wires);
+    }
+    this.parts.push(part);
+  }
+
+  /** Element sides, each once; made when they are first drawn. */
+  private sides(part: Part3D): LineSegments | null {
+    if (part.lines || !part.faces) return part.lines;
+    const n = part.data.node.length;
+    const keys: number[] = [];
+    for (const g of part.data.groups) {
+      if (g.corners === 2) continue;
+      for (let i = 0; i < g.count; i++)
+        for (let k = 0; k < g.corners; k++) {
+          const a = g.vertex[g.corners * i + k];
+          const b = g.vertex[g.corners * i + ((k + 1) % g.corners)];
+          keys.push(a < b ? a * n + b : b * n + a);
+        }
+    }
+    const sorted = Float64Array.from(keys).sort();
+    const Index = n > 65535 ? Uint32Array : Uint16Array;
+    const index = new Index(2 * sorted.length);
+    let m = 0;
+    for (let i = 0; i < sorted.length; i++) {
+      if (i > 0 && sorted[i] === sorted[i - 1]) continue;
+      index[m++] = Math.floor(sorted[i] / n);
+      index[m++] = sorted[i] % n;
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", part.faces.geometry.getAttribute("position"));
+    geometry.setIndex(new BufferAttribute(index.slice(0, m), 1));
+    geometry.boundingSphere = part.sphere.clone();
+    part.lines = new LineSegments(geometry, this.line);
+    this.group.add(part.lines);
+    return part.lines;
+  }
+
+  private addContour(material: MeshLambertMaterial): void {
+    material.onBeforeCompile = (shader) => {
+      shader.uniforms.contourMap = this.uniforms.contourMap;
+      shader.vertexShader = shader.vertexShader
+        .replace("#include <common>", "#include <common>\nattribute vec2 contour;\nvarying vec2 vContour;")
+        .replace("#include <begin_vertex>", "#include <begin_vertex>\nvContour = contour;");
+      shader.fragmentShader = shader.fragmentShader
+        .replace("#include <common>", "#include <common>\nvarying vec2 vContour;\nuniform sampler2D contourMap;")
+        .replace(
+          "#include <color_fragment>",
+          `#include <color_fragment>
+          if (vContour.y > 0.001) {
+            float value = clamp(vContour.x / vContour.y, 0.0, 1.0);
+            vec3 c = texture2D(contourMap, vec2(value * 0.992 + 0.004, 0.5)).rgb;
+            diffuseColor.rgb = mix(diffuseColor.rgb, c, smoothstep(0.05, 0.55, vContour.y));
+          }`,
+        );
+    };
+    material.customProgramCacheKey = () => "contour";
+  }
+
+  /** Contour values in [0, 1] by page node, NaN: none. null: no contour. */
+  setContour(values: Float32Array | null): void {
+    for (const part of this.parts) {
+      const attribute = part.faces?.geometry.getAttribute("contour") as BufferAttribute | undefined;
+      if (!attribute) continue;
+      const out = attribute.array as Float32Array;
+      let any = false;
+      part.data.node.forEach((n, i) => {
+        const v = values ? values[n] : NaN;
+        const w = Number.isNaN(v) ? 0 : 1;
+        const x = w ? v : 0;
+        any ||= out[2 * i] !== x || out[2 * i + 1] !== w;
+        out[2 * i] = x;
+        out[2 * i + 1] = w;
+      });
+      if (any) attribute.needsUpdate = true;
+    }
+  }
+
+  /** 256 colours. */
+  setColors(colorAt: (t: number) => [number, number, number]): void {
+    const out = this.texture.image.data as Uint8Array;
+    for (let i = 0; i < 256; i++) out.set([...colorAt(i / 255), 255], 4 * i);
+    this.texture.needsUpdate = true;
+  }
+
+  setGround(dark: boolean, neutral: boolean): void {
+    this.line.color.set(dark ? "#0b0f14" : "#1c2733");
+    this.line.opacity = dark ? 0.5 : 0.25;
+    this.ghost.color.set(dark ? "#9db0c4" : "#7d8a99");
+    this.ghost.opacity = dark ? 0.1 : 0.1;
+    this.wire.color.set(dark ? "#7f90a3" : "#5b6b7d");
+    for (const p of this.parts)
+      if (p.faces && p.look !== "ghost")
+        (this.materialOf(p) as MeshLambertMaterial).color.copy(neutral ? new Color(dark ? "#7b8794" : "#c3cad2") : p.color);
+  }
+
+  private readonly materials = new Map<Part3D, MeshLambertMaterial>();
+  private materialOf(part: Part3D): MeshLambertMaterial {
+    let m = this.materials.get(part);
+    if (!m) this.materials.set(part, (m = part.faces!.material as MeshLambertMaterial));
+    return m;
+  }
+
+  setLook(part: Part3D, look: Look): void {
+    if (part.faces) {
+      const solid = this.materialOf(part);
+      part.faces.visible = look !== "hidden";
+      part.faces.material = look === "ghost" ? this.ghost : solid;
+      part.faces.renderOrder = look === "ghost" ? 1 : 0;
+      const lines = look === "solid" && this.edgesOn ? this.sides(part) : part.lines;
+      if (lines) {
+        lines.visible = this.edgesOn && look === "solid";
+        lines.material = this.line;
+      }
+    }
+    if (part.wires) {
+      part.wires.visible = look !== "hidden";
+      part.wires.material = look === "ghost" ? this.ghostLine : this.wire;
+    }
+    part.look = look;
+  }
+
+  setEdges(on: boolean): void {
+    this.edgesOn = on;
+    for (const p of this.parts) this.setLook(p, p.look);
+  }
+
+  setClip(planes: Plane[]): void {
+    for (const p of this.parts) if (p.faces) this.materialOf(p).clippingPlanes = planes;
+    for (const m of [this.ghost, this.line, this.ghostLine, this.wire]) m.clippingPlanes = planes;
+  }
+
+  /** Meshes that can be picked; their search trees are made when first needed. */
+  pickable(): Mesh3[] {
+    const out: Mesh3[] = [];
+    for (const p of this.parts) if (p.faces && p.look === "solid") out.push(p.faces);
+    return out;
+  }
+  prepare(mesh: Mesh3): void {
+    const geometry = mesh.geometry;
+    if (!geometry.boundsTree) geometry.boundsTree = new MeshBVH(geometry, { indirect: true });
+  }
+
+  bounds(visible: (p: Part3D) => boolean): Sphere | null {
+    const low = new Vector3(Infinity, Infinity, Infinity);
+    const high = low.clone().negate();
+    for (const p of this.parts) {
+      if (!visible(p)) continue;
+      const { data } = p;
+      for (let i = 0; i < data.position.length; i += 3)
+        for (let k = 0; k < 3; k++) {
+          const v = data.position[i + k];
+          if (v < low.getComponent(k)) low.setComponent(k, v);
+          if (v > high.getComponent(k)) high.setComponent(k, v);
+        }
+    }
+    if (!(high.x >= low.x)) return null;
+    return new Sphere(low.clone().add(high).multiplyScalar(0.5), Math.max(high.distanceTo(low) / 2, 1e-6));
+  }
+}

@@ -1,0 +1,318 @@
+// The state of the page: data, settings under test, results, filters, selection; and who is told
+// when one of them changes.
+import { kindNames, type Contacts, type Mesh } from "./data";
+import { Evaluator, on_surface_error, ratioOf, sumTotals, type Result, type Row } from "./evaluate";
+import type { Earlier, FieldName, Meta, Overrides, Totals } from "./meta";
+
+export type Status = "new" | "worse" | "better" | "same" | "solved";
+
+/** A row with names. Solved rows of an earlier report have no Row. */
+export interface Hit {
+  row: Row;
+  depth: number;
+  ratio: number;
+  contact: number;
+  secondaryPart: number; // index into Meta.parts, -1: none
+  mainPart: number;
+  nodes: [number, number]; // ids: node and 0, or the two nodes of an edge
+  key: string;
+  status: Status | null;
+  earlier: number | null; // depth in the earlier report
+}
+
+export interface Solved {
+  interfaceId: number;
+  role: string;
+  nodes: [number, number];
+  depth: number;
+  gap: number;
+}
+
+export interface Filter {
+  interface: number | null; // position
+  pair: [number, number] | null; // part indices: secondary, main
+  depth: [number, number] | null;
+  ratio: [number, number] | null;
+  status: Status | null;
+  text: string;
+  perNode: boolean;
+}
+
+export type Topic = "results" | "filter" | "selection" | "look";
+
+/** Depths that differ by less are called the same: text of another tool may have fewer digits. */
+const sameDepth = 1e-6;
+
+export class Report {
+  readonly evaluator: Evaluator;
+  readonly base: Result[];
+  results: Result[];
+  overrides: Overrides[];
+  hits: Hit[] = [];
+  solved: Solved[] = [];
+  filtered: Hit[] = [];
+  filter: Filter = { interface: null, pair: null, depth: null, ratio: null, status: null, text: "", perNode: true };
+  selected: Hit | null = null;
+  private readonly listeners = new Map<Topic, (() => void)[]>();
+  private readonly earlierRows: Map<string, { depth: number; gap: number; row: Earlier["rows"][0] }> | null;
+
+  constructor(
+    readonly meta: Meta,
+    readonly mesh: Mesh,
+    readonly data: Contacts,
+    readonly earlier: Earlier | null,
+  ) {
+    this.evaluator = new Evaluator(meta, data);
+    const none = meta.interfaces.map(() => ({}) as Overrides);
+    this.base = this.evaluator.evaluate(none);
+    this.overrides = meta.interfaces.map((inter) => {
+      const out: Overrides = {};
+      for (const w of meta.what_if)
+        if (w.interface === inter.id)
+          for (const [k, v] of Object.entries(w))
+            if (k !== "interface" && k !== "%mesh_size" && k !== "Irem_gap") out[k as FieldName] = v as number;
+      return out;
+    });
+    this.results = this.evaluator.evaluate(this.overrides, { overrides: none, results: this.base });
+    this.earlierRows =
+      earlier &&
+      new Map(earlier.rows.map((r) => [`${r[0]}|${r[1]}|${r[2]}|${r[3]}`, { depth: r[4], gap: r[5], row: r }]));
+    this.collect();
+  }
+
+  on(topic: Topic, f: () => void): void {
+    this.listeners.set(topic, [...(this.listeners.get(topic) ?? []), f]);
+  }
+  emit(topic: Topic): void {
+    for (const f of this.listeners.get(topic) ?? []) f();
+  }
+
+  /** True if the page's own evaluation of the deck's settings is what the program found. */
+  get verified(): boolean {
+    return this.meta.contacts.every((c, i) => {
+      const t = this.results[i].totals;
+      return (
+        this.meta.what_if.length > 0 ||
+        !c.complete ||
+        (Object.keys(t) as (keyof Totals)[]).every((k) => t[k] === c.totals[k])
+      );
+    });
+  }
+
+  // ---- settings -----------------------------------------------------------------------------
+
+  /** Sets or clears (undefined) a field of an interface and evaluates again. */
+  setOverride(inter: number, field: FieldName, value: number | undefined): void {
+    const next = this.overrides.map((o) => ({ ...o }));
+    if (value === undefined) delete next[inter][field];
+    else next[inter][field] = value;
+    this.apply(next);
+  }
+  clearOverrides(inter: number | null): void {
+    this.apply(this.overrides.map((o, i) => (inter === null || i === inter ? {} : o)));
+  }
+  private apply(next: Overrides[]): void {
+    const results = this.evaluator.evaluate(next, { overrides: this.overrides, results: this.results });
+    this.overrides = next;
+    this.results = results;
+    const key = this.selected?.key;
+    this.collect();
+    this.selected = key ? (this.hits.find((x) => x.key === key) ?? null) : null;
+    this.emit("results");
+    this.emit("filter");
+    this.emit("selection");
+  }
+  changed(inter: number): boolean {
+    return Object.keys(this.overrides[inter]).length > 0;
+  }
+  get anyChanged(): boolean {
+    return this.overrides.some((_, i) => this.changed(i));
+  }
+  contactsOf(inter: number): number[] {
+    return this.meta.contacts.flatMap((c, i) => (c.interface === inter ? [i] : []));
+  }
+  totals(which: "base" | "now", inter: number | null): Totals {
+    const list = which === "base" ? this.base : this.results;
+    return sumTotals(inter === null ? list : this.contactsOf(inter).map((i) => list[i]));
+  }
+
+  // ---- names --------------------------------------------------------------------------------
+
+  nodeId(pageNode: number): number {
+    return this.mesh.nodeId[pageNode];
+  }
+  secondaryNodes(row: Row): number[] {
+    const c = this.data.contacts[row.contact];
+    const w = this.meta.contacts[row.contact].kind === "edge_edge" ? 2 : 1;
+    return Array.from(c.secondaryNode.subarray(w * row.secondary, w * row.secondary + w));
+  }
+  /** Page nodes of the main side, a triangle's fourth left out. */
+  mainNodes(row: Row): number[] {
+    const c = this.data.contacts[row.contact];
+    const w = this.meta.contacts[row.contact].kind === "edge_edge" ? 2 : 4;
+    const n = Array.from(c.mainNode.subarray(w * row.main, w * row.main + w));
+    return w === 4 && n[2] === n[3] ? n.slice(0, 3) : n;
+  }
+  secondaryText(row: Row): string {
+    return this.secondaryNodes(row).map((n) => this.nodeId(n)).join("–");
+  }
+  mainText(row: Row): string {
+    return this.mainNodes(row).map((n) => this.nodeId(n)).join(this.isEdge(row) ? "–" : " ");
+  }
+  isEdge(row: Row): boolean {
+    return this.meta.contacts[row.contact].kind === "edge_edge";
+  }
+  elementText(row: Row, side: "secondary" | "main"): string {
+    const c = this.data.contacts[row.contact];
+    const o = side === "main" ? c.mainOwner : c.secondaryOwner;
+    const i = side === "main" ? row.main : c.secondaryListed[row.secondary];
+    return o.kind[i] === 0 ? "no element" : `${kindNames[o.kind[i] - 1]} ${o.id[i]}`;
+  }
+  elementId(row: Row, side: "secondary" | "main"): number {
+    const c = this.data.contacts[row.contact];
+    return side === "main" ? c.mainOwner.id[row.main] : c.secondaryOwner.id[c.secondaryListed[row.secondary]];
+  }
+  partText(part: number): string {
+    if (part < 0) return "(no part)";
+    const p = this.meta.parts[part];
+    return p.title ? `${p.id} ${p.title}` : String(p.id);
+  }
+  partId(part: number): number {
+    return part < 0 ? 0 : this.meta.parts[part].id;
+  }
+  place(row: Row): { file: string; line: number } | null {
+    const c = this.data.contacts[row.contact];
+    const i = c.secondaryListed[row.secondary];
+    return c.file[i] < 0 ? null : { file: this.meta.files[c.file[i]], line: c.line[i] };
+  }
+  interfaceName(inter: number): string {
+    const i = this.meta.interfaces[inter];
+    return `${i.id}${i.title ? ` ${i.title}` : ""}`;
+  }
+  roleText(contact: number): string {
+    const c = this.meta.contacts[contact];
+    const type = this.meta.interfaces[c.interface].type;
+    if (type !== 19) return `TYPE${type}`;
+    return `TYPE19 ${c.role === "primary" ? "nodes" : c.role === "reversed" ? "nodes, reversed" : "edges"}`;
+  }
+  /** Exact position of the secondary point: the node, or the closest point of the edge. */
+  point(row: Row): [number, number, number] {
+    const d = this.data;
+    const [a, b] = this.secondaryNodes(row).map((n) => d.exactOf[n]);
+    if (b === undefined) return [d.x[a], d.y[a], d.z[a]];
+    const w = row.weight;
+    return [w * d.x[a] + (1 - w) * d.x[b], w * d.y[a] + (1 - w) * d.y[b], w * d.z[a] + (1 - w) * d.z[b]];
+  }
+  solverError(row: Row): number {
+    return row.onSurface ? on_surface_error(this.meta.contacts[row.contact], this.results[row.contact].setting) : 0;
+  }
+
+  // ---- rows and filters ---------------------------------------------------------------------
+
+  private collect(): void {
+    this.hits = [];
+    const seen = new Set<string>();
+    this.results.forEach((result, contact) => {
+      const meta = this.meta.contacts[contact];
+      const c = this.data.contacts[contact];
+      const id = this.meta.interfaces[meta.interface].id;
+      for (const row of result.rows) {
+        const nodes = this.secondaryNodes(row).map((n) => this.nodeId(n));
+        const pair: [number, number] = [nodes[0], nodes[1] ?? 0];
+        const hit: Hit = {
+          row,
+          depth: row.depth,
+          ratio: ratioOf(row),
+          contact,
+          secondaryPart: c.secondaryOwner.part[c.secondaryListed[row.secondary]],
+          mainPart: c.mainOwner.part[row.main],
+          nodes: pair,
+          key: `${contact}/${row.secondary}/${row.main}`,
+          status: null,
+          earlier: null,
+        };
+        if (this.earlierRows) {
+          const key = `${id}|${meta.role}|${pair[0]}|${pair[1]}`;
+          const old = this.earlierRows.get(key);
+          seen.add(key);
+          hit.earlier = old?.depth ?? null;
+          hit.status = !old
+            ? "new"
+            : row.depth > old.depth * (1 + sameDepth)
+              ? "worse"
+              : row.depth < old.depth * (1 - sameDepth)
+                ? "better"
+                : "same";
+        }
+        this.hits.push(hit);
+      }
+    });
+    this.hits.sort((a, b) => b.depth - a.depth || a.contact - b.contact);
+    // The earlier report has one row per node, so only its deepest row can be compared.
+    if (this.earlierRows) {
+      const first = new Set<string>();
+      for (const x of this.hits) {
+        const k = `${x.contact}/${x.row.secondary}`;
+        if (first.has(k)) {
+          x.status = null;
+          x.earlier = null;
+        }
+        first.add(k);
+      }
+    }
+    this.solved = [];
+    for (const [key, old] of this.earlierRows ?? [])
+      if (!seen.has(key))
+        this.solved.push({
+          interfaceId: old.row[0], role: old.row[1], nodes: [old.row[2], old.row[3]], depth: old.depth, gap: old.gap,
+        });
+    this.applyFilter();
+  }
+
+  /** Hits that pass all filters but the one named. */
+  passing(except: keyof Filter | null): Hit[] {
+    const f = this.filter;
+    const text = f.text.trim().toLowerCase();
+    const seen = new Set<string>();
+    return this.hits.filter((x) => {
+      if (except !== "interface" && f.interface !== null && this.meta.contacts[x.contact].interface !== f.interface) return false;
+      if (except !== "pair" && f.pair && (x.secondaryPart !== f.pair[0] || x.mainPart !== f.pair[1])) return false;
+      if (except !== "depth" && f.depth && !(x.depth >= f.depth[0] && x.depth <= f.depth[1])) return false;
+      if (except !== "ratio" && f.ratio && !(x.ratio >= f.ratio[0] && x.ratio <= f.ratio[1])) return false;
+      if (except !== "status" && f.status && x.status !== f.status) return false;
+      if (except !== "text" && text && !this.matches(x, text)) return false;
+      if (except !== "perNode" && f.perNode) {
+        const k = `${x.contact}/${x.row.secondary}`;
+        if (seen.has(k)) return false;
+        seen.add(k);
+      }
+      return true;
+    });
+  }
+
+  private matches(x: Hit, text: string): boolean {
+    return (
+      this.secondaryText(x.row).includes(text) ||
+      this.mainText(x.row).split(/[ –]/).includes(text) ||
+      String(this.elementId(x.row, "main")) === text ||
+      String(this.elementId(x.row, "secondary")) === text ||
+      this.partText(x.secondaryPart).toLowerCase().includes(text) ||
+      this.partText(x.mainPart).toLowerCase().includes(text)
+    );
+  }
+
+  private applyFilter(): void {
+    this.filtered = this.passing(null);
+  }
+
+  setFilter(change: Partial<Filter>): void {
+    this.filter = { ...this.filter, ...change };
+    this.applyFilter();
+    this.emit("filter");
+  }
+
+  select(hit: Hit | null): void {
+    this.selected = hit;
+    this.emit("selection");
+  }
+}

@@ -1,0 +1,442 @@
+// The 3D view: parts, penetrating nodes as dots, arrows, the selected pair, clip plane and picking.
+// Frames are drawn on demand only.
+import {
+  BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, CylinderGeometry, DirectionalLight, HemisphereLight,
+  InstancedMesh, Matrix4, MeshLambertMaterial, Plane, Points, PointsMaterial, Quaternion, Raycaster, Scene,
+  Sphere, Vector2, Vector3, WebGLRenderer,
+} from "three";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+import { CameraControl } from "./camera";
+import { kindNames } from "./data";
+import { Parts3D, type Look, type Part3D } from "./parts3d";
+import type { Hit, Report } from "./report";
+
+export interface Picked {
+  hit: Hit | null;
+  part: Part3D | null;
+  text: string;
+}
+
+const mostArrows = 20000;
+
+export class View3D {
+  readonly parts: Parts3D;
+  readonly control: CameraControl;
+  readonly canvas: HTMLCanvasElement;
+  onPick: (p: Picked) => void = () => {};
+  onFrame: () => void = () => {};
+  frames = 0;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly head = new DirectionalLight("#ffffff", 1.7);
+  private readonly sky = new HemisphereLight("#ffffff", "#aab4c0", 1.7);
+  private pending = false;
+  private dots: Points | null = null;
+  private dotHits: Hit[] = [];
+  private arrows: InstancedMesh | null = null;
+  private arrowsOn = true;
+  private readonly selection: (LineSegments2 | Points)[] = [];
+  private readonly disc: CanvasTexture;
+  private readonly clip = new Plane(new Vector3(1, 0, 0), 0);
+  private clipOn = false;
+  private dark = false;
+  private readonly partOf = new Map<number, Part3D>();
+
+  /** Throws where there is no WebGL. */
+  constructor(
+    private readonly report: Report,
+    private readonly container: HTMLElement,
+  ) {
+    this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: false, powerPreference: "high-performance" });
+    this.renderer.localClippingEnabled = true;
+    this.canvas = this.renderer.domElement;
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute("aria-label", "3D view of the model. Keys: see the list of shortcuts");
+    container.prepend(this.canvas);
+    this.disc = discTexture();
+    this.parts = new Parts3D(report.mesh);
+    for (const p of this.parts.parts) this.partOf.set(p.data.part, p);
+    this.scene.add(this.parts.group, this.sky);
+    this.control = new CameraControl(
+      this.canvas,
+      () => this.request(),
+      (x, y) => this.surfacePoint(x, y),
+      (x, y) => this.onPick(this.pick(x, y)),
+    );
+    this.scene.add(this.control.camera);
+    this.control.camera.add(this.head);
+    this.head.position.set(0.3, 0.5, 1);
+    const all = this.parts.bounds(() => true) ?? new Sphere(new Vector3(), 1);
+    this.control.setBounds(all.center, all.radius);
+    for (const p of this.parts.parts) this.parts.setLook(p, "solid");
+    new ResizeObserver(() => this.resize()).observe(container);
+    this.resize();
+    this.control.fly(all.center, all.radius, new Vector3(-1, -1.4, 0.8), undefined, true);
+  }
+
+  /** Draws a frame when the browser is ready for one. */
+  request(): void {
+    if (this.pending) return;
+    this.pending = true;
+    requestAnimationFrame((now) => {
+      this.pending = false;
+      this.draw(now);
+    });
+  }
+
+  private draw(now: number): void {
+    const again = this.control.update(now);
+    this.scaleArrows();
+    this.renderer.render(this.scene, this.control.camera);
+    this.frames++;
+    this.onFrame();
+    if (again) this.request();
+  }
+
+  /** Mean time of a frame over a turn of the camera, waiting for the picture each time. */
+  measure(frames = 30): number {
+    const gl = this.renderer.getContext();
+    const pixel = new Uint8Array(4);
+    const start = performance.now();
+    for (let i = 0; i < frames; i++) {
+      this.control.rotate(4, 0);
+      this.control.update(performance.now());
+      this.renderer.render(this.scene, this.control.camera);
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    }
+    return (performance.now() - start) / frames;
+  }
+
+  get drawCalls(): number {
+    return this.renderer.info.render.calls;
+  }
+
+  /** PNG of the view as it is, as a data address. */
+  picture(scale = 1): string {
+    const { clientWidth: w, clientHeight: h } = this.container;
+    const ratio = this.renderer.getPixelRatio();
+    this.renderer.setPixelRatio(ratio * scale);
+    this.renderer.setSize(w, h, false);
+    this.control.update(performance.now());
+    this.renderer.render(this.scene, this.control.camera);
+    const url = this.canvas.toDataURL("image/png");
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(w, h, false);
+    this.request();
+    return url;
+  }
+
+  private resize(): void {
+    const { clientWidth: w, clientHeight: h } = this.container;
+    if (w === 0 || h === 0) return;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(w, h, false);
+    this.control.camera.aspect = w / h;
+    for (const s of this.selection) if (s instanceof LineSegments2) s.material.resolution.set(w, h);
+    this.control.update(performance.now());
+    this.renderer.render(this.scene, this.control.camera);
+    this.onFrame();
+  }
+
+  setGround(dark: boolean, neutral: boolean): void {
+    this.dark = dark;
+    this.scene.background = new Color(dark ? "#151b23" : "#eef1f5");
+    this.sky.intensity = dark ? 1.3 : 1.7;
+    this.parts.setGround(dark, neutral);
+    this.request();
+  }
+
+  // ---- what is shown ------------------------------------------------------------------------
+
+  setLooks(look: (p: Part3D) => Look): void {
+    for (const p of this.parts.parts) this.parts.setLook(p, look(p));
+    this.request();
+  }
+
+  partByIndex(part: number): Part3D | undefined {
+    return this.partOf.get(part);
+  }
+
+  /** Dots and arrows of rows; `colorOf` gives a colour of 0..255 parts. */
+  setHits(hits: Hit[], colorOf: (h: Hit) => [number, number, number]): void {
+    if (this.dots) {
+      this.scene.remove(this.dots);
+      this.dots.geometry.dispose();
+    }
+    if (this.arrows) {
+      this.scene.remove(this.arrows);
+      this.arrows.dispose();
+      this.arrows = null;
+    }
+    this.dotHits = hits;
+    const position = new Float32Array(3 * hits.length);
+    const color = new Float32Array(3 * hits.length);
+    const c = new Color();
+    const rgb = hits.map((h) => {
+      const [r, g, b] = colorOf(h);
+      return c.setRGB(r / 255, g / 255, b / 255, "srgb").clone();
+    });
+    hits.forEach((hit, i) => {
+      position.set(this.report.point(hit.row), 3 * i);
+      rgb[i].toArray(color, 3 * i);
+    });
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(position, 3));
+    geometry.setAttribute("color", new BufferAttribute(color, 3));
+    this.dots = new Points(
+      geometry,
+      new PointsMaterial({ size: 8, sizeAttenuation: false, map: this.disc, alphaTest: 0.3, vertexColors: true, transparent: true }),
+    );
+    this.dots.frustumCulled = false;
+    this.dots.renderOrder = 3;
+    this.scene.add(this.dots);
+    const count = Math.min(hits.length, mostArrows);
+    if (count > 0) {
+      this.arrows = new InstancedMesh(arrowGeometry(), new MeshLambertMaterial({ color: "#ffffff" }), count);
+      this.arrows.frustumCulled = false;
+      this.arrows.visible = this.arrowsOn;
+      for (let i = 0; i < count; i++) this.arrows.setColorAt(i, rgb[i]);
+      this.scene.add(this.arrows);
+      this.arrowScale = 0;
+    }
+    this.request();
+  }
+
+  private arrowScale = 0;
+  /** Arrows keep their size on the screen: short ones point out of a node the way it has to go. */
+  private scaleArrows(): void {
+    if (!this.arrows || !this.arrowsOn) return;
+    const scale = Math.min(this.control.pixel(this.control.target) * 44, this.control.radius * 0.08);
+    if (this.arrowScale > 0 && Math.abs(scale / this.arrowScale - 1) < 0.08) return;
+    this.arrowScale = scale;
+    const up = new Vector3(0, 1, 0);
+    const m = new Matrix4();
+    const q = new Quaternion();
+    const size = new Vector3(scale, scale, scale);
+    const zero = new Vector3(0, 0, 0);
+    for (let i = 0; i < this.arrows.count; i++) {
+      const row = this.dotHits[i].row;
+      const n = new Vector3(...row.normal);
+      q.setFromUnitVectors(up, n.lengthSq() > 0 ? n : up);
+      this.arrows.setMatrixAt(i, m.compose(new Vector3(...this.report.point(row)), q, row.onSurface ? zero : size));
+    }
+    this.arrows.instanceMatrix.needsUpdate = true;
+  }
+
+  setArrows(on: boolean): void {
+    this.arrowsOn = on;
+    if (this.arrows) this.arrows.visible = on;
+    this.arrowScale = 0;
+    this.request();
+  }
+
+  /** Outline of the main side, the node or edge, the way out, and the residual distance. */
+  setSelected(hit: Hit | null): void {
+    for (const s of this.selection.splice(0)) {
+      this.scene.remove(s);
+      s.geometry.dispose();
+    }
+    if (hit) {
+      const d = this.report.data;
+      const at = (n: number) => new Vector3(d.x[d.exactOf[n]], d.y[d.exactOf[n]], d.z[d.exactOf[n]]);
+      const main = this.report.mainNodes(hit.row).map(at);
+      const secondary = this.report.secondaryNodes(hit.row).map(at);
+      const point = new Vector3(...this.report.point(hit.row));
+      const foot = point.clone().addScaledVector(new Vector3(...hit.row.normal), -hit.row.distance);
+      const out = point.clone().addScaledVector(new Vector3(...hit.row.normal), hit.row.depth);
+      const loop = main.length > 2 ? main.flatMap((p, i) => [p, main[(i + 1) % main.length]]) : main;
+      this.addLines(loop, this.dark ? "#ffb454" : "#c2410c", 3);
+      if (secondary.length === 2) this.addLines(secondary, this.dark ? "#7cc7ff" : "#1d4ed8", 4);
+      if (!hit.row.onSurface) {
+        this.addLines([foot, point], this.dark ? "#ffffff" : "#111827", 2.5);
+        this.addLines([point, out], this.dark ? "#7cc7ff" : "#1d4ed8", 2.5);
+      }
+      const dot = new BufferGeometry().setFromPoints([point]);
+      for (const [size, color] of [[17, this.dark ? "#0b0f14" : "#ffffff"], [12, this.dark ? "#7cc7ff" : "#1d4ed8"]] as const) {
+        const p = new Points(dot, new PointsMaterial({ size, color, sizeAttenuation: false, map: this.disc, alphaTest: 0.3, depthTest: false, transparent: true }));
+        p.renderOrder = 8;
+        p.frustumCulled = false;
+        this.scene.add(p);
+        this.selection.push(p);
+      }
+    }
+    this.request();
+  }
+
+  private addLines(points: Vector3[], color: string, width: number): void {
+    const geometry = new LineSegmentsGeometry().setPositions(points.flatMap((p) => p.toArray()));
+    const material = new LineMaterial({ color: new Color(color).getHex(), linewidth: width, depthTest: false, transparent: true });
+    material.resolution.set(this.container.clientWidth, this.container.clientHeight);
+    const lines = new LineSegments2(geometry, material);
+    lines.renderOrder = 7;
+    lines.frustumCulled = false;
+    this.scene.add(lines);
+    this.selection.push(lines);
+  }
+
+  /** Sphere around the main side and the node of a row. */
+  sphereOf(hit: Hit): Sphere {
+    const d = this.report.data;
+    const points = [...this.report.mainNodes(hit.row), ...this.report.secondaryNodes(hit.row)].map(
+      (n) => new Vector3(d.x[d.exactOf[n]], d.y[d.exactOf[n]], d.z[d.exactOf[n]]),
+    );
+    return new Sphere().setFromPoints(points);
+  }
+
+  flyTo(hit: Hit): void {
+    const s = this.sphereOf(hit);
+    // Obliquely from the side that the node should be on: segment, node and distance are all seen.
+    const n = new Vector3(...hit.row.normal);
+    const from = n.lengthSq() > 0 ? sideways(n) : undefined;
+    this.control.fly(new Vector3(...this.report.point(hit.row)), Math.max(s.radius * 2.6, 1e-9), from);
+  }
+
+  fit(hits: Hit[] | null = null): void {
+    if (hits && hits.length > 0) {
+      const s = new Sphere().setFromPoints(hits.map((x) => new Vector3(...this.report.point(x.row))));
+      const grown = Math.max(s.radius, ...hits.slice(0, 1).map((x) => this.sphereOf(x).radius)) * 1.5;
+      this.control.fly(s.center, grown);
+      return;
+    }
+    const s = this.parts.bounds((p) => p.look === "solid") ?? this.parts.bounds(() => true);
+    if (s) this.control.fly(s.center, s.radius);
+  }
+
+  look(direction: Vector3, up: Vector3): void {
+    const s = this.parts.bounds((p) => p.look === "solid") ?? this.parts.bounds(() => true);
+    if (s) this.control.fly(s.center, s.radius, direction, up);
+  }
+
+  /** Cuts away what lies beyond `offset` (0..1 of the extent) along `normal`. */
+  setClip(normal: Vector3 | null, at: number): void {
+    this.clipOn = normal !== null;
+    if (normal) {
+      const n = normal.clone().normalize();
+      const { center, radius } = this.control;
+      const middle = center.dot(n);
+      this.clip.normal.copy(n).negate();
+      this.clip.constant = middle + (2 * at - 1) * radius;
+    }
+    this.parts.setClip(this.clipOn ? [this.clip] : []);
+    this.request();
+  }
+
+  clipThrough(point: Vector3, normal: Vector3): number {
+    const n = normal.clone().normalize();
+    return ((point.dot(n) - this.control.center.dot(n)) / this.control.radius + 1) / 2;
+  }
+
+  // ---- picking ------------------------------------------------------------------------------
+
+  private ray(x: number, y: number): Raycaster {
+    const r = this.canvas.getBoundingClientRect();
+    const caster = new Raycaster();
+    caster.firstHitOnly = true;
+    this.control.update(performance.now());
+    caster.setFromCamera(new Vector2(((x - r.left) / r.width) * 2 - 1, 1 - ((y - r.top) / r.height) * 2), this.control.camera);
+    return caster;
+  }
+
+  private surface(x: number, y: number) {
+    const caster = this.ray(x, y);
+    if (this.clipOn) {
+      // Start behind the clip plane where the ray crosses it from the removed side.
+      const d = this.clip.distanceToPoint(caster.ray.origin);
+      const t = caster.ray.distanceToPlane(this.clip);
+      if (d < 0) {
+        if (t === null) return null;
+        caster.ray.origin.addScaledVector(caster.ray.direction, t + this.control.radius * 1e-6);
+      }
+    }
+    const meshes = this.parts.pickable().filter((m) => {
+      const s = m.geometry.boundingSphere!;
+      return caster.ray.intersectsSphere(s);
+    });
+    for (const m of meshes) this.parts.prepare(m);
+    const found = caster.intersectObjects(meshes, false)[0];
+    return found && this.clipOn && this.clip.distanceToPoint(found.point) < 0 ? null : (found ?? null);
+  }
+
+  private surfacePoint(x: number, y: number): Vector3 | null {
+    return this.surface(x, y)?.point ?? null;
+  }
+
+  /** What is under the cursor: a penetrating node within a few pixels, else the surface. */
+  pick(x: number, y: number): Picked {
+    const r = this.canvas.getBoundingClientRect();
+    const camera = this.control.camera;
+    const surface = this.surface(x, y);
+    const depthLimit = surface ? surface.point.clone().project(camera).z : 1;
+    let best: Hit | null = null;
+    let near = 13;
+    const v = new Vector3();
+    for (const hit of this.dotHits) {
+      v.set(...this.report.point(hit.row));
+      const shown = this.clipOn && this.clip.distanceToPoint(v) < 0 ? false : true;
+      const world = v.clone();
+      v.project(camera);
+      if (!shown || v.z < -1 || v.z > 1) continue;
+      const d = Math.hypot(r.left + ((v.x + 1) / 2) * r.width - x, r.top + ((1 - v.y) / 2) * r.height - y);
+      // Dots behind a surface count only if they are nearly on it.
+      const hidden = v.z > depthLimit && surface !== null && world.distanceTo(surface.point) > 14 * this.control.pixel(surface.point);
+      if (d < near && !hidden) {
+        near = d;
+        best = hit;
+      }
+    }
+    if (!surface) return { hit: best, part: null, text: best ? this.hitText(best) : "" };
+    const part = surface.object.userData.part as Part3D;
+    const item = part.triangleElement[surface.faceIndex!];
+    const element = `${kindNames[part.elementKind[item]]} ${part.element[item]}`;
+    if (!best) {
+      // The corners of the face may be penetrating nodes of the list.
+      const corners = new Set([surface.face!.a, surface.face!.b, surface.face!.c].map((i) => part.data.node[i]));
+      best = this.dotHits.find((x) => this.report.secondaryNodes(x.row).some((n) => corners.has(n))) ?? null;
+    }
+    const text = `${element} · ${this.report.partText(part.data.part)}`;
+    return { hit: best, part, text: best && near < 13 ? this.hitText(best) : text };
+  }
+
+  private hitText(hit: Hit): string {
+    return `${this.report.isEdge(hit.row) ? "edge" : "node"} ${this.report.secondaryText(hit.row)} · depth ${hit.depth.toPrecision(4)}`;
+  }
+
+  /** Position on the page of a row's point; null if it is behind the camera. */
+  screen(hit: Hit): { x: number; y: number } | null {
+    this.control.update(performance.now());
+    const v = new Vector3(...this.report.point(hit.row)).project(this.control.camera);
+    if (v.z < -1 || v.z > 1) return null;
+    const r = this.canvas.getBoundingClientRect();
+    return { x: r.left + ((v.x + 1) / 2) * r.width, y: r.top + ((1 - v.y) / 2) * r.height };
+  }
+}
+
+/** A direction that sees the normal from the side, 25 degrees above the surface. */
+function sideways(n: Vector3): Vector3 {
+  const other = Math.abs(n.z) < 0.8 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0);
+  const t = new Vector3().crossVectors(n, other).normalize();
+  const u = new Vector3().crossVectors(t, n).normalize();
+  return t.multiplyScalar(0.85).addScaledVector(u, -0.3).addScaledVector(n, 0.45);
+}
+
+function arrowGeometry(): BufferGeometry {
+  const shaft = new CylinderGeometry(0.025, 0.025, 0.62, 8).translate(0, 0.31, 0);
+  const tip = new ConeGeometry(0.085, 0.3, 12).translate(0, 0.77, 0);
+  return mergeGeometries([shaft, tip])!;
+}
+
+function discTexture(): CanvasTexture {
+  const size = 64;
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = size;
+  const g = canvas.getContext("2d")!;
+  g.fillStyle = "#fff";
+  g.beginPath();
+  g.arc(size / 2, size / 2, size / 2 - 2, 0, 2 * Math.PI);
+  g.fill();
+  return new CanvasTexture(canvas);
+}
+
