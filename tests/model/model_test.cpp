@@ -1,0 +1,172 @@
+// The model as a whole: parts and what they refer to, properties, run options, places in the file.
+#include "model/selection_deck.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "deck/model/connectivity.hpp"
+
+namespace deck::test {
+namespace {
+
+std::string quad() { return grid_nodes() + "/SHELL/1\n" + cells({7, 1, 2, 5, 4}); }
+
+TEST(Part, KnowsPropertyAndMaterial) {
+  Built b(parts() + quad());
+  const Part& p = b.model().parts.at(b.model().part_of_id.at(4));
+  EXPECT_EQ(b.model().properties.at(p.prop).id, 2);
+  EXPECT_EQ(b.model().materials.at(p.mat).id, 1);
+  EXPECT_TRUE(b.diagnostics().all().empty());
+}
+
+TEST(Part, MissingPropertyIsMessage178) {
+  Built b(quad() + "/PART/1\np\n" + cells({9, 9}));
+  EXPECT_EQ(b.message("DK102"), 178);
+}
+
+TEST(Part, MissingMaterialIsMessage179OnlyIfThereAreElements) {
+  const std::string prop = "/PROP/VOID/1\np\n" + reals({1});
+  Built used(quad() + prop + "/PART/1\np\n" + cells({1, 9}));
+  EXPECT_EQ(used.message("DK103"), 179);
+  Built empty(grid_nodes() + prop + "/PART/1\np\n" + cells({1, 9}));
+  EXPECT_EQ(empty.findings("DK103"), 0u);
+}
+
+TEST(Part, SpringsNeedNoMaterial) {
+  Built b(grid_nodes() + "/PROP/SPRING/1\np\n" + reals({1}) + reals({5}) + "/PART/1\np\n" +
+          cells({1, 0}) + "/SPRING/1\n" + cells({1, 1, 2}));
+  EXPECT_EQ(b.findings("DK103"), 0u);
+}
+
+TEST(Part, ElementsOfAMissingPartAreOneFindingPerPart) {
+  Built b(parts() + grid_nodes() + "/SHELL/8\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5}) +
+          "/SHELL/9\n" + cells({3, 4, 5, 8, 7}));
+  EXPECT_EQ(b.findings("DK104"), 2u);
+  EXPECT_EQ(b.message("DK104"), 402);
+}
+
+TEST(Part, SecondDefinitionIsReported) {
+  Built b(parts() + "/PART/1\np\n" + cells({1, 1}));
+  EXPECT_EQ(b.findings("DK100"), 1u);
+}
+
+TEST(Shell, WithoutAnyThicknessIsMessage495) {
+  Built b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
+          "/PART/1\np\n" + cells({1, 1}) + quad());
+  EXPECT_EQ(b.message("DK106"), 495);
+}
+
+TEST(Shell, OwnThicknessIsEnough) {
+  std::string line = cells({7, 1, 2, 5, 4});
+  line.pop_back();
+  line.resize(80, ' ');
+  Built b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
+          "/PART/1\np\n" + cells({1, 1}) + grid_nodes() + "/SHELL/1\n" + line + reals({1.5}));
+  EXPECT_EQ(b.findings("DK106"), 0u);
+}
+
+TEST(Shell, CollapsedQuadrangleIsWarning430) {
+  Built b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 5}));
+  EXPECT_EQ(b.message("DK107"), 430);
+}
+
+TEST(Element, SecondUseOfAnIdIsMessage79) {
+  Built b(parts() + quad() + "/SHELL/2\n" + cells({7, 2, 3, 6, 5}));
+  EXPECT_EQ(b.message("DK105"), 79);
+}
+
+TEST(Node, SecondUseOfAnIdTellsWhetherTheCoordinatesAgree) {
+  Built b("/NODE\n" + node(1, 0, 0, 0) + node(1, 0, 0, 0));
+  ASSERT_EQ(b.findings("DK105"), 1u);
+  std::string message;
+  for (const Diagnostic& d : b.diagnostics().all())
+    if (d.rule == "DK105") message = d.message;
+  EXPECT_NE(message.find("same coordinates"), std::string::npos);
+}
+
+TEST(Property, ThicknessAndAreaAreInWorkingUnits) {
+  Built b("/PROP/VOID/1\np\n" + reals({0.002}) + "/PROP/TRUSS/2\np\n" + reals({3e-6}), "kg m s");
+  EXPECT_NEAR(b.model().properties[0].thickness, 2, 1e-14);
+  EXPECT_NEAR(b.model().properties[1].area, 3, 1e-14);
+}
+
+TEST(Property, SpringStiffnessIsDividedByItsScale) {
+  Built b("/PROP/SPRING/1\np\n" + reals({1}) + reals({5, 0, 2}));
+  EXPECT_EQ(b.model().properties[0].stiffness[0], 2.5);
+}
+
+TEST(Property, NumberFollowsFromNameOrType) {
+  Built b("/PROP/SH_ORTH/1\np\n\n\n\n\n/PROP/TYPE9/2\np\n\n\n\n\n");
+  EXPECT_EQ(b.model().properties[0].number, 9);
+  EXPECT_EQ(b.model().properties[1].number, 9);
+}
+
+TEST(Run, OptionsOfTheWholeRun) {
+  Built b(grid_nodes() + "/INTTHICK/V5\n/RANDOM\n" + reals({0.25}) +
+          "/MONVOL/AIRBAG1/1\nm\n\n/ALE/MAT/1\n\n");
+  EXPECT_TRUE(b.model().intthick_v5);
+  EXPECT_TRUE(b.model().has_random);
+  EXPECT_EQ(b.model().random_noise, 0.25);
+  EXPECT_TRUE(b.model().has_monitored_volume);
+  EXPECT_TRUE(b.model().has_ale);
+  EXPECT_FALSE(b.model().two_dimensional);
+}
+
+TEST(Run, SecondIntthickIsMessage725) {
+  Built b("/INTTHICK/V5\n/INTTHICK/V5\n");
+  EXPECT_EQ(b.message("DK112"), 725);
+}
+
+TEST(Curve, PointsAndScaling) {
+  Built b("/FUNCT/4\nf\n" + reals({0, 1}) + reals({2, 5}) + "/MOVE_FUNCT/4\nm\n" +
+          reals({10, 0, 1, 0}));
+  const Curve& c = b.model().curves.at(4);
+  EXPECT_EQ(c.x, (std::vector<double>{1, 21}));
+  EXPECT_EQ(c.y, (std::vector<double>{1, 5}));
+}
+
+TEST(Unit, UnknownUnitSystemIsMessage643ForNodesAnd659Elsewhere) {
+  Built b("/NODE/5\n" + node(1, 0, 0, 0));
+  EXPECT_EQ(b.message("DK109"), 643);
+  Built g(grid_nodes() + "/GRNOD/NODE/1/5\ng\n" + cells({1}));
+  EXPECT_EQ(g.message("DK109"), 659);
+}
+
+TEST(Place, OfANodeAndAnElementIsItsLine) {
+  Built b(parts() + grid_nodes() + "# a comment\n" + node(50, 1, 2, 3) + "/SHELL/1\n" +
+          cells({7, 1, 2, 5, 4}) + cells({8, 2, 3, 6, 5}));
+  const Model& m = b.model();
+  const auto text = [&](Span s) { return std::string(m.deck->sources.text(s).substr(0, 10)); };
+  EXPECT_EQ(text(m.node_span(m.nodes.map.find(50))), "        50");
+  EXPECT_EQ(text(m.element_span(ElementKind::shell4, m.shell4.map.find(8))), "         8");
+}
+
+TEST(Connectivity, RowsListElementsOnce) {
+  Built b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5}) +
+          "/SHELL/2\n" + cells({3, 4, 5, 5, 7}));
+  const Model& m = b.model();
+  const NodeElements rows = connect_nodes(m.shell4, m.nodes.size());
+  const auto row = rows.row(m.nodes.map.find(5));
+  EXPECT_EQ(std::vector<std::uint32_t>(row.begin(), row.end()),
+            (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(connect_parts(m.shell4, m.parts.size()).row(0).size(), 2u);
+}
+
+/// Every id of the groups of a real deck resolves without a finding about groups.
+TEST(Corpus, DummyResolvesWithoutGroupErrors) {
+  const char* corpus = std::getenv("DECK_CORPUS");
+  const std::string root = corpus ? corpus : std::string(DECK_SOURCE_DIR) + "/../shared";
+  const std::string path = root + "/corpus/EuroSID_II/EuroSID_II_0000.rad";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no corpus at " << root;
+  auto deck = read_deck(path, SchemaSet::built_in());
+  ASSERT_TRUE(deck);
+  Diagnostics found;
+  const Model m = build_model(*deck, SchemaSet::built_in(), found);
+  EXPECT_EQ(m.nodes.size(), 16296u);
+  m.selections->resolve_all();
+  for (const Diagnostic& d : m.selections->diagnostics().all())
+    EXPECT_NE(d.severity, Severity::error) << d.message;
+}
+
+}  // namespace
+}  // namespace deck::test

@@ -1,0 +1,365 @@
+// Groups, surfaces and lines: what is selected, in which order, and what is said about mistakes.
+#include <algorithm>
+
+#include "model/selection_deck.hpp"
+
+namespace deck::test {
+namespace {
+
+/// Quads 1..4 on the grid in parts 1 (1, 2) and 2 (3, 4).
+std::string quads() {
+  return grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5}) +
+         "/SHELL/2\n" + cells({3, 4, 5, 8, 7}) + cells({4, 5, 6, 9, 8});
+}
+
+TEST(NodeGroup, ListIsUniqueAndAscending) {
+  Built b(parts() + quads() + "/GRNOD/NODE/5\ng\n" + cells({9, 2, 9, 4}));
+  EXPECT_EQ(b.group(5), (Ids{2, 4, 9}));
+}
+
+TEST(NodeGroup, InternalOrderIsThatOfTheIdsNotOfTheFile) {
+  Built b("/NODE\n" + node(20, 0, 0, 0) + node(3, 1, 0, 0) + node(7, 2, 0, 0) +
+          "/GRNOD/NODE/1\ng\n" + cells({20, 7, 3}));
+  EXPECT_EQ(b.group(1), (Ids{3, 7, 20}));
+}
+
+TEST(NodeGroup, NodensKeepsTheOrderOfTheList) {
+  Built b(quads() + "/GRNOD/NODENS/5\ng\n" + cells({9, 2, 9, 4}));
+  EXPECT_EQ(b.group(5), (Ids{9, 2, 4}));
+}
+
+TEST(NodeGroup, MissingNodeIsMessage78) {
+  Built b(quads() + "/GRNOD/NODE/5\ng\n" + cells({1, 77}));
+  EXPECT_EQ(b.group(5), (Ids{1}));
+  EXPECT_EQ(b.message("DK150"), 78);
+}
+
+TEST(NodeGroup, EmptyResultIsWarning690) {
+  Built b(parts() + quads() + "/GRNOD/PART/5\ng\n" + cells({3}));
+  EXPECT_TRUE(b.group(5).empty());
+  EXPECT_EQ(b.message("DK153"), 690);
+}
+
+TEST(NodeGroup, RangesIncludeBothEnds) {
+  Built b(quads() + "/GRNOD/GENE/5\ng\n" + cells({2, 4, 8, 100}));
+  EXPECT_EQ(b.group(5), (Ids{2, 3, 4, 8, 9}));
+}
+
+TEST(NodeGroup, HugeRangesCostNoMoreThanTheNodes) {
+  Built b(quads() + "/GRNOD/GENE/5\ng\n" + cells({1, 2000000000}));
+  EXPECT_EQ(b.group(5).size(), 9u);
+}
+
+TEST(NodeGroup, RangesWithIncrement) {
+  Built b(quads() + "/GRNOD/GEN_INCR/5\ng\n" + cells({1, 9, 4}));
+  EXPECT_EQ(b.group(5), (Ids{1, 5, 9}));
+}
+
+TEST(NodeGroup, NegativeGroupIsRemovedAfterAllPositiveOnes) {
+  Built b(quads() + "/GRNOD/NODE/1\na\n" + cells({1, 2, 3}) + "/GRNOD/NODE/2\nb\n" +
+          cells({2, 3, 4}) + "/GRNOD/NODE/3\nc\n" + cells({3}) + "/GRNOD/GRNOD/4\nd\n" +
+          cells({1, -3, 2}));
+  EXPECT_EQ(b.group(4), (Ids{1, 2, 4}));
+}
+
+TEST(NodeGroup, MissingMemberGroupIsWarning174) {
+  Built b(quads() + "/GRNOD/NODE/1\na\n" + cells({1}) + "/GRNOD/GRNOD/4\nd\n" + cells({1, 8}));
+  EXPECT_EQ(b.group(4), (Ids{1}));
+  EXPECT_EQ(b.message("DK151"), 174);
+}
+
+TEST(NodeGroup, CircleOfGroupsIsMessage176AndEnds) {
+  Built b(quads() + "/GRNOD/GRNOD/1\na\n" + cells({2}) + "/GRNOD/GRNOD/2\nb\n" + cells({1}));
+  b.group(1);
+  EXPECT_EQ(b.message("DK152"), 176);
+}
+
+TEST(NodeGroup, PartsGiveTheNodesOfTheirElements) {
+  Built b(parts() + quads() + "/GRNOD/PART/5\ng\n" + cells({2}));
+  EXPECT_EQ(b.group(5), (Ids{4, 5, 6, 7, 8, 9}));
+}
+
+TEST(NodeGroup, NodesOfANegativePartAreRemoved) {
+  Built b(parts() + quads() + "/GRNOD/PART/5\ng\n" + cells({1, -2}));
+  EXPECT_EQ(b.group(5), (Ids{1, 2, 3}));
+}
+
+TEST(NodeGroup, NodeRemovedWithAnEarlierFamilyComesBackWithALaterOne) {
+  // Node 5 belongs to a shell of part 2 (removed) and to a truss of part 6 (added later).
+  Built b(parts() + quads() + "/TRUSS/6\n" + cells({1, 1, 5}) + "/GRNOD/PART/5\ng\n" +
+          cells({1, 6, -2}));
+  EXPECT_EQ(b.group(5), (Ids{1, 2, 3, 5}));
+}
+
+TEST(NodeGroup, SubsetStandsForAllPartsBelowIt) {
+  Built b(parts() + quads() + cube_nodes() + cubes() + "/GRNOD/SUBSET/5\ng\n" + cells({1}));
+  EXPECT_EQ(b.group(5).size(), 9u + 12u);
+}
+
+TEST(NodeGroup, MaterialAndPropertySelectTheirParts) {
+  Built b(parts() + quads() + cube_nodes() + cubes() + "/GRNOD/PROP/5\ng\n" + cells({2}) +
+          "/GRNOD/MAT/6\ng\n" + cells({1}));
+  EXPECT_EQ(b.group(5).size(), 12u);
+  EXPECT_EQ(b.group(6).size(), 21u);
+}
+
+TEST(NodeGroup, MissingPartIsWarning194) {
+  Built b(parts() + quads() + "/GRNOD/PART/5\ng\n" + cells({1, 99}));
+  EXPECT_EQ(b.group(5).size(), 6u);
+  EXPECT_EQ(b.message("DK151"), 194);
+}
+
+TEST(NodeGroup, SurfaceGroupIgnoresNegativeIds) {
+  Built b(parts() + quads() + "/SURF/PART/1\ns\n" + cells({1}) + "/SURF/PART/2\ns\n" + cells({2}) +
+          "/GRNOD/SURF/5\ng\n" + cells({1, -2}));
+  EXPECT_EQ(b.group(5), (Ids{1, 2, 3, 4, 5, 6}));
+}
+
+TEST(NodeGroup, ElementGroupGivesItsNodes) {
+  Built b(parts() + quads() + "/GRSHEL/SHEL/1\ne\n" + cells({4, 1}) + "/GRNOD/GRSHEL/5\ng\n" +
+          cells({1}));
+  EXPECT_EQ(b.group(5), (Ids{1, 2, 4, 5, 6, 8, 9}));
+}
+
+TEST(NodeGroup, SecondDefinitionOfAnIdIsReportedAndTheFirstKept) {
+  Built b(quads() + "/GRNOD/NODE/5\na\n" + cells({1}) + "/GRNOD/NODE/5\nb\n" + cells({2}));
+  EXPECT_EQ(b.group(5), (Ids{1}));
+  EXPECT_EQ(b.message("DK167"), 79);
+}
+
+TEST(ElementGroup, NegativeGroupRemovesElements) {
+  Built b(parts() + quads() + "/GRSHEL/PART/1\na\n" + cells({1, 2}) + "/GRSHEL/SHEL/2\nb\n" +
+          cells({2}) + "/GRSHEL/GRSHEL/3\nc\n" + cells({1, -2}));
+  EXPECT_EQ(b.selections().element_group("grshel", 3)->size(), 3u);
+}
+
+TEST(ElementGroup, PairOfEqualIdsSelectsNothing) {
+  Built b(parts() + quads() + "/GRSHEL/GENE/1\na\n" + cells({2, 2, 3, 4}));
+  EXPECT_EQ(b.selections().element_group("grshel", 1)->size(), 2u);
+}
+
+TEST(PartGroup, ListsParts) {
+  Built b(parts() + "/GRPART/SUBSET/1\np\n" + cells({2}));
+  EXPECT_EQ(*b.selections().part_group(1), (std::vector<std::uint32_t>{3, 4}));
+}
+
+TEST(Surface, ShellSegmentsAreSortedByFamilyThenElementId) {
+  Built b(parts() + grid_nodes() + "/SH3N/1\n" + cells({1, 1, 2, 4}) + "/SHELL/1\n" +
+          cells({9, 2, 3, 6, 5}) + cells({4, 4, 5, 8, 7}) + "/SURF/PART/1\ns\n" + cells({1}));
+  EXPECT_EQ(b.surface(1), (std::vector<Ids>{{4, 5, 8, 7}, {2, 3, 6, 5}, {1, 2, 4, 4}}));
+}
+
+TEST(Surface, NegativePartReversesTheNormal) {
+  Built b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) + "/SH3N/1\n" +
+          cells({1, 2, 3, 6}) + "/SURF/PART/1\ns\n" + cells({-1}));
+  EXPECT_EQ(b.surface(1), (std::vector<Ids>{{4, 5, 2, 1}, {6, 3, 2, 2}}));
+}
+
+TEST(Surface, PlainSegmentsKeepTheirOrderAndComeFirst) {
+  Built b(parts() + quads() + "/SURF/SEG/1\ns\n" + cells({1, 5, 6, 9, 8}) + cells({2, 1, 2, 5}) +
+          "/SURF/PART/2\np\n" + cells({1}) + "/SURF/SURF/3\nu\n" + cells({2, 1}));
+  EXPECT_EQ(b.surface(3),
+            (std::vector<Ids>{{5, 6, 9, 8}, {1, 2, 5, 5}, {1, 2, 5, 4}, {2, 3, 6, 5}}));
+}
+
+TEST(Surface, NegativeSurfaceIsReversed) {
+  Built b(parts() + quads() + "/SURF/SEG/1\ns\n" + cells({1, 5, 6, 9, 8}) + cells({2, 1, 2, 5}) +
+          "/SURF/SURF/3\nu\n" + cells({-1}));
+  EXPECT_EQ(b.surface(3), (std::vector<Ids>{{8, 9, 6, 5}, {5, 2, 1, 1}}));
+}
+
+TEST(Surface, DifferenceDropsDuplicatesAndRemovedSegments) {
+  Built b(parts() + quads() + "/SURF/PART/1\na\n" + cells({1, 2}) + "/SURF/PART/2\nb\n" +
+          cells({1}) + "/SURF/DSURF/3\nd\n" + cells({1, 1, -2}));
+  EXPECT_EQ(b.surface(3), (std::vector<Ids>{{4, 5, 8, 7}, {5, 6, 9, 8}}));
+}
+
+TEST(Surface, CircleOfSurfacesIsMessage189) {
+  Built b(quads() + "/SURF/SURF/1\na\n" + cells({2}) + "/SURF/SURF/2\nb\n" + cells({1}));
+  EXPECT_TRUE(b.surface(1).empty());
+  EXPECT_EQ(b.message("DK152"), 189);
+}
+
+TEST(Surface, AnalyticalMemberIsMessage187) {
+  Built b(quads() + "/SURF/PLANE/1\na\n" + reals({0, 0, 0}) + reals({0, 0, 1}) +
+          "/SURF/SURF/2\nb\n" + cells({1}));
+  EXPECT_TRUE(b.surface(2).empty());
+  EXPECT_TRUE(b.selections().surface(1)->analytical);
+  EXPECT_EQ(b.message("DK158"), 187);
+}
+
+TEST(Surface, GroupsOfShellsKeepTheirSign) {
+  Built b(parts() + quads() + "/GRSHEL/SHEL/1\ne\n" + cells({1}) + "/GRSHEL/SHEL/2\ne\n" +
+          cells({4}) + "/SURF/GRSHEL/3\ns\n" + cells({1, -2}));
+  EXPECT_EQ(b.surface(3), (std::vector<Ids>{{1, 2, 5, 4}, {8, 9, 6, 5}}));
+}
+
+TEST(Surface, MissingElementGroupIsWarning192) {
+  Built b(parts() + quads() + "/SURF/GRSHEL/3\ns\n" + cells({1}));
+  b.surface(3);
+  EXPECT_EQ(b.message("DK151"), 192);
+}
+
+TEST(SolidFaces, FacesOfABrickInTheirOrderAllOutward) {
+  Built b(parts() + cube_nodes() + cubes() + "/SURF/PART/EXT/1\ns\n" + cells({4}));
+  EXPECT_EQ(b.surface(1), (std::vector<Ids>{{104, 105, 102, 101},
+                                            {107, 108, 111, 110},
+                                            {101, 102, 108, 107},
+                                            {105, 104, 110, 111},
+                                            {102, 105, 111, 108},
+                                            {101, 107, 110, 104}}));
+}
+
+TEST(SolidFaces, FaceBetweenTwoSelectedSolidsIsInterior) {
+  Built b(parts() + cube_nodes() + cubes() + "/SURF/PART/EXT/1\ns\n" + cells({4, 5}) +
+          "/SURF/PART/ALL/2\ns\n" + cells({4, 5}));
+  EXPECT_EQ(b.surface(1).size(), 10u);
+  EXPECT_EQ(b.surface(2).size(), 12u);
+}
+
+TEST(SolidFaces, ExteriorOfAGroupOrOfTheWholeModel) {
+  Built b(parts() + cube_nodes() + cubes() + "/GRBRIC/PART/1\ne\n" + cells({4}) +
+          "/SURF/GRBRIC/EXT/1\ns\n" + cells({1}) + "/SURF/GRBRIC/FREE/2\ns\n" + cells({1}));
+  EXPECT_EQ(b.surface(1).size(), 6u);
+  EXPECT_EQ(b.surface(2).size(), 5u);
+}
+
+TEST(SolidFaces, SolidsWithoutExtOrAllAreMessage1104) {
+  Built b(parts() + cube_nodes() + cubes() + "/SURF/PART/1\ns\n" + cells({4}));
+  EXPECT_TRUE(b.surface(1).empty());
+  EXPECT_EQ(b.message("DK155"), 1104);
+}
+
+TEST(SolidFaces, GroupOfSolidsWithoutExtOrFreeIsMessage479) {
+  Built b(parts() + cube_nodes() + cubes() + "/GRBRIC/PART/1\ne\n" + cells({4}) +
+          "/SURF/GRBRIC/1\ns\n" + cells({1}));
+  EXPECT_TRUE(b.surface(1).empty());
+  EXPECT_EQ(b.message("DK157"), 479);
+}
+
+TEST(SolidFaces, PentaHasTwoTrianglesAndThreeQuads) {
+  Built b(parts() + cube_nodes() + "/PENTA6/4\n" + cells({1, 101, 102, 104, 107, 108, 110}) +
+          "/SURF/PART/EXT/1\ns\n" + cells({4}));
+  const auto faces = b.surface(1);
+  ASSERT_EQ(faces.size(), 5u);
+  int triangles = 0;
+  for (const Ids& f : faces) triangles += f[2] == f[3];
+  EXPECT_EQ(triangles, 2);
+}
+
+TEST(SolidFaces, TetraHasOneTriangleOppositeToEveryNode) {
+  Built b(parts() + cube_nodes() + "/TETRA4/4\n" + cells({1, 101, 102, 104, 107}) +
+          "/SURF/PART/EXT/1\ns\n" + cells({4}));
+  const auto faces = b.surface(1);
+  ASSERT_EQ(faces.size(), 4u);
+  for (const std::int64_t n : {101, 102, 104, 107}) {
+    int without = 0;
+    for (const Ids& f : faces) without += std::count(f.begin(), f.end(), n) == 0;
+    EXPECT_EQ(without, 1) << "node " << n;
+  }
+  for (const Ids& f : faces) EXPECT_EQ(f[2], f[3]);
+}
+
+std::string tetra10() {
+  std::string out = "/NODE\n" + node(1, 0, 0, 0) + node(2, 2, 0, 0) + node(3, 0, 2, 0) +
+                    node(4, 0, 0, 2) + node(5, 1, 0, 0) + node(6, 1, 1, 0) + node(7, 0, 1, 0) +
+                    node(8, 0, 0, 1) + node(9, 1, 0, 1) + node(10, 0, 1, 1);
+  return out + "/TETRA10/4\n" + cells({1}) + cells({1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
+}
+
+TEST(SolidFaces, FaceOfATenNodeTetraIsCutIntoFour) {
+  Built b(parts() + tetra10() + "/SURF/PART/EXT/1\ns\n" + cells({4}));
+  const auto faces = b.surface(1);
+  EXPECT_EQ(faces.size(), 16u);
+  // Every corner of the tetrahedron is in three small triangles, every mid-side node in six.
+  for (std::int64_t n = 1; n <= 10; ++n) {
+    int uses = 0;
+    for (const Ids& f : faces) uses += std::count(f.begin(), f.begin() + 3, n);
+    EXPECT_EQ(uses, n <= 4 ? 3 : 6) << "node " << n;
+  }
+}
+
+TEST(SolidFaces, PlainTriangleOnATenNodeTetraIsCutTheSameWay) {
+  Built b(parts() + tetra10() + "/SURF/SEG/1\ns\n" + cells({1, 1, 3, 2}));
+  EXPECT_EQ(b.surface(1),
+            (std::vector<Ids>{{1, 7, 5, 5}, {3, 6, 7, 7}, {2, 5, 6, 6}, {7, 6, 5, 5}}));
+}
+
+TEST(SolidFaces, SolidsWithTwentyNodesAreMessage651) {
+  std::string nodes = "/NODE\n";
+  for (int n = 1; n <= 20; ++n) nodes += node(n, n % 2, n / 2 % 2, n / 4);
+  Built b(parts() + nodes + "/BRIC20/4\n" + cells({1, 1, 2, 3, 4, 5, 6, 7, 8}) +
+          cells({9, 10, 11, 12, 13, 14, 15, 16}) + cells({17, 18, 19, 20}) +
+          "/SURF/PART/EXT/1\ns\n" + cells({4}));
+  EXPECT_TRUE(b.surface(1).empty());
+  EXPECT_EQ(b.message("DK156"), 651);
+}
+
+TEST(ShellOnSolid, ReplacesTheFaceIfItsPartIsListedToo) {
+  const std::string skin = "/SHELL/1\n" + cells({1, 101, 102, 105, 104});
+  Built b(parts() + cube_nodes() + cubes() + skin + "/SURF/PART/EXT/1\ns\n" + cells({4, 1}) +
+          "/SURF/PART/EXT/2\ns\n" + cells({4}));
+  EXPECT_EQ(b.surface(1).size(), 6u);
+  EXPECT_EQ(b.selections().surface(1)->segments.back().carrier, Carrier::shell4);
+  EXPECT_EQ(b.surface(2).size(), 6u);
+  EXPECT_EQ(b.selections().surface(2)->segments.back().carrier, Carrier::solid);
+}
+
+TEST(ShellOnSolid, OfTwoShellsTheFirstAtTheFirstNodeOfTheFaceDecides) {
+  // The bottom face starts with node 104. Shell 1 has it as its last node, shell 2 as its first.
+  const std::string skins =
+      "/SHELL/1\n" + cells({1, 101, 102, 105, 104}) + "/SHELL/2\n" + cells({2, 104, 105, 102, 101});
+  Built b(parts() + cube_nodes() + cubes() + skins + "/SURF/PART/EXT/1\ns\n" + cells({4, 1}) +
+          "/SURF/PART/EXT/2\ns\n" + cells({4, 2}));
+  EXPECT_EQ(b.surface(1).size(), 7u) << "shell 2 is not listed: the face stays beside shell 1";
+  EXPECT_EQ(b.surface(2).size(), 6u);
+}
+
+TEST(Line, EdgesOfASurfaceAreMergedAndSortedByTheirLaterNode) {
+  Built b(parts() + quads() + "/SURF/PART/1\ns\n" + cells({1}) + "/LINE/SURF/1\nl\n" + cells({1}));
+  EXPECT_EQ(b.line(1), (std::vector<Ids>{{1, 2}, {2, 3}, {1, 4}, {2, 5}, {4, 5}, {3, 6}, {5, 6}}));
+}
+
+TEST(Line, EdgeKeepsOnlyFreeEdges) {
+  Built b(parts() + quads() + "/SURF/PART/1\ns\n" + cells({1}) + "/LINE/EDGE/1\nl\n" + cells({1}));
+  EXPECT_EQ(b.line(1), (std::vector<Ids>{{1, 2}, {2, 3}, {1, 4}, {4, 5}, {3, 6}, {5, 6}}));
+}
+
+TEST(Line, SegmentsAreTakenAsGiven) {
+  Built b(quads() + "/LINE/SEG/1\nl\n" + cells({1, 5, 2}) + cells({2, 1, 2}));
+  EXPECT_EQ(b.line(1), (std::vector<Ids>{{5, 2}, {1, 2}}));
+}
+
+TEST(Line, PartsGiveTheirTrusses) {
+  Built b(parts() + quads() + "/TRUSS/6\n" + cells({1, 9, 5}) + "/LINE/PART/1\nl\n" +
+          cells({6, 1}));
+  EXPECT_EQ(b.line(1), (std::vector<Ids>{{9, 5}}));
+}
+
+TEST(Line, EmptyLineIsWarning691) {
+  Built b(parts() + quads() + "/LINE/PART/1\nl\n" + cells({1}));
+  EXPECT_TRUE(b.line(1).empty());
+  EXPECT_EQ(b.message("DK154"), 691);
+}
+
+TEST(Selections, IdThatNamesNothingGivesNoResult) {
+  Built b(quads());
+  EXPECT_EQ(b.selections().node_group(1), nullptr);
+  EXPECT_EQ(b.selections().surface(1), nullptr);
+  EXPECT_EQ(b.selections().line(1), nullptr);
+}
+
+TEST(Selections, FollowTheirModelWhenItMoves) {
+  Built b(parts() + quads() + "/SURF/PART/1\ns\n" + cells({1}));
+  const Model moved = std::move(b.model());
+  EXPECT_EQ(moved.selections->surface(1)->segments.size(), 2u);
+}
+
+TEST(Submodel, OffsetsShiftOwnIdsAndReferences) {
+  Built b(parts() + quads() + "//SUBMODEL/1\nsub\n" + cells({100, 1000}) + "/NODE\n" +
+          node(1, 5, 5, 5) + "/GRNOD/NODE/7\ng\n" + cells({1}) + "//ENDSUB\n");
+  EXPECT_EQ(b.group(107), (Ids{1001}));
+}
+
+}  // namespace
+}  // namespace deck::test

@@ -1,0 +1,156 @@
+// /SET: clauses, options and the three projections.
+#include "model/selection_deck.hpp"
+
+namespace deck::test {
+namespace {
+
+std::string clause(const std::string& name, const Ids& ids) {
+  std::string out = name;
+  out.resize(10, ' ');
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (i > 0 && i % 9 == 0) out += "\n          ";
+    char text[32];
+    std::snprintf(text, sizeof text, "%10lld", static_cast<long long>(ids[i]));
+    out += text;
+  }
+  return out + "\n";
+}
+std::string set(std::int64_t id, const std::string& clauses) {
+  return "/SET/GENERAL/" + std::to_string(id) + "\nset\n" + clauses;
+}
+std::string model() {
+  return parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5}) +
+         "/SHELL/2\n" + cells({3, 4, 5, 8, 7}) + cells({4, 5, 6, 9, 8}) + cube_nodes() + cubes();
+}
+
+TEST(Set, NodesContinueOnLinesWithBlankKeyword) {
+  Built b(model() + set(1, clause("NODE", {9, 1, 2, 3, 4, 5, 6, 7, 8, 101, 102})));
+  EXPECT_EQ(b.group(1), (Ids{1, 2, 3, 4, 5, 6, 7, 8, 9, 101, 102}));
+}
+
+TEST(Set, NamesNodesSurfaceAndLineOfOneSelection) {
+  Built b(model() + set(1, clause("PART", {1})));
+  EXPECT_EQ(b.group(1), (Ids{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(b.surface(1), (std::vector<Ids>{{1, 2, 5, 4}, {2, 3, 6, 5}}));
+  // Edges of sets are sorted by their earlier node.
+  EXPECT_EQ(b.line(1), (std::vector<Ids>{{1, 2}, {1, 4}, {2, 3}, {2, 5}, {3, 6}, {4, 5}, {5, 6}}));
+}
+
+TEST(Set, PlainGroupOfTheSameIdComesFirst) {
+  Built b(model() + set(1, clause("PART", {1})) + "/GRNOD/NODE/1\ng\n" + cells({9}));
+  EXPECT_EQ(b.group(1), (Ids{9}));
+  EXPECT_TRUE(b.selections().is_plain("grnod", 1));
+  EXPECT_FALSE(b.selections().is_plain("surf", 1));
+}
+
+TEST(Set, SolidsGiveExteriorFacesAndAllOfThemWithOptionA) {
+  Built b(model() + set(1, clause("PART", {4, 5})) + set(2, clause("PART_A", {4, 5})));
+  EXPECT_EQ(b.surface(1).size(), 10u);
+  EXPECT_EQ(b.surface(2).size(), 12u);
+}
+
+TEST(Set, ClausesOfPartsAreSeenTogether) {
+  Built b(model() + set(1, clause("PART", {4}) + clause("PART", {5})));
+  EXPECT_EQ(b.surface(1).size(), 10u);
+}
+
+TEST(Set, EdgesOfDifferentClausesAreNotMerged) {
+  Built b(model() + "/SH3N/3\n" + cells({1, 1, 2, 8}) +
+          set(1, clause("SH3N", {1}) + clause("SHELL", {1})));
+  EXPECT_EQ(b.line(1), (std::vector<Ids>{{1, 2}, {1, 2}, {1, 4}, {1, 8}, {2, 5}, {2, 8}, {4, 5}}));
+}
+
+TEST(Set, SegmentsAreSortedByTheirAscendingNodesTrianglesFirst) {
+  Built b(model() + set(1, clause("SEG", {1, 9, 8, 5, 6}) + clause("", {2, 2, 1, 4, 5}) +
+                               clause("", {3, 8, 7, 4})));
+  EXPECT_EQ(b.surface(1), (std::vector<Ids>{{8, 7, 4, 4}, {2, 1, 4, 5}, {9, 8, 5, 6}}));
+}
+
+TEST(Set, SegmentRowWithTwoNodesIsALine) {
+  Built b(model() + set(1, clause("SEG", {1, 9, 8})));
+  EXPECT_TRUE(b.surface(1).empty());
+  EXPECT_EQ(b.line(1), (std::vector<Ids>{{9, 8}}));
+}
+
+TEST(Set, OptionDeletesFromWhatPrecedes) {
+  Built b(model() + set(1, clause("PART", {1, 2}) + clause("SHELL_D", {1, 4})));
+  EXPECT_EQ(b.surface(1), (std::vector<Ids>{{2, 3, 6, 5}, {4, 5, 8, 7}}));
+  EXPECT_EQ(b.group(1), (Ids{2, 3, 4, 5, 6, 7, 8}));
+}
+
+TEST(Set, OptionIntersects) {
+  Built b(model() + set(1, clause("PART", {1}) + clause("PART_I", {2})) +
+          set(2, clause("PART", {1, 2}) + clause("SHELL_I", {2, 3})));
+  EXPECT_EQ(b.group(1), (Ids{4, 5, 6}));
+  EXPECT_TRUE(b.surface(1).empty());
+  EXPECT_EQ(b.surface(2).size(), 2u);
+}
+
+TEST(Set, OptionReversesNormals) {
+  Built b(model() + set(1, clause("SHELL_O", {1})));
+  EXPECT_EQ(b.surface(1), (std::vector<Ids>{{4, 5, 2, 1}}));
+}
+
+TEST(Set, OptionGeneratesIdsWithIncrement) {
+  Built b(model() + set(1, clause("NODE_G", {1, 9, 4, 101, 102, 1})));
+  EXPECT_EQ(b.group(1), (Ids{1, 5, 9, 101, 102}));
+}
+
+TEST(Set, OptionExternalKeepsFreeEdges) {
+  Built b(model() + set(1, clause("PART_E", {1})));
+  EXPECT_EQ(b.line(1).size(), 6u);
+}
+
+TEST(Set, SubsetAndWholeModel) {
+  Built b(model() + set(1, clause("SUBS", {2})) + set(2, clause("ALL", {})));
+  EXPECT_EQ(b.group(1).size(), 12u);
+  EXPECT_EQ(b.group(2).size(), 21u);
+}
+
+TEST(Set, SetsOfSetsAndTheirCircles) {
+  Built b(model() + set(1, clause("SET", {2}) + clause("NODE", {9})) + set(2, clause("NODE", {1})) +
+          set(3, clause("SET", {4})) + set(4, clause("SET", {3})));
+  EXPECT_EQ(b.group(1), (Ids{1, 9}));
+  b.group(3);
+  EXPECT_GE(b.findings("DK152"), 1u);
+}
+
+TEST(Set, CollectGathersAllDefinitionsOfTheId) {
+  Built b(model() + "/SET/COLLECT/1\na\n" + clause("NODE", {1}) + "/SET/COLLECT/1\nb\n" +
+          clause("NODE", {2}));
+  EXPECT_EQ(b.group(1), (Ids{1, 2}));
+  EXPECT_EQ(b.findings("DK167"), 0u);
+}
+
+TEST(Set, MissingIdIsWarning1902AndIgnored) {
+  Built b(model() + set(1, clause("NODE", {1, 77})));
+  EXPECT_EQ(b.group(1), (Ids{1}));
+  EXPECT_EQ(b.message("DK161"), 1902);
+}
+
+TEST(Set, MissingNodeOfASegmentIsMessage1903) {
+  Built b(model() + set(1, clause("SEG", {1, 9, 8, 77})));
+  EXPECT_TRUE(b.surface(1).empty());
+  EXPECT_EQ(b.message("DK162"), 1903);
+}
+
+TEST(Set, UnknownClauseIsMessage1906) {
+  Built b(model() + set(1, clause("NOODE", {1})));
+  b.group(1);
+  EXPECT_EQ(b.message("DK160"), 1906);
+}
+
+TEST(Set, ClauseOfAKindTheModelLacksIsWarning2007) {
+  Built b(model() + set(1, clause("BEAM", {1})));
+  b.group(1);
+  EXPECT_EQ(b.message("DK163"), 2007);
+}
+
+TEST(Set, WhatIsNotEvaluatedIsSaid) {
+  Built b(model() + set(1, clause("PART_B", {1}) + clause("RBODY", {1})));
+  b.group(1);
+  EXPECT_EQ(b.findings("DK164"), 2u);
+}
+
+}  // namespace
+}  // namespace deck::test
