@@ -1,0 +1,56 @@
+// From a scene to the contact kernel: the card of every elementary contact with effective values,
+// and its pairs with stiffness, gap and initial penetration as the reference solver forms them.
+#ifndef DECK_CYCLE_ADAPTER_HPP_
+#define DECK_CYCLE_ADAPTER_HPP_
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/contact/scene.hpp"
+#include "deck/cycle/assemble.hpp"
+#include "deck/cycle/card.hpp"
+#include "deck/cycle/plan.hpp"
+
+namespace deck::cycle {
+
+/// The card of one contact of a scene, in working units. A TYPE19 part follows the rules of the
+/// type it stands for. A blank Drad counts as 0 for the reference model, which does not hand its
+/// default on to the force stage; the robust model takes the distance that start-up prints.
+[[nodiscard]] ContactCard make_card(const Scene& scene, const deck::Contact& contact,
+                                    Model model = Model::reference);
+
+/// Where a field of an interface stands, for "because of this field on this line".
+struct FieldPlace {
+  Span span;  ///< the columns on the card; invalid where the layout has no such cell
+  Origin origin = Origin::built_in;
+};
+/// Nothing when interfaces of this type have no such field.
+[[nodiscard]] std::optional<FieldPlace> field_place(const InterBase& inter, std::string_view field);
+
+/// All pairs of a contact within reach, in the order of the search: by secondary, then main.
+struct ContactPairs {
+  std::vector<CandidatePair> at;  ///< positions in the contact's lists
+  PairList nodes;                 ///< node indices of the model, by role
+  std::vector<double> k0;         ///< pair stiffness before the 1/2; 0: switched off at start-up
+  std::vector<double> gap;
+  std::vector<double> p0;  ///< Inacti 5, 6: residual penetration (edges: sum of both sides)
+  std::vector<double> area, conductivity;                    ///< with Ithe only
+  std::vector<double> fric, visf2;                           ///< with fric_ID only
+  std::array<std::vector<double>, 6> c;                      ///< with fric_ID only
+  std::array<std::array<std::vector<double>, 3>, 4> normal;  ///< with Icurv 3 and Iadm only
+  bool complete = true;  ///< false: too many pairs, none was kept
+  [[nodiscard]] std::size_t size() const { return at.size(); }
+};
+
+/// Finds the pairs closer than their gap (or Drad, or what Icurv adds) at the scene's coordinates
+/// and forms their values. The scene must have been built with penetrations and, for Istf 2 to 5,
+/// with nodal stiffness.
+[[nodiscard]] ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact,
+                                      const ContactCard& card, Model model, int threads = 1);
+
+}  // namespace deck::cycle
+
+#endif  // DECK_CYCLE_ADAPTER_HPP_

@@ -1,0 +1,75 @@
+// `deck replay`: how well the force kernel reproduces recorded states, as JSON and as text.
+#include <fmt/format.h>
+
+#include "deck/report/cycle.hpp"
+#include "deck/report/json.hpp"
+
+namespace deck {
+namespace {
+
+void write_vector(JsonWriter& j, const std::vector<double>& v) {
+  j.begin_array(true);
+  for (const double x : v) j.value(x);
+  j.end_array();
+}
+
+const char* name_of(cycle::Model model) {
+  return model == cycle::Model::reference ? "reference" : "robust";
+}
+
+std::string vector_text(const std::vector<double>& v) {
+  std::string text;
+  for (const double x : v) text += fmt::format("{}{:.10g}", text.empty() ? "" : " ", x);
+  return text;
+}
+
+}  // namespace
+
+std::string replay_json(const ReplayInput& input, const cycle::ReplayReport& r) {
+  std::string out;
+  JsonWriter j(out);
+  j.begin_object();
+  write_json_head(j, "deck-replay", 1);
+  write_json_deck(j, input.path, *input.deck, nullptr, nullptr);
+  j.field("states", input.states).field("interface", input.inter->id);
+  j.field("type", input.inter->type).field("kind", r.kind).field("model", name_of(input.model));
+  j.field("records", r.records).field("compared", r.compared);
+  j.key("relative_error").begin_object(true);
+  j.field("median", r.median).field("p99", r.p99).field("max", r.max).end_object();
+  j.key("zero_rows").begin_object(true).field("count", r.zero_rows);
+  j.field("max_over_k0_gap", r.zero_max_over_k0_gap).end_object();
+  j.key("other_outputs").begin_object(true).field("weights", r.max_weights);
+  j.field("nodal_stiffness", r.max_nodal_stiffness).field("p0", r.max_p0);
+  j.field("friction_memory", r.max_friction_memory).field("tie_record", r.max_tie).end_object();
+  j.key("worst").begin_array();
+  for (const cycle::ReplayWorst& w : r.worst) {
+    j.begin_object(true).field("row", w.row).field("relative_error", w.relative_error);
+    j.key("reference");
+    write_vector(j, w.reference);
+    j.key("computed");
+    write_vector(j, w.computed);
+    j.end_object();
+  }
+  j.end_array().end_object();
+  return out;
+}
+
+std::string replay_text(const ReplayInput& input, const cycle::ReplayReport& r) {
+  std::string out =
+      fmt::format("{}: {} states ({}) of interface {}, {} compared, model {}\n", input.states,
+                  r.records, r.kind, input.inter->id, r.compared, name_of(input.model));
+  out += fmt::format("  relative error of the {}: median {:.1e}, 99 % {:.1e}, worst {:.1e}\n",
+                     r.kind == "heat" ? "heat" : "pair force", r.median, r.p99, r.max);
+  if (r.zero_rows > 0)
+    out += fmt::format("  {} states without force: at most {:.1e} of K0 gap\n", r.zero_rows,
+                       r.zero_max_over_k0_gap);
+  std::size_t shown = 0;
+  for (const cycle::ReplayWorst& w : r.worst) {
+    if (shown++ == 3) break;
+    out += fmt::format("  row {}: recorded ({}), computed ({}), relative {:.1e}\n", w.row,
+                       vector_text(w.reference), vector_text(w.computed), w.relative_error);
+  }
+  return out;
+}
+
+}  // namespace deck

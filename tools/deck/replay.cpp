@@ -1,0 +1,114 @@
+// deck replay: the contact kernel on recorded pair states, held against the recorded forces.
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+#include "common.hpp"
+#include "deck/cycle/adapter.hpp"
+#include "deck/report/cycle.hpp"
+
+namespace {
+
+using namespace deck;
+using namespace deck::cli;
+
+struct Options {
+  CommonOptions common;
+  std::string states;
+  std::int64_t interface_id = 0;
+  std::string model = "reference";
+};
+
+/// The contact whose states are recorded: edges for edge states of a TYPE19, else the first.
+const Contact* contact_of(const Scene& scene, bool edges) {
+  for (const Contact& c : scene.contacts)
+    if (!c.dropped && (c.kind == deck::ContactKind::edge_edge) == edges) return &c;
+  return nullptr;
+}
+
+int run_deck(const Options& o, const std::string& csv, Loaded& loaded, JsonOutput& json) {
+  const auto& all = loaded.interfaces.ordered;
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const InterBase* i) { return i->id == o.interface_id; });
+  if (found == all.end()) {
+    print_error(o.common, loaded.path + ": there is no interface " +
+                              std::to_string(o.interface_id) + " of TYPE7, 10, 11 or 19");
+    return exit_usage;
+  }
+  SceneOptions scene_options;
+  scene_options.threads = o.common.thread_count();
+  scene_options.only = {o.interface_id};
+  scene_options.penetrations = scene_options.candidates = false;
+  const Scene scene =
+      build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
+  const std::string_view header = std::string_view(csv).substr(0, csv.find('\n'));
+  const bool edges = header.find("hs1") != std::string_view::npos;
+  const Contact* contact = contact_of(scene, edges);
+  if (contact == nullptr) {
+    print_error(o.common, o.states + ": the states do not fit the type of interface " +
+                              std::to_string(o.interface_id));
+    return exit_usage;
+  }
+  cycle::ReplayOptions options;
+  options.interface_id = static_cast<int>(o.interface_id);
+  options.model = o.model == "robust" ? cycle::Model::robust : cycle::Model::reference;
+  const auto report = cycle::replay(cycle::make_card(scene, *contact, options.model), csv, options);
+  if (!report.error.empty()) {
+    print_error(o.common, o.states + ": " + report.error);
+    return exit_input;
+  }
+  if (report.records == 0) {
+    print_error(o.common,
+                o.states + ": no state belongs to interface " + std::to_string(o.interface_id));
+    return exit_input;
+  }
+  const ReplayInput input{loaded.path, o.states, &loaded.deck, *found, options.model};
+  if (json.wanted()) json.add(replay_json(input, report));
+  if (o.common.wants_text()) print_text(replay_text(input, report));
+  return exit_clean;
+}
+
+int run(Options& o) {
+  o.states = o.common.decks.back();
+  o.common.decks.pop_back();
+  const auto source = Source::open(o.states, Limits{});
+  if (!source) {
+    print_error(o.common, source.error().message);
+    return exit_input;
+  }
+  const auto csv = cycle::states_text((*source)->bytes());
+  if (!csv) {
+    print_error(o.common, o.states + ": the compressed data is damaged");
+    return exit_input;
+  }
+  JsonOutput json(o.common, "deck-replay", 1);
+  const int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
+    print_findings(loaded, o.common);
+    return run_deck(o, *csv, loaded, json);
+  });
+  return json.finish(code);
+}
+
+Action setup(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  add_common(app, options->common);
+  app.get_option("decks")
+      ->expected(2)
+      ->option_text("DECK STATES")
+      ->description("Starter deck (*_0000.rad), and recorded states: CSV, also compressed (.gz)");
+  app.add_option("--interface", options->interface_id, "Interface whose states are replayed")
+      ->required()
+      ->type_name("ID");
+  app.add_option("--model", options->model, "reference or robust")
+      ->check(CLI::IsMember({"reference", "robust"}))
+      ->capture_default_str();
+  return [options] { return run(*options); };
+}
+
+const VerbRegistration registration{
+    {"replay", 45, "Contact kernel on recorded pair states, compared with the recorded forces",
+     "  deck replay car_0000.rad --interface 3 states.csv.gz\n"
+     "  deck replay car_0000.rad --interface 3 states.csv.gz --json replay.json\n",
+     setup}};
+
+}  // namespace
