@@ -1,5 +1,7 @@
 #include "model/bulk.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <string>
 
@@ -91,6 +93,17 @@ class ProblemReporter {
   Diagnostics& diagnostics_;
 };
 
+/// Asks for large pages behind an array that is about to be filled: a page fault for every 4 KiB
+/// costs a tenth of the whole reading time. A hint; nothing depends on it.
+template <class T>
+void prefer_large_pages(const std::vector<T>& vector) {
+  constexpr std::uintptr_t large = 2 << 20;
+  const auto address = reinterpret_cast<std::uintptr_t>(vector.data());
+  const std::uintptr_t begin = (address + large - 1) / large * large;
+  const std::uintptr_t end = (address + vector.capacity() * sizeof(T)) / large * large;
+  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+}
+
 /// Room for everything, judged by the chunks read so far. Reserved memory that is not used costs
 /// nothing but address space; growing by doubling would cost a copy of everything.
 struct Room {
@@ -103,14 +116,19 @@ struct Room {
       if (after <= vector.capacity()) return;
       const double scale = done == 0 ? 1 : static_cast<double>(total) / static_cast<double>(done);
       vector.reserve(static_cast<std::size_t>(static_cast<double>(after) * scale * 1.03) + 64);
+      prefer_large_pages(vector);
     };
     (grow(vectors), ...);
   }
 };
 
 template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from, std::size_t count) {
+  to.insert(to.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count));
+}
+template <class T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
+  append(to, from, from.size());
 }
 
 /// Gives the text of a chunk back.
@@ -144,29 +162,39 @@ void extend_ranges(const Chunk& chunk, const std::vector<std::uint32_t>& counts,
 
 // ---- nodes --------------------------------------------------------------------------------------
 
+/// The nodes of a chunk. The arrays are longer than `size`: one check per node instead of four.
 struct NodeSink {
   std::vector<std::int64_t> id;
   std::vector<double> x, y, z;
+  std::size_t size = 0;
   std::vector<std::uint32_t> counts;  // per segment
   std::vector<Problem> problems;
 
   void clear(const Chunk& chunk) {
-    id.clear();
-    x.clear();
-    y.clear();
-    z.clear();
+    size = 0;
     problems.clear();
     counts.assign(chunk.segments.size(), 0);
   }
   void item(const BlockPlan& plan, std::uint32_t segment, Item& item) {
+    if (size == id.size()) grow();
     const ItemPlan& where = *plan.item;
     const std::int64_t written = item.integer(where.id);
     if (written <= 0) item.count(0, bad_id);
-    id.push_back(written > 0 ? written + plan.id_offset : written);
-    x.push_back(item.real(where.coordinate[0]) * plan.length);
-    y.push_back(item.real(where.coordinate[1]) * plan.length);
-    z.push_back(item.real(where.coordinate[2]) * plan.length);
+    id[size] = written > 0 ? written + plan.id_offset : written;
+    x[size] = item.real(where.coordinate[0]) * plan.length;
+    y[size] = item.real(where.coordinate[1]) * plan.length;
+    z[size] = item.real(where.coordinate[2]) * plan.length;
+    ++size;
     ++counts[segment];
+  }
+
+ private:
+  void grow() {
+    const std::size_t room = std::max<std::size_t>(2 * size, 4096);
+    id.resize(room);
+    x.resize(room);
+    y.resize(room);
+    z.resize(room);
   }
 };
 
@@ -256,8 +284,7 @@ struct ElementSink {
       if (found[n] == no_index) item.count(at.card, unknown_node);
     }
     for (std::size_t n = cells.size(); n < max_nodes; ++n) found[n] = no_index;
-    for (Problem& problem : item.problem)
-      problem.required = static_cast<std::uint8_t>(format.required);
+    item.required = static_cast<std::uint8_t>(format.required);
   }
 
   void store_solid(const ElementFormat& format) {
@@ -305,8 +332,10 @@ void append_elements(const ElementSink& from, Elements& to, Room& room, std::uin
   const std::size_t have = to.size(), more = from.id.size();
   room.make(bytes, more, to.id, to.part, to.block);
   // Slots per element instead of elements.
-  if (to.nodes.size() + from.nodes.size() > to.nodes.capacity())
+  if (to.nodes.size() + from.nodes.size() > to.nodes.capacity()) {
     to.nodes.reserve(to.id.capacity() * static_cast<std::size_t>(to.width));
+    prefer_large_pages(to.nodes);
+  }
   append(to.id, from.id);
   append(to.part, from.part);
   append(to.block, from.block);
@@ -389,13 +418,13 @@ void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes
         reporter.report(chunks[k], out.problems);
         release(deck, chunks[k]);
         const Block& block = *plans[chunks[k].segments.front().plan].block;
-        if (!indices_left(nodes.size(), out.id.size(), block, diagnostics)) return;
+        if (!indices_left(nodes.size(), out.size, block, diagnostics)) return;
         extend_ranges(chunks[k], out.counts, nodes.size(), first_range, ranges);
-        room.make(chunks[k].bytes, out.id.size(), nodes.id, nodes.x, nodes.y, nodes.z);
-        append(nodes.id, out.id);
-        append(nodes.x, out.x);
-        append(nodes.y, out.y);
-        append(nodes.z, out.z);
+        room.make(chunks[k].bytes, out.size, nodes.id, nodes.x, nodes.y, nodes.z);
+        append(nodes.id, out.id, out.size);
+        append(nodes.x, out.x, out.size);
+        append(nodes.y, out.y, out.size);
+        append(nodes.z, out.z, out.size);
       });
   nodes.map.build(nodes.id);
 }

@@ -62,34 +62,38 @@ int node_of_cell(const ItemPlan& plan, std::size_t card, std::size_t cell) {
   return -1;
 }
 
-void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std::string_view line,
-                  std::uint32_t file, Item& item) {
+void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std::uint32_t file,
+                  Unclean unclean, Item& item) {
   const CardPlan& layout = plan.item->cards[card];
-  Problem& problem = item.problem[card];
+  const std::string_view line = item.text[card];
   const std::string_view text = line.substr(0, line_columns);
-  if (text.find_first_of(",&") != std::string_view::npos) {
+  const auto holds = [&](char c) { return text.find(c) != std::string_view::npos; };
+  if (holds(',') || holds('&')) {
+    const char* const data = deck.sources[file].bytes().data();
     const DecodedCard decoded =
-        decode_line(deck, *plan.block, *layout.card, {line, file, problem.offset}, nullptr);
+        decode_line(deck, *plan.block, *layout.card,
+                    {line, file, static_cast<std::uint64_t>(line.data() - data)}, nullptr);
     for (std::size_t i = 0; i < decoded.cells.size(); ++i) {
       item.line[card].integer[i] = decoded.cells[i].integer;
       item.line[card].real[i] = decoded.cells[i].real;
     }
-    problem.decoded = true;
-    item.has_problem[card] = true;
+    item.problem_of(card).decoded = true;
     return;
   }
   const auto count = [&](LineRule rule) {
     if (rule != LineRule::none) item.count(card, static_cast<std::uint8_t>(rule));
   };
-  if (!tail_of(line).empty()) count(LineRule::tail);
-  if (text.find('\t') != std::string_view::npos) count(LineRule::tab);
-  if (text.find('\0') != std::string_view::npos) count(LineRule::nul);
-  for_each_gap_text(layout.map, line, [&](int, int, bool after, bool zero) {
-    if (!after || !zero) count(after ? LineRule::after : LineRule::gap);
-  });
+  if (holds('\t')) count(LineRule::tab);
+  if (holds('\0')) count(LineRule::nul);
+  if ((unclean & outside_cells) != 0) {
+    if (!tail_of(line).empty()) count(LineRule::tail);
+    for_each_gap_text(layout.map, line, [&](int, int, bool after, bool zero) {
+      if (!after || !zero) count(after ? LineRule::after : LineRule::gap);
+    });
+  }
   for (std::size_t i = 0; i < layout.cells.size(); ++i) {
+    if ((unclean >> i & 1) == 0) continue;
     const CellPlan& cell = layout.cells[i];
-    if (cell.first >= line.size()) continue;  // read_cells() has set it to 0
     const std::string_view cell_text = trim(line.substr(cell.first, cell.last - cell.first));
     if (cell.real) {
       const RealCell r = read_real(cell_text);

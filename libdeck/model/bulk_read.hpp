@@ -44,20 +44,30 @@ struct Item {
   std::string_view text[max_cards];
   Problem problem[max_cards];
   bool has_problem[max_cards] = {};
+  std::uint8_t required = 0;  ///< leading nodes that must exist
 
   std::int64_t integer(CellAt at) const { return at.present ? line[at.card].integer[at.cell] : 0; }
   double real(CellAt at) const { return at.present ? line[at.card].real[at.cell] : 0.0; }
-  void count(std::size_t card, std::uint8_t rule) {
+  /// The problem record of a line, begun when it is first needed: most lines have none.
+  Problem& problem_of(std::size_t card) {
+    if (!has_problem[card]) problem[card] = {};
     has_problem[card] = true;
+    return problem[card];
+  }
+  void count(std::size_t card, std::uint8_t rule) {
+    problem_of(card);
     auto& n = problem[card].counts[rule];
     if (n < 255) ++n;
   }
 };
 
-/// Cells of a line that has no blanks at its end. False: something is not clean, inspect_line()
-/// must read the line.
-inline bool read_cells(const CardPlan& plan, const char* line, std::uint32_t size, Cells& out) {
-  bool clean = true;
+/// Bit i: cell i is not clean; the highest bit: there is something outside the cells.
+using Unclean = std::uint32_t;
+inline constexpr Unclean outside_cells = Unclean{1} << 31;
+
+/// Cells of a line that has no blanks at its end. Unclean cells are left to inspect_line().
+inline Unclean read_cells(const CardPlan& plan, const char* line, std::uint32_t size, Cells& out) {
+  Unclean unclean = 0;
   for (std::size_t i = 0; i < plan.cells.size(); ++i) {
     const CellPlan& cell = plan.cells[i];
     if (cell.first >= size) {
@@ -72,7 +82,7 @@ inline bool read_cells(const CardPlan& plan, const char* line, std::uint32_t siz
       out.real[i] = r.value;
       // Subnormal numbers have a finding of their own.
       const bool tiny = r.value != 0 && std::fabs(r.value) < std::numeric_limits<double>::min();
-      clean = clean && r.status <= NumberStatus::blank && !tiny;
+      unclean |= static_cast<Unclean>(r.status > NumberStatus::blank || tiny) << i;
       continue;
     }
     std::uint64_t plain;
@@ -82,18 +92,19 @@ inline bool read_cells(const CardPlan& plan, const char* line, std::uint32_t siz
     }
     const IntegerCell n = scan_integer<Blanks::spaces>(first, last);
     out.integer[i] = n.value;
-    clean = clean && narrowed(n) <= NumberStatus::blank;
+    unclean |= static_cast<Unclean>(narrowed(n) > NumberStatus::blank) << i;
   }
+  bool clean = true;
   for (const auto& [first, last] : plan.gaps)
     for (std::uint32_t c = first; c < std::min(last, size); ++c) clean = clean && line[c] == ' ';
   for (std::uint32_t c = plan.last; c < size; ++c) clean = clean && line[c] == ' ';
-  return clean;
+  return clean ? unclean : unclean | outside_cells;
 }
 
-/// Reads a line that read_cells() refused and finds out what is wrong with it, both as
-/// decode_line() does; by decode_line() itself where the line has commas or parameters.
-void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std::string_view line,
-                  std::uint32_t file, Item& item);
+/// Reads the unclean cells of a line and finds out what is wrong with it, both as decode_line()
+/// does; by decode_line() itself where the line has commas or parameters.
+void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std::uint32_t file,
+                  Unclean unclean, Item& item);
 
 /// Reports what a problem line has to say, with decode_line() for the cells.
 void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
@@ -123,18 +134,17 @@ void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chu
     const char* const data = deck.sources[segment.file].bytes().data();
     const char* p = data + segment.begin;
     const char* const end = data + segment.end;
-    const auto mark = [&](std::size_t c) {
-      item.problem[c] = {};
-      item.problem[c].offset = static_cast<std::uint64_t>(item.text[c].data() - data);
-      item.problem[c].segment = s;
-      item.problem[c].card = static_cast<std::uint8_t>(c);
-      item.has_problem[c] = false;
-    };
     const auto flush = [&](std::size_t lines) {
       for (std::size_t c = 0; c < lines; ++c) {
         if (!item.has_problem[c]) continue;
-        item.problem[c].item = item.integer(plan.item->id);
-        sink.problems.push_back(item.problem[c]);
+        Problem& problem = item.problem[c];
+        problem.offset = static_cast<std::uint64_t>(item.text[c].data() - data);
+        problem.segment = s;
+        problem.card = static_cast<std::uint8_t>(c);
+        problem.required = item.required;
+        problem.item = problem.counts[blank_line] > 0 ? 0 : item.integer(plan.item->id);
+        sink.problems.push_back(problem);
+        item.has_problem[c] = false;
       }
     };
     while (p < end) {
@@ -146,15 +156,13 @@ void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chu
       while (stop != start && is_blank(stop[-1])) --stop;
       const auto size = static_cast<std::uint32_t>(std::min<std::ptrdiff_t>(stop - start, 1 << 30));
       item.text[card] = {start, size};
-      mark(card);
       if (stop == start && card == 0) {
         item.count(0, blank_line);
-        item.line[0].integer[0] = 0;
-        sink.problems.push_back(item.problem[0]);
+        flush(1);
         continue;
       }
-      if (!read_cells(cards[card], start, size, item.line[card]))
-        inspect_line(deck, plan, card, item.text[card], segment.file, item);
+      const Unclean unclean = read_cells(cards[card], start, size, item.line[card]);
+      if (unclean != 0) inspect_line(deck, plan, card, segment.file, unclean, item);
       if (++card < cards.size()) continue;
       card = 0;
       sink.item(plan, s, item);

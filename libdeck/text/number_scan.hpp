@@ -100,6 +100,11 @@ RealCell read_real_general(const char* begin, const char* end);
 
 /// Reads a real cell. One rounding at most where mantissa and power of ten are exact doubles
 /// (Clinger), else the general case.
+inline double with_sign(double value, bool negative) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^
+                               (static_cast<std::uint64_t>(negative) << 63));
+}
+
 template <Blanks blanks = Blanks::all>
 inline RealCell scan_real(const char* p, const char* end) {
   const char* const cell = p;
@@ -107,8 +112,9 @@ inline RealCell scan_real(const char* p, const char* end) {
   if (p == end) return {0, NumberStatus::blank};
   while (blank_as<blanks>(end[-1])) --end;
   const char* const begin = p;
+  // Signs are as good as random: no branch on them.
   const bool negative = *p == '-';
-  if (negative || *p == '+') ++p;
+  p += static_cast<int>(negative) | static_cast<int>(*p == '+');
   std::uint64_t mantissa = 0;
   const char* const digits = p;
   scan_digits(cell, p, end, mantissa);
@@ -144,7 +150,7 @@ inline RealCell scan_real(const char* p, const char* end) {
   }
   auto value = static_cast<double>(mantissa);
   value = exponent < 0 ? value / power_of_ten[-exponent] : value * power_of_ten[exponent];
-  return {negative ? -value : value, status};
+  return {with_sign(value, negative), status};
 }
 
 /// Reads an integer cell.

@@ -1,12 +1,12 @@
 // Parsing speed: the typed bulk reader, diagnostics on, against the bare loop "columns to numbers
 // to arrays", against the same loop on std::from_chars, and against an sscanf reader. All
-// contestants must give the same arrays before a time is printed. Usage: bench_parse [--quick]
-// [--megabytes N]
+// contestants must give the same arrays before a time is printed. Contestants take turns; the best
+// of all rounds counts. Ratios of one thread are of processor time (user and system), which other
+// work on the machine disturbs least; the gain of a second thread is of elapsed time and needs an
+// idle machine. Usage: bench_parse [--quick] [--megabytes N]
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 #include <string>
+#include <thread>
 
 #include "deck/keyword/deck.hpp"
 #include "deck/text/number.hpp"
@@ -75,18 +75,22 @@ void write_deck(const std::string& path, Kind kind, std::uint64_t bytes) {
     std::fwrite(line.data(), 1, line.size(), out);
   }
   if (kind == Kind::mixed) {
-    const auto element = [&](std::uint64_t id, int nodes) {
+    // Elements name nodes near their own place in the list, as meshes do.
+    const auto element = [&](std::uint64_t id, int nodes, double place) {
       line = fmt::format("{:10}", id);
-      const std::uint64_t first = random.next() % (count - 8) + 1;
+      const auto around = static_cast<std::uint64_t>(place * static_cast<double>(count));
+      const std::uint64_t first = std::min(around + random.next() % 2000, count - 9) + 1;
       for (int n = 0; n < nodes; ++n)
         line += fmt::format("{:10}", first + static_cast<std::uint64_t>(n));
       line += '\n';
       std::fwrite(line.data(), 1, line.size(), out);
     };
     std::fputs("/SHELL/1\n", out);
-    for (std::uint64_t i = 1; i <= count * 6 / 10; ++i) element(i, 4);
+    for (std::uint64_t i = 1; i <= count * 6 / 10; ++i)
+      element(i, 4, static_cast<double>(i) / static_cast<double>(count));
     std::fputs("/BRICK/2\n", out);
-    for (std::uint64_t i = 1; i <= count * 3 / 10; ++i) element(10'000'000 + i, 8);
+    for (std::uint64_t i = 1; i <= count * 3 / 10; ++i)
+      element(10'000'000 + i, 8, 0.6 + static_cast<double>(i) / static_cast<double>(count));
   }
   std::fputs("/END\n", out);
   std::fclose(out);
@@ -217,28 +221,39 @@ struct Parsed {
   deck::Deck deck;
   Model model;
   deck::Diagnostics diagnostics;
-  double blocks = 0, typed = 0;  // seconds
+  double blocks_wall = 0, blocks_cpu = 0, typed_wall = 0, typed_cpu = 0;  // seconds
 };
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+/// A moment in elapsed and in processor time.
+struct Stamp {
+  double wall = 0, cpu = 0;
+  static Stamp now() {
+    timespec t{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return {std::chrono::duration<double>(Clock::now().time_since_epoch()).count(),
+            static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec)};
+  }
+};
 
 /// The library: include tree and blocks, then nodes and elements with all diagnostics.
 std::unique_ptr<Parsed> library(const std::string& path, int threads) {
   auto out = std::make_unique<Parsed>();
-  auto start = Clock::now();
+  Stamp start = Stamp::now();
   auto deck = deck::read_deck(path, deck::SchemaSet::built_in());
   if (!deck) throw std::runtime_error(deck.error().message);
   out->deck = std::move(*deck);
-  out->blocks = seconds_since(start);
-  start = Clock::now();
+  const Stamp middle = Stamp::now();
+  out->blocks_wall = middle.wall - start.wall;
+  out->blocks_cpu = middle.cpu - start.cpu;
+  start = middle;
   const auto nodes = deck::detail::node_blocks(out->deck);
   const auto elements = deck::detail::element_blocks(out->deck);
   deck::detail::read_nodes(out->deck, nodes, out->model.nodes, out->model.node_blocks,
                            out->diagnostics, threads);
   deck::detail::read_elements(out->deck, elements, out->model, out->diagnostics, threads);
-  out->typed = seconds_since(start);
+  const Stamp end = Stamp::now();
+  out->typed_wall = end.wall - start.wall;
+  out->typed_cpu = end.cpu - start.cpu;
   return out;
 }
 
@@ -254,52 +269,80 @@ Arrays arrays_of(const Parsed& parsed) {
 
 // ---- measuring ----------------------------------------------------------------------------------
 
+/// VmHWM of this process in kB. (ru_maxrss would also count what the parent held before exec.)
+long own_peak() {
+  std::FILE* const in = std::fopen("/proc/self/status", "r");
+  if (in == nullptr) return 0;
+  char line[256];
+  long kb = 0;
+  while (std::fgets(line, sizeof line, in) != nullptr)
+    if (std::sscanf(line, "VmHWM: %ld kB", &kb) == 1) break;
+  std::fclose(in);
+  return kb;
+}
+
 /// Peak memory of a process of its own that reads the deck: the measuring process holds more.
 double peak_megabytes(const std::string& self, const std::string& path, int threads) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::execl(self.c_str(), self.c_str(), "--child", path.c_str(), std::to_string(threads).c_str(),
-            nullptr);
-    ::_exit(127);
-  }
-  int status = 0;
-  struct rusage usage {};
-  if (::wait4(child, &status, 0, &usage) < 0 || status != 0) return 0;
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-double best_of(int runs, const std::function<double()>& run) {
-  double best = run();
-  for (int i = 1; i < runs; ++i) best = std::min(best, run());
-  return best;
-}
-
-template <class F>
-double time_of(int runs, F&& f) {
-  return best_of(runs, [&] {
-    const auto start = Clock::now();
-    f();
-    return seconds_since(start);
-  });
-}
-
-void row(std::string_view what, double seconds, double base, double bytes) {
-  fmt::print("  {:<44} {:8.3f} s {:7.3f} GB/s {:7.2f}x\n", what, seconds, bytes / seconds / 1e9,
-             base / seconds);
+  const std::string command = fmt::format("'{}' --child '{}' {}", self, path, threads);
+  std::FILE* const child = ::popen(command.c_str(), "r");
+  if (child == nullptr) return 0;
+  long kb = 0;
+  if (std::fscanf(child, "%ld", &kb) != 1) kb = 0;
+  ::pclose(child);
+  return static_cast<double>(kb) / 1024;
 }
 
 struct Times {
-  double typed = 0, all = 0;
+  double wall = 1e30, cpu = 1e30;
+  void keep_best(const Times& other) {
+    wall = std::min(wall, other.wall);
+    cpu = std::min(cpu, other.cpu);
+  }
 };
 
-Times library_times(const std::string& path, int threads, int runs) {
-  Times best{1e30, 1e30};
-  for (int i = 0; i < runs; ++i) {
+Times since(const Stamp& start) {
+  const Stamp now = Stamp::now();
+  return {now.wall - start.wall, now.cpu - start.cpu};
+}
+
+template <class F>
+Times time_of(F&& f) {
+  const Stamp start = Stamp::now();
+  f();
+  return since(start);
+}
+
+void row(std::string_view what, const Times& t, double base, double bytes) {
+  fmt::print("  {:<44} {:8.3f} s {:8.3f} s {:7.3f} GB/s {:7.2f}x\n", what, t.wall, t.cpu,
+             bytes / t.cpu / 1e9, base / t.cpu);
+}
+
+struct LibraryTimes {
+  Times typed, all;
+  void run(const std::string& path, int threads) {
     const auto parsed = library(path, threads);
-    best.typed = std::min(best.typed, parsed->typed);
-    best.all = std::min(best.all, parsed->typed + parsed->blocks);
+    typed.keep_best({parsed->typed_wall, parsed->typed_cpu});
+    all.keep_best(
+        {parsed->typed_wall + parsed->blocks_wall, parsed->typed_cpu + parsed->blocks_cpu});
   }
-  return best;
+};
+
+/// What a second thread is worth at the moment for work that touches no memory.
+double idle_gain() {
+  const auto spin = [] {
+    volatile double sum = 0;
+    for (int i = 0; i < 30'000'000; ++i) sum = sum + i;
+  };
+  Times one, two;
+  for (int i = 0; i < 3; ++i) {
+    one.keep_best(time_of(spin));
+    two.keep_best(time_of([&] {
+      std::thread other(spin);
+      spin();
+      other.join();
+    }));
+  }
+  return 2 * one.wall / two.wall;
 }
 
 bool same_findings(const deck::Diagnostics& a, const deck::Diagnostics& b) {
@@ -327,17 +370,31 @@ int compare(const std::string& self, const std::string& path, std::string_view t
     fmt::print("{}: {:.0f} MB, {} nodes, {} elements, {} findings; all answers agree\n", title,
                bytes / 1e6, expected.id.size(), expected.element.size(), findings);
   }
-  const double base = time_of(runs, [&] { bare_libdeck(path); });
-  row("bare loop, read_real (base of the ratios)", base, base, bytes);
-  row("bare loop, std::from_chars", time_of(runs, [&] { bare_from_chars(path); }), base, bytes);
-  row("sscanf reader", time_of(1, [&] { with_sscanf(path); }), base, bytes);
-  const Times one = library_times(path, 1, runs), two = library_times(path, 2, runs);
+  Times ours, standard, scan;
+  LibraryTimes one, two;
+  for (int i = 0; i < runs; ++i) {
+    ours.keep_best(time_of([&] { bare_libdeck(path); }));
+    one.run(path, 1);
+    standard.keep_best(time_of([&] { bare_from_chars(path); }));
+    two.run(path, 2);
+  }
+  scan.keep_best(time_of([&] { with_sscanf(path); }));
+  const double base = ours.cpu;
+  fmt::print("  {:<44} {:>10} {:>10} {:>12} {:>8}\n", "", "elapsed", "processor", "per core",
+             "ratio");
+  row("bare loop, read_real (base of the ratios)", ours, base, bytes);
+  row("bare loop, std::from_chars", standard, base, bytes);
+  row("sscanf reader", scan, base, bytes);
   row("typed parse with diagnostics, 1 thread", one.typed, base, bytes);
   row("typed parse with diagnostics, 2 threads", two.typed, base, bytes);
   row("with the include tree and blocks, 1 thread", one.all, base, bytes);
   row("with the include tree and blocks, 2 threads", two.all, base, bytes);
-  fmt::print("  2 threads against 1: {:.2f}x (all: {:.2f}x)\n", one.typed / two.typed,
-             one.all / two.all);
+  fmt::print(
+      "  2 threads against 1, elapsed: {:.2f}x (with blocks: {:.2f}x); two threads that only "
+      "compute gain {:.2f}x on this machine now\n",
+      one.typed.wall / two.typed.wall, one.all.wall / two.all.wall, idle_gain());
+  fmt::print("  against the sscanf reader: {:.1f}x (with blocks: {:.1f}x)\n",
+             scan.cpu / one.typed.cpu, scan.cpu / one.all.cpu);
   for (const int threads : {1, 2}) {
     const double peak = peak_megabytes(self, path, threads);
     fmt::print("  peak memory, {} thread(s): {:.0f} MB = {:.2f} x deck\n", threads, peak,
@@ -354,21 +411,27 @@ void compare_broken(const std::string& clean, const std::string& broken, int run
   const auto parsed = library(broken, 1);
   std::uint64_t findings = 0;
   for (const auto& [rule, count] : parsed->diagnostics.counts()) findings += count;
-  const double base = library_times(clean, 1, runs).typed;
-  const double faulty = library_times(broken, 1, runs).typed * size(clean) / size(broken);
+  LibraryTimes whole, faulty;
+  for (int i = 0; i < runs; ++i) {
+    whole.run(clean, 1);
+    faulty.run(broken, 1);
+  }
+  const double scale = size(clean) / size(broken);
   fmt::print("broken lines: {} findings, {} kept; {:.3f} s against {:.3f} s clean = {:.2f}x\n",
-             findings, parsed->diagnostics.all().size(), faulty, base, faulty / base);
+             findings, parsed->diagnostics.all().size(), faulty.typed.cpu * scale, whole.typed.cpu,
+             faulty.typed.cpu * scale / whole.typed.cpu);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) try {
   double megabytes = 177;
-  int runs = 3;
+  int runs = 5;
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
     if (word == "--child" && i + 2 < argc) {
       const auto parsed = library(argv[i + 1], std::atoi(argv[i + 2]));
+      fmt::print("{}\n", own_peak());
       return parsed->model.nodes.size() > 0 ? 0 : 1;
     }
     if (word == "--quick") {
