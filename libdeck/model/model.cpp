@@ -224,11 +224,13 @@ Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagn
   detail::read_nodes(deck, detail::node_blocks(deck), model.nodes, model.node_blocks, diagnostics,
                      options.threads);
   detail::apply_submodel_transforms(context);
+  detail::merge_connection_nodes(context);
   detail::read_parts(context);
   detail::read_properties(context);
   detail::read_materials(context);
   detail::read_other_entities(context);
   detail::read_elements(deck, detail::element_blocks(deck), model, diagnostics, options.threads);
+  detail::redirect_elements(context);
   detail::orient_solids(model);
   detail::link_parts(context);
   detail::check_duplicates(context);

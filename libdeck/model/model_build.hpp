@@ -70,6 +70,9 @@ void read_run_options(BuildContext& context);
 void link_parts(BuildContext& context);
 /// Elements against parts, shell thicknesses, collapsed quadrangles; grouped per part.
 void check_elements(BuildContext& context);
+/// /CNODE: which connection nodes are other nodes, and then the elements that name them.
+void merge_connection_nodes(BuildContext& context);
+void redirect_elements(BuildContext& context);
 /// /TRANSFORM with a SUBMODEL field: right after the nodes.
 void apply_submodel_transforms(BuildContext& context);
 /// The other /TRANSFORM: after all groups and sets, in the order of the deck.

@@ -139,7 +139,7 @@ struct Selections::Impl {
 
   // ---- nodes (selection_nodes.cpp)
   // ------------------------------------------------------------------
-  NodeIndex node(std::int64_t id) const { return model->nodes.map.find(id); }
+  NodeIndex node(std::int64_t id) const { return model->find_node(id); }
   /// Appends the nodes that are not yet marked in this generation.
   void start_marks();
   void mark(NodeIndex n, std::vector<NodeIndex>& out);

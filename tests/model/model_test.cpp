@@ -125,6 +125,14 @@ TEST(Curve, PointsAndScaling) {
   EXPECT_EQ(c.y, (std::vector<double>{1, 5}));
 }
 
+TEST(ConnectionNode, WithinTheToleranceIsTheOtherNode) {
+  Built b(parts() + grid_nodes() + "/CNODE/0.1\n" + node(50, 10.05, 10, 0) + node(51, 10.2, 10, 0) +
+          "/SHELL/1\n" + cells({1, 1, 2, 50, 4}) + "/GRNOD/NODE/1\ng\n" + cells({50, 51}));
+  const Model& m = b.model();
+  EXPECT_EQ(m.node_id(m.shell4.of(0)[2]), 5);
+  EXPECT_EQ(b.group(1), (Ids{5, 51}));
+}
+
 TEST(Unit, UnknownUnitSystemIsMessage643ForNodesAnd659Elsewhere) {
   Built b("/NODE/5\n" + node(1, 0, 0, 0));
   EXPECT_EQ(b.message("DK109"), 643);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "deck/keyword/deck.hpp"
@@ -234,6 +235,11 @@ struct ModelData {
   bool has_random = false;
   /// Coordinates before the /TRANSFORM of node groups; nullptr if there are none. Boxes use them.
   std::shared_ptr<const Coordinates> before_transforms;
+  /// /CNODE nodes that are another node: (node, the other one), ascending. Elements refer to the
+  /// other one already.
+  std::vector<std::pair<NodeIndex, NodeIndex>> merged_nodes;
+  /// Node of an id, merged ones followed; no_index if absent.
+  NodeIndex find_node(std::int64_t node_id) const;
   std::vector<AffineMap>
       submodel_motions;                    ///< per Deck::submodels: its own /TRANSFORM, in sequence
   std::shared_ptr<Selections> selections;  ///< of this model; set by build_model

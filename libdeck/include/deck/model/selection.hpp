@@ -41,7 +41,7 @@ class Selections {
 
   /// Edges of a surface as /LINE/SURF (all) or /LINE/EDGE (free) would give them.
   std::vector<Edge> edges_of(const std::vector<Segment>& segments, bool free_only) const;
-  /// Nodes of a surface, unique, ascending internal order.
+  /// Nodes of a surface, unique, in the reference solver's internal order: ascending ids.
   std::vector<NodeIndex> nodes_of(const std::vector<Segment>& segments) const;
 
   /// Resolves everything that is defined, so that diagnostics() is complete.

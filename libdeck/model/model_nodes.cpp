@@ -1,0 +1,121 @@
+// /CNODE: connection nodes that lie within the tolerance of another node are that node. Elements
+// and groups then refer to the other node.
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "deck/text/number.hpp"
+#include "model/model_build.hpp"
+
+namespace deck {
+
+NodeIndex ModelData::find_node(std::int64_t node_id) const {
+  const NodeIndex n = nodes.map.find(node_id);
+  if (n == no_index || merged_nodes.empty()) return n;
+  const auto it = std::lower_bound(merged_nodes.begin(), merged_nodes.end(),
+                                   std::pair<NodeIndex, NodeIndex>(n, 0));
+  return it != merged_nodes.end() && it->first == n ? it->second : n;
+}
+
+namespace detail {
+namespace {
+
+/// Nodes by cubes of the size of the tolerance; with tolerance 0 by their exact coordinates.
+class NodeGrid {
+ public:
+  NodeGrid(const Nodes& nodes, double tolerance) : nodes_(nodes), tolerance_(tolerance) {}
+
+  void add(NodeIndex n) { cells_[cell(n, 0, 0, 0)].push_back(n); }
+
+  /// Nearest node within the tolerance, the first of equals; no_index: none.
+  NodeIndex nearest(NodeIndex n) const {
+    const int reach = tolerance_ > 0 ? 1 : 0;
+    NodeIndex best = no_index;
+    double best_distance = tolerance_;
+    for (int i = -reach; i <= reach; ++i)
+      for (int j = -reach; j <= reach; ++j)
+        for (int k = -reach; k <= reach; ++k) {
+          const auto it = cells_.find(cell(n, i, j, k));
+          if (it == cells_.end()) continue;
+          for (const NodeIndex other : it->second) {
+            const double d =
+                std::hypot(nodes_.x[n] - nodes_.x[other], nodes_.y[n] - nodes_.y[other],
+                           nodes_.z[n] - nodes_.z[other]);
+            if (d < best_distance || (d == best_distance && (best == no_index || other < best))) {
+              best = other;
+              best_distance = d;
+            }
+          }
+        }
+    return best;
+  }
+
+ private:
+  std::uint64_t cell(NodeIndex n, int i, int j, int k) const {
+    std::uint64_t h = 0;
+    const double coordinates[3] = {nodes_.x[n], nodes_.y[n], nodes_.z[n]};
+    const int shift[3] = {i, j, k};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double c = coordinates[axis];
+      const double at = tolerance_ > 0 ? std::floor(c / tolerance_) + shift[axis] : c + 0.0;
+      h = (h ^ std::hash<double>{}(at)) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 31;
+    }
+    return h;  // collisions only add candidates; the distance decides
+  }
+
+  const Nodes& nodes_;
+  double tolerance_;
+  std::unordered_map<std::uint64_t, std::vector<NodeIndex>> cells_;
+};
+
+double tolerance_of(const BuildContext& c, const Block& block) {
+  constexpr std::string_view keyword = "/CNODE/";
+  if (!block.header.starts_with(keyword)) return 0;
+  const double value = read_real(block.header.substr(keyword.size())).value;
+  const UnitSystem* units = c.deck.units_of(block);
+  Dimension length;
+  length.length = 1;
+  return std::max(0.0, value) *
+         (units != nullptr ? conversion_factor(*units, c.deck.begin.working, length) : 1);
+}
+
+}  // namespace
+
+void merge_connection_nodes(BuildContext& c) {
+  Model& m = c.model;
+  const auto is_connection = [](const BulkBlock& b) { return header_starts(*b.block, "/CNODE"); };
+  for (const BulkBlock& range : m.node_blocks) {
+    if (!is_connection(range) || range.count == 0) continue;
+    NodeGrid grid(m.nodes, tolerance_of(c, *range.block));
+    for (const BulkBlock& other : m.node_blocks)
+      if (!is_connection(other) || &other < &range)
+        for (NodeIndex n = other.first; n < other.first + other.count; ++n) grid.add(n);
+    for (NodeIndex n = range.first; n < range.first + range.count; ++n) {
+      const NodeIndex target = grid.nearest(n);
+      if (target == no_index)
+        grid.add(n);
+      else
+        m.merged_nodes.emplace_back(n, target);
+    }
+  }
+  std::sort(m.merged_nodes.begin(), m.merged_nodes.end());
+  // A node merged with one that was merged itself belongs to the last of them.
+  for (auto& [node, target] : m.merged_nodes) target = m.find_node(m.nodes.id[target]);
+}
+
+void redirect_elements(BuildContext& c) {
+  Model& m = c.model;
+  if (m.merged_nodes.empty()) return;
+  std::vector<NodeIndex> target(m.nodes.size());
+  for (NodeIndex n = 0; n < target.size(); ++n) target[n] = n;
+  for (const auto& [node, other] : m.merged_nodes) target[node] = other;
+  for (Elements* family :
+       {&m.shell4, &m.shell3, &m.solid8, &m.quad, &m.tria, &m.truss, &m.beam, &m.spring})
+    for (auto* list : {&family->nodes, &family->extra_nodes})
+      for (NodeIndex& n : *list)
+        if (n != no_index) n = target[n];
+}
+
+}  // namespace detail
+}  // namespace deck
