@@ -1,5 +1,5 @@
 // Model: the deck as arrays. Nodes and elements are structures of arrays with 32-bit indices in
-// order of appearance (the reference solver's internal order); ids are 64-bit; all values in
+// order of appearance (the reference solver orders nodes by id); ids are 64-bit; all values in
 // working units.
 #pragma once
 #include <array>
