@@ -334,31 +334,118 @@ inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, 
   }
 }
 
+// Secondary edges waiting for the distance to one main edge, four at a time.
+struct EdgeTest {
+  const EdgeSweep& w;
+  std::uint32_t edge;
+  std::array<std::uint32_t, 2> m;
+  Point3<double> m1, m2;
+  double gap_m, length_m;
+  std::array<std::uint32_t, 4> item{};
+  unsigned waiting = 0;
+
+  EdgeTest(const EdgeSweep& sweep, std::uint32_t which)
+      : w(sweep),
+        edge(which),
+        m(w.input->main[which]),
+        m1(point(w.input->nodes, m[0])),
+        m2(point(w.input->nodes, m[1])),
+        gap_m(at(w.input->main_gap, which, 0.0)),
+        length_m(at(w.input->main_length, which, kInfinity)) {}
+
+  double limit(std::uint32_t i) const {
+    return pair_limit(*w.options, at(w.input->secondary_gap, i, 0.0), gap_m,
+                      at(w.input->secondary_length, i, kInfinity), length_m);
+  }
+
+  void add(std::uint32_t i, Sink& sink) {
+    const auto s = w.input->secondary[i];
+    if (s[0] == m[0] || s[0] == m[1] || s[1] == m[0] || s[1] == m[1]) return;
+    item[waiting++] = i;
+    if (waiting == 4) flush(sink);
+  }
+
+  void flush(Sink& sink) {
+    if (waiting == 0) return;
+    sink.tested += waiting;
+    if (w.options->form == Form::robust) {
+      for (unsigned k = 0; k < waiting; ++k) {
+        const auto s = w.input->secondary[item[k]];
+        const NodeArrays& nodes = w.input->nodes;
+        const auto c =
+            closest_between_edges<Form::robust>(point(nodes, s[0]), point(nodes, s[1]), m1, m2);
+        if (c.distance < limit(item[k])) sink.push({item[k], edge});
+      }
+      waiting = 0;
+      return;
+    }
+    Subs squared;
+    squared_distances(squared);
+    for (unsigned k = 0; k < waiting; ++k) {
+      const double l = limit(item[k]);
+      if (l > 0.0 && squared[k] < l * l) sink.push({item[k], edge});
+    }
+    waiting = 0;
+  }
+
+  static void clamp(Subs& v) {
+    const Subs zero{}, one = zero + 1.0;
+    v = v < one ? v : one;
+    v = zero < v ? v : zero;
+  }
+
+  // The reference formula for edges, operation by operation, for the waiting ones.
+  void squared_distances(Subs& squared) const {
+    std::array<Point3<double>, 4> first, second;
+    for (unsigned k = 0; k < 4; ++k) {
+      const auto s = w.input->secondary[item[k < waiting ? k : 0]];
+      first[k] = point(w.input->nodes, s[0]);
+      second[k] = point(w.input->nodes, s[1]);
+    }
+    const auto lanes = [](const std::array<Point3<double>, 4>& p) {
+      return SubPoint{Subs{p[0].x, p[1].x, p[2].x, p[3].x}, Subs{p[0].y, p[1].y, p[2].y, p[3].y},
+                      Subs{p[0].z, p[1].z, p[2].z, p[3].z}};
+    };
+    const SubPoint s1 = lanes(first), s2 = lanes(second);
+    const Subs zero{}, floor20 = zero + 1e-20;
+    const Subs sx = s2.x - s1.x, sy = s2.y - s1.y, sz = s2.z - s1.z;
+    const Point3<double> d = m2 - m1;
+    const Subs wx = m2.x - s2.x, wy = m2.y - s2.y, wz = m2.z - s2.z;
+    const Subs aa = sx * sx + sy * sy + sz * sz;
+    const double cc = dot(d, d);
+    const Subs q = -(sx * d.x + sy * d.y + sz * d.z);
+    const Subs xa = sx * wx + sy * wy + sz * wz;
+    const Subs xb = -(d.x * wx + d.y * wy + d.z * wz);
+    Subs det = cc * aa - q * q;
+    det = floor20 < det ? det : floor20;
+    const Subs aa_floor = aa < floor20 ? floor20 : aa;
+    const double cc_floor = std::max(cc, 1e-20);
+    Subs hm = (xa * q - xb * aa) / det;
+    clamp(hm);
+    Subs hs = -(xa + hm * q) / aa_floor;
+    clamp(hs);
+    hm = -(xb + hs * q) / cc_floor;
+    clamp(hm);
+    const Subs rs = 1.0 - hs, rm = 1.0 - hm;
+    const Subs vx = hs * s1.x + rs * s2.x - hm * m1.x - rm * m2.x;
+    const Subs vy = hs * s1.y + rs * s2.y - hm * m1.y - rm * m2.y;
+    const Subs vz = hs * s1.z + rs * s2.z - hm * m1.z - rm * m2.z;
+    squared = vx * vx + vy * vy + vz * vz;
+  }
+};
+
 // The part of a group's walk that belongs to one main edge.
 inline void sweep_edge(const EdgeSweep& w, const std::vector<Hit>& hits, const Box& box,
                        std::uint32_t edge, Sink& sink) {
-  const EdgeEdgeInput& in = *w.input;
-  const SearchOptions& options = *w.options;
   const std::vector<BoxBlock>& leaves = w.tree.level(0);
-  const auto m = in.main[edge];
-  const Point3<double> m1 = point(in.nodes, m[0]), m2 = point(in.nodes, m[1]);
-  const double gap_m = at(in.main_gap, edge, 0.0);
-  const double length_m = at(in.main_length, edge, kInfinity);
+  EdgeTest test(w, edge);
   for (const Hit& hit : hits) {
     unsigned mask = overlaps(leaves[hit.block], box) & hit.mask;
     for (; mask != 0; mask &= mask - 1) {
-      const std::uint32_t item =
-          w.items[hit.block * 8 + static_cast<std::size_t>(__builtin_ctz(mask))];
-      const auto s = in.secondary[item];
-      if (s[0] == m[0] || s[0] == m[1] || s[1] == m[0] || s[1] == m[1]) continue;
-      const double limit = pair_limit(options, at(in.secondary_gap, item, 0.0), gap_m,
-                                      at(in.secondary_length, item, kInfinity), length_m);
-      ++sink.tested;
-      if (edges_are_near(options, point(in.nodes, s[0]), point(in.nodes, s[1]), m1, m2, limit)) {
-        sink.push({item, edge});
-      }
+      test.add(w.items[hit.block * 8 + static_cast<std::size_t>(__builtin_ctz(mask))], sink);
     }
   }
+  test.flush(sink);
 }
 
 inline void sweep_edges(const EdgeSweep& w, std::size_t begin, std::size_t end, Sink& sink) {

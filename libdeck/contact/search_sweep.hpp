@@ -111,16 +111,6 @@ inline double pair_limit(const SearchOptions& o, double gap_s, double gap_m, dou
   return std::max(o.drad, o.gap(gap_s, gap_m, length_s, length_m)) + o.margin;
 }
 
-inline bool edges_are_near(const SearchOptions& o, const Point3<double>& s1,
-                           const Point3<double>& s2, const Point3<double>& m1,
-                           const Point3<double>& m2, double limit) {
-  if (!(limit > 0.0)) return false;
-  if (o.form == Form::robust) {
-    return closest_between_edges<Form::robust>(s1, s2, m1, m2).distance < limit;
-  }
-  return closest_between_edges<Form::reference>(s1, s2, m1, m2).distance_squared < limit * limit;
-}
-
 // Sweeps over positions [begin, end) of the main side. One version per instruction set; all give
 // the same pairs, bit for bit the same distances.
 struct Kernels {

@@ -136,18 +136,34 @@ TEST(SearchThreads, AnyNumberGivesTheSameList) {
 }
 
 TEST(SearchKernels, EveryInstructionSetFindsTheSamePairs) {
-  const Mesh mesh = two_sheets(40);
-  const NodeSegmentInput in = node_input(mesh);
-  SearchOptions o;
-  o.gap = PairGap::constant(0.6);
-  const sweep::NodeSweep w(in, o, 1);
-  for (const auto& kernels : sweep::all_kernels()) {
-    sweep::Sink sink;
-    kernels.nodes(w, 0, w.segments.size(), sink);
-    std::vector<CandidatePair> pairs;
-    sink.for_each([&pairs](const CandidatePair& pair) { pairs.push_back(pair); });
-    std::sort(pairs.begin(), pairs.end());
-    EXPECT_EQ(pairs, find_node_segment_pairs(in, o).pairs) << kernels.name;
+  for (int k = 0; k < 10 * scenes::kFamilies; ++k) {
+    Dice dice(static_cast<std::uint64_t>(9000 + k));
+    double gap = 0;
+    const Mesh mesh = scenes::make(k % scenes::kFamilies, dice, gap);
+    const NodeSegmentInput in = node_input(mesh);
+    SearchOptions o;
+    o.gap = PairGap::constant(gap);
+    const sweep::NodeSweep w(in, o, 1);
+    const auto expected = scenes::brute_force(in, o);
+    for (const auto& kernels : sweep::all_kernels()) {
+      sweep::Sink sink;
+      kernels.nodes(w, 0, w.segments.size(), sink);
+      std::vector<CandidatePair> pairs;
+      sink.for_each([&pairs](const CandidatePair& pair) { pairs.push_back(pair); });
+      std::sort(pairs.begin(), pairs.end());
+      EXPECT_EQ(pairs, expected) << kernels.name;
+    }
+    const EdgeEdgeInput edges = edge_input(mesh);
+    const sweep::EdgeSweep e(edges, o, 1);
+    const auto expected_edges = scenes::brute_force(edges, o);
+    for (const auto& kernels : sweep::all_kernels()) {
+      sweep::Sink sink;
+      kernels.edges(e, 0, e.mains.size(), sink);
+      std::vector<CandidatePair> pairs;
+      sink.for_each([&pairs](const CandidatePair& pair) { pairs.push_back(pair); });
+      std::sort(pairs.begin(), pairs.end());
+      EXPECT_EQ(pairs, expected_edges) << kernels.name;
+    }
   }
 }
 

@@ -29,9 +29,10 @@ struct Settings {
   bool rivals = true;
 };
 
+template <class Input>
 struct Contestant {
   std::string name;
-  std::function<Answer(const Scene&)> run;
+  std::function<Answer(const Input&)> run;
 };
 
 Answer ours(const Scene& s, int threads, std::size_t* bytes = nullptr,
@@ -64,8 +65,8 @@ double median(std::vector<double> v) {
   return v[v.size() / 2];
 }
 
-std::vector<Contestant> rivals() {
-  std::vector<Contestant> list;
+std::vector<Contestant<Scene>> rivals() {
+  std::vector<Contestant<Scene>> list;
   list.push_back({"CGAL AABB_tree", cgal_aabb_tree});
   list.push_back({"CGAL box_intersection_d (cutoff 10)",
                   [](const Scene& s) { return cgal_box_intersection(s, 10); }});
@@ -93,7 +94,8 @@ struct Measured {
   Time time;
 };
 
-Measured measure(const Contestant& c, const Scene& s, int repeat) {
+template <class Input>
+Measured measure(const Contestant<Input>& c, const Input& s, int repeat) {
   Measured m;
   std::vector<double> wall, cpu;
   for (int k = 0; k < repeat; ++k) {
@@ -105,42 +107,48 @@ Measured measure(const Contestant& c, const Scene& s, int repeat) {
   return m;
 }
 
+// Measures all contestants; false (and no time printed) if their answers differ.
+template <class Input>
+bool compare(const std::string& title, const std::vector<Contestant<Input>>& all,
+             const Input& input, std::size_t items, const Settings& settings, double& own_time) {
+  std::vector<Measured> measured;
+  for (const auto& c : all) measured.push_back(measure(c, input, settings.repeat));
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (measured[i].answer == measured[0].answer) continue;
+    fmt::print(stderr, "{}: {} finds {} pairs, {} finds {}\n", title, all[0].name,
+               measured[0].answer.count, all[i].name, measured[i].answer.count);
+    return false;
+  }
+  fmt::print("\n{}: {} pairs, the same for all\n", title, measured[0].answer.count);
+  fmt::print("  {:<40} {:>9} {:>9} {:>9} {:>7}\n", "", "wall s", "cpu s", "ns/item", "ratio");
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Time& t = measured[i].time;
+    fmt::print("  {:<40} {:>9.4f} {:>9.4f} {:>9.1f} {:>7.2f}\n", all[i].name, t.wall, t.cpu,
+               1e9 * t.cpu / static_cast<double>(items), t.cpu / measured[0].time.cpu);
+  }
+  own_time = measured[0].time.cpu;
+  return true;
+}
+
 bool run_scene(const std::string& title, const std::function<Scene(std::size_t)>& make,
                const Settings& settings) {
   std::vector<std::pair<double, double>> growth;
   for (const std::size_t size : settings.sizes) {
     const Scene s = make(size);
     std::size_t bytes = 0, tested = 0;
-    const Contestant one{"libdeck, 1 thread",
-                         [&](const Scene& scene) { return ours(scene, 1, &bytes, &tested); }};
-    const Contestant two{"libdeck, 2 threads", [](const Scene& scene) { return ours(scene, 2); }};
-    std::vector<Contestant> all{one, two};
+    std::vector<Contestant<Scene>> all{
+        {"libdeck, 1 thread", [&](const Scene& scene) { return ours(scene, 1, &bytes, &tested); }},
+        {"libdeck, 2 threads", [](const Scene& scene) { return ours(scene, 2); }}};
     if (settings.rivals) {
       for (auto& rival : rivals()) all.push_back(rival);
     }
-    std::vector<Measured> measured;
-    for (const auto& c : all) measured.push_back(measure(c, s, settings.repeat));
-    for (std::size_t i = 1; i < all.size(); ++i) {
-      if (measured[i].answer == measured[0].answer) continue;
-      fmt::print(stderr, "{} ({}): {} finds {} pairs, {} finds {}\n", title, size, all[0].name,
-                 measured[0].answer.count, all[i].name, measured[i].answer.count);
-      return false;
-    }
-    const auto count = static_cast<double>(s.segments.size());
-    fmt::print(
-        "\n{}: {} segments, {} secondary nodes, {} pairs; structure {:.1f} B/segment, "
-        "{:.2f} distances per pair\n",
-        title, s.segments.size(), s.secondary.size(), measured[0].answer.count,
-        static_cast<double>(bytes) / count,
-        static_cast<double>(tested) / static_cast<double>(measured[0].answer.count));
-    fmt::print("  {:<40} {:>9} {:>9} {:>9} {:>7}\n", "", "wall s", "cpu s", "ns/node", "ratio");
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const Time& t = measured[i].time;
-      fmt::print("  {:<40} {:>9.4f} {:>9.4f} {:>9.1f} {:>7.2f}\n", all[i].name, t.wall, t.cpu,
-                 1e9 * t.cpu / static_cast<double>(s.secondary.size()),
-                 t.cpu / measured[0].time.cpu);
-    }
-    growth.emplace_back(count, measured[0].time.cpu);
+    const std::string what = fmt::format("{}: {} segments, {} secondary nodes", title,
+                                         s.segments.size(), s.secondary.size());
+    double time = 0.0;
+    if (!compare(what, all, s, s.secondary.size(), settings, time)) return false;
+    fmt::print("  structure {:.1f} B/segment, {} distances computed\n",
+               static_cast<double>(bytes) / static_cast<double>(s.segments.size()), tested);
+    growth.emplace_back(static_cast<double>(s.segments.size()), time);
   }
   if (settings.largest != 0) {
     const Scene s = make(settings.largest);
@@ -149,6 +157,43 @@ bool run_scene(const std::string& title, const std::function<Scene(std::size_t)>
     growth.emplace_back(static_cast<double>(s.segments.size()), time.cpu);
   }
   if (growth.size() > 1) fmt::print("  growth exponent of libdeck: {:.3f}\n", exponent(growth));
+  return true;
+}
+
+// Edge-edge search of a folded shell with itself.
+bool run_edges(const Settings& settings) {
+  const std::string title = "edges of a folded shell, self contact";
+  if (title.find(settings.scene) == std::string::npos) return true;
+  for (const std::size_t size : settings.sizes) {
+    const Scene s = folded_scene(size / 2);
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    for (const auto& q : s.segments) {
+      edges.push_back({q[0], q[1]});
+      edges.push_back({q[0], q[3]});
+    }
+    deck::EdgeEdgeInput in;
+    in.nodes = {s.x, s.y, s.z};
+    in.secondary = edges;
+    in.main = edges;
+    deck::SearchOptions options;
+    options.gap = deck::PairGap::constant(2 * kSideGap);
+    const auto run = [&options](const deck::EdgeEdgeInput& input) {
+      Answer answer;
+      for (const auto& pair : deck::find_edge_edge_pairs(input, options).pairs) {
+        answer.add(pair.secondary, pair.main);
+      }
+      return answer;
+    };
+    std::vector<Contestant<deck::EdgeEdgeInput>> all{{"libdeck, 1 thread", run}};
+    if (settings.rivals) {
+      all.push_back({"CGAL box_intersection_d (cutoff 2000)", [](const deck::EdgeEdgeInput& input) {
+                       return cgal_edge_boxes(input, 2 * kSideGap, 2000);
+                     }});
+    }
+    double time = 0.0;
+    const std::string what = fmt::format("{}: {} edges", title, edges.size());
+    if (!compare(what, all, in, edges.size(), settings, time)) return false;
+  }
   return true;
 }
 
@@ -196,7 +241,7 @@ int run(const Settings& settings) {
       if (!run_scene(title, build, settings)) return 1;
     }
   }
-  return 0;
+  return run_edges(settings) ? 0 : 1;
 }
 
 }  // namespace

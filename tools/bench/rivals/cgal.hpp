@@ -47,7 +47,7 @@ class CgalSegment {
 template <class Traits, class Report>
 class CgalBoxTraversal {
  public:
-  CgalBoxTraversal(const Report& report) : report_(report) {}
+  explicit CgalBoxTraversal(const Report& report) : report_(report) {}
   bool go_further() const { return true; }
   void intersection(const CGAL::Bbox_3&, const typename Traits::Primitive& p) { report_(p.id()); }
   template <class Node>
@@ -59,12 +59,20 @@ class CgalBoxTraversal {
   const Report& report_;
 };
 
-inline Answer cgal_aabb_tree(const Scene& s) {
-  using Traits = CGAL::AABB_traits<CgalKernel, CgalSegment>;
+using CgalTraits = CGAL::AABB_traits<CgalKernel, CgalSegment>;
+
+inline std::vector<CgalSegment::Stored> cgal_primitives(const Scene& s) {
   std::vector<CgalSegment::Stored> primitives;
   primitives.reserve(s.segments.size());
   for (std::uint32_t i = 0; i < s.segments.size(); ++i) primitives.push_back({&s, i});
-  CGAL::AABB_tree<Traits> tree(primitives.cbegin(), primitives.cend());
+  return primitives;
+}
+
+// The fastest way we know to use the tree: an own traversal that only compares boxes
+// (all_intersected_primitives with a box takes about the same time).
+inline Answer cgal_aabb_tree(const Scene& s) {
+  const auto primitives = cgal_primitives(s);
+  CGAL::AABB_tree<CgalTraits> tree(primitives.cbegin(), primitives.cend());
   tree.build();
   Answer answer;
   for (std::uint32_t i = 0; i < s.secondary.size(); ++i) {
@@ -75,7 +83,7 @@ inline Answer cgal_aabb_tree(const Scene& s) {
     const auto report = [&](std::uint32_t j) {
       if (within_gap(s, i, j)) answer.add(i, j);
     };
-    CgalBoxTraversal<Traits, decltype(report)> traversal(report);
+    CgalBoxTraversal<CgalTraits, decltype(report)> traversal(report);
     tree.traversal(query, traversal);
   }
   return answer;
@@ -106,6 +114,43 @@ inline Answer cgal_box_intersection(const Scene& s, std::ptrdiff_t cutoff) {
       nodes.begin(), nodes.end(), segments.begin(), segments.end(),
       [&](const IndexedBox& a, const IndexedBox& b) {
         if (within_gap(s, a.index, b.index)) answer.add(a.index, b.index);
+      },
+      cutoff);
+  return answer;
+}
+
+// Edge-edge pairs of a list of edges with itself, constant gap.
+inline Answer cgal_edge_boxes(const deck::EdgeEdgeInput& in, double gap, std::ptrdiff_t cutoff) {
+  struct IndexedBox : CGAL::Box_intersection_d::Box_d<double, 3> {
+    std::uint32_t index;
+    IndexedBox(const CGAL::Bbox_3& box, std::uint32_t which)
+        : CGAL::Box_intersection_d::Box_d<double, 3>(box), index(which) {}
+  };
+  const auto point = [&in](std::uint32_t i) {
+    return deck::Point3<double>{in.nodes.x[i], in.nodes.y[i], in.nodes.z[i]};
+  };
+  const auto boxes = [&point](const auto& edges, double r) {
+    std::vector<IndexedBox> list;
+    list.reserve(edges.size());
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+      const auto a = point(edges[i][0]), b = point(edges[i][1]);
+      list.emplace_back(
+          CGAL::Bbox_3(std::min(a.x, b.x) - r, std::min(a.y, b.y) - r, std::min(a.z, b.z) - r,
+                       std::max(a.x, b.x) + r, std::max(a.y, b.y) + r, std::max(a.z, b.z) + r),
+          i);
+    }
+    return list;
+  };
+  auto secondary = boxes(in.secondary, 0.0), main = boxes(in.main, gap * (1 + 1e-9));
+  Answer answer;
+  CGAL::box_intersection_d(
+      secondary.begin(), secondary.end(), main.begin(), main.end(),
+      [&](const IndexedBox& a, const IndexedBox& b) {
+        const auto &s = in.secondary[a.index], &m = in.main[b.index];
+        if (s[0] == m[0] || s[0] == m[1] || s[1] == m[0] || s[1] == m[1]) return;
+        const auto c = deck::closest_between_edges<deck::Form::reference>(point(s[0]), point(s[1]),
+                                                                          point(m[0]), point(m[1]));
+        if (c.distance_squared < gap * gap) answer.add(a.index, b.index);
       },
       cutoff);
   return answer;

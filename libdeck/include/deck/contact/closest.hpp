@@ -128,8 +128,10 @@ T smaller(const T& a, const T& b) {
   using std::min;
   return min(a, b);
 }
+// Not named magnitude: argument-dependent lookup would prefer CGAL's function of that name, which
+// is something else for intervals.
 template <class T>
-T magnitude(const T& a) {
+T absolute_value(const T& a) {
   using std::abs;
   return T(abs(a));
 }
@@ -149,7 +151,7 @@ T square_root(const T& a) {
 
 template <class T>
 T largest_component(const Point3<T>& v) {
-  return larger(magnitude(v.x), larger(magnitude(v.y), magnitude(v.z)));
+  return larger(absolute_value(v.x), larger(absolute_value(v.y), absolute_value(v.z)));
 }
 
 // Euclidean length. Squares that would leave the exponent range are scaled by a power of two.
@@ -182,9 +184,9 @@ SubTriangleClosest<T> reference_sub_triangle(const Point3<T>& p, const Point3<T>
   const T ee = larger(floor20, dot(e, e));
   const T bb = larger(floor30, dot(b, b));
   const T aa = larger(floor30, dot(a, a));
-  const T ho = lo * magnitude(lo) / ee;
-  const T ha = la * magnitude(la) / bb;
-  const T hb = lb * magnitude(lb) / aa;
+  const T ho = lo * absolute_value(lo) / ee;
+  const T ha = la * absolute_value(la) / bb;
+  const T hb = lb * absolute_value(lb) / aa;
   if (lo < zero && ho <= ha && ho <= hb) {
     la = clamp01(T(dot(corner_b - p, e) / ee));
     lb = T(1) - la;
@@ -291,7 +293,7 @@ SubTriangleClosest<T> robust_sub_triangle(const Point3<T>& vo, const Point3<T>& 
       out.weight_o = fo / sum;
       out.vector = T(height / nn) * n;
       if constexpr (NumberTraits<T>::has_sqrt) {
-        out.distance = magnitude(height) / square_root(nn);
+        out.distance = absolute_value(height) / square_root(nn);
         out.distance_squared = out.distance * out.distance;
       } else {
         out.distance_squared = height * height / nn;
