@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "contact/scene_parts.hpp"
@@ -73,6 +74,7 @@ double spring_stiffness(const Model& model, std::uint32_t spring) {
 }
 
 double solid_volume(const Coordinates& x, const NodeIndex* n) {
+  if (std::find(n, n + 8, no_index) != n + 8) return 0;  // a node is missing: reported on reading
   const Vec a = at(x, n[6]) - at(x, n[0]), b = at(x, n[7]) - at(x, n[1]);
   const Vec c = at(x, n[4]) - at(x, n[2]), d = at(x, n[5]) - at(x, n[3]);
   const Vec ad = a + d, bc = b + c;
