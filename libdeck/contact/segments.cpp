@@ -96,6 +96,7 @@ bool orient_outward(SceneContext& c, std::uint32_t solid, Quad& n) {
   const Coordinates& x = c.scene.coordinates;
   Vec centre, middle;
   const NodeIndex* slots = c.model.solid8.of(solid);
+  if (std::find(slots, slots + 8, no_index) != slots + 8) return false;
   for (int i = 0; i < 8; ++i) centre = centre + at(x, slots[i]);
   for (const NodeIndex i : n) middle = middle + at(x, i);
   const Vec to_centre = 0.125 * centre - 0.25 * middle;

@@ -130,6 +130,7 @@ void set_nodal_stiffness(SceneContext& c, Contact& contact) {
       for (const std::uint32_t e : c.connectivity.elements(kind, s.node)) {
         const NodeIndex* n = family.of(e);
         if (n[0] != s.node && n[1] != s.node) continue;
+        if (n[0] == no_index || n[1] == no_index) continue;
         const double l = length(x, n[0], n[1]);
         if (l > 0) k += young_of(model, kind, e) * section_area(model, kind, e) / l;
       }
