@@ -119,13 +119,14 @@ Span ContactCard::span(std::string_view name) const {
 std::string ContactCard::show(std::string_view name) const {
   const FieldView* f = find(name);
   if (f == nullptr) return std::string(name);
-  std::string out = std::string(name) + " = ";
-  if (f->origin == Origin::card && f->has_input && !f->text.empty())
-    return out + std::string(f->text);
-  out += detail::number_text(f->value);
-  if (f->origin == Origin::default_block) out += " (from /DEFAULT/INTER)";
-  if (f->origin == Origin::built_in || f->origin == Origin::derived) out += " (default)";
-  return out;
+  const std::string head = std::string(name) + " = ";
+  // What the card says is what its reader sees, even where the solver overrules it.
+  if (f->has_input && !f->text.empty() && (f->input != 0 || f->origin == Origin::card))
+    return head + std::string(f->text);
+  const char* const source = f->origin == Origin::default_block ? " (from /DEFAULT/INTER)"
+                             : f->origin == Origin::card        ? ""
+                                                                : " (default)";
+  return head + detail::number_text(f->value) + source;
 }
 
 std::int64_t LintContext::resolved(const Block& block, std::string_view kind,

@@ -32,6 +32,13 @@ bool ignored_in_file(const Deck& deck, const LintOptions& options, const Diagnos
   return false;
 }
 
+/// Zeros behind column 100 are tolerated by the solver itself.
+void soften(const Deck& deck, Diagnostic& d) {
+  if (d.rule == "DK012" &&
+      deck.sources.text(d.span).find_first_not_of("0.+- ") == std::string_view::npos)
+    d.severity = Severity::info;
+}
+
 /// The severity override with the longest matching selector.
 void override_severity(const LintOptions& options, Diagnostic& d) {
   std::size_t best = 0;
@@ -62,17 +69,30 @@ constexpr std::pair<std::string_view, std::string_view> says_more[] = {
     {"DK241", "DK030"},
 };
 
+/// False for findings about columns that the schema of the keyword leaves open: properties and
+/// materials are described as far as contact needs them, other keywords by their name only.
+bool certain(const SchemaSet& schemas, const Diagnostic& d) {
+  const bool columns = d.rule == "DK027" || d.rule == "DK028" || d.rule == "DK029" ||
+                       d.rule == "DK030" || d.rule == "DK049" || d.rule == "DK109";
+  if (!columns || d.keyword.empty()) return true;
+  const Schema* s = schemas.match(d.keyword);
+  if (s == nullptr) return true;
+  if (d.rule == "DK109" || d.rule == "DK049") return s->kind != "other";
+  return !s->opaque_tail && s->kind != "prop" && s->kind != "mat" && s->kind != "other";
+}
+
 /// Everything that was found, by whoever found it, each finding once.
 struct Pool {
-  std::vector<Diagnostic> kept;
-  std::map<std::string_view, std::uint64_t> counts, dropped;
+  const SchemaSet& schemas;
+  std::vector<Diagnostic> kept = {};
+  std::map<std::string_view, std::uint64_t> dropped = {};
 
   void take(const Diagnostics& from, const LintOptions& options) {
     std::map<std::string_view, std::uint64_t> seen;
     for (const Diagnostic& d : from.all()) {
       ++seen[d.rule];
       const std::string_view id = registered_id(d);
-      if (!enabled(options, id)) continue;
+      if (!enabled(options, id) || !certain(schemas, d)) continue;
       kept.push_back(d);
       kept.back().rule = id;
     }
@@ -105,6 +125,25 @@ struct Pool {
     if (lesser.empty()) return;
     std::erase_if(kept, [&](const Diagnostic& d) {
       return lesser.count({d.span.file, d.span.offset, d.rule}) > 0;
+    });
+  }
+
+  /// In a card whose lines are shifted every value is read from the wrong cell: what the values of
+  /// that card would be accused of is left out until the lines are right.
+  void drop_consequences(const detail::BlockIndex& index) {
+    constexpr std::string_view shifts[] = {"DK242", "DK243", "DK244"};
+    std::set<std::int64_t> shifted;
+    for (const Diagnostic& d : kept)
+      if (std::find(std::begin(shifts), std::end(shifts), d.rule) != std::end(shifts))
+        shifted.insert(index.find(d.span.file, d.span.offset));
+    shifted.erase(-1);
+    if (shifted.empty()) return;
+    std::erase_if(kept, [&](const Diagnostic& d) {
+      const bool value = d.rule.starts_with("DK2") || d.rule.starts_with("DK9") ||
+                         d.rule.starts_with("DK17") || d.rule.starts_with("DK18") ||
+                         d.rule.starts_with("DK02");
+      return value && !d.rule.starts_with("DK24") &&
+             shifted.count(index.find(d.span.file, d.span.offset)) > 0;
     });
   }
 };
@@ -226,7 +265,7 @@ std::string fingerprint(const Deck& deck, const Diagnostic& d) {
 
 LintResult run_lint(const LintInput& input, const LintOptions& options) {
   const Deck& deck = input.deck;
-  Pool pool;
+  Pool pool{input.schemas};
   pool.take(deck.diagnostics, options);
   for (const Diagnostics* d : input.earlier)
     if (d != nullptr) pool.take(*d, options);
@@ -245,6 +284,7 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
   std::vector<detail::Suppression> suppressions = detail::find_suppressions(deck, index, reporter);
   pool.take(own, options);
   pool.sort_and_unite();
+  pool.drop_consequences(index);
 
   LintResult result;
   result.not_checked = not_checked(input, options, pool.kept);
@@ -272,6 +312,7 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
       ++result.baselined;
       continue;
     }
+    soften(deck, d);
     override_severity(options, d);
     detail::attach_fix(context, d);
     ++result.counts[d.rule];

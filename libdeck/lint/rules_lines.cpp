@@ -40,7 +40,7 @@ Look looks_like_flags(const Line& line) {
   int digits = 0;
   for (std::size_t c = 8; c <= 10; ++c) {
     const char k = column(line.text, c);
-    if (k == '0' || k == '1')
+    if (k >= '0' && k <= '9')
       ++digits;
     else if (static_cast<unsigned char>(k) > ' ')
       return Look::no;
@@ -129,9 +129,10 @@ void check_missing(const LintContext& c, const Rule& rule, Reporter& r) {
     std::vector<std::string> flags;
     for (const Optional& o : optional_cards(card)) {
       if (!o.present) continue;
-      causes += (causes.empty() ? "" : ", ") + card.show(o.flag) + " asks for the line '" +
-                o.card->name + "'";
-      if (std::find(flags.begin(), flags.end(), o.flag) == flags.end()) flags.push_back(o.flag);
+      const bool again = !flags.empty() && flags.back() == o.flag;
+      causes += again ? " and" : (causes.empty() ? "" : "; ") + card.show(o.flag) + " asks for";
+      causes += " '" + o.card->name + "'";
+      if (!again) flags.push_back(o.flag);
     }
     if (causes.empty()) continue;
     Diagnostic* d = r.report(rule, *card.block, card.block->header_span,

@@ -1,0 +1,251 @@
+#!/usr/bin/env python3
+"""deck lint as its users call it: exit codes, settings, suppressions, baseline, fixes and patches.
+Schemas and SARIF are checked in tests/robustness/outputs.py; here every SARIF is compared with the
+JSON of the same run.
+
+    python3 tests/lint/check_outputs.py build/dev/tools/deck"""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+MISTAKES = os.path.join(ROOT, "samples", "every_mistake_0000.rad")
+CLEAN = os.path.join(ROOT, "samples", "clean_plates_0000.rad")
+
+
+class Checks:
+    def __init__(self):
+        program = sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "build", "dev", "tools", "deck")
+        self.program = os.path.abspath(program)
+        if not os.access(self.program, os.X_OK):
+            sys.exit("%s: no such program; build the target 'deck' first" % self.program)
+        self.passed = self.failed = 0
+
+    def check(self, name, ok, why=""):
+        if ok:
+            self.passed += 1
+        else:
+            self.failed += 1
+            print("FAILED  %s%s" % (name, ": " + str(why)[:300] if why else ""))
+        return ok
+
+    def skip(self, name, why):
+        print("skipped %s: %s" % (name, why))
+
+    def run(self, *args, cwd=None, stdin=None):
+        env = dict(os.environ, NO_COLOR="1")
+        return subprocess.run([self.program, *args], cwd=cwd, input=stdin, capture_output=True, text=True, env=env,
+                              stdin=None if stdin is not None else subprocess.DEVNULL, timeout=120)
+
+    def finish(self):
+        print("%d passed, %d failed" % (self.passed, self.failed))
+        sys.exit(1 if self.failed else 0)
+
+
+def lint(c, *args, **kw):
+    r = c.run("lint", "--format", "json", *args, **kw)
+    try:
+        return r, json.loads(r.stdout)
+    except ValueError:
+        return r, None
+
+
+def card(**fields):
+    """A TYPE7 of version 2022 with the given cells; the deck around it needs no model."""
+    cells = {"grnd": (0, 1, 10), "surf": (0, 11, 20), "Istf": (0, 21, 30), "Stfac": (3, 1, 20), "Fric": (3, 21, 40)}
+    lines = [""] * 6
+    for name, value in dict({"surf": "1"}, **fields).items():
+        row, first, last = cells[name]
+        lines[row] = lines[row].ljust(first - 1) + value.rjust(last - first + 1)
+    units = "                  kg                  mm                  ms\n"
+    return ("#RADIOSS STARTER\n/BEGIN\ntest\n      2022         0\n" + units * 2 + "/SURF/SEG/1\nsurface\n"
+            "         1         1         2         3         4\n/NODE\n"
+            + "".join("%10d%20.1f%20.1f%20.1f\n" % n for n in ((1, 0, 0, 0), (2, 9, 0, 0), (3, 9, 9, 0), (4, 0, 9, 0)))
+            + "/INTER/TYPE7/1\ntest\n" + "\n".join(lines) + "\n/END\n")
+
+
+def exit_codes(c, tmp):
+    c.check("clean deck: 0", c.run("lint", CLEAN).returncode == 0)
+    c.check("errors: 1", c.run("lint", MISTAKES).returncode == 1)
+    c.check("--fail-on never: 0", c.run("lint", MISTAKES, "--fail-on", "never").returncode == 0)
+    warning = os.path.join(tmp, "warning_0000.rad")
+    open(warning, "w").write(card(Fric="20.0"))
+    c.check("warnings: 0", c.run("lint", warning, "--select", "DK2").returncode == 0)
+    c.check("warnings with --fail-on warning: 1",
+            c.run("lint", warning, "--select", "DK2", "--fail-on", "warning").returncode == 1)
+    c.check("unknown rule: 2", c.run("lint", CLEAN, "--select", "DK777").returncode == 2)
+    c.check("unknown format: 2", c.run("lint", CLEAN, "--format", "yaml").returncode == 2)
+    c.check("-o without file: 2", c.run("lint", CLEAN, "-o", "sarif").returncode == 2)
+    c.check("missing baseline: 2", c.run("lint", CLEAN, "--baseline", os.path.join(tmp, "no")).returncode == 2)
+    c.check("missing deck: 3", c.run("lint", os.path.join(tmp, "no_0000.rad")).returncode == 3)
+    gone = os.path.join(tmp, "gone_0000.rad")
+    open(gone, "w").write(card().replace("/END\n", "#include nowhere.inc\n/END\n"))
+    r = c.run("lint", gone)
+    c.check("missing include: 3, with its name", r.returncode == 3 and "nowhere.inc" in r.stdout, r.stdout[-300:])
+
+
+def configuration(c, tmp):
+    folder = os.path.join(tmp, "project", "decks")
+    os.makedirs(folder)
+    deck = os.path.join(folder, "x_0000.rad")
+    open(deck, "w").write(card(Stfac="-1.0"))
+    c.check("without configuration: 1", c.run("lint", deck).returncode == 1)
+    settings = os.path.join(tmp, "project", ".decklint.toml")
+    open(settings, "w").write('ignore = ["DK223"]\n')
+    _, d = lint(c, deck)
+    c.check("configuration above the deck", all(x["rule"] != "DK223" for x in d["diagnostics"]))
+    r = c.run("lint", deck, "--no-config")
+    c.check("--no-config", r.returncode == 1)
+    open(settings, "w").write('[severity]\nDK223 = "info"\n')
+    c.check("severity from the configuration", c.run("lint", deck).returncode == 0)
+    open(settings, "w").write('ignore = "DK223"\n')
+    r = c.run("lint", deck)
+    c.check("wrong configuration: 2, with file and line", r.returncode == 2 and ".decklint.toml:1" in r.stderr, r.stderr)
+
+
+def baseline(c, tmp):
+    deck = os.path.join(tmp, "base_0000.rad")
+    shutil.copy(MISTAKES, deck)
+    file = os.path.join(tmp, "baseline.json")
+    c.run("lint", deck, "--write-baseline", file, "--fail-on", "never")
+    r, d = lint(c, deck, "--baseline", file)
+    c.check("baseline hides every finding", r.returncode == 0 and not d["diagnostics"] and d["summary"]["baselined"] > 50,
+            d["summary"])
+    text = open(deck).read()
+    open(deck, "w").write(text.replace("/MAT/ELAST/1", "# one line more\n/MAT/ELAST/1", 1))
+    r, d = lint(c, deck, "--baseline", file)
+    c.check("baseline survives moved lines", r.returncode == 0 and not d["diagnostics"])
+    open(deck, "w").write(text.replace("\n/END\n", "\n/INTER/TYPE4/9999\nnew\n/END\n", 1))
+    r, d = lint(c, deck, "--baseline", file)
+    c.check("a new finding shows", r.returncode == 1 and any(x["rule"] == "DK044" for x in d["diagnostics"]))
+
+
+def fixes(c, tmp):
+    repo = os.path.join(tmp, "fix")
+    os.makedirs(repo)
+    deck = os.path.join(repo, "x_0000.rad")
+    shutil.copy(MISTAKES, deck)
+    before = open(deck, "rb").read()
+    r = c.run("lint", "x_0000.rad", "--diff", cwd=repo)
+    c.check("--diff writes nothing", open(deck, "rb").read() == before)
+    c.check("--diff prints a patch", r.stdout.startswith("--- a/x_0000.rad\n+++ b/x_0000.rad\n@@ "), r.stdout[:200])
+    patch = r.stdout
+    _, d = lint(c, "x_0000.rad", cwd=repo)
+    safe = sum(1 for x in d["diagnostics"] if x["fix"] and x["fix"]["safe"])
+    c.check("there are safe fixes to test", safe > 2, safe)
+    r = c.run("lint", "x_0000.rad", "--fix", cwd=repo)
+    fixed = open(deck, "rb").read()
+    c.check("--fix changes the file and still reports the rest", fixed != before and r.returncode == 1)
+    _, d = lint(c, "x_0000.rad", cwd=repo)
+    left = [x["rule"] for x in d["diagnostics"] if x["fix"] and x["fix"]["safe"]]
+    c.check("no safe fix is left after --fix", not left, left)
+    c.check("a second --fix changes nothing",
+            c.run("lint", "x_0000.rad", "--fix", cwd=repo).returncode == 1 and open(deck, "rb").read() == fixed)
+    c.check("no temporary file is left", os.listdir(repo) == ["x_0000.rad"], os.listdir(repo))
+    if shutil.which("git") is None:
+        c.skip("git apply", "git is not installed")
+        return
+    open(deck, "wb").write(before)
+    g = subprocess.run(["git", "apply", "-"], cwd=repo, input=patch, capture_output=True, text=True)
+    c.check("the patch applies with git", g.returncode == 0, g.stderr)
+    c.check("the patch does what --fix does", open(deck, "rb").read() == fixed)
+    before = open(deck, "rb").read()
+    patch = c.run("lint", "x_0000.rad", "--unsafe-fixes", "--diff", cwd=repo).stdout
+    g = subprocess.run(["git", "apply", "-"], cwd=repo, input=patch, capture_output=True, text=True)
+    c.check("the unsafe patch applies with git", g.returncode == 0 and open(deck, "rb").read() != before, g.stderr)
+    r = c.run("lint", "-", "--fix", stdin=card(Fric="20.0").replace("/END\n", ""))
+    c.check("--fix refuses standard input", r.returncode == 2, r.stderr)
+
+
+def outputs(c, tmp):
+    paths = {k: os.path.join(tmp, "all." + k) for k in ("json", "sarif", "junit", "github", "gitlab", "human")}
+    r = c.run("lint", MISTAKES, CLEAN, *[a for k, v in paths.items() for a in ("-o", k + "=" + v)])
+    c.check("six formats at once", r.returncode == 1 and all(os.path.getsize(p) > 0 for p in paths.values()), r.stderr)
+    documents = json.load(open(paths["json"]))["decks"]
+    findings = [x for d in documents for x in d["diagnostics"]]
+    sarif = json.load(open(paths["sarif"]))["runs"][0]
+    rules = [x["id"] for x in sarif["tool"]["driver"]["rules"]]
+    table = json.loads(c.run("rules", "--json", "-").stdout)["rules"]
+    c.check("SARIF holds every rule", rules == [x["id"] for x in table], len(rules))
+    c.check("SARIF has the findings of the JSON", [x["ruleId"] for x in sarif["results"]] == [x["rule"] for x in findings])
+    for result, x in zip(sarif["results"], findings):
+        place = result["locations"][0]["physicalLocation"]
+        region = place.get("region", {"startLine": 1, "startColumn": 1})
+        if (region["startLine"], rules[result["ruleIndex"]]) != (x["line"], x["rule"]):
+            c.check("SARIF place of " + x["rule"], False, region)
+            break
+    else:
+        c.check("SARIF places", True)
+    c.check("SARIF paths are relative when the deck's is",
+            json.loads(c.run("lint", "samples/every_mistake_0000.rad", "--format", "sarif", cwd=ROOT).stdout)
+            ["runs"][0]["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+            == "samples/every_mistake_0000.rad")
+    commands = open(paths["github"]).read().splitlines()
+    order = ["::error", "::warning", "::notice"]
+    ranks = [order.index(re.match(r"::\w+", x).group(0)) for x in commands]
+    c.check("GitHub commands, worst first", len(commands) == len(findings) and ranks == sorted(ranks))
+    gitlab = json.load(open(paths["gitlab"]))
+    c.check("GitLab fingerprints are unique", len({x["fingerprint"] for x in gitlab}) == len(gitlab) == len(findings))
+    lines = {}
+    for x in findings:
+        text = lines.setdefault(x["file"], open(x["file"], "rb").read().split(b"\n"))
+        width = len(text[x["line"] - 1]) + 1
+        if not 1 <= x["column"] <= x["end_column"] <= width + 1:
+            c.check("columns of %s %s:%d" % (x["rule"], x["file"], x["line"]), False, (x["column"], x["end_column"], width))
+    c.check("findings are ordered", all([(x["line"], x["column"]) for x in d["diagnostics"]]
+                                        == sorted((x["line"], x["column"]) for x in d["diagnostics"]) for d in documents))
+
+
+def carets(c):
+    """The caret of the human output stands under the text that the JSON points at."""
+    text = c.run("lint", MISTAKES, "--per-rule", "0").stdout.split("\n")
+    bad = []
+    for i, line in enumerate(text[:-1]):
+        m = re.match(r" *\d+ \| (.*)", line)
+        caret = re.match(r" *\| ( *)(\^+)$", text[i + 1])
+        if m and caret:
+            b, e = len(caret.group(1)), len(caret.group(1)) + len(caret.group(2))
+            under = m.group(1)[b:e]
+            # Either it underlines text, or a cell that is blank as a whole.
+            if under.strip() and (under[0] == " " or under[-1] == " "):
+                bad.append((line, under))
+    c.check("carets underline text without padding", not bad, bad[:2])
+
+
+def pages(c):
+    r = c.run("explain", "DK254")
+    c.check("explain a rule", r.returncode == 0 and "1162" in r.stdout and "Inacti" in r.stdout)
+    r = c.run("explain", "/INTER/TYPE7.Igap")
+    c.check("explain a field", r.returncode == 0 and "41-50" in r.stdout, r.stdout)
+    c.check("explain a keyword", "Fscalegap" in c.run("explain", "/INTER/TYPE7").stdout)
+    c.check("explain without the slash, in any case", "Fscalegap" in c.run("explain", "inter/type7").stdout)
+    c.check("explain nonsense: 2", c.run("explain", "DK777").returncode == 2)
+    table = json.loads(c.run("rules", "--json", "-").stdout)["rules"]
+    c.check("at least 90 rules", len(table) >= 90, len(table))
+    bad = [x["id"] for x in table if c.run("explain", x["id"]).returncode != 0]
+    c.check("every rule has a page", not bad, bad)
+
+
+def main():
+    c = Checks()
+    tmp = tempfile.mkdtemp(prefix="deck-lint-")
+    try:
+        exit_codes(c, tmp)
+        configuration(c, tmp)
+        baseline(c, tmp)
+        fixes(c, tmp)
+        outputs(c, tmp)
+        carets(c)
+        pages(c)
+    finally:
+        shutil.rmtree(tmp, ignore_errors=True)
+    c.finish()
+
+
+if __name__ == "__main__":
+    main()
