@@ -314,11 +314,16 @@ export class Evaluator {
     const c = this.data.contacts[i];
     const removed = s.irem === 2 ? removedPairs(meta, c, s, this.data, points) : null;
     const n = c.pairSecondary.length;
-    const { x, y, z } = points;
-    // Inacti 3: coordinates at the start of each group of candidates, by exact node.
-    const group: Points | null = s.inacti === 3 ? { x: x.slice(), y: y.slice(), z: z.slice() } : null;
-    const dirty: number[] = []; // nodes moved since the group began
+    // A whole group of candidates is measured before anything is done about one of them.
+    let acted = 0;
     let inGroup = 0;
+    const actOnGroup = () => {
+      const start = new Map<number, [number, number, number]>();
+      for (; acted < out.rows.length; acted++) {
+        const row = out.rows[acted];
+        this.act(row, s, points, start, this.exact(c.secondaryNode[row.secondary]));
+      }
+    };
     for (let p = 0; p < n; p++) {
       const nearest = Math.min(start[4 * p], start[4 * p + 1], start[4 * p + 2], start[4 * p + 3]);
       const gap = gaps[p];
@@ -326,12 +331,10 @@ export class Evaluator {
       const secondary = c.pairSecondary[p];
       const main = c.pairMain[p];
       if (removed?.has(main * c.secondaryListed.length + secondary)) continue;
-      if (group && inGroup++ % groupSize === 0)
-        for (let k = dirty.pop(); k !== undefined; k = dirty.pop()) {
-          group.x[k] = x[k];
-          group.y[k] = y[k];
-          group.z[k] = z[k];
-        }
+      if (inGroup++ === groupSize) {
+        actOnGroup();
+        inGroup = 1;
+      }
       this.nodePair(c, p, points);
       let value = 0;
       let best = 0;
@@ -354,14 +357,13 @@ export class Evaluator {
         const f = 1 / (1e-30 < distance ? distance : 1e-30);
         row.normal = [f * sub.vector[3 * best], f * sub.vector[3 * best + 1], f * sub.vector[3 * best + 2]];
       }
-      const node = this.exact(c.secondaryNode[secondary]);
-      this.act(row, s, points, group, node);
-      if (row.movedBy) dirty.push(node);
       out.rows.push(row);
     }
+    actOnGroup();
   }
 
-  private act(row: Row, s: Setting, points: Points, group: Points | null, node: number): void {
+  /** `start`: where nodes stood before anything in the group moved. */
+  private act(row: Row, s: Setting, points: Points, start: Map<number, [number, number, number]>, node: number): void {
     const pene = row.onSurface ? row.depth : row.depth * (1 + inflation);
     if (s.fpenmax !== 0 && pene > s.fpenmax * row.gap) {
       row.action = "node-stiffness-zero";
@@ -369,17 +371,20 @@ export class Evaluator {
     }
     if (s.inacti === 1) row.action = "node-stiffness-zero";
     else if (s.inacti === 2) row.action = "segment-stiffness-zero";
-    else if (s.inacti === 3 && group) {
+    else if (s.inacti === 3) {
+      const { x, y, z } = points;
       row.action = "node-moved";
       row.movedBy = [0, 0, 0];
-      const dx = points.x[node] - group.x[node];
-      const dy = points.y[node] - group.y[node];
-      const dz = points.z[node] - group.z[node];
+      let at = start.get(node);
+      if (!at) start.set(node, (at = [x[node], y[node], z[node]]));
+      const dx = x[node] - at[0];
+      const dy = y[node] - at[1];
+      const dz = z[node] - at[2];
       if (pene > Math.sqrt(dx * dx + dy * dy + dz * dz)) {
         row.movedBy = [pene * row.normal[0], pene * row.normal[1], pene * row.normal[2]];
-        points.x[node] = group.x[node] + row.movedBy[0];
-        points.y[node] = group.y[node] + row.movedBy[1];
-        points.z[node] = group.z[node] + row.movedBy[2];
+        x[node] = at[0] + row.movedBy[0];
+        y[node] = at[1] + row.movedBy[1];
+        z[node] = at[2] + row.movedBy[2];
       }
     } else if (s.inacti === 5 || s.inacti === 6) {
       row.action = "gap-reduced";

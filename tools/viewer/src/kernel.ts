@@ -92,9 +92,9 @@ export function closestBetweenEdges(t: Points, s1: number, s2: number, m1: numbe
   const hs = clamp01(-(xa + hm * q) / larger(aa, 1e-20));
   hm = clamp01(-(xb + hs * q) / larger(cc, 1e-20));
   const rs = 1 - hs, rm = 1 - hm;
-  edge.vx = hs * x[s1] + rs * x[s2] - (hm * x[m1] + rm * x[m2]);
-  edge.vy = hs * y[s1] + rs * y[s2] - (hm * y[m1] + rm * y[m2]);
-  edge.vz = hs * z[s1] + rs * z[s2] - (hm * z[m1] + rm * z[m2]);
+  edge.vx = hs * x[s1] + rs * x[s2] - hm * x[m1] - rm * x[m2];
+  edge.vy = hs * y[s1] + rs * y[s2] - hm * y[m1] - rm * y[m2];
+  edge.vz = hs * z[s1] + rs * z[s2] - hm * z[m1] - rm * z[m2];
   edge.weightS = hs;
   edge.weightM = hm;
   edge.distance = Math.sqrt(edge.vx * edge.vx + edge.vy * edge.vy + edge.vz * edge.vz);

@@ -142,6 +142,7 @@ export function distribution(report: Report, look: Look): HTMLElement {
   const section = h("section", { id: "distribution" }, h("h2", null, "Distribution"), h("div", { class: "charts" }, left, right));
   const draw = () => {
     section.hidden = report.hits.length === 0;
+    if (section.hidden) return;
     replace(left, histogram(report, look, "depth", "Depth"));
     replace(right, histogram(report, look, "ratio", "Depth ÷ gap"));
   };
@@ -156,14 +157,14 @@ function ticks(top: number): number[] {
   const p = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 2.5, 5, 10].map((k) => k * p).find((s) => s >= raw) ?? raw;
   const out = [];
-  for (let i = 0; i * step <= top * 1.0001; i++) out.push(i * step);
+  for (let i = 0; i < 12 && i * step <= top * 1.0001; i++) out.push(i * step);
   return out;
 }
 
 function histogram(report: Report, look: Look, field: "depth" | "ratio", title: string): HTMLElement {
   const values = report.passing(field).map((x) => x[field]);
   const all = report.hits.reduce((m, x) => Math.max(m, x[field]), 0);
-  const top = field === "ratio" ? Math.max(1, all) : all;
+  const top = field === "ratio" ? Math.max(1, all) : all || 1;
   const bins = 24;
   const count = new Array<number>(bins).fill(0);
   for (const v of values) count[Math.min(bins - 1, Math.floor((v / top) * bins))]++;

@@ -1,0 +1,86 @@
+// What the browser checks share: counting, running `deck`, opening pages that may ask for nothing.
+import { execFileSync } from "node:child_process";
+import { createRequire } from "node:module";
+import { existsSync } from "node:fs";
+import { join } from "node:path";
+
+export const { ROOT, WORK, DECK, DECK_CORPUS, DECK_ARTEFACTS, CHROMIUM } = process.env;
+export const { chromium } = createRequire(join(WORK, "x.js"))("playwright-core");
+
+let passed = Number(process.env.PASSED ?? 0);
+let failed = Number(process.env.FAILED ?? 0);
+let skipped = 0;
+
+export function check(name, ok, why = "") {
+  if (ok) passed++;
+  else {
+    failed++;
+    console.log(`FAILED  ${name}${why ? `: ${why}` : ""}`);
+  }
+  return ok;
+}
+export function same(name, a, b) {
+  return check(name, Object.is(a, b) || JSON.stringify(a) === JSON.stringify(b), `${JSON.stringify(a)?.slice(0, 300)} is not ${JSON.stringify(b)?.slice(0, 300)}`);
+}
+export function skip(what) {
+  skipped++;
+  console.log(`skipped  ${what}`);
+}
+export function finish() {
+  console.log(`${passed} passed, ${failed} failed${skipped ? `, ${skipped} skipped` : ""}`);
+  process.exit(failed ? 1 : 0);
+}
+
+/** Runs deck; exit code 1 (findings) is no failure. */
+export function deck(...args) {
+  try {
+    return execFileSync(DECK, args, { encoding: "utf8", maxBuffer: 1 << 30, stdio: ["ignore", "pipe", "pipe"] });
+  } catch (e) {
+    if (e.status === 1) return e.stdout;
+    throw new Error(`deck ${args.join(" ")}: exit code ${e.status}: ${e.stderr}`);
+  }
+}
+export const gaps = (path, ...args) => JSON.parse(deck("gaps", path, "--json", "-", "--quiet", ...args));
+
+export const sample = (name) => join(ROOT, "samples", `${name}_0000.rad`);
+export const corpus = (path) => {
+  const full = join(DECK_CORPUS, "corpus", path);
+  return existsSync(full) ? full : null;
+};
+
+const flags = [
+  "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+  "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader",
+];
+export const launch = (...more) => chromium.launch({ executablePath: CHROMIUM, args: [...flags, ...more] });
+
+/** Opens a report; `page.trouble` collects console errors, page errors and requests. */
+export async function open(browser, file, options = {}) {
+  const page = await browser.newPage({ viewport: { width: 1600, height: 1000 }, colorScheme: "light", ...options });
+  page.trouble = [];
+  page.on("console", (m) => m.type() === "error" && page.trouble.push(`console: ${m.text()}`));
+  page.on("pageerror", (e) => page.trouble.push(`error: ${e.message}`));
+  page.on("dialog", (d) => {
+    page.trouble.push(`dialog: ${d.message()}`);
+    void d.dismiss();
+  });
+  page.on("request", (r) => {
+    if (!/^(file|data|blob):/.test(r.url())) page.trouble.push(`request: ${r.url()}`);
+  });
+  await page.goto(`file://${file}`);
+  try {
+    await page.waitForFunction(() => document.documentElement.dataset.ready === "true", null, { timeout: 30000 });
+  } catch {
+    page.trouble.push("the page was not ready in 30 s");
+  }
+  return page;
+}
+
+/** Numbers without the state of the machine: same seed, same settings. */
+export function random(seed) {
+  let s = seed >>> 0;
+  return () => {
+    s = (Math.imul(s, 1664525) + 1013904223) >>> 0;
+    return s / 4294967296;
+  };
+}

@@ -1,0 +1,100 @@
+// Settings under test: what the page computes is, to the last bit, what `deck gaps --what-if` prints.
+import { check, gaps, open, random } from "./support.mjs";
+
+/** Rows of a contact in the JSON, as the page names them. */
+function rowsOf(contact) {
+  return contact.penetrations.map((p) => ({
+    secondary: p.edge ?? [p.node],
+    main: p.main_edge ?? (p.segment[2] === p.segment[3] ? p.segment.slice(0, 3) : p.segment),
+    depth: p.depth ?? p.penetration,
+    gap: p.pair_gap ?? p.gap,
+    distance: p.distance,
+    normal: p.normal,
+    on_surface: p.on_surface,
+    action: p.action,
+    gap0: p.gap0,
+    p0: p.p0,
+    moved_by: p.moved_by,
+  }));
+}
+
+/** First difference of two values compared bit for bit (0 and -0 print alike in JSON: as numbers). */
+function difference(a, b, path) {
+  if (typeof a === "number" && typeof b === "number") return a === b ? null : `${path}: ${a} is not ${b}`;
+  if (a === null || b === null || typeof a !== "object" || typeof b !== "object")
+    return a === b ? null : `${path}: ${JSON.stringify(a)} is not ${JSON.stringify(b)}`;
+  const keys = new Set([...Object.keys(a), ...Object.keys(b)]);
+  for (const k of keys) {
+    const d = difference(a[k], b[k], `${path}.${k}`);
+    if (d) return d;
+  }
+  return null;
+}
+
+export function compare(document, page) {
+  for (const inter of document.interfaces)
+    for (const contact of inter.contacts) {
+      const mine = page.find((c) => c.interface === inter.id && c.role === contact.role);
+      const name = `interface ${inter.id} ${contact.role}`;
+      if (!mine) return `${name} is not in the page`;
+      if (!mine.complete) return "incomplete";
+      const d =
+        difference(mine.gapmin, contact.gapmin, `${name} gapmin`) ??
+        difference(mine.max_gap, contact.max_gap, `${name} max_gap`) ??
+        difference(mine.penetrations, rowsOf(contact), name);
+      if (d) return d;
+    }
+  return null;
+}
+
+/** A setting that makes sense for the type, often extreme. */
+function setting(next, inter) {
+  const pick = (list) => list[Math.floor(next() * list.length)];
+  const base = Math.max(...inter.contacts.map((c) => Math.max(c.max_gap, c.gapmin)), 1e-3);
+  const fields = {};
+  const maybe = (name, share, value) => {
+    if (next() < share) fields[name] = value();
+  };
+  maybe("Gapmin", 0.6, () => (next() < 0.15 ? 0 : base * (0.2 + 2.3 * next())));
+  if (inter.type !== 10) {
+    maybe("Igap", 0.5, () => pick(inter.type === 11 ? [0, 1, 3, 1000] : [0, 1, 2, 3, 1000]));
+    maybe("Inacti", 0.6, () => pick([0, 1, 2, 3, 5, 6, 1000]));
+  }
+  if (inter.type === 7 || inter.type === 19) {
+    maybe("Fscalegap", 0.4, () => 0.3 + 1.3 * next());
+    maybe("Gapmax", 0.3, () => base * (0.2 + 1.5 * next()));
+  }
+  if (inter.type === 7) maybe("Fpenmax", 0.25, () => next());
+  return fields;
+}
+
+/** Tries `count` settings on one deck; returns how many were compared. */
+export async function tryDeck(browser, path, html, count, seed) {
+  const page = await open(browser, html);
+  const document = gaps(path);
+  const next = random(seed);
+  const inters = document.interfaces.filter((i) => i.contacts.length > 0);
+  let compared = 0;
+  let beyond = 0;
+  let unlike = "";
+  let d = compare(document, await page.evaluate(() => window.deckReport.whatIf(-1, {})));
+  check(`page of ${path} repeats the deck's own settings`, d === null, d ?? "");
+  for (let i = 0; i < count && inters.length > 0 && !unlike; i++) {
+    const inter = inters[Math.floor(next() * inters.length)];
+    const fields = setting(next, inter);
+    const text = Object.entries(fields).map(([k, v]) => `${k}=${v}`).join(",");
+    if (!text) {
+      i--;
+      continue;
+    }
+    const mine = await page.evaluate(([id, f]) => window.deckReport.whatIf(id, f), [inter.id, fields]);
+    d = compare(gaps(path, "--what-if", `${inter.id}:${text}`), mine);
+    if (d === "incomplete") beyond++;
+    else if (d) unlike = `--what-if ${inter.id}:${text}: ${d}`;
+    else compared++;
+  }
+  check(`what-if settings of ${path} are those of the program`, unlike === "", unlike);
+  check(`nothing went wrong in the page of ${path}`, page.trouble.length === 0, page.trouble.join("; "));
+  await page.close();
+  return { compared, beyond };
+}
