@@ -3,12 +3,48 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "deck/cycle/replay.hpp"
+#include "deck/cycle/scene_cycle.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
 
 namespace deck {
+
+/// One force evaluation and what it was about.
+struct CycleInput {
+  std::string_view path;  ///< of the deck, as given
+  const Deck* deck = nullptr;
+  const Scene* scene = nullptr;
+  const cycle::State* state = nullptr;
+  const cycle::SceneOutcome* outcome = nullptr;
+  cycle::CycleOptions options;
+};
+
+/// An effect of an interface: on where any of its parts has it on; `because` names the deciding
+/// field with its value and line.
+struct EffectLine {
+  std::string name;
+  bool on = false;
+  std::string because;
+  Span span;  ///< the deciding cell; may be invalid
+};
+std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome& outcome,
+                                     const InterBase& inter);
+
+struct CycleTextOptions {
+  bool color = false;
+  bool effects = false;  ///< also list the effects that are off
+};
+
+/// The document of `deck cycle --json` (schemas/output/cycle.schema.json). With `all`, every pair
+/// that has a penetration.
+std::string cycle_json(const CycleInput& input, bool all);
+/// Verdict, table of contacts, time steps, pairs near the gap singularity, effects.
+std::string cycle_text(const CycleInput& input, const CycleTextOptions& options = {});
+/// One or two sentences: forces, the largest acceleration, contact step against structural step.
+std::string cycle_verdict(const CycleInput& input);
 
 /// What one replay was about.
 struct ReplayInput {

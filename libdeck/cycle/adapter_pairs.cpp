@@ -1,0 +1,287 @@
+// The pairs of a contact with everything the kernel wants to know about each: stiffness and gap
+// from both sides, what start-up took off, and the values only some effects need.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "contact/scene_parts.hpp"
+#include "deck/cycle/adapter.hpp"
+#include "deck/cycle/kernel.hpp"
+#include "deck/keyword/decode.hpp"
+#include "deck/model/selection.hpp"
+
+namespace deck::cycle {
+namespace {
+
+using deck::detail::at;
+using deck::detail::cross;
+using deck::detail::dot;
+using deck::detail::Vec;
+
+constexpr std::size_t most_pairs = std::size_t{64} << 20;
+
+/// How far beyond the gap a curved main side may reach: its facets are not where the surface is.
+double curvature_reach(const Scene& scene, const Contact& contact, const ContactCard& card) {
+  if (card.kind != ContactKind::node_segment || card.icurv == 0) return 0.0;
+  double reach = 0.0;
+  for (const MainSegment& m : contact.main) {
+    Vec low = at(scene.coordinates, m.nodes[0]), high = low;
+    for (const NodeIndex n : m.nodes) {
+      const Vec p = at(scene.coordinates, n);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    reach = std::max({reach, high.x - low.x, high.y - low.y, high.z - low.z});
+  }
+  return 0.5 * reach;
+}
+
+/// The lists of one contact as the search takes them. What start-up switched off takes no part.
+struct SearchLists {
+  std::vector<std::uint32_t> nodes;
+  std::vector<std::array<std::uint32_t, 4>> segments;
+  std::vector<std::array<std::uint32_t, 2>> edges[2];
+  std::vector<double> gap[2], length[2], stiffness[2];
+
+  explicit SearchLists(const Contact& contact) {
+    if (contact.kind == deck::ContactKind::edge_edge) {
+      take(contact.secondary_edges, 0);
+      take(contact.main_edges, 1);
+      return;
+    }
+    for (const SecondaryNode& s : contact.secondary) {
+      nodes.push_back(s.node);
+      add(0, s.gap, s.length, s.off ? 0.0 : s.multiplier);
+    }
+    for (const MainSegment& m : contact.main) {
+      segments.push_back(m.nodes);
+      add(1, m.gap, m.length, m.off ? 0.0 : m.stiffness);
+    }
+  }
+
+  SearchResult find(const Coordinates& x, const SearchOptions& options) const {
+    const NodeArrays arrays{x.x, x.y, x.z};
+    if (!edges[0].empty() || !edges[1].empty())
+      return find_edge_edge_pairs({arrays, edges[0], gap[0], length[0], stiffness[0], edges[1],
+                                   gap[1], length[1], stiffness[1]},
+                                  options);
+    return find_node_segment_pairs(
+        {arrays, nodes, gap[0], length[0], stiffness[0], segments, gap[1], length[1], stiffness[1]},
+        options);
+  }
+
+ private:
+  void add(std::size_t side, double g, double l, double k) {
+    gap[side].push_back(g);
+    length[side].push_back(l);
+    stiffness[side].push_back(k);
+  }
+  void take(const std::vector<ContactEdge>& list, std::size_t side) {
+    for (const ContactEdge& e : list) {
+      edges[side].push_back(e.nodes);
+      add(side, e.gap, e.length, e.off ? 0.0 : e.stiffness);
+    }
+  }
+};
+
+/// Takes out what Irem_gap = 2 keeps apart.
+void remove_pairs(const Scene& scene, const Contact& contact, std::vector<CandidatePair>& pairs) {
+  if (contact.irem_gap != 2) return;
+  Scene copy;
+  copy.model = scene.model;
+  copy.interfaces = scene.interfaces;
+  copy.coordinates = scene.coordinates;
+  Diagnostics ignored;
+  const SceneOptions options;
+  Connectivity connectivity(*scene.model);
+  deck::detail::SceneContext context{*scene.model, connectivity, copy, ignored, options};
+  const auto removed = contact.kind == deck::ContactKind::edge_edge
+                           ? deck::detail::curvilinear_edge_removal(context, contact)
+                           : deck::detail::curvilinear_removal(context, contact);
+  if (removed.empty()) return;
+  std::erase_if(pairs, [&](const CandidatePair& p) {
+    return std::binary_search(removed[p.main].begin(), removed[p.main].end(), p.secondary);
+  });
+}
+
+void node_values(const Contact& contact, const ContactCard& card, Model model, ContactPairs& out) {
+  auto row = contact.penetrations.begin();
+  const bool reduced = card.inacti == 5 || card.inacti == 6;
+  out.nodes.triangle.reserve(out.at.size());
+  for (const CandidatePair& p : out.at) {
+    const SecondaryNode& s = contact.secondary[p.secondary];
+    const MainSegment& m = contact.main[p.main];
+    out.nodes.node[0].push_back(s.node);
+    for (std::size_t c = 0; c < 4; ++c) out.nodes.node[c + 1].push_back(m.nodes[c]);
+    out.nodes.triangle.push_back(m.nodes[2] == m.nodes[3]);
+    const double ks = card.istf >= 2 ? s.nodal_stiffness : s.multiplier;
+    out.k0.push_back(ks == 0.0 ? 0.0 : pair_stiffness(card, m.stiffness, ks, model));
+    out.gap.push_back(contact.gap_rule(s.gap, m.gap, s.length, m.length));
+    // Both lists are in the order of the search.
+    while (row != contact.penetrations.end() && CandidatePair{row->secondary, row->main} < p) ++row;
+    const bool known =
+        row != contact.penetrations.end() && row->secondary == p.secondary && row->main == p.main;
+    out.p0.push_back(reduced && known && row->has_gap0 ? row->p0 : 0.0);
+  }
+}
+
+void edge_values(const Contact& contact, const ContactCard& card, Model model, ContactPairs& out) {
+  const bool reduced = card.inacti == 5 || card.inacti == 6;
+  for (const CandidatePair& p : out.at) {
+    const ContactEdge& s = contact.secondary_edges[p.secondary];
+    const ContactEdge& m = contact.main_edges[p.main];
+    for (std::size_t c = 0; c < 2; ++c) {
+      out.nodes.node[c].push_back(s.nodes[c]);
+      out.nodes.node[c + 2].push_back(m.nodes[c]);
+    }
+    out.k0.push_back(pair_stiffness(card, m.stiffness, s.stiffness, model));
+    out.gap.push_back(contact.gap_rule(s.gap, m.gap, s.length, m.length));
+    out.p0.push_back(reduced ? s.stored_penetration + m.stored_penetration : 0.0);
+  }
+}
+
+/// Area of each secondary node: its share of the shells around it, 0 where there are none.
+void areas(const Scene& scene, const Contact& contact, ContactPairs& out) {
+  Connectivity connectivity(*scene.model);
+  const Coordinates& x = scene.coordinates;
+  std::vector<double> area(contact.secondary.size(), -1.0);
+  for (const CandidatePair& p : out.at) {
+    double& a = area[p.secondary];
+    if (a < 0.0) {
+      a = 0.0;
+      const NodeIndex node = contact.secondary[p.secondary].node;
+      for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
+        for (const std::uint32_t e : connectivity.elements(kind, node)) {
+          const NodeIndex* n = scene.model->family(kind).of(e);
+          const bool quad = kind == ElementKind::shell4;
+          const Vec d = quad ? cross(at(x, n[2]) - at(x, n[0]), at(x, n[3]) - at(x, n[1]))
+                             : cross(at(x, n[1]) - at(x, n[0]), at(x, n[2]) - at(x, n[0]));
+          a += std::sqrt(dot(d, d)) / (quad ? 8.0 : 6.0);
+        }
+      }
+    }
+    out.area.push_back(a);
+  }
+}
+
+/// Nodal normals of the main side: sums of facet normals, weighted with area (Icurv 3) or not.
+void normals(const Scene& scene, const Contact& contact, bool weighted, ContactPairs& out) {
+  std::map<NodeIndex, Vec> sum;
+  const Coordinates& x = scene.coordinates;
+  for (const MainSegment& m : contact.main) {
+    Vec n = cross(at(x, m.nodes[2]) - at(x, m.nodes[0]), at(x, m.nodes[3]) - at(x, m.nodes[1]));
+    const double length = std::sqrt(dot(n, n));
+    if (!weighted && length > 0.0) n = (1.0 / length) * n;
+    for (std::size_t c = 0; c < (m.nodes[2] == m.nodes[3] ? 3u : 4u); ++c)
+      sum[m.nodes[c]] = sum[m.nodes[c]] + n;
+  }
+  for (const CandidatePair& p : out.at) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Vec& n = sum[contact.main[p.main].nodes[c]];
+      out.normal[c][0].push_back(n.x);
+      out.normal[c][1].push_back(n.y);
+      out.normal[c][2].push_back(n.z);
+    }
+  }
+}
+
+/// The part an element of a carrier belongs to.
+std::uint32_t part_of(const deck::Model& model, Carrier carrier, std::uint32_t element) {
+  if (element == no_index) return no_index;
+  switch (carrier) {
+    case Carrier::solid:
+      return model.solid8.part[element];
+    case Carrier::shell4:
+      return model.shell4.part[element];
+    case Carrier::shell3:
+      return model.shell3.part[element];
+    default:
+      return no_index;
+  }
+}
+
+/// The part a node counts for: that of its first shell, then solid, beam, truss, spring.
+std::uint32_t part_at(const deck::Model& model, Connectivity& connectivity, NodeIndex node) {
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
+                                 ElementKind::beam, ElementKind::truss, ElementKind::spring}) {
+    const auto list = connectivity.elements(kind, node);
+    if (!list.empty()) return model.family(kind).part[list[0]];
+  }
+  return no_index;
+}
+
+/// /FRICTION by pairs of parts: which entry, by (smaller, larger) part index.
+std::map<std::pair<std::uint32_t, std::uint32_t>, const FrictionPair*> part_pairs(
+    const deck::Model& model, const Friction& friction) {
+  const auto parts = [&](std::int64_t group, std::int64_t part) {
+    std::vector<std::uint32_t> list;
+    if (group != 0 && model.selections != nullptr)
+      if (const auto* members = model.selections->part_group(group)) list = *members;
+    if (const auto it = model.part_of_id.find(part); part != 0 && it != model.part_of_id.end())
+      list.push_back(it->second);
+    return list;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, const FrictionPair*> table;
+  for (const FrictionPair& pair : friction.pairs) {
+    const auto second = parts(pair.grpart_ID2, pair.part_ID2);
+    for (const std::uint32_t a : parts(pair.grpart_ID1, pair.part_ID1))
+      for (const std::uint32_t b : second) table.emplace(std::minmax(a, b), &pair);
+  }
+  return table;
+}
+
+void pair_friction(const Scene& scene, const Contact& contact, Model model, ContactPairs& out) {
+  std::int64_t id = 0;
+  visit_interface(*contact.inter, [&](const auto& i) {
+    if constexpr (requires { i.fric_ID; }) id = i.fric_ID.value;
+  });
+  const Friction* friction = scene.interfaces->friction(id);
+  if (friction == nullptr) return;
+  const auto table = part_pairs(*scene.model, *friction);
+  Connectivity connectivity(*scene.model);
+  std::vector<std::uint32_t> node_part(contact.secondary.size(), no_index - 1);
+  for (const CandidatePair& p : out.at) {
+    std::uint32_t& s = node_part[p.secondary];
+    if (s == no_index - 1)
+      s = part_at(*scene.model, connectivity, contact.secondary[p.secondary].node);
+    const MainSegment& seg = contact.main[p.main];
+    const std::uint32_t m = part_of(*scene.model, seg.carrier, seg.element);
+    const auto it = table.find(std::minmax(s, m));
+    const FrictionValues& v = it == table.end() ? friction->values : it->second->values;
+    const double visf = v.VISF == 0.0 ? 1.0 : v.VISF;
+    out.fric.push_back(v.Fric);
+    // The reference solver does not square the factor of /FRICTION.
+    out.visf2.push_back(model == Model::reference ? visf : visf * visf);
+    for (std::size_t k = 0; k < 6; ++k) out.c[k].push_back(v.C[k]);
+  }
+}
+
+}  // namespace
+
+ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const ContactCard& card,
+                        Model model, int threads) {
+  ContactPairs out;
+  out.nodes.kind = card.kind;
+  if (contact.dropped) return out;
+  SearchOptions search;
+  search.gap = contact.gap_rule;
+  search.drad = card.ithe > 0 ? card.drad : 0.0;
+  search.margin = curvature_reach(scene, contact, card);
+  search.threads = threads;
+  search.max_pairs = most_pairs;
+  SearchResult found = SearchLists(contact).find(scene.coordinates, search);
+  out.complete = found.complete;
+  out.at = std::move(found.pairs);
+  remove_pairs(scene, contact, out.at);
+  if (card.kind == ContactKind::edge_edge) {
+    edge_values(contact, card, model, out);
+    return out;
+  }
+  node_values(contact, card, model, out);
+  if (card.ithe > 0) areas(scene, contact, out);
+  if (card.icurv == 3 || card.iadm != 0) normals(scene, contact, card.icurv == 3, out);
+  if (card.fric_id) pair_friction(scene, contact, model, out);
+  return out;
+}
+
+}  // namespace deck::cycle

@@ -1,0 +1,25 @@
+// Element quantities that masses and time steps share. Private to the stage.
+#ifndef DECK_CYCLE_STATE_PARTS_HPP_
+#define DECK_CYCLE_STATE_PARTS_HPP_
+
+#include <optional>
+#include <vector>
+
+#include "deck/contact/scene.hpp"
+
+namespace deck::cycle::detail {
+
+/// Density of the material of an element's part; 0 where there is none.
+double density_of(const deck::Model& model, ElementKind kind, std::uint32_t e);
+/// Area of a shell (kind shell4 or shell3).
+double shell_area(const Coordinates& x, ElementKind kind, const NodeIndex* n);
+/// Volume from the eight slots; the one-point rule makes tetrahedra 1.5 times larger than they are.
+double solid_volume(const Coordinates& x, SolidShape shape, const NodeIndex* slots);
+/// Mass of one spring by property index; 0 where the property gives none.
+std::vector<double> spring_masses(const deck::Model& model);
+/// Axes of a skew that is fixed in space, as a map from local to global components.
+std::optional<AffineMap> fixed_axes(const deck::Model& model, std::int64_t skew);
+
+}  // namespace deck::cycle::detail
+
+#endif  // DECK_CYCLE_STATE_PARTS_HPP_

@@ -1,0 +1,56 @@
+// Which effects of an interface run, and because of which field on which line.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "deck/report/cycle.hpp"
+
+namespace deck {
+namespace {
+
+std::string because_of(const Deck& deck, const InterBase& inter, const cycle::EffectState& e,
+                       Span& span) {
+  if (e.field.empty()) return e.reason;
+  auto place = cycle::field_place(inter, e.field);
+  if (!place && e.field == "Tstart") place = cycle::field_place(inter, "Tstop");
+  if (!place) return e.reason;
+  span = place->span;
+  std::string where;
+  if (place->span.valid()) {
+    const Position p = deck.sources.position(place->span);
+    const bool other_file = place->span.file != inter.span.file;
+    where = other_file ? fmt::format("{} line {}", deck.sources[place->span.file].path(), p.line)
+                       : fmt::format("line {}", p.line);
+  }
+  if (place->origin != Origin::card) {
+    if (!where.empty()) where += ", ";
+    where += place->origin == Origin::built_in        ? "default"
+             : place->origin == Origin::default_block ? "/DEFAULT/INTER"
+                                                      : "derived";
+  }
+  return where.empty() ? e.reason : fmt::format("{} ({})", e.reason, where);
+}
+
+}  // namespace
+
+std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome& outcome,
+                                     const InterBase& inter) {
+  std::vector<EffectLine> lines;
+  for (const cycle::ContactOutcome& c : outcome.contacts) {
+    if (c.contact->inter != &inter) continue;
+    for (const cycle::EffectState& e : c.effects) {
+      const auto known = std::find_if(lines.begin(), lines.end(),
+                                      [&](const EffectLine& l) { return l.name == e.name; });
+      if (known != lines.end() && (known->on || !e.on)) continue;
+      EffectLine line{e.name, e.on, {}, {}};
+      line.because = because_of(deck, inter, e, line.span);
+      if (known == lines.end())
+        lines.push_back(std::move(line));
+      else
+        *known = std::move(line);
+    }
+  }
+  return lines;
+}
+
+}  // namespace deck

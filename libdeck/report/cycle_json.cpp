@@ -1,0 +1,169 @@
+// The JSON of `deck cycle`.
+#include "deck/report/cycle.hpp"
+#include "deck/report/json.hpp"
+
+namespace deck {
+namespace {
+
+template <std::size_t N>
+void write_vector(JsonWriter& j, const std::array<double, N>& v) {
+  j.begin_array(true);
+  for (const double x : v) j.value(x);
+  j.end_array();
+}
+
+void write_nodes(JsonWriter& j, const Model& model, const NodeIndex* nodes, std::size_t count) {
+  j.begin_array(true);
+  for (std::size_t i = 0; i < count; ++i) j.value(model.node_id(nodes[i]));
+  j.end_array();
+}
+
+void write_node(JsonWriter& j, const Model& model, std::string_view name, NodeIndex n) {
+  j.key(name);
+  n == no_index ? j.null() : j.value(model.node_id(n));
+}
+
+/// 1e30 stands for "no limit" inside; programs get null.
+void write_step(JsonWriter& j, std::string_view name, double dt) {
+  j.key(name);
+  dt < 1e30 ? j.value(dt) : j.null();
+}
+
+void write_pair(JsonWriter& j, const Model& model, const Contact& c, const cycle::PairOutcome& p) {
+  j.begin_object(true);
+  if (c.kind == ContactKind::edge_edge) {
+    j.key("edge");
+    write_nodes(j, model, c.secondary_edges[p.at.secondary].nodes.data(), 2);
+    j.key("main_edge");
+    write_nodes(j, model, c.main_edges[p.at.main].nodes.data(), 2);
+  } else {
+    j.field("node", model.node_id(c.secondary[p.at.secondary].node)).key("segment");
+    write_nodes(j, model, c.main[p.at.main].nodes.data(), 4);
+  }
+  j.key("weights");
+  write_vector(j, p.weights);
+  j.key("force");
+  write_vector(j, p.force);
+  j.field("penetration", p.penetration).field("gap", p.gap).field("distance", p.distance);
+  j.field("k0", p.k0).field("k_nodal", p.k_nodal).end_object();
+}
+
+const char* name_of(cycle::StepLimit::Source source) {
+  switch (source) {
+    case cycle::StepLimit::Source::kinematic:
+      return "kinematic";
+    case cycle::StepLimit::Source::nodal:
+      return "stiffness";
+    case cycle::StepLimit::Source::velocity:
+      return "velocity";
+    default:
+      return "none";
+  }
+}
+
+void write_contact(JsonWriter& j, const Model& model, const cycle::ContactOutcome& o, bool all) {
+  const Contact& c = *o.contact;
+  j.begin_object().field("kind", to_string(c.kind)).field("role", to_string(c.role));
+  j.field("active", o.active).field("complete", o.complete);
+  j.field("composition", o.composition).field("pairs_in_reach", o.pairs_in_reach);
+  j.field("pairs_with_force", o.totals.contacts).field("pairs_switched_off", o.pairs_switched_off);
+  j.key("sum").begin_object(true).key("normal");
+  write_vector(j, o.totals.normal);
+  j.key("tangential");
+  write_vector(j, o.totals.tangential);
+  j.key("moment");
+  write_vector(j, o.totals.moment);
+  j.field("sizes", o.totals.total_abs).end_object();
+  j.key("energy").begin_object(true).field("elastic", o.totals.elastic_energy);
+  j.field("friction", o.totals.friction_energy).field("damping", o.totals.damping_energy);
+  j.field("friction_heat", o.totals.friction_heat).end_object();
+  j.key("heat").begin_object(true).field("secondary", o.heat_secondary);
+  j.field("main", o.heat_main).end_object();
+  write_step(j, "dt_contact", o.step.dt);
+  j.field("dt_because", name_of(o.step.source));
+  write_node(j, model, "dt_node", o.step_node);
+  j.key("largest_pair");
+  o.largest_force > 0 ? write_pair(j, model, c, o.largest) : static_cast<void>(j.null());
+  j.key("acceleration").begin_object(true).field("max", o.largest_acceleration);
+  write_node(j, model, "node", o.acceleration_node);
+  j.field("massless_nodes", o.massless_nodes).end_object();
+  j.key("near_singular").begin_object().field("count", o.near_singular_count);
+  j.field("gap_closed", o.gap_closed).key("worst").begin_array();
+  for (const cycle::PairOutcome& p : o.near_singular) write_pair(j, model, c, p);
+  j.end_array().end_object();
+  if (all) {
+    j.key("pairs").begin_array();
+    for (const cycle::PairOutcome& p : o.pairs) write_pair(j, model, c, p);
+    j.end_array();
+  }
+  j.end_object();
+}
+
+void write_interface(JsonWriter& j, const CycleInput& input, const InterBase& inter, bool all) {
+  j.begin_object().field("id", inter.id).field("type", inter.type);
+  j.field("title", inter.title).key("source");
+  write_json_place(j, *input.deck, inter.span);
+  j.key("effects").begin_array();
+  for (const EffectLine& e : effect_lines(*input.deck, *input.outcome, inter)) {
+    j.begin_object(true).field("name", e.name).field("on", e.on).field("because", e.because);
+    j.key("source");
+    write_json_place(j, *input.deck, e.span);
+    j.end_object();
+  }
+  j.end_array().key("contacts").begin_array();
+  for (const ContactRole role : {ContactRole::primary, ContactRole::reversed, ContactRole::edges})
+    for (const cycle::ContactOutcome& c : input.outcome->contacts)
+      if (c.contact->inter == &inter && c.contact->role == role)
+        write_contact(j, *input.scene->model, c, all);
+  j.end_array().end_object();
+}
+
+}  // namespace
+
+std::string cycle_json(const CycleInput& input, bool all) {
+  std::string out;
+  JsonWriter j(out);
+  const Model& model = *input.scene->model;
+  const cycle::SceneOutcome& o = *input.outcome;
+  j.begin_object();
+  write_json_head(j, "deck-cycle", 1);
+  write_json_deck(j, input.path, *input.deck, &model, input.scene->interfaces);
+  j.field("verdict", cycle_verdict(input));
+  j.field("dt1", input.options.dt1).field("dt12", input.options.dt12);
+  j.field("time", input.options.time);
+  j.field("model", input.options.model == cycle::Model::reference ? "reference" : "robust");
+  j.key("interfaces").begin_array();
+  for (const InterBase* inter : input.scene->interfaces->ordered)
+    for (const cycle::ContactOutcome& c : o.contacts)
+      if (c.contact->inter == inter && c.contact->role == ContactRole::primary) {
+        write_interface(j, input, *inter, all);
+        break;
+      }
+  j.end_array();
+  j.key("nodal_force").begin_object(true).field("max", o.largest_nodal_force);
+  write_node(j, model, "node", o.force_node);
+  j.end_object();
+  j.key("dt").begin_object();
+  write_step(j, "structure", o.structure.dt);
+  write_step(j, "contact", o.contact_dt);
+  j.field("because", name_of(o.contact_dt_source)).key("limiting");
+  if (o.limiting_contact == SIZE_MAX) {
+    j.null();
+  } else {
+    j.begin_object(true).field("interface", o.contacts[o.limiting_contact].contact->inter->id);
+    write_node(j, model, "node", o.limiting_node);
+    j.end_object();
+  }
+  j.key("structure_element");
+  if (o.structure.element == no_index)
+    j.null();
+  else
+    j.value(model.family(o.structure.kind).id[o.structure.element]);
+  j.end_object();
+  j.key("not_evaluated").begin_array();
+  for (const std::string& text : input.state->not_evaluated) j.value(text);
+  j.end_array().end_object();
+  return out;
+}
+
+}  // namespace deck
