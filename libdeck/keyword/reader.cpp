@@ -22,7 +22,7 @@ bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20; }
 
 constexpr std::size_t header_columns = 202;  // the line buffer of the reference solver
 constexpr std::size_t longest_path = 4096;
-constexpr int deepest_include = 1000;  // the walk is recursive; more would endanger the stack
+constexpr int deepest_include = 250;  // the walk is recursive; more would endanger the stack
 constexpr std::size_t most_blocks = 20'000'000;
 constexpr std::int64_t largest_id = 2147483647;
 constexpr std::uint64_t release_step = 8 << 20;

@@ -101,7 +101,7 @@ TEST_F(Hostile, TenThousandNestedIncludesStopAtTheDepthLimit) {
   ReadOptions options;
   options.limits.include_depth = 1000000;
   EXPECT_THAT(first(read_file(main, options).diagnostics, "DK006")->message,
-              HasSubstr("deeper than 1000 "));
+              HasSubstr("deeper than 250 "));
 }
 
 TEST_F(Hostile, AnIncludeBombStopsAtTheNumberOfFiles) {
