@@ -42,7 +42,6 @@ struct Walk {
 
   void find(const BoxTree& tree, const Box& b) {
     hits.clear();
-    if (tree.levels() == 0) return;
     stack.clear();
     stack.emplace_back(static_cast<std::uint32_t>(tree.levels() - 1), 0);
     while (!stack.empty()) {
@@ -311,6 +310,7 @@ inline void sweep_segment(const NodeSweep& w, const std::vector<Hit>& hits, cons
 }
 
 inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, Sink& sink) {
+  if (w.tree.levels() == 0) return;
   const NodeSegmentInput& in = *w.input;
   Walk walk;
   std::array<Shape, kGroup> shapes;
@@ -449,6 +449,7 @@ inline void sweep_edge(const EdgeSweep& w, const std::vector<Hit>& hits, const B
 }
 
 inline void sweep_edges(const EdgeSweep& w, std::size_t begin, std::size_t end, Sink& sink) {
+  if (w.tree.levels() == 0) return;
   const EdgeEdgeInput& in = *w.input;
   Walk walk;
   std::array<Box, kGroup> boxes;
