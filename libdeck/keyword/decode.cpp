@@ -326,7 +326,9 @@ DecodedCard decode_line(const Deck& deck, const Block& block, const CardSchema& 
     read_ids(deck, findings, card, block.version, line, out);
     return out;
   }
-  if (findings.on()) check_gaps(findings, card, block.version, line);
+  // Where a schema describes only the cells that matter here, the other columns are not blank.
+  const bool complete = block.schema == nullptr || !block.schema->opaque_tail;
+  if (findings.on() && complete) check_gaps(findings, card, block.version, line);
   for (const Field& f : card.fields) {
     if (!f.in_version(block.version)) continue;
     out.cells.push_back(read_cell(deck, findings, f, detail::columns(line.text, f.first, f.last),
@@ -453,15 +455,18 @@ class BlockDecoder {
     for (Line line = cursor_.next(); line.valid(); line = cursor_.next())
       out_.extra.push_back(line);
     if (!findings_.on() || schema.opaque_tail || schema.cards.empty()) return;
-    for (const Line& line : out_.extra) {
-      if (trim(line.text).empty() || !findings_.wants("DK030")) continue;
-      findings_.keep("DK030", Severity::warning, line.whole(),
-                     std::string(block_.keyword) + " is complete; this line is one too many",
-                     "it ignores the line",
-                     "check the flags that ask for optional lines, then delete the line or set the "
-                     "flag",
-                     100219);
-    }
+    // One finding for all of them: a text that lost its comment mark has many lines.
+    const auto blank = [](const Line& line) { return trim(line.text).empty(); };
+    const auto first = std::find_if_not(out_.extra.begin(), out_.extra.end(), blank);
+    if (first == out_.extra.end() || !findings_.wants("DK030")) return;
+    const auto more = out_.extra.end() - first - std::count_if(first, out_.extra.end(), blank) - 1;
+    findings_.keep(
+        "DK030", Severity::warning, first->whole(),
+        std::string(block_.keyword) + " is complete; this line is one too many" +
+            (more > 0 ? ", and " + std::to_string(more) + " more follow" : ""),
+        "it ignores the line",
+        "check the flags that ask for optional lines, then delete the line or set the flag",
+        100219);
   }
 
   const Deck& deck_;

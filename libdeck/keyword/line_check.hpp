@@ -88,12 +88,13 @@ struct ColumnMap {
   }
 };
 
-/// Text beyond the meaningful columns, without blanks in front.
+/// Text beyond the meaningful columns, without blanks in front; empty if it is only a spelling of
+/// 0, which the reference solver tolerates there.
 inline std::string_view tail_of(std::string_view line) {
   if (line.size() <= line_columns) return {};
   line.remove_prefix(line_columns);
   while (!line.empty() && static_cast<unsigned char>(line.front()) <= ' ') line.remove_prefix(1);
-  return line;
+  return line.find_first_not_of("0.+- ") == std::string_view::npos ? std::string_view() : line;
 }
 
 /// Calls f(first, last, after, zero) for every word outside the cells, in columns: `after` the last

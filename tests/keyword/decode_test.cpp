@@ -146,6 +146,10 @@ TEST(Decode, TextBehindTheCellsIsNamedUnlessItIsZero) {
   EXPECT_EQ(count(d.findings, "DK028"), 3u);
   EXPECT_EQ(d.at(first(d.findings, "DK028")->span).column, 60u);
   const Decoded tail("/X/CARDS/5\nt\n" + std::string(100, ' ') + "   beyond\n");
+  const Decoded zero("/X/CARDS/5\nt\n" + std::string(100, ' ') + "         0\n");
+  EXPECT_TRUE(zero.findings.all().empty());
+  // A schema that describes only some cells cannot know what the others hold.
+  EXPECT_TRUE(Decoded("/X/TAIL/5\nt\n         1         2\n").findings.all().empty());
   EXPECT_EQ(count(tail.findings, "DK012"), 1u);
   EXPECT_EQ(count(tail.findings, "DK028"), 0u);
 }
