@@ -170,9 +170,11 @@ void collect_references(LintContext& context, const DecodedBlock& block) {
   for (const DecodedCard& card : block.cards)
     for (const Cell& cell : card.cells) {
       if (cell.field->type != FieldType::id || cell.integer == 0) continue;
+      // Long lists of nodes and elements are of no interest here.
+      const std::string_view kind = cell.field->ref;
+      if (kind != "grnod" && kind != "surf" && kind != "line" && kind != "friction") continue;
       const std::int64_t id = std::abs(cell.integer);
-      context.referenced[cell.field->ref].insert(
-          context.resolved(*block.block, cell.field->ref, id));
+      context.referenced[kind].insert(context.resolved(*block.block, kind, id));
     }
 }
 

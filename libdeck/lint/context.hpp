@@ -11,6 +11,11 @@ LintContext build_context(const LintInput& input, Diagnostics& sink);
 /// Formats a value the way people write it: whole numbers without a point, else up to six digits.
 std::string number_text(double value);
 
+/// The beginning of a text that may be arbitrarily long.
+inline std::string clipped(std::string_view text, std::size_t longest = 60) {
+  return std::string(text.substr(0, longest)) + (text.size() > longest ? "…" : "");
+}
+
 inline std::string_view trim(std::string_view s) {
   while (!s.empty() && static_cast<unsigned char>(s.front()) <= ' ') s.remove_prefix(1);
   while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);

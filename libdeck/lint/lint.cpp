@@ -167,10 +167,14 @@ void report_unused(const std::vector<detail::Suppression>& suppressions, const L
 }
 
 std::string joined(const std::map<std::string, std::uint64_t>& counts) {
+  constexpr std::size_t shown = 40;
   std::string out;
-  for (const auto& [name, count] : counts)
+  std::size_t n = 0;
+  for (const auto& [name, count] : counts) {
+    if (n++ == shown) return out + " and " + std::to_string(counts.size() - shown) + " more";
     out += (out.empty() ? "" : ", ") + name +
            (count > 1 ? " (" + std::to_string(count) + ")" : std::string());
+  }
   return out;
 }
 
@@ -182,9 +186,9 @@ std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& o
     if (b.opaque)
       ++opaque[std::string(b.keyword)];
     else if (b.schema == nullptr && !b.header.starts_with("//"))
-      ++unknown[std::string(b.keyword)];
+      ++unknown[detail::clipped(b.keyword)];
     if (b.header.starts_with("/INTER/") && (b.schema == nullptr || b.schema->cards.empty()))
-      ++untyped[std::string(b.keyword)];
+      ++untyped[detail::clipped(b.keyword)];
   }
   if (!unknown.empty())
     out.push_back({"blocks of " + std::to_string(unknown.size()) + " keywords: " + joined(unknown),
@@ -241,8 +245,7 @@ Diagnostic* Reporter::report(const Rule& rule, Span span, std::string message) {
 Diagnostic* Reporter::report(const Rule& rule, const Block& block, Span span, std::string message) {
   Diagnostic* d = report(rule, span, std::move(message));
   if (d != nullptr) {
-    d->keyword =
-        std::string(block.schema ? std::string_view(block.schema->keyword) : block.keyword);
+    d->keyword = block.schema ? block.schema->keyword : detail::clipped(block.keyword);
     d->id = block.id.value;
   }
   return d;

@@ -1,4 +1,5 @@
-// Rules about headers: keywords that nobody reads, types that the solver refuses, versions.
+// Rules about headers: keywords that nobody reads, types that the solver refuses, versions. The
+// functions that fill the table are as long as their pages.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -58,9 +59,11 @@ void check_unknown(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::string big = upper(b.keyword);
     if (big != b.keyword && c.schemas.match(upper(b.header)) != nullptr) continue;  // DK041
     auto [it, fresh] = seen.emplace(b.keyword, std::string_view());
-    if (fresh) it->second = closest_keyword(c, b.keyword);
+    // A binary file that passed for a deck has no end of them.
+    constexpr std::size_t most_suggestions = 200;
+    if (fresh && seen.size() <= most_suggestions) it->second = closest_keyword(c, b.keyword);
     const std::string_view close = it->second;
-    std::string message = "keyword " + std::string(b.keyword) + " is unknown";
+    std::string message = "keyword " + clipped(b.keyword) + " is unknown";
     if (!close.empty()) message += "; did you mean " + std::string(close) + "?";
     Diagnostic* d = r.report(
         rule, b,
@@ -83,7 +86,7 @@ void check_lower_case(const LintContext& c, const Rule& rule, Reporter& r) {
     const Span span{b.header_span.file, static_cast<std::uint32_t>(b.keyword.size()),
                     b.header_span.offset};
     if (Diagnostic* d =
-            r.report(rule, b, span, "keyword " + std::string(b.keyword) + " is not in upper case"))
+            r.report(rule, b, span, "keyword " + clipped(b.keyword) + " is not in upper case"))
       d->fix = Fix{"write " + big, false, {{span, big}}};
   }
 }

@@ -67,7 +67,7 @@ class LintContext {
   std::vector<DecodedBlock> frictions;  ///< /FRICTION blocks
   /// Definitions by kind ("inter", "sensor", "funct", "surf", ...) and id (submodel offset added).
   std::map<std::string_view, std::multimap<std::int64_t, const Block*>> defined;
-  /// Ids that decoded cells refer to, by kind.
+  /// Ids that decoded cells refer to, for node groups, surfaces, lines and frictions.
   std::map<std::string_view, std::set<std::int64_t>> referenced;
   /// Every whole number in blocks whose cards are not described: any of them may be a reference.
   std::unordered_set<std::int64_t> loose_numbers;
