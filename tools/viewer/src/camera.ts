@@ -9,6 +9,8 @@ export class CameraControl {
   /** Sphere around everything, for clipping planes and limits. */
   readonly center = new Vector3();
   radius = 1;
+  /** What stands nearer to the camera than `length` before the point is not drawn. */
+  cut: { point: Vector3; length: number } | null = null;
   private flight: { start: number; from: Pose; to: Pose } | null = null;
   private drag: { id: number; x: number; y: number; pan: boolean; moved: number } | null = null;
   private pinch = new Map<number, { x: number; y: number }>();
@@ -46,6 +48,12 @@ export class CameraControl {
     this.camera.position.copy(this.target).addScaledVector(back, this.distance);
     const depth = this.camera.position.distanceTo(this.center);
     this.camera.near = Math.max((depth - this.radius) * 0.9, this.distance / 200, this.radius * 1e-6);
+    if (this.cut) {
+      const to = this.cut.point.clone().sub(this.camera.position).dot(back) * -1;
+      // Only near the point: who zooms out wants to see everything again.
+      if (this.distance < this.cut.length * 30 + this.radius * 0.05)
+        this.camera.near = Math.max(this.camera.near, to - this.cut.length);
+    }
     this.camera.far = Math.max(depth + this.radius * 1.1, this.camera.near * 2);
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();

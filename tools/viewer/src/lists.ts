@@ -173,7 +173,7 @@ function histogram(report: Report, look: Look, field: "depth" | "ratio", title: 
   const x = (v: number) => x0 + ((x1 - x0) * v) / top;
   const y = (n: number) => y1 - ((y1 - y0) * n) / most;
   const g: SVGElement[] = [];
-  for (const t of [0, most / 2, most])
+  for (const t of most > 1 ? [0, most / 2, most] : [0, 1])
     g.push(svg("line", { x1: x0, x2: x1, y1: y(t), y2: y(t), class: "grid" }),
       svg("text", { x: x0 - 6, y: y(t) + 4, class: "tick end" }, group(Math.round(t))));
   for (const t of ticks(top)) g.push(svg("text", { x: x(t), y: y1 + 16, class: "tick mid" }, num(t, 3)));
@@ -209,13 +209,13 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     { key: "depth", title: "Depth", width: "78px", right: true, value: (x) => x.depth, cell: (x) => num(x.depth, 5) },
     { key: "gap", title: "Gap", width: "64px", right: true, value: (x) => x.row.gap, cell: (x) => num(x.row.gap) },
     { key: "ratio", title: "Of gap", width: "58px", right: true, value: (x) => x.ratio, cell: (x) => percent(x.ratio) },
-    { key: "distance", title: "Distance", hint: "Residual distance of node and segment, or of the two edges", width: "70px", right: true, value: (x) => x.row.distance, cell: (x) => num(x.row.distance) },
+    { key: "distance", title: "Distance", hint: "Residual distance of node and segment, or of the two edges", width: "78px", right: true, value: (x) => x.row.distance, cell: (x) => num(x.row.distance) },
     { key: "inter", title: "Int.", hint: "Interface id", width: "56px", right: true, value: (x) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id, cell: (x) => String(report.meta.interfaces[report.meta.contacts[x.contact].interface].id) },
-    { key: "node", title: "Node / edge", width: "minmax(92px,1fr)", value: (x) => x.nodes[0], cell: (x) => report.secondaryText(x.row) },
-    { key: "segment", title: "Segment / edge", width: "minmax(120px,1.5fr)", value: (x) => report.nodeId(report.mainNodes(x.row)[0]), cell: (x) => report.mainText(x.row) },
+    { key: "node", title: "Node / edge", width: "minmax(96px,1fr)", value: (x) => x.nodes[0], cell: (x) => report.secondaryText(x.row) },
+    { key: "segment", title: "Segment / edge", width: "minmax(168px,1.7fr)", value: (x) => report.nodeId(report.mainNodes(x.row)[0]), cell: (x) => report.mainText(x.row) },
     { key: "sp", title: "Part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.secondaryPart), cell: (x) => report.partText(x.secondaryPart) },
     { key: "mp", title: "Main part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.mainPart), cell: (x) => report.partText(x.mainPart) },
-    { key: "action", title: "The solver does", width: "minmax(92px,.8fr)", value: (x) => x.row.action,
+    { key: "action", title: "Action", hint: "What the solver does about it at start-up", width: "minmax(88px,.8fr)", value: (x) => x.row.action,
       cell: (x) => {
         const error = report.solverError(x.row);
         if (error) return h("span", { class: "bad" }, `error ${error}`);
@@ -239,6 +239,7 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     same: (a, b) => a.key === b.key,
   });
   table.element.classList.add("list-table");
+  table.element.style.setProperty("--least", "980px");
   const chips = h("div", { class: "filters" });
   const count = h("span", { class: "muted count" });
   const search = h("input", { type: "search", placeholder: "Node, element or part", "aria-label": "Filter the list", id: "search", oninput: () => report.setFilter({ text: search.value }) });

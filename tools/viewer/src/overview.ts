@@ -38,9 +38,9 @@ export function verdict(report: Report): HTMLElement {
     replace(
       tiles,
       tile("Penetrations", group(now.pairs), `in ${plural(report.meta.contacts.length, "contact", "contacts")}`, group(base.pairs)),
-      tile("Nodes and edges", group(now.nodes), now.acted > 0 ? `${group(now.acted)} pairs acted on` : "none acted on", group(base.nodes)),
+      tile("Nodes and edges", group(now.nodes), now.acted > 0 ? `${group(now.acted)} acted on` : "none acted on", group(base.nodes)),
       tile("Deepest", deepest ? num(deepest.depth) : "–", deepest ? `of a gap of ${num(deepest.row.gap)}` : "", num(base.max_depth)),
-      tile("Worst share of a gap", now.pairs ? percent(now.max_ratio) : "–", "depth ÷ gap", percent(base.max_ratio)),
+      tile("Depth ÷ gap", now.pairs ? percent(now.max_ratio) : "–", "at worst", percent(base.max_ratio)),
       tile("Solver errors", group(now.solver_errors), now.on_surface > 0 ? `${group(now.on_surface)} on a surface` : "none on a surface", group(base.solver_errors)),
     );
     if (report.earlier) drawCompare(report, compare);
@@ -84,10 +84,10 @@ export function interfaces(report: Report): HTMLElement {
     text === was ? text : h("span", { class: "changed", title: `deck: ${was}` }, text);
   const table = new VirtualTable<ContactRow>(
     [
-      { key: "id", title: "Id", width: "64px", right: true, value: (r) => inter(r).id, cell: (r) => String(inter(r).id) },
-      { key: "title", title: "Interface", width: "minmax(120px,1.6fr)", value: (r) => inter(r).title.toLowerCase(),
+      { key: "id", title: "Id", width: "78px", right: true, value: (r) => inter(r).id, cell: (r) => String(inter(r).id) },
+      { key: "title", title: "Interface", width: "minmax(110px,1.5fr)", value: (r) => inter(r).title.toLowerCase(),
         cell: (r) => inter(r).title || "(no title)" },
-      { key: "kind", title: "Kind", width: "minmax(70px,.8fr)", value: (r) => report.roleText(r.contact), cell: (r) => report.roleText(r.contact) },
+      { key: "kind", title: "Kind", width: "minmax(88px,.7fr)", value: (r) => report.roleText(r.contact), cell: (r) => report.roleText(r.contact) },
       { key: "igap", title: "Igap", width: "46px", right: true, value: (r) => now(r).setting.igap,
         cell: (r) => changedCell(String(now(r).setting.igap), String(report.base[r.contact].setting.igap)) },
       { key: "gapmin", title: "Gapmin", hint: "Smallest pair gap, and where it comes from", width: "72px", right: true, value: (r) => now(r).setting.gapmin,
@@ -105,14 +105,14 @@ export function interfaces(report: Report): HTMLElement {
         cell: (r) => changedCell(now(r).totals.pairs ? num(now(r).totals.max_depth) : "–", report.base[r.contact].totals.pairs ? num(report.base[r.contact].totals.max_depth) : "–") },
       { key: "ratio", title: "Of gap", width: "58px", right: true, value: (r) => now(r).totals.max_ratio,
         cell: (r) => (now(r).totals.pairs ? percent(now(r).totals.max_ratio) : "–") },
-      { key: "action", title: "The solver does", width: "minmax(90px,1fr)", value: (r) => actionsText(report, r.contact),
+      { key: "action", title: "Action", hint: "What the solver does about it at start-up", width: "minmax(84px,1fr)", value: (r) => actionsText(report, r.contact),
         cell: (r) => {
           const e = now(r).totals.solver_errors;
           return e > 0 ? h("span", { class: "bad", title: "A node lies exactly on a segment and the options do not avoid the error" }, `stops (${e})`) : actionsText(report, r.contact);
         } },
     ],
     {
-      label: "Interfaces", sort: "id", descending: false,
+      label: "Interfaces", sort: "depth", descending: true,
       select: (r) => report.setFilter({ interface: r && report.filter.interface !== r.inter ? r.inter : null, pair: null, depth: null, ratio: null }),
       classOf: (r) => `${now(r).totals.pairs === 0 ? "quiet" : ""} ${report.filter.interface === r.inter ? "group" : ""}`,
     },

@@ -161,7 +161,10 @@ export class Parts3D {
           if (vContour.y > 0.001) {
             float value = clamp(vContour.x / vContour.y, 0.0, 1.0);
             vec3 c = texture2D(contourMap, vec2(value * 0.992 + 0.004, 0.5)).rgb;
-            diffuseColor.rgb = mix(diffuseColor.rgb, c, smoothstep(0.05, 0.55, vContour.y));
+            float weight = smoothstep(0.05, 0.55, vContour.y);
+            // Part of the colour does not depend on the light, so that it can be compared with the legend.
+            diffuseColor.rgb = mix(diffuseColor.rgb, 0.62 * c, weight);
+            totalEmissiveRadiance += 0.42 * weight * c;
           }`,
         );
     };

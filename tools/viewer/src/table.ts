@@ -15,6 +15,7 @@ export interface Column<T> {
 export class VirtualTable<T> {
   readonly element: HTMLElement;
   private readonly head: HTMLElement;
+  private readonly titles: HTMLElement;
   private readonly body: HTMLElement;
   private readonly spacer: HTMLElement;
   private readonly window: HTMLElement;
@@ -40,7 +41,8 @@ export class VirtualTable<T> {
   ) {
     this.sortKey = options.sort;
     this.descending = options.descending;
-    this.head = h("div", { class: "vt-head", role: "row" });
+    this.titles = h("div", { class: "vt-titles", role: "row" });
+    this.head = h("div", { class: "vt-head" }, this.titles);
     this.window = h("div", { class: "vt-window" });
     this.spacer = h("div", { class: "vt-spacer" }, this.window);
     this.body = h("div", { class: "vt-body", tabindex: 0, role: "rowgroup", "aria-label": options.label }, this.spacer);
@@ -104,7 +106,7 @@ export class VirtualTable<T> {
   private drawHead(): void {
     this.element.style.setProperty("--tracks", this.columns.map((c) => c.width).join(" "));
     replace(
-      this.head,
+      this.titles,
       ...this.columns.map((c) => {
         const active = c.key === this.sortKey;
         return h(

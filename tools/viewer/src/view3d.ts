@@ -20,7 +20,7 @@ export interface Picked {
   text: string;
 }
 
-const mostArrows = 20000;
+const mostArrows = 10000;
 
 export class View3D {
   readonly parts: Parts3D;
@@ -239,6 +239,7 @@ export class View3D {
       this.scene.remove(s);
       s.geometry.dispose();
     }
+    if (!hit) this.control.cut = null;
     if (hit) {
       const d = this.report.data;
       const at = (n: number) => new Vector3(d.x[d.exactOf[n]], d.y[d.exactOf[n]], d.z[d.exactOf[n]]);
@@ -286,15 +287,48 @@ export class View3D {
     return new Sphere().setFromPoints(points);
   }
 
+  /** Flies to a row: obliquely from the side where the node should be, by the clearest of several
+   * directions; what still stands in between is cut away. */
   flyTo(hit: Hit): void {
-    const s = this.sphereOf(hit);
-    // Obliquely from the side that the node should be on: segment, node and distance are all seen.
+    const point = new Vector3(...this.report.point(hit.row));
+    const radius = Math.max(this.sphereOf(hit).radius * 2.6, 1e-9);
+    const normal = this.normalOf(hit);
+    let best = normal;
+    let clear = -1;
+    for (const side of hit.row.onSurface ? [1, -1] : [1])
+      for (const d of directions(normal.clone().multiplyScalar(side))) {
+        const free = this.clearance(point, d, radius);
+        if (free > clear * 1.05 + 1e-9) {
+          clear = free;
+          best = d;
+        }
+      }
+    this.control.fly(point, radius, best);
+    this.control.cut = clear < 60 * radius ? { point, length: Math.max(clear * 0.98, radius * 0.4) } : null;
+  }
+
+  /** Way out of the main side; where there is none, the normal of the segment. */
+  private normalOf(hit: Hit): Vector3 {
     const n = new Vector3(...hit.row.normal);
-    const from = n.lengthSq() > 0 ? sideways(n) : undefined;
-    this.control.fly(new Vector3(...this.report.point(hit.row)), Math.max(s.radius * 2.6, 1e-9), from);
+    if (n.lengthSq() > 0) return n;
+    const d = this.report.data;
+    const p = this.report.mainNodes(hit.row).map((k) => new Vector3(d.x[d.exactOf[k]], d.y[d.exactOf[k]], d.z[d.exactOf[k]]));
+    if (p.length > 2) n.crossVectors(p[1].clone().sub(p[0]), p[p.length - 1].clone().sub(p[0]));
+    return n.lengthSq() > 0 ? n.normalize() : new Vector3(0, 0, 1);
+  }
+
+  /** How far one can see from a point, what touches the point left out. */
+  private clearance(point: Vector3, direction: Vector3, radius: number): number {
+    const caster = new Raycaster(point.clone().addScaledVector(direction, radius * 0.3), direction);
+    caster.firstHitOnly = true;
+    const meshes = this.parts.pickable().filter((m) => caster.ray.intersectsSphere(m.geometry.boundingSphere!));
+    for (const m of meshes) this.parts.prepare(m);
+    const found = caster.intersectObjects(meshes, false)[0];
+    return found ? found.distance + radius * 0.3 : Infinity;
   }
 
   fit(hits: Hit[] | null = null): void {
+    this.control.cut = null;
     if (hits && hits.length > 0) {
       const s = new Sphere().setFromPoints(hits.map((x) => new Vector3(...this.report.point(x.row))));
       const grown = Math.max(s.radius, ...hits.slice(0, 1).map((x) => this.sphereOf(x).radius)) * 1.5;
@@ -306,6 +340,7 @@ export class View3D {
   }
 
   look(direction: Vector3, up: Vector3): void {
+    this.control.cut = null;
     const s = this.parts.bounds((p) => p.look === "solid") ?? this.parts.bounds(() => true);
     if (s) this.control.fly(s.center, s.radius, direction, up);
   }
@@ -414,17 +449,20 @@ export class View3D {
   }
 }
 
-/** A direction that sees the normal from the side, 25 degrees above the surface. */
-function sideways(n: Vector3): Vector3 {
+/** Directions that see the normal from the side, 25 degrees above the surface. */
+function directions(n: Vector3): Vector3[] {
   const other = Math.abs(n.z) < 0.8 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0);
   const t = new Vector3().crossVectors(n, other).normalize();
   const u = new Vector3().crossVectors(t, n).normalize();
-  return t.multiplyScalar(0.85).addScaledVector(u, -0.3).addScaledVector(n, 0.45);
+  return Array.from({ length: 8 }, (_, i) => {
+    const a = ((i * 45 - 20) * Math.PI) / 180;
+    return t.clone().multiplyScalar(0.9 * Math.cos(a)).addScaledVector(u, 0.9 * Math.sin(a)).addScaledVector(n, 0.45).normalize();
+  });
 }
 
 function arrowGeometry(): BufferGeometry {
-  const shaft = new CylinderGeometry(0.025, 0.025, 0.62, 8).translate(0, 0.31, 0);
-  const tip = new ConeGeometry(0.085, 0.3, 12).translate(0, 0.77, 0);
+  const shaft = new CylinderGeometry(0.022, 0.022, 0.62, 5, 1, true).translate(0, 0.31, 0);
+  const tip = new ConeGeometry(0.085, 0.3, 7).translate(0, 0.77, 0);
   return mergeGeometries([shaft, tip])!;
 }
 

@@ -196,6 +196,7 @@ export class Viewport {
       return this.isolated && !this.isolated.has(p) ? this.rest : "solid";
     });
     this.ground();
+    if (this.contour && this.hitsShownFor !== null && this.hitsShownFor !== this.isolationKey()) this.showHits();
   }
 
   private ground(): void {
@@ -247,15 +248,29 @@ export class Viewport {
   private refresh(): void {
     const view = this.view;
     if (!view) return;
-    const hits = this.report.filtered;
-    this.contour = contourOf(this.report, this.look.contour, hits);
+    this.contour = contourOf(this.report, this.look.contour, this.report.filtered);
     view.parts.setColors((t) => this.color(t));
     view.parts.setContour(this.contour.values);
-    view.setHits(hits, (x) => this.color(this.contour!.of(x)));
     this.isolate();
     this.applyLooks();
+    this.showHits();
     this.drawLegend();
     view.setSelected(this.report.selected);
+  }
+
+  private hitsShownFor: unknown = null;
+  /** Dots and arrows of the rows in the list; of an isolated pair only its own. */
+  private showHits(): void {
+    const parts = this.isolated && new Set([...this.isolated].map((p) => p.data.part));
+    const own = (x: Hit) => !parts || (parts.has(x.secondaryPart) && parts.has(x.mainPart));
+    const hidden = new Set([...this.hidden].map((p) => p.data.part));
+    this.view?.setHits(this.report.filtered.filter((x) => own(x) && !(hidden.has(x.secondaryPart) && hidden.has(x.mainPart))),
+      (x) => this.color(this.contour!.of(x)));
+    this.hitsShownFor = this.isolationKey();
+  }
+  private isolationKey(): string {
+    const list = (s: Iterable<Part3D> | null) => (s ? [...s].map((p) => p.index).join(",") : "-");
+    return `${list(this.isolated)}/${list(this.hidden)}`;
   }
 
   private selection(): void {
@@ -273,7 +288,7 @@ export class Viewport {
 
   private drawLegend(): void {
     const c = this.contour;
-    this.legend.hidden = !c || (this.look.contour === "none" && this.report.filtered.length === 0);
+    this.legend.hidden = !c || (!["gap", "edge"].includes(this.look.contour) && this.report.filtered.length === 0);
     if (!c) return;
     const stops = Array.from({ length: 33 }, (_, i) => {
       const [r, g, b] = this.color(Math.min(i / 32, 0.9999));
