@@ -49,18 +49,6 @@ void override_severity(const LintOptions& options, Diagnostic& d) {
     }
 }
 
-/// The registry's id of a finding. The stage that types interfaces numbers its findings about
-/// default cards like the groups' findings; they are told apart by the keyword.
-std::string_view registered_id(const Diagnostic& d) {
-  if (d.keyword.starts_with("/DEFAULT/INTER/")) {
-    if (d.rule == "DK150") return "DK504";
-    if (d.rule == "DK151") return "DK503";
-    if (d.rule == "DK153") return "DK508";
-  }
-  if (d.keyword.starts_with("/INTER/") && d.rule == "DK152") return "DK299";
-  return d.rule;
-}
-
 /// Where two findings stand at one place and one says more, the other is left out.
 constexpr std::pair<std::string_view, std::string_view> says_more[] = {
     {"DK047", "DK027"},
@@ -91,7 +79,7 @@ struct Pool {
     std::map<std::string_view, std::uint64_t> seen;
     for (const Diagnostic& d : from.all()) {
       ++seen[d.rule];
-      const std::string_view id = registered_id(d);
+      const std::string_view id = d.rule;
       if (!enabled(options, id) || !certain(schemas, d)) continue;
       kept.push_back(d);
       kept.back().rule = id;

@@ -327,6 +327,20 @@ void add_model_3(std::vector<Rule>& out) {
 }
 
 void add_model_4(std::vector<Rule>& out) {
+  out.push_back({.id = "DK119",
+                 .title = "random noise that is not reproduced",
+                 .severity = Severity::warning,
+                 .stage = RuleStage::model,
+                 .problem = "/RANDOM moves the nodes with a seed, or only those of a group.",
+                 .why = "The noise of seed 0 on all nodes is reproduced; other noise is not, so "
+                        "penetrations smaller than the noise may differ.",
+                 .solver = "it moves the coordinates by up to the noise before it looks at contact",
+                 .fix = "check penetrations with seed 0, or without noise",
+                 .ignore = "Where the noise is far below every gap.",
+                 .bad = "/RANDOM\n"
+                        "               0.001                 0.5\n",
+                 .good = "/RANDOM\n"
+                         "               0.001                 0.0\n"});
   out.push_back({.id = "DK118",
                  .title = "data of a material that does not exist",
                  .severity = Severity::error,

@@ -114,7 +114,7 @@ void read_run_options(BuildContext& c) {
       const bool other_seed = seed != nullptr && seed->real != 0;
       if (other_seed || block.header.starts_with("/RANDOM/GRNOD"))
         report(c.diagnostics,
-               {"DK114", Severity::warning, block.header_span,
+               {"DK119", Severity::warning, block.header_span,
                 other_seed ? "/RANDOM with a seed: the noise is not reproduced"
                            : "/RANDOM of a node group: the noise is not reproduced",
                 "it moves the coordinates by up to the noise before it looks at contact",

@@ -153,7 +153,7 @@ std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnosti
     int type = 0;
     std::from_chars(number.data(), number.data() + number.size(), type);
     if (block.submodel >= 0 || block.header_span.file != 0) {
-      report_default(diagnostics, block, "DK151", Severity::warning,
+      report_default(diagnostics, block, "DK503", Severity::warning,
                      keyword +
                          (block.submodel >= 0 ? " inside a submodel" : " in an included file") +
                          " has no effect",
@@ -164,7 +164,7 @@ std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnosti
     const auto earlier =
         std::find_if(out.begin(), out.end(), [&](const DefaultInter& d) { return d.type == type; });
     if (earlier != out.end()) {
-      report_default(diagnostics, block, "DK150", Severity::error, "a second " + keyword,
+      report_default(diagnostics, block, "DK504", Severity::error, "a second " + keyword,
                      "it stops with an error", "keep one of them", &earlier->span);
       continue;
     }

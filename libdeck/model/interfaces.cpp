@@ -267,9 +267,9 @@ Inter read_one(const InterfaceCard& card, int type, const Rules& rules) {
 /// Version 2026 can turn grnd_IDs into a surface; nothing here can act on that.
 void check_smoothing(const InterfaceCard& card, const InterBase& inter, Diagnostics& diagnostics) {
   const Cell* cell = card.decoded().find("Ists");
-  if (cell == nullptr || cell->integer == 0 || !diagnostics.wants("DK152")) return;
+  if (cell == nullptr || cell->integer == 0 || !diagnostics.wants("DK299")) return;
   Diagnostic d;
-  d.rule = "DK152";
+  d.rule = "DK299";
   d.severity = Severity::warning;
   d.span = cell->span;
   d.message = "Ists = " + std::to_string(cell->integer) +
@@ -285,9 +285,9 @@ void check_smoothing(const InterfaceCard& card, const InterBase& inter, Diagnost
 /// A default card behind interfaces of its type, which do not see it.
 void report_too_early(const DefaultInter& defaults, const std::vector<const Block*>& interfaces,
                       Diagnostics& diagnostics) {
-  if (interfaces.empty() || !diagnostics.wants("DK153")) return;
+  if (interfaces.empty() || !diagnostics.wants("DK508")) return;
   Diagnostic d;
-  d.rule = "DK153";
+  d.rule = "DK508";
   d.severity = Severity::warning;
   d.span = defaults.span;
   const std::string keyword = "TYPE" + std::to_string(defaults.type);

@@ -112,7 +112,9 @@ void check_duplicates(BuildContext& c) {
 /// Blocks whose header names a unit system that is not defined.
 void check_units(BuildContext& c) {
   for (const Block& block : c.deck.blocks) {
-    if (block.schema == nullptr || c.deck.units_of(block) != nullptr) continue;
+    // Keywords known by name only may carry other numbers in their header (/ADMAS/type/id).
+    if (block.schema == nullptr || block.schema->cards.empty()) continue;
+    if (c.deck.units_of(block) != nullptr) continue;
     const bool bulk = block.schema->bulk;
     report(c.diagnostics, {"DK109", Severity::error, block.unit_id.span,
                            std::string(block.keyword) + " names unit system " +

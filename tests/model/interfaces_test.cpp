@@ -114,14 +114,14 @@ TEST(InterfaceFlags, CardWinsOverDefaultCard) {
 TEST(InterfaceFlags, DefaultCardBehindTheInterfaceIsReportedAndDoesNothing) {
   const Read r(Type7Text{}.str() + default7);
   EXPECT_EQ(r.all.type7.at(0).Istf.value, 1000);
-  EXPECT_TRUE(r.found("DK153"));
+  EXPECT_TRUE(r.found("DK508"));
 }
 
 TEST(InterfaceFlags, SecondDefaultCardIsAnErrorAndTheFirstOneStands) {
   const Read r(std::string(default7) + "/DEFAULT/INTER/TYPE7\n" + at(30, "2") + "\n\n\n\n" +
                Type7Text{}.str());
   EXPECT_EQ(r.all.type7.at(0).Istf.value, 4);
-  ASSERT_TRUE(r.found("DK150"));
+  ASSERT_TRUE(r.found("DK504"));
   EXPECT_EQ(r.diagnostics.all().at(0).reference->number, 1073);
   EXPECT_EQ(r.all.defaults.size(), 1u);
 }
@@ -129,7 +129,7 @@ TEST(InterfaceFlags, SecondDefaultCardIsAnErrorAndTheFirstOneStands) {
 TEST(InterfaceFlags, DefaultCardInsideASubmodelIsIgnored) {
   const Read r("//SUBMODEL/1\nsub\n\n" + std::string(default7) + "//ENDSUB\n" + Type7Text{}.str());
   EXPECT_EQ(r.all.type7.at(0).Istf.value, 1000);
-  EXPECT_TRUE(r.found("DK151"));
+  EXPECT_TRUE(r.found("DK503"));
 }
 
 TEST(InterfaceFlags, DefaultOfOneTypeLeavesOthersAlone) {
@@ -409,8 +409,8 @@ TEST(InterfaceFields, MissingLinesReadAsBlank) {
 TEST(InterfaceFields, SmoothingOf2026IsNamedAsNotEvaluated) {
   Type7Text text;
   text.gap = at(100, "1");
-  EXPECT_TRUE(Read(text.str(), 2026).found("DK152"));
-  EXPECT_FALSE(Read(text.str(), 2025).found("DK152")) << "no such cell before";
+  EXPECT_TRUE(Read(text.str(), 2026).found("DK299"));
+  EXPECT_FALSE(Read(text.str(), 2025).found("DK299")) << "no such cell before";
 }
 
 // ---- types 10, 11, 19 --------------------------------------------------------------------------
@@ -516,7 +516,7 @@ std::set<std::string> schema_fields(const std::string& keyword) {
       std::string name = field.name;
       if (name.starts_with("IBC")) name = "IBC";
       if (name == "Rthe") name = "Kthe";
-      // Multimp is read by nobody; Ists is reported as not evaluated (DK152). Iedge is ignored on
+      // Multimp is read by nobody; Ists is reported as not evaluated (DK299). Iedge is ignored on
       // the card, but has a value.
       if (name == "Multimp" || name == "Ists") continue;
       names.insert(name);
