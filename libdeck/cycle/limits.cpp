@@ -108,14 +108,6 @@ StructureStep structure_step(const Scene& scene) {
   scan(ElementKind::solid8, [&](std::uint32_t e) { return solid_step(scene, e); });
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam})
     scan(kind, [&](std::uint32_t e) { return line_step(scene, kind, e); });
-  const std::vector<double> mass = detail::spring_masses(*scene.model);
-  scan(ElementKind::spring, [&](std::uint32_t e) {
-    const std::uint32_t part = scene.model->spring.part[e];
-    if (part == no_index || scene.model->parts[part].prop == no_index) return 1e30;
-    const double m = mass[scene.model->parts[part].prop];
-    const double k = deck::detail::spring_stiffness(*scene.model, e);
-    return m > 0.0 && k > 0.0 ? factor * std::sqrt(m / k) : 1e30;
-  });
   return best;
 }
 

@@ -113,6 +113,7 @@ void collect_pairs(const ContactPairs& pairs, const PacketResult& r, const Cycle
     }
     const PairOutcome p = outcome_of(pairs, r, i);
     out.gap_closed += (p.status & status_gap_closed) != 0;
+    out.pairs_with_force += f > 0.0;
     if (f > out.largest_force) {
       out.largest_force = f;
       out.largest = p;
@@ -209,6 +210,26 @@ void sum_heat(const PacketResult& r, ContactOutcome& out) {
 
 using NodeStiffness = std::vector<std::pair<NodeIndex, double>>;
 
+/// What the card asks for and this evaluation leaves out.
+void note_gaps(const Scene& scene, const State& state, ContactOutcome& out) {
+  std::int64_t id = 0;
+  visit_interface(*out.contact->inter, [&](const auto& i) {
+    if constexpr (requires { i.fric_ID; }) id = i.fric_ID.value;
+  });
+  const Friction* friction = scene.interfaces->friction(id);
+  if (friction != nullptr && out.card.kind == ContactKind::edge_edge && !friction->pairs.empty())
+    out.notes.emplace_back("edges take the general coefficient of /FRICTION for every pair");
+  const bool directed =
+      friction != nullptr && std::any_of(friction->pairs.begin(), friction->pairs.end(),
+                                         [](const FrictionPair& p) { return p.Idir == 1; });
+  if (directed && out.card.kind == ContactKind::node_segment)
+    out.notes.emplace_back("direction-dependent friction: the values of direction 1 are used");
+  if (out.card.ithe > 0 && !state.heated)
+    out.notes.emplace_back("the deck gives no initial temperature: all are 0");
+  if (out.card.ithe > 0 && out.card.ithe_form == 0)
+    out.notes.emplace_back("conductivity of the secondary material is not taken into account");
+}
+
 /// Evaluates one contact; returns the stiffness it gives to its nodes.
 NodeStiffness run_contact(const Scene& scene, const State& state, const CycleOptions& options,
                           ContactOutcome& out, NodalSums& all) {
@@ -218,6 +239,7 @@ NodeStiffness run_contact(const Scene& scene, const State& state, const CycleOpt
   out.effects = plan.account;
   out.composition = plan.composition;
   out.isa = plan.isa;
+  note_gaps(scene, state, out);
   out.active = is_active(out.card, options.time, options.model == Model::robust);
   if (!out.active) return {};
   ContactPairs pairs = make_pairs(scene, contact, out.card, options.model, options.threads);
@@ -331,7 +353,7 @@ std::vector<InterfaceSummary> summarize(const Scene& scene, const SceneOutcome& 
       if (c.contact->inter != inter) continue;
       found = true;
       active = active || c.active;
-      s.pairs_with_force += c.totals.contacts;
+      s.pairs_with_force += c.pairs_with_force;
       s.largest_pair_force = std::max(s.largest_pair_force, c.largest_force);
       s.force_sum += c.totals.total_abs;
       s.elastic_energy += c.totals.elastic_energy;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "contact/scene_parts.hpp"
 #include "cycle/state_parts.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
+#include "deck/text/number.hpp"
 
 namespace deck::cycle {
 namespace {
@@ -26,6 +28,17 @@ bool complete(const NodeIndex* n, int count) {
   return std::find(n, n + count, no_index) == n + count;
 }
 
+/// Shares of a triangle's corners: their angles (measured on the reference solver's masses).
+std::array<double, 4> corner_shares(const Coordinates& x, const NodeIndex* n) {
+  std::array<double, 4> share{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Vec a = at(x, n[(c + 1) % 3]) - at(x, n[c]), b = at(x, n[(c + 2) % 3]) - at(x, n[c]);
+    const Vec s = cross(a, b);
+    share[c] = std::atan2(std::sqrt(dot(s, s)), dot(a, b)) / std::numbers::pi;
+  }
+  return share;
+}
+
 void add_shells(const Scene& scene, ElementKind kind, std::vector<double>& mass) {
   const Elements& family = scene.model->family(kind);
   const int corners = kind == ElementKind::shell4 ? 4 : 3;
@@ -33,9 +46,12 @@ void add_shells(const Scene& scene, ElementKind kind, std::vector<double>& mass)
     const NodeIndex* n = family.of(e);
     if (!complete(n, corners)) continue;
     const double t = deck::detail::stiffness_thickness(*scene.model, kind, e);
-    const double share = detail::density_of(*scene.model, kind, e) * t *
-                         detail::shell_area(scene.coordinates, kind, n) / corners;
-    for (int c = 0; c < corners; ++c) mass[n[c]] += share;
+    const double m = detail::density_of(*scene.model, kind, e) * t *
+                     detail::shell_area(scene.coordinates, kind, n);
+    const std::array<double, 4> share = kind == ElementKind::shell4
+                                            ? std::array<double, 4>{0.25, 0.25, 0.25, 0.25}
+                                            : corner_shares(scene.coordinates, n);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(corners); ++c) mass[n[c]] += share[c] * m;
   }
 }
 
@@ -118,6 +134,8 @@ class InitialConditions {
       : deck_(*scene.model->deck), scene_(scene), state_(state) {}
 
   void read() {
+    for (const Block& block : deck_.blocks)
+      if (block.header.starts_with("/HEAT/MAT/") && !block.opaque) material_temperature(block);
     for (const Block& block : deck_.blocks) {
       if (block.schema == nullptr || block.opaque) continue;
       const std::string_view header = block.header;
@@ -129,6 +147,9 @@ class InitialConditions {
         velocity(block, decode_as(block, velocity_card()));
       } else if (block.schema->keyword == "/INITEMP") {
         temperature(block);
+      } else if (header.starts_with("/REFSTA") || header.starts_with("/XREF") ||
+                 header.starts_with("/EREF")) {
+        left_out(block, "masses are those of the deck's own geometry, not of the reference state");
       } else if (header.starts_with("/INIVEL") && !header.starts_with("/INIVEL/ROT") &&
                  !header.starts_with("/INIVEL/GRID")) {
         left_out(block, "this type of initial velocity is not evaluated");
@@ -155,7 +176,7 @@ class InitialConditions {
     DecodedBlock d;
     d.block = &block;
     LineCursor lines(deck_.sources, block);
-    if (block.schema->has_title) lines.next();
+    if (block.schema != nullptr && block.schema->has_title) lines.next();
     for (Line line = lines.next(); line.valid(); line = lines.next())
       d.cards.push_back(decode_line(deck_, block, *cards_.back(), line, nullptr));
     return d;
@@ -207,6 +228,29 @@ class InitialConditions {
     for (const NodeIndex n : nodes->nodes)
       if (n != no_index) state_.temperature[n] = t;
     state_.heated = true;
+  }
+
+  /// T0 of a /HEAT/MAT for all nodes of its material's elements.
+  void material_temperature(const Block& block) {
+    LineCursor lines(deck_.sources, block);
+    const Line line = lines.next();
+    if (!line.valid() || !block.id.present) return;
+    const RealCell t = read_real(line.text.substr(0, 20));
+    const std::int64_t id = block.id.value + deck_.offset_of(block, "mat");
+    const auto mat = scene_.model->material_of_id.find(id);
+    if (t.status != NumberStatus::ok || mat == scene_.model->material_of_id.end()) return;
+    state_.heated = true;
+    for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
+                                   ElementKind::truss, ElementKind::beam}) {
+      const Elements& family = scene_.model->family(kind);
+      const int count = kind == ElementKind::beam ? 2 : family.width;
+      for (std::uint32_t e = 0; e < family.size(); ++e) {
+        const std::uint32_t part = family.part[e];
+        if (part == no_index || scene_.model->parts[part].mat != mat->second) continue;
+        for (int c = 0; c < count; ++c)
+          if (const NodeIndex n = family.of(e)[c]; n != no_index) state_.temperature[n] = t.value;
+      }
+    }
   }
 
   /// /ADMAS/type/id: 0 gives the mass to every node of the group, 1 spreads it evenly.

@@ -66,7 +66,7 @@ void write_contact(JsonWriter& j, const Model& model, const cycle::ContactOutcom
   j.begin_object().field("kind", to_string(c.kind)).field("role", to_string(c.role));
   j.field("active", o.active).field("complete", o.complete);
   j.field("composition", o.composition).field("pairs_in_reach", o.pairs_in_reach);
-  j.field("pairs_with_force", o.totals.contacts).field("pairs_switched_off", o.pairs_switched_off);
+  j.field("pairs_with_force", o.pairs_with_force).field("pairs_switched_off", o.pairs_switched_off);
   j.key("sum").begin_object(true).key("normal");
   write_vector(j, o.totals.normal);
   j.key("tangential");
@@ -91,6 +91,9 @@ void write_contact(JsonWriter& j, const Model& model, const cycle::ContactOutcom
   j.field("gap_closed", o.gap_closed).key("worst").begin_array();
   for (const cycle::PairOutcome& p : o.near_singular) write_pair(j, model, c, p);
   j.end_array().end_object();
+  j.key("notes").begin_array();
+  for (const std::string& text : o.notes) j.value(text);
+  j.end_array();
   if (all) {
     j.key("pairs").begin_array();
     for (const cycle::PairOutcome& p : o.pairs) write_pair(j, model, c, p);

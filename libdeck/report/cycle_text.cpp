@@ -75,12 +75,17 @@ std::string contact_table(const CycleInput& input, bool color) {
       make_table({">interface", "kind", ">in reach", ">with force", ">sum of |F|", ">largest |F|",
                   ">elastic energy", ">friction", ">damping", ">acceleration", "of node",
                   ">contact dt", "of node", ">near singular", "note"});
+  std::size_t quiet = 0;
   for (const cycle::ContactOutcome& o : input.outcome->contacts) {
+    if (o.pairs_in_reach == 0 && o.step.dt >= 1e30 && state_words(o).empty()) {
+      ++quiet;
+      continue;
+    }
     const bool limits = o.step.dt < structure;
     table.row({fmt::format("{}", o.contact->inter->id),
                kind_name(*o.contact),
                fmt::format("{}", o.pairs_in_reach),
-               fmt::format("{}", o.totals.contacts),
+               fmt::format("{}", o.pairs_with_force),
                fmt::format("{:.4g}", o.totals.total_abs),
                fmt::format("{:.4g}", o.largest_force),
                fmt::format("{:.4g}", o.totals.elastic_energy),
@@ -93,7 +98,10 @@ std::string contact_table(const CycleInput& input, bool color) {
                fmt::format("{}", o.near_singular_count),
                {state_words(o), o.gap_closed > 0 ? Tone::red : Tone::plain}});
   }
-  return table.render(color, 2);
+  std::string out = table.size() > 0 ? table.render(color, 2) : std::string();
+  if (quiet > 0)
+    out += fmt::format("  {} contact{} without a pair in reach\n", quiet, quiet == 1 ? "" : "s");
+  return out;
 }
 
 std::string singular_table(const CycleInput& input, bool color) {
@@ -179,7 +187,7 @@ std::string cycle_verdict(const CycleInput& input) {
   std::size_t pairs = 0, closed = 0;
   const cycle::ContactOutcome* worst = nullptr;
   for (const cycle::ContactOutcome& c : o.contacts) {
-    pairs += c.totals.contacts;
+    pairs += c.pairs_with_force;
     closed += c.gap_closed;
     if (worst == nullptr || c.largest_acceleration > worst->largest_acceleration) worst = &c;
   }
@@ -208,6 +216,12 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
   std::string out = fmt::format("{}{}{}\n\n", bold, cycle_verdict(input), plain);
   out += fmt::format("{}Contacts{}\n{}", bold, plain, contact_table(input, options.color));
   out += fmt::format("\n{}Time step{}\n{}", bold, plain, step_lines(input));
+  for (const cycle::ContactOutcome& o : input.outcome->contacts)
+    if (o.heat_secondary != 0 || o.heat_main != 0)
+      out += fmt::format(
+          "  interface {} {}: heat in this cycle {:.4g} to the secondary side, {:.4g} "
+          "to the main side\n",
+          o.contact->inter->id, kind_name(*o.contact), o.heat_secondary, o.heat_main);
   if (const std::string table = singular_table(input, options.color); !table.empty())
     out += fmt::format("\n{}Nearest to the mid-surface{}\n{}", bold, plain, table);
   out += fmt::format("\n{}Effects{}\n", bold, plain);
@@ -218,10 +232,13 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
     if (options.effects) out += fmt::format("    off: {}\n", joined(lines, false));
   }
   if (!options.effects) out += "  (--effects lists what is off, and why)\n";
-  if (!input.state->not_evaluated.empty()) {
-    out += fmt::format("\n{}Not evaluated{}\n", bold, plain);
-    for (const std::string& text : input.state->not_evaluated) out += "  " + text + "\n";
-  }
+  std::string left_out;
+  for (const std::string& text : input.state->not_evaluated) left_out += "  " + text + "\n";
+  for (const cycle::ContactOutcome& o : input.outcome->contacts)
+    for (const std::string& text : o.notes)
+      left_out +=
+          fmt::format("  interface {} {}: {}\n", o.contact->inter->id, kind_name(*o.contact), text);
+  if (!left_out.empty()) out += fmt::format("\n{}Not evaluated{}\n{}", bold, plain, left_out);
   return out;
 }
 

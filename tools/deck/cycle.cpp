@@ -95,7 +95,7 @@ int run(const Options& o) {
     if (o.common.wants_text()) print_text(cycle_text(input, {o.common.color_on(1), o.effects}));
     bool found = false;
     for (const cycle::ContactOutcome& c : outcome.contacts)
-      found = found || (o.fail && c.totals.contacts > 0) || !c.complete;
+      found = found || (o.fail && c.pairs_with_force > 0) || !c.complete;
     return static_cast<int>(found ? exit_findings : exit_clean);
   });
   return json.finish(code);

@@ -47,6 +47,7 @@ struct ContactOutcome {
   bool active = true;    ///< false: outside its time window or before its sensor
   bool complete = true;  ///< false: too many pairs within reach, nothing was evaluated
   std::size_t pairs_in_reach = 0;
+  std::size_t pairs_with_force = 0;
   std::size_t pairs_switched_off = 0;  ///< in reach, without stiffness
   Totals totals;                       ///< totals.dt_kinematic_pair is a position in the search
   double heat_secondary = 0.0, heat_main = 0.0;  ///< energy given to each side in this cycle
@@ -60,6 +61,7 @@ struct ContactOutcome {
   std::size_t gap_closed = 0;      ///< pairs at their mid-surface: the reference drops the node
   std::vector<PairOutcome> near_singular;  ///< closest to it first, at most 20
   std::size_t near_singular_count = 0;
+  std::vector<std::string> notes;  ///< what the card asks for and was left out
   std::vector<PairOutcome> pairs;  ///< in the order of the search; with keep_pairs
 };
 

@@ -23,17 +23,18 @@ struct PartVelocity {
 struct State {
   std::array<std::vector<double>, 3> velocity;
   std::vector<double> mass;                ///< 0 where no element with density and no /ADMAS is
-  std::vector<double> temperature;         ///< of /INITEMP, 0 elsewhere
+  std::vector<double> temperature;         ///< of /INITEMP, else of the material, else 0
   bool moving = false;                     ///< some velocity is not 0
-  bool heated = false;                     ///< the deck has an /INITEMP that could be read
+  bool heated = false;                     ///< the deck gives a temperature to some node
   std::vector<std::string> not_evaluated;  ///< what the deck says about the state and was left out
 };
 
-/// Masses lumped from elements: shells rho t A / n per node, solids rho V / 8 per slot (10- and
-/// 20-node solids by their shares), trusses and beams rho A l / 2, springs half their mass; plus
-/// /ADMAS 0 and 1. Velocities of /INIVEL TRA and T+G on node groups (a skew other than a fixed one
-/// is noted as left out), then `velocities`, in order. Rotational initial velocities act on nodal
-/// rotations and move no node. Temperatures of /INITEMP.
+/// Masses lumped from elements: quads rho t A / 4 per node, triangles by their angles, solids
+/// rho V / 8 per slot (10- and 20-node solids by their shares), trusses and beams rho A l / 2,
+/// springs half their mass; plus /ADMAS 0 and 1. Velocities of /INIVEL TRA and T+G on node groups
+/// (a skew other than a fixed one is noted as left out), then `velocities`, in order. Rotational
+/// initial velocities act on nodal rotations and move no node. Temperatures of /INITEMP, elsewhere
+/// T0 of /HEAT/MAT.
 [[nodiscard]] State make_state(const Scene& scene,
                                const std::vector<PartVelocity>& velocities = {});
 
@@ -45,9 +46,10 @@ struct StructureStep {
 };
 
 /// Simple estimate: 0.9 l / c with c^2 = E/(rho (1 - nu^2)) for shells, the pressure wave for
-/// solids, E/rho for trusses and beams, and 0.9 sqrt(M/K) for springs; l = area over the longest
-/// side (diagonal of thin quads included), volume over the largest face, length. Good to some ten
-/// per cent; formulations, damping and mass scaling are not looked at.
+/// solids, E/rho for trusses and beams; l from the area over the longest diagonal (quads) or side,
+/// the volume over the largest face, the length. Good to some ten per cent; formulations, damping
+/// and mass scaling are not looked at, and springs are left out: what limits them are the masses
+/// and rigid bodies around them.
 [[nodiscard]] StructureStep structure_step(const Scene& scene);
 
 }  // namespace deck::cycle
