@@ -78,9 +78,25 @@ struct EdgeArrays {
   }
 };
 
+/// Where the secondary nodes of one group of candidates stood before anything in it moved.
+class GroupStart {
+ public:
+  void clear() { seen_.clear(); }
+  /// The start of `node`, which is where it stands now unless the group has it already.
+  Vec of(const Coordinates& x, NodeIndex node) {
+    // Candidates are sorted by secondary node, so the group's last one is nearly always it.
+    for (auto it = seen_.rbegin(); it != seen_.rend(); ++it)
+      if (it->first == node) return it->second;
+    seen_.emplace_back(node, at(x, node));
+    return seen_.back().second;
+  }
+
+ private:
+  std::vector<std::pair<NodeIndex, Vec>> seen_;
+};
+
 /// What Inacti and Fpenmax do about one node-segment penetration, in the solver's order.
-void act(SceneContext& c, Contact& contact, PenetrationRow& row,
-         std::vector<std::array<double, 3>>& start) {
+void act(SceneContext& c, Contact& contact, PenetrationRow& row, GroupStart& start) {
   SecondaryNode& s = contact.secondary[row.secondary];
   const double pene = row.on_surface ? row.depth : row.depth * (1 + inflation);
   if (contact.fpenmax != 0 && pene > contact.fpenmax * row.gap) {
@@ -100,13 +116,13 @@ void act(SceneContext& c, Contact& contact, PenetrationRow& row,
     case 3: {
       row.action = PenetrationAction::node_moved;
       Coordinates& x = c.scene.coordinates;
-      const auto& x0 = start[row.secondary];
-      const Vec moved = at(x, s.node) - Vec{x0[0], x0[1], x0[2]};
+      const Vec x0 = start.of(x, s.node);
+      const Vec moved = at(x, s.node) - x0;
       if (pene > std::sqrt(dot(moved, moved))) {
         row.moved_by = {pene * row.normal[0], pene * row.normal[1], pene * row.normal[2]};
-        x.x[s.node] = x0[0] + row.moved_by[0];
-        x.y[s.node] = x0[1] + row.moved_by[1];
-        x.z[s.node] = x0[2] + row.moved_by[2];
+        x.x[s.node] = x0.x + row.moved_by[0];
+        x.y[s.node] = x0.y + row.moved_by[1];
+        x.z[s.node] = x0.z + row.moved_by[2];
       }
       break;
     }
@@ -148,20 +164,25 @@ void find_penetrations(SceneContext& c, Contact& contact) {
     return;
   }
   const RemovalLists removed = curvilinear_removal(c, contact);
-  std::vector<std::array<double, 3>> start;
-  if (contact.inacti == 3) start.resize(contact.secondary.size());
-  std::size_t in_group = 0;
+  // The solver measures a whole group of candidates before it acts on any of them.
+  GroupStart start;
+  std::size_t first_of_group = contact.penetrations.size(), in_group = 0;
+  const auto act_on_group = [&] {
+    start.clear();
+    for (; first_of_group < contact.penetrations.size(); ++first_of_group)
+      act(c, contact, contact.penetrations[first_of_group], start);
+    in_group = 0;
+  };
   for (const CandidatePair& pair : found.pairs) {
     if (is_removed(removed, pair)) {
       ++contact.removed_pairs;
       continue;
     }
     ++contact.candidates;
-    if (contact.inacti == 3 && in_group++ % group_size == 0)
-      for (std::size_t i = 0; i < start.size(); ++i) {
-        const Vec p = at(x, contact.secondary[i].node);
-        start[i] = {p.x, p.y, p.z};
-      }
+    if (in_group++ == group_size) {
+      act_on_group();
+      in_group = 1;
+    }
     const SecondaryNode& s = contact.secondary[pair.secondary];
     const MainSegment& m = contact.main[pair.main];
     const std::array<Point3<double>, 4> corners{point(x, m.nodes[0]), point(x, m.nodes[1]),
@@ -180,9 +201,9 @@ void find_penetrations(SceneContext& c, Contact& contact) {
     row.normal = {pene.normal.x, pene.normal.y, pene.normal.z};
     row.on_surface = pene.on_surface;
     row.feature = closest.feature;
-    act(c, contact, row, start);
     contact.penetrations.push_back(row);
   }
+  act_on_group();
 }
 
 void find_edge_penetrations(SceneContext& c, Contact& contact) {
@@ -229,7 +250,9 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     row.feature = Feature::edge;
     row.weight_s = closest.weight_s;
     row.weight_m = closest.weight_m;
-    const bool deep = row.depth >= 0.995 * row.gap;
+    // Only Inacti 6 keeps the penetration as it is.
+    const double pene = contact.inacti == 6 ? row.depth : row.depth * (1 + inflation);
+    const bool deep = pene >= 0.995 * row.gap;
     switch (contact.inacti) {
       case 1:
         row.action = PenetrationAction::edge_stiffness_zero;
@@ -247,8 +270,7 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
           break;
         }
         row.action = PenetrationAction::gap_reduced;
-        const double p = contact.inacti == 5 ? row.depth * (1 + inflation)
-                                             : row.depth + 0.05 * (row.gap - row.depth);
+        const double p = contact.inacti == 5 ? pene : pene + 0.05 * (row.gap - pene);
         s.stored_penetration = std::max(s.stored_penetration, 0.5 * p);
         m.stored_penetration = std::max(m.stored_penetration, 0.5 * p);
         break;

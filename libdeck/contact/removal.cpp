@@ -64,8 +64,9 @@ struct Front {
     met[i] = ring;
   }
   void set(NodeIndex n, double d) {
+    if (!(d < dist[n])) return;  // a node that no path reaches passes rings on, not distances
     if (dist[n] == infinity) touched.push_back(n);
-    dist[n] = std::min(dist[n], d);
+    dist[n] = d;
   }
 };
 
@@ -107,7 +108,7 @@ RemovalLists curvilinear_removal(SceneContext& c, const Contact& contact) {
       for (const std::uint32_t q : f.front) {
         const auto& qn = contact.main[q].nodes;
         for (const NodeIndex a : qn) {
-          if (f.expanded[a] == f.ring || f.dist[a] == infinity) continue;
+          if (f.expanded[a] == f.ring) continue;
           f.expanded[a] = f.ring;
           for (std::uint32_t k = at_node.start[a]; k < at_node.start[a + 1]; ++k) {
             const std::uint32_t r = at_node.item[k];
@@ -180,7 +181,7 @@ RemovalLists curvilinear_edge_removal(SceneContext& c, const Contact& contact) {
         const bool near = std::min(f.dist[edge.nodes[0]], f.dist[edge.nodes[1]]) <= reach;
         if (!near && !(apart(edge, main) < reach)) continue;
         for (const NodeIndex a : edge.nodes) {
-          if (f.expanded[a] == f.ring || f.dist[a] == infinity) continue;
+          if (f.expanded[a] == f.ring) continue;
           f.expanded[a] = f.ring;
           for (std::uint32_t k = at_node.start[a]; k < at_node.start[a + 1]; ++k) {
             const std::uint32_t r = at_node.item[k];

@@ -94,17 +94,20 @@ Contact make_contact(const Card& card, int type, ContactRole role) {
   return c;
 }
 
+/// Sets what the card of that type hands on to its contacts; the rest has no effect there.
 void apply(const std::vector<WhatIf>& all, Card& card) {
+  const int type = card.inter->type;
   for (const WhatIf& w : all) {
     if (w.interface_id != card.inter->id) continue;
     if (w.Gapmin) card.gapmin = *w.Gapmin;
+    if (type == 10) continue;
     if (w.Fscalegap) card.gap_scale = *w.Fscalegap;
     if (w.Gapmax) card.gapmax = *w.Gapmax;
-    if (w.Fpenmax) card.fpenmax = *w.Fpenmax;
-    if (w.mesh_size) card.mesh_fraction = *w.mesh_size;
+    if (w.Fpenmax && type == 7) card.fpenmax = *w.Fpenmax;
+    if (w.mesh_size) card.mesh_fraction = *w.mesh_size > 0 ? *w.mesh_size : 0.4;
     if (w.Igap) card.igap = *w.Igap == 1000 ? 0 : *w.Igap;
     if (w.Inacti) card.inacti = *w.Inacti == 1000 ? 0 : *w.Inacti;
-    if (w.Irem_gap) card.irem_gap = *w.Irem_gap;
+    if (w.Irem_gap) card.irem_gap = *w.Irem_gap == 0 ? 1 : *w.Irem_gap;
   }
 }
 
@@ -115,16 +118,21 @@ class Builder {
   void build() {
     const Interfaces& all = *c_.scene.interfaces;
     std::vector<const InterType19*> later;
-    std::size_t total = all.ordered.size();
-    for (const InterType19& i : all.type19) total += i.surf_IDs.value == i.surf_IDm.value ? 1 : 2;
+    std::size_t total = 0;
+    for (const InterBase* base : all.ordered) {
+      if (!wanted(*base)) continue;
+      ++total;
+      if (base->type != 19) continue;
+      const auto& i = static_cast<const InterType19&>(*base);
+      total += sides(i).first == sides(i).second ? 1 : 2;
+    }
     std::size_t done = 0;
     const auto step = [&] {
       ++done;
       if (c_.options.progress) c_.options.progress(done, total);
     };
     for (const InterBase* base : all.ordered) {
-      const auto& only = c_.options.only;
-      if (!only.empty() && std::find(only.begin(), only.end(), base->id) == only.end()) continue;
+      if (!wanted(*base)) continue;
       switch (base->type) {
         case 7:
           type7(static_cast<const InterType7&>(*base));
@@ -146,7 +154,7 @@ class Builder {
     }
     // What a TYPE19 generates beyond its first part comes after all interfaces of the user.
     for (const InterType19* i : later) {
-      if (i->surf_IDs.value != i->surf_IDm.value) {
+      if (const auto [s, m] = sides(*i); s != m) {
         type19_nodes(*i, ContactRole::reversed);
         step();
       }
@@ -156,6 +164,11 @@ class Builder {
   }
 
  private:
+  bool wanted(const InterBase& i) const {
+    const auto& only = c_.options.only;
+    return only.empty() || std::find(only.begin(), only.end(), i.id) != only.end();
+  }
+
   template <class Inter>
   Card card_for(const Inter& i) const {
     Card card = card_of(i);
@@ -218,7 +231,10 @@ class Builder {
     set_edges(contact.secondary_edges, edges_of_surface(s, free_only));
     set_edges(contact.main_edges, edges_of_surface(m, free_only));
     contact.dropped = contact.secondary_edges.empty() || contact.main_edges.empty();
-    if (!contact.dropped) finish_edges(std::move(contact), card);
+    if (!contact.dropped) return finish_edges(std::move(contact), card);
+    contact.secondary_edges.clear();
+    contact.main_edges.clear();
+    c_.scene.contacts.push_back(std::move(contact));
   }
 
   static std::pair<std::int64_t, std::int64_t> sides(const InterType19& i) {

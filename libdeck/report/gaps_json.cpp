@@ -146,7 +146,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
          {ContactRole::primary, ContactRole::reversed, ContactRole::edges}) {
       for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
         const Contact& c = scene.contacts[i];
-        if (c.inter != inter || c.role != role) continue;
+        if (c.inter != inter || c.role != role || c.dropped) continue;
         j.begin_object().field("kind", to_string(c.kind));
         // A TYPE11 of the user is the primary contact of its interface; that of a TYPE19 its edges.
         j.field("role", to_string(c.role)).field("igap", c.igap == 0 ? 1000 : c.igap);

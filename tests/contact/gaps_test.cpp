@@ -1,0 +1,296 @@
+// Gaps of contacts: defaults, variable gaps, limits, lengths. Figures are the published worked
+// examples and hand calculations.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "contact/small_deck.hpp"
+
+namespace deck::test {
+namespace {
+
+/// A 10 x 10 quad (nodes 1-4, part 1) and what may stand over it: beam 141-142 with orientation
+/// node 143, truss 143-144, free node 145.
+SmallDeck beam_and_truss(double thickness = 2) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(141, 2, 3, 2.2).node(142, 2, 3, 7.2).node(143, 4, 3, 1.6).node(144, 4, 3, 6);
+  d.node(145, 6, 3, 0.9);
+  d.shell_part(1, thickness).beam_part(2, 4).truss_part(3, 2.25);
+  d.shell(1, 1, 1, 2, 3, 4).bar("BEAM", 2, 7, 141, 142, 143).bar("TRUSS", 3, 8, 143, 144);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {141, 143, 145});
+  return d;
+}
+
+double pair_gap(const Built& b, const Contact& c, std::int64_t node) {
+  const SecondaryNode* s = b.secondary(c, node);
+  const MainSegment& m = c.main.at(0);
+  return s == nullptr ? NAN : c.gap_rule(s->gap, m.gap, s->length, m.length);
+}
+
+TEST(VariableGap, SumsHalfThicknessAndHalfSection) {
+  const Built b(beam_and_truss().add("@/INTER/TYPE7/1 Igap=1 Gapmin=0.1"));
+  const Contact& c = b.contact();
+  EXPECT_DOUBLE_EQ(c.main.at(0).gap, 1);
+  EXPECT_DOUBLE_EQ(pair_gap(b, c, 141), 2);
+  // The third node of a beam only orients it: the node has the truss alone.
+  EXPECT_DOUBLE_EQ(pair_gap(b, c, 143), 1.75);
+  EXPECT_DOUBLE_EQ(pair_gap(b, c, 145), 1);
+}
+
+TEST(VariableGap, DefaultGapminIsTheSmallestThickness) {
+  const Built b(beam_and_truss().add("@/INTER/TYPE7/1 Igap=1"));
+  const Contact& c = b.contact();
+  EXPECT_DOUBLE_EQ(c.gapmin, 2);
+  EXPECT_EQ(c.gapmin_origin, GapminOrigin::minimum_thickness);
+  for (const int node : {141, 143, 145}) EXPECT_DOUBLE_EQ(pair_gap(b, c, node), 2);
+  EXPECT_NEAR(b.row(c, 143)->depth, 0.4, 1e-15);
+  EXPECT_NEAR(b.row(c, 145)->depth, 1.1, 1e-15);
+  EXPECT_EQ(b.row(c, 141), nullptr);
+}
+
+TEST(VariableGap, Igap2ScalesThicknessesAndTheDefaultButNotTheCard) {
+  const Built b(beam_and_truss()
+                    .add("@/INTER/TYPE7/1 Igap=2 Fscalegap=0.5")
+                    .add("@/INTER/TYPE7/2 Igap=2 Fscalegap=0.5 Gapmin=0.25"));
+  const Contact& c = b.contact(1);
+  EXPECT_DOUBLE_EQ(c.gapmin, 1);
+  EXPECT_DOUBLE_EQ(c.main.at(0).gap, 0.5);
+  for (const int node : {141, 143, 145}) EXPECT_DOUBLE_EQ(pair_gap(b, c, node), 1);
+  EXPECT_EQ(b.row(c, 143), nullptr);
+  EXPECT_NEAR(b.row(c, 145)->depth, 0.1, 1e-15);
+  EXPECT_DOUBLE_EQ(b.contact(2).gapmin, 0.25);
+  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(2), 141), 1);
+  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(2), 145), 0.5);
+}
+
+TEST(VariableGap, Igap1KnowsNoScaleAndNoUpperBound) {
+  const Built b(beam_and_truss().add("@/INTER/TYPE7/1 Igap=1 Fscalegap=0.5 Gapmax=1 Gapmin=0.1"));
+  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(), 141), 2);
+}
+
+TEST(VariableGap, GapmaxLimitsAndGapminWins) {
+  const Built b(beam_and_truss()
+                    .add("@/INTER/TYPE7/1 Igap=2 Gapmax=1.5 Gapmin=0.1")
+                    .add("@/INTER/TYPE7/2 Igap=2 Gapmax=1.5 Gapmin=1.7"));
+  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(1), 141), 1.5);
+  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(1), 145), 1);
+  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(2), 141), 1.7);
+  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(2), 145), 1.7);
+}
+
+TEST(VariableGap, PartThicknessReplacesSectionsAndGivesSpringsAGap) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(5, 2, 2, 9).node(6, 2, 2, 12).node(7, 4, 2, 9).node(8, 4, 2, 12).node(9, 6, 2, 9);
+  d.shell_part(1, 2, 0.7).beam_part(2, 4, 0.5).spring_part(3, 10, 0.3).spring_part(4, 10);
+  d.shell(1, 1, 1, 2, 3, 4).bar("BEAM", 2, 2, 5, 6, 1).bar("SPRING", 3, 3, 7, 8);
+  d.bar("SPRING", 4, 4, 9, 8);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {1, 5, 7, 8, 9});
+  const Built b(d.add("@/INTER/TYPE7/1 Igap=1 Gapmin=0.01"));
+  const Contact& c = b.contact();
+  EXPECT_DOUBLE_EQ(b.secondary(c, 1)->gap, 0.35);
+  EXPECT_DOUBLE_EQ(b.secondary(c, 5)->gap, 0.25);
+  EXPECT_DOUBLE_EQ(b.secondary(c, 7)->gap, 0.15);
+  EXPECT_DOUBLE_EQ(b.secondary(c, 8)->gap, 0.15);
+  EXPECT_DOUBLE_EQ(b.secondary(c, 9)->gap, 0);
+}
+
+TEST(VariableGap, ConstantGapStoresNoSideGaps) {
+  const Built b(beam_and_truss().add("@/INTER/TYPE7/1 Gapmin=0.3"));
+  const Contact& c = b.contact();
+  EXPECT_EQ(c.main.at(0).gap, 0);
+  EXPECT_EQ(b.secondary(c, 141)->gap, 0);
+  EXPECT_DOUBLE_EQ(pair_gap(b, c, 141), 0.3);
+  EXPECT_DOUBLE_EQ(c.max_gap, 0.3);
+}
+
+/// Two bricks, one of them with its top raised to (22, 2, 2.6) and a shell of 0.15 on top; a
+/// tetrahedron; two quads of thickness 1 and 3.
+SmallDeck solids_and_skin() {
+  SmallDeck d;
+  const double z[8] = {0, 0, 0, 0, 2, 2, 2, 2};
+  const double x[8] = {0, 2, 2, 0, 0, 2, 2, 0}, y[8] = {0, 0, 2, 2, 0, 0, 2, 2};
+  for (int i = 0; i < 8; ++i) {
+    d.node(1 + i, x[i], y[i], z[i]);
+    d.node(11 + i, 20 + x[i], y[i], i == 6 ? 2.6 : z[i]);
+  }
+  d.node(21, 40, 0, 0).node(22, 43, 0, 0).node(23, 40, 3, 0).node(24, 40, 0, 3);
+  d.node(31, 60, 0, 0).node(32, 70, 0, 0).node(33, 70, 10, 0).node(34, 60, 10, 0);
+  d.node(35, 80, 0, 0).node(36, 80, 10, 0).node(101, 0.7, 0.6, 9);
+  d.shell_part(1, 0.15).solid_part(2).solid_part(3).shell_part(4, 1).shell_part(5, 3);
+  d.brick(2, 1, {1, 2, 3, 4, 5, 6, 7, 8}).brick(2, 2, {11, 12, 13, 14, 15, 16, 17, 18});
+  d.tetra(3, 3, 21, 22, 23, 24).shell(1, 11, 15, 16, 17, 18);
+  d.shell(4, 12, 31, 32, 33, 34).shell(5, 13, 32, 35, 36, 33);
+  d.segments("/SURF/SEG/1", {{5, 6, 7, 8}, {1, 2, 6, 5}});
+  d.segments("/SURF/SEG/2", {{15, 16, 17, 18}});
+  d.group("/SURF/PART/EXT/3", {2}).group("/SURF/PART/5", {4, 5}).group("/SURF/PART/EXT/7", {3});
+  d.group("/SURF/PART/EXT/6", {1, 2}).group("/GRNOD/NODE/2", {101});
+  return d;
+}
+
+TEST(DefaultGap, AllSolidMainTakesTenthOfShortestEdge) {
+  const Built b(solids_and_skin()
+                    .add("@/INTER/TYPE7/1 surf_IDm=1")
+                    .add("@/INTER/TYPE7/3 surf_IDm=3")
+                    .add("@/INTER/TYPE7/7 surf_IDm=7 Igap=1"));
+  EXPECT_DOUBLE_EQ(b.contact(1).gapmin, 0.2);
+  EXPECT_EQ(b.contact(1).gapmin_origin, GapminOrigin::solid_edge);
+  EXPECT_DOUBLE_EQ(b.contact(3).gapmin, 0.2);
+  EXPECT_NEAR(b.contact(7).gapmin, 0.3, 1e-15);
+}
+
+TEST(DefaultGap, ShellOnSolidDecidesUnlessOnlyTheSolidIsSelected) {
+  const Built b(solids_and_skin()
+                    .add("@/INTER/TYPE7/2 surf_IDm=2")
+                    .add("@/INTER/TYPE7/3 surf_IDm=3")
+                    .add("@/INTER/TYPE7/6 surf_IDm=6"));
+  EXPECT_DOUBLE_EQ(b.contact(2).gapmin, 0.15);
+  EXPECT_DOUBLE_EQ(b.contact(3).gapmin, 0.2);
+  EXPECT_DOUBLE_EQ(b.contact(6).gapmin, 0.15);
+}
+
+TEST(DefaultGap, ConstantGapTakesTheMeanVariableTheSmallest) {
+  const Built b(solids_and_skin()
+                    .add("@/INTER/TYPE7/5 surf_IDm=5")
+                    .add("@/INTER/TYPE7/6 surf_IDm=5 Igap=1")
+                    .add("@/INTER/TYPE10/8 surf_IDm=5"));
+  EXPECT_DOUBLE_EQ(b.contact(5).gapmin, 2);
+  EXPECT_EQ(b.contact(5).gapmin_origin, GapminOrigin::mean_thickness);
+  EXPECT_DOUBLE_EQ(b.contact(6).gapmin, 1);
+  EXPECT_DOUBLE_EQ(b.contact(8).gapmin, 2);
+}
+
+TEST(DefaultGap, HalfTheShortestMainSideLimitsIt) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 1, 0, 0).node(3, 1, 10, 0).node(4, 0, 10, 0).node(9, 5, 5, 5);
+  d.shell_part(1, 2).shell(1, 1, 1, 2, 3, 4);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {9});
+  const Built b(d.add("@/INTER/TYPE7/1"));
+  EXPECT_DOUBLE_EQ(b.contact().gapmin, 0.5);
+  EXPECT_EQ(b.contact().gapmin_origin, GapminOrigin::half_edge);
+  EXPECT_DOUBLE_EQ(b.contact().shortest_side, 1);
+}
+
+TEST(DefaultGap, NegativeGapminCountsAsNone) {
+  const Built b(beam_and_truss().add("@/INTER/TYPE7/1 Gapmin=-3"));
+  EXPECT_DOUBLE_EQ(b.contact().gapmin, 2);
+}
+
+TEST(GapThickness, PartGoesBeforeElementBeforeProperty) {
+  SmallDeck d;
+  for (int i = 0; i < 3; ++i) {
+    const double x = 20 * i;
+    d.node(10 * i + 1, x, 0, 0).node(10 * i + 2, x + 10, 0, 0);
+    d.node(10 * i + 3, x + 10, 10, 0).node(10 * i + 4, x, 10, 0);
+  }
+  d.node(99, 0, 0, 50).shell_part(1, 0.5, 0.7).shell_part(2, 0.5).shell_part(3, 0.5);
+  d.shell(1, 1, 1, 2, 3, 4, 0.3).shell(2, 2, 11, 12, 13, 14, 0.3).shell(3, 3, 21, 22, 23, 24);
+  d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).group("/SURF/PART/3", {3});
+  d.group("/GRNOD/NODE/2", {99});
+  for (int i = 1; i <= 3; ++i)
+    d.add("@/INTER/TYPE7/" + std::to_string(i) + " Igap=1 surf_IDm=" + std::to_string(i));
+  const Built b(d);
+  EXPECT_DOUBLE_EQ(b.contact(1).main.at(0).gap, 0.35);
+  EXPECT_DOUBLE_EQ(b.contact(2).main.at(0).gap, 0.15);
+  EXPECT_DOUBLE_EQ(b.contact(3).main.at(0).gap, 0.25);
+  // Stiffness never sees the part thickness.
+  EXPECT_DOUBLE_EQ(b.contact(1).main.at(0).stiffness, 60);
+  const Built v5(d.add("/INTTHICK/V5"));
+  EXPECT_DOUBLE_EQ(v5.contact(1).main.at(0).gap, 0.25);
+  EXPECT_DOUBLE_EQ(v5.contact(1).main.at(0).stiffness, 100);
+}
+
+TEST(MeshSizeGap, FollowsMainSidesAtTheNode) {
+  // The end of a strip: sides 0.781 .. 1.118 long; self contact.
+  SmallDeck d;
+  const double x[] = {0, 1, 2, 3, 3.6, 3, 2, 1, 0};
+  const double z[] = {0, 0, 0, 0, 0.5, 1.1, 1.1, 1.1, 1.1};
+  for (int i = 0; i < 9; ++i) d.node(i + 1, x[i], 0, z[i]).node(101 + i, x[i], 2, z[i]);
+  d.shell_part(1, 0.8);
+  for (int i = 1; i < 9; ++i) d.shell(1, i, i, i + 1, 102 + i - 1, 101 + i - 1);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/SURF/2", {1});
+  const Built b(d.add("@/INTER/TYPE7/1 Igap=3 %mesh_size=0.4 Gapmin=0.1"));
+  const Contact& c = b.contact();
+  std::set<long> gaps;
+  for (const SecondaryNode& s : c.secondary)
+    for (const MainSegment& m : c.main)
+      gaps.insert(std::lround(1e6 * c.gap_rule(s.gap, m.gap, s.length, m.length)));
+  for (const long expected : {651821, 712410, 739411, 800000})
+    EXPECT_TRUE(gaps.contains(expected)) << expected;
+  EXPECT_NEAR(c.main[3].length, 0.4 * std::hypot(0.6, 0.5), 1e-15);
+}
+
+TEST(MeshSizeGap, OnlyBitesInSelfContactAndSeesLineElements) {
+  SmallDeck d = beam_and_truss();
+  d.node(146, 0, 0, 0.25).bar("TRUSS", 3, 9, 1, 146);
+  const Built b(d.add("@/INTER/TYPE7/1 Igap=3 %mesh_size=0.4 Gapmin=0.01"));
+  const Contact& c = b.contact();
+  EXPECT_DOUBLE_EQ(c.main.at(0).length, 0.4 * 0.25);
+  EXPECT_EQ(b.secondary(c, 141)->length, 1e30);
+  EXPECT_DOUBLE_EQ(pair_gap(b, c, 141), 2);
+}
+
+/// Two shells that cross (t = 2 and 1.2), as in the published example; a beam, a truss, a brick.
+SmallDeck edge_scene() {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 8, 0).node(4, 0, 8, 0);
+  d.node(11, 4, -3, 1.1).node(12, 5, 12, 1.3).node(13, 25, 12, 1.3).node(14, 25, -3, 1.1);
+  d.node(21, 2, -2, 0.7).node(22, 2.5, 9, 0.9).node(23, 3, 15, 0.5);
+  const double x[8] = {0, 2, 2, 0, 0, 2, 2, 0}, y[8] = {0, 0, 2, 2, 0, 0, 2, 2};
+  for (int i = 0; i < 8; ++i) d.node(31 + i, 40 + x[i], y[i], i < 4 ? 0 : 3);
+  d.node(41, 41, -1, 3.05).node(42, 41.2, 3, 3.1);
+  d.shell_part(1, 2).shell_part(2, 1.2).beam_part(3, 4).truss_part(4, 0.09).solid_part(5);
+  d.shell(1, 1, 1, 2, 3, 4).shell(2, 2, 11, 12, 13, 14).bar("BEAM", 3, 3, 21, 22, 23);
+  d.bar("TRUSS", 4, 4, 41, 42).brick(5, 5, {31, 32, 33, 34, 35, 36, 37, 38});
+  d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).group("/SURF/PART/EXT/5", {5});
+  d.group("/LINE/SURF/1", {1}).group("/LINE/SURF/2", {2}).group("/LINE/SURF/5", {5});
+  d.segments("/LINE/SEG/3", {{21, 22}}).segments("/LINE/SEG/4", {{41, 42}});
+  return d;
+}
+
+TEST(EdgeGap, DefaultIsTheMeanOfBothSides) {
+  const Built b(edge_scene()
+                    .add("@/INTER/TYPE11/1 line_IDs=2 line_IDm=1")
+                    .add("@/INTER/TYPE11/3 line_IDs=3 line_IDm=1")
+                    .add("@/INTER/TYPE11/4 line_IDs=4 line_IDm=5"));
+  EXPECT_DOUBLE_EQ(b.contact(1).gapmin, 1.6);
+  EXPECT_DOUBLE_EQ(b.contact(3).gapmin, 2.0);
+  EXPECT_DOUBLE_EQ(b.contact(4).gapmin, 0.25);
+  EXPECT_EQ(b.contact(1).gapmin_origin, GapminOrigin::both_sides);
+}
+
+TEST(EdgeGap, VariableGapIsTheSumAndAtLeastGapmin) {
+  const Built b(edge_scene()
+                    .add("@/INTER/TYPE11/1 line_IDs=3 line_IDm=1 Igap=1 Gapmin=0.5")
+                    .add("@/INTER/TYPE11/2 line_IDs=3 line_IDm=1 Igap=1 Gapmin=3")
+                    .add("@/INTER/TYPE11/3 line_IDs=4 line_IDm=5 Igap=3 Gapmin=0.01"));
+  const auto pair = [](const Contact& c) {
+    const ContactEdge &s = c.secondary_edges.at(0), &m = c.main_edges.at(0);
+    return c.gap_rule(s.gap, m.gap, s.length, m.length);
+  };
+  EXPECT_DOUBLE_EQ(b.contact(1).main_edges.at(0).gap, 1);
+  EXPECT_DOUBLE_EQ(b.contact(1).secondary_edges.at(0).gap, 1);
+  EXPECT_DOUBLE_EQ(pair(b.contact(1)), 2);
+  EXPECT_DOUBLE_EQ(pair(b.contact(2)), 3);
+  EXPECT_DOUBLE_EQ(b.contact(3).secondary_edges.at(0).length, 0.4 * std::sqrt(0.04 + 16 + 0.0025));
+  EXPECT_DOUBLE_EQ(pair(b.contact(3)), 0.15);
+}
+
+TEST(RadiationDistance, DefaultsToTheLargerOfGapAndShortestSide) {
+  const std::string thermal = " Ithe=1 Gapmin=0.5";
+  const Built b(beam_and_truss()
+                    .add("/HEAT/MAT/1\n               293.0               100.0")
+                    .add("@/INTER/TYPE7/1" + thermal)
+                    .add("@/INTER/TYPE7/2 Drad=0.2" + thermal)
+                    .add("@/INTER/TYPE7/3 Drad=3" + thermal)
+                    .add("@/INTER/TYPE7/4 Gapmin=0.5"));
+  EXPECT_DOUBLE_EQ(b.contact(1).drad, 10);
+  EXPECT_DOUBLE_EQ(b.contact(2).drad, 0.5);
+  EXPECT_DOUBLE_EQ(b.contact(3).drad, 3);
+  EXPECT_EQ(b.contact(4).drad, 0);
+}
+
+}  // namespace
+}  // namespace deck::test

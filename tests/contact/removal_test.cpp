@@ -1,0 +1,96 @@
+// Irem_gap = 2: pairs close along the mesh are left out. A U-shaped strip in contact with itself.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact/small_deck.hpp"
+
+namespace deck::test {
+namespace {
+
+/// Eight quads, width 2, bent over; thickness 0.8 (the published example).
+SmallDeck strip() {
+  SmallDeck d;
+  const double x[] = {0, 1, 2, 3, 3.6, 3, 2, 1, 0};
+  const double z[] = {0, 0, 0, 0, 0.5, 1.1, 1.1, 1.1, 1.1};
+  for (int i = 0; i < 9; ++i) d.node(i + 1, x[i], 0, z[i]).node(101 + i, x[i], 2, z[i]);
+  d.shell_part(1, 0.8);
+  for (int i = 1; i < 9; ++i) d.shell(1, i, i, i + 1, 101 + i, 100 + i);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/SURF/2", {1}).group("/LINE/SURF/1", {1});
+  return d;
+}
+
+TEST(CurvilinearRemoval, CountsOfThePublishedExample) {
+  const Built b(strip()
+                    .add("@/INTER/TYPE7/1 Gapmin=1.2 Inacti=6")
+                    .add("@/INTER/TYPE7/2 Gapmin=1.2 Inacti=6 Irem_gap=2"));
+  EXPECT_EQ(b.contact(1).candidates, 72u);
+  EXPECT_EQ(b.contact(1).penetrations.size(), 52u);
+  EXPECT_EQ(b.contact(2).candidates, 40u);
+  EXPECT_EQ(b.contact(2).penetrations.size(), 20u);
+  EXPECT_EQ(b.contact(2).removed_pairs, 32u);
+}
+
+TEST(CurvilinearRemoval, EdgesOfThePublishedExample) {
+  const Built b(strip()
+                    .add("@/INTER/TYPE11/9 line_IDs=1 line_IDm=1 Gapmin=1.2 Irem_gap=2")
+                    .add("@/INTER/TYPE11/10 line_IDs=1 line_IDm=1 Gapmin=1.2"));
+  EXPECT_EQ(b.contact(9).penetrations.size(), 32u);
+  EXPECT_EQ(b.contact(10).penetrations.size(), 180u);
+}
+
+TEST(CurvilinearRemoval, EveryRemovedPairIsNearAlongTheStrip) {
+  const Built b(
+      strip().add("@/INTER/TYPE7/1 Gapmin=1.2").add("@/INTER/TYPE7/2 Gapmin=1.2 Irem_gap=2"));
+  const Contact &all = b.contact(1), &kept = b.contact(2);
+  // Paths along the strip from its column of nodes to that of the segment; diagonals shorten them
+  // by less than the width allows, so columns give a lower bound.
+  const double step[] = {1, 1, 1, std::hypot(0.6, 0.5), std::hypot(0.6, 0.6), 1, 1, 1};
+  const auto column = [&](NodeIndex n) { return static_cast<int>(b.model.node_id(n) % 100) - 1; };
+  const auto along = [&](int from, int to) {
+    double sum = 0;
+    for (int i = std::min(from, to); i < std::max(from, to); ++i) sum += step[i];
+    return sum;
+  };
+  std::size_t removed = 0;
+  for (const PenetrationRow& r : all.penetrations) {
+    const NodeIndex n = all.secondary[r.secondary].node;
+    if (b.row(kept, b.model.node_id(n), r.main) != nullptr) continue;
+    ++removed;
+    double nearest = 1e30;
+    for (const NodeIndex m : all.main[r.main].nodes)
+      nearest = std::min(nearest, along(column(n), column(m)));
+    EXPECT_LE(nearest, std::sqrt(2.0) * 1.2 + 1e-12) << b.model.node_id(n);
+  }
+  EXPECT_EQ(removed, 32u);
+}
+
+TEST(CurvilinearRemoval, VariableGapUsesThePairGap) {
+  // Pair gap 0.8 everywhere: reach 1.131 takes in one column of nodes beside each segment, while
+  // the reach of a constant gap of 1.2 is 1.697.
+  const Built b(strip()
+                    .add("@/INTER/TYPE7/1 Igap=1 Gapmin=0.1")
+                    .add("@/INTER/TYPE7/2 Igap=1 Gapmin=0.1 Irem_gap=2"));
+  const Contact &all = b.contact(1), &kept = b.contact(2);
+  EXPECT_EQ(all.candidates, kept.candidates + kept.removed_pairs);
+  EXPECT_GT(kept.removed_pairs, 0u);
+  for (const PenetrationRow& r : kept.penetrations) EXPECT_NEAR(r.gap, 0.8, 1e-15);
+}
+
+TEST(CurvilinearRemoval, NothingHappensBetweenSeparateMeshes) {
+  SmallDeck d = strip();
+  d.node(500, 1.5, 1, 0.3).group("/GRNOD/NODE/5", {500});
+  d.add("@/INTER/TYPE7/1 grnd_IDs=5 Gapmin=1.2 Irem_gap=2");
+  const Built b(d);
+  EXPECT_EQ(b.contact().removed_pairs, 0u);
+  EXPECT_FALSE(b.contact().penetrations.empty());
+}
+
+TEST(CurvilinearRemoval, NoRingIsExpandedBelowTheShortestSide) {
+  // sqrt(2) * 0.5 is less than the shortest side 0.78: nothing is removed.
+  const Built b(strip().add("@/INTER/TYPE7/1 Gapmin=0.5 Irem_gap=2"));
+  EXPECT_EQ(b.contact().removed_pairs, 0u);
+}
+
+}  // namespace
+}  // namespace deck::test
