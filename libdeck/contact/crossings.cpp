@@ -1,0 +1,214 @@
+#include "deck/contact/crossings.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "contact/box_tree.hpp"
+#include "contact/crossings_exact.hpp"
+#include "contact/search_parallel.hpp"
+#include "contact/search_sweep.hpp"
+
+namespace deck {
+namespace {
+
+constexpr std::size_t width = BoxBlock::kWidth;
+
+Box segment_box(const NodeArrays& nodes, const std::array<std::uint32_t, 4>& segment) {
+  Box box = sweep::edge_box(nodes, {segment[0], segment[1]}, 0);
+  box.add(sweep::edge_box(nodes, {segment[2], segment[3]}, 0));
+  return box;
+}
+
+/// Bit i: child i of the block overlaps the box.
+unsigned overlaps(const BoxBlock& block, const Box& box) {
+  unsigned bits = 0;
+  for (std::size_t i = 0; i < width; ++i) {
+    bool meets = true;
+    for (std::size_t k = 0; k < 3; ++k)
+      meets = meets && block.low[k][i] <= box.high[k] && box.low[k] <= block.high[k][i];
+    bits |= static_cast<unsigned>(meets) << i;
+  }
+  return bits;
+}
+
+/// Calls visit(leaf) for every leaf whose box overlaps `box`.
+template <class Visit>
+void walk(const BoxTree& tree, std::size_t level, std::size_t block, const Box& box,
+          const Visit& visit) {
+  for (unsigned bits = overlaps(tree.level(level)[block], box); bits != 0; bits &= bits - 1) {
+    const std::size_t child = block * width + static_cast<std::size_t>(std::countr_zero(bits));
+    if (level == 0)
+      visit(child);
+    else
+      walk(tree, level - 1, child, box, visit);
+  }
+}
+
+bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
+                    const std::array<std::uint32_t, 4>& s) {
+  for (const std::uint32_t n : s)
+    if (n == edge[0] || n == edge[1]) return false;
+  const auto at = [&](std::uint32_t n) { return sweep::point(nodes, n); };
+  const Point3<double> p = at(edge[0]), q = at(edge[1]), a = at(s[0]), c = at(s[2]);
+  if (detail::passes_through(p, q, a, at(s[1]), c)) return true;
+  return s[2] != s[3] && detail::passes_through(p, q, a, c, at(s[3]));
+}
+
+}  // namespace
+
+std::vector<CandidatePair> find_crossing_pairs(
+    const NodeArrays& nodes, std::span<const std::array<std::uint32_t, 2>> edges,
+    std::span<const std::array<std::uint32_t, 4>> segments, int threads) {
+  if (edges.empty() || segments.empty()) return {};
+  threads = effective_threads(threads);
+  const auto box_of = [&](std::uint32_t i) { return sweep::edge_box(nodes, edges[i], 0); };
+  std::vector<std::uint32_t> order(edges.size());
+  std::iota(order.begin(), order.end(), 0U);
+  sweep::sort_in_space(order, box_of, threads);
+  std::vector<BoxBlock> blocks((order.size() + width - 1) / width);
+  for (std::size_t i = 0; i < order.size(); ++i) blocks[i / width].set(i % width, box_of(order[i]));
+  const BoxTree tree(std::move(blocks), threads);
+
+  std::vector<std::vector<CandidatePair>> found(static_cast<std::size_t>(threads));
+  parallel_parts(
+      threads, segments.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+        for (std::size_t m = begin; m < end; ++m)
+          walk(tree, tree.levels() - 1, 0, segment_box(nodes, segments[m]), [&](std::size_t leaf) {
+            const std::uint32_t e = order[leaf];
+            if (passes_through(nodes, edges[e], segments[m]))
+              found[part].push_back({e, static_cast<std::uint32_t>(m)});
+          });
+      });
+  std::vector<CandidatePair> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+namespace {
+
+/// An edge with the element that has it.
+struct ElementEdge {
+  std::array<NodeIndex, 2> nodes{};
+  ElementKind kind{};
+  std::uint32_t element = no_index;
+};
+
+using LocalEdge = std::array<int, 2>;
+constexpr LocalEdge bar_edges[] = {{0, 1}};
+constexpr LocalEdge triangle_edges[] = {{0, 1}, {1, 2}, {2, 0}};
+constexpr LocalEdge quad_edges[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+constexpr LocalEdge brick_edges[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                     {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+constexpr LocalEdge penta_edges[] = {{0, 1}, {1, 2}, {2, 0}, {4, 5}, {5, 6},
+                                     {6, 4}, {0, 4}, {1, 5}, {2, 6}};
+// The slots of a tetrahedron are n1 n1 n2 n2 n4 n3 n3 n4.
+constexpr LocalEdge tetra_edges[] = {{0, 2}, {2, 5}, {5, 0}, {0, 4}, {2, 4}, {5, 4}};
+
+std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t e) {
+  switch (family.kind) {
+    case ElementKind::shell4:
+      return quad_edges;
+    case ElementKind::shell3:
+      return triangle_edges;
+    case ElementKind::solid8:
+      switch (family.shape[e]) {
+        case SolidShape::tetra4:
+        case SolidShape::tetra10:
+          return tetra_edges;
+        case SolidShape::penta6:
+          return penta_edges;
+        default:
+          return brick_edges;
+      }
+    case ElementKind::truss:
+    case ElementKind::beam:
+      return bar_edges;
+    default:
+      return {};
+  }
+}
+
+constexpr ElementKind families[] = {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
+                                    ElementKind::truss, ElementKind::beam};
+
+/// Every edge of the model once, with the first element that has it, sorted by nodes.
+std::vector<ElementEdge> edges_of(const Model& model) {
+  std::vector<ElementEdge> out;
+  for (const ElementKind kind : families) {
+    const Elements& family = model.family(kind);
+    for (std::uint32_t e = 0; e < family.size(); ++e) {
+      const NodeIndex* n = family.of(e);
+      for (const LocalEdge& local : local_edges(family, e)) {
+        const NodeIndex a = n[local[0]], b = n[local[1]];
+        if (a == b || a == no_index || b == no_index) continue;
+        out.push_back({{std::min(a, b), std::max(a, b)}, kind, e});
+      }
+    }
+  }
+  const auto before = [](const ElementEdge& a, const ElementEdge& b) { return a.nodes < b.nodes; };
+  std::stable_sort(out.begin(), out.end(), before);
+  const auto same = [](const ElementEdge& a, const ElementEdge& b) { return a.nodes == b.nodes; };
+  out.erase(std::unique(out.begin(), out.end(), same), out.end());
+  return out;
+}
+
+}  // namespace
+
+std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
+  std::vector<Crossing> out;
+  const Model& model = *scene.model;
+  const Coordinates& x = scene.coordinates;
+  const std::vector<ElementEdge> all = edges_of(model);
+  std::vector<std::uint8_t> secondary(model.nodes.size()), main(model.nodes.size());
+  for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
+    const Contact& contact = scene.contacts[c];
+    if (contact.main.empty()) continue;
+    std::fill(secondary.begin(), secondary.end(), 0);
+    std::fill(main.begin(), main.end(), 0);
+    for (const SecondaryNode& s : contact.secondary) secondary[s.node] = 1;
+    std::vector<std::array<std::uint32_t, 4>> segments;
+    std::vector<std::array<std::uint32_t, 2>> sides;
+    segments.reserve(contact.main.size());
+    for (const MainSegment& m : contact.main) {
+      segments.push_back(m.nodes);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const NodeIndex a = m.nodes[k], b = m.nodes[(k + 1) % 4];
+        if (a != b) sides.push_back({std::min(a, b), std::max(a, b)});
+        main[a] = 1;
+      }
+    }
+    std::sort(sides.begin(), sides.end());
+    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+    // Both lists are sorted by nodes: their union is formed in one pass.
+    std::vector<ElementEdge> owners;
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    auto side = sides.begin();
+    const auto add_sides_before = [&](const std::array<NodeIndex, 2>* end) {
+      for (; side != sides.end() && (end == nullptr || *side < *end); ++side) {
+        owners.push_back({*side, ElementKind::shell4, no_index});
+        edges.push_back(*side);
+      }
+    };
+    for (const ElementEdge& e : all) {
+      const bool both = secondary[e.nodes[0]] && secondary[e.nodes[1]];
+      if (!both && !(main[e.nodes[0]] && main[e.nodes[1]])) continue;
+      add_sides_before(&e.nodes);
+      const bool is_side = side != sides.end() && *side == e.nodes;
+      if (is_side) ++side;
+      if (!both && !is_side) continue;
+      owners.push_back(e);
+      edges.push_back(e.nodes);
+    }
+    add_sides_before(nullptr);
+    for (const CandidatePair& pair :
+         find_crossing_pairs({x.x, x.y, x.z}, edges, segments, threads)) {
+      const ElementEdge& e = owners[pair.secondary];
+      out.push_back({c, e.nodes, e.kind, e.element, pair.main});
+    }
+  }
+  return out;
+}
+
+}  // namespace deck
