@@ -148,6 +148,8 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   if (in.earlier != nullptr)
     add_block(out, "deck-earlier", "application/octet-stream",
               detail::packed_text(earlier_json(*in.earlier)));
+  if (in.cycle != nullptr)
+    add_block(out, "deck-cycle", "application/octet-stream", detail::cycle_block(*in.cycle));
   out += "<script>";
   out += bundle.script;
   out += "</script>\n</body>\n</html>\n";

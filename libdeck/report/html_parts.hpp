@@ -75,4 +75,7 @@ void write_contacts(JsonWriter& json, const HtmlInput& input, const PageContacts
 void write_interfaces(JsonWriter& json, const HtmlInput& input);
 void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);
 
+// html_cycle.cpp — forces, energies and time steps of the first cycle
+std::string cycle_block(const cycle::SceneOutcome& outcome);
+
 }  // namespace deck::detail

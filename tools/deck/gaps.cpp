@@ -82,7 +82,13 @@ Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& sce
     if (!read) return read.error();
     earlier = std::move(*read);
   }
+  cycle::CycleOptions cycle_options;
+  cycle_options.threads = scene_options.threads;
+  cycle_options.keep_pairs = true;
+  const cycle::SceneOutcome forces =
+      cycle::run_cycle(scene, cycle::make_state(scene), cycle_options);
   HtmlInput input;
+  input.cycle = &forces;
   input.path = loaded.path;
   input.deck = &loaded.deck;
   input.scene = &scene;
@@ -127,7 +133,7 @@ int run(const Options& o) {
     {
       Progress progress(!o.common.quiet);
       progress.step("contacts");
-      scene_options.nodal_stiffness = o.all && json.wanted();
+      scene_options.nodal_stiffness = (o.all && json.wanted()) || !o.html.empty();
       scene_options.progress = [&](std::size_t done, std::size_t total) {
         progress.update(done, total);
       };

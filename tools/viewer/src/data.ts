@@ -1,6 +1,6 @@
 // Decodes the binary blocks of the page (see libdeck/report/html_*.cpp for the writers).
 import { unzlibSync } from "fflate";
-import type { ContactMeta, Earlier, Meta } from "./meta";
+import type { ContactMeta, Cycle, Earlier, Meta } from "./meta";
 
 export const kindNames = ["shell", "sh3n", "solid", "quad", "tria", "truss", "beam", "spring"];
 
@@ -246,7 +246,9 @@ export function loadContacts(meta: Meta, mesh: Mesh): Contacts {
   return readContacts(inflate("deck-contacts")!, meta, mesh.nodeId.length);
 }
 
-export function loadEarlier(): Earlier | null {
-  const bytes = inflate("deck-earlier");
-  return bytes ? (JSON.parse(new TextDecoder().decode(bytes)) as Earlier) : null;
-}
+const json = (id: string): unknown => {
+  const bytes = inflate(id);
+  return bytes ? JSON.parse(new TextDecoder().decode(bytes)) : null;
+};
+export const loadEarlier = () => json("deck-earlier") as Earlier | null;
+export const loadCycle = () => json("deck-cycle") as Cycle | null;

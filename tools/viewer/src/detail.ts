@@ -24,6 +24,7 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
     const place = report.place(r);
     const item = (name: string, value: string | Node, title = "") => [h("dt", null, name), h("dd", { title }, value)];
     const p = report.point(r);
+    const force = report.forceOf(r);
     replace(
       element,
       h("div", { class: "panel-head" },
@@ -43,6 +44,7 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
           ...item("Main element", `${report.elementText(r, "main")} · ${report.partText(x.mainPart)}`),
           ...item(edge ? "First node at" : "Node at", place ? `${fileName(place.file)}:${place.line}` : "–", place ? `${place.file}:${place.line}` : ""),
           ...item("Card at", `${fileName(report.meta.interfaces[meta.interface].card.file)}:${report.meta.interfaces[meta.interface].card.line}`),
+          ...(force ? item("First cycle", `force ${num(force.force, 5)} · stiffness ${num(force.stiffness, 4)}`, "With the deck's settings") : []),
           ...(x.status ? item("Earlier", x.earlier === null ? "did not penetrate" : `${num(x.earlier, 6)} (${x.status})`) : []))),
       h("p", { class: "fate" }, h("b", null, error ? `The solver stops with error ${error}. ` : ""), error ? "The node lies exactly on the segment, so no direction exists. " : fate(report, r)),
       edge || meta.type === 10 ? null : alternatives(report, x, setting.inacti, setting.fpenmax),
@@ -102,7 +104,7 @@ export function notChecked(report: Report): HTMLElement {
   const meta = report.meta;
   const beyond = meta.contacts.filter((c) => !c.complete).length;
   const items: (Node | string)[] = [
-    "Gaps, distances and actions follow the Starter of the reference solver at cycle 0. Forces and time steps are not part of this page.",
+    "Gaps, distances and actions follow the Starter of the reference solver at cycle 0. Forces and time steps are those of deck cycle for the deck's settings; they are not evaluated again in the page.",
     "Crossed elements are not searched for: an edge through a face shows as a penetration only within the gap.",
     "Settings under test are evaluated in this page with the same double-precision operations as the command line. Inacti 3 moves nodes, and later interfaces see the moved nodes; default gaps and mesh-size limits stay those of the deck.",
     `Pairs are carried up to about three times the largest gap of each interface${beyond ? `; for ${beyond} of them only what penetrates, because there are too many` : ""}. Beyond that the page says so.`,

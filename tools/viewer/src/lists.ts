@@ -213,20 +213,29 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     { key: "inter", title: "Int.", hint: "Interface id", width: "56px", right: true, value: (x) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id, cell: (x) => String(report.meta.interfaces[report.meta.contacts[x.contact].interface].id) },
     { key: "node", title: "Node / edge", width: "minmax(96px,1fr)", value: (x) => x.nodes[0], cell: (x) => report.secondaryText(x.row) },
     { key: "segment", title: "Segment / edge", width: "minmax(168px,1.7fr)", value: (x) => report.nodeId(report.mainNodes(x.row)[0]), cell: (x) => report.mainText(x.row) },
-    { key: "sp", title: "Part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.secondaryPart), cell: (x) => report.partText(x.secondaryPart) },
-    { key: "mp", title: "Main part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.mainPart), cell: (x) => report.partText(x.mainPart) },
     { key: "action", title: "Action", hint: "What the solver does about it at start-up", width: "minmax(88px,.8fr)", value: (x) => x.row.action,
       cell: (x) => {
         const error = report.solverError(x.row);
         if (error) return h("span", { class: "bad" }, `error ${error}`);
         return x.row.gap0 !== null ? `gap to ${num(x.row.gap0)}` : actionWords[x.row.action];
       } },
+    { key: "sp", title: "Part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.secondaryPart), cell: (x) => report.partText(x.secondaryPart) },
+    { key: "mp", title: "Main part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.mainPart), cell: (x) => report.partText(x.mainPart) },
     { key: "place", title: "Defined at", width: "minmax(80px,.9fr)", value: (x) => report.place(x.row)?.line ?? 0,
       cell: (x) => {
         const p = report.place(x.row);
         return p ? h("span", { title: `${p.file}:${p.line}` }, `${fileName(p.file)}:${p.line}`) : "";
       } },
   ];
+  if (report.cycle)
+    columns.splice(columns.findIndex((c) => c.key === "action") + 1, 0, {
+      key: "force", title: "Force", hint: "Of the pair in the first cycle, with the deck's settings", width: "76px", right: true,
+      value: (x) => report.forceOf(x.row)?.force ?? -1,
+      cell: (x) => {
+        const f = report.forceOf(x.row);
+        return f ? num(f.force) : "–";
+      },
+    });
   if (report.earlier)
     columns.unshift({
       key: "status", title: "Change", hint: `Against ${report.earlier.path}`, width: "84px", value: (x) => x.status ?? "",
@@ -239,7 +248,7 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     same: (a, b) => a.key === b.key,
   });
   table.element.classList.add("list-table");
-  table.element.style.setProperty("--least", "980px");
+  table.element.style.setProperty("--least", report.cycle ? "1050px" : "980px");
   const chips = h("div", { class: "filters" });
   const count = h("span", { class: "muted count" });
   const search = h("input", { type: "search", placeholder: "Node, element or part", "aria-label": "Filter the list", id: "search", oninput: () => report.setFilter({ text: search.value }) });

@@ -1,5 +1,6 @@
 // The page: reads its data, builds the sections, wires keys and exports.
-import { loadContacts, loadEarlier, loadMesh, loadMeta } from "./data";
+import { cycleSection } from "./cycle";
+import { loadContacts, loadCycle, loadEarlier, loadMesh, loadMeta } from "./data";
 import { detail, notChecked } from "./detail";
 import { button, fileName, group, h, num, percent } from "./dom";
 import { allChangedCards, copyText, csv, grnodBlock, plainNodes, save } from "./exports";
@@ -15,7 +16,7 @@ const started = performance.now();
 function build(): void {
   const meta = loadMeta();
   const mesh = loadMesh();
-  const report = new Report(meta, mesh, loadContacts(meta, mesh), loadEarlier());
+  const report = new Report(meta, mesh, loadContacts(meta, mesh), loadEarlier(), loadCycle());
   const look: Look = { map: "viridis", flip: true, dark: false, contour: "depth", bands: 0 };
   const changeLook = (change: Partial<Look>) => {
     Object.assign(look, change);
@@ -56,9 +57,9 @@ function build(): void {
       button("", "print", () => window.print(), { "aria-label": "Print", title: "Print", class: "tool" }),
       button("", "help", () => help.showModal(), { "aria-label": "Keys (?)", title: "Keys (?)", class: "tool" })));
   const nav = h("nav", { "aria-label": "Sections" },
-    ...([["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["distribution", "Distribution"], ["worst", "Worst first"], ["notes", "About"]] as const)
+    ...([["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["distribution", "Distribution"], ["worst", "Worst first"], ["cycle", "First cycle"], ["notes", "About"]] as const)
       .map(([id, name]) => h("a", { href: `#${id}` }, name)));
-  const left = h("div", { class: "left", id: "tables" }, nav, verdict(report), interfaces(report), pairsSection(report, look), distribution(report, look), list.element, notChecked(report));
+  const left = h("div", { class: "left", id: "tables" }, nav, verdict(report), interfaces(report), pairsSection(report, look), distribution(report, look), list.element, cycleSection(report), notChecked(report));
   const divider = h("div", { class: "divider", role: "separator", "aria-orientation": "vertical", "aria-label": "Width of the tables", tabindex: 0 });
   const right = h("aside", { class: "right" }, viewport.element, detail(report, fly));
   const split = h("div", { class: "split" }, left, divider, right);

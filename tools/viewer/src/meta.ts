@@ -125,3 +125,21 @@ export interface Earlier {
   deck: string;
   rows: [number, string, number, number, number, number][]; // interface, role, s1, s2, depth, gap
 }
+
+/** Forces of the first cycle with the deck's settings; null: nothing limits. */
+export interface Cycle {
+  structure_dt: number | null;
+  contact_dt: number | null;
+  contacts: {
+    active: boolean;
+    complete: boolean;
+    dt: number | null;
+    because: string;
+    with_force: number;
+    force: number; // sum over pairs
+    largest: number;
+    acceleration: number;
+    elastic: number;
+    rows: [number, number, number, number][]; // secondary, main, force, stiffness
+  }[];
+}

@@ -2,7 +2,7 @@
 // when one of them changes.
 import { kindNames, type Contacts, type Mesh } from "./data";
 import { Evaluator, on_surface_error, ratioOf, sumTotals, type Result, type Row } from "./evaluate";
-import type { Earlier, FieldName, Meta, Overrides, Totals } from "./meta";
+import type { Cycle, Earlier, FieldName, Meta, Overrides, Totals } from "./meta";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";
 
@@ -48,12 +48,15 @@ export class Report {
   readonly base: Result[];
   results: Result[];
   overrides: Overrides[];
+  /** Settings that the program was run with. */
+  private readonly started: Overrides[];
   hits: Hit[] = [];
   solved: Solved[] = [];
   filtered: Hit[] = [];
   filter: Filter = { interface: null, pair: null, depth: null, ratio: null, status: null, text: "", perNode: true };
   selected: Hit | null = null;
   private readonly listeners = new Map<Topic, (() => void)[]>();
+  private readonly forces: Map<string, { force: number; stiffness: number }>[] | null;
   private readonly earlierRows: Map<string, { depth: number; gap: number; row: Earlier["rows"][0] }> | null;
 
   constructor(
@@ -61,7 +64,9 @@ export class Report {
     readonly mesh: Mesh,
     readonly data: Contacts,
     readonly earlier: Earlier | null,
+    readonly cycle: Cycle | null,
   ) {
+    this.forces = cycle && cycle.contacts.map((c) => new Map(c.rows.map((r) => [`${r[0]}/${r[1]}`, { force: r[2], stiffness: r[3] }])));
     this.evaluator = new Evaluator(meta, data);
     const none = meta.interfaces.map(() => ({}) as Overrides);
     this.base = this.evaluator.evaluate(none);
@@ -73,6 +78,7 @@ export class Report {
             if (k !== "interface" && k !== "%mesh_size" && k !== "Irem_gap") out[k as FieldName] = v as number;
       return out;
     });
+    this.started = this.overrides;
     this.results = this.evaluator.evaluate(this.overrides, { overrides: none, results: this.base });
     this.earlierRows =
       earlier &&
@@ -205,6 +211,20 @@ export class Report {
   }
   solverError(row: Row): number {
     return row.onSurface ? on_surface_error(this.meta.contacts[row.contact], this.results[row.contact].setting) : 0;
+  }
+
+  /** Force of the first cycle; null where it is not known, or was evaluated for other settings. */
+  forceOf(row: Row): { force: number; stiffness: number } | null {
+    if (!this.forces || this.settingsDiffer(row.contact)) return null;
+    return this.forces[row.contact].get(`${row.secondary}/${row.main}`) ?? null;
+  }
+  private settingsDiffer(contact: number): boolean {
+    const inter = this.meta.contacts[contact].interface;
+    return JSON.stringify(this.overrides[inter]) !== JSON.stringify(this.started[inter]);
+  }
+  /** The first cycle of a contact; null as above. */
+  cycleOf(contact: number): Cycle["contacts"][0] | null {
+    return this.cycle && !this.settingsDiffer(contact) ? this.cycle.contacts[contact] : null;
   }
 
   // ---- rows and filters ---------------------------------------------------------------------

@@ -332,8 +332,8 @@ export class Viewport {
         h("b", null, `${this.report.isEdge(x.row) ? "edge" : "node"} ${this.report.secondaryText(x.row)}`),
         h("span", null, `depth ${num(x.depth, 5)} · gap ${num(x.row.gap)} · distance ${num(x.row.distance)}`));
     }
-    const left = Math.min(Math.max(at.x - r.left + 16, 8), r.width - this.label.offsetWidth - 8);
-    const top = Math.min(Math.max(at.y - r.top - 44, 52), r.height - this.label.offsetHeight - 8);
+    const left = Math.min(Math.max(at.x - r.left + 28, 8), r.width - this.label.offsetWidth - 8);
+    const top = Math.min(Math.max(at.y - r.top - 74, 52), r.height - this.label.offsetHeight - 8);
     this.label.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
   }
 

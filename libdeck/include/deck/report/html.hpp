@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "deck/contact/view.hpp"
+#include "deck/cycle/scene_cycle.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/text/result.hpp"
@@ -39,6 +40,8 @@ struct HtmlInput {
   std::vector<WhatIf> what_if;     ///< what the scene was built with
   std::vector<std::int64_t> only;  ///< what SceneOptions::only was
   const EarlierGaps* earlier = nullptr;
+  /// Forces of the first cycle with their pairs (CycleOptions::keep_pairs); may be nullptr.
+  const cycle::SceneOutcome* cycle = nullptr;
   int threads = 1;
 };
 

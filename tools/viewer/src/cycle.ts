@@ -1,0 +1,49 @@
+// Forces, energies and time steps of the first cycle, where the page carries them.
+import { group, h, num, plural, replace } from "./dom";
+import type { Report } from "./report";
+import { VirtualTable } from "./table";
+
+export function cycleSection(report: Report): HTMLElement {
+  const section = h("section", { id: "cycle" });
+  const cycle = report.cycle;
+  const rows = cycle ? cycle.contacts.flatMap((c, i) => (c.with_force > 0 || c.dt !== null || !c.complete ? [i] : [])) : [];
+  if (!cycle) {
+    section.hidden = true;
+    return section;
+  }
+  const step = (dt: number | null) => (dt === null ? "–" : num(dt));
+  const of = (i: number) => report.cycleOf(i);
+  const dash = (i: number, f: (c: NonNullable<ReturnType<typeof of>>) => string) => {
+    const c = of(i);
+    return c ? f(c) : "settings changed";
+  };
+  const table = new VirtualTable<number>(
+    [
+      { key: "id", title: "Id", width: "78px", right: true, value: (i) => report.meta.interfaces[report.meta.contacts[i].interface].id, cell: (i) => String(report.meta.interfaces[report.meta.contacts[i].interface].id) },
+      { key: "kind", title: "Kind", width: "minmax(88px,.8fr)", value: (i) => report.roleText(i), cell: (i) => report.roleText(i) },
+      { key: "pairs", title: "With force", hint: "Pairs that carry a force", width: "76px", right: true, value: (i) => of(i)?.with_force ?? 0, cell: (i) => dash(i, (c) => group(c.with_force)) },
+      { key: "force", title: "Sum", hint: "Sum of the sizes of the pair forces", width: "80px", right: true, value: (i) => of(i)?.force ?? 0, cell: (i) => dash(i, (c) => num(c.force)) },
+      { key: "largest", title: "Largest", hint: "Largest force of one pair", width: "80px", right: true, value: (i) => of(i)?.largest ?? 0, cell: (i) => dash(i, (c) => num(c.largest)) },
+      { key: "elastic", title: "Energy", hint: "Elastic energy of the contact", width: "80px", right: true, value: (i) => of(i)?.elastic ?? 0, cell: (i) => dash(i, (c) => num(c.elastic)) },
+      { key: "dt", title: "Time step", hint: "Smallest step that this contact allows", width: "84px", right: true, value: (i) => of(i)?.dt ?? Infinity, cell: (i) => dash(i, (c) => (c.complete ? step(c.dt) : "too many pairs")) },
+      { key: "because", title: "Because of", width: "minmax(110px,1.2fr)", value: (i) => of(i)?.because ?? "", cell: (i) => dash(i, (c) => c.because || "–") },
+    ],
+    { label: "First cycle", sort: "dt", descending: false, select: (i) => i !== null && report.setFilter({ interface: report.meta.contacts[i].interface, pair: null }) },
+  );
+  const sentence = h("p", { class: "note" });
+  const draw = () => {
+    table.setRows(rows);
+    const forces = rows.reduce((n, i) => n + cycle.contacts[i].with_force, 0);
+    const limits = cycle.contact_dt !== null && (cycle.structure_dt === null || cycle.contact_dt < cycle.structure_dt);
+    replace(sentence,
+      `${plural(forces, "pair carries", "pairs carry")} a force in the first cycle. `,
+      cycle.contact_dt === null ? "No contact limits the time step." : h(limits ? "b" : "span", { class: limits ? "bad" : "" }, `Contact allows a time step of ${step(cycle.contact_dt)}, the elements ${step(cycle.structure_dt)}.`),
+      " Evaluated by the program with the deck's settings (deck cycle).");
+  };
+  table.element.style.setProperty("--rows", String(Math.max(1, Math.min(rows.length, 8))));
+  table.element.hidden = rows.length === 0;
+  replace(section, h("h2", null, "First cycle"), table.element, sentence);
+  report.on("results", draw);
+  draw();
+  return section;
+}
