@@ -43,9 +43,10 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
     const Part& part = m.parts[p];
     if (part.prop == no_index || own_thickness(shells, e) != 0) continue;
     const Property& prop = m.properties[part.prop];
-    // Stacks add up their plies; an encrypted property hides its thickness.
-    const bool layered = prop.number == 17 || prop.number == 51 || prop.number == 52;
-    if (prop.thickness == 0 && !layered && prop.block != nullptr && !prop.block->opaque)
+    // Stacks add up their plies, void shells may do without, an encrypted property hides it.
+    const bool free = prop.number == 17 || prop.number == 51 || prop.number == 52 ||
+                      prop.number == 0;
+    if (prop.thickness == 0 && !free && prop.block != nullptr && !prop.block->opaque)
       tally(thin, p, index);
   }
   for (std::size_t p = 0; p < m.parts.size(); ++p) {
