@@ -129,7 +129,7 @@ std::string cycle_json(const CycleInput& input, bool all) {
   const Model& model = *input.scene->model;
   const cycle::SceneOutcome& o = *input.outcome;
   j.begin_object();
-  write_json_head(j, "deck-cycle", 1);
+  write_json_head(j, "deck/cycle", 1);
   write_json_deck(j, input.path, *input.deck, &model, input.scene->interfaces);
   j.field("verdict", cycle_verdict(input));
   j.field("dt1", input.options.dt1).field("dt12", input.options.dt12);

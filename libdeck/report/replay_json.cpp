@@ -29,7 +29,7 @@ std::string replay_json(const ReplayInput& input, const cycle::ReplayReport& r) 
   std::string out;
   JsonWriter j(out);
   j.begin_object();
-  write_json_head(j, "deck-replay", 1);
+  write_json_head(j, "deck/replay", 1);
   write_json_deck(j, input.path, *input.deck, nullptr, nullptr);
   j.field("states", input.states).field("interface", input.inter->id);
   j.field("type", input.inter->type).field("kind", r.kind).field("model", name_of(input.model));

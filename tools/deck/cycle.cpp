@@ -59,7 +59,7 @@ int run(const Options& o) {
     }
     velocities.push_back(*v);
   }
-  JsonOutput json(o.common, "deck-cycle", 1);
+  JsonOutput json(o.common, "deck/cycle", 1);
   options.keep_pairs = o.all && json.wanted();
   const int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
     print_findings(loaded, o.common);

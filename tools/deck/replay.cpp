@@ -81,7 +81,7 @@ int run(Options& o) {
     print_error(o.common, o.states + ": the compressed data is damaged");
     return exit_input;
   }
-  JsonOutput json(o.common, "deck-replay", 1);
+  JsonOutput json(o.common, "deck/replay", 1);
   const int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
     print_findings(loaded, o.common);
     return run_deck(o, *csv, loaded, json);

@@ -1,0 +1,161 @@
+// From interface cards to the kernel's cards and pairs, on decks of a few elements.
+#include "deck/cycle/adapter.hpp"
+
+#include <gtest/gtest.h>
+
+#include "contact/small_deck.hpp"
+
+namespace deck::cycle {
+namespace {
+
+using deck::test::Built;
+using deck::test::SmallDeck;
+
+/// A 10 x 10 plate of two shells in z = 0 and a single shell `distance` above it.
+SmallDeck plates(double distance) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(5, 20, 0, 0).node(6, 20, 10, 0);
+  d.node(11, 3, 3, distance).node(12, 7, 3, distance).node(13, 7, 7, distance);
+  d.node(14, 3, 7, distance);
+  d.shell_part(1, 1.0).shell_part(2, 2.0);
+  d.shell(1, 1, 1, 2, 3, 4).shell(1, 2, 2, 5, 6, 3).shell(2, 3, 11, 12, 13, 14);
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/2", {1});
+  return d;
+}
+
+SceneOptions with_stiffness() {
+  SceneOptions o;
+  o.nodal_stiffness = true;
+  return o;
+}
+
+std::unique_ptr<Built> scene_of(const std::string& fields, double distance = 0.5) {
+  SmallDeck d = plates(distance);
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 " + fields);
+  return std::make_unique<Built>(d, with_stiffness());
+}
+
+TEST(CycleCard, BlankDampingIsTheDefaultAndBlankFrictionStaysOff) {
+  const auto b = scene_of("");
+  const ContactCard c = make_card(b->scene, b->contact());
+  EXPECT_EQ(c.kind, ContactKind::node_segment);
+  EXPECT_DOUBLE_EQ(c.viss, 0.05);
+  EXPECT_EQ(c.visf, 0.0);
+  EXPECT_EQ(c.fric, 0.0);
+  EXPECT_EQ(c.iform, 1);
+  EXPECT_EQ(c.istf, 0);
+  EXPECT_EQ(c.inacti, 0);
+  EXPECT_EQ(c.gapmin, 1.0);
+}
+
+TEST(CycleCard, FrictionBringsItsTangentialDamping) {
+  const auto b = scene_of("Fric=0.2");
+  const ContactCard c = make_card(b->scene, b->contact());
+  EXPECT_DOUBLE_EQ(c.fric, 0.2);
+  EXPECT_EQ(c.visf, 1.0);
+}
+
+TEST(CycleCard, ConstantStiffnessKeepsItsValue) {
+  const auto b = scene_of("Istf=1 Stfac=50");
+  const ContactCard c = make_card(b->scene, b->contact());
+  EXPECT_EQ(c.istf, 1);
+  EXPECT_EQ(c.stfac, 50.0);
+}
+
+TEST(CycleCard, DirectionsToReleaseAreBits) {
+  const auto b = scene_of("IBCX=1 IBCZ=1");
+  EXPECT_EQ(make_card(b->scene, b->contact()).ibc, 5);
+}
+
+TEST(CycleCard, FieldsAreFoundOnTheirLine) {
+  const auto b = scene_of("Fric=0.2");
+  const auto place = field_place(*b->contact().inter, "Fric");
+  ASSERT_TRUE(place.has_value());
+  EXPECT_EQ(place->origin, Origin::card);
+  EXPECT_EQ(b->deck.sources.text(place->span).find("0.2") != std::string_view::npos, true);
+  EXPECT_FALSE(field_place(*b->contact().inter, "Edge_scale_gap").has_value());
+}
+
+TEST(CyclePairs, MainStiffnessIsYoungTimesThickness) {
+  const auto b = scene_of("");
+  const ContactCard c = make_card(b->scene, b->contact());
+  const ContactPairs p = make_pairs(b->scene, b->contact(), c, Model::reference);
+  ASSERT_EQ(p.size(), 4u);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    EXPECT_DOUBLE_EQ(p.k0[i], 200.0 * 1.0);
+    EXPECT_EQ(p.gap[i], 1.0);
+    EXPECT_EQ(p.p0[i], 0.0);
+  }
+}
+
+TEST(CyclePairs, MeanStiffnessTakesBothSides) {
+  const auto b = scene_of("Istf=2");
+  const ContactCard c = make_card(b->scene, b->contact());
+  const ContactPairs p = make_pairs(b->scene, b->contact(), c, Model::reference);
+  ASSERT_EQ(p.size(), 4u);
+  // Main 200 x 1, secondary node in one shell 200 x 2.
+  EXPECT_DOUBLE_EQ(p.k0[0], 300.0);
+}
+
+TEST(CyclePairs, GapReductionStartsWithThePenetration) {
+  const auto b = scene_of("Inacti=5");
+  const ContactCard c = make_card(b->scene, b->contact());
+  const ContactPairs p = make_pairs(b->scene, b->contact(), c, Model::reference);
+  ASSERT_EQ(p.size(), 4u);
+  for (const double p0 : p.p0) EXPECT_NEAR(p0, 0.5, 1e-7);
+}
+
+TEST(CyclePairs, WhatStartUpSwitchedOffTakesNoPart) {
+  for (const char* inacti : {"Inacti=1", "Inacti=2"}) {
+    const auto b = scene_of(inacti);
+    const ContactCard c = make_card(b->scene, b->contact());
+    EXPECT_EQ(make_pairs(b->scene, b->contact(), c, Model::reference).size(), 0u) << inacti;
+  }
+}
+
+TEST(CyclePairs, NodesBeyondTheGapAreOutOfReach) {
+  const auto b = scene_of("", 1.5);
+  const ContactCard c = make_card(b->scene, b->contact());
+  EXPECT_EQ(make_pairs(b->scene, b->contact(), c, Model::reference).size(), 0u);
+}
+
+TEST(CyclePairs, PairsDoNotDependOnThreads) {
+  const auto b = scene_of("Istf=4");
+  const ContactCard c = make_card(b->scene, b->contact());
+  const ContactPairs one = make_pairs(b->scene, b->contact(), c, Model::reference, 1);
+  const ContactPairs four = make_pairs(b->scene, b->contact(), c, Model::reference, 4);
+  EXPECT_EQ(one.at, four.at);
+  EXPECT_EQ(one.k0, four.k0);
+}
+
+TEST(CycleCard, EdgesOfATwoSurfaceContactFollowTheEdgeRules) {
+  SmallDeck d = plates(0.5);
+  d.group("/SURF/PART/3", {2});
+  d.add("@/INTER/TYPE19/1 surf_IDs=3 surf_IDm=2 Gapmin=1 Fric=0.1 Ifric=1 C1=1e-3");
+  const Built b(d, with_stiffness());
+  const ContactCard nodes = make_card(b.scene, b.contact());
+  const ContactCard edges = make_card(b.scene, b.contact(1, ContactRole::edges));
+  EXPECT_EQ(nodes.kind, ContactKind::node_segment);
+  EXPECT_EQ(edges.kind, ContactKind::edge_edge);
+  EXPECT_EQ(nodes.istf, 0);
+  EXPECT_EQ(edges.istf, 5);
+  EXPECT_EQ(nodes.ifric, 1);
+  EXPECT_EQ(edges.ifric, 0);
+  EXPECT_DOUBLE_EQ(edges.fric, 0.1);
+}
+
+TEST(CyclePairs, EdgeStiffnessIsInSeries) {
+  SmallDeck d = plates(0.5);
+  d.group("/SURF/PART/3", {2});
+  d.add("@/INTER/TYPE19/1 surf_IDs=3 surf_IDm=2 Gapmin=4");
+  const Built b(d, with_stiffness());
+  const Contact& contact = b.contact(1, ContactRole::edges);
+  const ContactCard c = make_card(b.scene, contact);
+  const ContactPairs p = make_pairs(b.scene, contact, c, Model::reference);
+  ASSERT_GT(p.size(), 0u);
+  for (const double k : p.k0) EXPECT_DOUBLE_EQ(k, 200.0 * 400.0 / 600.0);
+}
+
+}  // namespace
+}  // namespace deck::cycle

@@ -1,0 +1,106 @@
+// `deck cycle` on the inflated dummy against the reference solver's first force evaluation, by the
+// corpus' own comparison.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "deck/report/cycle.hpp"
+
+namespace deck {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path corpus() {
+  const char* given = std::getenv("DECK_CORPUS");
+  return given != nullptr ? fs::path(given) : fs::path(DECK_SOURCE_DIR).parent_path() / "shared";
+}
+
+class Scratch {
+ public:
+  Scratch() : path_(fs::temp_directory_path() / ("cycle_test_" + std::to_string(getpid()))) {
+    fs::create_directories(path_);
+  }
+  ~Scratch() {
+    std::error_code ec;
+    fs::remove_all(path_, ec);
+  }
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+std::string quote(const fs::path& path) { return "'" + path.string() + "'"; }
+
+/// The document of `deck cycle --all`.
+std::string document(const fs::path& path, cycle::Model kernel, int threads) {
+  auto deck = read_deck(path.string(), SchemaSet::built_in());
+  EXPECT_TRUE(deck.ok());
+  if (!deck) return {};
+  Diagnostics diagnostics;
+  const Model model = build_model(*deck, SchemaSet::built_in(), diagnostics);
+  const Interfaces interfaces = read_interfaces(*deck, model, diagnostics);
+  SceneOptions scene_options;
+  scene_options.candidates = false;
+  scene_options.nodal_stiffness = true;
+  scene_options.threads = threads;
+  const Scene scene = build_scene(model, interfaces, diagnostics, scene_options);
+  const cycle::State state = cycle::make_state(scene);
+  CycleInput input;
+  input.options.model = kernel;
+  input.options.threads = threads;
+  input.options.keep_pairs = true;
+  const cycle::SceneOutcome outcome = cycle::run_cycle(scene, state, input.options);
+  input.path = "deck";
+  input.deck = &*deck;
+  input.scene = &scene;
+  input.state = &state;
+  input.outcome = &outcome;
+  return cycle_json(input, true);
+}
+
+TEST(GoldenCycle, EveryPairForceOfTheInflatedDummyAgrees) {
+  const fs::path golden = corpus() / "oracle" / "cycle0" / "EuroSID_II_inflated.csv.gz";
+  const fs::path plain = corpus() / "corpus" / "EuroSID_II" / "EuroSID_II_0000.rad";
+  if (!fs::exists(golden) || !fs::exists(plain))
+    GTEST_SKIP() << golden << " is not there (DECK_CORPUS)";
+  const Scratch scratch;
+  const fs::path deck = scratch / "inflated_0000.rad";
+  ASSERT_EQ(std::system(("python3 " + quote(corpus() / "check" / "inflate_gaps.py") + " " +
+                         quote(plain) + " " + quote(deck) + " 2.5 zero > /dev/null")
+                            .c_str()),
+            0);
+  const std::string json = document(deck, cycle::Model::reference, 2);
+  std::ofstream(scratch / "cycle.json", std::ios::binary) << json;
+  EXPECT_EQ(std::system(("python3 " + quote(corpus() / "check" / "compare_cycle.py") + " " +
+                         quote(golden) + " " + quote(scratch / "cycle.json"))
+                            .c_str()),
+            0);
+  EXPECT_EQ(document(deck, cycle::Model::robust, 1), document(deck, cycle::Model::robust, 3));
+}
+
+TEST(GoldenCycle, DocumentsFollowTheirSchema) {
+  const Scratch scratch;
+  const fs::path schema = fs::path(DECK_SOURCE_DIR) / "schemas/output/cycle.schema.json";
+  for (const char* name : {"crash_box", "crossing_edges", "hot_contact", "tied_layer"}) {
+    const fs::path deck = fs::path(DECK_SOURCE_DIR) / "samples" / (std::string(name) + "_0000.rad");
+    ASSERT_TRUE(fs::exists(deck)) << deck;
+    std::ofstream(scratch / "cycle.json", std::ios::binary)
+        << document(deck, cycle::Model::robust, 1);
+    EXPECT_EQ(std::system(("python3 -c 'import json,sys,jsonschema; "
+                           "s=json.load(open(sys.argv[1])); d=json.load(open(sys.argv[2])); "
+                           "jsonschema.Draft7Validator(s).validate(d); "
+                           "sys.exit(0 if d[\"interfaces\"] else 1)' " +
+                           quote(schema) + " " + quote(scratch / "cycle.json"))
+                              .c_str()),
+              0)
+        << name;
+  }
+}
+
+}  // namespace
+}  // namespace deck
