@@ -1,0 +1,161 @@
+// The writers of lint results: places, carets, escapes, bounds.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "deck/report/diagnostics.hpp"
+#include "lint/support.hpp"
+
+namespace deck::test {
+namespace {
+
+std::vector<LintedDeck> one(const Linted& run) {
+  return {{"deck_0000.rad", run.deck.get(), &run.result, ""}};
+}
+
+LintOptions only(std::string rule) {
+  LintOptions o;
+  o.select = {std::move(rule)};
+  return o;
+}
+
+TEST(HumanReport, PointsAtTheCell) {
+  const Linted run = lint_example("@/INTER/TYPE7/1 Istf=7\n", only("DK201"));
+  const std::string text = lint_human(one(run), {});
+  EXPECT_NE(text.find("error[DK201]: Istf of /INTER/TYPE7 1 is 7"), std::string::npos) << text;
+  EXPECT_NE(text.find("         2         1         7\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("                             ^\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("= solver: "), std::string::npos);
+  EXPECT_NE(text.find("= help: write one of the legal values"), std::string::npos);
+  EXPECT_NE(text.find("1 error, 0 warnings"), std::string::npos);
+  EXPECT_NE(text.find("not checked:"), std::string::npos);
+  EXPECT_EQ(text.find('\x1b'), std::string::npos) << "no colours unless asked for";
+}
+
+TEST(HumanReport, ColoursAndRulerOnRequest) {
+  const Linted run = lint_example("@/INTER/TYPE7/1 Istf=7\n", only("DK201"));
+  HumanOptions options;
+  options.color = options.ruler = true;
+  const std::string text = lint_human(one(run), options);
+  EXPECT_NE(text.find("\x1b[1;31merror[DK201]"), std::string::npos);
+  EXPECT_NE(text.find("....+....1....+....2"), std::string::npos);
+}
+
+TEST(HumanReport, CutsLongLinesAroundTheCaretAndFloodsPerRule) {
+  std::string text = "/SKEW/FIX/1\naxes\n";
+  for (int i = 0; i < 3; ++i) text += std::string(99, ' ') + "0" + std::string(400, 'x') + "\n";
+  const Linted run = lint_example(text, only("DK012"));
+  ASSERT_EQ(run.count("DK012"), 3u) << run.list();
+  HumanOptions options;
+  options.per_rule = 1;
+  const std::string out = lint_human(one(run), options);
+  EXPECT_NE(out.find("2 more findings of DK012"), std::string::npos) << out;
+  for (std::size_t at = 0; at < out.size();) {
+    const auto nl = out.find('\n', at);
+    EXPECT_LT(nl - at, 260u) << out.substr(at, nl - at);
+    at = nl + 1;
+  }
+}
+
+TEST(HumanReport, ShowsBytesThatAreNoUtf8AsQuestionMarks) {
+  const Linted run = lint_example("/GRNOD/NODE/7\nnodes\n         1\xb5\n", only("DK020"));
+  ASSERT_TRUE(run.fires("DK020")) << run.list();
+  EXPECT_NE(lint_human(one(run), {}).find("         1?\n"), std::string::npos);
+}
+
+TEST(JsonReport, HoldsWhatTheContractPromises) {
+  const Linted run = lint_example("@/INTER/TYPE10/1 Inacti=5\n", only("DK254"));
+  const auto json = nlohmann::json::parse(lint_json(one(run)));
+  EXPECT_EQ(json["schema"]["id"], "deck/lint");
+  EXPECT_EQ(json["tool"]["name"], "deck");
+  EXPECT_EQ(json["deck"]["path"], "deck_0000.rad");
+  ASSERT_EQ(json["diagnostics"].size(), 1u);
+  const auto& d = json["diagnostics"][0];
+  EXPECT_EQ(d["rule"], "DK254");
+  EXPECT_EQ(d["severity"], "error");
+  EXPECT_EQ(d["column"], 31);
+  EXPECT_EQ(d["end_column"], 41);
+  EXPECT_EQ(d["reference"]["message"], 1162);
+  EXPECT_EQ(d["reference"]["severity"], "error");
+  EXPECT_EQ(d["entity"]["keyword"], "/INTER/TYPE10");
+  EXPECT_EQ(d["entity"]["id"], 1);
+  EXPECT_EQ(d["fix"]["safe"], false);
+  EXPECT_EQ(json["summary"]["errors"], 1);
+  EXPECT_FALSE(json["not_checked"].empty());
+}
+
+TEST(JsonReport, SeveralDecksStandInAList) {
+  const Linted run = lint_example("@/INTER/TYPE7/1\n");
+  auto decks = one(run);
+  decks.push_back(decks[0]);
+  EXPECT_EQ(nlohmann::json::parse(lint_json(decks))["decks"].size(), 2u);
+}
+
+TEST(SarifReport, HasRulesRegionsFixesAndFingerprints) {
+  const Linted run = lint_example("@/INTER/TYPE7/1 Ibag=1\n", only("DK258"));
+  const auto json = nlohmann::json::parse(lint_sarif(one(run), SchemaSet::built_in()))["runs"][0];
+  EXPECT_EQ(json["tool"]["driver"]["rules"].size(), all_rules().size());
+  ASSERT_EQ(json["results"].size(), 1u);
+  const auto& r = json["results"][0];
+  EXPECT_EQ(json["tool"]["driver"]["rules"][r["ruleIndex"].get<std::size_t>()]["id"], "DK258");
+  EXPECT_EQ(r["locations"][0]["physicalLocation"]["artifactLocation"]["uri"], "deck_0000.rad");
+  EXPECT_EQ(r["locations"][0]["physicalLocation"]["region"]["startColumn"], 61);
+  EXPECT_EQ(r["locations"][0]["logicalLocations"][0]["fullyQualifiedName"], "/INTER/TYPE7/1");
+  EXPECT_EQ(r["partialFingerprints"]["deckFinding/v1"], run.result.fingerprints[0]);
+  const auto& replacement = r["fixes"][0]["artifactChanges"][0]["replacements"][0];
+  EXPECT_EQ(replacement["insertedContent"]["text"], "      1000");
+  EXPECT_EQ(replacement["deletedRegion"]["startColumn"], 61);
+  EXPECT_EQ(replacement["deletedRegion"]["endColumn"], 71);
+}
+
+TEST(SarifReport, SaysWhichDeckCouldNotBeRead) {
+  const std::vector<LintedDeck> decks = {{"a b_0000.rad", nullptr, nullptr, "it is a folder"}};
+  const auto run = nlohmann::json::parse(lint_sarif(decks, SchemaSet::built_in()))["runs"][0];
+  EXPECT_EQ(run["invocations"][0]["executionSuccessful"], false);
+  EXPECT_EQ(run["invocations"][0]["toolExecutionNotifications"][0]["message"]["text"],
+            "it is a folder");
+}
+
+TEST(GithubReport, EscapesAndPutsTheWorstFirst) {
+  const Linted run = lint_example("@/INTER/TYPE7/1 Istf=7 %mesh_size=0.5\n");
+  const std::string text = lint_github(one(run));
+  const auto error = text.find("::error file=deck_0000.rad,line=");
+  const auto warning = text.find("::warning file=deck_0000.rad,line=");
+  ASSERT_NE(error, std::string::npos) << text;
+  ASSERT_NE(warning, std::string::npos) << text;
+  EXPECT_LT(error, warning);
+  EXPECT_NE(text.find("%25mesh_size"), std::string::npos);
+  const std::vector<LintedDeck> bad = {{"a:b,c", nullptr, nullptr, "line\nbreak"}};
+  EXPECT_EQ(lint_github(bad), "::error file=a%3Ab%2Cc,title=deck::line%0Abreak\n");
+}
+
+TEST(JunitReport, CountsFailuresAndEscapesMarkup) {
+  const Linted run = lint_example("@/INTER/TYPE7/1 Istf=7 Inacti=5\n");
+  const std::string text = lint_junit(one(run));
+  EXPECT_NE(text.find("<failure type=\"error\""), std::string::npos);
+  EXPECT_NE(text.find("<system-out>"), std::string::npos) << "notes are no failures";
+  const std::vector<LintedDeck> bad = {{"x", nullptr, nullptr, "<a> & \"b\""}};
+  EXPECT_NE(lint_junit(bad).find("&lt;a&gt; &amp; &quot;b&quot;"), std::string::npos);
+  const Linted clean = lint_example("@bare\n");
+  EXPECT_NE(lint_junit(one(clean)).find("tests=\"1\" failures=\"0\""), std::string::npos)
+      << lint_junit(one(clean));
+}
+
+TEST(GitlabReport, NumbersEqualFingerprints) {
+  const Linted run = lint_example("@/FRICTION/6 C1=0.0\n@/FRICTION/6 C1=0.0\n", only("DK185"));
+  const auto json = nlohmann::json::parse(lint_gitlab(one(run)));
+  ASSERT_EQ(json.size(), 2u) << run.list();
+  EXPECT_NE(json[0]["fingerprint"], json[1]["fingerprint"]);
+  EXPECT_EQ(json[0]["location"]["path"], "deck_0000.rad");
+}
+
+TEST(RulesReport, TableAndJsonAgree) {
+  const auto json = nlohmann::json::parse(rules_json());
+  EXPECT_EQ(json["rules"].size(), all_rules().size());
+  const std::string table = rules_table(false);
+  for (const auto& r : json["rules"])
+    EXPECT_NE(table.find(r["id"].get<std::string>()), std::string::npos);
+}
+
+}  // namespace
+}  // namespace deck::test
