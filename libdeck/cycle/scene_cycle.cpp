@@ -210,6 +210,14 @@ void sum_heat(const PacketResult& r, ContactOutcome& out) {
 
 using NodeStiffness = std::vector<std::pair<NodeIndex, double>>;
 
+/// False for cards with values that no arithmetic survives, such as a gap of 1e300.
+bool sane(const ContactCard& card, const Contact& contact) {
+  for (const double v :
+       {card.gapmin, card.stfac, card.viss, card.visf, card.fric, card.drad, contact.max_gap})
+    if (!(std::abs(v) < 1e30)) return false;
+  return true;
+}
+
 /// What the card asks for and this evaluation leaves out.
 void note_gaps(const Scene& scene, const State& state, ContactOutcome& out) {
   std::int64_t id = 0;
@@ -240,6 +248,11 @@ NodeStiffness run_contact(const Scene& scene, const State& state, const CycleOpt
   out.composition = plan.composition;
   out.isa = plan.isa;
   note_gaps(scene, state, out);
+  if (!sane(out.card, contact)) {
+    out.notes.emplace_back("the card has values out of range: nothing was evaluated");
+    out.complete = false;
+    return {};
+  }
   out.active = is_active(out.card, options.time, options.model == Model::robust);
   if (!out.active) return {};
   ContactPairs pairs = make_pairs(scene, contact, out.card, options.model, options.threads);

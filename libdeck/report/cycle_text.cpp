@@ -60,7 +60,7 @@ std::string main_text(const Model& model, const Contact& c, const cycle::PairOut
 std::string state_words(const cycle::ContactOutcome& o) {
   if (o.contact->dropped) return "no edges, dropped";
   if (!o.active) return "not active yet";
-  if (!o.complete) return "too many pairs";
+  if (!o.complete) return o.notes.empty() ? "too many pairs" : "not evaluated";
   std::string text;
   if (o.gap_closed > 0) text = fmt::format("{} at the mid-surface", o.gap_closed);
   if (o.massless_nodes > 0)

@@ -141,6 +141,16 @@ TEST(FirstCycle, DoesNotDependOnThreads) {
   EXPECT_EQ(r.contact_dt, s.contact_dt);
 }
 
+TEST(FirstCycle, ValuesOutOfRangeAreNotEvaluated) {
+  SmallDeck d = plates(0.6);
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1e200");
+  const Built b(d);
+  const SceneOutcome r = run(b);
+  EXPECT_FALSE(r.contacts[0].complete);
+  EXPECT_EQ(r.contacts[0].notes.size(), 1u);
+  EXPECT_EQ(r.largest_nodal_force, 0.0);
+}
+
 TEST(FirstCycle, SummaryPutsThePartsOfAnInterfaceTogether) {
   SmallDeck d = plates(0.6);
   d.group("/SURF/PART/3", {2});

@@ -45,7 +45,7 @@ struct ContactOutcome {
   std::vector<EffectState> effects;
   std::string composition, isa;
   bool active = true;    ///< false: outside its time window or before its sensor
-  bool complete = true;  ///< false: too many pairs within reach, nothing was evaluated
+  bool complete = true;  ///< false: nothing was evaluated (too many pairs, values out of range)
   std::size_t pairs_in_reach = 0;
   std::size_t pairs_with_force = 0;
   std::size_t pairs_switched_off = 0;  ///< in reach, without stiffness
