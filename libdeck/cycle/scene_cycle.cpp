@@ -69,7 +69,6 @@ void attach(PacketView& view, const ContactPairs& pairs, const std::vector<doubl
   view.ft_old = {zero.data(), zero.data(), zero.data()};
   view.tie.fill(zero.data());
   view.area = data(pairs.area);
-  view.conductivity = data(pairs.conductivity);
   view.fric = data(pairs.fric);
   view.visf2 = data(pairs.visf2);
   for (std::size_t k = 0; k < 6; ++k) view.c[k] = data(pairs.c[k]);

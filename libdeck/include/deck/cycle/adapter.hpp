@@ -36,8 +36,8 @@ struct ContactPairs {
   PairList nodes;                 ///< node indices of the model, by role
   std::vector<double> k0;         ///< pair stiffness before the 1/2; 0: switched off at start-up
   std::vector<double> gap;
-  std::vector<double> p0;  ///< Inacti 5, 6: residual penetration (edges: sum of both sides)
-  std::vector<double> area, conductivity;                    ///< with Ithe only
+  std::vector<double> p0;    ///< Inacti 5, 6: residual penetration (edges: sum of both sides)
+  std::vector<double> area;  ///< with Ithe only
   std::vector<double> fric, visf2;                           ///< with fric_ID only
   std::array<std::vector<double>, 6> c;                      ///< with fric_ID only
   std::array<std::array<std::vector<double>, 3>, 4> normal;  ///< with Icurv 3 and Iadm only
