@@ -1,0 +1,84 @@
+// What accuracy costs: the hard-case families, pairs taken from a deck, and the measurement of the
+// distance in several arithmetics against exact rationals.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "deck/contact/closest.hpp"
+#include "deck/contact/scene.hpp"
+
+namespace deck {
+
+// One pair with its gap. Node-segment: x[0..3] the corners, x[4] the node. Edge-edge: x[0], x[1]
+// the secondary and x[2], x[3] the main edge.
+struct PairSample {
+  std::array<Point3<double>, 5> x{};
+  bool edges = false;
+  bool triangle = false;
+  double gap = 0.0;
+  int family = 0;  // 0: from a deck
+
+  std::array<Point3<double>, 4> corners() const { return {x[0], x[1], x[2], x[3]}; }
+};
+
+// A family of hard cases: swept parameters, fixed seeds, one expected behaviour.
+struct HardFamily {
+  int id = 0;
+  const char* name = "";
+  const char* expected = "";
+  bool sampled = true;  // false: a property of search or build, without pair samples here
+};
+std::span<const HardFamily> hard_families();
+
+// Samples of one family; the same seed gives the same samples on every machine. Empty for families
+// that are not sampled, and for unknown ids.
+std::vector<PairSample> hard_cases(int family, std::size_t samples, std::uint64_t seed = 1);
+
+// Pairs of a scene that its candidate search finds (within gap plus margin), with their pair gaps;
+// at most `limit`, evenly taken.
+std::vector<PairSample> scene_pairs(const Scene& scene, std::size_t limit, int threads = 1);
+
+struct AccuracyOptions {
+  int repeats = 5;                // timings per tier; the median counts
+  std::size_t slow_limit = 2000;  // pairs timed in exact arithmetic
+};
+
+// One arithmetic. Errors are those of the distance; a decision is "distance < gap".
+struct TierResult {
+  std::string name;
+  std::string what;  // "distance", or "gaps": only the decision
+  std::uint64_t samples = 0;
+  double ns_per_pair = 0.0;
+  double max_relative_error = 0.0;
+  double max_ulp = 0.0;
+  std::uint64_t decision_errors = 0, feature_errors = 0, non_finite = 0;
+  double fallback_share = 0.0;  // pairs that needed more than double
+  double exact_share = 0.0;     // pairs that needed rationals
+  bool dominated = false;       // another tier is as fast, as accurate, and better in one of both
+};
+
+struct FamilyResult {
+  int id = 0;
+  std::string name, expected, tier;
+  std::uint64_t samples = 0;
+  double max_relative_error = 0.0, max_ulp = 0.0;
+  std::uint64_t decision_errors = 0, non_finite = 0;
+};
+
+struct AccuracyReport {
+  std::string scene;  // "hard-cases" or "deck"
+  std::vector<TierResult> tiers;
+  std::vector<FamilyResult> families;
+};
+
+// Runs every tier over the samples. Relative errors where the exact distance is 0 count as 0 or
+// infinity; a result is non-finite if any input was finite and the distance is not.
+AccuracyReport measure_accuracy(std::span<const PairSample> samples,
+                                const AccuracyOptions& options = {});
+
+}  // namespace deck
