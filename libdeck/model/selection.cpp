@@ -158,6 +158,17 @@ void Selections::Impl::report_missing(std::string_view rule, const Block& block,
 
 bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const Block& from,
                                  int number) {
+  // Deeper nesting than any deck needs would only exhaust the stack.
+  constexpr std::size_t deepest = 250;
+  if (open.size() >= deepest) {
+    report({"DK152", Severity::error, from.header_span,
+            std::string(from.keyword) + " " + std::to_string(from.id.value) +
+                " is nested more than " + std::to_string(deepest) +
+                " levels deep; its members are left out",
+            "it resolves the references level by level", "flatten the references", number,
+            Severity::error, std::string(from.keyword), from.id.value});
+    return true;
+  }
   if (open.count({std::string(kind), id}) == 0) return false;
   report({"DK152", Severity::error, from.header_span,
           std::string(from.keyword) + " " + std::to_string(from.id.value) +
