@@ -127,6 +127,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   detail::PageNodes nodes(model.nodes.size());
   const std::vector<detail::MeshPart> mesh = detail::collect_mesh(model, nodes);
   const detail::PageContacts page = detail::collect_contacts(in, nodes);
+  if (in.crossings != nullptr) detail::use_nodes(*in.crossings, nodes);
   nodes.number();
 
   std::string out =
@@ -148,6 +149,9 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   if (in.earlier != nullptr)
     add_block(out, "deck-earlier", "application/octet-stream",
               detail::packed_text(earlier_json(*in.earlier)));
+  if (in.crossings != nullptr)
+    add_block(out, "deck-crossed", "application/octet-stream",
+              detail::crossings_block(model, *in.crossings, nodes));
   if (in.cycle != nullptr)
     add_block(out, "deck-cycle", "application/octet-stream", detail::cycle_block(*in.cycle));
   out += "<script>";

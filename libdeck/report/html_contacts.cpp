@@ -245,7 +245,7 @@ class Writer {
         secondary_ = distinct(wide.pairs, &CandidatePair::secondary);
         main_ = distinct(wide.pairs, &CandidatePair::main);
       }
-      pairs(wide.pairs);
+      pairs(plain, wide);
       if (!edge_pairs)
         node_segment(plain);
       else
@@ -386,11 +386,33 @@ class Writer {
     selected(main_, c.main_edges, [](const ContactEdge& e) { return e.length; });
   }
 
-  void pairs(const std::vector<CandidatePair>& list) {
+  /// Pairs, and for each a byte: its distance in 255ths of the reach, rounded down, so that the
+  /// page need not look at pairs that are too far for a gap.
+  void pairs(const Contact& plain, const PageContact& wide) {
     Delta s, m;
-    out_.u(list.size());
-    for (const CandidatePair& p : list) out_.s(s(p.secondary));
-    for (const CandidatePair& p : list) out_.s(m(p.main));
+    out_.u(wide.pairs.size());
+    for (const CandidatePair& p : wide.pairs) out_.s(s(p.secondary));
+    for (const CandidatePair& p : wide.pairs) out_.s(m(p.main));
+    for (const CandidatePair& p : wide.pairs) {
+      const double share = wide.reach > 0 ? 255 * (distance(plain, p) / wide.reach) : 0;
+      out_.byte(share >= 255 ? 255u : share > 0 ? static_cast<unsigned>(share) : 0u);
+    }
+  }
+
+  double distance(const Contact& c, const CandidatePair& pair) const {
+    const Coordinates& x = page_.scene.coordinates;
+    const auto at = [&](NodeIndex n) { return Point3<double>{x.x[n], x.y[n], x.z[n]}; };
+    if (c.kind == ContactKind::edge_edge) {
+      const auto& s = c.secondary_edges[pair.secondary].nodes;
+      const auto& m = c.main_edges[pair.main].nodes;
+      return closest_between_edges<Form::reference>(at(s[0]), at(s[1]), at(m[0]), at(m[1]))
+          .distance;
+    }
+    const auto& m = c.main[pair.main].nodes;
+    return closest_on_segment<Form::reference>(at(c.secondary[pair.secondary].node),
+                                               {at(m[0]), at(m[1]), at(m[2]), at(m[3])},
+                                               m[2] == m[3])
+        .distance();
   }
 
   const HtmlInput& input_;

@@ -78,4 +78,9 @@ void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);
 // html_cycle.cpp — forces, energies and time steps of the first cycle
 std::string cycle_block(const cycle::SceneOutcome& outcome);
 
+// html_crossings.cpp — crossed elements
+void use_nodes(const std::vector<Crossing>& crossings, PageNodes& nodes);
+std::string crossings_block(const Model& model, const std::vector<Crossing>& crossings,
+                            const PageNodes& nodes);
+
 }  // namespace deck::detail

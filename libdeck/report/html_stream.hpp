@@ -23,6 +23,8 @@ class ByteStream {
   void s(std::int64_t v) {
     u((static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63));
   }
+  /// One byte as it is.
+  void byte(unsigned v) { bytes_ += static_cast<char>(v); }
   /// Doubles as eight planes of bytes: first all lowest bytes, last all highest ones.
   void f64(std::span<const double> values);
   void f64(double value) { f64(std::span(&value, 1)); }

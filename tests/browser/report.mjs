@@ -3,7 +3,7 @@
 import { execFileSync } from "node:child_process";
 import { cpSync, mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, corpus, deck, DECK_ARTEFACTS, DECK_CORPUS, finish, gaps, launch, open, same, sample, skip, WORK } from "./support.mjs";
+import { check, corpus, deck, DECK_ARTEFACTS, DECK_CORPUS, finish, gaps, launch, open, run, same, sample, skip, WORK } from "./support.mjs";
 import { tryDeck } from "./what_if.mjs";
 
 mkdirSync(DECK_ARTEFACTS, { recursive: true });
@@ -180,6 +180,50 @@ async function comparison() {
   await p.close();
 }
 
+/** A report that cannot be compared with is wrong usage with a reason, not a page. */
+function badComparison() {
+  for (const [name, text] of [["text", "no json"], ["list", "[]"], ["other", '{"interfaces":3}'], ["inner", '{"interfaces":[{"id":1,"contacts":[{"penetrations":[7]}]}]}']]) {
+    const file = join(scratch, `bad_${name}.json`);
+    writeFileSync(file, text);
+    const r = run("gaps", sample("too_close"), "--quiet", "--html", join(scratch, "bad.html"), "--compare", file);
+    check(`--compare with ${name} is refused with a reason`, r.code === 2 && r.err.includes(file) && /deck gaps --json/.test(r.err), `${r.code} ${r.err}`);
+  }
+  same("--compare alone is wrong usage", run("gaps", sample("too_close"), "--quiet", "--compare", "x.json").code, 2);
+}
+
+async function firstCycle() {
+  const path = sample("crash_box");
+  const p = await open(browser, join(scratch, "crash_box.html"));
+  const cycle = JSON.parse(deck("cycle", path, "--json", "-", "--quiet", "--all"));
+  const mine = await p.evaluate(() => {
+    const { report } = window.deckReport;
+    return report.hits.map((x) => [report.meta.interfaces[report.meta.contacts[x.contact].interface].id, report.meta.contacts[x.contact].role, report.secondaryText(x.row), report.mainText(x.row), report.forceOf(x.row)?.force ?? null]);
+  });
+  const key = (...t) => t.join("/");
+  const forces = new Map();
+  for (const i of cycle.interfaces)
+    for (const c of i.contacts)
+      for (const pair of c.pairs) {
+        const main = pair.main_edge ?? pair.segment;
+        const text = pair.main_edge ? main.join("–") : (main[2] === main[3] ? main.slice(0, 3) : main).join(" ");
+        forces.set(key(i.id, c.role, (pair.edge ?? [pair.node]).join("–"), text), Math.hypot(...pair.force));
+      }
+  check("deck cycle has forces", forces.size > 0);
+  const unlike = mine.filter(([id, role, s, m, f]) => forces.has(key(id, role, s, m)) && !(Math.abs(f - forces.get(key(id, role, s, m))) <= 1e-12 * Math.abs(f)));
+  check("forces of the list are those of deck cycle", unlike.length === 0 && mine.some((r) => r[4] > 0), JSON.stringify(unlike.slice(0, 3)));
+  check("the first cycle has a table", (await cells(p, "#cycle")).length > 0);
+  const crossed = await p.evaluate(() => window.deckReport.report.crossed?.total ?? -1);
+  check("crossed elements were searched for", crossed >= 0, `${crossed}`);
+  if (crossed > 0) {
+    same("every crossing has a row", (await p.evaluate(() => window.deckReport.report.crossed.rows.length)), crossed);
+    await p.click("#crossed .vt-row");
+    await p.waitForTimeout(700);
+    await shot(p, "crash_box_crossed");
+  }
+  quiet("first cycle", p);
+  await p.close();
+}
+
 async function hostileText() {
   const evil = '<script>alert(1)</script>"\'&<img src=x onerror=alert(2)>';
   const text = readFileSync(sample("too_close"), "utf8").replace(/^(\/(?:PART|INTER\/TYPE7)\/\d+\n).*$/gm, `$1${evil}`).replace(/^(\/BEGIN\n).*$/m, `$1${evil.slice(0, 79)}`);
@@ -273,7 +317,9 @@ async function settings(list) {
 }
 
 await crashBox();
+await firstCycle();
 await comparison();
+badComparison();
 await hostileText();
 await withoutWebGL();
 await settings([

@@ -1,5 +1,5 @@
 // What the browser checks share: counting, running `deck`, opening pages that may ask for nothing.
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { createRequire } from "node:module";
 import { existsSync } from "node:fs";
 import { join } from "node:path";
@@ -39,6 +39,11 @@ export function deck(...args) {
     if (e.status === 1) return e.stdout;
     throw new Error(`deck ${args.join(" ")}: exit code ${e.status}: ${e.stderr}`);
   }
+}
+/** Exit code and standard error of a run that may fail. */
+export function run(...args) {
+  const r = spawnSync(DECK, args, { encoding: "utf8", maxBuffer: 1 << 30 });
+  return { code: r.status, err: r.stderr };
 }
 export const gaps = (path, ...args) => JSON.parse(deck("gaps", path, "--json", "-", "--quiet", ...args));
 

@@ -10,22 +10,6 @@ export interface Contour {
   of(hit: Hit): number; // value of a row in [0, 1]
 }
 
-/** Positions of page nodes as drawn. */
-function positions(report: Report): Float32Array {
-  const out = new Float32Array(3 * report.mesh.nodeId.length).fill(NaN);
-  for (const p of report.mesh.parts)
-    p.node.forEach((n, i) => out.set(p.position.subarray(3 * i, 3 * i + 3), 3 * n));
-  const d = report.data;
-  d.exactNode.forEach((n, i) => out.set([d.x[i], d.y[i], d.z[i]], 3 * n));
-  return out;
-}
-const known = new WeakMap<Report, Float32Array>();
-function positionsOf(report: Report): Float32Array {
-  let p = known.get(report);
-  if (!p) known.set(report, (p = positions(report)));
-  return p;
-}
-
 export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Contour {
   const n = report.mesh.nodeId.length;
   const pick = kind === "ratio" ? (x: Hit) => x.ratio : kind === "gap" ? (x: Hit) => x.row.gap : (x: Hit) => x.depth;
@@ -42,7 +26,7 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
     return { values, top, of };
   }
   const raw = new Float32Array(n).fill(NaN);
-  const position = positionsOf(report);
+  const position = report.nodePositions;
   const set = (node: number, v: number) => {
     if (!(raw[node] >= v)) raw[node] = v;
   };

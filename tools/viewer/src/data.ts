@@ -1,6 +1,6 @@
 // Decodes the binary blocks of the page (see libdeck/report/html_*.cpp for the writers).
 import { unzlibSync } from "fflate";
-import type { ContactMeta, Cycle, Earlier, Meta } from "./meta";
+import type { ContactMeta, Crossed, Cycle, Earlier, Meta } from "./meta";
 
 export const kindNames = ["shell", "sh3n", "solid", "quad", "tria", "truss", "beam", "spring"];
 
@@ -48,6 +48,9 @@ class Reader {
   s(): number {
     const v = this.u();
     return v % 2 === 0 ? v / 2 : -(v + 1) / 2;
+  }
+  bytes(n: number): Uint8Array {
+    return this.b.subarray(this.at, (this.at += n));
   }
   f64(n: number): Float64Array {
     const bytes = new Uint8Array(8 * n);
@@ -127,6 +130,7 @@ export interface ContactData {
   mainLength: Float64Array;
   pairSecondary: Uint32Array;
   pairMain: Uint32Array;
+  pairClass: Uint8Array; // distance in 255ths of the reach, rounded down
 }
 
 export interface Contacts {
@@ -193,6 +197,7 @@ function readContact(r: Reader, meta: ContactMeta): ContactData {
   const pairs = r.u();
   d.pairSecondary = r.deltas32(pairs);
   d.pairMain = r.deltas32(pairs);
+  d.pairClass = r.bytes(pairs);
   const secondaries = r.u();
   d.secondaryNode = r.deltas32(secondaries * (edges ? 2 : 1));
   d.secondaryThickness = r.palette(secondaries);
@@ -252,3 +257,4 @@ const json = (id: string): unknown => {
 };
 export const loadEarlier = () => json("deck-earlier") as Earlier | null;
 export const loadCycle = () => json("deck-cycle") as Cycle | null;
+export const loadCrossed = () => json("deck-crossed") as Crossed | null;

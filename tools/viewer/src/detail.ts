@@ -105,7 +105,9 @@ export function notChecked(report: Report): HTMLElement {
   const beyond = meta.contacts.filter((c) => !c.complete).length;
   const items: (Node | string)[] = [
     "Gaps, distances and actions follow the Starter of the reference solver at cycle 0. Forces and time steps are those of deck cycle for the deck's settings; they are not evaluated again in the page.",
-    "Crossed elements are not searched for: an edge through a face shows as a penetration only within the gap.",
+    report.crossed
+      ? "Crossed elements are searched for exactly, among the edges and main segments of each node-to-segment contact."
+      : "Crossed elements were not searched for: an edge through a face shows as a penetration only within the gap.",
     "Settings under test are evaluated in this page with the same double-precision operations as the command line. Inacti 3 moves nodes, and later interfaces see the moved nodes; default gaps and mesh-size limits stay those of the deck.",
     `Pairs are carried up to about three times the largest gap of each interface${beyond ? `; for ${beyond} of them only what penetrates, because there are too many` : ""}. Beyond that the page says so.`,
   ];

@@ -39,6 +39,7 @@ const icons: Record<string, string> = {
   save: "M8 2v8M5 7l3 3 3-3M2 12v2h12v-2",
   help: "M6 6a2 2 0 113 1.700c-.7.4-1 .8-1 1.800M8 12v.5",
   parts: "M2 4h12M2 8h12M2 12h12",
+  cross: "M2 12l12-8M2 4l5 3.500M9.500 9L14 12",
   close: "M4 4l8 8M12 4l-8 8",
   copy: "M5 5V2h9v9h-3M2 5h9v9H2z",
   reset: "M3 8a5 5 0 105-5H4M6.500.500L4 3l2.500 2.500",

@@ -170,15 +170,12 @@ export function on_surface_error(meta: ContactMeta, s: Setting): number {
 }
 
 export class Evaluator {
-  /** Distances that no setting changes: 4 per pair (node-segment) or 1 (edges); filled when needed. */
-  private readonly distances: (Float64Array | null)[];
   private readonly type19: boolean[];
 
   constructor(
     readonly meta: Meta,
     readonly data: Contacts,
   ) {
-    this.distances = meta.contacts.map(() => null);
     this.type19 = meta.contacts.map((c) => meta.interfaces[c.interface].type === 19);
   }
 
@@ -194,7 +191,6 @@ export class Evaluator {
     const points: Points = moves
       ? { x: this.data.x.slice(), y: this.data.y.slice(), z: this.data.z.slice() }
       : this.data;
-    let shifted = false;
     const out: Result[] = [];
     let largestMove = 0;
     for (let i = 0; i < this.meta.contacts.length; i++) {
@@ -202,12 +198,9 @@ export class Evaluator {
         out.push(known.results[i]);
         continue;
       }
-      const r = this.contact(i, overrides[this.meta.contacts[i].interface], points, shifted, largestMove);
+      const r = this.contact(i, overrides[this.meta.contacts[i].interface], points, largestMove);
       for (const row of r.rows)
-        if (row.movedBy) {
-          shifted = true;
-          largestMove = Math.max(largestMove, Math.hypot(...row.movedBy));
-        }
+        if (row.movedBy) largestMove = Math.max(largestMove, Math.hypot(...row.movedBy));
       out.push(r);
     }
     return out;
@@ -226,24 +219,11 @@ export class Evaluator {
     return this.data.exactOf[pageNode];
   }
 
-  private pairDistances(i: number, points: Points, cached: boolean): Float64Array {
-    const known = this.distances[i];
-    if (cached && known) return known;
-    const c = this.data.contacts[i];
-    const edges = this.meta.contacts[i].kind === "edge_edge";
-    const n = c.pairSecondary.length;
-    const out = new Float64Array(edges ? n : 4 * n);
-    for (let p = 0; p < n; p++) {
-      if (edges) {
-        this.edgePair(c, p, points);
-        out[p] = edge.distance;
-      } else {
-        this.nodePair(c, p, points);
-        out.set(sub.distance, 4 * p);
-      }
-    }
-    if (cached) this.distances[i] = out;
-    return out;
+  /** Below its distance, whatever has moved by `moved` so far. */
+  private lowerBound(i: number, moved: number): (pair: number) => number {
+    const { pairClass } = this.data.contacts[i];
+    const unit = (this.meta.contacts[i].reach / 255) * (1 - 1e-12);
+    return (p) => pairClass[p] * unit - 2 * moved;
   }
 
   private nodePair(c: ContactData, p: number, points: Points): void {
@@ -270,14 +250,13 @@ export class Evaluator {
     );
   }
 
-  private contact(i: number, overrides: Overrides, points: Points, shifted: boolean, moved: number): Result {
+  private contact(i: number, overrides: Overrides, points: Points, moved: number): Result {
     const meta = this.meta.contacts[i];
     const data = this.data.contacts[i];
     const setting = this.setting(i, overrides);
     const result: Result = { setting, rows: [], totals: emptyTotals(), reached: 0, complete: true };
     const n = data.pairSecondary.length;
     if (meta.secondary > 0 && meta.main > 0 && !meta.dropped) {
-      const start = shifted ? this.pairDistances(i, points, false) : this.pairDistances(i, this.data, true);
       const gaps = this.gapsOf(i, setting);
       for (let p = 0; p < n; p++) result.reached = Math.max(result.reached, gaps[p]);
       result.reached = Math.max(result.reached, setting.maxGap);
@@ -286,8 +265,8 @@ export class Evaluator {
       result.complete = meta.complete
         ? needed <= meta.reach
         : sameGaps(meta, setting) && meta.totals.pairs === n;
-      if (meta.kind === "edge_edge") this.edgeRows(i, setting, gaps, points, start, result);
-      else this.nodeRows(i, setting, gaps, points, start, result);
+      if (meta.kind === "edge_edge") this.edgeRows(i, setting, gaps, points, moved, result);
+      else this.nodeRows(i, setting, gaps, points, moved, result);
     }
     count(meta, setting, result);
     return result;
@@ -309,7 +288,7 @@ export class Evaluator {
     return out;
   }
 
-  private nodeRows(i: number, s: Setting, gaps: Float64Array, points: Points, start: Float64Array, out: Result): void {
+  private nodeRows(i: number, s: Setting, gaps: Float64Array, points: Points, moved: number, out: Result): void {
     const meta = this.meta.contacts[i];
     const c = this.data.contacts[i];
     const removed = s.irem === 2 ? removedPairs(meta, c, s, this.data, points) : null;
@@ -324,10 +303,11 @@ export class Evaluator {
         this.act(row, s, points, start, this.exact(c.secondaryNode[row.secondary]));
       }
     };
+    const candidates = s.inacti === 3 ? this.candidates(i, s, gaps, points, moved) : null;
+    const bound = this.lowerBound(i, moved);
     for (let p = 0; p < n; p++) {
-      const nearest = Math.min(start[4 * p], start[4 * p + 1], start[4 * p + 2], start[4 * p + 3]);
       const gap = gaps[p];
-      if (!(nearest < (s.inacti === 3 ? Math.max(s.drad, gap) + meta.margin : gap))) continue;
+      if (candidates ? candidates[p] === 0 : bound(p) >= gap) continue;
       const secondary = c.pairSecondary[p];
       const main = c.pairMain[p];
       if (removed?.has(main * c.secondaryListed.length + secondary)) continue;
@@ -362,6 +342,22 @@ export class Evaluator {
     actOnGroup();
   }
 
+  /** Inacti 3: the pairs that the solver's search finds, before anything moves. */
+  private candidates(i: number, s: Setting, gaps: Float64Array, points: Points, moved: number): Uint8Array {
+    const c = this.data.contacts[i];
+    const { margin } = this.meta.contacts[i];
+    const bound = this.lowerBound(i, moved);
+    const out = new Uint8Array(gaps.length);
+    for (let p = 0; p < gaps.length; p++) {
+      const limit = Math.max(s.drad, gaps[p]) + margin;
+      if (bound(p) >= limit) continue;
+      this.nodePair(c, p, points);
+      const [a, b, d, e] = sub.distance;
+      if (Math.min(a, b, d, e) < limit) out[p] = 1;
+    }
+    return out;
+  }
+
   /** `start`: where nodes stood before anything in the group moved. */
   private act(row: Row, s: Setting, points: Points, start: Map<number, [number, number, number]>, node: number): void {
     const pene = row.onSurface ? row.depth : row.depth * (1 + inflation);
@@ -393,22 +389,24 @@ export class Evaluator {
     }
   }
 
-  private edgeRows(i: number, s: Setting, gaps: Float64Array, points: Points, start: Float64Array, out: Result): void {
+  private edgeRows(i: number, s: Setting, gaps: Float64Array, points: Points, moved: number, out: Result): void {
     const meta = this.meta.contacts[i];
     const c = this.data.contacts[i];
     const removed = s.irem === 2 ? removedEdgePairs(meta, c, s, this.data, points) : null;
     const storedS = new Map<number, number>();
     const storedM = new Map<number, number>();
     const store = (map: Map<number, number>, k: number, v: number) => map.set(k, Math.max(map.get(k) ?? 0, v));
+    const bound = this.lowerBound(i, moved);
     for (let p = 0; p < c.pairSecondary.length; p++) {
       const gap = gaps[p];
-      const distance = start[p];
+      if (bound(p) >= gap) continue;
+      this.edgePair(c, p, points);
+      const distance = edge.distance;
       const depth = gap - distance;
       if (!(depth > 0)) continue;
       const secondary = c.pairSecondary[p];
       const main = c.pairMain[p];
       if (removed?.has(main * c.secondaryListed.length + secondary)) continue;
-      this.edgePair(c, p, points);
       const row: Row = {
         contact: i, secondary, main, depth, gap, distance,
         normal: [0, 0, 0], onSurface: !(distance > 0), action: "none",

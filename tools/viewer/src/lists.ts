@@ -39,11 +39,15 @@ export function partPairs(report: Report, hits: Hit[]): PairRow[] {
     .sort((a, b) => b.max - a.max || report.partId(a.secondary) - report.partId(b.secondary));
 }
 
+function partName(report: Report, part: number): HTMLElement {
+  return h("span", { title: report.partText(part) }, report.partShort(part));
+}
+
 export function pairsSection(report: Report, look: Look): HTMLElement {
   const table = new VirtualTable<PairRow>(
     [
-      { key: "s", title: "Secondary part", width: "minmax(110px,1.4fr)", value: (r) => report.partText(r.secondary), cell: (r) => report.partText(r.secondary) },
-      { key: "m", title: "Main part", width: "minmax(110px,1.4fr)", value: (r) => report.partText(r.main), cell: (r) => report.partText(r.main) },
+      { key: "s", title: "Secondary part", width: "minmax(110px,1.4fr)", value: (r) => report.partText(r.secondary), cell: (r) => partName(report, r.secondary) },
+      { key: "m", title: "Main part", width: "minmax(110px,1.4fr)", value: (r) => report.partText(r.main), cell: (r) => partName(report, r.main) },
       { key: "pairs", title: "Pairs", width: "64px", right: true, value: (r) => r.pairs, cell: (r) => group(r.pairs) },
       { key: "nodes", title: "Nodes", width: "62px", right: true, value: (r) => r.nodes, cell: (r) => group(r.nodes) },
       { key: "max", title: "Deepest", width: "78px", right: true, value: (r) => r.max, cell: (r) => num(r.max) },
@@ -104,7 +108,7 @@ function drawMatrix(report: Report, rows: PairRow[], look: Look): HTMLElement {
   const cells = new Map(rows.map((r) => [`${r.secondary},${r.main}`, r]));
   const pair = report.filter.pair;
   const short = (p: number) => {
-    const t = report.partText(p);
+    const t = report.partShort(p);
     return t.length > 26 ? `${t.slice(0, 25)}…` : t;
   };
   const grid = h("div", { class: "matrix", role: "table", "aria-label": "Deepest penetration by part pair" });
@@ -219,8 +223,8 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
         if (error) return h("span", { class: "bad" }, `error ${error}`);
         return x.row.gap0 !== null ? `gap to ${num(x.row.gap0)}` : actionWords[x.row.action];
       } },
-    { key: "sp", title: "Part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.secondaryPart), cell: (x) => report.partText(x.secondaryPart) },
-    { key: "mp", title: "Main part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.mainPart), cell: (x) => report.partText(x.mainPart) },
+    { key: "sp", title: "Part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.secondaryPart), cell: (x) => partName(report, x.secondaryPart) },
+    { key: "mp", title: "Main part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.mainPart), cell: (x) => partName(report, x.mainPart) },
     { key: "place", title: "Defined at", width: "minmax(80px,.9fr)", value: (x) => report.place(x.row)?.line ?? 0,
       cell: (x) => {
         const p = report.place(x.row);

@@ -1,6 +1,7 @@
 // The page: reads its data, builds the sections, wires keys and exports.
+import { crossedSection } from "./crossed";
 import { cycleSection } from "./cycle";
-import { loadContacts, loadCycle, loadEarlier, loadMesh, loadMeta } from "./data";
+import { loadContacts, loadCrossed, loadCycle, loadEarlier, loadMesh, loadMeta } from "./data";
 import { detail, notChecked } from "./detail";
 import { button, fileName, group, h, num, percent } from "./dom";
 import { allChangedCards, copyText, csv, grnodBlock, plainNodes, save } from "./exports";
@@ -16,7 +17,10 @@ const started = performance.now();
 function build(): void {
   const meta = loadMeta();
   const mesh = loadMesh();
-  const report = new Report(meta, mesh, loadContacts(meta, mesh), loadEarlier(), loadCycle());
+  const contacts = loadContacts(meta, mesh);
+  const times: Record<string, number> = { decoded: performance.now() - started };
+  const report = new Report(meta, mesh, contacts, loadEarlier(), loadCycle(), loadCrossed());
+  times.evaluated = performance.now() - started;
   const look: Look = { map: "viridis", flip: true, dark: false, contour: "depth", bands: 0 };
   const changeLook = (change: Partial<Look>) => {
     Object.assign(look, change);
@@ -57,9 +61,10 @@ function build(): void {
       button("", "print", () => window.print(), { "aria-label": "Print", title: "Print", class: "tool" }),
       button("", "help", () => help.showModal(), { "aria-label": "Keys (?)", title: "Keys (?)", class: "tool" })));
   const nav = h("nav", { "aria-label": "Sections" },
-    ...([["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["distribution", "Distribution"], ["worst", "Worst first"], ["cycle", "First cycle"], ["notes", "About"]] as const)
+    ...([["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["distribution", "Distribution"], ["worst", "Worst first"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["notes", "About"]] as const)
       .map(([id, name]) => h("a", { href: `#${id}` }, name)));
-  const left = h("div", { class: "left", id: "tables" }, nav, verdict(report), interfaces(report), pairsSection(report, look), distribution(report, look), list.element, cycleSection(report), notChecked(report));
+  const left = h("div", { class: "left", id: "tables" }, nav, verdict(report), interfaces(report), pairsSection(report, look), distribution(report, look), list.element, crossedSection(report, (points) => viewport.openPoints(points)), cycleSection(report), notChecked(report));
+  for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
   const divider = h("div", { class: "divider", role: "separator", "aria-orientation": "vertical", "aria-label": "Width of the tables", tabindex: 0 });
   const right = h("aside", { class: "right" }, viewport.element, detail(report, fly));
   const split = h("div", { class: "split" }, left, divider, right);
@@ -69,10 +74,9 @@ function build(): void {
   dragDivider(divider, split);
   keys(report, viewport, list.table, help, look, changeLook);
   printing(report, viewport, right);
-  performance.mark("tables");
 
   // Tables first; the picture comes with the next frame.
-  const times: Record<string, number> = { tables: performance.now() - started };
+  times.tables = performance.now() - started;
   requestAnimationFrame(() => {
     setTimeout(() => {
       viewport.start();
@@ -137,6 +141,7 @@ const keyList: [string, string][] = [
   ["w", "element sides"],
   ["x", "clip plane"],
   ["p", "list of parts"],
+  ["c", "edges of crossed elements"],
   ["1 … 5", "colours: depth, depth ÷ gap, gap, gap ÷ side, parts"],
   ["t", "dark or light"],
   ["drag · shift-drag · wheel", "turn · move · zoom"],
@@ -164,6 +169,7 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
     w: () => viewport.toggleEdges(),
     x: () => viewport.toggleClip(),
     p: () => viewport.toggleParts(),
+    c: () => viewport.toggleCrossed(),
     t: () => changeLook({ dark: !look.dark }),
     "?": () => help.showModal(),
     "/": () => document.getElementById("search")?.focus(),

@@ -143,3 +143,10 @@ export interface Cycle {
     rows: [number, number, number, number][]; // secondary, main, force, stiffness
   }[];
 }
+
+/** Edges through main segments: contact, the edge's page nodes, kind and id of its element (kind -1:
+ * none), position of the segment. */
+export interface Crossed {
+  total: number;
+  rows: [number, number, number, number, number, number][];
+}

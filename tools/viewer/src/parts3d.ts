@@ -201,7 +201,8 @@ export class Parts3D {
     this.line.color.set(dark ? "#0b0f14" : "#1c2733");
     this.line.opacity = dark ? 0.5 : 0.25;
     this.ghost.color.set(dark ? "#9db0c4" : "#7d8a99");
-    this.ghost.opacity = dark ? 0.1 : 0.1;
+    // Many layers add up.
+    this.ghost.opacity = this.parts.length > 60 ? 0.045 : 0.1;
     this.wire.color.set(dark ? "#7f90a3" : "#5b6b7d");
     for (const p of this.parts)
       if (p.faces && p.look !== "ghost")

@@ -2,7 +2,7 @@
 // when one of them changes.
 import { kindNames, type Contacts, type Mesh } from "./data";
 import { Evaluator, on_surface_error, ratioOf, sumTotals, type Result, type Row } from "./evaluate";
-import type { Cycle, Earlier, FieldName, Meta, Overrides, Totals } from "./meta";
+import type { Crossed, Cycle, Earlier, FieldName, Meta, Overrides, Totals } from "./meta";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";
 
@@ -65,6 +65,7 @@ export class Report {
     readonly data: Contacts,
     readonly earlier: Earlier | null,
     readonly cycle: Cycle | null,
+    readonly crossed: Crossed | null,
   ) {
     this.forces = cycle && cycle.contacts.map((c) => new Map(c.rows.map((r) => [`${r[0]}/${r[1]}`, { force: r[2], stiffness: r[3] }])));
     this.evaluator = new Evaluator(meta, data);
@@ -183,6 +184,20 @@ export class Report {
     const p = this.meta.parts[part];
     return p.title ? `${p.id} ${p.title}` : String(p.id);
   }
+  /** Name without what the names of all penetrating parts have in common at the start. */
+  partShort(part: number): string {
+    if (part < 0) return "(no part)";
+    const p = this.meta.parts[part];
+    return p.title ? `${p.id} ${p.title.slice(p.title.startsWith(this.commonPrefix) ? this.commonPrefix.length : 0)}` : String(p.id);
+  }
+  private commonPrefix = "";
+  private findPrefix(): void {
+    const titles = [...new Set(this.hits.flatMap((x) => [x.secondaryPart, x.mainPart]))].filter((p) => p >= 0).map((p) => this.meta.parts[p].title);
+    let prefix = titles.length > 2 ? titles[0] : "";
+    for (const t of titles) while (!t.startsWith(prefix)) prefix = prefix.slice(0, -1);
+    const end = Math.max(prefix.lastIndexOf("_"), prefix.lastIndexOf(" ")) + 1;
+    this.commonPrefix = end >= 4 && titles.every((t) => t.length > end) ? prefix.slice(0, end) : "";
+  }
   partId(part: number): number {
     return part < 0 ? 0 : this.meta.parts[part].id;
   }
@@ -211,6 +226,17 @@ export class Report {
   }
   solverError(row: Row): number {
     return row.onSurface ? on_surface_error(this.meta.contacts[row.contact], this.results[row.contact].setting) : 0;
+  }
+
+  private positions: Float32Array | null = null;
+  /** Positions of page nodes, exact where the page has them, else as drawn; NaN: in no element. */
+  get nodePositions(): Float32Array {
+    if (this.positions) return this.positions;
+    const out = new Float32Array(3 * this.mesh.nodeId.length).fill(NaN);
+    for (const p of this.mesh.parts) p.node.forEach((n, i) => out.set(p.position.subarray(3 * i, 3 * i + 3), 3 * n));
+    const d = this.data;
+    d.exactNode.forEach((n, i) => out.set([d.x[i], d.y[i], d.z[i]], 3 * n));
+    return (this.positions = out);
   }
 
   /** Force of the first cycle; null where it is not known, or was evaluated for other settings. */
@@ -268,6 +294,7 @@ export class Report {
       }
     });
     this.hits.sort((a, b) => b.depth - a.depth || a.contact - b.contact);
+    this.findPrefix();
     // The earlier report has one row per node, so only its deepest row can be compared.
     if (this.earlierRows) {
       const first = new Set<string>();

@@ -135,7 +135,7 @@ export class View3D {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(w, h, false);
     this.control.camera.aspect = w / h;
-    for (const s of this.selection) if (s instanceof LineSegments2) s.material.resolution.set(w, h);
+    for (const s of [...this.selection, ...this.crossed]) if (s instanceof LineSegments2) s.material.resolution.set(w, h);
     this.control.update(performance.now());
     this.renderer.render(this.scene, this.control.camera);
     this.onFrame();
@@ -233,6 +233,26 @@ export class View3D {
     this.request();
   }
 
+  private crossed: LineSegments2[] = [];
+  /** Edges that pass through segments, and those segments' outlines. */
+  setCrossed(edges: Float32Array | null, outlines: Float32Array | null): void {
+    for (const l of this.crossed.splice(0)) {
+      this.scene.remove(l);
+      l.geometry.dispose();
+    }
+    if (edges && edges.length > 0) {
+      this.crossed.push(this.lines(edges, this.dark ? "#ff6b81" : "#c1123f", 4), this.lines(outlines!, this.dark ? "#ffb454" : "#b45309", 1.5));
+      for (const l of this.crossed) this.scene.add(l);
+    }
+    this.request();
+  }
+
+  flyToPoints(points: Vector3[]): void {
+    const s = new Sphere().setFromPoints(points);
+    this.control.cut = { point: s.center.clone(), length: s.radius * 3 };
+    this.control.fly(s.center, Math.max(s.radius * 2.4, 1e-9));
+  }
+
   /** Outline of the main side, the node or edge, the way out, and the residual distance. */
   setSelected(hit: Hit | null): void {
     for (const s of this.selection.splice(0)) {
@@ -267,13 +287,18 @@ export class View3D {
     this.request();
   }
 
-  private addLines(points: Vector3[], color: string, width: number): void {
-    const geometry = new LineSegmentsGeometry().setPositions(points.flatMap((p) => p.toArray()));
+  private lines(positions: Float32Array, color: string, width: number): LineSegments2 {
+    const geometry = new LineSegmentsGeometry().setPositions(positions);
     const material = new LineMaterial({ color: new Color(color).getHex(), linewidth: width, depthTest: false, transparent: true });
     material.resolution.set(this.container.clientWidth, this.container.clientHeight);
     const lines = new LineSegments2(geometry, material);
     lines.renderOrder = 7;
     lines.frustumCulled = false;
+    return lines;
+  }
+
+  private addLines(points: Vector3[], color: string, width: number): void {
+    const lines = this.lines(Float32Array.from(points.flatMap((p) => p.toArray())), color, width);
     this.scene.add(lines);
     this.selection.push(lines);
   }

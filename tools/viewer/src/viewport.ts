@@ -2,6 +2,7 @@
 import { Vector3 } from "three";
 import { colorAt, cssColor, mapNames, type MapName } from "./colormap";
 import { contourOf, type Contour } from "./contour";
+import { segmentOf } from "./crossed";
 import { button, h, icon, num, replace, svg } from "./dom";
 import { saveDataUrl } from "./exports";
 import { contourNames, type ContourKind, type Look } from "./look";
@@ -85,6 +86,7 @@ export class Viewport {
         toggle("edges", "Element sides (w)", "mesh", this.edges, () => this.toggleEdges()),
         toggle("rest", "Rest see-through or hidden (h)", "ghost", true, () => this.toggleRest()),
         toggle("follow", "Isolate the chosen pair (i)", "isolate", this.follow, () => this.toggleFollow()),
+        this.report.crossed?.total ? toggle("crossed", "Edges of crossed elements (c)", "cross", true, () => this.toggleCrossed()) : null,
         toggle("clip", "Clip plane (x)", "clip", false, () => this.toggleClip()),
         toggle("parts", "Parts (p)", "parts", false, () => this.toggleParts())),
       h("span", { class: "bar" },
@@ -117,6 +119,33 @@ export class Viewport {
     this.press("follow", this.follow);
     this.isolate();
     this.applyLooks();
+  }
+  private crossedOn = true;
+  toggleCrossed(): void {
+    this.crossedOn = !this.crossedOn;
+    this.press("crossed", this.crossedOn);
+    this.drawCrossed();
+  }
+  private drawCrossed(): void {
+    const rows = this.crossedOn ? (this.report.crossed?.rows ?? []) : [];
+    const x = this.report.nodePositions;
+    const edges = new Float32Array(6 * rows.length);
+    const outlines: number[] = [];
+    rows.forEach((r, i) => {
+      edges.set(x.subarray(3 * r[1], 3 * r[1] + 3), 6 * i);
+      edges.set(x.subarray(3 * r[2], 3 * r[2] + 3), 6 * i + 3);
+      const n = segmentOf(this.report, r);
+      n.forEach((a, k) => {
+        const b = n[(k + 1) % n.length];
+        outlines.push(...x.subarray(3 * a, 3 * a + 3), ...x.subarray(3 * b, 3 * b + 3));
+      });
+    });
+    this.view?.setCrossed(edges, Float32Array.from(outlines));
+  }
+  /** Flies to some points. */
+  openPoints(points: number[][]): void {
+    this.report.select(null);
+    this.view?.flyToPoints(points.map((p) => new Vector3(...p)));
   }
   toggleParts(): void {
     this.partList.hidden = !this.partList.hidden;
@@ -255,6 +284,7 @@ export class Viewport {
     this.applyLooks();
     this.showHits();
     this.drawLegend();
+    this.drawCrossed();
     view.setSelected(this.report.selected);
   }
 

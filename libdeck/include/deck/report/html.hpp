@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "deck/contact/crossings.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 #include "deck/keyword/deck.hpp"
@@ -42,6 +43,7 @@ struct HtmlInput {
   const EarlierGaps* earlier = nullptr;
   /// Forces of the first cycle with their pairs (CycleOptions::keep_pairs); may be nullptr.
   const cycle::SceneOutcome* cycle = nullptr;
+  const std::vector<Crossing>* crossings = nullptr;  ///< of the same scene; may be nullptr
   int threads = 1;
 };
 

@@ -1,0 +1,48 @@
+// Crossed elements: edges that pass through main segments, however deep or shallow the gap.
+import { kindNames } from "./data";
+import { h, plural } from "./dom";
+import type { Crossed } from "./meta";
+import type { Report } from "./report";
+import { VirtualTable } from "./table";
+
+type Row = Crossed["rows"][0];
+
+/** Corners of the crossed segment as page nodes. */
+export function segmentOf(report: Report, row: Row): number[] {
+  const n = Array.from(report.data.contacts[row[0]].mainNode.subarray(4 * row[5], 4 * row[5] + 4));
+  return n[2] === n[3] ? n.slice(0, 3) : n;
+}
+
+export function crossedSection(report: Report, open: (points: number[][]) => void): HTMLElement {
+  const crossed = report.crossed;
+  const section = h("section", { id: "crossed" });
+  if (!crossed) {
+    section.hidden = true;
+    return section;
+  }
+  section.append(h("h2", null, "Crossed elements", h("span", { class: "muted count" }, plural(crossed.total, "edge through a segment", "edges through segments"))));
+  if (crossed.total === 0) {
+    section.append(h("p", { class: "note" }, "No edge passes through a main segment. The search is exact."));
+    return section;
+  }
+  const owner = (r: Row) => report.data.contacts[r[0]].mainOwner;
+  const inter = (r: Row) => report.meta.interfaces[report.meta.contacts[r[0]].interface];
+  const edge = (r: Row) => `${report.nodeId(r[1])}–${report.nodeId(r[2])}`;
+  const at = (n: number) => Array.from(report.nodePositions.subarray(3 * n, 3 * n + 3));
+  const table = new VirtualTable<Row>(
+    [
+      { key: "inter", title: "Int.", hint: "Interface id", width: "78px", right: true, value: (r) => inter(r).id, cell: (r) => String(inter(r).id) },
+      { key: "kind", title: "Kind", width: "minmax(88px,.7fr)", value: (r) => report.roleText(r[0]), cell: (r) => report.roleText(r[0]) },
+      { key: "edge", title: "Edge", width: "minmax(110px,1.1fr)", value: (r) => report.nodeId(r[1]), cell: edge },
+      { key: "element", title: "of element", width: "minmax(100px,1fr)", value: (r) => r[4], cell: (r) => (r[3] < 0 ? "–" : `${kindNames[r[3]]} ${r[4]}`) },
+      { key: "segment", title: "Segment", width: "minmax(150px,1.5fr)", value: (r) => report.nodeId(segmentOf(report, r)[0]), cell: (r) => segmentOf(report, r).map((n) => report.nodeId(n)).join(" ") },
+      { key: "part", title: "Main part", width: "minmax(80px,1fr)", value: (r) => report.partText(owner(r).part[r[5]]), cell: (r) => report.partText(owner(r).part[r[5]]) },
+    ],
+    { label: "Crossed elements", sort: "inter", descending: false, select: (r) => r && open([at(r[1]), at(r[2]), ...segmentOf(report, r).map(at)]) },
+  );
+  table.setRows(crossed.rows);
+  table.element.style.setProperty("--rows", String(Math.min(crossed.rows.length, 8)));
+  section.append(table.element, h("p", { class: "note" }, crossed.rows.length < crossed.total ? `The first ${crossed.rows.length} are listed. ` : "",
+    "A crossed pair gets tangled whatever the gap: repair crossings before depths. The reference solver does not look for them."));
+  return section;
+}
