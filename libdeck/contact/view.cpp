@@ -19,7 +19,9 @@ ElementName name_of(const Model& model, ElementKind kind, std::uint32_t e) {
   return {kind, e, family.id[e], part == no_index ? 0 : model.parts[part].id};
 }
 
-ElementName carrier_of(const Model& model, Carrier carrier, std::uint32_t e) {
+}  // namespace
+
+ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t e) {
   if (e == no_index) return {};
   switch (carrier) {
     case Carrier::solid:
@@ -38,6 +40,8 @@ ElementName carrier_of(const Model& model, Carrier carrier, std::uint32_t e) {
       return {};
   }
 }
+
+namespace {
 
 /// The element a node is named after: the first family that has one, smallest index.
 ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex node) {
@@ -80,15 +84,15 @@ SceneView make_view(const Scene& scene) {
         p.secondary = {model.node_id(n), 0};
         for (std::size_t k = 0; k < 4; ++k) p.main[k] = model.node_id(m.nodes[k]);
         p.secondary_element = element_at(model, connectivity, n);
-        p.main_element = carrier_of(model, m.carrier, m.element);
+        p.main_element = carrier_name(model, m.carrier, m.element);
         p.at = {model.nodes.x[n], model.nodes.y[n], model.nodes.z[n]};
       } else {
         const ContactEdge& s = contact.secondary_edges[row.secondary];
         const ContactEdge& m = contact.main_edges[row.main];
         p.secondary = {model.node_id(s.nodes[0]), model.node_id(s.nodes[1])};
         p.main = {model.node_id(m.nodes[0]), model.node_id(m.nodes[1]), 0, 0};
-        p.secondary_element = carrier_of(model, s.carrier, s.element);
-        p.main_element = carrier_of(model, m.carrier, m.element);
+        p.secondary_element = carrier_name(model, s.carrier, s.element);
+        p.main_element = carrier_name(model, m.carrier, m.element);
         const double h = row.weight_s;
         const Nodes& x = model.nodes;
         const auto mix = [&](const std::vector<double>& a) {

@@ -7,6 +7,7 @@
 
 #include "deck/model/selection.hpp"
 #include "model/bulk.hpp"
+#include "model/item_spans.hpp"
 #include "model/model_build.hpp"
 
 namespace deck {
@@ -125,25 +126,6 @@ void check_units(BuildContext& c) {
   }
 }
 
-/// The line of item `index` of a bulk block. Blank lines between items are no items.
-Span item_span(const Deck& deck, const BulkBlock& range, std::uint32_t index) {
-  LineCursor cursor(deck.sources, *range.block);
-  std::size_t lines_per_item = 1;
-  if (range.block->schema != nullptr) {
-    std::size_t grouped = 0;
-    for (const CardSchema& card : range.block->schema->cards)
-      grouped += card.repeat == Repeat::group && card.in_version(range.block->version);
-    lines_per_item = std::max<std::size_t>(grouped, 1);
-  }
-  for (std::uint32_t i = range.first;; ++i) {
-    Line line = cursor.next();
-    while (line.valid() && line.text.empty()) line = cursor.next();
-    if (!line.valid()) return range.block->header_span;
-    if (i == index) return line.whole();
-    for (std::size_t k = 1; k < lines_per_item; ++k) cursor.next();
-  }
-}
-
 }  // namespace
 }  // namespace detail
 
@@ -205,7 +187,7 @@ Span Model::node_span(NodeIndex n) const {
                        [](NodeIndex index, const BulkBlock& b) { return index < b.first; });
   for (auto it = after; it != node_blocks.begin();) {
     --it;
-    if (n < it->first + it->count) return detail::item_span(*deck, *it, n);
+    if (n < it->first + it->count) return detail::item_spans(*deck, *it, {&n, 1})[0];
   }
   return {};
 }
@@ -213,7 +195,7 @@ Span Model::node_span(NodeIndex n) const {
 Span Model::element_span(ElementKind kind, std::uint32_t e) const {
   const Elements& f = family(kind);
   if (deck == nullptr || e >= f.size()) return {};
-  return detail::item_span(*deck, element_blocks[f.block[e]], e);
+  return detail::item_spans(*deck, element_blocks[f.block[e]], {&e, 1})[0];
 }
 
 Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagnostics,

@@ -3,6 +3,8 @@
 // give the lengths.
 #include "deck/report/gaps.hpp"
 #include "deck/report/json.hpp"
+#include "model/item_spans.hpp"
+#include "report/gaps_names.hpp"
 
 namespace deck {
 namespace {
@@ -50,7 +52,9 @@ void write_sides(JsonWriter& j, const Model& model, const Contact& c) {
   side("main", c.main_edges);
 }
 
-void write_penetrations(JsonWriter& j, const Deck& deck, const Scene& scene,
+/// `spans` are the lines of the secondary nodes, parallel to the view's penetrations.
+void write_penetrations(JsonWriter& j, const Deck& deck, const Scene& scene, const SceneView& view,
+                        const std::vector<Span>& spans,
                         const std::vector<const NamedPenetration*>& named, const Contact& c) {
   const Model& model = *scene.model;
   j.key("penetrations").begin_array();
@@ -98,8 +102,33 @@ void write_penetrations(JsonWriter& j, const Deck& deck, const Scene& scene,
     element("secondary_element", p->secondary_element);
     element("main_element", p->main_element);
     j.key("source");
-    write_json_place(j, deck, model.node_span(first));
+    write_json_place(j, deck, spans[static_cast<std::size_t>(p - view.penetrations.data())]);
     j.end_object();
+  }
+  j.end_array();
+}
+
+void write_crossings(JsonWriter& j, const Scene& scene, const std::vector<Crossing>& crossings,
+                     std::uint32_t contact) {
+  const Model& model = *scene.model;
+  const Contact& c = scene.contacts[contact];
+  const auto id = [&](const ElementName& e, std::int64_t v) { e.valid() ? j.value(v) : j.null(); };
+  j.key("crossings").begin_array();
+  for (const Crossing& x : crossings) {
+    if (x.contact != contact) continue;
+    const ElementName edge = edge_element(model, x), segment = segment_element(scene, x);
+    j.begin_object(true).key("edge");
+    write_nodes(j, model, x.edge.data(), 2);
+    j.key("segment");
+    write_nodes(j, model, c.main[x.main].nodes.data(), 4);
+    j.key("edge_element");
+    id(edge, edge.id);
+    j.key("segment_element");
+    id(segment, segment.id);
+    j.key("parts").begin_array(true);
+    id(edge, edge.part);
+    id(segment, segment.part);
+    j.end_array().end_object();
   }
   j.end_array();
 }
@@ -113,7 +142,7 @@ void write_totals(JsonWriter& j, const ContactTotals& t) {
 }  // namespace
 
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
-                      const SceneView& view, bool all) {
+                      const SceneView& view, bool all, const std::vector<Crossing>* crossings) {
   std::string out;
   JsonWriter j(out);
   j.begin_object();
@@ -122,6 +151,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
   j.field("verdict", gaps_verdict(scene, view));
   j.key("summary").begin_object(true);
   write_totals(j, view.total);
+  if (crossings != nullptr) j.field("crossings", crossings->size());
   j.end_object();
   j.key("part_pairs").begin_array();
   for (const PartPair& p : view.part_pairs) {
@@ -131,6 +161,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
     j.field("p95_depth", p.p95_depth).field("max_ratio", p.max_ratio).end_object();
   }
   j.end_array();
+  const std::vector<Span> spans = detail::node_spans(*scene.model, first_nodes(scene, view));
   // The pairs of each contact in the solver's order.
   std::vector<std::vector<const NamedPenetration*>> named(scene.contacts.size());
   for (std::size_t c = 0; c < scene.contacts.size(); ++c)
@@ -159,7 +190,9 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
         write_totals(j, view.contacts[i]);
         j.end_object();
         if (all) write_sides(j, *scene.model, c);
-        write_penetrations(j, deck, scene, named[i], c);
+        write_penetrations(j, deck, scene, view, spans, named[i], c);
+        if (crossings != nullptr)
+          write_crossings(j, scene, *crossings, static_cast<std::uint32_t>(i));
         j.end_object();
       }
     }

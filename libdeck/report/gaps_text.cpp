@@ -6,6 +6,8 @@
 
 #include "deck/report/gaps.hpp"
 #include "deck/report/text_table.hpp"
+#include "model/item_spans.hpp"
+#include "report/gaps_names.hpp"
 
 namespace deck {
 namespace {
@@ -173,20 +175,18 @@ std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view
       "interface,type,role,kind,secondary_1,secondary_2,main_1,main_2,main_3,main_4,depth,gap,"
       "distance,ratio,normal_x,normal_y,normal_z,on_surface,action,gap0,p0,x,y,z,"
       "secondary_element,secondary_part,main_element,main_part,file,line\r\n";
-  const Model& model = *scene.model;
   const auto quote = [](const std::string& s) {
     if (s.find_first_of(",\"\r\n") == std::string::npos) return s;
     std::string q = "\"";
     for (const char ch : s) q += ch == '"' ? std::string("\"\"") : std::string(1, ch);
     return q + '"';
   };
-  for (const NamedPenetration& p : view.penetrations) {
+  const std::vector<Span> spans = detail::node_spans(*scene.model, first_nodes(scene, view));
+  for (std::size_t row = 0; row < view.penetrations.size(); ++row) {
+    const NamedPenetration& p = view.penetrations[row];
     const Contact& c = scene.contacts[p.contact];
     const PenetrationRow& r = row_of(scene, p);
-    const NodeIndex n = c.kind == ContactKind::node_segment
-                            ? c.secondary[r.secondary].node
-                            : c.secondary_edges[r.secondary].nodes[0];
-    const Span span = model.node_span(n);
+    const Span& span = spans[row];
     const auto id = [](std::int64_t v) { return v == 0 ? std::string() : fmt::format("{}", v); };
     fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},",
                    c.inter->id, c.inter->type, to_string(c.role), to_string(c.kind), p.secondary[0],

@@ -53,6 +53,9 @@ struct SceneView {
 /// Forms all views. Costs time in proportion to the penetrations, not to the model.
 SceneView make_view(const Scene& scene);
 
+/// The element behind a segment or edge; not valid for carriers without an element.
+ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t element);
+
 /// Solver error for a node exactly on a segment: 611, 612, or 0 where the options avoid it.
 int on_surface_error(const Contact& contact);
 

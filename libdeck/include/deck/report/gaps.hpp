@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "deck/contact/crossings.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/keyword/deck.hpp"
 
@@ -22,9 +23,15 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
 /// One sentence: how many, how deep, and whether the solver stops.
 std::string gaps_verdict(const Scene& scene, const SceneView& view);
 
-/// The document of `deck gaps --json`. With `all`, every secondary node and main segment.
+/// The document of `deck gaps --json`. With `all`, every secondary node and main segment; with
+/// `crossings`, what find_crossings gave for the scene.
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
-                      const SceneView& view, bool all);
+                      const SceneView& view, bool all,
+                      const std::vector<Crossing>* crossings = nullptr);
+
+/// Crossed elements by part pair, each edge and segment once.
+std::string crossings_text(const Scene& scene, const std::vector<Crossing>& crossings,
+                           const GapsTextOptions& options = {});
 
 /// One line per penetration, deepest first, RFC 4180.
 std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view);

@@ -1,0 +1,32 @@
+// The geometry stage as VTK files for ParaView: surfaces and lines of every contact with stiffness,
+// gap and depth, and the penetrations as points with arrows. Pure functions from a scene to bytes.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "deck/contact/view.hpp"
+
+namespace deck {
+
+struct VtkFile {
+  std::string name;   ///< file name without directory
+  std::string bytes;  ///< VTK XML PolyData, little endian, base64 inside: the same on any machine
+};
+
+/// Files of a scene, in the order of its contacts:
+///
+/// * interface_ID[_reversed|_edges]_main.vtp: main segments as polygons (edge pairs: lines). Cell
+///   data stiffness, gap, depth (largest penetration, 0: none), element, part, off (1: switched off
+///   by Inacti); point data node (id), gap (of the node if it is secondary too, else the largest of
+///   its segments).
+/// * interface_ID..._secondary.vtp: secondary nodes as vertices (edge pairs: lines). Cell data
+///   stiffness, gap, depth, off; point data node.
+/// * penetrations.vtp, always: one vertex per pair, deepest first. Point data arrow (unit normal
+///   times depth, from the point the way out), normal, depth, gap, ratio, action (number in the
+///   order of PenetrationAction), on_surface, node, interface.
+///
+/// Coordinates are those of the deck in working units. Contacts without any item on a side get no
+/// file for it.
+std::vector<VtkFile> gaps_vtk(const Scene& scene, const SceneView& view);
+
+}  // namespace deck

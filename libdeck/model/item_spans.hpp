@@ -1,0 +1,21 @@
+// Lines of nodes and elements, found by walking their block again: nothing is stored per item.
+// Private to the library.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "deck/model/model.hpp"
+
+namespace deck::detail {
+
+/// The lines of items of one bulk block; `indices` ascending. Blank lines between items are no
+/// items. The block is walked once, up to the last index; an item that is not there gets the
+/// header.
+std::vector<Span> item_spans(const Deck& deck, const BulkBlock& range,
+                             std::span<const std::uint32_t> indices);
+
+/// Model::node_span for many nodes, in any order and with repetitions: every block is walked once.
+std::vector<Span> node_spans(const Model& model, std::span<const NodeIndex> nodes);
+
+}  // namespace deck::detail

@@ -1,0 +1,73 @@
+// Crossed elements as a table for people.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "deck/report/gaps.hpp"
+#include "deck/report/text_table.hpp"
+#include "report/gaps_names.hpp"
+
+namespace deck {
+
+std::vector<NodeIndex> first_nodes(const Scene& scene, const SceneView& view) {
+  std::vector<NodeIndex> out;
+  out.reserve(view.penetrations.size());
+  for (const NamedPenetration& p : view.penetrations) {
+    const Contact& c = scene.contacts[p.contact];
+    const std::uint32_t s = c.penetrations[p.row].secondary;
+    out.push_back(c.kind == ContactKind::node_segment ? c.secondary[s].node
+                                                      : c.secondary_edges[s].nodes[0]);
+  }
+  return out;
+}
+
+ElementName edge_element(const Model& model, const Crossing& x) {
+  if (x.edge_element == no_index) return {};
+  const Elements& family = model.family(x.edge_kind);
+  const std::uint32_t part = family.part[x.edge_element];
+  return {x.edge_kind, x.edge_element, family.id[x.edge_element],
+          part == no_index ? 0 : model.parts[part].id};
+}
+
+ElementName segment_element(const Scene& scene, const Crossing& x) {
+  const MainSegment& m = scene.contacts[x.contact].main[x.main];
+  return carrier_name(*scene.model, m.carrier, m.element);
+}
+
+std::string crossings_text(const Scene& scene, const std::vector<Crossing>& crossings,
+                           const GapsTextOptions& options) {
+  if (crossings.empty()) return "\nNo edge passes through a main segment.\n";
+  const Model& model = *scene.model;
+  // An edge through a segment is listed once, however many interfaces contain the two.
+  std::map<std::pair<std::array<NodeIndex, 2>, std::array<NodeIndex, 4>>, const Crossing*> distinct;
+  for (const Crossing& x : crossings)
+    distinct.emplace(std::pair{x.edge, scene.contacts[x.contact].main[x.main].nodes}, &x);
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<const Crossing*>> by_parts;
+  for (const auto& [key, x] : distinct)
+    by_parts[{edge_element(model, *x).part, segment_element(scene, *x).part}].push_back(x);
+  TextTable table({{"part", Align::right},
+                   {"through part", Align::right},
+                   {"crossings", Align::right},
+                   {"interface", Align::right},
+                   {"for example edge"},
+                   {"of element", Align::right},
+                   {"through segment"},
+                   {"of element", Align::right}});
+  for (const auto& [parts, list] : by_parts) {
+    const Crossing& x = *list.front();
+    const Contact& c = scene.contacts[x.contact];
+    const auto& n = c.main[x.main].nodes;
+    std::string segment;
+    for (std::size_t k = 0; k < (n[2] == n[3] ? 3U : 4U); ++k)
+      segment += fmt::format("{}{}", k == 0 ? "" : " ", model.node_id(n[k]));
+    table.row({fmt::format("{}", parts.first), fmt::format("{}", parts.second),
+               fmt::format("{}", list.size()), fmt::format("{}", c.inter->id),
+               fmt::format("{} {}", model.node_id(x.edge[0]), model.node_id(x.edge[1])),
+               fmt::format("{}", edge_element(model, x).id), segment,
+               fmt::format("{}", segment_element(scene, x).id)});
+  }
+  return fmt::format("\nEdges through main segments: {}\n{}", distinct.size(),
+                     table.render(options.color, 2));
+}
+
+}  // namespace deck
