@@ -2,11 +2,13 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <filesystem>
 
 #include "common.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/html.hpp"
+#include "deck/report/vtk.hpp"
 #include "deck/text/number.hpp"
 
 namespace {
@@ -18,8 +20,9 @@ struct Options {
   CommonOptions common;
   bool all = false;
   bool fail = false;
+  bool crossings = false;
   std::size_t worst = 20;
-  std::string csv, html, compare;
+  std::string csv, html, compare, vtk;
   std::vector<std::int64_t> only;
   std::vector<std::string> what_if;
 };
@@ -71,6 +74,18 @@ Result<WhatIf> parse_what_if(const std::string& text) {
   return w;
 }
 
+/// Writes the VTK files: into the directory itself, or one below it per deck if there are several.
+Result<void> write_vtk(const Options& o, const Loaded& loaded, const Scene& scene,
+                       const SceneView& view) {
+  namespace fs = std::filesystem;
+  fs::path directory = o.vtk;
+  if (o.common.decks.size() > 1) directory /= fs::path(loaded.path).stem();
+  const std::vector<VtkFile> written = gaps_vtk(scene, view);
+  std::vector<OutputFile> files;
+  for (const VtkFile& f : written) files.push_back({(directory / f.name).string(), f.bytes});
+  return write_files_atomic(files);
+}
+
 /// Writes the HTML report; what can be wrong is wrong usage or a file.
 Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& scene,
                         const SceneView& view, const SceneOptions& scene_options) {
@@ -87,8 +102,10 @@ Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& sce
   cycle_options.keep_pairs = true;
   const cycle::SceneOutcome forces =
       cycle::run_cycle(scene, cycle::make_state(scene), cycle_options);
+  const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
   HtmlInput input;
   input.cycle = &forces;
+  input.crossings = &crossings;
   input.path = loaded.path;
   input.deck = &loaded.deck;
   input.scene = &scene;
@@ -128,7 +145,6 @@ int run(const Options& o) {
   }
   JsonOutput json(o.common, "deck-gaps", 1);
   int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
-    print_findings(loaded, o.common);
     Scene scene;
     {
       Progress progress(!o.common.quiet);
@@ -139,10 +155,20 @@ int run(const Options& o) {
       };
       scene = build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
     }
+    print_findings(loaded, o.common);
     const SceneView view = make_view(scene);
-    if (json.wanted()) json.add(gaps_json(loaded.path, loaded.deck, scene, view, o.all));
+    std::vector<Crossing> crossings;
+    if (o.crossings) crossings = find_crossings(scene, scene_options.threads);
+    if (json.wanted())
+      json.add(gaps_json(loaded.path, loaded.deck, scene, view, o.all,
+                         o.crossings ? &crossings : nullptr));
     if (!o.csv.empty())
       if (auto r = write_output(o.csv, gaps_csv(loaded.deck, scene, view)); !r) {
+        print_error(o.common, r.error().message);
+        return static_cast<int>(exit_usage);
+      }
+    if (!o.vtk.empty())
+      if (auto r = write_vtk(o, loaded, scene, view); !r) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }
@@ -155,7 +181,8 @@ int run(const Options& o) {
       GapsTextOptions text;
       text.worst = o.worst;
       text.color = o.common.color_on(1);
-      std::fputs(gaps_text(loaded.deck, scene, view, text).c_str(), stdout);
+      print_text(gaps_text(loaded.deck, scene, view, text));
+      if (o.crossings) print_text(crossings_text(scene, crossings, text));
     }
     const bool found = o.fail ? view.total.pairs > 0 : view.total.solver_errors > 0;
     return static_cast<int>(found ? exit_findings : exit_clean);
@@ -171,6 +198,11 @@ Action setup(CLI::App& app) {
   app.add_option("--csv", options->csv,
                  "Write one line per penetration to FILE ('-': standard output)")
       ->type_name("FILE");
+  app.add_flag("--crossings", options->crossings,
+               "Also look for edges of elements that pass through main segments");
+  app.add_option("--vtk", options->vtk,
+                 "Write the contacts and penetrations as VTK files (ParaView) into DIR")
+      ->type_name("DIR");
   app.add_option("--html", options->html,
                  "Write the interactive report to FILE: one page, no network needed")
       ->type_name("FILE");
