@@ -1,0 +1,223 @@
+// The robust tier on the hard-case families, held against exact rationals.
+// DECK_HARDCASE_SAMPLES sets the samples per family (default 5000).
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <set>
+
+#include "contact/exact.hpp"
+#include "deck/contact/accuracy.hpp"
+#include "deck/contact/filtered.hpp"
+
+namespace deck {
+namespace {
+
+using P = Point3<double>;
+
+std::size_t samples_per_family() {
+  const char* text = std::getenv("DECK_HARDCASE_SAMPLES");
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : 5000;
+}
+
+bool decision(const PairSample& s) {
+  return s.edges ? is_closer_than(s.x[0], s.x[1], s.x[2], s.x[3], s.gap)
+                 : is_closer_than(s.x[4], s.corners(), s.triangle, s.gap);
+}
+double distance(const PairSample& s) {
+  return s.edges ? filtered_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3]).distance
+                 : filtered_closest_on_segment(s.x[4], s.corners(), s.triangle).distance;
+}
+double exact_distance(const PairSample& s) {
+  return s.edges ? exact_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3]).distance
+                 : exact_closest_on_segment(s.x[4], s.corners(), s.triangle).distance;
+}
+// Rounding is monotone: only where the rounded distance is the gap do the digits behind matter.
+bool exact_decision(const PairSample& s, double exact) {
+  if (exact != s.gap || s.gap <= 0.0) return exact < s.gap;
+  return (s.edges ? exact_compare_distance(s.x[0], s.x[1], s.x[2], s.x[3], s.gap)
+                  : exact_compare_distance(s.x[4], s.corners(), s.triangle, s.gap)) < 0;
+}
+double ulps(double a, double b) {
+  const auto bits = [](double v) { return std::bit_cast<std::int64_t>(v); };  // both >= 0
+  return std::abs(static_cast<double>(bits(a) - bits(b)));
+}
+
+std::string place(const PairSample& s) {
+  std::string out = "gap " + std::to_string(s.gap) + ", points";
+  char text[120];
+  for (const P& p : s.x) {
+    std::snprintf(text, sizeof text, " (%a, %a, %a)", p.x, p.y, p.z);
+    out += text;
+  }
+  return out;
+}
+
+std::vector<int> sampled_families() {
+  std::vector<int> out;
+  for (const HardFamily& f : hard_families())
+    if (f.sampled) out.push_back(f.id);
+  return out;
+}
+
+class HardCases : public testing::TestWithParam<int> {};
+
+TEST_P(HardCases, RobustDecidesAsExactArithmeticAndRoundsOnce) {
+  std::size_t wrong = 0, inexact = 0;
+  for (const PairSample& s : hard_cases(GetParam(), samples_per_family())) {
+    const double exact = exact_distance(s), robust = distance(s);
+    ASSERT_TRUE(std::isfinite(robust)) << place(s);
+    if (decision(s) != exact_decision(s, exact) && wrong++ == 0)
+      ADD_FAILURE() << "decision: " << place(s);
+    if (ulps(robust, exact) > 0.0 && inexact++ == 0) ADD_FAILURE() << "distance: " << place(s);
+  }
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_EQ(inexact, 0u);
+}
+
+// The same pair written down in another way.
+PairSample other_order(PairSample s) {
+  if (s.edges) {
+    std::swap(s.x[0], s.x[1]);
+  } else if (s.triangle) {
+    s.x = {s.x[1], s.x[2], s.x[0], s.x[0], s.x[4]};
+  } else {
+    s.x = {s.x[1], s.x[2], s.x[3], s.x[0], s.x[4]};
+  }
+  return s;
+}
+PairSample turned_over(PairSample s) {
+  if (s.edges) {
+    s.x = {s.x[2], s.x[3], s.x[0], s.x[1], s.x[4]};
+  } else if (s.triangle) {
+    std::swap(s.x[0], s.x[1]);
+  } else {
+    std::swap(s.x[1], s.x[3]);
+  }
+  return s;
+}
+PairSample other_axes(PairSample s) {
+  for (P& p : s.x) p = {-p.z, p.x, -p.y};
+  return s;
+}
+// False if a coordinate or the gap does not fit.
+bool scale(PairSample& s, int power) {
+  bool exact = true;
+  const auto one = [&](double& v) {
+    const double y = std::ldexp(v, power);
+    exact &= std::isfinite(y) && std::ldexp(y, -power) == v && (y == 0.0 || std::isnormal(y));
+    v = y;
+  };
+  for (P& p : s.x) one(p.x), one(p.y), one(p.z);
+  one(s.gap);
+  return exact;
+}
+
+TEST_P(HardCases, AnswersDoNotDependOnHowThePairIsWritten) {
+  for (const PairSample& s : hard_cases(GetParam(), 200, 7)) {
+    const bool closer = decision(s);
+    const double d = distance(s);
+    for (const PairSample& t : {other_order(s), turned_over(s), other_axes(s)}) {
+      ASSERT_EQ(decision(t), closer) << place(s);
+      ASSERT_EQ(distance(t), d) << place(s);
+    }
+    for (const int power : {-150, -1, 40, 150}) {
+      PairSample t = s;
+      if (!scale(t, power)) continue;
+      ASSERT_EQ(decision(t), closer) << power << ' ' << place(s);
+      // A subnormal distance has fewer digits to begin with.
+      const double expected = std::ldexp(d, power);
+      if (d == 0.0 || (std::isnormal(d) && std::isnormal(expected))) {
+        ASSERT_EQ(distance(t), expected) << power << ' ' << place(s);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Family, HardCases, testing::ValuesIn(sampled_families()),
+                         [](const auto& param) { return std::to_string(param.param); });
+
+TEST(HardCaseFamilies, FortyWithOneIdEach) {
+  std::set<int> ids;
+  for (const HardFamily& f : hard_families()) {
+    ids.insert(f.id);
+    EXPECT_NE(std::string(f.expected), "");
+    EXPECT_EQ(hard_cases(f.id, 3).size(), f.sampled ? 3u : 0u) << f.name;
+  }
+  EXPECT_EQ(ids.size(), 40u);
+  EXPECT_EQ(*ids.begin(), 1);
+  EXPECT_EQ(*ids.rbegin(), 40);
+}
+
+TEST(HardCaseFamilies, SameSeedSameSamples) {
+  const auto a = hard_cases(25, 50, 3), b = hard_cases(25, 50, 3), c = hard_cases(25, 50, 4);
+  EXPECT_EQ(a[49].x[0].x, b[49].x[0].x);
+  EXPECT_NE(a[49].x[0].x, c[49].x[0].x);
+}
+
+TEST(HardCaseFamilies, NodesOnTheSegmentAreAtDistanceZero) {
+  for (const int family : {11, 12, 27, 33})
+    for (const PairSample& s : hard_cases(family, 200)) ASSERT_EQ(distance(s), 0.0) << place(s);
+}
+
+TEST(HardCaseFamilies, SeparatedCollinearEdgesKeepTheirDistance) {
+  for (const PairSample& s : hard_cases(26, 500)) ASSERT_GT(distance(s), 0.01) << place(s);
+}
+
+TEST(HardCaseFamilies, OneStepFromAnEdgeIsNoJump) {
+  for (const PairSample& s : hard_cases(14, 500)) ASSERT_LT(distance(s), 99 * 0x1p-51) << place(s);
+}
+
+TEST(Filtered, TouchingIsNoContact) {
+  const std::array<P, 4> quad{P{0, 0, 0}, P{1, 0, 0}, P{1, 1, 0}, P{0, 1, 0}};
+  const double gap = 0.1 + 0.2;
+  EXPECT_FALSE(is_closer_than({0.5, 0.5, gap}, quad, false, gap));
+  EXPECT_FALSE(is_closer_than({0.5, 0.5, -gap}, quad, false, gap));
+  EXPECT_TRUE(is_closer_than({0.5, 0.5, 0.3}, quad, false, gap));  // 0.1 + 0.2 > 0.3 as doubles
+  EXPECT_FALSE(is_closer_than({0.5, 0.5, 0.0}, quad, false, 0.0));
+}
+
+TEST(Filtered, NearlyParallelEdgesHaveNoJump) {
+  // Turning one edge by ever smaller angles must lead to the distance of the parallel ones.
+  for (double angle = 1e-4; angle > 1e-18; angle *= 0.1) {
+    const double d =
+        filtered_closest_between_edges({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, angle, 1}).distance;
+    EXPECT_GE(d, 1.0);
+    EXPECT_LE(d, 1.0 + angle);
+  }
+}
+
+TEST(Filtered, UndefinedCoordinatesAreNoContact) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  const std::array<P, 4> quad{P{0, 0, 0}, P{1, 0, 0}, P{1, 1, 0}, P{0, 1, 0}};
+  for (const double bad : {nan, inf, -inf}) {
+    EXPECT_FALSE(is_closer_than({bad, 0, 0}, quad, false, 1.0));
+    EXPECT_TRUE(std::isnan(filtered_closest_on_segment({bad, 0, 0}, quad, false).distance));
+    EXPECT_FALSE(is_closer_than({0, bad, 0}, {1, 0, 0}, {0, 0, 0}, {1, 1, 1}, 1.0));
+  }
+}
+
+TEST(Filtered, LargestCoordinatesDoNotOverflow) {
+  const double big = std::numeric_limits<double>::max();
+  const std::array<P, 4> quad{P{big, 0, 0}, P{big, big, 0}, P{-big, big, 0}, P{-big, 0, 0}};
+  EXPECT_EQ(filtered_closest_on_segment({0, 0, 0.5 * big}, quad, false).distance, 0.5 * big);
+  EXPECT_TRUE(is_closer_than({0, 0, 0.5 * big}, quad, false, 0.75 * big));
+  EXPECT_FALSE(is_closer_than({0, 0, 0.5 * big}, quad, false, 0.5 * big));
+}
+
+TEST(Filtered, CountersTellWhatWasNeeded) {
+  const std::array<P, 4> quad{P{0, 0, 0}, P{1, 0, 0}, P{1, 1, 0}, P{0, 1, 0}};
+  FilterCounters counters;
+  is_closer_than({0.5, 0.5, 0.4}, quad, false, 0.3, &counters);
+  EXPECT_EQ(counters.pairs, 1u);
+  EXPECT_EQ(counters.double_double, 0u);
+  is_closer_than({0.5, 0.5, 0.3}, quad, false, 0.3, &counters);
+  EXPECT_EQ(counters.pairs, 2u);
+  EXPECT_EQ(counters.exact, 1u);
+}
+
+}  // namespace
+}  // namespace deck
