@@ -1,0 +1,222 @@
+// VTK files of the geometry stage: read back by VTK itself (Debian: python3-vtk9) and compared
+// value by value; the tests that need it are skipped where it is not installed.
+#include "deck/report/vtk.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "contact/small_deck.hpp"
+
+namespace deck::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr const char* dump = R"(
+import json, os, sys
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+from vtkmodules.vtkCommonCore import vtkIdList
+def arrays(data):
+    out = {}
+    for i in range(data.GetNumberOfArrays()):
+        a = data.GetArray(i)
+        out[a.GetName()] = [[a.GetComponent(t, c) for c in range(a.GetNumberOfComponents())]
+                            for t in range(a.GetNumberOfTuples())]
+    return out
+result = {}
+for name in os.listdir(sys.argv[1]):
+    if not name.endswith('.vtp'): continue
+    reader = vtkXMLPolyDataReader()
+    if not reader.CanReadFile(os.path.join(sys.argv[1], name)): sys.exit('cannot read ' + name)
+    reader.SetFileName(os.path.join(sys.argv[1], name))
+    reader.Update()
+    if reader.GetErrorCode() != 0: sys.exit('error in ' + name)
+    p = reader.GetOutput()
+    cells = []
+    for i in range(p.GetNumberOfCells()):
+        ids = vtkIdList()
+        p.GetCellPoints(i, ids)
+        cells.append([ids.GetId(k) for k in range(ids.GetNumberOfIds())])
+    result[name] = {'points': [list(p.GetPoint(i)) for i in range(p.GetNumberOfPoints())],
+                    'types': [p.GetCellType(i) for i in range(p.GetNumberOfCells())],
+                    'cells': cells, 'point': arrays(p.GetPointData()),
+                    'cell': arrays(p.GetCellData())}
+json.dump(result, open(sys.argv[2], 'w'))
+)";
+
+/// A python that has VTK, or nothing.
+std::string python_with_vtk() {
+  for (const std::string python : {"python3", "/usr/bin/python3"})
+    if (std::system((python + " -c 'import vtkmodules.vtkIOXML' > /dev/null 2>&1").c_str()) == 0)
+      return python;
+  return {};
+}
+
+/// What VTK reads from the files; null where VTK is missing.
+json read_with_vtk(const std::vector<VtkFile>& files) {
+  const std::string python = python_with_vtk();
+  if (python.empty()) return nullptr;
+  std::string name = (fs::temp_directory_path() / "vtk_test_XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) return nullptr;
+  const fs::path folder = name;
+  for (const VtkFile& f : files) std::ofstream(folder / f.name, std::ios::binary) << f.bytes;
+  std::ofstream(folder / "dump.py") << dump;
+  const auto quoted = [&](const char* file) { return "'" + (folder / file).string() + "'"; };
+  const int code = std::system(
+      (python + " " + quoted("dump.py") + " '" + name + "' " + quoted("dump.json")).c_str());
+  EXPECT_EQ(code, 0);
+  json out = json::object();
+  if (code == 0) out = json::parse(std::ifstream(folder / "dump.json"));
+  std::error_code ec;
+  fs::remove_all(folder, ec);
+  return out;
+}
+
+/// A quad and a triangle of a floor (part 1) with nodes over it, two trusses that cross.
+SmallDeck scene_deck() {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0).node(5, 20, 5, 0);
+  d.node(101, 3, 4, 0.4).node(102, 12, 5, 1.0 / 3).node(103, 5, 5, 0).node(104, 0, 0, 30);
+  d.node(201, -1, 0, 50).node(202, 1, 0, 50).node(203, 0, -1, 50.5).node(204, 0, 1, 50.5);
+  d.shell_part(1, 2).truss_part(2, 0.09).shell(1, 7, 1, 2, 3, 4).shell3(1, 8, 2, 5, 3);
+  d.bar("TRUSS", 2, 9, 201, 202).bar("TRUSS", 2, 10, 203, 204).bar("TRUSS", 2, 11, 104, 101);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {101, 102, 103, 104, 2});
+  d.segments("/LINE/SEG/1", {{201, 202}}).segments("/LINE/SEG/2", {{203, 204}});
+  d.add("@/INTER/TYPE7/1 Igap=1 Gapmin=0.6 Inacti=1").add("@/INTER/TYPE11/2 Gapmin=1 Inacti=6");
+  return d.add("@/INTER/TYPE19/3 surf_IDs=1 surf_IDm=1 Gapmin=0.1");
+}
+
+std::vector<std::string> names(const std::vector<VtkFile>& files) {
+  std::vector<std::string> out;
+  for (const VtkFile& f : files) out.push_back(f.name);
+  return out;
+}
+
+TEST(Vtk, OneFilePerSideAndThePenetrations) {
+  const Built b(scene_deck());
+  const std::vector<std::string> expected = {"interface_1_main.vtp",
+                                             "interface_1_secondary.vtp",
+                                             "interface_2_main.vtp",
+                                             "interface_2_secondary.vtp",
+                                             "interface_3_main.vtp",
+                                             "interface_3_secondary.vtp",
+                                             "interface_3_edges_main.vtp",
+                                             "interface_3_edges_secondary.vtp",
+                                             "penetrations.vtp"};
+  EXPECT_EQ(names(gaps_vtk(b.scene, make_view(b.scene))), expected);
+}
+
+TEST(Vtk, SameBytesEveryTime) {
+  const Built a(scene_deck()), b(scene_deck());
+  const auto first = gaps_vtk(a.scene, make_view(a.scene));
+  const auto second = gaps_vtk(b.scene, make_view(b.scene));
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].bytes, second[i].bytes);
+}
+
+TEST(Vtk, SceneWithoutContactsStillHasAPenetrationFile) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0);
+  const Built b(d);
+  const auto files = gaps_vtk(b.scene, make_view(b.scene));
+  ASSERT_EQ(files.size(), 1u);
+  const json read = read_with_vtk(files);
+  if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+  EXPECT_TRUE(read["penetrations.vtp"]["points"].empty());
+}
+
+TEST(Vtk, MainSurfaceReadByVtk) {
+  const Built b(scene_deck());
+  const json read = read_with_vtk(gaps_vtk(b.scene, make_view(b.scene)));
+  if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+  const json& file = read["interface_1_main.vtp"];
+  const Contact& c = b.contact(1);
+  ASSERT_EQ(file["cells"].size(), c.main.size());
+  EXPECT_EQ(file["types"], json({9, 5})) << "VTK_QUAD, VTK_TRIANGLE";
+  for (std::size_t i = 0; i < c.main.size(); ++i) {
+    const MainSegment& m = c.main[i];
+    for (std::size_t k = 0; k < file["cells"][i].size(); ++k) {
+      const std::size_t point = file["cells"][i][k];
+      const NodeIndex n = m.nodes[k];
+      EXPECT_EQ(file["points"][point],
+                json({b.model.nodes.x[n], b.model.nodes.y[n], b.model.nodes.z[n]}));
+      EXPECT_EQ(file["point"]["node"][point][0], b.model.node_id(n));
+    }
+    double deepest = 0;
+    for (const PenetrationRow& r : c.penetrations)
+      if (r.main == i) deepest = std::max(deepest, r.depth);
+    EXPECT_GT(deepest, 0);
+    EXPECT_EQ(file["cell"]["stiffness"][i][0], m.stiffness);
+    EXPECT_EQ(file["cell"]["gap"][i][0], m.gap);
+    EXPECT_EQ(file["cell"]["depth"][i][0], deepest);
+    EXPECT_EQ(file["cell"]["off"][i][0], 0);
+    EXPECT_EQ(file["cell"]["part"][i][0], 1);
+    EXPECT_EQ(file["cell"]["element"][i][0], i == 0 ? 7 : 8);
+  }
+  for (const auto& gap : file["point"]["gap"]) EXPECT_EQ(gap[0], 1);
+}
+
+TEST(Vtk, SecondaryNodesReadByVtk) {
+  const Built b(scene_deck());
+  const json read = read_with_vtk(gaps_vtk(b.scene, make_view(b.scene)));
+  if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+  const json& file = read["interface_1_secondary.vtp"];
+  const Contact& c = b.contact(1);
+  ASSERT_EQ(file["cells"].size(), c.secondary.size());
+  for (std::size_t i = 0; i < c.secondary.size(); ++i) {
+    EXPECT_EQ(file["types"][i], 1) << "VTK_VERTEX";
+    const std::size_t point = file["cells"][i][0];
+    EXPECT_EQ(file["point"]["node"][point][0], b.model.node_id(c.secondary[i].node));
+    EXPECT_EQ(file["cell"]["gap"][i][0], c.secondary[i].gap);
+    EXPECT_EQ(file["cell"]["off"][i][0], c.secondary[i].off ? 1 : 0);
+  }
+}
+
+TEST(Vtk, EdgesReadByVtk) {
+  const Built b(scene_deck());
+  const json read = read_with_vtk(gaps_vtk(b.scene, make_view(b.scene)));
+  if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+  const json& file = read["interface_2_main.vtp"];
+  ASSERT_EQ(file["cells"].size(), 1u);
+  EXPECT_EQ(file["types"][0], 3) << "VTK_LINE";
+  EXPECT_EQ(file["points"], json({{-1.0, 0.0, 50.0}, {1.0, 0.0, 50.0}}));
+  EXPECT_EQ(file["cell"]["stiffness"][0][0], b.contact(2).main_edges[0].stiffness);
+  EXPECT_EQ(file["cell"]["depth"][0][0], b.contact(2).penetrations.at(0).depth);
+  EXPECT_EQ(file["cell"]["element"][0][0], 9);
+}
+
+TEST(Vtk, PenetrationsReadByVtk) {
+  const Built b(scene_deck());
+  const SceneView view = make_view(b.scene);
+  const json read = read_with_vtk(gaps_vtk(b.scene, view));
+  if (read.is_null()) GTEST_SKIP() << "no python3 with VTK (Debian: python3-vtk9)";
+  const json& file = read["penetrations.vtp"];
+  ASSERT_EQ(file["points"].size(), view.penetrations.size());
+  ASSERT_GE(view.penetrations.size(), 4u);
+  for (std::size_t i = 0; i < view.penetrations.size(); ++i) {
+    const NamedPenetration& p = view.penetrations[i];
+    const Contact& c = b.scene.contacts[p.contact];
+    const PenetrationRow& r = c.penetrations[p.row];
+    const json& data = file["point"];
+    EXPECT_EQ(file["points"][i], json(p.at));
+    EXPECT_EQ(data["normal"][i], json(r.normal));
+    EXPECT_EQ(data["arrow"][i],
+              json({r.depth * r.normal[0], r.depth * r.normal[1], r.depth * r.normal[2]}));
+    EXPECT_EQ(data["depth"][i][0], r.depth);
+    EXPECT_EQ(data["gap"][i][0], r.gap);
+    EXPECT_EQ(data["ratio"][i][0], r.depth / r.gap);
+    EXPECT_EQ(data["action"][i][0], static_cast<int>(r.action));
+    EXPECT_EQ(data["on_surface"][i][0], r.on_surface ? 1 : 0);
+    EXPECT_EQ(data["node"][i][0], p.secondary[0]);
+    EXPECT_EQ(data["interface"][i][0], c.inter->id);
+  }
+}
+
+}  // namespace
+}  // namespace deck::test
