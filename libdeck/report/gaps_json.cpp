@@ -146,7 +146,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
   std::string out;
   JsonWriter j(out);
   j.begin_object();
-  write_json_head(j, "deck-gaps", 1);
+  write_json_head(j, "deck/gaps", 1);
   write_json_deck(j, path, deck, scene.model, scene.interfaces);
   j.field("verdict", gaps_verdict(scene, view));
   j.key("summary").begin_object(true);

@@ -151,10 +151,10 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
     const NodeIndex n = c.kind == ContactKind::node_segment
                             ? c.secondary[row.secondary].node
                             : c.secondary_edges[row.secondary].nodes[0];
-    std::string action = row.on_surface && on_surface_error(c) != 0
-                             ? fmt::format("error {}", on_surface_error(c))
-                             : to_string(row.action);
-    if (row.has_gap0) action += fmt::format(" to {:.4g}", row.gap0);
+    const bool stops = row.on_surface && on_surface_error(c) != 0;
+    std::string action =
+        stops ? fmt::format("error {}", on_surface_error(c)) : to_string(row.action);
+    if (!stops && row.has_gap0) action += fmt::format(" to {:.4g}", row.gap0);
     worst.row({fmt::format("{:.6g}", row.depth), fmt::format("{:.6g}", row.gap),
                fmt::format("{:.6g}", row.distance), fmt::format("{}", c.inter->id),
                secondary_text(p), segment_text(p),

@@ -45,7 +45,7 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page) {
   std::string out;
   JsonWriter j(out);
   j.begin_object();
-  write_json_head(j, "deck-gaps-html", 1);
+  write_json_head(j, "deck/gaps-html", 1);
   write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
   j.field("verdict", gaps_verdict(*in.scene, *in.view));
   const ContactTotals& t = in.view->total;

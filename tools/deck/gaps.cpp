@@ -143,7 +143,7 @@ int run(const Options& o) {
     }
     scene_options.what_if.push_back(*w);
   }
-  JsonOutput json(o.common, "deck-gaps", 1);
+  JsonOutput json(o.common, "deck/gaps", 1);
   int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
     Scene scene;
     {
