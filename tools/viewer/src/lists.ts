@@ -209,15 +209,19 @@ function histogram(report: Report, look: Look, field: "depth" | "ratio", title: 
 // ---- list -------------------------------------------------------------------------------------
 
 export function listSection(report: Report, open: (hit: Hit) => void, exportsMenu: HTMLElement): { element: HTMLElement; table: VirtualTable<Hit> } {
+  // Widths by the ids that occur.
+  const digits = report.mesh.nodeId.reduce((m, id) => Math.max(m, id), 1).toFixed(0).length;
+  const chars = (n: number) => Math.round(7.7 * n + 14);
+  const inters = String(Math.max(...report.meta.interfaces.map((i) => i.id), 1)).length;
   const columns: Column<Hit>[] = [
     { key: "depth", title: "Depth", width: "78px", right: true, value: (x) => x.depth, cell: (x) => num(x.depth, 5) },
     { key: "gap", title: "Gap", width: "64px", right: true, value: (x) => x.row.gap, cell: (x) => num(x.row.gap) },
     { key: "ratio", title: "Of gap", width: "58px", right: true, value: (x) => x.ratio, cell: (x) => percent(x.ratio) },
     { key: "distance", title: "Distance", hint: "Residual distance of node and segment, or of the two edges", width: "78px", right: true, value: (x) => x.row.distance, cell: (x) => num(x.row.distance) },
-    { key: "inter", title: "Int.", hint: "Interface id", width: "56px", right: true, value: (x) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id, cell: (x) => String(report.meta.interfaces[report.meta.contacts[x.contact].interface].id) },
-    { key: "node", title: "Node / edge", width: "minmax(96px,1fr)", value: (x) => x.nodes[0], cell: (x) => report.secondaryText(x.row) },
-    { key: "segment", title: "Segment / edge", width: "minmax(168px,1.7fr)", value: (x) => report.nodeId(report.mainNodes(x.row)[0]), cell: (x) => report.mainText(x.row) },
-    { key: "action", title: "Action", hint: "What the solver does about it at start-up", width: "minmax(88px,.8fr)", value: (x) => x.row.action,
+    { key: "inter", title: "Int.", hint: "Interface id", width: `${Math.max(50, chars(inters))}px`, right: true, value: (x) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id, cell: (x) => String(report.meta.interfaces[report.meta.contacts[x.contact].interface].id) },
+    { key: "node", title: "Node / edge", width: `${Math.max(92, chars(2 * digits + 1))}px`, value: (x) => x.nodes[0], cell: (x) => report.secondaryText(x.row) },
+    { key: "segment", title: "Segment / edge", width: `${Math.max(120, chars(4 * digits + 3))}px`, value: (x) => report.nodeId(report.mainNodes(x.row)[0]), cell: (x) => report.mainText(x.row) },
+    { key: "action", title: "Action", hint: "What the solver does about it at start-up", width: "108px", value: (x) => x.row.action,
       cell: (x) => {
         const error = report.solverError(x.row);
         if (error) return h("span", { class: "bad" }, `error ${error}`);
@@ -252,7 +256,7 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     same: (a, b) => a.key === b.key,
   });
   table.element.classList.add("list-table");
-  table.element.style.setProperty("--least", report.cycle ? "1050px" : "980px");
+  table.element.style.setProperty("--least", `${(report.cycle ? 900 : 820) + chars(6 * digits + 4) + chars(inters)}px`);
   const chips = h("div", { class: "filters" });
   const count = h("span", { class: "muted count" });
   const search = h("input", { type: "search", placeholder: "Node, element or part", "aria-label": "Filter the list", id: "search", oninput: () => report.setFilter({ text: search.value }) });

@@ -235,6 +235,11 @@ export class Parts3D {
     part.look = look;
   }
 
+  /** Hides all lines for a while, whatever else is set. */
+  setLinesShown(on: boolean): void {
+    for (const p of this.parts) if (p.lines) p.lines.visible = on && this.edgesOn && p.look === "solid";
+  }
+
   setEdges(on: boolean): void {
     this.edgesOn = on;
     for (const p of this.parts) this.setLook(p, p.look);

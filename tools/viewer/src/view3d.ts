@@ -2,7 +2,7 @@
 // Frames are drawn on demand only.
 import {
   BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, CylinderGeometry, DirectionalLight, HemisphereLight,
-  InstancedMesh, Matrix4, MeshLambertMaterial, Plane, Points, PointsMaterial, Quaternion, Raycaster, Scene,
+  InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, MeshLambertMaterial, Plane, Points, PointsMaterial, Quaternion, Raycaster, Scene,
   Sphere, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
@@ -21,6 +21,16 @@ export interface Picked {
 }
 
 const mostArrows = 10000;
+const mostThickLines = 1000; // thick lines are triangles
+
+/** True where the browser has no graphics processor: smoothing would cost most of the time. */
+function drawsInSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = gl && info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
 
 export class View3D {
   readonly parts: Parts3D;
@@ -50,7 +60,7 @@ export class View3D {
     private readonly report: Report,
     private readonly container: HTMLElement,
   ) {
-    this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: false, powerPreference: "high-performance" });
+    this.renderer = new WebGLRenderer({ antialias: !drawsInSoftware(), preserveDrawingBuffer: false, powerPreference: "high-performance" });
     this.renderer.localClippingEnabled = true;
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
@@ -87,8 +97,33 @@ export class View3D {
     });
   }
 
+  private lastDraw = 0;
+  private slow = 0;
+  private coarse = false;
+  /** While the view moves, machines that are too slow for it draw fewer pixels and no lines. */
+  setCoarse(on: boolean): void {
+    if (this.coarse === on) return;
+    this.coarse = on;
+    this.parts.setLinesShown(!on);
+    if (this.arrows) this.arrows.visible = this.arrowsOn && !on;
+    for (const l of this.crossed) l.visible = !on;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2) * (on ? 0.5 : 1));
+    this.renderer.setSize(this.container.clientWidth, this.container.clientHeight, false);
+  }
+
   private draw(now: number): void {
     const again = this.control.update(now);
+    const moving = again || this.control.dragging;
+    const took = now - this.lastDraw;
+    this.lastDraw = now;
+    if (!moving) {
+      this.slow = 0;
+      this.setCoarse(false);
+    } else if (took < 1000) {
+      // One long frame may be a hiccup, three in a row are not.
+      this.slow = took > 80 ? this.slow + 1 : 0;
+      if (this.slow >= 3) this.setCoarse(true);
+    }
     this.scaleArrows();
     this.renderer.render(this.scene, this.control.camera);
     this.frames++;
@@ -96,8 +131,10 @@ export class View3D {
     if (again) this.request();
   }
 
-  /** Mean time of a frame over a turn of the camera, waiting for the picture each time. */
-  measure(frames = 30): number {
+  /** Mean time of a frame over a turn of the camera, waiting for the picture each time; `coarse`: as
+   * drawn while a slow machine moves the view. */
+  measure(frames = 30, coarse = false): number {
+    this.setCoarse(coarse);
     const gl = this.renderer.getContext();
     const pixel = new Uint8Array(4);
     const start = performance.now();
@@ -107,7 +144,10 @@ export class View3D {
       this.renderer.render(this.scene, this.control.camera);
       gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     }
-    return (performance.now() - start) / frames;
+    const mean = (performance.now() - start) / frames;
+    this.setCoarse(false);
+    this.request();
+    return mean;
   }
 
   get drawCalls(): number {
@@ -233,7 +273,7 @@ export class View3D {
     this.request();
   }
 
-  private crossed: LineSegments2[] = [];
+  private crossed: (LineSegments2 | LineSegments)[] = [];
   /** Edges that pass through segments, and those segments' outlines. */
   setCrossed(edges: Float32Array | null, outlines: Float32Array | null): void {
     for (const l of this.crossed.splice(0)) {
@@ -241,7 +281,9 @@ export class View3D {
       l.geometry.dispose();
     }
     if (edges && edges.length > 0) {
-      this.crossed.push(this.lines(edges, this.dark ? "#ff6b81" : "#c1123f", 4), this.lines(outlines!, this.dark ? "#ffb454" : "#b45309", 1.5));
+      const many = edges.length > 6 * mostThickLines;
+      const draw = (x: Float32Array, color: string, width: number) => (many ? this.thinLines(x, color) : this.lines(x, color, width));
+      this.crossed.push(draw(outlines!, this.dark ? "#ffb454" : "#b45309", 1.5), draw(edges, this.dark ? "#ff6b81" : "#c1123f", 4));
       for (const l of this.crossed) this.scene.add(l);
     }
     this.request();
@@ -285,6 +327,14 @@ export class View3D {
       }
     }
     this.request();
+  }
+
+  private thinLines(positions: Float32Array, color: string): LineSegments {
+    const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3));
+    const lines = new LineSegments(geometry, new LineBasicMaterial({ color, depthTest: false, transparent: true }));
+    lines.renderOrder = 7;
+    lines.frustumCulled = false;
+    return lines;
   }
 
   private lines(positions: Float32Array, color: string, width: number): LineSegments2 {

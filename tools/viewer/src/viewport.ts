@@ -127,7 +127,9 @@ export class Viewport {
     this.drawCrossed();
   }
   private drawCrossed(): void {
-    const rows = this.crossedOn ? (this.report.crossed?.rows ?? []) : [];
+    const parts = this.isolated && new Set([...this.isolated].map((p) => p.data.part));
+    const own = (r: readonly number[]) => !parts || parts.has(this.report.data.contacts[r[0]].mainOwner.part[r[5]]);
+    const rows = this.crossedOn ? (this.report.crossed?.rows ?? []).filter(own) : [];
     const x = this.report.nodePositions;
     const edges = new Float32Array(6 * rows.length);
     const outlines: number[] = [];
@@ -284,7 +286,6 @@ export class Viewport {
     this.applyLooks();
     this.showHits();
     this.drawLegend();
-    this.drawCrossed();
     view.setSelected(this.report.selected);
   }
 
@@ -297,6 +298,7 @@ export class Viewport {
     this.view?.setHits(this.report.filtered.filter((x) => own(x) && !(hidden.has(x.secondaryPart) && hidden.has(x.mainPart))),
       (x) => this.color(this.contour!.of(x)));
     this.hitsShownFor = this.isolationKey();
+    this.drawCrossed();
   }
   private isolationKey(): string {
     const list = (s: Iterable<Part3D> | null) => (s ? [...s].map((p) => p.index).join(",") : "-");
