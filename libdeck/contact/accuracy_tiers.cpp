@@ -42,6 +42,14 @@ Outcome evaluate(const PairSample& s, FilterCounters&) {
   std::array<Point3<T>, 5> x;
   for (std::size_t k = 0; k < 5; ++k) x[k] = cast<T>(local ? s.x[k] - s.x[0] : s.x[k]);
   Outcome out;
+  // Coordinates that the number type cannot hold: the tier has no answer.
+  if constexpr (std::is_same_v<T, float>) {
+    for (const Point3<T>& q : x) {
+      if (std::isfinite(closest_detail::largest_component(q))) continue;
+      out.distance = std::numeric_limits<double>::quiet_NaN();
+      return out;
+    }
+  }
   T distance;
   if (s.edges) {
     const auto c = closest_between_edges<F>(x[0], x[1], x[2], x[3]);

@@ -1,0 +1,32 @@
+// Reports of `deck accuracy`: table, JSON, CSV and the chart of error against time.
+// Pure functions from a measurement to bytes.
+#pragma once
+#include <string>
+
+#include "deck/contact/accuracy.hpp"
+#include "deck/keyword/deck.hpp"
+
+namespace deck {
+
+// Where and how the measurement was made; goes into every footer.
+struct AccuracyContext {
+  std::string path;            // of the deck, as given; empty: hard cases
+  const Deck* deck = nullptr;  // nullptr: hard cases
+  std::string processor, command;
+};
+
+// Name and version of the compiler that built the library, with the build's rules of arithmetic.
+std::string accuracy_compiler();
+
+std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& context,
+                          bool color = false);
+std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& context);
+// One line per tier, then one per family and tier, RFC 4180.
+std::string accuracy_csv(const AccuracyReport& report);
+// Self-contained: x = nanoseconds per pair, y = worst relative error, both logarithmic; dominated
+// tiers hollow.
+std::string accuracy_svg(const AccuracyReport& report, const AccuracyContext& context);
+// The chart with the table in one page without outside references.
+std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& context);
+
+}  // namespace deck

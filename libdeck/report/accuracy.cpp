@@ -1,0 +1,145 @@
+// `deck accuracy`: the measured tiers as text, JSON and CSV.
+#include "deck/report/accuracy.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "deck/report/json.hpp"
+#include "deck/report/text_table.hpp"
+
+namespace deck {
+namespace {
+
+std::string number(double v) {
+  if (std::isinf(v)) return "inf";
+  if (v == 0.0) return "0";
+  return v >= 0.1 && v < 1e5 ? fmt::format("{:.3g}", v) : fmt::format("{:.1e}", v);
+}
+std::string percent(double share) {
+  if (share == 0.0) return "0";
+  return share < 1e-3 ? fmt::format("{:.1e} %", 100.0 * share)
+                      : fmt::format("{:.3g} %", 100.0 * share);
+}
+
+// Factor to the textbook tier in double.
+double plain_time(const AccuracyReport& report) {
+  for (const TierResult& t : report.tiers)
+    if (t.name == "double") return t.ns_per_pair;
+  return 0.0;
+}
+
+}  // namespace
+
+std::string accuracy_compiler() {
+#if defined(__clang__)
+  const std::string name = "clang ";
+#elif defined(__GNUC__)
+  const std::string name = "g++ ";
+#else
+  const std::string name;
+#endif
+#ifdef __OPTIMIZE__
+  const std::string level = ", optimised";
+#else
+  const std::string level = ", not optimised";
+#endif
+  return name + __VERSION__ + level + ", no contraction";
+}
+
+std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& context,
+                          bool color) {
+  if (report.tiers.empty()) return "No pairs to measure.\n";
+  std::string out = fmt::format("{} pairs of {}\n\n", report.tiers[0].samples,
+                                context.path.empty() ? "the hard cases" : context.path);
+  const double plain = plain_time(report);
+  TextTable table({{"tier"},
+                   {"what"},
+                   {"ns/pair", Align::right},
+                   {"x double", Align::right},
+                   {"worst rel.", Align::right},
+                   {"worst ulp", Align::right},
+                   {"wrong decisions", Align::right},
+                   {"wrong features", Align::right},
+                   {"not finite", Align::right},
+                   {"fallback", Align::right},
+                   {"to exact", Align::right},
+                   {""}});
+  const auto count = [](std::uint64_t n) {
+    return TextTable::Cell(std::to_string(n), n > 0 ? Tone::red : Tone::green);
+  };
+  for (const TierResult& t : report.tiers) {
+    const bool value = t.what == "distance";
+    table.row({t.name, t.what, fmt::format("{:.0f}", t.ns_per_pair),
+               plain > 0 ? fmt::format("{:.2f}", t.ns_per_pair / plain) : std::string(),
+               value ? number(t.max_relative_error) : "-", value ? number(t.max_ulp) : "-",
+               count(t.decision_errors), value ? count(t.feature_errors) : TextTable::Cell("-"),
+               count(t.non_finite), percent(t.fallback_share), percent(t.exact_share),
+               t.dominated ? TextTable::Cell("dominated", Tone::dim) : TextTable::Cell("")});
+  }
+  out += table.render(color);
+  if (!report.families.empty()) {
+    TextTable families({{"family", Align::right},
+                        {""},
+                        {"tier"},
+                        {"worst rel.", Align::right},
+                        {"wrong decisions", Align::right},
+                        {"not finite", Align::right},
+                        {"expected"}});
+    for (const FamilyResult& f : report.families) {
+      if (f.tier == "robust" && f.decision_errors == 0 && f.max_ulp <= 1.0) continue;
+      families.row({std::to_string(f.id), f.name, f.tier, number(f.max_relative_error),
+                    count(f.decision_errors), count(f.non_finite), f.expected});
+    }
+    out += "\nFamilies (robust only where it fails):\n" + families.render(color);
+  }
+  out += fmt::format("\n{}; {}\n", context.processor, accuracy_compiler());
+  return out;
+}
+
+std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& context) {
+  std::string out;
+  JsonWriter j(out);
+  j.begin_object();
+  write_json_head(j, "deck-accuracy", 1);
+  if (context.deck != nullptr) write_json_deck(j, context.path, *context.deck, nullptr, nullptr);
+  j.field("scene", report.scene);
+  j.key("machine").begin_object(true).field("processor", context.processor);
+  j.field("compiler", accuracy_compiler()).field("command", context.command).end_object();
+  j.key("tiers").begin_array();
+  for (const TierResult& t : report.tiers) {
+    j.begin_object(true).field("name", t.name).field("what", t.what).field("samples", t.samples);
+    j.field("ns_per_pair", t.ns_per_pair).field("max_relative_error", t.max_relative_error);
+    j.field("max_ulp", t.max_ulp).field("decision_errors", t.decision_errors);
+    j.field("feature_errors", t.feature_errors).field("non_finite", t.non_finite);
+    j.field("fallback_share", t.fallback_share).field("exact_share", t.exact_share);
+    j.field("dominated", t.dominated).end_object();
+  }
+  j.end_array();
+  j.key("families").begin_array();
+  for (const FamilyResult& f : report.families) {
+    j.begin_object(true).field("id", f.id).field("name", f.name).field("tier", f.tier);
+    j.field("samples", f.samples).field("max_relative_error", f.max_relative_error);
+    j.field("max_ulp", f.max_ulp).field("decision_errors", f.decision_errors);
+    j.field("non_finite", f.non_finite).field("expected", f.expected).end_object();
+  }
+  j.end_array().end_object();
+  return out;
+}
+
+std::string accuracy_csv(const AccuracyReport& report) {
+  std::string out =
+      "row,family,name,tier,what,samples,ns_per_pair,max_relative_error,max_ulp,decision_errors,"
+      "feature_errors,non_finite,fallback_share,exact_share,dominated\r\n";
+  for (const TierResult& t : report.tiers)
+    out += fmt::format("tier,,,{},{},{},{},{},{},{},{},{},{},{},{}\r\n", t.name, t.what, t.samples,
+                       t.ns_per_pair, t.max_relative_error, t.max_ulp, t.decision_errors,
+                       t.feature_errors, t.non_finite, t.fallback_share, t.exact_share,
+                       t.dominated ? 1 : 0);
+  for (const FamilyResult& f : report.families)
+    out += fmt::format("family,{},\"{}\",{},distance,{},,{},{},{},,{},,,\r\n", f.id, f.name, f.tier,
+                       f.samples, f.max_relative_error, f.max_ulp, f.decision_errors, f.non_finite);
+  return out;
+}
+
+}  // namespace deck

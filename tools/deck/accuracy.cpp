@@ -1,0 +1,127 @@
+// deck accuracy: what accuracy costs in time, on the hard cases or on the pairs of a deck.
+#include <CLI/CLI.hpp>
+
+#include <fstream>
+
+#include "common.hpp"
+#include "deck/contact/accuracy.hpp"
+#include "deck/report/accuracy.hpp"
+
+namespace {
+
+using namespace deck;
+using namespace deck::cli;
+
+struct Options {
+  CommonOptions common;
+  std::size_t samples = 1000;
+  int repeats = 5;
+  std::uint64_t seed = 1;
+  std::string csv, svg, html;
+};
+
+std::string processor_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    const auto colon = line.find(": ");
+    if (line.rfind("model name", 0) == 0 && colon != std::string::npos)
+      return line.substr(colon + 2);
+  }
+  return "unknown processor";
+}
+
+std::string command_of(const Options& o) {
+  std::string out = "deck accuracy";
+  for (const std::string& path : o.common.decks) out += " " + path;
+  return out + " --samples " + std::to_string(o.samples) + " --seed " + std::to_string(o.seed) +
+         " --repeats " + std::to_string(o.repeats);
+}
+
+/// Writes the files and the table. Wrong decisions of the robust tier are findings.
+int show(const Options& o, const AccuracyReport& report, const AccuracyContext& context,
+         JsonOutput& json) {
+  if (json.wanted()) json.add(accuracy_json(report, context));
+  const auto write = [&](const std::string& path, const std::string& bytes) {
+    if (path.empty()) return true;
+    const auto r = write_output(path, bytes);
+    if (!r) print_error(o.common, r.error().message);
+    return bool(r);
+  };
+  if (!write(o.csv, accuracy_csv(report)) || !write(o.svg, accuracy_svg(report, context)) ||
+      !write(o.html, accuracy_html(report, context)))
+    return exit_usage;
+  if (o.common.wants_text() && o.csv != "-" && o.svg != "-" && o.html != "-")
+    print_text(accuracy_text(report, context, o.common.color_on(1)));
+  for (const TierResult& t : report.tiers)
+    if (t.name == "robust" && t.decision_errors + t.non_finite > 0) return exit_findings;
+  return exit_clean;
+}
+
+int run(const Options& o) {
+  JsonOutput json(o.common, "deck-accuracy", 1);
+  AccuracyOptions accuracy;
+  accuracy.repeats = o.repeats;
+  AccuracyContext context;
+  context.processor = processor_name();
+  context.command = command_of(o);
+  if (o.common.decks.empty()) {
+    std::vector<PairSample> samples;
+    for (const HardFamily& f : hard_families()) {
+      const auto some = hard_cases(f.id, o.samples, o.seed);
+      samples.insert(samples.end(), some.begin(), some.end());
+    }
+    return json.finish(show(o, measure_accuracy(samples, accuracy), context, json));
+  }
+  const bool files = !o.csv.empty() || !o.svg.empty() || !o.html.empty();
+  if (files && o.common.decks.size() > 1) {
+    print_error(o.common, "--csv, --svg and --html take one deck at a time");
+    return exit_usage;
+  }
+  const int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
+    print_findings(loaded, o.common);
+    SceneOptions scene_options;
+    scene_options.threads = o.common.thread_count();
+    scene_options.penetrations = scene_options.candidates = false;
+    const Scene scene =
+        build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
+    // As many pairs as the hard cases would have.
+    const std::size_t limit = 40 * o.samples;
+    const auto pairs = scene_pairs(scene, limit, scene_options.threads);
+    context.path = loaded.path;
+    context.deck = &loaded.deck;
+    return show(o, measure_accuracy(pairs, accuracy), context, json);
+  });
+  return json.finish(code);
+}
+
+Action setup(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  add_common(app, options->common);
+  app.get_option("decks")->required(false)->expected(0, -1)->description(
+      "Starter decks (*_0000.rad) whose candidate pairs are measured; none: the "
+      "built-in hard cases");
+  app.add_option("--samples", options->samples,
+                 "Pairs per family of hard cases; of a deck, 40 times as many in all")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{10000000}))
+      ->capture_default_str();
+  app.add_option("--seed", options->seed, "Seed of the hard cases")->capture_default_str();
+  app.add_option("--repeats", options->repeats, "Timings per tier; the median counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--csv", options->csv, "Write the figures to FILE ('-': standard output)")
+      ->type_name("FILE");
+  app.add_option("--svg", options->svg, "Write the chart of error against time to FILE")
+      ->type_name("FILE");
+  app.add_option("--html", options->html, "Write chart and table to FILE: one page, no network")
+      ->type_name("FILE");
+  return [options] { return run(*options); };
+}
+
+const VerbRegistration registration{
+    {"accuracy", 60, "What accuracy costs in time: float to exact, on hard cases or a deck",
+     "  deck accuracy\n"
+     "  deck accuracy --samples 5000 --html accuracy.html\n"
+     "  deck accuracy car_0000.rad --json accuracy.json\n",
+     setup}};
+
+}  // namespace
