@@ -14,6 +14,7 @@
 
 #include "contact/dd.hpp"
 #include "contact/exact.hpp"
+#include "contact/filtered_exact.hpp"
 
 namespace deck {
 namespace {
@@ -306,6 +307,23 @@ std::optional<double> rounded(const DoubleDouble& low, const DoubleDouble& high,
   return value;
 }
 
+// The corners of each sub-triangle that carry its closest point; none for those that were ruled
+// out in double.
+std::array<PartGuess, 4> guesses(const SegmentClosest<DoubleDouble>& c) {
+  std::array<PartGuess, 4> out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const DoubleDouble zero(0.0);
+    const auto& sub = c.sub[k];
+    out[k] = {sub.weight_o > zero, sub.weight_a > zero, sub.weight_b > zero};
+  }
+  return out;
+}
+
+Answer proved(std::optional<bool> closer) {
+  if (!closer) return Answer::unknown;
+  return *closer ? Answer::yes : Answer::no;
+}
+
 }  // namespace
 
 bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
@@ -331,6 +349,10 @@ bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, 
       const auto w = wide_closest(pair, c, v);
       answer = compare(lower_bound(w, v, largest_magnitudes(v), triangle),
                        upper_bound(w.weights, v), *limit);
+      if (answer == Answer::unknown) {
+        stage = FilterStage::exact;
+        answer = proved(prove_closer(pair.points, triangle, w.best, guesses(w), *limit));
+      }
     }
   }
   if (answer == Answer::unknown) {
@@ -365,6 +387,10 @@ bool is_closer_than(const P& s1, const P& s2, const P& m1, const P& m2, double g
       const auto w = wide_closest(pair);
       answer = compare(lower_bound(w, v, largest_magnitudes(v)), upper_bound(hull_weights(w), v),
                        *limit);
+      if (answer == Answer::unknown) {
+        stage = FilterStage::exact;
+        answer = proved(prove_closer(pair.points, w.feature_s, w.feature_m, w.parallel, *limit));
+      }
     }
   }
   if (answer == Answer::unknown) {
@@ -398,6 +424,12 @@ FilteredSegment filtered_closest_on_segment(const P& p, const std::array<P, 4>& 
       count(counters, out.stage);
       return out;
     }
+    if (prove_closer(pair.points, triangle, w.best, guesses(w), 0.0).value_or(false)) {
+      for (std::size_t k = 0; k < 4; ++k) out.weights[k] = w.weights[k].hi();
+      out = {0.0, w.feature, w.feature_index, out.weights, FilterStage::exact};
+      count(counters, out.stage);
+      return out;
+    }
   }
   if (!all_finite(points_of(p, corners, triangle))) {
     out.distance = std::numeric_limits<double>::quiet_NaN();
@@ -424,6 +456,11 @@ FilteredEdges filtered_closest_between_edges(const P& s1, const P& s2, const P& 
     if (value) {
       out = {*value,      w.weight_s.hi(), w.weight_m.hi(),
              w.feature_s, w.feature_m,     FilterStage::double_double};
+      count(counters, out.stage);
+      return out;
+    }
+    if (prove_closer(pair.points, w.feature_s, w.feature_m, w.parallel, 0.0).value_or(false)) {
+      out = {0.0, w.weight_s.hi(), w.weight_m.hi(), w.feature_s, w.feature_m, FilterStage::exact};
       count(counters, out.stage);
       return out;
     }

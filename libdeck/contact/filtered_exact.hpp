@@ -1,0 +1,29 @@
+// Contact decisions in integer arithmetic, given a guess of the parts that are closest: the usual
+// exact ties (node on the plane, distance equal to the gap) without rationals.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "deck/contact/closest.hpp"
+
+namespace deck {
+
+// Which corners of a sub-triangle (centre, k, k+1) carry the guessed closest point; none set: this
+// sub-triangle needs no proof of its own.
+struct PartGuess {
+  bool o = false, a = false, b = false;
+};
+
+// "distance < gap" proved exactly, or nothing if the guess does not prove it. A gap of 0 asks
+// whether the distance is exactly 0. `points`:
+// four corners, then the node; a triangle uses guess[0] only, with o, a, b = corners 3, 1, 2.
+std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bool triangle,
+                                 int best, const std::array<PartGuess, 4>& guess, double gap);
+
+// The same for edges x[0]-x[1] and x[2]-x[3] with the guessed feature of each.
+std::optional<bool> prove_closer(const std::array<Point3<double>, 4>& x, EdgeFeature secondary,
+                                 EdgeFeature main, bool parallel, double gap);
+
+}  // namespace deck
