@@ -197,7 +197,7 @@ std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& o
     out.push_back({"effective values of the interfaces", "they were not formed"});
   if (input.extra_checks.empty())
     out.push_back({"geometry: penetrations, gaps against mesh size, contact time step",
-                   "needs the contact model; run deck gaps"});
+                   "needs the contact model; --geometry builds it"});
   out.push_back({"the Engine file (*_0001.rad)", "only the Starter deck is read"});
   const auto off = std::count_if(all_rules().begin(), all_rules().end(),
                                  [&](const Rule& r) { return !enabled(options, r.id); });

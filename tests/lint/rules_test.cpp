@@ -17,7 +17,8 @@ class EveryRule : public testing::TestWithParam<std::string> {
 std::vector<std::string> ids_with_examples() {
   std::vector<std::string> ids;
   for (const Rule& r : all_rules())
-    if (!r.bad.empty()) ids.emplace_back(r.id);
+    // Examples of geometry rules need the contacts; geometry_rules_test.cpp runs them.
+    if (!r.bad.empty() && r.stage != RuleStage::extra) ids.emplace_back(r.id);
   return ids;
 }
 

@@ -10,6 +10,7 @@
 #include "common.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/lint/fix.hpp"
+#include "deck/lint/geometry.hpp"
 #include "deck/lint/lint.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/report/diagnostics.hpp"
@@ -25,7 +26,7 @@ struct Options {
   std::vector<std::string> outputs;  ///< format=file
   std::vector<std::string> select, ignore;
   std::string fail_on, baseline, write_baseline, config;
-  bool no_config = false, fix = false, unsafe_fixes = false, diff = false, ruler = false;
+  bool no_config = false, geometry = false, fix = false, unsafe_fixes = false, diff = false, ruler = false;
   int per_rule = 10;
 };
 
@@ -83,7 +84,8 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
   return out;
 }
 
-LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptions& options) {
+LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptions& options,
+                       const Options& command) {
   LintInput input{loaded.deck,
                   schemas,
                   &loaded.model,
@@ -91,6 +93,10 @@ LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptio
                   loaded.model.selections.get(),
                   {&loaded.diagnostics},
                   {}};
+  if (command.geometry)
+    input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
+      check_geometry(context, reporter, command.common.thread_count());
+    });
   return run_lint(input, options);
 }
 
@@ -165,7 +171,7 @@ class Run {
       code = exit_input;
     } else {
       job->loaded = std::move(*loaded);
-      job->result = lint_loaded(*job->loaded, schemas_, *lint);
+      job->result = lint_loaded(*job->loaded, schemas_, *lint, options_);
       const std::string fail_on = !options_.fail_on.empty()  ? options_.fail_on
                                   : !config->fail_on.empty() ? config->fail_on
                                                              : "error";
@@ -297,6 +303,8 @@ Action setup(CLI::App& app) {
   app.add_option("--config", o.config, "Use FILE instead of looking for .decklint.toml")
       ->type_name("FILE");
   app.add_flag("--no-config", o.no_config, "Use no configuration file");
+  app.add_flag("--geometry", o.geometry,
+               "Also check the geometry (rules DK3): penetrations, gaps against the mesh, segments");
   app.add_flag("--fix", o.fix,
                "Apply safe fixes: the reference solver does the same with the deck");
   app.add_flag("--unsafe-fixes", o.unsafe_fixes, "Apply the other fixes too");

@@ -1,0 +1,17 @@
+// Geometry in lint: builds the contacts of the deck and reports the rules DK3xx — penetrations,
+// gaps against the mesh, segments that cannot work. Costs more than all other rules together, so it
+// runs only where it is asked for.
+#pragma once
+#include "deck/contact/scene.hpp"
+#include "deck/lint/lint.hpp"
+
+namespace deck {
+
+/// A check for LintInput::extra_checks:
+///
+///   input.extra_checks.push_back([](const LintContext& c, Reporter& r) { check_geometry(c, r); });
+///
+/// Does nothing where the context has no model or interfaces. `threads` changes no finding.
+void check_geometry(const LintContext& context, Reporter& reporter, int threads = 1);
+
+}  // namespace deck

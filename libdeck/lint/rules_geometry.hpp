@@ -1,0 +1,46 @@
+// What the checks of the geometry rules share. Private to the lint stage.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "deck/contact/view.hpp"
+#include "lint/check.hpp"
+
+namespace deck::detail {
+
+/// A built scene with its views, and where findings go.
+struct GeometryRun {
+  const LintContext& context;
+  Reporter& reporter;
+  const Scene& scene;
+  const SceneView& view;
+  int threads = 1;
+
+  const Model& model() const { return *scene.model; }
+  /// The card of a contact; nullptr never happens for contacts of this deck.
+  const ContactCard* card(const Contact& contact) const;
+  /// Reports at a field of the contact's card; nullptr: enough of the rule was kept already.
+  Diagnostic* report(std::string_view rule, const Contact& contact, std::string_view field,
+                     std::string message) const;
+};
+
+/// "/INTER/TYPE19 3 (reversed)"
+std::string name_of(const GeometryRun& run, const Contact& contact);
+/// The name that the minimum gap has on the card.
+inline std::string_view gap_field(const Contact& contact) {
+  return contact.inter->type == 10 ? "Gap" : "Gapmin";
+}
+/// "1 2 3 4" or, for triangles, "1 2 3".
+std::string nodes_text(const Model& model, const MainSegment& segment);
+/// "element 7 of part 2", or "no element".
+std::string element_text(const ElementName& element);
+/// "1 segment", "3 segments"
+std::string count_text(std::size_t n, std::string_view one);
+/// `list` with at most five items, then how many more.
+std::string list_text(const std::vector<std::int64_t>& list);
+
+void check_penetrations(const GeometryRun& run);  // rules_geometry_penetrations.cpp
+void check_segments(const GeometryRun& run);      // rules_geometry_segments.cpp
+void check_gaps(const GeometryRun& run);          // rules_geometry_gaps.cpp
+
+}  // namespace deck::detail

@@ -1,0 +1,181 @@
+// Geometry rules: every one fires on its bad example and stays silent on its good one, and says
+// where and what.
+#include <gtest/gtest.h>
+
+#include "deck/lint/geometry.hpp"
+#include "lint/support.hpp"
+
+namespace deck::test {
+namespace {
+
+/// Lints an example with the geometry checks.
+Linted lint_geometry(std::string_view example, int threads = 1) {
+  const SchemaSet& schemas = SchemaSet::built_in();
+  auto deck = read_deck_text("deck_0000.rad", example_deck(example, schemas).main, schemas);
+  if (!deck) throw std::runtime_error(deck.error().message);
+  Linted out;
+  out.deck = std::make_unique<Deck>(std::move(*deck));
+  Diagnostics of_model, of_interfaces;
+  const Model model = build_model(*out.deck, schemas, of_model);
+  const Interfaces interfaces = read_interfaces(*out.deck, model, of_interfaces);
+  LintInput input{
+      *out.deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces},
+      {}};
+  input.extra_checks.push_back(
+      [&](const LintContext& c, Reporter& r) { check_geometry(c, r, threads); });
+  out.result = run_lint(input);
+  return out;
+}
+
+class EveryGeometryRule : public testing::TestWithParam<std::string> {
+ protected:
+  const Rule& rule() const { return *find_rule(GetParam()); }
+};
+
+std::vector<std::string> geometry_rules() {
+  std::vector<std::string> ids;
+  for (const Rule& r : all_rules())
+    if (r.stage == RuleStage::extra && r.id.starts_with("DK3") && !r.bad.empty())
+      ids.emplace_back(r.id);
+  return ids;
+}
+
+TEST_P(EveryGeometryRule, FiresOnItsBadExample) {
+  const Linted run = lint_geometry(rule().bad);
+  EXPECT_TRUE(run.fires(rule().id))
+      << example_deck(rule().bad, SchemaSet::built_in()).main << run.list();
+}
+
+TEST_P(EveryGeometryRule, StaysSilentOnItsGoodExample) {
+  const Linted run = lint_geometry(rule().good);
+  EXPECT_FALSE(run.fires(rule().id)) << run.list();
+}
+
+TEST_P(EveryGeometryRule, ExamplesNameFieldsThatExistAndAreReadWithoutErrors) {
+  for (const std::string_view text : {rule().bad, rule().good}) {
+    const std::string deck = example_deck(text, SchemaSet::built_in()).main;
+    EXPECT_EQ(deck.find("# unused:"), std::string::npos) << deck;
+    EXPECT_EQ(deck.find("# no schema"), std::string::npos) << deck;
+  }
+  for (const Diagnostic& d : lint_geometry(rule().good).result.diagnostics)
+    EXPECT_NE(d.severity, Severity::error) << d.rule << " " << d.message;
+}
+
+TEST_P(EveryGeometryRule, FindingHasPlaceMessageAndHelp) {
+  const Linted run = lint_geometry(rule().bad);
+  const Diagnostic* d = run.find(rule().id);
+  ASSERT_NE(d, nullptr);
+  EXPECT_TRUE(d->span.valid());
+  EXPECT_NE(d->message.find("/INTER/TYPE"), std::string::npos) << d->message;
+  EXPECT_FALSE(d->help.empty());
+  EXPECT_FALSE(d->keyword.empty());
+}
+
+TEST_P(EveryGeometryRule, IsNotCheckedUnlessAskedFor) {
+  EXPECT_FALSE(lint_example(rule().bad).fires(rule().id));
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, EveryGeometryRule, testing::ValuesIn(geometry_rules()),
+                         [](const auto& test) { return test.param; });
+
+TEST(GeometryRules, ThereAreExamplesForAllButTheOverflow) {
+  std::vector<std::string_view> without;
+  for (const Rule& r : all_rules())
+    if (r.id.starts_with("DK3") && r.bad.empty()) without.push_back(r.id);
+  EXPECT_EQ(without, std::vector<std::string_view>{"DK390"});
+  EXPECT_GE(geometry_rules().size(), 20u);
+}
+
+TEST(InitialPenetrations, OneFindingPerPairOfPartsWithTheDeepestNodes) {
+  const Linted run = lint_geometry(
+      "/NODE\n        21                 5.0                 5.0                1.25\n"
+      "        22                 6.0                 6.0                1.25\n"
+      "        23                 5.0                 6.0                 1.0\n"
+      "/PART/3\nsmall\n         1         1         0\n/SH3N/3\n         9        21        22     "
+      "   23\n"
+      "/GRNOD/PART/3\nboth\n         2         3\n@/INTER/TYPE7/1 grnd_IDs=3 Gapmin=4\n");
+  EXPECT_EQ(run.count("DK301"), 2u) << run.list();
+  std::vector<std::string> messages;
+  for (const Diagnostic& d : run.result.diagnostics)
+    if (d.rule == "DK301") messages.push_back(d.message);
+  std::sort(messages.begin(), messages.end());
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(messages[0],
+            "/INTER/TYPE7 1: 3 nodes of part 3 within the gap of part 1 (3 pairs), deepest 3 of a "
+            "gap of 4 between node 23 and segment 1 2 3 4; nothing is done about them: they start "
+            "with contact forces");
+  EXPECT_EQ(messages[1],
+            "/INTER/TYPE7 1: 4 nodes of part 2 within the gap of part 1 (4 pairs), deepest 1 of a "
+            "gap of 4 between node 11 and segment 1 2 3 4; nothing is done about them: they start "
+            "with contact forces");
+  const Diagnostic* d = run.find("DK301");
+  ASSERT_EQ(d->notes.size(), 3u);
+  for (const auto& note : d->notes) EXPECT_TRUE(note.first.valid());
+  EXPECT_EQ(d->reference->number, 343);
+}
+
+TEST(InitialPenetrations, EdgesHaveTheirOwnMessage) {
+  const Linted run = lint_geometry("@/INTER/TYPE11/1 Gapmin=4\n");
+  const Diagnostic* d = run.find("DK301");
+  ASSERT_NE(d, nullptr);
+  EXPECT_EQ(d->reference->number, 499);
+}
+
+TEST(OnSurface, MessageFollowsInacti) {
+  const std::string node =
+      "/NODE\n        21                 5.0                 5.0                 0.0\n"
+      "/GRNOD/NODE/3\non\n        21\n@/INTER/TYPE7/1 grnd_IDs=3 Gapmin=1 Inacti=";
+  EXPECT_EQ(lint_geometry(node + "6\n").find("DK302")->reference->number, 611);
+  EXPECT_EQ(lint_geometry(node + "0\n").find("DK302")->reference->number, 612);
+  EXPECT_FALSE(lint_geometry(node + "1\n").fires("DK302"));
+  EXPECT_TRUE(lint_geometry(node + "1\n").fires("DK303"));
+}
+
+TEST(ShortSides, NameTheSideAndCountSegments) {
+  // A second shell of which one side is 2 long.
+  const Linted run = lint_geometry(
+      "/NODE\n        21                12.0                 0.0                 0.0\n"
+      "        22                12.0                10.0                 0.0\n"
+      "/SHELL/1\n         9         2        21        22         3\n@/INTER/TYPE7/1 Gapmin=1.5\n");
+  const Diagnostic* d = run.find("DK310");
+  ASSERT_NE(d, nullptr) << run.list();
+  EXPECT_EQ(d->message,
+            "/INTER/TYPE7 1: Gapmin = 1.5 (from the card) is more than half of side 2 21 of "
+            "segment 2 21 22 3 (element 9 of part 1), which is 2 long; so it is at 1 segment of 2");
+  EXPECT_EQ(d->reference->number, 94);
+}
+
+TEST(ShortSides, AreMeasuredAgainstTheGapThere) {
+  // Igap 1: the short sides belong to a thin shell, whose own gaps are small. The other side is
+  // thin as well: no finding, though the largest gap of the interface exceeds half the side.
+  const std::string mesh =
+      "/NODE\n        21                30.0                 0.0                 0.0\n"
+      "        22                32.0                 0.0                 0.0\n"
+      "        23                32.0                10.0                 0.0\n"
+      "        24                30.0                10.0                 0.0\n"
+      "        31                30.0                 0.0                 9.0\n"
+      "/PROP/SHELL/9\nthin\n         0\n\n         3                           0.5\n"
+      "/PART/9\nthin\n         9         1         0\n"
+      "/SHELL/9\n         9        21        22        23        24\n"
+      "/SURF/PART/9\nall\n         1         9\n/GRNOD/NODE/9\nfree\n        31\n";
+  const Linted run =
+      lint_geometry(mesh + "@/INTER/TYPE7/1 surf_IDm=9 grnd_IDs=9 Igap=1 Gapmin=0.1\n");
+  EXPECT_FALSE(run.fires("DK310")) << run.list();
+  EXPECT_TRUE(lint_geometry(mesh + "@/INTER/TYPE7/1 surf_IDm=9 grnd_IDs=9 Igap=1 Gapmin=1.25\n")
+                  .fires("DK310"));
+}
+
+TEST(GeometryRules, SameFindingsForAnyNumberOfThreads) {
+  const std::string_view text = "@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=1 Gapmin=6 Inacti=6\n";
+  EXPECT_EQ(lint_geometry(text, 1).list(), lint_geometry(text, 2).list());
+}
+
+TEST(GeometryRules, CanBeSuppressedLikeAnyOther) {
+  const Linted run =
+      lint_geometry("# decklint: ignore[DK301] reason=known\n@/INTER/TYPE7/1 Gapmin=4 Inacti=6\n");
+  EXPECT_FALSE(run.fires("DK301"));
+  EXPECT_GE(run.result.suppressed, 1u);
+}
+
+}  // namespace
+}  // namespace deck::test
