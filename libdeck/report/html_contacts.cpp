@@ -14,7 +14,8 @@ namespace deck::detail {
 namespace {
 
 constexpr std::size_t pairs_per_page = 2000000;
-constexpr std::size_t pairs_at_least = 60000;      // per contact
+constexpr std::size_t pairs_at_least = 60000;  // per contact
+constexpr std::size_t pairs_at_most = 3000000;
 constexpr std::size_t penetrations_kept = 200000;  // per contact where all pairs are too many
 constexpr double reach_factors[] = {3, 2, 1.5, 1.1};
 
@@ -452,7 +453,8 @@ PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
     const Contact& plain = page.scene.contacts[i];
     const std::size_t share = left / (scene.contacts.size() - i);
     page.contacts.push_back(wide_pairs(scene.contacts[i], plain, page.scene.coordinates,
-                                       input.threads, std::max(pairs_at_least, 4 * share)));
+                                       input.threads,
+                                       std::clamp(4 * share, pairs_at_least, pairs_at_most)));
     left -= std::min(left, page.contacts.back().pairs.size());
     for (const SecondaryNode& s : plain.secondary) nodes.use(s.node);
     for (const MainSegment& m : plain.main)

@@ -84,10 +84,10 @@ export function interfaces(report: Report): HTMLElement {
     text === was ? text : h("span", { class: "changed", title: `deck: ${was}` }, text);
   const table = new VirtualTable<ContactRow>(
     [
-      { key: "id", title: "Id", width: "78px", right: true, value: (r) => inter(r).id, cell: (r) => String(inter(r).id) },
-      { key: "title", title: "Interface", width: "minmax(110px,1.5fr)", value: (r) => inter(r).title.toLowerCase(),
+      { key: "id", title: "Id", width: `${Math.round(7.7 * String(Math.max(...report.meta.interfaces.map((i) => i.id), 1)).length + 26)}px`, right: true, value: (r) => inter(r).id, cell: (r) => String(inter(r).id) },
+      { key: "title", title: "Interface", width: "minmax(104px,1.5fr)", value: (r) => inter(r).title.toLowerCase(),
         cell: (r) => inter(r).title || "(no title)" },
-      { key: "kind", title: "Kind", width: "minmax(88px,.7fr)", value: (r) => report.roleText(r.contact), cell: (r) => report.roleText(r.contact) },
+      { key: "kind", title: "Kind", width: "116px", value: (r) => report.roleText(r.contact), cell: (r) => report.roleText(r.contact) },
       { key: "igap", title: "Igap", width: "46px", right: true, value: (r) => now(r).setting.igap,
         cell: (r) => changedCell(String(now(r).setting.igap), String(report.base[r.contact].setting.igap)) },
       { key: "gapmin", title: "Gapmin", hint: "Smallest pair gap, and where it comes from", width: "72px", right: true, value: (r) => now(r).setting.gapmin,
@@ -101,11 +101,11 @@ export function interfaces(report: Report): HTMLElement {
         cell: (r) => changedCell(group(now(r).totals.pairs), group(report.base[r.contact].totals.pairs)) },
       { key: "nodes", title: "Nodes", hint: "Distinct secondary nodes or edges", width: "60px", right: true, value: (r) => now(r).totals.nodes,
         cell: (r) => changedCell(group(now(r).totals.nodes), group(report.base[r.contact].totals.nodes)) },
-      { key: "depth", title: "Deepest", width: "72px", right: true, value: (r) => now(r).totals.max_depth,
+      { key: "depth", title: "Deepest", width: "82px", right: true, value: (r) => now(r).totals.max_depth,
         cell: (r) => changedCell(now(r).totals.pairs ? num(now(r).totals.max_depth) : "–", report.base[r.contact].totals.pairs ? num(report.base[r.contact].totals.max_depth) : "–") },
       { key: "ratio", title: "Of gap", width: "58px", right: true, value: (r) => now(r).totals.max_ratio,
         cell: (r) => (now(r).totals.pairs ? percent(now(r).totals.max_ratio) : "–") },
-      { key: "action", title: "Action", hint: "What the solver does about it at start-up", width: "minmax(84px,1fr)", value: (r) => actionsText(report, r.contact),
+      { key: "action", title: "Action", hint: "What the solver does about it at start-up", width: "minmax(88px,1fr)", value: (r) => actionsText(report, r.contact),
         cell: (r) => {
           const e = now(r).totals.solver_errors;
           return e > 0 ? h("span", { class: "bad", title: "A node lies exactly on a segment and the options do not avoid the error" }, `stops (${e})`) : actionsText(report, r.contact);
@@ -118,6 +118,7 @@ export function interfaces(report: Report): HTMLElement {
     },
   );
   table.element.classList.add("interfaces-table");
+  table.element.style.setProperty("--least", "700px");
   const fit = () => table.element.style.setProperty("--rows", String(Math.min(rows.length, 11)));
   fit();
   table.setRows(rows);
