@@ -190,8 +190,13 @@ bool wrong_feature(const PairSample& s, const Outcome& got, const Outcome& want)
   return found - want.distance > 4.0 * epsilon * (want.distance + 4.0 * size_of(s));
 }
 
+double relative_error_to(double size, double got, double want) {
+  if (!std::isfinite(got) || !(size > 0.0)) return kInfinity;
+  return std::abs(got - want) / size;
+}
+
 struct Errors {
-  double relative = 0.0, ulp = 0.0;
+  double relative = 0.0, ulp = 0.0, scaled = 0.0;
   std::uint64_t decisions = 0, features = 0, non_finite = 0, samples = 0;
 
   void add(const PairSample& s, const Outcome& got, const Outcome& want) {
@@ -202,6 +207,8 @@ struct Errors {
     relative = std::max(relative, relative_error(got.distance, want.distance));
     ulp = std::max(ulp, error_in_ulp(got.distance, want.distance));
     features += wrong_feature(s, got, want);
+    if (got.distance != want.distance)
+      scaled = std::max(scaled, relative_error_to(size_of(s), got.distance, want.distance));
   }
 };
 
@@ -239,12 +246,12 @@ void mark_dominated(std::vector<TierResult>& tiers) {
   for (TierResult& a : tiers) {
     for (const TierResult& b : tiers) {
       if (&a == &b || a.what != b.what) continue;
-      const bool no_worse = b.ns_per_pair <= a.ns_per_pair &&
-                            b.max_relative_error <= a.max_relative_error &&
-                            b.decision_errors <= a.decision_errors;
-      const bool better = b.ns_per_pair < a.ns_per_pair ||
-                          b.max_relative_error < a.max_relative_error ||
-                          b.decision_errors < a.decision_errors;
+      const bool no_worse =
+          b.ns_per_pair <= a.ns_per_pair && b.max_relative_error <= a.max_relative_error &&
+          b.max_scaled_error <= a.max_scaled_error && b.decision_errors <= a.decision_errors;
+      const bool better =
+          b.ns_per_pair < a.ns_per_pair || b.max_relative_error < a.max_relative_error ||
+          b.max_scaled_error < a.max_scaled_error || b.decision_errors < a.decision_errors;
       a.dominated |= no_worse && better;
     }
   }
@@ -294,6 +301,7 @@ AccuracyReport measure_accuracy(std::span<const PairSample> samples,
     row.ns_per_pair = tier.slow ? time_of(tier, few, 1) : time_of(tier, samples, options.repeats);
     row.max_relative_error = errors.relative;
     row.max_ulp = errors.ulp;
+    row.max_scaled_error = errors.scaled;
     row.decision_errors = errors.decisions;
     row.feature_errors = errors.features;
     row.non_finite = errors.non_finite;

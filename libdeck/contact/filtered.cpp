@@ -202,17 +202,62 @@ bool clearly_apart(const SegmentPair& pair, double gap) {
   return Support<double>(-middle, v, pair.largest).hull() >= gap;
 }
 
+// Double-double closest point of one sub-triangle where the double result tells on which part it
+// lies: most of the work is finding that out. A wrong part gives bounds that decide nothing.
+SubTriangleClosest<DoubleDouble> guided_sub_triangle(
+    const SubTriangleClosest<double>& hint, const Point3<DoubleDouble>& vo,
+    const Point3<DoubleDouble>& va, const Point3<DoubleDouble>& vb, const Point3<DoubleDouble>& a,
+    const Point3<DoubleDouble>& b, const Point3<DoubleDouble>& e) {
+  using T = DoubleDouble;
+  const bool has_o = hint.weight_o > 0.0, has_a = hint.weight_a > 0.0, has_b = hint.weight_b > 0.0;
+  SubTriangleClosest<T> out;
+  if (has_o && has_a && has_b) {
+    const Point3<T> n = cross(a, b);
+    const T fa = dot(n, cross(b, vo)), fb = dot(n, cross(vo, a)), nn = dot(n, n);
+    const T height = -dot(n, vo), scale = T(1) / nn;
+    out.weight_a = scale * fa;
+    out.weight_b = scale * fb;
+    out.weight_o = T(1) - out.weight_a - out.weight_b;
+    out.vector = height < T(0) ? -n : n;
+    out.distance = abs(height) / sqrt(nn);
+    return out;
+  }
+  const auto edge = [&out](const Point3<T>& u, const Point3<T>& v, const Point3<T>& along,
+                           T& weight_u, T& weight_v) {
+    const auto point = closest_detail::closest_on_edge(u, v, along);
+    weight_u = T(1) - point.t;
+    weight_v = point.t;
+    out.vector = point.vector;
+    out.distance = point.distance;
+  };
+  if (has_a && has_b) {
+    edge(va, vb, e, out.weight_a, out.weight_b);
+  } else if (has_o && has_b) {
+    edge(vo, vb, b, out.weight_o, out.weight_b);
+  } else if (has_o && has_a) {
+    edge(vo, va, a, out.weight_o, out.weight_a);
+  } else {
+    (has_a ? out.weight_a : has_b ? out.weight_b : out.weight_o) = T(1);
+    out.vector = -(has_a ? va : has_b ? vb : vo);
+    out.distance = closest_detail::length(out.vector);
+  }
+  return out;
+}
+
 // Double-double closest point of those sub-triangles that can hold it; the others keep the
 // distance infinity.
 SegmentClosest<DoubleDouble> wide_closest(const SegmentPair& pair,
                                           const SegmentClosest<double>& narrow,
-                                          const Hull<DoubleDouble>& v) {
+                                          const Hull<DoubleDouble>& v, bool guided) {
   using T = DoubleDouble;
   SegmentClosest<T> out;
+  const auto sub = [&](const SubTriangleClosest<double>& hint, const auto&... vectors) {
+    return guided ? guided_sub_triangle(hint, vectors...)
+                  : closest_detail::robust_sub_triangle(vectors...);
+  };
   const auto x = [&](std::size_t k) { return lift<T>(pair.points[k]); };
   if (pair.triangle) {
-    out.sub[0] = closest_detail::robust_sub_triangle(v[2], v[0], v[1], x(0) - x(2), x(1) - x(2),
-                                                     x(1) - x(0));
+    out.sub[0] = sub(narrow.sub[0], v[2], v[0], v[1], x(0) - x(2), x(1) - x(2), x(1) - x(0));
     closest_detail::classify(out, true);
     return out;
   }
@@ -225,8 +270,7 @@ SegmentClosest<DoubleDouble> wide_closest(const SegmentPair& pair,
     out.sub[k].vector = lift<T>(narrow.sub[k].vector);
     if (Support<double>(narrow.sub[k].vector, pair.v, pair.largest).sub_triangle(k) > high)
       continue;
-    out.sub[k] = closest_detail::robust_sub_triangle(vo, v[k], v[next], v[k] - vo, v[next] - vo,
-                                                     x(next) - x(k));
+    out.sub[k] = sub(narrow.sub[k], vo, v[k], v[next], v[k] - vo, v[next] - vo, x(next) - x(k));
     if (first || out.sub[k].distance < out.distance()) out.best = static_cast<int>(k);
     first = false;
   }
@@ -346,9 +390,13 @@ bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, 
     if (answer == Answer::unknown) {
       stage = FilterStage::double_double;
       const auto v = wide_hull<DoubleDouble>(pair);
-      const auto w = wide_closest(pair, c, v);
-      answer = compare(lower_bound(w, v, largest_magnitudes(v), triangle),
-                       upper_bound(w.weights, v), *limit);
+      const auto largest = largest_magnitudes(v);
+      auto w = wide_closest(pair, c, v, true);
+      answer = compare(lower_bound(w, v, largest, triangle), upper_bound(w.weights, v), *limit);
+      if (answer == Answer::unknown) {
+        w = wide_closest(pair, c, v, false);
+        answer = compare(lower_bound(w, v, largest, triangle), upper_bound(w.weights, v), *limit);
+      }
       if (answer == Answer::unknown) {
         stage = FilterStage::exact;
         answer = proved(prove_closer(pair.points, triangle, w.best, guesses(w), *limit));
@@ -413,9 +461,16 @@ FilteredSegment filtered_closest_on_segment(const P& p, const std::array<P, 4>& 
     if (scaled.shift != 0) pair.refresh();
     const auto c = closest_on_segment<Form::robust>(pair.points[4], pair.corners(), triangle);
     const auto v = wide_hull<DoubleDouble>(pair);
-    const auto w = wide_closest(pair, c, v);
-    const auto value = rounded(lower_bound(w, v, largest_magnitudes(v), triangle),
-                               upper_bound(w.weights, v), scaled.shift);
+    const auto largest = largest_magnitudes(v);
+    const auto round_once = [&](const SegmentClosest<DoubleDouble>& w) {
+      return rounded(lower_bound(w, v, largest, triangle), upper_bound(w.weights, v), scaled.shift);
+    };
+    auto w = wide_closest(pair, c, v, true);
+    auto value = round_once(w);
+    if (!value) {
+      w = wide_closest(pair, c, v, false);
+      value = round_once(w);
+    }
     if (value) {
       out.distance = *value;
       out.feature = w.feature;

@@ -59,6 +59,7 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
                    {"x double", Align::right},
                    {"worst rel.", Align::right},
                    {"worst ulp", Align::right},
+                   {"of size", Align::right},
                    {"wrong decisions", Align::right},
                    {"wrong features", Align::right},
                    {"not finite", Align::right},
@@ -73,8 +74,9 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
     table.row({t.name, t.what, fmt::format("{:.0f}", t.ns_per_pair),
                plain > 0 ? fmt::format("{:.2f}", t.ns_per_pair / plain) : std::string(),
                value ? number(t.max_relative_error) : "-", value ? number(t.max_ulp) : "-",
-               count(t.decision_errors), value ? count(t.feature_errors) : TextTable::Cell("-"),
-               count(t.non_finite), percent(t.fallback_share), percent(t.exact_share),
+               value ? number(t.max_scaled_error) : "-", count(t.decision_errors),
+               value ? count(t.feature_errors) : TextTable::Cell("-"), count(t.non_finite),
+               percent(t.fallback_share), percent(t.exact_share),
                t.dominated ? TextTable::Cell("dominated", Tone::dim) : TextTable::Cell("")});
   }
   out += table.render(color);
@@ -101,7 +103,7 @@ std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& c
   std::string out;
   JsonWriter j(out);
   j.begin_object();
-  write_json_head(j, "deck-accuracy", 1);
+  write_json_head(j, "deck/accuracy", 1);
   if (context.deck != nullptr) write_json_deck(j, context.path, *context.deck, nullptr, nullptr);
   j.field("scene", report.scene);
   j.key("machine").begin_object(true).field("processor", context.processor);
@@ -110,8 +112,10 @@ std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& c
   for (const TierResult& t : report.tiers) {
     j.begin_object(true).field("name", t.name).field("what", t.what).field("samples", t.samples);
     j.field("ns_per_pair", t.ns_per_pair).field("max_relative_error", t.max_relative_error);
-    j.field("max_ulp", t.max_ulp).field("decision_errors", t.decision_errors);
-    j.field("feature_errors", t.feature_errors).field("non_finite", t.non_finite);
+    j.field("max_ulp", t.max_ulp).field("max_scaled_error", t.max_scaled_error);
+    j.field("decision_errors", t.decision_errors)
+        .field("feature_errors", t.feature_errors)
+        .field("non_finite", t.non_finite);
     j.field("fallback_share", t.fallback_share).field("exact_share", t.exact_share);
     j.field("dominated", t.dominated).end_object();
   }
@@ -129,16 +133,17 @@ std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& c
 
 std::string accuracy_csv(const AccuracyReport& report) {
   std::string out =
-      "row,family,name,tier,what,samples,ns_per_pair,max_relative_error,max_ulp,decision_errors,"
-      "feature_errors,non_finite,fallback_share,exact_share,dominated\r\n";
+      "row,family,name,tier,what,samples,ns_per_pair,max_relative_error,max_ulp,max_scaled_error,"
+      "decision_errors,feature_errors,non_finite,fallback_share,exact_share,dominated\r\n";
   for (const TierResult& t : report.tiers)
-    out += fmt::format("tier,,,{},{},{},{},{},{},{},{},{},{},{},{}\r\n", t.name, t.what, t.samples,
-                       t.ns_per_pair, t.max_relative_error, t.max_ulp, t.decision_errors,
-                       t.feature_errors, t.non_finite, t.fallback_share, t.exact_share,
-                       t.dominated ? 1 : 0);
+    out += fmt::format("tier,,,{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", t.name, t.what,
+                       t.samples, t.ns_per_pair, t.max_relative_error, t.max_ulp,
+                       t.max_scaled_error, t.decision_errors, t.feature_errors, t.non_finite,
+                       t.fallback_share, t.exact_share, t.dominated ? 1 : 0);
   for (const FamilyResult& f : report.families)
-    out += fmt::format("family,{},\"{}\",{},distance,{},,{},{},{},,{},,,\r\n", f.id, f.name, f.tier,
-                       f.samples, f.max_relative_error, f.max_ulp, f.decision_errors, f.non_finite);
+    out +=
+        fmt::format("family,{},\"{}\",{},distance,{},,{},{},,{},,{},,,\r\n", f.id, f.name, f.tier,
+                    f.samples, f.max_relative_error, f.max_ulp, f.decision_errors, f.non_finite);
   return out;
 }
 

@@ -68,7 +68,10 @@ std::string text(double x, double y, std::string_view anchor, std::string_view c
                      extra, escaped(content));
 }
 
-std::string frame(const Axes& axes) {
+// Hard cases have exact distances of 0 and 1e-300: there the error is taken over the pair's size.
+bool over_size(const AccuracyReport& report) { return report.scene == "hard-cases"; }
+
+std::string frame(const Axes& axes, bool scaled) {
   std::string out;
   for (double p = axes.first; p <= axes.last; ++p) {
     const double x = axes.x(std::pow(10.0, p));
@@ -87,7 +90,9 @@ std::string frame(const Axes& axes) {
   out += line(kLeft, ulp, kRight, ulp, "#b55", "5 4");
   out += text(kRight - 4, ulp - 4, "end", "1 ulp", "fill='#b55'");
   out += text(0.5 * (kLeft + kRight), kBottom + 38, "middle", "nanoseconds per pair");
-  out += text(18, 0.5 * (kTop + kBottom), "middle", "worst relative error of the distance",
+  out += text(18, 0.5 * (kTop + kBottom), "middle",
+              scaled ? "worst error of the distance / size of the pair"
+                     : "worst relative error of the distance",
               fmt::format("transform='rotate(-90 18 {:.1f})'", 0.5 * (kTop + kBottom)));
   return out;
 }
@@ -97,11 +102,17 @@ std::string marks(const AccuracyReport& report, const Axes& axes) {
   struct Box {
     double x, y, width;
   };
-  std::vector<Box> labels;  // placed ones
+  std::vector<Box> labels;  // placed ones, and the marks themselves
+  const auto height_of = [&](const TierResult& t) {
+    const double error = over_size(report) ? t.max_scaled_error : t.max_relative_error;
+    return axes.y(t.what == "distance" ? error : 0.0);
+  };
+  for (const TierResult& t : report.tiers)
+    labels.push_back({axes.x(t.ns_per_pair) - 6, height_of(t) + 4, 12});
   for (const TierResult& t : report.tiers) {
     const bool decision = t.what != "distance";
     const double x = axes.x(t.ns_per_pair);
-    const double y = axes.y(decision ? 0.0 : t.max_relative_error);
+    const double y = height_of(t);
     const std::string name = decision ? t.name + " (decision only)" : t.name;
     Box box{x + 9, y + 4, 6.6 * static_cast<double>(name.size())};
     // Move a label up until it is clear of the others.
@@ -164,7 +175,7 @@ std::string accuracy_svg(const AccuracyReport& report, const AccuracyContext& co
       "font-family='sans-serif' font-size='11'>\n<rect width='{0}' height='{1}' fill='#fff'/>\n",
       kWidth, kHeight);
   out += text(kLeft, 32, "start", title_of(report, context), "font-size='16'");
-  out += frame(axes) + marks(report, axes) + side_panel(report);
+  out += frame(axes, over_size(report)) + marks(report, axes) + side_panel(report);
   out += text(kLeft, kHeight - 52, "start", context.processor, "fill='#555'");
   out += text(kLeft, kHeight - 36, "start", accuracy_compiler(), "fill='#555'");
   out += text(kLeft, kHeight - 20, "start", context.command, "fill='#555'");

@@ -58,7 +58,7 @@ int show(const Options& o, const AccuracyReport& report, const AccuracyContext& 
 }
 
 int run(const Options& o) {
-  JsonOutput json(o.common, "deck-accuracy", 1);
+  JsonOutput json(o.common, "deck/accuracy", 1);
   AccuracyOptions accuracy;
   accuracy.repeats = o.repeats;
   AccuracyContext context;

@@ -56,6 +56,7 @@ struct TierResult {
   double ns_per_pair = 0.0;
   double max_relative_error = 0.0;
   double max_ulp = 0.0;
+  double max_scaled_error = 0.0;  // error over the largest coordinate difference of the pair
   std::uint64_t decision_errors = 0, feature_errors = 0, non_finite = 0;
   double fallback_share = 0.0;  // pairs that needed more than double
   double exact_share = 0.0;     // pairs that needed rationals

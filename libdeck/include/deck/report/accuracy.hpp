@@ -23,7 +23,8 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
 std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& context);
 // One line per tier, then one per family and tier, RFC 4180.
 std::string accuracy_csv(const AccuracyReport& report);
-// Self-contained: x = nanoseconds per pair, y = worst relative error, both logarithmic; dominated
+// Self-contained: x = nanoseconds per pair, y = worst error (relative; of hard cases over the
+// size of the pair), both logarithmic; dominated
 // tiers hollow.
 std::string accuracy_svg(const AccuracyReport& report, const AccuracyContext& context);
 // The chart with the table in one page without outside references.
