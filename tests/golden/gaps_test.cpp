@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace {
 
@@ -128,6 +129,38 @@ TEST_P(GoldenGaps, EveryContactAgreesWithTheReferenceSolver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Oracle, GoldenGaps, testing::Values("params", "gaps"));
+
+/// Runs `deck gaps --json` with `options` on some decks and holds the document against its schema.
+void expect_valid(const std::string& options, const std::vector<fs::path>& decks) {
+  if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
+  if (shell("python3 -c 'import jsonschema' 2> /dev/null") != 0)
+    GTEST_SKIP() << "no python3 with jsonschema";
+  const Scratch scratch;
+  const fs::path json = scratch / "gaps.json";
+  std::string names;
+  for (const fs::path& deck : decks) {
+    if (!fs::exists(deck)) GTEST_SKIP() << "no deck " << deck;
+    names += " " + quote(deck);
+  }
+  shell(quote(binary()) + " gaps --quiet " + options + " --json " + quote(json) + names +
+        " 2> /dev/null");
+  const fs::path schema = fs::path(DECK_SOURCE_DIR) / "schemas" / "output" / "gaps.schema.json";
+  EXPECT_EQ(shell("python3 -c 'import json,sys,jsonschema; "
+                  "jsonschema.validate(json.load(open(sys.argv[2])), json.load(open(sys.argv[1])))'"
+                  " " +
+                  quote(schema) + " " + quote(json)),
+            0);
+}
+
+TEST(GapsDocument, FollowsItsSchema) {
+  const fs::path synthetic = corpus() / "corpus" / "synthetic";
+  std::vector<fs::path> decks;
+  for (const char letter : {'a', 'b', 'c', 'd', 'e', 'f', 'g'})
+    decks.push_back(synthetic / (std::string("syn") + letter + "_0000.rad"));
+  expect_valid("", decks);
+  expect_valid("--all --crossings", decks);
+  expect_valid("--crossings", {decks.front()});
+}
 
 TEST(GoldenGaps, SameBytesForAnyNumberOfThreads) {
   const fs::path deck = corpus() / "corpus" / "EuroSID_II" / "EuroSID_II_0000.rad";
