@@ -44,14 +44,31 @@ std::string gap_text(const Contact& c, double gap) {
       c.gapmin_origin == GapminOrigin::card ? "from the card" : to_string(c.gapmin_origin));
 }
 
+void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide& worst,
+                       const std::string& where, const ElementName& element, std::size_t items,
+                       std::string_view item) {
+  if (worst.count == 0) return;
+  const Model& model = run.model();
+  Diagnostic* d = run.report(
+      "DK310", c, gap_field(c),
+      fmt::format("{}: {} is more than half of {} {} {}{} ({}), which is {:.6g} long; so it is at "
+                  "{} of {}",
+                  name_of(run, c), gap_text(c, worst.gap), where.empty() ? "edge" : "side",
+                  model.node_id(worst.a), model.node_id(worst.b), where, element_text(element),
+                  worst.length, count_text(worst.count, item), items));
+  if (d == nullptr) return;
+  if (c.igap != 0 && where.size() > 0) d->reference = ReferenceMessage{477, Severity::warning};
+  d->notes.emplace_back(model.node_span(worst.a), "one end of it");
+}
+
 /// The reference compares the largest gap with the shortest side of the whole surface; here both
 /// are taken at the same place.
 void check_short_sides(const GeometryRun& run, const Contact& c) {
   if (c.igap == 3 || c.irem_gap == 2) return;
   const Coordinates& x = run.scene.coordinates;
+  const Model& model = run.model();
   double thickest = 0;
   for (const SecondaryNode& s : c.secondary) thickest = std::max(thickest, s.gap);
-  for (const ContactEdge& s : c.secondary_edges) thickest = std::max(thickest, s.gap);
   ShortSide worst;
   for (std::size_t i = 0; i < c.main.size(); ++i) {
     bool hit = false;
@@ -59,31 +76,28 @@ void check_short_sides(const GeometryRun& run, const Contact& c) {
     const double gap = c.gap_rule(thickest, c.main[i].gap);
     for (std::size_t k = 0; k < 4; ++k) worst.look(x, n[k], n[(k + 1) % 4], gap, i, hit);
   }
-  for (std::size_t i = 0; i < c.main_edges.size(); ++i) {
-    bool hit = false;
-    const ContactEdge& e = c.main_edges[i];
-    worst.look(x, e.nodes[0], e.nodes[1], c.gap_rule(thickest, e.gap), i, hit);
+  if (worst.count != 0) {
+    const MainSegment& m = c.main[worst.item];
+    report_short_side(run, c, worst, " of segment " + nodes_text(model, m),
+                      carrier_name(model, m.carrier, m.element), c.main.size(), "segment");
   }
-  if (worst.count == 0) return;
-  const Model& model = run.model();
-  const bool edges = c.kind == ContactKind::edge_edge;
-  const ElementName element =
-      edges
-          ? carrier_name(model, c.main_edges[worst.item].carrier, c.main_edges[worst.item].element)
-          : carrier_name(model, c.main[worst.item].carrier, c.main[worst.item].element);
-  const std::string where =
-      edges ? std::string() : " of segment " + nodes_text(model, c.main[worst.item]);
-  Diagnostic* d = run.report(
-      "DK310", c, gap_field(c),
-      fmt::format("{}: {} is more than half of side {} {}{} ({}), which is {:.6g} long; so it is "
-                  "at {} of {}",
-                  name_of(run, c), gap_text(c, worst.gap), model.node_id(worst.a),
-                  model.node_id(worst.b), where, element_text(element), worst.length,
-                  count_text(worst.count, edges ? "edge" : "segment"),
-                  edges ? c.main_edges.size() : c.main.size()));
-  if (d == nullptr) return;
-  if (c.igap != 0 && !edges) d->reference = ReferenceMessage{477, Severity::warning};
-  d->notes.emplace_back(model.node_span(worst.a), "one end of the side");
+  // Of lines both sides count.
+  for (const bool main : {true, false}) {
+    const auto& edges = main ? c.main_edges : c.secondary_edges;
+    const auto& others = main ? c.secondary_edges : c.main_edges;
+    double other = 0;
+    for (const ContactEdge& e : others) other = std::max(other, e.gap);
+    ShortSide shortest;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      bool hit = false;
+      const ContactEdge& e = edges[i];
+      shortest.look(x, e.nodes[0], e.nodes[1], c.gap_rule(other, e.gap), i, hit);
+    }
+    if (shortest.count == 0) continue;
+    const ContactEdge& e = edges[shortest.item];
+    report_short_side(run, c, shortest, {}, carrier_name(model, e.carrier, e.element), edges.size(),
+                      main ? "main edge" : "secondary edge");
+  }
 }
 
 void check_upper_bound(const GeometryRun& run, const Contact& c) {

@@ -1,6 +1,7 @@
 // Findings about main segments and edges that cannot work as meant, and crossed elements.
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "deck/contact/crossings.hpp"
 #include "lint/rules_geometry.hpp"
@@ -122,31 +123,42 @@ void check_dropped(const GeometryRun& run, const Contact& c) {
                          name_of(run, c)));
 }
 
+/// One finding per two parts, in the first interface that contains both.
 void check_crossings(const GeometryRun& run) {
-  using Key = std::tuple<std::uint32_t, std::int64_t, std::int64_t>;
+  struct Group {
+    const Crossing* first = nullptr;
+    std::set<std::pair<std::array<NodeIndex, 2>, std::array<NodeIndex, 4>>> places;
+    std::set<std::int64_t> interfaces;
+  };
   const Model& model = run.model();
-  std::map<Key, std::vector<const Crossing*>> groups;
   const std::vector<Crossing> all = find_crossings(run.scene, run.threads);
   const auto part_of = [&](const Crossing& x) -> std::int64_t {
     if (x.edge_element == no_index) return 0;
     const std::uint32_t p = model.family(x.edge_kind).part[x.edge_element];
     return p == no_index ? 0 : model.parts[p].id;
   };
+  std::map<std::pair<std::int64_t, std::int64_t>, Group> groups;
   for (const Crossing& x : all) {
-    const MainSegment& m = run.scene.contacts[x.contact].main[x.main];
-    groups[{x.contact, part_of(x), carrier_name(model, m.carrier, m.element).part}].push_back(&x);
+    const Contact& c = run.scene.contacts[x.contact];
+    const MainSegment& m = c.main[x.main];
+    const std::int64_t a = part_of(x), b = carrier_name(model, m.carrier, m.element).part;
+    Group& g = groups[{std::min(a, b), std::max(a, b)}];
+    if (g.first == nullptr) g.first = &x;
+    g.places.emplace(x.edge, m.nodes);
+    g.interfaces.insert(c.inter->id);
   }
-  for (const auto& [key, list] : groups) {
-    const auto& [contact, from, to] = key;
-    const Contact& c = run.scene.contacts[contact];
-    const Crossing& x = *list.front();
-    Diagnostic* d = run.report(
-        "DK328", c, main_field(c),
-        fmt::format("{}: edges of part {} pass through segments of part {} in {}; edge {} {} "
-                    "through {}",
-                    name_of(run, c), from, to, count_text(list.size(), "place"),
-                    model.node_id(x.edge[0]), model.node_id(x.edge[1]),
-                    nodes_text(model, c.main[x.main])));
+  for (const auto& [parts, g] : groups) {
+    const Crossing& x = *g.first;
+    const Contact& c = run.scene.contacts[x.contact];
+    std::string message = fmt::format(
+        "{}: elements of part {} and part {} pass through each other in {}; edge {} {} goes "
+        "through {}",
+        name_of(run, c), parts.first, parts.second, count_text(g.places.size(), "place"),
+        model.node_id(x.edge[0]), model.node_id(x.edge[1]), nodes_text(model, c.main[x.main]));
+    if (g.interfaces.size() > 1)
+      message +=
+          fmt::format(" (also in {})", count_text(g.interfaces.size() - 1, "other interface"));
+    Diagnostic* d = run.report("DK328", c, main_field(c), std::move(message));
     if (d != nullptr) d->notes.emplace_back(model.node_span(x.edge[0]), "one end of the edge");
   }
 }

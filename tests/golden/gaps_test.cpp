@@ -130,6 +130,37 @@ TEST_P(GoldenGaps, EveryContactAgreesWithTheReferenceSolver) {
 
 INSTANTIATE_TEST_SUITE_P(Oracle, GoldenGaps, testing::Values("params", "gaps"));
 
+constexpr const char* compare_messages = R"(
+import gzip, json, sys
+wanted = {94, 106, 343, 477, 482, 499, 558, 611, 612, 785, 786, 918, 1577, 3025}
+reference = {int(k.split()[1]) for k in json.load(gzip.open(sys.argv[1]))['messages']} & wanted
+found = json.load(open(sys.argv[2]))
+have = {(d.get('reference') or {}).get('message') for d in found['diagnostics']} & wanted
+for m in sorted(reference - have): print('the solver says', m, 'and lint does not')
+for m in sorted(have - reference): print('lint says', m, 'and the solver does not')
+sys.exit(reference != have)
+)";
+
+TEST(GoldenGeometryRules, SayWhatTheReferenceSolverSays) {
+  const fs::path goldens = corpus() / "oracle" / "gaps";
+  if (!fs::exists(goldens)) GTEST_SKIP() << "no reference results under " << corpus();
+  if (shell("python3 -c pass") != 0) GTEST_SKIP() << "no python3";
+  if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
+  const Scratch scratch;
+  std::ofstream(scratch / "compare.py") << compare_messages;
+  for (const auto& entry : fs::directory_iterator(goldens)) {
+    if (!entry.path().string().ends_with(".json.gz")) continue;
+    const fs::path deck = deck_for(entry.path(), scratch);
+    ASSERT_FALSE(deck.empty()) << "no deck for " << entry.path();
+    const fs::path json = scratch / "lint.json", report = scratch / "report.txt";
+    shell(quote(binary()) + " lint --geometry --no-config --quiet --json " + quote(json) + " " +
+          quote(deck) + " 2> /dev/null");
+    const int code = shell("python3 " + quote(scratch / "compare.py") + " " + quote(entry.path()) +
+                           " " + quote(json) + " > " + quote(report));
+    EXPECT_EQ(code, 0) << deck << "\n" << text_of(report);
+  }
+}
+
 /// Runs `deck gaps --json` with `options` on some decks and holds the document against its schema.
 void expect_valid(const std::string& options, const std::vector<fs::path>& decks) {
   if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();

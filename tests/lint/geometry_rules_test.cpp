@@ -145,6 +145,21 @@ TEST(ShortSides, NameTheSideAndCountSegments) {
   EXPECT_EQ(d->reference->number, 94);
 }
 
+TEST(ShortSides, OfLinesBothListsCount) {
+  const std::string lines =
+      "/NODE\n        21                 5.0                 0.0                 9.0\n"
+      "        22                 5.0                 1.0                 9.0\n"
+      "/PROP/TRUSS/7\nbar\n                 1.0\n/PART/7\nbar\n         7         1         0\n"
+      "/TRUSS/7\n         9        21        22\n/LINE/SEG/3\nbar\n         1        21        "
+      "22\n";
+  const Linted run = lint_geometry(lines + "@/INTER/TYPE11/1 line_IDs=3 Gapmin=1\n");
+  ASSERT_EQ(run.count("DK310"), 1u) << run.list();
+  EXPECT_EQ(run.find("DK310")->message,
+            "/INTER/TYPE11 1: Gapmin = 1 (from the card) is more than half of edge 21 22 (element "
+            "9 of part 7), which is 1 long; so it is at 1 secondary edge of 1");
+  EXPECT_EQ(lint_geometry(lines + "@/INTER/TYPE11/1 line_IDs=3 Gapmin=6\n").count("DK310"), 2u);
+}
+
 TEST(ShortSides, AreMeasuredAgainstTheGapThere) {
   // Igap 1: the short sides belong to a thin shell, whose own gaps are small. The other side is
   // thin as well: no finding, though the largest gap of the interface exceeds half the side.
@@ -163,6 +178,20 @@ TEST(ShortSides, AreMeasuredAgainstTheGapThere) {
   EXPECT_FALSE(run.fires("DK310")) << run.list();
   EXPECT_TRUE(lint_geometry(mesh + "@/INTER/TYPE7/1 surf_IDm=9 grnd_IDs=9 Igap=1 Gapmin=1.25\n")
                   .fires("DK310"));
+}
+
+TEST(CrossedElements, OneFindingPerTwoPartsHoweverManyInterfacesHaveThem) {
+  const Linted run = lint_geometry(
+      "/NODE\n        21                 5.0                 2.0                -1.0\n"
+      "        22                 5.0                 8.0                -1.0\n"
+      "        23                 5.0                 5.0                 2.5\n"
+      "/SH3N/2\n         9        21        22        23\n@/INTER/TYPE7/1 Gapmin=0.1\n"
+      "@/INTER/TYPE7/2 Gapmin=0.2\n"
+      "@/INTER/TYPE19/3 surf_IDs=2 surf_IDm=1 Gapmin=0.1\n");
+  ASSERT_EQ(run.count("DK328"), 1u) << run.list();
+  EXPECT_EQ(run.find("DK328")->message,
+            "/INTER/TYPE7 1: elements of part 1 and part 2 pass through each other in 2 places; "
+            "edge 21 23 goes through 1 2 3 4 (also in 2 other interfaces)");
 }
 
 TEST(GeometryRules, SameFindingsForAnyNumberOfThreads) {
