@@ -20,15 +20,19 @@ Box segment_box(const NodeArrays& nodes, const std::array<std::uint32_t, 4>& seg
   return box;
 }
 
-/// Bit i: child i of the block overlaps the box.
+/// Bit i: child i of the block overlaps the box. Without branches, so that one instruction tests
+/// several children.
 unsigned overlaps(const BoxBlock& block, const Box& box) {
-  unsigned bits = 0;
-  for (std::size_t i = 0; i < width; ++i) {
-    bool meets = true;
-    for (std::size_t k = 0; k < 3; ++k)
-      meets = meets && block.low[k][i] <= box.high[k] && box.low[k] <= block.high[k][i];
-    bits |= static_cast<unsigned>(meets) << i;
+  std::array<std::uint64_t, width> meets;
+  meets.fill(1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double low = box.low[k], high = box.high[k];
+    for (std::size_t i = 0; i < width; ++i)
+      meets[i] &= static_cast<std::uint64_t>(block.low[k][i] <= high) &
+                  static_cast<std::uint64_t>(low <= block.high[k][i]);
   }
+  unsigned bits = 0;
+  for (std::size_t i = 0; i < width; ++i) bits |= static_cast<unsigned>(meets[i]) << i;
   return bits;
 }
 

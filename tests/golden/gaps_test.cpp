@@ -193,6 +193,23 @@ TEST(GapsDocument, FollowsItsSchema) {
   expect_valid("--crossings", {decks.front()});
 }
 
+TEST(GapsCommand, WritesVtkFilesIntoTheDirectoryOrOnePerDeckBelowIt) {
+  const fs::path synthetic = corpus() / "corpus" / "synthetic";
+  const fs::path a = synthetic / "syna_0000.rad", b = synthetic / "sync_0000.rad";
+  if (!fs::exists(a) || !fs::exists(b)) GTEST_SKIP() << "no decks in " << synthetic;
+  if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
+  const Scratch scratch;
+  const auto run = [&](const fs::path& to, const std::string& decks) {
+    return shell(quote(binary()) + " gaps --quiet --vtk " + quote(to) + " " + decks);
+  };
+  EXPECT_EQ(run(scratch / "one", quote(a)), 0);
+  EXPECT_TRUE(fs::exists(scratch / "one/penetrations.vtp"));
+  EXPECT_TRUE(fs::exists(scratch / "one/interface_1_main.vtp"));
+  EXPECT_EQ(run(scratch / "two", quote(a) + " " + quote(b)), 0);
+  EXPECT_TRUE(fs::exists(scratch / "two/syna_0000/penetrations.vtp"));
+  EXPECT_TRUE(fs::exists(scratch / "two/sync_0000/interface_1_secondary.vtp"));
+}
+
 TEST(GoldenGaps, SameBytesForAnyNumberOfThreads) {
   const fs::path deck = corpus() / "corpus" / "EuroSID_II" / "EuroSID_II_0000.rad";
   if (!fs::exists(deck)) GTEST_SKIP() << "no deck " << deck;

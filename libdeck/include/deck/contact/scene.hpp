@@ -113,7 +113,7 @@ struct Contact {
   std::vector<ContactEdge> secondary_edges;  ///< edge_edge
   std::vector<ContactEdge> main_edges;
 
-  std::uint64_t candidates = 0;  ///< pairs within gap + margin
+  std::uint64_t candidates = 0;  ///< pairs within gap + margin; edge pairs: within gap
   std::uint64_t removed_pairs = 0;  ///< candidates taken out by Irem_gap = 2
   std::vector<PenetrationRow> penetrations;
 
