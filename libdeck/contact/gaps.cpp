@@ -9,11 +9,6 @@ namespace {
 
 constexpr double never = 1e30;  // the solver's "no limit"
 
-double distance(const Coordinates& c, NodeIndex a, NodeIndex b) {
-  const Vec d = at(c, b) - at(c, a);
-  return std::sqrt(dot(d, d));
-}
-
 /// Shortest side of one segment between distinct nodes; infinity if there is none.
 double shortest_side(const Coordinates& c, const std::array<NodeIndex, 4>& n) {
   double shortest = std::numeric_limits<double>::infinity();

@@ -12,11 +12,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const double root2 = std::sqrt(2.0);
 
-double distance(const Coordinates& c, NodeIndex a, NodeIndex b) {
-  const Vec d = at(c, b) - at(c, a);
-  return std::sqrt(dot(d, d));
-}
-
 /// node -> items of the main side that touch it and have at least one secondary node.
 struct NodeItems {
   std::vector<std::uint32_t> start, item;

@@ -1,5 +1,6 @@
 // The steps that turn an interface into contacts, one concept per file. Private to the stage.
 #pragma once
+#include <cmath>
 #include <unordered_map>
 #include <vector>
 
@@ -29,6 +30,11 @@ inline Vec cross(Vec a, Vec b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline Vec at(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
+/// Distance of two nodes.
+inline double distance(const Coordinates& c, NodeIndex a, NodeIndex b) {
+  const Vec d = at(c, b) - at(c, a);
+  return std::sqrt(dot(d, d));
+}
 
 // segments.cpp — clean-up, orientation, carriers (reference solver: surface clean-up)
 /// Turns surface segments into main segments: repairs repeated nodes, finds carriers of plain

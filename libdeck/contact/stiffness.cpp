@@ -6,11 +6,6 @@
 namespace deck::detail {
 namespace {
 
-double length(const Coordinates& c, NodeIndex a, NodeIndex b) {
-  const Vec d = at(c, b) - at(c, a);
-  return std::sqrt(dot(d, d));
-}
-
 double shell_stiffness(const Model& model, ElementKind kind, std::uint32_t e, double t) {
   return young_of(model, kind, e) * t;
 }
@@ -60,7 +55,7 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
   const double f = contact.factor;
   for (ContactEdge& edge : edges) {
     const NodeIndex a = edge.nodes[0], b = edge.nodes[1];
-    const double l = length(x, a, b);
+    const double l = distance(x, a, b);
     double k = 0;
     edge.shell = edge.section = 0;
     edge.carrier = Carrier::none;
@@ -131,7 +126,7 @@ void set_nodal_stiffness(SceneContext& c, Contact& contact) {
         const NodeIndex* n = family.of(e);
         if (n[0] != s.node && n[1] != s.node) continue;
         if (n[0] == no_index || n[1] == no_index) continue;
-        const double l = length(x, n[0], n[1]);
+        const double l = distance(x, n[0], n[1]);
         if (l > 0) k += young_of(model, kind, e) * section_area(model, kind, e) / l;
       }
     }
