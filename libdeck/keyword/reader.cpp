@@ -30,6 +30,15 @@ constexpr std::uint64_t release_step = 8 << 20;
 constexpr int known_versions[] = {2026, 2025, 2024, 2023, 2022, 2021, 2020, 2019, 2018, 2017,
                                   140,  130,  120,  110,  100,  90,   51,   44,   42,   41};
 
+/// The file, or what the overlay says it holds.
+Result<std::unique_ptr<Source>> open_source(const std::string& path, const Limits& limits,
+                                            const ReadOptions& options) {
+  if (options.overlay != nullptr)
+    if (const auto it = options.overlay->find(path); it != options.overlay->end())
+      return Source::from_bytes(path, it->second);
+  return Source::open(path, limits);
+}
+
 class Reader {
  public:
   Reader(const SchemaSet& schemas, const ReadOptions& options)
@@ -159,7 +168,7 @@ class Reader {
     // so that it does not pile up in memory.
     if (memory_bytes_ > 8 * limits.map_threshold) limits.map_threshold = 0;
     for (const std::string& path : candidates(written, parent)) {
-      auto source = Source::open(path, limits);
+      auto source = open_source(path, limits, options_);
       if (source)
         if (auto bad = refuse_binary(**source); !bad) source = bad.error();
       if (!source) {
@@ -181,8 +190,9 @@ class Reader {
              std::uint32_t parent, int version) {
     for (const std::uint32_t open : stack_) {
       const Source& s = deck_.sources[open];
-      if (s.inode() != source->inode() || s.device() != source->device() || s.inode() == 0)
-        continue;
+      const bool same_file =
+          s.inode() != 0 && s.inode() == source->inode() && s.device() == source->device();
+      if (!same_file && !(s.inode() == 0 && s.path() == source->path())) continue;
       report("DK005", Severity::error, directive,
              "include cycle: '" + written + "' is being read already (" + s.path() + ")",
              "it recurses until it fails", "remove the directive");
@@ -522,7 +532,7 @@ bool is_known_version(int version) {
 
 Result<Deck> read_deck(const std::string& path, const SchemaSet& schemas,
                        const ReadOptions& options) {
-  auto source = Source::open(path, options.limits);
+  auto source = open_source(path, options.limits, options);
   if (!source) return source.error();
   return Reader(schemas, options).read(std::move(*source));
 }

@@ -130,6 +130,9 @@ struct Begin {
 struct ReadOptions {
   Limits limits;
   std::vector<std::string> include_paths;  ///< searched after the including and the main file
+  /// Content to take instead of what the file at that path holds (the path as it would be opened).
+  /// The file need not exist. Must outlive the reading.
+  const std::map<std::string, std::string>* overlay = nullptr;
 };
 
 struct Deck {

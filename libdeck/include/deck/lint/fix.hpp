@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "deck/text/diagnostic.hpp"
+#include "deck/text/edits.hpp"
 #include "deck/text/source.hpp"
 
 namespace deck {
@@ -27,17 +28,5 @@ struct FixResult {
 /// all; of two that touch the same bytes the first in the order of `diagnostics` wins.
 FixResult apply_fixes(const SourceSet& sources, const std::vector<Diagnostic>& diagnostics,
                       bool unsafe);
-
-/// Unified diff of one file, three lines of context, that `git apply` takes. Empty if equal. `path`
-/// is put behind a/ and b/.
-std::string unified_diff(std::string_view path, std::string_view before, std::string_view after);
-
-/// Edit that puts `text` right-aligned into the columns first..last (1-based) of the line that
-/// holds `on_line`. Nothing else on the line moves; a line that is too short grows. `text` longer
-/// than the cell is the caller's mistake.
-TextEdit cell_edit(const SourceSet& sources, Span on_line, int first, int last,
-                   std::string_view text);
-/// Edit that makes the bytes of `span` blanks.
-TextEdit blank_edit(Span span);
 
 }  // namespace deck

@@ -1,0 +1,53 @@
+#include "deck/edit/rewrite.hpp"
+
+#include "deck/text/edits.hpp"
+
+namespace deck {
+
+Result<ChangedFiles> apply_edits(const SourceSet& sources, const std::vector<TextEdit>& edits) {
+  // A file included twice is two sources with the same path; its edits are made once.
+  std::map<std::string, std::uint32_t> first_of;
+  std::map<std::uint32_t, std::vector<TextEdit>> by_file;
+  std::map<std::uint32_t, std::vector<TextEdit>> by_copy;
+  for (std::uint32_t f = 0; f < sources.size(); ++f) first_of.emplace(sources[f].path(), f);
+  for (const TextEdit& e : edits) {
+    const std::uint32_t first = first_of.at(sources[e.span.file].path());
+    (e.span.file == first ? by_file : by_copy)[e.span.file].push_back(e);
+  }
+  ChangedFiles changed;
+  for (const auto* group : {&by_file, &by_copy}) {
+    for (const auto& [file, list] : *group) {
+      auto text = apply_edits(sources[file], list);
+      if (!text) return text.error();
+      if (*text == sources[file].bytes()) continue;
+      const std::string& path = sources[file].path();
+      const auto [it, is_new] = changed.try_emplace(path, *text);
+      if (is_new || it->second == *text) continue;
+      return Error{Error::Code::config,
+                   path +
+                       " is included more than once and would have to become two different "
+                       "files; give the second include a file of its own"};
+    }
+  }
+  return changed;
+}
+
+Result<ChangedFiles> apply_rewrite(const SourceSet& sources, const Rewrite& rewrite) {
+  if (!rewrite.new_text) return apply_edits(sources, rewrite.edits);
+  ChangedFiles changed;
+  if (*rewrite.new_text != sources[0].bytes()) changed[sources[0].path()] = *rewrite.new_text;
+  return changed;
+}
+
+LossEntry loss_entry(const Deck& deck, Loss loss, const Block& block, Span span) {
+  LossEntry entry;
+  entry.loss = loss;
+  entry.keyword = std::string(block.keyword);
+  entry.id = block.id.value;
+  const Span place = span.valid() ? span : block.header_span;
+  entry.file = deck.sources[place.file].path();
+  entry.line = deck.sources.position(place).line;
+  return entry;
+}
+
+}  // namespace deck

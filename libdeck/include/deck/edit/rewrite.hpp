@@ -1,0 +1,64 @@
+// Rewrite: what one conversion wants to do to a deck — spans to replace, or a whole new text — and
+// what that costs the user. Conversions only describe; applying and writing is done in one place.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/model/interfaces.hpp"
+
+namespace deck {
+
+/// What a conversion reads. All of it must outlive the Rewrite.
+struct EditContext {
+  const Deck& deck;
+  const Model& model;
+  const Interfaces& interfaces;
+  const SchemaSet& schemas;
+};
+
+/// What became of a value.
+enum class Loss : std::uint8_t {
+  kept,          ///< the same meaning in the new text
+  approximated,  ///< close: fewer digits, or the nearest option there is
+  dropped,       ///< the new text cannot hold it
+  undecided,     ///< somebody has to choose
+};
+
+/// One line of the loss report.
+struct LossEntry {
+  Loss loss = Loss::kept;
+  std::string file;  ///< as in the deck
+  std::uint64_t line = 0;
+  std::string keyword;  ///< "/INTER/TYPE7"
+  std::int64_t id = 0;
+  std::string field;  ///< "Irem_gap"; empty: the block as a whole
+  std::string old_text, new_text;
+  std::string note;  ///< why, and what to do
+};
+
+struct Rewrite {
+  std::vector<TextEdit> edits;          ///< of files of the deck; never overlapping
+  std::optional<std::string> new_text;  ///< instead: the whole deck as one file without includes
+  std::vector<LossEntry> losses;
+  std::vector<std::string> notes;  ///< for people, one line each ("length: factor 0.001")
+  std::vector<std::string>
+      refusals;  ///< "file:line:column: why"; not empty: nothing may be written
+};
+
+/// New contents by path (as the deck opened it), of changed files only.
+using ChangedFiles = std::map<std::string, std::string>;
+
+/// Applies edits. A file that the deck includes twice is changed once: equal edits through both
+/// includes are one. Error: edits that overlap or contradict each other.
+Result<ChangedFiles> apply_edits(const SourceSet& sources, const std::vector<TextEdit>& edits);
+/// The same for a whole rewrite: with new_text, that is the main file's content.
+Result<ChangedFiles> apply_rewrite(const SourceSet& sources, const Rewrite& rewrite);
+
+/// Place of a span for a LossEntry, and the start of one with keyword and id of a block.
+LossEntry loss_entry(const Deck& deck, Loss loss, const Block& block, Span span);
+
+}  // namespace deck

@@ -1,0 +1,38 @@
+#include "deck/report/losses.hpp"
+
+#include "deck/report/json.hpp"
+
+namespace deck {
+
+std::string losses_json(const std::vector<LossEntry>& losses) {
+  std::string text;
+  JsonWriter json(text);
+  json.begin_object();
+  write_json_head(json, "deck/losses", 1);
+  constexpr std::pair<Loss, std::string_view> groups[] = {{Loss::kept, "kept"},
+                                                          {Loss::approximated, "approximated"},
+                                                          {Loss::dropped, "dropped"},
+                                                          {Loss::undecided, "undecided"}};
+  for (const auto& [loss, name] : groups) {
+    json.key(name).begin_array();
+    for (const LossEntry& e : losses) {
+      if (e.loss != loss) continue;
+      json.begin_object();
+      json.key("file").value(e.file);
+      json.key("line").value(e.line);
+      json.key("keyword").value(e.keyword);
+      json.key("id").value(e.id);
+      json.key("field").value(e.field);
+      json.key("old").value(e.old_text);
+      json.key("new").value(e.new_text);
+      json.key("note").value(e.note);
+      json.end_object();
+    }
+    json.end_array();
+  }
+  json.end_object();
+  text += '\n';
+  return text;
+}
+
+}  // namespace deck

@@ -1,0 +1,172 @@
+#include "deck/text/edits.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace deck {
+
+Result<std::string> apply_edits(const Source& source, std::vector<TextEdit> edits) {
+  std::stable_sort(edits.begin(), edits.end(), [](const TextEdit& a, const TextEdit& b) {
+    return a.span.offset != b.span.offset ? a.span.offset < b.span.offset
+                                          : a.span.length < b.span.length;
+  });
+  const std::string_view bytes = source.bytes();
+  std::string out;
+  out.reserve(bytes.size() + 64);
+  std::uint64_t at = 0;
+  const TextEdit* before = nullptr;
+  for (const TextEdit& e : edits) {
+    if (before != nullptr && before->span.offset == e.span.offset &&
+        before->span.length == e.span.length && before->text == e.text && e.span.length > 0)
+      continue;
+    if (e.span.offset < at || e.span.offset + e.span.length > bytes.size()) {
+      const Position p = source.position(std::min<std::uint64_t>(e.span.offset, bytes.size()));
+      return Error{Error::Code::config, source.path() + ":" + std::to_string(p.line) + ":" +
+                                            std::to_string(p.column) +
+                                            ": two changes to the same columns"};
+    }
+    out.append(bytes.substr(at, e.span.offset - at));
+    out.append(e.text);
+    at = e.span.offset + e.span.length;
+    before = &e;
+  }
+  out.append(bytes.substr(at));
+  return out;
+}
+
+namespace {
+
+std::vector<std::string_view> split_lines(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const auto nl = text.find('\n');
+    const auto n = nl == std::string_view::npos ? text.size() : nl + 1;
+    lines.push_back(text.substr(0, n));
+    text.remove_prefix(n);
+  }
+  return lines;
+}
+
+/// Stretches of lines that differ: [a0, a1) of the old text became [b0, b1) of the new one.
+struct Change {
+  std::size_t a0, a1, b0, b1;
+};
+
+/// Fixes touch few lines, so a greedy resynchronisation is enough: after a difference look for the
+/// nearest pair of equal lines.
+std::vector<Change> changes(const std::vector<std::string_view>& a,
+                            const std::vector<std::string_view>& b) {
+  std::vector<Change> out;
+  std::size_t i = 0, j = 0;
+  while (i < a.size() || j < b.size()) {
+    if (i < a.size() && j < b.size() && a[i] == b[j]) {
+      ++i;
+      ++j;
+      continue;
+    }
+    std::size_t di = a.size() - i, dj = b.size() - j;
+    for (std::size_t reach = 1; reach < di + dj; ++reach) {
+      bool met = false;
+      for (std::size_t x = 0; x <= reach; ++x) {
+        const std::size_t y = reach - x;
+        if (i + x < a.size() && j + y < b.size() && a[i + x] == b[j + y]) {
+          di = x;
+          dj = y;
+          met = true;
+          break;
+        }
+      }
+      if (met || reach > 2000) break;
+    }
+    out.push_back({i, i + di, j, j + dj});
+    i += di;
+    j += dj;
+  }
+  return out;
+}
+
+void put_line(std::string& out, char mark, std::string_view line) {
+  out += mark;
+  out += line;
+  if (!line.ends_with('\n')) out += "\n\\ No newline at end of file\n";
+}
+
+std::string range(std::size_t begin, std::size_t count) {
+  const std::size_t first = count == 0 ? begin : begin + 1;
+  return std::to_string(first) + (count == 1 ? "" : "," + std::to_string(count));
+}
+
+}  // namespace
+
+std::string unified_diff(std::string_view path, std::string_view before, std::string_view after) {
+  constexpr std::size_t context = 3;
+  const auto a = split_lines(before), b = split_lines(after);
+  const auto diff = changes(a, b);
+  if (diff.empty()) return {};
+  while (path.starts_with("./")) path.remove_prefix(2);
+  const std::string_view rooted = path.starts_with('/') ? path.substr(1) : path;
+  std::string out = "--- a/" + std::string(rooted) + "\n+++ b/" + std::string(rooted) + "\n";
+  for (std::size_t k = 0; k < diff.size();) {
+    std::size_t last = k;
+    while (last + 1 < diff.size() && diff[last + 1].a0 - diff[last].a1 <= 2 * context) ++last;
+    const std::size_t a0 = diff[k].a0 - std::min(context, diff[k].a0);
+    const std::size_t b0 = diff[k].b0 - std::min(context, diff[k].b0);
+    const std::size_t a1 = std::min(diff[last].a1 + context, a.size());
+    const std::size_t b1 = std::min(diff[last].b1 + context, b.size());
+    out += "@@ -" + range(a0, a1 - a0) + " +" + range(b0, b1 - b0) + " @@\n";
+    std::size_t at = a0;
+    for (; k <= last; ++k) {
+      for (; at < diff[k].a0; ++at) put_line(out, ' ', a[at]);
+      for (; at < diff[k].a1; ++at) put_line(out, '-', a[at]);
+      for (std::size_t n = diff[k].b0; n < diff[k].b1; ++n) put_line(out, '+', b[n]);
+    }
+    for (; at < a1; ++at) put_line(out, ' ', a[at]);
+  }
+  return out;
+}
+
+void CellEdits::set(const SourceSet& sources, Span on_line, int first, int last,
+                    std::string_view text) {
+  const Source& source = sources[on_line.file];
+  const auto start =
+      static_cast<std::uint64_t>(source.line_at(on_line.offset).data() - source.bytes().data());
+  const auto width = static_cast<std::size_t>(last - first + 1);
+  std::string padded(text.size() < width ? width - text.size() : 0, ' ');
+  padded += text;
+  lines_[{on_line.file, start}][first] = {last, std::move(padded)};
+}
+
+std::vector<TextEdit> CellEdits::finish(const SourceSet& sources) const {
+  std::vector<TextEdit> edits;
+  for (const auto& [place, cells] : lines_) {
+    const auto [file, start] = place;
+    const std::size_t size = sources[file].line_at(start).size();
+    std::size_t grown = size;  // with the rest of a cell that the line's end cuts
+    std::string tail;          // what the line gets behind that
+    for (const auto& [first, target] : cells) {
+      const auto begin = static_cast<std::size_t>(first - 1);
+      const auto width = static_cast<std::size_t>(target.last - first + 1);
+      if (size <= begin) {
+        tail.append(begin - grown - tail.size(), ' ');
+        tail += target.text;
+        continue;
+      }
+      const auto length = static_cast<std::uint32_t>(std::min(width, size - begin));
+      edits.push_back({Span{file, length, start + begin}, target.text});
+      if (length < width) grown = begin + width;
+    }
+    if (!tail.empty()) edits.push_back({Span{file, 0, start + size}, tail});
+  }
+  return edits;
+}
+
+TextEdit cell_edit(const SourceSet& sources, Span on_line, int first, int last,
+                   std::string_view text) {
+  CellEdits cells;
+  cells.set(sources, on_line, first, last, text);
+  return cells.finish(sources).front();
+}
+
+TextEdit blank_edit(Span span) { return {span, std::string(span.length, ' ')}; }
+
+}  // namespace deck
