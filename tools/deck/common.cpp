@@ -1,6 +1,5 @@
 #include "common.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
@@ -207,101 +206,7 @@ std::string reason(const std::string& what, const std::string& path) {
   return what + " " + path + ": " + std::strerror(errno);
 }
 
-/// Writes and flushes a new file; removes it if that fails.
-Result<void> write_new_file(const std::string& path, std::string_view bytes, mode_t mode) {
-  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-  if (fd < 0) return Error{Error::Code::io, reason("cannot create", path)};
-  const auto fail = [&](const char* what) {
-    Error error{Error::Code::io, reason(what, path)};
-    close(fd);
-    unlink(path.c_str());
-    return error;
-  };
-  while (!bytes.empty()) {
-    const ssize_t n = write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return fail("cannot write");
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-  if (fsync(fd) != 0 && errno != EINVAL && errno != EROFS) return fail("cannot flush");
-  if (close(fd) != 0) {
-    Error error{Error::Code::io, reason("cannot close", path)};
-    unlink(path.c_str());
-    return error;
-  }
-  return {};
-}
-
-std::string temporary_name(const std::string& path, std::size_t number) {
-  const fs::path p(path);
-  return (p.parent_path() / ("." + p.filename().string() + "." + std::to_string(getpid()) + "-" +
-                             std::to_string(number) + ".tmp"))
-      .string();
-}
-
-/// Devices and pipes (/dev/stdout, a named pipe) are written through; they cannot be replaced.
-bool is_special(const std::string& path) {
-  std::error_code ec;
-  const auto status = fs::status(path, ec);
-  return !ec && fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
-Result<void> write_through(const std::string& path, std::string_view bytes) {
-  std::FILE* const f = std::fopen(path.c_str(), "wb");
-  if (f == nullptr) return Error{Error::Code::io, reason("cannot open", path)};
-  const bool ok = std::fwrite(bytes.data(), 1, bytes.size(), f) == bytes.size();
-  if (std::fclose(f) != 0 || !ok) return Error{Error::Code::io, reason("cannot write", path)};
-  return {};
-}
-
 }  // namespace
-
-namespace {
-
-Result<void> write_set(const std::vector<OutputFile>& files, bool make_directories) {
-  std::vector<std::string> temporaries;
-  const auto undo = [&] {
-    for (const std::string& t : temporaries) unlink(t.c_str());
-  };
-  for (const OutputFile& f : files) {
-    std::error_code ec;
-    const fs::path parent = fs::path(f.path).parent_path();
-    if (make_directories && !parent.empty()) fs::create_directories(parent, ec);
-    if (ec) {
-      undo();
-      return Error{Error::Code::io,
-                   "cannot make directory " + parent.string() + ": " + ec.message()};
-    }
-    if (fs::is_directory(f.path, ec)) {
-      undo();
-      return Error{Error::Code::io, "cannot write " + f.path + ": it is a directory"};
-    }
-    const std::string temporary = temporary_name(f.path, temporaries.size());
-    if (auto written = write_new_file(temporary, f.bytes, 0666); !written) {
-      undo();
-      return written.error();
-    }
-    temporaries.push_back(temporary);
-  }
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    if (std::rename(temporaries[i].c_str(), files[i].path.c_str()) == 0) continue;
-    Error error{Error::Code::io, reason("cannot put in place", files[i].path)};
-    undo();
-    return error;
-  }
-  return {};
-}
-
-}  // namespace
-
-Result<void> write_files_atomic(const std::vector<OutputFile>& files) {
-  return write_set(files, true);
-}
-
-Result<void> write_file_atomic(const std::string& path, std::string_view bytes) {
-  if (is_special(path)) return write_through(path, bytes);
-  return write_set({{path, bytes}}, false);
-}
 
 void print_text(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 

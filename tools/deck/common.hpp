@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "deck/edit/write.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
@@ -103,17 +104,9 @@ class JsonOutput {
   std::vector<std::string> documents_;
 };
 
-/// Puts a file in place in one step: written beside it, flushed to the disk, renamed. The old file
-/// stays as it was if anything fails.
-Result<void> write_file_atomic(const std::string& path, std::string_view bytes);
-
-/// A file to be written as part of a set.
-struct OutputFile {
-  std::string path;
-  std::string_view bytes;
-};
-/// All or nothing as far as a file system allows it: every file is written and flushed beside its
-/// place before the first one is renamed. Directories are made. On failure no temporary is left.
-Result<void> write_files_atomic(const std::vector<OutputFile>& files);
+// How verbs write files; see deck/edit/write.hpp.
+using deck::OutputFile;
+using deck::write_file_atomic;
+using deck::write_files_atomic;
 
 }  // namespace deck::cli

@@ -1,0 +1,222 @@
+// Atomic writing: what is in place before, after and when something goes wrong.
+#include "deck/edit/write.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+namespace deck {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicWriting : public testing::Test {
+ protected:
+  AtomicWriting() {
+    static int number = 0;
+    dir_ = fs::temp_directory_path() /
+           ("atomic_writing_" + std::to_string(getpid()) + "_" + std::to_string(number++));
+    fs::create_directories(dir_);
+  }
+  ~AtomicWriting() override {
+    std::error_code ec;
+    fs::remove_all(dir_, ec);
+  }
+  std::string at(const std::string& name) const { return (dir_ / name).string(); }
+  void put(const std::string& name, const std::string& text) const {
+    std::ofstream(at(name), std::ios::binary) << text;
+  }
+  std::string get(const std::string& name) const {
+    std::ifstream in(at(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::size_t entries() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::recursive_directory_iterator(dir_), fs::recursive_directory_iterator()));
+  }
+  mode_t mode(const std::string& name) const {
+    struct stat status {};
+    return stat(at(name).c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
+  }
+  fs::path dir_;
+};
+
+TEST_F(AtomicWriting, NewFileGetsModeOfUmask) {
+  const mode_t old = umask(027);
+  const auto written = write_file_atomic(at("a.rad"), "new");
+  umask(old);
+  ASSERT_TRUE(written) << written.error().message;
+  EXPECT_EQ(get("a.rad"), "new");
+  EXPECT_EQ(mode("a.rad"), 0640u);
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(AtomicWriting, ReplacedFileKeepsItsPermissions) {
+  put("a.rad", "old");
+  chmod(at("a.rad").c_str(), 0751);
+  ASSERT_TRUE(write_file_atomic(at("a.rad"), "new"));
+  EXPECT_EQ(get("a.rad"), "new");
+  EXPECT_EQ(mode("a.rad"), 0751u);
+}
+
+TEST_F(AtomicWriting, ProtectedFileIsNotReplaced) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write everything";
+  put("a.rad", "old");
+  chmod(at("a.rad").c_str(), 0444);
+  EXPECT_FALSE(write_file_atomic(at("a.rad"), "new"));
+  EXPECT_EQ(get("a.rad"), "old");
+}
+
+TEST_F(AtomicWriting, LinkStaysAndItsTargetIsReplaced) {
+  fs::create_directories(dir_ / "real");
+  put("real/a.rad", "old");
+  fs::create_symlink("real/a.rad", dir_ / "link.rad");
+  fs::create_symlink("link.rad", dir_ / "link of link.rad");
+  ASSERT_TRUE(write_file_atomic(at("link of link.rad"), "new"));
+  EXPECT_TRUE(fs::is_symlink(dir_ / "link of link.rad"));
+  EXPECT_TRUE(fs::is_symlink(dir_ / "link.rad"));
+  EXPECT_FALSE(fs::is_symlink(dir_ / "real/a.rad"));
+  EXPECT_EQ(get("real/a.rad"), "new");
+}
+
+TEST_F(AtomicWriting, LinkToNothingMakesItsTarget) {
+  fs::create_symlink("later.rad", dir_ / "link.rad");
+  ASSERT_TRUE(write_file_atomic(at("link.rad"), "new"));
+  EXPECT_TRUE(fs::is_symlink(dir_ / "link.rad"));
+  EXPECT_EQ(get("later.rad"), "new");
+}
+
+TEST_F(AtomicWriting, LinksInACircleAreAnError) {
+  fs::create_symlink("b", dir_ / "a");
+  fs::create_symlink("a", dir_ / "b");
+  EXPECT_FALSE(write_file_atomic(at("a"), "new"));
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(AtomicWriting, OtherNamesOfAHardLinkKeepTheOldBytes) {
+  put("a.rad", "old");
+  fs::create_hard_link(dir_ / "a.rad", dir_ / "b.rad");
+  ASSERT_TRUE(write_file_atomic(at("a.rad"), "new"));
+  EXPECT_EQ(get("a.rad"), "new");
+  EXPECT_EQ(get("b.rad"), "old");
+}
+
+TEST_F(AtomicWriting, BackupHasTheOldBytesAndOnlyReplacedFilesHaveOne) {
+  put("a.rad", "old");
+  WriteOptions options;
+  options.backup_suffix = ".orig";
+  ASSERT_TRUE(write_files_atomic({{at("a.rad"), "new"}, {at("b.rad"), "b"}}, options));
+  EXPECT_EQ(get("a.rad"), "new");
+  EXPECT_EQ(get("a.rad.orig"), "old");
+  EXPECT_EQ(entries(), 3u);
+  ASSERT_TRUE(write_file_atomic(at("a.rad"), "newer", options));
+  EXPECT_EQ(get("a.rad.orig"), "new");
+  EXPECT_EQ(entries(), 3u);
+}
+
+TEST_F(AtomicWriting, BackupThatIsAnotherNameOfTheFileLeavesNothingBehind) {
+  // What a kill between making the backup and replacing the file leaves.
+  put("a.rad", "old");
+  fs::create_hard_link(dir_ / "a.rad", dir_ / "a.rad.orig");
+  WriteOptions options;
+  options.backup_suffix = ".orig";
+  ASSERT_TRUE(write_file_atomic(at("a.rad"), "new", options));
+  EXPECT_EQ(get("a.rad"), "new");
+  EXPECT_EQ(get("a.rad.orig"), "old");
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(AtomicWriting, SetWithOneImpossibleFileChangesNothing) {
+  put("a.rad", "old");
+  fs::create_directories(dir_ / "c.rad");
+  EXPECT_FALSE(write_files_atomic(
+      {{at("a.rad"), "new"}, {at("sub/b.rad"), "new"}, {at("c.rad"), "a directory"}}));
+  EXPECT_EQ(get("a.rad"), "old");
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(AtomicWriting, FailingRenameTakesTheEarlierOnesBack) {
+  // A name that is free when the set is prepared and taken by a directory when it is put in place:
+  // the rename of a file onto a directory fails.
+  put("a.rad", "old");
+  const std::string fifo = at("fifo");
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  // Writing through the pipe happens between the two; its reader makes the directory.
+  std::thread reader([&] {
+    std::ifstream in(fifo, std::ios::binary);
+    fs::create_directories(dir_ / "b.rad");
+    const std::string read{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_EQ(read, std::string(200000, 'x'));
+  });
+  // Longer than a pipe holds, so that writing ends after the reader began.
+  const auto done = write_files_atomic({{fifo, std::string(200000, 'x')},
+                                        {at("a.rad"), "new"},
+                                        {at("n.rad"), "n"},
+                                        {at("b.rad"), "b"}});
+  reader.join();
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("b.rad"), std::string::npos);
+  EXPECT_EQ(get("a.rad"), "old");
+  EXPECT_FALSE(fs::exists(dir_ / "n.rad"));
+  EXPECT_EQ(entries(), 3u);
+}
+
+TEST_F(AtomicWriting, SameFileTwiceNeedsTheSameBytes) {
+  fs::create_directories(dir_ / "sub");
+  ASSERT_TRUE(write_files_atomic({{at("a.rad"), "x"}, {at("sub/../a.rad"), "x"}}));
+  EXPECT_EQ(get("a.rad"), "x");
+  EXPECT_FALSE(write_files_atomic({{at("a.rad"), "y"}, {at("sub/../a.rad"), "z"}}));
+  EXPECT_EQ(get("a.rad"), "x");
+}
+
+TEST_F(AtomicWriting, MissingDirectoryIsMadeOnlyWhenAskedFor) {
+  EXPECT_FALSE(write_file_atomic(at("x/y/a.rad"), "a"));
+  EXPECT_EQ(entries(), 0u);
+  ASSERT_TRUE(write_files_atomic({{at("x/y/a.rad"), "a"}}));
+  EXPECT_EQ(get("x/y/a.rad"), "a");
+}
+
+TEST_F(AtomicWriting, StrayFileOfAKilledProcessIsNoObstacle) {
+  put(".a.rad." + std::to_string(getpid()) + "-0.tmp", "half");
+  ASSERT_TRUE(write_file_atomic(at("a.rad"), "new"));
+  EXPECT_EQ(get("a.rad"), "new");
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(AtomicWriting, LongestFileNameIsWritten) {
+  const std::string name(255, 'n');
+  ASSERT_TRUE(write_file_atomic(at(name), "new"));
+  EXPECT_EQ(get(name), "new");
+}
+
+TEST_F(AtomicWriting, TwoThreadsWriteTheSameFileWhole) {
+  const std::string a(100000, 'a'), b(100000, 'b');
+  WriteOptions options;
+  options.sync = false;
+  const auto repeat = [&](const std::string& text) {
+    for (int i = 0; i < 100; ++i) EXPECT_TRUE(write_file_atomic(at("f"), text, options));
+  };
+  std::thread one(repeat, a), two(repeat, b);
+  one.join();
+  two.join();
+  const std::string last = get("f");
+  EXPECT_TRUE(last == a || last == b);
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST(TemporaryName, BelongsToItsTargetOnly) {
+  EXPECT_TRUE(is_temporary_of(".car.json.12-0.tmp", "car.json"));
+  EXPECT_FALSE(is_temporary_of(".car.json.12-0.tmp", "car"));
+  EXPECT_FALSE(is_temporary_of(".car.json.12-0.tmp", "car.json.12-0"));
+  EXPECT_FALSE(is_temporary_of("car.json.12-0.tmp", "car.json"));
+  EXPECT_FALSE(is_temporary_of(".car.json..tmp", "car.json"));
+  EXPECT_FALSE(is_temporary_of(".tmp", ""));
+}
+
+}  // namespace
+}  // namespace deck
