@@ -96,11 +96,13 @@ bool Loaded::incomplete() const {
 }
 
 Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& schemas,
-                                     const CommonOptions& options, Stage stage) {
+                                     const CommonOptions& options, Stage stage,
+                                     const Overlay* overlay) {
   Progress progress(!options.quiet);
   progress.step("reading " + path);
   ReadOptions read;
   read.include_paths = options.include_paths;
+  read.overlay = overlay;
   auto deck = read_deck(path, schemas, read);
   if (!deck) return deck.error();
   auto loaded = std::make_unique<Loaded>();

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -63,9 +64,13 @@ struct Loaded {
   bool incomplete() const;
 };
 
+/// Contents that files are taken to have, by path; see ReadOptions::overlay.
+using Overlay = std::map<std::string, std::string>;
+
 /// Reads one deck. Error: the main file cannot be read, or is no deck. `schemas` must outlive it.
 Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& schemas,
-                                     const CommonOptions& options, Stage stage = Stage::interfaces);
+                                     const CommonOptions& options, Stage stage = Stage::interfaces,
+                                     const Overlay* overlay = nullptr);
 
 /// Loads the decks one after the other and calls `body`; returns the worst exit code. What cannot
 /// be read is reported and counts as exit_input; a missing include too, after `body` has run.
