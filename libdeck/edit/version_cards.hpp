@@ -1,0 +1,46 @@
+// Line by line: what a block's data lines become in another layout of the same keyword. Private to
+// the edit stage.
+#pragma once
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "deck/edit/rewrite.hpp"
+#include "deck/keyword/decode.hpp"
+
+namespace deck::detail {
+
+/// True if some card or cell of `schema` is in one of the versions only.
+bool layout_differs(const Schema& schema, int a, int b);
+/// Fields of a card in one version.
+std::vector<const Field*> fields_of(const CardSchema& card, int version);
+/// One name for a cell that was renamed between versions.
+std::string_view canonical_name(std::string_view field);
+/// The number a default text names ("0 (none)", "/DEFAULT/INTER/TYPE7, else 1"); 0 if it is words.
+double default_number(const Field& field);
+/// Only zeros, points and signs, or nothing.
+bool is_zero_text(std::string_view text);
+/// `text` right-aligned in columns first..last of `line`, which grows if it is too short.
+void put_cell(std::string& line, int first, int last, std::string_view text);
+
+/// Edits of whole lines, collected so that several at one place come out in order.
+class LineEdits {
+ public:
+  explicit LineEdits(const SourceSet& sources) : sources_(sources) {}
+  /// The line's text becomes `text`; only the bytes that differ are touched.
+  void change(const Line& line, const std::string& text, std::vector<TextEdit>& out) const;
+  /// Takes the line away with its line end.
+  void remove(const Line& line, std::vector<TextEdit>& out) const;
+  /// Puts a line behind the one that holds `anchor`, after those put there before.
+  void insert_after(Span anchor, const std::string& text);
+  /// The insertions, in file order.
+  void finish(std::vector<TextEdit>& out) const;
+
+ private:
+  const SourceSet& sources_;
+  std::map<std::pair<std::uint32_t, std::uint64_t>, std::string> inserted_;
+};
+
+}  // namespace deck::detail

@@ -1,0 +1,23 @@
+// Input versions: the blocks of a deck written again with the columns of another version of the
+// format. What the new version has no cell for is reported, never silently lost.
+#pragma once
+#include "deck/edit/rewrite.hpp"
+
+namespace deck {
+
+struct VersionOptions {
+  /// Drop values that the other version has no cell for. Without it such a value is a refusal.
+  bool allow_loss = false;
+};
+
+/// Changes the version number of every /BEGIN to `version` (110 … 2026) and every block whose
+/// layout differs between its own version and that one: cells that both have keep their text, cells
+/// that only the old one has are blanked, lines are inserted, removed and moved as the new layout
+/// asks. Comments stay where they are. Loss report: one `kept` per block that was changed;
+/// `dropped` for a value that is not at its default and has no cell any more (a refusal without
+/// allow_loss); `undecided`, always a refusal, where text stands in columns whose meaning differs
+/// and the schema does not tell what it was. Blocks that no schema describes in full are listed in
+/// the notes. Refused as a whole: unknown target, decks older than version 100 or without /BEGIN.
+Rewrite to_version(const EditContext& context, int version, const VersionOptions& options = {});
+
+}  // namespace deck
