@@ -1,0 +1,100 @@
+// Decks in memory with everything the conversions read, and what comes out of them.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "deck/edit/rewrite.hpp"
+#include "deck/model/interfaces.hpp"
+
+namespace deck::edit_test {
+
+/// A deck read from disk or from texts by path, with model and interfaces. Stays where it is.
+struct Whole {
+  using Files = std::map<std::string, std::string>;
+
+  static std::unique_ptr<Whole> read(const std::string& path, Files files = {}) {
+    auto whole = std::make_unique<Whole>();
+    whole->files = std::move(files);
+    ReadOptions options;
+    options.overlay = &whole->files;
+    auto deck = read_deck(path, SchemaSet::built_in(), options);
+    EXPECT_TRUE(deck.ok()) << (deck.ok() ? "" : deck.error().message);
+    if (!deck) return whole;
+    whole->deck = std::move(*deck);
+    whole->model = build_model(whole->deck, SchemaSet::built_in(), whole->diagnostics);
+    whole->interfaces = read_interfaces(whole->deck, whole->model, whole->diagnostics);
+    return whole;
+  }
+  static std::unique_ptr<Whole> text(const std::string& main) {
+    return read("memory_0000.rad", {{"memory_0000.rad", main}});
+  }
+
+  EditContext context() const { return {deck, model, interfaces, SchemaSet::built_in()}; }
+
+  /// The deck after a rewrite.
+  std::unique_ptr<Whole> after(const Rewrite& rewrite) const {
+    EXPECT_TRUE(rewrite.refusals.empty())
+        << (rewrite.refusals.empty() ? "" : rewrite.refusals.front());
+    auto changed = apply_rewrite(deck.sources, rewrite);
+    EXPECT_TRUE(changed.ok()) << (changed.ok() ? "" : changed.error().message);
+    Files now = files;
+    if (changed)
+      for (auto& [path, content] : *changed) now[path] = content;
+    return read(deck.sources[0].path(), std::move(now));
+  }
+  std::string main_text() const { return std::string(deck.sources[0].bytes()); }
+  bool contains(const std::string& text) const {
+    return main_text().find(text) != std::string::npos;
+  }
+
+  Files files;
+  Deck deck;
+  Diagnostics diagnostics;
+  Model model;
+  Interfaces interfaces;
+};
+
+/// (keyword, id, field, value) of every real cell, bulk blocks included, in deck order.
+using RealValue = std::tuple<std::string, std::int64_t, std::string, double>;
+inline std::vector<RealValue> real_values(const Deck& deck) {
+  std::vector<RealValue> all;
+  for (const Block& b : deck.blocks) {
+    if (b.schema == nullptr) continue;
+    for (const DecodedCard& card : decode(deck, b).cards)
+      for (const Cell& cell : card.cells)
+        if (cell.field->type == FieldType::real)
+          all.emplace_back(std::string(b.keyword), b.id.value, cell.field->name, cell.real);
+  }
+  return all;
+}
+
+inline const Block* block(const Deck& deck, std::string_view header) {
+  for (const Block& b : deck.blocks)
+    if (b.header == header) return &b;
+  ADD_FAILURE() << "no block " << header;
+  return nullptr;
+}
+inline double real(const Whole& w, std::string_view header, std::string_view field) {
+  const Block* b = block(w.deck, header);
+  return b == nullptr ? 0 : decode(w.deck, *b).real(field);
+}
+
+/// Where the real decks are; empty: not here.
+inline std::string corpus(const std::string& file) {
+  const char* env = std::getenv("DECK_CORPUS");
+  const std::filesystem::path root = env != nullptr
+                                         ? std::filesystem::path(env)
+                                         : std::filesystem::path(DECK_SOURCE_DIR) / ".." / "shared";
+  for (const auto& path : {root / "corpus" / file, root / file})
+    if (std::filesystem::exists(path)) return path.string();
+  return {};
+}
+
+}  // namespace deck::edit_test

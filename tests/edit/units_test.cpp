@@ -1,0 +1,439 @@
+// Unit conversion: the same model in other units, and back.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <random>
+
+#include "../contact/small_deck.hpp"
+#include "deck/edit/unit_system.hpp"
+#include "deck/text/number.hpp"
+#include "edit/unit_system_decimal.hpp"
+#include "edit/units_support.hpp"
+
+namespace deck {
+namespace {
+
+using edit_test::real;
+using edit_test::Whole;
+
+UnitSystem units(const char* text) {
+  auto u = parse_unit_system(text);
+  EXPECT_TRUE(u.ok()) << text;
+  return *u;
+}
+
+Rewrite convert(const Whole& w, const char* target, const UnitsOptions& options = {}) {
+  return to_units(w.context(), units(target), options);
+}
+
+std::string deck_of(
+    const std::string& body, const std::string& version = "2024",
+    const std::string& work = "                  kg                  mm                  ms\n") {
+  return "#RADIOSS STARTER\n/BEGIN\nrun\n" + std::string(10 - version.size(), ' ') + version +
+         "         0\n                  kg                  mm                  ms\n" + work +
+         body + "/END\n";
+}
+
+// ---- one number ---------------------------------------------------------------------------------
+
+detail::UnitFactor ten_to(int power) {
+  detail::UnitFactor f;
+  f.power = power;
+  f.value = std::pow(10.0L, power);
+  return f;
+}
+
+TEST(ScaledNumber, PowerOfTenKeepsEveryDigit) {
+  const auto s = detail::scale_text("  123.4567890123456 ", 20, ten_to(-3));
+  ASSERT_TRUE(s);
+  EXPECT_EQ(s->text, "0.1234567890123456");
+  EXPECT_TRUE(s->exact);
+}
+
+TEST(ScaledNumber, ReadsEverySpellingOfADeck) {
+  for (const char* text : {"1.5-3", "1.5e-3", "1.5D-03", "+.0015", "15.0E-4", "0.0015"}) {
+    const auto s = detail::scale_text(text, 20, ten_to(3));
+    ASSERT_TRUE(s) << text;
+    EXPECT_EQ(s->text, "1.5") << text;
+  }
+}
+
+TEST(ScaledNumber, RefusesWhatIsNoNumber) {
+  for (const char* text : {"", "abc", "1.5x", "nan", "inf", "1e400", "&gap", "--1", "1 2"})
+    EXPECT_FALSE(detail::scale_text(text, 20, ten_to(3))) << text;
+}
+
+TEST(ScaledNumber, SaysWhenDigitsAreLost) {
+  const auto s = detail::scale_text("-1.234567890123456", 10, ten_to(-3));
+  ASSERT_TRUE(s);
+  EXPECT_LE(s->text.size(), 10u);
+  EXPECT_FALSE(s->exact);
+}
+
+TEST(ScaledNumber, DecimalInchesComeBackAsWritten) {
+  detail::UnitFactor inch;
+  inch.value = 0.0254L;
+  std::mt19937 random(5);
+  for (int i = 0; i < 20000; ++i) {
+    std::string text = std::to_string(static_cast<int>(random() % 2000000) - 1000000) + "." +
+                       std::to_string(random() % 100000);
+    const auto there = detail::scale_text(text, 20, inch);
+    ASSERT_TRUE(there) << text;
+    const auto back = detail::scale_text(there->text, 20, inch.inverse());
+    ASSERT_TRUE(back) << text;
+    EXPECT_EQ(read_real(back->text).value, read_real(text).value) << text << " " << there->text;
+    EXPECT_TRUE(there->exact) << text;
+  }
+}
+
+TEST(ScaledNumber, ExactMeansThereAndBack) {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 20000; ++i) {
+    const double value =
+        std::ldexp(static_cast<double>(random() >> 11) + 1, static_cast<int>(random() % 120) - 110);
+    const auto text = format_real(value, 20);
+    ASSERT_TRUE(text);
+    const detail::UnitFactor f = ten_to(static_cast<int>(random() % 25) - 12);
+    const auto there = detail::scale_text(text->text, 20, f);
+    if (!there) continue;
+    const auto back = detail::scale_text(there->text, 20, f.inverse());
+    ASSERT_TRUE(back);
+    if (there->exact) {
+      EXPECT_EQ(read_real(back->text).value, read_real(text->text).value) << text->text;
+    }
+    EXPECT_NEAR(read_real(there->text).value / read_real(text->text).value,
+                static_cast<double>(f.value), 1e-13 * static_cast<double>(f.value));
+  }
+}
+
+// ---- the deck -----------------------------------------------------------------------------------
+
+TEST(UnitSystemText, IsThreeCodesOrFactors) {
+  EXPECT_EQ(units("Mg,mm,s").mass, 1000);
+  EXPECT_EQ(units("0.45359237, 0.0254 ,s").length, 0.0254);
+  for (const char* bad : {"", "kg", "kg,mm", "kg,mm,", "kg,kg,s", "kg,mm,ms,x", "0,mm,s", "-1,m,s"})
+    EXPECT_FALSE(parse_unit_system(bad).ok()) << bad;
+}
+
+TEST(ToUnits, ConvertsByTheDimensionOfEachField) {
+  const auto w = Whole::text(test::SmallDeck()
+                                 .node(1, 12.5, 0, 0)
+                                 .shell_part(1, 1.5)
+                                 .add("@/INTER/TYPE7/1 Istf=1 Stfac=100 Gapmin=2 Tstart=3 Stmin=4 "
+                                      "Ifric=1 C1=5 C2=6 Fric=0.3")
+                                 .text());
+  const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_EQ(after->model.nodes.x[0], 0.0125);
+  EXPECT_EQ(real(*after, "/PROP/SHELL/1", "Thick"), 0.0015);
+  EXPECT_DOUBLE_EQ(real(*after, "/MAT/ELAST/1", "E"), 200 * 1e-3 / 1e-3 / 1e-6);  // kg/(mm ms2)
+  EXPECT_DOUBLE_EQ(real(*after, "/MAT/ELAST/1", "Rho_I"), 1e-6 * 1e-3 / 1e-9);
+  EXPECT_DOUBLE_EQ(real(*after, "/INTER/TYPE7/1", "Stfac"), 100 * 1e-3 / 1e-6);
+  EXPECT_EQ(real(*after, "/INTER/TYPE7/1", "Gapmin"), 0.002);
+  EXPECT_EQ(real(*after, "/INTER/TYPE7/1", "Tstart"), 0.003);
+  EXPECT_EQ(real(*after, "/INTER/TYPE7/1", "Fric"), 0.3);
+  EXPECT_DOUBLE_EQ(real(*after, "/INTER/TYPE7/1", "C1"), 5 / (1e-3 / 1e-3 / 1e-6));
+  EXPECT_DOUBLE_EQ(real(*after, "/INTER/TYPE7/1", "C2"), 6.0 / (1e-3 / 1e-3));
+  EXPECT_EQ(after->deck.begin.input.mass, 1000);
+  EXPECT_EQ(after->deck.begin.working.length, 1);
+}
+
+TEST(ToUnits, StfacWithoutIstf1IsAPureFactor) {
+  const auto w = Whole::text(test::SmallDeck().add("@/INTER/TYPE7/1 Istf=4 Stfac=100").text());
+  const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_EQ(real(*after, "/INTER/TYPE7/1", "Stfac"), 100);
+}
+
+TEST(ToUnits, WorkingUnitsThatDifferStay) {
+  const auto w = Whole::text(
+      deck_of("/NODE\n         1                12.5                 0.0                 0.0\n",
+              "2024", "                  Mg                   m                   s\n"));
+  ASSERT_EQ(w->model.nodes.x[0], 0.0125);
+  const auto after = w->after(convert(*w, "g,m,s"));
+  EXPECT_EQ(after->model.nodes.x[0], 0.0125);
+  EXPECT_EQ(after->deck.begin.input.mass, 0.001);
+  EXPECT_EQ(after->deck.begin.working.mass, 1000);
+}
+
+TEST(ToUnits, KeepWorkingWritesTheWorkingLineThatBlankImplied) {
+  for (const std::string work : {"", "\n"}) {
+    const auto w = Whole::text(
+        deck_of("/NODE\n         1                12.5                 0.0                 0.0\n",
+                "2024", work));
+    const auto after = w->after(convert(*w, "Mg,m,s", {.partial = false, .keep_working = true}));
+    EXPECT_EQ(after->deck.begin.input.length, 1);
+    EXPECT_EQ(after->deck.begin.working.length, 0.001);
+    EXPECT_EQ(after->model.nodes.x[0], 12.5);
+    EXPECT_TRUE(after->contains("              0.0125"));
+  }
+}
+
+TEST(ToUnits, OldVersionsNameTheirUnitsInHeaders) {
+  const auto w = Whole::text(
+      "#RADIOSS STARTER\n/BEGIN\nrun\n        90         0\n/UNIT/LENGTH/mm\n/UNIT/MASS/kg\n"
+      "/UNIT/TIME/ms\n/NODE\n         1                12.5                 0.0\n/END\n");
+  const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_TRUE(after->contains("/UNIT/LENGTH/m\n/UNIT/MASS/Mg\n/UNIT/TIME/s\n"));
+  EXPECT_EQ(after->model.nodes.x[0], 0.0125);
+}
+
+TEST(ToUnits, BlocksWithTheirOwnUnitsKeepTheirCells) {
+  const auto w = Whole::text(
+      deck_of("/UNIT/7\nmetres\n                  kg                   m                   s\n"
+              "/NODE/7\n         1                12.5                 0.0                 0.0\n"
+              "/NODE\n         2                12.5                 0.0                 0.0\n"));
+  const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_EQ(after->model.nodes.x[0], 12.5);
+  EXPECT_EQ(after->model.nodes.x[1], 0.0125);
+  EXPECT_TRUE(after->contains(
+      "/NODE/7\n         1                12.5                 0.0                 0.0\n"));
+}
+
+TEST(ToUnits, SubmodelsWithTheirOwnBeginKeepTheirCells) {
+  const auto w = Whole::text(deck_of(
+      "//SUBMODEL/1\nsub\n\n/BEGIN\nsub\n      2024\n                  kg                   m"
+      "                   s\n                  kg                   m                   s\n/NODE\n"
+      "         1                12.5                 0.0                 0.0\n//ENDSUB\n/NODE\n"
+      "         2                12.5                 0.0                 0.0\n"));
+  ASSERT_EQ(w->model.nodes.x[0], 12500);
+  const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_EQ(after->model.nodes.x[0], 12.5);
+  EXPECT_EQ(after->model.nodes.x[1], 0.0125);
+}
+
+TEST(ToUnits, UnknownKeywordIsRefusedWithItsPlace) {
+  const auto w = Whole::text(deck_of("/NEWTHING/3\ntitle\n                 1.0\n"));
+  const Rewrite r = convert(*w, "Mg,m,s");
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_EQ(r.refusals[0].substr(0, 23), "memory_0000.rad:7:1: /N");
+  EXPECT_TRUE(r.edits.empty());
+}
+
+TEST(ToUnits, PartialLeavesTheUnknownAndSaysSo) {
+  const auto w = Whole::text(
+      deck_of("/NEWTHING/3\ntitle\n                 1.0\n/NODE\n"
+              "         1                12.5                 0.0                 0.0\n"));
+  const Rewrite r = convert(*w, "Mg,m,s", {.partial = true});
+  ASSERT_EQ(r.losses.size(), 1u);
+  EXPECT_EQ(r.losses[0].loss, Loss::undecided);
+  EXPECT_EQ(r.losses[0].keyword, "/NEWTHING");
+  EXPECT_EQ(r.losses[0].line, 7u);
+  const auto after = w->after(r);
+  EXPECT_EQ(after->model.nodes.x[0], 0.0125);
+  EXPECT_TRUE(after->contains("/NEWTHING/3\ntitle\n                 1.0\n"));
+}
+
+TEST(ToUnits, UndescribedZerosAreNoReasonToRefuse) {
+  const std::string card =
+      "/MAT/ELAST/1\nm\n               1e-06\n               200.0                 0.3\n";
+  EXPECT_TRUE(convert(*Whole::text(deck_of(card + "                 0.0         0\n\n")), "Mg,m,s")
+                  .refusals.empty());
+  EXPECT_EQ(
+      convert(*Whole::text(deck_of(card + "                 0.7\n")), "Mg,m,s").refusals.size(),
+      1u);
+}
+
+TEST(ToUnits, FieldOfUnknownDimensionIsRefusedUnlessZero) {
+  const auto spring = [](const std::string& a) {
+    return deck_of("/PROP/SPRING/1\ns\n                 1.0\n                10.0" +
+                   std::string(20, ' ') + std::string(20 - a.size(), ' ') + a + "\n");
+  };
+  EXPECT_TRUE(convert(*Whole::text(spring("0.0")), "Mg,m,s").refusals.empty());
+  const Rewrite r = convert(*Whole::text(spring("2.0")), "Mg,m,s");
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_NE(r.refusals[0].find(":10:41: /PROP/SPRING/1 A"), std::string::npos) << r.refusals[0];
+}
+
+TEST(ToUnits, DefaultThatIsOneUnitIsWrittenOut) {
+  const auto w = Whole::text(test::SmallDeck().add("@/INTER/TYPE7/1 Istf=1 Stfac=0").text());
+  const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_DOUBLE_EQ(real(*after, "/INTER/TYPE7/1", "Stfac"), 1e-3 / 1e-6);
+  // Bounds that no value reaches are no default with a unit.
+  EXPECT_EQ(real(*after, "/INTER/TYPE7/1", "Tstop"), 0);
+}
+
+TEST(ToUnits, StiffnessByDefaultBlockIsRefused) {
+  const auto w = Whole::text(test::SmallDeck()
+                                 .add("@/DEFAULT/INTER/TYPE7 Istf=1")
+                                 .add("@/INTER/TYPE7/1 Stfac=100")
+                                 .text());
+  const Rewrite r = convert(*w, "Mg,m,s");
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_NE(r.refusals[0].find("Stfac"), std::string::npos);
+  EXPECT_TRUE(convert(*w, "Mg,m,s", {.partial = false, .keep_working = true}).refusals.empty());
+}
+
+TEST(ToUnits, ParameterOfOneDimensionIsConvertedAtItsDefinition) {
+  const std::string body =
+      "/PARAMETER/GLOBAL/REAL/1\np\ngap                        2.5\n"
+      "/NODE\n         1                &gap               -&gap                 0.0\n";
+  const auto after =
+      Whole::text(deck_of(body))->after(convert(*Whole::text(deck_of(body)), "Mg,m,s"));
+  EXPECT_EQ(after->model.nodes.x[0], 0.0025);
+  EXPECT_EQ(after->model.nodes.y[0], -0.0025);
+  EXPECT_TRUE(after->contains("&gap"));
+}
+
+TEST(ToUnits, ParameterWithTwoMeaningsIsRefused) {
+  const std::string use =
+      "/NODE\n         1                  &a                 0.0                 0.0\n";
+  const std::string definition = "/PARAMETER/GLOBAL/REAL/1\np\na                          2.5\n";
+  for (const std::string other :
+       {"/SENSOR/TIME/1\ns\n                  &a\n",               // a time
+        "/PROP/SHELL/1\np\n\n                  &a\n         3\n",  // a pure number
+        "/PARAMETER/GLOBAL/REAL_EXPR/2\np\nb         a*2\n",       // an expression
+        "/UNKNOWN/1\n&a\n"}) {
+    const Rewrite r =
+        convert(*Whole::text(deck_of(definition + use + other)), "Mg,m,ms", {.partial = true});
+    bool found = false;
+    for (const LossEntry& e : r.losses) found |= e.loss == Loss::undecided && e.field == "X";
+    if (other.starts_with("/SENSOR")) {
+      EXPECT_TRUE(
+          convert(*Whole::text(deck_of(definition + use + other)), "kg,m,s").refusals.size() > 0);
+    }
+    EXPECT_TRUE(found) << other;
+  }
+}
+
+TEST(ToUnits, FreeFormatKeepsItsCommas) {
+  const auto w = Whole::text(deck_of("/NODE\n1,12.5,-3.0,4\n"));
+  const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_TRUE(after->contains("/NODE\n1,0.0125,-0.003,0.004\n")) << after->main_text();
+}
+
+TEST(ToUnits, CarriageReturnsTabsOfCommentsAndShortLinesStay) {
+  const auto w =
+      Whole::text(deck_of("/NODE\r\n# a\tcomment\r\n         1                12.5\r\n"
+                          "         2 1.5      \r\n"));
+  const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_TRUE(after->contains("# a\tcomment\r\n         1              0.0125\r\n"))
+      << after->main_text();
+  EXPECT_EQ(after->model.nodes.x[1], 0.0015);
+  EXPECT_EQ(after->main_text().find("\r\r"), std::string::npos);
+}
+
+TEST(ToUnits, FileIncludedInTwoUnitSystemsIsRefused) {
+  Whole::Files files{
+      {"main_0000.rad",
+       deck_of("#include part.inc\n//SUBMODEL/1\nsub\n       100\n/BEGIN\nsub\n      2024\n"
+               "                  kg                   m                   s\n"
+               "                  kg                   m                   s\n"
+               "#include part.inc\n//ENDSUB\n")},
+      {"part.inc", "/NODE\n         1                12.5                 0.0\n"}};
+  const auto w = Whole::read("main_0000.rad", files);
+  const Rewrite r = convert(*w, "Mg,m,s");
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_NE(r.refusals[0].find("part.inc"), std::string::npos);
+}
+
+TEST(ToUnits, IncludesAreChangedWhereTheyAre) {
+  Whole::Files files{{"main_0000.rad", deck_of("#include part.inc\n")},
+                     {"part.inc", "/NODE\n         1                12.5                 0.0\n"}};
+  const auto w = Whole::read("main_0000.rad", files);
+  const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_EQ(after->files.at("part.inc"),
+            "/NODE\n         1              0.0125                 0.0\n");
+  EXPECT_TRUE(after->contains("#include part.inc\n"));
+}
+
+TEST(ToUnits, DeckWithAnUnreadableIncludeIsRefused) {
+  const auto w = Whole::text(deck_of("#include nowhere.inc\n"));
+  const Rewrite r = convert(*w, "Mg,m,s", {.partial = true});
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_EQ(r.refusals[0].substr(0, 20), "memory_0000.rad:7:1:");
+}
+
+TEST(ToUnits, SameUnitsChangeNothing) {
+  const auto w = Whole::text(test::SmallDeck().node(1, 12.5, 0, 0).text());
+  EXPECT_TRUE(convert(*w, "kg,mm,ms").edits.empty());
+}
+
+TEST(ToUnits, DeckWithoutUnitsIsRefused) {
+  EXPECT_FALSE(convert(*Whole::text("/NODE\n         1\n/END\n"), "Mg,m,s").refusals.empty());
+  EXPECT_FALSE(
+      convert(*Whole::text("/BEGIN\nr\n      2024\n\n\n/END\n"), "Mg,m,s").refusals.empty());
+}
+
+// ---- properties ---------------------------------------------------------------------------------
+
+/// Random small models: whatever the numbers look like, there and back gives the same values.
+TEST(ToUnits, ThereAndBackIsTheIdentityOnValues) {
+  std::mt19937_64 random(11);
+  const char* const targets[] = {"Mg,mm,s", "kg,m,s", "g,mm,ms", "kg,cm,us", "Gg,m,ks"};
+  std::uniform_real_distribution<double> coordinate(-2000, 2000), small(0.01, 3);
+  for (int round = 0; round < 40; ++round) {
+    test::SmallDeck small_deck;
+    for (int n = 1; n <= 20; ++n)
+      small_deck.node(n, coordinate(random), coordinate(random), coordinate(random));
+    small_deck.shell_part(1, small(random), small(random)).shell_part(2, small(random));
+    small_deck.add("@/INTER/TYPE7/1 Istf=1 Stfac=" + std::to_string(small(random)) + " Gapmin=" +
+                   std::to_string(small(random)) + " Ifric=2 C1=" + std::to_string(small(random)) +
+                   " C6=" + std::to_string(small(random)));
+    const auto w = Whole::text(small_deck.text());
+    const auto there = w->after(convert(*w, targets[round % 5]));
+    const auto back = there->after(convert(*there, "kg,mm,ms"));
+    EXPECT_EQ(edit_test::real_values(w->deck), edit_test::real_values(back->deck));
+    EXPECT_EQ(back->deck.begin.input, w->deck.begin.input);
+    EXPECT_EQ(back->deck.begin.working, w->deck.begin.working);
+  }
+}
+
+/// With the working units kept the solver computes with the same numbers.
+TEST(ToUnits, KeepWorkingLeavesTheSceneAsItIs) {
+  const auto small = [] {
+    test::SmallDeck d;
+    for (int i = 0; i < 4; ++i)
+      d.node(i + 1, i % 2 * 10.0, i / 2 * 10.0, 0.0).node(i + 5, i % 2 * 9.0, i / 2 * 9.0, 1.23);
+    return d.shell_part(1, 1.5)
+        .shell_part(2, 2.5)
+        .shell(1, 1, 1, 2, 4, 3)
+        .shell(2, 2, 5, 6, 8, 7)
+        .group("/SURF/PART/1", {1})
+        .group("/GRNOD/PART/2", {2})
+        .add("@/INTER/TYPE7/1 Igap=1 Istf=4 Inacti=5")
+        .text();
+  }();
+  const auto w = Whole::text(small);
+  const auto after = w->after(convert(*w, "Mg,m,s", {.partial = false, .keep_working = true}));
+  const test::Built a(w->main_text()), b(after->main_text());
+  const Contact &x = a.contact(), &y = b.contact();
+  ASSERT_EQ(x.main.size(), y.main.size());
+  ASSERT_EQ(x.secondary.size(), y.secondary.size());
+  ASSERT_GT(x.penetrations.size(), 0u);
+  ASSERT_EQ(x.penetrations.size(), y.penetrations.size());
+  EXPECT_NEAR(x.gapmin, y.gapmin, 1e-14 * x.gapmin);
+  for (std::size_t i = 0; i < x.main.size(); ++i) {
+    EXPECT_EQ(x.main[i].nodes, y.main[i].nodes);
+    EXPECT_NEAR(x.main[i].stiffness, y.main[i].stiffness, 1e-14 * x.main[i].stiffness);
+  }
+  for (std::size_t i = 0; i < x.penetrations.size(); ++i)
+    EXPECT_NEAR(x.penetrations[i].depth, y.penetrations[i].depth, 1e-13);
+}
+
+TEST(ToUnits, DummyOfFourMegabytesInWellUnderASecond) {
+  const std::string path = edit_test::corpus("EuroSID_II/EuroSID_II_0000.rad");
+  if (path.empty()) GTEST_SKIP() << "no real decks here";
+  const auto w = Whole::read(path);
+  const auto start = std::chrono::steady_clock::now();
+  const Rewrite r = convert(*w, "kg,m,s", {.partial = true});
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  RecordProperty("milliseconds", static_cast<int>(seconds * 1000));
+  EXPECT_LT(seconds, 5) << "0.1 s on an idle machine";
+  ASSERT_TRUE(r.refusals.empty());
+  const auto there = w->after(r);
+  const std::string from = w->deck.begin.input.mass_code + "," + w->deck.begin.input.length_code +
+                           "," + w->deck.begin.input.time_code;
+  const auto back = there->after(convert(*there, from.c_str(), {.partial = true}));
+  const auto a = edit_test::real_values(w->deck), b = edit_test::real_values(back->deck);
+  ASSERT_EQ(a.size(), b.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) different += a[i] == b[i] ? 0 : 1;
+  EXPECT_EQ(different, 0u);
+  std::size_t lost = 0;
+  for (const LossEntry& e : r.losses) lost += e.loss == Loss::approximated ? 1 : 0;
+  EXPECT_EQ(lost, 0u);
+}
+
+}  // namespace
+}  // namespace deck
