@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "cycle/adapter_parts.hpp"
 #include "deck/keyword/decode.hpp"
 
 namespace deck::cycle {
@@ -99,7 +100,10 @@ void take_common_fields(const Scene& scene, const Inter& i, Model model, const C
   c.dtmin = i.dtmin.value;
   c.ibc = release_bits(i.IBC.value);
   c.idel = flag(i.Idel);
-  c.fric_id = i.fric_ID.value != 0 && scene.interfaces->friction(i.fric_ID.value) != nullptr;
+  const Friction* friction =
+      i.fric_ID.value != 0 ? scene.interfaces->friction(i.fric_ID.value) : nullptr;
+  c.fric_id = friction != nullptr;
+  c.fric_orthotropic = friction != nullptr && contact.type != 11 && detail::orthotropic(*friction);
 }
 
 void take_card(const Scene& scene, const InterType7& i, Model m, const Contact& contact,

@@ -5,10 +5,9 @@
 #include <map>
 
 #include "contact/scene_parts.hpp"
+#include "cycle/adapter_parts.hpp"
 #include "deck/cycle/adapter.hpp"
 #include "deck/cycle/kernel.hpp"
-#include "deck/keyword/decode.hpp"
-#include "deck/model/selection.hpp"
 
 namespace deck::cycle {
 namespace {
@@ -140,30 +139,6 @@ void edge_values(const Contact& contact, const ContactCard& card, Model model, C
   }
 }
 
-/// Area of each secondary node: its share of the shells around it, 0 where there are none.
-void areas(const Scene& scene, const Contact& contact, ContactPairs& out) {
-  Connectivity connectivity(*scene.model);
-  const Coordinates& x = scene.coordinates;
-  std::vector<double> area(contact.secondary.size(), -1.0);
-  for (const CandidatePair& p : out.at) {
-    double& a = area[p.secondary];
-    if (a < 0.0) {
-      a = 0.0;
-      const NodeIndex node = contact.secondary[p.secondary].node;
-      for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
-        for (const std::uint32_t e : connectivity.elements(kind, node)) {
-          const NodeIndex* n = scene.model->family(kind).of(e);
-          const bool quad = kind == ElementKind::shell4;
-          const Vec d = quad ? cross(at(x, n[2]) - at(x, n[0]), at(x, n[3]) - at(x, n[1]))
-                             : cross(at(x, n[1]) - at(x, n[0]), at(x, n[2]) - at(x, n[0]));
-          a += std::sqrt(dot(d, d)) / (quad ? 8.0 : 6.0);
-        }
-      }
-    }
-    out.area.push_back(a);
-  }
-}
-
 /// Nodal normals of the main side: sums of facet normals, weighted with area (Icurv 3) or not.
 void normals(const Scene& scene, const Contact& contact, bool weighted, ContactPairs& out) {
   std::map<NodeIndex, Vec> sum;
@@ -182,77 +157,6 @@ void normals(const Scene& scene, const Contact& contact, bool weighted, ContactP
       out.normal[c][1].push_back(n.y);
       out.normal[c][2].push_back(n.z);
     }
-  }
-}
-
-/// The part an element of a carrier belongs to.
-std::uint32_t part_of(const deck::Model& model, Carrier carrier, std::uint32_t element) {
-  if (element == no_index) return no_index;
-  switch (carrier) {
-    case Carrier::solid:
-      return model.solid8.part[element];
-    case Carrier::shell4:
-      return model.shell4.part[element];
-    case Carrier::shell3:
-      return model.shell3.part[element];
-    default:
-      return no_index;
-  }
-}
-
-/// The part a node counts for: that of its first shell, then solid, beam, truss, spring.
-std::uint32_t part_at(const deck::Model& model, Connectivity& connectivity, NodeIndex node) {
-  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
-                                 ElementKind::beam, ElementKind::truss, ElementKind::spring}) {
-    const auto list = connectivity.elements(kind, node);
-    if (!list.empty()) return model.family(kind).part[list[0]];
-  }
-  return no_index;
-}
-
-/// /FRICTION by pairs of parts: which entry, by (smaller, larger) part index.
-std::map<std::pair<std::uint32_t, std::uint32_t>, const FrictionPair*> part_pairs(
-    const deck::Model& model, const Friction& friction) {
-  const auto parts = [&](std::int64_t group, std::int64_t part) {
-    std::vector<std::uint32_t> list;
-    if (group != 0 && model.selections != nullptr)
-      if (const auto* members = model.selections->part_group(group)) list = *members;
-    if (const auto it = model.part_of_id.find(part); part != 0 && it != model.part_of_id.end())
-      list.push_back(it->second);
-    return list;
-  };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, const FrictionPair*> table;
-  for (const FrictionPair& pair : friction.pairs) {
-    const auto second = parts(pair.grpart_ID2, pair.part_ID2);
-    for (const std::uint32_t a : parts(pair.grpart_ID1, pair.part_ID1))
-      for (const std::uint32_t b : second) table.emplace(std::minmax(a, b), &pair);
-  }
-  return table;
-}
-
-void pair_friction(const Scene& scene, const Contact& contact, Model model, ContactPairs& out) {
-  std::int64_t id = 0;
-  visit_interface(*contact.inter, [&](const auto& i) {
-    if constexpr (requires { i.fric_ID; }) id = i.fric_ID.value;
-  });
-  const Friction* friction = scene.interfaces->friction(id);
-  if (friction == nullptr) return;
-  const auto table = part_pairs(*scene.model, *friction);
-  Connectivity connectivity(*scene.model);
-  std::vector<std::uint32_t> node_part(contact.secondary.size(), no_index - 1);
-  for (const CandidatePair& p : out.at) {
-    std::uint32_t& s = node_part[p.secondary];
-    if (s == no_index - 1)
-      s = part_at(*scene.model, connectivity, contact.secondary[p.secondary].node);
-    const MainSegment& seg = contact.main[p.main];
-    const std::uint32_t m = part_of(*scene.model, seg.carrier, seg.element);
-    const auto it = table.find(std::minmax(s, m));
-    const FrictionValues& v = it == table.end() ? friction->values : it->second->values;
-    const double visf = v.VISF == 0.0 ? 1.0 : v.VISF;
-    out.fric.push_back(v.Fric);
-    // The reference solver does not square the factor of /FRICTION.
-    out.visf2.push_back(model == Model::reference ? visf : visf * visf);
-    for (std::size_t k = 0; k < 6; ++k) out.c[k].push_back(v.C[k]);
   }
 }
 
@@ -275,12 +179,14 @@ ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const 
   remove_pairs(scene, contact, out.at);
   if (card.kind == ContactKind::edge_edge) {
     edge_values(contact, card, model, out);
+    if (card.ithe > 0) detail::edge_widths(contact, out);
+    if (card.fric_id) detail::pair_friction(scene, contact, model, out);
     return out;
   }
   node_values(contact, card, model, out);
-  if (card.ithe > 0) areas(scene, contact, out);
+  if (card.ithe > 0) detail::node_areas(scene, contact, out);
   if (card.icurv == 3 || card.iadm != 0) normals(scene, contact, card.icurv == 3, out);
-  if (card.fric_id) pair_friction(scene, contact, model, out);
+  if (card.fric_id) detail::pair_friction(scene, contact, model, out);
   return out;
 }
 

@@ -51,7 +51,7 @@ NodeSum sum_node(const KernelPlan& plan, const Incidence& incidence, const Packe
     if (role < secondary_roles) s.secondary |= r.status[pair];
     if (!heated) continue;
     s.heat += r.heat[role][pair];
-    if (role == 0 || plan.card.ithe_form == 1)
+    if (role < secondary_roles || plan.card.ithe_form == 1)
       s.conductance += std::abs(share) * r.conductance[pair];
   }
   return s;

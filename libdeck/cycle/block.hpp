@@ -84,6 +84,8 @@ void apply_time_step_tie(const KernelPlan& plan, const PacketView& view, std::si
                          std::size_t end, PacketResult& out);
 void apply_heat(const KernelPlan& plan, const PacketView& view, std::size_t begin, std::size_t end,
                 PacketResult& out);
+void apply_edge_heat(const KernelPlan& plan, const PacketView& view, std::size_t begin,
+                     std::size_t end, PacketResult& out);
 void apply_criteria(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                     std::size_t end, PacketResult& out);
 

@@ -111,6 +111,8 @@ void evaluate_range(const KernelPlan& plan, const PacketView& view, const Packet
 void evaluate_rest(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                    std::size_t end, PacketResult& out) {
   const ContactCard& card = plan.card;
+  if (card.kind == ContactKind::edge_edge && card.ithe > 0)
+    detail::apply_edge_heat(plan, view, begin, end, out);
   if (card.kind != ContactKind::node_segment) return;
   if (card.itied != 0) detail::apply_time_step_tie(plan, view, begin, end, out);
   if (card.ithe > 0) detail::apply_heat(plan, view, begin, end, out);
@@ -137,6 +139,8 @@ class PaddedView {
     pad(view_.ft_old, n);
     pad(view_.tie, n);
     pad(view_.temperature, n);
+    pad(view_.edge_width, n);
+    pad(view_.edge_conductivity, n);
     pad(view_.c, n);
     pad(view_.ortho_mu, n);
     pad(view_.ortho_direction, n);
@@ -223,7 +227,8 @@ Field missing_fields(const KernelPlan& plan, const PacketView& view) {
   check(Field::friction_memory, present(view.ft_old));
   const std::size_t tie = plan.card.kind == ContactKind::tied ? 6 : 8;
   check(Field::tie_record, present(view.tie, 0, tie));
-  check(Field::temperature, present(view.temperature));
+  check(Field::temperature, present(view.temperature, 0, roles));
+  check(Field::contact_area, present(view.edge_width));
   check(Field::pair_friction,
         !plan.card.fric_orthotropic || (present(view.ortho_mu) && present(view.ortho_direction)));
   check(Field::nodal_normals, std::all_of(view.normal.begin(), view.normal.end(),

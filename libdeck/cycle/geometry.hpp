@@ -131,6 +131,22 @@ void remove_alternating(std::array<V, 4>& h) {
   h[3] = h[3] - shift;
 }
 
+/// Makes weights add up to 1 within half a rounding error: the largest takes what the others leave.
+template <class V>
+void close_sum(std::array<V, 4>& h) {
+  const V largest = max(max(h[0], h[1]), max(h[2], h[3]));
+  auto open = largest > V::fill(0.0);  // weights that are all 0 stay so
+  std::array<V, 4> rest;
+  for (std::size_t k = 0; k < 4; ++k) {
+    rest[k] = 1.0 - ((h[(k + 1) % 4] + h[(k + 2) % 4]) + h[(k + 3) % 4]);
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto take = open & (h[k] == largest);
+    h[k] = select(take, rest[k], h[k]);
+    open = open & ~take;
+  }
+}
+
 template <class V, Model M>
 void node_triangle_pack(const Constants& k, const PacketView& view, std::size_t i, std::size_t s,
                         GeometryBlock& g) {
@@ -212,6 +228,7 @@ void node_segment_reference(const Constants& k, const PacketView& view, std::siz
   for (auto& h : raw) h = scale * h;
   std::array<V, 4> weight = raw;
   remove_alternating(weight);
+  close_sum(weight);  // below what the records show; the parts of a force add up to it
   const std::array<V, 4> tri{b[0], c[0], 1.0 - b[0] - c[0], zero};
   for (std::size_t q = 0; q < 4; ++q) {
     raw[q] = select(triangle, tri[q], raw[q]);
@@ -219,22 +236,6 @@ void node_segment_reference(const Constants& k, const PacketView& view, std::siz
   }
   store_geometry(g, s, max(zero, deepest + (gap - far)), d, select(deepest > zero, one, zero), n,
                  raw, weight);
-}
-
-/// Makes weights add up to 1 within half a rounding error: the largest takes what the others leave.
-template <class V>
-void close_sum(std::array<V, 4>& h) {
-  const V largest = max(max(h[0], h[1]), max(h[2], h[3]));
-  auto open = V::fill(0.0) == V::fill(0.0);
-  std::array<V, 4> rest;
-  for (std::size_t k = 0; k < 4; ++k) {
-    rest[k] = 1.0 - ((h[(k + 1) % 4] + h[(k + 2) % 4]) + h[(k + 3) % 4]);
-  }
-  for (std::size_t k = 0; k < 4; ++k) {
-    const auto take = open & (h[k] == largest);
-    h[k] = select(take, rest[k], h[k]);
-    open = open & ~take;
-  }
 }
 
 template <class V>

@@ -27,10 +27,11 @@ Plane plane_of(const HeatState& s) {
 }
 
 /// Heat exchange coefficient of the contact: Kthe, or Kthe times a function of the pressure.
-double exchange(const ContactCard& card, double normal_force, double area) {
+double exchange(const ContactCard& card, double normal_force, double area, bool unsigned_force) {
   if (!card.fct_idk) return card.kthe != 0.0 ? card.kthe : 1e-30;
   const double scale = card.kthe != 0.0 ? card.kthe : 1.0;
-  const double pressure = area > 0.0 ? card.ascalek * std::abs(normal_force) / area : 0.0;
+  const double force = unsigned_force ? std::abs(normal_force) : normal_force;
+  const double pressure = area > 0.0 ? card.ascalek * force / area : 0.0;
   return scale * std::max(1e-30, (*card.fct_idk)(pressure));
 }
 
@@ -54,7 +55,7 @@ HeatFlow pair_heat(const ContactCard& card, const HeatState& s, Model model) {
     h = card.frad * (tm * tm + ts * ts) * (tm + ts);
     flow.conductance = model == Model::robust ? area * h * card.thermal_speed_up : 0.0;
   } else {
-    h = exchange(card, s.normal_force, area);
+    h = exchange(card, s.normal_force, area, true);
     if (!both && s.conductivity > 0.0) {
       // The reference counts the gap as a resistance only on one side of the segment.
       const double width = model == Model::robust ? away : std::max(plane.distance, 0.0);
@@ -73,7 +74,76 @@ HeatFlow pair_heat(const ContactCard& card, const HeatState& s, Model model) {
   return flow;
 }
 
+double edge_contact_area(const ContactCard& card, const EdgeHeatState& s) {
+  const Vec es = detail::of(s.position[1]) - detail::of(s.position[0]);
+  const Vec em = detail::of(s.position[3]) - detail::of(s.position[2]);
+  const double ls = norm(es), lm = norm(em);
+  if (card.ithe_form != 1) return ls * s.width[0];
+  const double both = ls * lm;
+  const double sine = both > 0.0 ? norm(cross(es, em)) / both : 0.0;
+  return std::min(std::min(ls, lm) * std::min(s.width[0], s.width[1]),
+                  s.width[0] * s.width[1] / std::max(1e-30, sine));
+}
+
+HeatFlow pair_heat(const ContactCard& card, const EdgeHeatState& s, Model model) {
+  HeatFlow flow;
+  const bool both = card.ithe_form == 1, robust = model == Model::robust;
+  const auto mean = [&](const std::array<double, 4>& v, std::size_t first) {
+    return s.weight[first] * v[first] + s.weight[first + 1] * v[first + 1];
+  };
+  const double ts = mean(s.temperature, 0);
+  const double tm = both ? mean(s.temperature, 2) : card.tint;
+  const double area = edge_contact_area(card, s);
+  const double beyond = s.distance - s.gap;
+  double h = 0.0;
+  if (beyond > 0.0) {
+    const bool near = robust ? s.distance <= card.drad : beyond <= card.drad;
+    if (card.frad == 0.0 || !near) return flow;
+    h = card.frad * (tm * tm + ts * ts) * (tm + ts);
+    flow.conductance = robust ? area * h * card.thermal_speed_up : 0.0;
+  } else {
+    h = exchange(card, s.normal_force, area, robust);
+    const double width = robust ? s.distance : std::max(beyond + s.effective_gap, 0.0);
+    double conductivity = mean(s.conductivity, 0);
+    if (both) conductivity = 0.5 * (conductivity + mean(s.conductivity, 2));
+    if (conductivity > 0.0) {
+      h = 1.0 / (width / conductivity + 1.0 / h);
+    } else if (!robust && width > 0.0) {
+      return flow;
+    }
+    flow.conductance = area * h * card.thermal_speed_up;
+  }
+  const double q = area * (tm - ts) * (s.dt1 * card.thermal_speed_up) * h;
+  for (std::size_t r = 0; r < 2; ++r) {
+    flow.q[r] = s.weight[r] * q;
+    if (both) flow.q[r + 2] = -(s.weight[r + 2] * q);
+  }
+  return flow;
+}
+
 namespace detail {
+
+void apply_edge_heat(const KernelPlan& plan, const PacketView& view, std::size_t begin,
+                     std::size_t end, PacketResult& out) {
+  for (std::size_t i = begin; i < end; ++i) {
+    EdgeHeatState s;
+    for (std::size_t r = 0; r < 4; ++r) {
+      for (std::size_t c = 0; c < 3; ++c) s.position[r][c] = view.position[r][c][i];
+      s.temperature[r] = view.temperature[r][i];
+      s.weight[r] = out.weights[r][i];
+      if (view.edge_conductivity[r] != nullptr) s.conductivity[r] = view.edge_conductivity[r][i];
+    }
+    s.width = {view.edge_width[0][i], view.edge_width[1][i]};
+    s.normal_force = out.normal_force[i];
+    s.distance = out.distance[i];
+    s.gap = view.gap[i];
+    s.effective_gap = out.effective_gap[i];
+    s.dt1 = view.dt1;
+    const HeatFlow flow = pair_heat(plan.card, s, plan.model);
+    for (std::size_t r = 0; r < 5; ++r) out.heat[r][i] = flow.q[r];
+    out.conductance[i] = flow.conductance;
+  }
+}
 
 void apply_heat(const KernelPlan& plan, const PacketView& view, std::size_t begin, std::size_t end,
                 PacketResult& out) {

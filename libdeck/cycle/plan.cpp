@@ -10,7 +10,7 @@ namespace {
 
 bool has_friction(const ContactCard& card) {
   if (card.kind == ContactKind::tied) return false;
-  if (card.kind == ContactKind::edge_edge) return card.fric != 0.0;
+  if (card.kind == ContactKind::edge_edge) return card.fric != 0.0 || card.fric_id;
   return card.fric != 0.0 || card.ifric != 0 || card.fric_id || (card.ithe && card.fct_idf);
 }
 
@@ -85,16 +85,20 @@ void account_friction(const ContactCard& card, Account& out) {
 }
 
 void account_rest(const ContactCard& card, Account& out) {
-  const bool heat = card.ithe > 0 && node_segment(card);
+  const bool heat = card.ithe > 0 && card.kind != ContactKind::tied;
   const std::string ithe = number("Ithe", card.ithe);
   out.row("heat-conduction", heat && (card.kthe != 0.0 || card.fct_idk), heat ? "Kthe" : "Ithe",
           heat ? number("Kthe", card.kthe) : ithe);
   out.row("radiation", heat && card.frad != 0.0 && card.drad > 0.0,
           heat ? (card.frad != 0.0 ? "Drad" : "Frad") : "Ithe",
           heat ? (card.frad != 0.0 ? number("Drad", card.drad) : "Frad = 0") : ithe);
-  const bool rub_heat = heat && (card.fheats != 0.0 || card.fheatm != 0.0) && has_friction(card);
+  const bool rub_heat = heat && node_segment(card) && (card.fheats != 0.0 || card.fheatm != 0.0) &&
+                        has_friction(card);
   out.row("friction-heat", rub_heat, heat ? "Fheats" : "Ithe",
-          heat ? number("Fheats", card.fheats) + ", " + number("Fheatm", card.fheatm) : ithe);
+          heat ? (node_segment(card)
+                      ? number("Fheats", card.fheats) + ", " + number("Fheatm", card.fheatm)
+                      : std::string("no friction heat between edges"))
+               : ithe);
   out.row("curvature", card.icurv != 0 && node_segment(card), "Icurv", number("Icurv", card.icurv));
   out.row("adaptivity-criteria", card.iadm != 0 && node_segment(card), "Iadm",
           number("Iadm", card.iadm));
@@ -123,10 +127,10 @@ EffectSet choose_effects(const ContactCard& card, const PlanOptions& options) {
   if (options.energies) set |= bit(Effect::elastic_energy);
   if (!rubs) return set;
   set |= bit(card.iform == 2 ? Effect::friction_incremental : Effect::friction_viscous);
+  if (card.fric_id) set |= bit(Effect::friction_pairs);
   if (card.kind == ContactKind::edge_edge) return set;
   if (card.ifric > 0) set |= bit(Effect::friction_law);
   if (card.ithe && card.fct_idf && !card.fric_id) set |= bit(Effect::friction_temperature);
-  if (card.fric_id) set |= bit(Effect::friction_pairs);
   if (card.fric_id && card.fric_orthotropic) set |= bit(Effect::friction_orthotropic);
   if (has_filter(card) && card.iform != 2) set |= bit(Effect::filter);
   return set;
@@ -171,6 +175,10 @@ void collect_fields(KernelPlan& plan) {
     plan.needs |= Field::tie_record | Field::velocity | Field::mass_secondary | Field::step_times;
     if (plan.model == Model::robust) plan.needs |= Field::mass_main;
     plan.writes |= Field::tie_record | Field::damping_energy;
+  }
+  if (card.kind == ContactKind::edge_edge && card.ithe > 0) {
+    plan.needs |= Field::temperature | Field::contact_area | Field::step_times;
+    plan.writes |= Field::heat;
   }
   if (!node_segment(card)) return;
   if (card.itied != 0) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "deck/cycle/sharing.hpp"
+
 namespace deck::cycle {
 namespace {
 
@@ -69,6 +71,13 @@ void attach(PacketView& view, const ContactPairs& pairs, const std::vector<doubl
   view.ft_old = {zero.data(), zero.data(), zero.data()};
   view.tie.fill(zero.data());
   view.area = data(pairs.area);
+  view.conductivity = data(pairs.conductivity);
+  for (std::size_t k = 0; k < 2; ++k) {
+    view.edge_width[k] = data(pairs.edge_width[k]);
+    view.ortho_mu[k] = data(pairs.ortho_mu[k]);
+    view.ortho_direction[k] = data(pairs.ortho_direction[k]);
+  }
+  for (std::size_t k = 0; k < 4; ++k) view.edge_conductivity[k] = data(pairs.edge_conductivity[k]);
   view.fric = data(pairs.fric);
   view.visf2 = data(pairs.visf2);
   for (std::size_t k = 0; k < 6; ++k) view.c[k] = data(pairs.c[k]);
@@ -201,10 +210,10 @@ void collect_nodes(const LocalNodes& nodes, const NodalSums& sums, ContactOutcom
 }
 
 void sum_heat(const PacketResult& r, ContactOutcome& out) {
-  for (std::size_t i = 0; i < r.size; ++i) {
-    out.heat_secondary += r.heat[0][i];
-    for (std::size_t k = 1; k < 5; ++k) out.heat_main += r.heat[k][i];
-  }
+  const std::size_t secondary = out.card.kind == ContactKind::edge_edge ? 2 : 1;
+  for (std::size_t i = 0; i < r.size; ++i)
+    for (std::size_t k = 0; k < 5; ++k)
+      (k < secondary ? out.heat_secondary : out.heat_main) += r.heat[k][i];
 }
 
 using NodeStiffness = std::vector<std::pair<NodeIndex, double>>;
@@ -224,17 +233,16 @@ void note_gaps(const Scene& scene, const State& state, ContactOutcome& out) {
     if constexpr (requires { i.fric_ID; }) id = i.fric_ID.value;
   });
   const Friction* friction = scene.interfaces->friction(id);
-  if (friction != nullptr && out.card.kind == ContactKind::edge_edge && !friction->pairs.empty())
-    out.notes.emplace_back("edges take the general coefficient of /FRICTION for every pair");
   const bool directed =
       friction != nullptr && std::any_of(friction->pairs.begin(), friction->pairs.end(),
                                          [](const FrictionPair& p) { return p.Idir == 1; });
-  if (directed && out.card.kind == ContactKind::node_segment)
+  if (out.card.fric_orthotropic)
+    out.notes.emplace_back(
+        "direction-dependent friction: directions are the segments' own, /FRIC_ORIENT is not read");
+  else if (directed)
     out.notes.emplace_back("direction-dependent friction: the values of direction 1 are used");
   if (out.card.ithe > 0 && !state.heated)
     out.notes.emplace_back("the deck gives no initial temperature: all are 0");
-  if (out.card.ithe > 0 && out.card.ithe_form == 0)
-    out.notes.emplace_back("conductivity of the secondary material is not taken into account");
 }
 
 /// Evaluates one contact; returns the stiffness it gives to its nodes.
@@ -256,6 +264,7 @@ NodeStiffness run_contact(const Scene& scene, const State& state, const CycleOpt
   if (!out.active) return {};
   ContactPairs pairs = make_pairs(scene, contact, out.card, options.model, options.threads);
   out.complete = pairs.complete;
+  if (out.card.ithe > 0) add_conductivity(scene, contact, state.temperature, pairs);
   out.pairs_in_reach = pairs.size();
   const double from_velocity = velocity_limit(contact, out.card, state);
   if (pairs.size() == 0) {
@@ -272,6 +281,8 @@ NodeStiffness run_contact(const Scene& scene, const State& state, const CycleOpt
   view.dt12 = options.dt12;
   PacketResult result;
   evaluate(plan, view, result, static_cast<unsigned>(std::max(1, options.threads)));
+  if (options.model == Model::robust && out.card.kind != ContactKind::tied && out.card.itied == 0)
+    apply_shares(pair_shares(pairs.nodes, result), result);
   out.totals = totals(plan, view, result);
   if (out.card.ithe > 0) sum_heat(result, out);
   collect_pairs(pairs, result, options, out);
@@ -373,7 +384,11 @@ std::vector<InterfaceSummary> summarize(const Scene& scene, const SceneOutcome& 
         s.largest_acceleration = c.largest_acceleration;
         s.acceleration_node = c.acceleration_node;
       }
-      s.contact_dt = std::min(s.contact_dt, c.step.dt);
+      if (c.step.dt < s.contact_dt) {
+        s.contact_dt = c.step.dt;
+        s.contact_dt_source = c.step.source;
+        s.contact_dt_node = c.step_node;
+      }
       s.gap_closed += c.gap_closed;
       s.near_singular += c.near_singular_count;
     }

@@ -63,4 +63,41 @@ std::optional<AffineMap> fixed_axes(const deck::Model& model, std::int64_t skew)
   return std::nullopt;
 }
 
+std::vector<Conductivity> conductivities(const deck::Model& model) {
+  std::vector<Conductivity> out(model.materials.size());
+  if (model.deck == nullptr) return out;
+  const Deck& deck = *model.deck;
+  CardSchema cards[2];
+  const auto cell = [](const char* name, int first, Dimension dimension) {
+    deck::Field f;
+    f.name = name;
+    f.first = first;
+    f.last = first + 19;
+    f.type = FieldType::real;
+    f.dimension = dimension;
+    return f;
+  };
+  const Dimension a{1, 1, -3, -1}, b{1, 1, -3, -2};
+  cards[0].fields = {cell("A", 41, a), cell("B", 61, b)};
+  cards[1].fields = {cell("T1", 1, {0, 0, 0, 1}), cell("A", 21, a), cell("B", 41, b)};
+  for (const Block& block : deck.blocks) {
+    if (!block.header.starts_with("/HEAT/MAT/") || block.opaque || !block.id.present) continue;
+    const auto it = model.material_of_id.find(block.id.value + deck.offset_of(block, "mat"));
+    if (it == model.material_of_id.end()) continue;
+    DecodedBlock d;
+    d.block = &block;
+    LineCursor lines(deck.sources, block);
+    for (const CardSchema& card : cards)
+      if (const Line line = lines.next(); line.valid())
+        d.cards.push_back(decode_line(deck, block, card, line, nullptr));
+    const auto value = [&](std::size_t card, std::size_t k) {
+      return d.cards.size() > card ? working_value(deck, d, d.cards[card].cells[k]) : 0.0;
+    };
+    const double melting = value(1, 0);
+    out[it->second] = {value(0, 0), value(0, 1), value(1, 1), value(1, 2),
+                       melting > 0.0 ? melting : 1e30};
+  }
+  return out;
+}
+
 }  // namespace deck::cycle::detail

@@ -11,6 +11,19 @@ namespace deck::cycle::detail {
 
 /// Density of the material of an element's part; 0 where there is none.
 double density_of(const deck::Model& model, ElementKind kind, std::uint32_t e);
+/// The part that an element of a contact carrier belongs to.
+std::uint32_t part_of(const deck::Model& model, Carrier carrier, std::uint32_t element);
+
+/// Conductivity of a material as its /HEAT/MAT gives it: A + B T, from T1 on that of the liquid.
+struct Conductivity {
+  double solid_a = 0.0, solid_b = 0.0, liquid_a = 0.0, liquid_b = 0.0, melting = 1e30;
+  double operator()(double t) const {
+    return t < melting ? solid_a + solid_b * t : liquid_a + liquid_b * t;
+  }
+};
+/// By material index, working units; zeros for materials without /HEAT/MAT.
+std::vector<Conductivity> conductivities(const deck::Model& model);
+
 /// Area of a shell (kind shell4 or shell3).
 double shell_area(const Coordinates& x, ElementKind kind, const NodeIndex* n);
 /// Volume from the eight slots; the one-point rule makes tetrahedra 1.5 times larger than they are.

@@ -64,8 +64,7 @@ TEST(Momentum, MainForcesOfAPairAddUpToTheSecondaryForce) {
       if (norm(p.f) != 0.0) worst = std::max(worst, norm(sum - p.f) / norm(p.f));
     }
     std::printf("action-reaction, worst residual: %.2f ulp\n", worst / ulp);
-    // The reference shifts its weights after normalising them: two more roundings.
-    EXPECT_LE(worst, (model == Model::robust ? 2.0 : 3.0) * ulp);
+    EXPECT_LE(worst, 2.0 * ulp);
   }
 }
 

@@ -44,6 +44,8 @@ struct Pair {
   std::array<double, 5> temperature{};
   double area = 0.0;
   double conductivity = 0.0;
+  std::array<double, 2> edge_width{};
+  std::array<double, 4> edge_conductivity{};
   double fric = 0.0;
   std::array<Vec, 4> normal{};
   std::array<double, 2> ortho_mu{0.3, 0.1};
@@ -68,7 +70,9 @@ class Packet {
         for (std::size_t k = 0; k < 4; ++k) n3_[k][c].push_back(p.normal[k][c]);
       }
       for (std::size_t k = 0; k < 8; ++k) tie_[k].push_back(p.tie[k]);
+      for (std::size_t k = 0; k < 4; ++k) edge_conductivity_[k].push_back(p.edge_conductivity[k]);
       for (std::size_t k = 0; k < 2; ++k) {
+        edge_width_[k].push_back(p.edge_width[k]);
         ortho_mu_[k].push_back(p.ortho_mu[k]);
         ortho_direction_[k].push_back(p.ortho_direction[k]);
       }
@@ -98,7 +102,9 @@ class Packet {
       w.ft_old[c] = ft_[c].data();
       for (std::size_t k = 0; k < 4; ++k) w.normal[k][c] = n3_[k][c].data();
     }
+    for (std::size_t k = 0; k < 4; ++k) w.edge_conductivity[k] = edge_conductivity_[k].data();
     for (std::size_t k = 0; k < 2; ++k) {
+      w.edge_width[k] = edge_width_[k].data();
       w.ortho_mu[k] = ortho_mu_[k].data();
       w.ortho_direction[k] = ortho_direction_[k].data();
     }
@@ -121,7 +127,8 @@ class Packet {
   Triple ft_;
   std::array<Triple, 4> n3_;
   std::array<std::vector<double>, 8> tie_;
-  std::array<std::vector<double>, 2> ortho_mu_, ortho_direction_;
+  std::array<std::vector<double>, 2> ortho_mu_, ortho_direction_, edge_width_;
+  std::array<std::vector<double>, 4> edge_conductivity_;
   std::vector<std::uint8_t> triangle_;
   std::vector<double> k0_, gap_, p0_, area_, conductivity_, fric_;
 };
@@ -197,6 +204,8 @@ inline std::vector<Pair> random_pairs(std::size_t n, unsigned seed, bool edges =
     p.ft = vec(500.0);
     p.area = 1.0 + 0.5 * u(rng);
     p.conductivity = 40.0;
+    p.edge_width = {0.8, 1.1};
+    p.edge_conductivity = {40.0, 45.0, 35.0, 30.0};
     p.fric = 0.3 + 0.2 * u(rng);
   }
   return pairs;

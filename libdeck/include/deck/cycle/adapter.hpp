@@ -37,10 +37,14 @@ struct ContactPairs {
   std::vector<double> k0;         ///< pair stiffness before the 1/2; 0: switched off at start-up
   std::vector<double> gap;
   std::vector<double> p0;    ///< Inacti 5, 6: residual penetration (edges: sum of both sides)
-  std::vector<double> area;  ///< with Ithe only
-  std::vector<double> fric, visf2;                           ///< with fric_ID only
-  std::array<std::vector<double>, 6> c;                      ///< with fric_ID only
-  std::array<std::array<std::vector<double>, 3>, 4> normal;  ///< with Icurv 3 and Iadm only
+  std::vector<double> area;  ///< with Ithe only; edges: edge_width instead
+  std::vector<double> conductivity;  ///< of add_conductivity; edges: edge_conductivity
+  std::array<std::vector<double>, 2> edge_width;
+  std::array<std::vector<double>, 4> edge_conductivity;
+  std::vector<double> fric, visf2;                               ///< with fric_ID only
+  std::array<std::vector<double>, 6> c;                          ///< with fric_ID only
+  std::array<std::vector<double>, 2> ortho_mu, ortho_direction;  ///< with orthotropic pairs only
+  std::array<std::array<std::vector<double>, 3>, 4> normal;      ///< with Icurv 3 and Iadm only
   bool complete = true;  ///< false: too many pairs, none was kept
   [[nodiscard]] std::size_t size() const { return at.size(); }
 };
@@ -50,6 +54,11 @@ struct ContactPairs {
 /// with nodal stiffness.
 [[nodiscard]] ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact,
                                       const ContactCard& card, Model model, int threads = 1);
+
+/// Adds the conductivity that /HEAT/MAT gives the material of the secondary node's shell, or of the
+/// elements that carry both edges, at temperatures given node by node; 0 where there is none.
+void add_conductivity(const Scene& scene, const deck::Contact& contact,
+                      const std::vector<double>& temperature, ContactPairs& pairs);
 
 }  // namespace deck::cycle
 

@@ -1,5 +1,5 @@
 // Heat of one contact pair in one cycle: conduction or radiation across the gap, and the share of
-// friction work that becomes heat.
+// friction work that becomes heat (node-segment pairs; none between edges).
 #ifndef DECK_CYCLE_HEAT_HPP_
 #define DECK_CYCLE_HEAT_HPP_
 
@@ -25,9 +25,36 @@ struct HeatState {
 };
 
 struct HeatFlow {
-  std::array<double, 5> q{};  ///< energy received by the secondary node and the four corners
+  std::array<double, 5> q{};  ///< energy received by each role, see PacketView
   double conductance = 0.0;   ///< A h; the reference reports none for radiation
 };
+
+/// State of an edge-edge pair; roles 0, 1 are the ends of the secondary edge, 2, 3 of the main
+/// edge.
+struct EdgeHeatState {
+  std::array<std::array<double, 3>, 4> position{};
+  std::array<double, 4> temperature{};
+  std::array<double, 4> weight{};        ///< h_s, 1 - h_s, h_m, 1 - h_m
+  std::array<double, 4> conductivity{};  ///< at each end; all 0: no extra resistance (robust)
+  std::array<double, 2> width{};         ///< of the secondary and the main edge
+  double normal_force = 0.0;             ///< signed, negative presses
+  double distance = 0.0;
+  double gap = 0.0;            ///< pair gap, before Inacti
+  double effective_gap = 0.0;  ///< after Inacti; in the reference nine tenths of it
+  double dt1 = 0.0;
+};
+
+/// Area that two edges share: the secondary edge's length times its width (Ithe_form 0); between
+/// both sides the smaller of shorter length times smaller width and of the rhombus of two strips
+/// that cross at their angle.
+[[nodiscard]] double edge_contact_area(const ContactCard& card, const EdgeHeatState& state);
+
+/// Heat between two edges: conduction within the gap, radiation up to Drad beyond it (robust: up to
+/// a distance of Drad, as between nodes and segments). No share of friction becomes heat. q[4] is
+/// 0. The reference evaluates fct_IDK at the signed force, which is negative under pressure, and
+/// lets nothing through a gap whose conductivity is 0.
+[[nodiscard]] HeatFlow pair_heat(const ContactCard& card, const EdgeHeatState& state,
+                                 Model model = Model::reference);
 
 /// Ithe_form 0 exchanges with Tint on the secondary side only, form 1 between both sides (sum of q
 /// without friction is 0).

@@ -69,9 +69,11 @@ struct PacketView {
   std::array<const double*, 8> tie{};  ///< Fn Ft1 Ft2 H1 H2 H3 [p side]; TYPE10 has six
 
   std::array<const double*, 5> temperature{};
-  const double* area = nullptr;             ///< secondary contact area; 0: take the segment's
-  const double* conductivity = nullptr;     ///< of the secondary side's material, 0: none
-  const double* fric = nullptr;             ///< per-pair friction coefficient
+  const double* area = nullptr;               ///< secondary contact area; 0: take the segment's
+  const double* conductivity = nullptr;       ///< of the secondary side's material, 0: none
+  std::array<const double*, 2> edge_width{};  ///< of the secondary and the main edge
+  std::array<const double*, 4> edge_conductivity{};  ///< at each end, 0: none
+  const double* fric = nullptr;                      ///< per-pair friction coefficient
   const double* visf2 = nullptr;            ///< per-pair square of the tangential damping factor
   std::array<const double*, 6> c{};         ///< per-pair friction law coefficients
   std::array<const double*, 2> ortho_mu{};  ///< per pair, along and across the direction
@@ -125,7 +127,7 @@ struct PacketResult {
   std::vector<double> friction_heat;  ///< dissipated by sliding in this cycle
   std::vector<double> dt_kinematic;
   std::vector<std::int64_t> status;
-  std::array<std::vector<double>, 5> heat;  ///< given to secondary and the four corners
+  std::array<std::vector<double>, 5> heat;  ///< given to each role (edges leave the fifth 0)
   std::vector<double> conductance;
   std::array<std::vector<double>, 3> criteria;  ///< radius, relative penetration, angle (Iadm)
 

@@ -26,6 +26,8 @@ namespace deck::cycle {
 ///  * filters: a true low-pass with weight at most 1, limit applied after it; Ifiltr 2 and 3 as
 ///    documented (2 pi Xfreq, 2 pi Xfreq dt);
 ///  * AscaleF is applied; temperature friction uses this cycle's weights;
+///  * neighbouring segments or edges that meet the other side at the same edge or corner share one
+///    force instead of adding up (see sharing.hpp; whole contacts only, single pairs stay alone);
 ///  * no mechanical action without penetration; a gap used up by Inacti switches the pair off;
 ///  * edge–edge: relative parallel test, parallel edges meet at the middle of their overlap,
 ///    crossing edges take e_s x e_m as normal, no 0.9 on the gap, fixed stiffness is Stfac;

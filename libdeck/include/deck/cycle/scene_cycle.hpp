@@ -94,6 +94,8 @@ struct InterfaceSummary {
   double largest_acceleration = 0.0;
   NodeIndex acceleration_node = no_index;
   double contact_dt = 1e30, structure_dt = 1e30;
+  StepLimit::Source contact_dt_source = StepLimit::Source::none;
+  NodeIndex contact_dt_node = no_index;
   std::size_t gap_closed = 0, near_singular = 0;
 };
 /// In deck order; interfaces that the scene does not hold are left out.

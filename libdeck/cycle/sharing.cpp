@@ -1,0 +1,120 @@
+#include "deck/cycle/sharing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace deck::cycle {
+namespace {
+
+constexpr double nothing = 1e-12;
+
+/// Up to four nodes, as a set.
+struct Nodes {
+  std::array<std::uint32_t, 4> id{};
+  std::size_t count = 0;
+  void add(std::uint32_t n) {
+    if (!has(n)) id[count++] = n;
+  }
+  [[nodiscard]] bool has(std::uint32_t n) const {
+    return std::find(id.begin(), id.begin() + static_cast<std::ptrdiff_t>(count), n) !=
+           id.begin() + static_cast<std::ptrdiff_t>(count);
+  }
+  [[nodiscard]] bool contains(const Nodes& other) const {
+    return std::all_of(other.id.begin(),
+                       other.id.begin() + static_cast<std::ptrdiff_t>(other.count),
+                       [&](std::uint32_t n) { return has(n); });
+  }
+};
+
+/// The nodes of both sides of a pair, and those that carry its contact point.
+struct Feature {
+  Nodes all[2], carrying[2];
+  [[nodiscard]] bool inside() const {
+    return carrying[0].count == all[0].count && carrying[1].count == all[1].count;
+  }
+};
+
+class Features {
+ public:
+  Features(const PairList& pairs, const PacketResult& result) : pairs_(pairs), r_(result) {}
+  [[nodiscard]] Feature of(std::size_t i) const {
+    Feature f;
+    if (pairs_.kind == ContactKind::edge_edge) {
+      for (std::size_t role = 0; role < 4; ++role)
+        add(f, role / 2, pairs_.node[role][i], r_.weights[role][i]);
+    } else {
+      add(f, 0, pairs_.node[0][i], 1.0);
+      for (std::size_t c = 0; c < 4; ++c) add(f, 1, pairs_.node[c + 1][i], r_.weights[c][i]);
+    }
+    return f;
+  }
+
+ private:
+  static void add(Feature& f, std::size_t side, std::uint32_t node, double weight) {
+    f.all[side].add(node);
+    if (weight > nothing) f.carrying[side].add(node);
+  }
+  const PairList& pairs_;
+  const PacketResult& r_;
+};
+
+/// Pairs in contact by each of their secondary nodes.
+std::vector<std::pair<std::uint32_t, std::size_t>> by_secondary(const PairList& pairs,
+                                                                const PacketResult& r) {
+  std::vector<std::pair<std::uint32_t, std::size_t>> list;
+  const std::size_t roles = pairs.kind == ContactKind::edge_edge ? 2 : 1;
+  for (std::size_t i = 0; i < r.size; ++i)
+    for (std::size_t role = 0; role < roles && (r.status[i] & status_contact) != 0; ++role)
+      list.emplace_back(pairs.node[role][i], i);
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+}  // namespace
+
+std::vector<double> pair_shares(const PairList& pairs, const PacketResult& r) {
+  std::vector<double> share(r.size, 1.0);
+  const auto list = by_secondary(pairs, r);
+  const Features features(pairs, r);
+  for (std::size_t i = 0; i < r.size; ++i) {
+    if ((r.status[i] & status_contact) == 0) continue;
+    const Feature own = features.of(i);
+    if (own.inside() || own.carrying[0].count == 0) continue;
+    const std::uint32_t key = own.carrying[0].id[0];
+    std::size_t meeting = 1;
+    for (auto it = std::lower_bound(list.begin(), list.end(), std::pair{key, std::size_t{0}});
+         it != list.end() && it->first == key; ++it) {
+      const std::size_t j = it->second;
+      if (j == i) continue;
+      const Feature other = features.of(j);
+      if (!other.all[0].contains(own.carrying[0]) || !other.all[1].contains(own.carrying[1]))
+        continue;
+      if (r.distance[j] < (1.0 - nothing) * r.distance[i]) {
+        meeting = 0;
+        break;
+      }
+      meeting += r.distance[j] <= (1.0 + nothing) * r.distance[i];
+    }
+    share[i] = meeting == 0 ? 0.0 : 1.0 / static_cast<double>(meeting);
+  }
+  return share;
+}
+
+void apply_shares(const std::vector<double>& share, PacketResult& r) {
+  for (std::size_t i = 0; i < r.size; ++i) {
+    const double s = share[i];
+    if (s == 1.0) continue;
+    for (auto* three : {&r.force, &r.ft})
+      for (auto& component : *three) component[i] *= s;
+    for (auto* value : {&r.normal_force, &r.k_nodal, &r.elastic_energy, &r.friction_energy,
+                        &r.damping_energy, &r.friction_heat, &r.conductance})
+      (*value)[i] *= s;
+    for (auto& role : r.heat) role[i] *= s;
+    if (s != 0.0) continue;
+    r.status[i] &= ~static_cast<std::int64_t>(status_contact | status_bc_release);
+    r.dt_kinematic[i] = 1e30;
+  }
+}
+
+}  // namespace deck::cycle
