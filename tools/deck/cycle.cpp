@@ -1,5 +1,6 @@
 // deck cycle: one contact force evaluation at the start: forces, energies, time steps, effects.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "common.hpp"
 #include "deck/report/cycle.hpp"
@@ -17,6 +18,7 @@ struct Options {
   double dt = 0, time = 0;
   std::vector<std::int64_t> only;
   std::vector<std::string> velocities;
+  std::string vtk;
 };
 
 /// "PART=vx,vy,vz".
@@ -44,6 +46,16 @@ Result<cycle::PartVelocity> parse_velocity(const std::string& text) {
   return v;
 }
 
+/// Writes the VTK files: into the directory itself, or one below it per deck if there are several.
+Result<void> write_vtk(const Options& o, const CycleInput& input) {
+  std::filesystem::path directory = o.vtk;
+  if (o.common.decks.size() > 1) directory /= std::filesystem::path(input.path).stem();
+  std::vector<OutputFile> files;
+  for (const VtkFile& f : cycle_vtk(input))
+    files.push_back({(directory / f.name).string(), f.bytes});
+  return write_files_atomic(files);
+}
+
 int run(const Options& o) {
   cycle::CycleOptions options;
   options.model = o.model == "reference" ? cycle::Model::reference : cycle::Model::robust;
@@ -60,7 +72,7 @@ int run(const Options& o) {
     velocities.push_back(*v);
   }
   JsonOutput json(o.common, "deck/cycle", 1);
-  options.keep_pairs = o.all && json.wanted();
+  options.keep_pairs = (o.all && json.wanted()) || !o.vtk.empty();
   const int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
     print_findings(loaded, o.common);
     SceneOptions scene_options;
@@ -92,6 +104,11 @@ int run(const Options& o) {
     input.outcome = &outcome;
     input.options = options;
     if (json.wanted()) json.add(cycle_json(input, o.all));
+    if (!o.vtk.empty())
+      if (auto r = write_vtk(o, input); !r) {
+        print_error(o.common, r.error().message);
+        return static_cast<int>(exit_usage);
+      }
     if (o.common.wants_text()) print_text(cycle_text(input, {o.common.color_on(1), o.effects}));
     bool found = false;
     for (const cycle::ContactOutcome& c : outcome.contacts)
@@ -106,6 +123,9 @@ Action setup(CLI::App& app) {
   add_common(app, options->common);
   app.add_flag("--all", options->all, "JSON with every pair that has a penetration");
   app.add_flag("--effects", options->effects, "Also list the effects that are off, and why");
+  app.add_option("--vtk", options->vtk,
+                 "Write pairs and nodes with their forces as VTK files (ParaView) into DIR")
+      ->type_name("DIR");
   app.add_option("--model", options->model,
                  "reference: as the solver computes; robust: the same physics without its "
                  "numerical quirks")
@@ -129,6 +149,7 @@ const VerbRegistration registration{
      "  deck cycle car_0000.rad\n"
      "  deck cycle car_0000.rad --interface 3 --effects\n"
      "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3\n"
+     "  deck cycle car_0000.rad --vtk paraview\n"
      "  deck cycle car_0000.rad --model reference --all --json cycle.json\n",
      setup}};
 

@@ -9,6 +9,7 @@
 #include "deck/cycle/scene_cycle.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
+#include "deck/report/vtk.hpp"
 
 namespace deck {
 
@@ -45,6 +46,22 @@ std::string cycle_json(const CycleInput& input, bool all);
 std::string cycle_text(const CycleInput& input, const CycleTextOptions& options = {});
 /// One or two sentences: forces, the largest acceleration, contact step against structural step.
 std::string cycle_verdict(const CycleInput& input);
+
+/// Two files, always; the outcome must have kept its pairs:
+///
+/// * contact_pairs.vtp: a vertex per pair with a penetration or force, at the secondary node
+/// (edges:
+///   at the point of contact). Point data force (vector, on the secondary side), force_size,
+///   normal_force (negative pushes apart), penetration, gap (after Inacti), distance, left_of_gap
+///   (share), k0, k_nodal, status (bits of cycle::Status), interface, role (0 primary, 1 reversed,
+///   2 edges), node, node2 (second end of an edge, else 0), main_element, main_part.
+/// * contact_nodes.vtp: a vertex per node that any contact acts on. Point data force (vector, of
+/// all
+///   contacts), force_size, acceleration and dt (0 without mass), stiffness, mass, heat, removed
+///   (1: leaves its interface), node.
+///
+/// Coordinates are those that were evaluated, in working units.
+std::vector<VtkFile> cycle_vtk(const CycleInput& input);
 
 /// What one replay was about.
 struct ReplayInput {
