@@ -59,6 +59,7 @@ void check_geometry(const LintContext& context, Reporter& reporter, int threads)
   SceneOptions options;
   options.threads = threads;
   options.candidates = false;
+  options.nodal_stiffness = true;  // the forces of Istf 2 to 5 need it
   const Scene scene = build_scene(*context.model, *context.interfaces, found, options);
   for (const Diagnostic& d : found.all())
     if (const Rule* rule = find_rule(d.rule)) reporter.report(*rule, d.span, d.message);
@@ -67,6 +68,7 @@ void check_geometry(const LintContext& context, Reporter& reporter, int threads)
   detail::check_penetrations(run);
   detail::check_gaps(run);
   detail::check_segments(run);
+  detail::check_cycle(run);
 }
 
 }  // namespace deck

@@ -304,7 +304,8 @@ Action setup(CLI::App& app) {
       ->type_name("FILE");
   app.add_flag("--no-config", o.no_config, "Use no configuration file");
   app.add_flag("--geometry", o.geometry,
-               "Also check the geometry (rules DK3): penetrations, gaps against the mesh, segments");
+               "Also check geometry and first cycle (rules DK3, DK4): penetrations, gaps against the "
+               "mesh, segments, contact forces and time step at the start");
   app.add_flag("--fix", o.fix,
                "Apply safe fixes: the reference solver does the same with the deck");
   app.add_flag("--unsafe-fixes", o.unsafe_fixes, "Apply the other fixes too");

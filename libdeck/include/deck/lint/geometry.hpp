@@ -1,5 +1,6 @@
 // Geometry in lint: builds the contacts of the deck and reports the rules DK3xx — penetrations,
-// gaps against the mesh, segments that cannot work. Costs more than all other rules together, so it
+// gaps against the mesh, segments that cannot work — and DK4xx: forces and time step of the first
+// cycle. Costs more than all other rules together, so it
 // runs only where it is asked for.
 #pragma once
 #include "deck/contact/scene.hpp"

@@ -1,0 +1,112 @@
+// The rules about the first force evaluation: each fires on its bad example, stays silent on its
+// good one and without being asked for, and names what pushes.
+#include <gtest/gtest.h>
+
+#include "deck/lint/geometry.hpp"
+#include "lint/support.hpp"
+
+namespace deck::test {
+namespace {
+
+Linted lint_cycle(std::string_view example, int threads = 1) {
+  const SchemaSet& schemas = SchemaSet::built_in();
+  auto deck = read_deck_text("deck_0000.rad", example_deck(example, schemas).main, schemas);
+  if (!deck) throw std::runtime_error(deck.error().message);
+  Linted out;
+  out.deck = std::make_unique<Deck>(std::move(*deck));
+  Diagnostics of_model, of_interfaces;
+  const Model model = build_model(*out.deck, schemas, of_model);
+  const Interfaces interfaces = read_interfaces(*out.deck, model, of_interfaces);
+  LintInput input{
+      *out.deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces},
+      {}};
+  input.extra_checks.push_back(
+      [&](const LintContext& c, Reporter& r) { check_geometry(c, r, threads); });
+  out.result = run_lint(input);
+  return out;
+}
+
+class EveryCycleRule : public testing::TestWithParam<std::string> {
+ protected:
+  const Rule& rule() const { return *find_rule(GetParam()); }
+};
+
+std::vector<std::string> cycle_rules() {
+  std::vector<std::string> ids;
+  for (const Rule& r : all_rules())
+    if (r.id.starts_with("DK4")) ids.emplace_back(r.id);
+  return ids;
+}
+
+TEST_P(EveryCycleRule, FiresOnItsBadExampleAndNamesTheInterface) {
+  const Linted run = lint_cycle(rule().bad);
+  const Diagnostic* d = run.find(rule().id);
+  ASSERT_NE(d, nullptr) << run.list();
+  EXPECT_TRUE(d->span.valid());
+  EXPECT_NE(d->message.find("/INTER/TYPE7 1"), std::string::npos) << d->message;
+  EXPECT_FALSE(d->help.empty());
+}
+
+TEST_P(EveryCycleRule, StaysSilentOnItsGoodExampleWhichHasNoErrors) {
+  const Linted run = lint_cycle(rule().good);
+  EXPECT_FALSE(run.fires(rule().id)) << run.list();
+  for (const Diagnostic& d : run.result.diagnostics)
+    EXPECT_NE(d.severity, Severity::error) << d.rule << " " << d.message;
+}
+
+TEST_P(EveryCycleRule, IsNotCheckedUnlessAskedFor) {
+  EXPECT_FALSE(lint_example(rule().bad).fires(rule().id));
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, EveryCycleRule, testing::ValuesIn(cycle_rules()),
+                         [](const auto& test) { return test.param; });
+
+TEST(CycleRules, ForceNamesSumEnergyAndTheNodePushedMost) {
+  const Linted run = lint_cycle("@/INTER/TYPE7/1 Gapmin=4\n");
+  const Diagnostic* d = run.find("DK401");
+  ASSERT_NE(d, nullptr);
+  // Four nodes over the corners: kappa = 210 / 2, gap 4, penetration 1, so 140 each.
+  EXPECT_NE(d->message.find("4 pairs with a force before anything moves, 560 in all, 140 at most"),
+            std::string::npos)
+      << d->message;
+  EXPECT_NE(d->message.find("node "), std::string::npos);
+  ASSERT_FALSE(d->notes.empty());
+}
+
+TEST(CycleRules, StepNamesBothSteps) {
+  const Linted run = lint_cycle("@/INTER/TYPE7/1 Gapmin=4\n");
+  const Diagnostic* d = run.find("DK402");
+  ASSERT_NE(d, nullptr);
+  // Contact: 105 (4/3)^2 against a quarter of 7.8e-6 100. Mesh: 10 mm at 5439 mm/ms.
+  EXPECT_NE(d->message.find("time step 0.001301 from contact stiffness against nodal mass"),
+            std::string::npos)
+      << d->message;
+  EXPECT_NE(d->message.find("the mesh allows 0.001655: 1.3 times"), std::string::npos)
+      << d->message;
+}
+
+TEST(CycleRules, NearPairIsNamed) {
+  const Linted run = lint_cycle(find_rule("DK403")->bad);
+  const Diagnostic* d = run.find("DK403");
+  ASSERT_NE(d, nullptr);
+  EXPECT_NE(d->message.find("node 21 over segment 1 2 3 4 has 0.02 of 1 (2 %)"), std::string::npos)
+      << d->message;
+}
+
+TEST(CycleRules, FindingsDoNotDependOnThreads) {
+  EXPECT_EQ(lint_cycle("@/INTER/TYPE7/1 Gapmin=4\n", 1).list(),
+            lint_cycle("@/INTER/TYPE7/1 Gapmin=4\n", 3).list());
+}
+
+TEST(CycleRules, TiedContactsMayTouch) {
+  const Linted run = lint_cycle("@/INTER/TYPE10/1 Gap=4\n");
+  EXPECT_FALSE(run.fires("DK401"));
+  EXPECT_FALSE(run.fires("DK403"));
+}
+
+TEST(CycleRules, ALaterStartIsNoForceAtTheStart) {
+  EXPECT_FALSE(lint_cycle("@/INTER/TYPE7/1 Gapmin=4 Tstart=1.0\n").fires("DK401"));
+}
+
+}  // namespace
+}  // namespace deck::test
