@@ -1,0 +1,145 @@
+// Decks in memory, what a conversion makes of them, and their values as text to compare.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "deck/edit/rewrite.hpp"
+#include "deck/lint/example.hpp"
+
+namespace deck::test {
+
+using Files = std::map<std::string, std::string>;
+
+/// A deck with its model and interfaces. Not movable: the parts point to one another.
+struct Opened {
+  explicit Opened(const std::string& path, const Files& overlay = {}) : files(overlay) {
+    ReadOptions options;
+    options.overlay = &files;
+    auto read = read_deck(path, SchemaSet::built_in(), options);
+    EXPECT_TRUE(read.ok()) << (read ? "" : read.error().message);
+    if (!read) return;
+    deck = std::move(*read);
+    model = build_model(deck, SchemaSet::built_in(), diagnostics);
+    interfaces = read_interfaces(deck, model, diagnostics);
+  }
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+  EditContext context() const { return {deck, model, interfaces, SchemaSet::built_in()}; }
+
+  Files files;
+  Deck deck;
+  Diagnostics diagnostics;
+  Model model;
+  Interfaces interfaces;
+};
+
+inline std::unique_ptr<Opened> open_text(const std::string& text,
+                                         const std::string& name = "main_0000.rad") {
+  return std::make_unique<Opened>(name, Files{{name, text}});
+}
+
+/// The deck with a rewrite applied.
+inline std::unique_ptr<Opened> applied(const Opened& before, const Rewrite& rewrite) {
+  auto changed = apply_rewrite(before.deck.sources, rewrite);
+  EXPECT_TRUE(changed.ok()) << (changed ? "" : changed.error().message);
+  Files files = before.files;
+  if (changed)
+    for (auto& [path, text] : *changed) files[path] = text;
+  return std::make_unique<Opened>(before.deck.sources[0].path(), files);
+}
+
+inline std::string bytes_of(const Opened& o, std::uint32_t file = 0) {
+  return std::string(o.deck.sources[file].bytes());
+}
+
+inline std::string as_text(std::int64_t v) { return std::to_string(v); }
+inline std::string as_text(double v) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%.17g", v);
+  return buffer;
+}
+inline std::string as_text(const std::string& v) { return v; }
+
+/// "/INTER/TYPE7/3 Istf" -> effective value, with the origin where it is asked for.
+inline std::map<std::string, std::string> effective_values(const Opened& o, bool origins = false) {
+  std::map<std::string, std::string> out;
+  for (const InterBase* i : o.interfaces.ordered)
+    visit_interface(*i, [&](const auto& t) {
+      const std::string head =
+          "/INTER/TYPE" + std::to_string(i->type) + "/" + std::to_string(i->id) + " ";
+      out[head] = i->title;
+      t.for_each([&](std::string_view name, const auto& e) {
+        out[head + std::string(name)] =
+            as_text(e.value) + (origins ? std::string(" ") + to_string(e.origin) : "");
+      });
+    });
+  return out;
+}
+
+/// The values that differ, one line each; empty if there are none.
+inline std::string difference(const std::map<std::string, std::string>& a,
+                              const std::map<std::string, std::string>& b) {
+  std::string out;
+  for (const auto& [name, value] : a) {
+    const auto it = b.find(name);
+    if (it == b.end()) out += name + ": " + value + " -> missing\n";
+    if (it != b.end() && it->second != value)
+      out += name + ": " + value + " -> " + it->second + "\n";
+  }
+  for (const auto& [name, value] : b)
+    if (a.count(name) == 0) out += name + ": new " + value + "\n";
+  return out;
+}
+
+inline std::string joined(const std::vector<std::string>& lines) {
+  std::string out;
+  for (const std::string& l : lines) out += l + "\n";
+  return out;
+}
+
+inline std::vector<LossEntry> losses_of(const Rewrite& r, Loss kind) {
+  std::vector<LossEntry> out;
+  for (const LossEntry& l : r.losses)
+    if (l.loss == kind) out.push_back(l);
+  return out;
+}
+
+inline std::vector<std::string> sample_decks() {
+  std::vector<std::string> out;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(DECK_SOURCE_DIR) + "/samples"))
+    if (entry.path().string().ends_with("_0000.rad")) out.push_back(entry.path().string());
+  std::sort(out.begin(), out.end());
+  EXPECT_GE(out.size(), 10u);
+  return out;
+}
+
+/// A main file of one version around some cards.
+inline std::string deck_of_version(int version, const std::string& cards) {
+  char head[200];
+  std::snprintf(head, sizeof head,
+                "#RADIOSS STARTER\n/BEGIN\nrun\n%10d         0\n"
+                "                  kg                  mm                  ms\n"
+                "                  kg                  mm                  ms\n",
+                version);
+  return head + cards + "/END\n";
+}
+
+inline std::string card(const std::string& keyword, int id, int version,
+                        const std::vector<std::pair<std::string, std::string>>& values) {
+  const Schema* schema = SchemaSet::built_in().find(keyword);
+  EXPECT_NE(schema, nullptr) << keyword;
+  if (schema == nullptr) return {};
+  const std::string header =
+      schema->has_id ? keyword + "/" + std::to_string(id) : std::string(keyword);
+  return render_card(*schema, header, version, values);
+}
+
+}  // namespace deck::test
