@@ -1,0 +1,98 @@
+#include "deck/text/edits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace deck {
+namespace {
+
+std::unique_ptr<Source> source(std::string text) {
+  return Source::from_bytes("x.rad", std::move(text));
+}
+
+TextEdit edit(std::uint64_t offset, std::uint32_t length, std::string text) {
+  return {Span{0, length, offset}, std::move(text)};
+}
+
+TEST(ApplyEdits, LeaveAllOtherBytesAsTheyAre) {
+  const auto s = source("abc\r\ndef\tg \n\xff\xfehi");
+  EXPECT_EQ(*apply_edits(*s, {edit(5, 3, "DEF"), edit(0, 1, "A")}), "Abc\r\nDEF\tg \n\xff\xfehi");
+  EXPECT_EQ(*apply_edits(*s, {}), s->bytes());
+}
+
+TEST(ApplyEdits, MakeTheSameReplacementOnce) {
+  const auto s = source("abcdef");
+  EXPECT_EQ(*apply_edits(*s, {edit(1, 2, "X"), edit(1, 2, "X")}), "aXdef");
+}
+
+TEST(ApplyEdits, KeepTheOrderOfInsertionsAtOnePlace) {
+  const auto s = source("abc");
+  EXPECT_EQ(*apply_edits(*s, {edit(1, 0, "1"), edit(1, 0, "2"), edit(1, 1, "B")}), "a12Bc");
+}
+
+TEST(ApplyEdits, RefuseWhatOverlapsAndSayWhere) {
+  const auto s = source("abc\ndef\n");
+  const auto result = apply_edits(*s, {edit(4, 2, "X"), edit(5, 2, "Y")});
+  ASSERT_FALSE(result.ok());
+  EXPECT_NE(result.error().message.find("x.rad:2:2"), std::string::npos) << result.error().message;
+  EXPECT_FALSE(apply_edits(*s, {edit(4, 2, "X"), edit(4, 2, "Y")}).ok());
+  EXPECT_FALSE(apply_edits(*s, {edit(7, 2, "X")}).ok()) << "behind the end of the file";
+}
+
+struct Lines {
+  explicit Lines(std::string text) { sources.add(source(std::move(text))); }
+  std::string after(const CellEdits& cells) const {
+    return *apply_edits(sources[0], cells.finish(sources));
+  }
+  SourceSet sources;
+};
+
+TEST(CellEdits, GrowAShortLineOnceForSeveralCells) {
+  const Lines l("ab\nnext\n");
+  CellEdits cells;
+  cells.set(l.sources, {0, 0, 0}, 21, 25, "7");
+  cells.set(l.sources, {0, 0, 0}, 6, 10, "5");
+  EXPECT_EQ(l.after(cells), "ab       5              7\nnext\n");
+}
+
+TEST(CellEdits, GoOnBehindACellThatTheEndOfTheLineCuts) {
+  const Lines l("0123456\r\nnext\n");
+  CellEdits cells;
+  cells.set(l.sources, {0, 0, 0}, 6, 10, "5");
+  cells.set(l.sources, {0, 0, 0}, 11, 15, "9");
+  EXPECT_EQ(l.after(cells), "01234    5    9\r\nnext\n");
+}
+
+TEST(CellEdits, KeepTheLastTextOfACell) {
+  const Lines l("0123456789\n");
+  CellEdits cells;
+  cells.set(l.sources, {0, 0, 0}, 1, 5, "1");
+  cells.set(l.sources, {0, 0, 3}, 1, 5, "2");
+  EXPECT_EQ(l.after(cells), "    256789\n");
+}
+
+TEST(CellEdits, ChangeNothingButTheirColumns) {
+  std::mt19937 random(11);
+  for (int round = 0; round < 2000; ++round) {
+    std::string line(random() % 60, ' ');
+    for (char& c : line) c = static_cast<char>('a' + random() % 26);
+    const std::string end = random() % 2 != 0 ? "\n" : "\r\n";
+    const Lines l("head" + end + line + end + "tail");
+    CellEdits cells;
+    std::string expected = line;
+    for (int cell = 0; cell < 5; ++cell) {
+      if (random() % 2 != 0) continue;
+      const int first = cell * 10 + 1;
+      const std::string text(1 + random() % 10, static_cast<char>('0' + random() % 10));
+      cells.set(l.sources, {0, 0, 4 + end.size()}, first, first + 9, text);
+      const std::size_t need = static_cast<std::size_t>(first) + 9;
+      if (expected.size() < need) expected.resize(need, ' ');
+      expected.replace(need - 10, 10, std::string(10 - text.size(), ' ') + text);
+    }
+    EXPECT_EQ(l.after(cells), "head" + end + expected + end + "tail");
+  }
+}
+
+}  // namespace
+}  // namespace deck
