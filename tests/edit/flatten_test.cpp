@@ -1,0 +1,251 @@
+// Flattening: one file that is read as the many were.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "../contact/small_deck.hpp"
+#include "deck/edit/flatten.hpp"
+#include "edit/extract_support.hpp"
+
+namespace deck {
+namespace {
+
+using edit_test::Whole;
+
+const std::string head =
+    "#RADIOSS STARTER\n/BEGIN\nrun\n      2024         0\n"
+    "                  kg                  mm                  ms\n"
+    "                  kg                  mm                  ms\n";
+const std::string node1 =
+    "         1                 1.0                 0.0                 0.0\n";
+const std::string node2 =
+    "         2                 2.0                 0.0                 0.0\n";
+const std::string node3 =
+    "         3                 3.0                 0.0                 0.0\n";
+
+std::unique_ptr<Whole> tree(Whole::Files files) { return Whole::read("main_0000.rad", files); }
+
+std::string flat(const Whole& w, bool mark = false) {
+  const Rewrite r = flatten(w.context(), {.mark = mark});
+  EXPECT_TRUE(r.refusals.empty()) << r.refusals.front();
+  return r.new_text.value_or("");
+}
+
+TEST(Flatten, IncludeIsReplacedByItsBytes) {
+  const auto w = tree({{"main_0000.rad", head + "/NODE\n" + node1 + "#include a.inc\n" + node3 +
+                                             "/END\ntext behind\n"},
+                       {"a.inc", "# comment\t \r\n" + node2}});
+  EXPECT_EQ(flat(*w),
+            head + "/NODE\n" + node1 + "# comment\t \r\n" + node2 + node3 + "/END\ntext behind\n");
+}
+
+TEST(Flatten, MarksNameTheFile) {
+  const auto w = tree({{"main_0000.rad", head + "/NODE\n#include sub/a.inc\n/END\n"},
+                       {"sub/a.inc", node1 + "#INCLUDE 'b.inc' +\n+\n"},
+                       {"sub/b.inc", node2}});
+  EXPECT_EQ(flat(*w, true), head + "/NODE\n## #include sub/a.inc\n" + node1 +
+                                "## #INCLUDE 'b.inc' +\n## +\n" + node2 +
+                                "## end of b.inc\n## end of sub/a.inc\n/END\n");
+}
+
+TEST(Flatten, MissingLastLineEndIsAdded) {
+  const auto w = tree({{"main_0000.rad", head + "/NODE\n#include a.inc\n" + node3 + "/END\n"},
+                       {"a.inc", "#c\r\n" + node1.substr(0, node1.size() - 1)}});
+  EXPECT_EQ(flat(*w),
+            head + "/NODE\n#c\r\n" + node1.substr(0, node1.size() - 1) + "\r\n" + node3 + "/END\n");
+}
+
+TEST(Flatten, EndAndEnddataOfIncludesGoWithWhatFollows) {
+  const auto w = tree({{"main_0000.rad", head + "#include a.inc\n#include b.inc\n/END\n"},
+                       {"a.inc", "/NODE\n" + node1 + "/END\n" + node3},
+                       {"b.inc", "/NODE\n" + node2 + "#enddata\n/NODE\n" + node3}});
+  EXPECT_EQ(flat(*w), head + "/NODE\n" + node1 + "/NODE\n" + node2 + "/END\n");
+}
+
+TEST(Flatten, LinesBehindTheEndOfAnIncludeStayOutside) {
+  // Behind the include's /END no block is open, so these lines belong to nothing.
+  const auto w = tree({{"main_0000.rad", head + "#include a.inc\n\n" + node2 + "/TITLE\nt\n/END\n"},
+                       {"a.inc", "/NODE\n" + node1 + "/END\n"}});
+  ASSERT_EQ(w->model.nodes.size(), 1u);
+  const auto after = w->after(flatten(w->context()));
+  EXPECT_EQ(after->model.nodes.size(), 1u);
+}
+
+TEST(Flatten, TextOfEveryFileIsKeptWhenIncludedTwice) {
+  const auto w =
+      tree({{"main_0000.rad", head + "/NODE\n" + node1 + "/GRNOD/NODE/1\ng\n#include ids.inc\n" +
+                                  "/GRNOD/NODE/2\ng\n#include ids.inc\n/END\n"},
+            {"ids.inc", "         1\n"}});
+  EXPECT_EQ(flat(*w), head + "/NODE\n" + node1 +
+                          "/GRNOD/NODE/1\ng\n         1\n/GRNOD/NODE/2\ng\n         1\n/END\n");
+}
+
+TEST(Flatten, SubmodelsKeepTheirOffsetsAndUnits) {
+  const auto w =
+      tree({{"main_0000.rad", head + "/NODE\n" + node1 + "//SUBMODEL/1\nsub\n       100\n" +
+                                  "#include a.inc\n//ENDSUB\n/END\n"},
+            {"a.inc",
+             "/BEGIN\nsub\n      2024\n                  kg                   m                   "
+             "s\n                  kg                   m                   s\n/NODE\n" +
+                 node2}});
+  ASSERT_EQ(w->model.nodes.id[1], 102);
+  ASSERT_EQ(w->model.nodes.x[1], 2000);
+  const auto after = w->after(flatten(w->context()));
+  EXPECT_EQ(after->deck.includes.size(), 0u);
+  EXPECT_EQ(after->model.nodes.id, w->model.nodes.id);
+  EXPECT_EQ(after->model.nodes.x, w->model.nodes.x);
+}
+
+TEST(Flatten, BeginOfAnIncludeBecomesAComment) {
+  const auto w = tree({{"main_0000.rad", head + "#include a.inc\n/NODE\n" + node2 + "/END\n"},
+                       {"a.inc", "/BEGIN\nsub\n      2024\n\n\n/NODE\n" + node1}});
+  const Rewrite r = flatten(w->context(), {.mark = false});
+  ASSERT_TRUE(r.refusals.empty()) << r.refusals.front();
+  EXPECT_EQ(*r.new_text, head + "#/BEGIN\n#sub\n#      2024\n#\n#\n/NODE\n" + node1 + "/NODE\n" +
+                             node2 + "/END\n");
+  ASSERT_EQ(r.losses.size(), 1u);
+  EXPECT_EQ(r.losses[0].loss, Loss::dropped);
+}
+
+TEST(Flatten, IncludeOfAnotherVersionIsRefusedWhereColumnsDiffer) {
+  // Line 2 of the card is the gap line from 110 on; 100 has none.
+  const auto w = tree({{"main_0000.rad", head + "#include a.inc\n/NODE\n" + node2 + "/END\n"},
+                       {"a.inc",
+                        "/BEGIN\nsub\n       100\n\n\n/INTER/TYPE11/1\ni\n"
+                        "         1         2\n                 1.0\n       000\n"}});
+  const Rewrite r = flatten(w->context());
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_EQ(r.refusals[0].substr(0, 10), "a.inc:6:1:");
+  EXPECT_NE(r.refusals[0].find("100"), std::string::npos);
+}
+
+TEST(Flatten, IncludeOfAnotherVersionWithTheSameColumnsIsTaken) {
+  const auto w = tree({{"main_0000.rad", head + "#include a.inc\n/NODE\n" + node2 + "/END\n"},
+                       {"a.inc", "/BEGIN\nsub\n       110\n\n\n/NODE\n" + node1 +
+                                     "/RBODY/1\nr\n         7\n/RBODY/2\nr\n         7\n"}});
+  const Rewrite r = flatten(w->context());
+  ASSERT_TRUE(r.refusals.empty()) << r.refusals.front();
+  std::size_t undecided = 0;
+  for (const LossEntry& e : r.losses) undecided += e.loss == Loss::undecided ? 1 : 0;
+  EXPECT_EQ(undecided, 1u);  // /RBODY, once
+}
+
+TEST(Flatten, UnreadableIncludeIsRefused) {
+  const auto w = tree({{"main_0000.rad", head + "#include nowhere.inc\n/END\n"}});
+  EXPECT_EQ(flatten(w->context()).refusals.size(), 1u);
+}
+
+TEST(Flatten, DeckWithoutIncludesStays) {
+  const auto w = tree({{"main_0000.rad", head + "/END\n"}});
+  EXPECT_FALSE(flatten(w->context()).new_text.has_value());
+}
+
+const std::string coordinate = "         9                &gap                 0.0\n";
+std::string local(const std::string& value, const char* scope = "LOCAL") {
+  return std::string("/PARAMETER/") + scope + "/REAL/1\np\n       gap" +
+         std::string(20 - value.size(), ' ') + value + "\n";
+}
+
+TEST(Flatten, LocalParametersOfOneFileStayAsTheyAre) {
+  const auto w = tree({{"main_0000.rad", head + "#include a.inc\n/END\n"},
+                       {"a.inc", local("2.5") + "/NODE\n" + coordinate}});
+  EXPECT_EQ(flat(*w), head + local("2.5") + "/NODE\n" + coordinate + "/END\n");
+}
+
+TEST(Flatten, LocalParametersThatWouldMeetGetNewNames) {
+  const auto w = tree(
+      {{"main_0000.rad", head + local("1.5", "GLOBAL") + "#include a.inc\n#include b.inc\n/NODE\n" +
+                             coordinate + "/END\n"},
+       {"a.inc", local("2.5") + "/NODE\n         1                &gap               -&gap\n" +
+                     "#include c.inc\n"},
+       {"b.inc", local("3.5") + "/PARAMETER/LOCAL/REAL_EXPR/2\ntwice\ntwice     2*gap+&gap\n" +
+                     "/NODE\n         2                &gap              &twice\n"},
+       {"c.inc", "/NODE\n         3                &gap                 0.0\n"}});
+  ASSERT_EQ(w->model.nodes.x, (std::vector<double>{2.5, 2.5, 3.5, 1.5}));
+  ASSERT_EQ(w->model.nodes.y, (std::vector<double>{-2.5, 0, 10.5, 0}));
+  const Rewrite r = flatten(w->context());
+  const auto after = w->after(r);
+  EXPECT_EQ(after->deck.includes.size(), 0u);
+  EXPECT_EQ(after->model.nodes.x, w->model.nodes.x);
+  EXPECT_EQ(after->model.nodes.y, w->model.nodes.y);
+  EXPECT_EQ(r.notes.size(), 3u);  // two new names and the number of includes
+}
+
+TEST(Flatten, ParameterThatOnlyAnotherFileDefinesStaysUndefined) {
+  const auto w = tree({{"main_0000.rad", head + "#include a.inc\n/NODE\n" + coordinate + "/END\n"},
+                       {"a.inc", local("2.5")}});
+  ASSERT_EQ(w->model.nodes.x[0], 0);
+  EXPECT_EQ(w->after(flatten(w->context()))->model.nodes.x[0], 0);
+}
+
+/// Any cutting of a deck into files comes together again to the same bytes.
+TEST(Flatten, RandomCutsComeTogetherAgain) {
+  std::mt19937 random(3);
+  test::SmallDeck small;
+  for (int i = 0; i < 4; ++i)
+    small.node(i + 1, i % 2 * 10.0, i / 2 * 10.0, 0.0).node(i + 5, i % 2 * 9.0, i / 2 * 9.0, 1.0);
+  const std::string whole = small.shell_part(1, 1.5)
+                                .shell_part(2, 2.5)
+                                .shell(1, 1, 1, 2, 4, 3)
+                                .shell(2, 2, 5, 6, 8, 7)
+                                .group("/SURF/PART/1", {1})
+                                .group("/GRNOD/PART/2", {2})
+                                .add("@/INTER/TYPE7/1 Igap=1 Istf=4 Inacti=5")
+                                .text();
+  const auto contacts = edit_test::contact_text(*Whole::text(whole));
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < whole.size();) {
+    const auto next = whole.find('\n', at) + 1;
+    lines.push_back(whole.substr(at, next - at));
+    at = next;
+  }
+  for (int round = 0; round < 30; ++round) {
+    Whole::Files files;
+    int count = 0;
+    // Cuts lines [begin, end) into text and includes; the first lines hold /BEGIN.
+    const std::function<std::string(std::size_t, std::size_t, int)> cut =
+        [&](std::size_t begin, std::size_t end, int depth) {
+          std::string text;
+          while (begin < end) {
+            const std::size_t n = 1 + random() % (end - begin);
+            if (depth < 3 && random() % 2 == 0) {
+              const std::string name = "part" + std::to_string(++count) + ".inc";
+              files[name] = cut(begin, begin + n, depth + 1);
+              text += "#include " + name + "\n";
+            } else {
+              for (std::size_t i = begin; i < begin + n; ++i) text += lines[i];
+            }
+            begin += n;
+          }
+          return text;
+        };
+    std::string main;
+    for (std::size_t i = 0; i < 6; ++i) main += lines[i];
+    files["main_0000.rad"] = main + cut(6, lines.size() - 1, 0) + lines.back();
+    const auto w = tree(files);
+    if (w->deck.includes.empty()) continue;
+    const Rewrite r = flatten(w->context(), {.mark = false});
+    ASSERT_TRUE(r.refusals.empty()) << r.refusals.front();
+    ASSERT_EQ(*r.new_text, whole);
+    const Rewrite marked = flatten(w->context());
+    edit_test::expect_same(contacts, edit_test::contact_text(*w->after(marked)));
+  }
+}
+
+TEST(Flatten, SledWithItsDummyKeepsEveryContact) {
+  const std::string path = edit_test::corpus("EuroSID_II/example_es2_sled_0000.rad");
+  if (path.empty()) GTEST_SKIP() << "no real decks here";
+  const auto w = Whole::read(path);
+  ASSERT_EQ(w->deck.includes.size(), 1u);
+  const auto after = w->after(flatten(w->context()));
+  EXPECT_EQ(after->deck.includes.size(), 0u);
+  EXPECT_EQ(after->model.nodes.id, w->model.nodes.id);
+  EXPECT_EQ(after->model.nodes.x, w->model.nodes.x);
+  edit_test::ContactText a{*w}, b{*after};
+  a.parameters({});
+  b.parameters({});
+  edit_test::expect_same(a.lines, b.lines);
+}
+
+}  // namespace
+}  // namespace deck
