@@ -451,6 +451,21 @@ bool is_closer_than(const P& s1, const P& s2, const P& m1, const P& m2, double g
   return answer == Answer::yes;
 }
 
+bool is_touching(const P& p, const std::array<P, 4>& corners, bool triangle) {
+  // Nearer than the smallest number: not nearer in double is an answer for nearly all pairs.
+  SegmentPair pair(p, corners, triangle);
+  if (clearly_apart(pair, std::numeric_limits<double>::denorm_min())) return false;
+  return filtered_closest_on_segment(p, corners, triangle).distance == 0.0 &&
+         exact_compare_distance(p, corners, triangle, 0.0) == 0;
+}
+
+bool is_touching(const P& s1, const P& s2, const P& m1, const P& m2) {
+  EdgePair pair({s1, s2, m1, m2});
+  if (clearly_apart(pair, std::numeric_limits<double>::denorm_min())) return false;
+  return filtered_closest_between_edges(s1, s2, m1, m2).distance == 0.0 &&
+         exact_compare_distance(s1, s2, m1, m2, 0.0) == 0;
+}
+
 FilteredSegment filtered_closest_on_segment(const P& p, const std::array<P, 4>& corners,
                                             bool triangle, FilterCounters* counters) {
   FilteredSegment out;

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "contact/filtered_decisions.hpp"
 #include "contact/scene_parts.hpp"
 
 namespace deck::detail {
@@ -138,6 +140,85 @@ void act(SceneContext& c, Contact& contact, PenetrationRow& row, GroupStart& sta
   }
 }
 
+/// What the solver does about one edge penetration.
+void act(const Contact& contact, PenetrationRow& row, ContactEdge& s, ContactEdge& m) {
+  // Only Inacti 6 keeps the penetration as it is.
+  const double pene = contact.inacti == 6 ? row.depth : row.depth * (1 + inflation);
+  const bool deep = pene >= 0.995 * row.gap;
+  switch (contact.inacti) {
+    case 1:
+      row.action = PenetrationAction::edge_stiffness_zero;
+      s.off = true;
+      break;
+    case 2:
+      row.action = PenetrationAction::edge_stiffness_zero;
+      m.off = true;
+      break;
+    case 5:
+    case 6: {
+      if (deep) {
+        row.action = PenetrationAction::edge_stiffness_zero;
+        s.off = true;
+        break;
+      }
+      row.action = PenetrationAction::gap_reduced;
+      const double p = contact.inacti == 5 ? pene : pene + 0.05 * (row.gap - pene);
+      s.stored_penetration = std::max(s.stored_penetration, 0.5 * p);
+      m.stored_penetration = std::max(m.stored_penetration, 0.5 * p);
+      break;
+    }
+    default:
+      break;
+  }
+}
+
+/// Candidates of a contact: what the solver's search gives, and what only an exact distance finds.
+struct Candidates {
+  std::vector<CandidatePair> pairs;  // both, sorted
+  std::vector<CandidatePair> extra;  // the second kind: not counted as candidates
+  bool complete = true;
+
+  bool is_counted(const CandidatePair& pair) const {
+    return !std::binary_search(extra.begin(), extra.end(), pair);
+  }
+};
+
+/// Runs `find` in the form that the accuracy needs. Exact decisions need both: the reference
+/// distance of a very obtuse segment can be far too large, and its round-off can hide a touch.
+template <class Find>
+Candidates candidates(Accuracy accuracy, double size, SearchOptions search, const Find& find) {
+  Candidates out;
+  search.form = accuracy == Accuracy::fast ? Form::robust : Form::reference;
+  SearchResult found = find(search);
+  out.complete = found.complete;
+  out.pairs = std::move(found.pairs);
+  if (accuracy == Accuracy::fast || accuracy == Accuracy::reference || !out.complete) return out;
+  search.form = Form::robust;
+  search.margin = 1e-6 * size;  // far above the round-off of the robust formula
+  const SearchResult near = find(search);
+  out.complete = near.complete;
+  std::set_difference(near.pairs.begin(), near.pairs.end(), out.pairs.begin(), out.pairs.end(),
+                      std::back_inserter(out.extra));
+  if (out.extra.empty()) return out;
+  std::vector<CandidatePair> all;
+  all.reserve(out.pairs.size() + out.extra.size());
+  std::merge(out.pairs.begin(), out.pairs.end(), out.extra.begin(), out.extra.end(),
+             std::back_inserter(all));
+  out.pairs = std::move(all);
+  return out;
+}
+
+/// The report's entry about a pair on which solver and exact arithmetic differ.
+void note(SceneContext& c, PairJudge& judge, const PairVerdict& verdict,
+          const PenetrationRow& row) {
+  DecisionDifference d = verdict.difference;
+  d.contact = static_cast<std::uint32_t>(c.scene.contacts.size());
+  d.secondary = row.secondary;
+  d.main = row.main;
+  d.action = row.action;
+  judge.note(d);
+}
+
 }  // namespace
 
 void find_penetrations(SceneContext& c, Contact& contact) {
@@ -148,15 +229,19 @@ void find_penetrations(SceneContext& c, Contact& contact) {
   search.drad = contact.drad;
   search.threads = c.options.threads;
   search.max_pairs = most_pairs;
-  SearchResult found;
+  Candidates found;
   {
     const NodeSegmentArrays lists(contact);
     const bool wide = c.options.candidates || contact.inacti == 3;
-    search.margin = wide ? candidate_margin(arrays(x), lists.segments) : 0;
-    found = find_node_segment_pairs(lists.view(x), search);
+    const double margin = candidate_margin(arrays(x), lists.segments);
+    const auto find = [&](const SearchOptions& o) {
+      return find_node_segment_pairs(lists.view(x), o);
+    };
+    search.margin = wide ? margin : 0;
+    found = candidates(c.options.accuracy, margin, search, find);
     if (!found.complete && wide) {
       search.margin = 0;
-      found = find_node_segment_pairs(lists.view(x), search);
+      found = candidates(c.options.accuracy, margin, search, find);
     }
   }
   if (!found.complete) {
@@ -164,44 +249,43 @@ void find_penetrations(SceneContext& c, Contact& contact) {
     return;
   }
   const RemovalLists removed = curvilinear_removal(c, contact);
+  PairJudge judge(c.options.accuracy, c.scene.decisions);
   // The solver measures a whole group of candidates before it acts on any of them.
   GroupStart start;
-  std::size_t first_of_group = contact.penetrations.size(), in_group = 0;
+  std::vector<PairVerdict> group;
+  std::size_t in_group = 0;
   const auto act_on_group = [&] {
     start.clear();
-    for (; first_of_group < contact.penetrations.size(); ++first_of_group)
-      act(c, contact, contact.penetrations[first_of_group], start);
+    for (PairVerdict& verdict : group) {
+      if (verdict.solver_acts) act(c, contact, verdict.row, start);
+      if (verdict.differs) note(c, judge, verdict, verdict.row);
+      if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
+    }
+    group.clear();
     in_group = 0;
   };
   for (const CandidatePair& pair : found.pairs) {
     if (is_removed(removed, pair)) {
-      ++contact.removed_pairs;
+      contact.removed_pairs += found.is_counted(pair);
       continue;
     }
-    ++contact.candidates;
-    if (in_group++ == group_size) {
-      act_on_group();
-      in_group = 1;
+    if (found.is_counted(pair)) {
+      ++contact.candidates;
+      if (in_group++ == group_size) {
+        act_on_group();
+        in_group = 1;
+      }
     }
     const SecondaryNode& s = contact.secondary[pair.secondary];
     const MainSegment& m = contact.main[pair.main];
     const std::array<Point3<double>, 4> corners{point(x, m.nodes[0]), point(x, m.nodes[1]),
                                                 point(x, m.nodes[2]), point(x, m.nodes[3])};
-    const auto closest =
-        closest_on_segment<Form::reference>(point(x, s.node), corners, m.nodes[2] == m.nodes[3]);
     const double gap = contact.gap_rule(s.gap, m.gap, s.length, m.length);
-    const auto pene = penetration(closest, gap);
-    if (!(pene.value > 0)) continue;
-    PenetrationRow row;
-    row.secondary = pair.secondary;
-    row.main = pair.main;
-    row.depth = pene.value;
-    row.gap = gap;
-    row.distance = closest.sub[static_cast<std::size_t>(pene.sub)].distance;
-    row.normal = {pene.normal.x, pene.normal.y, pene.normal.z};
-    row.on_surface = pene.on_surface;
-    row.feature = closest.feature;
-    contact.penetrations.push_back(row);
+    PairVerdict verdict = judge.judge(point(x, s.node), corners, m.nodes[2] == m.nodes[3], gap);
+    if (!verdict.is_row() && !verdict.differs) continue;
+    verdict.row.secondary = pair.secondary;
+    verdict.row.main = pair.main;
+    group.push_back(verdict);
   }
   act_on_group();
 }
@@ -209,7 +293,7 @@ void find_penetrations(SceneContext& c, Contact& contact) {
 void find_edge_penetrations(SceneContext& c, Contact& contact) {
   if (contact.main_edges.empty() || contact.secondary_edges.empty()) return;
   const Coordinates& x = c.scene.coordinates;
-  SearchResult found;
+  Candidates found;
   {
     const EdgeArrays s(contact.secondary_edges), m(contact.main_edges);
     SearchOptions search;
@@ -217,68 +301,36 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     search.drad = contact.drad;
     search.threads = c.options.threads;
     search.max_pairs = most_pairs;
-    found = find_edge_edge_pairs(
-        {arrays(x), s.edges, s.gap, s.length, s.stiffness, m.edges, m.gap, m.length, m.stiffness},
-        search);
+    const double size = candidate_margin(arrays(x), s.edges, m.edges);
+    found = candidates(c.options.accuracy, size, search, [&](const SearchOptions& o) {
+      return find_edge_edge_pairs(
+          {arrays(x), s.edges, s.gap, s.length, s.stiffness, m.edges, m.gap, m.length, m.stiffness},
+          o);
+    });
   }
   if (!found.complete) {
     report_overflow(c, contact);
     return;
   }
   const RemovalLists removed = curvilinear_edge_removal(c, contact);
+  PairJudge judge(c.options.accuracy, c.scene.decisions);
   for (const CandidatePair& pair : found.pairs) {
     if (is_removed(removed, pair)) {
-      ++contact.removed_pairs;
+      contact.removed_pairs += found.is_counted(pair);
       continue;
     }
-    ++contact.candidates;
+    contact.candidates += found.is_counted(pair);
     ContactEdge& s = contact.secondary_edges[pair.secondary];
     ContactEdge& m = contact.main_edges[pair.main];
-    const auto closest = closest_between_edges<Form::reference>(
-        point(x, s.nodes[0]), point(x, s.nodes[1]), point(x, m.nodes[0]), point(x, m.nodes[1]));
-    PenetrationRow row;
-    row.secondary = pair.secondary;
-    row.main = pair.main;
-    row.gap = contact.gap_rule(s.gap, m.gap, s.length, m.length);
-    row.distance = closest.distance;
-    row.depth = row.gap - row.distance;
-    if (!(row.depth > 0)) continue;
-    row.on_surface = !(row.distance > 0);
-    if (!row.on_surface)
-      row.normal = {closest.vector.x / row.distance, closest.vector.y / row.distance,
-                    closest.vector.z / row.distance};
-    row.feature = Feature::edge;
-    row.weight_s = closest.weight_s;
-    row.weight_m = closest.weight_m;
-    // Only Inacti 6 keeps the penetration as it is.
-    const double pene = contact.inacti == 6 ? row.depth : row.depth * (1 + inflation);
-    const bool deep = pene >= 0.995 * row.gap;
-    switch (contact.inacti) {
-      case 1:
-        row.action = PenetrationAction::edge_stiffness_zero;
-        s.off = true;
-        break;
-      case 2:
-        row.action = PenetrationAction::edge_stiffness_zero;
-        m.off = true;
-        break;
-      case 5:
-      case 6: {
-        if (deep) {
-          row.action = PenetrationAction::edge_stiffness_zero;
-          s.off = true;
-          break;
-        }
-        row.action = PenetrationAction::gap_reduced;
-        const double p = contact.inacti == 5 ? pene : pene + 0.05 * (row.gap - pene);
-        s.stored_penetration = std::max(s.stored_penetration, 0.5 * p);
-        m.stored_penetration = std::max(m.stored_penetration, 0.5 * p);
-        break;
-      }
-      default:
-        break;
-    }
-    contact.penetrations.push_back(row);
+    PairVerdict verdict = judge.judge(
+        {point(x, s.nodes[0]), point(x, s.nodes[1]), point(x, m.nodes[0]), point(x, m.nodes[1])},
+        contact.gap_rule(s.gap, m.gap, s.length, m.length));
+    if (!verdict.is_row() && !verdict.differs) continue;
+    verdict.row.secondary = pair.secondary;
+    verdict.row.main = pair.main;
+    if (verdict.solver_acts) act(contact, verdict.row, s, m);
+    if (verdict.differs) note(c, judge, verdict, verdict.row);
+    if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
   }
   // The store is per edge, so the gap left is known only now.
   for (PenetrationRow& row : contact.penetrations) {

@@ -4,6 +4,7 @@
 #include "deck/report/gaps.hpp"
 #include "deck/report/json.hpp"
 #include "model/item_spans.hpp"
+#include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
 
 namespace deck {
@@ -80,7 +81,8 @@ void write_penetrations(JsonWriter& j, const Deck& deck, const Scene& scene, con
     }
     j.field("distance", r.distance).key("normal");
     write_vector(j, r.normal);
-    j.field("on_surface", r.on_surface).field("action", to_string(r.action));
+    j.field("on_surface", r.on_surface).field("in_contact", r.in_contact);
+    j.field("action", to_string(r.action));
     j.key("gap0");
     r.has_gap0 ? j.value(r.gap0) : j.null();
     j.key("p0");
@@ -153,6 +155,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
   write_totals(j, view.total);
   if (crossings != nullptr) j.field("crossings", crossings->size());
   j.end_object();
+  write_decisions(j, scene);
   j.key("part_pairs").begin_array();
   for (const PartPair& p : view.part_pairs) {
     j.begin_object(true).field("secondary", p.secondary).field("main", p.main);

@@ -7,6 +7,7 @@
 #include "deck/report/gaps.hpp"
 #include "deck/report/text_table.hpp"
 #include "model/item_spans.hpp"
+#include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
 
 namespace deck {
@@ -125,6 +126,8 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
   std::string out = fmt::format("{}{}{}\n\n", bold, gaps_verdict(scene, view), plain);
   out +=
       fmt::format("{}Interfaces{}\n{}", bold, plain, interface_table(scene, view, options.color));
+  const std::string decisions = decisions_text(scene, 5, options.color);
+  if (!decisions.empty()) out += "\n" + decisions;
   if (view.penetrations.empty()) return out;
 
   TextTable pairs = make_table(

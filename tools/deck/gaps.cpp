@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "accuracy_option.hpp"
 #include "common.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/report/gaps.hpp"
@@ -22,7 +23,7 @@ struct Options {
   bool fail = false;
   bool crossings = false;
   std::size_t worst = 20;
-  std::string csv, html, compare, vtk;
+  std::string csv, html, compare, vtk, accuracy = "robust";
   std::vector<std::int64_t> only;
   std::vector<std::string> what_if;
 };
@@ -135,6 +136,7 @@ int run(const Options& o) {
   SceneOptions scene_options;
   scene_options.threads = o.common.thread_count();
   scene_options.only = o.only;
+  scene_options.accuracy = accuracy_of(o.accuracy);
   for (const std::string& text : o.what_if) {
     auto w = parse_what_if(text);
     if (!w) {
@@ -209,6 +211,7 @@ Action setup(CLI::App& app) {
   app.add_option("--compare", options->compare,
                  "With --html: an earlier 'deck gaps --json' FILE to compare with")
       ->type_name("FILE");
+  add_accuracy(app, options->accuracy);
   app.add_option("--worst", options->worst, "Rows of the list of deepest penetrations")
       ->capture_default_str();
   app.add_option("--interface", options->only, "Only these interface ids")->type_name("ID");

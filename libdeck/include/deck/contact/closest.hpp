@@ -329,30 +329,27 @@ std::array<SubTriangleClosest<T>, 4> reference_sub_triangles(const Point3<T>& p,
           reference_sub_triangle(p, o, x[2], x[3]), reference_sub_triangle(p, o, x[3], x[0])};
 }
 
+// Power of two that brings numbers of this size where products of up to six of them stay inside the
+// exponent range; 0 if they are there already. An infinite size is an overflow of a difference: all
+// finite coordinates divided by the largest power of two are at most 1.
 template <class T>
-std::array<SubTriangleClosest<T>, 4> robust_sub_triangles(const Point3<T>& p, const Corners<T>& x,
+int safe_shift(const T& big) {
+  constexpr int kSafe = std::numeric_limits<T>::max_exponent / 10;
+  if (!(big > T(0)) || (big >= std::ldexp(T(1), -kSafe) && big <= std::ldexp(T(1), kSafe)))
+    return 0;
+  return big <= std::numeric_limits<T>::max() ? -std::ilogb(big)
+                                              : -std::numeric_limits<T>::max_exponent;
+}
+
+template <class T>
+Point3<T> shifted(const Point3<T>& v, int shift) {
+  return {std::ldexp(v.x, shift), std::ldexp(v.y, shift), std::ldexp(v.z, shift)};
+}
+
+// The four sub-triangles at a harmless size.
+template <class T>
+std::array<SubTriangleClosest<T>, 4> scaled_sub_triangles(const Point3<T>& p, const Corners<T>& x,
                                                           bool triangle) {
-  if constexpr (std::is_floating_point_v<T>) {
-    // Products of up to six lengths must stay inside the exponent range: otherwise scale.
-    constexpr int kSafe = std::numeric_limits<T>::max_exponent / 10;
-    T big(0);
-    for (const Point3<T>& corner : x) big = larger(big, largest_component(corner - p));
-    if (big > T(0) && !(big >= std::ldexp(T(1), -kSafe) && big <= std::ldexp(T(1), kSafe))) {
-      const int shift = big <= std::numeric_limits<T>::max() ? -std::ilogb(big) : -kSafe * 10 + 8;
-      const auto scaled = [shift](const Point3<T>& v) {
-        return Point3<T>{std::ldexp(v.x, shift), std::ldexp(v.y, shift), std::ldexp(v.z, shift)};
-      };
-      const Corners<T> y{scaled(x[0]), scaled(x[1]), scaled(x[2]), scaled(x[3])};
-      auto out = robust_sub_triangles(scaled(p), y, triangle);
-      for (auto& sub : out) {
-        sub.vector = {std::ldexp(sub.vector.x, -shift), std::ldexp(sub.vector.y, -shift),
-                      std::ldexp(sub.vector.z, -shift)};
-        sub.distance = std::ldexp(sub.distance, -shift);
-        sub.distance_squared = std::ldexp(sub.distance_squared, -2 * shift);
-      }
-      return out;
-    }
-  }
   const Corners<T> v{x[0] - p, x[1] - p, x[2] - p, x[3] - p};
   std::array<SubTriangleClosest<T>, 4> out;
   if (triangle) {
@@ -372,6 +369,27 @@ std::array<SubTriangleClosest<T>, 4> robust_sub_triangles(const Point3<T>& p, co
     out[k] = robust_sub_triangle(vo, v[k], v[next], v[k] - vo, v[next] - vo, x[next] - x[k]);
   }
   return out;
+}
+
+template <class T>
+std::array<SubTriangleClosest<T>, 4> robust_sub_triangles(const Point3<T>& p, const Corners<T>& x,
+                                                          bool triangle) {
+  if constexpr (std::is_floating_point_v<T>) {
+    T big(0);
+    for (const Point3<T>& corner : x) big = larger(big, largest_component(corner - p));
+    if (const int shift = safe_shift(big); shift != 0) {
+      const Corners<T> y{shifted(x[0], shift), shifted(x[1], shift), shifted(x[2], shift),
+                         shifted(x[3], shift)};
+      auto out = scaled_sub_triangles(shifted(p, shift), y, triangle);
+      for (auto& sub : out) {
+        sub.vector = shifted(sub.vector, -shift);
+        sub.distance = std::ldexp(sub.distance, -shift);
+        sub.distance_squared = std::ldexp(sub.distance_squared, -2 * shift);
+      }
+      return out;
+    }
+  }
+  return scaled_sub_triangles(p, x, triangle);
 }
 
 // Names the feature from the weights that are exactly 0 and spreads them over the corners.
@@ -445,26 +463,10 @@ T clamped_ratio(const T& numerator, const T& denominator) {
   return numerator / denominator;
 }
 
+// Two edges at a harmless size.
 template <class T>
-EdgeClosest<T> robust_edges(const Point3<T>& s1, const Point3<T>& s2, const Point3<T>& m1,
+EdgeClosest<T> scaled_edges(const Point3<T>& s1, const Point3<T>& s2, const Point3<T>& m1,
                             const Point3<T>& m2) {
-  if constexpr (std::is_floating_point_v<T>) {
-    constexpr int kSafe = std::numeric_limits<T>::max_exponent / 10;
-    T big = largest_component(s2 - s1);
-    big = larger(big, larger(largest_component(m2 - m1), largest_component(m2 - s2)));
-    if (big > T(0) && !(big >= std::ldexp(T(1), -kSafe) && big <= std::ldexp(T(1), kSafe))) {
-      const int shift = big <= std::numeric_limits<T>::max() ? -std::ilogb(big) : -kSafe * 10 + 8;
-      const auto scaled = [shift](const Point3<T>& v) {
-        return Point3<T>{std::ldexp(v.x, shift), std::ldexp(v.y, shift), std::ldexp(v.z, shift)};
-      };
-      EdgeClosest<T> out = robust_edges(scaled(s1), scaled(s2), scaled(m1), scaled(m2));
-      out.vector = {std::ldexp(out.vector.x, -shift), std::ldexp(out.vector.y, -shift),
-                    std::ldexp(out.vector.z, -shift)};
-      out.distance = std::ldexp(out.distance, -shift);
-      out.distance_squared = std::ldexp(out.distance_squared, -2 * shift);
-      return out;
-    }
-  }
   // Edge points: s2 - hs*s and m2 - hm*m with h the weight of the first node.
   const Point3<T> s = s2 - s1, m = m2 - m1, w = m2 - s2;
   const T aa = dot(s, s), cc = dot(m, m), q = dot(s, m);
@@ -502,6 +504,24 @@ EdgeClosest<T> robust_edges(const Point3<T>& s1, const Point3<T>& s2, const Poin
   out.distance_squared = dot(out.vector, out.vector);
   out.distance = length(out.vector);
   return out;
+}
+
+template <class T>
+EdgeClosest<T> robust_edges(const Point3<T>& s1, const Point3<T>& s2, const Point3<T>& m1,
+                            const Point3<T>& m2) {
+  if constexpr (std::is_floating_point_v<T>) {
+    T big = largest_component(s2 - s1);
+    big = larger(big, larger(largest_component(m2 - m1), largest_component(m2 - s2)));
+    if (const int shift = safe_shift(big); shift != 0) {
+      EdgeClosest<T> out = scaled_edges(shifted(s1, shift), shifted(s2, shift), shifted(m1, shift),
+                                        shifted(m2, shift));
+      out.vector = shifted(out.vector, -shift);
+      out.distance = std::ldexp(out.distance, -shift);
+      out.distance_squared = std::ldexp(out.distance_squared, -2 * shift);
+      return out;
+    }
+  }
+  return scaled_edges(s1, s2, m1, m2);
 }
 
 }  // namespace closest_detail

@@ -52,6 +52,13 @@ bool is_closer_than(const Point3<double>& p, const std::array<Point3<double>, 4>
 bool is_closer_than(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
                     const Point3<double>& m2, double gap, FilterCounters* counters = nullptr);
 
+// True if and only if the exact distance is 0: the node lies on the segment, the edges meet. Finite
+// coordinates.
+bool is_touching(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
+                 bool triangle);
+bool is_touching(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
+                 const Point3<double>& m2);
+
 // The correctly rounded distance. Weights and feature are those of the arithmetic that
 // certified it.
 FilteredSegment filtered_closest_on_segment(const Point3<double>& p,

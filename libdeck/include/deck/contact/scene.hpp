@@ -81,12 +81,43 @@ struct PenetrationRow {
   double distance = 0;
   std::array<double, 3> normal{};  ///< unit, main to secondary; zero when on_surface
   bool on_surface = false;
+  /// Accuracy::robust: false where the pair is no nearer than its gap, and only the round-off of the
+  /// solver's formula makes a penetration of it. The solver acts on it all the same.
+  bool in_contact = true;
   Feature feature = Feature::face;
   PenetrationAction action = PenetrationAction::none;
   bool has_gap0 = false;
   double p0 = 0, gap0 = 0;  ///< Inacti 5, 6: stored penetration and gap left
   std::array<double, 3> moved_by{};  ///< Inacti 3
   double weight_s = 0, weight_m = 0; ///< edge pairs: weights of the first nodes
+};
+
+/// Which arithmetic decides that a pair is in contact, and gives its figures.
+enum class Accuracy : std::uint8_t {
+  fast,       ///< plain double, closest point by the robust formula
+  reference,  ///< plain double, the reference solver's formula
+  robust,     ///< filtered, never wrong; figures are the reference formula's
+  exact       ///< rationals; figures rounded once
+};
+const char* to_string(Accuracy accuracy);  ///< "fast", "reference", "robust", "exact"
+
+/// A pair about which the solver's arithmetic and exact arithmetic do not agree.
+struct DecisionDifference {
+  std::uint32_t contact = 0, secondary = 0, main = 0;  ///< positions in the scene and its lists
+  bool surface = false;  ///< about "exactly on the segment"; false: about "in contact"
+  bool exact = false;    ///< what is true; the solver's arithmetic says the opposite
+  double gap = 0, solver_distance = 0, exact_distance = 0;
+  PenetrationAction action = PenetrationAction::none;  ///< what the solver does all the same
+};
+
+/// How the contact decisions of a scene were taken.
+struct DecisionReport {
+  Accuracy mode = Accuracy::robust;
+  std::uint64_t pairs = 0;     ///< decided
+  std::uint64_t fallback = 0;  ///< needed more than double
+  std::uint64_t exact = 0;     ///< needed integers or rationals
+  std::uint64_t contact_differs = 0, surface_differs = 0;  ///< counted with robust and exact only
+  std::vector<DecisionDifference> differences;             ///< the first of them
 };
 
 /// One elementary contact.
@@ -128,6 +159,7 @@ struct Scene {
   const Interfaces* interfaces = nullptr;
   Coordinates coordinates;           ///< after Inacti 3 moved nodes
   std::vector<Contact> contacts;     ///< in the solver's processing order
+  DecisionReport decisions;          ///< of the penetrations
 };
 
 /// Other values for one interface, to see what they would do; the deck is not read again.
@@ -141,6 +173,7 @@ struct SceneOptions {
   int threads = 1;
   bool candidates = true;  ///< also count candidates (needs the wider search)
   bool penetrations = true;
+  Accuracy accuracy = Accuracy::robust;  ///< of the contact decisions
   bool nodal_stiffness = false;  ///< fill SecondaryNode::nodal_stiffness (needed for forces)
   std::vector<std::int64_t> only;  ///< interface ids to build; empty: all
   std::vector<WhatIf> what_if;

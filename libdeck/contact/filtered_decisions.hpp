@@ -1,0 +1,53 @@
+// One pair judged as the chosen accuracy asks: is it in contact, does the solver think so too, and
+// with which figures. Counts where the two disagree.
+#pragma once
+
+#include <array>
+
+#include "deck/contact/filtered.hpp"
+#include "deck/contact/scene.hpp"
+
+namespace deck::detail {
+
+/// What is known about one pair. `row` has its figures if either answer is yes.
+struct PairVerdict {
+  bool in_contact = false;   ///< by the chosen accuracy
+  bool solver_acts = false;  ///< the arithmetic whose consequences the scene follows says so
+  bool differs = false;      ///< the two are not the same, or not the same on "exactly on it"
+  PenetrationRow row;
+  /// A penetration, of the pair or of the solver's arithmetic only.
+  bool is_row() const { return in_contact || solver_acts; }
+  DecisionDifference difference;  ///< valid if `differs`; action and positions are the caller's
+};
+
+class PairJudge {
+ public:
+  PairJudge(Accuracy accuracy, DecisionReport& report) : accuracy_(accuracy), report_(report) {
+    report_.mode = accuracy;
+  }
+  ~PairJudge();
+  PairJudge(const PairJudge&) = delete;
+  PairJudge& operator=(const PairJudge&) = delete;
+
+  /// Conventions of closest_on_segment; `gap` the pair gap.
+  PairVerdict judge(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
+                    bool triangle, double gap);
+  /// Conventions of closest_between_edges; `x` both nodes of the secondary, then of the main edge.
+  PairVerdict judge(const std::array<Point3<double>, 4>& x, double gap);
+
+  /// Whether exact decisions are taken, so that pairs beyond the reference formula's matter.
+  bool is_exact() const { return accuracy_ == Accuracy::robust || accuracy_ == Accuracy::exact; }
+  /// Keeps a difference for the report; only the first of them are listed.
+  void note(const DecisionDifference& difference);
+
+ private:
+  template <class Exact>
+  PairVerdict combine(const PenetrationRow& solver, bool touching, double gap, bool closer,
+                      const Exact& exact_row);
+
+  Accuracy accuracy_;
+  DecisionReport& report_;
+  FilterCounters counters_;
+};
+
+}  // namespace deck::detail

@@ -1,0 +1,18 @@
+// How the contact decisions of a scene were taken, for the reports of gaps and cycle. Private to
+// the report stage.
+#pragma once
+#include <string>
+
+#include "deck/contact/scene.hpp"
+#include "deck/report/json.hpp"
+
+namespace deck {
+
+/// The member "accuracy": mode, pairs, how many needed more than double, and the pairs about which
+/// the solver's arithmetic decides otherwise.
+void write_decisions(JsonWriter& j, const Scene& scene);
+
+/// One sentence, and a table of the first `rows` differences if there are any.
+std::string decisions_text(const Scene& scene, std::size_t rows, bool color);
+
+}  // namespace deck

@@ -1,0 +1,26 @@
+// The option --accuracy of the verbs that decide about contact.
+#pragma once
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+#include "deck/contact/scene.hpp"
+
+namespace deck::cli {
+
+/// Adds --accuracy; `value` keeps the word.
+inline void add_accuracy(CLI::App& app, std::string& value) {
+  app.add_option("--accuracy", value,
+                 "What decides that a pair is in contact: fast (plain double), reference (the "
+                 "solver's formula), robust (never wrong, filtered), exact (rationals)")
+      ->check(CLI::IsMember({"fast", "reference", "robust", "exact"}))
+      ->capture_default_str();
+}
+
+inline Accuracy accuracy_of(const std::string& value) {
+  for (const Accuracy a : {Accuracy::fast, Accuracy::reference, Accuracy::exact})
+    if (value == to_string(a)) return a;
+  return Accuracy::robust;
+}
+
+}  // namespace deck::cli
