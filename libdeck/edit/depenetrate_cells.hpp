@@ -1,0 +1,51 @@
+// Where the coordinates of nodes are written, and what a new coordinate is once it is printed
+// there. Private to the stage.
+#pragma once
+#include <array>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "deck/edit/rewrite.hpp"
+#include "deck/keyword/decode.hpp"
+
+namespace deck::detail {
+
+class NodeCells {
+ public:
+  explicit NodeCells(const EditContext& context);
+  /// Finds the lines of these nodes; those known already cost nothing.
+  void look_up(std::span<const NodeIndex> nodes);
+  /// Why the coordinates of a node that was looked up cannot be changed on its line; empty: they
+  /// can.
+  const std::string& obstacle(NodeIndex n) const;
+
+  /// Coordinate `axis` of a node with `value` printed in its cell: what reading it gives. nullopt:
+  /// it does not fit.
+  struct Printed {
+    std::string text;
+    double value = 0;
+  };
+  std::optional<Printed> print(NodeIndex n, int axis, double value) const;
+  /// Edits for new texts per node and axis.
+  std::vector<TextEdit> edits(const std::map<std::pair<NodeIndex, int>, std::string>& texts) const;
+
+ private:
+  struct Cells {
+    Line line;
+    std::array<Span, 3> span;
+    std::array<std::pair<int, int>, 3> columns{};
+    bool free_format = false;
+    double factor = 1;
+    std::string obstacle;
+  };
+  Cells read(NodeIndex n, const Block& block, const Span& line) const;
+  const EditContext& context_;
+  std::map<NodeIndex, Cells> known_;
+  std::set<std::string> twice_;  ///< files included more than once
+  std::set<NodeIndex> merged_;   ///< nodes that /CNODE merges with another
+};
+
+}  // namespace deck::detail

@@ -1,0 +1,57 @@
+// The mesh around moved nodes: who is next to whom, which elements cross, which turn inside out.
+// Private to the stage.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "deck/contact/scene.hpp"
+#include "deck/model/connectivity.hpp"
+
+namespace deck::detail {
+
+class FixMesh {
+ public:
+  /// Edges of shells, solids, trusses and beams; faces of shells, exterior faces of solids and the
+  /// main segments of the scene.
+  explicit FixMesh(const Scene& scene);
+
+  /// Nodes that share an element edge with `n`, ascending.
+  std::span<const NodeIndex> neighbours(NodeIndex n) const { return neighbours_.row(n); }
+  /// True if a path along element edges no longer than `limit` leads from `from` to one of `to`.
+  bool connected_within(const Coordinates& x, NodeIndex from, std::span<const NodeIndex> to,
+                        double limit) const;
+  /// Part of the first element of a node; no_index: none.
+  std::uint32_t part_of(NodeIndex n) const { return part_[n]; }
+  /// Nodes whose first part is this one.
+  std::uint32_t nodes_of_part(std::uint32_t part) const { return part_nodes_[part]; }
+
+  /// (edge, face) pairs that cross and touch one of `nodes`, sorted.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings(const Coordinates& x,
+                                                                 std::span<const NodeIndex> nodes,
+                                                                 int threads) const;
+  /// All crossing pairs.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> all_crossings(const Coordinates& x,
+                                                                     int threads) const;
+  /// Nodes of an edge and a face.
+  std::vector<NodeIndex> nodes_of(std::pair<std::uint32_t, std::uint32_t> crossing) const;
+
+  /// Nodes of the elements touching `nodes` that are turned inside out at a corner at `now` but not
+  /// at `before`.
+  std::vector<NodeIndex> inverted(const Coordinates& before, const Coordinates& now,
+                                  std::span<const NodeIndex> nodes) const;
+
+ private:
+  void collect_faces(const Scene& scene);
+  void collect_edges();
+  const Model& model_;
+  std::vector<std::array<NodeIndex, 2>> edges_;
+  std::vector<std::array<NodeIndex, 4>> faces_;
+  IndexRows edges_of_, faces_of_, neighbours_;
+  IndexRows shells4_, shells3_, solids_;
+  std::vector<std::uint32_t> part_, part_nodes_;
+};
+
+}  // namespace deck::detail

@@ -1,0 +1,94 @@
+// What the strategies share: scenes in which no node is moved at start-up, counting, reading the
+// deck again with proposed text, and setting single fields of a card. Private to the stage.
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "deck/edit/fix.hpp"
+#include "deck/keyword/decode.hpp"
+#include "deck/text/edits.hpp"
+
+namespace deck::detail {
+
+/// A deck read again with some files changed. Never moved: the parts point to one another.
+struct Reread {
+  std::map<std::string, std::string> overlay;
+  Deck deck;
+  Diagnostics diagnostics;
+  Model model;
+  Interfaces interfaces;
+};
+Result<std::unique_ptr<Reread>> read_again(const EditContext& context, const Rewrite& rewrite,
+                                           const FixOptions& options);
+
+/// The scene as the solver's own treatment would see it, or (`as_written` false) with Inacti 0
+/// everywhere, so that every node stands where the deck puts it.
+Scene fix_scene(const Model& model, const Interfaces& interfaces, const FixOptions& options,
+                bool as_written, std::vector<WhatIf> what_if = {},
+                std::vector<std::int64_t> only = {});
+
+/// True if the options ask for this interface.
+bool is_wanted(const FixOptions& options, std::int64_t interface_id);
+
+/// True if the solver does nothing about the pair, or stops at it.
+bool is_untreated(const Contact& contact, const PenetrationRow& row);
+
+/// Counts of every interface with penetrations; `wanted` ones only.
+std::map<std::int64_t, FixCount> count_interfaces(const Scene& scene, const FixOptions& options);
+
+/// Forms PenetrationFix::interfaces from two scenes.
+void set_interfaces(PenetrationFix& fix, const Interfaces& interfaces, const FixOptions& options,
+                    const Scene& before, const Scene& after);
+/// The entry of an interface, made if absent.
+FixedInterface& interface_entry(PenetrationFix& fix, const InterBase& inter);
+
+/// Ids of the secondary node or edge, and of the main segment or edge, of a row.
+std::vector<std::int64_t> secondary_ids(const Model& model, const Contact& contact,
+                                        const PenetrationRow& row);
+std::vector<std::int64_t> main_ids(const Model& model, const Contact& contact,
+                                   const PenetrationRow& row);
+
+/// A cell of an interface card that can be set.
+struct FieldPlace {
+  const Field* field = nullptr;
+  Cell cell;
+  Line line;
+  bool free_format = false;
+  double factor = 1;  ///< deck units to working units
+  int width() const { return field->last - field->first + 1; }
+};
+/// Error: the card of this input version has no such cell, or its line is missing.
+Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_view name);
+
+/// Collects changes of fields of any number of cards.
+class FieldEdits {
+ public:
+  explicit FieldEdits(const Deck& deck) : deck_(deck) {}
+  void set(const FieldPlace& place, std::string_view text);
+  std::vector<TextEdit> finish() const;
+
+ private:
+  const Deck& deck_;
+  CellEdits cells_;
+  std::vector<TextEdit> free_;
+};
+
+/// The largest number of at most `digits` significant digits that is <= `bound` (> 0) and fits
+/// `width` columns; with `below`, also smaller than that. nullopt: none.
+struct RoundedText {
+  std::string text;
+  double value = 0;  ///< what reading the text gives
+};
+std::optional<RoundedText> round_down(double bound, int digits, int width,
+                                      std::optional<double> below = {});
+/// The smallest one that is >= `bound`.
+std::optional<RoundedText> round_up(double bound, int digits, int width);
+
+/// "file:line:column" of the interface card.
+std::string place_of(const Deck& deck, const InterBase& inter);
+/// "/INTER/TYPE7/12"
+std::string name_of(const InterBase& inter);
+
+}  // namespace deck::detail

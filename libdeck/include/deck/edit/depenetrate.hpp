@@ -1,0 +1,32 @@
+// Depenetration: moves nodes out of each other's gap, a share of the depth at a time, until none is
+// left, without making a penetration or a crossed element that was not there before.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "deck/edit/fix.hpp"
+
+namespace deck {
+
+struct MoveNodesOptions : FixOptions {
+  std::vector<std::int64_t> lock;         ///< parts whose nodes stay
+  std::vector<std::int64_t> move;         ///< only nodes of these parts move; empty: all
+  bool lock_rigid_bodies = false;         ///< nodes of /RBODY stay
+  bool lock_boundary_conditions = false;  ///< nodes of /BCS stay
+  bool secondary_only = false;            ///< main sides do not give way
+  double most_moved = 0.1;                ///< share of the nodes of a part that may move
+  /// No node moves farther than this, working units. Absent: twice the deepest penetration.
+  std::optional<double> most_displacement;
+  double share = 0.7;       ///< of the depth, per iteration
+  double clearance = 1e-3;  ///< of the gap, left between gap and distance at the end
+  int smooth = 0;           ///< rings of neighbours that follow the moved nodes
+  int iterations = 60;
+};
+
+/// Moves nodes of /NODE lines. Verified with the coordinates as printed: the deck is read again
+/// with them. Moves that would make a new penetration, deepen another one, cross elements or turn
+/// one inside out are taken back. Penetrations that cannot be solved this way are in `refused` with
+/// the reason. Error: unknown part ids, or the deck cannot be read again.
+Result<PenetrationFix> move_nodes(const EditContext& context, const MoveNodesOptions& options);
+
+}  // namespace deck

@@ -1,0 +1,117 @@
+// Repairs of initial penetrations: what all strategies take and report, and those that change an
+// interface card — a smaller gap, Inacti, Fpenmax. Moving nodes is in depenetrate.hpp.
+//
+// A strategy only describes: the rewrite it proposes, what was found before and what is left after.
+// "After" is never an expectation: the deck is read again with the proposed text and evaluated.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/contact/scene.hpp"
+#include "deck/edit/rewrite.hpp"
+
+namespace deck {
+
+struct FixOptions {
+  int threads = 1;
+  std::vector<std::int64_t> interfaces;  ///< ids to treat; empty: all
+  ReadOptions read;                      ///< how the deck was read; the overlay is replaced
+  /// Called with what is being done and (done, total); total 0: unknown. May be empty.
+  std::function<void(std::string_view step, std::size_t done, std::size_t total)> progress;
+};
+
+/// Initial penetrations of one interface, all its contacts together. Lengths in working units.
+struct FixCount {
+  std::uint64_t pairs = 0;
+  std::uint64_t nodes = 0;       ///< distinct secondary nodes or edges
+  std::uint64_t untreated = 0;   ///< pairs about which the solver does nothing, or stops
+  std::uint64_t on_surface = 0;  ///< pairs at distance 0
+  double deepest = 0;
+};
+
+/// One changed cell of an interface card.
+struct FieldChange {
+  std::string field;
+  std::string old_text, new_text;       ///< as on the card; old_text is empty for a blank cell
+  double old_value = 0, new_value = 0;  ///< in effect; working units
+};
+
+struct FixedInterface {
+  std::int64_t id = 0;
+  int type = 0;
+  std::string title;
+  FixCount before, after;
+  std::vector<FieldChange> changes;
+};
+
+struct MovedNode {
+  std::int64_t id = 0;
+  std::int64_t part = 0;       ///< 0: no part
+  std::array<double, 3> by{};  ///< working units
+  double distance = 0;
+};
+
+/// A penetration, or a whole interface (no nodes), that was not treated, and why.
+struct FixRefusal {
+  std::int64_t interface_id = 0;
+  std::vector<std::int64_t> nodes;  ///< the secondary node, or the two of an edge
+  double depth = 0;                 ///< as it is now
+  std::string reason;
+};
+
+/// What the solver will do about one penetration, before and after the change.
+struct FixAction {
+  std::int64_t interface_id = 0;
+  std::vector<std::int64_t> secondary, main;  ///< node ids
+  double depth = 0, gap = 0;
+  PenetrationAction before = PenetrationAction::none, after = PenetrationAction::none;
+  bool stops = false;  ///< the solver stops at this pair after the change
+  double gap0 = 0;     ///< gap left where it is reduced
+};
+
+struct PenetrationFix {
+  std::string strategy;
+  Rewrite rewrite;
+  std::vector<FixedInterface> interfaces;  ///< those with penetrations, before or after; by id
+  std::vector<MovedNode> moved;            ///< by node id
+  std::vector<FixRefusal> refused;         ///< by interface, deepest first
+  std::vector<FixAction> actions;          ///< Inacti, Fpenmax: by interface, deepest first
+  std::uint64_t crossings_before = 0, crossings_after = 0;  ///< move-nodes: crossed elements
+  int iterations = 0;
+  bool complete = false;  ///< nothing is left of what the strategy treats
+};
+
+struct ReduceGapOptions : FixOptions {
+  /// The new gap is at least this share of the present one; otherwise the interface is refused.
+  double least_share = 0.5;
+  /// Significant digits of the new values; they are rounded down.
+  int digits = 6;
+};
+/// Gives every interface with penetrations the largest gap that leaves none: Gapmin where the gap
+/// is constant, the better of Fscalegap and Gapmax where it follows the thickness (Igap 1 becomes 2
+/// for that, which is the same with Fscalegap 1). A cell is only ever lowered. Error: the deck
+/// cannot be read again.
+Result<PenetrationFix> reduce_gaps(const EditContext& context, const ReduceGapOptions& options);
+
+struct InactiOptions : FixOptions {
+  int inacti = 6;
+};
+/// Sets Inacti where there are penetrations. Refused: values that the solver does not take or that
+/// do nothing for the type, and interfaces where it would stop at a node at distance 0.
+Result<PenetrationFix> set_inacti(const EditContext& context, const InactiOptions& options);
+
+struct FpenmaxOptions : FixOptions {
+  /// Penetrations deeper than this share of the gap lose their node: its contact is off for the
+  /// whole interface. Absent: the smallest value that drops nothing but nodes at distance 0, at
+  /// which the solver would stop.
+  std::optional<double> ratio;
+};
+/// Sets Fpenmax of TYPE7 interfaces; all other penetrations stay with Inacti.
+Result<PenetrationFix> set_fpenmax(const EditContext& context, const FpenmaxOptions& options);
+
+}  // namespace deck

@@ -1,0 +1,25 @@
+// Reports of penetration fixes, as text for people and as JSON. Pure functions.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "deck/edit/fix.hpp"
+
+namespace deck {
+
+struct FixTextOptions {
+  std::size_t rows = 10;  ///< of the lists of moved nodes and of what was not treated
+  bool color = false;
+};
+
+/// One sentence: what was done, what is left.
+std::string fix_verdict(const PenetrationFix& fix);
+/// Verdict, interface table, changed fields, moved nodes, what was not treated and why.
+std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options = {});
+
+/// The document of `deck fix --json`. `written`: "no", "diff", "in-place" or the directory.
+std::string fix_json(std::string_view path, const Deck& deck, const PenetrationFix& fix,
+                     std::string_view written);
+
+}  // namespace deck

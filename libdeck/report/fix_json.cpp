@@ -1,0 +1,79 @@
+#include "deck/report/fix.hpp"
+#include "deck/report/json.hpp"
+
+namespace deck {
+namespace {
+
+void write_ids(JsonWriter& j, std::string_view name, const std::vector<std::int64_t>& ids) {
+  j.key(name).begin_array(true);
+  for (const std::int64_t id : ids) j.value(id);
+  j.end_array();
+}
+
+void write_count(JsonWriter& j, std::string_view name, const FixCount& c) {
+  j.key(name).begin_object(true);
+  j.field("pairs", c.pairs).field("nodes", c.nodes).field("untreated", c.untreated);
+  j.field("on_surface", c.on_surface).field("deepest", c.deepest).end_object();
+}
+
+void write_interface(JsonWriter& j, const FixedInterface& i) {
+  j.begin_object();
+  j.field("id", i.id).field("type", i.type).field("title", i.title);
+  write_count(j, "before", i.before);
+  write_count(j, "after", i.after);
+  j.key("changes").begin_array();
+  for (const FieldChange& c : i.changes) {
+    j.begin_object(true);
+    j.field("field", c.field).field("old_text", c.old_text).field("new_text", c.new_text);
+    j.field("old_value", c.old_value).field("new_value", c.new_value).end_object();
+  }
+  j.end_array().end_object();
+}
+
+}  // namespace
+
+std::string fix_json(std::string_view path, const Deck& deck, const PenetrationFix& fix,
+                     std::string_view written) {
+  std::string out;
+  JsonWriter j(out);
+  j.begin_object();
+  write_json_head(j, "deck/fix", 1);
+  write_json_deck(j, path, deck, nullptr, nullptr);
+  j.field("strategy", fix.strategy).field("written", written).field("complete", fix.complete);
+  j.field("iterations", fix.iterations);
+  j.key("crossings").begin_object(true);
+  j.field("before", fix.crossings_before).field("after", fix.crossings_after).end_object();
+  j.key("interfaces").begin_array();
+  for (const FixedInterface& i : fix.interfaces) write_interface(j, i);
+  j.end_array();
+  j.key("moved").begin_array();
+  for (const MovedNode& m : fix.moved) {
+    j.begin_object(true).field("node", m.id).key("part");
+    m.part == 0 ? j.null() : j.value(m.part);
+    j.key("by").begin_array(true);
+    for (const double d : m.by) j.value(d);
+    j.end_array().field("distance", m.distance).end_object();
+  }
+  j.end_array();
+  j.key("actions").begin_array();
+  for (const FixAction& a : fix.actions) {
+    j.begin_object(true).field("interface", a.interface_id);
+    write_ids(j, "secondary", a.secondary);
+    write_ids(j, "main", a.main);
+    j.field("depth", a.depth).field("gap", a.gap);
+    j.field("before", to_string(a.before)).field("after", to_string(a.after));
+    j.field("solver_stops", a.stops).field("gap_left", a.gap0).end_object();
+  }
+  j.end_array();
+  j.key("not_treated").begin_array();
+  for (const FixRefusal& r : fix.refused) {
+    j.begin_object(true).field("interface", r.interface_id);
+    write_ids(j, "nodes", r.nodes);
+    j.field("depth", r.depth).field("reason", r.reason).end_object();
+  }
+  j.end_array().end_object();
+  out += '\n';
+  return out;
+}
+
+}  // namespace deck

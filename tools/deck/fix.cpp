@@ -1,0 +1,359 @@
+// deck fix: repairs initial penetrations, by moving nodes or by changing the interface cards, as a
+// patch that has been verified by reading the deck again with it.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "common.hpp"
+#include "deck/edit/depenetrate.hpp"
+#include "deck/edit/write.hpp"
+#include "deck/report/fix.hpp"
+#include "deck/text/edits.hpp"
+#include "deck/text/number.hpp"
+
+namespace {
+
+using namespace deck;
+using namespace deck::cli;
+namespace fs = std::filesystem;
+
+struct Options {
+  CommonOptions common;
+  std::string strategy, directory, backup_suffix = ".orig";
+  bool diff = false, in_place = false, backup = false;
+  std::vector<std::int64_t> interfaces;
+  std::size_t rows = 10;
+  MoveNodesOptions move;
+  std::string max_moved = "10%", max_displacement, min_gap = "50%", fpenmax;
+  int digits = 6, inacti = 6;
+};
+
+/// "10%" or "0.1" as 0.1; nullopt if it is neither, or outside 0..1.
+std::optional<double> share(std::string text) {
+  const bool percent = text.ends_with('%');
+  if (percent) text.pop_back();
+  const RealCell cell = read_real(text);
+  if (cell.status != NumberStatus::ok) return std::nullopt;
+  const double value = percent ? cell.value / 100 : cell.value;
+  if (!(value >= 0 && value <= 1)) return std::nullopt;
+  return value;
+}
+
+/// Where the files of a deck go below the output directory: as they lie to one another, so that
+/// every relative #include finds its file. Files included by an absolute path stay where they are.
+Result<std::vector<std::pair<fs::path, std::uint32_t>>> targets(const Deck& deck,
+                                                                const ChangedFiles& changed) {
+  std::set<std::uint32_t> absolute;
+  for (const IncludeEdge& e : deck.includes)
+    if (fs::path(e.written).is_absolute() || absolute.contains(e.parent)) absolute.insert(e.file);
+  const auto full = [&](std::uint32_t f) {
+    return fs::absolute(deck.sources[f].path()).lexically_normal();
+  };
+  fs::path base = full(0).parent_path();
+  for (std::uint32_t f = 0; f < deck.sources.size(); ++f) {
+    if (absolute.contains(f)) {
+      if (changed.contains(deck.sources[f].path()))
+        return Error{Error::Code::config,
+                     deck.sources[f].path() +
+                         " has to change, but is included by its absolute path; use --in-place"};
+      continue;
+    }
+    while (!full(f).lexically_relative(base).empty() &&
+           *full(f).lexically_relative(base).begin() == "..")
+      base = base.parent_path();
+  }
+  std::vector<std::pair<fs::path, std::uint32_t>> out;
+  std::set<fs::path> seen;
+  for (std::uint32_t f = 0; f < deck.sources.size(); ++f) {
+    if (absolute.contains(f)) continue;
+    const fs::path path = full(f).lexically_relative(base);
+    if (seen.insert(path).second) out.emplace_back(path, f);
+  }
+  return out;
+}
+
+class FixRun {
+ public:
+  FixRun(const Options& options, const SchemaSet& schemas, JsonOutput& json)
+      : o_(options), schemas_(schemas), json_(json) {}
+
+  int one(Loaded& loaded) {
+    print_findings(loaded, o_.common);
+    if (loaded.incomplete()) {
+      print_error(o_.common, loaded.path + ": not fixed, the include tree is not complete");
+      return exit_input;
+    }
+    auto fix = make(loaded);
+    if (!fix) return fail(fix.error());
+    auto changed = apply_rewrite(loaded.deck.sources, fix->rewrite);
+    if (!changed) return fail(changed.error());
+    std::string written = "no";
+    if (o_.diff) {
+      for (const auto& [path, text] : *changed) print_text(diff(loaded.deck, path, text));
+      written = "diff";
+    }
+    if (o_.in_place || !o_.directory.empty()) {
+      auto done = o_.in_place ? write_in_place(loaded, *changed) : write_tree(loaded, *changed);
+      if (!done) return fail(done.error());
+      written = o_.in_place ? "in-place" : o_.directory;
+    }
+    if (json_.wanted()) json_.add(fix_json(loaded.path, loaded.deck, *fix, written));
+    report(*fix, *changed, loaded.path);
+    return fix->complete ? exit_clean : exit_findings;
+  }
+
+ private:
+  int fail(const Error& error) const {
+    print_error(o_.common, error.message);
+    switch (error.code) {
+      case Error::Code::config:
+        return exit_usage;
+      case Error::Code::internal:
+        return exit_internal;
+      default:
+        return exit_input;
+    }
+  }
+
+  Result<PenetrationFix> make(const Loaded& loaded) const {
+    const EditContext context{loaded.deck, loaded.model, loaded.interfaces, schemas_};
+    Progress progress(!o_.common.quiet);
+    std::string step;
+    FixOptions base;
+    base.threads = o_.common.thread_count();
+    base.interfaces = o_.interfaces;
+    base.read.include_paths = o_.common.include_paths;
+    base.progress = [&](std::string_view what, std::size_t done, std::size_t total) {
+      if (step != what) progress.step(step = what);
+      progress.update(done, total);
+    };
+    if (o_.strategy == "reduce-gap") {
+      ReduceGapOptions options;
+      static_cast<FixOptions&>(options) = base;
+      options.least_share = *share(o_.min_gap);
+      options.digits = o_.digits;
+      return reduce_gaps(context, options);
+    }
+    if (o_.strategy == "inacti") {
+      InactiOptions options;
+      static_cast<FixOptions&>(options) = base;
+      options.inacti = o_.inacti;
+      return set_inacti(context, options);
+    }
+    if (o_.strategy == "fpenmax") {
+      FpenmaxOptions options;
+      static_cast<FixOptions&>(options) = base;
+      if (!o_.fpenmax.empty()) options.ratio = *share(o_.fpenmax);
+      return set_fpenmax(context, options);
+    }
+    MoveNodesOptions options = o_.move;
+    static_cast<FixOptions&>(options) = base;
+    options.most_moved = *share(o_.max_moved);
+    if (!o_.max_displacement.empty())
+      options.most_displacement = read_real(o_.max_displacement).value;
+    return move_nodes(context, options);
+  }
+
+  static std::string_view old_bytes(const Deck& deck, const std::string& path) {
+    for (std::uint32_t f = 0; f < deck.sources.size(); ++f)
+      if (deck.sources[f].path() == path) return deck.sources[f].bytes();
+    return {};
+  }
+  static std::string diff(const Deck& deck, const std::string& path, const std::string& text) {
+    return unified_diff(path, old_bytes(deck, path), text);
+  }
+
+  Result<void> write_in_place(const Loaded& loaded, const ChangedFiles& changed) const {
+    if (loaded.path == "-")
+      return Error{Error::Code::config, "standard input cannot be rewritten; use --diff"};
+    std::vector<OutputFile> files;
+    for (const auto& [path, text] : changed) files.push_back({path, text});
+    WriteOptions write;
+    if (o_.backup) write.backup_suffix = o_.backup_suffix;
+    return write_files_atomic(files, write);
+  }
+
+  Result<void> write_tree(const Loaded& loaded, const ChangedFiles& changed) const {
+    if (loaded.path == "-")
+      return Error{Error::Code::config, "a deck from standard input has no name to write it to"};
+    const auto list = targets(loaded.deck, changed);
+    if (!list) return list.error();
+    std::vector<OutputFile> files;
+    for (const auto& [relative, f] : *list) {
+      const Source& source = loaded.deck.sources[f];
+      const fs::path path = fs::path(o_.directory) / relative;
+      std::error_code ec;
+      if (fs::equivalent(path, source.path(), ec))
+        return Error{Error::Code::config, path.string() +
+                                              " is the deck itself; name another directory, or use "
+                                              "--in-place"};
+      const auto it = changed.find(source.path());
+      files.push_back({path.string(), it == changed.end() ? source.bytes() : it->second});
+    }
+    return write_files_atomic(files);
+  }
+
+  void report(const PenetrationFix& fix, const ChangedFiles& changed,
+              const std::string& path) const {
+    if (o_.common.quiet) return;
+    FixTextOptions text;
+    text.rows = o_.rows;
+    const bool to_stderr = o_.diff || o_.common.json == "-";
+    text.color = o_.common.color_on(to_stderr ? 2 : 1);
+    std::string out;
+    if (o_.common.decks.size() > 1) out += path + "\n";
+    out += fix_text(fix, text);
+    if (!changed.empty()) {
+      const bool written = o_.in_place || !o_.directory.empty();
+      out += "\n";
+      for (const auto& [file, bytes] : changed)
+        out += fmt::format("{} {}\n", written ? "changed:" : "would change:", file);
+      if (!written && !o_.diff)
+        out += "nothing was written: --diff shows the patch, --in-place or -o DIR writes it\n";
+    } else if (!fix.interfaces.empty()) {
+      out += "\nno file changes\n";
+    }
+    if (to_stderr)
+      fmt::print(stderr, "{}", out);
+    else
+      print_text(out);
+  }
+
+  const Options& o_;
+  const SchemaSet& schemas_;
+  JsonOutput& json_;
+};
+
+/// What is wrong with the combination of options; empty: nothing.
+std::string usage_error(const Options& o) {
+  if (o.in_place && !o.directory.empty()) return "--in-place and -o exclude each other";
+  if (o.backup && !o.in_place) return "--backup needs --in-place";
+  if (!o.directory.empty() && o.common.decks.size() > 1) return "-o takes one deck at a time";
+  if (!share(o.max_moved)) return "--max-moved needs a share like 10% or 0.1";
+  if (!share(o.min_gap)) return "--min-gap needs a share like 50% or 0.5";
+  if (!o.fpenmax.empty() && !share(o.fpenmax)) return "--fpenmax needs a share like 80% or 0.8";
+  if (o.diff && o.common.json == "-") return "--diff and --json - both want standard output";
+  const RealCell limit = read_real(o.max_displacement);
+  if (!o.max_displacement.empty() && !(limit.status == NumberStatus::ok && limit.value > 0))
+    return "--max-displacement needs a length above 0";
+  return {};
+}
+
+int run(const Options& o) {
+  if (const std::string wrong = usage_error(o); !wrong.empty()) {
+    print_error(o.common, wrong);
+    return exit_usage;
+  }
+  const auto schemas = load_schemas(o.common);
+  if (!schemas) {
+    print_error(o.common, schemas.error().message);
+    return exit_usage;
+  }
+  JsonOutput json(o.common, "deck/fix", 1);
+  FixRun fix(o, *schemas, json);
+  const int code =
+      for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) { return fix.one(loaded); });
+  return json.finish(code);
+}
+
+Action setup(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  Options& o = *options;
+  add_common(app, o.common);
+  app.add_option("--strategy", o.strategy,
+                 "move-nodes: out of each other's gap; reduce-gap: the largest gap without a "
+                 "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones")
+      ->required()
+      ->check(CLI::IsMember({"move-nodes", "reduce-gap", "inacti", "fpenmax"}))
+      ->type_name("STRATEGY");
+  app.add_option("--interface", o.interfaces, "Only these interface ids")->type_name("ID");
+  app.add_flag("--diff", o.diff, "Print the patch (git apply takes it); the report goes to stderr");
+  app.add_option("-o,--output", o.directory, "Write the deck with all it includes below DIR")
+      ->type_name("DIR");
+  app.add_flag("--in-place", o.in_place, "Rewrite the files that change");
+  app.add_flag("--backup", o.backup, "With --in-place: keep each old file as FILE.orig");
+  app.add_option("--rows", o.rows, "Rows of the lists in the report")->capture_default_str();
+
+  auto* move = app.add_option_group("move-nodes");
+  move->add_option("--lock", o.move.lock, "Nodes of these parts stay (also where shared)")
+      ->delimiter(',')
+      ->type_name("PART");
+  move->add_option("--only", o.move.move, "Only nodes of these parts alone move")
+      ->delimiter(',')
+      ->type_name("PART");
+  move->add_flag("--lock-rigid-bodies", o.move.lock_rigid_bodies, "Nodes of /RBODY stay");
+  move->add_flag("--lock-boundary-conditions", o.move.lock_boundary_conditions,
+                 "Nodes of /BCS stay");
+  move->add_flag("--secondary-only", o.move.secondary_only, "Main sides do not give way");
+  move->add_option("--max-moved", o.max_moved, "Share of the nodes of a part that may move")
+      ->capture_default_str()
+      ->type_name("SHARE");
+  move->add_option("--max-displacement", o.max_displacement,
+                   "Farthest a node may move, working units (default: twice the deepest "
+                   "penetration)")
+      ->type_name("LENGTH");
+  move->add_option("--smooth", o.move.smooth, "Rings of neighbours that follow the moved nodes")
+      ->check(CLI::Range(0, 20))
+      ->capture_default_str()
+      ->type_name("N");
+  move->add_option("--step", o.move.share, "Share of the depth that one iteration takes away")
+      ->check(CLI::Range(0.05, 1.0))
+      ->capture_default_str()
+      ->type_name("SHARE");
+  move->add_option("--clearance", o.move.clearance, "Distance left beyond the gap, share of it")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str()
+      ->type_name("SHARE");
+  move->add_option("--iterations", o.move.iterations, "At most this many, up to four times")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str()
+      ->type_name("N");
+
+  auto* others = app.add_option_group("reduce-gap, inacti, fpenmax");
+  others->add_option("--min-gap", o.min_gap, "reduce-gap: least share of the present gap to keep")
+      ->capture_default_str()
+      ->type_name("SHARE");
+  others->add_option("--digits", o.digits, "reduce-gap: significant digits, rounded down")
+      ->check(CLI::Range(1, 17))
+      ->capture_default_str()
+      ->type_name("N");
+  others->add_option("--inacti", o.inacti, "inacti: 0 (or 1000), 1, 2, 3, 5 or 6")
+      ->check(CLI::IsMember({0, 1, 2, 3, 5, 6, 1000}))
+      ->capture_default_str()
+      ->type_name("N");
+  others
+      ->add_option("--fpenmax", o.fpenmax,
+                   "fpenmax: switch off nodes deeper than this share of the gap (default: only "
+                   "nodes at distance 0, at which the solver stops)")
+      ->type_name("SHARE");
+  return [options] { return run(*options); };
+}
+
+const VerbRegistration registration{
+    {"fix", 35, "Repair initial penetrations: move nodes, reduce gaps, set Inacti or Fpenmax",
+     "  deck fix car_0000.rad --strategy move-nodes            what would be done\n"
+     "  deck fix car_0000.rad --strategy move-nodes --diff     the same as a patch\n"
+     "  deck fix car_0000.rad --strategy move-nodes --max-moved 100% --lock 12,13 --in-place "
+     "--backup\n"
+     "  deck fix car_0000.rad --strategy reduce-gap --min-gap 80% -o fixed\n"
+     "  deck fix car_0000.rad --strategy inacti --inacti 6 --interface 3 --in-place\n"
+     "  deck fix car_0000.rad --strategy fpenmax --fpenmax 0.9 --diff | git apply\n"
+     "\n"
+     "Which strategy? Moving nodes cures the cause and keeps the gap; it changes the mesh a "
+     "little.\n"
+     "Reducing the gap is right where gap and thickness disagree; the contact then acts later.\n"
+     "Inacti leaves deck and mesh alone and lets the solver start with a smaller gap for the\n"
+     "pairs that penetrate. Fpenmax takes nodes out of the interface: for a few hopeless ones.\n"
+     "\n"
+     "Every change is verified before it is shown: the deck is read again with the new values as\n"
+     "printed. Moves never make a new penetration, cross elements or turn one inside out; what\n"
+     "cannot be solved that way stays and is listed with its reason. Elements that cross already\n"
+     "have no right side: separate them first (deck gaps --crossings shows them).\n"
+     "\n"
+     "Exit code: 0 all penetrations treated, 1 some remain, 2 wrong usage, 3 unreadable input.\n",
+     setup}};
+
+}  // namespace
