@@ -1,66 +1,12 @@
-// The promises of the command line: exit codes, where output goes, what convert writes.
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
+// The promises of the command line: exit codes and where output goes.
+#include "tools/command_line.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace {
 
+using namespace deck::testing_support;
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-void write(const fs::path& path, const std::string& text) {
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << text;
-}
-std::size_t count_files(const fs::path& dir) {
-  std::size_t n = 0;
-  for (const auto& e : fs::recursive_directory_iterator(dir)) n += e.is_regular_file() ? 1 : 0;
-  return n;
-}
-
-constexpr const char* begin =
-    "#RADIOSS STARTER\n/BEGIN\nrun\n      2022\n"
-    "                  Mg                  mm                   s\n"
-    "                  Mg                  mm                   s\n";
-constexpr const char* contact =
-    "/INTER/TYPE10/2\ntied\n         1         2\n"
-    "                                                         1.0\n\n";
-
-/// Runs `deck` in a directory of its own.
-class CommandLine : public testing::Test {
- protected:
-  CommandLine() : dir_(fs::temp_directory_path() / ("command_line_" + std::to_string(getpid()))) {
-    fs::create_directories(dir_);
-  }
-  ~CommandLine() override {
-    std::error_code ec;
-    fs::remove_all(dir_, ec);
-  }
-  void SetUp() override {
-    if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
-  }
-  static fs::path binary() { return fs::path(DECK_BINARY_DIR) / "tools" / "deck"; }
-  /// Exit code; what it prints is in out() and err().
-  int deck(const std::string& arguments) const {
-    const std::string command = "cd '" + dir_.string() + "' && '" + binary().string() + "' " +
-                                arguments + " > '" + (dir_ / "stdout").string() + "' 2> '" +
-                                (dir_ / "stderr").string() + "'";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  std::string out() const { return read(dir_ / "stdout"); }
-  std::string err() const { return read(dir_ / "stderr"); }
-  fs::path dir_;
-};
 
 TEST_F(CommandLine, WrongUsageIsTwo) {
   EXPECT_EQ(deck(""), 2);
@@ -137,51 +83,6 @@ TEST_F(CommandLine, ColourIsOffInFilesUnlessAskedFor) {
   EXPECT_EQ(out().find('\x1b'), std::string::npos);
   ASSERT_EQ(deck("params a_0000.rad --no-geometry --color always"), 0);
   EXPECT_NE(out().find('\x1b'), std::string::npos);
-}
-
-TEST_F(CommandLine, ConvertCopiesTheIncludeTreeByteForByte) {
-  const std::string main = std::string(begin) + "#include sub/a.inc\r\n/END\n";
-  const std::string a = "# \xe9 no line end, tab\t\r\n#include b.inc";
-  write(dir_ / "m_0000.rad", main);
-  write(dir_ / "sub/a.inc", a);
-  write(dir_ / "sub/b.inc", "");
-  ASSERT_EQ(deck("convert m_0000.rad --to rad -o copy"), 0) << err();
-  EXPECT_EQ(read(dir_ / "copy/m_0000.rad"), main);
-  EXPECT_EQ(read(dir_ / "copy/sub/a.inc"), a);
-  EXPECT_TRUE(fs::exists(dir_ / "copy/sub/b.inc"));
-  EXPECT_EQ(count_files(dir_ / "copy"), 3u) << "no temporary files";
-}
-
-TEST_F(CommandLine, ConvertKeepsIncludesFromAboveInPlace) {
-  write(dir_ / "run/m_0000.rad",
-        std::string(begin) + "#include ../common/a.inc\n#include ../run/b.inc\n/END\n");
-  write(dir_ / "common/a.inc", "# a\n");
-  write(dir_ / "run/b.inc", "# b\n");
-  ASSERT_EQ(deck("convert run/m_0000.rad -o copy"), 0) << err();
-  EXPECT_EQ(read(dir_ / "copy/common/a.inc"), "# a\n");
-  EXPECT_EQ(read(dir_ / "copy/run/b.inc"), "# b\n");
-  EXPECT_EQ(deck("params copy/run/m_0000.rad --no-geometry"), 0) << err();
-}
-
-TEST_F(CommandLine, ConvertNamesFilesItDoesNotCopy) {
-  write(dir_ / "abs.inc", "# abs\n");
-  write(dir_ / "m_0000.rad",
-        std::string(begin) + "#include " + (dir_ / "abs.inc").string() + "\n/END\n");
-  ASSERT_EQ(deck("convert m_0000.rad -o copy"), 0) << err();
-  EXPECT_NE(err().find("abs.inc"), std::string::npos);
-  EXPECT_EQ(count_files(dir_ / "copy"), 1u);
-}
-
-TEST_F(CommandLine, ConvertDoesNotOverwriteTheDeckItReads) {
-  write(dir_ / "m_0000.rad", std::string(begin) + "/END\n");
-  EXPECT_EQ(deck("convert m_0000.rad -o ."), 2);
-  EXPECT_EQ(read(dir_ / "m_0000.rad"), std::string(begin) + "/END\n");
-}
-
-TEST_F(CommandLine, ConvertWritesNothingOfAnIncompleteTree) {
-  write(dir_ / "m_0000.rad", std::string(begin) + "#include nowhere.inc\n/END\n");
-  EXPECT_EQ(deck("convert m_0000.rad -o copy"), 3);
-  EXPECT_FALSE(fs::exists(dir_ / "copy"));
 }
 
 }  // namespace

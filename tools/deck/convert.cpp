@@ -1,13 +1,19 @@
-// deck convert: writes a deck again. `--to rad` copies the include tree byte for byte under another
-// directory, so that every #include finds its file there.
+// deck convert: writes a deck again — as it is, or after one or more conversions. Every conversion
+// sees the deck as the one before left it; nothing is written before all of them have succeeded.
 #include <fmt/format.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include "common.hpp"
+#include "convert_steps.hpp"
+#include "convert_tree.hpp"
+#include "deck/edit/rewrite.hpp"
+#include "deck/edit/write.hpp"
+#include "deck/report/losses.hpp"
+#include "deck/text/edits.hpp"
 
 namespace {
 
@@ -17,96 +23,102 @@ namespace fs = std::filesystem;
 
 struct Options {
   CommonOptions common;
+  ConvertSteps steps;
   std::string to = "rad";
-  std::string directory;
+  std::string directory, report, backup_suffix;
+  bool in_place = false, backup = false, diff = false;
 };
 
-/// Where the files of a deck go, relative to the output directory.
-struct Layout {
-  std::map<fs::path, std::uint32_t> files;  ///< target -> file of the deck
-  std::vector<std::string> outside;         ///< absolute includes: left where they are
+/// A deck on its way through the conversions.
+struct Conversion {
+  std::unique_ptr<Loaded> now;
+  std::map<std::string, std::string> before;  ///< first contents of the files that changed, by path
+  Overlay changed;                            ///< contents that differ from the files on disk
+  std::vector<LossEntry> losses;
 };
 
-/// Leading ".." of a normalized relative path.
-int climbs(const fs::path& path) {
-  int count = 0;
-  for (const fs::path& part : path) {
-    if (part != "..") break;
-    ++count;
-  }
-  return count;
+void print_refusals(const CommonOptions& common, const std::vector<std::string>& refusals) {
+  constexpr std::size_t most = 20;
+  for (std::size_t i = 0; i < std::min(most, refusals.size()); ++i)
+    print_error(common, refusals[i]);
+  if (refusals.size() > most)
+    print_error(common, fmt::format("... and {} more", refusals.size() - most));
 }
 
-/// Places every file so that the directive that names it leads to it. Relative to the main file's
-/// directory at first, which may need "..".
-std::vector<fs::path> relative_places(const Deck& deck, Layout& layout) {
-  std::vector<fs::path> place(deck.sources.size());
-  const fs::path main(deck.sources[0].path());
-  place[0] = main.filename();
-  std::vector<bool> known(deck.sources.size(), false);
-  known[0] = true;
-  for (const IncludeEdge& e : deck.includes) {
-    const fs::path written(e.written);
-    const std::string& opened = deck.sources[e.file].path();
-    if (written.is_absolute() || !known[e.parent]) {
-      // Its directive leads to the original, and so do those of the files it includes.
-      layout.outside.push_back(opened);
-      continue;
-    }
-    const fs::path beside = fs::path(deck.sources[e.parent].path()).parent_path() / written;
-    const fs::path by_main = main.parent_path() / written;
-    const bool from_main = beside.lexically_normal().string() != opened &&
-                           by_main.lexically_normal().string() == opened;
-    const fs::path base = from_main ? fs::path() : place[e.parent].parent_path();
-    place[e.file] = (base / written).lexically_normal();
-    known[e.file] = true;
+/// One conversion, and the deck read again as it is then. An exit code if that failed.
+int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
+          const CommonOptions& common) {
+  const EditContext context{c.now->deck, c.now->model, c.now->interfaces, schemas};
+  Rewrite rewrite = step.run(context);
+  for (LossEntry& e : rewrite.losses) c.losses.push_back(std::move(e));
+  if (!rewrite.refusals.empty()) {
+    print_refusals(common, rewrite.refusals);
+    print_error(common, c.now->path + ": " + step.option + " was not done; nothing was written" +
+                            (step.way_out.empty() ? "" : ". " + step.way_out));
+    return exit_findings;
   }
-  return place;
+  if (!common.quiet)
+    for (const std::string& note : rewrite.notes)
+      fmt::print(stderr, "deck: note: {}: {}\n", step.option, note);
+  auto files = apply_rewrite(c.now->deck.sources, rewrite);
+  if (!files) {
+    print_error(common, files.error().message);
+    return exit_findings;
+  }
+  if (files->empty()) return exit_clean;
+  const SourceSet& sources = c.now->deck.sources;
+  for (std::uint32_t f = 0; f < sources.size(); ++f)
+    if (files->contains(sources[f].path())) c.before.emplace(sources[f].path(), sources[f].bytes());
+  if (c.now->path == "-" && !c.changed.contains("-"))  // it cannot be read twice
+    c.changed["-"] = std::string(sources[0].bytes());
+  for (auto& [path, text] : *files) c.changed[path] = std::move(text);
+  auto again = load(c.now->path, schemas, common, Stage::interfaces, &c.changed);
+  if (!again) {
+    print_error(common, again.error().message);
+    return exit_internal;
+  }
+  c.now = std::move(*again);
+  return exit_clean;
 }
 
-Result<Layout> lay_out(const Deck& deck) {
-  Layout layout;
-  const std::vector<fs::path> places = relative_places(deck, layout);
-  int up = 0;
-  for (const fs::path& p : places) up = std::max(up, climbs(p));
-  // Files above the main file's directory: the main file moves down into directories of the same
-  // names, so that ".." leads where it should.
-  fs::path prefix;
-  fs::path dir = fs::absolute(deck.sources[0].path()).lexically_normal().parent_path();
-  for (int i = 0; i < up; ++i) {
-    if (!dir.has_relative_path())
-      return Error{Error::Code::config,
-                   deck.sources[0].path() + ": an include leads above the root directory"};
-    prefix = prefix.empty() ? dir.filename() : dir.filename() / prefix;
-    dir = dir.parent_path();
-  }
-  for (std::uint32_t f = 0; f < places.size(); ++f) {
-    if (places[f].empty()) continue;
-    const fs::path target = (prefix / places[f]).lexically_normal();
-    const auto [it, is_new] = layout.files.emplace(target, f);
-    if (!is_new && deck.sources[it->second].bytes() != deck.sources[f].bytes())
-      return Error{Error::Code::config,
-                   "two different files would be written to " + target.string() + ": " +
-                       deck.sources[it->second].path() + " and " + deck.sources[f].path()};
-  }
-  return layout;
+// ---- where it goes ---------------------------------------------------------------------------
+
+int write_diff(const Conversion& c) {
+  std::string text;
+  for (const auto& [path, before] : c.before)
+    text += unified_diff(path, before, c.changed.at(path));
+  print_text(text);
+  return exit_clean;
 }
 
-int write_tree(const Loaded& loaded, const Options& options,
-               std::map<fs::path, std::string>& written) {
-  const Deck& deck = loaded.deck;
-  if (loaded.path == "-") {
-    print_error(options.common, "a deck from standard input has no name to write it to");
+int write_in_place(const Conversion& c, const Options& options) {
+  std::vector<OutputFile> files;
+  for (const auto& [path, before] : c.before) files.push_back({path, c.changed.at(path)});
+  WriteOptions write;
+  write.backup_suffix = options.backup ? options.backup_suffix : "";
+  if (auto done = write_files_atomic(files, write); !done) {
+    print_error(options.common, done.error().message);
     return exit_usage;
   }
-  if (loaded.incomplete()) {
-    print_findings(loaded, options.common);
-    print_error(options.common, loaded.path + ": not written, the include tree is not complete");
-    return exit_input;
-  }
+  if (!options.common.quiet)
+    for (const OutputFile& f : files) print_text(f.path + "\n");
+  return exit_clean;
+}
+
+int write_tree(const Conversion& c, const Options& options,
+               std::map<fs::path, std::string>& written) {
+  const Deck& deck = c.now->deck;
   const auto layout = lay_out(deck);
   if (!layout) {
     print_error(options.common, layout.error().message);
+    return exit_usage;
+  }
+  for (const std::string& path : layout->outside) {
+    if (!c.changed.contains(path)) continue;
+    print_error(options.common,
+                path +
+                    " is included by its absolute path and would have to change; change it with "
+                    "--in-place, or make one file with --flatten");
     return exit_usage;
   }
   std::vector<OutputFile> files;
@@ -115,7 +127,9 @@ int write_tree(const Loaded& loaded, const Options& options,
     const Source& source = deck.sources[file];
     std::error_code ec;
     if (fs::equivalent(path, source.path(), ec)) {
-      print_error(options.common, path.string() + " is the deck itself; name another directory");
+      print_error(options.common, path.string() +
+                                      " is the deck itself; name another directory, or change it "
+                                      "with --in-place");
       return exit_usage;
     }
     const auto [it, is_new] = written.emplace(path.lexically_normal(), source.path());
@@ -134,15 +148,125 @@ int write_tree(const Loaded& loaded, const Options& options,
     fmt::print(stderr, "deck: note: {} is included by its absolute path and was not copied\n",
                path);
   if (!options.common.quiet)
-    for (const auto& [target, file] : layout->files)
-      print_text((fs::path(options.directory) / target).string() + "\n");
+    for (const OutputFile& f : files) print_text(f.path + "\n");
+  return exit_clean;
+}
+
+/// Counts for people; what was lost or waits for a decision line by line.
+void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& common) {
+  if (common.quiet || losses.empty()) return;
+  std::size_t count[4] = {};
+  constexpr std::size_t most = 40;
+  std::size_t shown = 0, hidden = 0;
+  for (const LossEntry& e : losses) {
+    ++count[static_cast<std::size_t>(e.loss)];
+    if (e.loss == Loss::kept) continue;
+    if (shown++ >= most) {
+      ++hidden;
+      continue;
+    }
+    constexpr std::string_view names[] = {"kept", "approximated", "dropped", "undecided"};
+    fmt::print(stderr, "{}:{}: {}: {}/{} {}{}{}{}{}\n", e.file, e.line,
+               names[static_cast<std::size_t>(e.loss)], e.keyword, e.id, e.field,
+               e.old_text.empty() ? "" : " " + e.old_text,
+               e.new_text.empty() ? "" : " -> " + e.new_text, e.note.empty() ? "" : ": ", e.note);
+  }
+  if (hidden > 0) fmt::print(stderr, "... and {} more; --report FILE lists all\n", hidden);
+  fmt::print(stderr, "deck: kept {}, approximated {}, dropped {}, undecided {}\n", count[0],
+             count[1], count[2], count[3]);
+}
+
+struct Run {
+  const Options& options;
+  const std::vector<ConvertStep> steps;
+  std::map<fs::path, std::string> written;
+  std::vector<LossEntry> losses;
+};
+
+int write_result(Run& run, Conversion& c) {
+  const Options& options = run.options;
+  if (options.diff) return write_diff(c);
+  if (c.now->path == "-") {
+    if (c.now->deck.sources.size() == 1 && options.directory.empty()) {
+      print_text(c.now->deck.sources[0].bytes());
+      return exit_clean;
+    }
+    print_error(options.common,
+                "a deck from standard input has no name to write it to; without -o a deck of one "
+                "file goes to standard output");
+    return exit_usage;
+  }
+  if (options.in_place) return write_in_place(c, options);
+  return write_tree(c, options, run.written);
+}
+
+int convert(Run& run, std::unique_ptr<Loaded> loaded, Overlay overlay, const SchemaSet& schemas) {
+  const Options& options = run.options;
+  if (loaded->incomplete()) {
+    print_findings(*loaded, options.common);
+    print_error(options.common, loaded->path + ": not written, the include tree is not complete");
+    return exit_input;
+  }
+  Conversion c;
+  c.now = std::move(loaded);
+  c.changed = std::move(overlay);
+  int code = exit_clean;
+  for (const ConvertStep& step : run.steps) {
+    code = apply(c, step, schemas, options.common);
+    if (code != exit_clean) break;
+  }
+  if (code == exit_clean) print_losses(c.losses, options.common);
+  for (LossEntry& e : c.losses) run.losses.push_back(std::move(e));
+  if (code != exit_clean) return code;
+  return write_result(run, c);
+}
+
+int check(const Options& options) {
+  const auto refuse = [&](std::string_view why) {
+    print_error(options.common, why);
+    return static_cast<int>(exit_usage);
+  };
+  const int places =
+      (options.directory.empty() ? 0 : 1) + (options.in_place ? 1 : 0) + (options.diff ? 1 : 0);
+  if (places > 1) return refuse("-o, --in-place and --diff exclude one another");
+  const bool only_standard_input = options.common.decks == std::vector<std::string>{"-"};
+  if (places == 0 && options.to == "rad" && !only_standard_input)
+    return refuse("say where to write: -o DIR, --in-place, or --diff to look at it first");
+  if (options.backup && !options.in_place) return refuse("--backup goes with --in-place");
   return exit_clean;
 }
 
 int run(const Options& options) {
-  std::map<fs::path, std::string> written;
-  return for_each_deck(options.common, Stage::blocks,
-                       [&](Loaded& loaded) { return write_tree(loaded, options, written); });
+  if (const int bad = check(options); bad != exit_clean) return bad;
+  const auto schemas = load_schemas(options.common);
+  if (!schemas) {
+    print_error(options.common, schemas.error().message);
+    return exit_usage;
+  }
+  auto steps = make_steps(options.steps);
+  if (!steps) {
+    print_error(options.common, steps.error().message);
+    return exit_usage;
+  }
+  Run work{options, std::move(*steps), {}, {}};
+  int worst = exit_clean;
+  for (const std::string& path : options.common.decks) {
+    auto loaded = load(path, *schemas, options.common,
+                       work.steps.empty() ? Stage::blocks : Stage::interfaces);
+    if (!loaded) {
+      print_error(options.common, loaded.error().message);
+      worst = std::max<int>(worst, exit_input);
+      continue;
+    }
+    worst = std::max(worst, convert(work, std::move(*loaded), {}, *schemas));
+  }
+  if (!options.report.empty()) {
+    if (auto done = write_output(options.report, losses_json(work.losses)); !done) {
+      print_error(options.common, done.error().message);
+      worst = std::max<int>(worst, exit_usage);
+    }
+  }
+  return worst;
 }
 
 Action setup(CLI::App& app) {
@@ -151,18 +275,34 @@ Action setup(CLI::App& app) {
   app.add_option("--to", options->to, "Format to write: rad (Starter deck)")
       ->check(CLI::IsMember({"rad"}))
       ->type_name("FORMAT");
-  app.add_option(
-         "-o,--output", options->directory,
-         "Directory to write to; made if missing. The include tree keeps its relative names")
-      ->required()
+  app.add_option("-o,--output", options->directory,
+                 "Directory to write to; made if missing. The include tree keeps its relative "
+                 "names")
       ->type_name("DIR");
-  return [options] { return run(*options); };
+  app.add_flag("--in-place", options->in_place, "Change the files of the deck");
+  app.add_flag("--backup{.orig}", options->backup_suffix,
+               "With --in-place: keep the old file under its name plus .orig (--backup=SUFFIX)");
+  app.add_flag("--diff", options->diff,
+               "Write nothing; print the changes as a unified diff that git apply takes");
+  app.add_option("--report", options->report,
+                 "Loss report (JSON): what was kept, approximated, dropped, left undecided")
+      ->type_name("FILE");
+  add_step_options(app, options->steps);
+  return [options] {
+    options->backup = !options->backup_suffix.empty();
+    return run(*options);
+  };
 }
 
 const VerbRegistration registration{
-    {"convert", 50, "Write a deck with all it includes under another directory",
-     "  deck convert car_0000.rad -o copy          copy/car_0000.rad and its includes\n"
+    {"convert", 50, "Write a deck in another version, unit system, layout or format",
+     "  deck convert car_0000.rad -o copy                      the deck and its includes\n"
+     "  deck convert car_0000.rad --version 2022 --diff        what another version would change\n"
+     "  deck convert car_0000.rad --units kg,mm,ms -o metric --report losses.json\n"
      "\n"
+     "Conversions are done in the order of their options above, whatever their order on the\n"
+     "command line. A conversion that would lose a value is refused with the place of the value\n"
+     "(exit code 1); nothing is written then.\n"
      "Files that are included from above the deck's directory (#include ../common/x.inc) keep\n"
      "their place too: the deck is then written one or more directories further down.\n",
      setup}};

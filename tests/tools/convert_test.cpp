@@ -1,0 +1,137 @@
+// The promises of `deck convert`: what it writes, where, and when it writes nothing.
+#include <nlohmann/json.hpp>
+
+#include "tools/command_line.hpp"
+
+namespace {
+
+using namespace deck::testing_support;
+namespace fs = std::filesystem;
+
+class Convert : public CommandLine {};
+
+TEST_F(Convert, CopiesTheIncludeTreeByteForByte) {
+  const std::string main = std::string(begin) + "#include sub/a.inc\r\n/END\n";
+  const std::string a = "# \xe9 no line end, tab\t\r\n#include b.inc";
+  write(dir_ / "m_0000.rad", main);
+  write(dir_ / "sub/a.inc", a);
+  write(dir_ / "sub/b.inc", "");
+  ASSERT_EQ(deck("convert m_0000.rad --to rad -o copy"), 0) << err();
+  EXPECT_EQ(read(dir_ / "copy/m_0000.rad"), main);
+  EXPECT_EQ(read(dir_ / "copy/sub/a.inc"), a);
+  EXPECT_TRUE(fs::exists(dir_ / "copy/sub/b.inc"));
+  EXPECT_EQ(count_files(dir_ / "copy"), 3u) << "no temporary files";
+}
+
+TEST_F(Convert, KeepsIncludesFromAboveInPlace) {
+  write(dir_ / "run/m_0000.rad",
+        std::string(begin) + "#include ../common/a.inc\n#include ../run/b.inc\n/END\n");
+  write(dir_ / "common/a.inc", "# a\n");
+  write(dir_ / "run/b.inc", "# b\n");
+  ASSERT_EQ(deck("convert run/m_0000.rad -o copy"), 0) << err();
+  EXPECT_EQ(read(dir_ / "copy/common/a.inc"), "# a\n");
+  EXPECT_EQ(read(dir_ / "copy/run/b.inc"), "# b\n");
+  EXPECT_EQ(deck("params copy/run/m_0000.rad --no-geometry"), 0) << err();
+}
+
+TEST_F(Convert, NamesFilesItDoesNotCopy) {
+  write(dir_ / "abs.inc", "# abs\n");
+  write(dir_ / "m_0000.rad",
+        std::string(begin) + "#include " + (dir_ / "abs.inc").string() + "\n/END\n");
+  ASSERT_EQ(deck("convert m_0000.rad -o copy"), 0) << err();
+  EXPECT_NE(err().find("abs.inc"), std::string::npos);
+  EXPECT_EQ(count_files(dir_ / "copy"), 1u);
+}
+
+TEST_F(Convert, DoesNotOverwriteTheDeckItReads) {
+  write(dir_ / "m_0000.rad", std::string(begin) + "/END\n");
+  EXPECT_EQ(deck("convert m_0000.rad -o ."), 2);
+  EXPECT_EQ(read(dir_ / "m_0000.rad"), std::string(begin) + "/END\n");
+}
+
+TEST_F(Convert, WritesNothingOfAnIncompleteTree) {
+  write(dir_ / "m_0000.rad", std::string(begin) + "#include nowhere.inc\n/END\n");
+  EXPECT_EQ(deck("convert m_0000.rad -o copy"), 3);
+  EXPECT_FALSE(fs::exists(dir_ / "copy"));
+}
+
+/// A deck with one include that holds the interface.
+class ConvertTwoFiles : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    write(dir_ / "m_0000.rad", main_);
+    write(dir_ / "sub/a.inc", contact);
+  }
+  const std::string main_ = std::string(begin) + "#include sub/a.inc\n/END\n";
+};
+
+TEST_F(ConvertTwoFiles, NeedsAPlaceToWriteTo) {
+  EXPECT_EQ(deck("convert m_0000.rad"), 2);
+  EXPECT_NE(err().find("--diff"), std::string::npos);
+  EXPECT_EQ(deck("convert m_0000.rad -o x --in-place"), 2);
+}
+
+TEST_F(ConvertTwoFiles, DiffWritesNothingAndAppliesWithGit) {
+  ASSERT_EQ(deck("convert m_0000.rad --units kg,m,s --diff"), 0) << err();
+  const std::string diff = out();
+  EXPECT_EQ(read(dir_ / "m_0000.rad"), main_);
+  EXPECT_EQ(read(dir_ / "sub/a.inc"), contact);
+  write(dir_ / "change.diff", diff);
+  const std::string apply = "cd '" + dir_.string() + "' && git apply change.diff";
+  if (std::system("git --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "git is not installed";
+  ASSERT_EQ(std::system(apply.c_str()), 0) << diff;
+  ASSERT_EQ(deck("convert m_0000.rad --units kg,m,s --diff"), 0) << err();
+  EXPECT_EQ(out(), "") << "already in these units";
+}
+
+TEST_F(ConvertTwoFiles, InPlaceChangesOnlyFilesThatDifferAndKeepsBackups) {
+  ASSERT_EQ(deck("convert m_0000.rad --version 2024 --in-place --backup"), 0) << err();
+  EXPECT_EQ(read(dir_ / "m_0000.rad.orig"), main_);
+  EXPECT_NE(read(dir_ / "m_0000.rad").find("      2024"), std::string::npos);
+  EXPECT_EQ(read(dir_ / "sub/a.inc"), contact);
+  EXPECT_FALSE(fs::exists(dir_ / "sub/a.inc.orig"));
+}
+
+TEST_F(ConvertTwoFiles, FlattenWritesOneFile) {
+  ASSERT_EQ(deck("convert m_0000.rad --flatten -o one"), 0) << err();
+  EXPECT_EQ(count_files(dir_ / "one"), 1u);
+  EXPECT_NE(read(dir_ / "one/m_0000.rad").find(contact), std::string::npos);
+}
+
+TEST_F(ConvertTwoFiles, ConversionsSeeTheDeckAsTheOneBeforeLeftIt) {
+  ASSERT_EQ(deck("convert m_0000.rad --flatten --units kg,m,s -o one"), 0) << err();
+  const std::string text = read(dir_ / "one/m_0000.rad");
+  EXPECT_EQ(count_files(dir_ / "one"), 1u);
+  EXPECT_NE(text.find("0.001"), std::string::npos) << "Gap 1 mm in metres\n" << text;
+}
+
+TEST_F(ConvertTwoFiles, ARefusalNamesThePlaceAndWritesNothing) {
+  write(dir_ / "sub/a.inc", "/UNKNOWN/KEYWORD/1\n1.0\n");
+  EXPECT_EQ(deck("convert m_0000.rad --units kg,m,s -o x --report losses.json"), 1);
+  EXPECT_NE(err().find("sub/a.inc:1"), std::string::npos) << err();
+  EXPECT_NE(err().find("--partial"), std::string::npos);
+  EXPECT_FALSE(fs::exists(dir_ / "x"));
+  EXPECT_EQ(deck("convert m_0000.rad --units kg,m,s -o x --partial --report losses.json"), 0);
+  const auto report = nlohmann::json::parse(read(dir_ / "losses.json"));
+  ASSERT_EQ(report["undecided"].size(), 1u);
+  EXPECT_EQ(report["undecided"][0]["line"], 1);
+}
+
+TEST_F(ConvertTwoFiles, StandardInputGoesToStandardOutput) {
+  EXPECT_EQ(deck("convert - --version 2024 < m_0000.rad"), 2) << "two files for one output";
+  ASSERT_EQ(deck("convert - --flatten --version 2024 < m_0000.rad"), 0) << err();
+  EXPECT_NE(out().find("      2024"), std::string::npos);
+}
+
+TEST_F(Convert, RefusesToLeaveAnIncludeUnchangedThatHasToChange) {
+  write(dir_ / "abs.inc", contact);
+  write(dir_ / "m_0000.rad",
+        std::string(begin) + "#include " + (dir_ / "abs.inc").string() + "\n/END\n");
+  EXPECT_EQ(deck("convert m_0000.rad --units kg,m,s -o copy"), 2);
+  EXPECT_NE(err().find("abs.inc"), std::string::npos);
+  EXPECT_FALSE(fs::exists(dir_ / "copy"));
+  EXPECT_EQ(deck("convert m_0000.rad --flatten --units kg,m,s -o copy"), 0) << err();
+}
+
+}  // namespace
