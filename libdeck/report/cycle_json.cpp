@@ -1,6 +1,7 @@
 // The JSON of `deck cycle`.
 #include "deck/report/cycle.hpp"
 #include "deck/report/json.hpp"
+#include "report/accuracy_decisions.hpp"
 
 namespace deck {
 namespace {
@@ -135,6 +136,7 @@ std::string cycle_json(const CycleInput& input, bool all) {
   j.field("dt1", input.options.dt1).field("dt12", input.options.dt12);
   j.field("time", input.options.time);
   j.field("model", input.options.model == cycle::Model::reference ? "reference" : "robust");
+  write_decisions(j, *input.scene);
   j.key("interfaces").begin_array();
   for (const InterBase* inter : input.scene->interfaces->ordered)
     for (const cycle::ContactOutcome& c : o.contacts)

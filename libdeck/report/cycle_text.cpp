@@ -7,6 +7,7 @@
 
 #include "deck/report/cycle.hpp"
 #include "deck/report/text_table.hpp"
+#include "report/accuracy_decisions.hpp"
 
 namespace deck {
 namespace {
@@ -224,6 +225,8 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
           o.contact->inter->id, kind_name(*o.contact), o.heat_secondary, o.heat_main);
   if (const std::string table = singular_table(input, options.color); !table.empty())
     out += fmt::format("\n{}Nearest to the mid-surface{}\n{}", bold, plain, table);
+  if (const std::string text = decisions_text(*input.scene, 3, options.color); !text.empty())
+    out += "\n" + text;
   out += fmt::format("\n{}Effects{}\n", bold, plain);
   for (const InterBase* inter : input.scene->interfaces->ordered) {
     const auto lines = effect_lines(*input.deck, *input.outcome, *inter);

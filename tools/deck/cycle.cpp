@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "accuracy_option.hpp"
 #include "common.hpp"
 #include "deck/report/cycle.hpp"
 #include "deck/text/number.hpp"
@@ -14,7 +15,7 @@ using namespace deck::cli;
 struct Options {
   CommonOptions common;
   bool all = false, effects = false, fail = false;
-  std::string model = "robust";
+  std::string model = "robust", accuracy = "robust";
   double dt = 0, time = 0;
   std::vector<std::int64_t> only;
   std::vector<std::string> velocities;
@@ -80,6 +81,7 @@ int run(const Options& o) {
     scene_options.candidates = false;
     scene_options.nodal_stiffness = true;
     scene_options.only = o.only;
+    scene_options.accuracy = accuracy_of(o.accuracy);
     Scene scene;
     cycle::SceneOutcome outcome;
     cycle::State state;
@@ -131,6 +133,7 @@ Action setup(CLI::App& app) {
                  "numerical quirks")
       ->check(CLI::IsMember({"reference", "robust"}))
       ->capture_default_str();
+  add_accuracy(app, options->accuracy);
   app.add_option("--dt", options->dt, "Time step for rate effects; 0: the first evaluation")
       ->check(CLI::NonNegativeNumber)
       ->type_name("DT");
