@@ -95,6 +95,17 @@ bool Loaded::incomplete() const {
   return counts.contains("DK004") || counts.contains("DK005") || counts.contains("DK006");
 }
 
+namespace {
+std::function<void(const Deck&)>& load_observer() {
+  static std::function<void(const Deck&)> observer;
+  return observer;
+}
+}  // namespace
+
+void observe_loading(std::function<void(const Deck&)> observer) {
+  load_observer() = std::move(observer);
+}
+
 Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& schemas,
                                      const CommonOptions& options, Stage stage,
                                      const Overlay* overlay) {
@@ -108,6 +119,7 @@ Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& s
   auto loaded = std::make_unique<Loaded>();
   loaded->path = path;
   loaded->deck = std::move(*deck);
+  if (load_observer()) load_observer()(loaded->deck);
   if (stage == Stage::blocks) return loaded;
   progress.step("building the model of " + path);
   ModelOptions build;

@@ -72,6 +72,10 @@ Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& s
                                      const CommonOptions& options, Stage stage = Stage::interfaces,
                                      const Overlay* overlay = nullptr);
 
+/// From now on load() shows every deck it has read: for `deck batch`, which runs the other verbs and
+/// has to know the files that a result came from.
+void observe_loading(std::function<void(const Deck&)> observer);
+
 /// Loads the decks one after the other and calls `body`; returns the worst exit code. What cannot
 /// be read is reported and counts as exit_input; a missing include too, after `body` has run.
 int for_each_deck(const CommonOptions& options, Stage stage,

@@ -1,0 +1,140 @@
+// deck batch: one verb over many decks, each in a worker process; a result file per deck and a
+// summary. What is finished is remembered, so that a batch that was killed goes on where it
+// stopped.
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+#include "batch_list.hpp"
+#include "batch_ranks.hpp"
+#include "batch_run.hpp"
+#include "batch_summary.hpp"
+
+namespace {
+
+using namespace deck;
+using namespace deck::cli;
+
+const std::vector<std::string> verbs_with_documents = {"lint", "params", "gaps", "cycle"};
+/// Options that write files of one name, change decks, or are the batch's own.
+const std::vector<std::string> not_in_a_batch = {
+    "--json", "--csv", "--vtk",   "--html",  "--compare",      "--output",  "--format",
+    "--diff", "--fix", "--quiet", "--color", "--unsafe-fixes", "--threads", "--write-baseline"};
+
+/// Error: no such verb, or options that it does not take.
+Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all) {
+  const auto refuse = [&](const std::string& why) {
+    return Error{Error::Code::config, "--verb '" + o.verb + "': " + why};
+  };
+  BatchTask task;
+  std::vector<std::string> words = CLI::detail::split_up(o.verb);
+  if (words.empty()) return refuse("name a verb");
+  for (const Verb& v : all)
+    if (v.name == words.front() &&
+        std::find(verbs_with_documents.begin(), verbs_with_documents.end(), words.front()) !=
+            verbs_with_documents.end())
+      task.verb = v;
+  if (task.verb.setup == nullptr) return refuse("expected lint, params, gaps or cycle");
+  task.words.assign(words.begin() + 1, words.end());
+  for (std::string& w : task.words) CLI::detail::remove_quotes(w);
+  CLI::App app;
+  (void)task.verb.setup(app);
+  std::vector<std::string> arguments = {"deck", "--"};
+  arguments.insert(arguments.end(), task.words.rbegin(), task.words.rend());
+  try {
+    app.parse(arguments);
+  } catch (const CLI::ParseError& e) {
+    return refuse(e.what());
+  }
+  for (const std::string& name : not_in_a_batch)
+    if (const auto* option = app.get_option_no_throw(name);
+        option != nullptr && option->count() > 0)
+      return refuse(name + " is not for a batch");
+  if (app.get_option("decks")->count() != 1) return refuse("decks are named behind the options");
+  for (const std::string& dir : o.common.include_paths)
+    task.options.insert(task.options.end(), {"--include-path", dir});
+  for (const std::string& dir : o.common.schema_dirs)
+    task.options.insert(task.options.end(), {"--schemas", dir});
+  task.options.insert(task.options.end(), task.words.begin(), task.words.end());
+  return task;
+}
+
+int run(const BatchOptions& o) {
+  const auto usage = [&](const std::string& message) {
+    print_error(o.common, message);
+    return exit_usage;
+  };
+  if (o.merge) {
+    if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
+      return usage("--merge takes no decks: it puts together the summaries that are in DIR");
+    const auto parts = read_shard_summaries(o.directory);
+    if (!parts) return usage(parts.error().message);
+    const auto merged = merge_summaries(*parts);
+    if (!merged) return usage(merged.error().message);
+    if (auto written =
+            write_file_atomic(o.directory + "/" + summary_name({}), summary_json(*merged));
+        !written)
+      return usage(written.error().message);
+    return report_batch(o, *merged, 0);
+  }
+  const auto shard = parse_shard(o.shard);
+  if (!shard) return usage(shard.error().message);
+  auto task = parse_task(o, verbs());
+  if (!task) return usage(task.error().message);
+  const auto decks = list_decks(o.common.decks, o.manifest);
+  if (!decks) return usage(decks.error().message);
+  if (decks->empty()) return usage("no decks: name some, or a directory, or a --manifest");
+  if (const auto schemas = load_schemas(o.common); !schemas) return usage(schemas.error().message);
+  Batch batch(o, std::move(*task), *decks, *shard,
+              o.no_mpi ? Ranks::alone() : Ranks::from_environment());
+  return batch.run();
+}
+
+Action setup(CLI::App& app) {
+  auto options = std::make_shared<BatchOptions>();
+  BatchOptions& o = *options;
+  add_common(app, o.common);
+  app.get_option("decks")->required(false)->description(
+      "Starter decks, or directories: all *_0000.rad below them");
+  app.get_option("--json")->description(
+      "Write the summary to FILE as well; '-' is standard output");
+  app.get_option("--threads")->description("Threads of each worker; 0 shares out the processors");
+  app.add_option("-o,--output", o.directory, "Directory of the results; made if missing")
+      ->required()
+      ->type_name("DIR");
+  app.add_option("--manifest", o.manifest,
+                 "File with one deck per line, # begins a comment; '-' is standard input")
+      ->type_name("FILE");
+  app.add_option("--verb", o.verb,
+                 "What to do with each deck: lint, params, gaps (default) or cycle, with options: "
+                 "--verb 'lint --geometry'")
+      ->type_name("VERB");
+  app.add_option("-j,--jobs", o.jobs, "Decks at the same time; 0 takes all processors")
+      ->check(CLI::Range(0, 4096))
+      ->type_name("N");
+  app.add_option("--timeout", o.timeout, "Give a deck up after SECONDS (default 3600); 0: never")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("SECONDS");
+  app.add_option("--shard", o.shard, "Only part i of n: every n-th deck of the list")
+      ->type_name("i/n");
+  app.add_flag("--merge", o.merge, "Put the summaries of all shards in DIR together");
+  app.add_flag("--force", o.force, "Do finished decks again");
+  app.add_flag("--no-mpi", o.no_mpi, "Under mpirun: do not share the decks among the ranks");
+  return [options] { return run(*options); };
+}
+
+const VerbRegistration registration{
+    {"batch", 60, "One verb over many decks: a result for each, a summary, resumable",
+     "  deck batch -o results models/ --jobs 8\n"
+     "  deck batch -o results --manifest decks.txt --verb 'lint --geometry'\n"
+     "  deck batch -o results models/ --shard 2/8    part of the decks, for another machine\n"
+     "  deck batch -o results --merge                one summary of all shards\n"
+     "  mpirun -n 16 deck batch -o results models/\n"
+     "\n"
+     "DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks.\n"
+     "Decks of the same name get that of their directory before it: left--car_0000.json.\n"
+     "Run the same command again to go on after a kill: decks are done again only if a file they\n"
+     "read, the options or the program changed, or if they failed.\n",
+     setup}};
+
+}  // namespace

@@ -1,0 +1,22 @@
+// JSON in the hands of `deck batch`: the numbers that a verb's document opens with, without holding
+// the document as a tree, and parsed values printed the way the library prints them.
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace deck::cli {
+
+/// What the summary says of a result.
+struct DocumentFacts {
+  std::string counts;                  ///< JSON object: members of "summary", number of interfaces
+  std::optional<std::string> verdict;  ///< member "verdict"
+};
+/// nullopt: not JSON.
+std::optional<DocumentFacts> document_facts(std::string_view document);
+
+/// A value on one line, in the spelling of JsonWriter.
+std::string json_line(const nlohmann::ordered_json& value);
+
+}  // namespace deck::cli

@@ -1,0 +1,37 @@
+// Decks of a batch: from arguments, directories and manifests to one list, with a result file for
+// each; and which of them belong to a shard. Depends on nothing but the list, so that every process
+// of a divided batch comes to the same answer.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "deck/text/result.hpp"
+
+namespace deck::cli {
+
+struct BatchDeck {
+  std::string path;    ///< as given
+  std::string result;  ///< file name in the output directory, "car_0000.json"
+};
+
+/// The decks in the order given: the arguments, then the lines of `manifest` (empty: none, "-":
+/// standard input). A directory stands for all *_0000.rad files below it, by name. A deck named
+/// twice is taken once. Error: a manifest or directory that cannot be read, "-" as a deck.
+///
+/// A result is named after the deck's file name without extension. Where that is not unique, the
+/// name of the directory is put before it ("left--car_0000.json"), and of the one above as long as
+/// needed; what is still equal is numbered.
+Result<std::vector<BatchDeck>> list_decks(const std::vector<std::string>& given,
+                                          const std::string& manifest);
+
+/// Part `index` (1-based) of `count`: every count-th deck.
+struct Shard {
+  std::size_t index = 1, count = 1;
+  bool whole() const { return count == 1; }
+  bool has(std::size_t deck) const { return deck % count == index - 1; }
+};
+/// "2/8". Error: anything else.
+Result<Shard> parse_shard(const std::string& text);
+
+}  // namespace deck::cli

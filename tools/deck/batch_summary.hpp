@@ -1,0 +1,50 @@
+// The summary of a batch: one line per deck and the totals. Parts made by shards or ranks merge
+// into the same bytes that one process writes.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "batch_list.hpp"
+#include "deck/text/result.hpp"
+
+namespace deck::cli {
+
+struct SummaryEntry {
+  std::string json;  ///< one line: deck, result, exit_code, error, verdict, counts
+  int code = 0;
+};
+
+struct Summary {
+  std::string tool;  ///< version of the program that made it
+  std::string verb;
+  std::vector<std::string> arguments;
+  Shard shard;
+  std::size_t all = 0;  ///< decks of all shards together
+  std::vector<SummaryEntry> entries;
+
+  /// Worst exit code of the decks.
+  int worst() const;
+  /// Decks with this exit code.
+  std::size_t count(int code) const;
+};
+
+/// The line of one deck. `result` empty: there is none; `counts` is a JSON object.
+std::string summary_entry(std::string_view deck, std::string_view result, int code,
+                          std::string_view error, const std::string* verdict,
+                          std::string_view counts);
+
+std::string summary_json(const Summary& summary);
+Result<Summary> parse_summary(std::string_view text);
+
+/// Parts 1 ... n of one list, in this order, as the whole. Error: parts that do not belong together
+/// or do not make up the whole.
+Result<Summary> merge_summaries(const std::vector<Summary>& parts);
+
+/// "summary.json" or "summary-2-of-8.json".
+std::string summary_name(const Shard& shard);
+/// The complete set of shard summaries in a directory, in order. Error: none, or several sets.
+Result<std::vector<Summary>> read_shard_summaries(const std::string& directory);
+
+}  // namespace deck::cli
