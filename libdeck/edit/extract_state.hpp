@@ -1,0 +1,112 @@
+// What an extraction keeps. Private to extraction.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "deck/edit/extract.hpp"
+#include "deck/model/selection.hpp"
+
+namespace deck::detail {
+
+inline constexpr std::size_t element_families = 8;
+
+/// Family of an element keyword's kind ("shell", "tetra10", ...); nullopt: no element.
+std::optional<ElementKind> family_of(std::string_view kind);
+
+/// The data lines of the items of a bulk block: one element may take several.
+class ItemLines {
+ public:
+  ItemLines(const Deck& deck, const Block& block);
+  /// False: no further item. Lines that belong to no complete item are skipped.
+  bool next();
+  std::span<const Line> lines() const { return lines_; }
+  /// With the submodel's offset.
+  std::int64_t id() const { return id_; }
+  /// Calls f(kind, id with offset) for every reference of the item.
+  template <class F>
+  void references(F&& f) const {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const DecodedCard card = decode_line(*deck_, *block_, *cards_[i], lines_[i], nullptr);
+      for (const Cell& cell : card.cells)
+        if (cell.field->type == FieldType::id && cell.integer > 0)
+          f(std::string_view(cell.field->ref),
+            cell.integer + deck_->offset_of(*block_, cell.field->ref));
+    }
+  }
+
+ private:
+  const Deck* deck_;
+  const Block* block_;
+  LineCursor cursor_;
+  std::vector<const CardSchema*> cards_;
+  std::vector<Line> lines_;
+  std::int64_t id_ = 0;
+};
+
+/// Which blocks, nodes and elements the interfaces need.
+class Extraction {
+ public:
+  Extraction(const EditContext& context, std::span<const std::int64_t> interfaces);
+  void run();
+
+  const EditContext& context;
+  std::vector<std::uint8_t> block_kept;                                  ///< by Deck::blocks
+  std::vector<std::uint8_t> node_kept;                                   ///< by NodeIndex
+  std::array<std::vector<std::uint8_t>, element_families> element_kept;  ///< by ElementKind, index
+  std::vector<std::string> open_questions;  ///< what may be missing, for people
+
+ private:
+  /// Why a block stays.
+  enum Level : std::uint8_t {
+    no = 0,
+    defined,   ///< something names it
+    selected,  ///< what it selects must be selected in the small deck too
+    touching,  ///< and the elements around that matter
+  };
+  struct Task {
+    std::size_t block;
+    Level level;
+  };
+  void keep_block(std::string_view kind, std::int64_t id, Level level = defined);
+  void keep_block(std::size_t index, Level level = defined);
+  void process(const Task& task);
+  void reference(std::string_view kind, std::int64_t id, bool selects, bool touch);
+  void set_clauses(const Block& b, const DecodedBlock& d, bool touch);
+  void clause_ids(const Block& b, std::string_view kind, std::string_view options,
+                  const std::vector<std::int64_t>& ids, bool touch);
+  void resolved(const Block& b, bool touch);
+  void tokens(const Block& b, const DecodedBlock& d);
+  void keep_node(NodeIndex n, bool touch);
+  void keep_element(ElementKind kind, std::uint32_t e, bool touch);
+  void keep_carrier(Carrier carrier, std::uint32_t e, bool touch);
+  void whole_part(std::uint32_t part, bool touch);
+  void everything();
+  void keep_switches();
+  void drain();
+  void neighbours();
+  void scan_elements();
+  void transforms();
+  void materials();
+  void submodel_frames();
+  std::uint64_t size() const;
+
+  const Deck& deck_;
+  const Model& model_;
+  Selections& selections_;
+  std::map<std::pair<std::string, std::int64_t>, std::size_t, std::less<>> definitions_;
+  std::deque<Task> queue_;
+  std::vector<std::uint8_t> visited_;  // by block: Level
+  std::vector<std::uint8_t> touched_;  // by node
+  std::array<std::vector<std::uint8_t>, element_families> scanned_;
+  std::vector<std::uint8_t> part_whole_;
+  std::vector<std::vector<std::pair<ElementKind, std::uint32_t>>> elements_of_part_;
+};
+
+}  // namespace deck::detail
