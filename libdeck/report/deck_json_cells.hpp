@@ -1,0 +1,30 @@
+// What the JSON form of a deck and its reader have to agree on: what a cell's value is, and how
+// bytes that are no UTF-8 are spelled. Private to the library.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "deck/keyword/decode.hpp"
+
+namespace deck::detail {
+
+/// Schema of the document.
+inline constexpr std::string_view deck_json_id = "deck/deck";
+inline constexpr int deck_json_version = 1;
+
+enum class CellKind : std::uint8_t { null, integer, real, text };
+
+/// How a cell is written: text for parameters, names and numbers that cannot be read.
+CellKind kind_of(const Cell& cell);
+
+/// The card that takes all lines behind the title in this version, if the block is such a list.
+const CardSchema* list_card(const Schema& schema, int version);
+
+bool is_utf8(std::string_view bytes);
+/// Bytes taken for Latin-1, as UTF-8 ...
+std::string latin1_to_utf8(std::string_view bytes);
+/// ... and back; nullopt if a character is beyond Latin-1 or the text is no UTF-8.
+std::optional<std::string> utf8_to_latin1(std::string_view text);
+
+}  // namespace deck::detail
