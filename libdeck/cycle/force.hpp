@@ -109,13 +109,14 @@ void store_pair(const Effects& on, const PairState<V>& s, std::size_t i, PacketR
   }
 }
 
+// Flattened for the same reason as the geometry.
 template <class V, Model M, ContactKind K, class Effects>
-void force_block(const Effects& on, const Constants& k, const PacketView& view, std::size_t begin,
-                 std::size_t n, const GeometryBlock& g, PacketResult& out) {
-  const V zero = V::fill(0.0);
+[[gnu::flatten]] void force_block(const Effects& on, const Constants& k, const PacketView& view,
+                                  std::size_t begin, std::size_t n, const GeometryBlock& g,
+                                  PacketResult& out) {
   for (std::size_t slot = 0; slot < n; slot += V::width) {
     const std::size_t i = pack_start<V::width>(begin, slot, view.size);
-    PairState<V> s;
+    PairState<V> s{};  // zeros where an effect is off; those nobody reads cost nothing
     load_geometry(view, i, g, slot, s);
     s.pi = s.penetration;
     s.ge = s.gap;
@@ -130,7 +131,6 @@ void force_block(const Effects& on, const Constants& k, const PacketView& view, 
     s.k_nodal = s.k_tan;
     if (on.has(Effect::damping)) Damping::apply<M, K>(k, s);
     if (on.has(Effect::friction_viscous) || on.has(Effect::friction_incremental)) {
-      s.ft_keep = {zero, zero, zero};
       apply_friction<M, K>(on, k, view, i, s);
     }
     store_pair<K>(on, s, i, out);

@@ -90,13 +90,30 @@ bool any(const Mask<W>& m) {
   for (int l = 0; l < W; ++l) bits |= m.r[l];
   return bits != 0;
 }
-/// a where a > b, else b: a NaN in `a` gives b, as a comparison in scalar code would.
+/// a where a > b, else b: a NaN in `a` gives b, as a comparison in scalar code would. This is what
+/// the instruction does; the compiler does not find it for packs of two.
 template <int W>
 Pack<W> max(const Pack<W>& a, const Pack<W>& b) {
+#if defined(__SSE2__)
+  if constexpr (W == 2) {
+    Pack<W> out;
+    const __m128d v = _mm_max_pd((__m128d)a.r, (__m128d)b.r);
+    std::memcpy(&out.r, &v, sizeof v);
+    return out;
+  }
+#endif
   return {a.r > b.r ? a.r : b.r};
 }
 template <int W>
 Pack<W> min(const Pack<W>& a, const Pack<W>& b) {
+#if defined(__SSE2__)
+  if constexpr (W == 2) {
+    Pack<W> out;
+    const __m128d v = _mm_min_pd((__m128d)a.r, (__m128d)b.r);
+    std::memcpy(&out.r, &v, sizeof v);
+    return out;
+  }
+#endif
   return {a.r < b.r ? a.r : b.r};
 }
 template <int W>

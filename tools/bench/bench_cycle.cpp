@@ -13,8 +13,16 @@
 #include <vector>
 
 #include "cycle/block.hpp"
-#include "cycle/pack.hpp"
+#include "cycle/force.hpp"
+#include "cycle/geometry.hpp"
 #include "deck/cycle/assemble.hpp"
+
+// One pair at a time, for the rival that tests flags per pair.
+template <>
+struct deck::cycle::detail::Registers<1> {
+  typedef double Real __attribute__((vector_size(8)));
+  typedef std::int64_t Bits __attribute__((vector_size(8)));
+};
 
 namespace {
 
@@ -26,6 +34,7 @@ struct Scene {
   std::array<std::vector<double>, 3> x, v;
   std::vector<double> mass, temperature, k0, gap, p0, area;
   std::array<std::vector<double>, 3> ft;
+  std::vector<double> one, zero, up, fric, width;
   PacketBuffer buffer;
 
   [[nodiscard]] NodalState nodes() const {
@@ -41,6 +50,15 @@ struct Scene {
     w.p0 = p0.data();
     w.area = area.data();
     for (std::size_t c = 0; c < 3; ++c) w.ft_old[c] = ft[c].data();
+    w.conductivity = one.data();
+    w.fric = fric.data();
+    w.visf2 = one.data();
+    w.ortho_mu = {fric.data(), width.data()};
+    w.ortho_direction = {one.data(), zero.data()};
+    for (auto& n : w.normal) n = {zero.data(), zero.data(), up.data()};
+    w.tie.fill(zero.data());
+    w.edge_width = {width.data(), width.data()};
+    w.edge_conductivity.fill(one.data());
     w.dt1 = w.dt12 = 1e-6;
     return w;
   }
@@ -85,6 +103,12 @@ Scene make_scene(std::size_t cells, bool edges) {
       for (auto& f : s.ft) f.push_back(5.0 * u(rng));
     }
   }
+  const std::size_t n = s.k0.size();
+  s.one.assign(n, 1.0);
+  s.up.assign(n, 1.0);
+  s.zero.assign(n, 0.0);
+  s.fric.assign(n, 0.2);
+  s.width.assign(n, 0.1);
   s.buffer.gather(s.nodes(), s.pairs,
                   Field::position | Field::velocity | Field::mass_secondary | Field::mass_main |
                       Field::temperature);
@@ -287,6 +311,217 @@ nlohmann::json composition_table(ContactKind kind, Model model, const Scene& sce
   return rows;
 }
 
+/// The rival: one pair at a time, every effect asked for by its flag inside the loop. The text is
+/// that of the kernels, so the answers must be the same bits; compiled like the rest of this
+/// program, without the instruction sets that the kernels choose at run time.
+template <Model M, ContactKind K>
+void flags_per_pair(const KernelPlan& plan, const PacketView& view, PacketResult& out) {
+  using One = detail::Pack<1>;
+  const detail::Constants k = detail::make_constants(plan, view);
+  out.prepare(view.size, plan.writes);
+  for (std::size_t b = 0; b < view.size; b += detail::kBlock) {
+    detail::GeometryBlock block;
+    const std::size_t n = std::min(detail::kBlock, view.size - b);
+    detail::geometry_block<One, M, K, false>(k, view, b, n, block);
+    detail::force_block<One, M, K>(detail::RuntimeEffects{plan.effects}, k, view, b, n, block, out);
+  }
+}
+
+/// One row of the table of costs: an effect and what it is added to.
+struct EffectRow {
+  std::string name;
+  ContactCard without, with;
+  bool energies = false;  ///< of `with`
+  bool in_kernel = true;  ///< false: a stage of its own, which the rival does not have
+};
+
+ContactCard plain(ContactKind kind, bool damping = false, int iform = 0) {
+  ContactCard card;
+  card.kind = kind;
+  card.viss = damping ? 0.05 : 0.0;
+  if (iform != 0) {
+    card.fric = 0.2;
+    card.iform = iform;
+  }
+  return card;
+}
+
+template <class Change>
+ContactCard changed(ContactCard card, Change&& change) {
+  change(card);
+  return card;
+}
+
+std::vector<EffectRow> effect_rows(ContactKind kind) {
+  const ContactCard elastic = plain(kind), damped = plain(kind, true), rub = plain(kind, true, 1);
+  const auto with = [](const ContactCard& card, auto&& change) { return changed(card, change); };
+  std::vector<EffectRow> rows;
+  rows.push_back({"elastic energy (a logarithm)", elastic, elastic, true});
+  rows.push_back(
+      {"gap reduction (Inacti 6)", elastic, with(elastic, [](auto& c) { c.inacti = 6; })});
+  rows.push_back({"normal damping (VISs) and kinematic time step", elastic, damped});
+  rows.push_back({"friction, viscous (Iform 1)", damped, rub});
+  rows.push_back({"friction, incremental (Iform 2)", damped, plain(kind, true, 2)});
+  rows.push_back({"coefficients per pair of parts (/FRICTION)", rub,
+                  with(rub, [](auto& c) { c.fric_id = true; })});
+  const auto heat = [&](double frad) {
+    return with(elastic, [&](auto& c) {
+      c.ithe = c.ithe_form = 1;
+      c.kthe = 500;
+      c.frad = frad;
+      c.drad = 0.6;
+    });
+  };
+  rows.push_back({"heat conduction (Ithe, Ithe_form 1)", elastic, heat(0.0), false, false});
+  if (kind == ContactKind::edge_edge) return rows;
+  rows.push_back({"heat conduction and radiation (Frad)", elastic, heat(1e-8), false, false});
+  for (const int law : {1, 2, 3}) {
+    const char* names[] = {"", "friction law Ifric 1 (polynomial)",
+                           "friction law Ifric 2 (exponential)",
+                           "friction law Ifric 3 (piecewise)"};
+    rows.push_back({names[law], rub, with(rub, [&](auto& c) {
+                      c.ifric = law;
+                      if (law == 3)
+                        c.c = {0.15, 0.1, 0.3, 0.05, 1, 5};
+                      else
+                        c.c = {1e-6, -1e-3, 1e-6, -1e-3, 1e-2, -1e-2};
+                    })});
+  }
+  rows.push_back({"friction filter (Ifiltr 1)", rub, with(rub, [](auto& c) {
+                    c.ifiltr = 1;
+                    c.xfreq = 0.3;
+                  })});
+  const ContactCard warm = with(rub, [](auto& c) {
+    c.ithe = c.ithe_form = 1;
+    c.kthe = 500;
+  });
+  rows.push_back({"friction against temperature (fct_IDF)", warm,
+                  with(warm,
+                       [](auto& c) {
+                         c.fct_idf = Curve{{0, 1000}, {1.0, 2.0}};
+                       }),
+                  false, false});
+  rows.push_back({"friction heat (Fheats, Fheatm)", warm,
+                  with(warm, [](auto& c) { c.fheats = c.fheatm = 0.4; }), false, false});
+  rows.push_back({"orthotropic friction", with(rub, [](auto& c) { c.fric_id = true; }),
+                  with(rub, [](auto& c) { c.fric_id = c.fric_orthotropic = true; })});
+  for (const int curve : {1, 2, 3}) {
+    const char* names[] = {"", "sphere (Icurv 1)", "cylinder (Icurv 2)",
+                           "bicubic surface (Icurv 3)"};
+    rows.push_back({names[curve], elastic,
+                    with(elastic,
+                         [&](auto& c) {
+                           c.icurv = curve;
+                           c.curv_node1 = {0, 0, 1000};
+                           c.curv_node2 = {1, 0, 1000};
+                         }),
+                    false, false});
+  }
+  rows.push_back({"adaptivity criteria (Iadm 2)", elastic,
+                  with(elastic, [](auto& c) { c.iadm = 2; }), false, false});
+  rows.push_back({"tie below the time step (ITIED 1)", damped,
+                  with(damped, [](auto& c) { c.itied = 1; }), false, false});
+  rows.push_back({"release of boundary conditions (IBC)", elastic,
+                  with(elastic, [](auto& c) { c.ibc = 7; }), false, false});
+  return rows;
+}
+
+struct EffectCost {
+  std::string name;
+  double without = 0, with = 0, baseline = 0, flags = 0, per_pair = 0;  ///< ns; per_pair 0: none
+};
+
+template <ContactKind K>
+std::vector<EffectCost> effect_costs(const Scene& scene, int rounds) {
+  const PacketView view = scene.view();
+  const double ns = 1e9 / static_cast<double>(view.size);
+  std::vector<EffectCost> out;
+  for (const EffectRow& row : effect_rows(K)) {
+    const Model m = Model::reference;
+    const KernelPlan less = make_plan(row.without, m, option(false, false));
+    const KernelPlan more = make_plan(row.with, m, option(row.energies, false));
+    const KernelPlan base = make_plan(row.with, m, option(row.energies, false, Isa::baseline));
+    const KernelPlan flags = make_plan(row.with, m, option(row.energies, true));
+    PacketResult a, b, c, d, e;
+    evaluate(less, view, a);
+    evaluate(more, view, b);
+    evaluate(base, view, c);
+    evaluate(flags, view, d);
+    require_equal(worst_difference(b, c, view.size), (row.name + ", baseline").c_str());
+    require_equal(worst_difference(b, d, view.size), (row.name + ", flags").c_str());
+    std::vector<std::function<void()>> all = {
+        [&] { evaluate(less, view, a); }, [&] { evaluate(more, view, b); },
+        [&] { evaluate(base, view, c); }, [&] { evaluate(flags, view, d); }};
+    if (row.in_kernel) {
+      flags_per_pair<Model::reference, K>(more, view, e);
+      require_equal(worst_difference(b, e, view.size), (row.name + ", flags per pair").c_str());
+      all.push_back([&] { flags_per_pair<Model::reference, K>(more, view, e); });
+    }
+    const std::vector<double> t = race(all, rounds);
+    out.push_back(
+        {row.name, t[0] * ns, t[1] * ns, t[2] * ns, t[3] * ns, row.in_kernel ? t[4] * ns : 0.0});
+  }
+  return out;
+}
+
+nlohmann::json print_costs(const char* title, const std::vector<EffectCost>& costs) {
+  std::printf(
+      "\n%s, reference model, ns per pair, geometry included\n%-46s %8s %8s %8s %9s %8s %9s\n",
+      title, "effect", "without", "with", "added", "baseline", "flags", "per pair");
+  nlohmann::json rows = nlohmann::json::array();
+  for (const EffectCost& c : costs) {
+    std::printf("%-46s %8.1f %8.1f %8.1f %9.1f %8.1f ", c.name.c_str(), c.without, c.with,
+                c.with - c.without, c.baseline, c.flags);
+    if (c.per_pair > 0) std::printf("%9.1f", c.per_pair);
+    std::printf("\n");
+    rows.push_back({{"effect", c.name},
+                    {"without_ns", c.without},
+                    {"with_ns", c.with},
+                    {"added_ns", c.with - c.without},
+                    {"baseline_ns", c.baseline},
+                    {"flags_ns", c.flags},
+                    {"flags_per_pair_ns", c.per_pair}});
+  }
+  return rows;
+}
+
+/// The same as a table for a page.
+std::string markdown(const nlohmann::json& all) {
+  const auto ns = [](const nlohmann::json& v) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f", v.get<double>());
+    return std::string(text);
+  };
+  const auto& hand = all["hand_written"];
+  char line[256];
+  std::snprintf(line, sizeof line,
+                "Elastic force alone, geometry excluded: composed kernel %.2f ns, hand-written "
+                "minimal loop %.2f ns per pair (%.2f of its speed); geometry %.1f ns.\n",
+                hand["composed_ns"].get<double>(), hand["hand_written_ns"].get<double>(),
+                hand["speed_ratio"].get<double>(), hand["geometry_ns"].get<double>());
+  std::string out = line;
+  for (const char* kind : {"node_segment", "edge_edge"}) {
+    out += std::string("\n| ") +
+           (std::string(kind) == "edge_edge" ? "edge against edge" : "node against quad") +
+           " | without | with | adds | SSE2 | flags per pack | flags per pair |\n"
+           "|---|---:|---:|---:|---:|---:|---:|\n";
+    for (const auto& r : all["effects"][kind]) {
+      const double pair = r["flags_per_pair_ns"];
+      out += "| " + r["effect"].get<std::string>() + " | " + ns(r["without_ns"]) + " | " +
+             ns(r["with_ns"]) + " | " + ns(r["added_ns"]) + " | " + ns(r["baseline_ns"]) + " | " +
+             ns(r["flags_ns"]) + " | " + (pair > 0 ? ns(r["flags_per_pair_ns"]) : "") + " |\n";
+    }
+  }
+  return out;
+}
+
+void write_text(const char* path, const std::string& text) {
+  if (std::FILE* file = std::fopen(path, "w")) {
+    std::fputs(text.c_str(), file);
+    std::fclose(file);
+  }
+}
+
 nlohmann::json hand_written_race(const Scene& scene, int rounds) {
   const PacketView view = scene.view();
   ContactCard card;
@@ -359,7 +594,7 @@ nlohmann::json assembly_race(const Scene& scene, int rounds) {
 
 }  // namespace
 
-/// bench_cycle [CELLS] [ROUNDS] [OUT.json]: CELLS^2 pairs.
+/// bench_cycle [CELLS] [ROUNDS] [OUT.json] [OUT.md]: CELLS^2 pairs.
 int main(int argc, char** argv) {
   const std::size_t cells = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 128;
   const int rounds = argc > 2 ? std::atoi(argv[2]) : 15;
@@ -373,11 +608,11 @@ int main(int argc, char** argv) {
     all[name]["node_segment"] = composition_table(ContactKind::node_segment, model, nodes, rounds);
     all[name]["edge_edge"] = composition_table(ContactKind::edge_edge, model, edges, rounds);
   }
-  if (argc > 3) {
-    if (std::FILE* file = std::fopen(argv[3], "w")) {
-      std::fputs((all.dump(2) + "\n").c_str(), file);
-      std::fclose(file);
-    }
-  }
+  all["effects"]["node_segment"] =
+      print_costs("node-quad", effect_costs<ContactKind::node_segment>(nodes, rounds));
+  all["effects"]["edge_edge"] =
+      print_costs("edge-edge", effect_costs<ContactKind::edge_edge>(edges, rounds));
+  if (argc > 3) write_text(argv[3], all.dump(2) + "\n");
+  if (argc > 4) write_text(argv[4], markdown(all));
   return 0;
 }
