@@ -21,6 +21,7 @@ constexpr int sweeps = 200;               // projections per iteration
 constexpr int patience = 8;               // iterations without progress
 constexpr double largest_step = 0.45;     // of the gap: two sides cannot pass each other unseen
 constexpr double least_component = 1e-3;  // of a move along an axis, to be printed
+constexpr double noise = 1e-6;            // of the gap: a vector this short has no direction
 constexpr double deeper = 1 + 1e-9;       // a penetration that grew by less is the same one
 
 double length(Vec v) { return std::sqrt(dot(v, v)); }
@@ -182,10 +183,33 @@ class Depenetrator {
     return apply(moves);
   }
 
+  /// True if the closest point of a pair lies on nodes that `nearest`, the closest pair of the same
+  /// secondary node, has too: that pair is then the stricter one, and its direction the better.
+  static bool follows(const PairState& pair, const PairState& nearest) {
+    const auto end = nearest.nodes.begin() + nearest.count;
+    for (int i = 1; i < pair.count; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (pair.weights[k] != 0 && std::find(nearest.nodes.begin() + 1, end, pair.nodes[k]) == end)
+        return false;
+    }
+    return true;
+  }
+
   std::vector<Wish> make_wishes(const Scene& scene) const {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<PairAt, PairState>> nearest;
+    for (const PairAt& at : active_) {
+      const PairState state = state_of(scene, now_, at);
+      if (state.secondary_count != 1) continue;
+      const auto [it, is_new] = nearest.try_emplace({at.contact, at.secondary}, at, state);
+      if (!is_new && state.distance < it->second.second.distance) it->second = {at, state};
+    }
     std::vector<std::pair<double, PairAt>> order;
     for (const PairAt& at : active_) {
       const PairState state = state_of(scene, now_, at);
+      if (state.secondary_count == 1) {
+        const auto& [place, first] = nearest.at({at.contact, at.secondary});
+        if (place != at && follows(state, first)) continue;
+      }
       if (state.depth() > -state.gap) order.emplace_back(-state.depth(), at);
     }
     std::sort(order.begin(), order.end());
@@ -194,8 +218,9 @@ class Depenetrator {
     for (const auto& [negative, at] : order) {
       Wish w;
       w.state = state_of(scene, now_, at);
-      w.normal = w.state.distance > 0 ? w.state.normal
-                                      : direction_on_surface(scene, *mesh_, now_, at, w.state);
+      w.normal = w.state.distance > noise * w.state.gap
+                     ? w.state.normal
+                     : direction_on_surface(scene, *mesh_, now_, at, w.state);
       const double lack = w.state.depth() + options_.clearance * w.state.gap;
       w.by = lack > 0 ? options_.share * lack : lack;
       w.main_gives_way = !options_.secondary_only;

@@ -97,13 +97,17 @@ Vec direction_on_surface(const Scene& scene, const FixMesh& mesh, const Coordina
   if (!(l > 0)) return {};
   n = (1 / l) * n;
   if (c.kind == ContactKind::node_segment && c.main[place.main].carrier == Carrier::solid) return n;
-  // The deepest neighbours decide, each by how far it is off the plane.
-  double side = 0;
+  // The neighbours decide, each by how far it is off the plane. Where all are in it any side will
+  // do, if only it is the same for all: the one of the normal.
+  double side = 0, reach = 0;
   const Vec origin = at(x, state.nodes[static_cast<std::size_t>(state.secondary_count)]);
   for (int i = 0; i < state.secondary_count; ++i)
-    for (const NodeIndex next : mesh.neighbours(state.nodes[static_cast<std::size_t>(i)]))
-      side += dot(at(x, next) - origin, n);
-  return side < 0 ? -1.0 * n : n;
+    for (const NodeIndex next : mesh.neighbours(state.nodes[static_cast<std::size_t>(i)])) {
+      const Vec off = at(x, next) - origin;
+      side += dot(off, n);
+      reach += length(off);
+    }
+  return side < -1e-6 * reach ? -1.0 * n : n;
 }
 
 std::string why_not_movable(const FixMesh& mesh, const Coordinates& x, const PairState& state) {

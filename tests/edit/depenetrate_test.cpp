@@ -1,0 +1,343 @@
+#include "deck/edit/depenetrate.hpp"
+
+#include "edit/fix_support.hpp"
+
+namespace deck::test {
+namespace {
+
+MoveNodesOptions all_may_move() {
+  MoveNodesOptions o;
+  o.most_moved = 1;
+  return o;
+}
+
+PenetrationFix moved(const Built& b, const MoveNodesOptions& options = all_may_move()) {
+  auto fix = move_nodes(context_of(b), options);
+  EXPECT_TRUE(fix.ok()) << fix.error().message;
+  return std::move(*fix);
+}
+
+/// All penetrations go, nothing new comes, and a second run has nothing to do.
+void expect_solved(const SmallDeck& d) {
+  const Built before(d);
+  ASSERT_FALSE(oracle_penetrations(before).empty()) << "the scene shows nothing";
+  ASSERT_TRUE(oracle_crossings(before).empty());
+  const PenetrationFix fix = moved(before);
+  const auto after = expect_harmless(before, fix);
+  EXPECT_EQ(oracle_penetrations(*after).size(), 0U);
+  EXPECT_EQ(oracle_crossings(*after).size(), 0U);
+  EXPECT_TRUE(fix.complete);
+  EXPECT_TRUE(fix.refused.empty());
+  const PenetrationFix second = moved(*after);
+  EXPECT_TRUE(second.rewrite.edits.empty());
+  EXPECT_TRUE(second.complete);
+}
+
+const char* const node_cards[] = {
+    "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0",
+    "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Igap=1",
+    "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Igap=2 Fscalegap=1.2 Gapmax=0.9",
+    "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Igap=3 Gapmin=0.7",
+    "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0 Inacti=3",
+    "@/INTER/TYPE10/1 grnd_IDs=1 surf_IDm=1 Gap=1.0",
+};
+const char* const edge_cards[] = {
+    "@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Gapmin=1.0",
+    "@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Igap=1",
+    "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=2 Gapmin=1.0",
+    "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=2 Igap=1 Gapmin=0.5",
+};
+
+TEST(MoveNodes, SeparatesRandomPlatesForNodeContacts) {
+  for (const char* card : node_cards)
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      SCOPED_TRACE(card + (" seed " + std::to_string(seed)));
+      expect_solved(two_plates(seed, 0.35 + 0.1 * seed, card));
+    }
+}
+
+TEST(MoveNodes, SeparatesRandomPlatesForEdgeContacts) {
+  for (const char* card : edge_cards)
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      SCOPED_TRACE(card + (" seed " + std::to_string(seed)));
+      expect_solved(two_plates(seed, 0.35 + 0.1 * seed, card));
+    }
+}
+
+TEST(MoveNodes, OpensFoldedShellsInSelfContact) {
+  for (const char* card : {"@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.7",
+                           "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=1 Gapmin=1.65"})
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      SCOPED_TRACE(card + (" seed " + std::to_string(seed)));
+      expect_solved(hairpin(seed, card));
+    }
+}
+
+TEST(MoveNodes, FreesACornerThatTouchesSeveralSegments) {
+  for (const char* card : {"@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0",
+                           "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=2 Gapmin=1.0"})
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      SCOPED_TRACE(card + (" seed " + std::to_string(seed)));
+      expect_solved(box_corner(seed, card));
+    }
+}
+
+TEST(MoveNodes, SolvesTwoInterfacesThatShareNodes) {
+  for (unsigned seed = 1; seed <= 3; ++seed)
+    expect_solved(two_plates(seed, 0.5,
+                             "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=0.9\n"
+                             "@/INTER/TYPE11/2 line_IDs=1 line_IDm=2 Gapmin=1.1"));
+}
+
+TEST(MoveNodes, TakesNodesAtDistanceZeroToTheSideOfTheirNeighbours) {
+  SmallDeck d;
+  d.shell_part(1, 1.0).shell_part(2, 1.0);
+  add_sheet(d, 1, 1, 3, 3, [](int i, int j) { return P{2.0 * i, 2.0 * j, 0}; });
+  // A roof whose ridge lies on the plate.
+  add_sheet(d, 2, 101, 2, 2, [](int i, int j) {
+    return P{1.5 + 1.4 * i, 1.3 + 1.4 * j, i == 1 ? 0.0 : 1.6};
+  });
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1});
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0");
+  const Built before(d);
+  const PenetrationFix fix = moved(before);
+  const auto after = expect_harmless(before, fix);
+  EXPECT_TRUE(oracle_penetrations(*after).empty());
+  for (const MovedNode& m : fix.moved) EXPECT_GT(m.part == 2 ? m.by[2] : -m.by[2], 0) << m.id;
+}
+
+TEST(MoveNodes, CoincidentPlatesComeApartAsAWhole) {
+  SmallDeck d;
+  d.shell_part(1, 1.0).shell_part(2, 1.0);
+  add_sheet(d, 1, 1, 3, 3, [](int i, int j) { return P{2.0 * i, 2.0 * j, 0}; });
+  add_sheet(d, 2, 101, 3, 3, [](int i, int j) { return P{2.0 * i + 0.4, 2.0 * j + 0.3, 0}; });
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1});
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0");
+  const Built before(d);
+  const auto after = expect_harmless(before, moved(before));
+  EXPECT_TRUE(oracle_penetrations(*after).empty());
+  EXPECT_TRUE(oracle_crossings(*after).empty());
+}
+
+// ---- what holds nodes -------------------------------------------------------------------------
+
+const char* const plain = "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0";
+
+TEST(MoveNodes, NodesOfLockedPartsStay) {
+  const Built before(two_plates(1, 0.6, plain));
+  MoveNodesOptions o = all_may_move();
+  o.lock = {1};
+  const PenetrationFix fix = moved(before, o);
+  EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, fix)).empty());
+  ASSERT_FALSE(fix.moved.empty());
+  for (const MovedNode& m : fix.moved) EXPECT_EQ(m.part, 2);
+}
+
+TEST(MoveNodes, OnlyNodesOfChosenPartsMove) {
+  const Built before(two_plates(2, 0.6, plain));
+  MoveNodesOptions o = all_may_move();
+  o.move = {1};
+  const PenetrationFix fix = moved(before, o);
+  EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, fix)).empty());
+  for (const MovedNode& m : fix.moved) EXPECT_EQ(m.part, 1);
+}
+
+TEST(MoveNodes, MainSidesStayIfOnlySecondaryNodesMayMove) {
+  const Built before(two_plates(3, 0.6, plain));
+  MoveNodesOptions o = all_may_move();
+  o.secondary_only = true;
+  const PenetrationFix fix = moved(before, o);
+  EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, fix)).empty());
+  for (const MovedNode& m : fix.moved) EXPECT_EQ(m.part, 2);
+}
+
+TEST(MoveNodes, EverythingLockedLeavesTheDeckAloneAndSaysWhy) {
+  const Built before(two_plates(1, 0.6, plain));
+  MoveNodesOptions o = all_may_move();
+  o.lock = {1, 2};
+  const PenetrationFix fix = moved(before, o);
+  EXPECT_TRUE(fix.rewrite.edits.empty());
+  EXPECT_FALSE(fix.complete);
+  ASSERT_FALSE(fix.refused.empty());
+  for (const FixRefusal& r : fix.refused)
+    EXPECT_THAT(r.reason, ::testing::HasSubstr("locked part"));
+}
+
+TEST(MoveNodes, AnUnknownPartIsAnError) {
+  const Built before(two_plates(1, 0.6, plain));
+  MoveNodesOptions o;
+  o.lock = {77};
+  const auto fix = move_nodes(context_of(before), o);
+  ASSERT_FALSE(fix.ok());
+  EXPECT_EQ(fix.error().message, "the deck has no part 77");
+}
+
+TEST(MoveNodes, NoMoreNodesOfAPartMoveThanAllowed) {
+  for (const double share : {0.05, 0.2, 0.5}) {
+    const Built before(two_plates(1, 0.6, plain));
+    MoveNodesOptions o;
+    o.most_moved = share;
+    const PenetrationFix fix = moved(before, o);
+    expect_harmless(before, fix);
+    std::map<std::int64_t, int> count;
+    for (const MovedNode& m : fix.moved) ++count[m.part];
+    EXPECT_LE(count[1], std::max(1.0, std::floor(share * 49)));
+    EXPECT_LE(count[2], std::max(1.0, std::floor(share * 30)));
+    EXPECT_EQ(fix.complete, fix.refused.empty());
+  }
+}
+
+TEST(MoveNodes, NoNodeMovesFartherThanAllowed) {
+  const Built before(two_plates(1, 0.5, plain));
+  MoveNodesOptions o = all_may_move();
+  o.most_displacement = 0.1;
+  const PenetrationFix fix = moved(before, o);
+  expect_harmless(before, fix);
+  EXPECT_FALSE(fix.complete);
+  for (const MovedNode& m : fix.moved) EXPECT_LE(m.distance, 0.1 * (1 + 1e-6));
+  bool said = false;
+  for (const FixRefusal& r : fix.refused)
+    said |= r.reason.find("--max-displacement") != std::string::npos;
+  EXPECT_TRUE(said);
+}
+
+TEST(MoveNodes, NodesOfRigidBodiesAndBoundaryConditionsStayOnRequest) {
+  const std::string cards =
+      "/GRNOD/NODE/8\nrigid\n      1001      1002      1003\n"
+      "/GRNOD/NODE/9\nfixed\n      1004      1005      1006\n"
+      "/RBODY/1\nbody\n      1007         0         0         0                 0.0         8\n"
+      "/BCS/1\nfixed\n   111 111         0         9\n";
+  const Built before(two_plates(1, 0.6, cards + plain));
+  MoveNodesOptions o = all_may_move();
+  o.lock_rigid_bodies = o.lock_boundary_conditions = true;
+  const PenetrationFix fix = moved(before, o);
+  EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, fix)).empty());
+  for (const MovedNode& m : fix.moved) EXPECT_TRUE(m.id < 1001 || m.id > 1007) << m.id;
+  bool free_moves = false;
+  for (const MovedNode& m : moved(before).moved) free_moves |= m.id >= 1001 && m.id <= 1007;
+  EXPECT_TRUE(free_moves);
+}
+
+TEST(MoveNodes, SmoothingTakesNeighboursAlong) {
+  const Built before(two_plates(4, 0.8, plain));
+  MoveNodesOptions o = all_may_move();
+  const std::size_t without = moved(before, o).moved.size();
+  o.smooth = 2;
+  const PenetrationFix fix = moved(before, o);
+  EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, fix)).empty());
+  EXPECT_GT(fix.moved.size(), without);
+}
+
+TEST(MoveNodes, OnlyTheInterfacesAskedForAreTreated) {
+  const Built before(two_plates(1, 0.6,
+                                "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=0.7\n"
+                                "@/INTER/TYPE7/2 grnd_IDs=1 surf_IDm=1 Gapmin=1.2"));
+  MoveNodesOptions o = all_may_move();
+  o.interfaces = {1};
+  const auto after = expect_harmless(before, moved(before, o));
+  for (const auto& [pair, depth] : oracle_penetrations(*after)) EXPECT_EQ(std::get<0>(pair), 2);
+}
+
+// ---- what cannot be solved --------------------------------------------------------------------
+
+TEST(MoveNodes, NeighboursInAMeshTooFineForTheGapAreRefused) {
+  SmallDeck d;
+  d.shell_part(1, 1.0);
+  add_sheet(d, 1, 1, 4, 4, [](int i, int j) { return P{1.0 * i, 1.0 * j, 0}; });
+  d.group("/GRNOD/PART/1", {1}).group("/SURF/PART/1", {1});
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.5");
+  const Built before(d);
+  const PenetrationFix fix = moved(before);
+  EXPECT_TRUE(fix.rewrite.edits.empty());
+  ASSERT_FALSE(fix.refused.empty());
+  for (const FixRefusal& r : fix.refused) EXPECT_THAT(r.reason, ::testing::HasSubstr("one mesh"));
+}
+
+TEST(MoveNodes, CrossedElementsAreNotTornApart) {
+  SmallDeck d;
+  d.shell_part(1, 1.0).shell_part(2, 1.0);
+  add_sheet(d, 1, 1, 3, 3, [](int i, int j) { return P{2.0 * i, 2.0 * j, 0}; });
+  add_sheet(d, 2, 101, 2, 3, [](int i, int j) { return P{2.9, 0.7 + 1.4 * j, -0.7 + 1.1 * i}; });
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1});
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0");
+  const Built before(d);
+  const auto crossings = oracle_crossings(before);
+  ASSERT_FALSE(crossings.empty());
+  const PenetrationFix fix = moved(before);
+  EXPECT_EQ(oracle_crossings(*expect_harmless(before, fix)), crossings);
+  EXPECT_FALSE(fix.complete);
+  bool said = false;
+  for (const FixRefusal& r : fix.refused)
+    said |= r.reason.find("crossed elements") != std::string::npos;
+  EXPECT_TRUE(said);
+}
+
+TEST(MoveNodes, ASheetBetweenTwoLockedSheetsHasNoRoom) {
+  SmallDeck d;
+  d.shell_part(1, 1.0).shell_part(2, 1.0).shell_part(3, 1.0);
+  for (int k = 0; k < 3; ++k)
+    add_sheet(d, k + 1, 1 + 100 * k, 3, 3, [k](int i, int j) {
+      return P{2.0 * i + 0.1 * k, 2.0 * j, 0.5 * k};
+    });
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1, 3});
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=0.8");
+  const Built before(d);
+  MoveNodesOptions o = all_may_move();
+  o.lock = {1, 3};
+  const PenetrationFix fix = moved(before, o);
+  expect_harmless(before, fix);
+  EXPECT_FALSE(fix.complete);
+  EXPECT_FALSE(fix.refused.empty());
+  // Where the outer sheets may give way there is room.
+  EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, moved(before))).empty());
+}
+
+TEST(MoveNodes, CoordinatesThatComeThroughATransformAreLeftAlone) {
+  const Built before(
+      two_plates(1, 1.6,
+                 "/TRANSFORM/TRA/1\ndown\n"
+                 "         1                 0.0                 0.0                -1.0\n" +
+                     std::string(plain)));
+  ASSERT_FALSE(oracle_penetrations(before).empty());
+  const PenetrationFix fix = moved(before);
+  EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, fix)).empty());
+  for (const MovedNode& m : fix.moved) EXPECT_EQ(m.part, 1);
+}
+
+// ---- samples ----------------------------------------------------------------------------------
+
+std::unique_ptr<Built> read_sample(const std::string& name) {
+  const auto source = Source::open(sample(name), Limits{});
+  EXPECT_TRUE(source.ok());
+  return std::make_unique<Built>(std::string((*source)->bytes()));
+}
+
+TEST(MoveNodes, SolvesTheSamples) {
+  for (const char* name : {"too_close", "inacti_variants", "crossing_edges", "two_surfaces",
+                           "tied_layer", "sets_and_friction", "solid_and_skin"}) {
+    SCOPED_TRACE(name);
+    const auto before = read_sample(name);
+    const auto after = expect_harmless(*before, moved(*before));
+    EXPECT_TRUE(oracle_penetrations(*after).empty());
+    EXPECT_TRUE(moved(*after).rewrite.edits.empty());
+  }
+}
+
+TEST(MoveNodes, LeavesOnlyTheCrossedWebOfTheCrashBox) {
+  const auto before = read_sample("crash_box");
+  const PenetrationFix fix = moved(*before);
+  const auto after = expect_harmless(*before, fix);
+  for (const auto& [pair, depth] : oracle_penetrations(*after)) EXPECT_EQ(std::get<0>(pair), 2);
+  for (const FixRefusal& r : fix.refused) EXPECT_EQ(r.interface_id, 2);
+}
+
+TEST(MoveNodes, DoesNotDependOnTheNumberOfThreads) {
+  const Built before(two_plates(2, 0.5, "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=2 Gapmin=1.0"));
+  MoveNodesOptions o = all_may_move();
+  const std::string one = text_after(before, moved(before, o));
+  o.threads = 3;
+  EXPECT_EQ(text_after(before, moved(before, o)), one);
+}
+
+}  // namespace
+}  // namespace deck::test

@@ -1,0 +1,334 @@
+// Tests of penetration fixes: random scenes, and an oracle that shares nothing with the library's
+// search — plain loops over all pairs with the solver's published formulas written out again.
+#pragma once
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "contact/small_deck.hpp"
+#include "deck/edit/depenetrate.hpp"
+#include "deck/edit/fix.hpp"
+
+namespace deck::test {
+
+// ---- oracle -------------------------------------------------------------------------------------
+
+using P = std::array<double, 3>;
+inline P operator-(const P& a, const P& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline P operator+(const P& a, const P& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline P operator*(double f, const P& a) { return {f * a[0], f * a[1], f * a[2]}; }
+inline double dot(const P& a, const P& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline P cross(const P& a, const P& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double clamp01(double v) { return std::min(1.0, std::max(0.0, v)); }
+
+/// Distance of a node from one sub-triangle with apex o, as the solver measures it.
+inline double sub_triangle_distance(const P& p, const P& o, const P& a, const P& b) {
+  const P oa = a - o, ob = b - o, r = p - o, n = cross(oa, ob);
+  const double s = 1 / std::max(1e-30, dot(n, n));
+  double la = s * dot(n, cross(r, ob)), lb = s * dot(n, cross(oa, r));
+  const double lo = 1 - la - lb;
+  const P ab = b - a;
+  const double ho = lo * std::abs(lo) / std::max(1e-20, dot(ab, ab));
+  const double ha = la * std::abs(la) / std::max(1e-30, dot(ob, ob));
+  const double hb = lb * std::abs(lb) / std::max(1e-30, dot(oa, oa));
+  if (lo < 0 && ho <= ha && ho <= hb) {
+    la = clamp01(dot(b - p, ab) / std::max(1e-20, dot(ab, ab)));
+    lb = 1 - la;
+  } else if (la < 0 && ha <= hb && ha <= ho) {
+    la = 0;
+    lb = clamp01(dot(r, ob) / std::max(1e-30, dot(ob, ob)));
+  } else if (lb < 0 && hb <= ho && hb <= ha) {
+    lb = 0;
+    la = clamp01(dot(r, oa) / std::max(1e-30, dot(oa, oa)));
+  }
+  const P v = p - (o + la * oa + lb * ob);
+  return std::sqrt(dot(v, v));
+}
+
+inline double segment_distance(const P& p, const std::array<P, 4>& x, bool triangle) {
+  const P o = triangle ? x[2] : 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  double best = 1e300;
+  for (std::size_t k = 0; k < 4; ++k)
+    best = std::min(best, sub_triangle_distance(p, o, x[k], x[(k + 1) % 4]));
+  return best;
+}
+
+inline double edge_distance(const P& s1, const P& s2, const P& m1, const P& m2) {
+  const P s = s2 - s1, m = m2 - m1, w = m2 - s2;
+  const double a = dot(s, s), c = dot(m, m), q = -dot(s, m), xa = dot(s, w), xb = -dot(m, w);
+  const double det = std::max(1e-20, c * a - q * q);
+  double hm = clamp01((xa * q - xb * a) / det);
+  const double hs = clamp01(-(xa + hm * q) / std::max(a, 1e-20));
+  hm = clamp01(-(xb + hs * q) / std::max(c, 1e-20));
+  const P v = (hs * s1 + (1 - hs) * s2) - (hm * m1 + (1 - hm) * m2);
+  return std::sqrt(dot(v, v));
+}
+
+/// interface id, role, secondary ids, sorted main ids
+using OraclePair = std::tuple<std::int64_t, int, std::vector<std::int64_t>, std::set<std::int64_t>>;
+
+/// Every penetrating pair with its depth. Pairs as close to the boundary as rounding goes (1e-9 of
+/// the gap) do not count.
+inline std::map<OraclePair, double> oracle_penetrations(const Built& b) {
+  std::map<OraclePair, double> out;
+  const Nodes& nodes = b.model.nodes;
+  const auto at = [&](NodeIndex n) { return P{nodes.x[n], nodes.y[n], nodes.z[n]}; };
+  const auto gap_of = [](const Contact& c, double gs, double gm, double ls, double lm) {
+    if (c.igap == 0) return c.gapmin;
+    double g = gs + gm;
+    if (c.igap == 3) g = std::min(g, ls + lm);
+    return std::max(std::min(g, c.gapmax), c.gapmin);
+  };
+  for (const Contact& c : b.scene.contacts) {
+    const auto note = [&](std::vector<std::int64_t> s, std::set<std::int64_t> m, double depth,
+                          double gap) {
+      if (!(depth > 1e-9 * gap)) return;
+      double& kept = out[{c.inter->id, static_cast<int>(c.role), std::move(s), std::move(m)}];
+      kept = std::max(kept, depth);
+    };
+    for (const SecondaryNode& s : c.secondary)
+      for (const MainSegment& m : c.main) {
+        if (std::find(m.nodes.begin(), m.nodes.end(), s.node) != m.nodes.end()) continue;
+        const double gap = gap_of(c, s.gap, m.gap, s.length, m.length);
+        const double d = segment_distance(
+            at(s.node), {at(m.nodes[0]), at(m.nodes[1]), at(m.nodes[2]), at(m.nodes[3])},
+            m.nodes[2] == m.nodes[3]);
+        const auto ids = b.ids(m.nodes);
+        note({nodes.id[s.node]}, {ids.begin(), ids.end()}, gap - d, gap);
+      }
+    for (const ContactEdge& s : c.secondary_edges)
+      for (const ContactEdge& m : c.main_edges) {
+        if (s.nodes[0] == m.nodes[0] || s.nodes[0] == m.nodes[1] || s.nodes[1] == m.nodes[0] ||
+            s.nodes[1] == m.nodes[1])
+          continue;
+        const double gap = gap_of(c, s.gap, m.gap, s.length, m.length);
+        const double d =
+            edge_distance(at(s.nodes[0]), at(s.nodes[1]), at(m.nodes[0]), at(m.nodes[1]));
+        std::vector<std::int64_t> ids{nodes.id[s.nodes[0]], nodes.id[s.nodes[1]]};
+        std::sort(ids.begin(), ids.end());
+        note(ids, {nodes.id[m.nodes[0]], nodes.id[m.nodes[1]]}, gap - d, gap);
+      }
+  }
+  return out;
+}
+
+/// Volume sign of a tetrahedron; 0 where it is flat up to rounding.
+inline double orient(const P& a, const P& b, const P& c, const P& d) {
+  const P ab = b - a, ac = c - a, ad = d - a;
+  const double v = dot(ab, cross(ac, ad));
+  const double size = std::sqrt(dot(ab, ab) * dot(ac, ac) * dot(ad, ad));
+  return std::abs(v) <= 1e-12 * size ? 0 : v;
+}
+
+/// Edges of shells, bars and bricks that pass through a triangle of a shell: (edge ids, shell id).
+inline std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t, int>> oracle_crossings(
+    const Built& b) {
+  const Nodes& nodes = b.model.nodes;
+  const auto at = [&](NodeIndex n) { return P{nodes.x[n], nodes.y[n], nodes.z[n]}; };
+  std::set<std::pair<NodeIndex, NodeIndex>> edges;
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::truss,
+                                 ElementKind::beam, ElementKind::solid8}) {
+    const Elements& f = b.model.family(kind);
+    for (std::size_t e = 0; e < f.size(); ++e) {
+      std::vector<std::array<int, 2>> local{{0, 1}};
+      if (kind == ElementKind::shell4) local = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+      if (kind == ElementKind::shell3) local = {{0, 1}, {1, 2}, {2, 0}};
+      if (kind == ElementKind::solid8)
+        local = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                 {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+      for (const auto& [i, j] : local) edges.insert(std::minmax(f.of(e)[i], f.of(e)[j]));
+    }
+  }
+  std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t, int>> out;
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
+    const Elements& f = b.model.family(kind);
+    for (std::size_t e = 0; e < f.size(); ++e) {
+      const NodeIndex* n = f.of(e);
+      for (int half = 0; half < f.width - 2; ++half) {
+        const std::array<NodeIndex, 3> t{n[0], n[half + 1], n[half + 2]};
+        for (const auto& [p, q] : edges) {
+          if (std::count(n, n + f.width, p) + std::count(n, n + f.width, q) > 0) continue;
+          const double sp = orient(at(t[0]), at(t[1]), at(t[2]), at(p));
+          const double sq = orient(at(t[0]), at(t[1]), at(t[2]), at(q));
+          if (!(sp * sq < 0)) continue;
+          const double u = orient(at(p), at(q), at(t[0]), at(t[1]));
+          const double v = orient(at(p), at(q), at(t[1]), at(t[2]));
+          const double w = orient(at(p), at(q), at(t[2]), at(t[0]));
+          if ((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))
+            out.insert({nodes.id[p], nodes.id[q], f.id[e], half});
+        }
+      }
+    }
+  }
+  return out;
+}
+
+// ---- fixing -------------------------------------------------------------------------------------
+
+inline EditContext context_of(const Built& b) {
+  return {b.deck, b.model, b.interfaces, SchemaSet::built_in()};
+}
+
+/// The main file's text after the fix.
+inline std::string text_after(const Built& b, const PenetrationFix& fix) {
+  auto changed = apply_rewrite(b.deck.sources, fix.rewrite);
+  EXPECT_TRUE(changed.ok()) << changed.error().message;
+  const auto it = changed->find(b.deck.sources[0].path());
+  return it == changed->end() ? std::string(b.deck.sources[0].bytes()) : it->second;
+}
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Everything a fix by moving nodes promises, held against the oracle. Returns the deck afterwards.
+inline std::unique_ptr<Built> expect_harmless(const Built& before, const PenetrationFix& fix) {
+  auto after = std::make_unique<Built>(text_after(before, fix));
+  const auto was = oracle_penetrations(before), is = oracle_penetrations(*after);
+  for (const auto& [pair, depth] : is) {
+    const auto it = was.find(pair);
+    EXPECT_TRUE(it != was.end()) << "new penetration of node " << std::get<2>(pair)[0];
+    if (it != was.end()) {
+      EXPECT_LE(depth, it->second * (1 + 1e-8));
+    }
+  }
+  const auto crossed = oracle_crossings(before), crosses = oracle_crossings(*after);
+  EXPECT_TRUE(std::includes(crossed.begin(), crossed.end(), crosses.begin(), crosses.end()))
+      << "new crossed elements";
+
+  // Only the columns of moved coordinates change.
+  std::map<std::int64_t, P> by;
+  for (const MovedNode& m : fix.moved) by[m.id] = m.by;
+  const auto a = lines_of(text_after(before, {})), b = lines_of(text_after(before, fix));
+  EXPECT_EQ(a.size(), b.size());
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] == b[i]) continue;
+    ++changed;
+    const std::int64_t id = std::stoll(a[i].substr(0, 10));
+    EXPECT_TRUE(by.contains(id)) << b[i];
+    EXPECT_EQ(a[i].substr(0, 10), b[i].substr(0, 10));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (by[id][axis] == 0) {
+        EXPECT_EQ(a[i].substr(10 + 20 * axis, 20), b[i].substr(10 + 20 * axis, 20));
+      }
+    const std::size_t end = std::min<std::size_t>(a[i].size(), 70);
+    EXPECT_EQ(a[i].substr(end), b[i].substr(end));
+  }
+  EXPECT_EQ(changed, by.size());
+  return after;
+}
+
+// ---- scenes -------------------------------------------------------------------------------------
+
+/// A mesh of quads over a parametric surface: nodes first, first+1, … row by row.
+template <class Shape>
+void add_sheet(SmallDeck& d, int part, int first, int columns, int rows, const Shape& shape) {
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i <= columns; ++i) {
+      const P p = shape(i, j);
+      d.node(first + j * (columns + 1) + i, p[0], p[1], p[2]);
+    }
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const int n = first + j * (columns + 1) + i;
+      d.shell(part, first + j * columns + i, n, n + 1, n + columns + 2, n + columns + 1);
+    }
+}
+
+/// Two wavy plates of different meshes, the upper one turned, at `height`.
+inline SmallDeck two_plates(unsigned seed, double height, const std::string& interface_card) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> noise(-0.05, 0.05);
+  SmallDeck d;
+  d.shell_part(1, 1.0).shell_part(2, 0.6);
+  add_sheet(d, 1, 1, 6, 6, [&](int i, int j) { return P{2.0 * i, 2.0 * j, noise(random)}; });
+  const double angle = 0.3 + 0.1 * noise(random);
+  add_sheet(d, 2, 1001, 5, 4, [&](int i, int j) {
+    const double u = 1.7 * i - 1, v = 1.9 * j - 1;
+    return P{3 + u * std::cos(angle) - v * std::sin(angle),
+             2 + u * std::sin(angle) + v * std::cos(angle), height + noise(random)};
+  });
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2});
+  d.group("/LINE/SURF/1", {1}).group("/LINE/SURF/2", {2});
+  d.add(interface_card);
+  return d;
+}
+
+/// A hairpin in section: two flanks 1.5 apart that open into a wide bend, one mesh. The flanks are
+/// far from one another along it.
+inline SmallDeck hairpin(unsigned seed, const std::string& interface_card) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> noise(-0.03, 0.03);
+  const std::vector<std::array<double, 2>> section{
+      {0, 0},     {2, 0},     {4, 0},     {6, 0},      {8, 0},  {10, -1}, {12, -2.5},
+      {14, -2.5}, {15.5, -1}, {16, 0.75}, {15.5, 2.5}, {14, 4}, {12, 4},  {10, 2.5},
+      {8, 1.5},   {6, 1.5},   {4, 1.5},   {2, 1.5},    {0, 1.5}};
+  SmallDeck d;
+  d.shell_part(1, 1.0);
+  add_sheet(d, 1, 1, static_cast<int>(section.size()) - 1, 4, [&](int i, int j) {
+    const auto& s = section[static_cast<std::size_t>(i)];
+    return P{s[0] + noise(random), 2.0 * j, s[1] + noise(random)};
+  });
+  d.group("/GRNOD/PART/1", {1}).group("/SURF/PART/1", {1});
+  d.add(interface_card);
+  return d;
+}
+
+/// The corner of a box of three shells dips into the gap of a plate near the plate's own corner.
+inline SmallDeck box_corner(unsigned seed, const std::string& interface_card) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> noise(-0.02, 0.02);
+  SmallDeck d;
+  d.shell_part(1, 1.0).shell_part(2, 1.0);
+  add_sheet(d, 1, 1, 4, 4, [&](int i, int j) { return P{2.0 * i, 2.0 * j, noise(random)}; });
+  // Corner at (0.4, 0.4, 0.5) with faces rising in three directions, tilted on its tip.
+  const P tip{0.4, 0.4, 0.5 + noise(random)};
+  const std::array<P, 3> axis{P{0.8, 0.1, 0.6}, P{0.1, 0.8, 0.6}, P{-0.6, -0.5, 0.7}};
+  const auto at = [&](double a, double b, double c) {
+    return tip + (2 * a) * axis[0] + (2 * b) * axis[1] + (2 * c) * axis[2];
+  };
+  int n = 101;
+  std::map<std::array<int, 3>, int> id;
+  for (int a = 0; a <= 2; ++a)
+    for (int b = 0; b <= 2; ++b)
+      for (int c = 0; c <= 2; ++c) {
+        if (a != 0 && b != 0 && c != 0) continue;
+        const P p = at(a, b, c);
+        id[{a, b, c}] = n;
+        d.node(n++, p[0], p[1], p[2]);
+      }
+  int e = 101;
+  for (int u = 0; u < 2; ++u)
+    for (int v = 0; v < 2; ++v) {
+      d.shell(2, e++, id[{u, v, 0}], id[{u + 1, v, 0}], id[{u + 1, v + 1, 0}], id[{u, v + 1, 0}]);
+      d.shell(2, e++, id[{0, u, v}], id[{0, u + 1, v}], id[{0, u + 1, v + 1}], id[{0, u, v + 1}]);
+      d.shell(2, e++, id[{u, 0, v}], id[{u, 0, v + 1}], id[{u + 1, 0, v + 1}], id[{u + 1, 0, v}]);
+    }
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2});
+  d.group("/LINE/SURF/1", {1}).group("/LINE/SURF/2", {2});
+  d.add(interface_card);
+  return d;
+}
+
+/// Samples of the project that read without errors, by file name.
+inline std::string sample(const std::string& name) {
+  return std::string(DECK_SOURCE_DIR) + "/samples/" + name + "_0000.rad";
+}
+
+}  // namespace deck::test
