@@ -49,8 +49,9 @@ void UnitConversion::changed(const Block& block, Span place, std::string_view fi
   out.losses.push_back(std::move(entry));
 }
 
-void UnitConversion::replace_fixed(const Line& line, int first, int last, std::string_view text) {
-  const std::string_view bytes = deck.sources[line.file].bytes();
+TextEdit column_edit(const SourceSet& sources, const Line& line, int first, int last,
+                     std::string_view text) {
+  const std::string_view bytes = sources[line.file].bytes();
   const std::size_t begin = line.offset + static_cast<std::size_t>(first - 1);
   const auto width = static_cast<std::size_t>(last - first + 1);
   std::size_t end = begin;  // what the line has of the cell, trailing blanks included
@@ -64,8 +65,11 @@ void UnitConversion::replace_fixed(const Line& line, int first, int last, std::s
   std::string cell(right - text.size(), ' ');
   cell += text;
   if (cell.size() < old.size()) cell.append(old.size() - cell.size(), ' ');
-  out.edits.push_back(
-      {Span{line.file, static_cast<std::uint32_t>(old.size()), begin}, std::move(cell)});
+  return {Span{line.file, static_cast<std::uint32_t>(old.size()), begin}, std::move(cell)};
+}
+
+void UnitConversion::replace_fixed(const Line& line, int first, int last, std::string_view text) {
+  out.edits.push_back(column_edit(deck.sources, line, first, last, text));
 }
 
 void UnitConversion::convert_fixed(const Block& block, const Line& line, int first, int last,

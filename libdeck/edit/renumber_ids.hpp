@@ -1,0 +1,41 @@
+// Id spaces and their new numbers. Private to renumbering.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "deck/edit/renumber.hpp"
+
+namespace deck::detail {
+
+/// Name of the id space of an entity kind: all solids share one. Empty: not renumbered.
+std::string_view space_of(std::string_view kind);
+/// Entity kind that a header id or header number refers to besides the schema's kind: materials in
+/// /EOS/.../id, parts in /SHELL/id. Empty: none.
+std::string_view header_reference(const Block& block);
+
+/// Ids of one space, old and new.
+struct IdSpace {
+  std::vector<std::int64_t> ids;  ///< defined ones, ascending, unique
+  bool changes = false, compact = false;
+  std::int64_t value = 0;
+
+  bool defined(std::int64_t id) const;
+  /// New number of a defined id, or of one that only a reference names; nullopt: it cannot have
+  /// one.
+  std::optional<std::int64_t> mapped(std::int64_t id) const;
+  /// A number that a defined id has afterwards.
+  bool taken(std::int64_t new_id) const;
+};
+
+using IdSpaces = std::map<std::string, IdSpace, std::less<>>;
+
+/// All definitions of the deck with the rules applied. `refusals` gets rules that make no sense.
+IdSpaces collect_spaces(const EditContext& context, const RenumberOptions& options,
+                        std::vector<std::string>& refusals);
+
+}  // namespace deck::detail

@@ -1,0 +1,355 @@
+// Renumbering: the same model under other ids.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "../contact/small_deck.hpp"
+#include "deck/edit/renumber.hpp"
+#include "deck/model/selection.hpp"
+#include "edit/extract_support.hpp"
+
+namespace deck {
+namespace {
+
+using edit_test::Whole;
+
+RenumberOptions rules(const std::vector<std::string>& texts, bool partial = false) {
+  RenumberOptions options;
+  options.partial = partial;
+  for (const std::string& text : texts) {
+    auto rule = parse_renumber_rule(text);
+    EXPECT_TRUE(rule.ok()) << text;
+    if (rule) options.rules.push_back(*rule);
+  }
+  return options;
+}
+Rewrite numbered(const Whole& w, const std::vector<std::string>& texts, bool partial = false) {
+  return renumber(w.context(), rules(texts, partial));
+}
+
+std::string deck_of(const std::string& body) {
+  return "#RADIOSS STARTER\n/BEGIN\nrun\n      2024         0\n"
+         "                  kg                  mm                  ms\n"
+         "                  kg                  mm                  ms\n" +
+         body + "/END\n";
+}
+
+test::SmallDeck plates() {
+  test::SmallDeck d;
+  for (int i = 0; i < 4; ++i) d.node(10 * (i + 1), i % 2 * 10.0, i / 2 * 10.0, 0.0);
+  for (int i = 0; i < 4; ++i) d.node(50 + i, i % 2 * 9.0, i / 2 * 9.0, 1.0);
+  d.shell_part(1, 1.5).shell_part(2, 2.5).shell(1, 7, 10, 20, 40, 30).shell(2, 9, 50, 51, 53, 52);
+  return d.group("/SURF/PART/1", {1}).group("/GRNOD/PART/2", {2}).group("/SURF/PART/2", {2});
+}
+
+TEST(RenumberRuleText, IsKindSignAndNumber) {
+  EXPECT_EQ(parse_renumber_rule("node+1000")->value, 1000);
+  EXPECT_EQ(parse_renumber_rule("part-5")->value, -5);
+  EXPECT_TRUE(parse_renumber_rule("shell=1")->compact);
+  for (const char* bad :
+       {"", "node", "node+", "node+x", "nodes+1", "node=0", "node+99999999999", "node+1 2", "+5"})
+    EXPECT_FALSE(parse_renumber_rule(bad).ok()) << bad;
+}
+
+TEST(Renumber, ReferencesFollow) {
+  const auto w = Whole::text(plates()
+                                 .group("/GRNOD/NODE/3", {50, 51})
+                                 .segments("/SURF/SEG/3", {{10, 20, 40, 30}})
+                                 .add("@/INTER/TYPE7/1 grnd_IDs=3 surf_IDm=3 Icurv=1 node_ID1=10")
+                                 .text());
+  const auto after = w->after(
+      numbered(*w, {"node+1000", "part=500", "shell+3", "grnod+20", "surf=90", "prop+7", "mat=4"}));
+  EXPECT_EQ(after->model.nodes.id.front(), 1010);
+  EXPECT_EQ(after->model.shell4.id, (std::vector<std::int64_t>{10, 12}));
+  EXPECT_EQ(after->model.parts.at(1).id, 501);
+  EXPECT_EQ(after->model.parts.at(1).prop_id, 9);
+  EXPECT_EQ(after->model.parts.at(1).mat_id, 4);
+  EXPECT_EQ(after->interfaces.type7.at(0).grnd_IDs.value, 23);
+  EXPECT_EQ(after->interfaces.type7.at(0).surf_IDm.value, 92);
+  EXPECT_EQ(after->interfaces.type7.at(0).node_ID1.value, 1010);
+  EXPECT_TRUE(after->contains("/SHELL/500\n"));
+  EXPECT_TRUE(
+      after->contains("/SURF/SEG/92\ns\n         1      1010      1020      1040      1030"));
+}
+
+TEST(Renumber, NothingElseMoves) {
+  const auto w = Whole::text(plates().add("@/INTER/TYPE7/1").text());
+  const auto after = w->after(numbered(*w, {"inter=5"}));
+  std::string expected = w->main_text();
+  const auto at = expected.find("/INTER/TYPE7/1");
+  expected.replace(at, 14, "/INTER/TYPE7/5");
+  EXPECT_EQ(after->main_text(), expected);
+}
+
+TEST(Renumber, NegativeMembersKeepTheirSign) {
+  const auto w = Whole::text(plates().group("/GRNOD/PART/4", {1, -2}).text());
+  const auto after = w->after(numbered(*w, {"part+10"}));
+  EXPECT_TRUE(after->contains("        11       -12"));
+}
+
+TEST(Renumber, RangesStayRanges) {
+  const auto w = Whole::text(plates().group("/GRNOD/GENE/4", {15, 45, 50, 52}).text());
+  const auto nodes = [](const Whole& x) {
+    std::vector<std::size_t> at;
+    for (const NodeIndex n : x.model.selections->node_group(4)->nodes) at.push_back(n);
+    return at;
+  };
+  ASSERT_EQ(nodes(*w).size(), 6u);
+  EXPECT_EQ(nodes(*w->after(numbered(*w, {"node+1000"}))), nodes(*w));
+  const auto compact = w->after(numbered(*w, {"node=1"}));
+  EXPECT_EQ(nodes(*compact), nodes(*w));
+  EXPECT_TRUE(compact->contains("         2         4         5         7"))
+      << compact->main_text();
+}
+
+TEST(Renumber, IncrementsAreNoIds) {
+  const auto w = Whole::text(plates().group("/GRNOD/GEN_INCR/4", {10, 40, 20}).text());
+  const auto after = w->after(numbered(*w, {"node+1000"}));
+  EXPECT_TRUE(after->contains("      1010      1040        20"));
+  EXPECT_FALSE(numbered(*w, {"node=1"}).refusals.empty());
+}
+
+TEST(Renumber, ClausesOfSetsFollow) {
+  const std::string sets =
+      "/SET/GENERAL/51\ns\nNODE              50        51\nPART               2\n"
+      "SEG                7        10        20        40        30\nNODE_GD           50"
+      "        52         2\nSHELL              9\n/SET/GENERAL/52\nt\nSET               51\n";
+  const auto w = Whole::text(plates().add(sets + "@/INTER/TYPE7/1 grnd_IDs=52 surf_IDm=51").text());
+  const auto after = w->after(numbered(*w, {"node+100", "shell+20", "part+3", "set+1000"}));
+  EXPECT_TRUE(
+      after->contains("NODE             150       151\nPART               5\n"
+                      "SEG                7       110       120       140       130\n"
+                      "NODE_GD          150       152         2\nSHELL             29\n"
+                      "/SET/GENERAL/1052\nt\nSET             1051\n"))
+      << after->main_text();
+  EXPECT_EQ(after->interfaces.type7.at(0).grnd_IDs.value, 1052);
+}
+
+TEST(Renumber, GroupThatWouldHideASetIsRefused) {
+  const auto w = Whole::text(plates()
+                                 .add("/SET/GENERAL/12\ns\nPART               2\n"
+                                      "@/INTER/TYPE7/1 grnd_IDs=12 surf_IDm=1")
+                                 .text());
+  EXPECT_TRUE(numbered(*w, {"grnod+5"}).refusals.empty());
+  const Rewrite r = numbered(*w, {"grnod+10"});
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_NE(r.refusals[0].find("set 12"), std::string::npos);
+}
+
+TEST(Renumber, MaterialsOfMaterialOptionsFollow) {
+  const auto w =
+      Whole::text(plates().add("/HEAT/MAT/1\n                 0.0\n/FAIL/JOHNSON/1\n").text());
+  const auto after = w->after(numbered(*w, {"mat+8"}));
+  EXPECT_TRUE(after->contains("/HEAT/MAT/9\n"));
+  EXPECT_TRUE(after->contains("/FAIL/JOHNSON/9\n"));
+  EXPECT_TRUE(after->contains("/MAT/ELAST/9\n"));
+}
+
+TEST(Renumber, TextThatMayHoldAnIdIsRefusedOrUndecided) {
+  const auto w = Whole::text(
+      plates().add("/RBODY/1\nr\n        50         0\n/NEWTHING/2\n        51").text());
+  const Rewrite r = numbered(*w, {"node+1000"});
+  ASSERT_EQ(r.refusals.size(), 2u);
+  EXPECT_NE(r.refusals[0].find("/RBODY/1: "), std::string::npos) << r.refusals[0];
+  EXPECT_TRUE(r.edits.empty());
+  const Rewrite partial = numbered(*w, {"node+1000"}, true);
+  EXPECT_TRUE(partial.refusals.empty());
+  EXPECT_EQ(partial.losses.size(), 2u);
+  // The id of an unknown keyword may be that of a part or a surface.
+  EXPECT_EQ(numbered(*w, {"part+1000"}).refusals.size(), 1u);
+  EXPECT_EQ(numbered(*w, {"surf+1000"}).refusals.size(), 1u);
+}
+
+TEST(Renumber, NumbersThatNoIdHasAreNoReasonToRefuse) {
+  const auto w = Whole::text(plates().add("/RBODY/9\nr\n        77         0").text());
+  EXPECT_TRUE(numbered(*w, {"node+1000", "part+1000"}).refusals.empty());
+}
+
+TEST(Renumber, IdsMadeByParametersAreRefused) {
+  const auto w = Whole::text(
+      plates()
+          .add("/PARAMETER/GLOBAL/INTEGER/1\np\nn                 50\n/GRNOD/NODE/4\ng\n        &n")
+          .text());
+  const Rewrite r = numbered(*w, {"node+1000"});
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_NE(r.refusals[0].find("parameter"), std::string::npos);
+  EXPECT_TRUE(numbered(*w, {"part+1000"}).refusals.empty());
+}
+
+TEST(Renumber, IdsOutsideTheLegalRangeAreRefused) {
+  const auto w = Whole::text(plates().text());
+  EXPECT_FALSE(numbered(*w, {"node+2147483647"}).refusals.empty());
+  EXPECT_FALSE(numbered(*w, {"node-10"}).refusals.empty());
+  EXPECT_TRUE(numbered(*w, {"node-9"}).refusals.empty());
+  EXPECT_FALSE(numbered(*w, {"node+1", "node+2"}).refusals.empty());
+  EXPECT_FALSE(numbered(*w, {"element+1", "shell+2"}).refusals.empty());
+}
+
+TEST(Renumber, DanglingReferenceDoesNotCatchANewId) {
+  const auto w = Whole::text(plates().group("/GRNOD/NODE/4", {3, 50}).text());
+  EXPECT_TRUE(w->after(numbered(*w, {"node+1"}))->contains("         4        51"));
+  const Rewrite r = numbered(*w, {"node=1"});  // 3 would be a node then
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_NE(r.refusals[0].find("3 is not defined"), std::string::npos);
+}
+
+TEST(Renumber, SubmodelsWriteIdsBelowTheirOffset) {
+  const std::string body =
+      "//SUBMODEL/1\ns\n      1000\n/NODE\n         1                 0.0\n/GRNOD/NODE/1\ng\n"
+      "         1\n//ENDSUB\n/NODE\n         1                 5.0\n/GRNOD/NODE/1\ng\n         1\n";
+  const auto w = Whole::text(deck_of(body));
+  ASSERT_EQ(w->model.nodes.id, (std::vector<std::int64_t>{1001, 1}));
+  const auto after = w->after(numbered(*w, {"node+5"}));
+  EXPECT_EQ(after->model.nodes.id, (std::vector<std::int64_t>{1006, 6}));
+  EXPECT_EQ(after->model.selections->node_group(1001)->nodes.size(), 1u);
+  EXPECT_TRUE(after->contains("//SUBMODEL/1\ns\n      1000\n/NODE\n         6"));
+  // Compact ids would be smaller than the offset.
+  EXPECT_FALSE(numbered(*w, {"node=1"}).refusals.empty());
+}
+
+TEST(Renumber, FreeFormatKeepsItsCommas) {
+  const auto w = Whole::text(deck_of("/NODE\n1,12.5,-3.0,4\n2 , 1,1,1\n/GRNOD/NODE/1\ng\n1,2\n"));
+  const auto after = w->after(numbered(*w, {"node+1000"}));
+  EXPECT_TRUE(
+      after->contains("/NODE\n1001,12.5,-3.0,4\n1002 , 1,1,1\n/GRNOD/NODE/1\ng\n1001,1002\n"))
+      << after->main_text();
+}
+
+TEST(Renumber, ShortLinesAndCarriageReturnsStay) {
+  const auto w =
+      Whole::text(deck_of("/NODE\r\n1\r\n# 1\r\n         2    \r\n/SUBSET/1\r\nt\r\n\r\n"));
+  const auto after = w->after(numbered(*w, {"node+1000"}));
+  EXPECT_TRUE(after->contains("/NODE\r\n1001\r\n# 1\r\n      1002    \r\n/SUBSET/1\r\nt\r\n\r\n"))
+      << after->main_text();
+}
+
+TEST(Renumber, CellTooNarrowIsRefused) {
+  const auto w = Whole::text(
+      "#RADIOSS STARTER\n/BEGIN\nrun\n        44         0\n/NODE\n       1             "
+      "0.0\n/END\n");
+  ASSERT_EQ(w->model.nodes.size(), 1u);
+  EXPECT_FALSE(numbered(*w, {"node+123456789"}).refusals.empty());
+  EXPECT_TRUE(numbered(*w, {"node+1234567"}).refusals.empty());
+}
+
+TEST(Renumber, FileIncludedUnderTwoOffsetsMustAgree) {
+  const Whole::Files files{
+      {"main_0000.rad", deck_of("//SUBMODEL/1\ns\n      1000\n#include a.inc\n//ENDSUB\n"
+                                "#include a.inc\n")},
+      {"a.inc", "/NODE\n         1                 0.0\n"}};
+  const auto w = Whole::read("main_0000.rad", files);
+  ASSERT_EQ(w->model.nodes.size(), 2u);
+  const auto after = w->after(numbered(*w, {"node+5"}));
+  EXPECT_EQ(after->model.nodes.id, (std::vector<std::int64_t>{1006, 6}));
+  EXPECT_FALSE(numbered(*w, {"node=1001"}).refusals.empty());
+}
+
+/// The scene of a random model is the same modulo the map of ids.
+TEST(Renumber, SceneIsTheSameModuloTheMap) {
+  std::mt19937 random(23);
+  const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int round = 0; round < 40; ++round) {
+    test::SmallDeck d;
+    constexpr int side = 4;
+    std::vector<int> node_id;
+    for (int i = 0; i < 2 * side * side; ++i)
+      node_id.push_back((node_id.empty() ? 1 : node_id.back()) + 1 + pick(7));
+    std::shuffle(node_id.begin(), node_id.end(), random);
+    for (int i = 0; i < 2 * side * side; ++i)
+      d.node(node_id[static_cast<std::size_t>(i)], i % side * 10.0 + 0.01 * pick(99),
+             i / side % side * 10.0, i / (side * side) * 1.0);
+    d.shell_part(3, 1.5).shell_part(5, 2.5).solid_part(8).beam_part(9, 2);
+    int id = 10;
+    const auto n = [&](int i) { return node_id[static_cast<std::size_t>(i)]; };
+    for (int k = 0; k < 2; ++k)
+      for (int y = 0; y + 1 < side; ++y)
+        for (int x = 0; x + 1 < side; ++x) {
+          const int i = x + side * y + side * side * k;
+          id += 1 + pick(3);
+          d.shell(k == 0 ? 3 : 5, id, n(i), n(i + 1), n(i + 1 + side), n(i + side));
+          if (k == 0 && pick(3) == 0)
+            d.brick(
+                8, id,
+                {n(i), n(i + 1), n(i + 1 + side), n(i + side), n(i + side * side),
+                 n(i + 1 + side * side), n(i + 1 + side + side * side), n(i + side + side * side)});
+          if (pick(4) == 0) d.bar("BEAM", 9, id, n(i), n(i + 1), n(i + side));
+        }
+    d.group("/SURF/PART/4", {3}).group("/SURF/PART/EXT/6", {3, 8}).group("/GRNOD/PART/4", {5, 9});
+    d.group("/GRNOD/GENE/7", {n(1), n(1) + 40})
+        .group("/LINE/EDGE/2", {4})
+        .group("/LINE/SURF/3", {6});
+    d.add("/SET/GENERAL/44\nset\nPART               5\nNODE_D    " +
+          std::string(10 - std::to_string(n(20)).size(), ' ') + std::to_string(n(20)) + "\n");
+    d.add("@/INTER/TYPE7/11 grnd_IDs=4 surf_IDm=6 Igap=" + std::to_string(pick(4)) + " Inacti=5");
+    d.add("@/INTER/TYPE7/12 grnd_IDs=7 surf_IDm=4 Igap=1 Inacti=6");
+    d.add("@/INTER/TYPE7/13 grnd_IDs=44 surf_IDm=4 Igap=1");
+    d.add("@/INTER/TYPE11/14 line_IDs=2 line_IDm=3 Igap=1");
+    d.add("@/INTER/TYPE19/15 surf_IDs=4 surf_IDm=44 Igap=1");
+    const auto w = Whole::text(d.text());
+    const std::vector<std::vector<std::string>> choices{
+        {"all+1000"},
+        {"node=1", "element=1", "part+3", "inter=1"},
+        {"node+" + std::to_string(pick(500)), "shell=77", "solid+5", "group+9", "part=1"},
+        {"all=5"}};
+    const auto& chosen = choices[static_cast<std::size_t>(round) % choices.size()];
+    const Rewrite r = numbered(*w, chosen);
+    if (!r.refusals.empty()) {
+      // Sets and groups compacted into the same numbers hide one another.
+      ASSERT_EQ(chosen[0], "all=5") << r.refusals[0];
+      continue;
+    }
+    const auto after = w->after(r);
+    // The map, from the definitions alone.
+    const auto sorted = [](std::vector<std::int64_t> ids) {
+      std::sort(ids.begin(), ids.end());
+      return ids;
+    };
+    const auto position = [&](const std::vector<std::int64_t>& ids, std::int64_t value) {
+      const auto all = sorted(ids);
+      return std::lower_bound(all.begin(), all.end(), value) - all.begin();
+    };
+    edit_test::ContactText a{*w}, b{*after};
+    a.id_of = [&](std::string_view kind, std::int64_t value) {
+      const auto of = [&](const std::vector<std::int64_t>& before,
+                          const std::vector<std::int64_t>& now) {
+        return sorted(now)[static_cast<std::size_t>(position(before, value))];
+      };
+      if (kind == "node") return of(w->model.nodes.id, after->model.nodes.id);
+      if (kind == "shell") return of(w->model.shell4.id, after->model.shell4.id);
+      if (kind == "brick") return of(w->model.solid8.id, after->model.solid8.id);
+      if (kind == "beam") return of(w->model.beam.id, after->model.beam.id);
+      std::vector<std::int64_t> before, now;
+      for (const InterBase* i : w->interfaces.ordered) before.push_back(i->id);
+      for (const InterBase* i : after->interfaces.ordered) now.push_back(i->id);
+      return of(before, now);
+    };
+    a.scene({});
+    b.scene({});
+    ASSERT_GT(a.lines.size(), 40u);
+    edit_test::expect_same(a.lines, b.lines);
+    if (::testing::Test::HasFailure()) FAIL() << "round " << round << " " << chosen[0];
+  }
+}
+
+/// Back with the opposite offset gives the same values everywhere.
+TEST(Renumber, OffsetThereAndBackOnRealDecks) {
+  for (const char* name : {"SEAT_ADYREL/SEAT_ADYREL_0000.rad", "EuroSID_II/EuroSID_II_0000.rad"}) {
+    const std::string path = edit_test::corpus(name);
+    if (path.empty()) GTEST_SKIP() << "no real decks here";
+    const auto w = Whole::read(path);
+    const auto there =
+        w->after(numbered(*w, {"node+100000", "part+100000", "element+100000"}, true));
+    EXPECT_EQ(there->model.nodes.id.front(), w->model.nodes.id.front() + 100000);
+    const auto back =
+        there->after(numbered(*there, {"node-100000", "part-100000", "element-100000"}, true));
+    EXPECT_EQ(back->model.nodes.id, w->model.nodes.id);
+    EXPECT_EQ(back->model.shell4.nodes, w->model.shell4.nodes);
+    EXPECT_EQ(back->model.solid8.id, w->model.solid8.id);
+    EXPECT_EQ(back->model.shell4.part, w->model.shell4.part);
+    EXPECT_EQ(edit_test::real_values(back->deck), edit_test::real_values(w->deck));
+  }
+}
+
+}  // namespace
+}  // namespace deck
