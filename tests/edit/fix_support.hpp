@@ -133,7 +133,7 @@ inline double orient(const P& a, const P& b, const P& c, const P& d) {
 }
 
 /// Edges of shells, bars and bricks that pass through a triangle of a shell: (edge ids, shell id).
-inline std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t, int>> oracle_crossings(
+inline std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> oracle_crossings(
     const Built& b) {
   const Nodes& nodes = b.model.nodes;
   const auto at = [&](NodeIndex n) { return P{nodes.x[n], nodes.y[n], nodes.z[n]}; };
@@ -151,7 +151,7 @@ inline std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t, int>> oracl
       for (const auto& [i, j] : local) edges.insert(std::minmax(f.of(e)[i], f.of(e)[j]));
     }
   }
-  std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t, int>> out;
+  std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> out;
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
     const Elements& f = b.model.family(kind);
     for (std::size_t e = 0; e < f.size(); ++e) {
@@ -167,7 +167,7 @@ inline std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t, int>> oracl
           const double v = orient(at(p), at(q), at(t[1]), at(t[2]));
           const double w = orient(at(p), at(q), at(t[2]), at(t[0]));
           if ((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))
-            out.insert({nodes.id[p], nodes.id[q], f.id[e], half});
+            out.insert({nodes.id[p], nodes.id[q], f.id[e]});
         }
       }
     }

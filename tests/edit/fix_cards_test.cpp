@@ -1,0 +1,352 @@
+// Fixes that change interface cards: reduce-gap, inacti, fpenmax.
+#include "edit/fix_support.hpp"
+
+namespace deck::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Lines that differ, old and new.
+std::vector<std::pair<std::string, std::string>> changed_lines(const Built& b,
+                                                               const PenetrationFix& fix) {
+  const auto x = lines_of(text_after(b, {})), y = lines_of(text_after(b, fix));
+  EXPECT_EQ(x.size(), y.size());
+  std::vector<std::pair<std::string, std::string>> out;
+  for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
+    if (x[i] != y[i]) out.emplace_back(x[i], y[i]);
+  return out;
+}
+
+PenetrationFix reduced(const Built& b, ReduceGapOptions options = {}, double least = 0.1) {
+  options.least_share = least;
+  auto fix = reduce_gaps(context_of(b), options);
+  EXPECT_TRUE(fix.ok()) << fix.error().message;
+  return std::move(*fix);
+}
+
+const FieldChange* change(const PenetrationFix& fix, std::string_view field, std::int64_t id = 1) {
+  for (const FixedInterface& i : fix.interfaces)
+    if (i.id == id)
+      for (const FieldChange& c : i.changes)
+        if (c.field == field) return &c;
+  return nullptr;
+}
+
+/// The card with one cell replaced by the next larger number of the same digits.
+std::string with_next_larger(const std::string& text, const FieldChange& c, int digits) {
+  const double value = c.new_value;
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - digits + 1);
+  char larger[64];
+  std::snprintf(larger, sizeof larger, "%.*g", digits, value + step);
+  std::string out = text;
+  const auto at = out.rfind(c.new_text);
+  EXPECT_NE(at, std::string::npos);
+  const std::string cell = std::string(c.new_text.size() > std::string(larger).size()
+                                           ? c.new_text.size() - std::string(larger).size()
+                                           : 0,
+                                       ' ') +
+                           larger;
+  // Right-aligned: what does not fit takes the blanks before it.
+  const auto extra = cell.size() - c.new_text.size();
+  out.replace(at - extra, c.new_text.size() + extra, cell);
+  return out;
+}
+
+// ---- reduce-gap -------------------------------------------------------------------------------
+
+TEST(ReduceGap, FindsTheLargestConstantGap) {
+  for (const char* card : {"@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0",
+                           "@/INTER/TYPE10/1 grnd_IDs=1 surf_IDm=1 Gap=1.0",
+                           "@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Gapmin=1.0",
+                           "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=2 Gapmin=1.0"})
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+      SCOPED_TRACE(card + (" seed " + std::to_string(seed)));
+      const Built before(two_plates(seed, 0.4 + 0.1 * seed, card));
+      ASSERT_FALSE(oracle_penetrations(before).empty());
+      const PenetrationFix fix = reduced(before);
+      EXPECT_TRUE(fix.complete);
+      const std::string text = text_after(before, fix);
+      const Built after(text);
+      EXPECT_TRUE(oracle_penetrations(after).empty());
+      EXPECT_EQ(changed_lines(before, fix).size(), 1U);
+      const FieldChange* c =
+          change(fix, after.interfaces.ordered[0]->type == 10 ? "Gap" : "Gapmin");
+      ASSERT_NE(c, nullptr);
+      EXPECT_LT(c->new_value, 1.0);
+      EXPECT_FALSE(oracle_penetrations(Built(with_next_larger(text, *c, 6))).empty())
+          << "a larger gap would have done";
+      EXPECT_TRUE(reduced(after).rewrite.edits.empty());
+    }
+}
+
+TEST(ReduceGap, WritesAGapWhereTheDefaultWasTooLarge) {
+  const Built before(two_plates(1, 0.5, "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=2 Istf=4"));
+  ASSERT_FALSE(oracle_penetrations(before).empty());
+  const PenetrationFix fix = reduced(before);
+  const FieldChange* c = change(fix, "Gapmin");
+  ASSERT_NE(c, nullptr);
+  EXPECT_EQ(c->old_text, "");
+  EXPECT_TRUE(oracle_penetrations(Built(text_after(before, fix))).empty());
+}
+
+TEST(ReduceGap, ScalesOrCapsAGapThatFollowsTheThickness) {
+  for (const char* card : {"@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Igap=2 Gapmin=0.1",
+                           "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Igap=2 Gapmin=0.1 Fscalegap=1.4",
+                           "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Igap=2 Gapmax=0.75 Gapmin=0.1",
+                           "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Igap=3 Gapmin=0.1",
+                           "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Igap=2"}) {
+    SCOPED_TRACE(card);
+    const Built before(two_plates(2, 0.6, card));
+    ASSERT_FALSE(oracle_penetrations(before).empty());
+    const PenetrationFix fix = reduced(before);
+    EXPECT_TRUE(fix.complete);
+    const Built after(text_after(before, fix));
+    EXPECT_TRUE(oracle_penetrations(after).empty());
+    EXPECT_TRUE(change(fix, "Fscalegap") != nullptr || change(fix, "Gapmax") != nullptr);
+    EXPECT_TRUE(reduced(after).rewrite.edits.empty());
+  }
+}
+
+TEST(ReduceGap, TurnsIgap1Into2WithoutOtherEffect) {
+  // Fscalegap and Gapmax on the card count with Igap 2 only; the new values replace them.
+  const Built before(two_plates(
+      2, 0.6, "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Igap=1 Gapmin=0.1 Fscalegap=0.2 Gapmax=0.3"));
+  const PenetrationFix fix = reduced(before);
+  const Built after(text_after(before, fix));
+  EXPECT_TRUE(oracle_penetrations(after).empty());
+  ASSERT_NE(change(fix, "Igap"), nullptr);
+  EXPECT_EQ(change(fix, "Igap")->new_text, "2");
+}
+
+TEST(ReduceGap, LowersGapminWhereItWinsOverTheThickness) {
+  const Built before(two_plates(1, 0.7, "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Igap=1 Gapmin=1.0"));
+  const PenetrationFix fix = reduced(before, {}, 0.3);
+  EXPECT_TRUE(fix.complete);
+  ASSERT_NE(change(fix, "Gapmin"), nullptr);
+  EXPECT_TRUE(oracle_penetrations(Built(text_after(before, fix))).empty());
+}
+
+TEST(ReduceGap, RefusesWhatWouldShrinkTooMuch) {
+  const Built before(two_plates(1, 0.4, "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
+  const PenetrationFix fix = reduced(before, {}, 0.9);
+  EXPECT_TRUE(fix.rewrite.edits.empty());
+  EXPECT_FALSE(fix.complete);
+  ASSERT_EQ(fix.refused.size(), 1U);
+  EXPECT_THAT(fix.refused[0].reason, HasSubstr("--min-gap"));
+}
+
+TEST(ReduceGap, RefusesNodesAtDistanceZero) {
+  SmallDeck d;
+  d.shell_part(1, 1.0);
+  add_sheet(d, 1, 1, 2, 2, [](int i, int j) { return P{2.0 * i, 2.0 * j, 0}; });
+  d.node(100, 1.1, 0.9, 0);
+  d.group("/GRNOD/NODE/1", {100}).group("/SURF/PART/1", {1});
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0");
+  const Built before(d);
+  const PenetrationFix fix = reduced(before);
+  EXPECT_TRUE(fix.rewrite.edits.empty());
+  ASSERT_EQ(fix.refused.size(), 1U);
+  EXPECT_THAT(fix.refused[0].reason, HasSubstr("distance 0"));
+}
+
+TEST(ReduceGap, RefusesEdgesWhoseGapIsTheirThickness) {
+  const Built before(two_plates(1, 0.5, "@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Igap=1"));
+  const PenetrationFix fix = reduced(before);
+  EXPECT_TRUE(fix.rewrite.edits.empty());
+  ASSERT_EQ(fix.refused.size(), 1U);
+  EXPECT_THAT(fix.refused[0].reason, HasSubstr("thickness"));
+}
+
+TEST(ReduceGap, DigitsAreRoundedDown) {
+  const Built before(two_plates(1, 0.5, "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
+  double last = 0;
+  for (const int digits : {1, 2, 4, 8, 17}) {
+    ReduceGapOptions o;
+    o.digits = digits;
+    const PenetrationFix fix = reduced(before, o);
+    EXPECT_TRUE(fix.complete);
+    EXPECT_GE(change(fix, "Gapmin")->new_value, last);
+    last = change(fix, "Gapmin")->new_value;
+  }
+}
+
+TEST(ReduceGap, KeepsTheUnitsOfTheCard) {
+  const auto source = Source::open(sample("units_and_parameters"), Limits{});
+  ASSERT_TRUE(source.ok());
+  std::string text((*source)->bytes());
+  const Built before(text);
+  const auto was = oracle_penetrations(before);
+  const PenetrationFix fix = reduced(before, {}, 0.01);
+  const Built after(text_after(before, fix));
+  for (const FixedInterface& i : fix.interfaces) {
+    const bool refused = std::any_of(fix.refused.begin(), fix.refused.end(),
+                                     [&](const FixRefusal& r) { return r.interface_id == i.id; });
+    EXPECT_EQ(i.after.pairs == 0, !refused);
+  }
+  if (fix.complete) {
+    EXPECT_TRUE(oracle_penetrations(after).empty());
+  }
+}
+
+// ---- inacti -----------------------------------------------------------------------------------
+
+PenetrationFix with_inacti(const Built& b, int value) {
+  InactiOptions o;
+  o.inacti = value;
+  auto fix = set_inacti(context_of(b), o);
+  EXPECT_TRUE(fix.ok()) << fix.error().message;
+  return std::move(*fix);
+}
+
+TEST(SetInacti, ChangesOneCellAndSaysWhatTheSolverDoes) {
+  const Built before(two_plates(1, 0.6, "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
+  for (const int value : {1, 2, 3, 5, 6}) {
+    const PenetrationFix fix = with_inacti(before, value);
+    const auto lines = changed_lines(before, fix);
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0].second.substr(30, 10), "         " + std::to_string(value));
+    std::string first = lines[0].first, second = lines[0].second;
+    first.resize(100, ' ');
+    second.resize(100, ' ');
+    EXPECT_EQ(second.substr(0, 30) + second.substr(40), first.substr(0, 30) + first.substr(40));
+    EXPECT_TRUE(fix.complete);
+    ASSERT_FALSE(fix.actions.empty());
+    for (const FixAction& a : fix.actions) {
+      EXPECT_EQ(a.before, PenetrationAction::none);
+      EXPECT_NE(a.after, PenetrationAction::none);
+      EXPECT_FALSE(a.stops);
+    }
+    const Built after(text_after(before, fix));
+    EXPECT_EQ(after.contact().inacti, value);
+    EXPECT_TRUE(with_inacti(after, value).rewrite.edits.empty());
+  }
+}
+
+TEST(SetInacti, TouchesOnlyInterfacesWithPenetrations) {
+  const Built before(two_plates(1, 0.6,
+                                "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=0.1\n"
+                                "@/INTER/TYPE7/2 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
+  const PenetrationFix fix = with_inacti(before, 6);
+  ASSERT_EQ(fix.interfaces.size(), 1U);
+  EXPECT_EQ(fix.interfaces[0].id, 2);
+  EXPECT_EQ(changed_lines(before, fix).size(), 1U);
+}
+
+TEST(SetInacti, ZeroIsWritten1000WhereADefaultWouldAnswerIt) {
+  const std::string card = "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0";
+  const Built before(two_plates(1, 0.6, "@/DEFAULT/INTER/TYPE7 Inacti=6\n" + card));
+  ASSERT_EQ(before.contact().inacti, 6);
+  const PenetrationFix fix = with_inacti(before, 0);
+  ASSERT_NE(change(fix, "Inacti"), nullptr);
+  EXPECT_EQ(change(fix, "Inacti")->new_text, "1000");
+  EXPECT_EQ(Built(text_after(before, fix)).contact().inacti, 0);
+  EXPECT_FALSE(fix.complete);
+}
+
+TEST(SetInacti, Type10AndType11AreRefusedWhereItHasNoUse) {
+  const Built tied(two_plates(1, 0.6, "@/INTER/TYPE10/1 grnd_IDs=1 surf_IDm=1 Gap=1.0"));
+  EXPECT_THAT(with_inacti(tied, 5).refused.at(0).reason, HasSubstr("1162"));
+  EXPECT_THAT(with_inacti(tied, 6).refused.at(0).reason, HasSubstr("whatever the card says"));
+  EXPECT_TRUE(with_inacti(tied, 6).rewrite.edits.empty());
+  const Built edges(two_plates(1, 0.6, "@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Gapmin=1.0"));
+  EXPECT_THAT(with_inacti(edges, 3).refused.at(0).reason, HasSubstr("does nothing"));
+  EXPECT_TRUE(with_inacti(edges, 6).complete);
+}
+
+/// A node on a segment and one above it.
+SmallDeck touching(const std::string& card) {
+  SmallDeck d;
+  d.shell_part(1, 1.0);
+  add_sheet(d, 1, 1, 2, 2, [](int i, int j) { return P{2.0 * i, 2.0 * j, 0}; });
+  d.node(100, 1.125, 0.875, 0).node(101, 3.1, 1.2, 0.6);
+  d.group("/GRNOD/NODE/1", {100, 101}).group("/SURF/PART/1", {1});
+  return d.add(card);
+}
+
+TEST(SetInacti, RefusesWhatStopsTheSolver) {
+  const Built before(touching("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
+  const PenetrationFix fix = with_inacti(before, 6);
+  EXPECT_TRUE(fix.rewrite.edits.empty());
+  EXPECT_THAT(fix.refused.at(0).reason, HasSubstr("611"));
+  EXPECT_TRUE(with_inacti(before, 1).complete);
+}
+
+TEST(SetInacti, OtherValuesAreAnError) {
+  const Built before(touching("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
+  for (const int value : {-1, 4, 7, 42}) {
+    InactiOptions o;
+    o.inacti = value;
+    EXPECT_FALSE(set_inacti(context_of(before), o).ok());
+  }
+}
+
+// ---- fpenmax ----------------------------------------------------------------------------------
+
+PenetrationFix with_fpenmax(const Built& b, std::optional<double> ratio = {}) {
+  FpenmaxOptions o;
+  o.ratio = ratio;
+  auto fix = set_fpenmax(context_of(b), o);
+  EXPECT_TRUE(fix.ok()) << fix.error().message;
+  return std::move(*fix);
+}
+
+TEST(SetFpenmax, DropsOnlyTheNodesThatStopTheSolver) {
+  const Built before(touching("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0 Inacti=6"));
+  const PenetrationFix fix = with_fpenmax(before);
+  EXPECT_TRUE(fix.complete);
+  const Built after(text_after(before, fix));
+  EXPECT_TRUE(after.secondary(after.contact(), 100)->off);
+  EXPECT_FALSE(after.secondary(after.contact(), 101)->off);
+  for (const FixAction& a : fix.actions)
+    EXPECT_EQ(a.after, a.depth == a.gap ? PenetrationAction::node_stiffness_zero
+                                        : PenetrationAction::gap_reduced);
+  EXPECT_TRUE(with_fpenmax(after).rewrite.edits.empty());
+}
+
+TEST(SetFpenmax, DropsNodesDeeperThanTheRatio) {
+  const Built before(
+      two_plates(3, 0.6, "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0 Inacti=6"));
+  const PenetrationFix fix = with_fpenmax(before, 0.4);
+  EXPECT_TRUE(fix.complete);
+  std::size_t dropped = 0;
+  for (const FixAction& a : fix.actions) {
+    const bool deep = a.depth > 0.4 * a.gap;
+    dropped += deep;
+    EXPECT_EQ(a.after,
+              deep ? PenetrationAction::node_stiffness_zero : PenetrationAction::gap_reduced);
+  }
+  EXPECT_GT(dropped, 0U);
+  EXPECT_LT(dropped, fix.actions.size());
+  EXPECT_EQ(changed_lines(before, fix).size(), 1U);
+}
+
+TEST(SetFpenmax, SaysWhatInacti0LeavesUntreated) {
+  const Built before(two_plates(3, 0.6, "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
+  const PenetrationFix fix = with_fpenmax(before, 0.4);
+  EXPECT_FALSE(fix.complete);
+  EXPECT_THAT(fix.refused.at(0).reason, HasSubstr("Inacti is 0"));
+}
+
+TEST(SetFpenmax, OtherTypesHaveNone) {
+  for (const char* card : {"@/INTER/TYPE10/1 grnd_IDs=1 surf_IDm=1 Gap=1.0",
+                           "@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Gapmin=1.0",
+                           "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=2 Gapmin=1.0"}) {
+    const Built before(two_plates(1, 0.6, card));
+    const PenetrationFix fix = with_fpenmax(before, 0.5);
+    EXPECT_TRUE(fix.rewrite.edits.empty());
+    ASSERT_EQ(fix.refused.size(), 1U);
+    EXPECT_THAT(fix.refused[0].reason, HasSubstr("has no Fpenmax"));
+  }
+}
+
+TEST(SetFpenmax, ARatioOutsideItsRangeIsAnError) {
+  const Built before(touching("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
+  for (const double ratio : {0.0, -0.5, 1.5}) {
+    FpenmaxOptions o;
+    o.ratio = ratio;
+    EXPECT_FALSE(set_fpenmax(context_of(before), o).ok());
+  }
+}
+
+}  // namespace
+}  // namespace deck::test
