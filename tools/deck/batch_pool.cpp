@@ -209,8 +209,8 @@ void Run::assign(Worker& worker, std::size_t job) {
   worker.job = job;
   worker.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                        std::chrono::duration<double>(timeout_));
-  // A worker that is gone is noticed by the end of its results.
-  (void)write_exactly(worker.jobs, &number, sizeof number);
+  // A worker that cannot be told what to do would be waited for; its end is noticed like any other.
+  if (!write_exactly(worker.jobs, &number, sizeof number)) kill(worker.pid, SIGKILL);
 }
 
 JobReport Run::bury(Worker& worker, const std::string& why) {
@@ -240,7 +240,7 @@ void Run::receive(Worker& worker, std::vector<JobReport>& reports) {
     const ssize_t n = read(worker.results, buffer, sizeof buffer);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) {
-      end = n == 0;
+      end = n == 0 || errno != EAGAIN;
       break;
     }
     worker.received.append(buffer, static_cast<std::size_t>(n));
@@ -261,6 +261,7 @@ void Run::receive(Worker& worker, std::vector<JobReport>& reports) {
   }
   if (end) {
     const bool busy = worker.busy;
+    kill(worker.pid, SIGKILL);  // nearly always gone already
     JobReport report = bury(worker, "");
     if (busy) reports.push_back(std::move(report));
   }

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <sys/file.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -151,8 +150,12 @@ Result<void> Batch::prepare() {
   lock_ = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (lock_ < 0)
     return Error{Error::Code::io, "cannot create " + lock + ": " + std::strerror(errno)};
-  // Held until the process ends. File systems without locks do without.
-  if (flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+  // Held until this process ends; its workers do not hold it. File systems without locks do
+  // without.
+  struct flock whole {};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  if (fcntl(lock_, F_SETLK, &whole) != 0 && (errno == EAGAIN || errno == EACCES))
     return Error{Error::Code::config, "another deck batch is writing to " + o_.directory +
                                           "; give it parts by --shard, or another directory"};
   if (!ranks_.single())
