@@ -77,7 +77,12 @@ std::vector<std::string> result_names(const std::vector<fs::path>& paths) {
       by_name[names[i]].push_back(i);
     }
     for (const auto& [name, same] : by_name) {
-      if (same.size() == 1 && !reserved(name)) continue;
+      // Files of one directory are not told apart by its name.
+      const fs::path parent = paths[same.front()].parent_path();
+      if (!reserved(name) && std::all_of(same.begin(), same.end(), [&](std::size_t i) {
+            return paths[i].parent_path() == parent;
+          }))
+        continue;
       for (const std::size_t i : same) {
         if (name_with_parents(paths[i], parents[i] + 1) == name) continue;  // at the root
         ++parents[i];

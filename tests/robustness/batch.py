@@ -1,0 +1,444 @@
+#!/usr/bin/env python3
+"""deck batch: the results are those of the verbs, the bytes do not depend on how the work was divided
+(jobs, shards, ranks of mpirun, Slurm arrays, GNU parallel), a batch that was stopped goes on where it
+was, and one bad deck costs nothing but itself."""
+import glob
+import json
+import os
+import pty
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+
+from common import ROOT, SAMPLES, Checks
+from kill import build_shim, read, tree
+
+try:
+    import jsonschema
+except ImportError:
+    jsonschema = None
+
+
+def visible(directory):
+    """Everything but the notes that batch keeps for itself."""
+    return {k: v for k, v in tree(directory).items() if not k.startswith(".batch")} if os.path.isdir(directory) else {}
+
+
+def differing(a, b):
+    return ", ".join(sorted(k for k in set(a) | set(b) if a.get(k) != b.get(k)))
+
+
+def summary(directory, name="summary.json"):
+    with open(os.path.join(directory, name)) as f:
+        return json.load(f)
+
+
+def small_decks(directory, number):
+    """`number` copies of a small deck, each a little different."""
+    text = read(os.path.join(ROOT, "samples", "clean_plates_0000.rad"))
+    os.makedirs(directory, exist_ok=True)
+    names = []
+    for i in range(number):
+        name = os.path.join(directory, "d%04d_0000.rad" % i)
+        with open(name, "wb") as f:
+            f.write(text + b"# deck %d\n" % i)
+        names.append(name)
+    return names
+
+
+def results_of_verbs(c, tmp):
+    for verb in ("gaps", "params", "cycle", "lint", "gaps --all --crossings", "lint --select DK1,DK2 --no-config"):
+        out = os.path.join(tmp, "verbs")
+        shutil.rmtree(out, ignore_errors=True)
+        r = c.run("batch", "-o", out, "--verb", verb, *SAMPLES)
+        if not c.no_crash("batch of " + verb, r, (0, 1)):
+            continue
+        worst, bad = 0, []
+        for path, entry in zip(SAMPLES, summary(out)["decks"]):
+            direct = c.run(*verb.split(), path, "--json", "-")
+            worst = max(worst, direct.code)
+            result = read(os.path.join(out, os.path.basename(path)[:-4] + ".json"))
+            if direct.out != result or entry["exit_code"] != direct.code or entry["deck"] != path:
+                bad.append(os.path.basename(path))
+        c.check("%s: every result is what the verb writes" % verb, not bad, ", ".join(bad))
+        c.check("%s: exit code is the worst of the decks" % verb, r.code == worst, "%s, expected %s" % (r.code, worst))
+        if jsonschema is None:
+            continue
+        with open(os.path.join(ROOT, "schemas", "output", "batch.schema.json")) as f:
+            schema = json.load(f)
+        for kind in (jsonschema.validators.validator_for(schema), jsonschema.Draft7Validator):
+            kind.check_schema(schema)
+            errors = [e.message[:200] for e in kind(schema).iter_errors(summary(out))]
+            c.check("summary of %s against its schema (%s)" % (verb, kind.__name__), not errors, "; ".join(errors[:3]))
+    documents = summary(out)["decks"]
+    lint = {os.path.basename(d["deck"]): d["counts"] for d in documents}
+    c.check("counts of lint", lint["every_mistake_0000.rad"].get("errors", 0) > 20, str(lint["every_mistake_0000.rad"]))
+
+
+def divided(c, tmp):
+    """The same bytes however the work is divided."""
+    decks = list(SAMPLES) + small_decks(os.path.join(tmp, "some"), 9)
+    manifest = os.path.join(tmp, "decks.txt")
+    with open(manifest, "w", newline="") as f:
+        f.write("# all decks\r\n\r\n" + "".join("  %s \r\n" % d for d in decks) + "# the end")
+    one = os.path.join(tmp, "one")
+    r = c.run("batch", "-o", one, "--jobs", "1", *decks)
+    if not c.no_crash("one process", r, (0, 1)):
+        return
+    expected = visible(one)
+    c.check("a result per deck and the summary", len(expected) == len(decks) + 1)
+
+    def same(name, directory):
+        now = {k: v for k, v in visible(directory).items() if not k.startswith("summary-")}
+        c.check(name + ": same bytes as one process", now == expected, differing(now, expected))
+
+    def fresh(name):
+        path = os.path.join(tmp, name)
+        shutil.rmtree(path, ignore_errors=True)
+        return path
+    for jobs, threads in ((2, 0), (5, 1), (3, 3)):
+        out = fresh("jobs")
+        c.run("batch", "-o", out, "--jobs", jobs, "--threads", threads, *decks)
+        same("--jobs %d --threads %d" % (jobs, threads), out)
+    out = fresh("manifest")
+    c.run("batch", "-o", out, "--manifest", manifest)
+    same("--manifest", out)
+    out = fresh("stdin")
+    c.run("batch", "-o", out, "--manifest", "-", stdin=read(manifest))
+    same("--manifest -", out)
+    for count in (2, 3, 7):
+        out = fresh("shards")
+        early = c.run("batch", "-o", out, "--merge")
+        c.check("merging nothing is wrong usage", early.code == 2)
+        for i in range(1, count + 1):
+            r = c.run("batch", "-o", out, "--manifest", manifest, "--shard", "%d/%d" % (i, count))
+            c.check("shard %d/%d says so" % (i, count), summary(out, "summary-%d-of-%d.json" % (i, count))["shard"]["index"] == i)
+            if i < count:
+                c.check("merging before shard %d/%d is refused" % (i + 1, count), c.run("batch", "-o", out, "--merge").code == 2)
+        merged = c.run("batch", "-o", out, "--merge")
+        c.check("merged exit code is the worst", merged.code == 1, str(merged.code))
+        same("%d shards" % count, out)
+    # Another number of shards goes on with what is there.
+    r = c.run("batch", "-o", out, "--manifest", manifest)
+    c.check("a whole run after shards redoes nothing", ("%d were finished before" % len(decks)).encode() in r.out, r.text[-200:])
+    same("a whole run after shards", out)
+    mpi(c, fresh("mpi"), decks, same)
+    slurm(c, tmp, fresh("slurm"), manifest, same)
+    parallel(c, fresh("parallel"), manifest, same)
+
+
+def launched(c, command, env=None, timeout=300):
+    full = dict(os.environ, NO_COLOR="1", PATH=os.path.dirname(c.program) + os.pathsep + os.environ["PATH"], **(env or {}))
+    return subprocess.run(command, env=full, stdin=subprocess.DEVNULL, capture_output=True, timeout=timeout)
+
+
+def mpi(c, out, decks, same):
+    if not shutil.which("mpirun"):
+        c.skip("mpirun", "Open MPI is not installed (openmpi-bin)")
+        return
+    root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    for ranks in (2, 3):
+        shutil.rmtree(out, ignore_errors=True)
+        r = launched(c, ["mpirun", "--oversubscribe", "-n", str(ranks), c.program, "batch", "-o", out, "--quiet", *decks], root)
+        c.check("mpirun -n %d: exit code of the whole" % ranks, r.returncode == 1, "%d; %s" % (r.returncode, r.stderr[-300:]))
+        same("mpirun -n %d" % ranks, out)
+        journals = glob.glob(os.path.join(out, ".batch", "*rank-*.jsonl"))
+        shares = [read(j).count(b"\n") for j in journals]
+        c.check("mpirun -n %d: every rank had its share" % ranks,
+                len(shares) == ranks and sum(shares) == len(decks) and max(shares) - min(shares) <= 1, str(shares))
+        c.check("mpirun -n %d: nothing of the meeting is left" % ranks, not glob.glob(os.path.join(out, ".batch", "job-*")))
+    r = launched(c, ["mpirun", "--oversubscribe", "-n", "2", c.program, "batch", "-o", out, "--shard", "1/2", "--quiet", *decks], root)
+    c.run("batch", "-o", out, "--shard", "2/2", *decks)
+    os.remove(os.path.join(out, "summary.json"))
+    c.run("batch", "-o", out, "--merge")
+    same("ranks inside a shard", out)
+
+
+def slurm(c, tmp, out, manifest, same):
+    """The job script of the README, with the variables that Slurm sets for each task of an array."""
+    script = 'deck batch -o "$1" --manifest "$2" --quiet --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT"'
+    for task in (3, 1, 2):
+        launched(c, ["sh", "-c", script, "sh", out, manifest],
+                 {"SLURM_ARRAY_TASK_ID": str(task), "SLURM_ARRAY_TASK_COUNT": "3", "SLURM_PROCID": "0", "SLURM_NTASKS": "8"})
+    launched(c, ["sh", "-c", 'deck batch -o "$1" --merge', "sh", out])
+    same("Slurm array", out)
+
+
+def parallel(c, out, manifest, same):
+    if shutil.which("parallel"):
+        line = 'seq 4 | parallel deck batch -o "$1" --manifest "$2" --jobs 1 --quiet --shard {}/4; deck batch -o "$1" --merge'
+        name = "GNU parallel"
+    else:
+        line = 'seq 4 | xargs -P 4 -I % deck batch -o "$1" --manifest "$2" --jobs 1 --quiet --shard %/4; deck batch -o "$1" --merge'
+        name = "xargs -P"
+    launched(c, ["sh", "-c", line, "sh", out, manifest])
+    same(name, out)
+
+
+def names(c, tmp):
+    """Result names are unique and follow from the list alone."""
+    work = os.path.join(tmp, "names")
+    text = read(SAMPLES[0])
+    for name in ("left/car_0000.rad", "right/car_0000.rad", "a/left/car_0000.rad", "summary.rad", "one_0000.rad", "one_0000.inp", "sub/x_0000.rad"):
+        os.makedirs(os.path.dirname(os.path.join(work, name)), exist_ok=True)
+        with open(os.path.join(work, name), "wb") as f:
+            f.write(text)
+    r = c.run("batch", "-o", "out", "left/car_0000.rad", "right/car_0000.rad", "a/left/car_0000.rad", "summary.rad", "one_0000.rad",
+              "one_0000.inp", "sub", "./left/../left/car_0000.rad", cwd=work)
+    if c.no_crash("decks of the same name", r, (0, 1)):
+        got = [d["result"] for d in summary(os.path.join(work, "out"))["decks"]]
+        c.check("result names", got == ["names--left--car_0000.json", "right--car_0000.json", "a--left--car_0000.json", "names--summary.json",
+                                        "one_0000.json", "one_0000--2.json", "x_0000.json"], str(got))
+        c.check("the same deck twice is one", len(got) == 7, str(len(got)))
+
+
+def bad_decks(c, tmp, shim):
+    """Unreadable, crashing and hanging decks fail alone."""
+    work = os.path.join(tmp, "bad")
+    good = small_decks(work, 4)
+    with open(os.path.join(work, "lacking_0000.rad"), "wb") as f:
+        f.write(read(good[0]).replace(b"/END", b"#include nowhere.inc\n/END"))
+    decks = good[:2] + [os.path.join(work, "lacking_0000.rad"), os.path.join(work, "absent_0000.rad")] + good[2:]
+    out = os.path.join(tmp, "bad-out")
+    r = c.run("batch", "-o", out, *decks)
+    s = summary(out)
+    codes = [d["exit_code"] for d in s["decks"]]
+    c.check("unreadable decks: codes", r.code == 3 and codes == [0, 0, 3, 3, 0, 0], str(codes))
+    c.check("unreadable decks: reasons", "nowhere.inc" in (s["decks"][2]["error"] or "") and "absent" in (s["decks"][3]["error"] or ""),
+            str([d["error"] for d in s["decks"]]))
+    c.check("no deck, no result", s["decks"][3]["result"] is None and "absent_0000.json" not in visible(out))
+    if shim is None or c.sanitized:
+        c.skip("crashing and hanging decks", "no preloaded library")
+        return
+    first = {}
+    for jobs in (1, 2):
+        out = os.path.join(tmp, "crash-out-%d" % jobs)
+        os.makedirs(out)
+        with open(os.path.join(out, "d0001_0000.json"), "w") as f:
+            f.write("a result of earlier\n")
+        start = time.monotonic()
+        r = c.run("batch", "-o", out, "--jobs", jobs, "--timeout", "1", *good, env={"LD_PRELOAD": shim, "DECK_FAULT_OPEN": "abort:d0001,hang:d0002"})
+        took = time.monotonic() - start
+        s = summary(out)
+        c.check("crash and hang (%d jobs): only those two fail" % jobs, r.code == 4 and [d["exit_code"] for d in s["decks"]] == [0, 4, 4, 0],
+                "%s; %s" % (r.code, r.text[-300:]))
+        c.check("crash and hang (%d jobs): reasons" % jobs, "signal 6" in s["decks"][1]["error"] and s["decks"][2]["error"] == "no answer in 1 s",
+                str([d["error"] for d in s["decks"]]))
+        c.check("crash and hang (%d jobs): in time" % jobs, took < 20, "%.1f s" % took)
+        c.check("crash (%d jobs): no result of earlier is left" % jobs, "d0001_0000.json" not in visible(out))
+        first = first or visible(out)
+        c.check("crash and hang (%d jobs): same bytes" % jobs, visible(out) == first)
+    r = c.run("batch", "-o", out, *good)
+    c.check("what failed is tried again", r.code == 0 and b"2 were finished before" in r.out and summary(out)["totals"]["clean"] == 4, r.text[-200:])
+
+
+def finished(r):
+    """How many decks the run took over."""
+    text = r.out.decode()
+    return int(text.split(" were finished before")[0].split()[-1]) if "finished before" in text else 0
+
+
+def going_on(c, tmp):
+    """What is done again, and what is not."""
+    work = os.path.join(tmp, "on")
+    decks = small_decks(work, 6)
+    with open(os.path.join(work, "part.inc"), "wb") as f:
+        f.write(b"# nothing\n")
+    text = read(decks[5])
+    with open(decks[5], "wb") as f:
+        f.write(text.replace(b"/END", b"#include part.inc\n/END"))
+    out = os.path.join(work, "out")
+    args = ("batch", "-o", out, *decks)
+    c.run(*args)
+
+    def after(name, change, taken_over, extra=()):
+        change()
+        r = c.run(*args, *extra)
+        c.check("%s: %d of 6 are taken over" % (name, taken_over), r.code == 0 and finished(r) == taken_over, r.text[-200:])
+        return r
+
+    def edit(path, old, new):
+        data = read(path)
+        with open(path, "wb") as f:
+            f.write(data.replace(old, new))
+    after("nothing changed", lambda: None, 6)
+    after("a deck touched", lambda: os.utime(decks[0], (1e9, 1e9)), 6)
+    after("a deck changed", lambda: edit(decks[1], b"# deck", b"# dock"), 5)
+    after("an include changed", lambda: edit(os.path.join(work, "part.inc"), b"nothing", b"something"), 5)
+    after("a result deleted", lambda: os.remove(os.path.join(out, "d0002_0000.json")), 5)
+    after("a result cut off", lambda: os.truncate(os.path.join(out, "d0003_0000.json"), 100), 5)
+    after("a result changed", lambda: edit(os.path.join(out, "d0003_0000.json"), b"deck", b"dekc"), 5)
+    after("--force", lambda: None, 0, ("--force",))
+    anew = os.path.join(work, "anew")
+    c.run("batch", "-o", anew, *decks)
+    c.check("the same bytes as done anew", visible(out) == visible(anew), differing(visible(out), visible(anew)))
+    after("other options", lambda: None, 0, ("--verb", "gaps --all"))
+    after("the same options", lambda: None, 6, ("--verb", "gaps --all"))
+    after("another verb", lambda: None, 0, ("--verb", "lint"))
+    config = os.path.join(work, ".decklint.toml")
+    after("a configuration that was not there", lambda: open(config, "w").write('ignore = ["DK904"]\n'), 0, ("--verb", "lint"))
+    after("the same configuration", lambda: None, 6, ("--verb", "lint"))
+    after("another configuration", lambda: open(config, "w").write('ignore = ["DK905"]\n'), 0, ("--verb", "lint"))
+    journal = os.path.join(out, ".batch", "all.jsonl")
+    after("a line of the journal cut off", lambda: os.truncate(journal, os.path.getsize(journal) - 40), 5, ("--verb", "lint"))
+
+
+def alive(pid):
+    try:
+        with open("/proc/%d/stat" % pid) as f:
+            return f.read().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def children(pid):
+    found = []
+    for stat in glob.glob("/proc/[0-9]*/stat"):
+        try:
+            with open(stat) as f:
+                fields = f.read().rsplit(")", 1)[1].split()
+            if int(fields[1]) == pid:
+                found.append(int(stat.split("/")[2]))
+        except OSError:
+            pass
+    return found
+
+
+def thousand(c, tmp):
+    """1000 small decks: what a deck costs over the work itself; killed and resumed."""
+    decks = small_decks(os.path.join(tmp, "thousand"), 1000)
+    manifest = os.path.join(tmp, "thousand.txt")
+    with open(manifest, "w") as f:
+        f.write("\n".join(decks))
+    out = os.path.join(tmp, "thousand-out")
+
+    def quickest(action):
+        return min(action() for _ in range(3))
+
+    def batch():
+        shutil.rmtree(out, ignore_errors=True)
+        return c.run("batch", "-o", out, "--jobs", "1", "--manifest", manifest, timeout=300).seconds
+    direct = quickest(lambda: c.run("gaps", *decks, "--json", os.path.join(tmp, "all.json"), "--quiet", "--threads", "1", timeout=300).seconds)
+    batched = quickest(batch)
+    per_deck = (batched - direct) / len(decks) * 1000
+    print("1000 decks: %.2f s in one process, %.2f s as a batch of one job: %.2f ms a deck more" % (direct, batched, per_deck))
+    if c.sanitized:
+        c.skip("overhead of 1000 decks", "sanitized")
+    else:
+        c.check("overhead at most 5 ms a deck", per_deck <= 5, "%.2f ms" % per_deck)
+    expected = visible(out)
+    again = c.run("batch", "-o", out, "--manifest", manifest)
+    c.check("all 1000 are taken over", finished(again) == 1000, again.text[-200:])
+    for how in (signal.SIGKILL, signal.SIGINT, signal.SIGTERM):
+        shutil.rmtree(out, ignore_errors=True)
+        p = subprocess.Popen([c.program, "batch", "-o", out, "--jobs", "2", "--manifest", manifest], stdout=subprocess.DEVNULL,
+                             stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, start_new_session=True)
+        journal = os.path.join(out, ".batch", "all.jsonl")
+        while p.poll() is None and (not os.path.exists(journal) or read(journal).count(b"\n") < 100):
+            time.sleep(0.002)
+        workers = children(p.pid)
+        p.send_signal(how)
+        _, err = p.communicate(timeout=60)
+        name = signal.Signals(how).name
+        done = read(journal).count(b"\n")
+        c.check("%s in the middle" % name, p.returncode == -how and 100 <= done < 1000, "exit code %s, %d done" % (p.returncode, done))
+        if how != signal.SIGKILL:
+            c.check("%s: it says how to go on" % name, b"run the same command to go on" in err, err.decode()[-200:])
+        time.sleep(0.3)
+        c.check("%s: no worker is left" % name, not any(alive(w) for w in workers), str(workers))
+        now = visible(out)
+        odd = [k for k, v in now.items() if expected.get(k) != v and not (k.startswith(".") and k.endswith(".tmp"))]
+        c.check("%s: what is there is whole" % name, not odd and "summary.json" not in now, ", ".join(odd[:5]))
+        untouched = {k: os.stat(os.path.join(out, k)).st_ino for k in now if not k.startswith(".")}
+        r = c.run("batch", "-o", out, "--jobs", "2", "--manifest", manifest)
+        c.check("%s: finished decks are not done again" % name, done <= finished(r) + 1 and finished(r) >= 99, "%d done, %d taken over" % (done, finished(r)))
+        redone = sum(1 for k, i in untouched.items() if os.stat(os.path.join(out, k)).st_ino != i)
+        c.check("%s: their files are not written again" % name, redone <= len(untouched) - finished(r), "%d of %d" % (redone, len(untouched)))
+        c.check("%s: resumed, the same bytes" % name, visible(out) == expected, differing(visible(out), expected)[:300])
+
+
+def usage(c, tmp):
+    deck = SAMPLES[0]
+    out = os.path.join(tmp, "usage")
+    for name, args in (("no decks", ()), ("standard input as a deck", ("-",)), ("a shard outside", (deck, "--shard", "3/2")),
+                       ("a shard that is none", (deck, "--shard", "half")), ("an unknown verb", (deck, "--verb", "fix")),
+                       ("an option the verb does not have", (deck, "--verb", "gaps --alll")), ("a file for all decks", (deck, "--verb", "gaps --csv x.csv")),
+                       ("fixing", (deck, "--verb", "lint --fix")), ("a deck in --verb", (deck, "--verb", "gaps other.rad")),
+                       ("a manifest that is not there", ("--manifest", os.path.join(tmp, "none.txt"))), ("merging with decks", (deck, "--merge")),
+                       ("schemas that are not there", (deck, "--schemas", os.path.join(tmp, "none")))):
+        r = c.run("batch", "-o", out, *args)
+        c.check("wrong usage: " + name, r.code == 2 and r.err.startswith(b"deck: error:") or r.code == 2 and b"batch" in r.err, "%s; %s" % (r.code, r.text[-200:]))
+        c.check("wrong usage makes nothing: " + name, not os.path.exists(out))
+    with open(os.path.join(tmp, "file"), "w"):
+        pass
+    c.check("a file where the directory should be", c.run("batch", "-o", os.path.join(tmp, "file"), deck).code == 2)
+    r = c.run("batch", "-o", out, deck, "--json", "-")
+    c.check("--json - prints the summary", r.out == read(os.path.join(out, "summary.json")), r.text[:100])
+    c.check("--quiet prints nothing", c.run("batch", "-o", out, deck, "--quiet").text == "")
+
+
+def terminal(c, tmp):
+    """The bar appears on a terminal, with counts and the time left."""
+    decks = small_decks(os.path.join(tmp, "bar"), 400)
+    main, side = pty.openpty()
+    p = subprocess.Popen([c.program, "batch", "-o", os.path.join(tmp, "bar-out"), "--jobs", "1", *decks], stdin=subprocess.DEVNULL,
+                         stdout=subprocess.DEVNULL, stderr=side)
+    os.close(side)
+    shown = b""
+    while True:
+        try:
+            chunk = os.read(main, 65536)
+        except OSError:
+            break
+        if not chunk:
+            break
+        shown += chunk
+    p.wait(timeout=60)
+    os.close(main)
+    c.check("bar on a terminal", b"/400 decks" in shown and b" left" in shown and b"[#" in shown, repr(shown[-200:]))
+    r = c.run("batch", "-o", os.path.join(tmp, "bar-out2"), *decks[:20])
+    c.check("no bar in a pipe", b"\r" not in r.err and b"\x1b" not in r.err)
+
+
+def two_at_once(c, tmp, shim):
+    if shim is None or c.sanitized:
+        return
+    decks = small_decks(os.path.join(tmp, "twice"), 2)
+    out = os.path.join(tmp, "twice-out")
+    env = dict(os.environ, LD_PRELOAD=shim, DECK_FAULT_OPEN="hang:d0001")
+    p = subprocess.Popen([c.program, "batch", "-o", out, "--quiet", *decks], stdin=subprocess.DEVNULL, env=env)
+    journal = os.path.join(out, ".batch", "all.jsonl")
+    until = time.monotonic() + 30
+    while time.monotonic() < until and (not os.path.exists(journal) or not read(journal)):
+        time.sleep(0.01)
+    r = c.run("batch", "-o", out, *decks)
+    c.check("a second batch in the same directory is refused", r.code == 2 and b"another deck batch" in r.err, r.text)
+    p.kill()
+    p.wait()
+    r = c.run("batch", "-o", out, *decks)
+    c.check("and taken once the first is gone", r.code == 0 and finished(r) == 1, r.text)
+
+
+def main():
+    c = Checks()
+    tmp = tempfile.mkdtemp(prefix="deck-batch-")
+    try:
+        shim = build_shim(tmp)
+        results_of_verbs(c, tmp)
+        divided(c, tmp)
+        names(c, tmp)
+        bad_decks(c, tmp, shim)
+        going_on(c, tmp)
+        usage(c, tmp)
+        terminal(c, tmp)
+        two_at_once(c, tmp, shim)
+        thousand(c, tmp)
+    finally:
+        shutil.rmtree(tmp, ignore_errors=True)
+    c.finish()
+
+
+if __name__ == "__main__":
+    main()
