@@ -124,6 +124,50 @@ TEST_F(ConvertTwoFiles, StandardInputGoesToStandardOutput) {
   EXPECT_NE(out().find("      2024"), std::string::npos);
 }
 
+TEST_F(ConvertTwoFiles, JsonAndBackGivesTheSameFiles) {
+  ASSERT_EQ(deck("convert m_0000.rad --to json -o m.json"), 0) << err();
+  ASSERT_EQ(deck("convert m.json --from json -o back"), 0) << err();
+  EXPECT_EQ(read(dir_ / "back/m_0000.rad"), main_);
+  EXPECT_EQ(read(dir_ / "back/sub/a.inc"), contact);
+  ASSERT_EQ(deck("convert - --from json --to json < m.json"), 0) << err();
+  const auto again = nlohmann::json::parse(out()),
+             first = nlohmann::json::parse(read(dir_ / "m.json"));
+  EXPECT_EQ(again["files"], first["files"]) << "a fixed point";
+}
+
+TEST_F(ConvertTwoFiles, JsonTakesAChangedValue) {
+  ASSERT_EQ(deck("convert m_0000.rad --flatten --to json"), 0) << err();
+  std::string text = out();
+  const auto at = text.find("\"Gap\": 1.0");
+  ASSERT_NE(at, std::string::npos) << text;
+  text.replace(at, 10, "\"Gap\": 2.5");
+  write(dir_ / "changed.json", text);
+  ASSERT_EQ(deck("convert changed.json --from json -o back"), 0) << err();
+  const std::string back = read(dir_ / "back/m_0000.rad");
+  EXPECT_NE(back.find("                 2.5"), std::string::npos) << back;
+}
+
+TEST_F(ConvertTwoFiles, BrokenJsonIsUnreadableInput) {
+  write(dir_ / "broken.json", "{\"schema\": ");
+  EXPECT_EQ(deck("convert broken.json --from json -o back"), 3);
+  EXPECT_NE(err().find("broken.json"), std::string::npos);
+  EXPECT_FALSE(fs::exists(dir_ / "back"));
+}
+
+TEST_F(ConvertTwoFiles, ExtractionRefusesAnIdThatIsNoInterface) {
+  EXPECT_EQ(deck("convert m_0000.rad --extract-contacts 77 -o x"), 1);
+  EXPECT_NE(err().find("77"), std::string::npos);
+  EXPECT_EQ(deck("convert m_0000.rad --extract-contacts seven -o x"), 2);
+}
+
+TEST_F(ConvertTwoFiles, WrongOptionsOfConversionsAreWrongUsage) {
+  EXPECT_EQ(deck("convert m_0000.rad --units kg,mm -o x"), 2);
+  EXPECT_EQ(deck("convert m_0000.rad --renumber nodes -o x"), 2);
+  EXPECT_EQ(deck("convert m_0000.rad --allow-loss -o x"), 2);
+  EXPECT_EQ(deck("convert m_0000.rad --to json --diff"), 2);
+  EXPECT_EQ(deck("convert m_0000.rad --backup -o x"), 2);
+}
+
 TEST_F(Convert, RefusesToLeaveAnIncludeUnchangedThatHasToChange) {
   write(dir_ / "abs.inc", contact);
   write(dir_ / "m_0000.rad",

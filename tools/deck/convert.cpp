@@ -12,6 +12,7 @@
 #include "convert_tree.hpp"
 #include "deck/edit/rewrite.hpp"
 #include "deck/edit/write.hpp"
+#include "deck/report/deck_json.hpp"
 #include "deck/report/losses.hpp"
 #include "deck/text/edits.hpp"
 
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 struct Options {
   CommonOptions common;
   ConvertSteps steps;
-  std::string to = "rad";
+  std::string to = "rad", from = "rad";
   std::string directory, report, backup_suffix;
   bool in_place = false, backup = false, diff = false;
 };
@@ -185,8 +186,36 @@ struct Run {
 
 int write_result(Run& run, Conversion& c) {
   const Options& options = run.options;
+  if (options.to == "json") {
+    const auto document =
+        deck_to_json({c.now->path, &c.now->deck, &c.now->model, &c.now->interfaces});
+    if (!document) {
+      print_error(options.common, document.error().message);
+      return exit_usage;
+    }
+    const std::string& text = *document;
+    if (options.directory.empty()) {
+      print_text(text);
+      return exit_clean;
+    }
+    fs::path target(options.directory);
+    if (target.extension() != ".json")
+      target /= c.now->path == "-" ? "stdin.json" : fs::path(c.now->path).stem().string() + ".json";
+    const auto [it, is_new] = run.written.emplace(target.lexically_normal(), c.now->path);
+    if (!is_new) {
+      print_error(options.common, "both " + it->second + " and " + c.now->path +
+                                      " would be written to " + target.string());
+      return exit_usage;
+    }
+    if (auto done = write_files_atomic({{target.string(), text}}); !done) {
+      print_error(options.common, done.error().message);
+      return exit_usage;
+    }
+    if (!options.common.quiet) print_text(target.string() + "\n");
+    return exit_clean;
+  }
   if (options.diff) return write_diff(c);
-  if (c.now->path == "-") {
+  if (c.now->path == "-" && options.from == "rad") {
     if (c.now->deck.sources.size() == 1 && options.directory.empty()) {
       print_text(c.now->deck.sources[0].bytes());
       return exit_clean;
@@ -221,6 +250,25 @@ int convert(Run& run, std::unique_ptr<Loaded> loaded, Overlay overlay, const Sch
   return write_result(run, c);
 }
 
+/// The deck of one command line argument, whatever it is written in.
+Result<std::pair<std::unique_ptr<Loaded>, Overlay>> open_input(const std::string& path,
+                                                               const Options& options,
+                                                               const SchemaSet& schemas,
+                                                               bool whole) {
+  Overlay overlay;
+  std::string main = path;
+  if (options.from == "json") {
+    auto files = files_of_json(path, schemas);
+    if (!files) return files.error();
+    main = files->main;
+    overlay = std::move(files->contents);
+  }
+  auto loaded = load(main, schemas, options.common, whole ? Stage::interfaces : Stage::blocks,
+                     options.from == "json" ? &overlay : nullptr);
+  if (!loaded) return loaded.error();
+  return std::pair(std::move(*loaded), std::move(overlay));
+}
+
 int check(const Options& options) {
   const auto refuse = [&](std::string_view why) {
     print_error(options.common, why);
@@ -232,6 +280,10 @@ int check(const Options& options) {
   const bool only_standard_input = options.common.decks == std::vector<std::string>{"-"};
   if (places == 0 && options.to == "rad" && !only_standard_input)
     return refuse("say where to write: -o DIR, --in-place, or --diff to look at it first");
+  if (options.to == "json" && (options.in_place || options.diff))
+    return refuse("--to json writes a new file: use -o, or standard output");
+  if (options.from != "rad" && (options.in_place || options.diff))
+    return refuse("--from " + options.from + " needs -o DIR");
   if (options.backup && !options.in_place) return refuse("--backup goes with --in-place");
   return exit_clean;
 }
@@ -251,14 +303,14 @@ int run(const Options& options) {
   Run work{options, std::move(*steps), {}, {}};
   int worst = exit_clean;
   for (const std::string& path : options.common.decks) {
-    auto loaded = load(path, *schemas, options.common,
-                       work.steps.empty() ? Stage::blocks : Stage::interfaces);
-    if (!loaded) {
-      print_error(options.common, loaded.error().message);
+    auto input = open_input(path, options, *schemas, !work.steps.empty() || options.to == "json");
+    if (!input) {
+      print_error(options.common, input.error().message);
       worst = std::max<int>(worst, exit_input);
       continue;
     }
-    worst = std::max(worst, convert(work, std::move(*loaded), {}, *schemas));
+    worst =
+        std::max(worst, convert(work, std::move(input->first), std::move(input->second), *schemas));
   }
   if (!options.report.empty()) {
     if (auto done = write_output(options.report, losses_json(work.losses)); !done) {
@@ -272,12 +324,16 @@ int run(const Options& options) {
 Action setup(CLI::App& app) {
   auto options = std::make_shared<Options>();
   add_common(app, options->common, false);
-  app.add_option("--to", options->to, "Format to write: rad (Starter deck)")
-      ->check(CLI::IsMember({"rad"}))
+  app.add_option("--to", options->to,
+                 "Format to write: rad (Starter deck), json (typed fields with effective values)")
+      ->check(CLI::IsMember({"rad", "json"}))
+      ->type_name("FORMAT");
+  app.add_option("--from", options->from, "Format to read: rad, json (as written by --to json)")
+      ->check(CLI::IsMember({"rad", "json"}))
       ->type_name("FORMAT");
   app.add_option("-o,--output", options->directory,
                  "Directory to write to; made if missing. The include tree keeps its relative "
-                 "names")
+                 "names. With --to json also FILE.json")
       ->type_name("DIR");
   app.add_flag("--in-place", options->in_place, "Change the files of the deck");
   app.add_flag("--backup{.orig}", options->backup_suffix,
@@ -299,6 +355,10 @@ const VerbRegistration registration{
      "  deck convert car_0000.rad -o copy                      the deck and its includes\n"
      "  deck convert car_0000.rad --version 2022 --diff        what another version would change\n"
      "  deck convert car_0000.rad --units kg,mm,ms -o metric --report losses.json\n"
+     "  deck convert car_0000.rad --resolve-defaults --in-place --backup\n"
+     "  deck convert car_0000.rad --extract-contacts 7 -o bug  one interface and what it needs\n"
+     "  deck convert car_0000.rad --to json -o car.json\n"
+     "  deck convert car.json --from json -o back\n"
      "\n"
      "Conversions are done in the order of their options above, whatever their order on the\n"
      "command line. A conversion that would lose a value is refused with the place of the value\n"

@@ -2,7 +2,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "deck/edit/extract.hpp"
 #include "deck/edit/flatten.hpp"
+#include "deck/edit/from_json.hpp"
+#include "deck/edit/renumber.hpp"
+#include "deck/edit/resolve.hpp"
 #include "deck/edit/unit_system.hpp"
 #include "deck/edit/version.hpp"
 
@@ -10,7 +14,18 @@ namespace deck::cli {
 
 void add_step_options(CLI::App& app, ConvertSteps& steps) {
   const std::string group = "Conversions, in this order";
+  app.add_option("--extract-contacts", steps.extract,
+                 "A small deck of one file with these interfaces and all that they need")
+      ->group(group)
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all()
+      ->type_name("ID[,ID...]");
   app.add_flag("--flatten", steps.flatten, "One file: every #include replaced by what it holds")
+      ->group(group);
+  app.add_flag("--resolve-defaults", steps.resolve_defaults,
+               "Write effective values onto the contact cards: no longer any need of "
+               "/DEFAULT/INTER")
       ->group(group);
   app.add_option("--version", steps.version,
                  "Input version to write: 110, 120, 130, 140, 2017 ... 2026. Rewrites every block "
@@ -28,16 +43,31 @@ void add_step_options(CLI::App& app, ConvertSteps& steps) {
   app.add_flag("--keep-working-units", steps.keep_working,
                "With --units: change the input units only; the solver computes as before")
       ->group(group);
+  app.add_option("--renumber", steps.renumber,
+                 "New ids: KIND+N and KIND-N shift them, KIND=N counts from N on; KIND is node, "
+                 "part, element, surf, all ... (repeatable)")
+      ->group(group)
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all()
+      ->type_name("RULE");
   app.add_flag("--partial", steps.partial,
-               "With --units: convert what is known although the deck holds values of unknown "
-               "dimension, and list those as undecided")
+               "With --units or --renumber: convert what is known although the deck holds what no "
+               "schema describes, and list that as undecided")
       ->group(group);
 }
 
 Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
   std::vector<ConvertStep> all;
+  if (!steps.extract.empty())
+    all.push_back({"--extract-contacts",
+                   [&steps](const EditContext& c) { return extract_contacts(c, steps.extract); },
+                   ""});
   if (steps.flatten)
     all.push_back({"--flatten", [](const EditContext& c) { return flatten(c); }, ""});
+  if (steps.resolve_defaults)
+    all.push_back(
+        {"--resolve-defaults", [](const EditContext& c) { return resolve_defaults(c); }, ""});
   if (steps.version != 0)
     all.push_back({"--version",
                    [&steps](const EditContext& c) {
@@ -53,11 +83,38 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
                    },
                    "--partial converts what is known and lists the rest"});
   }
+  if (!steps.renumber.empty()) {
+    RenumberOptions renumbering;
+    renumbering.partial = steps.partial;
+    for (const std::string& text : steps.renumber) {
+      auto rule = parse_renumber_rule(text);
+      if (!rule) return Error{Error::Code::config, "--renumber: " + rule.error().message};
+      renumbering.rules.push_back(std::move(*rule));
+    }
+    all.push_back({"--renumber",
+                   [renumbering](const EditContext& c) { return renumber(c, renumbering); },
+                   "--partial renumbers what is known and lists the rest"});
+  }
   if (steps.allow_loss && steps.version == 0)
     return Error{Error::Code::config, "--allow-loss goes with --version"};
-  if ((steps.partial || steps.keep_working) && steps.units.empty())
-    return Error{Error::Code::config, "--partial and --keep-working-units go with --units"};
+  if (steps.keep_working && steps.units.empty())
+    return Error{Error::Code::config, "--keep-working-units goes with --units"};
+  if (steps.partial && steps.units.empty() && steps.renumber.empty())
+    return Error{Error::Code::config, "--partial goes with --units or --renumber"};
   return all;
+}
+
+Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schemas) {
+  const auto source = Source::open(path, Limits{});
+  if (!source) return source.error();
+  auto files = deck_from_json((*source)->bytes(), schemas);
+  if (!files) return Error{files.error().code, path + ": " + files.error().message};
+  JsonFiles result;
+  for (DeckFile& f : *files) {
+    if (result.main.empty()) result.main = f.path;
+    result.contents[f.path] = std::move(f.text);
+  }
+  return result;
 }
 
 }  // namespace deck::cli

@@ -11,11 +11,13 @@
 namespace deck::cli {
 
 struct ConvertSteps {
-  bool flatten = false;
+  std::vector<std::int64_t> extract;
+  bool flatten = false, resolve_defaults = false;
   int version = 0;
   bool allow_loss = false;
   std::string units;
   bool keep_working = false, partial = false;
+  std::vector<std::string> renumber;
 };
 
 void add_step_options(CLI::App& app, ConvertSteps& steps);
@@ -28,5 +30,13 @@ struct ConvertStep {
 
 /// Those asked for, in the order they are done. Error: an option that makes no sense.
 Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps);
+
+/// A deck in JSON as the files it stands for.
+struct JsonFiles {
+  std::string main;
+  Overlay contents;  ///< by path; holds `main`
+};
+/// `path` "-" is standard input.
+Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schemas);
 
 }  // namespace deck::cli
