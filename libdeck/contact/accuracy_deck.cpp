@@ -1,4 +1,10 @@
-// Pairs of a deck's contacts with their gaps, for measurements of accuracy and time.
+// Pairs of a deck's contacts with their gaps, and the whole geometry stage of a deck, for
+// measurements of accuracy and time.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
 #include "deck/contact/accuracy.hpp"
 
 namespace deck {
@@ -106,6 +112,71 @@ std::vector<PairSample> scene_pairs(const Scene& scene, std::size_t limit, int t
     out.push_back(all[static_cast<std::size_t>(at / static_cast<double>(limit))]);
   }
   return out;
+}
+
+namespace {
+
+using PairKey = std::array<std::uint32_t, 3>;
+
+// The pairs in contact, with their distances.
+std::map<PairKey, double> pairs_in_contact(const Scene& scene) {
+  std::map<PairKey, double> out;
+  for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
+    for (const PenetrationRow& row : scene.contacts[c].penetrations)
+      if (row.in_contact) out[{c, row.secondary, row.main}] = row.distance;
+  return out;
+}
+
+void compare(const std::map<PairKey, double>& got, const std::map<PairKey, double>& want,
+             TierResult& row) {
+  for (const auto& [key, distance] : want) {
+    const auto found = got.find(key);
+    if (found == got.end()) {
+      ++row.decision_errors;
+      continue;
+    }
+    if (found->second == distance) continue;
+    const double error = std::abs(found->second - distance);
+    const double step = std::nextafter(distance, std::numeric_limits<double>::infinity());
+    row.non_finite += !std::isfinite(found->second);
+    row.max_relative_error = std::max(row.max_relative_error, error / distance);
+    row.max_ulp = std::max(row.max_ulp, error / (step - distance));
+  }
+  for (const auto& [key, distance] : got) row.decision_errors += !want.contains(key);
+}
+
+}  // namespace
+
+void measure_gaps(const std::function<Scene(Accuracy)>& run, int repeats, AccuracyReport& report) {
+  std::erase_if(report.tiers, [](const TierResult& t) { return t.what == "gaps"; });
+  std::map<PairKey, double> truth;
+  double pairs = 1.0;  // the exact ones, so that times can be compared
+  for (const Accuracy accuracy :
+       {Accuracy::exact, Accuracy::robust, Accuracy::reference, Accuracy::fast}) {
+    TierResult row;
+    row.name = to_string(accuracy);
+    row.what = "gaps";
+    std::vector<double> times;
+    for (int r = 0; r < (accuracy == Accuracy::exact ? 1 : std::max(1, repeats)); ++r) {
+      const auto start = std::chrono::steady_clock::now();
+      const Scene scene = run(accuracy);
+      const std::chrono::duration<double, std::nano> spent =
+          std::chrono::steady_clock::now() - start;
+      row.samples = scene.decisions.pairs;
+      if (accuracy == Accuracy::exact)
+        pairs = static_cast<double>(std::max<std::uint64_t>(row.samples, 1));
+      times.push_back(spent.count() / pairs);
+      row.fallback_share = static_cast<double>(scene.decisions.fallback) / pairs;
+      row.exact_share = static_cast<double>(scene.decisions.exact) / pairs;
+      if (r > 0) continue;
+      if (accuracy == Accuracy::exact) truth = pairs_in_contact(scene);
+      compare(pairs_in_contact(scene), truth, row);
+    }
+    std::sort(times.begin(), times.end());
+    row.ns_per_pair = times[times.size() / 2];
+    report.tiers.push_back(row);
+  }
+  mark_dominated(report.tiers);
 }
 
 }  // namespace deck

@@ -34,6 +34,26 @@ int compare(const Q& distance_squared, double limit) {
 
 }  // namespace
 
+mpq_class exact_distance_squared(const Point3<double>& p,
+                                 const std::array<Point3<double>, 4>& corners, bool triangle) {
+  return exact_segment(p, corners, triangle).distance_squared();
+}
+mpq_class exact_distance_squared(const Point3<double>& s1, const Point3<double>& s2,
+                                 const Point3<double>& m1, const Point3<double>& m2) {
+  return exact_edges(s1, s2, m1, m2).distance_squared;
+}
+
+double rounded_depth(double gap, const mpq_class& squared) {
+  // g - d = (g^2 - d^2) / (g + d): nothing cancels that is not exact.
+  const mpq_class g(gap), difference = g * g - squared;
+  if (gap <= 0.0 || sgn(difference) <= 0) return 0.0;
+  constexpr mp_bitcnt_t kBits = 256;
+  const mpf_class d = sqrt(mpf_class(squared, kBits));
+  const mpf_class depth = mpf_class(difference, kBits) / (mpf_class(g, kBits) + d);
+  // A depth below all numbers is still one.
+  return std::max(depth.get_d(), std::numeric_limits<double>::denorm_min());
+}
+
 double rounded_square_root(const mpq_class& value) {
   if (sgn(value) <= 0) return 0.0;
   // floor(sqrt(value * 4^shift)) with at least 60 significant bits, plus a sticky bit.

@@ -22,11 +22,40 @@ std::string percent(double share) {
                       : fmt::format("{:.3g} %", 100.0 * share);
 }
 
-// Factor to the textbook tier in double.
-double plain_time(const AccuracyReport& report) {
+// Time of the plain tier of the same kind.
+double plain_time(const AccuracyReport& report, const std::string& what) {
   for (const TierResult& t : report.tiers)
-    if (t.name == "double") return t.ns_per_pair;
+    if (t.what == what && (t.name == "double" || t.name == "fast")) return t.ns_per_pair;
   return 0.0;
+}
+
+std::size_t points_of(const PairSample& s) { return s.edges ? 4 : 5; }
+
+// The pair of an example, to be typed in again: every coordinate as a hexadecimal number.
+std::string example_text(const FamilyResult& f) {
+  const PairSample& s = f.example;
+  std::string out = fmt::format(
+      "{:>2} {}, {}: gap {}, distance {}, exactly {}\n   {}", f.id, f.name, f.tier, s.gap, f.got,
+      f.exact, s.edges ? "edges" : (s.triangle ? "triangle, node last" : "quad, node last"));
+  for (std::size_t k = 0; k < points_of(s); ++k)
+    out += fmt::format(" ({:a}, {:a}, {:a})", s.x[k].x, s.x[k].y, s.x[k].z);
+  return out + "\n";
+}
+
+void write_example(JsonWriter& j, const FamilyResult& f) {
+  j.key("example");
+  if (!f.has_example) {
+    j.null();
+    return;
+  }
+  const PairSample& s = f.example;
+  j.begin_object(true).field("kind", s.edges ? "edge_edge" : "node_segment");
+  j.field("triangle", s.triangle).key("points").begin_array(true);
+  for (std::size_t k = 0; k < points_of(s); ++k) {
+    j.begin_array(true).value(s.x[k].x).value(s.x[k].y).value(s.x[k].z).end_array();
+  }
+  j.end_array().field("gap", s.gap).field("distance", f.got).field("exact_distance", f.exact);
+  j.end_object();
 }
 
 }  // namespace
@@ -52,11 +81,10 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
   if (report.tiers.empty()) return "No pairs to measure.\n";
   std::string out = fmt::format("{} pairs of {}\n\n", report.tiers[0].samples,
                                 context.path.empty() ? "the hard cases" : context.path);
-  const double plain = plain_time(report);
   TextTable table({{"tier"},
                    {"what"},
                    {"ns/pair", Align::right},
-                   {"x double", Align::right},
+                   {"x plain", Align::right},
                    {"worst rel.", Align::right},
                    {"worst ulp", Align::right},
                    {"of size", Align::right},
@@ -70,13 +98,14 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
     return TextTable::Cell(std::to_string(n), n > 0 ? Tone::red : Tone::green);
   };
   for (const TierResult& t : report.tiers) {
-    const bool value = t.what == "distance";
+    const bool value = t.what != "gaps" || t.max_relative_error > 0.0;
+    const double plain = plain_time(report, t.what);
     table.row({t.name, t.what, fmt::format("{:.0f}", t.ns_per_pair),
                plain > 0 ? fmt::format("{:.2f}", t.ns_per_pair / plain) : std::string(),
                value ? number(t.max_relative_error) : "-", value ? number(t.max_ulp) : "-",
                value ? number(t.max_scaled_error) : "-", count(t.decision_errors),
-               value ? count(t.feature_errors) : TextTable::Cell("-"), count(t.non_finite),
-               percent(t.fallback_share), percent(t.exact_share),
+               t.what == "distance" ? count(t.feature_errors) : TextTable::Cell("-"),
+               count(t.non_finite), percent(t.fallback_share), percent(t.exact_share),
                t.dominated ? TextTable::Cell("dominated", Tone::dim) : TextTable::Cell("")});
   }
   out += table.render(color);
@@ -97,6 +126,13 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
   }
   out += fmt::format("\n{}; {}\n", context.processor, accuracy_compiler());
   return out;
+}
+
+std::string accuracy_examples(const AccuracyReport& report) {
+  std::string out;
+  for (const FamilyResult& f : report.families)
+    if (f.has_example && (f.decision_errors > 0 || f.non_finite > 0)) out += example_text(f);
+  return out.empty() ? out : "Examples of wrong decisions:\n" + out;
 }
 
 std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& context) {
@@ -125,7 +161,9 @@ std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& c
     j.begin_object(true).field("id", f.id).field("name", f.name).field("tier", f.tier);
     j.field("samples", f.samples).field("max_relative_error", f.max_relative_error);
     j.field("max_ulp", f.max_ulp).field("decision_errors", f.decision_errors);
-    j.field("non_finite", f.non_finite).field("expected", f.expected).end_object();
+    j.field("non_finite", f.non_finite).field("expected", f.expected);
+    write_example(j, f);
+    j.end_object();
   }
   j.end_array().end_object();
   return out;

@@ -37,6 +37,28 @@ std::string command_of(const Options& o) {
          " --repeats " + std::to_string(o.repeats);
 }
 
+/// The rows of the whole geometry stage: everything between the file and the table, in each
+/// accuracy.
+void time_gaps(const Options& o, const std::string& path, AccuracyReport& report) {
+  CommonOptions quiet = o.common;
+  quiet.quiet = true;
+  const auto schemas = load_schemas(quiet);
+  if (!schemas) return;
+  measure_gaps(
+      [&](Accuracy accuracy) {
+        Scene scene;
+        auto loaded = load(path, *schemas, quiet);
+        if (!loaded) return scene;
+        SceneOptions options;
+        options.threads = quiet.thread_count();
+        options.accuracy = accuracy;
+        scene =
+            build_scene((*loaded)->model, (*loaded)->interfaces, (*loaded)->diagnostics, options);
+        return scene;
+      },
+      o.repeats, report);
+}
+
 /// Writes the files and the table. Wrong decisions of the robust tier are findings.
 int show(const Options& o, const AccuracyReport& report, const AccuracyContext& context,
          JsonOutput& json) {
@@ -89,7 +111,9 @@ int run(const Options& o) {
     const auto pairs = scene_pairs(scene, limit, scene_options.threads);
     context.path = loaded.path;
     context.deck = &loaded.deck;
-    return show(o, measure_accuracy(pairs, accuracy), context, json);
+    AccuracyReport report = measure_accuracy(pairs, accuracy);
+    if (!pairs.empty()) time_gaps(o, loaded.path, report);
+    return show(o, report, context, json);
   });
   return json.finish(code);
 }

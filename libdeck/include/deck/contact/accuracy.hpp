@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,15 +49,19 @@ struct AccuracyOptions {
   std::size_t slow_limit = 2000;  // pairs timed in exact arithmetic
 };
 
-// One arithmetic. Errors are those of the distance; a decision is "distance < gap".
+// One arithmetic. A decision is "distance < gap".
 struct TierResult {
   std::string name;
-  std::string what;  // "distance", or "gaps": only the decision
+  // "distance"; "gaps": only the decision, and of decks the whole `deck gaps`; "force": the elastic
+  // normal force of the robust law.
+  std::string what;
   std::uint64_t samples = 0;
   double ns_per_pair = 0.0;
   double max_relative_error = 0.0;
   double max_ulp = 0.0;
-  double max_scaled_error = 0.0;  // error over the largest coordinate difference of the pair
+  // Error of the distance over the largest coordinate difference of the pair; of a force: the error
+  // of the distance that would make it.
+  double max_scaled_error = 0.0;
   std::uint64_t decision_errors = 0, feature_errors = 0, non_finite = 0;
   double fallback_share = 0.0;  // pairs that needed more than double
   double exact_share = 0.0;     // pairs that needed rationals
@@ -69,6 +74,10 @@ struct FamilyResult {
   std::uint64_t samples = 0;
   double max_relative_error = 0.0, max_ulp = 0.0;
   std::uint64_t decision_errors = 0, non_finite = 0;
+  // The first wrong decision, else the worst error; nothing if there is none.
+  bool has_example = false;
+  PairSample example;
+  double got = 0.0, exact = 0.0;  // its distance
 };
 
 struct AccuracyReport {
@@ -81,5 +90,13 @@ struct AccuracyReport {
 // infinity; a result is non-finite if any input was finite and the distance is not.
 AccuracyReport measure_accuracy(std::span<const PairSample> samples,
                                 const AccuracyOptions& options = {});
+
+// Times the whole of `deck gaps` in each accuracy and adds the rows "gaps" to the report, instead
+// of those that were there. `run` reads the deck and builds its scene with penetrations; only the
+// contacts of its result are looked at. Times are per decided pair.
+void measure_gaps(const std::function<Scene(Accuracy)>& run, int repeats, AccuracyReport& report);
+
+// Marks tiers that another one of the same kind beats.
+void mark_dominated(std::vector<TierResult>& tiers);
 
 }  // namespace deck

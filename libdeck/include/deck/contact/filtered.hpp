@@ -59,6 +59,19 @@ bool is_touching(const Point3<double>& p, const std::array<Point3<double>, 4>& c
 bool is_touching(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
                  const Point3<double>& m2);
 
+// Penetration of a pair: depth = gap - distance, both within a relative error of 2e-12. The depth is
+// above 0 if and only if the pair is closer than its gap; otherwise both are 0.
+struct FilteredDepth {
+  double depth = 0.0;
+  double distance = 0.0;
+  FilterStage stage = FilterStage::double_precision;
+};
+FilteredDepth filtered_depth(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
+                             bool triangle, double gap, FilterCounters* counters = nullptr);
+FilteredDepth filtered_depth(const Point3<double>& s1, const Point3<double>& s2,
+                             const Point3<double>& m1, const Point3<double>& m2, double gap,
+                             FilterCounters* counters = nullptr);
+
 // The correctly rounded distance. Weights and feature are those of the arithmetic that
 // certified it.
 FilteredSegment filtered_closest_on_segment(const Point3<double>& p,

@@ -20,14 +20,17 @@ std::string accuracy_compiler();
 
 std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& context,
                           bool color = false);
+// One pair of every family and tier with wrong decisions, its coordinates as hexadecimal numbers;
+// empty if there is none.
+std::string accuracy_examples(const AccuracyReport& report);
 std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& context);
 // One line per tier, then one per family and tier, RFC 4180.
 std::string accuracy_csv(const AccuracyReport& report);
-// Self-contained: x = nanoseconds per pair, y = worst error (relative; of hard cases over the
-// size of the pair), both logarithmic; dominated
-// tiers hollow.
+// Self-contained, one panel per kind of tier: x = nanoseconds per pair, y = worst error (relative;
+// of hard cases over the size of the pair; of decisions alone: wrong ones per million), both
+// logarithmic; dominated tiers hollow.
 std::string accuracy_svg(const AccuracyReport& report, const AccuracyContext& context);
-// The chart with the table in one page without outside references.
+// The charts with the table and the examples in one page without outside references.
 std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& context);
 
 }  // namespace deck

@@ -1,0 +1,59 @@
+// The arithmetics that `deck accuracy` compares, each as one function from a pair to its answer.
+// Private to the contact stage.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "deck/contact/accuracy.hpp"
+#include "deck/contact/filtered.hpp"
+
+namespace deck::accuracy {
+
+// What one tier says about one pair.
+struct Outcome {
+  double value = 0.0;  // distance, or force for a stiffness of 1; unused by decisions
+  bool closer = false;
+  int feature = -1;                 // number of the part of the segment or the two edges; -1: none
+  std::array<double, 4> weights{};  // of the closest point; edges: [0] secondary, [1] main
+};
+
+struct Tier {
+  const char* name;
+  const char* what;  // "distance", "gaps": the decision alone, "force"
+  Outcome (*run)(const PairSample&, FilterCounters&);
+  bool slow = false;      // timed on fewer pairs
+  bool is_truth = false;  // its answers are what the others are held against
+};
+
+inline int number_of(Feature feature, int index) { return 8 * static_cast<int>(feature) + index; }
+inline int number_of(EdgeFeature s, EdgeFeature m) {
+  return 64 + 8 * static_cast<int>(s) + static_cast<int>(m);
+}
+
+// Contact by the filtered predicate.
+bool decide(const PairSample& s, FilterCounters& counters);
+
+std::span<const Tier> distance_tiers();  // and decisions
+std::span<const Tier> force_tiers();
+
+// CGAL's lazy exact numbers, and its intervals with rationals where they leave a doubt.
+Outcome lazy_exact(const PairSample& s, FilterCounters& counters);
+Outcome interval(const PairSample& s, FilterCounters& counters);
+
+// Exact distance rounded once, exact decision.
+Outcome exact(const PairSample& s, FilterCounters& counters);
+// Elastic normal force of the robust model for K0 = 1, rounded from more than 200 bits.
+Outcome exact_force(const PairSample& s, FilterCounters& counters);
+// dF/dd at the exact distance: what an error of the distance makes of itself in the force.
+double force_slope(double distance, double gap);
+
+// The kernel of `deck cycle` over whole packets: its forces, and the nanoseconds per pair.
+struct KernelRun {
+  std::vector<Outcome> outcomes;
+  double ns_per_pair = 0.0;
+};
+KernelRun run_kernel(std::span<const PairSample> samples, int repeats);
+
+}  // namespace deck::accuracy
