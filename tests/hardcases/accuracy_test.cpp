@@ -62,7 +62,8 @@ TEST(AccuracyReports, JsonHoldsEveryTierAndFamily) {
 }
 
 TEST(AccuracyReports, CsvLinesHaveTheColumnsOfTheHeading) {
-  std::istringstream lines(accuracy_csv(small_report()));
+  const AccuracyReport report = small_report();
+  std::istringstream lines(accuracy_csv(report));
   std::string line;
   std::getline(lines, line);
   const auto commas = std::count(line.begin(), line.end(), ',');
@@ -76,7 +77,7 @@ TEST(AccuracyReports, CsvLinesHaveTheColumnsOfTheHeading) {
     }
     EXPECT_EQ(found, commas) << line;
   }
-  EXPECT_EQ(rows, 17u);
+  EXPECT_EQ(rows, report.tiers.size() + report.families.size());
 }
 
 TEST(AccuracyReports, ChartMarksEveryTierAndFetchesNothing) {

@@ -1,0 +1,127 @@
+// Pairs that were once decided wrongly, each with its coordinates: the robust answers are right,
+// and the reference solver's formula still is what it was.
+#include "hardcases/regressions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "contact/exact.hpp"
+#include "deck/contact/accuracy.hpp"
+#include "deck/contact/filtered.hpp"
+
+namespace deck {
+namespace {
+
+using regressions::Case;
+using regressions::Kind;
+using P = Point3<double>;
+
+std::array<P, 4> corners(const Case& c) { return {c.x[0], c.x[1], c.x[2], c.x[3]}; }
+bool is_triangle(const Case& c) { return c.kind == Kind::triangle; }
+
+class Regression : public testing::TestWithParam<Case> {};
+
+TEST_P(Regression, RobustAnswersAreExact) {
+  const Case& c = GetParam();
+  const auto& x = c.x;
+  if (c.kind == Kind::edges) {
+    EXPECT_EQ(is_closer_than(x[0], x[1], x[2], x[3], c.gap), c.closer);
+    EXPECT_EQ(filtered_closest_between_edges(x[0], x[1], x[2], x[3]).distance, c.distance);
+    EXPECT_EQ(exact_closest_between_edges(x[0], x[1], x[2], x[3]).distance, c.distance);
+    EXPECT_EQ(exact_compare_distance(x[0], x[1], x[2], x[3], c.gap) < 0, c.closer);
+    EXPECT_EQ(filtered_depth(x[0], x[1], x[2], x[3], c.gap).depth > 0, c.closer);
+  } else {
+    EXPECT_EQ(is_closer_than(x[4], corners(c), is_triangle(c), c.gap), c.closer);
+    EXPECT_EQ(filtered_closest_on_segment(x[4], corners(c), is_triangle(c)).distance, c.distance);
+    EXPECT_EQ(exact_closest_on_segment(x[4], corners(c), is_triangle(c)).distance, c.distance);
+    EXPECT_EQ(exact_compare_distance(x[4], corners(c), is_triangle(c), c.gap) < 0, c.closer);
+    EXPECT_EQ(filtered_depth(x[4], corners(c), is_triangle(c), c.gap).depth > 0, c.closer);
+  }
+}
+
+template <Form F>
+double plain_distance(const Case& c) {
+  if (c.kind == Kind::edges)
+    return closest_between_edges<F>(c.x[0], c.x[1], c.x[2], c.x[3]).distance;
+  return closest_on_segment<F>(c.x[4], corners(c), is_triangle(c)).distance();
+}
+
+TEST_P(Regression, PlainFormulasFailAsRecorded) {
+  const Case& c = GetParam();
+  const double reference = plain_distance<Form::reference>(c);
+  if ((c.wrong & regressions::distance) != 0) {
+    EXPECT_EQ(c.distance, 0.0);
+    EXPECT_GT(reference, 0.0);
+    return;
+  }
+  EXPECT_EQ((reference < c.gap) != c.closer, (c.wrong & regressions::reference) != 0);
+  const double residual = plain_distance<Form::robust>(c);
+  EXPECT_EQ((residual < c.gap) != c.closer, (c.wrong & regressions::residual) != 0);
+}
+
+std::string name_of(const testing::TestParamInfo<Case>& info) {
+  std::string out;
+  for (const char* p = info.param.name; *p != 0; ++p) out += *p >= 'a' && *p <= 'z' ? *p : '_';
+  return out;
+}
+INSTANTIATE_TEST_SUITE_P(Family, Regression, testing::ValuesIn(regressions::kCases), name_of);
+
+// Endless recursion once: a difference that stays infinite however it is scaled.
+TEST(RobustForm, EndsOnInfiniteAndUndefinedCoordinates) {
+  const std::array<P, 4> quad{P{0, 0, 0}, P{1, 0, 0}, P{1, 1, 0}, P{0, 1, 0}};
+  for (const double bad :
+       {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+        std::numeric_limits<double>::quiet_NaN()}) {
+    const double on_quad = closest_on_segment<Form::robust>({bad, 0, 0}, quad, false).distance();
+    EXPECT_FALSE(on_quad < 1e300) << bad;
+    const auto edges = closest_between_edges<Form::robust>(P{bad, 0, 0}, quad[1], quad[2], quad[3]);
+    EXPECT_FALSE(edges.distance < 0.0) << bad;
+  }
+}
+
+// Single precision has a smaller exponent range: one scaling must be enough there too.
+TEST(RobustForm, ScalesOnceAtTheEndsOfTheExponentRange) {
+  const auto check = [](auto big) {
+    using T = decltype(big);
+    using Q = Point3<T>;
+    const std::array<Q, 4> quad{Q{big, 0, 0}, Q{big, big, 0}, Q{-big, big, 0}, Q{-big, 0, 0}};
+    const T half = big / 2;
+    EXPECT_EQ(closest_on_segment<Form::robust>(Q{0, 0, half}, quad, false).distance(), half);
+    const auto edges = closest_between_edges<Form::robust>(Q{-big, 0, 0}, Q{big, 0, 0},
+                                                           Q{0, -big, half}, Q{0, big, half});
+    EXPECT_EQ(edges.distance, half);
+  };
+  check(std::numeric_limits<float>::max());
+  check(std::numeric_limits<double>::max());
+}
+
+TEST(Touching, OnlyWhereTheDistanceIsExactlyZero) {
+  // A plane through whole numbers; a step of one unit in the last place leaves it.
+  const std::array<P, 4> quad{P{77, 3, -5}, P{88, 25, 17}, P{110, 36, -5}, P{99, 14, -27}};
+  const P on{80, 6, -5};
+  EXPECT_GT(closest_on_segment<Form::reference>(on, quad, false).distance(), 0.0);
+  EXPECT_TRUE(is_touching(on, quad, false));
+  EXPECT_FALSE(is_touching({80, 6, std::nextafter(-5.0, 0.0)}, quad, false));
+  EXPECT_TRUE(is_touching(quad[0], quad[1], quad[1], P{0, 0, 0}));
+  EXPECT_FALSE(is_touching(P{0, 0, 0}, P{1, 0, 0}, P{0, 0, 5e-324}, P{1, 0, 5e-324}));
+}
+
+TEST(Depth, KeepsItsDigitsWhereGapAndDistanceCancel) {
+  const std::array<P, 4> quad{P{0, 0, 0}, P{1, 0, 0}, P{1, 1, 0}, P{0, 1, 0}};
+  const double gap = 0.3, z = std::nextafter(gap, 0.0);
+  EXPECT_NEAR(filtered_depth({0.5, 0.5, z}, quad, false, gap).depth, gap - z, 2e-12 * (gap - z));
+  EXPECT_EQ(filtered_depth({0.5, 0.5, gap}, quad, false, gap).depth, 0.0);
+  // Beyond a corner: the distance is irrational, the depth far below its rounding.
+  const P beside{1.0 + 0x1p-30, 1.0 + 0x1p-30, 0.0};
+  const double far = std::sqrt(2.0) * 0x1p-30, just = std::nextafter(far, 1.0);
+  const FilteredDepth depth = filtered_depth(beside, quad, false, just);
+  // sqrt(2) as a double is 9.667293313452913e-17 too large.
+  const double exact = (just - far) + 9.667293313452913e-17 * 0x1p-30;
+  EXPECT_NEAR(depth.depth, exact, 1e-11 * exact);
+}
+
+}  // namespace
+}  // namespace deck
