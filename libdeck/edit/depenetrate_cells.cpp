@@ -30,6 +30,10 @@ NodeCells::NodeCells(const EditContext& context) : context_(context) {
     merged_.insert(a);
     merged_.insert(b);
   }
+  // The noise of /RANDOM is added to whatever the line says; transforms may do more than add.
+  noise_only_ = context.model.has_random &&
+                std::none_of(context.deck.blocks.begin(), context.deck.blocks.end(),
+                             [](const Block& b) { return b.keyword.starts_with("/TRANSFORM"); });
 }
 
 void NodeCells::look_up(std::span<const NodeIndex> nodes) {
@@ -86,8 +90,9 @@ NodeCells::Cells NodeCells::read(NodeIndex n, const Block& block, const Span& li
       return blocked("its coordinates are not readable as numbers");
     out.factor = conversion_factor(*units, deck.begin.working, cell->field->dimension);
     // What the line says must be where the node is; else something else had a say in it.
-    if (cell->real * out.factor != coordinates[axis])
-      return blocked("its place is not the one on its line (/TRANSFORM, /RANDOM)");
+    out.offset[axis] = coordinates[axis] - cell->real * out.factor;
+    if (out.offset[axis] != 0 && !noise_only_)
+      return blocked("its place is not the one on its line (/TRANSFORM)");
     out.span[axis] = cell->span;
     out.columns[axis] = {cell->field->first, cell->field->last};
   }
@@ -100,10 +105,11 @@ std::optional<NodeCells::Printed> NodeCells::print(NodeIndex n, int axis, double
   const Cells& cells = known_.at(n);
   const auto& [first, last] = cells.columns[static_cast<std::size_t>(axis)];
   // One column stays blank: people and scripts read the numbers as words.
+  const double offset = cells.offset[static_cast<std::size_t>(axis)];
   const auto text =
-      format_real(value / cells.factor, cells.free_format ? free_width : last - first);
+      format_real((value - offset) / cells.factor, cells.free_format ? free_width : last - first);
   if (!text) return std::nullopt;
-  return Printed{text->text, read_real(text->text).value * cells.factor};
+  return Printed{text->text, read_real(text->text).value * cells.factor + offset};
 }
 
 std::vector<TextEdit> NodeCells::edits(

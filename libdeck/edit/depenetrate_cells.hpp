@@ -39,6 +39,7 @@ class NodeCells {
     std::array<std::pair<int, int>, 3> columns{};
     bool free_format = false;
     double factor = 1;
+    std::array<double, 3> offset{};  ///< from the line to the model: noise of /RANDOM
     std::string obstacle;
   };
   Cells read(NodeIndex n, const Block& block, const Span& line) const;
@@ -46,6 +47,7 @@ class NodeCells {
   std::map<NodeIndex, Cells> known_;
   std::set<std::string> twice_;  ///< files included more than once
   std::set<NodeIndex> merged_;   ///< nodes that /CNODE merges with another
+  bool noise_only_ = false;      ///< /RANDOM is all that moves nodes from where their lines say
 };
 
 }  // namespace deck::detail

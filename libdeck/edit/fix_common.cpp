@@ -14,7 +14,8 @@ Result<std::unique_ptr<Reread>> read_again(const EditContext& context, const Rew
   auto changed = apply_rewrite(context.deck.sources, rewrite);
   if (!changed) return changed.error();
   auto out = std::make_unique<Reread>();
-  out->overlay = std::move(*changed);
+  if (options.read.overlay != nullptr) out->overlay = *options.read.overlay;
+  for (auto& [path, text] : *changed) out->overlay[path] = std::move(text);
   // A deck that was never a file is read from memory again.
   const Source& main = context.deck.sources[0];
   std::error_code ec;

@@ -304,6 +304,144 @@ TEST(MoveNodes, CoordinatesThatComeThroughATransformAreLeftAlone) {
   for (const MovedNode& m : fix.moved) EXPECT_EQ(m.part, 1);
 }
 
+// ---- how coordinates are written --------------------------------------------------------------
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+TEST(MoveNodes, KeepsCarriageReturns) {
+  const Built before(replaced(two_plates(1, 0.6, plain).text(), "\n", "\r\n"));
+  const PenetrationFix fix = moved(before);
+  EXPECT_TRUE(fix.complete);
+  EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, fix)).empty());
+  for (const std::string& line : lines_of(text_after(before, fix)))
+    EXPECT_TRUE(line.ends_with('\r')) << line;
+}
+
+TEST(MoveNodes, LinesWithCommasStayLinesWithCommas) {
+  std::string text = two_plates(1, 0.6, plain).text();
+  std::string out;
+  bool nodes = false;
+  for (const std::string& line : lines_of(text)) {
+    if (line.starts_with("/")) nodes = line.starts_with("/NODE");
+    if (nodes && !line.starts_with("/")) {
+      std::istringstream in(line);
+      std::string id, x, y, z;
+      in >> id >> x >> y >> z;
+      out += id + "," + x + "," + y + "," + z + "\n";
+    } else {
+      out += line + "\n";
+    }
+  }
+  const Built before(out);
+  ASSERT_FALSE(oracle_penetrations(before).empty());
+  const PenetrationFix fix = moved(before);
+  EXPECT_TRUE(fix.complete);
+  const std::string changed = text_after(before, fix);
+  EXPECT_TRUE(oracle_penetrations(Built(changed)).empty());
+  const auto a = lines_of(out), b = lines_of(changed);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_EQ(std::count(a[i].begin(), a[i].end(), ','), std::count(b[i].begin(), b[i].end(), ','));
+}
+
+TEST(MoveNodes, CoordinatesThatAreParametersAreLeftAlone) {
+  SmallDeck d;
+  d.shell_part(1, 1.0).shell_part(2, 1.0);
+  add_sheet(d, 1, 1, 3, 3, [](int i, int j) { return P{2.0 * i, 2.0 * j, 0}; });
+  add_sheet(d, 2, 101, 1, 1, [](int i, int j) { return P{2.1 + i, 2.2 + j, 0.75}; });
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1}).add(plain);
+  const std::string parameter = "/PARAMETER/GLOBAL/REAL/1\nheight\nheight                  0.75\n";
+  std::string text = replaced(d.text(), "                0.75", "             &height");
+  text = replaced(text, "/NODE\n", parameter + "/NODE\n");
+  const Built before(text);
+  ASSERT_EQ(before.model.nodes.z[before.model.nodes.map.find(101)], 0.75);
+  ASSERT_FALSE(oracle_penetrations(before).empty());
+  const PenetrationFix fix = moved(before);
+  EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, fix)).empty());
+  for (const MovedNode& m : fix.moved) EXPECT_EQ(m.part, 1);
+  MoveNodesOptions o = all_may_move();
+  o.secondary_only = true;
+  const PenetrationFix refused = moved(before, o);
+  EXPECT_TRUE(refused.rewrite.edits.empty());
+  EXPECT_THAT(refused.refused.at(0).reason, ::testing::HasSubstr("&parameter"));
+}
+
+TEST(MoveNodes, NodesUnderRandomNoiseMoveByTheirLines) {
+  std::string text = two_plates(1, 0.6, plain).text();
+  text = replaced(text, "/NODE\n", "/RANDOM\n               0.001\n/NODE\n");
+  const Built before(text);
+  ASSERT_TRUE(before.model.has_random);
+  ASSERT_FALSE(oracle_penetrations(before).empty());
+  const PenetrationFix fix = moved(before);
+  EXPECT_TRUE(fix.complete);
+  EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, fix)).empty());
+}
+
+TEST(MoveNodes, WritesIntoTheIncludeThatOwnsTheNode) {
+  const std::string text = two_plates(1, 0.6, plain).text();
+  const auto begin = text.find("/NODE\n"), end = text.find("\n/", begin) + 1;
+  const std::map<std::string, std::string> files{
+      {"main_0000.rad", text.substr(0, begin) + "#include nodes.inc\n" + text.substr(end)},
+      {"nodes.inc", text.substr(begin, end - begin)}};
+  ReadOptions read;
+  read.overlay = &files;
+  auto deck = read_deck("main_0000.rad", SchemaSet::built_in(), read);
+  ASSERT_TRUE(deck.ok());
+  Diagnostics diagnostics;
+  const Model model = build_model(*deck, SchemaSet::built_in(), diagnostics);
+  const Interfaces interfaces = read_interfaces(*deck, model, diagnostics);
+  MoveNodesOptions o = all_may_move();
+  o.read = read;
+  const auto fix = move_nodes({*deck, model, interfaces, SchemaSet::built_in()}, o);
+  ASSERT_TRUE(fix.ok()) << fix.error().message;
+  EXPECT_TRUE(fix->complete);
+  const auto changed = apply_rewrite(deck->sources, fix->rewrite);
+  ASSERT_TRUE(changed.ok());
+  ASSERT_EQ(changed->size(), 1U);
+  EXPECT_EQ(changed->begin()->first, "nodes.inc");
+  const Built after(
+      replaced(files.at("main_0000.rad"), "#include nodes.inc\n", changed->begin()->second));
+  EXPECT_TRUE(oracle_penetrations(after).empty());
+}
+
+TEST(MoveNodes, AFileIncludedTwiceIsLeftAlone) {
+  SmallDeck d;
+  d.shell_part(1, 1.0);
+  add_sheet(d, 1, 1, 3, 3, [](int i, int j) { return P{2.0 * i, 2.0 * j, 0}; });
+  d.group("/GRNOD/PART/1", {1002}).group("/SURF/PART/1", {1}).add(plain);
+  d.add(
+      "//SUBMODEL/1\none\n      1000      1000      1000      1000      1000      1000\n"
+      "#include plate.inc\n//ENDSUB\n"
+      "//SUBMODEL/2\ntwo\n      2000      2000      2000      2000      2000      2000\n"
+      "#include plate.inc\n//ENDSUB");
+  SmallDeck plate;
+  plate.shell_part(2, 1.0);
+  add_sheet(plate, 2, 101, 1, 1, [](int i, int j) { return P{2.1 + i, 2.2 + j, 0.75}; });
+  std::string part = plate.text();
+  part = part.substr(part.find("/NODE"));
+  part = part.substr(0, part.find("/END"));
+  const std::map<std::string, std::string> files{{"twice_0000.rad", d.text()}, {"plate.inc", part}};
+  ReadOptions read;
+  read.overlay = &files;
+  auto deck = read_deck("twice_0000.rad", SchemaSet::built_in(), read);
+  ASSERT_TRUE(deck.ok());
+  ASSERT_EQ(deck->sources.size(), 3U);
+  Diagnostics diagnostics;
+  const Model model = build_model(*deck, SchemaSet::built_in(), diagnostics);
+  const Interfaces interfaces = read_interfaces(*deck, model, diagnostics);
+  MoveNodesOptions o = all_may_move();
+  o.read = read;
+  const auto fix = move_nodes({*deck, model, interfaces, SchemaSet::built_in()}, o);
+  ASSERT_TRUE(fix.ok()) << fix.error().message;
+  ASSERT_FALSE(fix->moved.empty());
+  for (const MovedNode& m : fix->moved) EXPECT_EQ(m.part, 1);
+  EXPECT_TRUE(fix->complete);
+}
+
 // ---- samples ----------------------------------------------------------------------------------
 
 std::unique_ptr<Built> read_sample(const std::string& name) {
@@ -314,13 +452,21 @@ std::unique_ptr<Built> read_sample(const std::string& name) {
 
 TEST(MoveNodes, SolvesTheSamples) {
   for (const char* name : {"too_close", "inacti_variants", "crossing_edges", "two_surfaces",
-                           "tied_layer", "sets_and_friction", "solid_and_skin"}) {
+                           "tied_layer", "solid_and_skin", "hot_contact"}) {
     SCOPED_TRACE(name);
     const auto before = read_sample(name);
     const auto after = expect_harmless(*before, moved(*before));
     EXPECT_TRUE(oracle_penetrations(*after).empty());
     EXPECT_TRUE(moved(*after).rewrite.edits.empty());
   }
+}
+
+TEST(MoveNodes, WritesInTheUnitsAndSubmodelsOfTheLines) {
+  const auto before = read_sample("units_and_parameters");
+  ASSERT_FALSE(oracle_penetrations(*before).empty());
+  const PenetrationFix fix = moved(*before);
+  EXPECT_TRUE(fix.complete);
+  EXPECT_TRUE(oracle_penetrations(Built(text_after(*before, fix))).empty());
 }
 
 TEST(MoveNodes, LeavesOnlyTheCrossedWebOfTheCrashBox) {
