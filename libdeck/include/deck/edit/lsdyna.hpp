@@ -1,0 +1,34 @@
+// LS-DYNA contact keywords as Radioss interfaces: the contact cards only; sets and parts by id.
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+#include "deck/edit/rewrite.hpp"
+#include "deck/keyword/schema.hpp"
+
+namespace deck {
+
+struct LsDynaOptions {
+  /// 7, 10, 11 or 19 for every contact; 0: by keyword — single surface, nodes to surface and one
+  /// way 7, surface to surface and general 19, tied 10. SOFT = -7, -11 or -19 on a card chooses its
+  /// type.
+  int target = 0;
+  int version = 2022;  ///< input version whose columns are written
+  /// Groups, surfaces, lines and sets that the interfaces need get ids from here on.
+  std::int64_t first_helper_id = 90000001;
+};
+
+/// Reads *CONTACT_AUTOMATIC_SINGLE_SURFACE, _SURFACE_TO_SURFACE, _ONE_WAY_SURFACE_TO_SURFACE,
+/// _NODES_TO_SURFACE, _GENERAL and *CONTACT_TIED_NODES_TO_SURFACE, _SURFACE_TO_SURFACE,
+/// _SHELL_EDGE_TO_SURFACE with the options ID, MPP, OFFSET, BEAM_OFFSET, CONSTRAINED_OFFSET,
+/// SMOOTH, MORTAR, INTERIOR and the optional cards A to G; 10-column, long (20-column) and comma
+/// format; values by *PARAMETER. `new_text` is an include file of /INTER blocks and what they need,
+/// to be used where sets of LS-DYNA have become sets (or surfaces, groups) of the same id.
+///
+/// The loss report has an entry for every cell that is not blank. Units are not changed. Nothing in
+/// `text` can make the function fail: what cannot be read is `undecided`. Refusals: no contact
+/// keyword at all, an unknown target or version.
+Rewrite contacts_from_lsdyna(std::string_view path, std::string_view text, const SchemaSet& schemas,
+                             const LsDynaOptions& options = {});
+
+}  // namespace deck
