@@ -12,31 +12,9 @@
 namespace deck {
 namespace {
 
+using detail::cell_text;
 using detail::LineEdits;
 using detail::put_cell;
-
-/// The text that gives `value` back when it is read in `width` columns and multiplied by `factor`,
-/// or the closest one there is.
-std::optional<FormattedReal> cell_text(double value, double factor, int width) {
-  const double start = value / factor;
-  std::optional<FormattedReal> best = format_real(start, width);
-  if (!best) return std::nullopt;
-  best->exact = read_real(best->text).value * factor == value;
-  double up = start, down = start;
-  for (int step = 0; step < 4 && !best->exact; ++step) {
-    up = std::nextafter(up, std::numeric_limits<double>::infinity());
-    down = std::nextafter(down, -std::numeric_limits<double>::infinity());
-    for (const double candidate : {up, down}) {
-      const auto text = format_real(candidate, width);
-      if (text && read_real(text->text).value * factor == value) {
-        best = text;
-        best->exact = true;
-        break;
-      }
-    }
-  }
-  return best;
-}
 
 std::string shown(std::int64_t v) { return std::to_string(v); }
 std::string shown(const std::string& v) { return v; }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 
 #include "deck/text/number.hpp"
 
@@ -52,6 +54,27 @@ void put_cell(std::string& line, int first, int last, std::string_view text) {
   if (text.empty()) cell.resize(std::min(width, line.size() - begin));
   if (line.size() < begin + cell.size()) line.resize(begin + cell.size(), ' ');
   line.replace(begin, cell.size(), cell);
+}
+
+std::optional<FormattedReal> cell_text(double value, double factor, int width) {
+  const double start = value / factor;
+  std::optional<FormattedReal> best = format_real(start, width);
+  if (!best) return std::nullopt;
+  best->exact = read_real(best->text).value * factor == value;
+  double up = start, down = start;
+  for (int step = 0; step < 4 && !best->exact; ++step) {
+    up = std::nextafter(up, std::numeric_limits<double>::infinity());
+    down = std::nextafter(down, -std::numeric_limits<double>::infinity());
+    for (const double candidate : {up, down}) {
+      const auto text = format_real(candidate, width);
+      if (text && read_real(text->text).value * factor == value) {
+        best = text;
+        best->exact = true;
+        break;
+      }
+    }
+  }
+  return best;
 }
 
 void LineEdits::change(const Line& line, const std::string& text,

@@ -2,6 +2,7 @@
 // the edit stage.
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/keyword/decode.hpp"
+#include "deck/text/number.hpp"
 
 namespace deck::detail {
 
@@ -24,6 +26,10 @@ double default_number(const Field& field);
 bool is_zero_text(std::string_view text);
 /// `text` right-aligned in columns first..last of `line`, which grows if it is too short.
 void put_cell(std::string& line, int first, int last, std::string_view text);
+
+/// The text that gives `value` back when it is read in `width` columns and multiplied by `factor`,
+/// or the closest one there is. nullopt: nothing fits.
+std::optional<FormattedReal> cell_text(double value, double factor, int width);
 
 /// Edits of whole lines, collected so that several at one place come out in order.
 class LineEdits {
