@@ -18,8 +18,7 @@ inline constexpr std::size_t kBlock = 64;  ///< pairs per block; a multiple of e
 /// Numbers of the law, from the card and the step.
 struct Constants {
   const ContactCard* card = nullptr;
-  double kappa_factor = 0.5;  ///< initial stiffness = factor * K0 + fixed (where K0 is not 0)
-  double kappa_fixed = 0.0;
+  double kappa_fixed = 0.0;   ///< initial stiffness where it is fixed; elsewhere it is K0 / 2
   double inacti_share = 0.0;  ///< Inacti 6 leaves 5 % of the remaining gap
   double xi = 0.0;            ///< VISs
   double quadratic = 0.0;     ///< factor of the quadratic damping, 0.32 with damping

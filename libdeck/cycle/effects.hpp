@@ -96,10 +96,11 @@ struct Elastic {
     return select(den > V::fill(0.0), num / den, V::fill(1.0));
   }
 
+  /// `fixed`: Istf 1, the same stiffness for every pair that is on.
   template <Model M, class V>
-  static void apply(const Constants& k, PairState<V>& s) {
+  static void apply(const Constants& k, bool fixed, PairState<V>& s) {
     const V zero = V::fill(0.0);
-    s.kappa = k.kappa_factor * s.k0 + select(s.k0 != zero, V::fill(k.kappa_fixed), zero);
+    s.kappa = fixed ? select(s.k0 != zero, V::fill(k.kappa_fixed), zero) : 0.5 * s.k0;
     if constexpr (M == Model::reference) {
       const V phi = s.ge / max(V::fill(1e-10), s.d);
       s.k_sec = s.kappa * phi;
@@ -187,7 +188,7 @@ struct Rates {
             (s.weight[2] * Vec3<V>::load(view.velocity[2], i) +
              s.weight[3] * Vec3<V>::load(view.velocity[3], i));
       std::array<V, 4> m;
-      for (std::size_t c = 0; c < 4; ++c) m[c] = V::load(view.mass[c] + i);
+      four_times([&](auto c) __attribute__((always_inline)) { m[c] = V::load(view.mass[c] + i); });
       if constexpr (M == Model::reference) {
         s.mass =
             min(s.weight[0] * m[0] + s.weight[1] * m[1], s.weight[2] * m[2] + s.weight[3] * m[3]);
@@ -197,14 +198,15 @@ struct Rates {
       }
     } else {
       Vec3<V> main = s.raw[0] * Vec3<V>::load(view.velocity[1], i);
-      for (std::size_t c = 1; c < 4; ++c) {
-        main = main + s.raw[c] * Vec3<V>::load(view.velocity[c + 1], i);
-      }
+      four_times([&](auto c) __attribute__((always_inline)) {
+        if (c != 0) main = main + s.raw[c] * Vec3<V>::load(view.velocity[c + 1], i);
+      });
       s.v = Vec3<V>::load(view.velocity[0], i) - main;
       s.mass = V::load(view.mass[0] + i);
       if constexpr (M == Model::robust) {
         std::array<V, 4> m;
-        for (std::size_t c = 0; c < 4; ++c) m[c] = V::load(view.mass[c + 1] + i);
+        four_times([&](auto c)
+                       __attribute__((always_inline)) { m[c] = V::load(view.mass[c + 1] + i); });
         s.mass = reduced(s.mass, point_mass(s.weight.data(), m.data(), 4));
       }
     }

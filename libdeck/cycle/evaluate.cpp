@@ -37,7 +37,6 @@ Constants make_constants(const KernelPlan& plan, const PacketView& view) {
   Constants k;
   k.card = &plan.card;
   if (card.kind == ContactKind::node_segment && card.istf == 1) {
-    k.kappa_factor = 0.0;
     k.kappa_fixed = std::abs(card.stfac);
   }
   k.inacti_share = card.inacti == 6 ? 0.05 : 0.0;

@@ -28,10 +28,10 @@ void load_geometry(const PacketView& view, std::size_t i, const GeometryBlock& g
   s.penetration = V::load(g.penetration + slot);
   s.distance = V::load(g.distance + slot);
   s.n = {V::load(g.normal[0] + slot), V::load(g.normal[1] + slot), V::load(g.normal[2] + slot)};
-  for (std::size_t c = 0; c < 4; ++c) {
+  four_times([&](auto c) __attribute__((always_inline)) {
     s.raw[c] = V::load(g.raw[c] + slot);
     s.weight[c] = V::load(g.weight[c] + slot);
-  }
+  });
 }
 
 /// Friction coefficient and tangential damping of a pair, then the chosen form and its filter.
@@ -70,23 +70,29 @@ void apply_friction(const Effects& on, const Constants& k, const PacketView& vie
   s.e_friction = k.dt1 * dot(s.v, s.ft);
 }
 
+/// What geometry found goes out as it is, and early: it need not wait in registers.
+template <class V>
+void pass_on(const PairState<V>& s, std::size_t i, PacketResult& out) {
+  four_times([&](auto c)
+                 __attribute__((always_inline)) { s.weight[c].store(out.weights[c].data() + i); });
+  s.n.x.store(out.normal[0].data() + i);
+  s.n.y.store(out.normal[1].data() + i);
+  s.n.z.store(out.normal[2].data() + i);
+  s.distance.store(out.distance.data() + i);
+}
+
 template <ContactKind K, class Effects, class V>
 void store_pair(const Effects& on, const PairState<V>& s, std::size_t i, PacketResult& out) {
   const V zero = V::fill(0.0);
-  for (std::size_t c = 0; c < 4; ++c) s.weight[c].store(out.weights[c].data() + i);
   const bool rubs = on.has(Effect::friction_viscous) || on.has(Effect::friction_incremental);
   Vec3<V> f = s.fn * s.n;
   if (rubs) f = f + s.ft;
   f.x.store(out.force[0].data() + i);
   f.y.store(out.force[1].data() + i);
   f.z.store(out.force[2].data() + i);
-  s.n.x.store(out.normal[0].data() + i);
-  s.n.y.store(out.normal[1].data() + i);
-  s.n.z.store(out.normal[2].data() + i);
   s.fn.store(out.normal_force.data() + i);
   (K == ContactKind::edge_edge ? 2.0 * s.k_nodal : s.k_nodal).store(out.k_nodal.data() + i);
   s.pi.store(out.penetration.data() + i);
-  s.distance.store(out.distance.data() + i);
   s.ge.store(out.effective_gap.data() + i);
   const auto acts = (s.fn != zero) & (s.k0 != zero);
   auto status = bits_if(acts, status_contact) | bits_if(s.gap_closed, status_gap_closed);
@@ -111,13 +117,17 @@ void store_pair(const Effects& on, const PairState<V>& s, std::size_t i, PacketR
 
 // Flattened for the same reason as the geometry.
 template <class V, Model M, ContactKind K, class Effects>
-[[gnu::flatten]] void force_block(const Effects& on, const Constants& k, const PacketView& view,
-                                  std::size_t begin, std::size_t n, const GeometryBlock& g,
-                                  PacketResult& out) {
+[[gnu::flatten]] void force_block(const Effects& on, const Constants& shared,
+                                  const PacketView& view, std::size_t begin, std::size_t n,
+                                  const GeometryBlock& g, PacketResult& out) {
+  // Copies: results are stored in between, and could be these numbers for all the compiler knows.
+  const Constants k = shared;
+  const std::size_t size = view.size;
   for (std::size_t slot = 0; slot < n; slot += V::width) {
-    const std::size_t i = pack_start<V::width>(begin, slot, view.size);
+    const std::size_t i = pack_start<V::width>(begin, slot, size);
     PairState<V> s{};  // zeros where an effect is off; those nobody reads cost nothing
     load_geometry(view, i, g, slot, s);
+    pass_on(s, i, out);
     s.pi = s.penetration;
     s.ge = s.gap;
     if (on.has(Effect::gap_reduction)) GapReduction::apply<M, K>(k, view, i, s);
@@ -126,7 +136,7 @@ template <class V, Model M, ContactKind K, class Effects>
       Rates::gather<M, K>(view, i, s);
       Rates::limit(k, s);
     }
-    Elastic::apply<M>(k, s);
+    Elastic::apply<M>(k, on.has(Effect::fixed_stiffness), s);
     if (on.has(Effect::elastic_energy)) ElasticEnergy::apply<M, K>(s);
     s.k_nodal = s.k_tan;
     if (on.has(Effect::damping)) Damping::apply<M, K>(k, s);

@@ -4,22 +4,10 @@
 #ifndef DECK_CYCLE_GEOMETRY_HPP_
 #define DECK_CYCLE_GEOMETRY_HPP_
 
-#include <type_traits>
-
 #include "cycle/block.hpp"
 #include "cycle/pack.hpp"
 
 namespace deck::cycle::detail {
-
-/// Calls f with 0, 1, 2 and 3 as constants: what is indexed with them stays in registers, which a
-/// loop does not guarantee.
-template <class F>
-[[gnu::always_inline]] inline void four_times(F&& f) {
-  f(std::integral_constant<std::size_t, 0>{});
-  f(std::integral_constant<std::size_t, 1>{});
-  f(std::integral_constant<std::size_t, 2>{});
-  f(std::integral_constant<std::size_t, 3>{});
-}
 
 /// Reciprocals of two and of four numbers for the price of one division. A number of exactly 1 does
 /// not change a bit of the others' reciprocals.
@@ -224,10 +212,10 @@ template <class V>
   n.x.store(g.normal[0] + s);
   n.y.store(g.normal[1] + s);
   n.z.store(g.normal[2] + s);
-  for (std::size_t k = 0; k < 4; ++k) {
+  four_times([&](auto k) __attribute__((always_inline)) {
     raw[k].store(g.raw[k] + s);
     weight[k].store(g.weight[k] + s);
-  }
+  });
 }
 
 template <class V>
@@ -484,13 +472,15 @@ void edge_edge_robust(const PacketView& view, std::size_t i, std::size_t s, Geom
   store_geometry(g, s, max(zero, gap - d), d, select(d < gap, one, zero), n, h, h);
 }
 
-// Flattened: the compiler's own measure leaves calls to dot and cross behind, with their operands in
-// memory.
+// Flattened: the compiler's own measure leaves calls to dot and cross behind, with their operands
+// in memory.
 template <class V, Model M, ContactKind K, bool Triangles>
-[[gnu::flatten]] void geometry_block(const Constants& k, const PacketView& view, std::size_t begin, std::size_t n,
-                    GeometryBlock& g) {
+[[gnu::flatten]] void geometry_block(const Constants& shared, const PacketView& view,
+                                     std::size_t begin, std::size_t n, GeometryBlock& g) {
+  const Constants k = shared;  // as in the force
+  const std::size_t size = view.size;
   for (std::size_t s = 0; s < n; s += V::width) {
-    const std::size_t i = pack_start<V::width>(begin, s, view.size);
+    const std::size_t i = pack_start<V::width>(begin, s, size);
     if constexpr (K == ContactKind::edge_edge) {
       if constexpr (M == Model::reference) {
         edge_edge_reference<V>(view, i, s, g);

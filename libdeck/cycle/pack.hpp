@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -15,24 +16,41 @@
 
 namespace deck::cycle::detail {
 
-// Register types by width (compilers take the vector_size attribute of a concrete type only).
+// Register types by width (compilers take the vector_size attribute of a concrete type only); the
+// loose ones may stand anywhere in an array. A vector may alias arrays of its element type.
 template <int W>
 struct Registers;
 template <>
 struct Registers<2> {
   typedef double Real __attribute__((vector_size(16)));
   typedef std::int64_t Bits __attribute__((vector_size(16)));
+  typedef double LooseReal __attribute__((vector_size(16), aligned(8)));
+  typedef std::int64_t LooseBits __attribute__((vector_size(16), aligned(8)));
 };
 template <>
 struct Registers<4> {
   typedef double Real __attribute__((vector_size(32)));
   typedef std::int64_t Bits __attribute__((vector_size(32)));
+  typedef double LooseReal __attribute__((vector_size(32), aligned(8)));
+  typedef std::int64_t LooseBits __attribute__((vector_size(32), aligned(8)));
 };
 template <>
 struct Registers<8> {
   typedef double Real __attribute__((vector_size(64)));
   typedef std::int64_t Bits __attribute__((vector_size(64)));
+  typedef double LooseReal __attribute__((vector_size(64), aligned(8)));
+  typedef std::int64_t LooseBits __attribute__((vector_size(64), aligned(8)));
 };
+
+/// Calls f with 0, 1, 2 and 3 as constants: what is indexed with them stays in registers, which a
+/// loop does not guarantee.
+template <class F>
+[[gnu::always_inline]] inline void four_times(F&& f) {
+  f(std::integral_constant<std::size_t, 0>{});
+  f(std::integral_constant<std::size_t, 1>{});
+  f(std::integral_constant<std::size_t, 2>{});
+  f(std::integral_constant<std::size_t, 3>{});
+}
 
 // All functions below are templates on W: a translation unit compiled for a newer instruction set
 // must not emit symbols that another one could link to.
@@ -52,16 +70,14 @@ struct Pack {
   Reg r;
 
   static Pack load(const double* p) {
-    Pack out;
-    std::memcpy(&out.r, p, sizeof(Reg));
-    return out;
+    return {*reinterpret_cast<const typename Registers<W>::LooseReal*>(p)};
   }
   static Pack fill(double v) {
     Pack out;
     for (int l = 0; l < W; ++l) out.r[l] = v;
     return out;
   }
-  void store(double* p) const { std::memcpy(p, &r, sizeof(Reg)); }
+  void store(double* p) const { *reinterpret_cast<typename Registers<W>::LooseReal*>(p) = r; }
   double operator[](int lane) const { return r[lane]; }
 
   friend Pack operator+(const Pack& a, const Pack& b) { return {a.r + b.r}; }
@@ -162,7 +178,7 @@ Pack<W> map(const Pack<W>& a, F f) {
 }
 template <int W>
 void store_bits(const Mask<W>& m, std::int64_t* p) {
-  std::memcpy(p, &m.r, sizeof m.r);
+  *reinterpret_cast<typename Registers<W>::LooseBits*>(p) = m.r;
 }
 template <int W>
 Mask<W> bits_if(const Mask<W>& m, std::int64_t value) {

@@ -121,6 +121,7 @@ void account_rest(const ContactCard& card, Account& out) {
 EffectSet choose_effects(const ContactCard& card, const PlanOptions& options) {
   EffectSet set = bit(Effect::elastic);
   if (card.inacti == 5 || card.inacti == 6) set |= bit(Effect::gap_reduction);
+  if (card.istf == 1 && node_segment(card)) set |= bit(Effect::fixed_stiffness);
   const bool rubs = has_friction(card);
   const bool rates = card.viss != 0.0 || rubs || card.dtmin > 0.0 || card.itied != 0;
   if (rates) set |= bit(Effect::damping);
@@ -207,7 +208,8 @@ std::string composition_name(const KernelPlan& plan) {
                {Effect::friction_temperature, "friction_temperature"},
                {Effect::friction_pairs, "friction_pairs"},
                {Effect::filter, "filter"},
-               {Effect::friction_orthotropic, "friction_orthotropic"}};
+               {Effect::friction_orthotropic, "friction_orthotropic"},
+               {Effect::fixed_stiffness, "fixed_stiffness"}};
   std::string text;
   for (const auto& n : names) {
     if ((plan.effects & bit(n.effect)) == 0) continue;

@@ -61,6 +61,7 @@ enum class Effect : std::uint32_t {
   friction_pairs = 1u << 8,
   filter = 1u << 9,
   friction_orthotropic = 1u << 10,
+  fixed_stiffness = 1u << 11,  ///< Istf 1 of node-segment pairs
 };
 using EffectSet = std::uint32_t;
 constexpr EffectSet bit(Effect e) { return static_cast<EffectSet>(e); }
