@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+"""Every deck at hand through every conversion of `deck convert`: what comes out is the same model.
+
+The views of `deck params` and `deck gaps --all` before and after are compared without the places
+they name. A conversion may be refused (exit code 1), but then it writes nothing and says where."""
+import json
+import os
+import shutil
+import tempfile
+
+from common import SAMPLES, Checks
+
+PLACES = {"source", "file", "line", "column", "path", "places", "place", "deck", "tool", "schema", "span", "defined_at",
+          "input", "origin", "gapmin_origin", "accuracy"}
+VERSIONS = (2018, 2020, 2022, 2024, 2026)
+SLOW = 1_000_000  # bytes; larger decks go through fewer rounds
+
+
+def bare(value):
+    """A document without what depends on where things stand in the files."""
+    if isinstance(value, dict):
+        return {k: bare(v) for k, v in value.items() if k not in PLACES}
+    if isinstance(value, list):
+        return [bare(v) for v in value]
+    return value
+
+
+class Deck:
+    def __init__(self, c, stem, path, tmp):
+        self.c, self.stem, self.path, self.tmp = c, stem, path, tmp
+        self.size = os.path.getsize(path)
+
+    def view(self, verb, path, *more):
+        target = os.path.join(self.tmp, "view.json")
+        r = self.c.run(verb, path, "--quiet", "--json", target, *more, timeout=300)
+        if r.code not in (0, 1):
+            return "%s: exit code %s: %s" % (verb, r.code, r.text[-200:])
+        with open(target, encoding="utf-8") as f:
+            document = bare(json.load(f))
+        os.remove(target)
+        return document
+
+    def convert(self, path, *options):
+        """Path of the converted deck, or None if that was refused."""
+        out = tempfile.mkdtemp(dir=self.tmp)
+        target = os.path.join(out, "d")
+        r = self.c.run("convert", path, "-o", target, *options, timeout=300)
+        name = "convert %s %s" % (self.stem, " ".join(options))
+        if not self.c.no_crash(name, r, (0, 1)):
+            return None
+        if r.code == 1:
+            self.c.check(name + ": a refusal writes nothing", not os.path.exists(target))
+            self.c.check(name + ": a refusal says where or what", b"error:" in r.err, r.text[-200:])
+            return None
+        for root, _, files in os.walk(target):
+            for f in files:
+                if f == os.path.basename(self.path):
+                    return os.path.join(root, f)
+        self.c.check(name + " writes the deck", False, str(os.listdir(target)))
+        return None
+
+    def same(self, what, verb, other, *more):
+        before, after = self.view(verb, self.path, *more), self.view(verb, other, *more)
+        self.c.check("%s: %s: the same %s" % (self.stem, what, verb), before == after, first_difference(before, after))
+
+
+def first_difference(a, b, at=""):
+    if type(a) is not type(b):
+        return "%s: %r against %r" % (at, a, b)
+    if isinstance(a, dict):
+        for k in sorted(set(a) | set(b)):
+            if a.get(k) != b.get(k):
+                return first_difference(a.get(k), b.get(k), at + "/" + k)
+    if isinstance(a, list):
+        if len(a) != len(b):
+            return "%s: %d against %d entries" % (at, len(a), len(b))
+        for i, (x, y) in enumerate(zip(a, b)):
+            if x != y:
+                return first_difference(x, y, "%s/%d" % (at, i))
+    return "%s: %r against %r" % (at, a, b)
+
+
+def geometry(deck, what, other):
+    """Contacts with all their segments, and the effective values."""
+    deck.same(what, "params", other)
+    deck.same(what, "gaps", other, "--all")
+
+
+def conversions(deck, tmp):
+    flat = deck.convert(deck.path, "--flatten")
+    if flat:
+        geometry(deck, "--flatten", flat)
+    resolved = deck.convert(deck.path, "--resolve-defaults")
+    if resolved:
+        deck.same("--resolve-defaults", "params", resolved)
+        again = deck.convert(resolved, "--resolve-defaults")
+        deck.c.check("%s: --resolve-defaults twice changes nothing" % deck.stem,
+                     again is not None and open(again, "rb").read() == open(resolved, "rb").read())
+    original = deck.c.run("params", deck.path, "--json", "-", "--quiet")
+    version = json.loads(original.out)["deck"]["version"] if original.code in (0, 1) else None
+    for to in VERSIONS if deck.size < SLOW else VERSIONS[-1:]:
+        there = deck.convert(deck.path, "--version", str(to)) if version and version != to else None
+        if there:
+            deck.same("--version %d" % to, "params", there)
+            back = deck.convert(there, "--version", str(version))
+            if back:
+                geometry(deck, "--version %d and back" % to, back)
+    units(deck)
+    extraction(deck)
+
+
+def units(deck):
+    head = json.loads(deck.c.run("params", deck.path, "--json", "-", "--quiet").out)["deck"].get("units") or {}
+    system = head.get("input")
+    if not system:
+        return
+    own = "%s,%s,%s" % (system["mass"], system["length"], system["time"])
+    for target in ("Mg,mm,s", "kg,m,s", "g,mm,ms"):
+        there = deck.convert(deck.path, "--units", target, "--partial") if target != own else None
+        back = deck.convert(there, "--units", own, "--partial") if there else None
+        if back:
+            geometry(deck, "--units %s and back" % target, back)
+
+
+def extraction(deck):
+    whole = deck.view("gaps", deck.path, "--all")
+    values = deck.view("params", deck.path)
+    if isinstance(whole, str) or isinstance(values, str):
+        return
+    ids = [i["id"] for i in values["interfaces"]]
+    for one in ids[:3] + ids[3:][-1:]:
+        small = deck.convert(deck.path, "--extract-contacts", str(one))
+        if not small:
+            continue
+        for verb, document, more in (("params", values, ()), ("gaps", whole, ("--all",))):
+            part = deck.view(verb, small, *more)
+            if isinstance(part, str):
+                deck.c.check("%s: extracted %s" % (deck.stem, one), False, part)
+                continue
+            expected = [i for i in document["interfaces"] if i["id"] == one]
+            deck.c.check("%s: --extract-contacts %s: the same %s" % (deck.stem, one, verb),
+                         part["interfaces"] == expected, first_difference(expected, part["interfaces"]))
+
+
+def json_round_trip(deck, tmp):
+    document = os.path.join(tmp, "deck.json")
+    r = deck.c.run("convert", deck.path, "--to", "json", "-o", document, timeout=300)
+    if not deck.c.no_crash("convert %s --to json" % deck.stem, r, (0,)):
+        return
+    back = deck.convert(document, "--from", "json")
+    if back:
+        deck.c.check("%s: JSON and back keeps every byte" % deck.stem,
+                     open(back, "rb").read() == open(deck.path, "rb").read())
+    os.remove(document)
+
+
+def main():
+    c = Checks()
+    decks = [(os.path.basename(p)[:-9], p) for p in SAMPLES] + c.corpus_decks()
+    if len(decks) == len(SAMPLES):
+        c.skip("corpus", "no decks under %s (set DECK_CORPUS)" % c.options.corpus)
+    tmp = tempfile.mkdtemp(prefix="deck-conversions-")
+    try:
+        for stem, path in decks:
+            if "missing_include" in path:
+                continue
+            work = os.path.join(tmp, stem)
+            os.makedirs(work)
+            deck = Deck(c, stem, path, work)
+            json_round_trip(deck, work)
+            conversions(deck, work)
+            shutil.rmtree(work, ignore_errors=True)
+    finally:
+        shutil.rmtree(tmp, ignore_errors=True)
+    c.finish()
+
+
+if __name__ == "__main__":
+    main()
