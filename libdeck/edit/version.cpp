@@ -1,7 +1,6 @@
 #include "deck/edit/version.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <unordered_map>
 
 #include "deck/text/number.hpp"
@@ -437,7 +436,7 @@ class VersionRewriter {
   /// True if the solver uses the same value without the cell.
   bool is_default(const Block& block, const Cell& cell) const {
     const Field& field = *cell.field;
-    if (field.type == FieldType::text) return false;
+    if (field.type == FieldType::text) return cell.text == field.default_text;
     const bool unreadable =
         cell.status == NumberStatus::not_a_number || cell.status == NumberStatus::not_finite;
     if (unreadable) return false;
@@ -445,10 +444,9 @@ class VersionRewriter {
         field.type == FieldType::real ? cell.real : static_cast<double>(cell.integer);
     const auto inter = inter_of_.find(&block);
     if (inter == inter_of_.end()) return value == 0 || value == default_of(field);
-    // With 0 a default card may already be at work.
-    const double now = value == 0 ? effective(*inter->second, field).value_or(0) : value;
-    const double then = default_after(block, field);
-    return now == then || (now == 0 && then == default_of(field));
+    const double then = default_at(block, field, target_);
+    // A 0 is the default of its version.
+    return value == 0 ? default_at(block, field, block.version) == then : value == then;
   }
 
   double default_of(const Field& field) const {
@@ -456,21 +454,9 @@ class VersionRewriter {
     return detail::default_number(field);
   }
 
-  static std::optional<double> effective(const InterBase& inter, const Field& field) {
-    std::optional<double> out;
-    visit_interface(inter, [&](const auto& t) {
-      t.for_each([&](std::string_view name, const auto& e) {
-        if constexpr (std::is_same_v<decltype(e.value), std::int64_t>) {
-          if (name == field.name) out = static_cast<double>(e.value);
-        }
-      });
-    });
-    return out;
-  }
-
-  /// What the solver fills in for a missing cell of an interface: its default card, as far as that
-  /// has the cell in the new version, or the built-in value.
-  double default_after(const Block& block, const Field& field) const {
+  /// What the solver fills in for a cell of an interface that is 0 or missing: its default card, as
+  /// far as that has the cell in this version, or the built-in value.
+  double default_at(const Block& block, const Field& field, int version) const {
     const Block* card = nullptr;
     const DefaultInter* in_force = nullptr;
     for (const DefaultInter& d : c_.interfaces.defaults)
@@ -481,7 +467,7 @@ class VersionRewriter {
     }
     if (card == nullptr || card->schema == nullptr) return default_of(field);
     const auto* given = in_force->find(field.name);
-    const int layout = std::max(target_, card->schema->from);
+    const int layout = std::max(version, card->schema->from);
     for (const CardSchema& c : card->schema->cards)
       if (given != nullptr && c.in_version(layout))
         for (const Field& f : c.fields)

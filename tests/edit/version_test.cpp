@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <random>
 
 #include "deck/keyword/decode.hpp"
@@ -192,6 +193,16 @@ TEST(ToVersion, SensorStopLineIsReadAsBeforeAfterGoingUpAndDown) {
   EXPECT_THAT(r.refusals[0], HasSubstr("Tstop"));
 }
 
+TEST(ToVersion, ZeroAndTheDefaultAxisGoWithoutLoss) {
+  const std::string text = deck_of_version(
+      2020,
+      card("/SKEW/MOV", 1, 2020, {{"N1", "1"}, {"N2", "2"}, {"N3", "3"}, {"Dir", "X"}}) +
+          card("/INTER/TYPE19", 1, 2020, {{"surf_IDs", "1"}, {"Igap", "4"}, {"Irem_gap", "0"}}));
+  const Rewrite r = rewrite_of(text, 2018);
+  EXPECT_TRUE(r.refusals.empty()) << joined(r.refusals);
+  EXPECT_TRUE(losses_of(r, Loss::dropped).empty());
+}
+
 TEST(ToVersion, SmoothingSurfacesCannotGoDown) {
   const std::string text =
       deck_of_version(2026, card("/INTER/TYPE7", 1, 2026, {{"surf_IDm", "1"}, {"Ists", "1"}}));
@@ -342,6 +353,35 @@ TEST(ToVersionProperty, RandomCardsDownLoseOnlyWhatIsReported) {
     }
     if (HasFailure()) return;
   }
+}
+
+TEST(ToVersionProperty, CorpusKeepsItsEffectiveValues) {
+  const char* set = std::getenv("DECK_CORPUS");
+  const std::filesystem::path shared = set != nullptr
+                                           ? std::filesystem::path(set)
+                                           : std::filesystem::path(DECK_SOURCE_DIR) / "../shared";
+  if (!std::filesystem::exists(shared / "corpus")) GTEST_SKIP() << "no corpus in " << shared;
+  int converted = 0;
+  for (const char* folder : {"corpus/qa", "corpus/synthetic", "oracle/params"}) {
+    if (!std::filesystem::exists(shared / folder)) continue;
+    for (const auto& e : std::filesystem::recursive_directory_iterator(shared / folder)) {
+      if (!e.path().string().ends_with("_0000.rad") || e.file_size() > 1'000'000) continue;
+      const Opened before(e.path().string());
+      for (const int version : {110, 130, 2017, 2018, 2020, 2024, 2026}) {
+        const Rewrite there = to_version(before.context(), version);
+        if (!there.refusals.empty()) continue;
+        ++converted;
+        const auto deck = applied(before, there);
+        EXPECT_EQ(difference(effective_values(before), effective_values(*deck)), "")
+            << e.path() << " -> " << version;
+        if (before.deck.version < 110) continue;
+        const auto back = applied(*deck, to_version(deck->context(), before.deck.version));
+        EXPECT_EQ(difference(effective_values(before), effective_values(*back)), "")
+            << e.path() << " <- " << version;
+      }
+    }
+  }
+  EXPECT_GE(converted, 20);
 }
 
 TEST(ToVersionProperty, SamplesKeepTheirEffectiveValuesInEveryVersionThatHoldsThem) {
