@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "deck/text/number.hpp"
 #include "edit/lsdyna_cards.hpp"
@@ -34,7 +33,7 @@ struct Side {
 class Converter {
  public:
   Converter(std::string_view path, const SchemaSet& schemas, const LsDynaOptions& options)
-      : path_(path), schemas_(schemas), options_(options), next_id_(options.first_helper_id) {}
+      : path_(path), schemas_(schemas), options_(options), helpers_(options.first_helper_id) {}
 
   Rewrite run(const detail::DynaFile& file) {
     for (const DynaContact& c : file.contacts)
@@ -47,25 +46,20 @@ class Converter {
     out_.notes.push_back(
         "sets of LS-DYNA are named by their ids: they must be sets, surfaces or "
         "groups of the same ids in the Radioss deck");
-    if (!helpers_.empty())
+    if (!helpers_.text().empty())
       out_.notes.push_back("ids " + std::to_string(options_.first_helper_id) + " to " +
-                           std::to_string(next_id_ - 1) +
+                           std::to_string(helpers_.next_id() - 1) +
                            " are used for surfaces, groups, lines and sets made here");
-    if (count_ == 0 && out_.refusals.empty())
+    if (count_ == 0)
       out_.refusals.push_back(path_ + ":1:1: no *CONTACT keyword that can be converted");
-    out_.new_text = "# contact interfaces of " + detail_name() + ", columns of input version " +
-                    std::to_string(options_.version) + "\n" + helpers_ + text_;
+    out_.new_text = "# contact interfaces of " + detail::title_of(path_) +
+                    ", columns of input version " + std::to_string(options_.version) + "\n" +
+                    helpers_.text() + text_;
     if (!out_.refusals.empty()) out_.new_text.reset();
     return std::move(out_);
   }
 
  private:
-  std::string detail_name() const {
-    std::string name = path_;
-    std::erase_if(name, [](char c) { return static_cast<unsigned char>(c) < ' '; });
-    return name;
-  }
-
   // ---- the loss report ------------------------------------------------------------------------
 
   void add(Loss loss, std::string field, std::string old_text, std::string new_text,
@@ -90,8 +84,6 @@ class Converter {
     if (c == nullptr || c->written.empty()) return;
     add(loss, std::string(name), c->written, new_text, note, c->line);
   }
-
-  // ---- reading cells --------------------------------------------------------------------------
 
   /// Value of a cell; nullopt: blank, absent or unreadable (then reported, and used up).
   std::optional<double> real(std::string_view name) {
@@ -122,8 +114,6 @@ class Converter {
     return value > 0 ? value : fallback;
   }
 
-  // ---- writing values -------------------------------------------------------------------------
-
   /// Writes a value that stands for a cell and says what became of it.
   void write(std::string_view field, double value, Loss loss, std::string_view name,
              const std::string& note = {}) {
@@ -149,21 +139,6 @@ class Converter {
     return s;
   }
 
-  std::int64_t helper(const char* kind, std::int64_t a, std::int64_t b, const std::string& block) {
-    const auto [it, fresh] = made_.try_emplace(std::tuple{std::string(kind), a, b}, next_id_);
-    if (fresh) {
-      std::string text = block;
-      const auto mark = text.find('@');
-      text.replace(mark, 1, std::to_string(next_id_++));
-      helpers_ += text;
-    }
-    return it->second;
-  }
-  static std::string list_cell(std::int64_t id) {
-    const auto text = format_integer(id, 10);
-    return text ? std::string(10 - text->size(), ' ') + *text : std::string(10, ' ');
-  }
-
   bool whole_model(const Side& s, bool single) const {
     return s.type == 5 || (single && s.id == 0 && s.type != 6);
   }
@@ -178,10 +153,10 @@ class Converter {
         return 0;
       }
       const bool but = s.type == 6;
-      const std::int64_t id =
-          helper("set", s.type == 6 ? 6 : 5, but ? s.id : 0,
-                 std::string("/SET/GENERAL/@\n") + (but ? "all parts but one set" : "all parts") +
-                     "\nALL\n" + (but ? "SET_D     " + list_cell(s.id) + "\n" : ""));
+      const std::int64_t id = helpers_.id_of(
+          "set", s.type == 6 ? 6 : 5, but ? s.id : 0,
+          std::string("/SET/GENERAL/@\n") + (but ? "all parts but one set" : "all parts") +
+              "\nALL\n" + (but ? "SET_D     " + detail::list_cell(s.id) + "\n" : ""));
       if (but) used_sets_.emplace(s.id, 2);
       return id;
     }
@@ -190,9 +165,9 @@ class Converter {
       return 0;
     }
     if (s.type == 3)
-      return helper(
+      return helpers_.id_of(
           "surf", 3, s.id,
-          "/SURF/PART/EXT/@\npart " + std::to_string(s.id) + "\n" + list_cell(s.id) + "\n");
+          "/SURF/PART/EXT/@\npart " + std::to_string(s.id) + "\n" + detail::list_cell(s.id) + "\n");
     if (s.type < 0 || s.type > 7)
       cell(Loss::undecided, name, std::to_string(s.id), "the type of this set is not known");
     used_sets_.emplace(s.id, s.type);
@@ -207,17 +182,17 @@ class Converter {
     }
     const std::int64_t surf = surface(s, name, false);
     return surf == 0 ? 0
-                     : helper("grnod", surf, 0,
-                              "/GRNOD/SURF/@\nnodes of surface " + std::to_string(surf) + "\n" +
-                                  list_cell(surf) + "\n");
+                     : helpers_.id_of("grnod", surf, 0,
+                                      "/GRNOD/SURF/@\nnodes of surface " + std::to_string(surf) +
+                                          "\n" + detail::list_cell(surf) + "\n");
   }
 
   std::int64_t line(const Side& s, const char* name, bool single) {
     const std::int64_t surf = surface(s, name, single);
     return surf == 0 ? 0
-                     : helper("line", surf, 0,
-                              "/LINE/SURF/@\nedges of surface " + std::to_string(surf) + "\n" +
-                                  list_cell(surf) + "\n");
+                     : helpers_.id_of("line", surf, 0,
+                                      "/LINE/SURF/@\nedges of surface " + std::to_string(surf) +
+                                          "\n" + detail::list_cell(surf) + "\n");
   }
 
   void report_side(const Side& s, const char* id, const char* type, std::int64_t target) {
@@ -246,9 +221,9 @@ class Converter {
       // Without a node group TYPE7 takes the nodes of its own surface; TYPE10 needs the group.
       const std::int64_t group =
           target_ == 10 && main != 0
-              ? helper("grnod", main, 0,
-                       "/GRNOD/SURF/@\nnodes of surface " + std::to_string(main) + "\n" +
-                           list_cell(main) + "\n")
+              ? helpers_.id_of("grnod", main, 0,
+                               "/GRNOD/SURF/@\nnodes of surface " + std::to_string(main) + "\n" +
+                                   detail::list_cell(main) + "\n")
               : 0;
       flag("grnd_IDs", group);
       flag("surf_IDm", main);
@@ -475,7 +450,7 @@ class Converter {
              ignore > 0 ? "the gap is reduced by the initial penetration"
                         : "the gap is reduced by the initial penetration and a margin; LS-DYNA "
                           "follows *CONTROL_CONTACT");
-    if (!real("IGNORE") && !real("MPP IGNORE"))
+    if (!used_.contains("IGNORE") && !used_.contains("MPP IGNORE"))
       add(Loss::approximated, "IGNORE", "", "Inacti = 6",
           "blank: LS-DYNA follows *CONTROL_CONTACT; here the gap is reduced by the initial "
           "penetration and a margin");
@@ -586,11 +561,11 @@ class Converter {
   const SchemaSet& schemas_;
   const LsDynaOptions& options_;
   Rewrite out_;
-  std::string helpers_, text_;
-  std::map<std::tuple<std::string, std::int64_t, std::int64_t>, std::int64_t> made_;
+  detail::DynaHelpers helpers_;
+  std::string text_;
   std::set<std::pair<std::int64_t, std::int64_t>> used_sets_;  ///< (id, type)
   std::set<std::int64_t> given_ids_, written_ids_;
-  std::int64_t next_id_, free_id_ = 1;
+  std::int64_t free_id_ = 1;
   std::size_t count_ = 0;
   // The contact at hand.
   const DynaContact* contact_ = nullptr;

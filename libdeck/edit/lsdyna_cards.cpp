@@ -6,6 +6,21 @@
 
 namespace deck::detail {
 
+std::string list_cell(std::int64_t id) {
+  const auto text = format_integer(id, 10);
+  return text ? std::string(10 - text->size(), ' ') + *text : std::string(10, ' ');
+}
+
+std::int64_t DynaHelpers::id_of(const char* kind, std::int64_t a, std::int64_t b,
+                                std::string block) {
+  const auto [it, fresh] = made_.try_emplace(std::tuple{std::string(kind), a, b}, next_id_);
+  if (fresh) {
+    block.replace(block.find('@'), 1, std::to_string(next_id_++));
+    text_ += block;
+  }
+  return it->second;
+}
+
 const Field* CardValues::field(std::string_view name) const {
   for (const CardSchema& card : schema_->cards) {
     if (!card.in_version(version_)) continue;

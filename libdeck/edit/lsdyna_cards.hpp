@@ -1,12 +1,32 @@
 // Radioss cards from named values. Private to the LS-DYNA reader.
 #pragma once
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "deck/keyword/schema.hpp"
 
 namespace deck::detail {
+
+/// An id in ten columns.
+std::string list_cell(std::int64_t id);
+
+/// Surfaces, groups, lines and sets that the interfaces need besides those of the deck.
+class DynaHelpers {
+ public:
+  explicit DynaHelpers(std::int64_t first_id) : next_id_(first_id) {}
+  /// Id of the block for this key; the first time it is made from `block`, '@' being its id.
+  std::int64_t id_of(const char* kind, std::int64_t a, std::int64_t b, std::string block);
+  const std::string& text() const { return text_; }
+  std::int64_t next_id() const { return next_id_; }
+
+ private:
+  std::map<std::tuple<std::string, std::int64_t, std::int64_t>, std::int64_t> made_;
+  std::string text_;
+  std::int64_t next_id_;
+};
 
 /// Values of a card by field name; integers and reals as text.
 class CardValues {

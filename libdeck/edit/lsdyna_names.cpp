@@ -71,7 +71,8 @@ std::string title_of(const std::string& heading) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < ' ') c = ' ';
   text = std::string(trim(text));
-  if (!text.empty() && (text[0] == '#' || text[0] == '$' || text[0] == '/')) text.insert(0, "'");
+  if (!text.empty() && (text[0] == '#' || text[0] == '$' || text[0] == '/'))
+    text.insert(text.begin(), '\'');
   return text.substr(0, 100);
 }
 

@@ -336,6 +336,11 @@ class BlockConverter {
                    "Istf = 1 on the card first");
       return;
     }
+    // The solver reads Xfreq as a frequency, but for these filters it is a pure coefficient: with
+    // new working units the same number must arrive.
+    if (c_.working_changes && f.name == "Xfreq" &&
+        (d.integer("Ifiltr") == 1 || d.integer("Ifiltr") == 2))
+      return;
     const UnitFactor factor = c_.factors.of(dimension);
     if (factor.one()) return;
     c_.note_dimension(dimension, factor);

@@ -252,6 +252,21 @@ TEST(ToUnits, DefaultThatIsOneUnitIsWrittenOut) {
   EXPECT_EQ(real(*after, "/INTER/TYPE7/1", "Tstop"), 0);
 }
 
+TEST(ToUnits, FilterCoefficientArrivesUnchangedInTheSolver) {
+  for (const int filter : {1, 2, 3}) {
+    const auto w = Whole::text(
+        test::SmallDeck()
+            .add("@/INTER/TYPE7/1 Ifiltr=" + std::to_string(filter) + " Xfreq=0.25 Fric=0.1")
+            .text());
+    const auto value = [](const Whole& deck) { return deck.interfaces.type7.at(0).Xfreq.value; };
+    ASSERT_EQ(value(*w), 0.25);
+    const double scale = filter == 3 ? 1000 : 1;  // 3: a frequency
+    EXPECT_EQ(value(*w->after(convert(*w, "Mg,m,s"))), 0.25 * scale) << filter;
+    const auto kept = w->after(convert(*w, "Mg,m,s", {.partial = false, .keep_working = true}));
+    EXPECT_DOUBLE_EQ(value(*kept), 0.25) << filter;
+  }
+}
+
 TEST(ToUnits, StiffnessByDefaultBlockIsRefused) {
   const auto w = Whole::text(test::SmallDeck()
                                  .add("@/DEFAULT/INTER/TYPE7 Istf=1")
