@@ -269,7 +269,10 @@ Action setup(CLI::App& app) {
       ->required()
       ->check(CLI::IsMember({"move-nodes", "reduce-gap", "inacti", "fpenmax"}))
       ->type_name("STRATEGY");
-  app.add_option("--interface", o.interfaces, "Only these interface ids")->type_name("ID");
+  app.add_option("--interface", o.interfaces, "Only these interface ids")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("ID");
   app.add_flag("--diff", o.diff, "Print the patch (git apply takes it); the report goes to stderr");
   app.add_option("-o,--output", o.directory, "Write the deck with all it includes below DIR")
       ->type_name("DIR");
@@ -280,9 +283,11 @@ Action setup(CLI::App& app) {
   auto* move = app.add_option_group("move-nodes");
   move->add_option("--lock", o.move.lock, "Nodes of these parts stay (also where shared)")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("PART");
   move->add_option("--only", o.move.move, "Only nodes of these parts alone move")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("PART");
   move->add_flag("--lock-rigid-bodies", o.move.lock_rigid_bodies, "Nodes of /RBODY stay");
   move->add_flag("--lock-boundary-conditions", o.move.lock_boundary_conditions,

@@ -1,0 +1,105 @@
+// deck fix from the command line: what it prints, what it writes, exit codes.
+#include <nlohmann/json.hpp>
+
+#include "tools/command_line.hpp"
+
+namespace {
+
+using namespace deck::testing_support;
+
+class FixCommand : public CommandLine {
+ protected:
+  FixCommand() {
+    const fs::path samples = fs::path(DECK_SOURCE_DIR) / "samples";
+    fs::copy(samples / "too_close_0000.rad", dir_);
+    fs::copy(samples / "include_tree_0000.rad", dir_);
+    fs::copy(samples / "include_tree", dir_ / "include_tree", fs::copy_options::recursive);
+    too_close_ = read(dir_ / "too_close_0000.rad");
+  }
+  bool is_clean(const std::string& deck_path) {
+    return deck("gaps " + deck_path + " --fail-on-penetration -q") == 0;
+  }
+  static constexpr const char* move = "--strategy move-nodes --max-moved 100%";
+  std::string too_close_;
+};
+
+TEST_F(FixCommand, OnlyShowsUnlessAskedToWrite) {
+  EXPECT_FALSE(is_clean("too_close_0000.rad"));
+  ASSERT_EQ(deck(std::string("fix --interface 1,2 ") + move + " too_close_0000.rad"), 0) << err();
+  EXPECT_NE(out().find("nothing was written"), std::string::npos);
+  EXPECT_EQ(read(dir_ / "too_close_0000.rad"), too_close_);
+}
+
+TEST_F(FixCommand, PenetrationsThatRemainAreOne) {
+  EXPECT_EQ(deck("fix too_close_0000.rad --strategy move-nodes --max-moved 5%"), 1);
+  EXPECT_NE(out().find("--max-moved"), std::string::npos);
+  EXPECT_EQ(deck("fix too_close_0000.rad --strategy reduce-gap --min-gap 95%"), 1);
+  EXPECT_NE(out().find("--min-gap"), std::string::npos);
+}
+
+TEST_F(FixCommand, WrongUsageIsTwoAndMissingInputThree) {
+  EXPECT_EQ(deck("fix too_close_0000.rad"), 2);
+  EXPECT_EQ(deck("fix too_close_0000.rad --strategy pray"), 2);
+  EXPECT_EQ(deck("fix too_close_0000.rad --strategy move-nodes --max-moved lots"), 2);
+  EXPECT_EQ(deck("fix too_close_0000.rad --strategy move-nodes --lock 99"), 2);
+  EXPECT_NE(err().find("no part 99"), std::string::npos);
+  EXPECT_EQ(deck("fix too_close_0000.rad --strategy inacti --inacti 4"), 2);
+  EXPECT_EQ(deck("fix too_close_0000.rad --strategy inacti --backup"), 2);
+  EXPECT_EQ(deck("fix too_close_0000.rad --strategy inacti --in-place -o out"), 2);
+  EXPECT_EQ(deck("fix nowhere_0000.rad --strategy inacti"), 3);
+}
+
+TEST_F(FixCommand, ThePatchAppliesWithGit) {
+  for (const char* strategy : {move, "--strategy reduce-gap --min-gap 10%"}) {
+    write(dir_ / "too_close_0000.rad", too_close_);
+    ASSERT_EQ(deck(std::string("fix too_close_0000.rad --diff ") + strategy), 0) << err();
+    EXPECT_EQ(read(dir_ / "too_close_0000.rad"), too_close_);
+    const std::string git = "cd '" + dir_.string() + "' && git apply stdout 2> git.err";
+    ASSERT_EQ(std::system(git.c_str()), 0) << read(dir_ / "git.err");
+    EXPECT_TRUE(is_clean("too_close_0000.rad"));
+  }
+}
+
+TEST_F(FixCommand, RewritesInPlaceAndKeepsABackup) {
+  ASSERT_EQ(deck(std::string("fix too_close_0000.rad --in-place --backup ") + move), 0) << err();
+  EXPECT_TRUE(is_clean("too_close_0000.rad"));
+  EXPECT_EQ(read(dir_ / "too_close_0000.rad.orig"), too_close_);
+  const std::string fixed = read(dir_ / "too_close_0000.rad");
+  ASSERT_EQ(deck(std::string("fix too_close_0000.rad --in-place ") + move), 0);
+  EXPECT_EQ(read(dir_ / "too_close_0000.rad"), fixed);
+}
+
+TEST_F(FixCommand, WritesTheWholeTreeBelowADirectory) {
+  EXPECT_FALSE(is_clean("include_tree_0000.rad"));
+  const std::size_t files = count_files(dir_ / "include_tree") + 1;
+  ASSERT_EQ(deck(std::string("fix include_tree_0000.rad -o out ") + move), 0) << err();
+  EXPECT_EQ(count_files(dir_ / "out"), files);
+  EXPECT_TRUE(is_clean("out/include_tree_0000.rad"));
+  EXPECT_FALSE(is_clean("include_tree_0000.rad"));
+  EXPECT_EQ(deck(std::string("fix include_tree_0000.rad -o . ") + move), 2);
+}
+
+TEST_F(FixCommand, JsonListsWhatMovedAndWhatIsLeft) {
+  ASSERT_EQ(deck(std::string("fix too_close_0000.rad --json - ") + move), 0) << err();
+  const auto document = nlohmann::json::parse(out());
+  EXPECT_EQ(document["schema"]["id"], "deck/fix");
+  EXPECT_EQ(document["strategy"], "move-nodes");
+  EXPECT_EQ(document["written"], "no");
+  EXPECT_TRUE(document["complete"]);
+  EXPECT_EQ(document["interfaces"][0]["before"]["pairs"], 16);
+  EXPECT_EQ(document["interfaces"][0]["after"]["pairs"], 0);
+  EXPECT_FALSE(document["moved"].empty());
+  ASSERT_EQ(deck("fix too_close_0000.rad --json f.json -q --strategy inacti"), 0) << err();
+  EXPECT_EQ(out(), "");
+  const auto inacti = nlohmann::json::parse(read(dir_ / "f.json"));
+  EXPECT_EQ(inacti["actions"][0]["before"], "none");
+  EXPECT_EQ(inacti["actions"][0]["after"], "gap-reduced");
+  EXPECT_EQ(inacti["interfaces"][0]["changes"][0]["field"], "Inacti");
+}
+
+TEST_F(FixCommand, HelpTeachesWhichStrategyToTake) {
+  ASSERT_EQ(deck("fix --help"), 0);
+  EXPECT_NE(out().find("Which strategy?"), std::string::npos);
+}
+
+}  // namespace
