@@ -269,8 +269,14 @@ class FileWriter {
         change_ids(card, old, array_of(f.value(), place), 0, place, maker);
         continue;
       }
-      for (const Cell& cell : old.cells)
-        if (cell.field->name == f.key()) change(cell, f.value(), place, maker);
+      for (const Cell& cell : old.cells) {
+        if (cell.field->name != f.key()) continue;
+        // The other blocks of the document have the columns of the old version.
+        if (text != nullptr && block.schema->keyword == "/BEGIN" && cell.field->name == "Invers" &&
+            !same(cell, f.value(), place))
+          fail(place, "the version is not changed here; convert the deck with --version");
+        change(cell, f.value(), place, maker);
+      }
     }
     return maker.finish();
   }

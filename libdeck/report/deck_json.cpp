@@ -23,7 +23,7 @@ std::vector<std::string> places(const Deck& deck) {
   std::vector<fs::path> place(deck.sources.size());
   std::vector<bool> known(deck.sources.size(), false);
   const fs::path main(deck.sources[0].path());
-  place[0] = main.filename();
+  place[0] = main == "-" ? fs::path("deck_0000.rad") : main.filename();
   known[0] = true;
   for (const IncludeEdge& e : deck.includes) {
     const fs::path written(e.written);

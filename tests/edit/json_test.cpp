@@ -1,9 +1,12 @@
 // Deck -> JSON -> deck gives the same bytes; a value changed in the JSON lands in its columns.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <sstream>
+#include <tuple>
 
 #include "deck/edit/from_json.hpp"
 #include "deck/report/deck_json.hpp"
@@ -272,6 +275,66 @@ TEST(DeckFromJson, ValuesThatDoNotFitAreErrorsWithTheirPlace) {
   EXPECT_THAT(with("Gapmin", -0.12345678901234567e-200), HasSubstr("without rounding"));
   EXPECT_THAT(with("Gapmin", Json::array()), HasSubstr("expected a number"));
   EXPECT_THAT(with("IBCX", 12), HasSubstr("does not fit"));
+}
+
+TEST(DeckFromJson, VersionIsNotChangedBesideTheColumns) {
+  Json doc = Json::parse(json_of(small));
+  line_with(doc, "Invers")["fields"]["Invers"] = 2018;
+  EXPECT_THAT(error_of(doc.dump()), HasSubstr("--version"));
+}
+
+TEST(DeckFromJson, RandomEditsOfOneValueTouchTheirColumnsAndReadBack) {
+  std::mt19937 random(3);
+  int edits = 0;
+  for (const std::string& path : sample_decks()) {
+    const Opened before(path);
+    const Json original = Json::parse(to_json(before));
+    // Every real value of a card as (item, line, field).
+    std::vector<std::tuple<std::size_t, std::size_t, std::string>> places;
+    const Json& items = original["files"][0]["items"];
+    for (std::size_t i = 0; i < items.size(); ++i)
+      if (items[i].contains("lines"))
+        for (std::size_t l = 0; l < items[i]["lines"].size(); ++l) {
+          const Json& line = items[i]["lines"][l];
+          if (!line.is_object() || !line.contains("fields")) continue;
+          for (const auto& f : line["fields"].items())
+            if (f.value().is_number_float()) places.emplace_back(i, l, f.key());
+        }
+    for (int round = 0; round < 12 && !places.empty(); ++round) {
+      const auto [i, l, field] = places[random() % places.size()];
+      Json doc = original;
+      const double value =
+          std::ldexp(1.0 + static_cast<double>(random() % 1000), -static_cast<int>(random() % 8));
+      Json& line = doc["files"][0]["items"][i]["lines"][l];
+      line["fields"][field] = value;
+      const auto files = from_json(doc.dump());
+      ASSERT_FALSE(files.empty());
+      const std::string old_text = bytes_of(before);
+      const std::string& new_text = files[0].text;
+      // The same number of lines, and only one differs, inside the cell.
+      std::istringstream a(old_text), b(new_text);
+      std::string la, lb;
+      int differing = 0;
+      while (std::getline(a, la) && std::getline(b, lb)) {
+        if (la == lb) continue;
+        ++differing;
+        const auto first = line["columns"][field][0].get<std::size_t>() - 1;
+        const auto last = line["columns"][field][1].get<std::size_t>();
+        lb.resize(std::max(la.size(), lb.size()), ' ');
+        la.resize(lb.size(), ' ');
+        EXPECT_EQ(la.substr(0, first), lb.substr(0, first)) << path << " " << field;
+        EXPECT_EQ(la.substr(std::min(last, la.size())), lb.substr(std::min(last, lb.size())));
+      }
+      EXPECT_LE(differing, 1);
+      EXPECT_EQ(std::count(old_text.begin(), old_text.end(), '\n'),
+                std::count(new_text.begin(), new_text.end(), '\n'));
+      Files overlay{{path, new_text}};
+      const Json again = Json::parse(to_json(Opened(path, overlay)));
+      EXPECT_EQ(again["files"][0]["items"][i]["lines"][l]["fields"][field], value) << path;
+      ++edits;
+    }
+  }
+  EXPECT_GT(edits, 100);
 }
 
 TEST(DeckFromJson, BrokenDocumentsAreErrorsWithAPosition) {

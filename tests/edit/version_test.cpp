@@ -203,6 +203,33 @@ TEST(ToVersion, ZeroAndTheDefaultAxisGoWithoutLoss) {
   EXPECT_TRUE(losses_of(r, Loss::dropped).empty());
 }
 
+TEST(ToVersion, SubmodelsWithTheirOwnVersionAreConvertedFromIt) {
+  const std::string inner =
+      "/BEGIN\nsub\n       110         0\n"
+      "                  kg                  mm                  ms\n"
+      "                  kg                  mm                  ms\n" +
+      card("/INTER/TYPE11", 2, 110, {{"line_IDs", "1"}, {"Fric", "0.25"}});
+  const std::string text = deck_of_version(
+      2020, card("/INTER/TYPE11", 1, 2020, {{"line_IDs", "1"}, {"Irem_gap", "2"}}) +
+                "//SUBMODEL/1\n\n       100\n" + inner + "//ENDSUB\n" +
+                card("/INTER/TYPE11", 3, 2020, {{"line_IDs", "1"}, {"Irem_gap", "2"}}));
+  const auto before = open_text(text);
+  ASSERT_EQ(before->interfaces.type11.at(1).block->version, 110);
+  const auto then = applied(*before, to_version(before->context(), 2024));
+  EXPECT_EQ(difference(effective_values(*before), effective_values(*then)), "");
+  for (const Block& b : then->deck.blocks) EXPECT_EQ(b.version, 2024) << b.header;
+  EXPECT_TRUE(decode(then->deck, *then->interfaces.type11.at(1).block).extra.empty());
+}
+
+TEST(ToVersion, NumberWithoutVersionIsReadAsTheNewest) {
+  const std::string text =
+      deck_of_version(2612, card("/INTER/TYPE11", 1, 2026, {{"line_IDs", "1"}}));
+  const auto before = open_text(text);
+  const Rewrite r = to_version(before->context(), 2026);
+  EXPECT_TRUE(r.refusals.empty());
+  EXPECT_EQ(applied(*before, r)->deck.begin.version_written, 2026);
+}
+
 TEST(ToVersion, SmoothingSurfacesCannotGoDown) {
   const std::string text =
       deck_of_version(2026, card("/INTER/TYPE7", 1, 2026, {{"surf_IDm", "1"}, {"Ists", "1"}}));
