@@ -65,7 +65,7 @@ double scaled_error(const PairSample& s, double got, double want, bool force, do
   if (got == want) return 0.0;
   const double size = force ? std::max(size_of(s), s.gap) : size_of(s);
   if (!std::isfinite(got) || !(size > 0.0)) return kInfinity;
-  const double slope = force ? accuracy::force_slope(distance, s.gap) / s.gap : 1.0;
+  const double slope = force ? accuracy::force_slope(distance, s.gap) : 1.0;
   return std::abs(got / slope - want / slope) / size;
 }
 

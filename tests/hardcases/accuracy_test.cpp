@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "deck/contact/filtered.hpp"
 #include "deck/report/accuracy.hpp"
 
 namespace deck {
@@ -21,9 +22,15 @@ AccuracyReport small_report() {
   return measure_accuracy(samples, options);
 }
 
-const TierResult& tier(const AccuracyReport& report, const std::string& name) {
-  return *std::find_if(report.tiers.begin(), report.tiers.end(),
-                       [&](const TierResult& t) { return t.name == name && t.what == "distance"; });
+const TierResult& tier(const AccuracyReport& report, const std::string& name,
+                       const std::string& what = "distance") {
+  const auto found =
+      std::find_if(report.tiers.begin(), report.tiers.end(),
+                   [&](const TierResult& t) { return t.name == name && t.what == what; });
+  if (found != report.tiers.end()) return *found;
+  ADD_FAILURE() << "no tier " << name << ", " << what;
+  static const TierResult none;
+  return none;
 }
 
 TEST(Accuracy, TiersRankAsTheirArithmetic) {
@@ -36,6 +43,83 @@ TEST(Accuracy, TiersRankAsTheirArithmetic) {
   EXPECT_EQ(tier(r, "robust").decision_errors, 0u);
   EXPECT_EQ(tier(r, "robust").max_ulp, 0.0);
   EXPECT_EQ(tier(r, "robust").non_finite, 0u);
+}
+
+TEST(Accuracy, CertifiedTiersDecideAllAlike) {
+  const AccuracyReport r = small_report();
+  for (const char* name : {"robust", "interval", "epeck", "exact"}) {
+    EXPECT_EQ(tier(r, name).decision_errors, 0u) << name;
+    EXPECT_EQ(tier(r, name).non_finite, 0u) << name;
+  }
+  EXPECT_EQ(tier(r, "epeck").max_ulp, 0.0);
+  EXPECT_EQ(tier(r, "robust", "gaps").decision_errors, 0u);
+  EXPECT_GT(tier(r, "reference", "gaps").decision_errors, 0u);
+}
+
+TEST(Accuracy, RobustForceKeepsTwelveDigits) {
+  const AccuracyReport r = small_report();
+  EXPECT_EQ(tier(r, "robust", "force").decision_errors, 0u);
+  EXPECT_LT(tier(r, "robust", "force").max_relative_error, 4e-12);
+  EXPECT_GT(tier(r, "double", "force").max_relative_error, 1e-6);
+  // The law alone, without hard geometry: the kernel of the cycle stage has nearly all digits.
+  std::vector<PairSample> easy;
+  for (int k = 1; k < 9; ++k) {
+    PairSample s;
+    s.x = {Point3<double>{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.3, 0.4, 0.1 * k}};
+    s.gap = 1.0;
+    easy.push_back(s);
+  }
+  const AccuracyReport plain = measure_accuracy(easy, {});
+  EXPECT_EQ(plain.scene, "deck");
+  EXPECT_EQ(tier(plain, "kernel", "force").decision_errors, 0u);
+  EXPECT_LT(tier(plain, "kernel", "force").max_relative_error, 1e-14);
+  EXPECT_LT(tier(plain, "exact", "force").ns_per_pair, 1e9);
+}
+
+TEST(Accuracy, FamiliesGiveAnExampleOfTheirWrongDecisions) {
+  const AccuracyReport r = small_report();
+  int shown = 0;
+  for (const FamilyResult& f : r.families) {
+    if (f.decision_errors == 0) continue;
+    ASSERT_TRUE(f.has_example);
+    const PairSample& s = f.example;
+    const bool closer = s.edges ? is_closer_than(s.x[0], s.x[1], s.x[2], s.x[3], s.gap)
+                                : is_closer_than(s.x[4], s.corners(), s.triangle, s.gap);
+    EXPECT_NE(f.got < s.gap, closer);
+    EXPECT_EQ(f.example.family, f.id);
+    ++shown;
+  }
+  EXPECT_GT(shown, 0);
+  EXPECT_NE(accuracy_examples(r).find("0x"), std::string::npos);
+  EXPECT_EQ(accuracy_examples({}), "");
+}
+
+TEST(Accuracy, WholeDecksAreHeldAgainstTheExactOnes) {
+  AccuracyReport report;
+  report.tiers.push_back({"robust", "gaps"});
+  const auto scene = [](Accuracy accuracy) {
+    Scene s;
+    s.decisions.pairs = 4;
+    s.decisions.fallback = accuracy == Accuracy::exact ? 4 : 1;
+    s.contacts.resize(1);
+    PenetrationRow row;
+    row.distance = accuracy == Accuracy::reference ? 1.5 : 1.0;
+    s.contacts[0].penetrations.push_back(row);
+    if (accuracy != Accuracy::fast) {
+      row.secondary = 1;
+      row.in_contact = accuracy != Accuracy::robust;
+      s.contacts[0].penetrations.push_back(row);
+    }
+    return s;
+  };
+  measure_gaps(scene, 3, report);
+  ASSERT_EQ(report.tiers.size(), 4u);
+  EXPECT_EQ(tier(report, "exact", "gaps").decision_errors, 0u);
+  EXPECT_EQ(tier(report, "robust", "gaps").decision_errors, 1u);
+  EXPECT_EQ(tier(report, "fast", "gaps").decision_errors, 1u);
+  EXPECT_EQ(tier(report, "reference", "gaps").decision_errors, 0u);
+  EXPECT_EQ(tier(report, "reference", "gaps").max_relative_error, 0.5);
+  EXPECT_EQ(tier(report, "robust", "gaps").fallback_share, 0.25);
 }
 
 TEST(Accuracy, FamiliesHaveOneRowPerTier) {

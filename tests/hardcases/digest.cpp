@@ -1,0 +1,160 @@
+// Digests of what the geometry and force kernels answer, one line per kind: the same lines from
+// every compiler, optimisation level and instruction set. Built and compared by
+// tests/robustness/builds.py; prints nothing that depends on time or place.
+#include <bit>
+#include <cinttypes>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "contact/accuracy_tiers.hpp"
+#include "contact/dd.hpp"
+#include "contact/search_sweep.hpp"
+#include "deck/contact/search.hpp"
+#include "deck/cycle/kernel.hpp"
+
+namespace deck {
+namespace {
+
+// FNV-1a over the bits; NaNs have many bit patterns and count as one.
+class Digest {
+ public:
+  void add(std::uint64_t v) {
+    for (int k = 0; k < 8; ++k) state_ = (state_ ^ ((v >> (8 * k)) & 0xFF)) * 0x100000001B3u;
+  }
+  void add(double v) { add(v == v ? std::bit_cast<std::uint64_t>(v) : 0x7FF8000000000000u); }
+  void add(float v) { add(static_cast<double>(v)); }
+  void add(const DoubleDouble& v) {
+    add(v.hi());
+    add(v.lo() == 0.0 ? 0.0 : v.lo());
+  }
+  void print(const char* name) const { std::printf("%-28s %016" PRIx64 "\n", name, state_); }
+
+ private:
+  std::uint64_t state_ = 0xCBF29CE484222325u;
+};
+
+template <class T, Form F>
+void formulas(std::span<const PairSample> samples, const char* name) {
+  Digest d;
+  for (const PairSample& s : samples) {
+    std::array<Point3<T>, 5> x;
+    for (std::size_t k = 0; k < 5; ++k) x[k] = {T(s.x[k].x), T(s.x[k].y), T(s.x[k].z)};
+    if (s.edges) {
+      const auto c = closest_between_edges<F>(x[0], x[1], x[2], x[3]);
+      d.add(c.distance);
+      d.add(c.weight_s);
+      d.add(c.weight_m);
+    } else {
+      const auto c = closest_on_segment<F>(x[4], {x[0], x[1], x[2], x[3]}, s.triangle);
+      d.add(c.distance());
+      d.add(static_cast<std::uint64_t>(8 * static_cast<int>(c.feature) + c.feature_index));
+      for (const T& w : c.weights) d.add(w);
+    }
+  }
+  d.print(name);
+}
+
+void filtered(std::span<const PairSample> samples) {
+  Digest decisions, distances, depths, counts;
+  FilterCounters counters;
+  for (const PairSample& s : samples) {
+    const auto& x = s.x;
+    decisions.add(static_cast<std::uint64_t>(accuracy::decide(s, counters)));
+    const FilteredDepth depth =
+        s.edges ? filtered_depth(x[0], x[1], x[2], x[3], s.gap, &counters)
+                : filtered_depth(x[4], s.corners(), s.triangle, s.gap, &counters);
+    depths.add(depth.depth);
+    depths.add(depth.distance);
+    distances.add(s.edges ? filtered_closest_between_edges(x[0], x[1], x[2], x[3]).distance
+                          : filtered_closest_on_segment(x[4], s.corners(), s.triangle).distance);
+  }
+  counts.add(counters.double_double);
+  counts.add(counters.exact);
+  decisions.print("robust decisions");
+  distances.print("robust distances");
+  depths.print("robust depths");
+  counts.print("robust fallbacks");
+}
+
+// Two wavy sheets; every node against all segments, every edge against all edges.
+struct Sheets {
+  std::vector<double> x, y, z;
+  std::vector<std::uint32_t> nodes;
+  std::vector<std::array<std::uint32_t, 4>> segments;
+  std::vector<std::array<std::uint32_t, 2>> edges;
+
+  Sheets() {
+    constexpr std::uint32_t n = 40;
+    for (std::uint32_t level = 0; level < 2; ++level) {
+      const auto first = static_cast<std::uint32_t>(x.size());
+      for (std::uint32_t i = 0; i < n * n; ++i) {
+        const auto u = static_cast<double>(i % n), v = static_cast<double>(i / n);
+        x.push_back(u);
+        y.push_back(v);
+        z.push_back(0.45 * static_cast<double>(level) + 0.01 * static_cast<double>(i * 37 % 11));
+        nodes.push_back(first + i);
+        if (i % n + 1 < n) edges.push_back({first + i, first + i + 1});
+        if (i % n + 1 < n && i / n + 1 < n)
+          segments.push_back({first + i, first + i + 1, first + i + n + 1, first + i + n});
+      }
+    }
+  }
+};
+
+void search(const Sheets& sheets) {
+  for (const int threads : {1, 2}) {
+    Digest d;
+    for (const Form form : {Form::reference, Form::robust}) {
+      SearchOptions o;
+      o.gap = PairGap::constant(0.5);
+      o.threads = threads;
+      o.form = form;
+      NodeSegmentInput ns;
+      ns.nodes = {sheets.x, sheets.y, sheets.z};
+      ns.secondary = sheets.nodes;
+      ns.segments = sheets.segments;
+      EdgeEdgeInput ee;
+      ee.nodes = ns.nodes;
+      ee.secondary = ee.main = sheets.edges;
+      for (const SearchResult& r : {find_node_segment_pairs(ns, o), find_edge_edge_pairs(ee, o)})
+        for (const CandidatePair& p : r.pairs)
+          d.add(std::uint64_t{p.secondary} << 32 | std::uint64_t{p.main});
+    }
+    // The same digest for both numbers of threads: the name is the same too.
+    d.print("pair search");
+  }
+}
+
+void kernel(std::span<const PairSample> samples) {
+  Digest d;
+  for (const accuracy::Outcome& o : accuracy::run_kernel(samples, 1).outcomes) d.add(o.value);
+  d.print("force kernel");
+}
+
+int run(std::size_t per_family) {
+  std::vector<PairSample> samples;
+  Digest inputs;
+  for (const HardFamily& f : hard_families())
+    for (const PairSample& s : hard_cases(f.id, per_family)) {
+      samples.push_back(s);
+      for (const auto& p : s.x) inputs.add(p.x), inputs.add(p.y), inputs.add(p.z);
+      inputs.add(s.gap);
+    }
+  inputs.print("samples");
+  formulas<float, Form::robust>(samples, "float");
+  formulas<double, Form::robust>(samples, "double robust form");
+  formulas<double, Form::reference>(samples, "double reference form");
+  formulas<DoubleDouble, Form::robust>(samples, "double-double");
+  filtered(samples);
+  search(Sheets());
+  kernel(samples);
+  return 0;
+}
+
+}  // namespace
+}  // namespace deck
+
+int main(int count, char** words) {
+  return deck::run(count > 1 ? std::strtoull(words[1], nullptr, 10) : 1000);
+}
