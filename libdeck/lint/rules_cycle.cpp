@@ -26,6 +26,15 @@ std::string name_of(const InterfaceSummary& s) {
   return fmt::format("/INTER/TYPE{} {}", s.inter->type, s.id);
 }
 
+/// Whether some pair is deeper than roundings: a millionth of its gap.
+bool counts(const cycle::SceneOutcome& outcome, const InterfaceSummary& s) {
+  return std::any_of(outcome.contacts.begin(), outcome.contacts.end(),
+                     [&](const cycle::ContactOutcome& c) {
+                       return c.contact->inter == s.inter && c.largest_force > 0.0 &&
+                              c.largest.penetration > 1e-6 * c.largest.gap;
+                     });
+}
+
 void report_force(const GeometryRun& run, const Contact& contact, const InterfaceSummary& s) {
   if (s.pairs_with_force == 0) return;
   std::string message = fmt::format(
@@ -115,7 +124,7 @@ void check_cycle(const GeometryRun& run) {
     const Contact* contact = contact_of(outcome, s);
     if (contact == nullptr) continue;
     if (s.inter->type != 10) {
-      report_force(run, *contact, s);
+      if (counts(outcome, s)) report_force(run, *contact, s);
       report_singular(run, *contact, s, outcome);
     }
     report_step(run, *contact, s);

@@ -13,7 +13,8 @@ void add_cycle_rules(std::vector<Rule>& out) {
        .problem = "A contact pushes before anything has moved.",
        .why = "Initial penetrations that the options leave in place act as loaded springs: force "
               "k g p / (g - p) for penetration p of gap g. Light nodes are thrown away, and the "
-              "energy is none the model should have. `deck cycle` lists the pairs.",
+              "energy is none the model should have. Penetrations below a millionth of the gap do "
+              "not count. `deck cycle` lists the pairs.",
        .solver = "it applies the force in the first cycle",
        .fix = "move the parts apart, reduce the gap, or let Inacti 5 or 6 take the penetration off "
               "the gap",

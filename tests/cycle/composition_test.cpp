@@ -61,6 +61,7 @@ std::vector<Case> rare_cases() {
   add("temperature", [](ContactCard& c) {
     c.ithe = 1, c.ithe_form = 1, c.kthe = 10, c.fct_idf = Curve{{300, 500}, {0.8, 1.4}};
   });
+  add("fixed stiffness", [](ContactCard& c) { c.istf = 1, c.stfac = 2e5; });
   add("part pairs", [](ContactCard& c) { c.fric_id = true; });
   for (const int iform : {1, 2}) {
     add("orthotropic", [&](ContactCard& c) {
@@ -141,8 +142,8 @@ TEST(Composition, FixedAndRunTimeFlagsGiveTheSameBits) {
 TEST(Composition, RareEffectsUseTheGenericKernelOrAStageOfTheirOwn) {
   for (const Case& c : rare_cases()) {
     const KernelPlan plan = make_plan(c.card);
-    const bool in_loop = c.card.ifric != 0 || c.card.fric_id || c.card.fct_idf ||
-                         (c.card.ifiltr != 0 && c.card.iform == 1);
+    const bool in_loop = c.card.ifric != 0 || c.card.istf == 1 || c.card.fric_id ||
+                         c.card.fct_idf || (c.card.ifiltr != 0 && c.card.iform == 1);
     EXPECT_EQ(plan.composed, !in_loop) << c.name;
   }
 }

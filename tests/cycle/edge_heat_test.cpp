@@ -242,6 +242,26 @@ TEST(EdgeHeat, OfADeckTakesSectionsAndConductivityFromTheElements) {
   EXPECT_NEAR(sum, 0.0, 1e-16);
 }
 
+TEST(HeatExchange, NodesOfADeckTakeTheConductivityOfTheirShells) {
+  deck::test::SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(11, 1, 5, 0.6).node(12, 5, 1, 0.6).node(13, 9, 5, 0.6).node(14, 5, 9, 0.6);
+  d.shell_part(1, 1.0).shell_part(2, 1.0);
+  d.shell(1, 1, 1, 2, 3, 4).shell(2, 2, 11, 12, 13, 14);
+  d.add(
+      "/HEAT/MAT/1\n               300.0                 1.0                 2.0"
+      "                0.01");
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/2", {1});
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 Ithe=1 Kthe=0.5 Tint=500");
+  const deck::test::Built b(d);
+  CycleOptions options;
+  options.dt1 = options.dt12 = 1e-3;
+  const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), options);
+  // 32 of area, conductivity 2 + 0.01 T = 5 over the distance of 0.6.
+  EXPECT_NEAR(r.contacts.at(0).heat_secondary, 32 * 200 * 1e-3 / (0.6 / 5 + 1 / 0.5), 1e-12);
+  EXPECT_EQ(r.contacts[0].heat_main, 0.0);
+}
+
 TEST(EdgeHeat, OfADeckRadiatesBeyondTheGap) {
   deck::test::SmallDeck d = trusses("Ithe_form=1 Frad=1e-10 Drad=4");
   d.node(5, 0, 0, -2).node(6, 10, 0, -2);

@@ -93,6 +93,18 @@ TEST(CycleRules, NearPairIsNamed) {
       << d->message;
 }
 
+TEST(CycleRules, RoundingsAreNoForce) {
+  const auto fires = [&](std::string z) {
+    z.insert(0, 20 - z.size(), ' ');
+    return lint_cycle("/NODE\n        21                 5.0                 5.0" + z +
+                      "\n/GRNOD/NODE/3\nover\n        21\n"
+                      "@/INTER/TYPE7/1 grnd_IDs=3 Gapmin=1\n")
+        .fires("DK401");
+  };
+  EXPECT_FALSE(fires("0.99999999"));
+  EXPECT_TRUE(fires("0.999"));
+}
+
 TEST(CycleRules, FindingsDoNotDependOnThreads) {
   EXPECT_EQ(lint_cycle("@/INTER/TYPE7/1 Gapmin=4\n", 1).list(),
             lint_cycle("@/INTER/TYPE7/1 Gapmin=4\n", 3).list());
