@@ -9,6 +9,7 @@
 #include <set>
 
 #include "contact/exact.hpp"
+#include "contact/exact_rational.hpp"
 #include "deck/contact/accuracy.hpp"
 #include "deck/contact/filtered.hpp"
 
@@ -75,6 +76,27 @@ TEST_P(HardCases, RobustDecidesAsExactArithmeticAndRoundsOnce) {
   }
   EXPECT_EQ(wrong, 0u);
   EXPECT_EQ(inexact, 0u);
+}
+
+TEST_P(HardCases, DepthsAreCertifiedAndTouchesAreExact) {
+  for (const PairSample& s : hard_cases(GetParam(), 400, 11)) {
+    const auto& x = s.x;
+    const mpq_class squared = s.edges ? exact_distance_squared(x[0], x[1], x[2], x[3])
+                                      : exact_distance_squared(x[4], s.corners(), s.triangle);
+    const FilteredDepth depth = s.edges ? filtered_depth(x[0], x[1], x[2], x[3], s.gap)
+                                        : filtered_depth(x[4], s.corners(), s.triangle, s.gap);
+    const double want = rounded_depth(s.gap, squared);
+    ASSERT_EQ(depth.depth > 0.0, want > 0.0) << place(s);
+    // Subnormal depths have the digits that are left.
+    if (std::isnormal(want)) {
+      ASSERT_NEAR(depth.depth, want, 2e-12 * want) << place(s);
+      const double distance = rounded_square_root(squared);
+      ASSERT_NEAR(depth.distance, distance, 2e-12 * distance) << place(s);
+    }
+    const bool touching =
+        s.edges ? is_touching(x[0], x[1], x[2], x[3]) : is_touching(x[4], s.corners(), s.triangle);
+    ASSERT_EQ(touching, sgn(squared) == 0) << place(s);
+  }
 }
 
 // The same pair written down in another way.
