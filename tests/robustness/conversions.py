@@ -96,6 +96,10 @@ def conversions(deck, tmp):
         again = deck.convert(resolved, "--resolve-defaults")
         deck.c.check("%s: --resolve-defaults twice changes nothing" % deck.stem,
                      again is not None and open(again, "rb").read() == open(resolved, "rb").read())
+    apart = deck.convert(deck.path, "--expand-type19")
+    if apart:
+        deck.c.check("%s: --expand-type19: as many penetrations" % deck.stem,
+                     penetrations(deck.view("gaps", deck.path, "--all")) == penetrations(deck.view("gaps", apart, "--all")))
     original = deck.c.run("params", deck.path, "--json", "-", "--quiet")
     version = json.loads(original.out)["deck"]["version"] if original.code in (0, 1) else None
     for to in VERSIONS if deck.size < SLOW else VERSIONS[-1:]:
@@ -107,6 +111,19 @@ def conversions(deck, tmp):
                 geometry(deck, "--version %d and back" % to, back)
     units(deck)
     extraction(deck)
+
+
+def penetrations(document):
+    """Every penetration of a deck with its depth and gap, whichever interface it belongs to."""
+    if isinstance(document, str):
+        return document
+    found = []
+    for interface in document["interfaces"]:
+        for contact in interface["contacts"]:
+            for p in contact["penetrations"]:
+                found.append(json.dumps([p.get("node"), p.get("segment"), p.get("edge"), p.get("main_edge"),
+                                         p["penetration"], p["gap"], p["action"]]))
+    return sorted(found)
 
 
 def units(deck):

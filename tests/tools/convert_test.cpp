@@ -154,6 +154,23 @@ TEST_F(ConvertTwoFiles, BrokenJsonIsUnreadableInput) {
   EXPECT_FALSE(fs::exists(dir_ / "back"));
 }
 
+TEST_F(Convert, LsDynaContactsBecomeAnIncludeFile) {
+  const std::string dyna =
+      "*KEYWORD\n*CONTACT_AUTOMATIC_NODES_TO_SURFACE_ID\n         3nodes on surface\n"
+      "         1         2         4         0\n"
+      "       0.2       0.1\n"
+      "       1.0       1.0\n*END\n";
+  write(dir_ / "car.k", dyna);
+  ASSERT_EQ(deck("convert car.k --from lsdyna -o contacts --report losses.json"), 0) << err();
+  const std::string text = read(dir_ / "contacts/car_contacts.inc");
+  EXPECT_NE(text.find("/INTER/TYPE7/3"), std::string::npos) << text;
+  EXPECT_NE(text.find("nodes on surface"), std::string::npos);
+  ASSERT_EQ(deck("convert car.k --from lsdyna --target 10"), 0) << err();
+  EXPECT_NE(out().find("/INTER/TYPE10/3"), std::string::npos) << out();
+  write(dir_ / "none.k", "*KEYWORD\n*NODE\n*END\n");
+  EXPECT_EQ(deck("convert none.k --from lsdyna -o contacts"), 1);
+}
+
 TEST_F(ConvertTwoFiles, ExtractionRefusesAnIdThatIsNoInterface) {
   EXPECT_EQ(deck("convert m_0000.rad --extract-contacts 77 -o x"), 1);
   EXPECT_NE(err().find("77"), std::string::npos);

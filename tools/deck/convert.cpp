@@ -278,12 +278,16 @@ int check(const Options& options) {
       (options.directory.empty() ? 0 : 1) + (options.in_place ? 1 : 0) + (options.diff ? 1 : 0);
   if (places > 1) return refuse("-o, --in-place and --diff exclude one another");
   const bool only_standard_input = options.common.decks == std::vector<std::string>{"-"};
-  if (places == 0 && options.to == "rad" && !only_standard_input)
+  if (places == 0 && options.to == "rad" && options.from != "lsdyna" && !only_standard_input)
     return refuse("say where to write: -o DIR, --in-place, or --diff to look at it first");
   if (options.to == "json" && (options.in_place || options.diff))
     return refuse("--to json writes a new file: use -o, or standard output");
   if (options.from != "rad" && (options.in_place || options.diff))
     return refuse("--from " + options.from + " needs -o DIR");
+  if (options.from == "lsdyna" && options.to == "json")
+    return refuse("--from lsdyna makes an include file of contacts, not a deck; it has no JSON");
+  if (options.steps.target != 0 && options.from != "lsdyna")
+    return refuse("--target goes with --from lsdyna");
   if (options.backup && !options.in_place) return refuse("--backup goes with --in-place");
   return exit_clean;
 }
@@ -303,6 +307,11 @@ int run(const Options& options) {
   Run work{options, std::move(*steps), {}, {}};
   int worst = exit_clean;
   for (const std::string& path : options.common.decks) {
+    if (options.from == "lsdyna") {
+      worst = std::max(worst, convert_lsdyna(path, options.steps, options.directory, options.common,
+                                             *schemas, work.losses));
+      continue;
+    }
     auto input = open_input(path, options, *schemas, !work.steps.empty() || options.to == "json");
     if (!input) {
       print_error(options.common, input.error().message);
@@ -328,8 +337,10 @@ Action setup(CLI::App& app) {
                  "Format to write: rad (Starter deck), json (typed fields with effective values)")
       ->check(CLI::IsMember({"rad", "json"}))
       ->type_name("FORMAT");
-  app.add_option("--from", options->from, "Format to read: rad, json (as written by --to json)")
-      ->check(CLI::IsMember({"rad", "json"}))
+  app.add_option("--from", options->from,
+                 "Format to read: rad, json (as written by --to json), lsdyna (contact keywords "
+                 "only)")
+      ->check(CLI::IsMember({"rad", "json", "lsdyna"}))
       ->type_name("FORMAT");
   app.add_option("-o,--output", options->directory,
                  "Directory to write to; made if missing. The include tree keeps its relative "
@@ -359,6 +370,7 @@ const VerbRegistration registration{
      "  deck convert car_0000.rad --extract-contacts 7 -o bug  one interface and what it needs\n"
      "  deck convert car_0000.rad --to json -o car.json\n"
      "  deck convert car.json --from json -o back\n"
+     "  deck convert car.k --from lsdyna -o contacts           car_contacts.inc\n"
      "\n"
      "Conversions are done in the order of their options above, whatever their order on the\n"
      "command line. A conversion that would lose a value is refused with the place of the value\n"

@@ -1,14 +1,20 @@
 #include "convert_steps.hpp"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
+
+#include <filesystem>
 
 #include "deck/edit/extract.hpp"
 #include "deck/edit/flatten.hpp"
 #include "deck/edit/from_json.hpp"
+#include "deck/edit/lsdyna.hpp"
 #include "deck/edit/renumber.hpp"
 #include "deck/edit/resolve.hpp"
+#include "deck/edit/type19.hpp"
 #include "deck/edit/unit_system.hpp"
 #include "deck/edit/version.hpp"
+#include "deck/edit/write.hpp"
 
 namespace deck::cli {
 
@@ -22,6 +28,9 @@ void add_step_options(CLI::App& app, ConvertSteps& steps) {
       ->take_all()
       ->type_name("ID[,ID...]");
   app.add_flag("--flatten", steps.flatten, "One file: every #include replaced by what it holds")
+      ->group(group);
+  app.add_flag("--expand-type19", steps.expand_type19,
+               "Every TYPE19 as the TYPE7 and TYPE11 that the solver makes of it")
       ->group(group);
   app.add_flag("--resolve-defaults", steps.resolve_defaults,
                "Write effective values onto the contact cards: no longer any need of "
@@ -43,6 +52,11 @@ void add_step_options(CLI::App& app, ConvertSteps& steps) {
   app.add_flag("--keep-working-units", steps.keep_working,
                "With --units: change the input units only; the solver computes as before")
       ->group(group);
+  app.add_option("--target", steps.target,
+                 "With --from lsdyna: interface type of every contact; 0: by its keyword")
+      ->check(CLI::IsMember({0, 7, 10, 11, 19}))
+      ->group(group)
+      ->type_name("TYPE");
   app.add_option("--renumber", steps.renumber,
                  "New ids: KIND+N and KIND-N shift them, KIND=N counts from N on; KIND is node, "
                  "part, element, surf, all ... (repeatable)")
@@ -65,6 +79,8 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
                    ""});
   if (steps.flatten)
     all.push_back({"--flatten", [](const EditContext& c) { return flatten(c); }, ""});
+  if (steps.expand_type19)
+    all.push_back({"--expand-type19", [](const EditContext& c) { return expand_type19(c); }, ""});
   if (steps.resolve_defaults)
     all.push_back(
         {"--resolve-defaults", [](const EditContext& c) { return resolve_defaults(c); }, ""});
@@ -115,6 +131,41 @@ Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schema
     result.contents[f.path] = std::move(f.text);
   }
   return result;
+}
+
+int convert_lsdyna(const std::string& path, const ConvertSteps& steps, const std::string& directory,
+                   const CommonOptions& common, const SchemaSet& schemas,
+                   std::vector<LossEntry>& losses) {
+  const auto source = Source::open(path, Limits{});
+  if (!source) {
+    print_error(common, source.error().message);
+    return exit_input;
+  }
+  LsDynaOptions options;
+  options.target = steps.target;
+  if (steps.version != 0) options.version = steps.version;
+  Rewrite made = contacts_from_lsdyna(path, (*source)->bytes(), schemas, options);
+  for (LossEntry& e : made.losses) losses.push_back(std::move(e));
+  if (!made.refusals.empty()) {
+    for (const std::string& refusal : made.refusals) print_error(common, refusal);
+    return exit_findings;
+  }
+  if (!common.quiet)
+    for (const std::string& note : made.notes) fmt::print(stderr, "deck: note: {}\n", note);
+  const std::string text = made.new_text.value_or("");
+  if (directory.empty()) {
+    print_text(text);
+    return exit_clean;
+  }
+  namespace fs = std::filesystem;
+  const std::string stem = path == "-" ? "stdin" : fs::path(path).stem().string();
+  const std::string target = (fs::path(directory) / (stem + "_contacts.inc")).string();
+  if (auto done = write_files_atomic({{target, text}}); !done) {
+    print_error(common, done.error().message);
+    return exit_usage;
+  }
+  if (!common.quiet) print_text(target + "\n");
+  return exit_clean;
 }
 
 }  // namespace deck::cli

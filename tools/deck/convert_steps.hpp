@@ -12,10 +12,11 @@ namespace deck::cli {
 
 struct ConvertSteps {
   std::vector<std::int64_t> extract;
-  bool flatten = false, resolve_defaults = false;
+  bool flatten = false, expand_type19 = false, resolve_defaults = false;
   int version = 0;
   bool allow_loss = false;
   std::string units;
+  int target = 0;  ///< LS-DYNA: interface type to write; 0: by the keyword
   bool keep_working = false, partial = false;
   std::vector<std::string> renumber;
 };
@@ -38,5 +39,11 @@ struct JsonFiles {
 };
 /// `path` "-" is standard input.
 Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schemas);
+
+/// Contact keywords of an LS-DYNA deck, written as DIR/STEM_contacts.inc, or to standard output if
+/// `directory` is empty. Returns the exit code.
+int convert_lsdyna(const std::string& path, const ConvertSteps& steps, const std::string& directory,
+                   const CommonOptions& common, const SchemaSet& schemas,
+                   std::vector<LossEntry>& losses);
 
 }  // namespace deck::cli
