@@ -95,7 +95,7 @@ class Depenetrator {
         skipped_[key_of(scene, at)] = std::move(why);
       }
     }
-    limit_ = options_.most_displacement.value_or(2 * reach);
+    limit_ = options_.most_displacement.value_or(10 * reach);
   }
 
   void hold(NodeIndex n, Hold why) {

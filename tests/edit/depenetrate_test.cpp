@@ -82,6 +82,33 @@ TEST(MoveNodes, FreesACornerThatTouchesSeveralSegments) {
     }
 }
 
+TEST(MoveNodes, SeparatesSolids) {
+  for (const char* card : {"@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=0.8",
+                           "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=2 Gapmin=0.8"})
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      SCOPED_TRACE(card + (" seed " + std::to_string(seed)));
+      expect_solved(two_blocks(seed, 0.2 + 0.1 * seed, card));
+    }
+}
+
+TEST(MoveNodes, SeparatesRods) {
+  for (const char* card : {"@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Gapmin=0.9",
+                           "@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Igap=1"})
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      SCOPED_TRACE(card + (" seed " + std::to_string(seed)));
+      expect_solved(two_grids_of_rods(seed, card));
+    }
+}
+
+TEST(MoveNodes, SpreadsAStackOfSheets) {
+  for (const char* card : {"@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0",
+                           "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=1 Igap=1"})
+    for (unsigned seed = 1; seed <= 2; ++seed) {
+      SCOPED_TRACE(card + (" seed " + std::to_string(seed)));
+      expect_solved(stack_of_sheets(seed, 5, card));
+    }
+}
+
 TEST(MoveNodes, SolvesTwoInterfacesThatShareNodes) {
   for (unsigned seed = 1; seed <= 3; ++seed)
     expect_solved(two_plates(seed, 0.5,

@@ -326,6 +326,73 @@ inline SmallDeck box_corner(unsigned seed, const std::string& interface_card) {
   return d;
 }
 
+/// Two blocks of bricks of different meshes with rough faces, `apart`.
+inline SmallDeck two_blocks(unsigned seed, double apart, const std::string& interface_card) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> noise(-0.05, 0.05);
+  SmallDeck d;
+  d.solid_part(1).solid_part(2);
+  const auto block = [&](int part, int first, const P& corner, double size, int nx, int ny) {
+    constexpr int nz = 2;
+    const auto id = [&](int i, int j, int k) { return first + (k * (ny + 1) + j) * (nx + 1) + i; };
+    for (int k = 0; k <= nz; ++k)
+      for (int j = 0; j <= ny; ++j)
+        for (int i = 0; i <= nx; ++i)
+          d.node(id(i, j, k), corner[0] + size * i + noise(random),
+                 corner[1] + size * j + noise(random), corner[2] + size * k + noise(random));
+    int e = first;
+    for (int k = 0; k < nz; ++k)
+      for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i)
+          d.brick(
+              part, e++,
+              {id(i, j, k), id(i + 1, j, k), id(i + 1, j + 1, k), id(i, j + 1, k), id(i, j, k + 1),
+               id(i + 1, j, k + 1), id(i + 1, j + 1, k + 1), id(i, j + 1, k + 1)});
+  };
+  block(1, 1, {0, 0, 0}, 2, 4, 4);
+  block(2, 1001, {1.3, 1.1, 4 + apart}, 1.7, 3, 2);
+  d.group("/SURF/PART/EXT/1", {1}).group("/SURF/PART/EXT/2", {2}).group("/GRNOD/SURF/1", {2});
+  return d.add(interface_card);
+}
+
+/// Two crossed layers of rods.
+inline SmallDeck two_grids_of_rods(unsigned seed, const std::string& interface_card) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> noise(0, 0.3);
+  SmallDeck d;
+  d.truss_part(1, 0.5).truss_part(2, 0.5);
+  int first = 1;
+  for (int layer = 0; layer < 2; ++layer)
+    for (int rod = 0; rod < 5; ++rod, first += 6) {
+      for (int i = 0; i < 6; ++i) {
+        const double across = 0.8 + 1.6 * rod + noise(random), along = 1.8 * i;
+        d.node(first + i, layer == 0 ? along : across, layer == 0 ? across : along,
+               0.5 * layer + noise(random) / 2);
+      }
+      for (int i = 0; i < 5; ++i) d.bar("TRUSS", layer + 1, first + i, first + i, first + i + 1);
+    }
+  d.group("/LINE/PART/1", {1}).group("/LINE/PART/2", {2});
+  return d.add(interface_card);
+}
+
+/// Sheets above one another, 0.6 apart, in self-contact.
+inline SmallDeck stack_of_sheets(unsigned seed, int layers, const std::string& interface_card) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> noise(-0.04, 0.04);
+  SmallDeck d;
+  std::vector<int> parts;
+  for (int l = 0; l < layers; ++l) {
+    d.shell_part(l + 1, 1.0);
+    parts.push_back(l + 1);
+    const double x = 10 * noise(random), y = 10 * noise(random);
+    add_sheet(d, l + 1, 1 + 100 * l, 4, 4, [&](int i, int j) {
+      return P{2.0 * i + x, 2.0 * j + y, 0.6 * l + noise(random)};
+    });
+  }
+  d.group("/GRNOD/PART/1", parts).group("/SURF/PART/1", parts);
+  return d.add(interface_card);
+}
+
 /// Samples of the project that read without errors, by file name.
 inline std::string sample(const std::string& name) {
   return std::string(DECK_SOURCE_DIR) + "/samples/" + name + "_0000.rad";

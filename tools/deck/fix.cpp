@@ -297,7 +297,7 @@ Action setup(CLI::App& app) {
       ->capture_default_str()
       ->type_name("SHARE");
   move->add_option("--max-displacement", o.max_displacement,
-                   "Farthest a node may move, working units (default: twice the deepest "
+                   "Farthest a node may move, working units (default: ten times the deepest "
                    "penetration)")
       ->type_name("LENGTH");
   move->add_option("--smooth", o.move.smooth, "Rings of neighbours that follow the moved nodes")

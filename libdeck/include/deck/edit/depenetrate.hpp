@@ -15,7 +15,8 @@ struct MoveNodesOptions : FixOptions {
   bool lock_boundary_conditions = false;  ///< nodes of /BCS stay
   bool secondary_only = false;            ///< main sides do not give way
   double most_moved = 0.1;                ///< share of the nodes of a part that may move
-  /// No node moves farther than this, working units. Absent: twice the deepest penetration.
+  /// No node moves farther than this, working units. Absent: ten times the deepest
+  /// penetration.
   std::optional<double> most_displacement;
   double share = 0.7;       ///< of the depth, per iteration
   double clearance = 1e-3;  ///< of the gap, left between gap and distance at the end
