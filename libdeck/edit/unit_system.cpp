@@ -317,10 +317,11 @@ class BlockConverter {
           c_.undecided(b, cell.span, f.name, "the dimension of this value is not known");
         continue;
       }
-      const Dimension dimension = dimension_of(f, d);
+      const Dimension dimension =
+          stiffness_in_working_units(d, cell) ? Dimension{1, 0, -2, 0} : dimension_of(f, d);
       if (zero && !cell.parameter) {
         if (c_.working_changes) write_default(b, card, cell, dimension);
-      } else if (!own_units_) {
+      } else if (!own_units_ || stiffness_in_working_units(d, cell)) {
         convert_cell(b, d, card, cell, dimension);
       }
     }
@@ -329,13 +330,6 @@ class BlockConverter {
   void convert_cell(const Block& b, const DecodedBlock& d, const DecodedCard& card,
                     const Cell& cell, const Dimension& dimension) {
     const Field& f = *cell.field;
-    if (c_.working_changes && f.name == "Stfac" && dimension.dimensionless() &&
-        stiffness_by_default(d)) {
-      c_.undecided(b, cell.span, f.name,
-                   "/DEFAULT/INTER makes this a stiffness in working units, which change; write "
-                   "Istf = 1 on the card first");
-      return;
-    }
     // The solver reads Xfreq as a frequency, but for these filters it is a pure coefficient: with
     // new working units the same number must arrive.
     if (c_.working_changes && f.name == "Xfreq" &&
@@ -355,9 +349,11 @@ class BlockConverter {
     }
   }
 
-  /// Istf = 1 from /DEFAULT/INTER: the card does not say that Stfac is a stiffness, so the solver
-  /// takes it as it is.
-  bool stiffness_by_default(const DecodedBlock& d) const {
+  /// Stfac is a stiffness that the solver takes as it is, whatever the units of the block, where
+  /// the card does not say so by Istf = 1: negative values, and Istf = 1 from /DEFAULT/INTER.
+  bool stiffness_in_working_units(const DecodedBlock& d, const Cell& cell) const {
+    if (!c_.working_changes || cell.field->name != "Stfac" || d.integer("Istf") == 1) return false;
+    if (cell.real < 0) return true;
     if (d.integer("Istf") != 0) return false;
     for (const DefaultInter& block : c_.context.interfaces.defaults) {
       const auto* istf = block.find("Istf");

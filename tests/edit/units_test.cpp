@@ -267,15 +267,21 @@ TEST(ToUnits, FilterCoefficientArrivesUnchangedInTheSolver) {
   }
 }
 
-TEST(ToUnits, StiffnessByDefaultBlockIsRefused) {
+TEST(ToUnits, StiffnessThatTheCardDoesNotNameFollowsTheWorkingUnits) {
+  // Istf = 1 from /DEFAULT, and a negative Stfac: the solver takes the number as it is.
   const auto w = Whole::text(test::SmallDeck()
                                  .add("@/DEFAULT/INTER/TYPE7 Istf=1")
                                  .add("@/INTER/TYPE7/1 Stfac=100")
+                                 .add("@/INTER/TYPE7/2 Istf=4 Stfac=-3")
+                                 .add("@/INTER/TYPE7/3 Istf=4 Stfac=3")
                                  .text());
-  const Rewrite r = convert(*w, "Mg,m,s");
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_NE(r.refusals[0].find("Stfac"), std::string::npos);
-  EXPECT_TRUE(convert(*w, "Mg,m,s", {.partial = false, .keep_working = true}).refusals.empty());
+  const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_EQ(after->interfaces.type7.at(0).Stfac.value, 1e5);
+  EXPECT_EQ(after->interfaces.type7.at(1).Stfac.value, -3e3);
+  EXPECT_EQ(after->interfaces.type7.at(2).Stfac.value, 3);
+  const auto kept = w->after(convert(*w, "Mg,m,s", {.partial = false, .keep_working = true}));
+  EXPECT_EQ(kept->interfaces.type7.at(0).Stfac.value, 100);
+  EXPECT_EQ(kept->interfaces.type7.at(1).Stfac.value, -3);
 }
 
 TEST(ToUnits, ParameterOfOneDimensionIsConvertedAtItsDefinition) {
@@ -423,6 +429,38 @@ TEST(ToUnits, KeepWorkingLeavesTheSceneAsItIs) {
   }
   for (std::size_t i = 0; i < x.penetrations.size(); ++i)
     EXPECT_NEAR(x.penetrations[i].depth, y.penetrations[i].depth, 1e-13);
+}
+
+/// Decks of one feature each: all their keywords are described well enough, and the contacts are
+/// the same, in the old working units and in the new ones.
+TEST(ToUnits, SyntheticDecksKeepTheirContacts) {
+  for (const char name : {'a', 'b', 'c', 'd', 'e', 'f', 'g'}) {
+    const std::string path =
+        edit_test::corpus("synthetic/syn" + std::string(1, name) + "_0000.rad");
+    if (path.empty()) GTEST_SKIP() << "no real decks here";
+    const auto w = Whole::read(path);
+    for (const bool keep : {true, false}) {
+      const auto after = w->after(convert(*w, "kg,m,s", {.partial = false, .keep_working = keep}));
+      Diagnostics ignored;
+      const Scene x = build_scene(w->model, w->interfaces, ignored);
+      const Scene y = build_scene(after->model, after->interfaces, ignored);
+      const double length = keep ? 1 : 1e-3, stiffness = keep ? 1 : 1e6;  // kg mm ms to kg m s
+      ASSERT_EQ(x.contacts.size(), y.contacts.size());
+      for (std::size_t i = 0; i < x.contacts.size(); ++i) {
+        const Contact &a = x.contacts[i], &b = y.contacts[i];
+        EXPECT_NEAR(b.gapmin, a.gapmin * length, 1e-13 * a.gapmin * length) << path;
+        ASSERT_EQ(a.main.size(), b.main.size());
+        ASSERT_EQ(a.secondary.size(), b.secondary.size());
+        for (std::size_t k = 0; k < a.main.size(); ++k) {
+          const MainSegment &p = a.main[k], &q = b.main[k];
+          EXPECT_EQ(p.nodes, q.nodes);
+          if (p.stiffness < 1e-20) continue;  // no area: the solver's floor has no unit
+          EXPECT_NEAR(q.stiffness, p.stiffness * stiffness, 1e-12 * p.stiffness * stiffness);
+          EXPECT_NEAR(q.gap, p.gap * length, 1e-13 * p.gap * length);
+        }
+      }
+    }
+  }
 }
 
 TEST(ToUnits, DummyOfFourMegabytesInWellUnderASecond) {
