@@ -308,8 +308,11 @@ int run(const Options& options) {
   int worst = exit_clean;
   for (const std::string& path : options.common.decks) {
     if (options.from == "lsdyna") {
+      std::vector<LossEntry> losses;
       worst = std::max(worst, convert_lsdyna(path, options.steps, options.directory, options.common,
-                                             *schemas, work.losses));
+                                             *schemas, losses));
+      print_losses(losses, options.common);
+      for (LossEntry& e : losses) work.losses.push_back(std::move(e));
       continue;
     }
     auto input = open_input(path, options, *schemas, !work.steps.empty() || options.to == "json");
