@@ -19,6 +19,10 @@
 namespace deck::cli {
 
 void add_step_options(CLI::App& app, ConvertSteps& steps) {
+  app.add_option("--target", steps.target,
+                 "With --from lsdyna: interface type of every contact; 0: by its keyword")
+      ->check(CLI::IsMember({0, 7, 10, 11, 19}))
+      ->type_name("TYPE");
   const std::string group = "Conversions, in this order";
   app.add_option("--extract-contacts", steps.extract,
                  "A small deck of one file with these interfaces and all that they need")
@@ -52,11 +56,6 @@ void add_step_options(CLI::App& app, ConvertSteps& steps) {
   app.add_flag("--keep-working-units", steps.keep_working,
                "With --units: change the input units only; the solver computes as before")
       ->group(group);
-  app.add_option("--target", steps.target,
-                 "With --from lsdyna: interface type of every contact; 0: by its keyword")
-      ->check(CLI::IsMember({0, 7, 10, 11, 19}))
-      ->group(group)
-      ->type_name("TYPE");
   app.add_option("--renumber", steps.renumber,
                  "New ids: KIND+N and KIND-N shift them, KIND=N counts from N on; KIND is node, "
                  "part, element, surf, all ... (repeatable)")
