@@ -20,6 +20,7 @@ constexpr int rounds = 4;                 // after each, harmful moves are taken
 constexpr int sweeps = 200;               // projections per iteration
 constexpr int patience = 8;               // iterations without progress
 constexpr double largest_step = 0.45;     // of the gap: two sides cannot pass each other unseen
+constexpr double least_side = 0.5;        // of the length of an element's side before
 constexpr double least_component = 1e-3;  // of a move along an axis, to be printed
 constexpr double noise = 1e-6;            // of the gap: a vector this short has no direction
 constexpr double deeper = 1 + 1e-9;       // a penetration that grew by less is the same one
@@ -327,7 +328,7 @@ class Depenetrator {
     return std::any_of(share.begin(), share.end(), [](const auto& s) { return s.second > 0; });
   }
 
-  /// Nodes of elements that cross, or are turned, since the start.
+  /// Nodes of elements that cross, are turned, or have shrunk, since the start.
   std::map<NodeIndex, Hold> harmful_shapes(const std::vector<NodeIndex>& nodes) const {
     std::map<NodeIndex, Hold> out;
     for (const auto& crossing : mesh_->crossings(now_, nodes, options_.threads))
@@ -335,6 +336,12 @@ class Depenetrator {
         for (const NodeIndex n : mesh_->nodes_of(crossing)) out.emplace(n, Hold::would_cross);
     for (const NodeIndex n : mesh_->inverted(start_, now_, nodes))
       out.emplace(n, Hold::would_invert);
+    for (const NodeIndex n : nodes)
+      for (const NodeIndex next : mesh_->neighbours(n))
+        if (distance(now_, n, next) < least_side * distance(start_, n, next)) {
+          out.emplace(n, Hold::would_shrink);
+          out.emplace(next, Hold::would_shrink);
+        }
     return out;
   }
 

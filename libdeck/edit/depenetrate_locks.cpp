@@ -87,6 +87,8 @@ const char* to_string(Hold hold) {
       return "moving it would cross elements";
     case Hold::would_invert:
       return "moving it would turn an element inside out";
+    case Hold::would_shrink:
+      return "moving it would make an element side less than half as long";
     case Hold::would_penetrate:
       return "moving it would make or deepen another penetration";
   }

@@ -21,6 +21,7 @@ enum class Hold : std::uint8_t {
   crossed,       ///< belongs to a crossed element already
   would_cross,
   would_invert,
+  would_shrink,
   would_penetrate,
 };
 const char* to_string(Hold hold);

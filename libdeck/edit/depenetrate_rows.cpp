@@ -9,6 +9,8 @@
 namespace deck::detail {
 namespace {
 
+constexpr double least_share = 0.1;  // of a pair's weights, squared, on nodes that may move
+
 Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
 double length(Vec v) { return std::sqrt(dot(v, v)); }
 
@@ -165,8 +167,8 @@ std::map<NodeIndex, Vec> solve_wishes(const std::vector<Wish>& wishes,
       rows[r].give[i] = free ? w.state.weights[i] : 0;
       sum += rows[r].give[i] * rows[r].weight[i];
     }
-    // Where only a sliver of a side can give way, the step would be wild: leave it.
-    rows[r].scale = sum > 0.02 ? 1 / sum : 0;
+    // Where only a far corner of a side can give way it would have to go many times the depth.
+    rows[r].scale = sum > least_share ? 1 / sum : 0;
   }
   // Hildreth's method: a multiplier per wish that may shrink again, but not below 0.
   std::vector<double> multiplier(wishes.size(), 0);

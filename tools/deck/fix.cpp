@@ -354,9 +354,10 @@ const VerbRegistration registration{
      "pairs that penetrate. Fpenmax takes nodes out of the interface: for a few hopeless ones.\n"
      "\n"
      "Every change is verified before it is shown: the deck is read again with the new values as\n"
-     "printed. Moves never make a new penetration, cross elements or turn one inside out; what\n"
-     "cannot be solved that way stays and is listed with its reason. Elements that cross already\n"
-     "have no right side: separate them first (deck gaps --crossings shows them).\n"
+     "printed. Moves never make a new penetration, cross elements, turn one inside out or halve\n"
+     "one of its sides; what cannot be solved that way stays and is listed with its reason.\n"
+     "Elements that cross already have no right side: separate them first (deck gaps\n"
+     "--crossings shows them).\n"
      "\n"
      "Exit code: 0 all penetrations treated, 1 some remain, 2 wrong usage, 3 unreadable input.\n",
      setup}};
