@@ -178,10 +178,13 @@ struct Measurement {
   std::span<const PairSample> samples;
   const AccuracyOptions& options;
   std::vector<Outcome> distances, forces;
-  std::vector<PairSample> few;
+  std::vector<PairSample> few, rewritten;
 
   Measurement(std::span<const PairSample> all, const AccuracyOptions& o)
-      : samples(all), options(o), few(thinned(all, o.slow_limit)) {
+      : samples(all),
+        options(o),
+        few(thinned(all, o.slow_limit)),
+        rewritten(thinned(all, o.rewritten_limit)) {
     FilterCounters unused;
     distances.reserve(all.size());
     forces.reserve(all.size());
@@ -205,8 +208,17 @@ struct Measurement {
     }
     TierResult row = row_of(tier, errors, counters);
     row.ns_per_pair = tier.slow ? time_of(tier, few, 1) : time_of(tier, samples, options.repeats);
+    if (!tier.slow && what != "force") check_invariance(tier, row);
     report.tiers.push_back(row);
     if (has_family_rows(tier)) add_family_rows(report, tier, families);
+  }
+  void check_invariance(const Tier& tier, TierResult& row) const {
+    const bool values = row.what == "distance";
+    row.rewritten = rewritten.size();
+    for (const PairSample& s : rewritten) {
+      row.invariance_violations += !accuracy::is_invariant(tier, s, values);
+      row.jumps += values && !accuracy::is_continuous(tier, s);
+    }
   }
   void run_kernel(AccuracyReport& report) const {
     const accuracy::KernelRun run = accuracy::run_kernel(samples, options.repeats);

@@ -49,6 +49,12 @@ Outcome exact_force(const PairSample& s, FilterCounters& counters);
 // dF/dd at the exact distance: what an error of the distance makes of itself in the force.
 double force_slope(double distance, double gap);
 
+// True if node order, orientation, axes and scaling by powers of two change no bit of the answer.
+bool is_invariant(const Tier& tier, const PairSample& s, bool values);
+// True if a step of one unit in the last place of a node moves the distance by no more than the
+// step and four units of its own.
+bool is_continuous(const Tier& tier, const PairSample& s);
+
 // The kernel of `deck cycle` over whole packets: its forces, and the nanoseconds per pair.
 struct KernelRun {
   std::vector<Outcome> outcomes;

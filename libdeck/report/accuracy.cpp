@@ -91,6 +91,8 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
                    {"wrong decisions", Align::right},
                    {"wrong features", Align::right},
                    {"not finite", Align::right},
+                   {"not invariant", Align::right},
+                   {"jumps", Align::right},
                    {"fallback", Align::right},
                    {"to exact", Align::right},
                    {""}});
@@ -152,7 +154,10 @@ std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& c
     j.field("decision_errors", t.decision_errors)
         .field("feature_errors", t.feature_errors)
         .field("non_finite", t.non_finite);
-    j.field("fallback_share", t.fallback_share).field("exact_share", t.exact_share);
+    j.field("rewritten", t.rewritten).field("invariance_violations", t.invariance_violations);
+    j.field("jumps", t.jumps)
+        .field("fallback_share", t.fallback_share)
+        .field("exact_share", t.exact_share);
     j.field("dominated", t.dominated).end_object();
   }
   j.end_array();
@@ -172,16 +177,18 @@ std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& c
 std::string accuracy_csv(const AccuracyReport& report) {
   std::string out =
       "row,family,name,tier,what,samples,ns_per_pair,max_relative_error,max_ulp,max_scaled_error,"
-      "decision_errors,feature_errors,non_finite,fallback_share,exact_share,dominated\r\n";
+      "decision_errors,feature_errors,non_finite,rewritten,invariance_violations,jumps,"
+      "fallback_share,exact_share,dominated\r\n";
   for (const TierResult& t : report.tiers)
-    out += fmt::format("tier,,,{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", t.name, t.what,
+    out += fmt::format("tier,,,{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", t.name, t.what,
                        t.samples, t.ns_per_pair, t.max_relative_error, t.max_ulp,
                        t.max_scaled_error, t.decision_errors, t.feature_errors, t.non_finite,
-                       t.fallback_share, t.exact_share, t.dominated ? 1 : 0);
+                       t.rewritten, t.invariance_violations, t.jumps, t.fallback_share,
+                       t.exact_share, t.dominated ? 1 : 0);
   for (const FamilyResult& f : report.families)
-    out +=
-        fmt::format("family,{},\"{}\",{},distance,{},,{},{},,{},,{},,,\r\n", f.id, f.name, f.tier,
-                    f.samples, f.max_relative_error, f.max_ulp, f.decision_errors, f.non_finite);
+    out += fmt::format("family,{},\"{}\",{},distance,{},,{},{},,{},,{},,,,,,\r\n", f.id, f.name,
+                       f.tier, f.samples, f.max_relative_error, f.max_ulp, f.decision_errors,
+                       f.non_finite);
   return out;
 }
 

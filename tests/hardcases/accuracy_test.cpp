@@ -56,6 +56,18 @@ TEST(Accuracy, CertifiedTiersDecideAllAlike) {
   EXPECT_GT(tier(r, "reference", "gaps").decision_errors, 0u);
 }
 
+TEST(Accuracy, RobustAnswersDoNotNoticeHowAPairIsWritten) {
+  const AccuracyReport r = small_report();
+  for (const char* what : {"distance", "gaps"}) {
+    EXPECT_EQ(tier(r, "robust", what).rewritten, 200u);
+    EXPECT_EQ(tier(r, "robust", what).invariance_violations, 0u);
+    EXPECT_GT(tier(r, "reference", what).invariance_violations, 0u);
+  }
+  EXPECT_EQ(tier(r, "robust").jumps, 0u);
+  EXPECT_GT(tier(r, "double").jumps, 0u);
+  EXPECT_EQ(tier(r, "epeck").rewritten, 0u);
+}
+
 TEST(Accuracy, RobustForceKeepsTwelveDigits) {
   const AccuracyReport r = small_report();
   EXPECT_EQ(tier(r, "robust", "force").decision_errors, 0u);

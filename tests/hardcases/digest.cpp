@@ -60,7 +60,9 @@ void filtered(std::span<const PairSample> samples) {
   FilterCounters counters;
   for (const PairSample& s : samples) {
     const auto& x = s.x;
-    decisions.add(static_cast<std::uint64_t>(accuracy::decide(s, counters)));
+    const bool closer = s.edges ? is_closer_than(x[0], x[1], x[2], x[3], s.gap, &counters)
+                                : is_closer_than(x[4], s.corners(), s.triangle, s.gap, &counters);
+    decisions.add(static_cast<std::uint64_t>(closer));
     const FilteredDepth depth =
         s.edges ? filtered_depth(x[0], x[1], x[2], x[3], s.gap, &counters)
                 : filtered_depth(x[4], s.corners(), s.triangle, s.gap, &counters);

@@ -30,16 +30,17 @@ def sources():
                     "search_*.cpp", "accuracy_families.cpp", "accuracy_force.cpp"):
         out += sorted(glob.glob(os.path.join(LIB, "contact", pattern)))
     for name in ("kernels_baseline", "kernels_avx2", "kernels_avx512", "evaluate", "plan", "packet", "card",
-                 "friction", "heat", "tie", "curvature", "limits"):
+                 "friction", "heat", "tie", "curvature"):
         out.append(os.path.join(LIB, "cycle", name + ".cpp"))
     return [s for s in out if os.path.exists(s)]
 
 
 def build(compiler, level, extra, directory, jobs):
     """The digest program of one configuration, or its error."""
-    common = [compiler, "-std=c++20", "-" + level, "-ffp-contract=off", "-fno-math-errno", "-w", "-I",
-              os.path.join(LIB, "include"), "-I", LIB, "-I", os.path.join(ROOT, "tests"), "-isystem",
-              "/usr/include/eigen3"] + extra
+    common = ["ccache"] if shutil.which("ccache") else []
+    common += [compiler, "-std=c++20", "-" + level, "-ffp-contract=off", "-fno-math-errno", "-w", "-I",
+               os.path.join(LIB, "include"), "-I", LIB, "-I", os.path.join(ROOT, "tests"), "-isystem",
+               "/usr/include/eigen3"] + extra
 
     def one(source):
         stem = os.path.splitext(os.path.basename(source))[0]
@@ -79,6 +80,7 @@ def digests(options):
                     program, why = build(compiler, level, extra, directory, options.jobs)
                     if program is None:
                         out[name] = "does not build: " + why
+                        print("failed  " + name, flush=True)
                         continue
                     run = subprocess.run([program, str(options.samples)], capture_output=True, text=True)
                     out[name] = run.stdout if run.returncode == 0 else "ends with %d" % run.returncode

@@ -45,8 +45,9 @@ std::vector<PairSample> hard_cases(int family, std::size_t samples, std::uint64_
 std::vector<PairSample> scene_pairs(const Scene& scene, std::size_t limit, int threads = 1);
 
 struct AccuracyOptions {
-  int repeats = 5;                // timings per tier; the median counts
-  std::size_t slow_limit = 2000;  // pairs timed in exact arithmetic
+  int repeats = 5;                     // timings per tier; the median counts
+  std::size_t slow_limit = 2000;       // pairs timed in exact arithmetic
+  std::size_t rewritten_limit = 5000;  // pairs checked for invariance and continuity
 };
 
 // One arithmetic. A decision is "distance < gap".
@@ -63,6 +64,9 @@ struct TierResult {
   // of the distance that would make it.
   double max_scaled_error = 0.0;
   std::uint64_t decision_errors = 0, feature_errors = 0, non_finite = 0;
+  // Pairs written down in other ways (order of nodes, orientation, axes, powers of two) or one step
+  // aside: whose answer changed, and whose distance jumped. Not asked of slow tiers and forces.
+  std::uint64_t rewritten = 0, invariance_violations = 0, jumps = 0;
   double fallback_share = 0.0;  // pairs that needed more than double
   double exact_share = 0.0;     // pairs that needed rationals
   bool dominated = false;       // another tier is as fast, as accurate, and better in one of both
