@@ -321,7 +321,9 @@ class Depenetrator {
         if (it == share.end() || it->second == 0) continue;
         it->second = attempt < 2 ? 0.5 * it->second : 0;
         changed = true;
-        if (it->second == 0 && ++strikes_[n] >= 3) hold(n, why);
+        if (it->second > 0) continue;
+        blocked_[n] = why;
+        if (++strikes_[n] >= 3) hold(n, why);
       }
       if (!changed) break;
     }
@@ -501,7 +503,9 @@ class Depenetrator {
     for (int i = 0; i < state.count; ++i) {
       const NodeIndex n = state.nodes[static_cast<std::size_t>(i)];
       std::string& side = i < state.secondary_count ? secondary : main;
-      const Hold why = static_cast<Hold>(holds_[n]);
+      Hold why = static_cast<Hold>(holds_[n]);
+      if (const auto it = blocked_.find(n); why == Hold::none && it != blocked_.end())
+        why = it->second;
       if (why == Hold::none && i >= state.secondary_count) main_free = true;
       if (why == Hold::none || !side.empty()) continue;
       side = to_string(why);
@@ -528,7 +532,8 @@ class Depenetrator {
   std::vector<std::uint8_t> holds_;
   std::set<NodeIndex> moved_;
   std::vector<std::uint32_t> moved_in_part_;
-  std::map<NodeIndex, int> strikes_;
+  std::map<NodeIndex, int> strikes_;        ///< how often a move was dropped
+  std::map<NodeIndex, Hold> blocked_;       ///< and why, the last time
   std::set<PairAt> active_;                 ///< every pair that was ever too close
   std::map<PairKey, double> baseline_;      ///< depths before
   std::map<PairKey, std::string> skipped_;  ///< pairs that moving cannot solve, and why

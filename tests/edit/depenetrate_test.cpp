@@ -299,6 +299,29 @@ TEST(MoveNodes, CrossedElementsAreNotTornApart) {
   EXPECT_TRUE(said);
 }
 
+TEST(MoveNodes, ElementsAreNotPressedFlat) {
+  // Edge to edge with a locked sheet: two columns of nodes would have to go to the same place.
+  SmallDeck d;
+  d.shell_part(1, 1.0).shell_part(2, 1.0);
+  add_sheet(d, 1, 1, 2, 4, [](int i, int j) { return P{2.0 * i, 2.0 * j, 0}; });
+  add_sheet(d, 2, 101, 3, 3, [](int i, int j) {
+    return P{4.3 + (i == 0 ? 0 : 0.4 + 2 * (i - 1)), 0.9 + 2.0 * j, 0.01 * (i % 2)};
+  });
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1}).add(plain);
+  const Built before(d);
+  ASSERT_FALSE(oracle_penetrations(before).empty());
+  MoveNodesOptions o = all_may_move();
+  o.lock = {1};
+  const PenetrationFix fix = moved(before, o);
+  expect_harmless(before, fix);
+  EXPECT_FALSE(fix.complete);
+  bool said = false;
+  for (const FixRefusal& r : fix.refused)
+    said |= r.reason.find("half as long") != std::string::npos ||
+            r.reason.find("inside out") != std::string::npos;
+  EXPECT_TRUE(said);
+}
+
 TEST(MoveNodes, ASheetBetweenTwoLockedSheetsHasNoRoom) {
   SmallDeck d;
   d.shell_part(1, 1.0).shell_part(2, 1.0).shell_part(3, 1.0);

@@ -211,6 +211,21 @@ inline std::unique_ptr<Built> expect_harmless(const Built& before, const Penetra
   EXPECT_TRUE(std::includes(crossed.begin(), crossed.end(), crosses.begin(), crosses.end()))
       << "new crossed elements";
 
+  // No shell is turned over at a corner, and no side of one is halved.
+  const auto at = [](const Built& b, NodeIndex n) {
+    return P{b.model.nodes.x[n], b.model.nodes.y[n], b.model.nodes.z[n]};
+  };
+  for (const Elements* f : {&before.model.shell4, &before.model.shell3})
+    for (std::size_t e = 0; e < f->size(); ++e)
+      for (int k = 0; k < f->width; ++k) {
+        const NodeIndex n = f->of(e)[k], next = f->of(e)[(k + 1) % f->width],
+                        last = f->of(e)[(k + f->width - 1) % f->width];
+        const auto side = [&](const Built& b) { return at(b, next) - at(b, n); };
+        const auto normal = [&](const Built& b) { return cross(side(b), at(b, last) - at(b, n)); };
+        EXPECT_GE(dot(side(*after), side(*after)), 0.2499 * dot(side(before), side(before)));
+        EXPECT_GT(dot(normal(before), normal(*after)), 0) << "shell " << f->id[e];
+      }
+
   // Only the columns of moved coordinates change.
   std::map<std::int64_t, P> by;
   for (const MovedNode& m : fix.moved) by[m.id] = m.by;
