@@ -128,6 +128,23 @@ def lint_formats(c, tmp):
         check_sarif(c, sarifs)
 
 
+def edit_documents(c, tmp):
+    """The deck as JSON, the loss report and the report of a fix."""
+    decks, losses, fixes = (validator_of(c, name) for name in ("deck", "losses", "fix"))
+    report = os.path.join(tmp, "report.json")
+    for path in SAMPLES:
+        stem = os.path.basename(path)[:-9]
+        r = c.run("convert", path, "--to", "json")
+        if c.no_crash("convert --to json of " + stem, r, (0,)):
+            check_document(c, "deck of " + stem, r.out.decode(), decks)
+        r = c.run("convert", path, "--units", "kg,m,s", "--partial", "--diff", "--report", report)
+        if c.no_crash("convert --report of " + stem, r, (0, 1)):
+            check_document(c, "losses of " + stem, open(report).read(), losses)
+        r = c.run("fix", path, "--strategy", "reduce-gap", "--json", "-")
+        if c.no_crash("fix --json of " + stem, r, (0, 1)):
+            check_document(c, "fix of " + stem, r.out.decode(), fixes)
+
+
 def same_bytes(c, tmp):
     decks = list(SAMPLES)
     runs = [(v, ["--json", "-", *extra]) for v, extra in verbs_with_json(c)]
@@ -154,6 +171,7 @@ def main():
                 r = c.run(verb, path, "--json", "-", *extra)
                 if c.no_crash(name, r, (0, 1)):
                     check_document(c, name, r.out.decode(), validators)
+        edit_documents(c, tmp)
         if c.has("lint"):
             lint_formats(c, tmp)
         for verb in ("rules",):
