@@ -181,7 +181,7 @@ class Depenetrator {
     }
     admit(moves);
     keep_within_limit(moves);
-    return apply(moves);
+    return apply(scene, moves);
   }
 
   /// True if the closest point of a pair lies on nodes that `nearest`, the closest pair of the same
@@ -301,8 +301,23 @@ class Depenetrator {
     now_.z[n] = p.z;
   }
 
-  /// Makes the moves; those that cross elements or turn one inside out are halved, then dropped.
-  bool apply(const std::map<NodeIndex, Vec>& moves) {
+  /// The active pairs with a moved node that have a direction.
+  std::vector<std::pair<PairAt, PairState>> directed_pairs(
+      const Scene& scene, const std::map<NodeIndex, Vec>& moves) const {
+    std::vector<std::pair<PairAt, PairState>> out;
+    for (const PairAt& at : active_) {
+      const PairState state = state_of(scene, now_, at);
+      if (!(state.distance > noise * state.gap)) continue;
+      const auto end = state.nodes.begin() + state.count;
+      if (std::any_of(state.nodes.begin(), end, [&](NodeIndex n) { return moves.contains(n); }))
+        out.emplace_back(at, state);
+    }
+    return out;
+  }
+
+  /// Makes the moves; those that cross elements or spoil their shape are halved, then dropped.
+  bool apply(const Scene& scene, const std::map<NodeIndex, Vec>& moves) {
+    const auto pairs = directed_pairs(scene, moves);
     std::map<NodeIndex, double> share;
     std::map<NodeIndex, Vec> from;
     std::vector<NodeIndex> nodes;
@@ -314,7 +329,12 @@ class Depenetrator {
     for (int attempt = 0;; ++attempt) {
       for (const NodeIndex n : nodes)
         place(n, share[n] == 0 ? from[n] : from[n] + share[n] * moves.at(n));
-      const std::map<NodeIndex, Hold> bad = harmful_shapes(nodes);
+      std::map<NodeIndex, Hold> bad = harmful_shapes(nodes);
+      // Lines and lone nodes have no faces that would cross: they must not change sides.
+      for (const auto& [pair, was] : pairs)
+        if (dot(state_of(scene, now_, pair).normal, was.normal) < 0)
+          for (int i = 0; i < was.count; ++i)
+            bad.emplace(was.nodes[static_cast<std::size_t>(i)], Hold::would_cross);
       bool changed = false;
       for (const auto& [n, why] : bad) {
         const auto it = share.find(n);

@@ -342,6 +342,34 @@ TEST(MoveNodes, ASheetBetweenTwoLockedSheetsHasNoRoom) {
   EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, moved(before))).empty());
 }
 
+TEST(MoveNodes, RodsDoNotPassThroughOneAnother) {
+  // Too little room between two locked rods: the middle one must stay between them.
+  for (const double height : {0.05, 0.2, 0.4}) {
+    SmallDeck d;
+    d.truss_part(1, 0.5).truss_part(2, 0.5);
+    d.node(1, -3, 0, 0).node(2, 3, 0, 0).node(3, -3, 0.1, 0.5).node(4, 3, 0.1, 0.5);
+    d.node(5, 0, -3, height).node(6, 0, 0.6, height).node(7, 0, 3, height);
+    d.bar("TRUSS", 1, 1, 1, 2).bar("TRUSS", 1, 2, 3, 4);
+    d.bar("TRUSS", 2, 3, 5, 6).bar("TRUSS", 2, 4, 6, 7);
+    d.group("/LINE/PART/1", {1}).group("/LINE/PART/2", {2});
+    d.add("@/INTER/TYPE11/1 line_IDs=2 line_IDm=1 Gapmin=0.9");
+    const Built before(d);
+    MoveNodesOptions o = all_may_move();
+    o.lock = {1};
+    const PenetrationFix fix = moved(before, o);
+    const auto after = expect_harmless(before, fix);
+    const auto z = [&](std::int64_t id) {
+      return after->model.nodes.z[after->model.nodes.map.find(id)];
+    };
+    const double middle = z(5) + (z(6) - z(5)) * 3 / 3.6;
+    EXPECT_GT(middle, 0);
+    EXPECT_LT(middle, 0.5);
+    EXPECT_FALSE(fix.complete);
+    // With the outer rods free there is room.
+    EXPECT_TRUE(oracle_penetrations(*expect_harmless(before, moved(before))).empty());
+  }
+}
+
 TEST(MoveNodes, CoordinatesThatComeThroughATransformAreLeftAlone) {
   const Built before(
       two_plates(1, 1.6,
