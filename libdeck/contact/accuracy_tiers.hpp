@@ -2,6 +2,8 @@
 // Private to the contact stage.
 #pragma once
 
+#include <time.h>
+
 #include <array>
 #include <span>
 #include <vector>
@@ -26,6 +28,13 @@ struct Tier {
   bool slow = false;      // timed on fewer pairs
   bool is_truth = false;  // its answers are what the others are held against
 };
+
+// Processor time of this thread in nanoseconds: others on the machine do not count.
+inline double thread_nanoseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
+}
 
 inline int number_of(Feature feature, int index) { return 8 * static_cast<int>(feature) + index; }
 inline int number_of(EdgeFeature s, EdgeFeature m) {

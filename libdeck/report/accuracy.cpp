@@ -107,7 +107,10 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
                value ? number(t.max_relative_error) : "-", value ? number(t.max_ulp) : "-",
                value ? number(t.max_scaled_error) : "-", count(t.decision_errors),
                t.what == "distance" ? count(t.feature_errors) : TextTable::Cell("-"),
-               count(t.non_finite), percent(t.fallback_share), percent(t.exact_share),
+               count(t.non_finite),
+               t.rewritten > 0 ? count(t.invariance_violations) : TextTable::Cell("-"),
+               t.rewritten > 0 && t.what == "distance" ? count(t.jumps) : TextTable::Cell("-"),
+               percent(t.fallback_share), percent(t.exact_share),
                t.dominated ? TextTable::Cell("dominated", Tone::dim) : TextTable::Cell("")});
   }
   out += table.render(color);

@@ -97,7 +97,8 @@ AccuracyReport measure_accuracy(std::span<const PairSample> samples,
 
 // Times the whole of `deck gaps` in each accuracy and adds the rows "gaps" to the report, instead
 // of those that were there. `run` reads the deck and builds its scene with penetrations; only the
-// contacts of its result are looked at. Times are per decided pair.
+// contacts of its result are looked at. Times are those of the clock, the best of the repeats, per
+// decided pair.
 void measure_gaps(const std::function<Scene(Accuracy)>& run, int repeats, AccuracyReport& report);
 
 // Marks tiers that another one of the same kind beats.

@@ -59,8 +59,9 @@ bool is_touching(const Point3<double>& p, const std::array<Point3<double>, 4>& c
 bool is_touching(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
                  const Point3<double>& m2);
 
-// Penetration of a pair: depth = gap - distance, both within a relative error of 2e-12. The depth is
-// above 0 if and only if the pair is closer than its gap; otherwise both are 0.
+// Penetration of a pair: depth = gap - distance, both within a relative error of 2e-12 as long as
+// they are normal numbers. The depth is above 0 if and only if the pair is closer than its gap;
+// otherwise both are 0.
 struct FilteredDepth {
   double depth = 0.0;
   double distance = 0.0;
