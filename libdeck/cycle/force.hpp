@@ -122,10 +122,10 @@ template <class V, Model M, ContactKind K, class Effects>
                                   const GeometryBlock& g, PacketResult& out) {
   // Copies: results are stored in between, and could be these numbers for all the compiler knows.
   const Constants k = shared;
-  const std::size_t size = view.size;
-  for (std::size_t slot = 0; slot < n; slot += V::width) {
-    const std::size_t i = pack_start<V::width>(begin, slot, size);
-    PairState<V> s{};  // zeros where an effect is off; those nobody reads cost nothing
+  const std::size_t last = view.size - V::width;
+  for (std::size_t slot = 0, i = begin; slot < n; slot += V::width, i += V::width) {
+    if (i > last) i = last;  // the last pack steps back, see pack_start
+    PairState<V> s{};        // zeros where an effect is off; those nobody reads cost nothing
     load_geometry(view, i, g, slot, s);
     pass_on(s, i, out);
     s.pi = s.penetration;
