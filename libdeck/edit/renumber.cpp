@@ -84,22 +84,7 @@ class Renumbering {
   }
 
   void undecided(const Block& b, Span place, std::string field, std::string why) {
-    const Span at = place.valid() ? place : b.header_span;
-    if (options_.partial) {
-      LossEntry entry = loss_entry(deck_, Loss::undecided, b, at);
-      entry.field = std::move(field);
-      entry.old_text = std::string(trim(deck_.sources.text(at)).substr(0, 100));
-      entry.note = std::move(why);
-      out_.losses.push_back(std::move(entry));
-      return;
-    }
-    constexpr std::size_t most = 1000;
-    if (out_.refusals.size() == most) out_.refusals.push_back("further places are not listed");
-    if (out_.refusals.size() > most) return;
-    std::string text = deck_.sources.where(at) + ": " + std::string(b.keyword);
-    if (b.id.present) text += "/" + std::to_string(b.id.value);
-    if (!field.empty()) text += " " + field;
-    out_.refusals.push_back(text + ": " + why);
+    leave_undecided(out_, deck_, b, place, std::move(field), std::move(why), options_.partial);
   }
 
   /// New written form of an id; `definition`: the entity's own id, which no set stands for.

@@ -1,6 +1,7 @@
 #include "deck/edit/rewrite.hpp"
 
 #include "deck/text/edits.hpp"
+#include "keyword/reader.hpp"
 
 namespace deck {
 
@@ -48,6 +49,27 @@ LossEntry loss_entry(const Deck& deck, Loss loss, const Block& block, Span span)
   entry.file = deck.sources[place.file].path();
   entry.line = deck.sources.position(place).line;
   return entry;
+}
+
+void leave_undecided(Rewrite& out, const Deck& deck, const Block& block, Span place,
+                     std::string field, std::string why, bool accepted) {
+  const Span at = place.valid() ? place : block.header_span;
+  if (accepted) {
+    constexpr std::size_t longest = 100;
+    LossEntry entry = loss_entry(deck, Loss::undecided, block, at);
+    entry.field = std::move(field);
+    entry.old_text = std::string(detail::trim(deck.sources.text(at)).substr(0, longest));
+    entry.note = std::move(why);
+    out.losses.push_back(std::move(entry));
+    return;
+  }
+  constexpr std::size_t most = 1000;
+  if (out.refusals.size() == most) out.refusals.push_back("further places are not listed");
+  if (out.refusals.size() > most) return;
+  std::string text = deck.sources.where(at) + ": " + std::string(block.keyword);
+  if (block.id.present) text += "/" + std::to_string(block.id.value);
+  if (!field.empty()) text += " " + field;
+  out.refusals.push_back(text + ": " + why);
 }
 
 }  // namespace deck

@@ -18,22 +18,7 @@ using detail::UnitFactor;
 namespace detail {
 
 void UnitConversion::undecided(const Block& block, Span place, std::string field, std::string why) {
-  const Span at = place.valid() ? place : block.header_span;
-  if (options.partial) {
-    LossEntry entry = loss_entry(deck, Loss::undecided, block, at);
-    entry.field = std::move(field);
-    entry.old_text = std::string(trim(deck.sources.text(at)).substr(0, 100));
-    entry.note = std::move(why);
-    out.losses.push_back(std::move(entry));
-    return;
-  }
-  constexpr std::size_t most = 1000;
-  if (out.refusals.size() == most) out.refusals.push_back("further places are not listed");
-  if (out.refusals.size() > most) return;
-  std::string text = deck.sources.where(at) + ": " + std::string(block.keyword);
-  if (block.id.present) text += "/" + std::to_string(block.id.value);
-  if (!field.empty()) text += " " + field;
-  out.refusals.push_back(text + ": " + why);
+  leave_undecided(out, deck, block, place, std::move(field), std::move(why), options.partial);
 }
 
 void UnitConversion::changed(const Block& block, Span place, std::string_view field,

@@ -61,4 +61,10 @@ Result<ChangedFiles> apply_rewrite(const SourceSet& sources, const Rewrite& rewr
 /// Place of a span for a LossEntry, and the start of one with keyword and id of a block.
 LossEntry loss_entry(const Deck& deck, Loss loss, const Block& block, Span span);
 
+/// Notes what a conversion cannot decide: an `undecided` loss if the user accepts that, a refusal
+/// "file:line:column: /KEYWORD/id field: why" otherwise (the first thousand of them). An invalid
+/// `place` stands for the header of the block.
+void leave_undecided(Rewrite& out, const Deck& deck, const Block& block, Span place,
+                     std::string field, std::string why, bool accepted);
+
 }  // namespace deck
