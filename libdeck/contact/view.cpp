@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "contact/node_elements.hpp"
@@ -19,26 +20,35 @@ ElementName name_of(const Model& model, ElementKind kind, std::uint32_t e) {
   return {kind, e, family.id[e], part == no_index ? 0 : model.parts[part].id};
 }
 
-}  // namespace
-
-ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t e) {
-  if (e == no_index) return {};
+std::optional<ElementKind> kind_of(Carrier carrier) {
   switch (carrier) {
     case Carrier::solid:
-      return name_of(model, ElementKind::solid8, e);
+      return ElementKind::solid8;
     case Carrier::shell4:
-      return name_of(model, ElementKind::shell4, e);
+      return ElementKind::shell4;
     case Carrier::shell3:
-      return name_of(model, ElementKind::shell3, e);
+      return ElementKind::shell3;
     case Carrier::truss:
-      return name_of(model, ElementKind::truss, e);
+      return ElementKind::truss;
     case Carrier::beam:
-      return name_of(model, ElementKind::beam, e);
+      return ElementKind::beam;
     case Carrier::spring:
-      return name_of(model, ElementKind::spring, e);
+      return ElementKind::spring;
     default:
-      return {};
+      return std::nullopt;
   }
+}
+
+}  // namespace
+
+const Elements* elements_of(const Model& model, Carrier carrier) {
+  const auto kind = kind_of(carrier);
+  return kind ? &model.family(*kind) : nullptr;
+}
+
+ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t e) {
+  const auto kind = kind_of(carrier);
+  return kind && e != no_index ? name_of(model, *kind, e) : ElementName{};
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "deck/contact/crossings.hpp"
+#include "deck/contact/view.hpp"
 #include "lint/rules_geometry.hpp"
 
 namespace deck::detail {
@@ -28,21 +29,8 @@ Diagnostic* about_segments(const GeometryRun& run, std::string_view rule, const 
   return d;
 }
 
-const Elements* family_of(const Model& model, Carrier carrier) {
-  switch (carrier) {
-    case Carrier::solid:
-      return &model.solid8;
-    case Carrier::shell4:
-      return &model.shell4;
-    case Carrier::shell3:
-      return &model.shell3;
-    default:
-      return nullptr;
-  }
-}
-
 bool has_material(const Model& model, const MainSegment& m) {
-  const Elements* family = family_of(model, m.carrier);
+  const Elements* family = elements_of(model, m.carrier);
   if (family == nullptr || m.element == no_index) return true;
   const std::uint32_t part = family->part[m.element];
   return part == no_index || model.parts[part].mat_id != 0;

@@ -1,6 +1,7 @@
 // The force stage as VTK files for ParaView.
 #include <cmath>
 
+#include "deck/contact/view.hpp"
 #include "deck/report/cycle.hpp"
 #include "report/vtk_writer.hpp"
 
@@ -15,25 +16,6 @@ double size(const std::array<double, 3>& v) {
 }
 
 std::array<double, 3> at(const Coordinates& x, NodeIndex n) { return {x.x[n], x.y[n], x.z[n]}; }
-
-const Elements* family_of(const Model& model, Carrier carrier) {
-  switch (carrier) {
-    case Carrier::solid:
-      return &model.solid8;
-    case Carrier::shell4:
-      return &model.shell4;
-    case Carrier::shell3:
-      return &model.shell3;
-    case Carrier::truss:
-      return &model.truss;
-    case Carrier::beam:
-      return &model.beam;
-    case Carrier::spring:
-      return &model.spring;
-    default:
-      return nullptr;
-  }
-}
 
 /// Columns of the pair file, filled row by row.
 struct PairColumns {
@@ -87,7 +69,7 @@ struct PairColumns {
  private:
   template <class Item>
   void add_main(const Model& model, const Item& item) {
-    const Elements* family = item.element == no_index ? nullptr : family_of(model, item.carrier);
+    const Elements* family = item.element == no_index ? nullptr : elements_of(model, item.carrier);
     const std::uint32_t part = family == nullptr ? no_index : family->part[item.element];
     main_element.push_back(family == nullptr ? 0 : family->id[item.element]);
     main_part.push_back(part == no_index ? 0 : model.parts[part].id);

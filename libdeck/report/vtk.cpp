@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "deck/contact/view.hpp"
 #include "report/vtk_writer.hpp"
 
 namespace deck {
@@ -59,31 +60,12 @@ std::vector<T> each(const Items& items, const Value& value) {
   return out;
 }
 
-const Elements* family_of(const Model& model, Carrier carrier) {
-  switch (carrier) {
-    case Carrier::solid:
-      return &model.solid8;
-    case Carrier::shell4:
-      return &model.shell4;
-    case Carrier::shell3:
-      return &model.shell3;
-    case Carrier::truss:
-      return &model.truss;
-    case Carrier::beam:
-      return &model.beam;
-    case Carrier::spring:
-      return &model.spring;
-    default:
-      return nullptr;
-  }
-}
-
 /// Ids of the carrying elements and their parts; 0 where there is none.
 template <class Items>
 void add_elements(const Model& model, const Items& items, VtkPolyData& out) {
   std::vector<std::int64_t> elements, parts;
   for (const auto& item : items) {
-    const Elements* family = item.element == no_index ? nullptr : family_of(model, item.carrier);
+    const Elements* family = item.element == no_index ? nullptr : elements_of(model, item.carrier);
     const std::uint32_t part = family == nullptr ? no_index : family->part[item.element];
     elements.push_back(family == nullptr ? 0 : family->id[item.element]);
     parts.push_back(part == no_index ? 0 : model.parts[part].id);

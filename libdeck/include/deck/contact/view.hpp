@@ -17,6 +17,9 @@ struct ElementName {
   bool valid() const { return index != no_index; }
 };
 
+/// The elements among which the element of such a carrier is counted; nullptr: no element.
+const Elements* elements_of(const Model& model, Carrier carrier);
+
 /// One penetration with names instead of positions.
 struct NamedPenetration {
   std::uint32_t contact = 0, row = 0;       ///< Scene::contacts, Contact::penetrations
