@@ -67,6 +67,7 @@ class Depenetrator {
   void begin(const Scene& scene) {
     mesh_.emplace(scene);
     moved_in_part_.assign(model_.parts.size(), 0);
+    looked_up_.assign(model_.nodes.size(), false);
     crossings_ = mesh_->all_crossings(now_, options_.threads);
     const auto crossed = find_crossings(scene, options_.threads);
     fix_.crossings_before = crossed.size();
@@ -159,7 +160,8 @@ class Depenetrator {
 
   /// Moves nodes once; false if none can move.
   bool step(const Scene& scene) {
-    std::vector<Wish> wishes = make_wishes(scene);
+    const std::vector<PairNow> pairs = active_pairs(scene);
+    const std::vector<Wish> wishes = make_wishes(scene, pairs);
     std::vector<NodeIndex> nodes;
     for (const Wish& w : wishes)
       nodes.insert(nodes.end(), w.state.nodes.begin(), w.state.nodes.begin() + w.state.count);
@@ -181,7 +183,7 @@ class Depenetrator {
     }
     admit(moves);
     keep_within_limit(moves);
-    return apply(scene, moves);
+    return apply(scene, pairs, moves);
   }
 
   /// True if the closest point of a pair lies on nodes that `nearest`, the closest pair of the same
@@ -196,32 +198,45 @@ class Depenetrator {
     return true;
   }
 
-  std::vector<Wish> make_wishes(const Scene& scene) const {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<PairAt, PairState>> nearest;
-    for (const PairAt& at : active_) {
-      const PairState state = state_of(scene, now_, at);
-      if (state.secondary_count != 1) continue;
-      const auto [it, is_new] = nearest.try_emplace({at.contact, at.secondary}, at, state);
-      if (!is_new && state.distance < it->second.second.distance) it->second = {at, state};
-    }
-    std::vector<std::pair<double, PairAt>> order;
-    for (const PairAt& at : active_) {
-      const PairState state = state_of(scene, now_, at);
-      if (state.secondary_count == 1) {
-        const auto& [place, first] = nearest.at({at.contact, at.secondary});
-        if (place != at && follows(state, first)) continue;
+  struct PairNow {
+    PairAt at;
+    PairState state;
+  };
+  /// Every pair that was ever too close, as it is now; by contact and secondary node.
+  std::vector<PairNow> active_pairs(const Scene& scene) const {
+    std::vector<PairNow> out;
+    out.reserve(active_.size());
+    for (const PairAt& at : active_) out.push_back({at, state_of(scene, now_, at)});
+    return out;
+  }
+
+  std::vector<Wish> make_wishes(const Scene& scene, const std::vector<PairNow>& pairs) const {
+    std::vector<const PairNow*> order;
+    for (std::size_t i = 0; i < pairs.size();) {
+      std::size_t end = i, nearest = i;
+      for (; end < pairs.size() && pairs[end].at.contact == pairs[i].at.contact &&
+             pairs[end].at.secondary == pairs[i].at.secondary;
+           ++end)
+        if (pairs[end].state.distance < pairs[nearest].state.distance) nearest = end;
+      for (std::size_t k = i; k < end; ++k) {
+        const PairState& state = pairs[k].state;
+        const bool node = state.secondary_count == 1;
+        if (node && k != nearest && follows(state, pairs[nearest].state)) continue;
+        if (state.depth() > -state.gap) order.push_back(&pairs[k]);
       }
-      if (state.depth() > -state.gap) order.emplace_back(-state.depth(), at);
+      i = end;
     }
-    std::sort(order.begin(), order.end());
+    std::stable_sort(order.begin(), order.end(), [](const PairNow* a, const PairNow* b) {
+      return a->state.depth() > b->state.depth();
+    });
     std::vector<Wish> wishes;
     wishes.reserve(order.size());
-    for (const auto& [negative, at] : order) {
+    for (const PairNow* pair : order) {
       Wish w;
-      w.state = state_of(scene, now_, at);
+      w.state = pair->state;
       w.normal = w.state.distance > noise * w.state.gap
                      ? w.state.normal
-                     : direction_on_surface(scene, *mesh_, now_, at, w.state);
+                     : direction_on_surface(scene, *mesh_, now_, pair->at, w.state);
       const double lack = w.state.depth() + options_.clearance * w.state.gap;
       w.by = lack > 0 ? options_.share * lack : lack;
       w.main_gives_way = !options_.secondary_only;
@@ -230,7 +245,9 @@ class Depenetrator {
     return wishes;
   }
 
-  void hold_unwritable(const std::vector<NodeIndex>& nodes) {
+  void hold_unwritable(std::vector<NodeIndex> nodes) {
+    std::erase_if(nodes, [&](NodeIndex n) { return looked_up_[n]; });
+    for (const NodeIndex n : nodes) looked_up_[n] = true;
     cells_.look_up(nodes);
     for (const NodeIndex n : nodes)
       if (!cells_.obstacle(n).empty()) hold(n, Hold::not_writable);
@@ -301,23 +318,9 @@ class Depenetrator {
     now_.z[n] = p.z;
   }
 
-  /// The active pairs with a moved node that have a direction.
-  std::vector<std::pair<PairAt, PairState>> directed_pairs(
-      const Scene& scene, const std::map<NodeIndex, Vec>& moves) const {
-    std::vector<std::pair<PairAt, PairState>> out;
-    for (const PairAt& at : active_) {
-      const PairState state = state_of(scene, now_, at);
-      if (!(state.distance > noise * state.gap)) continue;
-      const auto end = state.nodes.begin() + state.count;
-      if (std::any_of(state.nodes.begin(), end, [&](NodeIndex n) { return moves.contains(n); }))
-        out.emplace_back(at, state);
-    }
-    return out;
-  }
-
   /// Makes the moves; those that cross elements or spoil their shape are halved, then dropped.
-  bool apply(const Scene& scene, const std::map<NodeIndex, Vec>& moves) {
-    const auto pairs = directed_pairs(scene, moves);
+  bool apply(const Scene& scene, const std::vector<PairNow>& pairs,
+             const std::map<NodeIndex, Vec>& moves) {
     std::map<NodeIndex, double> share;
     std::map<NodeIndex, Vec> from;
     std::vector<NodeIndex> nodes;
@@ -332,7 +335,8 @@ class Depenetrator {
       std::map<NodeIndex, Hold> bad = harmful_shapes(nodes);
       // Lines and lone nodes have no faces that would cross: they must not change sides.
       for (const auto& [pair, was] : pairs)
-        if (dot(state_of(scene, now_, pair).normal, was.normal) < 0)
+        if (was.distance > noise * was.gap &&
+            dot(state_of(scene, now_, pair).normal, was.normal) < 0)
           for (int i = 0; i < was.count; ++i)
             bad.emplace(was.nodes[static_cast<std::size_t>(i)], Hold::would_cross);
       bool changed = false;
@@ -550,6 +554,7 @@ class Depenetrator {
   NodeCells cells_;
   std::optional<FixMesh> mesh_;
   std::vector<std::uint8_t> holds_;
+  std::vector<bool> looked_up_;  ///< by cells_
   std::set<NodeIndex> moved_;
   std::vector<std::uint32_t> moved_in_part_;
   std::map<NodeIndex, int> strikes_;        ///< how often a move was dropped
