@@ -30,9 +30,9 @@ constexpr double kTiny = 0x1p-500, kInfinity = std::numeric_limits<double>::infi
 
 // 16 times a bound of the relative error of one operation.
 template <class T>
-constexpr double kSlack = 0x1p-49;
+inline constexpr double kSlack = 0x1p-49;
 template <>
-constexpr double kSlack<DoubleDouble> = 0x1p-98;
+inline constexpr double kSlack<DoubleDouble> = 0x1p-98;
 
 // The leading double of a number: enough for error bounds, which have a factor of 16 to spare.
 inline double head(double a) { return a; }
