@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <tuple>
 
 namespace deck {
@@ -98,6 +100,81 @@ Result<void> write_through(const std::string& path, std::string_view bytes) {
   return done;
 }
 
+// ---- sets that are half in place -------------------------------------------------------------
+// Several files cannot be renamed in one step. While it is done, a plan lies beside each of them
+// (one file with several names) that says what goes where. It is locked as long as its writer
+// lives; one that is not locked was left by a kill, and whoever comes next does what it says.
+
+/// One file of a plan.
+struct Step {
+  std::string temporary, target;
+  std::uint64_t fresh = 0;                              ///< inode of the new file
+  std::uint64_t old = 0;                                ///< inode of the file to replace, 0: none
+  std::int64_t seconds = 0, nanoseconds = 0, size = 0;  ///< its time and size
+};
+
+std::string plan_name(const std::string& target) {
+  const fs::path p(target);
+  return (p.parent_path() / ("." + std::string(stem_of(p.filename().string())) + ".unfinished"))
+      .string();
+}
+
+constexpr std::string_view plan_head = "deck unfinished 1", plan_end = "end";
+
+std::string plan_text(const std::vector<Step>& steps) {
+  std::string text = std::string(plan_head) + "\n";
+  for (const Step& s : steps) {
+    text += s.temporary + "\t" + s.target;
+    for (const std::uint64_t n : {s.fresh, s.old}) text += "\t" + std::to_string(n);
+    for (const std::int64_t n : {s.seconds, s.nanoseconds, s.size})
+      text += "\t" + std::to_string(n);
+    text += "\n";
+  }
+  return text + std::string(plan_end) + "\n";
+}
+
+/// nullopt: not a whole plan.
+std::optional<std::vector<Step>> parse_plan(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  if (!std::getline(lines, line) || line != plan_head) return std::nullopt;
+  std::vector<Step> steps;
+  while (std::getline(lines, line)) {
+    if (line == plan_end) return steps;
+    std::istringstream cells(line);
+    Step s;
+    if (!std::getline(cells, s.temporary, '\t') || !std::getline(cells, s.target, '\t') ||
+        !(cells >> s.fresh >> s.old >> s.seconds >> s.nanoseconds >> s.size))
+      return std::nullopt;
+    steps.push_back(std::move(s));
+  }
+  return std::nullopt;
+}
+
+enum class StepState { pending, placed, overtaken };
+
+/// Overtaken: somebody changed the file since, and what the plan says is no longer wanted.
+StepState state_of(const Step& s) {
+  struct stat target {
+  }, temporary{};
+  const bool exists = stat(s.target.c_str(), &target) == 0;
+  if (exists && target.st_ino == s.fresh) return StepState::placed;
+  const bool as_it_was =
+      s.old == 0 ? !exists
+                 : exists && target.st_ino == s.old && target.st_mtim.tv_sec == s.seconds &&
+                       target.st_mtim.tv_nsec == s.nanoseconds && target.st_size == s.size;
+  const bool ready = stat(s.temporary.c_str(), &temporary) == 0 && temporary.st_ino == s.fresh;
+  return as_it_was && ready ? StepState::pending : StepState::overtaken;
+}
+
+/// A lock on the whole file; false if somebody else has it or there are no locks.
+bool lock_file(int fd) {
+  struct flock whole {};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  return fcntl(fd, F_SETLK, &whole) == 0;
+}
+
 /// A set of files on its way to the disk. Whatever is not committed is taken back by the
 /// destructor.
 class Transaction {
@@ -108,6 +185,8 @@ class Transaction {
   ~Transaction() {
     if (!committed_) roll_back();
     for (const std::string& t : temporaries_) unlink(t.c_str());
+    for (const std::string& p : plans_) unlink(p.c_str());
+    if (plan_ >= 0) close(plan_);
     if (committed_) return;
     // Of the directories made, deepest first; one that somebody uses by now stays.
     for (auto d = made_.rbegin(); d != made_.rend(); ++d) rmdir(d->c_str());
@@ -122,13 +201,15 @@ class Transaction {
   struct Entry {
     std::string given, target, temporary, former;
     std::string_view bytes;
-    struct stat old {};
+    struct stat old {
+    }, fresh{};
     bool exists = false, special = false, placed = false;
   };
 
   Result<void> make_directories(const std::string& directory);
   Result<void> write_new(Entry& entry);
   Result<void> back_up(const Entry& entry);
+  Result<void> lay_plan();
   Result<void> place(Entry& entry);
   void roll_back();
   void forget(const std::string& temporary) {
@@ -140,7 +221,8 @@ class Transaction {
   std::vector<Entry> entries_;
   /// (device and inode of the directory, name) -> entry
   std::map<std::tuple<dev_t, ino_t, std::string>, std::size_t> by_target_;
-  std::vector<std::string> temporaries_, made_;
+  std::vector<std::string> temporaries_, made_, plans_;
+  int plan_ = -1;
   bool committed_ = false;
 };
 
@@ -219,6 +301,7 @@ Result<void> Transaction::write_new(Entry& entry) {
     return written;
   }
   if (options_.sync && !flush(fd)) return fail("cannot flush");
+  if (fstat(fd, &entry.fresh) != 0) return fail("cannot look at");
   if (close(fd) != 0) return io_error("cannot close", entry.given, errno);
   return {};
 }
@@ -249,6 +332,48 @@ Result<void> Transaction::back_up(const Entry& entry) {
   // stay. It happens when a killed write is repeated.
   unlink(name->c_str());
   forget(*name);
+  return {};
+}
+
+Result<void> Transaction::lay_plan() {
+  std::vector<Step> steps;
+  bool replaces = false;
+  for (const Entry& e : entries_) {
+    if (e.special) continue;
+    replaces = replaces || e.exists;
+    std::error_code ec;
+    Step s{fs::absolute(e.temporary, ec).string(),
+           fs::absolute(e.target, ec).string(),
+           e.fresh.st_ino,
+           e.exists ? e.old.st_ino : 0,
+           e.exists ? e.old.st_mtim.tv_sec : 0,
+           e.exists ? e.old.st_mtim.tv_nsec : 0,
+           e.exists ? e.old.st_size : 0};
+    if ((s.temporary + s.target).find_first_of("\t\n") != std::string::npos) return {};
+    steps.push_back(std::move(s));
+  }
+  if (steps.size() < 2 || !replaces) return {};
+  const std::string text = plan_text(steps);
+  const std::string& first = steps.front().target;
+  const auto name = take_temporary(first, [&](const char* path) {
+    return plan_ = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  });
+  if (!name) return io_error("cannot create a file beside", first, errno);
+  temporaries_.push_back(*name);
+  if (auto written = write_all(plan_, text, first); !written) return written;
+  if (options_.sync && !flush(plan_)) return io_error("cannot flush", *name, errno);
+  // Without locks nobody could tell a plan that was left from one that is being carried out.
+  if (!lock_file(plan_)) return {};
+  for (const Step& s : steps) {
+    const auto second =
+        take_temporary(s.target, [&](const char* path) { return link(name->c_str(), path); });
+    if (!second) continue;  // no hard links here: then one name less leads to the plan
+    temporaries_.push_back(*second);
+    plans_.push_back(plan_name(s.target));
+    if (std::rename(second->c_str(), plans_.back().c_str()) != 0)
+      return io_error("cannot make", plans_.back(), errno);
+    forget(*second);
+  }
   return {};
 }
 
@@ -292,6 +417,10 @@ Result<void> Transaction::commit() {
     for (const Entry& e : entries_)
       if (e.exists && !e.special)
         if (auto done = back_up(e); !done) return done;
+  if (auto done = lay_plan(); !done) return done;
+  if (options_.sync && !plans_.empty())
+    for (const std::string& d : directories)
+      if (auto done = flush_directory(d); !done) return done;
   for (Entry& e : entries_)
     if (!e.special)
       if (auto done = place(e); !done) return done;
@@ -318,6 +447,48 @@ Result<void> write_file_atomic(const std::string& path, std::string_view bytes,
 
 Result<void> write_files_atomic(const std::vector<OutputFile>& files, const WriteOptions& options) {
   return write_set(files, options);
+}
+
+Result<std::size_t> finish_interrupted_write(const std::string& path) {
+  const auto target = follow_links(path);
+  if (!target) return std::size_t{0};
+  const std::string plan = plan_name(*target);
+  const int fd = open(plan.c_str(), O_RDWR | O_CLOEXEC);
+  if (fd < 0) return std::size_t{0};
+  struct Closer {
+    int fd;
+    ~Closer() { close(fd); }
+  } closer{fd};
+  if (!lock_file(fd)) return std::size_t{0};
+  std::string text;
+  char buffer[4096];
+  for (ssize_t n; (n = read(fd, buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(n));
+  const auto steps = parse_plan(text);
+  std::size_t pending = 0;
+  bool overtaken = !steps;
+  for (const Step& s : steps.value_or(std::vector<Step>{})) {
+    const StepState state = state_of(s);
+    pending += state == StepState::pending ? 1 : 0;
+    overtaken = overtaken || state == StepState::overtaken;
+  }
+  std::set<std::string> directories;
+  if (!overtaken) {
+    for (const Step& s : *steps) {
+      directories.insert(directory_of(s.target));
+      if (state_of(s) == StepState::pending &&
+          std::rename(s.temporary.c_str(), s.target.c_str()) != 0)
+        return io_error("cannot finish the interrupted rewriting of", s.target, errno);
+    }
+    for (const std::string& d : directories)
+      if (auto done = flush_directory(d); !done) return done.error();
+  }
+  for (const Step& s : steps.value_or(std::vector<Step>{})) {
+    unlink(s.temporary.c_str());
+    if (const std::string other = plan_name(s.target); other != plan) unlink(other.c_str());
+  }
+  unlink(plan.c_str());
+  return overtaken ? 0 : pending;
 }
 
 bool is_temporary_of(std::string_view name, std::string_view target) {

@@ -1,8 +1,10 @@
 // Atomic writing: what is in place before, after and when something goes wrong.
 #include "deck/edit/write.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -207,6 +209,94 @@ TEST_F(AtomicWriting, TwoThreadsWriteTheSameFileWhole) {
   const std::string last = get("f");
   EXPECT_TRUE(last == a || last == b);
   EXPECT_EQ(entries(), 1u);
+}
+
+/// Two files of a set as a kill between their renames leaves them: a.rad is new, b.inc is old and
+/// its new contents lie beside it; both have the note.
+class InterruptedSet : public AtomicWriting {
+ protected:
+  InterruptedSet() {
+    put("a.rad", "new a");
+    put("b.inc", "old b");
+    put(".b.inc.1-0.tmp", "new b");
+    const auto status = [&](const std::string& name) {
+      struct stat s {};
+      EXPECT_EQ(stat(at(name).c_str(), &s), 0);
+      return s;
+    };
+    const auto a = status("a.rad"), b = status("b.inc"), fresh = status(".b.inc.1-0.tmp");
+    std::ofstream plan(at(".a.rad.unfinished"));
+    plan << "deck unfinished 1\n"
+         << at(".a.rad.1-0.tmp") << '\t' << at("a.rad") << '\t' << a.st_ino << "\t12345\t1\t2\t3\n"
+         << at(".b.inc.1-0.tmp") << '\t' << at("b.inc") << '\t' << fresh.st_ino << '\t' << b.st_ino
+         << '\t' << b.st_mtim.tv_sec << '\t' << b.st_mtim.tv_nsec << '\t' << b.st_size << "\nend\n";
+    plan.close();
+    fs::create_hard_link(at(".a.rad.unfinished"), at(".b.inc.unfinished"));
+  }
+};
+
+TEST_F(InterruptedSet, IsFinishedFromAnyOfItsFiles) {
+  const auto finished = finish_interrupted_write(at("b.inc"));
+  ASSERT_TRUE(finished) << finished.error().message;
+  EXPECT_EQ(*finished, 1u);
+  EXPECT_EQ(get("a.rad"), "new a");
+  EXPECT_EQ(get("b.inc"), "new b");
+  EXPECT_EQ(entries(), 2u);
+  EXPECT_EQ(*finish_interrupted_write(at("a.rad")), 0u);
+}
+
+TEST_F(InterruptedSet, IsDroppedWhereAFileWasChangedSince) {
+  put("b.inc", "restored by hand");
+  const auto finished = finish_interrupted_write(at("a.rad"));
+  ASSERT_TRUE(finished) << finished.error().message;
+  EXPECT_EQ(*finished, 0u);
+  EXPECT_EQ(get("b.inc"), "restored by hand");
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(InterruptedSet, IsDroppedWhereAFinishedFileWasReplacedSince) {
+  fs::rename(at("a.rad"), at("moved away"));
+  put("a.rad", "old a, restored");
+  EXPECT_EQ(*finish_interrupted_write(at("b.inc")), 0u);
+  EXPECT_EQ(get("b.inc"), "old b");
+  EXPECT_EQ(get("a.rad"), "old a, restored");
+}
+
+TEST_F(InterruptedSet, IsLeftToAWriterThatLives) {
+  int ready[2], leave[2];
+  ASSERT_EQ(pipe(ready), 0);
+  ASSERT_EQ(pipe(leave), 0);
+  const pid_t writer = fork();
+  if (writer == 0) {
+    const int fd = open(at(".a.rad.unfinished").c_str(), O_RDWR);
+    struct flock whole {};
+    whole.l_type = F_WRLCK;
+    char c = fcntl(fd, F_SETLK, &whole) == 0 ? 'y' : 'n';
+    if (write(ready[1], &c, 1) != 1 || close(leave[1]) != 0 || read(leave[0], &c, 1) < 0) _exit(1);
+    _exit(0);
+  }
+  char c = 0;
+  ASSERT_EQ(read(ready[0], &c, 1), 1);
+  ASSERT_EQ(c, 'y');
+  EXPECT_EQ(*finish_interrupted_write(at("b.inc")), 0u);
+  EXPECT_EQ(get("b.inc"), "old b");
+  close(leave[1]);
+  waitpid(writer, nullptr, 0);
+  EXPECT_EQ(*finish_interrupted_write(at("b.inc")), 1u);
+  EXPECT_EQ(get("b.inc"), "new b");
+}
+
+TEST_F(InterruptedSet, IsForgottenWhenTheNoteIsNoNote) {
+  put(".a.rad.unfinished", "something else\n");
+  EXPECT_EQ(*finish_interrupted_write(at("a.rad")), 0u);
+  EXPECT_EQ(get("b.inc"), "old b");
+}
+
+TEST_F(AtomicWriting, FinishedSetLeavesNoNote) {
+  put("a.rad", "old");
+  put("b.inc", "old");
+  ASSERT_TRUE(write_files_atomic({{at("a.rad"), "new"}, {at("b.inc"), "new"}}));
+  EXPECT_EQ(entries(), 2u);
 }
 
 TEST(TemporaryName, BelongsToItsTargetOnly) {

@@ -17,7 +17,7 @@ import tempfile
 
 from common import ROOT, SAMPLES, Checks
 
-TEMPORARY = re.compile(r"^\..+\.\d+-\d+\.tmp$")
+TEMPORARY = re.compile(r"^\..+(\.\d+-\d+\.tmp|\.unfinished)$")
 KILLS = ("kill", "half")
 FAILURES = (str(errno.ENOSPC), str(errno.EIO))
 
@@ -127,8 +127,19 @@ def rewriting(c, s, tmp, name, args, old, repeatable=True):
             if not struck:
                 return "" if now == new else "undisturbed, but the result differs"
             why = whole_or_old(now, old, new, True)
-            if why or not repeatable:
+            if why:
                 return why
+            if "car_0000.rad" in old and args[0] != "convert" or "--in-place" in args:
+                # Whoever reads the deck next gets all of it old or all of it new.
+                s.run(0, "none", "params", "car_0000.rad", "--no-geometry", "-q", cwd=work)
+                now = tree(work)
+                decks = [k for k in new if not k.endswith(".orig")]
+                if any(now[k] != old[k] for k in decks) and any(now[k] != new[k] for k in decks):
+                    return "part of the deck is old and part is new, even for the next reader"
+                if any(k.endswith(".unfinished") for k in now):
+                    return "the note of what is unfinished stays"
+            if not repeatable:
+                return ""
             # Again, undisturbed: as if nothing had happened.
             s.run(0, "none", *args, cwd=work)
             again = {k: v for k, v in tree(work).items() if not TEMPORARY.match(os.path.basename(k))}
@@ -144,13 +155,14 @@ def rewriting(c, s, tmp, name, args, old, repeatable=True):
                 return "" if now == new else "undisturbed, but the result differs"
             if code not in (0, 1, 2, 3):
                 return "unexpected exit code"
-            # A failing call is not a kill: nothing may be left, unless what failed is the removal itself.
-            why = whole_or_old(now, old, new, len(unlinks) < 3)
+            # A failing call is not a kill: nothing may be left, unless what failed is the removal of just that.
+            why = whole_or_old(now, old, new, True)
             if why:
                 return why
             strays = [k for k in now if k not in old and k not in new]
-            if strays:
-                unlinks.append(strays)
+            unlinks.extend(strays)
+            if len(strays) > 1 or len(unlinks) > 8:
+                return "left behind: " + ", ".join(strays)
             decks = [k for k in new if not k.endswith(".orig")]
             changed = [k for k in decks if now.get(k) != old.get(k)]
             complete = [k for k in decks if now.get(k) == new[k]]

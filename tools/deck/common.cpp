@@ -102,6 +102,23 @@ std::function<void(const Deck&)>& load_observer() {
 }
 }  // namespace
 
+namespace {
+/// A deck of several files that was being rewritten when the program was killed is read as it was
+/// to become, never half of it. True if files changed.
+Result<bool> finish_rewriting(const std::vector<std::string>& paths, const CommonOptions& options) {
+  std::size_t files = 0;
+  for (const std::string& path : paths) {
+    const auto finished = finish_interrupted_write(path);
+    if (!finished) return finished.error();
+    files += *finished;
+  }
+  if (files > 0 && !options.quiet)
+    fmt::print(stderr, "deck: note: an interrupted rewriting of {} was finished: {} file{}\n",
+               paths.front(), files, files == 1 ? "" : "s");
+  return files > 0;
+}
+}  // namespace
+
 void observe_loading(std::function<void(const Deck&)> observer) {
   load_observer() = std::move(observer);
 }
@@ -114,8 +131,19 @@ Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& s
   ReadOptions read;
   read.include_paths = options.include_paths;
   read.overlay = overlay;
+  if (overlay == nullptr)
+    if (auto finished = finish_rewriting({path}, options); !finished) return finished.error();
   auto deck = read_deck(path, schemas, read);
   if (!deck) return deck.error();
+  if (overlay == nullptr) {
+    std::vector<std::string> includes;
+    for (std::uint32_t f = 1; f < deck->sources.size(); ++f)
+      includes.push_back(deck->sources[f].path());
+    const auto finished = finish_rewriting(includes, options);
+    if (!finished) return finished.error();
+    if (*finished) deck = read_deck(path, schemas, read);
+    if (!deck) return deck.error();
+  }
   auto loaded = std::make_unique<Loaded>();
   loaded->path = path;
   loaded->deck = std::move(*deck);

@@ -1,6 +1,7 @@
 // Writing files so that a crash, a kill or a full disk never leaves a half-written one: the new
 // contents are written and flushed beside their place and then renamed into it.
 #pragma once
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,11 +35,18 @@ Result<void> write_file_atomic(const std::string& path, std::string_view bytes,
                                const WriteOptions& options = {});
 
 /// The same for several files: all of them are written and flushed beside their places before the
-/// first is renamed. If a rename fails, those made before are taken back. Only a kill between two
-/// renames can leave some files old and some new, each of them whole. Two entries that lead to the
-/// same file must have the same bytes.
+/// first is renamed. If a rename fails, those made before are taken back. A kill between two
+/// renames leaves some files old and some new, each of them whole, and a note of what is missing;
+/// see finish_interrupted_write. Two entries that lead to the same file must have the same bytes.
 Result<void> write_files_atomic(const std::vector<OutputFile>& files,
                                 const WriteOptions& options = {"", true, true});
+
+/// Finishes a set of files, `path` being one of them, whose writing was killed between two renames:
+/// puts the remaining new files in place and removes the note (".NAME.unfinished") that said so.
+/// Returns how many files that were; 0 also where nothing was left to do, where the writer is still
+/// at work, and where somebody changed a file of the set since: then nothing but the note is
+/// removed. Error: a file cannot be put in place.
+Result<std::size_t> finish_interrupted_write(const std::string& path);
 
 /// True if `name` is what a killed write of the file `target` (both without directory) left behind:
 /// ".TARGET.PID-NUMBER.tmp".
