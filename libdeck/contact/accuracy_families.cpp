@@ -10,7 +10,8 @@ namespace {
 using P = Point3<double>;
 using Sample = PairSample;
 
-// SplitMix64: the same numbers everywhere, unlike the distributions of the standard library.
+// SplitMix64: the same numbers everywhere, unlike the distributions of the standard library. No
+// expression here may draw twice: compilers are free to choose which operand goes first.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 0x1234567u) {}
@@ -26,6 +27,10 @@ class Random {
   int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
   int integer(int low, int high) { return low + below(high - low + 1); }
   double sign() { return below(2) == 0 ? -1.0 : 1.0; }
+  double signed_log(double low, double high) {
+    const double s = sign();
+    return s * log(low, high);
+  }
   P point(double size = 1.0) {
     return {range(-size, size), range(-size, size), range(-size, size)};
   }
@@ -40,6 +45,11 @@ class Random {
       const double n = closest_detail::length(v);
       if (n > 0.1 && n < 1.0) return (1.0 / n) * v;
     }
+  }
+  // A vector of any direction; its length swept over decades.
+  P step(double low, double high) {
+    const double size = log(low, high);
+    return size * direction();
   }
 
  private:
@@ -75,10 +85,10 @@ void choose_gap(Sample& s, Random& r) {
       s.gap = std::nextafter(d, 0.0);
       break;
     case 3:
-      s.gap = d * (1.0 + r.sign() * r.log(-17, -10));
+      s.gap = d * (1.0 + r.signed_log(-17, -10));
       break;
     case 4:
-      s.gap = d * (1.0 + r.sign() * r.log(-10, -0.5));
+      s.gap = d * (1.0 + r.signed_log(-10, -0.5));
       break;
     default:
       s.gap = (length > 0.0 ? length : 1.0) * r.log(-6, 0);
@@ -108,24 +118,26 @@ Sample edges(const P& s1, const P& s2, const P& m1, const P& m2) {
 P node_near(const P& a, const P& b, const P& c, Random& r) {
   const double u = r.range(-0.2, 1.2), v = r.range(-0.2, 1.2);
   const P n = unit_of(cross(b - a, c - a));
-  return a + u * (b - a) + v * (c - a) + (r.sign() * r.log(-9, 0)) * n;
+  return a + u * (b - a) + v * (c - a) + r.signed_log(-9, 0) * n;
 }
 
 // An ordinary quad of size 1 with slight warp, and a node near it.
 Sample ordinary_quad(Random& r) {
   const P o = r.point(), e = r.direction(), f = normal_to(e, r), n = cross(e, f);
   const auto at = [&](double x, double y) {
-    return o + (x + r.range(-0.2, 0.2)) * e + (y + r.range(-0.2, 0.2)) * f +
-           r.range(-0.05, 0.05) * n;
+    const double u = x + r.range(-0.2, 0.2), v = y + r.range(-0.2, 0.2);
+    return o + u * e + v * f + r.range(-0.05, 0.05) * n;
   };
   const P a = at(0, 0), b = at(1, 0), c = at(1, 1), d = at(0, 1);
-  const P node =
-      o + r.range(-0.2, 1.2) * e + r.range(-0.2, 1.2) * f + (r.sign() * r.log(-6, 0)) * n;
+  const double u = r.range(-0.2, 1.2), v = r.range(-0.2, 1.2);
+  const P node = o + u * e + v * f + r.signed_log(-6, 0) * n;
   return segment(a, b, c, d, node);
 }
 Sample ordinary_edges(Random& r) {
-  const P o = r.point(), w = r.log(-6, 0) * r.direction();
-  return edges(o - r.direction(), o + r.direction(), o + w - r.direction(), o + w + r.direction());
+  const P o = r.point(), w = r.step(-6, 0);
+  const P s1 = o - r.direction(), s2 = o + r.direction();
+  const P m1 = o + w - r.direction(), m2 = o + w + r.direction();
+  return edges(s1, s2, m1, m2);
 }
 Sample ordinary(Random& r) {
   if (r.below(3) == 0) return ordinary_edges(r);
@@ -166,13 +178,17 @@ Sample thin_triangle(Random& r, double t, double epsilon) {
   const P a = r.point(), b = r.point(), n = normal_to(b - a, r);
   const P c = a + t * (b - a) + (epsilon * closest_detail::length(b - a)) * n;
   const double u = r.range(-0.2, 1.2), v = r.range(-0.2, 1.2);
-  const P node = a + u * (b - a) + v * (c - a) + r.log(-9, 0) * r.direction();
+  const P node = a + u * (b - a) + v * (c - a) + r.step(-9, 0);
   return r.below(4) == 0 ? segment(a, b, c, a + 0.5 * (c - a), node) : triangle(a, b, c, node);
 }
-Sample needle(Random& r) { return thin_triangle(r, r.unit(), r.log(-15, -3)); }
+Sample needle(Random& r) {
+  const double t = r.unit(), epsilon = r.log(-15, -3);
+  return thin_triangle(r, t, epsilon);
+}
 Sample sliver(Random& r) {
   constexpr double kAt[] = {0.5, -1e-3, 1.0 + 1e-3};
-  return thin_triangle(r, kAt[r.below(3)], r.log(-15, -3));
+  const double t = kAt[r.below(3)], epsilon = r.log(-15, -3);
+  return thin_triangle(r, t, epsilon);
 }
 Sample collinear(Random& r) {
   const P a = r.integers(9), d = r.integers(4);
@@ -182,14 +198,17 @@ Sample collinear(Random& r) {
 }
 Sample coincident_pair(Random& r) {
   const P a = r.point(), b = r.point();
-  const P node =
-      r.below(2) == 0 ? r.point() : a + r.unit() * (b - a) + r.log(-12, 0) * r.direction();
+  P node = r.point();
+  if (r.below(2) == 0) {
+    node = a + r.unit() * (b - a);
+    node = node + r.step(-12, 0);
+  }
   if (r.below(2) == 0) return triangle(a, a, b, node);
   return r.below(2) == 0 ? triangle(a, b, a, node) : segment(a, a, b, b, node);
 }
 Sample all_coincident(Random& r) {
   const P a = r.point();
-  const P node = r.below(8) == 0 ? a : a + r.log(-15, 0) * r.direction();
+  const P node = r.below(8) == 0 ? a : a + r.step(-15, 0);
   return r.below(2) == 0 ? triangle(a, a, a, node) : segment(a, a, a, a, node);
 }
 Sample collapsed_quad(Random& r) {
@@ -209,14 +228,14 @@ Sample arrow(Random& r) {
 Sample saddle(Random& r) {
   const double kappa = r.log(-2, 0.5), h = kappa;
   Sample s = segment({1, 1, h}, {-1, 1, -h}, {-1, -1, h}, {1, -1, -h}, {0, 0, 1.0 / kappa});
-  if (r.below(2) == 0) s.x[4].z = r.sign() * r.log(-8, 2);
+  if (r.below(2) == 0) s.x[4].z = r.signed_log(-8, 2);
   permute_axes(s, r);
   return s;
 }
 Sample focal(Random& r) {
   const double h = r.log(-0.5, 3);
   Sample s = segment({1, 1, h}, {-1, 1, 0}, {-1, -1, h}, {1, -1, 0}, {0, 0, h * r.range(0.3, 0.7)});
-  s.x[4] = s.x[4] + r.log(-16, -1) * r.direction();
+  s.x[4] = s.x[4] + r.step(-16, -1);
   permute_axes(s, r);
   return s;
 }
@@ -254,8 +273,8 @@ Sample in_plane(Random& r) {
 }
 Sample near_touch(Random& r) {
   Sample s = flat_quad(r, 0.0);
-  s.x[4].z = r.sign() * r.log(-300, -6);
-  s.gap = std::abs(s.x[4].z) * (1.0 + r.sign() * r.log(-16, -1));
+  s.x[4].z = r.signed_log(-300, -6);
+  s.gap = std::abs(s.x[4].z) * (1.0 + r.signed_log(-16, -1));
   if (r.below(2) == 0) s.gap = std::abs(s.x[4].z);
   permute_axes(s, r);
   return s;
@@ -318,14 +337,16 @@ Sample parallel_apart(Random& r) { return parallel(r, 2, 5); }
 Sample near_parallel(Random& r) {
   const P o = r.point(), d = r.direction(), side = normal_to(d, r);
   const double angle = r.log(-17, -4);
-  const P e = d + angle * normal_to(d, r), start = o + r.log(-6, 0) * side + r.range(-1, 1) * d;
-  return edges(o, o + r.range(0.3, 2) * d, start, start + r.range(0.3, 2) * e);
+  const P e = d + angle * normal_to(d, r), beside = o + r.log(-6, 0) * side;
+  const P start = beside + r.range(-1, 1) * d, s2 = o + r.range(0.3, 2) * d;
+  return edges(o, s2, start, start + r.range(0.3, 2) * e);
 }
 Sample near_collinear(Random& r) {
   const P o = r.point(), d = r.direction(), side = normal_to(d, r);
   const double lateral = r.log(-12, -6);
   const P start = o + (1.0 + r.range(0.05, 0.5)) * d + lateral * side;
-  return edges(o, o + d, start, start + r.range(0.3, 2) * d + (lateral * r.range(-1, 1)) * side);
+  const P along = start + r.range(0.3, 2) * d;
+  return edges(o, o + d, start, along + (lateral * r.range(-1, 1)) * side);
 }
 Sample crossing(Random& r) {
   constexpr double kAt[] = {0.0, 0.5, 1.0};
@@ -433,7 +454,8 @@ Sample size_ratio(Random& r) {
     return s;
   }
   for (std::size_t k = 0; k < 4; ++k) s.x[k] = 1e3 * s.x[k];
-  s.x[4] = s.x[0] + r.unit() * (s.x[2] - s.x[0]) + r.log(-3, 0) * r.direction();
+  s.x[4] = s.x[0] + r.unit() * (s.x[2] - s.x[0]);
+  s.x[4] = s.x[4] + r.step(-3, 0);
   return s;
 }
 Sample dihedral(Random& r) {

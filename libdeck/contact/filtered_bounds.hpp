@@ -324,6 +324,11 @@ inline SegmentClosest<DoubleDouble> wide_closest(const SegmentPair& pair,
     first = false;
   }
   closest_detail::classify(out, false);
+  // A guided point outside its sub-triangle may still be a mean of the four corners, but it is no
+  // point of the segment: it bounds nothing.
+  const SubTriangleClosest<T>& best = out.closest();
+  if (!(best.weight_o >= T(0) && best.weight_a >= T(0) && best.weight_b >= T(0)))
+    out.weights[0] = T(-1);
   return out;
 }
 
