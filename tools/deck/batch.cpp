@@ -38,7 +38,7 @@ Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all
   task.words.assign(words.begin() + 1, words.end());
   for (std::string& w : task.words) CLI::detail::remove_quotes(w);
   CLI::App app;
-  (void)task.verb.setup(app);
+  const Action action = task.verb.setup(app);  // holds what the options are stored in
   std::vector<std::string> arguments = {"deck", "--"};
   arguments.insert(arguments.end(), task.words.rbegin(), task.words.rend());
   try {
