@@ -61,7 +61,8 @@ def check_document(c, name, text, validators):
 
 
 def verbs_with_json(c):
-    for verb, extra in (("params", []), ("gaps", []), ("gaps", ["--all"]), ("cycle", []), ("cycle", ["--all"])):
+    for verb, extra in (("params", []), ("gaps", []), ("gaps", ["--all"]), ("cycle", []), ("cycle", ["--all"]),
+                        ("fix", ["--strategy", "move-nodes"])):
         if c.has(verb):
             yield verb, extra
 

@@ -9,12 +9,12 @@
 
 #include "common.hpp"
 #include "convert_steps.hpp"
-#include "convert_tree.hpp"
 #include "deck/edit/rewrite.hpp"
 #include "deck/edit/write.hpp"
 #include "deck/report/deck_json.hpp"
 #include "deck/report/losses.hpp"
 #include "deck/text/edits.hpp"
+#include "tree.hpp"
 
 namespace {
 
@@ -108,44 +108,26 @@ int write_in_place(const Conversion& c, const Options& options) {
 
 int write_tree(const Conversion& c, const Options& options,
                std::map<fs::path, std::string>& written) {
-  const Deck& deck = c.now->deck;
-  const auto layout = lay_out(deck);
-  if (!layout) {
-    print_error(options.common, layout.error().message);
-    return exit_usage;
-  }
-  for (const std::string& path : layout->outside) {
-    if (!c.changed.contains(path)) continue;
-    print_error(options.common,
-                path +
-                    " is included by its absolute path and would have to change; change it with "
-                    "--in-place, or make one file with --flatten");
+  const auto tree = lay_out(c.now->deck, options.directory, c.changed);
+  if (!tree) {
+    print_error(options.common, tree.error().message);
     return exit_usage;
   }
   std::vector<OutputFile> files;
-  for (const auto& [target, file] : layout->files) {
-    const fs::path path = fs::path(options.directory) / target;
-    const Source& source = deck.sources[file];
-    std::error_code ec;
-    if (fs::equivalent(path, source.path(), ec)) {
-      print_error(options.common, path.string() +
-                                      " is the deck itself; name another directory, or change it "
-                                      "with --in-place");
+  for (const TreeFile& f : tree->files) {
+    const auto [it, is_new] = written.emplace(f.target.lexically_normal(), f.source);
+    if (!is_new && it->second != f.source) {
+      print_error(options.common, "both " + it->second + " and " + f.source +
+                                      " would be written to " + f.target.string());
       return exit_usage;
     }
-    const auto [it, is_new] = written.emplace(path.lexically_normal(), source.path());
-    if (!is_new && it->second != source.path()) {
-      print_error(options.common, "both " + it->second + " and " + source.path() +
-                                      " would be written to " + path.string());
-      return exit_usage;
-    }
-    files.push_back({path.string(), source.bytes()});
+    files.push_back({f.target.string(), f.bytes});
   }
   if (auto done = write_files_atomic(files); !done) {
     print_error(options.common, done.error().message);
     return exit_usage;
   }
-  for (const std::string& path : layout->outside)
+  for (const std::string& path : tree->outside)
     fmt::print(stderr, "deck: note: {} is included by its absolute path and was not copied\n",
                path);
   if (!options.common.quiet)

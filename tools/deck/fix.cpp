@@ -4,8 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <filesystem>
-#include <set>
 
 #include "common.hpp"
 #include "deck/edit/depenetrate.hpp"
@@ -13,12 +11,12 @@
 #include "deck/report/fix.hpp"
 #include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
+#include "tree.hpp"
 
 namespace {
 
 using namespace deck;
 using namespace deck::cli;
-namespace fs = std::filesystem;
 
 struct Options {
   CommonOptions common;
@@ -40,39 +38,6 @@ std::optional<double> share(std::string text) {
   const double value = percent ? cell.value / 100 : cell.value;
   if (!(value >= 0 && value <= 1)) return std::nullopt;
   return value;
-}
-
-/// Where the files of a deck go below the output directory: as they lie to one another, so that
-/// every relative #include finds its file. Files included by an absolute path stay where they are.
-Result<std::vector<std::pair<fs::path, std::uint32_t>>> targets(const Deck& deck,
-                                                                const ChangedFiles& changed) {
-  std::set<std::uint32_t> absolute;
-  for (const IncludeEdge& e : deck.includes)
-    if (fs::path(e.written).is_absolute() || absolute.contains(e.parent)) absolute.insert(e.file);
-  const auto full = [&](std::uint32_t f) {
-    return fs::absolute(deck.sources[f].path()).lexically_normal();
-  };
-  fs::path base = full(0).parent_path();
-  for (std::uint32_t f = 0; f < deck.sources.size(); ++f) {
-    if (absolute.contains(f)) {
-      if (changed.contains(deck.sources[f].path()))
-        return Error{Error::Code::config,
-                     deck.sources[f].path() +
-                         " has to change, but is included by its absolute path; use --in-place"};
-      continue;
-    }
-    while (!full(f).lexically_relative(base).empty() &&
-           *full(f).lexically_relative(base).begin() == "..")
-      base = base.parent_path();
-  }
-  std::vector<std::pair<fs::path, std::uint32_t>> out;
-  std::set<fs::path> seen;
-  for (std::uint32_t f = 0; f < deck.sources.size(); ++f) {
-    if (absolute.contains(f)) continue;
-    const fs::path path = full(f).lexically_relative(base);
-    if (seen.insert(path).second) out.emplace_back(path, f);
-  }
-  return out;
 }
 
 class FixRun {
@@ -179,20 +144,10 @@ class FixRun {
   Result<void> write_tree(const Loaded& loaded, const ChangedFiles& changed) const {
     if (loaded.path == "-")
       return Error{Error::Code::config, "a deck from standard input has no name to write it to"};
-    const auto list = targets(loaded.deck, changed);
-    if (!list) return list.error();
+    const auto tree = lay_out(loaded.deck, o_.directory, changed);
+    if (!tree) return tree.error();
     std::vector<OutputFile> files;
-    for (const auto& [relative, f] : *list) {
-      const Source& source = loaded.deck.sources[f];
-      const fs::path path = fs::path(o_.directory) / relative;
-      std::error_code ec;
-      if (fs::equivalent(path, source.path(), ec))
-        return Error{Error::Code::config, path.string() +
-                                              " is the deck itself; name another directory, or use "
-                                              "--in-place"};
-      const auto it = changed.find(source.path());
-      files.push_back({path.string(), it == changed.end() ? source.bytes() : it->second});
-    }
+    for (const TreeFile& f : tree->files) files.push_back({f.target.string(), f.bytes});
     return write_files_atomic(files);
   }
 

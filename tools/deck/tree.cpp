@@ -1,11 +1,19 @@
-#include "convert_tree.hpp"
+#include "tree.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 
 namespace deck::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Targets relative to the output directory, and the file of the deck that goes there.
+struct Layout {
+  std::map<fs::path, std::uint32_t> files;
+  std::vector<std::string> outside;
+};
 
 /// Leading ".." of a normalized relative path.
 int climbs(const fs::path& path) {
@@ -44,9 +52,7 @@ std::vector<fs::path> relative_places(const Deck& deck, Layout& layout) {
   return place;
 }
 
-}  // namespace
-
-Result<Layout> lay_out(const Deck& deck) {
+Result<Layout> places_of(const Deck& deck) {
   Layout layout;
   const std::vector<fs::path> places = relative_places(deck, layout);
   int up = 0;
@@ -72,6 +78,34 @@ Result<Layout> lay_out(const Deck& deck) {
                        deck.sources[it->second].path() + " and " + deck.sources[f].path()};
   }
   return layout;
+}
+
+}  // namespace
+
+Result<Tree> lay_out(const Deck& deck, const std::string& directory, const ChangedFiles& changed) {
+  auto layout = places_of(deck);
+  if (!layout) return layout.error();
+  Tree tree;
+  tree.outside = std::move(layout->outside);
+  for (const std::string& path : tree.outside)
+    if (changed.contains(path))
+      return Error{Error::Code::config,
+                   path +
+                       " is included by its absolute path and would have to change; change it "
+                       "with --in-place, or make one file with deck convert --flatten"};
+  for (const auto& [place, file] : layout->files) {
+    const Source& source = deck.sources[file];
+    const fs::path target = fs::path(directory) / place;
+    std::error_code ec;
+    if (fs::equivalent(target, source.path(), ec))
+      return Error{Error::Code::config, target.string() +
+                                            " is the deck itself; name another directory, or "
+                                            "change it with --in-place"};
+    const auto it = changed.find(source.path());
+    tree.files.push_back(
+        {target, source.path(), it == changed.end() ? source.bytes() : it->second});
+  }
+  return tree;
 }
 
 }  // namespace deck::cli
