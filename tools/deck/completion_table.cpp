@@ -62,7 +62,7 @@ std::vector<VerbInfo> describe_verbs() {
   for (const Verb& v : verbs()) {
     CLI::App app(std::string(v.summary), std::string(v.name));
     app.set_help_flag("-h,--help", "This help");
-    const Action action = v.setup(app);  // holds what the options are stored in
+    const Action action = v.setup(app);     // holds what the options are stored in
     if (app.get_group().empty()) continue;  // hidden
     VerbInfo info;
     info.name = v.name;
