@@ -63,7 +63,8 @@ void check_ifric(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_fric_function(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, {7}, [&](const ContactCard& card) {
-    if (!card.given("fct_IDF") || card.given("Fric")) return;
+    // With fric_ID nothing of the card's friction is used.
+    if (!card.given("fct_IDF") || card.given("Fric") || card.given("fric_ID")) return;
     Diagnostic* d =
         report_at(r, rule, card, "Fric",
                   name_of(card) + ": Fric is blank, so the friction of fct_IDF is scaled by 0");

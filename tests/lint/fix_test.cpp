@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "lint/support.hpp"
 
@@ -112,6 +115,23 @@ Diagnostic with_edit(Span span, std::string text, bool safe = true) {
   d.span = span;
   d.fix = Fix{"test", safe, {{span, std::move(text)}}};
   return d;
+}
+
+TEST(ApplyFixes, ComeToAnEndOnEverySample) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(DECK_SOURCE_DIR) + "/samples")) {
+    if (!entry.path().string().ends_with("_0000.rad")) continue;
+    std::ifstream in(entry.path(), std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    int rounds = 0;
+    for (; rounds < 10; ++rounds) {
+      const Linted run = lint_text(text);
+      const FixResult fixed = apply_fixes(run.deck->sources, run.result.diagnostics, true);
+      if (fixed.files.empty()) break;
+      text = fixed.files.front().text;
+    }
+    EXPECT_LT(rounds, 10) << entry.path() << ": one fix undoes another";
+  }
 }
 
 TEST(ApplyFixes, TakesTheFirstOfTwoThatOverlap) {
