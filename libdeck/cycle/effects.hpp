@@ -188,7 +188,7 @@ struct Rates {
             (s.weight[2] * Vec3<V>::load(view.velocity[2], i) +
              s.weight[3] * Vec3<V>::load(view.velocity[3], i));
       std::array<V, 4> m;
-      four_times([&](auto c) __attribute__((always_inline)) { m[c] = V::load(view.mass[c] + i); });
+      four_times([&](auto c) DECK_INLINE { m[c] = V::load(view.mass[c] + i); });
       if constexpr (M == Model::reference) {
         s.mass =
             min(s.weight[0] * m[0] + s.weight[1] * m[1], s.weight[2] * m[2] + s.weight[3] * m[3]);
@@ -198,15 +198,14 @@ struct Rates {
       }
     } else {
       Vec3<V> main = s.raw[0] * Vec3<V>::load(view.velocity[1], i);
-      four_times([&](auto c) __attribute__((always_inline)) {
+      four_times([&](auto c) DECK_INLINE {
         if (c != 0) main = main + s.raw[c] * Vec3<V>::load(view.velocity[c + 1], i);
       });
       s.v = Vec3<V>::load(view.velocity[0], i) - main;
       s.mass = V::load(view.mass[0] + i);
       if constexpr (M == Model::robust) {
         std::array<V, 4> m;
-        four_times([&](auto c)
-                       __attribute__((always_inline)) { m[c] = V::load(view.mass[c + 1] + i); });
+        four_times([&](auto c) DECK_INLINE { m[c] = V::load(view.mass[c + 1] + i); });
         s.mass = reduced(s.mass, point_mass(s.weight.data(), m.data(), 4));
       }
     }

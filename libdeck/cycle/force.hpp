@@ -28,7 +28,7 @@ void load_geometry(const PacketView& view, std::size_t i, const GeometryBlock& g
   s.penetration = V::load(g.penetration + slot);
   s.distance = V::load(g.distance + slot);
   s.n = {V::load(g.normal[0] + slot), V::load(g.normal[1] + slot), V::load(g.normal[2] + slot)};
-  four_times([&](auto c) __attribute__((always_inline)) {
+  four_times([&](auto c) DECK_INLINE {
     s.raw[c] = V::load(g.raw[c] + slot);
     s.weight[c] = V::load(g.weight[c] + slot);
   });
@@ -73,8 +73,7 @@ void apply_friction(const Effects& on, const Constants& k, const PacketView& vie
 /// What geometry found goes out as it is, and early: it need not wait in registers.
 template <class V>
 void pass_on(const PairState<V>& s, std::size_t i, PacketResult& out) {
-  four_times([&](auto c)
-                 __attribute__((always_inline)) { s.weight[c].store(out.weights[c].data() + i); });
+  four_times([&](auto c) DECK_INLINE { s.weight[c].store(out.weights[c].data() + i); });
   s.n.x.store(out.normal[0].data() + i);
   s.n.y.store(out.normal[1].data() + i);
   s.n.z.store(out.normal[2].data() + i);
@@ -117,9 +116,9 @@ void store_pair(const Effects& on, const PairState<V>& s, std::size_t i, PacketR
 
 // Flattened for the same reason as the geometry.
 template <class V, Model M, ContactKind K, class Effects>
-[[gnu::flatten]] void force_block(const Effects& on, const Constants& shared,
-                                  const PacketView& view, std::size_t begin, std::size_t n,
-                                  const GeometryBlock& g, PacketResult& out) {
+DECK_FLATTEN void force_block(const Effects& on, const Constants& shared, const PacketView& view,
+                              std::size_t begin, std::size_t n, const GeometryBlock& g,
+                              PacketResult& out) {
   // Copies: results are stored in between, and could be these numbers for all the compiler knows.
   const Constants k = shared;
   const std::size_t last = view.size - V::width;

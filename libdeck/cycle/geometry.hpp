@@ -30,8 +30,7 @@ struct Spoke {
   Vec3<V> e, turn, to;
   V ee, inv, along, d2;
   Spoke() = default;
-  [[gnu::always_inline]] Spoke(const Vec3<V>& corner, const V& square, const V& reciprocal,
-                               const Vec3<V>& w)
+  DECK_INLINE Spoke(const Vec3<V>& corner, const V& square, const V& reciprocal, const Vec3<V>& w)
       : e(corner), ee(square), inv(reciprocal) {
     turn = cross(w, e);
     along = clamp01(dot(w, e) * inv);
@@ -60,9 +59,9 @@ struct SubTriangle {
 /// point is formed before it is subtracted from the node, as there: far from the origin this is
 /// the rounding that shows.
 template <class V>
-[[gnu::always_inline]] inline SubTriangle<V> subtriangle_reference(
-    const Spoke<V>& s1, const Spoke<V>& s2, const Sides<V>& s, const Vec3<V>& node,
-    const Vec3<V>& apex, const Vec3<V>& w) {
+DECK_INLINE inline SubTriangle<V> subtriangle_reference(const Spoke<V>& s1, const Spoke<V>& s2,
+                                                        const Sides<V>& s, const Vec3<V>& node,
+                                                        const Vec3<V>& apex, const Vec3<V>& w) {
   const V zero = V::fill(0.0);
   SubTriangle<V> t;
   const V b = dot(s.area, s2.turn) * s.inv_area;
@@ -102,10 +101,8 @@ V or_one(const V& square) {
 /// 0 are 1 here: they only meet numerators of 0, and projections on null edges become 0 all the
 /// same.
 template <class V>
-[[gnu::always_inline]] inline SubTriangle<V> subtriangle_robust(const Spoke<V>& s1,
-                                                                const Spoke<V>& s2,
-                                                                const Sides<V>& s,
-                                                                const Vec3<V>& w) {
+DECK_INLINE inline SubTriangle<V> subtriangle_robust(const Spoke<V>& s1, const Spoke<V>& s2,
+                                                     const Sides<V>& s, const Vec3<V>& w) {
   const V zero = V::fill(0.0);
   SubTriangle<V> t;
   const V b = dot(s.area, s2.turn) * s.inv_area;
@@ -136,17 +133,17 @@ struct Fan {
   std::array<Sides<V>, 4> side;
 
   template <class Mask, class Guard, class RimGuard>
-  [[gnu::always_inline]] Fan(const std::array<Vec3<V>, 4>& x, const Vec3<V>& apex, const Vec3<V>& w,
-                             const Mask& triangle, Guard&& guard, RimGuard&& rim_guard) {
+  DECK_INLINE Fan(const std::array<Vec3<V>, 4>& x, const Vec3<V>& apex, const Vec3<V>& w,
+                  const Mask& triangle, Guard&& guard, RimGuard&& rim_guard) {
     const V one = V::fill(1.0);
     std::array<Vec3<V>, 4> e;
     std::array<V, 4> ee, square, rim, area;
-    four_times([&](auto q) __attribute__((always_inline)) {
+    four_times([&](auto q) DECK_INLINE {
       e[q] = x[q] - apex;
       ee[q] = dot(e[q], e[q]);
       square[q] = q < 2 ? guard(ee[q]) : select(triangle, one, guard(ee[q]));
     });
-    four_times([&](auto q) __attribute__((always_inline)) {
+    four_times([&](auto q) DECK_INLINE {
       Sides<V>& s = side[q];
       s.f = e[(q + 1) % 4] - e[q];
       s.area = cross(e[q], e[(q + 1) % 4]);
@@ -162,7 +159,7 @@ struct Fan {
     const std::array<V, 2> low = reciprocals(area[0], area[1]),
                            high = reciprocals(area[2], area[3]);
     const V inv_area[] = {low[0], low[1], high[0], high[1]};
-    four_times([&](auto q) __attribute__((always_inline)) {
+    four_times([&](auto q) DECK_INLINE {
       spoke[q] = Spoke<V>(e[q], ee[q], inv_spoke[q], w);
       side[q].inv_f = inv_rim[q];
       side[q].inv_area = inv_area[q];
@@ -202,17 +199,16 @@ struct RobustGuard {
 };
 
 template <class V>
-[[gnu::always_inline]] inline void store_geometry(GeometryBlock& g, std::size_t s, const V& p,
-                                                  const V& d, const V& keep, const Vec3<V>& n,
-                                                  const std::array<V, 4>& raw,
-                                                  const std::array<V, 4>& weight) {
+DECK_INLINE inline void store_geometry(GeometryBlock& g, std::size_t s, const V& p, const V& d,
+                                       const V& keep, const Vec3<V>& n, const std::array<V, 4>& raw,
+                                       const std::array<V, 4>& weight) {
   p.store(g.penetration + s);
   d.store(g.distance + s);
   keep.store(g.keep + s);
   n.x.store(g.normal[0] + s);
   n.y.store(g.normal[1] + s);
   n.z.store(g.normal[2] + s);
-  four_times([&](auto k) __attribute__((always_inline)) {
+  four_times([&](auto k) DECK_INLINE {
     raw[k].store(g.raw[k] + s);
     weight[k].store(g.weight[k] + s);
   });
@@ -231,7 +227,7 @@ auto triangle_mask(const PacketView& view, std::size_t i) {
 
 /// Moves the alternating part of quadrangle weights away as far as they stay non-negative.
 template <class V>
-[[gnu::always_inline]] inline void remove_alternating(std::array<V, 4>& h) {
+DECK_INLINE inline void remove_alternating(std::array<V, 4>& h) {
   V shift = -0.25 * (h[0] - h[1] + h[2] - h[3]);
   shift = min(shift, min(h[1], h[3]));
   shift = max(shift, max(-h[0], -h[2]));
@@ -243,14 +239,14 @@ template <class V>
 
 /// Makes weights add up to 1 within half a rounding error: the largest takes what the others leave.
 template <class V>
-[[gnu::always_inline]] inline void close_sum(std::array<V, 4>& h) {
+DECK_INLINE inline void close_sum(std::array<V, 4>& h) {
   const V largest = max(max(h[0], h[1]), max(h[2], h[3]));
   auto open = largest > V::fill(0.0);  // weights that are all 0 stay so
   std::array<V, 4> rest;
-  four_times([&](auto k) __attribute__((always_inline)) {
+  four_times([&](auto k) DECK_INLINE {
     rest[k] = 1.0 - ((h[(k + 1) % 4] + h[(k + 2) % 4]) + h[(k + 3) % 4]);
   });
-  four_times([&](auto k) __attribute__((always_inline)) {
+  four_times([&](auto k) DECK_INLINE {
     const auto take = open & (h[k] == largest);
     h[k] = select(take, rest[k], h[k]);
     open = open & ~take;
@@ -259,9 +255,8 @@ template <class V>
 
 /// From the closest point to the node; on the surface, along the facet's normal.
 template <class V>
-[[gnu::always_inline]] inline Vec3<V> unit_normal(const V& d, const Vec3<V>& toward,
-                                                  const Vec3<V>& area, const V& area2,
-                                                  const V& size2) {
+DECK_INLINE inline Vec3<V> unit_normal(const V& d, const Vec3<V>& toward, const Vec3<V>& area,
+                                       const V& area2, const V& size2) {
   const auto clear = d > 1e-15 * sqrt(size2);
   const V length = select(clear, d, sqrt(area2));
   return ratio(V::fill(1.0), length) * select(clear, toward, area);
@@ -311,8 +306,7 @@ void node_segment_reference(const Constants& k, const PacketView& view, std::siz
   const auto triangle = triangle_mask<V>(view, i);
   const Vec3<V> node = Vec3<V>::load(view.position[0], i);
   std::array<Vec3<V>, 4> x;
-  four_times([&](auto c)
-                 __attribute__((always_inline)) { x[c] = Vec3<V>::load(view.position[c + 1], i); });
+  four_times([&](auto c) DECK_INLINE { x[c] = Vec3<V>::load(view.position[c + 1], i); });
   Vec3<V> apex = V::fill(0.25) * (x[0] + x[1] + x[2] + x[3]);
   apex = select(triangle, x[2], apex);
   const V gap = V::load(view.gap + i);
@@ -322,7 +316,7 @@ void node_segment_reference(const Constants& k, const PacketView& view, std::siz
   std::array<SubTriangle<V>, 4> t;
   std::array<V, 4> p, floored;
   V d = zero;
-  four_times([&](auto q) __attribute__((always_inline)) {
+  four_times([&](auto q) DECK_INLINE {
     t[q] = subtriangle_reference(fan.spoke[q], fan.spoke[(q + 1) % 4], fan.side[q], node, apex, w);
     const V dq = sqrt(t[q].d2);
     p[q] = max(zero, far - dq);
@@ -337,7 +331,7 @@ void node_segment_reference(const Constants& k, const PacketView& view, std::siz
   const std::array<V, 4> inv_d = reciprocals(floored);
   Vec3<V> blend{zero, zero, zero};
   V h0 = zero;
-  four_times([&](auto q) __attribute__((always_inline)) {
+  four_times([&](auto q) DECK_INLINE {
     blend = blend + (p[q] * inv_d[q]) * t[q].toward_node;
     if (q == 0) blend = select(triangle, t[q].toward_node, blend);
     h0 = h0 + p[q] * (1.0 - t[q].b - t[q].c);
@@ -345,9 +339,8 @@ void node_segment_reference(const Constants& k, const PacketView& view, std::siz
   const V deepest = max(max(p[0], p[1]), max(p[2], p[3]));
   h0 = 0.25 * h0;
   std::array<V, 4> raw;
-  four_times([&](auto q) __attribute__((always_inline)) {
-    raw[q] = h0 + p[q] * t[q].b + p[(q + 3) % 4] * t[(q + 3) % 4].c;
-  });
+  four_times([&](auto q)
+                 DECK_INLINE { raw[q] = h0 + p[q] * t[q].b + p[(q + 3) % 4] * t[(q + 3) % 4].c; });
   const V sum = max(raw[0] + raw[1] + raw[2] + raw[3], V::fill(1e-20));
   const std::array<V, 2> scale =
       reciprocals(max(sqrt(dot(blend, blend)), V::fill(1e-30)), select(triangle, one, sum));
@@ -357,7 +350,7 @@ void node_segment_reference(const Constants& k, const PacketView& view, std::siz
   remove_alternating(weight);
   close_sum(weight);  // below what the records show; the parts of a force add up to it
   const std::array<V, 4> tri{t[0].b, t[0].c, 1.0 - t[0].b - t[0].c, zero};
-  four_times([&](auto q) __attribute__((always_inline)) {
+  four_times([&](auto q) DECK_INLINE {
     raw[q] = select(triangle, tri[q], raw[q]);
     weight[q] = select(triangle, tri[q], weight[q]);
   });
@@ -373,9 +366,7 @@ void node_segment_robust(const Constants& k, const PacketView& view, std::size_t
   const Vec3<V> node = Vec3<V>::load(view.position[0], i);
   // The node is the origin: differences first, so that far from the origin nothing is lost.
   std::array<Vec3<V>, 4> x;
-  four_times([&](auto c) __attribute__((always_inline)) {
-    x[c] = Vec3<V>::load(view.position[c + 1], i) - node;
-  });
+  four_times([&](auto c) DECK_INLINE { x[c] = Vec3<V>::load(view.position[c + 1], i) - node; });
   Vec3<V> apex = V::fill(0.25) * (x[0] + x[1] + x[2] + x[3]);
   apex = select(triangle, x[2], apex);
   const Vec3<V> w = {-apex.x, -apex.y, -apex.z};
@@ -385,7 +376,7 @@ void node_segment_robust(const Constants& k, const PacketView& view, std::size_t
   V d2 = zero, area2 = zero;
   Vec3<V> toward = {zero, zero, zero}, area = toward;
   std::array<V, 4> h{zero, zero, zero, zero};
-  four_times([&](auto q) __attribute__((always_inline)) {
+  four_times([&](auto q) DECK_INLINE {
     const auto t = subtriangle_robust(fan.spoke[q], fan.spoke[(q + 1) % 4], fan.side[q], w);
     const V rest = 1.0 - t.b - t.c;
     std::array<V, 4> hq;
@@ -475,8 +466,8 @@ void edge_edge_robust(const PacketView& view, std::size_t i, std::size_t s, Geom
 // Flattened: the compiler's own measure leaves calls to dot and cross behind, with their operands
 // in memory.
 template <class V, Model M, ContactKind K, bool Triangles>
-[[gnu::flatten]] void geometry_block(const Constants& shared, const PacketView& view,
-                                     std::size_t begin, std::size_t n, GeometryBlock& g) {
+DECK_FLATTEN void geometry_block(const Constants& shared, const PacketView& view, std::size_t begin,
+                                 std::size_t n, GeometryBlock& g) {
   const Constants k = shared;  // as in the force
   const std::size_t size = view.size;
   for (std::size_t s = 0; s < n; s += V::width) {

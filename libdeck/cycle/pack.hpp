@@ -14,6 +14,23 @@
 #include <immintrin.h>
 #endif
 
+// What the kernels are made of has to end up in their loops, which compilers do not do of
+// themselves. Under sanitizers that would cost a gigabyte and minutes for every kernel.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define DECK_PLAIN_CALLS
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define DECK_PLAIN_CALLS
+#endif
+#endif
+#ifdef DECK_PLAIN_CALLS
+#define DECK_INLINE
+#define DECK_FLATTEN
+#else
+#define DECK_INLINE __attribute__((always_inline))
+#define DECK_FLATTEN __attribute__((flatten))
+#endif
+
 namespace deck::cycle::detail {
 
 // Register types by width (compilers take the vector_size attribute of a concrete type only); the
@@ -45,7 +62,7 @@ struct Registers<8> {
 /// Calls f with 0, 1, 2 and 3 as constants: what is indexed with them stays in registers, which a
 /// loop does not guarantee.
 template <class F>
-[[gnu::always_inline]] inline void four_times(F&& f) {
+DECK_INLINE inline void four_times(F&& f) {
   f(std::integral_constant<std::size_t, 0>{});
   f(std::integral_constant<std::size_t, 1>{});
   f(std::integral_constant<std::size_t, 2>{});
