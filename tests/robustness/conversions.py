@@ -3,6 +3,7 @@
 
 The views of `deck params` and `deck gaps --all` before and after are compared without the places
 they name. A conversion may be refused (exit code 1), but then it writes nothing and says where."""
+import concurrent.futures
 import json
 import os
 import shutil
@@ -171,24 +172,30 @@ def json_round_trip(deck, tmp):
     os.remove(document)
 
 
+def one(job):
+    """One deck through everything; returns the counts."""
+    stem, path = job
+    c = Checks()
+    work = tempfile.mkdtemp(prefix="deck-conversions-")
+    try:
+        deck = Deck(c, stem, path, work)
+        json_round_trip(deck, work)
+        conversions(deck, work)
+    finally:
+        shutil.rmtree(work, ignore_errors=True)
+    return c.passed, c.failed
+
+
 def main():
     c = Checks()
     decks = [(os.path.basename(p)[:-9], p) for p in SAMPLES] + c.corpus_decks()
     if len(decks) == len(SAMPLES):
         c.skip("corpus", "no decks under %s (set DECK_CORPUS)" % c.options.corpus)
-    tmp = tempfile.mkdtemp(prefix="deck-conversions-")
-    try:
-        for stem, path in decks:
-            if "missing_include" in path:
-                continue
-            work = os.path.join(tmp, stem)
-            os.makedirs(work)
-            deck = Deck(c, stem, path, work)
-            json_round_trip(deck, work)
-            conversions(deck, work)
-            shutil.rmtree(work, ignore_errors=True)
-    finally:
-        shutil.rmtree(tmp, ignore_errors=True)
+    decks = [(stem, path) for stem, path in decks if "missing_include" not in path]
+    with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
+        for passed, failed in pool.map(one, reversed(decks)):  # the largest first
+            c.passed += passed
+            c.failed += failed
     c.finish()
 
 
