@@ -16,7 +16,7 @@ add_library(deck_options INTERFACE)
 target_compile_options(deck_options INTERFACE -ffp-contract=off -fno-math-errno)
 if(DECK_SANITIZE)
   target_compile_options(deck_options INTERFACE -fsanitize=${DECK_SANITIZE}
-                         -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+                         -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   target_link_options(deck_options INTERFACE -fsanitize=${DECK_SANITIZE})
 endif()
 
