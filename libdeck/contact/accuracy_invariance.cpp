@@ -2,54 +2,14 @@
 // the first, and hardly the second.
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "contact/accuracy_tiers.hpp"
+#include "contact/pair_rewriting.hpp"
 
 namespace deck::accuracy {
 namespace {
 
 using P = Point3<double>;
-
-PairSample other_order(PairSample s) {
-  if (s.edges) {
-    std::swap(s.x[0], s.x[1]);
-  } else if (s.triangle) {
-    s.x = {s.x[1], s.x[2], s.x[0], s.x[0], s.x[4]};
-  } else {
-    s.x = {s.x[1], s.x[2], s.x[3], s.x[0], s.x[4]};
-  }
-  return s;
-}
-
-PairSample turned_over(PairSample s) {
-  if (s.edges) {
-    s.x = {s.x[2], s.x[3], s.x[0], s.x[1], s.x[4]};
-  } else if (s.triangle) {
-    std::swap(s.x[0], s.x[1]);
-  } else {
-    std::swap(s.x[1], s.x[3]);
-  }
-  return s;
-}
-
-PairSample other_axes(PairSample s) {
-  for (P& p : s.x) p = {-p.z, p.x, -p.y};
-  return s;
-}
-
-// False if a coordinate or the gap does not fit.
-bool scale(PairSample& s, int power) {
-  bool exact = true;
-  const auto one = [&](double& v) {
-    const double y = std::ldexp(v, power);
-    exact &= std::isfinite(y) && std::ldexp(y, -power) == v && (y == 0.0 || std::isnormal(y));
-    v = y;
-  };
-  for (P& p : s.x) one(p.x), one(p.y), one(p.z);
-  one(s.gap);
-  return exact;
-}
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 

@@ -10,6 +10,7 @@
 
 #include "contact/exact.hpp"
 #include "contact/exact_rational.hpp"
+#include "contact/pair_rewriting.hpp"
 #include "deck/contact/accuracy.hpp"
 #include "deck/contact/filtered.hpp"
 
@@ -97,44 +98,6 @@ TEST_P(HardCases, DepthsAreCertifiedAndTouchesAreExact) {
         s.edges ? is_touching(x[0], x[1], x[2], x[3]) : is_touching(x[4], s.corners(), s.triangle);
     ASSERT_EQ(touching, sgn(squared) == 0) << place(s);
   }
-}
-
-// The same pair written down in another way.
-PairSample other_order(PairSample s) {
-  if (s.edges) {
-    std::swap(s.x[0], s.x[1]);
-  } else if (s.triangle) {
-    s.x = {s.x[1], s.x[2], s.x[0], s.x[0], s.x[4]};
-  } else {
-    s.x = {s.x[1], s.x[2], s.x[3], s.x[0], s.x[4]};
-  }
-  return s;
-}
-PairSample turned_over(PairSample s) {
-  if (s.edges) {
-    s.x = {s.x[2], s.x[3], s.x[0], s.x[1], s.x[4]};
-  } else if (s.triangle) {
-    std::swap(s.x[0], s.x[1]);
-  } else {
-    std::swap(s.x[1], s.x[3]);
-  }
-  return s;
-}
-PairSample other_axes(PairSample s) {
-  for (P& p : s.x) p = {-p.z, p.x, -p.y};
-  return s;
-}
-// False if a coordinate or the gap does not fit.
-bool scale(PairSample& s, int power) {
-  bool exact = true;
-  const auto one = [&](double& v) {
-    const double y = std::ldexp(v, power);
-    exact &= std::isfinite(y) && std::ldexp(y, -power) == v && (y == 0.0 || std::isnormal(y));
-    v = y;
-  };
-  for (P& p : s.x) one(p.x), one(p.y), one(p.z);
-  one(s.gap);
-  return exact;
 }
 
 TEST_P(HardCases, AnswersDoNotDependOnHowThePairIsWritten) {
