@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "deck/text/number.hpp"
+#include "text/decimal.hpp"
 
 namespace deck::detail {
 namespace {
@@ -13,19 +14,21 @@ namespace {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// 0.d1d2d3... * 10^point; no leading and no trailing zeros; no digits: zero.
-struct Decimal {
+struct Digits {
   bool negative = false;
   std::string digits;
   int point = 0;
+
+  Decimal view() const { return {negative, digits, point}; }
 };
 
 /// Exponents beyond this are no numbers that a deck can hold.
 constexpr int most_exponent = 10000;
 
-std::optional<Decimal> parse(std::string_view cell) {
+std::optional<Digits> parse(std::string_view cell) {
   while (!cell.empty() && static_cast<unsigned char>(cell.front()) <= ' ') cell.remove_prefix(1);
   while (!cell.empty() && static_cast<unsigned char>(cell.back()) <= ' ') cell.remove_suffix(1);
-  Decimal d;
+  Digits d;
   std::size_t i = 0;
   if (i < cell.size() && (cell[i] == '+' || cell[i] == '-')) d.negative = cell[i++] == '-';
   bool any = false, point = false;
@@ -60,7 +63,7 @@ std::optional<Decimal> parse(std::string_view cell) {
 }
 
 /// Shortest digits that read back as `value`, or a given number of them.
-Decimal decimal_of(double value, int significant = 0) {
+Digits decimal_of(double value, int significant = 0) {
   char buffer[64];
   const auto end = significant == 0 ? std::to_chars(buffer, buffer + sizeof buffer, value,
                                                     std::chars_format::scientific)
@@ -69,45 +72,23 @@ Decimal decimal_of(double value, int significant = 0) {
   return *parse({buffer, static_cast<std::size_t>(end.ptr - buffer)});
 }
 
-std::string exponent_form(const Decimal& d, std::size_t before) {
-  std::string text = d.negative ? "-" : "";
-  text.append(d.digits, 0, before);
-  if (before < d.digits.size()) text.append(1, '.').append(d.digits, before);
-  return text + "e" + std::to_string(d.point - static_cast<int>(before));
-}
-
-std::string fixed_form(const Decimal& d, bool leading_zero) {
-  std::string text = d.negative ? "-" : "";
-  const int count = static_cast<int>(d.digits.size());
-  if (d.point <= 0) {
-    text += leading_zero ? "0." : ".";
-    text.append(static_cast<std::size_t>(-d.point), '0').append(d.digits);
-  } else if (d.point >= count) {
-    text.append(d.digits).append(static_cast<std::size_t>(d.point - count), '0') += '.';
-  } else {
-    const auto split = static_cast<std::size_t>(d.point);
-    text.append(d.digits, 0, split).append(1, '.').append(d.digits, split);
-  }
-  return text;
-}
-
 /// All digits of `d` in at most `room` columns; empty: they do not fit.
-std::string print(const Decimal& d, std::size_t room) {
+std::string print(const Digits& d, std::size_t room) {
   if (d.digits.empty()) return room >= 3 ? "0.0" : room == 2 ? "0." : "0";
   const bool reads_well = d.point > -4 && d.point <= 10;
   const bool fixed_possible = d.point > -30 && d.point < 30;
-  std::string text = reads_well ? fixed_form(d, true) : exponent_form(d, 1);
+  std::string text = reads_well ? fixed_text(d.view(), true) : scientific_text(d.view(), 1);
   if (text.size() <= room) return text;
   for (const bool leading_zero : {true, false})
-    if (fixed_possible && (text = fixed_form(d, leading_zero)).size() <= room) return text;
-  if ((text = exponent_form(d, 1)).size() <= room) return text;
+    if (fixed_possible && (text = fixed_text(d.view(), leading_zero)).size() <= room) return text;
+  if ((text = scientific_text(d.view(), 1)).size() <= room) return text;
   // Without the point one more digit fits.
-  if ((text = exponent_form(d, d.digits.size())).size() <= room) return text;
+  if ((text = scientific_text(d.view(), d.digits.size())).size() <= room) return text;
   return {};
 }
 
 /// `d` rounded to `count` digits, half away from zero.
-Decimal rounded(Decimal d, std::size_t count) {
+Digits rounded(Digits d, std::size_t count) {
   if (d.digits.size() <= count) return d;
   const bool up = d.digits[count] >= '5';
   d.digits.resize(count);
@@ -127,7 +108,7 @@ Decimal rounded(Decimal d, std::size_t count) {
 }
 
 /// With as many digits as fit.
-std::string print_rounded(const Decimal& d, std::size_t room) {
+std::string print_rounded(const Digits& d, std::size_t room) {
   for (std::size_t count = std::max<std::size_t>(d.digits.size(), 1); count > 0; --count)
     if (std::string text = print(rounded(d, count), room); !text.empty()) return text;
   return {};
@@ -135,7 +116,7 @@ std::string print_rounded(const Decimal& d, std::size_t room) {
 
 /// A computed product. Digits behind the twelfth that are there only because doubles are not
 /// decimals are dropped, so that 1 inch there and back is 1 inch.
-Decimal product(const Decimal& d, double value, const UnitFactor& factor) {
+Digits product(const Digits& d, double value, const UnitFactor& factor) {
   const double result = static_cast<double>(static_cast<long double>(value) * factor.value);
   if (!std::isfinite(result) || result == 0) return {};
   constexpr int short_digits = 12;
@@ -143,14 +124,14 @@ Decimal product(const Decimal& d, double value, const UnitFactor& factor) {
   // A text of fifteen digits or more may have been cut by its cell: half a unit of its last digit.
   const int count = static_cast<int>(d.digits.size());
   const double of_text = count >= 15 ? 0.5 * std::pow(10.0, 1 - count) : 0;
-  const Decimal snapped = decimal_of(result, short_digits);
+  const Digits snapped = decimal_of(result, short_digits);
   const double near = read_real(print(snapped, 40)).value;
   return std::fabs(near - result) <= (of_doubles + of_text) * std::fabs(result)
              ? snapped
              : decimal_of(result);
 }
 
-std::optional<Decimal> scaled(std::string_view cell, const UnitFactor& factor) {
+std::optional<Digits> scaled(std::string_view cell, const UnitFactor& factor) {
   auto d = parse(cell);
   if (!d || d->digits.empty()) return d;
   const RealCell read = read_real(cell);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "text/decimal.hpp"
 #include "text/number_scan.hpp"
 
 namespace deck {
@@ -122,14 +123,37 @@ IntegerCell read_integer(std::string_view cell) {
   return detail::scan_integer(cell.data(), cell.data() + cell.size());
 }
 
+namespace detail {
+
+std::string fixed_text(const Decimal& d, bool leading_zero) {
+  std::string text = d.negative ? "-" : "";
+  const int count = static_cast<int>(d.digits.size());
+  if (d.point <= 0) {
+    text += leading_zero ? "0." : ".";
+    text.append(static_cast<std::size_t>(-d.point), '0').append(d.digits);
+  } else if (d.point >= count) {
+    text.append(d.digits).append(static_cast<std::size_t>(d.point - count), '0') += '.';
+  } else {
+    const auto split = static_cast<std::size_t>(d.point);
+    text.append(d.digits.substr(0, split)).append(1, '.').append(d.digits.substr(split));
+  }
+  return text;
+}
+
+std::string scientific_text(const Decimal& d, std::size_t before) {
+  std::string text = d.negative ? "-" : "";
+  text += d.digits.substr(0, before);
+  if (before < d.digits.size()) text.append(1, '.').append(d.digits.substr(before));
+  return text + "e" + std::to_string(d.point - static_cast<int>(before));
+}
+
+}  // namespace detail
+
 namespace {
 
-/// value = 0.d1d2d3… * 10^point, without trailing zeros.
-struct Decimal {
-  bool negative = false;
-  std::string_view digits;
-  int point = 0;
-};
+using detail::Decimal;
+using detail::fixed_text;
+using detail::scientific_text;
 
 /// `significant` digits, correctly rounded; 0: the fewest that read back to the same double.
 Decimal to_decimal(double value, int significant, char (&buffer)[32]) {
@@ -159,29 +183,6 @@ Decimal to_decimal(double value, int significant, char (&buffer)[32]) {
   out.digits = {first, static_cast<std::size_t>(last - first)};
   out.point = exponent + 1;
   return out;
-}
-
-std::string fixed_text(const Decimal& d, bool leading_zero) {
-  std::string text = d.negative ? "-" : "";
-  const int count = static_cast<int>(d.digits.size());
-  if (d.point <= 0) {
-    text += leading_zero ? "0." : ".";
-    text.append(static_cast<std::size_t>(-d.point), '0').append(d.digits);
-  } else if (d.point >= count) {
-    text.append(d.digits).append(static_cast<std::size_t>(d.point - count), '0') += '.';
-  } else {
-    const auto split = static_cast<std::size_t>(d.point);
-    text.append(d.digits.substr(0, split)).append(1, '.').append(d.digits.substr(split));
-  }
-  return text;
-}
-
-/// `before`: digits in front of the point; all of them: no point at all.
-std::string scientific_text(const Decimal& d, std::size_t before) {
-  std::string text = d.negative ? "-" : "";
-  text += d.digits.substr(0, before);
-  if (before < d.digits.size()) text.append(1, '.').append(d.digits.substr(before));
-  return text + "e" + std::to_string(d.point - static_cast<int>(before));
 }
 
 /// The most readable text of these digits that fits, empty if none does.
