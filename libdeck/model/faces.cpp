@@ -40,6 +40,14 @@ bool complete(const Elements& solids, std::size_t e) {
   return std::find(n, n + 8, no_index) == n + 8;
 }
 
+NodeElements solids_at_nodes(const Elements& solids) {
+  NodeIndex last = 0;
+  for (std::uint32_t e = 0; e < solids.size(); ++e)
+    for (int i = 0; i < 8; ++i)
+      if (const NodeIndex n = solids.of(e)[i]; n != no_index) last = std::max(last, n);
+  return connect_nodes(solids, std::size_t{last} + 1, 8);
+}
+
 void append_face(const Elements& solids, std::uint32_t e, int f, const Face& face,
                  std::vector<Segment>& out) {
   if (solids.shape[e] != SolidShape::tetra10 || face.corners != 3) {
@@ -205,9 +213,31 @@ bool SolidFaces::interior(std::uint32_t solid, int face, bool against_all) const
   const std::size_t at = solid * std::size_t{6} + static_cast<std::size_t>(face);
   for (std::uint32_t i = first_[key_[at]]; i != no_index; i = owners_[i].next) {
     const Owner& o = owners_[i];
-    if (o.solid != solid && o.forward != forward_[at] &&
-        (against_all || stamp_[o.solid] == generation_))
-      return true;
+    if (o.solid != solid && o.forward != forward_[at] && counts(o.solid, against_all)) return true;
+  }
+  return false;
+}
+
+bool SolidFaces::inside_another(std::uint32_t solid, int f, const Face& face,
+                                bool against_all) const {
+  if (face.corners != 4) return false;
+  const auto slot = [&](std::uint32_t e, NodeIndex node) {
+    const NodeIndex* slots = solids_->of(e);
+    return std::find(slots, slots + 8, node) - slots;
+  };
+  const auto has_it = [&](std::uint32_t other) {
+    std::uint32_t i = first_[key_[solid * std::size_t{6} + static_cast<std::size_t>(f)]];
+    while (i != no_index && owners_[i].solid != other) i = owners_[i].next;
+    return i != no_index;
+  };
+  for (const std::uint32_t other : around_.row(face.nodes[0])) {
+    if (other == solid || !counts(other, against_all)) continue;
+    const bool first_everywhere =
+        std::all_of(face.nodes.begin(), face.nodes.end(), [&](NodeIndex node) {
+          const auto there = slot(other, node);
+          return there < 8 && std::pair(there, other) < std::pair(slot(solid, node), solid);
+        });
+    if (first_everywhere && complete(*solids_, other) && !has_it(other)) return true;
   }
   return false;
 }
@@ -217,6 +247,7 @@ std::vector<Segment> SolidFaces::segments(const FaceQuery& query) {
   const auto& members = *query.solids;
   ++generation_;
   for (const std::uint32_t e : members) stamp_[e] = generation_;
+  if (query.exterior_only && around_.first.empty()) around_ = solids_at_nodes(*solids_);
   for (const std::uint32_t e : members) {
     const bool all = !query.exterior_only || (query.all_faces_of != nullptr &&
                                               std::binary_search(query.all_faces_of->begin(),
@@ -225,6 +256,7 @@ std::vector<Segment> SolidFaces::segments(const FaceQuery& query) {
       if (key_[e * std::size_t{6} + static_cast<std::size_t>(f)] == no_index) continue;
       if (!all && interior(e, f, query.against_all)) continue;
       const Face face = solid_face(solids_->of(e), f);
+      if (!all && inside_another(e, f, face, query.against_all)) continue;
       if (query.cover != nullptr && query.cover->hides(face)) continue;
       append_face(*solids_, e, f, face, out);
     }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "deck/model/connectivity.hpp"
 #include "deck/model/model.hpp"
 
 namespace deck::detail {
@@ -87,7 +88,8 @@ struct FaceQuery {
 };
 
 /// All faces of all solids, hashed once: which solids have a face, and in which sense. A face is
-/// interior where another solid of the group has the same nodes in the opposite sense.
+/// interior where another solid of the group has the same nodes in the opposite sense, and where
+/// solids overlap and it lies inside one that comes first (see inside_another).
 class SolidFaces {
  public:
   explicit SolidFaces(const Elements& solids);
@@ -101,8 +103,18 @@ class SolidFaces {
     std::uint32_t next;  ///< owner of the same face
     bool forward;
   };
+  bool counts(std::uint32_t solid, bool against_all) const {
+    return against_all || stamp_[solid] == generation_;
+  }
   bool interior(std::uint32_t solid, int face, bool against_all) const;
+  /// Four nodes that all belong to one other solid, of which they are no face: the solids overlap.
+  /// The reference solver drops such a face if the other solid precedes this one in the lists of
+  /// solids at all four nodes (those that have the node in their first slot come first, then their
+  /// second, and so on), and keeps it otherwise. This is the simplest rule that explains the eight
+  /// such faces of the recorded decks, one of which is dropped; triangles are kept in all 32 cases.
+  bool inside_another(std::uint32_t solid, int f, const Face& face, bool against_all) const;
   const Elements* solids_;
+  NodeElements around_;               ///< solids at each node
   std::vector<std::uint32_t> key_;    ///< per solid and face; no_index: no face
   std::vector<bool> forward_;         ///< per solid and face
   std::vector<std::uint32_t> first_;  ///< per key: owner

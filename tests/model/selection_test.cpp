@@ -295,6 +295,48 @@ TEST(SolidFaces, SolidsWithTwentyNodesAreMessage651) {
   EXPECT_EQ(b.message("DK156"), 651);
 }
 
+/// Two solids that overlap: both have the edges 1-5 and 2-6, and nodes 3 and 7 of the first are
+/// nodes of the second too, so that the face 1 5 7 3 of the second lies inside the first.
+std::string overlapping(bool inner_first) {
+  std::string nodes = "/NODE\n";
+  for (int n = 1; n <= 8; ++n)
+    nodes += node(n, n % 4 == 2 || n % 4 == 3, n % 4 == 3 || n % 4 == 0, n > 4);
+  nodes += node(9, 2, 1, 0) + node(10, 2, 1, 1);
+  const std::string outer = cells({1, 1, 2, 3, 4, 5, 6, 7, 8});
+  const std::string inner = cells({2, 1, 2, 9, 3, 5, 6, 10, 7});
+  return nodes + "/BRICK/4\n" + (inner_first ? inner + outer : outer + inner);
+}
+bool has_inner_face(Built& b) {
+  const auto faces = b.surface(1);
+  return std::any_of(faces.begin(), faces.end(), [](Ids f) {
+    std::sort(f.begin(), f.end());
+    return f == Ids{1, 3, 5, 7};
+  });
+}
+
+TEST(SolidFaces, FaceInsideASolidThatComesFirstAtAllItsNodesIsDropped) {
+  Built b(parts() + overlapping(false) + "/SURF/PART/EXT/1\ns\n" + cells({4}));
+  EXPECT_FALSE(has_inner_face(b));
+  EXPECT_EQ(b.surface(1).size(), 11u);
+}
+
+TEST(SolidFaces, FaceInsideASolidThatComesLaterAtOneOfItsNodesStays) {
+  Built b(parts() + overlapping(true) + "/SURF/PART/EXT/1\ns\n" + cells({4}));
+  EXPECT_TRUE(has_inner_face(b));
+  EXPECT_EQ(b.surface(1).size(), 12u);
+}
+
+TEST(SolidFaces, FaceInsideASolidThatIsNotSelectedStays) {
+  Built b(parts() + overlapping(false) + "/BRICK/5\n" +
+          cells({3, 1, 2, 9, 3, 5, 6, 10, 7}) + "/SURF/PART/EXT/1\ns\n" + cells({5}));
+  EXPECT_TRUE(has_inner_face(b));
+}
+
+TEST(SolidFaces, AllFacesIncludeTheOnesInsideOtherSolids) {
+  Built b(parts() + overlapping(false) + "/SURF/PART/ALL/1\ns\n" + cells({4}));
+  EXPECT_TRUE(has_inner_face(b));
+}
+
 TEST(ShellOnSolid, ReplacesTheFaceIfItsPartIsListedToo) {
   const std::string skin = "/SHELL/1\n" + cells({1, 101, 102, 105, 104});
   Built b(parts() + cube_nodes() + cubes() + skin + "/SURF/PART/EXT/1\ns\n" + cells({4, 1}) +
