@@ -327,8 +327,8 @@ TEST(SolidFaces, FaceInsideASolidThatComesLaterAtOneOfItsNodesStays) {
 }
 
 TEST(SolidFaces, FaceInsideASolidThatIsNotSelectedStays) {
-  Built b(parts() + overlapping(false) + "/BRICK/5\n" +
-          cells({3, 1, 2, 9, 3, 5, 6, 10, 7}) + "/SURF/PART/EXT/1\ns\n" + cells({5}));
+  Built b(parts() + overlapping(false) + "/BRICK/5\n" + cells({3, 1, 2, 9, 3, 5, 6, 10, 7}) +
+          "/SURF/PART/EXT/1\ns\n" + cells({5}));
   EXPECT_TRUE(has_inner_face(b));
 }
 
