@@ -190,6 +190,7 @@ SolidFaces::SolidFaces(const Elements& solids)
     : solids_(&solids),
       key_(solids.size() * 6, no_index),
       forward_(solids.size() * 6),
+      outside_all_(solids.size() * 6),
       stamp_(solids.size(), 0) {
   KeyTable table(solids.size() * 4);
   owners_.reserve(solids.size() * 6);
@@ -218,26 +219,29 @@ bool SolidFaces::interior(std::uint32_t solid, int face, bool against_all) const
   return false;
 }
 
-bool SolidFaces::inside_another(std::uint32_t solid, int f, const Face& face,
-                                bool against_all) const {
-  if (face.corners != 4) return false;
+bool SolidFaces::inside_another(std::uint32_t solid, int f, const Face& face, bool against_all) {
+  const std::size_t at = solid * std::size_t{6} + static_cast<std::size_t>(f);
+  if (face.corners != 4 || outside_all_[at]) return false;
   const auto slot = [&](std::uint32_t e, NodeIndex node) {
     const NodeIndex* slots = solids_->of(e);
     return std::find(slots, slots + 8, node) - slots;
   };
   const auto has_it = [&](std::uint32_t other) {
-    std::uint32_t i = first_[key_[solid * std::size_t{6} + static_cast<std::size_t>(f)]];
+    std::uint32_t i = first_[key_[at]];
     while (i != no_index && owners_[i].solid != other) i = owners_[i].next;
     return i != no_index;
   };
+  outside_all_[at] = true;
   for (const std::uint32_t other : around_.row(face.nodes[0])) {
-    if (other == solid || !counts(other, against_all)) continue;
+    if (other == solid) continue;
     const bool first_everywhere =
         std::all_of(face.nodes.begin(), face.nodes.end(), [&](NodeIndex node) {
           const auto there = slot(other, node);
           return there < 8 && std::pair(there, other) < std::pair(slot(solid, node), solid);
         });
-    if (first_everywhere && complete(*solids_, other) && !has_it(other)) return true;
+    if (!first_everywhere || !complete(*solids_, other) || has_it(other)) continue;
+    outside_all_[at] = false;
+    if (counts(other, against_all)) return true;
   }
   return false;
 }

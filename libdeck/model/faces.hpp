@@ -112,11 +112,12 @@ class SolidFaces {
   /// solids at all four nodes (those that have the node in their first slot come first, then their
   /// second, and so on), and keeps it otherwise. This is the simplest rule that explains the eight
   /// such faces of the recorded decks, one of which is dropped; triangles are kept in all 32 cases.
-  bool inside_another(std::uint32_t solid, int f, const Face& face, bool against_all) const;
+  bool inside_another(std::uint32_t solid, int f, const Face& face, bool against_all);
   const Elements* solids_;
   NodeElements around_;               ///< solids at each node
   std::vector<std::uint32_t> key_;    ///< per solid and face; no_index: no face
   std::vector<bool> forward_;         ///< per solid and face
+  std::vector<bool> outside_all_;     ///< per solid and face: known to lie inside no other solid
   std::vector<std::uint32_t> first_;  ///< per key: owner
   std::vector<Owner> owners_;
   std::vector<std::uint32_t> stamp_;  ///< per solid: generation in which it was a member
