@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "contact/scene_parts.hpp"
+#include "model/faces.hpp"
 
 namespace deck::detail {
 namespace {
@@ -61,6 +62,22 @@ Solids solids_of(SceneContext& c, const Quad& segment) {
     if (found.best == no_index || family.id[e] > family.id[found.best]) found.best = e;
   }
   return found;
+}
+
+/// A solid that has all nodes of a quadrangle, but not as one of its faces: solids overlap there.
+bool inside_a_solid(SceneContext& c, const Quad& segment) {
+  if (segment[2] == segment[3]) return false;
+  const NodeKey wanted = node_key(segment.data(), 4);
+  const Elements& solids = c.model.solid8;
+  const auto& around = c.connectivity.elements(ElementKind::solid8, segment[0]);
+  return std::any_of(around.begin(), around.end(), [&](std::uint32_t e) {
+    if (!contains_all(solids.of(e), 8, segment)) return false;
+    for (int f = 0; f < 6; ++f) {
+      const Face face = solid_face(solids.of(e), f);
+      if (face.corners == 4 && node_key(face.nodes.data(), 4) == wanted) return false;
+    }
+    return true;
+  });
 }
 
 struct Shell {
@@ -135,12 +152,14 @@ void make_main_segments(SceneContext& c, const std::vector<Segment>& segments, C
     m.element = segment.element;
     if (std::find(m.nodes.begin(), m.nodes.end(), no_index) != m.nodes.end()) continue;
     contact.repaired_segments += repair(m.nodes);
-    bool outward = false;
+    bool outward = false, inside = false;
     std::uint32_t solid = m.element;
     if (segment.carrier == Carrier::none) {
       const Solids found = solids_of(c, m.nodes);
       solid = found.best;
       outward = found.count == 1;
+      if (found.count > 2)
+        contact.crowded.push_back(static_cast<std::uint32_t>(contact.main.size()));
       if (found.best != no_index) {
         m.carrier = Carrier::solid;
         m.element = found.best;
@@ -153,7 +172,9 @@ void make_main_segments(SceneContext& c, const std::vector<Segment>& segments, C
         contact.no_carrier.push_back(static_cast<std::uint32_t>(contact.main.size()));
     } else if (segment.carrier == Carrier::solid) {
       outward = solids_of(c, m.nodes).count == 1;
+      inside = !outward && inside_a_solid(c, m.nodes);
     }
+    if (inside) contact.inside_solids.push_back(static_cast<std::uint32_t>(contact.main.size()));
     if (outward && solid != no_index)
       contact.reoriented_segments += orient_outward(c, solid, m.nodes);
     if (contact.type == 7 && degenerate(c.scene.coordinates, m.nodes))

@@ -183,6 +183,188 @@ void add_geometry_segment_rules(std::vector<Rule>& out) {
                "        22                 5.0                 8.0                 1.0\n"
                "        23                 5.0                 5.0                 8.0\n"
                "/SH3N/2\n         9        21        22        23\n@/INTER/TYPE7/1 Gapmin=0.1\n"});
+  out.push_back({.id = "DK329",
+                 .title = "plain segments in more than two solids",
+                 .severity = warning,
+                 .stage = RuleStage::extra,
+                 .problem = "More than two solids have all the nodes of a main segment.",
+                 .why = "Two solids can share a face, three can not: solids overlap, or an element "
+                        "is there twice.",
+                 .solver = "it warns and takes the stiffness of the solid with the largest id",
+                 .message = 3062,
+                 .message_severity = warning,
+                 .fix = "remove the solid that is too much",
+                 .ignore = "Where the mesh is meant to be double there.",
+                 .bad = "/NODE\n"
+                        "        21                20.0                 0.0                 0.0\n"
+                        "        22                22.0                 0.0                 0.0\n"
+                        "        23                20.0                 2.0                 0.0\n"
+                        "        24                20.0                 0.0                 2.0\n"
+                        "        25                20.0                 0.0                -2.0\n"
+                        "        26                22.0                 2.0                 2.0\n"
+                        "/PROP/SOLID/9\n"
+                        "block\n"
+                        "\n"
+                        "\n"
+                        "/PART/9\n"
+                        "block\n"
+                        "         9         1         0\n"
+                        "/TETRA4/9\n"
+                        "         9        21        22        23        24\n"
+                        "        10        21        23        22        25\n"
+                        "        11        21        22        23        26\n"
+                        "/SURF/SEG/3\n"
+                        "face\n"
+                        "         1        22        21        23        23\n"
+                        "@/INTER/TYPE7/1 surf_IDm=3\n",
+                 .good = "/NODE\n"
+                         "        21                20.0                 0.0                 0.0\n"
+                         "        22                22.0                 0.0                 0.0\n"
+                         "        23                20.0                 2.0                 0.0\n"
+                         "        24                20.0                 0.0                 2.0\n"
+                         "        25                20.0                 0.0                -2.0\n"
+                         "        26                22.0                 2.0                 2.0\n"
+                         "/PROP/SOLID/9\n"
+                         "block\n"
+                         "\n"
+                         "\n"
+                         "/PART/9\n"
+                         "block\n"
+                         "         9         1         0\n"
+                         "/TETRA4/9\n"
+                         "         9        21        22        23        24\n"
+                         "        10        21        23        22        25\n"
+                         "/SURF/SEG/3\n"
+                         "face\n"
+                         "         1        22        21        23        23\n"
+                         "@/INTER/TYPE7/1 surf_IDm=3\n"});
+  out.push_back(
+      {.id = "DK330",
+       .title = "segments inside other solids",
+       .severity = warning,
+       .stage = RuleStage::extra,
+       .problem =
+           "All nodes of a face of a solid belong to another solid, of which they are no face.",
+       .why = "The two solids overlap. A node of the other side can get in touch with a face that "
+              "is inside the material.",
+       .solver = "it keeps most of these faces and drops some; it has no such check",
+       .fix = "mend the mesh: neighbours share whole faces",
+       .ignore = "Where the other side never gets there.",
+       .bad = "/NODE\n"
+              "        21                20.0                 0.0                 0.0\n"
+              "        22                22.0                 0.0                 0.0\n"
+              "        23                22.0                 2.0                 0.0\n"
+              "        24                20.0                 2.0                 0.0\n"
+              "        25                20.0                 0.0                 2.0\n"
+              "        26                22.0                 0.0                 2.0\n"
+              "        27                22.0                 2.0                 2.0\n"
+              "        28                20.0                 2.0                 2.0\n"
+              "        29                24.0                 2.0                 0.0\n"
+              "        30                24.0                 2.0                 2.0\n"
+              "/PROP/SOLID/9\n"
+              "block\n"
+              "\n"
+              "\n"
+              "/PART/9\n"
+              "block\n"
+              "         9         1         0\n"
+              "/BRICK/9\n"
+              "         9        21        22        29        23        25        26        30    "
+              "    27\n"
+              "        10        21        22        23        24        25        26        27    "
+              "    28\n"
+              "/SURF/PART/EXT/3\n"
+              "block\n"
+              "         9\n"
+              "@/INTER/TYPE7/1 surf_IDm=3\n",
+       .good = "/NODE\n"
+               "        21                20.0                 0.0                 0.0\n"
+               "        22                22.0                 0.0                 0.0\n"
+               "        23                22.0                 2.0                 0.0\n"
+               "        24                20.0                 2.0                 0.0\n"
+               "        25                20.0                 0.0                 2.0\n"
+               "        26                22.0                 0.0                 2.0\n"
+               "        27                22.0                 2.0                 2.0\n"
+               "        28                20.0                 2.0                 2.0\n"
+               "        29                24.0                 2.0                 0.0\n"
+               "        30                24.0                 2.0                 2.0\n"
+               "/PROP/SOLID/9\n"
+               "block\n"
+               "\n"
+               "\n"
+               "/PART/9\n"
+               "block\n"
+               "         9         1         0\n"
+               "/BRICK/9\n"
+               "         9        21        22        23        24        25        26        27   "
+               "     28\n"
+               "/SURF/PART/EXT/3\n"
+               "block\n"
+               "         9\n"
+               "@/INTER/TYPE7/1 surf_IDm=3\n"});
+  out.push_back(
+      {.id = "DK331",
+       .title = "fill fractions of solids",
+       .severity = info,
+       .stage = RuleStage::extra,
+       .problem = "Main segments lie on solids, and the deck has fill fractions (/INIBRI/FILL).",
+       .why = "The solver multiplies the stiffness of these segments by the fraction; libdeck does "
+              "not read it and shows the stiffness of full solids.",
+       .solver = "it reads the fractions",
+       .fix = "multiply the stiffness shown by the fraction of the solid",
+       .ignore = "Where all solids of the surface are full.",
+       .bad = "/NODE\n"
+              "        21                20.0                 0.0                 0.0\n"
+              "        22                22.0                 0.0                 0.0\n"
+              "        23                22.0                 2.0                 0.0\n"
+              "        24                20.0                 2.0                 0.0\n"
+              "        25                20.0                 0.0                 2.0\n"
+              "        26                22.0                 0.0                 2.0\n"
+              "        27                22.0                 2.0                 2.0\n"
+              "        28                20.0                 2.0                 2.0\n"
+              "        29                24.0                 2.0                 0.0\n"
+              "        30                24.0                 2.0                 2.0\n"
+              "/PROP/SOLID/9\n"
+              "block\n"
+              "\n"
+              "\n"
+              "/PART/9\n"
+              "block\n"
+              "         9         1         0\n"
+              "/BRICK/9\n"
+              "         9        21        22        23        24        25        26        27    "
+              "    28\n"
+              "/INIBRI/FILL\n"
+              "         9                 0.5\n"
+              "/SURF/PART/EXT/3\n"
+              "block\n"
+              "         9\n"
+              "@/INTER/TYPE7/1 surf_IDm=3\n",
+       .good = "/NODE\n"
+               "        21                20.0                 0.0                 0.0\n"
+               "        22                22.0                 0.0                 0.0\n"
+               "        23                22.0                 2.0                 0.0\n"
+               "        24                20.0                 2.0                 0.0\n"
+               "        25                20.0                 0.0                 2.0\n"
+               "        26                22.0                 0.0                 2.0\n"
+               "        27                22.0                 2.0                 2.0\n"
+               "        28                20.0                 2.0                 2.0\n"
+               "        29                24.0                 2.0                 0.0\n"
+               "        30                24.0                 2.0                 2.0\n"
+               "/PROP/SOLID/9\n"
+               "block\n"
+               "\n"
+               "\n"
+               "/PART/9\n"
+               "block\n"
+               "         9         1         0\n"
+               "/BRICK/9\n"
+               "         9        21        22        23        24        25        26        27   "
+               "     28\n"
+               "/SURF/PART/EXT/3\n"
+               "block\n"
+               "         9\n"
+               "@/INTER/TYPE7/1 surf_IDm=3\n"});
 }
 
 }  // namespace deck::detail

@@ -111,6 +111,21 @@ void check_dropped(const GeometryRun& run, const Contact& c) {
                          name_of(run, c)));
 }
 
+void check_solids(const GeometryRun& run, const Contact& c) {
+  about_segments(run, "DK329", c, c.crowded, "belong to more than two solids");
+  about_segments(run, "DK330", c, c.inside_solids, "lie inside another solid");
+  const Deck& deck = run.context.deck;
+  const auto fill = std::find_if(deck.blocks.begin(), deck.blocks.end(), [](const Block& b) {
+    return b.header.starts_with("/INIBRI/FILL");
+  });
+  if (fill == deck.blocks.end() || c.factor < 0) return;
+  std::vector<std::uint32_t> solid;
+  for (std::uint32_t i = 0; i < c.main.size(); ++i)
+    if (c.main[i].carrier == Carrier::solid) solid.push_back(i);
+  if (Diagnostic* d = about_segments(run, "DK331", c, solid, "are on solids"); d != nullptr)
+    d->notes.emplace_back(fill->header_span, "the fill fractions");
+}
+
 /// One finding per two parts, in the first interface that contains both.
 void check_crossings(const GeometryRun& run) {
   struct Group {
@@ -159,6 +174,7 @@ void check_segments(const GeometryRun& run) {
     check_shape(run, c);
     check_duplicates(run, c);
     check_dropped(run, c);
+    check_solids(run, c);
   }
   check_crossings(run);
 }

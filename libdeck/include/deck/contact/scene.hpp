@@ -152,6 +152,9 @@ struct Contact {
   int degenerate_segments = 0; ///< solver error 558
   int reoriented_segments = 0; ///< solver warning 3025
   std::vector<std::uint32_t> degenerate, no_carrier;  ///< positions in `main`
+  /// Positions in `main` of plain segments in more than two solids (solver warning 3062), and of
+  /// quadrangular faces of solids whose nodes all belong to a solid without that face.
+  std::vector<std::uint32_t> crowded, inside_solids;
 };
 
 struct Scene {
