@@ -158,11 +158,24 @@ struct Bounds {
   }
 };
 
-Bounds bounds_of(std::span<const std::uint32_t> ids, std::span<const Place> places, int threads) {
+// Visits positions begin ... end-1 of `ids` with their places.
+template <class Visit>
+void each_place(std::span<const std::uint32_t> ids, const PlacesOf& places, std::size_t begin,
+                std::size_t end, const Visit& visit) {
+  std::array<Place, 256> some;
+  for (std::size_t first = begin; first < end; first += some.size()) {
+    const std::size_t count = std::min(some.size(), end - first);
+    places(ids.subspan(first, count), some.data());
+    for (std::size_t i = 0; i < count; ++i) visit(first + i, some[i]);
+  }
+}
+
+Bounds bounds_of(std::span<const std::uint32_t> ids, const PlacesOf& places, int threads) {
   std::vector<Bounds> parts(static_cast<std::size_t>(threads));
   parallel_parts(threads, ids.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
     Bounds bounds;
-    for (std::size_t i = begin; i < end; ++i) bounds.add(places[ids[i]].centre);
+    each_place(ids, places, begin, end,
+               [&](std::size_t, const Place& place) { bounds.add(place.centre); });
     parts[part] = bounds;
   });
   Bounds all;
@@ -174,7 +187,7 @@ Bounds bounds_of(std::span<const std::uint32_t> ids, std::span<const Place> plac
 }
 
 // Sorts `ids` by size class and curve position, then crowded cells again on their own grids.
-void order_range(std::span<std::uint32_t> ids, std::span<const Place> places, Scratch& scratch,
+void order_range(std::span<std::uint32_t> ids, const PlacesOf& places, Scratch& scratch,
                  int threads, int depth) {
   constexpr std::size_t kSmall = 32;  // runs up to this length are left as they are
   constexpr int kDeepest = 64;        // beyond it only coincident points are left
@@ -190,17 +203,20 @@ void order_range(std::span<std::uint32_t> ids, std::span<const Place> places, Sc
   if (!grid.usable() && depth > 0) return;
   scratch.keys.resize(n);
   parallel_parts(threads, n, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Place& place = places[ids[i]];
+    each_place(ids, places, begin, end, [&](std::size_t i, const Place& place) {
       const std::uint64_t curve = grid.usable() ? grid.index(place.centre) : 0;
       const std::uint64_t key = (std::uint64_t{place.size_class} << (3 * bits)) | curve;
       scratch.keys[i] = (key << id_bits) | i;
-    }
+    });
   });
   radix_sort(scratch.keys, scratch.spare, id_bits, id_bits + 3 * bits + kClassBits, threads);
-  scratch.ids.assign(ids.begin(), ids.end());
   const std::uint64_t mask = (std::uint64_t{1} << id_bits) - 1;
-  for (std::size_t i = 0; i < n; ++i) ids[i] = scratch.ids[scratch.keys[i] & mask];
+  if (depth == 0) {  // ids[i] == i
+    for (std::size_t i = 0; i < n; ++i) ids[i] = static_cast<std::uint32_t>(scratch.keys[i] & mask);
+  } else {
+    scratch.ids.assign(ids.begin(), ids.end());
+    for (std::size_t i = 0; i < n; ++i) ids[i] = scratch.ids[scratch.keys[i] & mask];
+  }
   if (!grid.usable()) return;
   // Remember the runs first, since the recursion reuses the scratch arrays.
   std::vector<std::pair<std::size_t, std::size_t>> runs;
@@ -220,8 +236,8 @@ void order_range(std::span<std::uint32_t> ids, std::span<const Place> places, Sc
 
 namespace deck {
 
-std::vector<std::uint32_t> order_in_space(std::span<const Place> places, int threads) {
-  std::vector<std::uint32_t> ids(places.size());
+std::vector<std::uint32_t> order_in_space(std::size_t count, const PlacesOf& places, int threads) {
+  std::vector<std::uint32_t> ids(count);
   std::iota(ids.begin(), ids.end(), 0U);
   order_detail::Scratch scratch;
   order_detail::order_range(ids, places, scratch, threads, 0);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -51,17 +52,20 @@ class CurveGrid {
 
 }  // namespace order_detail
 
-// Positions 0 ... places.size()-1 along the curve. The result depends only on the places.
-std::vector<std::uint32_t> order_in_space(std::span<const Place> places, int threads);
+// Writes the places of the things `ids` to `out`. Called more than once for a thing, so that the
+// places of all of them never need memory at the same time.
+using PlacesOf = std::function<void(std::span<const std::uint32_t> ids, Place* out)>;
 
-// The places of `count` things, place_of(i) each, computed by several threads.
+// Positions 0 ... count-1 along the curve. The result depends only on the places.
+std::vector<std::uint32_t> order_in_space(std::size_t count, const PlacesOf& places, int threads);
+
+// The same for a function that gives the place of one thing.
 template <class PlaceOf>
-std::vector<Place> places_of(std::size_t count, const PlaceOf& place_of, int threads) {
-  std::vector<Place> places(count);
-  parallel_parts(threads, count, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) places[i] = place_of(i);
-  });
-  return places;
+std::vector<std::uint32_t> order_by_place(std::size_t count, const PlaceOf& place_of, int threads) {
+  const PlacesOf places = [&place_of](std::span<const std::uint32_t> ids, Place* out) {
+    for (const std::uint32_t i : ids) *out++ = place_of(i);
+  };
+  return order_in_space(count, places, threads);
 }
 
 }  // namespace deck

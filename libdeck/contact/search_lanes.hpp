@@ -326,7 +326,18 @@ inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, 
       sizes += shapes[i].wide.size();
     }
     const bool shared = worth_sharing(group.size(), sizes);
-    if (shared) walk.find(w.tree, group);
+    if (shared) {
+      walk.find(w.tree, group);
+      for (const Hit& hit : walk.hits) {
+        for (unsigned mask = hit.mask; mask != 0; mask &= mask - 1) {
+          const auto leaf = hit.block * std::size_t{8} + static_cast<unsigned>(__builtin_ctz(mask));
+          const char* lines = reinterpret_cast<const char*>(&w.points[leaf]);
+          for (unsigned k = 0; k < 4; ++k) __builtin_prefetch(lines + 64 * k);
+          __builtin_prefetch(&w.items[leaf * 8]);
+          __builtin_prefetch(&w.nodes[leaf * 8]);
+        }
+      }
+    }
     for (std::size_t i = 0; i < count; ++i) {
       if (!shared) walk.find(w.tree, shapes[i].wide);
       sweep_segment(w, walk.hits, shapes[i], w.segments[first + i], sink);

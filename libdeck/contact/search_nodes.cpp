@@ -30,27 +30,24 @@ NodeSweep::NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int thr
     : input(&in), options(&o) {
   constexpr std::size_t kWidth = PointBlock::kWidth;
   const std::vector<std::uint32_t> chosen = active(in.secondary.size(), in.secondary_stiffness);
-  const std::vector<Place> places = places_of(
-      chosen.size(), [&](std::size_t i) { return Place{point(in.nodes, in.secondary[chosen[i]])}; },
-      threads);
-  const std::vector<std::uint32_t> order = order_in_space(places, threads);
-  const std::size_t leaf_count = (order.size() + kWidth - 1) / kWidth;
+  items = order_by_place(
+      chosen.size(),
+      [&](std::uint32_t i) { return Place{point(in.nodes, in.secondary[chosen[i]])}; }, threads);
+  const std::size_t leaf_count = (items.size() + kWidth - 1) / kWidth;
   points.resize(leaf_count);
   reach.resize(leaf_count);
-  items.resize(order.size());
-  nodes.resize(order.size());
+  nodes.resize(items.size());
   std::vector<BoxBlock> blocks((leaf_count + kWidth - 1) / kWidth);
   parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     const std::size_t last = std::min(leaf_count, end * kWidth);
     for (std::size_t i = begin * kWidth; i < last; ++i) {
       PointBlock& leaf = points[i];
       Box box;
-      for (std::size_t rank = i * kWidth; rank < std::min(order.size(), (i + 1) * kWidth); ++rank) {
+      for (std::size_t rank = i * kWidth; rank < std::min(items.size(), (i + 1) * kWidth); ++rank) {
         const std::size_t k = rank % kWidth;
-        const Point3<double>& p = places[order[rank]].centre;
-        const std::uint32_t item = chosen[order[rank]];
-        items[rank] = item;
+        const std::uint32_t item = items[rank] = chosen[items[rank]];
         nodes[rank] = in.secondary[item];
+        const Point3<double> p = point(in.nodes, nodes[rank]);
         leaf.x[k] = p.x;
         leaf.y[k] = p.y;
         leaf.z[k] = p.z;

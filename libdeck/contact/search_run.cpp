@@ -1,6 +1,7 @@
 // Runs a sweep on several threads and brings the pairs of all threads into one sorted list.
 #include <algorithm>
 #include <atomic>
+#include <limits>
 
 #include "contact/search_parallel.hpp"
 #include "contact/search_sweep.hpp"
@@ -23,9 +24,10 @@ void sort_by_main(CandidatePair* first, CandidatePair* last) {
 }
 
 // Counting sort by secondary, then each secondary's few mains by insertion. Every thread owns a
-// range of secondaries and reads all pairs.
+// range of secondaries and reads all pairs. Count: wide enough for the number of pairs.
+template <class Count>
 void merge(std::vector<Sink>& sinks, std::size_t secondaries, int threads, SearchResult& result) {
-  std::vector<std::size_t> next(secondaries + 1, 0);
+  std::vector<Count> next(secondaries + 1, 0);
   parallel_parts(threads, secondaries, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (const Sink& sink : sinks) {
       sink.for_each([&](const CandidatePair& pair) {
@@ -82,7 +84,9 @@ void run(const std::function<void(std::size_t, std::size_t, Sink&)>& body, std::
     result.complete = false;
     return;
   }
-  merge(sinks, secondaries, threads, result);
+  const bool many = found.load() > std::numeric_limits<std::uint32_t>::max();
+  many ? merge<std::size_t>(sinks, secondaries, threads, result)
+       : merge<std::uint32_t>(sinks, secondaries, threads, result);
 }
 
 }  // namespace deck::sweep

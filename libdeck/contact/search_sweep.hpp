@@ -201,16 +201,15 @@ inline Box edge_box(const NodeArrays& nodes, const std::array<std::uint32_t, 2>&
 // Orders things in space by the centres and sizes of their boxes.
 template <class BoxOf>
 void sort_in_space(std::vector<std::uint32_t>& ids, const BoxOf& box_of, int threads) {
-  const std::vector<Place> places = places_of(
+  std::vector<std::uint32_t> order = order_by_place(
       ids.size(),
-      [&](std::size_t i) {
+      [&](std::uint32_t i) {
         const Box b = box_of(ids[i]);
         return Place{{0.5 * b.low[0] + 0.5 * b.high[0], 0.5 * b.low[1] + 0.5 * b.high[1],
                       0.5 * b.low[2] + 0.5 * b.high[2]},
                      size_class(b.size())};
       },
       threads);
-  std::vector<std::uint32_t> order = order_in_space(places, threads);
   for (std::uint32_t& i : order) i = ids[i];
   ids.swap(order);
 }

@@ -319,9 +319,8 @@ TEST(SpaceOrder, IsAPermutationForAnyGradingAndThreads) {
   }
   for (std::size_t i = 0; i < 3000; ++i) p[i] = {1, 1, 1};
   const auto order = [&p](int threads) {
-    return order_in_space(places_of(
-                              p.size(), [&p](std::size_t i) { return Place{p[i]}; }, threads),
-                          threads);
+    return order_by_place(
+        p.size(), [&p](std::uint32_t i) { return Place{p[i]}; }, threads);
   };
   const auto one = order(1);
   EXPECT_EQ(order(2), one);
