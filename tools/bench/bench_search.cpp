@@ -1,6 +1,6 @@
-// Node-segment search against CGAL and Embree: all pairs within their gap, build and query, one
-// thread, the same arrays. No time is printed unless all answers agree. Ratios are of processor
-// time, which does not suffer from other work on the machine.
+// Node-segment search against CGAL and Embree: the list of all pairs within their gap, build and
+// query, one thread, the same arrays. No time is printed unless all answers agree. Ratios are of
+// processor time, which does not suffer from other work on the machine.
 //
 //   bench_search [--quick] [--size N]... [--repeat K] [--largest N] [--scene NAME] [--no-rivals]
 #include <fmt/format.h>
@@ -39,12 +39,10 @@ Answer ours(const Scene& s, int threads, std::size_t* bytes = nullptr,
             std::size_t* tested = nullptr) {
   deck::SearchOptions o = s.options();
   o.threads = threads;
-  const deck::SearchResult result = deck::find_node_segment_pairs(s.input(), o);
-  Answer answer;
-  for (const auto& pair : result.pairs) answer.add(pair.secondary, pair.main);
+  deck::SearchResult result = deck::find_node_segment_pairs(s.input(), o);
   if (bytes != nullptr) *bytes = result.structure_bytes;
   if (tested != nullptr) *tested = result.tested;
-  return answer;
+  return {std::move(result.pairs)};
 }
 
 // Wall time and processor time of this process.
@@ -90,7 +88,7 @@ double exponent(const std::vector<std::pair<double, double>>& points) {
 }
 
 struct Measured {
-  Answer answer;
+  Digest answer;
   Time time;
 };
 
@@ -99,7 +97,9 @@ Measured measure(const Contestant<Input>& c, const Input& s, int repeat) {
   Measured m;
   std::vector<double> wall, cpu;
   for (int k = 0; k < repeat; ++k) {
-    const Time time = time_of([&] { m.answer = c.run(s); });
+    Answer answer;
+    const Time time = time_of([&] { answer = c.run(s); });
+    m.answer = Digest(answer);
     wall.push_back(time.wall);
     cpu.push_back(time.cpu);
   }
@@ -177,12 +177,11 @@ bool run_edges(const Settings& settings) {
     in.main = edges;
     deck::SearchOptions options;
     options.gap = deck::PairGap::constant(2 * kSideGap);
-    const auto run = [&options](const deck::EdgeEdgeInput& input) {
-      Answer answer;
-      for (const auto& pair : deck::find_edge_edge_pairs(input, options).pairs) {
-        answer.add(pair.secondary, pair.main);
-      }
-      return answer;
+    std::size_t bytes = 0;
+    const auto run = [&options, &bytes](const deck::EdgeEdgeInput& input) {
+      deck::SearchResult result = deck::find_edge_edge_pairs(input, options);
+      bytes = result.structure_bytes;
+      return Answer{std::move(result.pairs)};
     };
     std::vector<Contestant<deck::EdgeEdgeInput>> all{{"libdeck, 1 thread", run}};
     if (settings.rivals) {
@@ -193,6 +192,8 @@ bool run_edges(const Settings& settings) {
     double time = 0.0;
     const std::string what = fmt::format("{}: {} edges", title, edges.size());
     if (!compare(what, all, in, edges.size(), settings, time)) return false;
+    fmt::print("  structure {:.1f} B/edge\n",
+               static_cast<double>(bytes) / static_cast<double>(edges.size()));
   }
   return true;
 }

@@ -36,16 +36,27 @@ struct Scene {
   }
 };
 
-// Number of pairs and a hash of them that does not depend on their order.
+// The product of a search: the list of pairs. Every contestant makes one while the clock runs.
 struct Answer {
-  std::uint64_t count = 0, hash = 0;
+  std::vector<deck::CandidatePair> pairs;
   void add(std::uint32_t secondary, std::uint32_t segment) {
-    ++count;
-    std::uint64_t v = (std::uint64_t{secondary} << 32 | segment) * 0x9e3779b97f4a7c15ULL;
-    v ^= v >> 29;
-    hash += v * 0xbf58476d1ce4e5b9ULL;
+    pairs.push_back({secondary, segment});
   }
-  friend bool operator==(const Answer&, const Answer&) = default;
+};
+
+// Number of pairs of an answer and a hash of them that does not depend on their order; formed when
+// the clock has stopped.
+struct Digest {
+  std::uint64_t count = 0, hash = 0;
+  Digest() = default;
+  explicit Digest(const Answer& answer) : count(answer.pairs.size()) {
+    for (const deck::CandidatePair& pair : answer.pairs) {
+      std::uint64_t v = (std::uint64_t{pair.secondary} << 32 | pair.main) * 0x9e3779b97f4a7c15ULL;
+      v ^= v >> 29;
+      hash += v * 0xbf58476d1ce4e5b9ULL;
+    }
+  }
+  friend bool operator==(const Digest&, const Digest&) = default;
 };
 
 struct Bounds {
