@@ -211,8 +211,10 @@ struct Threshold {
 // The smallest of the four distances is below the limit if any is.
 inline bool any_below(const Subs& squared, const Threshold& t) {
   const Subs zero{};
-  if (DECK_SUB_BITS((squared < zero + t.low)) != 0) return true;
-  if (DECK_SUB_BITS((squared < zero + t.high)) == 0) return false;
+  const bool certain = DECK_SUB_BITS((squared < zero + t.low)) != 0;
+  const bool possible = DECK_SUB_BITS((squared < zero + t.high)) != 0;
+  if (certain == possible) [[likely]]
+    return certain;
   for (unsigned k = 0; k < 4; ++k) {
     if (std::sqrt(squared[k]) < t.limit) return true;
   }
@@ -241,7 +243,10 @@ struct SegmentTest {
         lengths(w.options->gap.rule == GapRule::sum_limited),
         reference(w.options->form == Form::reference),
         threshold(pair_limit(*w.options, 0.0, 0.0, 0.0, 0.0)) {
-    if (reference) sub.set(s);
+    if (reference)
+      sub.set(s);
+    else
+      sub = SubTriangles{};
   }
 
   void point(const PointBlock& leaf, std::uint32_t rank, Sink& sink) {
@@ -253,19 +258,19 @@ struct SegmentTest {
       threshold = Threshold(pair_limit(*w.options, leaf.gap[place], gap_m, length_s, length_m));
     }
     ++sink.tested;
+    bool near;
     if (reference) {
       Subs squared;
       sub.squared_distance(p, squared);
-      if (!any_below(squared, threshold)) return;
-    } else if (!(closest_on_segment<Form::robust>(p, shape.corner, shape.triangle).distance() <
-                 threshold.limit)) {
-      return;
+      near = any_below(squared, threshold);
+    } else {
+      near = closest_on_segment<Form::robust>(p, shape.corner, shape.triangle).distance() <
+             threshold.limit;
     }
     const std::uint32_t node = w.nodes[rank];
-    if (node == corners[0] || node == corners[1] || node == corners[2] || node == corners[3]) {
-      return;
-    }
-    sink.push({w.items[rank], segment});
+    const bool own =
+        (node == corners[0]) | (node == corners[1]) | (node == corners[2]) | (node == corners[3]);
+    sink.push_if(near & !own, {w.items[rank], segment});
   }
 };
 

@@ -49,12 +49,17 @@ struct Reach {
 // Pairs found by one thread, in the order found. Grows by whole chunks: nothing is ever copied.
 class Sink {
  public:
-  void push(CandidatePair pair) {
+  void push(CandidatePair pair) { push_if(true, pair); }
+  // Without a branch: whether a pair is within its gap is known late and cannot be predicted, and a
+  // wrong guess would throw away the distances of the next pairs that are under way.
+  void push_if(bool wanted, CandidatePair pair) {
     if (fill_ == kChunk) {
       chunks_.push_back(std::make_unique_for_overwrite<CandidatePair[]>(kChunk));
+      last_ = chunks_.back().get();
       fill_ = 0;
     }
-    chunks_.back()[fill_++] = pair;
+    last_[fill_] = pair;
+    fill_ += wanted;
   }
   std::size_t size() const { return chunks_.empty() ? 0 : (chunks_.size() - 1) * kChunk + fill_; }
   template <class Visit>
@@ -69,6 +74,7 @@ class Sink {
  private:
   static constexpr std::size_t kChunk = 16384;
   std::vector<std::unique_ptr<CandidatePair[]>> chunks_;
+  CandidatePair* last_ = nullptr;
   std::size_t fill_ = kChunk;
 };
 
