@@ -162,7 +162,7 @@ struct Bounds {
 template <class Visit>
 void each_place(std::span<const std::uint32_t> ids, const PlacesOf& places, std::size_t begin,
                 std::size_t end, const Visit& visit) {
-  std::array<Place, 256> some;
+  std::array<Place, 64> some;
   for (std::size_t first = begin; first < end; first += some.size()) {
     const std::size_t count = std::min(some.size(), end - first);
     places(ids.subspan(first, count), some.data());

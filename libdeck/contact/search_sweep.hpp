@@ -92,6 +92,11 @@ struct NodeSweep {
   // The search structure over the secondary nodes of an input, and its segments in order.
   NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads);
   std::size_t bytes() const;
+
+ private:
+  bool looks_ordered() const;
+  void pack(int threads);
+  bool serves_well() const;
 };
 struct EdgeSweep {
   const EdgeEdgeInput* input = nullptr;

@@ -118,6 +118,61 @@ Mesh two_sheets(int n) {
   return mesh;
 }
 
+// Lists long enough that the search first tries the order they come in.
+struct LongList {
+  Mesh mesh = two_sheets(100);  // nodes of the second against segments of the first
+  LongList() { mesh.secondary.erase(mesh.secondary.begin(), mesh.secondary.begin() + 101 * 101); }
+  NodeSegmentInput input() {
+    NodeSegmentInput in = node_input(mesh);
+    in.segments = in.segments.subspan(3000, 400);
+    return in;
+  }
+  // Runs of `length` nodes in any order.
+  void shuffle(std::size_t length) {
+    Dice dice(5);
+    const std::size_t runs = mesh.secondary.size() / length;
+    for (std::size_t i = runs; i > 1; --i) {
+      const auto j = std::min(i - 1, static_cast<std::size_t>(dice.uniform(0, double(i))));
+      for (std::size_t k = 0; k < length; ++k)
+        std::swap(mesh.secondary[(i - 1) * length + k], mesh.secondary[j * length + k]);
+    }
+  }
+  bool keeps_its_order() {
+    const NodeSegmentInput in = input();
+    const sweep::NodeSweep w(in, options(), 1);
+    return std::is_sorted(w.items.begin(), w.items.end());
+  }
+  void expect_all_pairs() {
+    expect_brute_force(find_node_segment_pairs, input(), options(), 0);
+    EXPECT_GT(find_node_segment_pairs(input(), options()).pairs.size(), 500U);
+  }
+  static SearchOptions options() {
+    SearchOptions o;
+    o.gap = PairGap::constant(0.6);
+    return o;
+  }
+};
+
+TEST(SearchOrder, NodesInTheOrderOfTheMeshAreTakenAsTheyCome) {
+  LongList list;
+  EXPECT_TRUE(list.keeps_its_order());
+  list.expect_all_pairs();
+}
+
+TEST(SearchOrder, ShuffledNodesAreSorted) {
+  LongList list;
+  list.shuffle(1);
+  EXPECT_FALSE(list.keeps_its_order());
+  list.expect_all_pairs();
+}
+
+TEST(SearchOrder, ShortRunsFromEverywhereAreSorted) {
+  LongList list;
+  list.shuffle(64);
+  EXPECT_FALSE(list.keeps_its_order()) << "neighbours are near, but larger groups are everywhere";
+  list.expect_all_pairs();
+}
+
 TEST(SearchThreads, AnyNumberGivesTheSameList) {
   const Mesh mesh = two_sheets(90);
   SearchOptions o;
