@@ -38,12 +38,8 @@ NodeSweep::NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int thr
     pack(threads);
     if (serves_well()) return;
   }
-  const std::vector<std::uint32_t> order = order_by_place(
-      items.size(), [&](std::uint32_t i) { return Place{point(in.nodes, in.secondary[items[i]])}; },
-      threads);
-  std::vector<std::uint32_t> sorted(items.size());
-  for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = items[order[i]];
-  items.swap(sorted);
+  sort_by_place(
+      items, [&](std::uint32_t i) { return Place{point(in.nodes, in.secondary[i])}; }, threads);
   pack(threads);
 }
 

@@ -209,20 +209,27 @@ inline Box edge_box(const NodeArrays& nodes, const std::array<std::uint32_t, 2>&
   return box;
 }
 
+// Orders things in space by their places, place_of(id) each.
+template <class PlaceOf>
+void sort_by_place(std::vector<std::uint32_t>& ids, const PlaceOf& place_of, int threads) {
+  std::vector<std::uint32_t> order = order_by_place(
+      ids.size(), [&](std::uint32_t i) { return place_of(ids[i]); }, threads);
+  for (std::uint32_t& i : order) i = ids[i];
+  ids.swap(order);
+}
+
 // Orders things in space by the centres and sizes of their boxes.
 template <class BoxOf>
 void sort_in_space(std::vector<std::uint32_t>& ids, const BoxOf& box_of, int threads) {
-  std::vector<std::uint32_t> order = order_by_place(
-      ids.size(),
-      [&](std::uint32_t i) {
-        const Box b = box_of(ids[i]);
+  sort_by_place(
+      ids,
+      [&](std::uint32_t id) {
+        const Box b = box_of(id);
         return Place{{0.5 * b.low[0] + 0.5 * b.high[0], 0.5 * b.low[1] + 0.5 * b.high[1],
                       0.5 * b.low[2] + 0.5 * b.high[2]},
                      size_class(b.size())};
       },
       threads);
-  for (std::uint32_t& i : order) i = ids[i];
-  ids.swap(order);
 }
 
 // The same, unless they are in good order already.
