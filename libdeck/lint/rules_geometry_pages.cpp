@@ -1,4 +1,6 @@
 // Pages of the geometry rules about segments, edges and crossed elements.
+#include <string>
+
 #include "lint/rule_tables.hpp"
 
 namespace deck::detail {
@@ -183,6 +185,53 @@ void add_geometry_segment_rules(std::vector<Rule>& out) {
                "        22                 5.0                 8.0                 1.0\n"
                "        23                 5.0                 5.0                 8.0\n"
                "/SH3N/2\n         9        21        22        23\n@/INTER/TYPE7/1 Gapmin=0.1\n"});
+  // Examples of the rules about solids. Rules keep views of them.
+  static const std::string two_tetras =
+      "/NODE\n"
+      "        21                20.0                 0.0                 0.0\n"
+      "        22                22.0                 0.0                 0.0\n"
+      "        23                20.0                 2.0                 0.0\n"
+      "        24                20.0                 0.0                 2.0\n"
+      "        25                20.0                 0.0                -2.0\n"
+      "        26                22.0                 2.0                 2.0\n"
+      "/PROP/SOLID/9\nblock\n\n\n/PART/9\nblock\n         9         1         0\n"
+      "/TETRA4/9\n"
+      "         9        21        22        23        24\n"
+      "        10        21        23        22        25\n";
+  static const std::string plain_face =
+      "/SURF/SEG/3\nface\n         1        22        21        23        23\n"
+      "@/INTER/TYPE7/1 surf_IDm=3\n";
+  static const std::string three_on_a_face =
+      two_tetras + "        11        21        22        23        26\n" + plain_face;
+  static const std::string two_on_a_face = two_tetras + plain_face;
+  static const std::string block =
+      "/NODE\n"
+      "        21                20.0                 0.0                 0.0\n"
+      "        22                22.0                 0.0                 0.0\n"
+      "        23                22.0                 2.0                 0.0\n"
+      "        24                20.0                 2.0                 0.0\n"
+      "        25                20.0                 0.0                 2.0\n"
+      "        26                22.0                 0.0                 2.0\n"
+      "        27                22.0                 2.0                 2.0\n"
+      "        28                20.0                 2.0                 2.0\n"
+      "        29                24.0                 2.0                 0.0\n"
+      "        30                24.0                 2.0                 2.0\n"
+      "/PROP/SOLID/9\nblock\n\n\n/PART/9\nblock\n         9         1         0\n"
+      "/BRICK/9\n";
+  static const std::string brick =
+      "         9        21        22        23        24        25        26        27        "
+      "28\n";
+  static const std::string skin =
+      "/SURF/PART/EXT/3\nblock\n         9\n@/INTER/TYPE7/1 surf_IDm=3\n";
+  static const std::string overlapping =
+      block +
+      "         9        21        22        29        23        25        26        30        27\n"
+      "        10        21        22        23        24        25        26        27        "
+      "28\n" +
+      skin;
+  static const std::string single = block + brick + skin;
+  static const std::string filled =
+      block + brick + "/INIBRI/FILL\n         9                 0.5\n" + skin;
   out.push_back({.id = "DK329",
                  .title = "plain segments in more than two solids",
                  .severity = warning,
@@ -195,49 +244,8 @@ void add_geometry_segment_rules(std::vector<Rule>& out) {
                  .message_severity = warning,
                  .fix = "remove the solid that is too much",
                  .ignore = "Where the mesh is meant to be double there.",
-                 .bad = "/NODE\n"
-                        "        21                20.0                 0.0                 0.0\n"
-                        "        22                22.0                 0.0                 0.0\n"
-                        "        23                20.0                 2.0                 0.0\n"
-                        "        24                20.0                 0.0                 2.0\n"
-                        "        25                20.0                 0.0                -2.0\n"
-                        "        26                22.0                 2.0                 2.0\n"
-                        "/PROP/SOLID/9\n"
-                        "block\n"
-                        "\n"
-                        "\n"
-                        "/PART/9\n"
-                        "block\n"
-                        "         9         1         0\n"
-                        "/TETRA4/9\n"
-                        "         9        21        22        23        24\n"
-                        "        10        21        23        22        25\n"
-                        "        11        21        22        23        26\n"
-                        "/SURF/SEG/3\n"
-                        "face\n"
-                        "         1        22        21        23        23\n"
-                        "@/INTER/TYPE7/1 surf_IDm=3\n",
-                 .good = "/NODE\n"
-                         "        21                20.0                 0.0                 0.0\n"
-                         "        22                22.0                 0.0                 0.0\n"
-                         "        23                20.0                 2.0                 0.0\n"
-                         "        24                20.0                 0.0                 2.0\n"
-                         "        25                20.0                 0.0                -2.0\n"
-                         "        26                22.0                 2.0                 2.0\n"
-                         "/PROP/SOLID/9\n"
-                         "block\n"
-                         "\n"
-                         "\n"
-                         "/PART/9\n"
-                         "block\n"
-                         "         9         1         0\n"
-                         "/TETRA4/9\n"
-                         "         9        21        22        23        24\n"
-                         "        10        21        23        22        25\n"
-                         "/SURF/SEG/3\n"
-                         "face\n"
-                         "         1        22        21        23        23\n"
-                         "@/INTER/TYPE7/1 surf_IDm=3\n"});
+                 .bad = three_on_a_face,
+                 .good = two_on_a_face});
   out.push_back(
       {.id = "DK330",
        .title = "segments inside other solids",
@@ -250,58 +258,8 @@ void add_geometry_segment_rules(std::vector<Rule>& out) {
        .solver = "it keeps most of these faces and drops some; it has no such check",
        .fix = "mend the mesh: neighbours share whole faces",
        .ignore = "Where the other side never gets there.",
-       .bad = "/NODE\n"
-              "        21                20.0                 0.0                 0.0\n"
-              "        22                22.0                 0.0                 0.0\n"
-              "        23                22.0                 2.0                 0.0\n"
-              "        24                20.0                 2.0                 0.0\n"
-              "        25                20.0                 0.0                 2.0\n"
-              "        26                22.0                 0.0                 2.0\n"
-              "        27                22.0                 2.0                 2.0\n"
-              "        28                20.0                 2.0                 2.0\n"
-              "        29                24.0                 2.0                 0.0\n"
-              "        30                24.0                 2.0                 2.0\n"
-              "/PROP/SOLID/9\n"
-              "block\n"
-              "\n"
-              "\n"
-              "/PART/9\n"
-              "block\n"
-              "         9         1         0\n"
-              "/BRICK/9\n"
-              "         9        21        22        29        23        25        26        30    "
-              "    27\n"
-              "        10        21        22        23        24        25        26        27    "
-              "    28\n"
-              "/SURF/PART/EXT/3\n"
-              "block\n"
-              "         9\n"
-              "@/INTER/TYPE7/1 surf_IDm=3\n",
-       .good = "/NODE\n"
-               "        21                20.0                 0.0                 0.0\n"
-               "        22                22.0                 0.0                 0.0\n"
-               "        23                22.0                 2.0                 0.0\n"
-               "        24                20.0                 2.0                 0.0\n"
-               "        25                20.0                 0.0                 2.0\n"
-               "        26                22.0                 0.0                 2.0\n"
-               "        27                22.0                 2.0                 2.0\n"
-               "        28                20.0                 2.0                 2.0\n"
-               "        29                24.0                 2.0                 0.0\n"
-               "        30                24.0                 2.0                 2.0\n"
-               "/PROP/SOLID/9\n"
-               "block\n"
-               "\n"
-               "\n"
-               "/PART/9\n"
-               "block\n"
-               "         9         1         0\n"
-               "/BRICK/9\n"
-               "         9        21        22        23        24        25        26        27   "
-               "     28\n"
-               "/SURF/PART/EXT/3\n"
-               "block\n"
-               "         9\n"
-               "@/INTER/TYPE7/1 surf_IDm=3\n"});
+       .bad = overlapping,
+       .good = single});
   out.push_back(
       {.id = "DK331",
        .title = "fill fractions of solids",
@@ -313,58 +271,8 @@ void add_geometry_segment_rules(std::vector<Rule>& out) {
        .solver = "it reads the fractions",
        .fix = "multiply the stiffness shown by the fraction of the solid",
        .ignore = "Where all solids of the surface are full.",
-       .bad = "/NODE\n"
-              "        21                20.0                 0.0                 0.0\n"
-              "        22                22.0                 0.0                 0.0\n"
-              "        23                22.0                 2.0                 0.0\n"
-              "        24                20.0                 2.0                 0.0\n"
-              "        25                20.0                 0.0                 2.0\n"
-              "        26                22.0                 0.0                 2.0\n"
-              "        27                22.0                 2.0                 2.0\n"
-              "        28                20.0                 2.0                 2.0\n"
-              "        29                24.0                 2.0                 0.0\n"
-              "        30                24.0                 2.0                 2.0\n"
-              "/PROP/SOLID/9\n"
-              "block\n"
-              "\n"
-              "\n"
-              "/PART/9\n"
-              "block\n"
-              "         9         1         0\n"
-              "/BRICK/9\n"
-              "         9        21        22        23        24        25        26        27    "
-              "    28\n"
-              "/INIBRI/FILL\n"
-              "         9                 0.5\n"
-              "/SURF/PART/EXT/3\n"
-              "block\n"
-              "         9\n"
-              "@/INTER/TYPE7/1 surf_IDm=3\n",
-       .good = "/NODE\n"
-               "        21                20.0                 0.0                 0.0\n"
-               "        22                22.0                 0.0                 0.0\n"
-               "        23                22.0                 2.0                 0.0\n"
-               "        24                20.0                 2.0                 0.0\n"
-               "        25                20.0                 0.0                 2.0\n"
-               "        26                22.0                 0.0                 2.0\n"
-               "        27                22.0                 2.0                 2.0\n"
-               "        28                20.0                 2.0                 2.0\n"
-               "        29                24.0                 2.0                 0.0\n"
-               "        30                24.0                 2.0                 2.0\n"
-               "/PROP/SOLID/9\n"
-               "block\n"
-               "\n"
-               "\n"
-               "/PART/9\n"
-               "block\n"
-               "         9         1         0\n"
-               "/BRICK/9\n"
-               "         9        21        22        23        24        25        26        27   "
-               "     28\n"
-               "/SURF/PART/EXT/3\n"
-               "block\n"
-               "         9\n"
-               "@/INTER/TYPE7/1 surf_IDm=3\n"});
+       .bad = filled,
+       .good = single});
 }
 
 }  // namespace deck::detail
