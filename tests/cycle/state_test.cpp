@@ -14,6 +14,7 @@
 
 #include "contact/small_deck.hpp"
 #include "deck/cycle/replay.hpp"
+#include "where.hpp"
 
 namespace deck::cycle {
 namespace {
@@ -173,9 +174,7 @@ double mass_difference(const std::filesystem::path& deck_file, const std::filesy
 }
 
 TEST(Masses, AreThoseOfTheReferenceSolver) {
-  const char* env = std::getenv("DECK_CORPUS");
-  const std::filesystem::path base =
-      std::filesystem::path(env != nullptr ? env : DECK_SOURCE_DIR "/../shared") / "oracle/kernel";
+  const std::filesystem::path base = test::shared_dir() / "oracle/kernel";
   if (!std::filesystem::is_directory(base)) GTEST_SKIP() << base << " is not there (DECK_CORPUS)";
   for (const auto& [set, deck] :
        {std::pair{"eng_BOULE1V4", "BOULE1V4"}, std::pair{"eng_BOXBEAM", "BOXBEAM"},

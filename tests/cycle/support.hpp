@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "deck/cycle/kernel.hpp"
+#include "where.hpp"
 
 namespace deck::cycle::testing {
 
@@ -227,9 +228,7 @@ void expect_digits(const std::array<double, N>& computed, const std::array<doubl
 
 /// Directory of the reference material, or nothing when it is not there.
 inline std::optional<std::filesystem::path> corpus() {
-  const char* env = std::getenv("DECK_CORPUS");
-  const std::filesystem::path dir =
-      env != nullptr ? env : std::filesystem::path(DECK_SOURCE_DIR) / ".." / "shared";
+  const std::filesystem::path dir = test::shared_dir();
   if (!std::filesystem::is_directory(dir / "oracle" / "kernel")) return std::nullopt;
   return dir;
 }

@@ -18,6 +18,7 @@
 #include "contact/small_deck.hpp"
 #include "deck/edit/depenetrate.hpp"
 #include "deck/edit/fix.hpp"
+#include "where.hpp"
 
 namespace deck::test {
 
@@ -410,7 +411,7 @@ inline SmallDeck stack_of_sheets(unsigned seed, int layers, const std::string& i
 
 /// Samples of the project that read without errors, by file name.
 inline std::string sample(const std::string& name) {
-  return std::string(DECK_SOURCE_DIR) + "/samples/" + name + "_0000.rad";
+  return (test::source_dir() / "samples" / (name + "_0000.rad")).string();
 }
 
 }  // namespace deck::test

@@ -11,6 +11,7 @@
 #include "deck/edit/from_json.hpp"
 #include "deck/report/deck_json.hpp"
 #include "edit/version_support.hpp"
+#include "where.hpp"
 
 namespace deck::test {
 namespace {
@@ -103,10 +104,7 @@ TEST(DeckJson, EverySampleComesBackByteForByte) {
 }
 
 TEST(DeckJson, CorpusComesBackByteForByte) {
-  const char* set = std::getenv("DECK_CORPUS");
-  const std::filesystem::path corpus = set != nullptr
-                                           ? std::filesystem::path(set)
-                                           : std::filesystem::path(DECK_SOURCE_DIR) / "../shared";
+  const std::filesystem::path corpus = test::shared_dir();
   if (!std::filesystem::exists(corpus / "corpus")) GTEST_SKIP() << "no corpus at " << corpus;
   for (const auto& e : std::filesystem::recursive_directory_iterator(corpus / "corpus"))
     if (e.path().string().ends_with("_0000.rad") && e.file_size() < 1'000'000)

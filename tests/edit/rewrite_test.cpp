@@ -10,6 +10,7 @@
 #include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
 #include "keyword/reading.hpp"
+#include "where.hpp"
 
 namespace deck {
 namespace {
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> samples() {
   std::vector<std::string> all;
-  for (const auto& entry : fs::directory_iterator(std::string(DECK_SOURCE_DIR) + "/samples"))
+  for (const auto& entry : fs::directory_iterator(test::source_dir() / "samples"))
     if (entry.path().string().ends_with("_0000.rad")) all.push_back(entry.path().string());
   std::sort(all.begin(), all.end());
   return all;
@@ -57,7 +58,7 @@ TEST(ApplyEditsOfADeck, RefuseTwoDifferentContentsForOneFile) {
 }
 
 TEST(Overlay, IsReadInsteadOfTheFile) {
-  const std::string path = std::string(DECK_SOURCE_DIR) + "/samples/include_tree_0000.rad";
+  const std::string path = (test::source_dir() / "samples/include_tree_0000.rad").string();
   const auto deck = read_deck(path, SchemaSet::built_in());
   ASSERT_TRUE(deck.ok());
   ASSERT_GT(deck->sources.size(), 1u);

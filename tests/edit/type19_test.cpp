@@ -8,6 +8,7 @@
 #include "contact/small_deck.hpp"
 #include "deck/contact/scene.hpp"
 #include "edit/version_support.hpp"
+#include "where.hpp"
 
 namespace deck::test {
 namespace {
@@ -324,11 +325,7 @@ TEST(ExpandType19Property, SamplesGiveTheSameScene) {
 }
 
 TEST(ExpandType19Property, CorpusGivesTheSameScene) {
-  const char* set = std::getenv("DECK_CORPUS");
-  const std::filesystem::path corpus =
-      (set != nullptr ? std::filesystem::path(set)
-                      : std::filesystem::path(DECK_SOURCE_DIR) / "../shared") /
-      "corpus";
+  const std::filesystem::path corpus = test::shared_dir() / "corpus";
   if (!std::filesystem::exists(corpus)) GTEST_SKIP() << "no corpus at " << corpus;
   for (const char* name : {"synthetic/synd_0000.rad", "EuroSID_II/EuroSID_II_0000.rad"}) {
     Opened before((corpus / name).string());

@@ -12,6 +12,7 @@
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/model/interfaces.hpp"
+#include "where.hpp"
 
 namespace deck::edit_test {
 
@@ -88,10 +89,7 @@ inline double real(const Whole& w, std::string_view header, std::string_view fie
 
 /// Where the real decks are; empty: not here.
 inline std::string corpus(const std::string& file) {
-  const char* env = std::getenv("DECK_CORPUS");
-  const std::filesystem::path root = env != nullptr
-                                         ? std::filesystem::path(env)
-                                         : std::filesystem::path(DECK_SOURCE_DIR) / ".." / "shared";
+  const std::filesystem::path root = test::shared_dir();
   for (const auto& path : {root / "corpus" / file, root / file})
     if (std::filesystem::exists(path)) return path.string();
   return {};

@@ -12,6 +12,7 @@
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/lint/example.hpp"
+#include "where.hpp"
 
 namespace deck::test {
 
@@ -114,7 +115,7 @@ inline std::vector<LossEntry> losses_of(const Rewrite& r, Loss kind) {
 inline std::vector<std::string> sample_decks() {
   std::vector<std::string> out;
   for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(DECK_SOURCE_DIR) + "/samples"))
+       std::filesystem::directory_iterator(test::source_dir() / "samples"))
     if (entry.path().string().ends_with("_0000.rad")) out.push_back(entry.path().string());
   std::sort(out.begin(), out.end());
   EXPECT_GE(out.size(), 10u);

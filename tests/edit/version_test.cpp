@@ -8,6 +8,7 @@
 
 #include "deck/keyword/decode.hpp"
 #include "edit/version_support.hpp"
+#include "where.hpp"
 
 namespace deck::test {
 namespace {
@@ -383,10 +384,7 @@ TEST(ToVersionProperty, RandomCardsDownLoseOnlyWhatIsReported) {
 }
 
 TEST(ToVersionProperty, CorpusKeepsItsEffectiveValues) {
-  const char* set = std::getenv("DECK_CORPUS");
-  const std::filesystem::path shared = set != nullptr
-                                           ? std::filesystem::path(set)
-                                           : std::filesystem::path(DECK_SOURCE_DIR) / "../shared";
+  const std::filesystem::path shared = test::shared_dir();
   if (!std::filesystem::exists(shared / "corpus")) GTEST_SKIP() << "no corpus in " << shared;
   int converted = 0;
   for (const char* folder : {"corpus/qa", "corpus/synthetic", "oracle/params"}) {

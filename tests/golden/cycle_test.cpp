@@ -8,16 +8,14 @@
 #include <fstream>
 
 #include "deck/report/cycle.hpp"
+#include "where.hpp"
 
 namespace deck {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path corpus() {
-  const char* given = std::getenv("DECK_CORPUS");
-  return given != nullptr ? fs::path(given) : fs::path(DECK_SOURCE_DIR).parent_path() / "shared";
-}
+fs::path corpus() { return test::shared_dir(); }
 
 class Scratch {
  public:
@@ -85,9 +83,9 @@ TEST(GoldenCycle, EveryPairForceOfTheInflatedDummyAgrees) {
 
 TEST(GoldenCycle, DocumentsFollowTheirSchema) {
   const Scratch scratch;
-  const fs::path schema = fs::path(DECK_SOURCE_DIR) / "schemas/output/cycle.schema.json";
+  const fs::path schema = test::source_dir() / "schemas/output/cycle.schema.json";
   for (const char* name : {"crash_box", "crossing_edges", "hot_contact", "tied_layer"}) {
-    const fs::path deck = fs::path(DECK_SOURCE_DIR) / "samples" / (std::string(name) + "_0000.rad");
+    const fs::path deck = test::source_dir() / "samples" / (std::string(name) + "_0000.rad");
     ASSERT_TRUE(fs::exists(deck)) << deck;
     std::ofstream(scratch / "cycle.json", std::ios::binary)
         << document(deck, cycle::Model::robust, 1);

@@ -13,16 +13,15 @@
 #include <string_view>
 #include <vector>
 
+#include "where.hpp"
+
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path corpus() {
-  const char* given = std::getenv("DECK_CORPUS");
-  return given != nullptr ? fs::path(given) : fs::path(DECK_SOURCE_DIR).parent_path() / "shared";
-}
+fs::path corpus() { return test::shared_dir(); }
 
-fs::path binary() { return fs::path(DECK_BINARY_DIR) / "tools" / "deck"; }
+fs::path binary() { return test::binary_dir() / "tools" / "deck"; }
 
 /// A directory that goes with the test.
 class Scratch {
@@ -150,7 +149,7 @@ void expect_valid(const std::string& options, const std::vector<fs::path>& decks
   }
   shell(quote(binary()) + " gaps --quiet " + options + " --json " + quote(json) + names +
         " 2> /dev/null");
-  const fs::path schema = fs::path(DECK_SOURCE_DIR) / "schemas" / "output" / "gaps.schema.json";
+  const fs::path schema = test::source_dir() / "schemas" / "output" / "gaps.schema.json";
   EXPECT_EQ(shell("python3 -c 'import json,sys,jsonschema; "
                   "jsonschema.validate(json.load(open(sys.argv[2])), json.load(open(sys.argv[1])))'"
                   " " +

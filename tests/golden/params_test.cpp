@@ -8,16 +8,14 @@
 #include <fstream>
 
 #include "deck/report/params_report.hpp"
+#include "where.hpp"
 
 namespace deck {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path corpus() {
-  const char* given = std::getenv("DECK_CORPUS");
-  return given != nullptr ? fs::path(given) : fs::path(DECK_SOURCE_DIR).parent_path() / "shared";
-}
+fs::path corpus() { return test::shared_dir(); }
 
 /// A directory that goes with the test.
 class Scratch {
@@ -123,7 +121,7 @@ TEST(ParamsDocument, FollowsItsSchema) {
                          "/INTER/TYPE2/5\ne\n         1         2\n/END\n";
   const fs::path json = scratch / "params.json";
   std::ofstream(json) << params_of(deck);
-  const fs::path schema = fs::path(DECK_SOURCE_DIR) / "schemas/output/params.schema.json";
+  const fs::path schema = test::source_dir() / "schemas/output/params.schema.json";
   EXPECT_EQ(shell("python3 -c 'import json,sys,jsonschema; s=json.load(open(sys.argv[1])); "
                   "d=json.load(open(sys.argv[2])); jsonschema.validate(d,s); "
                   "jsonschema.Draft7Validator(s).validate(d); "

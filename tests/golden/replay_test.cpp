@@ -9,16 +9,14 @@
 
 #include "deck/cycle/adapter.hpp"
 #include "deck/cycle/replay.hpp"
+#include "where.hpp"
 
 namespace deck {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path corpus() {
-  const char* given = std::getenv("DECK_CORPUS");
-  return given != nullptr ? fs::path(given) : fs::path(DECK_SOURCE_DIR).parent_path() / "shared";
-}
+fs::path corpus() { return test::shared_dir(); }
 
 fs::path file_like(const fs::path& dir, const std::string& ending) {
   for (const auto& entry : fs::directory_iterator(dir))

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "lint/support.hpp"
+#include "where.hpp"
 
 namespace deck::test {
 namespace {
@@ -119,7 +120,7 @@ Diagnostic with_edit(Span span, std::string text, bool safe = true) {
 
 TEST(ApplyFixes, ComeToAnEndOnEverySample) {
   for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(DECK_SOURCE_DIR) + "/samples")) {
+       std::filesystem::directory_iterator(test::source_dir() / "samples")) {
     if (!entry.path().string().ends_with("_0000.rad")) continue;
     std::ifstream in(entry.path(), std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(in), {}};

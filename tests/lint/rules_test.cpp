@@ -5,6 +5,7 @@
 #include <set>
 
 #include "lint/support.hpp"
+#include "where.hpp"
 
 namespace deck::test {
 namespace {
@@ -116,7 +117,7 @@ TEST(RuleTable, EveryRuleHasAFullPage) {
 
 /// Every id that any source of the library mentions has an entry, whoever wrote the source.
 TEST(RuleTable, KnowsEveryIdOfTheSources) {
-  const std::filesystem::path root = std::filesystem::path(DECK_SOURCE_DIR) / "libdeck";
+  const std::filesystem::path root = test::source_dir() / "libdeck";
   const std::regex id("\"(DK[0-9]{3})\"");
   int found = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {

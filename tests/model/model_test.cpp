@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "deck/model/connectivity.hpp"
+#include "where.hpp"
 
 namespace deck::test {
 namespace {
@@ -162,8 +163,7 @@ TEST(Connectivity, RowsListElementsOnce) {
 
 /// Every id of the groups of a real deck resolves without a finding about groups.
 TEST(Corpus, DummyResolvesWithoutGroupErrors) {
-  const char* corpus = std::getenv("DECK_CORPUS");
-  const std::string root = corpus ? corpus : std::string(DECK_SOURCE_DIR) + "/../shared";
+  const std::string root = test::shared_dir().string();
   const std::string path = root + "/corpus/EuroSID_II/EuroSID_II_0000.rad";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no corpus at " << root;
   auto deck = read_deck(path, SchemaSet::built_in());

@@ -10,6 +10,8 @@
 #include <iterator>
 #include <string>
 
+#include "where.hpp"
+
 namespace deck::testing_support {
 
 namespace fs = std::filesystem;
@@ -49,7 +51,7 @@ class CommandLine : public testing::Test {
   void SetUp() override {
     if (!fs::exists(binary())) GTEST_SKIP() << "no " << binary();
   }
-  static fs::path binary() { return fs::path(DECK_BINARY_DIR) / "tools" / "deck"; }
+  static fs::path binary() { return test::binary_dir() / "tools" / "deck"; }
   /// Exit code; what it prints is in out() and err().
   int deck(const std::string& arguments) const {
     const std::string command = "cd '" + dir_.string() + "' && '" + binary().string() + "' " +
