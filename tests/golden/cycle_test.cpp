@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path corpus() { return test::shared_dir(); }
+fs::path corpus() { return deck::test::shared_dir(); }
 
 class Scratch {
  public:
@@ -83,9 +83,9 @@ TEST(GoldenCycle, EveryPairForceOfTheInflatedDummyAgrees) {
 
 TEST(GoldenCycle, DocumentsFollowTheirSchema) {
   const Scratch scratch;
-  const fs::path schema = test::source_dir() / "schemas/output/cycle.schema.json";
+  const fs::path schema = deck::test::source_dir() / "schemas/output/cycle.schema.json";
   for (const char* name : {"crash_box", "crossing_edges", "hot_contact", "tied_layer"}) {
-    const fs::path deck = test::source_dir() / "samples" / (std::string(name) + "_0000.rad");
+    const fs::path deck = deck::test::source_dir() / "samples" / (std::string(name) + "_0000.rad");
     ASSERT_TRUE(fs::exists(deck)) << deck;
     std::ofstream(scratch / "cycle.json", std::ios::binary)
         << document(deck, cycle::Model::robust, 1);

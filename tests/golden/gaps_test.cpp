@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path corpus() { return test::shared_dir(); }
+fs::path corpus() { return deck::test::shared_dir(); }
 
-fs::path binary() { return test::binary_dir() / "tools" / "deck"; }
+fs::path binary() { return deck::test::binary_dir() / "tools" / "deck"; }
 
 /// A directory that goes with the test.
 class Scratch {
@@ -149,7 +149,7 @@ void expect_valid(const std::string& options, const std::vector<fs::path>& decks
   }
   shell(quote(binary()) + " gaps --quiet " + options + " --json " + quote(json) + names +
         " 2> /dev/null");
-  const fs::path schema = test::source_dir() / "schemas" / "output" / "gaps.schema.json";
+  const fs::path schema = deck::test::source_dir() / "schemas" / "output" / "gaps.schema.json";
   EXPECT_EQ(shell("python3 -c 'import json,sys,jsonschema; "
                   "jsonschema.validate(json.load(open(sys.argv[2])), json.load(open(sys.argv[1])))'"
                   " " +

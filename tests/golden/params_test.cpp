@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path corpus() { return test::shared_dir(); }
+fs::path corpus() { return deck::test::shared_dir(); }
 
 /// A directory that goes with the test.
 class Scratch {
@@ -121,7 +121,7 @@ TEST(ParamsDocument, FollowsItsSchema) {
                          "/INTER/TYPE2/5\ne\n         1         2\n/END\n";
   const fs::path json = scratch / "params.json";
   std::ofstream(json) << params_of(deck);
-  const fs::path schema = test::source_dir() / "schemas/output/params.schema.json";
+  const fs::path schema = deck::test::source_dir() / "schemas/output/params.schema.json";
   EXPECT_EQ(shell("python3 -c 'import json,sys,jsonschema; s=json.load(open(sys.argv[1])); "
                   "d=json.load(open(sys.argv[2])); jsonschema.validate(d,s); "
                   "jsonschema.Draft7Validator(s).validate(d); "

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path corpus() { return test::shared_dir(); }
+fs::path corpus() { return deck::test::shared_dir(); }
 
 fs::path file_like(const fs::path& dir, const std::string& ending) {
   for (const auto& entry : fs::directory_iterator(dir))

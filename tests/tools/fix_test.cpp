@@ -11,7 +11,7 @@ using namespace deck::testing_support;
 class FixCommand : public CommandLine {
  protected:
   FixCommand() {
-    const fs::path samples = test::source_dir() / "samples";
+    const fs::path samples = deck::test::source_dir() / "samples";
     fs::copy(samples / "too_close_0000.rad", dir_);
     fs::copy(samples / "include_tree_0000.rad", dir_);
     fs::copy(samples / "include_tree", dir_ / "include_tree", fs::copy_options::recursive);
