@@ -76,8 +76,9 @@ DefaultGap default_gapmin(const Contact& contact, bool variable) {
   const double l = std::isfinite(contact.shortest_side) ? contact.shortest_side : 0;
   if (count == 0) return {0.1 * l, GapminOrigin::solid_edge};
   const double t = variable ? smallest : sum / static_cast<double>(count);
-  const GapminOrigin origin =
-      variable ? GapminOrigin::minimum_thickness : GapminOrigin::mean_thickness;
+  const GapminOrigin origin = !variable                ? GapminOrigin::mean_thickness
+                              : contact.gap_scale != 1 ? GapminOrigin::scaled_thickness
+                                                       : GapminOrigin::minimum_thickness;
   return 0.5 * l < t ? DefaultGap{0.5 * l, GapminOrigin::half_edge} : DefaultGap{t, origin};
 }
 

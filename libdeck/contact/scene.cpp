@@ -340,6 +340,8 @@ const char* to_string(GapminOrigin origin) {
       return "mean thickness of the main shells";
     case GapminOrigin::minimum_thickness:
       return "smallest thickness of the main shells";
+    case GapminOrigin::scaled_thickness:
+      return "Fscalegap times the smallest thickness of the main shells";
     case GapminOrigin::half_edge:
       return "half the shortest main side";
     case GapminOrigin::solid_edge:

@@ -43,6 +43,8 @@ const std::vector<Rule>& all_rules() {
     detail::add_combination_rules(out);
     detail::add_ignored_rules(out);
     detail::add_manual_rules(out);
+    detail::add_difference_rules(out);
+    detail::add_companion_rules(out);
     detail::add_geometry_rules(out);
     detail::add_default_rules(out);
     detail::add_advice_rules(out);

@@ -17,8 +17,11 @@ void add_line_rules(std::vector<Rule>& out);         // DK240-DK249: optional li
 void add_combination_rules(std::vector<Rule>& out);  // DK250-DK264: fields that contradict
 void add_ignored_rules(std::vector<Rule>& out);      // DK265-DK285: fields without effect
 void add_manual_rules(std::vector<Rule>& out);       // DK286-DK299: where manual and solver differ
+void add_difference_rules(std::vector<Rule>& out);   // what the solver does silently otherwise
+void add_companion_rules(std::vector<Rule>& out);    // DK916-DK919: what belongs beside a contact
 void add_geometry_rules(std::vector<Rule>& out);     // DK3xx: found by extra checks
 void add_geometry_segment_rules(std::vector<Rule>& out);  // part of the geometry
+void add_geometry_manual_rules(std::vector<Rule>& out);  // part of the geometry
 void add_cycle_rules(std::vector<Rule>& out);        // DK4xx, part of the geometry
 void add_default_rules(std::vector<Rule>& out);      // DK5xx: /DEFAULT/INTER
 void add_advice_rules(std::vector<Rule>& out);       // DK9xx: known traps

@@ -13,28 +13,50 @@ namespace {
 
 using Check = void (*)(const LintContext&, const Rule&, Reporter&);
 
+/// Calls f(node) for the nodes that the start-up may move: the secondary ones, of a TYPE19 those of
+/// both surfaces.
+template <class F>
+void each_secondary_node(Selections& selections, const ContactCard& card, F&& f) {
+  const auto nodes = [&](const auto& list) {
+    for (const NodeIndex n : list)
+      if (n != no_index) f(n);
+  };
+  const auto id = [&](std::string_view field) {
+    return static_cast<std::int64_t>(card.value(field));
+  };
+  if (card.type == 7)
+    if (const NodeSet* set = selections.node_group(id("grnd_IDs"))) nodes(set->nodes);
+  if (card.type == 11)
+    if (const LineSet* set = selections.line(id("line_IDs")))
+      for (const Edge& e : set->edges) nodes(e.nodes);
+  if (card.type == 19)
+    for (const std::string_view field : {"surf_IDs", "surf_IDm"})
+      if (const Surface* set = selections.surface(id(field)))
+        for (const Segment& s : set->segments) nodes(s.nodes);
+}
+
 void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr || c.selections == nullptr || c.model->spring.size() == 0) return;
   std::vector<bool> on_spring(c.model->nodes.size(), false);
   for (const NodeIndex n : c.model->spring.nodes)
     if (n != no_index) on_spring[n] = true;
-  each(c, {7}, [&](const ContactCard& card) {
+  each(c, {7, 11, 19}, [&](const ContactCard& card) {
     if (card.flag("Inacti") != 3) return;
-    const NodeSet* set =
-        c.selections->node_group(static_cast<std::int64_t>(card.value("grnd_IDs")));
-    if (set == nullptr) return;
-    for (const NodeIndex n : set->nodes) {
-      if (n == no_index || !on_spring[n]) continue;
-      report_at(r, rule, card, "Inacti",
-                fmt::format("{}: Inacti = 3 may move node {}, which belongs to a spring",
-                            name_of(card), c.model->node_id(n)));
-      return;
-    }
+    NodeIndex found = no_index;
+    each_secondary_node(*c.selections, card, [&](NodeIndex n) {
+      if (found == no_index && on_spring[n]) found = n;
+    });
+    if (found == no_index) return;
+    report_at(r, rule, card, "Inacti",
+              fmt::format("{}: Inacti = 3 may move node {}, which belongs to a spring",
+                          name_of(card), c.model->node_id(found)));
   });
 }
 
 void check_inacti5(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, {7, 11, 19}, [&](const ContactCard& card) {
+    // Airbag unfolding is what 5 is made for.
+    if (card.flag("Ibag") != 0 && c.model != nullptr && c.model->has_monitored_volume) return;
     if (card.flag("Inacti") == 5)
       report_at(r, rule, card, "Inacti", name_of(card) + " has " + card.show("Inacti"));
   });
@@ -74,8 +96,9 @@ void check_icurv3(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_tied_lever(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, {10}, [&](const ContactCard& card) {
-    if (card.input("Gap") > 0)
-      report_at(r, rule, card, "Gap", name_of(card) + " ties over a distance: " + card.show("Gap"));
+    report_at(r, rule, card, "Gap",
+              name_of(card) + " ties over a distance: " +
+                  (card.input("Gap") > 0 ? card.show("Gap") : "the default gap, from the mesh"));
   });
 }
 
@@ -206,14 +229,17 @@ void add_penetration_advice(std::vector<Rule>& out) {
       "it reduces the gap to the distance", "write 6", "Airbag unfolding, where 5 is recommended.",
       "@/INTER/TYPE7/1 Inacti=5\n", "@/INTER/TYPE7/1 Inacti=6\n", check_inacti5);
   add(out, "DK903", Severity::info, "dtmin removes nodes from the contact",
-      "A node whose contact time step falls below dtmin leaves the contact for good.",
-      "The run goes on quietly, with a hole in the contact.",
+      "A secondary node (of TYPE11 an edge) whose contact time step falls below dtmin leaves the "
+      "contact for good.",
+      "The run goes on quietly, with a hole in the contact. /DT/INTER/DEL of the Engine file does "
+      "the same for all interfaces without dtmin.",
       "it removes the node and prints a warning in the listing",
       "watch the listing for removed nodes", "When the removal is meant.",
       "@/INTER/TYPE7/1 dtmin=1.e-5\n", "@/INTER/TYPE7/1\n", check_dtmin);
   add(out, "DK904", Severity::info, "Idel 1 costs more than Idel 2",
       "Segments are removed when all their elements are gone (Idel 1 or -1).",
-      "All neighbours have to be searched whenever an element dies.",
+      "All neighbours have to be searched whenever an element dies, be it by rupture or by /DEL "
+      "of the Engine file.",
       "it does more work than for Idel 2", "use 2 where a segment has one element",
       "When segments between two elements must stay until both are gone.",
       "@/INTER/TYPE7/1 Idel=1\n", "@/INTER/TYPE7/1 Idel=2\n", check_idel);
@@ -230,11 +256,13 @@ void add_penetration_advice(std::vector<Rule>& out) {
       "it computes the interpolation", "refine the mesh instead",
       "Smooth surfaces of nearly constant curvature.", "@/INTER/TYPE7/1 Icurv=3\n",
       "@/INTER/TYPE7/1\n", check_icurv3);
-  add(out, "DK907", Severity::info, "tied contact over a distance", "A TYPE10 has a gap.",
+  add(out, "DK907", Severity::info, "tied contact over a distance",
+      "A TYPE10 ties nodes that stand off the surface. Its gap is on the card, or comes from the "
+      "thickness and the mesh; it is never 0.",
       "Force pairs at a distance make a moment that nothing balances.",
       "it does not add the moment", "keep the gap as small as the geometry allows",
-      "When the distance is small against the parts.", "@/INTER/TYPE10/1 Gap=2.0\n",
-      "@/INTER/TYPE10/1\n", check_tied_lever);
+      "When the distance is small against the parts.", "@/INTER/TYPE10/1\n", "@/INTER/TYPE7/1\n",
+      check_tied_lever);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ void check_heat_sum(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_times(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, {7, 10, 11, 19}, [&](const ContactCard& card) {
-    if (card.given("sens_ID") || !card.given("Tstop") || card.input("Tstop") < 0) return;
+    if (!card.given("Tstop") || card.input("Tstop") < 0) return;
     if (card.value("Tstart") < card.value("Tstop")) return;
     Diagnostic* d =
         report_at(r, rule, card, "Tstop",
@@ -64,10 +64,31 @@ void check_times(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
+/// The two nodes of the axis are one node, or stand at the same place.
+bool axis_is_a_point(const LintContext& c, const ContactCard& card) {
+  if (card.value("node_ID1") == card.value("node_ID2")) return true;
+  if (c.model == nullptr) return false;
+  const auto place = [&](std::string_view field) {
+    return c.model->find_node(static_cast<std::int64_t>(card.value(field)));
+  };
+  const NodeIndex a = place("node_ID1"), b = place("node_ID2");
+  if (a == no_index || b == no_index) return false;
+  const auto& x = c.model->nodes;
+  return x.x[a] == x.x[b] && x.y[a] == x.y[b] && x.z[a] == x.z[b];
+}
+
 void check_curvature_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, {7, 19}, [&](const ContactCard& card) {
     const auto icurv = card.flag("Icurv");
     const bool first = card.given("node_ID1"), second = card.given("node_ID2");
+    if (icurv == 2 && first && second && axis_is_a_point(c, card)) {
+      note_field(report_at(r, rule, card, "node_ID2",
+                           fmt::format("{}: Icurv = 2, but node_ID1 and node_ID2 are at one place: "
+                                       "the axis has no direction",
+                                       name_of(card))),
+                 card, "node_ID1");
+      return;
+    }
     if ((icurv != 1 && icurv != 2) || (first && (icurv == 1 || second))) return;
     Diagnostic* d = report_at(
         r, rule, card, first ? "node_ID2" : "node_ID1",
@@ -375,7 +396,9 @@ void add_flag_pairs(std::vector<Rule>& out) {
   out.push_back({.id = "DK253",
                  .title = "curved gap without its nodes",
                  .severity = Severity::error,
-                 .problem = "Icurv = 1 needs node_ID1, Icurv = 2 needs node_ID1 and node_ID2.",
+                 .problem =
+                     "Icurv = 1 needs node_ID1, Icurv = 2 needs node_ID1 and node_ID2 at two "
+                     "different places.",
                  .why = "They are the centre of the sphere, or two points on the axis of the "
                         "cylinder.",
                  .solver = "it stops with an error",

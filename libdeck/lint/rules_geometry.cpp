@@ -217,6 +217,7 @@ void add_geometry_rules(std::vector<Rule>& out) {
   add_penetrations(out);
   add_gaps(out);
   add_geometry_segment_rules(out);
+  add_geometry_manual_rules(out);
   add_cycle_rules(out);
 }
 

@@ -42,6 +42,7 @@ std::string list_text(const std::vector<std::int64_t>& list);
 void check_penetrations(const GeometryRun& run);  // rules_geometry_penetrations.cpp
 void check_segments(const GeometryRun& run);      // rules_geometry_segments.cpp
 void check_gaps(const GeometryRun& run);          // rules_geometry_gaps.cpp
+void check_manual_geometry(const GeometryRun& run);  // rules_geometry_manual.cpp
 void check_cycle(const GeometryRun& run);         // rules_cycle.cpp
 
 }  // namespace deck::detail

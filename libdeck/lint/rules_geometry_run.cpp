@@ -68,6 +68,7 @@ void check_geometry(const LintContext& context, Reporter& reporter, int threads)
   detail::check_penetrations(run);
   detail::check_gaps(run);
   detail::check_segments(run);
+  detail::check_manual_geometry(run);
   detail::check_cycle(run);
 }
 

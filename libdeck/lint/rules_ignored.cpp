@@ -1,5 +1,6 @@
 // Fields that have no effect, because the solver never reads them or because another flag of the
 // same card switches them off. A table: one entry per reason.
+#include <algorithm>
 #include <functional>
 
 #include "lint/check.hpp"
@@ -53,18 +54,12 @@ void check_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void check_sensor_times(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
-    if (card.given("sens_ID"))
-      ignored(c, rule, r, card, {"Tstart", "Tstop"}, "sens_ID", "the sensor decides", false);
-  });
-}
-
 void check_friction_source(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, {7, 11, 19}, [&](const ContactCard& card) {
     if (card.given("fric_ID"))
       ignored(c, rule, r, card,
-              {"Fric", "VISF", "Ifric", "Ifiltr", "Xfreq", "C1", "C2", "C3", "C4", "C5", "C6"},
+              {"Fric", "VISF", "Ifric", "Ifiltr", "Xfreq", "Iform", "C1", "C2", "C3", "C4", "C5",
+               "C6", "fct_IDF"},
               "fric_ID", "friction comes from /FRICTION", false);
   });
 }
@@ -94,10 +89,13 @@ void check_no_friction(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-/// Coefficients that a law does not have: Ifric 1 has C1-C5, 4 has C1 and C2.
+/// Coefficients that a law does not have: Ifric 3 has no Fric, 4 has C1 and C2 only.
 void check_coefficients(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, {7, 19}, [&](const ContactCard& card) {
     if (card.given("fric_ID")) return;
+    if (card.input("Ifric") == 3)
+      ignored(c, rule, r, card, {"Fric"}, "Ifric",
+              "the law Ifric 3 (Renard) is given by C1 to C6 alone", false);
     if (card.input("Ifric") == 4)
       ignored(c, rule, r, card, {"C3", "C4", "C5", "C6"}, "Ifric",
               "the law Ifric 4 has C1 and C2 only", false);
@@ -116,8 +114,11 @@ void check_never_read(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_function_scale(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, {7, 11, 19}, [&](const ContactCard& card) {
-    if (!card.given("fct_IDF") && card.input("AscaleF") != 1)
-      ignored(c, rule, r, card, {"AscaleF"}, "fct_IDF", "there is no fct_IDF", false);
+    if (card.input("AscaleF") != 1)
+      ignored(c, rule, r, card, {"AscaleF"}, "fct_IDF",
+              card.given("fct_IDF") ? "the solver reads fct_IDF at the plain temperature"
+                                    : "there is no fct_IDF",
+              false);
     if (!card.given("fct_IDK") && card.input("AscaleK") != 1)
       ignored(c, rule, r, card, {"AscaleK"}, "fct_IDK", "there is no fct_IDK", false);
   });
@@ -146,14 +147,27 @@ void check_type10_penetration(const LintContext& c, const Rule& rule, Reporter& 
   });
 }
 
+/// Some secondary node belongs to the main surface (TYPE7); also where one of them is unknown.
+bool share_nodes(const LintContext& c, const ContactCard& card) {
+  const NodeSet* group =
+      c.selections->node_group(static_cast<std::int64_t>(card.value("grnd_IDs")));
+  const Surface* main = c.selections->surface(static_cast<std::int64_t>(card.value("surf_IDm")));
+  if (c.model == nullptr || group == nullptr || main == nullptr) return true;
+  std::vector<bool> on_main(c.model->nodes.size(), false);
+  for (const Segment& s : main->segments)
+    for (const NodeIndex n : s.nodes)
+      if (n != no_index) on_main[n] = true;
+  return std::any_of(group->nodes.begin(), group->nodes.end(),
+                     [&](NodeIndex n) { return n != no_index && on_main[n]; });
+}
+
 void check_removal(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, {7, 11, 19}, [&](const ContactCard& card) {
     if (card.input("Irem_gap") != 2) return;
     std::string_view one = card.type == 7 ? "grnd_IDs" : card.type == 11 ? "line_IDs" : "surf_IDs";
     std::string_view two = card.type == 11 ? "line_IDm" : "surf_IDm";
-    if (card.type == 7 || !card.given(one) || !card.given(two)) return;  // may touch itself
-    if (card.input(one) == card.input(two)) return;
-    if (c.selections == nullptr) return;
+    if (c.selections == nullptr || !card.given(one) || !card.given(two)) return;
+    if (card.type == 7 ? share_nodes(c, card) : card.input(one) == card.input(two)) return;
     ignored(c, rule, r, card, {"Irem_gap"}, one, "the two sides are different: no self contact",
             false);
   });
@@ -195,15 +209,13 @@ void add_ignored_rules(std::vector<Rule>& out) {
       "@/INTER/TYPE7/1 Igap=2 %mesh_size=0.4\n", "@/INTER/TYPE7/1 Igap=3 %mesh_size=0.4\n",
       check_mesh_size);
   add(out, "DK267", "Stmin or Stmax without a combined stiffness",
-      "The bounds apply to the combined stiffness of Istf 2 to 5.",
+      "The bounds apply to the combined stiffness of Istf 2 to 5. dtmin, in the same line, acts "
+      "whatever Istf is.",
       "it sets Stmin to 0 and Stmax to 1e30", "set Istf 2 to 5, or blank the fields",
       "@/INTER/TYPE7/1 Istf=1000 Stmax=5.0\n", "@/INTER/TYPE7/1 Istf=4 Stmax=5.0\n", check_bounds);
-  add(out, "DK268", "Tstart or Tstop with a sensor",
-      "A sensor switches the contact; times on the card are not looked at.",
-      "it uses the sensor only", "put the times into the sensor, or remove sens_ID",
-      "@/INTER/TYPE7/1 sens_ID=1 Tstop=5.0\n", "@/INTER/TYPE7/1 sens_ID=1\n", check_sensor_times);
   add(out, "DK269", "friction on the card with fric_ID",
-      "fric_ID replaces the friction of the interface as a whole, law, filter and coefficients.",
+      "fric_ID replaces the friction of the interface as a whole: law, formulation, filter, "
+      "coefficients and the function of temperature.",
       "it uses /FRICTION only", "blank the fields, or set fric_ID 0",
       "@/FRICTION/1 C1=0.0 Fric=0.1\n@/INTER/TYPE7/1 Fric=0.3 fric_ID=1\n",
       "@/FRICTION/1 C1=0.0 Fric=0.1\n@/INTER/TYPE7/1 fric_ID=1\n", check_friction_source);
@@ -221,8 +233,10 @@ void add_ignored_rules(std::vector<Rule>& out) {
       "@/INTER/TYPE7/1 Fric=0 Ifiltr=1 Xfreq=0.5\n",
       "@/INTER/TYPE7/1 Fric=0.2 Ifiltr=1 Xfreq=0.5\n", check_no_friction, Severity::info);
   add(out, "DK273", "coefficient that the friction law does not have",
-      "mu = C1 + (Fric - C1) exp(-C2 v) for Ifric 4.", "it ignores the others",
-      "blank them, or check Ifric", "@/INTER/TYPE7/1 Fric=0.2 Ifric=4 C1=0.1 C2=0.01 C3=0.5\n",
+      "mu = C1 + (Fric - C1) exp(-C2 v) for Ifric 4; the curve of Ifric 3 goes through C1 to C6 "
+      "and has no Fric.",
+      "it ignores the others", "blank them, or check Ifric",
+      "@/INTER/TYPE7/1 Fric=0.2 Ifric=4 C1=0.1 C2=0.01 C3=0.5\n",
       "@/INTER/TYPE7/1 Fric=0.2 Ifric=4 C1=0.1 C2=0.01\n", check_coefficients);
   add(out, "DK274", "Iedge of TYPE19 is never read",
       "Manuals let Iedge choose the edges of the TYPE11 part. The cell is not read: the edges "
@@ -235,10 +249,11 @@ void add_ignored_rules(std::vector<Rule>& out) {
       "it reads the cell and uses 4", "blank the cell",
       "@version 110\n@/INTER/TYPE7/1 Multimp=12\n", "@version 110\n@/INTER/TYPE7/1\n",
       check_never_read, Severity::info, Fixable::safe);
-  add(out, "DK276", "scale of a function that is not there",
-      "AscaleF and AscaleK scale the abscissa of fct_IDF and fct_IDK.",
+  add(out, "DK276", "scale of a function without effect",
+      "AscaleK scales the abscissa of fct_IDK and needs that function. AscaleF should scale the "
+      "abscissa of fct_IDF, but the solver never applies it.",
       "it reads the value and does not use it", "name the function, or blank the scale",
-      "@/INTER/TYPE7/1 Fric=0.2 AscaleF=2.0\n", "@/INTER/TYPE7/1 Fric=0.2 fct_IDF=1 AscaleF=2.0\n",
+      "@/INTER/TYPE7/1 Fric=0.2 AscaleF=2.0\n", "@/INTER/TYPE7/1 Fric=0.2 fct_IDF=1\n",
       check_function_scale);
   add(out, "DK277", "Tint with heat exchange between both sides",
       "Tint is the temperature of the interface where only the secondary side is warm "

@@ -102,12 +102,13 @@ void check_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_type11_istf(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {11}, [&](const ContactCard& card) {
+  each(c, {11, 19}, [&](const ContactCard& card) {
     if (card.flag("Istf") != 1 || !card.given("Stfac")) return;
     note_field(report_at(r, rule, card, "Stfac",
-                         fmt::format("{}: Stfac = {} is the stiffness of each line, that of a pair "
-                                     "is {}",
+                         fmt::format("{}: Stfac = {} is the stiffness of each line{}, that of a "
+                                     "pair of lines is {}",
                                      name_of(card), number_text(card.input("Stfac")),
+                                     card.type == 19 ? " of its edge contact" : "",
                                      number_text(card.input("Stfac") / 2))),
                card, "Istf");
   });
@@ -196,8 +197,8 @@ void add_manual_rules(std::vector<Rule>& out) {
       "it closes vent holes as for 1", "write 1000 for no closure", "When closure is meant.",
       "/MONVOL/AIRBAG1/1\nbag\n         1\n@/INTER/TYPE7/1 Ibag=2\n",
       "/MONVOL/AIRBAG1/1\nbag\n         1\n@/INTER/TYPE7/1 Ibag=1\n", check_ibag);
-  add(out, "DK289", Severity::info, "TYPE11: Istf 1 gives half of Stfac",
-      "Istf 1 is to make Stfac the stiffness.",
+  add(out, "DK289", Severity::info, "edges: Istf 1 gives half of Stfac",
+      "Istf 1 is to make Stfac the stiffness (TYPE11, and the edge part of TYPE19).",
       "In an edge contact both lines get Stfac, and the pair is the two in series: "
       "1 / (1/Stfac + 1/Stfac) = Stfac / 2.",
       "it combines the two sides in series", "write twice the stiffness that is wanted",

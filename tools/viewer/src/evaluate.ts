@@ -141,7 +141,9 @@ function defaultGap(meta: ContactMeta, s: Setting, edges: boolean, variable: boo
     half < t
       ? "half the shortest main side"
       : variable
-        ? "smallest thickness of the main shells"
+        ? s.scale === 1
+          ? "smallest thickness of the main shells"
+          : "Fscalegap times the smallest thickness of the main shells"
         : "mean thickness of the main shells";
 }
 

@@ -38,6 +38,7 @@ enum class GapminOrigin : std::uint8_t {
   card,
   mean_thickness,     ///< mean over shell-carried segments
   minimum_thickness,  ///< minimum over shell-carried segments
+  scaled_thickness,   ///< the minimum, multiplied by Fscalegap
   half_edge,          ///< half the shortest main side was smaller
   solid_edge,         ///< no shells: a tenth of the shortest main side
   both_sides,         ///< TYPE11: mean of the two sides' defaults
