@@ -123,20 +123,32 @@ void check_incremental_filter(const LintContext& c, const Rule& rule, Reporter& 
   });
 }
 
+/// One finding for the deck: what holds for every incremental friction need not be said each time.
 void check_incremental_stiffness(const LintContext& c, const Rule& rule, Reporter& r) {
+  const Block* first = nullptr;
+  Span span;
+  std::string name;
+  std::size_t others = 0;
+  const auto add = [&](const Block& block, Span where, std::string who) {
+    if (first != nullptr) {
+      ++others;
+      return;
+    }
+    first = &block;
+    span = where;
+    name = std::move(who);
+  };
   each(c, {7, 19}, [&](const ContactCard& card) {
     if (own_friction(card) && card.flag("Iform") == 2)
-      report_at(r, rule, card, "Iform",
-                name_of(card) + ": friction sticks with twice the stiffness of the normal force");
+      add(*card.block, card.span("Iform"), name_of(card));
   });
-  for (const DecodedBlock& block : c.frictions) {
-    const Cell* cell = block.find("Iform");
-    if (cell == nullptr || cell->integer != 2) continue;
-    r.report(
-        rule, *block.block, cell->span,
-        fmt::format("/FRICTION {}: friction sticks with twice the stiffness of the normal force",
-                    block.block->id.value));
-  }
+  for (const DecodedBlock& block : c.frictions)
+    if (const Cell* cell = block.find("Iform"); cell != nullptr && cell->integer == 2)
+      add(*block.block, cell->span, fmt::format("/FRICTION {}", block.block->id.value));
+  if (first == nullptr) return;
+  r.report(rule, *first, span,
+           fmt::format("{}{}: friction sticks with twice the stiffness of the normal force", name,
+                       others == 0 ? "" : fmt::format(" (and {} more)", others)));
 }
 
 void check_half_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
