@@ -89,6 +89,17 @@ class Flattener {
   }
 
   void emit(std::uint32_t file) {
+    // What stands before the first keyword of an include belongs to no block, and what follows the
+    // include continues the block before it.
+    const bool outer = closed_, outer_headed = headed_;
+    headed_ = file == 0;
+    closed_ = closed_ || !headed_;
+    emit_lines(file);
+    if (!headed_) closed_ = outer;
+    headed_ = headed_ || outer_headed;
+  }
+
+  void emit_lines(std::uint32_t file) {
     const std::string_view bytes = deck_.sources[file].bytes();
     auto edge = children_[file].begin();
     std::uint64_t run = 0;
@@ -111,14 +122,15 @@ class Flattener {
       }
       if (header && trim_right(line.substr(first, header_columns)) == "/END") {
         append(file, run, file == 0 ? bytes.size() : pos);
-        closed_ = true;
+        closed_ = headed_ = true;
         return;
       }
       if (header) {
         closed_ = false;
+        headed_ = true;
       } else if (closed_ && !line.starts_with('#') && !line.starts_with('$')) {
-        // Behind the /END of an included file no block is open; without that /END the line would
-        // belong to its last block.
+        // Behind the /END of an included file and before its first keyword no block is open; the
+        // line would belong to the last block.
         append(file, run, pos);
         out_ += '#';
         run = pos;
@@ -133,7 +145,8 @@ class Flattener {
   std::vector<std::vector<TextEdit>> edits_;  // by file, ascending
   std::vector<std::vector<const IncludeEdge*>> children_;
   std::string out_;
-  bool closed_ = false;  // the last thing read was an /END
+  bool closed_ = false;  // no block is open: the last thing read was an /END, or an include began
+  bool headed_ = false;  // the include that is being read had a keyword
 };
 
 /// A /BEGIN of an included file that says nothing but its version.

@@ -155,7 +155,13 @@ void parse_header(const SchemaSet& schemas, Block& block) {
   const bool wants_id = block.schema == nullptr || block.schema->has_id;
   std::size_t next = 0;
   if (wants_id) {
-    // The identifier is the first header field that is a number; names may stand before it.
+    // The identifier is the first header field that is a number; names may stand before it. One
+    // keyword has the number of a variant there, too: /ADMAS/type/id.
+    if (block.schema != nullptr && block.schema->keyword == "/ADMAS") {
+      HeaderId type;
+      while (next < parts.size() && !take(parts[next], type)) ++next;
+      ++next;
+    }
     while (next < parts.size() && !take(parts[next], block.id)) ++next;
     ++next;
     if (!block.id.present) {
@@ -164,7 +170,10 @@ void parse_header(const SchemaSet& schemas, Block& block) {
     }
     const bool parameter =
         block.id.span.length > 0 && header[block.id.span.offset - block.header_span.offset] == '&';
-    if (block.id.value == 0 && !parameter) block.id.value = 1;
+    // An interface keeps a written 0; every other object without a number becomes number 1.
+    const bool keeps_zero =
+        block.id.present && block.schema != nullptr && block.schema->kind == "inter";
+    if (block.id.value == 0 && !parameter && !keeps_zero) block.id.value = 1;
   }
   // The formats up to 51 have no unit field; before 51 the title stands in the header.
   if (block.version < 51) {

@@ -66,6 +66,15 @@ std::string cell_name(const Field& f) {
   return f.name + " (columns " + std::to_string(f.first) + "-" + std::to_string(f.last) + ")";
 }
 
+/// "0x10" as a whole, which a real cell reads as 16.
+bool is_hexadecimal(const Cell& cell) {
+  const std::string_view text = cell.text;
+  const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
+  return cell.field->type == FieldType::real && text.size() > sign + 2 && text[sign] == '0' &&
+         (text[sign + 1] | 0x20) == 'x' &&
+         text.find_first_not_of("0123456789abcdefABCDEF.pP+-", sign + 2) == std::string_view::npos;
+}
+
 void report_number(Findings& findings, const Cell& cell) {
   const Field& f = *cell.field;
   const LineRule rule = detail::number_rule(f, cell.status, cell.text.size(), cell.real);
@@ -85,10 +94,11 @@ void report_number(Findings& findings, const Cell& cell) {
            real ? 100102 : 100101);
       break;
     case LineRule::trailing:
-      keep(Severity::error, ": text follows the number",
-           "it reads " + (real ? shown(cell.real) : std::to_string(cell.integer)) +
-               " and drops the rest without a word",
-           "check that the value stands in its columns");
+      keep(Severity::warning,
+           (is_hexadecimal(cell) ? ", a hexadecimal number; it is read as "
+                                 : ": text follows the number; it is read as ") +
+               (real ? shown(cell.real) : std::to_string(cell.integer)),
+           "it reads the same without a word", "check that the value stands in its columns");
       break;
     case LineRule::range:
       keep(Severity::error, ": the number is out of range", "it reads an undefined value",
@@ -128,11 +138,13 @@ void apply_parameter(const Deck& deck, Findings& findings, Cell& cell) {
   cell.real = 0;
   const Parameter* p = deck.find_parameter(name, cell.span.file);
   if (p == nullptr || !p->valid || p->type == Parameter::Type::text) {
-    findings.report("DK018", Severity::error, cell.span,
-                    cell_name(*cell.field) + " refers to parameter " + quoted(name) +
-                        ", which is not defined here",
-                    "it reports an error and reads 0",
-                    "define it with /PARAMETER in this file or globally", 100105, Severity::error);
+    findings.report(
+        "DK018", Severity::error, cell.span,
+        cell_name(*cell.field) + " refers to parameter " + quoted(name) +
+            (p == nullptr || p->type == Parameter::Type::text ? ", which is not defined here"
+                                                              : ", which has no usable value"),
+        "it reports an error and reads 0", "define it with /PARAMETER in this file or globally",
+        100105, Severity::error);
     return;
   }
   cell.integer = detail::as_integer(*p);
@@ -406,7 +418,7 @@ class BlockDecoder {
           " (present because " + c.field + " = " + std::to_string(cause ? cause->integer : 0) + ")";
     }
     Diagnostic* d = findings_.keep(
-        "DK029", Severity::error, block_.header_span,
+        "DK029", Severity::warning, block_.header_span,
         std::string(block_.keyword) + " ends before its line '" + card.name + "'" + why,
         "it takes every cell of the line for 0 and goes on",
         "add the line; blanks are enough where defaults are wanted", 100217);

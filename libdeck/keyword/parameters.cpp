@@ -218,7 +218,7 @@ bool evaluate(Deck& deck, const Limits& limits, Parameter& p, std::set<const Par
 }
 
 void report(Deck& deck, Span span, std::string message) {
-  detail::report(deck, "DK019", Severity::error, span, std::move(message),
+  detail::report(deck, "DK019", Severity::warning, span, std::move(message),
                  "it reads 0 wherever the parameter is used",
                  "write the name in columns 1-10 and the value (or expression) from column 11 on");
 }
@@ -252,6 +252,7 @@ std::optional<std::pair<std::string, Parameter>> read_definition(Deck& deck, con
     report(deck, p.span, "/PARAMETER without a name in columns 1-10");
     return std::nullopt;
   }
+  std::string partly_read;  // the leading number of a value that is more than a number
   if (text) {
     p.text = std::string(cursor.next().text.substr(0, 100));
     p.valid = true;
@@ -262,10 +263,19 @@ std::optional<std::pair<std::string, Parameter>> read_definition(Deck& deck, con
     p.integer = cell.value;
     p.real = static_cast<double>(cell.value);
     p.valid = cell.status == NumberStatus::ok;
+    if (cell.status == NumberStatus::trailing_text) partly_read = std::to_string(cell.value);
   } else {
     const RealCell cell = read_real(columns(line.text, 11, 30));
     p.real = cell.value;
     p.valid = cell.status == NumberStatus::ok || cell.status == NumberStatus::implicit_exponent;
+    if (cell.status == NumberStatus::trailing_text)
+      if (const auto shown = format_real(cell.value, 24)) partly_read = shown->text;
+  }
+  if (!partly_read.empty()) {
+    report(deck, p.span,
+           "parameter '" + name + "' holds more than a number in '" +
+               std::string(line.text.substr(0, 100)) + "'; it is read as " + partly_read);
+    p.valid = true;
   }
   if (!p.valid && p.expression.empty())
     report(deck, p.span,
@@ -301,7 +311,7 @@ void read_parameters(Deck& deck, const Limits& limits) {
     if (!definition) continue;
     auto& [name, p] = *definition;
     if (!seen.emplace(name, p.local ? p.file : Span::no_file).second) {
-      detail::report(deck, "DK044", Severity::warning, p.span,
+      detail::report(deck, "DK056", Severity::warning, p.span,
                      "parameter '" + name + "' is defined twice in the same scope",
                      "it keeps one of the two", "remove one; the first one is used");
       continue;

@@ -7,11 +7,14 @@
 #include <filesystem>
 
 #include "deck/text/number.hpp"
+#include "keyword/blank_units.hpp"
+#include "keyword/include_file.hpp"
 
 namespace deck {
 namespace {
 
 using detail::columns;
+using detail::longest_path;
 using detail::make_span;
 using detail::starts_with_nocase;
 using detail::trim;
@@ -21,11 +24,11 @@ namespace fs = std::filesystem;
 bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20; }
 
 constexpr std::size_t header_columns = 202;  // the line buffer of the reference solver
-constexpr std::size_t longest_path = 4096;
-constexpr int deepest_include = 250;  // the walk is recursive; more would endanger the stack
+constexpr int deepest_include = 250;         // the walk is recursive; more would endanger the stack
 constexpr std::size_t most_blocks = 20'000'000;
 constexpr std::int64_t largest_id = 2147483647;
 constexpr std::uint64_t release_step = 8 << 20;
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 constexpr int known_versions[] = {2026, 2025, 2024, 2023, 2022, 2021, 2020, 2019, 2018, 2017,
                                   140,  130,  120,  110,  100,  90,   51,   44,   42,   41};
@@ -90,23 +93,38 @@ class Reader {
 
   void check_banner() {
     const std::string_view bytes = deck_.sources[0].bytes();
-    if (bytes.starts_with("\xef\xbb\xbf"))
-      report("DK033", Severity::warning, make_span(0, 0, 3),
-             "the file starts with a UTF-8 byte order mark",
-             "it takes the three bytes for the start of the first line, so the banner is not found",
-             "save the file without byte order mark");
+    const bool mark = check_byte_order_mark(0);
     const std::string_view start = bytes.substr(0, 1 << 16);
     const auto end = std::min(start.find('\n'), start.size());
     const std::string_view first = bytes.substr(0, std::min<std::size_t>(end, header_columns));
     if (const auto cr = start.find('\r'); cr < end && end == start.size() && cr + 1 < end)
-      report("DK045", Severity::error, make_span(0, cr, cr + 1),
+      report("DK057", Severity::error, make_span(0, cr, cr + 1),
              "the lines end with a carriage return alone", "it takes the whole file for one line",
              "save the file with line feeds");
-    if (!trim(first).starts_with("#RADIOSS STARTER"))
+    if (mark && trim(first.substr(3)).starts_with("#RADIOSS STARTER"))
+      report("DK001", Severity::warning, make_span(0, 0, end),
+             "the first line is '#RADIOSS STARTER' behind a UTF-8 byte order mark (bytes EF BB BF, "
+             "which editors do not show)",
+             "official builds stop at once: the line does not begin with the banner",
+             "remove the mark: save the file as UTF-8 without BOM", 100201);
+    else if (!trim(first).starts_with("#RADIOSS STARTER"))
       report("DK001", Severity::warning, make_span(0, 0, end),
              "the first line is not '#RADIOSS STARTER'",
              "official builds stop at once; open-reader builds take the line for a comment",
              "put '#RADIOSS STARTER' in the first line", 100201);
+  }
+
+  /// True if the file starts with the mark, which hides what its first line is.
+  bool check_byte_order_mark(std::uint32_t file) {
+    if (!deck_.sources[file].bytes().starts_with(byte_order_mark)) return false;
+    report("DK033", Severity::warning, make_span(file, 0, byte_order_mark.size()),
+           "the file starts with a UTF-8 byte order mark",
+           file == 0 ? "it takes the three bytes for the start of the first line, so the banner is "
+                       "not found"
+                     : "it takes the three bytes for the start of the first line: a keyword there "
+                       "is none, and its block is dropped",
+           "save the file without byte order mark");
+    return true;
   }
 
   // ---- include tree -------------------------------------------------------------------------
@@ -115,25 +133,16 @@ class Reader {
     return path == "-" ? fs::path() : fs::path(path).parent_path();
   }
 
-  /// Candidate places of an include, in the order they are tried, without repetition.
-  std::vector<std::string> candidates(const std::string& written, std::uint32_t parent) const {
-    std::vector<std::string> all;
-    const auto consider = [&](const fs::path& p) {
-      std::string text = p.lexically_normal().string();
-      if (std::find(all.begin(), all.end(), text) == all.end()) all.push_back(std::move(text));
-    };
-    const fs::path path(written);
-    if (path.is_absolute()) {
-      consider(path);
-      return all;
-    }
-    consider(directory_of(deck_.sources[parent].path()) / path);
-    consider(main_directory_ / path);
-    for (const std::string& extra : options_.include_paths) consider(fs::path(extra) / path);
+  /// Where a relative path is looked for.
+  std::vector<std::string> directories(std::uint32_t parent) const {
+    std::vector<std::string> all = {directory_of(deck_.sources[parent].path()).string(),
+                                    main_directory_.string()};
+    all.insert(all.end(), options_.include_paths.begin(), options_.include_paths.end());
     return all;
   }
 
   void include(std::string written, Span directive, std::uint32_t parent, int version) {
+    const bool backslash = written.find('\\') != std::string::npos;
     std::replace(written.begin(), written.end(), '\\', '/');
     if (written.size() > longest_path) {
       report("DK004", Severity::error, directive,
@@ -167,7 +176,9 @@ class Reader {
     // A file that many others include is opened again and again: beyond a bound the text is mapped,
     // so that it does not pile up in memory.
     if (memory_bytes_ > 8 * limits.map_threshold) limits.map_threshold = 0;
-    for (const std::string& path : candidates(written, parent)) {
+    const std::vector<std::string> places =
+        detail::include_candidates(written, directories(parent));
+    for (const std::string& path : places) {
       auto source = open_source(path, limits, options_);
       if (source)
         if (auto bad = refuse_binary(**source); !bad) source = bad.error();
@@ -177,13 +188,21 @@ class Reader {
       }
       if ((*source)->bytes().size() <= limits.map_threshold)
         memory_bytes_ += (*source)->bytes().size();
+      if (backslash)
+        report("DK058", Severity::warning, directive,
+               "the path holds '\\'; '" + written + "' was read",
+               "only builds for Windows take '\\' for the separator; others stop: no such file",
+               "write the path with '/'");
       enter(std::move(*source), std::move(written), directive, parent, version);
       return;
     }
+    const std::string hint = detail::include_hint(written, backslash, places);
     report("DK004", Severity::error, directive,
            "included file '" + written + "' cannot be read; tried " + tried,
            "it stops with an error that does not name the file (\"error 760\" in some builds)",
-           "correct the path, or name the folder that holds it with --include-path", 100002);
+           hint.empty() ? "correct the path, or name the folder that holds it with --include-path"
+                        : hint,
+           100002);
   }
 
   void enter(std::unique_ptr<Source> source, std::string written, Span directive,
@@ -211,32 +230,6 @@ class Reader {
     stack_.push_back(file);
     scan(file, version);
     stack_.pop_back();
-  }
-
-  /// Path of an include directive; continuation by a trailing " +", "..." or "&", or by a next line
-  /// that starts with "+". `pos` moves behind the directive.
-  static std::string include_path(std::string_view bytes, std::uint64_t& pos) {
-    std::string path;
-    bool more = true;
-    for (bool first = true; more && pos < bytes.size(); first = false) {
-      const auto nl = std::min(bytes.find('\n', pos), bytes.size());
-      std::string_view line = trim_right(bytes.substr(pos, nl - pos));
-      if (first) line.remove_prefix(8);
-      if (!first && line.starts_with('+')) line.remove_prefix(1);
-      pos = std::min(nl + 1, bytes.size());
-      more = false;
-      for (const std::string_view mark : {" +", "...", "&"}) {
-        if (line.ends_with(mark)) {
-          line.remove_suffix(mark.size());
-          more = true;
-          break;
-        }
-      }
-      if (path.size() <= longest_path) path += trim(line);
-      if (pos < bytes.size() && bytes[pos] == '+') more = true;
-    }
-    std::erase(path, '\'');
-    return std::string(trim(path));
   }
 
   // ---- lines --------------------------------------------------------------------------------
@@ -272,9 +265,9 @@ class Reader {
   void report_stray(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
     const Span text = first_text(file, begin, end);
     if (!text.valid() || (begin == 0 && file == 0 && text.offset == 0 &&
-                          deck_.sources[0].bytes().starts_with("\xef\xbb\xbf")))
+                          deck_.sources[0].bytes().starts_with(byte_order_mark)))
       return;
-    report("DK042", Severity::warning, text, "text that belongs to no keyword",
+    report("DK055", Severity::warning, text, "text that belongs to no keyword",
            "it skips everything up to the next keyword",
            "add the keyword line, or turn the text into a comment");
   }
@@ -324,35 +317,44 @@ class Reader {
     const std::string_view bytes = source.bytes();
     const std::uint64_t size = bytes.size();
     const bool is_main = file == 0;
+    if (!is_main) check_byte_order_mark(file);
+    // The lines of an include before its first keyword belong to no block.
+    const std::size_t outer_blocks = deck_.blocks.size();
+    const auto keep_lines = [&](std::uint64_t begin, std::uint64_t end) {
+      if (is_main || deck_.blocks.size() > outer_blocks)
+        append_lines(file, begin, end);
+      else
+        report_headless(file, begin, end);
+    };
     std::uint64_t run = 0, released = 0;
     for (std::uint64_t pos = 0; (pos = next_candidate(source, pos, released)) < size;) {
       const std::uint64_t end = std::min<std::uint64_t>(bytes.find('\n', pos), size);
       const std::uint64_t next = std::min(end + 1, size);
       if (bytes[pos] == '#') {
         const std::string_view line = bytes.substr(pos, end - pos);
-        if (starts_with_nocase(line, "#include") && line.size() > 8 &&
-            (line[8] == ' ' || line[8] == '\t' || line[8] == '\'')) {
-          append_lines(file, run, pos);
+        if (detail::is_include(line)) {
+          keep_lines(run, pos);
           const std::uint64_t directive = pos;
-          std::string path = include_path(bytes, pos);
+          std::string path = detail::include_path(bytes, pos);
           include(std::move(path), make_span(file, directive, end), file,
                   in_submodel_without_begin() ? deck_.version : version);
           run = pos;
           continue;
         }
         if (!is_main && starts_with_nocase(line, "#enddata")) {
-          append_lines(file, run, pos);
+          keep_lines(run, pos);
           return;
         }
         pos = next;
         continue;
       }
-      append_lines(file, run, pos);
+      keep_lines(run, pos);
       run = next;
       const auto slash = bytes.find('/', pos);
-      const std::string_view header =
-          trim_right(bytes.substr(slash, std::min(end - slash, header_columns)));
+      const std::string_view header = without_comment(
+          trim_right(bytes.substr(slash, std::min(end - slash, header_columns))), version);
       if (end - slash > header_columns) check_header_tail(file, slash, end);
+      check_header_blanks(file, pos, slash, header, version);
       pos = next;
       if (header == "/END") {
         open_block_ = -1;
@@ -362,8 +364,62 @@ class Reader {
       }
       if (!open(file, header, slash, next, version)) return;
     }
-    append_lines(file, run, size);
+    keep_lines(run, size);
     source.release(released, size);
+  }
+
+  /// A '#' behind a blank starts a comment. Before version 51 the header holds the title.
+  static std::string_view without_comment(std::string_view header, int version) {
+    if (version < 51) return header;
+    for (auto hash = header.find('#'); hash != std::string_view::npos;
+         hash = header.find('#', hash + 1))
+      if (is_blank(header[hash - 1])) return trim_right(header.substr(0, hash));
+    return header;
+  }
+
+  void check_header_blanks(std::uint32_t file, std::uint64_t begin, std::uint64_t slash,
+                           std::string_view header, int version) {
+    if (version < 51) return;  // the title stands in the header
+    std::uint64_t at = slash;
+    if (begin == slash) {
+      std::size_t inner = 1;
+      while (inner < header.size() && !(header[inner] == '/' && is_blank(header[inner - 1])))
+        ++inner;
+      if (inner >= header.size()) return;
+      at = slash + inner;
+    }
+    std::uint64_t blank = at;
+    while (blank > begin && is_blank(deck_.sources[file].bytes()[blank - 1])) --blank;
+    report("DK052", Severity::error, make_span(file, blank, at),
+           "a blank before a slash of " + std::string(header.substr(0, 60)),
+           "it reads the header wrong and ends with 'error 760' or without a word",
+           "remove the blank: the line begins with '/', and so does each of its fields", 760);
+  }
+
+  /// Lines of an included file that stand before its first keyword.
+  void report_headless(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
+    const Span text = first_text(file, begin, end);
+    if (!text.valid()) return;
+    const std::string_view bytes = deck_.sources[file].bytes();
+    std::uint64_t lines = 0;
+    for (Span at = text; at.valid(); at = first_text(file, at.offset + at.length, end)) {
+      ++lines;
+      if (at.offset + at.length >= end) break;
+    }
+    const bool keyword_behind_mark = text.offset == 0 && bytes.starts_with(byte_order_mark) &&
+                                     trim(bytes.substr(byte_order_mark.size(), 1)).starts_with('/');
+    std::string message = std::to_string(lines) + (lines == 1 ? " line" : " lines") +
+                          " of this included file stand before its first keyword and are dropped";
+    if (open_block_ >= 0 && !keyword_behind_mark)
+      message += ": they do not continue " +
+                 std::string(deck_.blocks[static_cast<std::size_t>(open_block_)].header) +
+                 " of the including file";
+    if (keyword_behind_mark) message += ": a byte order mark hides the keyword of the first line";
+    report("DK051", Severity::warning, text, std::move(message),
+           "it looks for the first keyword of every file and drops what stands before it",
+           keyword_behind_mark
+               ? "save the file without byte order mark"
+               : "repeat the keyword line (and title) at the top of the included file");
   }
 
   void check_header_tail(std::uint32_t file, std::uint64_t slash, std::uint64_t end) {
@@ -438,7 +494,7 @@ class Reader {
 
   void close_submodel(Span header, int& version) {
     if (submodel_stack_.empty()) {
-      report("DK035", Severity::error, header, "//ENDSUB without //SUBMODEL",
+      report("DK035", Severity::warning, header, "//ENDSUB without //SUBMODEL",
              "the line is an unknown keyword for it", "remove the line");
       return;
     }
@@ -456,9 +512,10 @@ class Reader {
           n.status != NumberStatus::overflow && n.value <= largest_id)
         continue;
       report(
-          "DK037", Severity::error, id->span,
+          "DK054", Severity::error, id->span,
           "id " + std::string(text.substr(0, 30)) + " is larger than " + std::to_string(largest_id),
-          "it reads another number or stops with an error", "give the entity a smaller id", 509);
+          "it goes on with another number, so nothing can refer to the entity",
+          "give the entity an id of at most 9 digits");
     }
   }
 
@@ -478,6 +535,10 @@ class Reader {
     version = begin.version_known ? begin.version_written : newest_version;
     begin.has_input = detail::read_units(deck_, lines[2], begin.input);
     begin.has_working = detail::read_units(deck_, lines[3], begin.working);
+    if (begin.has_input)
+      detail::fill_blank_units(deck_, header, begin.input, begin.working, "input system");
+    if (begin.has_working)
+      detail::fill_blank_units(deck_, header, begin.working, begin.input, "working system");
     if (!begin.version_known)
       report("DK003", Severity::error, begin.version_span,
              "input version " + std::string(trim(cell).empty() ? "(blank)" : trim(cell)) +

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "deck/text/number.hpp"
+#include "keyword/blank_units.hpp"
 #include "keyword/reader.hpp"
 
 namespace deck::detail {
@@ -77,7 +78,7 @@ void fill_submodels(Deck& deck, const ReaderNotes& notes) {
     if (!s.units && p.units) s.units = p.units;
   }
   if (notes.unclosed_submodel >= 0)
-    report(deck, "DK035", Severity::error,
+    report(deck, "DK035", Severity::warning,
            deck.submodels[static_cast<std::size_t>(notes.unclosed_submodel)].span,
            "//SUBMODEL is not closed by //ENDSUB", "everything below belongs to the submodel",
            "close it with //ENDSUB");
@@ -100,33 +101,49 @@ void read_global_unit(Deck& deck, const Block& b) {
   }
 }
 
-void fill_units(Deck& deck, const ReaderNotes& notes) {
+bool is_global_unit(const Block& b) {
+  return b.header.starts_with("/UNIT/LENGTH") || b.header.starts_with("/UNIT/MASS") ||
+         b.header.starts_with("/UNIT/TIME");
+}
+
+void fill_begin_units(Deck& deck, const ReaderNotes& notes) {
   Begin& begin = deck.begin;
   const bool units_in_begin = begin.has_input || begin.has_working;
+  const Block* global = nullptr;
+  if (!units_in_begin)
+    for (const Block& b : deck.blocks)
+      if (is_global_unit(b)) {
+        read_global_unit(deck, b);
+        global = &b;
+      }
+  if (!begin.has_input && begin.has_working) begin.input = begin.working;
+  if (begin.has_input && !begin.has_working) begin.working = begin.input;
+  if (notes.begin_count == 0) return;
+  // /UNIT/LENGTH, MASS and TIME count up to version 90 only.
+  if (!units_in_begin && (global == nullptr || deck.version > 90))
+    report(deck, "DK016", Severity::error, begin.span,
+           global == nullptr ? "/BEGIN names neither input nor working units"
+                             : "/BEGIN of version " + std::to_string(deck.version) +
+                                   " names no units; those of " + std::string(global->header) +
+                                   " count up to version 90 only",
+           global == nullptr ? "it stops with an error" : "it stops with an error, or hangs",
+           "add the unit lines, for example 'kg mm ms' twice", 574);
+  else if (!(begin.input == begin.working))
+    report(deck, "DK017", Severity::info, begin.span,
+           "input units differ from working units: every value is converted",
+           "it converts and warns", "nothing to do if this is meant", 754, Severity::warning);
+}
+
+void fill_units(Deck& deck, const ReaderNotes& notes) {
   for (const Block& b : deck.blocks) {
-    if (b.header.starts_with("/UNIT/LENGTH") || b.header.starts_with("/UNIT/MASS") ||
-        b.header.starts_with("/UNIT/TIME")) {
-      if (!units_in_begin) read_global_unit(deck, b);
-      continue;
-    }
-    if (!b.header.starts_with("/UNIT/")) continue;
+    if (is_global_unit(b) || !b.header.starts_with("/UNIT/")) continue;
     LineCursor cursor(deck.sources, b);
     if (b.version >= 51) cursor.next();  // title
     UnitSystem units;
     if (const Line line = cursor.next(); line.valid()) read_units(deck, line, units, true);
     deck.units[b.id.value + deck.offset_of(b, "unit")] = units;
   }
-  if (!begin.has_input && begin.has_working) begin.input = begin.working;
-  if (begin.has_input && !begin.has_working) begin.working = begin.input;
-  if (notes.begin_count == 0) return;
-  if (!begin.has_input && !begin.has_working)
-    report(deck, "DK016", Severity::error, begin.span,
-           "/BEGIN names neither input nor working units", "it stops with an error",
-           "add the unit lines, for example 'kg mm ms' twice", 574);
-  else if (!(begin.input == begin.working))
-    report(deck, "DK017", Severity::info, begin.span,
-           "input units differ from working units: every value is converted",
-           "it converts and warns", "nothing to do if this is meant", 754, Severity::warning);
+  fill_begin_units(deck, notes);
 }
 
 /// /BEGIN has four lines; blank ones may follow.
@@ -175,6 +192,34 @@ void report(Deck& deck, std::string_view rule, Severity severity, Span span, std
   deck.diagnostics.add(std::move(d));
 }
 
+void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSystem& other,
+                      const char* which) {
+  struct Cell {
+    std::string UnitSystem::*code;
+    double UnitSystem::*factor;
+    const char* name;
+  };
+  constexpr Cell cells[] = {{&UnitSystem::mass_code, &UnitSystem::mass, "mass"},
+                            {&UnitSystem::length_code, &UnitSystem::length, "length"},
+                            {&UnitSystem::time_code, &UnitSystem::time, "time"}};
+  for (const Cell& cell : cells) {
+    if (!(units.*cell.code).empty()) continue;
+    const std::string what = std::string("the ") + cell.name + " unit of the " + which;
+    if ((other.*cell.code).empty()) {
+      report(
+          deck, "DK015", Severity::warning, begin,
+          what + " is blank, and so is that of the other one; here it is taken for 1 in kg, m, s",
+          "it goes on; with which unit is open", "write for example Mg, mm, s or kg, mm, ms");
+      continue;
+    }
+    units.*cell.code = other.*cell.code;
+    units.*cell.factor = other.*cell.factor;
+    report(deck, "DK015", Severity::warning, begin,
+           what + " is blank; '" + units.*cell.code + "' of the other one is taken",
+           "it goes on with the unit of the other system", "write all three units of both lines");
+  }
+}
+
 bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_one) {
   const std::string_view cells[3] = {trim(columns(line.text, 1, 20)),
                                      trim(columns(line.text, 21, 40)),
@@ -188,8 +233,20 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
   constexpr const char* names[3] = {"mass", "length", "time"};
   for (int i = 0; i < 3; ++i) {
     if (blank_is_one && cells[i].find_first_not_of("0.+-") == std::string_view::npos) continue;
+    if (cells[i].empty()) continue;  // the other system says what is meant
     if (const auto factor = unit_factor(cells[i], bases[i])) {
       *factors[i] = *factor;
+      continue;
+    }
+    const std::string_view word = cells[i].substr(0, cells[i].find_first_of(" \t"));
+    if (const RealCell number = read_real(word);
+        word.size() < cells[i].size() && number.status == NumberStatus::ok && number.value > 0) {
+      *factors[i] = number.value;
+      report(deck, "DK015", Severity::warning, line.columns(20 * i + 1, 20 * i + 20),
+             "'" + std::string(cells[i]) + "' is not a " + names[i] + " unit; it is read as " +
+                 std::string(word),
+             "it reads the number and drops the rest without a word",
+             "write for example Mg, mm, s or kg, mm, ms");
       continue;
     }
     report(deck, "DK015", Severity::error, line.columns(20 * i + 1, 20 * i + 20),

@@ -53,6 +53,12 @@ void attach_fix(const LintContext& context, Diagnostic& d) {
     d.fix = missing_end(deck);
   } else if (!d.span.valid()) {
     return;
+  } else if (d.rule == "DK033" || d.rule == "DK001") {
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    if (d.span.offset == 0 && deck.sources[d.span.file].bytes().starts_with(mark))
+      d.fix = Fix{"remove the byte order mark", true, {{Span{d.span.file, 3, 0}, ""}}};
+  } else if (d.rule == "DK052") {
+    d.fix = Fix{"remove the blank", true, {{d.span, ""}}};
   } else if (d.rule == "DK013") {
     d.fix = tabs_to_blanks(deck, d.span);
   } else if (d.rule == "DK012" || d.rule == "DK027" || d.rule == "DK028") {

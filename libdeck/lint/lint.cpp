@@ -127,6 +127,9 @@ struct Pool {
     shifted.erase(-1);
     if (shifted.empty()) return;
     std::erase_if(kept, [&](const Diagnostic& d) {
+      // What stops the solver stops it, whatever line the value was meant for.
+      if (d.severity == Severity::error && d.reference && d.reference->severity == Severity::error)
+        return false;
       const bool value = d.rule.starts_with("DK2") || d.rule.starts_with("DK9") ||
                          d.rule.starts_with("DK17") || d.rule.starts_with("DK18") ||
                          d.rule.starts_with("DK02");

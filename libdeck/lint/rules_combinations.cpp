@@ -279,7 +279,7 @@ void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
 void add_friction_rules(std::vector<Rule>& out) {
   out.push_back({.id = "DK250",
                  .title = "Renard friction curve is impossible",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .problem = "The six coefficients of Ifric = 3 do not form a Renard curve.",
                  .why = "The curve starts at C1, rises to C3 at speed C5, falls to C4 at C6 and "
                         "tends to C2. It needs 0 < C5 < C6, C4 < C1 < C3 and C4 < C2 < C3.",
@@ -384,7 +384,7 @@ void add_thermal_rules(std::vector<Rule>& out) {
 void add_flag_pairs(std::vector<Rule>& out) {
   out.push_back({.id = "DK252",
                  .title = "contact stops before it starts",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .problem = "Tstart is not below Tstop.",
                  .why = "The interface never acts.",
                  .solver = "it accepts the card; the contact is never active",

@@ -192,7 +192,7 @@ void add_default_rules(std::vector<Rule>& out) {
   out.push_back(
       {.id = "DK505",
        .title = "default flag out of range",
-       .severity = Severity::error,
+       .severity = Severity::warning,
        .problem = "A flag of /DEFAULT/INTER has a value that the interface does not know.",
        .why = "The mistake reaches every interface that leaves the flag 0.",
        .solver = "it does not check the value",

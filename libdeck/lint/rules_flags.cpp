@@ -82,13 +82,13 @@ constexpr std::string_view range_why =
     "A flag without meaning selects whatever branch is left over, or a default; neither is what "
     "the card says.";
 constexpr std::string_view range_solver =
-    "it does not check the flag; what happens depends on the code behind it";
+    "it goes on with the number as it stands: it neither checks the flag nor says a word";
 
 void add_flag(std::vector<Rule>& out, std::string_view id, std::string_view title,
               std::string_view bad, std::string_view good, std::string_view solver = range_solver) {
   out.push_back({.id = id,
                  .title = title,
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .problem = range_problem,
                  .why = range_why,
                  .solver = solver,
@@ -105,15 +105,21 @@ void add_flag_rules(std::vector<Rule>& out) {
   add_flag(out, "DK201", "Istf: unknown stiffness definition", "@/INTER/TYPE7/1 Istf=7\n",
            "@/INTER/TYPE7/1 Istf=4\n");
   add_flag(out, "DK202", "Igap: unknown gap definition", "@/INTER/TYPE7/1 Igap=9\n",
-           "@/INTER/TYPE7/1 Igap=3\n");
+           "@/INTER/TYPE7/1 Igap=3\n",
+           "it goes on: every value above 1 gives a variable gap with Fscalegap and Gapmax, every "
+           "negative one a constant gap");
   add_flag(out, "DK203", "Ibag: unknown airbag closure flag", "@/INTER/TYPE7/1 Ibag=4\n",
-           "@/INTER/TYPE7/1 Ibag=1000\n");
+           "@/INTER/TYPE7/1 Ibag=1000\n",
+           "it goes on: without airbag it warns (614) and takes 0, with one it keeps the number");
   add_flag(out, "DK204", "Idel: unknown deletion flag", "@/INTER/TYPE7/1 Idel=5\n",
-           "@/INTER/TYPE7/1 Idel=-2\n", "values beyond 2 count as 0: no deletion");
+           "@/INTER/TYPE7/1 Idel=-2\n",
+           "it goes on: the sign apart, values beyond 2 count as 0, no deletion");
   add_flag(out, "DK205", "Icurv: unknown curvature flag", "@/INTER/TYPE7/1 Icurv=5\n",
            "@/INTER/TYPE7/1 Icurv=3\n");
   add_flag(out, "DK206", "Iadm: unknown adaptive meshing flag", "@/INTER/TYPE7/1 Iadm=3\n",
-           "@/INTER/TYPE7/1 Iadm=1\n");
+           "@/INTER/TYPE7/1 Iadm=1\n",
+           "it goes on: without adaptive meshing it warns (647) and takes 0, with it it keeps the "
+           "number");
   add_flag(out, "DK207", "Inacti: unknown treatment of initial penetrations",
            "@/INTER/TYPE7/1 Inacti=8\n", "@/INTER/TYPE7/1 Inacti=6\n");
   add_flag(out, "DK208", "Ifric: unknown friction law", "@/INTER/TYPE7/1 Ifric=6 C1=0.1 C6=0.1\n",
@@ -129,7 +135,8 @@ void add_flag_rules(std::vector<Rule>& out) {
            "@/INTER/TYPE7/1 Irem_i2=3\n");
   add_flag(out, "DK213", "Ithe: unknown heat exchange flag", "@/INTER/TYPE7/1 Ithe=3\n",
            "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0\n",
-           "values are fetched for any Ithe above 0, but the lines exist for Ithe = 1 only");
+           "it goes on: any value above 0 asks for heat exchange (warning 702 without thermal "
+           "material), but its lines are read for Ithe = 1 only");
   add_flag(out, "DK214", "ITIED: unknown tie flag", "@/INTER/TYPE10/1 ITIED=7\n",
            "@/INTER/TYPE10/1 ITIED=1\n");
   add_flag(out, "DK215", "Iedge: unknown edge selection",

@@ -55,7 +55,9 @@ std::string_view closest_keyword(const LintContext& c, std::string_view keyword)
 void check_unknown(const LintContext& c, const Rule& rule, Reporter& r) {
   std::map<std::string_view, std::string_view> seen;
   for (const Block& b : c.deck.blocks) {
-    if (b.schema != nullptr || b.header.starts_with("//")) continue;
+    if (b.schema != nullptr || b.header.starts_with("//SUBMODEL") ||
+        b.header.starts_with("//ENDSUB"))
+      continue;
     const std::string big = upper(b.keyword);
     if (big != b.keyword && c.schemas.match(upper(b.header)) != nullptr) continue;  // DK041
     auto [it, fresh] = seen.emplace(b.keyword, std::string_view());
@@ -299,7 +301,7 @@ void add_header_rules(std::vector<Rule>& out) {
                  .check = check_next_version_field});
   out.push_back({.id = "DK048",
                  .title = "missing title line",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .problem = "The line behind the header, which is the title, holds numbers only.",
                  .why = "If the title was left out, its place is taken by the first line of data "
                         "and every line below is read as the one above it.",

@@ -215,7 +215,7 @@ void add_line_rules(std::vector<Rule>& out) {
       "line more or less and every line behind it is read as another one.";
   out.push_back({.id = "DK240",
                  .title = "line missing that a flag asks for",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .problem = "The block is too short, and a flag asks for a line that may not be "
                             "there.",
                  .why = why,
@@ -231,7 +231,7 @@ void add_line_rules(std::vector<Rule>& out) {
                  .check = check_missing});
   out.push_back({.id = "DK241",
                  .title = "line that no flag asks for",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .problem = "The block has more lines than its flags ask for.",
                  .why = why,
                  .solver = "it reads the first lines as they come and ignores those left over",
@@ -249,7 +249,8 @@ void add_line_rules(std::vector<Rule>& out) {
                             "of its deck.",
                  .why = "A card copied from an older or newer deck is read shifted by one line; "
                         "the flags that must stand in columns 8-10 give it away.",
-                 .solver = "it reads Stfac as Stmin, Fric as Stmax, and so on",
+                 .solver = "it goes on without a word and reads Stfac as Stmin, Fric as Stmax, and "
+                           "so on: an error here, because nobody can want that",
                  .fix = "insert a blank second line",
                  .ignore = "Never.",
                  .fixable = Fixable::unsafe,
@@ -261,12 +262,13 @@ void add_line_rules(std::vector<Rule>& out) {
                  .check = check_second_line});
   out.push_back({.id = "DK243",
                  .title = "line of the release flags holds other data",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .problem = "The line with IBC and Inacti has data where it must be blank.",
                  .why = "Only columns 8-10 may be used before column 31 of that line. Anything "
                         "else means that the lines above are one too many or one too few.",
-                 .solver = "it reads the columns of that line as IBC, Inacti and damping all the "
-                           "same",
+                 .solver =
+                     "it goes on and reads the columns of that line as IBC, Inacti and damping "
+                     "all the same",
                  .fix = "compare the lines of the card with 'deck explain KEYWORD'",
                  .ignore = "Never without a look at the card.",
                  .bad = "/INTER/TYPE7/1\nexample\n         2         1\n\n\n\n"
@@ -276,7 +278,7 @@ void add_line_rules(std::vector<Rule>& out) {
                  .check = check_shift});
   out.push_back({.id = "DK244",
                  .title = "heat exchange and adaptive meshing lines swapped",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .problem = "The two optional lines stand in the order of another version.",
                  .why = "Versions 90 and 100 read heat exchange before adaptive meshing, later "
                         "versions the other way round.",

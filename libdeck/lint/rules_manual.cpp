@@ -133,7 +133,7 @@ void add(std::vector<Rule>& out, std::string_view id, Severity severity, std::st
 }
 
 void add_type19(std::vector<Rule>& out) {
-  add(out, "DK281", Severity::error, "TYPE19: Istf 6",
+  add(out, "DK281", Severity::warning, "TYPE19: Istf 6",
       "Old manuals list Istf 6 as the default of TYPE19.",
       "No contact has a stiffness of that code any more.",
       "it hands 6 to its parts, which have no branch for it", "write 1000 or leave the cell blank",

@@ -8,30 +8,32 @@ namespace {
 void add_model_1(std::vector<Rule>& out) {
   out.push_back({.id = "DK036",
                  .title = "blank line among nodes or elements",
-                 .severity = Severity::warning,
+                 .severity = Severity::error,
                  .stage = RuleStage::model,
                  .problem = "A blank line stands in a block of nodes or elements.",
-                 .why = "Blank lines are data: the block gets an item of id 0.",
-                 .solver = "it takes the line for an item with id 0",
+                 .why = "Blank lines are data: the block gets an item of id 0, and an element "
+                        "without nodes ends the run.",
+                 .solver = "among elements it crashes or hangs; among nodes it goes on with a node "
+                           "of id 0, and blank lines at the end of a block do no harm (warnings "
+                           "here)",
+                 .message = 760,
+                 .message_severity = Severity::error,
                  .fix = "delete the line",
                  .ignore = "Never.",
-                 .bad = "/NODE\n"
-                        "        21                 0.0                 0.0                 9.0\n"
+                 .bad = "/SHELL/1\n"
+                        "         9         1         2         3         4\n"
                         "\n"
-                        "        22                 1.0                 0.0                 9.0\n",
-                 .good =
-                     "/NODE\n"
-                     "        21                 0.0                 0.0                 9.0\n"
-                     "        22                 1.0                 0.0                 9.0\n"});
+                        "        10         1         2         3         4\n",
+                 .good = "/SHELL/1\n"
+                         "         9         1         2         3         4\n"
+                         "        10         1         2         3         4\n"});
   out.push_back({.id = "DK037",
                  .title = "id of a node or element is not positive",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .stage = RuleStage::model,
                  .problem = "The first cell of a node or element line is 0 or negative.",
                  .why = "Nothing can refer to the item; a shifted column is likely.",
-                 .solver = "it stops, or the item cannot be referred to",
-                 .message = 509,
-                 .message_severity = Severity::error,
+                 .solver = "it goes on with an item of that id",
                  .fix = "write a positive id",
                  .ignore = "Never.",
                  .bad = "/NODE\n"

@@ -18,8 +18,10 @@ void add_file_rules(std::vector<Rule>& out) {
        .solver = "official builds stop at once; open-reader builds see a comment",
        .message = 100201,
        .message_severity = Severity::error,
-       .fix = "put '#RADIOSS STARTER' in the first line",
+       .fix = "put '#RADIOSS STARTER' in the first line, in front of it nothing, not even a byte "
+              "order mark",
        .ignore = "The deck is only ever read by builds with the open reader.",
+       .fixable = Fixable::safe,
        .bad = "@deck\n/BEGIN\nrun\n      2022         0\n"
               "                  kg                  mm                  ms\n/END\n",
        .good = "@bare\n"});
@@ -120,7 +122,8 @@ void add_file_rules(std::vector<Rule>& out) {
                  .stage = reading,
                  .problem = "A unit is neither a prefix with g, m or s nor a positive number.",
                  .why = "Every value of the deck would be converted with a wrong factor.",
-                 .solver = "it stops with an error",
+                 .solver = "it stops with an error; behind a number it drops the text, and for a "
+                           "blank it takes the unit of the other system (warnings here)",
                  .message = 573,
                  .message_severity = Severity::error,
                  .fix = "write for example Mg, mm, s or kg, mm, ms",
@@ -134,7 +137,8 @@ void add_file_rules(std::vector<Rule>& out) {
                  .stage = reading,
                  .problem = "/BEGIN names neither input nor working units.",
                  .why = "Values have no meaning without units.",
-                 .solver = "it stops with an error",
+                 .solver = "it stops with an error; with /UNIT/LENGTH … of version 90 left in a "
+                           "newer deck it may hang",
                  .message = 574,
                  .message_severity = Severity::error,
                  .fix = "add the two unit lines",
@@ -171,12 +175,12 @@ void add_file_rules(std::vector<Rule>& out) {
                          "@/INTER/TYPE7/1 Gapmin=&gap\n"});
   out.push_back({.id = "DK019",
                  .title = "parameter without a usable value",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .stage = reading,
                  .problem = "The definition of a parameter has no name, no value, or an expression "
                             "that cannot be evaluated.",
-                 .why = "Every use of it becomes 0.",
-                 .solver = "it reads 0 wherever the parameter is used",
+                 .why = "Every use of it becomes 0, or the number that the value begins with.",
+                 .solver = "it goes on with 0, or with the leading number",
                  .fix = "name in columns 1-10, value or expression from column 11 on",
                  .ignore = "Never.",
                  .bad = "/PARAMETER/GLOBAL/REAL_EXPR/1\ngap\ngap       1.0 + * 2\n",
@@ -190,12 +194,13 @@ void add_file_rules(std::vector<Rule>& out) {
                  .solver = "the bytes become part of the first line, the banner is not found",
                  .fix = "save the file without byte order mark",
                  .ignore = "Never.",
+                 .fixable = Fixable::safe,
                  .bad = "@deck\n\xef\xbb\xbf#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n"
                         "                  kg                  mm                  ms\n/END\n",
                  .good = "@bare\n"});
   out.push_back({.id = "DK035",
                  .title = "//SUBMODEL and //ENDSUB do not pair up",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .stage = reading,
                  .problem = "A submodel is not closed, or //ENDSUB stands alone.",
                  .why = "The ids of everything behind it get the offsets of the submodel.",
@@ -204,6 +209,111 @@ void add_file_rules(std::vector<Rule>& out) {
                  .ignore = "Never.",
                  .bad = "//SUBMODEL/1\ndummy\n\n/TITLE\nnote\n",
                  .good = "//SUBMODEL/1\ndummy\n\n/TITLE\nnote\n//ENDSUB\n"});
+}
+
+void add_frame_rules(std::vector<Rule>& out) {
+  out.push_back(
+      {.id = "DK051",
+       .title = "include: lines before its first keyword",
+       .severity = Severity::warning,
+       .stage = reading,
+       .problem = "An included file begins with data instead of a keyword.",
+       .why = "The lines do not continue the block of the including file: nodes, elements or list "
+              "entries that seem to be in the model are not.",
+       .solver = "it drops what stands before the first keyword of an included file",
+       .fix = "repeat the keyword line (and title) at the top of the included file",
+       .ignore = "When the lines are remarks; better make them comments.",
+       .bad = "@deck\n#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n"
+              "                  kg                  mm                  ms\n/NODE\n"
+              "         1                 0.0                 0.0                 0.0\n"
+              "#include half.inc\n/END\n@file half.inc\n"
+              "         2                 1.0                 0.0                 0.0\n",
+       .good = "@deck\n#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n"
+               "                  kg                  mm                  ms\n/NODE\n"
+               "         1                 0.0                 0.0                 0.0\n"
+               "#include half.inc\n/END\n@file half.inc\n/NODE\n"
+               "         2                 1.0                 0.0                 0.0\n"});
+  out.push_back({.id = "DK052",
+                 .title = "blank before a slash of a keyword line",
+                 .severity = Severity::error,
+                 .stage = reading,
+                 .problem = "A keyword line begins with a blank, or has one before a '/'.",
+                 .why = "The line looks right and is read wrong.",
+                 .solver = "it ends with 'error 760', or without a word",
+                 .message = 760,
+                 .message_severity = Severity::error,
+                 .fix = "remove the blank",
+                 .ignore = "Never.",
+                 .fixable = Fixable::safe,
+                 .bad = " /TITLE\nexample\n",
+                 .good = "/TITLE\nexample\n"});
+  out.push_back({.id = "DK054",
+                 .title = "id in a header out of range",
+                 .severity = Severity::error,
+                 .stage = reading,
+                 .problem = "The id of a header is larger than 2147483647.",
+                 .why = "Ids are 31-bit numbers: the entity gets another id, which nobody wrote.",
+                 .solver = "it goes on with another number: an error here, because nobody can want "
+                           "that",
+                 .fix = "give the entity an id of at most 9 digits",
+                 .ignore = "Never.",
+                 .bad = "/SKEW/FIX/99999999999\naxes\n"
+                        "                 0.0                 0.0                 0.0\n"
+                        "                 1.0                 0.0                 0.0\n"
+                        "                 0.0                 1.0                 0.0\n",
+                 .good = "/SKEW/FIX/999\naxes\n"
+                         "                 0.0                 0.0                 0.0\n"
+                         "                 1.0                 0.0                 0.0\n"
+                         "                 0.0                 1.0                 0.0\n"});
+  out.push_back({.id = "DK055",
+                 .title = "text that belongs to no keyword",
+                 .severity = Severity::warning,
+                 .stage = reading,
+                 .problem =
+                     "Text stands where no keyword is open: in front of the first one of the "
+                     "main file, or behind the /END of an included file.",
+                 .why = "It looks like part of the model and is none.",
+                 .solver = "it skips everything up to the next keyword",
+                 .fix = "add the keyword line, or turn the text into a comment",
+                 .ignore = "Never.",
+                 .bad = "@deck\n#RADIOSS STARTER\nnote\n/BEGIN\nrun\n      2022         0\n"
+                        "                  kg                  mm                  ms\n/END\n",
+                 .good = "@bare\n"});
+  out.push_back({.id = "DK056",
+                 .title = "parameter defined twice",
+                 .severity = Severity::warning,
+                 .stage = reading,
+                 .problem = "Two parameters of one scope have the same name.",
+                 .why = "Only one of the two values is used.",
+                 .solver = "it keeps one of the two",
+                 .fix = "remove one; here the first one is used",
+                 .ignore = "When both have the same value.",
+                 .bad = "/PARAMETER/GLOBAL/REAL/1\ngap\ngap                        0.5\n"
+                        "/PARAMETER/GLOBAL/REAL/2\ngap\ngap                        0.7\n",
+                 .good = "/PARAMETER/GLOBAL/REAL/1\ngap\ngap                        0.5\n"
+                         "/PARAMETER/GLOBAL/REAL/2\nwide\nwide                       0.7\n"});
+  out.push_back({.id = "DK057",
+                 .title = "lines end with a carriage return alone",
+                 .severity = Severity::error,
+                 .stage = reading,
+                 .problem = "The file has carriage returns (CR) and no line feeds (LF).",
+                 .why = "The whole file is one line.",
+                 .solver = "it takes the whole file for one line",
+                 .fix = "save the file with line feeds",
+                 .ignore = "Never.",
+                 .bad = "@deck\n#RADIOSS STARTER\r/BEGIN\rrun\r      2022         0\r/END\r",
+                 .good = "@bare\n"});
+  out.push_back({.id = "DK058",
+                 .title = "include path with backslashes",
+                 .severity = Severity::warning,
+                 .stage = reading,
+                 .problem = "The path of an #include separates its folders with a backslash.",
+                 .why = "The deck can be read on one operating system only.",
+                 .solver = "builds for Windows read the file, others stop: no such file",
+                 .fix = "write the path with '/'",
+                 .ignore = "When the deck never leaves Windows.",
+                 .bad = "@bare\n#include .\\here.inc\n@file here.inc\n/TITLE\nnote\n",
+                 .good = "@bare\n#include ./here.inc\n@file here.inc\n/TITLE\nnote\n"});
 }
 
 void add_cell_rules(std::vector<Rule>& out) {
@@ -278,12 +388,14 @@ void add_cell_rules(std::vector<Rule>& out) {
                  .good = "@/INTER/TYPE7/1 Gapmin=0.5\n"});
   out.push_back({.id = "DK022",
                  .title = "text follows a number",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .stage = reading,
-                 .problem = "A cell holds a number and then something else.",
+                 .problem = "A cell holds a number and then something else, or a hexadecimal "
+                            "number.",
                  .why = "Usually a value stands across the border of two cells; what is read is a "
                         "part of it.",
-                 .solver = "it reads the leading number and drops the rest",
+                 .solver = "it goes on with the leading number and drops the rest; a real cell "
+                           "with 0x10 is 16",
                  .fix = "check that every value stands in its columns",
                  .ignore = "Never.",
                  .bad = "@/INTER/TYPE7/1 Istf=2x\n",
@@ -318,7 +430,8 @@ void add_cell_rules(std::vector<Rule>& out) {
                  .stage = reading,
                  .problem = "A cell holds inf or nan.",
                  .why = "It spreads through every result it touches.",
-                 .solver = "it accepts the text and computes with it",
+                 .solver = "it goes on and computes with infinity or not-a-number: an error here, "
+                           "because nobody can want that",
                  .fix = "write a finite number; 1e30 is the usual 'no limit'",
                  .ignore = "Never.",
                  .bad = "@/INTER/TYPE7/1 Gapmax=inf\n",
@@ -373,11 +486,11 @@ void add_cell_rules(std::vector<Rule>& out) {
                          "                 0.0                 1.0                 0.0\n"});
   out.push_back({.id = "DK029",
                  .title = "block ends before its last line",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .stage = reading,
                  .problem = "A card needs more lines than the block has.",
                  .why = "Blank lines count as lines; a missing one shifts the rest up.",
-                 .solver = "it takes every cell of the missing line for 0",
+                 .solver = "it takes every cell of the missing line for 0 and goes on",
                  .message = 100217,
                  .fix = "add the line; blanks are enough where defaults are wanted",
                  .ignore = "When only defaults are wanted in the missing lines at the end.",
@@ -410,6 +523,7 @@ void add_cell_rules(std::vector<Rule>& out) {
 
 void add_reading_rules(std::vector<Rule>& out) {
   add_file_rules(out);
+  add_frame_rules(out);
   add_cell_rules(out);
 }
 

@@ -155,12 +155,26 @@ void check_analytical(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
+/// Sides, sensors and nodes of that id are looked for and not found; a function or friction is
+/// looked for only if its id is positive.
+void negative_reference(Reporter& r, const Rule& rule, const ContactCard& card,
+                        const FieldView& f) {
+  Diagnostic* d = report_at(r, rule, card, f.name,
+                            fmt::format("{} of {} is negative: {}", f.name, name_of(card), f.text));
+  if (d == nullptr) return;
+  if (f.field->ref == "sensor") d->reference = ReferenceMessage{1010, Severity::error};
+  if (f.field->ref == "node") d->reference = ReferenceMessage{78, Severity::error};
+  if (f.field->ref != "funct" && f.field->ref != "friction") return;
+  d->severity = Severity::warning;
+  d->reference.reset();
+  d->reference_behaviour = "it goes on without a word, as if no id were given";
+}
+
 void check_negative(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts)
     for (const FieldView& f : card.fields)
       if (f.field != nullptr && f.field->type == FieldType::id && f.input < 0)
-        report_at(r, rule, card, f.name,
-                  fmt::format("{} of {} is negative: {}", f.name, name_of(card), f.text));
+        negative_reference(r, rule, card, f);
 }
 
 void check_ambiguous(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -334,7 +348,8 @@ void add_side_rules(std::vector<Rule>& out) {
                  .severity = stop,
                  .problem = "An id on the card is negative.",
                  .why = "Ids are positive; a minus sign has a meaning in lists only.",
-                 .solver = "it finds nothing of that id",
+                 .solver = "it finds nothing of that id; for a function or friction it goes on as "
+                           "if none were given",
                  .message = 2087,
                  .message_severity = stop,
                  .fix = "write the id without the sign",
@@ -405,9 +420,12 @@ void add_target_rules(std::vector<Rule>& out) {
       "give the surface id", "@/INTER/TYPE7/1 surf_IDm=0\n", "@/INTER/TYPE7/1 grnd_IDs=0\n",
       check_no_main);
   add("DK182", "TYPE10 without secondary nodes", "grnd_IDs is 0.",
-      "Tied contact does not take the nodes of the main surface instead.", 2087,
+      "Tied contact does not take the nodes of the main surface instead.", 552,
       "give the node group", "@/INTER/TYPE10/1 grnd_IDs=0\n", "@/INTER/TYPE10/1 grnd_IDs=2\n",
       check_no_nodes);
+  out.back().severity = Severity::warning;
+  out.back().solver = "it warns and goes on: the interface has no secondary node";
+  out.back().message_severity = Severity::warning;
 }
 
 }  // namespace

@@ -94,10 +94,10 @@ constexpr std::string_view sign_problem = "A quantity that cannot be negative is
 
 void add_sign(std::vector<Rule>& out, std::string_view id, std::string_view title,
               std::string_view why, std::string_view solver, std::string_view bad,
-              std::string_view good, Severity severity = Severity::error) {
+              std::string_view good) {
   out.push_back({.id = id,
                  .title = title,
-                 .severity = severity,
+                 .severity = Severity::warning,
                  .problem = sign_problem,
                  .why = why,
                  .solver = solver,
@@ -114,7 +114,7 @@ void add_signs(std::vector<Rule>& out) {
   add_sign(out, "DK221", "negative gap",
            "A negative gap is not a gap; the default is used instead.",
            "it computes a default gap from thickness and mesh size, as for 0",
-           "@/INTER/TYPE7/1 Gapmin=-0.5\n", "@/INTER/TYPE7/1 Gapmin=0.5\n", Severity::warning);
+           "@/INTER/TYPE7/1 Gapmin=-0.5\n", "@/INTER/TYPE7/1 Gapmin=0.5\n");
   add_sign(out, "DK222", "negative Gapmax",
            "The gap is min(Gapmax, ...); a negative cap leaves only Gapmin.", as_it_is,
            "@/INTER/TYPE7/1 Igap=2 Gapmax=-1.0\n", "@/INTER/TYPE7/1 Igap=2 Gapmax=1.0\n");
@@ -146,7 +146,7 @@ void add_signs(std::vector<Rule>& out) {
            as_it_is, "@/INTER/TYPE7/1 Igap=3 %mesh_size=-0.4\n",
            "@/INTER/TYPE7/1 Igap=3 %mesh_size=0.4\n");
   add_sign(out, "DK232", "negative dtmin", "A time step is never below a negative limit.", as_it_is,
-           "@/INTER/TYPE7/1 dtmin=-1.e-4\n", "@/INTER/TYPE7/1 dtmin=1.e-4\n", Severity::warning);
+           "@/INTER/TYPE7/1 dtmin=-1.e-4\n", "@/INTER/TYPE7/1 dtmin=1.e-4\n");
   add_sign(out, "DK233", "negative time",
            "The run starts at 0; a contact that stops before never acts.", as_it_is,
            "@/INTER/TYPE7/1 Tstop=-1.0\n", "@/INTER/TYPE7/1 Tstop=1.0\n");
@@ -164,7 +164,7 @@ void add_value_rules(std::vector<Rule>& out) {
   add_signs(out);
   out.push_back({.id = "DK234",
                  .title = "share of friction heat outside 0 to 1",
-                 .severity = Severity::error,
+                 .severity = Severity::warning,
                  .problem = "Fheats or Fheatm is below 0 or above 1.",
                  .why = "They say which part of the friction energy becomes heat on each side; "
                         "more than all of it creates energy.",

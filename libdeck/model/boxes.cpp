@@ -83,11 +83,16 @@ const Box* Selections::Impl::box(std::int64_t id, const Block& from, int missing
   if (const auto it = boxes.find(id); it != boxes.end()) return &it->second;
   const Definition* def = definition("box", id);
   if (def == nullptr) {
-    report({"DK159", Severity::error, from.header_span,
+    // A node group of missing boxes is merely empty.
+    const bool goes_on = from.schema != nullptr && from.schema->kind == "grnod";
+    report({"DK159", goes_on ? Severity::warning : Severity::error, from.header_span,
             std::string(from.keyword) + " " + std::to_string(from.id.value) + " refers to box " +
                 std::to_string(id) + ", which does not exist",
-            "it stops with an error", "define the box or correct the id", missing_number,
-            Severity::error, std::string(from.keyword), from.id.value});
+            goes_on ? "it leaves the entry out, and warns if the group is empty then"
+                    : "it stops with an error",
+            "define the box or correct the id", goes_on ? 690 : missing_number,
+            goes_on ? Severity::warning : Severity::error, std::string(from.keyword),
+            from.id.value});
     return nullptr;
   }
   if (recursive("box", id, *def->block, 797)) return nullptr;

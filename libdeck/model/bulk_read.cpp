@@ -48,6 +48,26 @@ void report_unknown_nodes(const BlockPlan& plan, const Problem& problem, const D
   }
 }
 
+/// True if a line of the block behind this place is neither blank nor a comment.
+bool data_follows(const Deck& deck, const Block& block, std::uint32_t file, std::uint64_t offset) {
+  bool behind = false;
+  for (Piece piece : block.body) {
+    if (!behind) {
+      if (piece.file != file || offset < piece.begin || offset >= piece.end) continue;
+      behind = true;
+      piece.begin = offset;
+    }
+    const std::string_view bytes = deck.sources[piece.file].bytes().substr(0, piece.end);
+    for (std::uint64_t at = piece.begin; at < piece.end;) {
+      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), piece.end);
+      const std::string_view line = bytes.substr(at, nl - at);
+      if (!trim(line).empty() && line[0] != '#' && line[0] != '$') return true;
+      at = nl + 1;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string_view bulk_rule_id(std::size_t rule) {
@@ -114,19 +134,24 @@ void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
   const Line line{trim_right(bytes.substr(problem.offset, nl - problem.offset)), file,
                   problem.offset};
   if (problem.counts[blank_line] > 0) {
+    const bool element =
+        !plan.item->nodes.empty() && data_follows(deck, *plan.block, file, problem.offset);
     if (diagnostics.wants(bulk_rule_id(blank_line)))
-      report(diagnostics, plan, problem, blank_line, Severity::warning, {file, 0, problem.offset},
-             "a blank line in " + std::string(plan.block->header),
-             "it takes the line for an item with id 0", "delete the line");
+      report(diagnostics, plan, problem, blank_line, element ? Severity::error : Severity::warning,
+             {file, 0, problem.offset}, "a blank line in " + std::string(plan.block->header),
+             element ? "it takes the line for an element without nodes, and crashes or hangs"
+                     : "it takes the line for an item with id 0",
+             "delete the line", element ? 760 : 0);
     return;
   }
   const DecodedCard card =
       decode_line(deck, *plan.block, *plan.item->cards[problem.card].card, line, &diagnostics);
   if (problem.counts[bad_id] > 0 && diagnostics.wants(bulk_rule_id(bad_id)))
-    report(diagnostics, plan, problem, bad_id, Severity::error, line.columns(1, 10),
+    report(diagnostics, plan, problem, bad_id, Severity::warning, line.columns(1, 10),
            std::string(plan.block->keyword) + ": id " + std::to_string(problem.item) +
                " is not positive",
-           "it cannot be referred to", "give the item a positive id", 509);
+           "it goes on with an item of that id, which nothing can refer to",
+           "give the item a positive id");
   if (problem.counts[sh3n_columns] > 0 && diagnostics.wants(bulk_rule_id(sh3n_columns)))
     report(diagnostics, plan, problem, sh3n_columns, Severity::warning, line.columns(81, 90),
            place_of(plan, problem) + ": the thickness begins left of column 91",
@@ -135,7 +160,7 @@ void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
   if (problem.counts[unknown_node] > 0 && nodes != nullptr)
     report_unknown_nodes(plan, problem, card, *nodes, diagnostics);
   if (problem.counts[incomplete] > 0 && diagnostics.wants(bulk_rule_id(incomplete)))
-    report(diagnostics, plan, problem, incomplete, Severity::error, line.whole(),
+    report(diagnostics, plan, problem, incomplete, Severity::warning, line.whole(),
            place_of(plan, problem) + " ends after " + std::to_string(problem.card + 1) + " of " +
                std::to_string(plan.item->cards.size()) + " lines; the element is left out",
            "it takes every cell of the missing lines for 0", "add the missing lines", 0);

@@ -110,6 +110,17 @@ void check_duplicates(BuildContext& c) {
   }
 }
 
+/// True if a unit system could change a value of the block.
+bool has_dimensions(const Schema& schema) {
+  return schema.opaque_tail ||
+         std::any_of(schema.cards.begin(), schema.cards.end(), [](const CardSchema& card) {
+           return std::any_of(card.fields.begin(), card.fields.end(), [](const Field& f) {
+             return f.type == FieldType::real && (!f.dimension.dimensionless() ||
+                                                  !f.dimension_known || !f.dimension_when.empty());
+           });
+         });
+}
+
 /// Blocks whose header names a unit system that is not defined.
 void check_units(BuildContext& c) {
   for (const Block& block : c.deck.blocks) {
@@ -117,11 +128,17 @@ void check_units(BuildContext& c) {
     if (block.schema == nullptr || block.schema->cards.empty()) continue;
     if (c.deck.units_of(block) != nullptr) continue;
     const bool bulk = block.schema->bulk;
-    report(c.diagnostics, {"DK109", Severity::error, block.unit_id.span,
+    const bool stops = bulk || has_dimensions(*block.schema);
+    report(c.diagnostics, {"DK109", stops ? Severity::error : Severity::warning, block.unit_id.span,
                            std::string(block.keyword) + " names unit system " +
                                std::to_string(block.unit_id.value) + ", which does not exist",
-                           "it stops with an error; here the values are taken in working units",
-                           "define it with /UNIT or remove the id", bulk ? 643 : 659,
+                           stops ? "it stops with an error; here the values are taken in working "
+                                   "units"
+                                 : "it goes on: the block has no value with a unit",
+                           "define it with /UNIT or remove the id",
+                           !stops ? 0
+                           : bulk ? 643
+                                  : 659,
                            Severity::error, std::string(block.keyword), block.id.value});
   }
 }

@@ -91,6 +91,7 @@ std::vector<Segment> Selections::Impl::segments_by_nodes(const Block& block,
                                                          const DecodedBlock& d) {
   std::vector<Segment> out;
   std::vector<IdRef> missing;
+  const std::size_t fewest = model->two_dimensional ? 2 : 3;
   for (const DecodedCard& card : d.cards) {
     Segment s;
     std::size_t have = 0;
@@ -99,8 +100,8 @@ std::vector<Segment> Selections::Impl::segments_by_nodes(const Block& block,
     for (const Cell& cell : card.cells) {
       if (cell.field->ref != "node") continue;
       if (cell.integer == 0) {
-        // Only the fourth node may be left out.
-        if (at < 3) complete = false;
+        // Only the fourth node may be left out; in two dimensions a segment has two nodes.
+        if (at < fewest) complete = false;
       } else {
         const std::int64_t id = shift(block, "node", cell.integer);
         s.nodes[have] = node(id);
@@ -112,9 +113,12 @@ std::vector<Segment> Selections::Impl::segments_by_nodes(const Block& block,
       }
       if (++at == 4) break;
     }
-    if (!complete || have < 3) continue;
-    if (have == 3) s.nodes[3] = s.nodes[2];
-    add_plain_segment(s, out);
+    if (!complete || have < fewest) continue;
+    for (std::size_t k = have; k < 4; ++k) s.nodes[k] = s.nodes[k - 1];
+    if (have == 2)
+      out.push_back(s);
+    else
+      add_plain_segment(s, out);
   }
   report_missing("DK150", block, "node", missing, 78, Severity::error);
   return out;

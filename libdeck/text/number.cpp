@@ -25,6 +25,18 @@ std::int64_t decimal_exponent(std::string_view mantissa, std::string_view expone
   return (minus ? -written : written) + point - first;
 }
 
+/// What follows "0x", as strtod reads it: hexadecimal digits, a point, a power of two behind 'p'.
+/// Blank: no digit follows, so that the number is the 0 in front.
+RealCell read_hexadecimal(std::string_view s) {
+  double value = 0;
+  if (s.empty() || s[0] == '-') return {};
+  const auto [end, error] =
+      std::from_chars(s.data(), s.data() + s.size(), value, std::chars_format::hex);
+  if (end == s.data() || !std::isfinite(value)) return {};  // "inf" and "nan" are no digits
+  if (error == std::errc::result_out_of_range) return {0, NumberStatus::overflow};
+  return {value, NumberStatus::trailing_text};  // not the number that a deck's author has in mind
+}
+
 /// Reads "mantissa e exponent" that scan_real() found too long or too large for exact arithmetic,
 /// or that is malformed. `s` is trimmed and not empty.
 RealCell convert(std::string_view s) {
@@ -54,6 +66,9 @@ RealCell convert(std::string_view s) {
     return {0,
             starts("nan") || starts("inf") ? NumberStatus::not_finite : NumberStatus::not_a_number};
   }
+  if (i < s.size() && (s[i] | 0x20) == 'x' && s.substr(digits_begin, i - digits_begin) == "0")
+    if (const auto hex = read_hexadecimal(s.substr(i + 1)); hex.status != NumberStatus::blank)
+      return {negative ? -hex.value : hex.value, hex.status};
   const std::string_view mantissa = s.substr(digits_begin, i - digits_begin);
   NumberStatus status = NumberStatus::ok;
   std::string_view exponent;

@@ -195,7 +195,7 @@ TEST_F(Hostile, ManyParametersOfOneNameStayFast) {
     body += "/PARAMETER/GLOBAL/REAL/1\nt\nA                          1.\n/GRNOD/NODE/&A\n";
   const Deck d = read(deck_of(body));
   EXPECT_EQ(d.parameters.size(), 1u);
-  EXPECT_EQ(count(d.diagnostics, "DK044"), 19999u);
+  EXPECT_EQ(count(d.diagnostics, "DK056"), 19999u);
 }
 
 TEST_F(Hostile, DeeplyNestedExpressionsEndInAnError) {

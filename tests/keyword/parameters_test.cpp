@@ -131,7 +131,7 @@ TEST(Parameters, TheFirstOfTwoInOneScopeCounts) {
   const Deck d =
       read(deck_of(real("A", "                  1.") + real("A", "                  2.")));
   EXPECT_EQ(parameter(d, "A").real, 1);
-  EXPECT_EQ(count(d.diagnostics, "DK044"), 1u);
+  EXPECT_EQ(count(d.diagnostics, "DK056"), 1u);
 }
 
 TEST(Parameters, InHeadersGiveIdsAndUnits) {

@@ -167,6 +167,75 @@ TEST(ExtraChecks, ReportThroughTheEngine) {
     EXPECT_EQ(n.what.find("geometry"), std::string::npos);
 }
 
+TEST(ShiftedCard, KeepsWhatStopsTheSolver) {
+  // A line too many in front of the sides: the values of the card are not to be trusted, but the
+  // main surface that is missing now stops the run.
+  const Linted run = lint_example(
+      "/INTER/TYPE7/1\nexample\n\n         2         1\n\n\n"
+      "                 1.0                 0.2                 0.5\n"
+      "       000                             6\n\n");
+  ASSERT_TRUE(run.fires("DK243")) << run.list();
+  EXPECT_EQ(run.find("DK243")->severity, Severity::warning);
+  ASSERT_TRUE(run.fires("DK181")) << run.list();
+  EXPECT_EQ(run.find("DK181")->severity, Severity::error);
+}
+
+TEST(NegativeReference, IsAnErrorWhereTheSolverLooksForTheId) {
+  EXPECT_EQ(lint_example("@/INTER/TYPE7/1 grnd_IDs=-2\n").find("DK187")->severity, Severity::error);
+  const Linted sensor = lint_example("@/INTER/TYPE7/1 sens_ID=-3\n");
+  EXPECT_EQ(sensor.find("DK187")->severity, Severity::error);
+  EXPECT_EQ(sensor.find("DK187")->reference->number, 1010);
+  for (const char* card : {"@/INTER/TYPE7/1 fric_ID=-5\n", "@/INTER/TYPE7/1 fct_IDF=-1\n"}) {
+    const Linted run = lint_example(card);
+    ASSERT_TRUE(run.fires("DK187")) << card;
+    EXPECT_EQ(run.find("DK187")->severity, Severity::warning) << card;
+    EXPECT_FALSE(run.find("DK187")->reference) << card;
+  }
+}
+
+TEST(InterfaceId, ZeroIsAnIdOfItsOwn) {
+  const Linted run = lint_example("@/INTER/TYPE7/0\n@/INTER/TYPE7/1\n");
+  EXPECT_FALSE(run.fires("DK179")) << run.list();
+  EXPECT_TRUE(lint_example("@/INTER/TYPE7/0\n@/INTER/TYPE7/0\n").fires("DK179"));
+}
+
+TEST(InterfaceId, IsNotTheCommentBehindTheHeader) {
+  const Linted run = lint_example(
+      "/INTER/TYPE7/2   # note\nexample\n         2         1\n"
+      "\n\n                 1.0\n\n\n@/INTER/TYPE7/1\n");
+  EXPECT_FALSE(run.fires("DK179")) << run.list();
+}
+
+TEST(BlankLine, StopsTheSolverAmongElementsAndNotAmongNodes) {
+  const Linted shells = lint_example(
+      "/SHELL/1\n         9         1         2         3         4\n\n"
+      "        10         1         2         3         4\n");
+  ASSERT_TRUE(shells.fires("DK036")) << shells.list();
+  EXPECT_EQ(shells.find("DK036")->severity, Severity::error);
+  EXPECT_EQ(shells.find("DK036")->reference->number, 760);
+  const Linted end =
+      lint_example("/SHELL/1\n         9         1         2         3         4\n\n# end\n\n");
+  ASSERT_TRUE(end.fires("DK036")) << end.list();
+  EXPECT_EQ(end.find("DK036")->severity, Severity::warning);
+  const Linted nodes = lint_example(
+      "/NODE\n\n        21                 0.0                 0.0                 9.0\n");
+  ASSERT_TRUE(nodes.fires("DK036")) << nodes.list();
+  EXPECT_EQ(nodes.find("DK036")->severity, Severity::warning);
+}
+
+TEST(ByteOrderMark, IsRemovedByASafeFix) {
+  const Linted run = lint_example(find_rule("DK033")->bad);
+  for (const char* rule : {"DK001", "DK033"}) {
+    ASSERT_TRUE(run.fires(rule)) << run.list();
+    const Diagnostic* d = run.find(rule);
+    ASSERT_TRUE(d->fix) << rule;
+    EXPECT_TRUE(d->fix->safe);
+    ASSERT_EQ(d->fix->edits.size(), 1u);
+    EXPECT_EQ(run.deck->sources.text(d->fix->edits[0].span), "\xef\xbb\xbf");
+    EXPECT_EQ(d->fix->edits[0].text, "");
+  }
+}
+
 TEST(KindOfEntity, SaysWhatTheIdBelongsTo) {
   const Linted run = lint_example("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1\n");
   ASSERT_TRUE(run.fires("DK171")) << run.list();
@@ -180,6 +249,13 @@ TEST(MissingLine, NamesTheFlagThatAsksForIt) {
   ASSERT_TRUE(run.fires("DK240"));
   EXPECT_NE(run.find("DK240")->message.find("Ifric = 1"), std::string::npos)
       << run.find("DK240")->message;
+}
+
+TEST(UnknownKeyword, HasASlashTooManyUnlessItIsASubmodel) {
+  const Linted run = lint_example("//INTER/TYPE7/1\nexample\n         2         1\n");
+  ASSERT_TRUE(run.fires("DK040")) << run.list();
+  EXPECT_NE(run.find("DK040")->message.find("did you mean /INTER/TYPE7"), std::string::npos);
+  EXPECT_FALSE(lint_example("//SUBMODEL/1\nt\n\n/TITLE\nx\n//ENDSUB\n").fires("DK040"));
 }
 
 TEST(UnknownKeyword, SuggestsTheClosestOne) {

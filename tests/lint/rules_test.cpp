@@ -56,6 +56,14 @@ TEST_P(EveryRule, FindingHasPlaceMessageAndHelp) {
   }
 }
 
+TEST_P(EveryRule, BadExampleHasTheSeverityOfTheTable) {
+  const Linted run = lint_example(rule().bad);
+  const auto& all = run.result.diagnostics;
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Diagnostic& d) {
+    return d.rule == rule().id && d.severity == rule().severity;
+  }));
+}
+
 INSTANTIATE_TEST_SUITE_P(Rules, EveryRule, testing::ValuesIn(ids_with_examples()),
                          [](const auto& one) { return one.param; });
 
@@ -98,6 +106,23 @@ TEST(RuleTable, IdsAreSortedAndUnique) {
   std::set<std::string_view> seen;
   for (const Rule& r : all_rules()) EXPECT_TRUE(seen.insert(r.id).second) << r.id;
   EXPECT_GE(seen.size(), 90u);
+}
+
+TEST(RuleTable, WhatTheSolverOnlyWarnsAboutIsNoError) {
+  for (const Rule& r : all_rules())
+    if (r.severity == Severity::error && r.message != 0) {
+      EXPECT_EQ(r.message_severity, Severity::error) << r.id;
+    }
+}
+
+/// The reference solver checks hardly any flag: it runs on, so the finding must not stop a deck.
+TEST(RuleTable, FlagsAndSignsOutOfRangeAreWarnings) {
+  for (const Rule& r : all_rules()) {
+    const std::string_view id = r.id;
+    if ((id >= "DK201" && id <= "DK218") || (id >= "DK221" && id <= "DK236")) {
+      EXPECT_EQ(r.severity, Severity::warning) << id;
+    }
+  }
 }
 
 TEST(RuleTable, EveryRuleHasAFullPage) {

@@ -137,8 +137,19 @@ TEST(ConnectionNode, WithinTheToleranceIsTheOtherNode) {
 TEST(Unit, UnknownUnitSystemIsMessage643ForNodesAnd659Elsewhere) {
   Built b("/NODE/5\n" + node(1, 0, 0, 0));
   EXPECT_EQ(b.message("DK109"), 643);
-  Built g(grid_nodes() + "/GRNOD/NODE/1/5\ng\n" + cells({1}));
+  Built g(grid_nodes() + "/SKEW/FIX/1/5\ns\n");
   EXPECT_EQ(g.message("DK109"), 659);
+}
+
+TEST(Unit, UnknownUnitSystemOfABlockWithoutDimensionsIsAWarning) {
+  const auto severity = [](const std::string& deck) {
+    Built b(grid_nodes() + deck);
+    for (const Diagnostic& d : b.diagnostics().all())
+      if (d.rule == "DK109") return d.severity;
+    return Severity::info;
+  };
+  EXPECT_EQ(severity("/GRNOD/NODE/1/5\ng\n" + cells({1})), Severity::warning);
+  EXPECT_EQ(severity("/SKEW/FIX/1/5\ns\n"), Severity::error);
 }
 
 TEST(Place, OfANodeAndAnElementIsItsLine) {

@@ -162,6 +162,14 @@ TEST(Surface, PlainSegmentsKeepTheirOrderAndComeFirst) {
             (std::vector<Ids>{{5, 6, 9, 8}, {1, 2, 5, 5}, {1, 2, 5, 4}, {2, 3, 6, 5}}));
 }
 
+TEST(Surface, SegmentOfTwoNodesCountsInTwoDimensionsOnly) {
+  const std::string segments = "/SURF/SEG/1\ns\n" + cells({1, 5, 6}) + cells({2, 6, 9, 0, 0});
+  Built flat("/ANALY\n" + cells({1, 0, 0}) + grid_nodes() + segments);
+  EXPECT_EQ(flat.surface(1), (std::vector<Ids>{{5, 6, 6, 6}, {6, 9, 9, 9}}));
+  Built solid(grid_nodes() + segments);
+  EXPECT_TRUE(solid.surface(1).empty());
+}
+
 TEST(Surface, NegativeSurfaceIsReversed) {
   Built b(parts() + quads() + "/SURF/SEG/1\ns\n" + cells({1, 5, 6, 9, 8}) + cells({2, 1, 2, 5}) +
           "/SURF/SURF/3\nu\n" + cells({-1}));
