@@ -1,6 +1,7 @@
 #include "lint/attach_fixes.hpp"
 
 #include "deck/lint/fix.hpp"
+#include "keyword/reader.hpp"
 
 namespace deck::detail {
 namespace {
@@ -15,6 +16,22 @@ Fix missing_end(const Deck& deck) {
   fix.safe = true;
   fix.edits.push_back({Span{0, 0, bytes.size()}, (open_line ? eol : "") + "/END" + eol});
   return fix;
+}
+
+/// The first line as official builds want it: nothing in front of the banner, and a banner in the
+/// main file.
+std::optional<Fix> first_line(const Deck& deck, std::uint32_t file) {
+  constexpr std::string_view mark = "\xef\xbb\xbf", banner = "#RADIOSS STARTER";
+  std::string_view bytes = deck.sources[file].bytes();
+  const bool marked = bytes.starts_with(mark);
+  if (marked) bytes.remove_prefix(mark.size());
+  const bool bare = file == 0 && !trim(bytes.substr(0, 200)).starts_with(banner);
+  if (!marked && !bare) return std::nullopt;
+  const std::string_view first = bytes.substr(0, bytes.find('\n'));
+  const std::string eol = first.ends_with('\r') ? "\r\n" : "\n";
+  return Fix{marked ? "remove the byte order mark" : "insert the banner",
+             true,
+             {{Span{file, marked ? 3u : 0u, 0}, bare ? std::string(banner) + eol : std::string()}}};
 }
 
 /// Every tab of the line becomes one blank: the columns stay where the reference solver sees them.
@@ -54,9 +71,7 @@ void attach_fix(const LintContext& context, Diagnostic& d) {
   } else if (!d.span.valid()) {
     return;
   } else if (d.rule == "DK033" || d.rule == "DK001") {
-    constexpr std::string_view mark = "\xef\xbb\xbf";
-    if (d.span.offset == 0 && deck.sources[d.span.file].bytes().starts_with(mark))
-      d.fix = Fix{"remove the byte order mark", true, {{Span{d.span.file, 3, 0}, ""}}};
+    d.fix = first_line(deck, d.span.file);
   } else if (d.rule == "DK052") {
     d.fix = Fix{"remove the blank", true, {{d.span, ""}}};
   } else if (d.rule == "DK013") {

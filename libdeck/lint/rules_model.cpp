@@ -613,12 +613,14 @@ void add_model_5(std::vector<Rule>& out) {
                  .stage = RuleStage::model,
                  .problem = "A group refers to a box that does not exist, or a box has no extent.",
                  .why = "Nothing is inside.",
-                 .solver = "it stops with an error",
+                 .solver =
+                     "it stops with an error; a node group of missing boxes is merely empty (a "
+                     "warning here)",
                  .message = 797,
                  .message_severity = Severity::error,
                  .fix = "define the box or correct the id",
                  .ignore = "Never.",
-                 .bad = "/GRNOD/BOX/9\n"
+                 .bad = "/SURF/BOX/9\n"
                         "in box\n"
                         "        77\n",
                  .good = "/BOX/RECTA/5\n"
