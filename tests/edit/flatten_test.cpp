@@ -34,25 +34,25 @@ std::string flat(const Whole& w, bool mark = false) {
 TEST(Flatten, IncludeIsReplacedByItsBytes) {
   const auto w = tree({{"main_0000.rad", head + "/NODE\n" + node1 + "#include a.inc\n" + node3 +
                                              "/END\ntext behind\n"},
-                       {"a.inc", "# comment\t \r\n" + node2}});
-  EXPECT_EQ(flat(*w),
-            head + "/NODE\n" + node1 + "# comment\t \r\n" + node2 + node3 + "/END\ntext behind\n");
+                       {"a.inc", "# comment\t \r\n/NODE\n" + node2}});
+  EXPECT_EQ(flat(*w), head + "/NODE\n" + node1 + "# comment\t \r\n/NODE\n" + node2 + node3 +
+                          "/END\ntext behind\n");
 }
 
 TEST(Flatten, MarksNameTheFile) {
   const auto w = tree({{"main_0000.rad", head + "/NODE\n#include sub/a.inc\n/END\n"},
-                       {"sub/a.inc", node1 + "#INCLUDE 'b.inc' +\n+\n"},
-                       {"sub/b.inc", node2}});
-  EXPECT_EQ(flat(*w, true), head + "/NODE\n## #include sub/a.inc\n" + node1 +
-                                "## #INCLUDE 'b.inc' +\n## +\n" + node2 +
+                       {"sub/a.inc", "/NODE\n" + node1 + "#INCLUDE 'b.inc' +\n+\n"},
+                       {"sub/b.inc", "/NODE\n" + node2}});
+  EXPECT_EQ(flat(*w, true), head + "/NODE\n## #include sub/a.inc\n/NODE\n" + node1 +
+                                "## #INCLUDE 'b.inc' +\n## +\n/NODE\n" + node2 +
                                 "## end of b.inc\n## end of sub/a.inc\n/END\n");
 }
 
 TEST(Flatten, MissingLastLineEndIsAdded) {
   const auto w = tree({{"main_0000.rad", head + "/NODE\n#include a.inc\n" + node3 + "/END\n"},
-                       {"a.inc", "#c\r\n" + node1.substr(0, node1.size() - 1)}});
-  EXPECT_EQ(flat(*w),
-            head + "/NODE\n#c\r\n" + node1.substr(0, node1.size() - 1) + "\r\n" + node3 + "/END\n");
+                       {"a.inc", "#c\r\n/NODE\n" + node1.substr(0, node1.size() - 1)}});
+  EXPECT_EQ(flat(*w), head + "/NODE\n#c\r\n/NODE\n" + node1.substr(0, node1.size() - 1) + "\r\n" +
+                          node3 + "/END\n");
 }
 
 TEST(Flatten, EndAndEnddataOfIncludesGoWithWhatFollows) {
@@ -73,11 +73,22 @@ TEST(Flatten, LinesBehindTheEndOfAnIncludeStayOutside) {
 
 TEST(Flatten, TextOfEveryFileIsKeptWhenIncludedTwice) {
   const auto w =
-      tree({{"main_0000.rad", head + "/NODE\n" + node1 + "/GRNOD/NODE/1\ng\n#include ids.inc\n" +
-                                  "/GRNOD/NODE/2\ng\n#include ids.inc\n/END\n"},
-            {"ids.inc", "         1\n"}});
-  EXPECT_EQ(flat(*w), head + "/NODE\n" + node1 +
-                          "/GRNOD/NODE/1\ng\n         1\n/GRNOD/NODE/2\ng\n         1\n/END\n");
+      tree({{"main_0000.rad", head + "/NODE\n" + node1 + "#include note.inc\n/GRNOD/NODE/2\ng\n" +
+                                  "         1\n#include note.inc\n/END\n"},
+            {"note.inc", "/TITLE\nnote\n"}});
+  EXPECT_EQ(flat(*w), head + "/NODE\n" + node1 + "/TITLE\nnote\n/GRNOD/NODE/2\ng\n" +
+                          "         1\n/TITLE\nnote\n/END\n");
+}
+
+TEST(Flatten, LinesBeforeTheFirstKeywordOfAnIncludeStayOutside) {
+  const auto w = tree({{"main_0000.rad", head + "/NODE\n" + node1 + "#include a.inc\n" + node3 +
+                                             "#include b.inc\n/END\n"},
+                       {"a.inc", "# half a block\n" + node2},
+                       {"b.inc", node2 + "#include a.inc\n/TITLE\nnote\n"}});
+  ASSERT_EQ(w->model.nodes.size(), 2u);
+  EXPECT_EQ(flat(*w), head + "/NODE\n" + node1 + "# half a block\n#" + node2 + node3 + "#" + node2 +
+                          "# half a block\n#" + node2 + "/TITLE\nnote\n/END\n");
+  EXPECT_EQ(w->after(flatten(w->context()))->model.nodes.id, w->model.nodes.id);
 }
 
 TEST(Flatten, SubmodelsKeepTheirOffsetsAndUnits) {
@@ -193,16 +204,16 @@ TEST(Flatten, RandomCutsComeTogetherAgain) {
                                 .add("@/INTER/TYPE7/1 Igap=1 Istf=4 Inacti=5")
                                 .text();
   const auto contacts = edit_test::contact_text(*Whole::text(whole));
-  std::vector<std::string> lines;
+  std::vector<std::string> blocks;  // the banner, /BEGIN, …, /END
   for (std::size_t at = 0; at < whole.size();) {
-    const auto next = whole.find('\n', at) + 1;
-    lines.push_back(whole.substr(at, next - at));
+    const auto next = std::min(whole.find("\n/", at), whole.size() - 1) + 1;
+    blocks.push_back(whole.substr(at, next - at));
     at = next;
   }
   for (int round = 0; round < 30; ++round) {
     Whole::Files files;
     int count = 0;
-    // Cuts lines [begin, end) into text and includes; the first lines hold /BEGIN.
+    // Cuts blocks [begin, end) into text and includes.
     const std::function<std::string(std::size_t, std::size_t, int)> cut =
         [&](std::size_t begin, std::size_t end, int depth) {
           std::string text;
@@ -213,15 +224,13 @@ TEST(Flatten, RandomCutsComeTogetherAgain) {
               files[name] = cut(begin, begin + n, depth + 1);
               text += "#include " + name + "\n";
             } else {
-              for (std::size_t i = begin; i < begin + n; ++i) text += lines[i];
+              for (std::size_t i = begin; i < begin + n; ++i) text += blocks[i];
             }
             begin += n;
           }
           return text;
         };
-    std::string main;
-    for (std::size_t i = 0; i < 6; ++i) main += lines[i];
-    files["main_0000.rad"] = main + cut(6, lines.size() - 1, 0) + lines.back();
+    files["main_0000.rad"] = blocks[0] + blocks[1] + cut(2, blocks.size() - 1, 0) + blocks.back();
     const auto w = tree(files);
     if (w->deck.includes.empty()) continue;
     const Rewrite r = flatten(w->context(), {.mark = false});
