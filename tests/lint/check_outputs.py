@@ -57,7 +57,8 @@ def lint(c, *args, **kw):
 
 def card(**fields):
     """A TYPE7 of version 2022 with the given cells; the deck around it needs no model."""
-    cells = {"grnd": (0, 1, 10), "surf": (0, 11, 20), "Istf": (0, 21, 30), "Stfac": (3, 1, 20), "Fric": (3, 21, 40)}
+    cells = {"grnd": (0, 1, 10), "surf": (0, 11, 20), "Istf": (0, 21, 30), "Stfac": (3, 1, 20), "Fric": (3, 21, 40),
+             "fric_ID": (5, 91, 100)}
     lines = [""] * 6
     for name, value in dict({"surf": "1"}, **fields).items():
         row, first, last = cells[name]
