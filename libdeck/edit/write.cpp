@@ -1,11 +1,13 @@
 #include "deck/edit/write.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -13,57 +15,16 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
+#include <thread>
 #include <tuple>
+
+#include "deck/text/source.hpp"
+#include "edit/write_plan.hpp"
 
 namespace deck {
 namespace {
 namespace fs = std::filesystem;
-
-Error io_error(const std::string& what, const std::string& path, int code) {
-  return {Error::Code::io, what + " " + path + ": " + std::strerror(code)};
-}
-
-/// Where a path leads if its last part is a symbolic link (or several); the target need not exist.
-Result<std::string> follow_links(const std::string& path) {
-  std::string at = path;
-  for (int depth = 0; depth < 40; ++depth) {
-    struct stat status {};
-    if (lstat(at.c_str(), &status) != 0 || !S_ISLNK(status.st_mode)) return at;
-    std::error_code ec;
-    const fs::path link = fs::read_symlink(at, ec);
-    if (ec) return io_error("cannot read the link", at, ec.value());
-    at = (fs::path(at).parent_path() / link).string();  // an absolute link replaces all of it
-  }
-  return io_error("cannot write", path, ELOOP);
-}
-
-std::string directory_of(const std::string& path) {
-  const fs::path parent = fs::path(path).parent_path();
-  return parent.empty() ? "." : parent.string();
-}
-
-/// The part of a file's name that its temporaries carry: names end at 255 bytes.
-std::string_view stem_of(std::string_view name) { return name.substr(0, 200); }
-
-std::string temporary_name(const std::string& path, int number) {
-  const fs::path p(path);
-  return (p.parent_path() / ("." + std::string(stem_of(p.filename().string())) + "." +
-                             std::to_string(getpid()) + "-" + std::to_string(number) + ".tmp"))
-      .string();
-}
-
-/// Makes a name beside `path` by `make`, which returns 0, or -1 with EEXIST where the name is
-/// taken: by another thread, or left by a killed process that had the same number.
-template <class Make>
-std::optional<std::string> take_temporary(const std::string& path, Make make) {
-  for (int number = 0; number < 10000; ++number) {
-    std::string name = temporary_name(path, number);
-    if (make(name.c_str()) >= 0) return name;
-    if (errno != EEXIST) return std::nullopt;
-  }
-  return std::nullopt;
-}
+using namespace detail;
 
 Result<void> write_all(int fd, std::string_view bytes, const std::string& path) {
   while (!bytes.empty()) {
@@ -75,23 +36,6 @@ Result<void> write_all(int fd, std::string_view bytes, const std::string& path) 
   return {};
 }
 
-/// Flushes what `fd` stands for. File systems without such a thing are no failure.
-bool flush(int fd) { return fsync(fd) == 0 || errno == EINVAL || errno == EROFS; }
-
-Result<void> flush_directory(const std::string& path) {
-  const int fd = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) {
-    // A directory that may be written but not read cannot be flushed, and need not be.
-    if (errno == EACCES) return {};
-    return io_error("cannot open the directory", path, errno);
-  }
-  const bool flushed = flush(fd);
-  const int code = errno;
-  close(fd);
-  if (!flushed) return io_error("cannot flush the directory", path, code);
-  return {};
-}
-
 Result<void> write_through(const std::string& path, std::string_view bytes) {
   const int fd = open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (fd < 0) return io_error("cannot open", path, errno);
@@ -100,80 +44,104 @@ Result<void> write_through(const std::string& path, std::string_view bytes) {
   return done;
 }
 
+// ---- files that were read ---------------------------------------------------------------------
+
+/// True if the open file has exactly these bytes.
+bool has_bytes(int fd, std::string_view bytes) {
+  std::vector<char> buffer(std::size_t{1} << 18);
+  for (;;) {
+    const ssize_t n = read(fd, buffer.data(), buffer.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return n == 0 && bytes.empty();
+    const std::string_view part(buffer.data(), static_cast<std::size_t>(n));
+    if (!bytes.starts_with(part)) return false;
+    bytes.remove_prefix(part.size());
+  }
+}
+
+Error changed_since(const std::string& path) {
+  return {Error::Code::config, path +
+                                   " was changed by somebody else since it was read; nothing was "
+                                   "written. Run the command again"};
+}
+
+/// Error: `path` is not the file that was read any more, or has other bytes, or cannot be looked
+/// at. `shown` is its name for people.
+Result<void> check_as_read(const std::string& path, const FileRead& was, const std::string& shown) {
+  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (fd < 0 && errno != ENOENT && errno != ELOOP)
+    return io_error("cannot compare with what was read:", shown, errno);
+  if (fd < 0) return changed_since(shown);
+  struct stat status {};
+  const bool same =
+      fstat(fd, &status) == 0 && status.st_dev == was.device && status.st_ino == was.inode &&
+      static_cast<std::uint64_t>(status.st_size) == was.bytes.size() && has_bytes(fd, was.bytes);
+  close(fd);
+  if (!same) return changed_since(shown);
+  return {};
+}
+
+/// True if two paths are one file, or regular files of the same bytes.
+bool same_contents(const std::string& a, const std::string& b) {
+  struct stat of_a {
+  }, of_b{};
+  if (lstat(a.c_str(), &of_a) != 0 || lstat(b.c_str(), &of_b) != 0) return false;
+  if (of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino) return true;
+  if (!S_ISREG(of_a.st_mode) || !S_ISREG(of_b.st_mode) || of_a.st_size != of_b.st_size)
+    return false;
+  const auto source = Source::open(a, Limits{});
+  if (!source) return false;
+  return check_as_read(b, {of_b.st_dev, of_b.st_ino, (*source)->bytes()}, b).ok();
+}
+
+/// Locks on the directories whose files are rewritten, held while that is done: two programs of
+/// this kind never compare and replace at the same time. Where a file system has no locks, or a
+/// directory may not be read, there is none.
+class DirectoryLocks {
+ public:
+  DirectoryLocks() = default;
+  DirectoryLocks(const DirectoryLocks&) = delete;
+  DirectoryLocks& operator=(const DirectoryLocks&) = delete;
+  ~DirectoryLocks() {
+    for (const int fd : held_) close(fd);
+  }
+
+  /// Always in the same order, so that nobody waits for the other for ever.
+  Result<void> take(const std::set<std::string>& directories) {
+    std::map<std::pair<dev_t, ino_t>, int> by_identity;
+    for (const std::string& d : directories) {
+      const int fd = open(d.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+      struct stat status {};
+      if (fd < 0 || fstat(fd, &status) != 0) continue;
+      held_.push_back(fd);
+      by_identity.emplace(std::pair{status.st_dev, status.st_ino}, fd);
+    }
+    for (const auto& [identity, fd] : by_identity)
+      if (!wait_for(fd))
+        return Error{Error::Code::config,
+                     "somebody else is writing to " + *directories.begin() +
+                         " (or another directory of these decks) and does not come to an end; "
+                         "nothing was written"};
+    return {};
+  }
+
+ private:
+  static bool wait_for(int fd) {
+    constexpr auto step = std::chrono::milliseconds(20);
+    for (int waited = 0; waited < 1000; ++waited) {
+      if (flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
+      if (errno != EWOULDBLOCK && errno != EINTR) return true;  // no locks here
+      std::this_thread::sleep_for(step);
+    }
+    return false;
+  }
+  std::vector<int> held_;
+};
+
 // ---- sets that are half in place -------------------------------------------------------------
 // Several files cannot be renamed in one step. While it is done, a plan lies beside each of them
 // (one file with several names) that says what goes where. It is locked as long as its writer
-// lives; one that is not locked was left by a kill, and whoever comes next does what it says.
-
-/// One file of a plan.
-struct Step {
-  std::string temporary, target;
-  std::uint64_t fresh = 0;                              ///< inode of the new file
-  std::uint64_t old = 0;                                ///< inode of the file to replace, 0: none
-  std::int64_t seconds = 0, nanoseconds = 0, size = 0;  ///< its time and size
-};
-
-std::string plan_name(const std::string& target) {
-  const fs::path p(target);
-  return (p.parent_path() / ("." + std::string(stem_of(p.filename().string())) + ".unfinished"))
-      .string();
-}
-
-constexpr std::string_view plan_head = "deck unfinished 1", plan_end = "end";
-
-std::string plan_text(const std::vector<Step>& steps) {
-  std::string text = std::string(plan_head) + "\n";
-  for (const Step& s : steps) {
-    text += s.temporary + "\t" + s.target;
-    for (const std::uint64_t n : {s.fresh, s.old}) text += "\t" + std::to_string(n);
-    for (const std::int64_t n : {s.seconds, s.nanoseconds, s.size})
-      text += "\t" + std::to_string(n);
-    text += "\n";
-  }
-  return text + std::string(plan_end) + "\n";
-}
-
-/// nullopt: not a whole plan.
-std::optional<std::vector<Step>> parse_plan(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line;
-  if (!std::getline(lines, line) || line != plan_head) return std::nullopt;
-  std::vector<Step> steps;
-  while (std::getline(lines, line)) {
-    if (line == plan_end) return steps;
-    std::istringstream cells(line);
-    Step s;
-    if (!std::getline(cells, s.temporary, '\t') || !std::getline(cells, s.target, '\t') ||
-        !(cells >> s.fresh >> s.old >> s.seconds >> s.nanoseconds >> s.size))
-      return std::nullopt;
-    steps.push_back(std::move(s));
-  }
-  return std::nullopt;
-}
-
-enum class StepState { pending, placed, overtaken };
-
-/// Overtaken: somebody changed the file since, and what the plan says is no longer wanted.
-StepState state_of(const Step& s) {
-  struct stat target {
-  }, temporary{};
-  const bool exists = stat(s.target.c_str(), &target) == 0;
-  if (exists && target.st_ino == s.fresh) return StepState::placed;
-  const bool as_it_was =
-      s.old == 0 ? !exists
-                 : exists && target.st_ino == s.old && target.st_mtim.tv_sec == s.seconds &&
-                       target.st_mtim.tv_nsec == s.nanoseconds && target.st_size == s.size;
-  const bool ready = stat(s.temporary.c_str(), &temporary) == 0 && temporary.st_ino == s.fresh;
-  return as_it_was && ready ? StepState::pending : StepState::overtaken;
-}
-
-/// A lock on the whole file; false if somebody else has it or there are no locks.
-bool lock_file(int fd) {
-  struct flock whole {};
-  whole.l_type = F_WRLCK;
-  whole.l_whence = SEEK_SET;
-  return fcntl(fd, F_SETLK, &whole) == 0;
-}
+// lives; one that is not locked was left by a kill, and who rewrites the deck next finishes it.
 
 /// A set of files on its way to the disk. Whatever is not committed is taken back by the
 /// destructor.
@@ -183,7 +151,10 @@ class Transaction {
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
   ~Transaction() {
-    if (!committed_) roll_back();
+    if (!committed_) {
+      roll_back();
+      for (const std::string& b : backups_) unlink(b.c_str());
+    }
     for (const std::string& t : temporaries_) unlink(t.c_str());
     for (const std::string& p : plans_) unlink(p.c_str());
     if (plan_ >= 0) close(plan_);
@@ -201,6 +172,7 @@ class Transaction {
   struct Entry {
     std::string given, target, temporary, former;
     std::string_view bytes;
+    std::optional<FileRead> read;
     struct stat old {
     }, fresh{};
     bool exists = false, special = false, placed = false;
@@ -209,8 +181,10 @@ class Transaction {
   Result<void> make_directories(const std::string& directory);
   Result<void> write_new(Entry& entry);
   Result<void> back_up(const Entry& entry);
+  Result<bool> copy_to(const Entry& entry, const std::string& backup);
   Result<void> lay_plan();
   Result<void> place(Entry& entry);
+  Result<bool> exchange(Entry& entry);
   void roll_back();
   void forget(const std::string& temporary) {
     const auto it = std::find(temporaries_.begin(), temporaries_.end(), temporary);
@@ -221,7 +195,8 @@ class Transaction {
   std::vector<Entry> entries_;
   /// (device and inode of the directory, name) -> entry
   std::map<std::tuple<dev_t, ino_t, std::string>, std::size_t> by_target_;
-  std::vector<std::string> temporaries_, made_, plans_;
+  std::vector<std::string> temporaries_, made_, plans_, backups_;
+  DirectoryLocks locks_;
   int plan_ = -1;
   bool committed_ = false;
 };
@@ -244,10 +219,12 @@ Result<void> Transaction::prepare(const OutputFile& file) {
   Entry entry;
   entry.given = file.path;
   entry.bytes = file.bytes;
+  entry.read = file.read;
   // Before links are followed: those of /proc (/dev/stdout) lead to no path.
-  entry.special = stat(file.path.c_str(), &entry.old) == 0 && !S_ISREG(entry.old.st_mode) &&
-                  !S_ISDIR(entry.old.st_mode);
-  auto target = entry.special ? Result<std::string>(file.path) : follow_links(file.path);
+  entry.special = options_.follow_links && stat(file.path.c_str(), &entry.old) == 0 &&
+                  !S_ISREG(entry.old.st_mode) && !S_ISDIR(entry.old.st_mode);
+  auto target = entry.special || !options_.follow_links ? Result<std::string>(file.path)
+                                                        : follow_links(file.path);
   if (!target) return target.error();
   entry.target = std::move(*target);
   const std::string directory = directory_of(entry.target);
@@ -261,9 +238,11 @@ Result<void> Transaction::prepare(const OutputFile& file) {
     if (entries_[it->second].bytes == file.bytes) return {};
     return Error{Error::Code::config, "two different contents would be written to " + entry.target};
   }
-  if (stat(entry.target.c_str(), &entry.old) == 0) {
+  // A link that is not to be followed, or a pipe in its place, is replaced like no file at all.
+  if (lstat(entry.target.c_str(), &entry.old) == 0 &&
+      (entry.special || !S_ISLNK(entry.old.st_mode))) {
     if (S_ISDIR(entry.old.st_mode)) return io_error("cannot write", entry.given, EISDIR);
-    entry.exists = true;
+    entry.exists = entry.special || S_ISREG(entry.old.st_mode);
     // A rename would replace a protected file as well; who protects a deck means it.
     if (faccessat(AT_FDCWD, entry.target.c_str(), W_OK, AT_EACCESS) != 0)
       return io_error("cannot write", entry.given, errno);
@@ -306,33 +285,53 @@ Result<void> Transaction::write_new(Entry& entry) {
   return {};
 }
 
-/// The old file gets a second name; where the file system has no hard links, a copy.
-Result<void> Transaction::back_up(const Entry& entry) {
-  const std::string backup = entry.target + options_.backup_suffix;
+/// Copies the old file to a name that is free; false: it is not, or not any more.
+Result<bool> Transaction::copy_to(const Entry& entry, const std::string& backup) {
   std::error_code ec;
-  if (fs::is_directory(backup, ec)) return io_error("cannot write", backup, EISDIR);
-  auto name =
-      take_temporary(backup, [&](const char* path) { return link(entry.target.c_str(), path); });
-  if (!name) {
-    name = take_temporary(backup, [&](const char* path) {
-      if (fs::copy_file(entry.target, path, ec)) return 0;
-      errno = ec.value();
-      return -1;
-    });
-    if (!name) return io_error("cannot make the backup", backup, errno);
-    if (const int fd = options_.sync ? open(name->c_str(), O_RDONLY | O_CLOEXEC) : -1; fd >= 0) {
-      flush(fd);
-      close(fd);
-    }
-  }
+  const auto name = take_temporary(backup, [&](const char* path) {
+    if (fs::copy_file(entry.target, path, ec)) return 0;
+    errno = ec.value();
+    return -1;
+  });
+  if (!name) return io_error("cannot make the backup", backup, errno);
   temporaries_.push_back(*name);
-  if (std::rename(name->c_str(), backup.c_str()) != 0)
-    return io_error("cannot make the backup", backup, errno);
-  // Renaming one name of a file to another name of the same file does nothing: the first one would
-  // stay. It happens when a killed write is repeated.
-  unlink(name->c_str());
+  if (const int fd = options_.sync ? open(name->c_str(), O_RDONLY | O_CLOEXEC) : -1; fd >= 0) {
+    flush(fd);
+    close(fd);
+  }
+  struct stat status {};
+  if (lstat(backup.c_str(), &status) == 0) return false;
+  if (renameat2(AT_FDCWD, name->c_str(), AT_FDCWD, backup.c_str(), RENAME_NOREPLACE) != 0) {
+    if (errno == EEXIST) return false;
+    if (errno != EINVAL && errno != ENOSYS)
+      return io_error("cannot make the backup", backup, errno);
+    if (std::rename(name->c_str(), backup.c_str()) != 0)
+      return io_error("cannot make the backup", backup, errno);
+  }
   forget(*name);
-  return {};
+  return true;
+}
+
+/// The old file gets a second name; where the file system has no hard links, a copy. A backup that
+/// exists is never replaced: unless it has these very bytes, the next free number is taken.
+Result<void> Transaction::back_up(const Entry& entry) {
+  constexpr int most = 10000;
+  for (int number = 1; number < most; ++number) {
+    const std::string backup =
+        entry.target + options_.backup_suffix + (number == 1 ? "" : "." + std::to_string(number));
+    bool made = link(entry.target.c_str(), backup.c_str()) == 0;
+    if (!made && errno != EEXIST) {
+      const auto copied = copy_to(entry, backup);
+      if (!copied) return copied.error();
+      made = *copied;
+    }
+    if (made) {
+      backups_.push_back(backup);
+      return {};
+    }
+    if (same_contents(entry.target, backup)) return {};
+  }
+  return io_error("cannot make the backup", entry.target + options_.backup_suffix, EEXIST);
 }
 
 Result<void> Transaction::lay_plan() {
@@ -356,7 +355,7 @@ Result<void> Transaction::lay_plan() {
   const std::string text = plan_text(steps);
   const std::string& first = steps.front().target;
   const auto name = take_temporary(first, [&](const char* path) {
-    return plan_ = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    return plan_ = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, plan_mode);
   });
   if (!name) return io_error("cannot create a file beside", first, errno);
   temporaries_.push_back(*name);
@@ -377,7 +376,39 @@ Result<void> Transaction::lay_plan() {
   return {};
 }
 
+/// Puts the new file in place of one that was read, and looks at what was taken out: if that is not
+/// what was read, it is put back. False: this file system cannot exchange two names.
+Result<bool> Transaction::exchange(Entry& entry) {
+  const auto swap = [&] {
+    return renameat2(AT_FDCWD, entry.temporary.c_str(), AT_FDCWD, entry.target.c_str(),
+                     RENAME_EXCHANGE) == 0;
+  };
+  if (!swap()) {
+    if (errno == EINVAL || errno == ENOSYS || errno == ENOTSUP) return false;
+    if (errno == ENOENT) return changed_since(entry.given);
+    return io_error("cannot put in place", entry.given, errno);
+  }
+  const auto same = check_as_read(entry.temporary, *entry.read, entry.given);
+  if (same) {
+    entry.former = entry.temporary;  // still among the temporaries: it goes at the end
+    entry.placed = true;
+    return true;
+  }
+  if (!swap()) {
+    forget(entry.temporary);
+    return Error{Error::Code::config, entry.given + " was changed while it was replaced; what " +
+                                          "stood there is " + entry.temporary + " now"};
+  }
+  return same.error();
+}
+
 Result<void> Transaction::place(Entry& entry) {
+  if (entry.read) {
+    if (auto same = check_as_read(entry.target, *entry.read, entry.given); !same) return same;
+    const auto exchanged = exchange(entry);
+    if (!exchanged) return exchanged.error();
+    if (*exchanged) return {};
+  }
   if (entry.exists && entries_.size() > 1) {
     // To be able to go back. Without hard links that is not possible, and not needed for one file.
     const auto former = take_temporary(
@@ -397,10 +428,14 @@ Result<void> Transaction::place(Entry& entry) {
 void Transaction::roll_back() {
   for (auto e = entries_.rbegin(); e != entries_.rend(); ++e) {
     if (!e->placed) continue;
-    if (!e->exists)
+    if (!e->exists) {
       unlink(e->target.c_str());
-    else if (!e->former.empty() && std::rename(e->former.c_str(), e->target.c_str()) == 0)
-      forget(e->former);
+      continue;
+    }
+    if (e->former.empty()) continue;
+    // Where that fails the old file stays under its other name: it is the only one left.
+    (void)std::rename(e->former.c_str(), e->target.c_str());
+    forget(e->former);
   }
 }
 
@@ -413,6 +448,13 @@ Result<void> Transaction::commit() {
       directories.insert(directory_of(e.target));
     }
   for (const std::string& d : made_) directories.insert(directory_of(d));
+  std::set<std::string> rewritten;
+  for (const Entry& e : entries_)
+    if (e.read) rewritten.insert(directory_of(e.target));
+  if (auto locked = locks_.take(rewritten); !locked) return locked;
+  for (const Entry& e : entries_)
+    if (e.read)
+      if (auto same = check_as_read(e.target, *e.read, e.given); !same) return same;
   if (!options_.backup_suffix.empty())
     for (const Entry& e : entries_)
       if (e.exists && !e.special)
@@ -447,62 +489,6 @@ Result<void> write_file_atomic(const std::string& path, std::string_view bytes,
 
 Result<void> write_files_atomic(const std::vector<OutputFile>& files, const WriteOptions& options) {
   return write_set(files, options);
-}
-
-Result<std::size_t> finish_interrupted_write(const std::string& path) {
-  const auto target = follow_links(path);
-  if (!target) return std::size_t{0};
-  const std::string plan = plan_name(*target);
-  const int fd = open(plan.c_str(), O_RDWR | O_CLOEXEC);
-  if (fd < 0) return std::size_t{0};
-  struct Closer {
-    int fd;
-    ~Closer() { close(fd); }
-  } closer{fd};
-  if (!lock_file(fd)) return std::size_t{0};
-  std::string text;
-  char buffer[4096];
-  for (ssize_t n; (n = read(fd, buffer, sizeof buffer)) > 0;)
-    text.append(buffer, static_cast<std::size_t>(n));
-  const auto steps = parse_plan(text);
-  std::size_t pending = 0;
-  bool overtaken = !steps;
-  for (const Step& s : steps.value_or(std::vector<Step>{})) {
-    const StepState state = state_of(s);
-    pending += state == StepState::pending ? 1 : 0;
-    overtaken = overtaken || state == StepState::overtaken;
-  }
-  std::set<std::string> directories;
-  if (!overtaken) {
-    for (const Step& s : *steps) {
-      directories.insert(directory_of(s.target));
-      if (state_of(s) == StepState::pending &&
-          std::rename(s.temporary.c_str(), s.target.c_str()) != 0)
-        return io_error("cannot finish the interrupted rewriting of", s.target, errno);
-    }
-    for (const std::string& d : directories)
-      if (auto done = flush_directory(d); !done) return done.error();
-  }
-  for (const Step& s : steps.value_or(std::vector<Step>{})) {
-    unlink(s.temporary.c_str());
-    if (const std::string other = plan_name(s.target); other != plan) unlink(other.c_str());
-  }
-  unlink(plan.c_str());
-  return overtaken ? 0 : pending;
-}
-
-bool is_temporary_of(std::string_view name, std::string_view target) {
-  if (name.size() < 6 || name[0] != '.' || !name.ends_with(".tmp")) return false;
-  name.remove_prefix(1);
-  name.remove_suffix(4);
-  target = stem_of(target);
-  if (!name.starts_with(target) || name.substr(target.size(), 1) != ".") return false;
-  name.remove_prefix(target.size() + 1);
-  const auto dash = name.find('-');
-  const auto digits = [](std::string_view s) {
-    return !s.empty() && s.find_first_not_of("0123456789") == s.npos;
-  };
-  return dash != name.npos && digits(name.substr(0, dash)) && digits(name.substr(dash + 1));
 }
 
 }  // namespace deck

@@ -84,7 +84,8 @@ void attach_fix(const LintContext& context, Diagnostic& d) {
   } else if (d.rule == "DK030") {
     d.fix = remove_line(deck, d.span, false, "delete the line that is one too many");
   } else if (d.rule == "DK091") {
-    d.fix = remove_line(deck, d.span, true, "delete the unused suppression");
+    // Another deck may include the file and need it.
+    d.fix = remove_line(deck, d.span, d.span.file == 0, "delete the unused suppression");
   }
 }
 

@@ -149,40 +149,96 @@ Result<LintConfig> find_lint_config(const std::string& deck_path) {
   return LintConfig{};
 }
 
-Result<std::map<std::string, std::uint64_t>> parse_baseline(std::string_view text) {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (json.is_discarded() || !json.is_object() || json.value("schema", "") != "deck.baseline/1" ||
-      !json.contains("findings") || !json["findings"].is_object())
-    return Error{Error::Code::config,
-                 "not a baseline: expected JSON with \"schema\": \"deck.baseline/1\""};
-  std::map<std::string, std::uint64_t> out;
-  for (const auto& [print, entry] : json["findings"].items()) {
-    if (!entry.is_object() || !entry.contains("count") || !entry["count"].is_number_unsigned())
-      return Error{Error::Code::config, "baseline entry " + print + " has no count"};
-    out[print] = entry["count"].get<std::uint64_t>();
-  }
-  return out;
+const std::map<FindingKey, Baseline::Entry>* Baseline::find(const std::string& deck_path) const {
+  const auto found = decks.find(finding_file(deck_path));
+  return found == decks.end() ? nullptr : &found->second;
 }
 
-std::string write_baseline(const std::vector<const LintResult*>& results) {
-  struct Entry {
-    std::string rule, entity;
-    std::uint64_t count = 0;
+namespace {
+
+Error bad_baseline(const std::string& path, const std::string& why) {
+  return {Error::Code::config, path + ": " + why};
+}
+
+/// One entry of a deck; false: not of the form that write_baseline gives it.
+bool read_entry(const nlohmann::json& json, const fs::path& directory,
+                std::map<FindingKey, Baseline::Entry>& out) {
+  const auto text = [&](const char* key) -> const std::string* {
+    const auto it = json.find(key);
+    return it == json.end() ? nullptr : it->get_ptr<const std::string*>();
   };
-  std::map<std::string, Entry> entries;
-  for (const LintResult* r : results)
-    for (std::size_t i = 0; i < r->diagnostics.size(); ++i) {
-      const Diagnostic& d = r->diagnostics[i];
-      Entry& e = entries[r->fingerprints[i]];
+  if (!json.is_object()) return false;
+  const std::string *file = text("file"), *print = text("fingerprint"), *rule = text("rule"),
+                    *entity = text("entity");
+  const auto count = json.find("count");
+  if (file == nullptr || print == nullptr || rule == nullptr || count == json.end() ||
+      !count->is_number_unsigned() || count->get<std::uint64_t>() == 0)
+    return false;
+  Baseline::Entry& entry = out[{finding_file((directory / *file).string()), *print}];
+  entry.rule = *rule;
+  if (entity != nullptr) entry.entity = *entity;
+  entry.count += count->get<std::uint64_t>();
+  return true;
+}
+
+}  // namespace
+
+Result<Baseline> parse_baseline(std::string_view text, const std::string& path) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_object() && json.contains("schema") && json["schema"] == "deck.baseline/1")
+    return bad_baseline(path,
+                        "a baseline of an older version, which does not say which deck a finding "
+                        "is of; write it again with --write-baseline");
+  if (!json.is_object() || !json.contains("schema") || json["schema"] != "deck.baseline/2" ||
+      !json.contains("decks") || !json["decks"].is_object())
+    return bad_baseline(path,
+                        "not a baseline: expected JSON with \"schema\": \"deck.baseline/2\" and "
+                        "\"decks\"");
+  const fs::path directory = fs::path(path).parent_path();
+  Baseline baseline;
+  for (const auto& [deck, entries] : json["decks"].items()) {
+    auto& of_deck = baseline.decks[finding_file((directory / deck).string())];
+    if (!entries.is_array()) return bad_baseline(path, "the entry of " + deck + " is not a list");
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (!read_entry(entries[i], directory, of_deck))
+        return bad_baseline(path, "entry " + std::to_string(i + 1) + " of " + deck +
+                                      " needs file, fingerprint, rule, and a count above 0");
+  }
+  return baseline;
+}
+
+std::string write_baseline(const std::vector<BaselinedDeck>& decks, const std::string& path) {
+  const fs::path directory = fs::path(finding_file(path)).parent_path();
+  const auto relative = [&](const std::string& file) {
+    return fs::path(finding_file(file)).lexically_relative(directory).generic_string();
+  };
+  std::map<std::string, std::map<FindingKey, Baseline::Entry>> all;
+  for (const BaselinedDeck& b : decks) {
+    // A deck given twice has its findings once.
+    std::map<FindingKey, Baseline::Entry> entries;
+    for (std::size_t i = 0; i < b.result->diagnostics.size(); ++i) {
+      const Diagnostic& d = b.result->diagnostics[i];
+      const std::uint32_t file = d.span.valid() ? d.span.file : 0;
+      Baseline::Entry& e =
+          entries[{relative(b.deck->sources[file].path()), b.result->fingerprints[i]}];
       e.rule = d.rule;
       e.entity = d.keyword.empty() ? std::string() : d.keyword + "/" + std::to_string(d.id);
       ++e.count;
     }
+    all[relative(b.path)] = std::move(entries);
+  }
   nlohmann::ordered_json json;
-  json["schema"] = "deck.baseline/1";
-  json["findings"] = nlohmann::ordered_json::object();
-  for (const auto& [print, e] : entries)
-    json["findings"][print] = {{"rule", e.rule}, {"entity", e.entity}, {"count", e.count}};
+  json["schema"] = "deck.baseline/2";
+  json["decks"] = nlohmann::ordered_json::object();
+  for (const auto& [deck, entries] : all) {
+    auto& list = json["decks"][deck] = nlohmann::ordered_json::array();
+    for (const auto& [key, e] : entries)
+      list.push_back({{"file", key.first},
+                      {"fingerprint", key.second},
+                      {"rule", e.rule},
+                      {"entity", e.entity},
+                      {"count", e.count}});
+  }
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

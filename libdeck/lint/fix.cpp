@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <tuple>
 
 namespace deck {
 namespace {
@@ -18,16 +20,77 @@ bool overlaps(const FileEdits& taken, const TextEdit& e) {
   return before->span.offset + before->span.length > begin;
 }
 
+/// A file as it is on disk; from memory: the deck and the path.
+using Identity = std::tuple<std::uint64_t, std::uint64_t, std::size_t, std::string_view>;
+
+Identity identity_of(const Source& source, std::size_t deck) {
+  if (source.inode() != 0) return {source.device(), source.inode(), 0, {}};
+  return {0, 0, deck, source.path()};
+}
+
+bool counts(const Diagnostic& d, bool unsafe) {
+  return d.fix && (d.fix->safe || unsafe) && !d.fix->edits.empty() &&
+         std::all_of(d.fix->edits.begin(), d.fix->edits.end(),
+                     [](const TextEdit& e) { return e.span.valid(); });
+}
+
+/// One file in one place of the include tree of one deck.
+struct Instance {
+  std::size_t deck = 0;
+  std::uint32_t file = 0;
+  std::set<std::tuple<std::uint64_t, std::uint32_t, std::string_view>> wanted = {};
+};
+
 }  // namespace
+
+AgreedFixes agree_on_fixes(const std::vector<FixedDeck>& decks, bool unsafe) {
+  std::map<Identity, std::vector<Instance>> instances;
+  for (std::size_t d = 0; d < decks.size(); ++d) {
+    const SourceSet& sources = *decks[d].sources;
+    std::map<std::uint32_t, Instance*> by_file;
+    for (std::uint32_t f = 0; f < sources.size(); ++f)
+      instances[identity_of(sources[f], d)].push_back({d, f});
+    for (auto& [identity, list] : instances)
+      for (Instance& i : list)
+        if (i.deck == d) by_file[i.file] = &i;
+    for (const Diagnostic& diagnostic : *decks[d].diagnostics)
+      if (counts(diagnostic, unsafe))
+        for (const TextEdit& e : diagnostic.fix->edits)
+          by_file.at(e.span.file)->wanted.emplace(e.span.offset, e.span.length, e.text);
+  }
+  AgreedFixes out;
+  out.wanted.resize(decks.size());
+  for (std::size_t d = 0; d < decks.size(); ++d) {
+    for (const Diagnostic& diagnostic : *decks[d].diagnostics) {
+      if (!counts(diagnostic, unsafe)) continue;
+      const Instance* against = nullptr;
+      for (const TextEdit& e : diagnostic.fix->edits)
+        for (const Instance& i : instances.at(identity_of((*decks[d].sources)[e.span.file], d)))
+          if (!i.wanted.contains({e.span.offset, e.span.length, e.text})) against = &i;
+      if (against == nullptr)
+        out.wanted[d].push_back(&*diagnostic.fix);
+      else
+        out.withheld.push_back({d, against->deck, &diagnostic});
+    }
+  }
+  return out;
+}
 
 FixResult apply_fixes(const SourceSet& sources, const std::vector<Diagnostic>& diagnostics,
                       bool unsafe) {
+  std::vector<const Fix*> wanted;
+  for (const Diagnostic& d : diagnostics)
+    if (d.fix && (d.fix->safe || unsafe)) wanted.push_back(&*d.fix);
+  return apply_fixes(sources, wanted);
+}
+
+FixResult apply_fixes(const SourceSet& sources, const std::vector<const Fix*>& all) {
   FixResult result;
   std::map<std::uint32_t, FileEdits> edits;
   std::map<std::uint32_t, std::size_t> fixes;
-  for (const Diagnostic& d : diagnostics) {
-    if (!d.fix || (!d.fix->safe && !unsafe) || d.fix->edits.empty()) continue;
-    const auto& wanted = d.fix->edits;
+  for (const Fix* fix : all) {
+    if (fix->edits.empty()) continue;
+    const auto& wanted = fix->edits;
     const bool free = std::none_of(wanted.begin(), wanted.end(), [&](const TextEdit& e) {
       return !e.span.valid() || overlaps(edits[e.span.file], e);
     });

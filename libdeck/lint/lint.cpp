@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 #include <tuple>
 
@@ -242,6 +243,12 @@ Diagnostic* Reporter::report(const Rule& rule, const Block& block, Span span, st
   return d;
 }
 
+std::string finding_file(const std::string& path) {
+  std::error_code ec;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, ec);
+  return (ec ? std::filesystem::path(path) : absolute).lexically_normal().string();
+}
+
 std::string fingerprint(const Deck& deck, const Diagnostic& d) {
   std::uint64_t hash = fnv1a(0xcbf29ce484222325ULL, d.rule);
   hash = fnv1a(hash, "|" + d.keyword + "|" + std::to_string(d.id) + "|");
@@ -298,11 +305,15 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
   pool.take(late, options);
   pool.sort_and_unite();
 
-  std::map<std::string, std::uint64_t> known = options.baseline;
+  std::map<FindingKey, std::uint64_t> known = options.baseline;
+  std::map<std::uint32_t, std::string> file_names;
   for (Diagnostic& d : pool.kept) {
     std::string print = fingerprint(deck, d);
-    if (const auto it = known.find(print); it != known.end() && it->second > 0) {
-      --it->second;
+    const std::uint32_t file = d.span.valid() ? d.span.file : 0;
+    std::string& name = file_names[file];
+    if (name.empty() && !known.empty()) name = finding_file(deck.sources[file].path());
+    if (const auto it = known.find({name, print}); it != known.end()) {
+      if (--it->second == 0) known.erase(it);
       ++result.baselined;
       continue;
     }
@@ -316,6 +327,7 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
     result.diagnostics.push_back(std::move(d));
     result.fingerprints.push_back(std::move(print));
   }
+  result.stale = std::move(known);
   // Findings beyond the bound were counted but not kept; they weigh as the rule's kept ones do.
   for (const auto& [rule, count] : pool.dropped) {
     const auto kept = std::find_if(result.diagnostics.begin(), result.diagnostics.end(),

@@ -359,7 +359,9 @@ void add_linter_rules(std::vector<Rule>& out) {
                  .why = "It hides the next mistake of that kind.",
                  .solver = "nothing, the line is a comment",
                  .fix = "delete the comment",
-                 .ignore = "Never.",
+                 .ignore = "In an included file that another deck needs it for: --fix leaves "
+                           "included files alone, and --unsafe-fixes deletes a suppression only if "
+                           "no deck of the call needs it.",
                  .fixable = Fixable::safe,
                  .bad = "# decklint: ignore[DK223] reason=known\n@/INTER/TYPE7/1 Stfac=1.0\n",
                  .good = "# decklint: ignore[DK223] reason=known\n@/INTER/TYPE7/1 Stfac=-1.0\n"});

@@ -108,6 +108,41 @@ TEST_F(AtomicWriting, OtherNamesOfAHardLinkKeepTheOldBytes) {
   EXPECT_EQ(get("b.rad"), "old");
 }
 
+TEST_F(AtomicWriting, ABackupIsNeverReplacedAndTheNextOneGetsANumber) {
+  WriteOptions options;
+  options.backup_suffix = ".orig";
+  for (const char* text : {"first", "second", "third"}) {
+    ASSERT_TRUE(write_file_atomic(at("a.rad"), text, options));
+  }
+  EXPECT_EQ(get("a.rad"), "third");
+  EXPECT_EQ(get("a.rad.orig"), "first");
+  EXPECT_EQ(get("a.rad.orig.2"), "second");
+  EXPECT_EQ(entries(), 3u);
+}
+
+TEST_F(AtomicWriting, ABackupWithTheSameBytesIsEnough) {
+  put("a.rad", "old");
+  put("a.rad.orig", "old");
+  WriteOptions options;
+  options.backup_suffix = ".orig";
+  ASSERT_TRUE(write_file_atomic(at("a.rad"), "new", options));
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(AtomicWriting, WithoutFollowingLinksTheLinkIsReplaced) {
+  put("precious", "old");
+  fs::create_symlink("precious", dir_ / "result.json");
+  ASSERT_EQ(mkfifo(at("pipe.json").c_str(), 0600), 0);
+  WriteOptions options;
+  options.follow_links = false;
+  ASSERT_TRUE(write_file_atomic(at("result.json"), "new", options));
+  ASSERT_TRUE(write_file_atomic(at("pipe.json"), "new", options));
+  EXPECT_EQ(get("precious"), "old");
+  EXPECT_EQ(get("result.json"), "new");
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(dir_ / "result.json")));
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(dir_ / "pipe.json")));
+}
+
 TEST_F(AtomicWriting, BackupHasTheOldBytesAndOnlyReplacedFilesHaveOne) {
   put("a.rad", "old");
   WriteOptions options;
@@ -116,9 +151,69 @@ TEST_F(AtomicWriting, BackupHasTheOldBytesAndOnlyReplacedFilesHaveOne) {
   EXPECT_EQ(get("a.rad"), "new");
   EXPECT_EQ(get("a.rad.orig"), "old");
   EXPECT_EQ(entries(), 3u);
-  ASSERT_TRUE(write_file_atomic(at("a.rad"), "newer", options));
-  EXPECT_EQ(get("a.rad.orig"), "new");
-  EXPECT_EQ(entries(), 3u);
+}
+
+/// What a file was when it was read.
+FileRead read_now(const std::string& path, std::string_view bytes) {
+  struct stat status {};
+  EXPECT_EQ(stat(path.c_str(), &status), 0);
+  return {status.st_dev, status.st_ino, bytes};
+}
+
+TEST_F(AtomicWriting, AFileIsReplacedIfItIsWhatWasRead) {
+  put("a.rad", "old");
+  put("b.inc", "old b");
+  ASSERT_TRUE(write_files_atomic({{at("a.rad"), "new", read_now(at("a.rad"), "old")},
+                                  {at("b.inc"), "new b", read_now(at("b.inc"), "old b")}}));
+  EXPECT_EQ(get("a.rad"), "new");
+  EXPECT_EQ(get("b.inc"), "new b");
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(AtomicWriting, AnEditSavedIntoTheFileSinceItWasReadIsKept) {
+  put("a.rad", "old");
+  put("b.inc", "old b");
+  const FileRead a = read_now(at("a.rad"), "old"), b = read_now(at("b.inc"), "old b");
+  put("b.inc", "EDITED");  // the same file with other bytes, as many editors save
+  const auto done = write_files_atomic({{at("a.rad"), "new", a}, {at("b.inc"), "new b", b}});
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("b.inc was changed"), std::string::npos);
+  EXPECT_EQ(get("a.rad"), "old");
+  EXPECT_EQ(get("b.inc"), "EDITED");
+  EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(AtomicWriting, AFilePutInItsPlaceSinceItWasReadIsKept) {
+  put("a.rad", "old");
+  const FileRead a = read_now(at("a.rad"), "old");
+  put("saved", "old");  // even with the same bytes: somebody means another file
+  fs::rename(at("saved"), at("a.rad"));
+  EXPECT_FALSE(write_files_atomic({{at("a.rad"), "new", a}}));
+  EXPECT_EQ(get("a.rad"), "old");
+  fs::remove(at("a.rad"));
+  EXPECT_FALSE(write_files_atomic({{at("a.rad"), "new", a}}));
+  EXPECT_EQ(entries(), 0u) << "what was deleted does not come back";
+}
+
+TEST_F(AtomicWriting, OfManyWhoReadTheSameFileOneReplacesIt) {
+  put("a.rad", "0");
+  // Every thread adds one to what it reads, as long as it takes: no addition may be lost.
+  constexpr int each = 40;
+  const auto count = [&] {
+    for (int done = 0; done < each;) {
+      const std::string text = get("a.rad");
+      const auto written = write_files_atomic(
+          {{at("a.rad"), std::to_string(std::stoi(text) + 1), read_now(at("a.rad"), text)}},
+          {"", true, true, false});
+      done += written.ok() ? 1 : 0;
+    }
+  };
+  std::thread one(count), two(count), three(count);
+  one.join();
+  two.join();
+  three.join();
+  EXPECT_EQ(get("a.rad"), std::to_string(3 * each));
+  EXPECT_EQ(entries(), 1u);
 }
 
 TEST_F(AtomicWriting, BackupThatIsAnotherNameOfTheFileLeavesNothingBehind) {
@@ -231,25 +326,100 @@ class InterruptedSet : public AtomicWriting {
          << at(".b.inc.1-0.tmp") << '\t' << at("b.inc") << '\t' << fresh.st_ino << '\t' << b.st_ino
          << '\t' << b.st_mtim.tv_sec << '\t' << b.st_mtim.tv_nsec << '\t' << b.st_size << "\nend\n";
     plan.close();
+    fs::permissions(at(".a.rad.unfinished"), fs::perms::owner_read | fs::perms::owner_write);
     fs::create_hard_link(at(".a.rad.unfinished"), at(".b.inc.unfinished"));
+  }
+  Result<FinishedWrite> finish(const std::string& name) const {
+    return finish_interrupted_write(at(name), {at("a.rad"), at("b.inc")});
+  }
+  /// A note beside a.rad that moves one file to another, as an attacker would plant it.
+  void plant(const std::string& from, const std::string& to) const {
+    struct stat status {};
+    EXPECT_EQ(stat(from.c_str(), &status), 0);
+    fs::remove(at(".a.rad.unfinished"));
+    put(".a.rad.unfinished", "deck unfinished 1\n" + from + "\t" + to + "\t" +
+                                 std::to_string(status.st_ino) + "\t0\t0\t0\t0\nend\n");
+    fs::permissions(at(".a.rad.unfinished"), fs::perms::owner_read | fs::perms::owner_write);
+  }
+  /// The note is not obeyed and stays where it is.
+  void expect_left_alone(const std::string& why) const {
+    const std::size_t before = entries();
+    const auto finished = finish("a.rad");
+    ASSERT_TRUE(finished) << finished.error().message;
+    EXPECT_EQ(finished->files, 0u);
+    EXPECT_NE(finished->refused.find(why), std::string::npos) << finished->refused;
+    EXPECT_EQ(entries(), before);
+    EXPECT_EQ(get("b.inc"), "old b");
   }
 };
 
+TEST_F(InterruptedSet, IsOnlyLookedAtByWhoReads) {
+  EXPECT_EQ(unfinished_note(at("a.rad")), at(".a.rad.unfinished"));
+  EXPECT_EQ(unfinished_note(at("c.rad")), std::nullopt);
+  EXPECT_EQ(get("b.inc"), "old b");
+  EXPECT_EQ(entries(), 5u);
+}
+
+TEST_F(InterruptedSet, IsNotFinishedWithoutTheDecksOfAllItsFiles) {
+  const auto finished = finish_interrupted_write(at("a.rad"), {at("a.rad")});
+  ASSERT_TRUE(finished);
+  EXPECT_EQ(finished->files, 0u);
+  EXPECT_NE(finished->refused.find("b.inc, which is no file of the decks"), std::string::npos);
+  EXPECT_EQ(get("b.inc"), "old b");
+  EXPECT_EQ(entries(), 5u);
+}
+
+TEST_F(InterruptedSet, ANoteWithTheModeOfACheckoutIsNotBelieved) {
+  fs::permissions(at(".a.rad.unfinished"), fs::perms(0644));
+  expect_left_alone("mode");
+  EXPECT_EQ(unfinished_note(at("a.rad")), std::nullopt);
+}
+
+TEST_F(InterruptedSet, ANoteThatLeadsOutOfTheDeckIsNotObeyed) {
+  fs::create_directories(dir_ / "home");
+  put("home/thesis.txt", "precious");
+  plant(at("home/thesis.txt"), at("x"));
+  expect_left_alone("no file of the decks");
+  plant(at("home/thesis.txt"), at("b.inc"));
+  expect_left_alone("another directory");
+  put("payload", "content of an attacker");
+  plant(at("payload"), at("b.inc"));
+  expect_left_alone("not a name that such files have");
+  fs::create_symlink(at("home/thesis.txt"), at(".b.inc.7-7.tmp"));
+  plant(at(".b.inc.7-7.tmp"), at("b.inc"));
+  expect_left_alone("not a file of yours");
+  EXPECT_EQ(get("home/thesis.txt"), "precious");
+}
+
+TEST_F(InterruptedSet, ANoteThatIsNoFileIsNotOpened) {
+  fs::remove(at(".a.rad.unfinished"));
+  ASSERT_EQ(mkfifo(at(".a.rad.unfinished").c_str(), 0600), 0);
+  expect_left_alone("regular file");
+  fs::remove(at(".a.rad.unfinished"));
+  fs::create_symlink("/dev/zero", at(".a.rad.unfinished"));
+  expect_left_alone("regular file");
+}
+
+TEST_F(InterruptedSet, ANoteThatIsTooLongIsNotRead) {
+  fs::resize_file(at(".a.rad.unfinished"), std::uintmax_t{1} << 40);
+  expect_left_alone("too long");
+}
+
 TEST_F(InterruptedSet, IsFinishedFromAnyOfItsFiles) {
-  const auto finished = finish_interrupted_write(at("b.inc"));
+  const auto finished = finish("b.inc");
   ASSERT_TRUE(finished) << finished.error().message;
-  EXPECT_EQ(*finished, 1u);
+  EXPECT_EQ(finished->files, 1u);
   EXPECT_EQ(get("a.rad"), "new a");
   EXPECT_EQ(get("b.inc"), "new b");
   EXPECT_EQ(entries(), 2u);
-  EXPECT_EQ(*finish_interrupted_write(at("a.rad")), 0u);
+  EXPECT_EQ(finish("a.rad")->files, 0u);
 }
 
 TEST_F(InterruptedSet, IsDroppedWhereAFileWasChangedSince) {
   put("b.inc", "restored by hand");
-  const auto finished = finish_interrupted_write(at("a.rad"));
+  const auto finished = finish("a.rad");
   ASSERT_TRUE(finished) << finished.error().message;
-  EXPECT_EQ(*finished, 0u);
+  EXPECT_EQ(finished->files, 0u);
   EXPECT_EQ(get("b.inc"), "restored by hand");
   EXPECT_EQ(entries(), 2u);
 }
@@ -257,7 +427,7 @@ TEST_F(InterruptedSet, IsDroppedWhereAFileWasChangedSince) {
 TEST_F(InterruptedSet, IsDroppedWhereAFinishedFileWasReplacedSince) {
   fs::rename(at("a.rad"), at("moved away"));
   put("a.rad", "old a, restored");
-  EXPECT_EQ(*finish_interrupted_write(at("b.inc")), 0u);
+  EXPECT_EQ(finish("b.inc")->files, 0u);
   EXPECT_EQ(get("b.inc"), "old b");
   EXPECT_EQ(get("a.rad"), "old a, restored");
 }
@@ -278,18 +448,17 @@ TEST_F(InterruptedSet, IsLeftToAWriterThatLives) {
   char c = 0;
   ASSERT_EQ(read(ready[0], &c, 1), 1);
   ASSERT_EQ(c, 'y');
-  EXPECT_EQ(*finish_interrupted_write(at("b.inc")), 0u);
+  EXPECT_EQ(finish("b.inc")->files, 0u);
   EXPECT_EQ(get("b.inc"), "old b");
   close(leave[1]);
   waitpid(writer, nullptr, 0);
-  EXPECT_EQ(*finish_interrupted_write(at("b.inc")), 1u);
+  EXPECT_EQ(finish("b.inc")->files, 1u);
   EXPECT_EQ(get("b.inc"), "new b");
 }
 
-TEST_F(InterruptedSet, IsForgottenWhenTheNoteIsNoNote) {
+TEST_F(InterruptedSet, ANoteThatIsNoNoteIsLeftAlone) {
   put(".a.rad.unfinished", "something else\n");
-  EXPECT_EQ(*finish_interrupted_write(at("a.rad")), 0u);
-  EXPECT_EQ(get("b.inc"), "old b");
+  expect_left_alone("not a whole note");
 }
 
 TEST_F(AtomicWriting, FinishedSetLeavesNoNote) {

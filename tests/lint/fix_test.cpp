@@ -119,8 +119,7 @@ Diagnostic with_edit(Span span, std::string text, bool safe = true) {
 }
 
 TEST(ApplyFixes, ComeToAnEndOnEverySample) {
-  for (const auto& entry :
-       std::filesystem::directory_iterator(test::source_dir() / "samples")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "samples")) {
     if (!entry.path().string().ends_with("_0000.rad")) continue;
     std::ifstream in(entry.path(), std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -154,6 +153,55 @@ TEST(ApplyFixes, LeavesUnsafeOnesUnlessAsked) {
   const std::vector<Diagnostic> all = {with_edit({0, 1, 2}, "A", false)};
   EXPECT_TRUE(apply_fixes(sources, all, false).files.empty());
   EXPECT_EQ(apply_fixes(sources, all, true).files[0].text, "01A3456789");
+}
+
+/// Two decks in a folder, and what they agree to fix.
+class FixedTogether : public testing::Test {
+ protected:
+  static constexpr const char* suppressed_ =
+      "# decklint: ignore[DK223] reason=known\n/INTER/TYPE7/1\nx\n         1         1\n\n\n\n\n";
+  static std::string main_deck(const std::string& more) {
+    return "#RADIOSS STARTER\n/BEGIN\nx\n      2022         0\n" + more + "/END\n";
+  }
+  AgreedFixes agree(const std::vector<const Linted*>& decks, bool unsafe) const {
+    std::vector<FixedDeck> list;
+    for (const Linted* d : decks) list.push_back({&d->deck->sources, &d->result.diagnostics});
+    return agree_on_fixes(list, unsafe);
+  }
+  Linted lint(const std::string& path) const {
+    LintOptions only;
+    only.select = {"DK091", "DK223"};
+    return lint_file(path, only);
+  }
+  Folder folder_;
+};
+
+TEST_F(FixedTogether, ASuppressionInAnIncludeIsNoSafeFix) {
+  folder_.write("inter.inc", suppressed_);
+  const Linted a = lint(folder_.write("a_0000.rad", main_deck("#include inter.inc\n")));
+  ASSERT_TRUE(a.fires("DK091"));
+  EXPECT_TRUE(agree({&a}, false).wanted[0].empty());
+  EXPECT_EQ(agree({&a}, true).wanted[0].size(), 1u);
+  const Linted b = lint(folder_.write("b_0000.rad", main_deck(suppressed_)));
+  EXPECT_EQ(agree({&b}, false).wanted[0].size(), 1u) << "in the main file it is one";
+}
+
+TEST_F(FixedTogether, ASharedFileIsFixedOnlyAsAllDecksWantIt) {
+  folder_.write("common/inter.inc", suppressed_);
+  const Linted a = lint(folder_.write("a/a_0000.rad", main_deck("#include ../common/inter.inc\n")));
+  const Linted b = lint(folder_.write("b/b_0000.rad", main_deck("#include ../common/inter.inc\n")));
+  const AgreedFixes both = agree({&a, &b}, true);
+  EXPECT_EQ(both.wanted[0].size(), 1u);
+  EXPECT_EQ(both.wanted[1].size(), 1u);
+  // The third deck includes the file by another name and needs what the others do not.
+  std::filesystem::create_symlink("inter.inc", folder_.path() + "/common/link.inc");
+  Linted c = lint(folder_.write("c/c_0000.rad", main_deck("#include ../common/link.inc\n")));
+  c.result.diagnostics.clear();
+  const AgreedFixes three = agree({&a, &b, &c}, true);
+  EXPECT_TRUE(three.wanted[0].empty());
+  EXPECT_TRUE(three.wanted[1].empty());
+  ASSERT_EQ(three.withheld.size(), 2u);
+  EXPECT_EQ(three.withheld[0].other, 2u);
 }
 
 TEST(UnifiedDiff, IsEmptyForEqualTexts) { EXPECT_EQ(unified_diff("x", "a\nb\n", "a\nb\n"), ""); }

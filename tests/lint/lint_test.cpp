@@ -86,27 +86,90 @@ TEST(Selection, PerFileIgnoresFollowTheGlob) {
   EXPECT_TRUE(lint_example(negative, options).fires("DK223"));
 }
 
-TEST(Baseline, HidesAsManyFindingsAsItCounts) {
-  const Linted first = lint_example(negative);
-  const std::string file = write_baseline({&first.result});
-  auto parsed = parse_baseline(file);
-  ASSERT_TRUE(parsed);
-  LintOptions options;
-  options.baseline = *parsed;
-  const Linted again = lint_example(negative, options);
+/// A deck whose only finding is a negative Stfac, in a folder of its own.
+class Baselines : public testing::Test {
+ protected:
+  std::string deck(const std::string& name, std::string_view example) const {
+    return folder_.write(name, example_deck(example, SchemaSet::built_in()).main);
+  }
+  Linted lint(const std::string& path, const std::string& baseline = {}) const {
+    LintOptions options;
+    options.select = {"DK223"};
+    if (!baseline.empty()) {
+      const auto parsed = parse_baseline(baseline, file_);
+      EXPECT_TRUE(parsed) << parsed.error().message;
+      if (const auto* entries = parsed->find(path))
+        for (const auto& [key, entry] : *entries) options.baseline.emplace(key, entry.count);
+    }
+    return lint_file(path, options);
+  }
+  std::string baseline_of(const std::vector<std::string>& paths) const {
+    std::vector<Linted> linted;
+    std::vector<BaselinedDeck> decks;
+    for (const std::string& path : paths) linted.push_back(lint(path));
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      decks.push_back({paths[i], linted[i].deck.get(), &linted[i].result});
+    return write_baseline(decks, file_);
+  }
+  Folder folder_;
+  std::string file_ = folder_.path() + "/settings/baseline.json";
+};
+
+TEST_F(Baselines, HideTheFindingsOfTheirDeckWhereverTheCardMoves) {
+  const std::string path = deck("old_0000.rad", negative);
+  const std::string baseline = baseline_of({path});
+  EXPECT_NE(baseline.find("../old_0000.rad"), std::string::npos) << baseline;
+  EXPECT_EQ(baseline.find(folder_.path()), std::string::npos) << "paths are relative";
+  const Linted again = lint(path, baseline);
   EXPECT_TRUE(again.result.diagnostics.empty()) << again.list();
-  EXPECT_EQ(again.result.baselined, first.result.diagnostics.size());
+  EXPECT_EQ(again.result.baselined, 1u);
+  EXPECT_TRUE(again.result.stale.empty());
   // Lines above move the card, but not its fingerprint; a changed value is a new finding.
-  EXPECT_FALSE(
-      lint_example(std::string("# a comment\n/TITLE\nx\n") + negative, options).fires("DK223"));
-  EXPECT_TRUE(lint_example("@/INTER/TYPE7/1 Stfac=-2.0\n", options).fires("DK223"));
+  deck("old_0000.rad", std::string("# a comment\n/TITLE\nx\n") + negative);
+  EXPECT_FALSE(lint(path, baseline).fires("DK223"));
+  deck("old_0000.rad", "@/INTER/TYPE7/1 Stfac=-2.0\n");
+  EXPECT_TRUE(lint(path, baseline).fires("DK223"));
 }
 
-TEST(Baseline, RefusesWhatIsNoBaseline) {
-  EXPECT_FALSE(parse_baseline("{}"));
-  EXPECT_FALSE(parse_baseline("not json"));
-  EXPECT_FALSE(parse_baseline(R"({"schema":"deck.baseline/1","findings":{"a":{"count":-1}}})"));
-  EXPECT_TRUE(parse_baseline(R"({"schema":"deck.baseline/1","findings":{}})"));
+TEST_F(Baselines, HideNothingInADeckThatWasNeverInThem) {
+  const std::string baseline = baseline_of({deck("old_0000.rad", negative)});
+  EXPECT_TRUE(lint(deck("new_0000.rad", negative), baseline).fires("DK223"));
+}
+
+TEST_F(Baselines, CountPerDeck) {
+  const std::string a = deck("a_0000.rad", negative), b = deck("b_0000.rad", negative);
+  const std::string baseline = baseline_of({a, b});
+  EXPECT_FALSE(lint(a, baseline).fires("DK223"));
+  EXPECT_FALSE(lint(b, baseline).fires("DK223"));
+  // The same card once more: one finding more than this deck may have.
+  deck("a_0000.rad", std::string(negative) + negative);
+  EXPECT_EQ(lint(a, baseline).count("DK223"), 1u);
+}
+
+TEST_F(Baselines, ListWhatDoesNotOccurAnyMore) {
+  const std::string path = deck("old_0000.rad", negative);
+  const std::string baseline = baseline_of({path});
+  deck("old_0000.rad", "@/INTER/TYPE7/1 Stfac=1.0\n");
+  const Linted run = lint(path, baseline);
+  ASSERT_EQ(run.result.stale.size(), 1u);
+  EXPECT_EQ(run.result.stale.begin()->first.first, path);
+  EXPECT_EQ(run.result.stale.begin()->second, 1u);
+}
+
+TEST_F(Baselines, AreRefusedWhereTheyAreNone) {
+  const auto refused = [](std::string_view text) {
+    const auto parsed = parse_baseline(text, "b.json");
+    return parsed ? std::string() : parsed.error().message;
+  };
+  EXPECT_NE(refused("{}"), "");
+  EXPECT_NE(refused("not json"), "");
+  EXPECT_NE(refused(R"({"schema":5,"decks":{}})"), "");
+  EXPECT_NE(refused(R"({"schema":"deck.baseline/1","findings":{}})").find("older version"),
+            std::string::npos);
+  EXPECT_NE(
+      refused(R"({"schema":"deck.baseline/2","decks":{"a":[{"count":-1}]}})").find("entry 1 of a"),
+      std::string::npos);
+  EXPECT_EQ(refused(R"({"schema":"deck.baseline/2","decks":{}})"), "");
 }
 
 TEST(Order, FollowsFileLineColumnRule) {

@@ -112,6 +112,12 @@ TEST_F(ConvertTwoFiles, ARefusalNamesThePlaceAndWritesNothing) {
   EXPECT_NE(err().find("sub/a.inc:1"), std::string::npos) << err();
   EXPECT_NE(err().find("--partial"), std::string::npos);
   EXPECT_FALSE(fs::exists(dir_ / "x"));
+  const auto refused = nlohmann::json::parse(read(dir_ / "losses.json"));
+  ASSERT_EQ(refused["undecided"].size(), 1u);
+  EXPECT_EQ(refused["undecided"][0]["file"], "sub/a.inc");
+  EXPECT_EQ(refused["undecided"][0]["line"], 1);
+  EXPECT_EQ(refused["undecided"][0]["keyword"], "/UNKNOWN/KEYWORD");
+  EXPECT_EQ(refused["undecided"][0]["id"], 1);
   EXPECT_EQ(deck("convert m_0000.rad --units kg,m,s -o x --partial --report losses.json"), 0);
   const auto report = nlohmann::json::parse(read(dir_ / "losses.json"));
   ASSERT_EQ(report["undecided"].size(), 1u);

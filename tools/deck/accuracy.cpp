@@ -80,6 +80,9 @@ int show(const Options& o, const AccuracyReport& report, const AccuracyContext& 
 }
 
 int run(const Options& o) {
+  if (const int bad = check_outputs(o.common, {o.common.json, o.csv, o.svg, o.html});
+      bad != exit_clean)
+    return bad;
   JsonOutput json(o.common, "deck/accuracy", 1);
   AccuracyOptions accuracy;
   accuracy.repeats = o.repeats;

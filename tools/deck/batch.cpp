@@ -64,6 +64,7 @@ int run(const BatchOptions& o) {
     print_error(o.common, message);
     return exit_usage;
   };
+  if (const int bad = check_outputs(o.common, {o.common.json}); bad != exit_clean) return bad;
   if (o.merge) {
     if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
       return usage("--merge takes no decks: it puts together the summaries that are in DIR");
@@ -72,7 +73,7 @@ int run(const BatchOptions& o) {
     const auto merged = merge_summaries(*parts);
     if (!merged) return usage(merged.error().message);
     if (auto written =
-            write_file_atomic(o.directory + "/" + summary_name({}), summary_json(*merged));
+            write_result(o.directory + "/" + summary_name({}), summary_json(*merged), true);
         !written)
       return usage(written.error().message);
     return report_batch(o, *merged, 0);

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "deck/edit/write.hpp"
+#include "batch_run.hpp"
 #include "deck/text/number.hpp"
 
 namespace deck::cli {
@@ -28,6 +28,8 @@ std::optional<std::size_t> number_in(const char* variable) {
 }
 
 std::string file_text(const std::string& path) {
+  std::error_code ec;
+  if (fs::symlink_status(path, ec).type() != fs::file_type::regular) return {};
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -58,9 +60,8 @@ std::string Ranks::life_file(std::size_t rank) const {
 
 Result<void> Ranks::open(const std::string& directory) {
   place_ = directory + "/job-" + job_;
+  if (auto made = make_own_directory(place_); !made) return made;
   std::error_code ec;
-  fs::create_directories(place_, ec);
-  if (ec) return Error{Error::Code::io, "cannot make " + place_ + ": " + ec.message()};
   fs::remove(part_file(rank_), ec);
   last_beat_ = {};
   beat();
@@ -71,14 +72,12 @@ void Ranks::beat() {
   const auto now = std::chrono::steady_clock::now();
   if (single() || (beats_ > 0 && now - last_beat_ < std::chrono::seconds(5))) return;
   last_beat_ = now;
-  WriteOptions quick;
-  quick.sync = false;
   // A beat that cannot be written is one beat less.
-  (void)write_file_atomic(life_file(rank_), std::to_string(++beats_), quick);
+  (void)write_result(life_file(rank_), std::to_string(++beats_), false);
 }
 
 Result<void> Ranks::deliver(const Summary& part) {
-  return write_file_atomic(part_file(rank_), summary_json(part));
+  return write_result(part_file(rank_), summary_json(part), true);
 }
 
 Result<Summary> Ranks::collect(Summary own, std::chrono::seconds patience) {

@@ -142,12 +142,27 @@ std::string Batch::label() const {
   return text;
 }
 
-Result<void> Batch::prepare() {
+Result<void> make_own_directory(const std::string& path) {
   std::error_code ec;
-  fs::create_directories(in_directory(".batch"), ec);
-  if (ec) return Error{Error::Code::io, "cannot make " + o_.directory + ": " + ec.message()};
+  fs::create_directories(path, ec);
+  if (ec) return Error{Error::Code::io, "cannot make " + path + ": " + ec.message()};
+  if (fs::symlink_status(path, ec).type() == fs::file_type::directory) return {};
+  return Error{Error::Code::config,
+               path + " is a link, not a directory: it would lead out of the results; remove it"};
+}
+
+Result<void> write_result(const std::string& path, std::string_view bytes, bool sync) {
+  OutputRules rules;
+  WriteOptions options;
+  rules.follow_links = options.follow_links = false;
+  options.sync = sync;
+  return write_outputs({{path, bytes}}, rules, options);
+}
+
+Result<void> Batch::prepare() {
+  if (auto made = make_own_directory(in_directory(".batch")); !made) return made;
   const std::string lock = in_directory(".batch/" + label() + ".lock");
-  lock_ = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  lock_ = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
   if (lock_ < 0)
     return Error{Error::Code::io, "cannot create " + lock + ": " + std::strerror(errno)};
   // Held until this process ends; its workers do not hold it. File systems without locks do
@@ -173,10 +188,8 @@ Result<void> Batch::prepare() {
   for (const Record& r : records_)
     if (r.code >= 0) text += record_line(r) + "\n";
   const std::string path = in_directory(".batch/" + label() + ".jsonl");
-  WriteOptions quick;
-  quick.sync = false;
-  if (auto written = write_file_atomic(path, text, quick); !written) return written;
-  journal_ = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (auto written = write_result(path, text, false); !written) return written;
+  journal_ = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
   if (journal_ < 0)
     return Error{Error::Code::io, "cannot open " + path + ": " + std::strerror(errno)};
   return {};
@@ -204,7 +217,9 @@ void Batch::read_journals() {
   std::error_code ec;
   for (auto it = fs::directory_iterator(in_directory(".batch"), ec);
        !ec && it != fs::directory_iterator(); it.increment(ec))
-    if (it->path().extension() == ".jsonl") journals.insert(it->path());
+    if (it->path().extension() == ".jsonl" &&
+        it->symlink_status(ec).type() == fs::file_type::regular)
+      journals.insert(it->path());
   for (const fs::path& journal : journals) {
     std::ifstream in(journal, std::ios::binary);
     for (std::string line; std::getline(in, line);) {
@@ -253,13 +268,11 @@ std::string Batch::work_on(std::size_t index, Captured& output) const {
   if (error.empty() && record.code > exit_findings) error = first_line(output.err());
   if (!document.empty() && record.code != exit_internal) {
     facts = document_facts(document);
-    WriteOptions quick;  // results are flushed together at the end
-    quick.sync = false;
+    // Results are flushed together at the end.
     if (!facts) {
       record.code = exit_internal;
       error = "the result is not JSON";
-    } else if (auto written = write_file_atomic(in_directory(deck.result), document, quick);
-               !written) {
+    } else if (auto written = write_result(in_directory(deck.result), document, false); !written) {
       record.code = exit_usage;
       error = written.error().message;
       facts.reset();
@@ -388,7 +401,7 @@ int Batch::finish() {
     s.shard = shard_;
     s.all = all_;
   }
-  if (auto written = write_file_atomic(in_directory(summary_name(shard_)), summary_json(s));
+  if (auto written = write_result(in_directory(summary_name(shard_)), summary_json(s), true);
       !written)
     return fail(written.error().message);
   return report_batch(o_, s, kept_);

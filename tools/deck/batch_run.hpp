@@ -75,6 +75,12 @@ class Batch {
   int journal_ = -1, lock_ = -1;
 };
 
+/// Makes a directory that belongs to the results. Error: there is a link of that name.
+Result<void> make_own_directory(const std::string& path);
+/// Puts a file of the results in place. A link or pipe of its name, which somebody who may write to
+/// the directory can lay there, is replaced, never followed.
+Result<void> write_result(const std::string& path, std::string_view bytes, bool sync);
+
 /// Prints the totals and writes the document for --json; the exit code.
 int report_batch(const BatchOptions& options, const Summary& summary, std::size_t kept);
 

@@ -1,21 +1,20 @@
 #include "common.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
+#include <ctime>
 #include <thread>
 
 #include "deck/report/json.hpp"
 
 namespace deck::cli {
-namespace fs = std::filesystem;
 
 // ---- verbs ----------------------------------------------------------------------------------
 
@@ -103,20 +102,92 @@ std::function<void(const Deck&)>& load_observer() {
 }  // namespace
 
 namespace {
-/// A deck of several files that was being rewritten when the program was killed is read as it was
-/// to become, never half of it. True if files changed.
-Result<bool> finish_rewriting(const std::vector<std::string>& paths, const CommonOptions& options) {
-  std::size_t files = 0;
-  for (const std::string& path : paths) {
-    const auto finished = finish_interrupted_write(path);
-    if (!finished) return finished.error();
-    files += *finished;
+
+/// The files of all decks of the call: what may be written to finish an interrupted writing.
+std::vector<std::string> files_of_call(const SchemaSet& schemas, const CommonOptions& options) {
+  std::vector<std::string> paths;
+  ReadOptions read;
+  read.include_paths = options.include_paths;
+  for (const std::string& path : options.decks) {
+    if (path == "-") continue;
+    const auto deck = read_deck(path, schemas, read);
+    for (std::uint32_t f = 0; deck && f < deck->sources.size(); ++f)
+      paths.push_back(deck->sources[f].path());
   }
-  if (files > 0 && !options.quiet)
-    fmt::print(stderr, "deck: note: an interrupted rewriting of {} was finished: {} file{}\n",
-               paths.front(), files, files == 1 ? "" : "s");
-  return files > 0;
+  return paths;
 }
+
+/// What a kill left of an earlier rewriting of these files: who rewrites them finishes it first,
+/// who only reads says that it is there. True if files changed.
+Result<bool> settle_interrupted(const Deck& deck, const SchemaSet& schemas,
+                                const CommonOptions& options) {
+  std::vector<std::string> files;
+  for (std::uint32_t f = 0; f < deck.sources.size(); ++f)
+    if (unfinished_note(deck.sources[f].path())) files.push_back(deck.sources[f].path());
+  if (files.empty()) return false;
+  if (!options.rewrites) {
+    if (!options.quiet)
+      fmt::print(stderr,
+                 "deck: note: a rewriting of {} was interrupted ({}): some of its files may be "
+                 "old and some new; the next convert --in-place, fix --in-place or lint --fix of "
+                 "it finishes that\n",
+                 files.front(), *unfinished_note(files.front()));
+    return false;
+  }
+  const std::vector<std::string> tree = files_of_call(schemas, options);
+  std::size_t finished = 0;
+  for (const std::string& path : files) {
+    const auto done = finish_interrupted_write(path, tree);
+    if (!done) return done.error();
+    if (!done->refused.empty())
+      return Error{Error::Code::config,
+                   "a rewriting of " + path +
+                       " was interrupted and cannot be finished: " + done->refused +
+                       "; nothing was written. Give all decks of that call again, or remove the "
+                       "note if it is not wanted"};
+    finished += done->files;
+  }
+  if (finished > 0 && !options.quiet)
+    fmt::print(stderr, "deck: note: an interrupted rewriting of {} was finished: {} file{}\n",
+               files.front(), finished, finished == 1 ? "" : "s");
+  return finished > 0;
+}
+
+/// A mapped file that is written to while it is read has no bytes of one moment. Smaller ones are
+/// read at once and compared before they are replaced.
+Result<void> check_mapped(const Deck& deck, const Limits& limits, const timespec& since) {
+  for (std::uint32_t f = 0; f < deck.sources.size(); ++f) {
+    const Source& source = deck.sources[f];
+    struct stat status {};
+    if (source.inode() == 0 || source.bytes().size() <= limits.map_threshold) continue;
+    if (stat(source.path().c_str(), &status) != 0) continue;
+    const auto moment = [](const timespec& t) { return std::pair{t.tv_sec, t.tv_nsec}; };
+    if (moment(status.st_mtim) >= moment(since))
+      return Error{Error::Code::config, source.path() +
+                                            " was changed while it was read; nothing was written. "
+                                            "Run the command again"};
+  }
+  return {};
+}
+
+/// The deck, and what has to be seen to before it is rewritten.
+Result<Deck> read_settled(const std::string& path, const SchemaSet& schemas,
+                          const CommonOptions& options, const ReadOptions& read) {
+  timespec since{};
+  clock_gettime(CLOCK_REALTIME_COARSE, &since);
+  auto deck = read_deck(path, schemas, read);
+  if (!deck || read.overlay != nullptr) return deck;
+  const auto settled = settle_interrupted(*deck, schemas, options);
+  if (!settled) return settled.error();
+  if (*settled) {
+    clock_gettime(CLOCK_REALTIME_COARSE, &since);
+    deck = read_deck(path, schemas, read);
+  }
+  if (deck && options.rewrites)
+    if (auto same = check_mapped(*deck, read.limits, since); !same) return same.error();
+  return deck;
+}
+
 }  // namespace
 
 void observe_loading(std::function<void(const Deck&)> observer) {
@@ -131,19 +202,9 @@ Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& s
   ReadOptions read;
   read.include_paths = options.include_paths;
   read.overlay = overlay;
-  if (overlay == nullptr)
-    if (auto finished = finish_rewriting({path}, options); !finished) return finished.error();
-  auto deck = read_deck(path, schemas, read);
+  auto deck = read_settled(path, schemas, options, read);
   if (!deck) return deck.error();
-  if (overlay == nullptr) {
-    std::vector<std::string> includes;
-    for (std::uint32_t f = 1; f < deck->sources.size(); ++f)
-      includes.push_back(deck->sources[f].path());
-    const auto finished = finish_rewriting(includes, options);
-    if (!finished) return finished.error();
-    if (*finished) deck = read_deck(path, schemas, read);
-    if (!deck) return deck.error();
-  }
+  remember_read(deck->sources);
   auto loaded = std::make_unique<Loaded>();
   loaded->path = path;
   loaded->deck = std::move(*deck);
@@ -166,12 +227,15 @@ int for_each_deck(const CommonOptions& options, Stage stage,
     print_error(options, schemas.error().message);
     return exit_usage;
   }
+  if (const int refused = check_outputs(options, {options.json}); refused != exit_clean)
+    return refused;
   int worst = exit_clean;
   for (const std::string& path : options.decks) {
     auto loaded = load(path, *schemas, options, stage);
     if (!loaded) {
       print_error(options, loaded.error().message);
-      worst = std::max<int>(worst, exit_input);
+      const bool wrong = loaded.error().code == Error::Code::config;
+      worst = std::max<int>(worst, wrong ? exit_usage : exit_input);
       continue;
     }
     worst = std::max(worst, body(**loaded));
@@ -242,23 +306,7 @@ std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options,
 
 // ---- output ---------------------------------------------------------------------------------
 
-namespace {
-
-std::string reason(const std::string& what, const std::string& path) {
-  return what + " " + path + ": " + std::strerror(errno);
-}
-
-}  // namespace
-
 void print_text(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
-
-Result<void> write_output(const std::string& path, std::string_view bytes) {
-  if (path != "-") return write_file_atomic(path, bytes);
-  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
-      std::fflush(stdout) != 0)
-    return Error{Error::Code::io, reason("cannot write", "standard output")};
-  return {};
-}
 
 int JsonOutput::finish(int code) const {
   if (!wanted() || documents_.empty()) return code;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,8 @@ struct CommonOptions {
   bool quiet = false;
   std::string color = "auto";
   std::vector<std::string> include_paths, schema_dirs;
+  /// The verb will change files of the decks in place. Set by the verb, not by an option.
+  bool rewrites = false;
 
   int thread_count() const;
   /// True if text to this descriptor (1, 2) is to be coloured.
@@ -68,6 +71,8 @@ struct Loaded {
 using Overlay = std::map<std::string, std::string>;
 
 /// Reads one deck. Error: the main file cannot be read, or is no deck. `schemas` must outlive it.
+/// Where the deck is to be rewritten in place (options.rewrites), an interrupted writing of its
+/// files is finished first; a verb that only reads says that there is one and changes nothing.
 Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& schemas,
                                      const CommonOptions& options, Stage stage = Stage::interfaces,
                                      const Overlay* overlay = nullptr);
@@ -92,8 +97,31 @@ void print_error(const CommonOptions& options, std::string_view message);
 /// Prints results on standard output. A failure (full disk) is noticed at the end of the program.
 void print_text(std::string_view text);
 
+// ---- outputs.cpp: files with results
+
+/// What an output may replace. Never a file that the call has read.
+struct OutputRules {
+  bool overwrite = false;  ///< a file that looks like a deck or an include, too
+  bool deck_tree = false;  ///< decks are written: --overwrite is the way out
+  bool follow_links = true;
+};
+
+/// From now on no output is written over these files.
+void remember_read(const SourceSet& sources);
+void remember_read(const Source& source);
+/// Error: the path is an existing file that the rules protect. Without `bytes` what will be written
+/// is not known yet; a file that holds it already is no obstacle.
+Result<void> check_output(const std::string& path, const OutputRules& rules = {},
+                          std::optional<std::string_view> bytes = std::nullopt);
+/// The same for the files named on a command line, before the work begins; "" and "-" are none. Says
+/// what is wrong and returns exit_usage, or exit_clean.
+int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths);
+
 /// Writes bytes to standard output ("-") or atomically to a file.
 Result<void> write_output(const std::string& path, std::string_view bytes);
+/// Writes a set of files, all or none.
+Result<void> write_outputs(const std::vector<OutputFile>& files, const OutputRules& rules = {},
+                           const WriteOptions& options = {"", true, true, true});
 
 /// Collects the JSON documents of a run: one deck gives the document itself; several are the list
 /// "decks" of a document with the same schema id.
@@ -112,10 +140,5 @@ class JsonOutput {
   int schema_version_;
   std::vector<std::string> documents_;
 };
-
-// How verbs write files; see deck/edit/write.hpp.
-using deck::OutputFile;
-using deck::write_file_atomic;
-using deck::write_files_atomic;
 
 }  // namespace deck::cli

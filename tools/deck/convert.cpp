@@ -6,15 +6,17 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <tuple>
 
 #include "common.hpp"
 #include "convert_steps.hpp"
+#include "deck/edit/edit_set.hpp"
 #include "deck/edit/rewrite.hpp"
 #include "deck/edit/write.hpp"
 #include "deck/report/deck_json.hpp"
 #include "deck/report/losses.hpp"
-#include "deck/text/edits.hpp"
-#include "tree.hpp"
+#include "deck/text/number.hpp"
 
 namespace {
 
@@ -27,14 +29,13 @@ struct Options {
   ConvertSteps steps;
   std::string to = "rad", from = "rad";
   std::string directory, report, backup_suffix;
-  bool in_place = false, backup = false, diff = false;
+  bool in_place = false, backup = false, diff = false, overwrite = false;
 };
 
 /// A deck on its way through the conversions.
 struct Conversion {
   std::unique_ptr<Loaded> now;
-  std::map<std::string, std::string> before;  ///< first contents of the files that changed, by path
-  Overlay changed;                            ///< contents that differ from the files on disk
+  Overlay changed;  ///< contents that differ from the files on disk
   std::vector<LossEntry> losses;
 };
 
@@ -46,6 +47,38 @@ void print_refusals(const CommonOptions& common, const std::vector<std::string>&
     print_error(common, fmt::format("... and {} more", refusals.size() - most));
 }
 
+/// A refusal ("file:line:column: /KEYWORD/id field: why") as an entry of the report.
+LossEntry refused_entry(const std::string& refusal) {
+  LossEntry entry;
+  entry.loss = Loss::undecided;
+  entry.note = refusal;
+  const auto end = refusal.find(": /");
+  const auto column = end == refusal.npos || end == 0 ? end : refusal.rfind(':', end - 1);
+  const auto line = column == refusal.npos || column == 0 ? column : refusal.rfind(':', column - 1);
+  if (line == refusal.npos) return entry;
+  const IntegerCell number =
+      read_integer(std::string_view(refusal).substr(line + 1, column - line - 1));
+  if (number.status != NumberStatus::ok || number.value < 0) return entry;
+  entry.file = refusal.substr(0, line);
+  entry.line = static_cast<std::uint64_t>(number.value);
+  const auto keyword = end + 2, colon = refusal.find(": ", keyword);
+  if (colon == refusal.npos) return entry;
+  entry.note = refusal.substr(colon + 2);
+  std::string what = refusal.substr(keyword, colon - keyword);
+  if (const auto blank = what.find(' '); blank != what.npos) {
+    entry.field = what.substr(blank + 1);
+    what.resize(blank);
+  }
+  const auto slash = what.rfind('/');
+  const IntegerCell id = read_integer(std::string_view(what).substr(slash + 1));
+  if (slash > 0 && id.status == NumberStatus::ok) {
+    entry.id = id.value;
+    what.resize(slash);
+  }
+  entry.keyword = what;
+  return entry;
+}
+
 /// One conversion, and the deck read again as it is then. An exit code if that failed.
 int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
           const CommonOptions& common) {
@@ -54,6 +87,7 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
   for (LossEntry& e : rewrite.losses) c.losses.push_back(std::move(e));
   if (!rewrite.refusals.empty()) {
     print_refusals(common, rewrite.refusals);
+    for (const std::string& r : rewrite.refusals) c.losses.push_back(refused_entry(r));
     print_error(common, c.now->path + ": " + step.option + " was not done; nothing was written" +
                             (step.way_out.empty() ? "" : ". " + step.way_out));
     return exit_findings;
@@ -67,11 +101,8 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
     return exit_findings;
   }
   if (files->empty()) return exit_clean;
-  const SourceSet& sources = c.now->deck.sources;
-  for (std::uint32_t f = 0; f < sources.size(); ++f)
-    if (files->contains(sources[f].path())) c.before.emplace(sources[f].path(), sources[f].bytes());
   if (c.now->path == "-" && !c.changed.contains("-"))  // it cannot be read twice
-    c.changed["-"] = std::string(sources[0].bytes());
+    c.changed["-"] = std::string(c.now->deck.sources[0].bytes());
   for (auto& [path, text] : *files) c.changed[path] = std::move(text);
   auto again = load(c.now->path, schemas, common, Stage::interfaces, &c.changed);
   if (!again) {
@@ -79,59 +110,6 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
     return exit_internal;
   }
   c.now = std::move(*again);
-  return exit_clean;
-}
-
-// ---- where it goes ---------------------------------------------------------------------------
-
-int write_diff(const Conversion& c) {
-  std::string text;
-  for (const auto& [path, before] : c.before)
-    text += unified_diff(path, before, c.changed.at(path));
-  print_text(text);
-  return exit_clean;
-}
-
-int write_in_place(const Conversion& c, const Options& options) {
-  std::vector<OutputFile> files;
-  for (const auto& [path, before] : c.before) files.push_back({path, c.changed.at(path)});
-  WriteOptions write;
-  write.backup_suffix = options.backup ? options.backup_suffix : "";
-  if (auto done = write_files_atomic(files, write); !done) {
-    print_error(options.common, done.error().message);
-    return exit_usage;
-  }
-  if (!options.common.quiet)
-    for (const OutputFile& f : files) print_text(f.path + "\n");
-  return exit_clean;
-}
-
-int write_tree(const Conversion& c, const Options& options,
-               std::map<fs::path, std::string>& written) {
-  const auto tree = lay_out(c.now->deck, options.directory, c.changed);
-  if (!tree) {
-    print_error(options.common, tree.error().message);
-    return exit_usage;
-  }
-  std::vector<OutputFile> files;
-  for (const TreeFile& f : tree->files) {
-    const auto [it, is_new] = written.emplace(f.target.lexically_normal(), f.source);
-    if (!is_new && it->second != f.source) {
-      print_error(options.common, "both " + it->second + " and " + f.source +
-                                      " would be written to " + f.target.string());
-      return exit_usage;
-    }
-    files.push_back({f.target.string(), f.bytes});
-  }
-  if (auto done = write_files_atomic(files); !done) {
-    print_error(options.common, done.error().message);
-    return exit_usage;
-  }
-  for (const std::string& path : tree->outside)
-    fmt::print(stderr, "deck: note: {} is included by its absolute path and was not copied\n",
-               path);
-  if (!options.common.quiet)
-    for (const OutputFile& f : files) print_text(f.path + "\n");
   return exit_clean;
 }
 
@@ -159,45 +137,99 @@ void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& com
              count[1], count[2], count[3]);
 }
 
+/// All decks of the call: converted one after the other, written together or not at all.
 struct Run {
   const Options& options;
   const std::vector<ConvertStep> steps;
-  std::map<fs::path, std::string> written;
-  std::vector<LossEntry> losses;
+  EditSet set = {};
+  std::map<fs::path, std::pair<std::string, std::string>> documents = {};  ///< JSON: deck, text
+  std::vector<LossEntry> losses = {};
+  bool refused = false;  ///< nothing may be written
 };
 
-int write_result(Run& run, Conversion& c) {
+// ---- where it goes ---------------------------------------------------------------------------
+
+int fail(const Run& run, const Error& error) {
+  print_error(run.options.common, error.message);
+  return exit_usage;
+}
+
+void list(const Run& run, const std::vector<OutputFile>& files) {
+  if (run.options.common.quiet) return;
+  for (const OutputFile& f : files) print_text(f.path + "\n");
+}
+
+int write_in_place(const Run& run) {
+  const auto plan = run.set.in_place();
+  if (!plan) return fail(run, plan.error());
+  WriteOptions write;
+  write.backup_suffix = run.options.backup ? run.options.backup_suffix : "";
+  if (auto done = write_files_atomic(plan->files, write); !done) return fail(run, done.error());
+  list(run, plan->files);
+  return exit_clean;
+}
+
+int write_tree(const Run& run) {
+  const auto plan = run.set.tree(run.options.directory);
+  if (!plan) return fail(run, plan.error());
+  OutputRules rules;
+  rules.deck_tree = true;
+  rules.overwrite = run.options.overwrite;
+  if (auto done = write_outputs(plan->files, rules); !done) return fail(run, done.error());
+  for (const std::string& path : plan->outside)
+    fmt::print(stderr, "deck: note: {} is included by its absolute path and was not copied\n",
+               path);
+  list(run, plan->files);
+  return exit_clean;
+}
+
+int write_documents(const Run& run) {
+  std::vector<OutputFile> files;
+  for (const auto& [target, document] : run.documents)
+    files.push_back({target.string(), document.second});
+  if (auto done = write_outputs(files); !done) return fail(run, done.error());
+  list(run, files);
+  return exit_clean;
+}
+
+int write_all(const Run& run) {
   const Options& options = run.options;
-  if (options.to == "json") {
-    const auto document =
-        deck_to_json({c.now->path, &c.now->deck, &c.now->model, &c.now->interfaces});
-    if (!document) {
-      print_error(options.common, document.error().message);
-      return exit_usage;
-    }
-    const std::string& text = *document;
-    if (options.directory.empty()) {
-      print_text(text);
-      return exit_clean;
-    }
-    fs::path target(options.directory);
-    if (target.extension() != ".json")
-      target /= c.now->path == "-" ? "stdin.json" : fs::path(c.now->path).stem().string() + ".json";
-    const auto [it, is_new] = run.written.emplace(target.lexically_normal(), c.now->path);
-    if (!is_new) {
-      print_error(options.common, "both " + it->second + " and " + c.now->path +
-                                      " would be written to " + target.string());
-      return exit_usage;
-    }
-    if (auto done = write_files_atomic({{target.string(), text}}); !done) {
-      print_error(options.common, done.error().message);
-      return exit_usage;
-    }
-    if (!options.common.quiet) print_text(target.string() + "\n");
+  if (!run.documents.empty()) return write_documents(run);
+  if (options.to == "json" || options.from == "lsdyna") return exit_clean;
+  if (options.in_place) return write_in_place(run);
+  if (!options.directory.empty()) return write_tree(run);
+  if (!options.diff) return exit_clean;  // standard input, which went to standard output
+  const auto patch = run.set.diff();
+  if (!patch) return fail(run, patch.error());
+  print_text(*patch);
+  return exit_clean;
+}
+
+/// The deck in JSON: printed, or kept until all decks of the call are ready.
+int add_document(Run& run, const Conversion& c) {
+  const auto document =
+      deck_to_json({c.now->path, &c.now->deck, &c.now->model, &c.now->interfaces});
+  if (!document) return fail(run, document.error());
+  if (run.options.directory.empty() || run.options.directory == "-") {
+    print_text(*document);
     return exit_clean;
   }
-  if (options.diff) return write_diff(c);
-  if (c.now->path == "-" && options.from == "rad") {
+  fs::path target(run.options.directory);
+  if (target.extension() != ".json")
+    target /= c.now->path == "-" ? "stdin.json" : fs::path(c.now->path).stem().string() + ".json";
+  const auto [it, is_new] =
+      run.documents.emplace(target.lexically_normal(), std::pair(c.now->path, *document));
+  if (is_new) return exit_clean;
+  print_error(run.options.common, "both " + it->second.first + " and " + c.now->path +
+                                      " would be written to " + target.string());
+  return exit_usage;
+}
+
+/// What the deck has become goes into the set.
+int add_result(Run& run, std::size_t member, Conversion& c) {
+  const Options& options = run.options;
+  if (options.to == "json") return add_document(run, c);
+  if (c.now->path == "-" && options.from == "rad" && !options.diff) {
     if (c.now->deck.sources.size() == 1 && options.directory.empty()) {
       print_text(c.now->deck.sources[0].bytes());
       return exit_clean;
@@ -207,17 +239,20 @@ int write_result(Run& run, Conversion& c) {
                 "file goes to standard output");
     return exit_usage;
   }
-  if (options.in_place) return write_in_place(c, options);
-  return write_tree(c, options, run.written);
+  run.set.propose(member, c.now->deck, c.changed);
+  return exit_clean;
 }
 
-int convert(Run& run, std::unique_ptr<Loaded> loaded, Overlay overlay, const SchemaSet& schemas) {
+int convert(Run& run, const std::string& name, std::unique_ptr<Loaded> loaded, Overlay overlay,
+            const SchemaSet& schemas) {
   const Options& options = run.options;
   if (loaded->incomplete()) {
     print_findings(*loaded, options.common);
     print_error(options.common, loaded->path + ": not written, the include tree is not complete");
     return exit_input;
   }
+  const auto member = run.set.add(loaded->deck, name);
+  if (!member) return fail(run, member.error());
   Conversion c;
   c.now = std::move(loaded);
   c.changed = std::move(overlay);
@@ -228,8 +263,20 @@ int convert(Run& run, std::unique_ptr<Loaded> loaded, Overlay overlay, const Sch
   }
   if (code == exit_clean) print_losses(c.losses, options.common);
   for (LossEntry& e : c.losses) run.losses.push_back(std::move(e));
-  if (code != exit_clean) return code;
-  return write_result(run, c);
+  return code != exit_clean ? code : add_result(run, *member, c);
+}
+
+/// One report of all decks: what they share is in it once.
+void unite(std::vector<LossEntry>& losses) {
+  std::set<std::tuple<std::string, std::uint64_t, std::string, std::int64_t, std::string,
+                      std::string, std::string, std::string, Loss>>
+      seen;
+  std::erase_if(losses, [&](const LossEntry& e) {
+    const std::string file = fs::path(e.file).lexically_normal().string();
+    return !seen.emplace(file, e.line, e.keyword, e.id, e.field, e.old_text, e.new_text, e.note,
+                         e.loss)
+                .second;
+  });
 }
 
 /// The deck of one command line argument, whatever it is written in.
@@ -270,6 +317,7 @@ int check(const Options& options) {
     return refuse("--from lsdyna makes an include file of contacts, not a deck; it has no JSON");
   if (options.steps.target != 0 && options.from != "lsdyna")
     return refuse("--target goes with --from lsdyna");
+  if (options.overwrite && options.directory.empty()) return refuse("--overwrite goes with -o");
   if (options.backup && !options.in_place) return refuse("--backup goes with --in-place");
   return exit_clean;
 }
@@ -286,7 +334,9 @@ int run(const Options& options) {
     print_error(options.common, steps.error().message);
     return exit_usage;
   }
-  Run work{options, std::move(*steps), {}, {}};
+  if (const int bad = check_outputs(options.common, {options.report}); bad != exit_clean)
+    return bad;
+  Run work{options, std::move(*steps)};
   int worst = exit_clean;
   for (const std::string& path : options.common.decks) {
     if (options.from == "lsdyna") {
@@ -300,12 +350,21 @@ int run(const Options& options) {
     auto input = open_input(path, options, *schemas, !work.steps.empty() || options.to == "json");
     if (!input) {
       print_error(options.common, input.error().message);
-      worst = std::max<int>(worst, exit_input);
+      const bool wrong = input.error().code == Error::Code::config && options.from == "rad";
+      worst = std::max<int>(worst, wrong ? exit_usage : exit_input);
+      work.refused = true;
       continue;
     }
-    worst =
-        std::max(worst, convert(work, std::move(input->first), std::move(input->second), *schemas));
+    const int code =
+        convert(work, path, std::move(input->first), std::move(input->second), *schemas);
+    work.refused = work.refused || code != exit_clean;
+    worst = std::max(worst, code);
   }
+  if (!work.refused)
+    worst = std::max(worst, write_all(work));
+  else if (options.common.decks.size() > 1)
+    print_error(options.common, "nothing was written: the decks of a call are converted together");
+  unite(work.losses);
   if (!options.report.empty()) {
     if (auto done = write_output(options.report, losses_json(work.losses)); !done) {
       print_error(options.common, done.error().message);
@@ -331,9 +390,12 @@ Action setup(CLI::App& app) {
                  "Directory to write to; made if missing. The include tree keeps its relative "
                  "names. With --to json also FILE.json")
       ->type_name("DIR");
+  app.add_flag("--overwrite", options->overwrite,
+               "With -o: replace decks and includes that lie in DIR already and differ");
   app.add_flag("--in-place", options->in_place, "Change the files of the deck");
   app.add_flag("--backup{.orig}", options->backup_suffix,
-               "With --in-place: keep the old file under its name plus .orig (--backup=SUFFIX)");
+               "With --in-place: keep the old file under its name plus .orig (--backup=SUFFIX); a "
+               "backup is never replaced, the next one is .orig.2");
   app.add_flag("--diff", options->diff,
                "Write nothing; print the changes as a unified diff that git apply takes");
   app.add_option("--report", options->report,
@@ -342,6 +404,7 @@ Action setup(CLI::App& app) {
   add_step_options(app, options->steps);
   return [options] {
     options->backup = !options->backup_suffix.empty();
+    options->common.rewrites = options->in_place;
     return run(*options);
   };
 }
@@ -360,6 +423,9 @@ const VerbRegistration registration{
      "Conversions are done in the order of their options above, whatever their order on the\n"
      "command line. A conversion that would lose a value is refused with the place of the value\n"
      "(exit code 1); nothing is written then.\n"
+     "Several decks are converted together: a file that they share is read and written once, and\n"
+     "if they want different texts for it nothing is written (exit code 2). Nothing is written\n"
+     "either where a file was changed by somebody else since it was read.\n"
      "Files that are included from above the deck's directory (#include ../common/x.inc) keep\n"
      "their place too: the deck is then written one or more directories further down.\n",
      setup}};

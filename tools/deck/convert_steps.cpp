@@ -122,6 +122,7 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
 Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schemas) {
   const auto source = Source::open(path, Limits{});
   if (!source) return source.error();
+  remember_read(**source);
   auto files = deck_from_json((*source)->bytes(), schemas);
   if (!files) return Error{files.error().code, path + ": " + files.error().message};
   JsonFiles result;
@@ -159,7 +160,10 @@ int convert_lsdyna(const std::string& path, const ConvertSteps& steps, const std
   namespace fs = std::filesystem;
   const std::string stem = path == "-" ? "stdin" : fs::path(path).stem().string();
   const std::string target = (fs::path(directory) / (stem + "_contacts.inc")).string();
-  if (auto done = write_files_atomic({{target, text}}); !done) {
+  remember_read(**source);
+  OutputRules rules;
+  rules.overwrite = true;
+  if (auto done = write_outputs({{target, text}}, rules); !done) {
     print_error(common, done.error().message);
     return exit_usage;
   }

@@ -54,7 +54,7 @@ Result<void> write_vtk(const Options& o, const CycleInput& input) {
   std::vector<OutputFile> files;
   for (const VtkFile& f : cycle_vtk(input))
     files.push_back({(directory / f.name).string(), f.bytes});
-  return write_files_atomic(files);
+  return write_outputs(files);
 }
 
 int run(const Options& o) {

@@ -7,11 +7,10 @@
 
 #include "common.hpp"
 #include "deck/edit/depenetrate.hpp"
+#include "deck/edit/edit_set.hpp"
 #include "deck/edit/write.hpp"
 #include "deck/report/fix.hpp"
-#include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
-#include "tree.hpp"
 
 namespace {
 
@@ -21,7 +20,7 @@ using namespace deck::cli;
 struct Options {
   CommonOptions common;
   std::string strategy, directory, backup_suffix = ".orig";
-  bool diff = false, in_place = false, backup = false;
+  bool diff = false, in_place = false, backup = false, overwrite = false;
   std::vector<std::int64_t> interfaces;
   std::size_t rows = 10;
   MoveNodesOptions move;
@@ -51,26 +50,56 @@ class FixRun {
       print_error(o_.common, loaded.path + ": not fixed, the include tree is not complete");
       return exit_input;
     }
+    const auto member = set_.add(loaded.deck);
+    if (!member) return fail(member.error());
     auto fix = make(loaded);
     if (!fix) return fail(fix.error());
     auto changed = apply_rewrite(loaded.deck.sources, fix->rewrite);
     if (!changed) return fail(changed.error());
-    std::string written = "no";
-    if (o_.diff) {
-      for (const auto& [path, text] : *changed) print_text(diff(loaded.deck, path, text));
-      written = "diff";
-    }
-    if (o_.in_place || !o_.directory.empty()) {
-      auto done = o_.in_place ? write_in_place(loaded, *changed) : write_tree(loaded, *changed);
-      if (!done) return fail(done.error());
-      written = o_.in_place ? "in-place" : o_.directory;
-    }
-    if (json_.wanted()) json_.add(fix_json(loaded.path, loaded.deck, *fix, written));
-    report(*fix, *changed, loaded.path);
+    if (loaded.path == "-" && (o_.in_place || !o_.directory.empty()))
+      return fail({Error::Code::config,
+                   o_.in_place ? "standard input cannot be rewritten; use --diff"
+                               : "a deck from standard input has no name to write it to"});
+    set_.propose(*member, loaded.deck, *changed);
+    const std::string written = o_.in_place             ? "in-place"
+                                : !o_.directory.empty() ? o_.directory
+                                : o_.diff               ? "diff"
+                                                        : "no";
+    if (json_.wanted()) documents_.push_back(fix_json(loaded.path, loaded.deck, *fix, written));
+    texts_ += report(*fix, *changed, loaded.path);
     return fix->complete ? exit_clean : exit_findings;
   }
 
+  /// Writes what the decks want together, and says what was done.
+  int finish(int code) {
+    const bool writes = o_.diff || o_.in_place || !o_.directory.empty();
+    if (code > exit_findings && writes) {
+      if (o_.common.decks.size() > 1)
+        print_error(o_.common, "nothing was written: the decks of a call are fixed together");
+      return code;
+    }
+    if (o_.diff) {
+      const auto patch = set_.diff();
+      if (!patch) return fail(patch.error());
+      print_text(*patch);
+    }
+    if (o_.in_place)
+      if (auto done = write_in_place(); !done) return std::max(code, usage(done.error()));
+    if (!o_.directory.empty())
+      if (auto done = write_tree(); !done) return std::max(code, usage(done.error()));
+    for (std::string& document : documents_) json_.add(std::move(document));
+    if (o_.diff || o_.common.json == "-")
+      fmt::print(stderr, "{}", texts_);
+    else
+      print_text(texts_);
+    return code;
+  }
+
  private:
+  int usage(const Error& error) const {
+    print_error(o_.common, error.message);
+    return exit_usage;
+  }
   int fail(const Error& error) const {
     print_error(o_.common, error.message);
     switch (error.code) {
@@ -122,38 +151,26 @@ class FixRun {
     return move_nodes(context, options);
   }
 
-  static std::string_view old_bytes(const Deck& deck, const std::string& path) {
-    for (std::uint32_t f = 0; f < deck.sources.size(); ++f)
-      if (deck.sources[f].path() == path) return deck.sources[f].bytes();
-    return {};
-  }
-  static std::string diff(const Deck& deck, const std::string& path, const std::string& text) {
-    return unified_diff(path, old_bytes(deck, path), text);
-  }
-
-  Result<void> write_in_place(const Loaded& loaded, const ChangedFiles& changed) const {
-    if (loaded.path == "-")
-      return Error{Error::Code::config, "standard input cannot be rewritten; use --diff"};
-    std::vector<OutputFile> files;
-    for (const auto& [path, text] : changed) files.push_back({path, text});
+  Result<void> write_in_place() const {
+    const auto plan = set_.in_place();
+    if (!plan) return plan.error();
     WriteOptions write;
     if (o_.backup) write.backup_suffix = o_.backup_suffix;
-    return write_files_atomic(files, write);
+    return write_files_atomic(plan->files, write);
   }
 
-  Result<void> write_tree(const Loaded& loaded, const ChangedFiles& changed) const {
-    if (loaded.path == "-")
-      return Error{Error::Code::config, "a deck from standard input has no name to write it to"};
-    const auto tree = lay_out(loaded.deck, o_.directory, changed);
-    if (!tree) return tree.error();
-    std::vector<OutputFile> files;
-    for (const TreeFile& f : tree->files) files.push_back({f.target.string(), f.bytes});
-    return write_files_atomic(files);
+  Result<void> write_tree() const {
+    const auto plan = set_.tree(o_.directory);
+    if (!plan) return plan.error();
+    OutputRules rules;
+    rules.deck_tree = true;
+    rules.overwrite = o_.overwrite;
+    return write_outputs(plan->files, rules);
   }
 
-  void report(const PenetrationFix& fix, const ChangedFiles& changed,
-              const std::string& path) const {
-    if (o_.common.quiet) return;
+  std::string report(const PenetrationFix& fix, const ChangedFiles& changed,
+                     const std::string& path) const {
+    if (o_.common.quiet) return {};
     FixTextOptions text;
     text.rows = o_.rows;
     const bool to_stderr = o_.diff || o_.common.json == "-";
@@ -171,22 +188,22 @@ class FixRun {
     } else if (!fix.interfaces.empty()) {
       out += "\nno file changes\n";
     }
-    if (to_stderr)
-      fmt::print(stderr, "{}", out);
-    else
-      print_text(out);
+    return out;
   }
 
   const Options& o_;
   const SchemaSet& schemas_;
   JsonOutput& json_;
+  EditSet set_;
+  std::vector<std::string> documents_;
+  std::string texts_;
 };
 
 /// What is wrong with the combination of options; empty: nothing.
 std::string usage_error(const Options& o) {
   if (o.in_place && !o.directory.empty()) return "--in-place and -o exclude each other";
   if (o.backup && !o.in_place) return "--backup needs --in-place";
-  if (!o.directory.empty() && o.common.decks.size() > 1) return "-o takes one deck at a time";
+  if (o.overwrite && o.directory.empty()) return "--overwrite needs -o";
   if (!share(o.max_moved)) return "--max-moved needs a share like 10% or 0.1";
   if (!share(o.min_gap)) return "--min-gap needs a share like 50% or 0.5";
   if (!o.fpenmax.empty() && !share(o.fpenmax)) return "--fpenmax needs a share like 80% or 0.8";
@@ -211,7 +228,28 @@ int run(const Options& o) {
   FixRun fix(o, *schemas, json);
   const int code =
       for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) { return fix.one(loaded); });
-  return json.finish(code);
+  return json.finish(fix.finish(code));
+}
+
+/// Options of the strategies that change interface cards.
+void add_card_options(CLI::App& app, Options& o) {
+  auto* others = app.add_option_group("reduce-gap, inacti, fpenmax");
+  others->add_option("--min-gap", o.min_gap, "reduce-gap: least share of the present gap to keep")
+      ->capture_default_str()
+      ->type_name("SHARE");
+  others->add_option("--digits", o.digits, "reduce-gap: significant digits, rounded down")
+      ->check(CLI::Range(1, 17))
+      ->capture_default_str()
+      ->type_name("N");
+  others->add_option("--inacti", o.inacti, "inacti: 0 (or 1000), 1, 2, 3, 5 or 6")
+      ->check(CLI::IsMember({0, 1, 2, 3, 5, 6, 1000}))
+      ->capture_default_str()
+      ->type_name("N");
+  others
+      ->add_option("--fpenmax", o.fpenmax,
+                   "fpenmax: switch off nodes deeper than this share of the gap (default: only "
+                   "nodes at distance 0, at which the solver stops)")
+      ->type_name("SHARE");
 }
 
 Action setup(CLI::App& app) {
@@ -232,7 +270,11 @@ Action setup(CLI::App& app) {
   app.add_option("-o,--output", o.directory, "Write the deck with all it includes below DIR")
       ->type_name("DIR");
   app.add_flag("--in-place", o.in_place, "Rewrite the files that change");
-  app.add_flag("--backup", o.backup, "With --in-place: keep each old file as FILE.orig");
+  app.add_flag("--backup", o.backup,
+               "With --in-place: keep each old file as FILE.orig (a backup is never replaced: then "
+               "FILE.orig.2)");
+  app.add_flag("--overwrite", o.overwrite,
+               "With -o: replace decks and includes that lie in DIR already and differ");
   app.add_option("--rows", o.rows, "Rows of the lists in the report")->capture_default_str();
 
   auto* move = app.add_option_group("move-nodes");
@@ -272,24 +314,11 @@ Action setup(CLI::App& app) {
       ->capture_default_str()
       ->type_name("N");
 
-  auto* others = app.add_option_group("reduce-gap, inacti, fpenmax");
-  others->add_option("--min-gap", o.min_gap, "reduce-gap: least share of the present gap to keep")
-      ->capture_default_str()
-      ->type_name("SHARE");
-  others->add_option("--digits", o.digits, "reduce-gap: significant digits, rounded down")
-      ->check(CLI::Range(1, 17))
-      ->capture_default_str()
-      ->type_name("N");
-  others->add_option("--inacti", o.inacti, "inacti: 0 (or 1000), 1, 2, 3, 5 or 6")
-      ->check(CLI::IsMember({0, 1, 2, 3, 5, 6, 1000}))
-      ->capture_default_str()
-      ->type_name("N");
-  others
-      ->add_option("--fpenmax", o.fpenmax,
-                   "fpenmax: switch off nodes deeper than this share of the gap (default: only "
-                   "nodes at distance 0, at which the solver stops)")
-      ->type_name("SHARE");
-  return [options] { return run(*options); };
+  add_card_options(app, o);
+  return [options] {
+    options->common.rewrites = options->in_place;
+    return run(*options);
+  };
 }
 
 const VerbRegistration registration{
@@ -313,6 +342,9 @@ const VerbRegistration registration{
      "one of its sides; what cannot be solved that way stays and is listed with its reason.\n"
      "Elements that cross already have no right side: separate them first (deck gaps\n"
      "--crossings shows them).\n"
+     "\n"
+     "Several decks are fixed together: a file that they share is written once, and if they want\n"
+     "different texts for it nothing is written (exit code 2).\n"
      "\n"
      "Exit code: 0 all penetrations treated, 1 some remain, 2 wrong usage, 3 unreadable input.\n",
      setup}};

@@ -84,7 +84,7 @@ Result<void> write_vtk(const Options& o, const Loaded& loaded, const Scene& scen
   const std::vector<VtkFile> written = gaps_vtk(scene, view);
   std::vector<OutputFile> files;
   for (const VtkFile& f : written) files.push_back({(directory / f.name).string(), f.bytes});
-  return write_files_atomic(files);
+  return write_outputs(files);
 }
 
 /// Writes the HTML report; what can be wrong is wrong usage or a file.
@@ -94,6 +94,7 @@ Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& sce
   if (!o.compare.empty()) {
     const auto source = Source::open(o.compare, Limits{});
     if (!source) return source.error();
+    remember_read(**source);
     auto read = read_earlier_gaps(o.compare, (*source)->bytes(), loaded.path);
     if (!read) return read.error();
     earlier = std::move(*read);
@@ -133,6 +134,7 @@ int run(const Options& o) {
     print_error(o.common, "--html takes one deck at a time");
     return exit_usage;
   }
+  if (const int bad = check_outputs(o.common, {o.csv, o.html}); bad != exit_clean) return bad;
   SceneOptions scene_options;
   scene_options.threads = o.common.thread_count();
   scene_options.only = o.only;

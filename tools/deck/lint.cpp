@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common.hpp"
+#include "deck/edit/edit_set.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/lint/fix.hpp"
 #include "deck/lint/geometry.hpp"
@@ -26,7 +27,8 @@ struct Options {
   std::vector<std::string> outputs;  ///< format=file
   std::vector<std::string> select, ignore;
   std::string fail_on, baseline, write_baseline, config;
-  bool no_config = false, geometry = false, fix = false, unsafe_fixes = false, diff = false, ruler = false;
+  bool no_config = false, geometry = false, fix = false, unsafe_fixes = false, diff = false,
+       ruler = false;
   int per_rule = 10;
 };
 
@@ -37,6 +39,8 @@ struct Job {
   std::string path, error;
   std::unique_ptr<Loaded> loaded;
   LintResult result;
+  /// Rule and entity of the entries of the baseline, for those that do not occur any more.
+  std::map<FindingKey, std::pair<std::string, std::string>> baseline_names;
 };
 
 std::string render(std::string_view format, const std::vector<LintedDeck>& decks,
@@ -62,7 +66,7 @@ Result<std::string> read_text(const std::string& path) {
 }
 
 /// What the command line says, over what the configuration says.
-Result<LintOptions> lint_options(const Options& options, const LintConfig& config) {
+Result<LintOptions> lint_options(const Options& options, const LintConfig& config, Job& job) {
   LintOptions out;
   out.select = options.select.empty() ? config.select : options.select;
   out.ignore = config.ignore;
@@ -78,9 +82,13 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
   if (baseline.empty() || !options.write_baseline.empty()) return out;
   const auto text = read_text(baseline);
   if (!text) return text.error();
-  auto parsed = parse_baseline(*text);
-  if (!parsed) return Error{Error::Code::config, baseline + ": " + parsed.error().message};
-  out.baseline = std::move(*parsed);
+  const auto parsed = parse_baseline(*text, baseline);
+  if (!parsed) return parsed.error();
+  if (const auto* entries = parsed->find(job.path))
+    for (const auto& [key, entry] : *entries) {
+      out.baseline.emplace(key, entry.count);
+      job.baseline_names.emplace(key, std::pair(entry.rule, entry.entity));
+    }
   return out;
 }
 
@@ -112,10 +120,13 @@ class Run {
   int run() {
     if (const int code = prepare(); code != exit_clean) return code;
     int worst = exit_clean;
-    std::map<std::string, std::uint64_t> baseline_left;
     for (const std::string& path : common_.decks) worst = std::max(worst, lint_one(path));
     if (options_.diff || options_.fix || options_.unsafe_fixes) {
-      const int code = fixes();
+      const int code = std::any_of(common_.decks.begin(), common_.decks.end(),
+                                   [](const std::string& d) { return d == "-"; }) &&
+                               !options_.diff
+                           ? usage("--fix cannot rewrite standard input; use --diff")
+                           : fixes();
       if (code != exit_clean) worst = std::max(worst, code);
     }
     if (worst >= exit_internal) return worst;
@@ -137,6 +148,9 @@ class Run {
           std::find(formats.begin(), formats.end(), format) == formats.end())
         return usage("-o needs FORMAT=FILE, for example -o sarif=lint.sarif; got '" + o + "'");
     }
+    std::vector<std::string> files = {common_.json, options_.write_baseline};
+    for (const std::string& o : options_.outputs) files.push_back(o.substr(o.find('=') + 1));
+    if (const int bad = check_outputs(common_, files); bad != exit_clean) return bad;
     auto schemas = load_schemas(common_);
     if (!schemas) return usage(schemas.error().message);
     schemas_ = std::move(*schemas);
@@ -161,14 +175,14 @@ class Run {
     job->path = path;
     const auto config = config_for(path);
     if (!config) return usage(config.error().message);
-    const auto lint = lint_options(options_, *config);
+    const auto lint = lint_options(options_, *config, *job);
     if (!lint) return usage(lint.error().message);
     auto loaded = load(path, schemas_, common_, Stage::interfaces);
     int code = exit_clean;
     if (!loaded) {
       job->error = loaded.error().message;
       print_error(common_, job->error);
-      code = exit_input;
+      code = loaded.error().code == Error::Code::config ? exit_usage : exit_input;
     } else {
       job->loaded = std::move(*loaded);
       job->result = lint_loaded(*job->loaded, schemas_, *lint, options_);
@@ -182,30 +196,75 @@ class Run {
     return code;
   }
 
-  /// --diff prints what --fix would write; --fix writes and lints again.
+  /// What all decks together want fixed. A fix of a file that they share is made only if all of
+  /// them want it.
+  Result<std::size_t> collect_fixes(EditSet& set, std::vector<FixResult>& results) {
+    std::vector<FixedDeck> decks;
+    std::vector<const Job*> jobs;
+    for (const auto& job : jobs_)
+      if (job->loaded) {
+        decks.push_back({&job->loaded->deck.sources, &job->result.diagnostics});
+        jobs.push_back(job.get());
+      }
+    const AgreedFixes agreed = agree_on_fixes(decks, options_.unsafe_fixes);
+    std::size_t changed = 0;
+    for (std::size_t d = 0; d < decks.size(); ++d) {
+      const Deck& deck = jobs[d]->loaded->deck;
+      const auto member = set.add(deck);
+      if (!member) return member.error();
+      results.push_back(apply_fixes(deck.sources, agreed.wanted[d]));
+      ChangedFiles files;
+      for (FixedFile& f : results.back().files) {
+        const std::string& path = deck.sources[f.file].path();
+        if (const auto [it, is_new] = files.try_emplace(path, f.text);
+            !is_new && it->second != f.text)
+          return Error{Error::Code::config,
+                       path +
+                           " is included more than once and would become two different files; "
+                           "nothing was written"};
+      }
+      changed += files.size();
+      set.propose(*member, deck, files);
+    }
+    constexpr std::size_t most = 10;
+    for (std::size_t i = 0; i < std::min(most, agreed.withheld.size()) && !common_.quiet; ++i) {
+      const WithheldFix& w = agreed.withheld[i];
+      std::fprintf(stderr,
+                   "%s: note: not fixed (%s): %s includes this file, too, and needs it as it is\n",
+                   jobs[w.deck]->loaded->deck.sources.where(w.diagnostic->span).c_str(),
+                   std::string(w.diagnostic->rule).c_str(), jobs[w.other]->path.c_str());
+    }
+    if (agreed.withheld.size() > most && !common_.quiet)
+      std::fprintf(stderr, "deck: note: %zu more were not fixed for that reason\n",
+                   agreed.withheld.size() - most);
+    return changed;
+  }
+
+  /// --diff prints what --fix would write; --fix writes, every file once, and lints again.
   int fixes() {
     int code = exit_clean;
-    std::string diffs;
-    for (auto& job : jobs_) {
-      if (!job->loaded) continue;
-      const SourceSet& sources = job->loaded->deck.sources;
-      const FixResult fixed = apply_fixes(sources, job->result.diagnostics, options_.unsafe_fixes);
-      if (options_.diff) {
-        for (const FixedFile& f : fixed.files)
-          diffs += unified_diff(sources[f.file].path(), sources[f.file].bytes(), f.text);
-        continue;
+    EditSet set;
+    std::vector<FixResult> results;
+    const auto changed = collect_fixes(set, results);
+    if (!changed) return usage(changed.error().message);
+    if (options_.diff) {
+      const auto patch = set.diff();
+      if (!patch) return usage(patch.error().message);
+      print_text(*patch);
+    } else if (*changed > 0) {
+      const auto plan = set.in_place();
+      if (!plan) return usage(plan.error().message);
+      if (auto written = write_files_atomic(plan->files); !written)
+        return usage(written.error().message);
+      for (std::size_t d = 0, r = 0; d < jobs_.size(); ++d) {
+        if (!jobs_[d]->loaded) continue;
+        const FixResult& fixed = results[r++];
+        if (!common_.quiet && !fixed.files.empty())
+          std::fprintf(stderr, "%s: %zu fixed in %zu file%s\n", jobs_[d]->path.c_str(),
+                       fixed.applied, fixed.files.size(), fixed.files.size() == 1 ? "" : "s");
       }
-      if (fixed.files.empty()) continue;
-      if (job->path == "-") return usage("--fix cannot rewrite standard input; use --diff");
-      std::vector<OutputFile> files;
-      for (const FixedFile& f : fixed.files) files.push_back({sources[f.file].path(), f.text});
-      if (auto written = write_files_atomic(files); !written) return usage(written.error().message);
-      if (!common_.quiet)
-        std::fprintf(stderr, "%s: %zu fixed in %zu file%s\n", job->path.c_str(), fixed.applied,
-                     fixed.files.size(), fixed.files.size() == 1 ? "" : "s");
       relint_ = true;
     }
-    if (options_.diff) print_text(diffs);
     if (relint_) {
       auto old = std::move(jobs_);
       jobs_.clear();
@@ -213,6 +272,26 @@ class Run {
       after_fix_ = code;
     }
     return exit_clean;
+  }
+
+  /// Entries of the baseline that hide nothing: they would hide the next finding of that kind.
+  void report_stale() const {
+    for (const auto& job : jobs_) {
+      if (!job->loaded || job->result.stale.empty() || common_.quiet) continue;
+      constexpr std::size_t most = 10;
+      std::fprintf(stderr,
+                   "%s: note: %zu entries of the baseline do not occur any more; write it again "
+                   "with --write-baseline\n",
+                   job->path.c_str(), job->result.stale.size());
+      std::size_t shown = 0;
+      for (const auto& [key, count] : job->result.stale) {
+        if (shown++ == most) break;
+        const auto& [rule, entity] = job->baseline_names.at(key);
+        std::fprintf(stderr, "  %s %s%s%s: %llu time%s\n", key.first.c_str(), rule.c_str(),
+                     entity.empty() ? "" : " ", entity.c_str(),
+                     static_cast<unsigned long long>(count), count == 1 ? "" : "s");
+      }
+    }
   }
 
   std::vector<LintedDeck> linted() const {
@@ -237,11 +316,12 @@ class Run {
     }
     if (!common_.json.empty()) put(common_.json, lint_json(decks));
     if (!options_.write_baseline.empty()) {
-      std::vector<const LintResult*> results;
+      std::vector<BaselinedDeck> baselined;
       for (const auto& job : jobs_)
-        if (job->loaded) results.push_back(&job->result);
-      put(options_.write_baseline, deck::write_baseline(results));
+        if (job->loaded) baselined.push_back({job->path, &job->loaded->deck, &job->result});
+      put(options_.write_baseline, deck::write_baseline(baselined, options_.write_baseline));
     }
+    report_stale();
     // --json - and -o FORMAT=- take standard output for themselves.
     const bool taken = common_.json == "-" || options_.diff ||
                        std::any_of(options_.outputs.begin(), options_.outputs.end(),
@@ -296,18 +376,22 @@ Action setup(CLI::App& app) {
   app.add_option("--fail-on", o.fail_on, "Exit with 1 at or above: error (default), warning, never")
       ->check(CLI::IsMember({"error", "warning", "never"}))
       ->type_name("LEVEL");
-  app.add_option("--baseline", o.baseline, "Leave out the findings listed in FILE")
+  app.add_option("--baseline", o.baseline,
+                 "Leave out the findings listed in FILE, of the decks listed there")
       ->type_name("FILE");
   app.add_option("--write-baseline", o.write_baseline, "Write all findings to FILE as a baseline")
       ->type_name("FILE");
   app.add_option("--config", o.config, "Use FILE instead of looking for .decklint.toml")
       ->type_name("FILE");
   app.add_flag("--no-config", o.no_config, "Use no configuration file");
-  app.add_flag("--geometry", o.geometry,
-               "Also check geometry and first cycle (rules DK3, DK4): penetrations, gaps against the "
-               "mesh, segments, contact forces and time step at the start");
-  app.add_flag("--fix", o.fix,
-               "Apply safe fixes: the reference solver does the same with the deck");
+  app.add_flag(
+      "--geometry", o.geometry,
+      "Also check geometry and first cycle (rules DK3, DK4): penetrations, gaps against the "
+      "mesh, segments, contact forces and time step at the start");
+  app.add_flag(
+      "--fix", o.fix,
+      "Apply safe fixes: the reference solver does the same with the deck. Decks are fixed "
+      "together: a file that they share only as all of them want it");
   app.add_flag("--unsafe-fixes", o.unsafe_fixes, "Apply the other fixes too");
   app.add_flag("--diff", o.diff,
                "Print the fixes as a patch (findings on standard error), write nothing");
@@ -315,7 +399,10 @@ Action setup(CLI::App& app) {
   app.add_option("--per-rule", o.per_rule, "Findings shown per rule; 0 shows all")
       ->check(CLI::Range(0, 1000000))
       ->type_name("N");
-  return [options] { return run(*options); };
+  return [options] {
+    options->common.rewrites = (options->fix || options->unsafe_fixes) && !options->diff;
+    return run(*options);
+  };
 }
 
 const VerbRegistration registration{

@@ -175,7 +175,7 @@ int run(const Options& o) {
     std::vector<OutputFile> files = {{o.directory + "/deck.1", texts[0]}};
     for (std::size_t i = 0; i < all.size(); ++i)
       files.push_back({o.directory + "/deck-" + all[i].name + ".1", texts[i + 1]});
-    if (auto written = write_files_atomic(files); !written) {
+    if (auto written = write_outputs(files); !written) {
       print_error(common, written.error().message);
       return exit_usage;
     }

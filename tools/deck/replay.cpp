@@ -76,6 +76,7 @@ int run(Options& o) {
     print_error(o.common, source.error().message);
     return exit_input;
   }
+  remember_read(**source);
   const auto csv = cycle::states_text((*source)->bytes());
   if (!csv) {
     print_error(o.common, o.states + ": the compressed data is damaged");

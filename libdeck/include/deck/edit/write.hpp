@@ -2,6 +2,8 @@
 // contents are written and flushed beside their place and then renamed into it.
 #pragma once
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,17 +12,27 @@
 
 namespace deck {
 
+/// A file as it was when it was read.
+struct FileRead {
+  std::uint64_t device = 0, inode = 0;
+  std::string_view bytes;
+};
+
 /// A file to be written, alone or as part of a set.
 struct OutputFile {
   std::string path;
   std::string_view bytes;
+  /// Given: the file is replaced only if it still is the one that was read, byte for byte.
+  std::optional<FileRead> read = std::nullopt;
 };
 
 struct WriteOptions {
-  /// Not empty: a file that is replaced stays as its own name plus this (".orig"). An older file of
-  /// that name is replaced.
+  /// Not empty: a file that is replaced stays as its own name plus this (".orig"). A file of that
+  /// name is never replaced: unless it has the same bytes, a number is added (".orig.2").
   std::string backup_suffix;
   bool make_directories = false;  ///< of the path, where missing
+  /// False: a symbolic link, pipe or device of the name is itself replaced by a regular file.
+  bool follow_links = true;
   bool sync = true;  ///< flush files and directories to the disk; false: survives a kill of the
                      ///< process, but not surely a loss of power
 };
@@ -38,15 +50,35 @@ Result<void> write_file_atomic(const std::string& path, std::string_view bytes,
 /// first is renamed. If a rename fails, those made before are taken back. A kill between two
 /// renames leaves some files old and some new, each of them whole, and a note of what is missing;
 /// see finish_interrupted_write. Two entries that lead to the same file must have the same bytes.
+///
+/// Files with `read` are compared with what was read, under a lock that others who write this way
+/// wait for, before any file is replaced and again as it is replaced: the two are exchanged in one
+/// step, and exchanged back if what was taken out is not what was read. What remains: where a file
+/// system cannot exchange names (EINVAL: some network and FAT file systems), an edit saved in the
+/// instant between comparing and renaming; and an editor that has the old file open and writes into
+/// it later writes into a file that has no name any more.
 Result<void> write_files_atomic(const std::vector<OutputFile>& files,
-                                const WriteOptions& options = {"", true, true});
+                                const WriteOptions& options = {"", true, true, true});
 
+struct FinishedWrite {
+  std::size_t files = 0;  ///< put in place
+  std::string refused;  ///< "note: why": there is a note that cannot be ours, and it was left alone
+};
 /// Finishes a set of files, `path` being one of them, whose writing was killed between two renames:
-/// puts the remaining new files in place and removes the note (".NAME.unfinished") that said so.
-/// Returns how many files that were; 0 also where nothing was left to do, where the writer is still
-/// at work, and where somebody changed a file of the set since: then nothing but the note is
-/// removed. Error: a file cannot be put in place.
-Result<std::size_t> finish_interrupted_write(const std::string& path);
+/// puts the remaining new files in place and removes the note (".NAME.unfinished") that said so. No
+/// file is put in place where nothing was left to do, where the writer is still at work, and where
+/// somebody changed a file of the set since: then only the note is removed, and the new files
+/// beside the old ones.
+///
+/// The note is believed only if it is a regular file (not a link) of the user with the mode that
+/// notes get, not too long, and if all it does is to rename temporaries of the right name and owner
+/// to files beside them that are in `tree`, the files of the decks that are to be rewritten. Error:
+/// a file cannot be put in place.
+Result<FinishedWrite> finish_interrupted_write(const std::string& path,
+                                               const std::vector<std::string>& tree);
+
+/// The note beside `path` that finish_interrupted_write would read; changes and opens nothing.
+std::optional<std::string> unfinished_note(const std::string& path);
 
 /// True if `name` is what a killed write of the file `target` (both without directory) left behind:
 /// ".TARGET.PID-NUMBER.tmp".

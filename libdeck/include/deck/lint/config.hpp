@@ -28,11 +28,32 @@ Result<LintConfig> parse_lint_config(std::string_view text, const std::string& p
 /// Looks for .decklint.toml in the directory of `deck_path` and above. No file: an empty config.
 Result<LintConfig> find_lint_config(const std::string& deck_path);
 
-/// Baseline file: JSON
-/// {"schema":"deck.baseline/1","findings":{"<fingerprint>":{"rule":..,"count":..}}}.
-Result<std::map<std::string, std::uint64_t>> parse_baseline(std::string_view text);
-/// The findings of one or more runs as a baseline, ordered by fingerprint.
-std::string write_baseline(const std::vector<const LintResult*>& results);
+/// Findings that are known and accepted, by deck: an error in a deck that is not in the baseline is
+/// never hidden. Paths are absolute here, and relative to the baseline in its file.
+struct Baseline {
+  struct Entry {
+    std::string rule, entity;
+    std::uint64_t count = 0;
+  };
+  /// Absolute path of the deck -> findings of that deck.
+  std::map<std::string, std::map<FindingKey, Entry>> decks;
+
+  /// For LintOptions::baseline; nullptr: the deck is not in the baseline.
+  const std::map<FindingKey, Entry>* find(const std::string& deck_path) const;
+};
+
+/// Reads a baseline: JSON {"schema":"deck.baseline/2","decks":{"<deck>":[{"file":..,
+/// "fingerprint":..,"rule":..,"entity":..,"count":..}]}}, deck and file relative to `path`.
+Result<Baseline> parse_baseline(std::string_view text, const std::string& path);
+
+/// A deck for write_baseline.
+struct BaselinedDeck {
+  std::string path;
+  const Deck* deck = nullptr;
+  const LintResult* result = nullptr;
+};
+/// The findings of decks as a baseline that is to lie at `path`, ordered by deck and file.
+std::string write_baseline(const std::vector<BaselinedDeck>& decks, const std::string& path);
 
 /// `path` against a glob with * (no slash), ** and ?; also matches the last path component alone.
 bool glob_match(std::string_view pattern, std::string_view path);

@@ -90,12 +90,17 @@ class Reporter {
   Diagnostics* sink_;
 };
 
+/// What a baseline knows a finding by: its file (absolute path) and its fingerprint.
+using FindingKey = std::pair<std::string, std::string>;
+/// A path as FindingKey holds it.
+std::string finding_file(const std::string& path);
+
 struct LintOptions {
   std::vector<std::string> select;  ///< ids or prefixes; empty: all
   std::vector<std::string> ignore;
   std::map<std::string, Severity> severity;  ///< per id or prefix
   std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;  ///< glob, rules
-  std::map<std::string, std::uint64_t> baseline;  ///< fingerprint -> count
+  std::map<FindingKey, std::uint64_t> baseline;  ///< of this deck: accepted findings and how many
   int diagnostics_per_rule = Limits{}.diagnostics_per_rule;
 };
 
@@ -123,6 +128,7 @@ struct LintResult {
   std::map<std::string_view, std::uint64_t> dropped;  ///< per rule: found but not kept
   std::uint64_t errors = 0, warnings = 0, infos = 0;
   std::uint64_t suppressed = 0, baselined = 0;
+  std::map<FindingKey, std::uint64_t> stale;  ///< of the baseline: what does not occur any more
   std::vector<NotChecked> not_checked;
 };
 

@@ -1,19 +1,11 @@
-#include "tree.hpp"
+#include "edit/tree.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <map>
 
-namespace deck::cli {
+namespace deck::detail {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Targets relative to the output directory, and the file of the deck that goes there.
-struct Layout {
-  std::map<fs::path, std::uint32_t> files;
-  std::vector<std::string> outside;
-};
 
 /// Leading ".." of a normalized relative path.
 int climbs(const fs::path& path) {
@@ -52,7 +44,9 @@ std::vector<fs::path> relative_places(const Deck& deck, Layout& layout) {
   return place;
 }
 
-Result<Layout> places_of(const Deck& deck) {
+}  // namespace
+
+Result<Layout> lay_out(const Deck& deck) {
   Layout layout;
   const std::vector<fs::path> places = relative_places(deck, layout);
   int up = 0;
@@ -80,32 +74,4 @@ Result<Layout> places_of(const Deck& deck) {
   return layout;
 }
 
-}  // namespace
-
-Result<Tree> lay_out(const Deck& deck, const std::string& directory, const ChangedFiles& changed) {
-  auto layout = places_of(deck);
-  if (!layout) return layout.error();
-  Tree tree;
-  tree.outside = std::move(layout->outside);
-  for (const std::string& path : tree.outside)
-    if (changed.contains(path))
-      return Error{Error::Code::config,
-                   path +
-                       " is included by its absolute path and would have to change; change it "
-                       "with --in-place, or make one file with deck convert --flatten"};
-  for (const auto& [place, file] : layout->files) {
-    const Source& source = deck.sources[file];
-    const fs::path target = fs::path(directory) / place;
-    std::error_code ec;
-    if (fs::equivalent(target, source.path(), ec))
-      return Error{Error::Code::config, target.string() +
-                                            " is the deck itself; name another directory, or "
-                                            "change it with --in-place"};
-    const auto it = changed.find(source.path());
-    tree.files.push_back(
-        {target, source.path(), it == changed.end() ? source.bytes() : it->second});
-  }
-  return tree;
-}
-
-}  // namespace deck::cli
+}  // namespace deck::detail

@@ -1,0 +1,92 @@
+// EditSet: the include trees of all decks of a call as one set of files. Every file is in it once,
+// by what it is and not by how it was named, with every deck that includes it; what each deck wants
+// its files to become is put together and written once, or refused where two decks disagree.
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "deck/edit/rewrite.hpp"
+#include "deck/edit/write.hpp"
+#include "deck/keyword/deck.hpp"
+
+namespace deck {
+
+class EditSet {
+ public:
+  /// What a call would write, once and for all of its decks. Points into the set.
+  struct Plan {
+    std::vector<OutputFile> files;     ///< by path
+    std::vector<std::string> outside;  ///< trees: included by an absolute path, left where they are
+  };
+
+  /// Takes the files of a deck as they were read, before anything is changed. `name` stands for the
+  /// deck in messages; empty: the path of its main file. Returns the number of the deck. Error: a
+  /// file of it was read before, for another deck or another include, and was another one then.
+  ///
+  ///     EditSet set;
+  ///     auto a = set.add(deck_a), b = set.add(deck_b);
+  ///     set.propose(*a, deck_a, *apply_rewrite(deck_a.sources, rewrite_a));
+  ///     set.propose(*b, deck_b, *apply_rewrite(deck_b.sources, rewrite_b));
+  ///     auto plan = set.in_place();
+  ///     if (plan) write_files_atomic(plan->files);
+  Result<std::size_t> add(const Deck& deck, std::string name = {});
+
+  /// What the files of a deck shall hold; those that `changed` does not name stay as they are.
+  /// `now` is the deck read again with that text (the same deck where its includes stay).
+  void propose(std::size_t deck, const Deck& now, const ChangedFiles& changed);
+
+  /// The files that change, where they are; each of them is only to be replaced if it still is what
+  /// was read. Error: two decks want different texts for one file, both places named.
+  Result<Plan> in_place() const;
+  /// All files of all decks below another directory. Error: two files, or two texts of one file,
+  /// for one place; a file that stays where it is would have to change.
+  Result<Plan> tree(const std::string& directory) const;
+  /// The changes of in_place() as one patch that git apply takes, every file once. Paths are
+  /// relative to the top of the git work tree that holds the files, else to the current directory,
+  /// else to the directory that all of them share.
+  Result<std::string> diff() const;
+
+  /// The paths of all files, as they were opened.
+  std::vector<std::string> paths() const;
+
+ private:
+  /// A deck's use of a file.
+  struct Use {
+    std::size_t deck = 0;
+    std::string path;   ///< as this deck opened it
+    std::string place;  ///< "file:line" of the #include; empty: the main file
+    std::size_t text = 0;
+  };
+  struct File {
+    std::uint64_t device = 0, inode = 0;  ///< 0: from memory
+    /// Where it is on disk, links resolved, and how it was opened: several if hard-linked.
+    std::vector<std::pair<std::string, std::string>> places;
+    std::deque<std::string> texts;  ///< as it was read, then what is wanted
+    std::vector<Use> uses;
+  };
+  struct Member {
+    std::string name;
+    std::map<std::string, std::size_t> file_of;               ///< by path as opened
+    std::vector<std::pair<std::string, std::string>> layout;  ///< relative target, path as opened
+    std::vector<std::string> outside;
+    std::string no_layout;  ///< why there is none
+  };
+
+  Result<std::size_t> enter(const Source& source);
+  Result<std::vector<std::pair<const File*, std::size_t>>> changes() const;
+  Error conflict(const File& file, const Use& a, const Use& b, const std::string& where) const;
+  const Use* use_of(std::size_t deck, const std::string& path) const;
+
+  std::deque<File> files_;
+  std::vector<Member> decks_;
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> by_identity_;
+  std::map<std::string, std::size_t> by_place_;
+};
+
+}  // namespace deck

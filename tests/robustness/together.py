@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+"""Random libraries of decks that share includes, random conversions and fixes of several decks in one call:
+what comes out is what each deck, converted alone in its own copy, comes to be, or the call is refused and
+changes nothing. In place and into another directory."""
+import os
+import random
+import shutil
+import tempfile
+
+from common import ROOT, Checks
+
+UNITS = (("Mg", "mm", "s"), ("kg", "mm", "ms"), ("kg", "m", "s"))
+
+
+def tree(directory):
+    found = {}
+    for folder, _, names in os.walk(directory):
+        for name in names:
+            full = os.path.join(folder, name)
+            with open(full, "rb") as f:
+                found[os.path.relpath(full, directory)] = f.read()
+    return found
+
+
+def put(directory, files):
+    for name, text in files.items():
+        full = os.path.join(directory, name)
+        os.makedirs(os.path.dirname(full), exist_ok=True)
+        with open(full, "w") as f:
+            f.write(text)
+
+
+def pieces():
+    """Parts of a sample that decks can share: what stands before the nodes, the nodes, the groups, the contact."""
+    with open(os.path.join(ROOT, "samples", "too_close_0000.rad")) as f:
+        text = f.read()
+    n, s, i, e = (text.index(k) for k in ("/NODE", "/SURF", "/INTER", "/END"))
+    return text[:n], text[n:s], text[s:i], text[i:e]
+
+
+def header_in(header, units):
+    """The first lines of a deck with other unit codes (other numbers mean other lengths, which is no matter here)."""
+    lines = header.split("\n")
+    at = lines.index("/BEGIN")
+    row = "".join(code.rjust(20) for code in units)
+    lines[at + 3] = lines[at + 4] = row
+    return "\n".join(lines)
+
+
+class Library:
+    """Decks in folders of their own and includes in `common` (or beside a deck, or deeper)."""
+
+    def __init__(self, r):
+        head, nodes, groups, contact = pieces()
+        self.files, self.trees = {}, {}
+        if r.random() < 0.3:
+            contact = "# decklint: ignore[DK223] reason=unused in all\n" + contact
+        if r.random() < 0.3:
+            groups += "/TITLE\n\tx\n"
+        variants = {"common/mesh.inc": nodes, "common/sub/inter.inc": contact, "common/groups.inc": groups}
+        units, same = r.choice(UNITS), r.random() < 0.6
+        for name in "abc"[:r.randint(2, 3)]:
+            main, used = header_in(head, units if same else r.choice(UNITS)), []
+            if r.random() < 0.25:
+                main += "/NODE\n       %d                 0.0                 0.0               100.0\n" % r.randint(900, 999)
+            for target, text in variants.items():
+                if r.random() < 0.75:
+                    main += "#include ../%s\n" % target
+                    used.append(target)
+                else:
+                    main += text
+            own = "%s/%s_0000.rad" % (name, name)
+            self.files[own] = main + "/END\n"
+            self.trees[own] = [own] + used
+            for target in used:
+                self.files[target] = variants[target]
+
+    def decks(self):
+        return sorted(self.trees)
+
+
+def random_call(r):
+    """A verb with options, without decks and place."""
+    conversions = (("--units", ",".join(r.choice(UNITS))), ("--version", r.choice(("2018", "2024", "2026"))),
+                   ("--renumber", r.choice(("node+1000", "part+10", "node=1", "surf+5"))), ("--resolve-defaults",), ("--flatten",))
+    kind = r.random()
+    if kind < 0.6:
+        chosen = r.sample(conversions, r.randint(1, 2))
+        return ["convert"] + [word for option in chosen for word in option]
+    if kind < 0.8:
+        return ["fix", "--strategy", r.choice(("move-nodes", "reduce-gap", "inacti"))]
+    return ["lint", "--no-config", r.choice(("--fix", "--unsafe-fixes"))]
+
+
+def lines_gone(before, after):
+    return set(before.splitlines()) - set(after.splitlines())
+
+
+def judge(library, call, before, now, alone, code, place):
+    """What is wrong; `alone` is what each deck made of its own copy, or None where it refused."""
+    if code not in (0, 1, 2, 3):
+        return "exit code %s" % code
+    if now == before:
+        return ""  # refused, or nothing to do; counted apart
+    if code >= 2:
+        return "refused with exit code %d, but something was written" % code
+    for deck in library.decks():
+        if alone[deck] is None:
+            return "%s alone is refused, but something was written" % deck
+        names = library.trees[deck] if place == "in place" else sorted(alone[deck])
+        for name in names:
+            if now.get(name) == alone[deck].get(name):
+                continue
+            if call[0] != "lint" or name not in now:
+                return "%s of %s is not what it becomes alone" % (name, deck)
+            # A fix that not all decks want is left out; one that was made all of them want.
+            if not lines_gone(before[name], now[name]) <= lines_gone(before[name], alone[deck][name]):
+                return "%s: a fix that %s does not want" % (name, deck)
+    return ""
+
+
+def case(c, r, number, tmp, counts):
+    library, call = Library(r), random_call(r)
+    decks = library.decks()
+    names = "%d: %s of %s" % (number, " ".join(call), " ".join(decks))
+    for place in ("in place", "out"):
+        if place == "out" and call[0] == "lint":
+            continue
+        where = {"lint": []}.get(call[0], ["--in-place"] if place == "in place" else ["-o", "../out"])
+        results = {}
+        for given in [[d] for d in decks] + [decks]:
+            work = os.path.join(tmp, "work")
+            shutil.rmtree(tmp, ignore_errors=True)
+            put(work, library.files)
+            before = tree(work)
+            run = c.run(*call, *where, *given, "-q", cwd=work)
+            after = tree(work) if place == "in place" else tree(os.path.join(tmp, "out"))
+            if place == "out" and tree(work) != before:
+                c.check(names, False, "-o changed the sources")
+            results[tuple(given)] = run, after, before if place == "in place" else {}
+        run, now, before = results[tuple(decks)]
+        alone = {}
+        for d in decks:
+            one, after, was = results[(d,)]
+            # fix ends with 1 where penetrations remain, lint where findings do: they have written all the same.
+            alone[d] = None if one.code > 1 or (one.code == 1 and call[0] == "convert") else after
+        why = judge(library, call, before, now, alone, run.code, place)
+        c.check("%s, %s" % (names, place), not why, "%s; %s" % (why, run.text[-300:].strip()))
+        counts[(call[0], "nothing" if now == before else "done", run.code)] = counts.get(
+            (call[0], "nothing" if now == before else "done", run.code), 0) + 1
+
+
+def main():
+    c = Checks()
+    r = random.Random(20)
+    counts = {}
+    tmp = tempfile.mkdtemp(prefix="deck-together-")
+    try:
+        for number in range(400 if c.options.all else 60):
+            case(c, r, number, os.path.join(tmp, "case"), counts)
+    finally:
+        shutil.rmtree(tmp, ignore_errors=True)
+    for verb in ("convert", "fix", "lint"):
+        done = sum(n for (v, what, _), n in counts.items() if v == verb and what == "done")
+        c.check("%s: something was written in some cases (%d)" % (verb, done), done > 3, str(counts))
+    refused = sum(n for (v, what, code), n in counts.items() if code == 2)
+    c.check("some calls were refused because decks disagree (%d)" % refused, refused > 3, str(counts))
+    c.finish()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,205 @@
+// Several decks of one call, files that others work on, and outputs over decks: nobody's bytes are
+// lost.
+#include <sys/stat.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/command_line.hpp"
+
+namespace {
+
+using namespace deck::testing_support;
+namespace fs = std::filesystem;
+
+/// Decks a and b that share an include with a tied contact, whose gap has a unit.
+class Together : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    put("a", "");
+    put("b", "");
+    write(dir_ / "common/x.inc", contact);
+  }
+  void put(const std::string& name, const std::string& more) const {
+    write(dir_ / name / (name + "_0000.rad"), main_deck(more));
+  }
+  static std::string main_deck(const std::string& more) {
+    return std::string(begin) + more + "#include ../common/x.inc\n/END\n";
+  }
+  std::string shared() const { return read(dir_ / "common/x.inc"); }
+};
+
+TEST_F(Together, ASharedIncludeIsConvertedOnce) {
+  ASSERT_EQ(deck("convert a/a_0000.rad --units kg,m,s -o alone"), 0) << err();
+  const std::string alone = read(dir_ / "alone/common/x.inc");
+  ASSERT_NE(alone, contact);
+  ASSERT_EQ(deck("convert a/a_0000.rad b/b_0000.rad --units kg,m,s -o both"), 0) << err();
+  EXPECT_EQ(read(dir_ / "both/common/x.inc"), alone);
+  ASSERT_EQ(deck("convert a/a_0000.rad b/b_0000.rad --units kg,m,s --in-place --backup"), 0)
+      << err();
+  EXPECT_EQ(shared(), alone);
+  EXPECT_EQ(read(dir_ / "common/x.inc.orig"), contact);
+  EXPECT_FALSE(fs::exists(dir_ / "common/x.inc.orig.2"));
+}
+
+TEST_F(Together, DecksThatWantDifferentTextsAreRefusedBeforeAByteIsWritten) {
+  std::string metres = main_deck("");
+  for (auto at = metres.find("mm"); at != metres.npos; at = metres.find("mm"))
+    metres.replace(at, 2, " m");
+  write(dir_ / "b/b_0000.rad", metres);
+  for (const char* where : {"-o out", "--in-place", "--diff"}) {
+    EXPECT_EQ(deck(std::string("convert a/a_0000.rad b/b_0000.rad --units Mg,m,s ") + where), 2)
+        << where;
+    EXPECT_NE(err().find("a/a_0000.rad"), std::string::npos) << err();
+    EXPECT_NE(err().find("b/b_0000.rad"), std::string::npos) << err();
+    EXPECT_EQ(out(), "");
+  }
+  EXPECT_FALSE(fs::exists(dir_ / "out"));
+  EXPECT_EQ(shared(), contact);
+  EXPECT_EQ(read(dir_ / "a/a_0000.rad"), main_deck(""));
+}
+
+TEST_F(Together, ADeckThatCannotBeConvertedKeepsTheOthersFromIt) {
+  put("b", "/UNKNOWN/KEYWORD/1\n1.0\n");
+  EXPECT_EQ(deck("convert a/a_0000.rad b/b_0000.rad --units kg,m,s --in-place"), 1);
+  EXPECT_EQ(shared(), contact);
+  EXPECT_EQ(deck("convert a/a_0000.rad no_0000.rad --units kg,m,s --in-place"), 3);
+  EXPECT_EQ(shared(), contact);
+}
+
+TEST_F(Together, TheReportHasWhatIsSharedOnce) {
+  write(dir_ / "common/x.inc", std::string(contact) + "/UNKNOWN/KEYWORD/1\n1.0\n");
+  deck("convert a/a_0000.rad b/b_0000.rad --units kg,m,s --partial -o out --report r.json");
+  EXPECT_EQ(nlohmann::json::parse(read(dir_ / "r.json"))["undecided"].size(), 1u);
+}
+
+TEST_F(Together, ASuppressionThatAnotherDeckNeedsStays) {
+  const std::string suppressed =
+      "# decklint: ignore[DK170] reason=the surface of b comes later\n" + std::string(contact);
+  write(dir_ / "common/x.inc", suppressed);
+  const std::string surface =
+      "/SURF/SEG/2\ns\n         1         1         2         3         3\n";
+  put("a", surface);
+  for (const char* option : {"--fix", "--unsafe-fixes"}) {
+    deck(std::string("lint a/a_0000.rad b/b_0000.rad --no-config --select DK091,DK170 ") + option);
+    EXPECT_EQ(shared(), suppressed) << option << err();
+  }
+  // Alone, only the unsafe fix touches an include.
+  deck("lint a/a_0000.rad --no-config --select DK091,DK170 --fix");
+  EXPECT_EQ(shared(), suppressed);
+  deck("lint a/a_0000.rad --no-config --select DK091,DK170 --unsafe-fixes");
+  EXPECT_EQ(shared(), contact) << out() << err();
+}
+
+TEST_F(Together, DecksOfALintCallDoNotUndoOneAnothersFixes) {
+  const std::string tab =
+      "/TITLE\nx\n/SURF/SEG/7\ns\n\t 1         1         2         3         3\n";
+  write(dir_ / "common/x.inc", tab);
+  put("a", "# decklint: ignore[DK223] reason=unused in a\n/TITLE\na\n");
+  ASSERT_LE(deck("lint a/a_0000.rad b/b_0000.rad --no-config --select DK013,DK091,DK223 --fix"), 1)
+      << err();
+  EXPECT_EQ(shared().find('\t'), std::string::npos) << shared();
+  EXPECT_EQ(read(dir_ / "a/a_0000.rad").find("decklint"), std::string::npos);
+}
+
+TEST_F(Together, ResultsAreNotWrittenOverDecks) {
+  const std::string a = main_deck(""), b = main_deck("");
+  for (const char* call :
+       {"params --no-geometry --json a/a_0000.rad b/b_0000.rad",
+        "gaps a/a_0000.rad --json a/a_0000.rad", "gaps --csv a/a_0000.rad b/b_0000.rad",
+        "gaps --html a/a_0000.rad b/b_0000.rad", "cycle --json a/a_0000.rad b/b_0000.rad",
+        "accuracy --svg a/a_0000.rad b/b_0000.rad",
+        "lint --write-baseline a/a_0000.rad b/b_0000.rad",
+        "lint -o sarif=a/a_0000.rad b/b_0000.rad",
+        "convert --report a/a_0000.rad b/b_0000.rad --units kg,m,s -o out",
+        "fix --strategy inacti --json a/a_0000.rad b/b_0000.rad",
+        "batch -o results --json a/a_0000.rad b/b_0000.rad", "rules --json a/a_0000.rad",
+        "params --no-geometry b/b_0000.rad --json common/x.inc",
+        "lint b/b_0000.rad --json b/../common/x.inc"}) {
+    EXPECT_EQ(deck(call), 2) << call << err();
+    EXPECT_NE(err().find("nothing was written"), std::string::npos) << call << err();
+    EXPECT_EQ(read(dir_ / "a/a_0000.rad"), a) << call;
+    EXPECT_EQ(read(dir_ / "b/b_0000.rad"), b) << call;
+    EXPECT_EQ(shared(), contact) << call;
+  }
+}
+
+TEST_F(Together, AnOutputThatIsReadUnderAnotherNameIsRefused) {
+  write(dir_ / "common/x.inc", "# nothing that looks like a deck\n");
+  fs::create_symlink("common/x.inc", dir_ / "out.json");
+  EXPECT_EQ(deck("params a/a_0000.rad --no-geometry --json out.json"), 2);
+  EXPECT_NE(err().find("this call reads it"), std::string::npos) << err();
+  EXPECT_EQ(shared(), "# nothing that looks like a deck\n");
+}
+
+TEST_F(Together, AnotherDeckInTheDirectoryIsReplacedOnlyOnRequest) {
+  const std::string older = main_deck("/TITLE\nsomebody else's\n");
+  write(dir_ / "out/a/a_0000.rad", older);
+  EXPECT_EQ(deck("convert a/a_0000.rad -o out"), 2);
+  EXPECT_NE(err().find("--overwrite"), std::string::npos) << err();
+  EXPECT_EQ(read(dir_ / "out/a/a_0000.rad"), older);
+  EXPECT_FALSE(fs::exists(dir_ / "out/common")) << "all or nothing";
+  EXPECT_EQ(deck("convert a/a_0000.rad -o out --overwrite"), 0) << err();
+  EXPECT_EQ(read(dir_ / "out/a/a_0000.rad"), main_deck(""));
+  EXPECT_EQ(deck("convert a/a_0000.rad -o out"), 0) << "the same bytes are no obstacle" << err();
+}
+
+TEST_F(Together, AnotherDeckOfTheCallIsNotTheTarget) {
+  write(dir_ / "out/a/a_0000.rad", main_deck(""));
+  write(dir_ / "out/common/x.inc", contact);
+  EXPECT_EQ(deck("convert a/a_0000.rad out/a/a_0000.rad -o out --overwrite --units kg,m,s"), 2);
+  EXPECT_EQ(read(dir_ / "out/common/x.inc"), contact);
+}
+
+TEST_F(Together, AReadingVerbLeavesAnInterruptedRewritingAlone) {
+  const std::string temporary = (dir_ / "common/.x.inc.1-0.tmp").string();
+  write(temporary, "/TITLE\nnew\n");
+  struct stat fresh {
+  }, old{};
+  ASSERT_EQ(stat(temporary.c_str(), &fresh), 0);
+  ASSERT_EQ(stat((dir_ / "common/x.inc").c_str(), &old), 0);
+  const fs::path note = dir_ / "common/.x.inc.unfinished";
+  write(note, "deck unfinished 1\n" + temporary + "\t" + (dir_ / "common/x.inc").string() + "\t" +
+                  std::to_string(fresh.st_ino) + "\t" + std::to_string(old.st_ino) + "\t" +
+                  std::to_string(old.st_mtim.tv_sec) + "\t" + std::to_string(old.st_mtim.tv_nsec) +
+                  "\t" + std::to_string(old.st_size) + "\nend\n");
+  fs::permissions(note, fs::perms::owner_read | fs::perms::owner_write);
+  for (const char* call :
+       {"lint a/a_0000.rad --no-config --fail-on never", "params a/a_0000.rad --no-geometry",
+        "gaps a/a_0000.rad", "convert a/a_0000.rad -o out", "convert a/a_0000.rad --flatten --diff",
+        "lint a/a_0000.rad --no-config --fail-on never --fix --diff"}) {
+    deck(call);
+    EXPECT_NE(err().find("was interrupted"), std::string::npos) << call << err();
+    EXPECT_EQ(shared(), contact) << call;
+    EXPECT_TRUE(fs::exists(note) && fs::exists(temporary)) << call;
+  }
+  ASSERT_EQ(deck("convert a/a_0000.rad --units Mg,mm,s --in-place"), 0) << err();
+  EXPECT_NE(err().find("was finished: 1 file"), std::string::npos) << err();
+  EXPECT_EQ(shared(), "/TITLE\nnew\n");
+  EXPECT_FALSE(fs::exists(note) || fs::exists(temporary));
+}
+
+TEST_F(Together, BatchDoesNotFollowLinksInTheDirectoryOfResults) {
+  write(dir_ / "precious", "precious\n");
+  write(dir_ / "home/thesis", "precious\n");
+  fs::create_directories(dir_ / "results/.batch");
+  for (const char* name : {"a_0000.json", "summary.json", "index.html", ".batch/all.jsonl"})
+    fs::create_symlink(dir_ / "precious", dir_ / "results" / name);
+  EXPECT_LE(deck("batch -o results a/a_0000.rad --verb 'params --no-geometry'"), 1) << err();
+  EXPECT_EQ(read(dir_ / "precious"), "precious\n");
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(dir_ / "results/a_0000.json")));
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(dir_ / "results/summary.json")));
+  // A link in place of the directory of its own notes is refused, and one in place of the lock.
+  fs::remove_all(dir_ / "results");
+  fs::create_directories(dir_ / "results");
+  fs::create_directory_symlink(dir_ / "home", dir_ / "results/.batch");
+  EXPECT_EQ(deck("batch -o results a/a_0000.rad"), 2);
+  EXPECT_EQ(count_files(dir_ / "home"), 1u);
+  fs::remove(dir_ / "results/.batch");
+  fs::create_directories(dir_ / "results/.batch");
+  fs::create_symlink(dir_ / "made", dir_ / "results/.batch/all.lock");
+  EXPECT_EQ(deck("batch -o results a/a_0000.rad"), 2);
+  EXPECT_FALSE(fs::exists(dir_ / "made"));
+}
+
+}  // namespace

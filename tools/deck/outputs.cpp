@@ -1,0 +1,135 @@
+// The one place where results are written to files. A result is never written over a file that the
+// call has read, nor over a file that looks like a deck: "--json a b" with a flag in mind costs
+// nobody a deck.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <map>
+
+#include "common.hpp"
+
+namespace deck::cli {
+namespace {
+
+using Identity = std::pair<std::uint64_t, std::uint64_t>;
+
+/// Files that were read, by device and inode, and a name of each.
+std::map<Identity, std::string>& files_read() {
+  static std::map<Identity, std::string> files;
+  return files;
+}
+
+bool starts_like(std::string_view line, std::string_view word) {
+  return line.size() >= word.size() &&
+         std::equal(word.begin(), word.end(), line.begin(), [](char a, char b) {
+           return a == std::toupper(static_cast<unsigned char>(b));
+         });
+}
+
+/// True for the first line of a Starter deck, and where the first line that is no comment is a
+/// keyword: a deck without its head, an Engine file, an included file.
+bool looks_like_deck(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  if (starts_like(text, "#RADIOSS")) return true;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    const auto first = text.substr(0, end).find_first_not_of(" \t\r");
+    const std::string_view line =
+        first == text.npos ? std::string_view() : text.substr(first, end - first);
+    if (!line.empty() && line[0] != '#' && line[0] != '$')
+      return line.size() > 1 && line[0] == '/' &&
+             std::isalpha(static_cast<unsigned char>(line[1])) != 0;
+    if (starts_like(line, "#INCLUDE")) return true;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return false;
+}
+
+bool file_looks_like_deck(const std::string& path) {
+  constexpr std::size_t enough = std::size_t{1} << 16;
+  std::ifstream in(path, std::ios::binary);
+  std::string head(enough, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return looks_like_deck(head);
+}
+
+bool holds(const std::string& path, std::uint64_t size, std::string_view bytes) {
+  if (size != bytes.size()) return false;
+  const auto source = Source::open(path, Limits{});
+  return source && (*source)->bytes() == bytes;
+}
+
+Error refused(const std::string& path, const std::string& why) {
+  return {Error::Code::config, path + " would be written over: " + why +
+                                   "; nothing was written. Name another file (does an option lack "
+                                   "its value?)"};
+}
+
+}  // namespace
+
+void remember_read(const SourceSet& sources) {
+  for (std::uint32_t f = 0; f < sources.size(); ++f)
+    if (sources[f].inode() != 0)
+      files_read().emplace(Identity{sources[f].device(), sources[f].inode()}, sources[f].path());
+}
+
+void remember_read(const Source& source) {
+  if (source.inode() != 0)
+    files_read().emplace(Identity{source.device(), source.inode()}, source.path());
+}
+
+Result<void> check_output(const std::string& path, const OutputRules& rules,
+                          std::optional<std::string_view> bytes) {
+  struct stat status {};
+  if (path.empty() || path == "-") return {};
+  const auto look = rules.follow_links ? stat : lstat;
+  if (look(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
+  if (const auto read = files_read().find({status.st_dev, status.st_ino});
+      read != files_read().end())
+    return refused(path, read->second == path ? "this call reads it"
+                                              : "this call reads it, as " + read->second);
+  if (rules.overwrite || !file_looks_like_deck(path)) return {};
+  if (bytes && holds(path, static_cast<std::uint64_t>(status.st_size), *bytes)) return {};
+  if (rules.deck_tree)
+    return Error{Error::Code::config,
+                 path +
+                     " is a deck or a part of one already, and another one; nothing was "
+                     "written. Name another directory, or add --overwrite to replace it"};
+  return refused(path, "it begins as a deck");
+}
+
+int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths) {
+  for (const std::string& path : paths)
+    if (auto allowed = check_output(path); !allowed) {
+      print_error(options, allowed.error().message);
+      return exit_usage;
+    }
+  return exit_clean;
+}
+
+Result<void> write_outputs(const std::vector<OutputFile>& files, const OutputRules& rules,
+                           const WriteOptions& options) {
+  for (const OutputFile& f : files)
+    if (auto allowed = check_output(f.path, rules, f.bytes); !allowed) return allowed;
+  return write_files_atomic(files, options);
+}
+
+Result<void> write_output(const std::string& path, std::string_view bytes) {
+  if (path != "-") {
+    if (auto allowed = check_output(path, {}, bytes); !allowed) return allowed;
+    return write_file_atomic(path, bytes);
+  }
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
+      std::fflush(stdout) != 0)
+    return Error{Error::Code::io,
+                 std::string("cannot write standard output: ") + std::strerror(errno)};
+  return {};
+}
+
+}  // namespace deck::cli
