@@ -251,13 +251,17 @@ Result<std::string> EditSet::diff() const {
     for (const auto& [place, path] : file->places)
       if (!place.empty()) places.emplace_back(place);
   const fs::path root = patch_root(places);
+  // Paths of a patch with this line count from the top of the work tree, wherever git is called.
+  std::error_code ec;
+  const bool elsewhere = !root.empty() && root != fs::canonical(".", ec);
   std::string out;
   for (const auto& [file, text] : *changed)
     for (const auto& [place, path] : file->places) {
       const std::string shown =
           place.empty() ? path : fs::path(place).lexically_relative(root).string();
       const std::string hunks = unified_diff(shown, file->texts.front(), file->texts[text]);
-      if (!hunks.empty()) out += "diff --git a/" + shown + " b/" + shown + "\n" + hunks;
+      if (!hunks.empty() && elsewhere) out += "diff --git a/" + shown + " b/" + shown + "\n";
+      out += hunks;
     }
   return out;
 }

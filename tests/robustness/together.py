@@ -9,7 +9,7 @@ import tempfile
 
 from common import ROOT, Checks
 
-UNITS = (("Mg", "mm", "s"), ("kg", "mm", "ms"), ("kg", "m", "s"))
+UNITS = (("Mg", "mm", "s"), ("kg", "cm", "ms"), ("kg", "m", "s"))
 
 
 def tree(directory):
@@ -55,13 +55,13 @@ class Library:
         self.files, self.trees = {}, {}
         if r.random() < 0.3:
             contact = "# decklint: ignore[DK223] reason=unused in all\n" + contact
-        if r.random() < 0.3:
-            groups += "/TITLE\n\tx\n"
+        if r.random() < 0.6:
+            groups += "/GRNOD/NODE/77\nx\n\t      101\n"
         variants = {"common/mesh.inc": nodes, "common/sub/inter.inc": contact, "common/groups.inc": groups}
-        units, same = r.choice(UNITS), r.random() < 0.6
+        units, same = r.choice(UNITS), r.random() < 0.4
         for name in "abc"[:r.randint(2, 3)]:
             main, used = header_in(head, units if same else r.choice(UNITS)), []
-            if r.random() < 0.25:
+            if r.random() < 0.4:
                 main += "/NODE\n       %d                 0.0                 0.0               100.0\n" % r.randint(900, 999)
             for target, text in variants.items():
                 if r.random() < 0.75:
@@ -69,6 +69,8 @@ class Library:
                     used.append(target)
                 else:
                     main += text
+            if r.random() < 0.4:
+                main += "# decklint: ignore[DK223] reason=unused in %s\n/TITLE\nx\n" % name
             own = "%s/%s_0000.rad" % (name, name)
             self.files[own] = main + "/END\n"
             self.trees[own] = [own] + used

@@ -44,8 +44,8 @@ TEST_F(Together, ASharedIncludeIsConvertedOnce) {
 
 TEST_F(Together, DecksThatWantDifferentTextsAreRefusedBeforeAByteIsWritten) {
   std::string metres = main_deck("");
-  for (auto at = metres.find("mm"); at != metres.npos; at = metres.find("mm"))
-    metres.replace(at, 2, " m");
+  for (auto at = metres.find("  mm"); at != metres.npos; at = metres.find("  mm"))
+    metres.replace(at, 4, "   m");
   write(dir_ / "b/b_0000.rad", metres);
   for (const char* where : {"-o out", "--in-place", "--diff"}) {
     EXPECT_EQ(deck(std::string("convert a/a_0000.rad b/b_0000.rad --units Mg,m,s ") + where), 2)
@@ -78,7 +78,8 @@ TEST_F(Together, ASuppressionThatAnotherDeckNeedsStays) {
       "# decklint: ignore[DK170] reason=the surface of b comes later\n" + std::string(contact);
   write(dir_ / "common/x.inc", suppressed);
   const std::string surface =
-      "/SURF/SEG/2\ns\n         1         1         2         3         3\n";
+      "/SURF/SEG/2\ns\n         1         1         2         3         3\n/GRNOD/NODE/1\ng\n      "
+      "   1\n";
   put("a", surface);
   for (const char* option : {"--fix", "--unsafe-fixes"}) {
     deck(std::string("lint a/a_0000.rad b/b_0000.rad --no-config --select DK091,DK170 ") + option);
