@@ -5,6 +5,7 @@ changes nothing. In place and into another directory."""
 import os
 import random
 import shutil
+import subprocess
 import tempfile
 
 from common import ROOT, Checks
@@ -152,6 +153,34 @@ def case(c, r, number, tmp, counts):
             (call[0], "nothing" if now == before else "done", run.code), 0) + 1
 
 
+def first_node(text):
+    """Smallest id of the first /NODE block."""
+    block = text[text.index("/NODE") + 5:].split("\n/")[0]
+    return min(int(line[:10]) for line in block.split("\n")[1:] if line and line[0] not in "#$")
+
+
+def at_the_same_time(c, tmp):
+    """Several programs rewrite one deck at the same time: each has its effect, or says that it has none."""
+    work = os.path.join(tmp, "work")
+    head, nodes, groups, contact = pieces()
+    put(work, {"car_0000.rad": head + "#include mesh.inc\n" + groups + contact + "/END\n", "mesh.inc": nodes})
+    first = first_node(nodes)
+    command = [c.program, "convert", "car_0000.rad", "--renumber", "node+1", "--in-place", "-q"]
+    done = refused = 0
+    for _ in range(8):
+        running = [subprocess.Popen(command, cwd=work, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) for _ in range(4)]
+        for process in running:
+            text = process.communicate(timeout=120)[1].decode()
+            done += process.returncode == 0
+            refused += process.returncode == 2 and "changed" in text
+            c.check("at the same time: done or refused", process.returncode in (0, 2), text[-200:])
+    with open(os.path.join(work, "mesh.inc")) as f:
+        now = first_node(f.read())
+    c.check("at the same time: %d done, %d refused, as many shifts as were done" % (done, refused),
+            now == first + done and done >= 8 and done + refused == 32, "first node %d, was %d" % (now, first))
+    c.check("at the same time: nothing is left behind", sorted(tree(work)) == ["car_0000.rad", "mesh.inc"], str(sorted(tree(work))))
+
+
 def main():
     c = Checks()
     r = random.Random(20)
@@ -160,6 +189,7 @@ def main():
     try:
         for number in range(400 if c.options.all else 60):
             case(c, r, number, os.path.join(tmp, "case"), counts)
+        at_the_same_time(c, os.path.join(tmp, "race"))
     finally:
         shutil.rmtree(tmp, ignore_errors=True)
     for verb in ("convert", "fix", "lint"):
