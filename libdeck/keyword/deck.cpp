@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "deck/text/number.hpp"
+#include "keyword/header_line.hpp"
 #include "keyword/reader.hpp"
 
 namespace deck {
@@ -107,6 +108,7 @@ std::size_t name_length(std::string_view header, std::string_view name) {
 }  // namespace
 
 void parse_header(const SchemaSet& schemas, Block& block) {
+  block.header = without_comment(block.header, block.version);
   const std::string_view header = block.header;
   block.schema = schemas.match(header);
   std::size_t length = 0;

@@ -8,6 +8,7 @@
 
 #include "deck/text/number.hpp"
 #include "keyword/blank_units.hpp"
+#include "keyword/header_line.hpp"
 #include "keyword/include_file.hpp"
 
 namespace deck {
@@ -196,7 +197,9 @@ class Reader {
       enter(std::move(*source), std::move(written), directive, parent, version);
       return;
     }
-    const std::string hint = detail::include_hint(written, backslash, places);
+    constexpr int most_hints = 20;  // looking for one reads folders
+    const std::string hint =
+        ++hints_ > most_hints ? std::string() : detail::include_hint(written, backslash, places);
     report("DK004", Severity::error, directive,
            "included file '" + written + "' cannot be read; tried " + tried,
            "it stops with an error that does not name the file (\"error 760\" in some builds)",
@@ -351,12 +354,13 @@ class Reader {
       keep_lines(run, pos);
       run = next;
       const auto slash = bytes.find('/', pos);
-      const std::string_view header = without_comment(
-          trim_right(bytes.substr(slash, std::min(end - slash, header_columns))), version);
+      const std::string_view line =
+          trim_right(bytes.substr(slash, std::min(end - slash, header_columns)));
+      const std::string_view header = detail::without_comment(line, version);
       if (end - slash > header_columns) check_header_tail(file, slash, end);
       check_header_blanks(file, pos, slash, header, version);
       pos = next;
-      if (header == "/END") {
+      if (line == "/END") {  // with a comment it is none
         open_block_ = -1;
         if (is_main) deck_.end_seen = true;
         check_tail(file, next);
@@ -366,15 +370,6 @@ class Reader {
     }
     keep_lines(run, size);
     source.release(released, size);
-  }
-
-  /// A '#' behind a blank starts a comment. Before version 51 the header holds the title.
-  static std::string_view without_comment(std::string_view header, int version) {
-    if (version < 51) return header;
-    for (auto hash = header.find('#'); hash != std::string_view::npos;
-         hash = header.find('#', hash + 1))
-      if (is_blank(header[hash - 1])) return trim_right(header.substr(0, hash));
-    return header;
   }
 
   void check_header_blanks(std::uint32_t file, std::uint64_t begin, std::uint64_t slash,
@@ -402,10 +397,7 @@ class Reader {
     if (!text.valid()) return;
     const std::string_view bytes = deck_.sources[file].bytes();
     std::uint64_t lines = 0;
-    for (Span at = text; at.valid(); at = first_text(file, at.offset + at.length, end)) {
-      ++lines;
-      if (at.offset + at.length >= end) break;
-    }
+    for (Span at = text; at.valid(); at = first_text(file, at.offset + at.length, end)) ++lines;
     const bool keyword_behind_mark = text.offset == 0 && bytes.starts_with(byte_order_mark) &&
                                      trim(bytes.substr(byte_order_mark.size(), 1)).starts_with('/');
     std::string message = std::to_string(lines) + (lines == 1 ? " line" : " lines") +
@@ -580,6 +572,7 @@ class Reader {
   std::vector<std::int32_t> submodel_stack_;
   std::vector<int> outer_versions_;  // version outside of every open submodel
   detail::ReaderNotes notes_;
+  int hints_ = 0;                   // searched for wrong paths
   std::uint64_t memory_bytes_ = 0;  // of included files that are not mapped
   std::int64_t open_block_ = -1;
 };

@@ -232,6 +232,16 @@ TEST(DeckFromJson, TitleIdAndReferencesCanBeChanged) {
   EXPECT_THAT(text, HasSubstr("&gap"));
 }
 
+TEST(DeckFromJson, AKeywordLineKeepsItsCommentAndAnIdOfZero) {
+  std::string deck(small);
+  const auto at = deck.find("/INTER/TYPE7/");
+  deck.replace(at, deck.find('\n', at) - at, "/INTER/TYPE7/0   # first");
+  Json doc = Json::parse(json_of(deck));
+  EXPECT_EQ(main_of(doc), deck);
+  block_of(doc, "/INTER/TYPE7")["id"] = 5;
+  EXPECT_THAT(main_of(doc), HasSubstr("/INTER/TYPE7/5   # first\n"));
+}
+
 TEST(DeckFromJson, LinesWithoutTextAreMadeOfTheirValues) {
   const Json doc =
       Json::parse(R"({"schema":{"id":"deck/deck","version":1},"files":[{"path":"a_0000.rad",

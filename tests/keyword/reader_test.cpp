@@ -308,6 +308,8 @@ TEST(ReaderHeader, AHashBehindABlankStartsAComment) {
   EXPECT_EQ(d.blocks[1].id.value, 2);
   EXPECT_EQ(d.blocks[2].id.value, 4);
   EXPECT_TRUE(d.diagnostics.all().empty());
+  const Deck end = read(banner + begin() + "/END # of it\n/GRNOD/NODE/1\nt\n/END\n");
+  EXPECT_NE(block(end, "/GRNOD/NODE/1"), nullptr);
 }
 
 TEST(ReaderHeader, ABlankBeforeASlashIsAnErrorThatPointsAtTheBlank) {
