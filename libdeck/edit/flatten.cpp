@@ -132,7 +132,9 @@ class Flattener {
         // Behind the /END of an included file and before its first keyword no block is open; the
         // line would belong to the last block.
         append(file, run, pos);
-        out_ += '#';
+        const bool directive =
+            starts_with_nocase(line, "include") || starts_with_nocase(line, "enddata");
+        out_ += directive ? "# " : "#";
         run = pos;
       }
       pos = next;

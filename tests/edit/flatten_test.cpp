@@ -91,6 +91,13 @@ TEST(Flatten, LinesBeforeTheFirstKeywordOfAnIncludeStayOutside) {
   EXPECT_EQ(w->after(flatten(w->context()))->model.nodes.id, w->model.nodes.id);
 }
 
+TEST(Flatten, ACommentMarkMakesNoDirectiveOfDroppedText) {
+  const auto w = tree({{"main_0000.rad", head + "/NODE\n" + node1 + "#include a.inc\n/END\n"},
+                       {"a.inc", "include nothing\nEndData\n/TITLE\nnote\n"}});
+  EXPECT_EQ(flat(*w),
+            head + "/NODE\n" + node1 + "# include nothing\n# EndData\n/TITLE\nnote\n/END\n");
+}
+
 TEST(Flatten, SubmodelsKeepTheirOffsetsAndUnits) {
   const auto w =
       tree({{"main_0000.rad", head + "/NODE\n" + node1 + "//SUBMODEL/1\nsub\n       100\n" +

@@ -299,6 +299,12 @@ TEST(ByteOrderMark, IsRemovedByASafeFix) {
   }
 }
 
+TEST(Memory, SecondNumberIsAReal) {
+  const std::string card = "/MEMORY\n    400000                           .66\n";
+  EXPECT_FALSE(lint_example(card).fires("DK020")) << lint_example(card).list();
+  EXPECT_TRUE(lint_example("/MEMORY\n       .66                           .66\n").fires("DK020"));
+}
+
 TEST(KindOfEntity, SaysWhatTheIdBelongsTo) {
   const Linted run = lint_example("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1\n");
   ASSERT_TRUE(run.fires("DK171")) << run.list();
