@@ -216,11 +216,24 @@ void read_range(const Json& json, const Path& path, Field& field) {
     fail(path, "a text field has no range");
 }
 
+/// Message numbers of the reference solver about the target of an id.
+void read_target(const Json& json, const Path& path, Field& field) {
+  const std::pair<const char*, std::optional<int>*> keys[] = {
+      {"missing", &field.missing}, {"empty", &field.empty}, {"required", &field.required}};
+  for (const auto& [key, out] : keys) {
+    const auto it = json.find(key);
+    if (it == json.end()) continue;
+    if (field.type != FieldType::id) fail(at(path, key), "only ids have a target");
+    *out = small_of(*it, at(path, key));
+    if (**out < 0) fail(at(path, key), "a message number is not negative");
+  }
+}
+
 Field field_of(const Json& json, const Path& path) {
-  expect_object(
-      json, path,
-      {"name", "cols", "type", "ref", "versions", "values", "min", "max", "min_open", "max_open",
-       "default", "dim", "dim_unknown", "dim_when", "ignored", "doc", "manual"});
+  expect_object(json, path,
+                {"name", "cols",        "type",     "ref",     "versions", "values",   "min",
+                 "max",  "min_open",    "max_open", "missing", "empty",    "required", "default",
+                 "dim",  "dim_unknown", "dim_when", "ignored", "doc",      "manual"});
   Field field;
   require(json, path, "name");
   read(json, path, "name", field.name);
@@ -233,6 +246,7 @@ Field field_of(const Json& json, const Path& path) {
   read(json, path, "ref", field.ref);
   if ((field.type == FieldType::id) == field.ref.empty())
     fail(path, "\"ref\" is required for fields of type id and only for those");
+  read_target(json, path, field);
   read_versions(json, path, field.from, field.until);
   read_range(json, path, field);
   read(json, path, "default", field.default_text);

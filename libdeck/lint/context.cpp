@@ -166,6 +166,13 @@ void collect_numbers(const Deck& deck, const Block& block, std::unordered_set<st
   }
 }
 
+bool asks_for_targets(const Schema& schema) {
+  for (const CardSchema& card : schema.cards)
+    for (const Field& f : card.fields)
+      if (f.missing || f.empty || f.required || f.ref == "funct") return true;
+  return false;
+}
+
 void collect_references(LintContext& context, const DecodedBlock& block) {
   for (const DecodedCard& card : block.cards)
     for (const Cell& cell : card.cells) {
@@ -186,6 +193,7 @@ LintContext build_context(const LintInput& input, Diagnostics& sink) {
                       input.model,
                       input.interfaces,
                       input.selections,
+                      {},
                       {},
                       {},
                       {},
@@ -220,6 +228,8 @@ LintContext build_context(const LintInput& input, Diagnostics& sink) {
       context.defaults.push_back(std::move(decoded));
     } else if (keyword == "/FRICTION") {
       context.frictions.push_back(std::move(decoded));
+    } else if (asks_for_targets(*block.schema)) {
+      context.loads.push_back(std::move(decoded));
     }
   }
   return context;

@@ -36,6 +36,9 @@ const std::vector<Rule>& all_rules() {
     detail::add_header_rules(out);
     detail::add_linter_rules(out);
     detail::add_model_rules(out);
+    detail::add_target_demand_rules(out);
+    detail::add_physics_rules(out);
+    detail::add_element_rules(out);
     detail::add_reference_rules(out);
     detail::add_flag_rules(out);
     detail::add_value_rules(out);

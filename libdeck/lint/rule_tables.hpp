@@ -10,6 +10,9 @@ void add_reading_rules(std::vector<Rule>& out);      // DK001-DK039: found by th
 void add_header_rules(std::vector<Rule>& out);       // DK040-DK059: keywords, titles, versions
 void add_linter_rules(std::vector<Rule>& out);       // DK090-DK099: suppressions
 void add_model_rules(std::vector<Rule>& out);        // DK100-DK159: found by the model stage
+void add_target_demand_rules(std::vector<Rule>& out);  // DK120-DK122, DK128: ids of loads
+void add_physics_rules(std::vector<Rule>& out);  // DK123-DK127, DK134: density, stiffness, mass
+void add_element_rules(std::vector<Rule>& out);  // DK129-DK133: elements, functions
 void add_reference_rules(std::vector<Rule>& out);    // DK160-DK189: what interfaces refer to
 void add_flag_rules(std::vector<Rule>& out);         // DK201-DK219: legal values of flags
 void add_value_rules(std::vector<Rule>& out);        // DK220-DK239: ranges of numbers

@@ -7,6 +7,7 @@
 
 #include "lint/check.hpp"
 #include "lint/rule_tables.hpp"
+#include "lint/targets.hpp"
 
 namespace deck::detail {
 namespace {
@@ -31,15 +32,16 @@ std::vector<Side> sides_of(const ContactCard& card) {
     default:
       break;
   }
-  if (card.block->schema->keyword.ends_with("/TYPE7"))
+  const std::string_view keyword = card.block->schema->keyword;
+  if (keyword.ends_with("/TYPE7") || keyword == "/INTER/TYPE5")
     return {{"grnd_IDs", "grnod", true}, {"surf_IDm", "surf", false}};
+  if (keyword == "/INTER/TYPE2") {
+    // From 2025 on a surface may give the secondary nodes.
+    if (card.given("surf_IDs")) return {{"surf_IDs", "surf", true}, {"surf_IDm", "surf", false}};
+    return {{"grnd_IDs", "grnod", true}, {"surf_IDm", "surf", false}};
+  }
+  if (keyword == "/INTER/TYPE3") return {{"surf_ID1", "surf", true}, {"surf_ID2", "surf", false}};
   return {};
-}
-
-std::string_view kind_name(std::string_view kind) {
-  if (kind == "grnod") return "/GRNOD";
-  if (kind == "surf") return "/SURF";
-  return kind == "line" ? "/LINE" : "/SET";
 }
 
 /// Id of a side as the model knows it; 0: not given.
@@ -47,10 +49,6 @@ std::int64_t side_id(const LintContext& c, const ContactCard& card, const Side& 
   const auto id = static_cast<std::int64_t>(card.input(side.field));
   // Typed interfaces have the submodel offset in already.
   return card.inter != nullptr ? id : c.resolved(*card.block, side.kind, id);
-}
-
-bool exists(const LintContext& c, std::string_view kind, std::int64_t id) {
-  return c.selections->is_plain(kind, id) || c.selections->where("set", id).has_value();
 }
 
 constexpr std::array<std::string_view, 3> side_kinds = {"grnod", "surf", "line"};
@@ -72,11 +70,12 @@ void each_side(const LintContext& c, F&& f) {
 
 void check_missing(const LintContext& c, const Rule& rule, Reporter& r) {
   each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
-    if (id < 0 || exists(c, side.kind, id) || !other_kind(c, side.kind, id).empty()) return;
+    if (id < 0 || selection_exists(c, side.kind, id) || !other_kind(c, side.kind, id).empty())
+      return;
     std::string message = fmt::format("{} of {} is {}, and there is no {} or /SET of that id",
                                       side.field, name_of(card), id, kind_name(side.kind));
     const std::int64_t offset = c.deck.offset_of(*card.block, side.kind);
-    if (offset != 0 && exists(c, side.kind, id - offset))
+    if (offset != 0 && selection_exists(c, side.kind, id - offset))
       message +=
           fmt::format("; {} exists outside the submodel, whose offset is {}", id - offset, offset);
     report_at(r, rule, card, side.field, std::move(message));
@@ -85,7 +84,7 @@ void check_missing(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_kind(const LintContext& c, const Rule& rule, Reporter& r) {
   each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
-    if (id < 0 || exists(c, side.kind, id)) return;
+    if (id < 0 || selection_exists(c, side.kind, id)) return;
     const std::string_view other = other_kind(c, side.kind, id);
     if (other.empty()) return;
     Diagnostic* d = report_at(
@@ -101,20 +100,6 @@ void check_kind(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-/// Segments, nodes or edges of a side.
-std::size_t size_of(const LintContext& c, std::string_view kind, std::int64_t id) {
-  if (kind == "grnod") {
-    const NodeSet* s = c.selections->node_group(id);
-    return s ? s->nodes.size() : 0;
-  }
-  if (kind == "surf") {
-    const Surface* s = c.selections->surface(id);
-    return s ? (s->analytical ? 1 : s->segments.size()) : 0;
-  }
-  const LineSet* s = c.selections->line(id);
-  return s ? s->edges.size() : 0;
-}
-
 void note_definition(const LintContext& c, Diagnostic* d, const Side& side, std::int64_t id) {
   if (d == nullptr) return;
   const bool plain = c.selections->is_plain(side.kind, id);
@@ -125,8 +110,8 @@ void note_definition(const LintContext& c, Diagnostic* d, const Side& side, std:
 void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
   const bool secondary = rule.id == "DK172";
   each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
-    if (side.secondary != secondary || id < 0 || !exists(c, side.kind, id)) return;
-    if (size_of(c, side.kind, id) != 0) return;
+    if (side.secondary != secondary || id < 0 || !selection_exists(c, side.kind, id)) return;
+    if (selection_size(c, side.kind, id) != 0) return;
     Diagnostic* d = report_at(
         r, rule, card, side.field,
         fmt::format("the {} side of {}, {} {}, is empty", secondary ? "secondary" : "main",
@@ -257,9 +242,10 @@ void check_no_secondary_line(const LintContext& c, const Rule& rule, Reporter& r
 void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts) {
     const auto sides = sides_of(card);
-    if (sides.empty() || card.type == 11 || card.given("surf_IDm")) continue;
-    if (card.type == 19 && card.given("surf_IDs")) continue;
-    Diagnostic* d = report_at(r, rule, card, "surf_IDm", name_of(card) + " has no main surface");
+    if (sides.empty() || card.type == 11) continue;
+    const std::string_view main = sides.back().field;
+    if (card.given(main) || (card.type == 19 && card.given("surf_IDs"))) continue;
+    Diagnostic* d = report_at(r, rule, card, main, name_of(card) + " has no main surface");
     if (d != nullptr && card.type == 0) d->reference = ReferenceMessage{119, Severity::error};
   }
 }

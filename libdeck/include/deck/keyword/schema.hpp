@@ -43,6 +43,9 @@ struct Field {
   int first = 0, last = 0;                ///< columns
   FieldType type = FieldType::integer;
   std::string ref;                        ///< for ids: kind of the target ("grnod", "surf", "node", ...)
+  /// For ids: the solver stops with this message (0: number not known) where the target does not
+  /// exist, has no member, or is not named at all. Without a value that is legal or not known.
+  std::optional<int> missing, empty, required;
   int from = 0, until = 9999;             ///< input versions that have this cell
   std::vector<std::int64_t> values;       ///< legal values (empty: any)
   std::optional<double> min, max;         ///< legal range, inclusive

@@ -65,6 +65,8 @@ class LintContext {
   std::vector<ContactCard> contacts;
   std::vector<DecodedBlock> defaults;   ///< /DEFAULT/INTER blocks
   std::vector<DecodedBlock> frictions;  ///< /FRICTION blocks
+  /// Other blocks with ids whose target the solver asks for (Field::missing, empty, required).
+  std::vector<DecodedBlock> loads;
   /// Definitions by kind ("inter", "sensor", "funct", "surf", ...) and id (submodel offset added).
   std::map<std::string_view, std::multimap<std::int64_t, const Block*>> defined;
   /// Ids that decoded cells refer to, for node groups, surfaces, lines and frictions.

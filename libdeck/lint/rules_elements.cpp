@@ -1,0 +1,264 @@
+// Elements that nothing can be computed with: of no area, volume or length, or with the property
+// of another kind of element; and functions whose points are not in order.
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lint/check.hpp"
+#include "lint/rule_tables.hpp"
+
+namespace deck::detail {
+namespace {
+
+using Vec = std::array<double, 3>;
+
+Vec minus(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vec plus(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double length(const Vec& a) { return std::hypot(a[0], a[1], a[2]); }
+
+/// Rounding of products of coordinates differences, as a share of the product of their lengths.
+constexpr double rounding = 1e-13;
+
+/// Corners of an element; false: one of its nodes is missing.
+bool corners_of(const Model& m, const Elements& family, std::size_t e, std::vector<Vec>& out) {
+  out.clear();
+  const NodeIndex* n = family.of(e);
+  for (int i = 0; i < family.width; ++i) {
+    if (n[i] >= m.nodes.size()) return false;
+    out.push_back({m.nodes.x[n[i]], m.nodes.y[n[i]], m.nodes.z[n[i]]});
+  }
+  return true;
+}
+
+/// Half the cross product of the diagonals vanishes: all corners on a line, or a crossed quad.
+bool without_area(const std::vector<Vec>& p) {
+  const Vec a = minus(p[2], p[0]);
+  const Vec b = minus(p.size() > 3 ? p[3] : p[1], p[1]);
+  const Vec side = p.size() > 3 ? b : minus(p[1], p[0]);
+  return length(cross(a, side)) <= rounding * length(a) * length(side);
+}
+
+/// The one-point volume of the eight slots vanishes.
+bool without_volume(const std::vector<Vec>& p) {
+  const Vec a = minus(p[6], p[0]), b = minus(p[7], p[1]), c = minus(p[4], p[2]),
+            d = minus(p[5], p[3]);
+  const Vec u = minus(plus(a, b), plus(c, d)), v = plus(plus(a, d), plus(b, c)),
+            w = minus(plus(a, d), plus(b, c));
+  return std::abs(dot(u, cross(v, w))) <= rounding * length(u) * length(v) * length(w);
+}
+
+/// Reports per part how many elements of the family are bad, with the place of the first.
+template <class Bad>
+void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elements& family,
+               std::string_view what, std::string_view lack, Bad&& bad) {
+  const Model& m = *c.model;
+  std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> found;  // part: count, first
+  std::vector<Vec> p;
+  for (std::size_t e = 0; e < family.size(); ++e) {
+    if (!corners_of(m, family, e, p) || !bad(p)) continue;
+    auto& [count, first] = found[family.part[e]];
+    if (count++ == 0) first = static_cast<std::uint32_t>(e);
+  }
+  for (const auto& [part, tally] : found) {
+    const std::string of = part == no_index ? "" : " of part " + std::to_string(m.parts[part].id);
+    r.report(rule, m.element_span(family.kind, tally.second),
+             fmt::format("{} {}{}{} {}; first is element {}", tally.first, what,
+                         tally.first == 1 ? "" : "s", of, lack, family.id[tally.second]));
+  }
+}
+
+void check_area(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr) return;
+  const auto each_family = [&](const Elements& family, std::string_view what) {
+    count_bad(c, rule, r, family, what, "without area", without_area);
+  };
+  each_family(c.model->shell4, "shell");
+  each_family(c.model->shell3, "triangular shell");
+}
+
+void check_volume(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr) return;
+  count_bad(c, rule, r, c.model->solid8, "solid", "without volume",
+            [](const std::vector<Vec>& p) { return p.size() == 8 && without_volume(p); });
+}
+
+void check_length(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr) return;
+  const auto short_one = [](const std::vector<Vec>& p) { return p[0] == p[1]; };
+  count_bad(c, rule, r, c.model->truss, "truss element", "without length", short_one);
+  count_bad(c, rule, r, c.model->beam, "beam", "without length", short_one);
+}
+
+/// Which elements a property is for; nullptr: several, or not known.
+const char* made_for(int number) {
+  switch (number) {
+    case 1:
+    case 9:
+    case 10:
+    case 11:
+    case 16:
+    case 17:
+    case 51:
+      return "shells";
+    case 6:
+    case 14:
+    case 20:
+    case 21:
+    case 22:
+      return "solids";
+    case 2:
+      return "trusses";
+    case 3:
+    case 18:
+      return "beams";
+    case 4:
+    case 8:
+    case 12:
+    case 13:
+    case 25:
+      return "springs";
+    default:
+      return nullptr;
+  }
+}
+
+void check_property_kind(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr) return;
+  const Model& m = *c.model;
+  const std::pair<const Elements*, std::string_view> families[] = {
+      {&m.shell4, "shells"}, {&m.shell3, "shells"}, {&m.solid8, "solids"},
+      {&m.truss, "trusses"}, {&m.beam, "beams"},    {&m.spring, "springs"}};
+  for (const auto& [family, what] : families) {
+    std::vector<bool> said(m.parts.size(), false);
+    for (std::size_t e = 0; e < family->size(); ++e) {
+      const std::uint32_t p = family->part[e];
+      if (p == no_index || m.parts[p].prop == no_index || said[p]) continue;
+      said[p] = true;
+      const Property& prop = m.properties[m.parts[p].prop];
+      const char* kind = made_for(prop.number);
+      if (kind == nullptr || what == kind) continue;
+      Diagnostic* d = r.report(rule, m.element_span(family->kind, static_cast<std::uint32_t>(e)),
+                               fmt::format("part {} has {}, and its {} {} is for {}", m.parts[p].id,
+                                           what, prop.type, prop.id, kind));
+      if (d != nullptr) d->notes.emplace_back(m.parts[p].span, "the part");
+      if (d != nullptr) d->notes.emplace_back(prop.span, "the property");
+    }
+  }
+}
+
+/// As written: /MOVE_FUNCT and the scales of /FUNCT_SMOOTH may turn the order round.
+void check_curves(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const Block& block : c.deck.blocks) {
+    if (block.schema == nullptr || block.opaque) continue;
+    if (block.schema->keyword != "/FUNCT" && block.schema->keyword != "/FUNCT_SMOOTH") continue;
+    const DecodedBlock d = decode(c.deck, block);
+    const Cell* last = nullptr;
+    for (const DecodedCard& card : d.cards) {
+      if (card.cells.size() < 2 || card.cells[0].field->name != "X") continue;
+      const Cell& x = card.cells[0];
+      if (x.blank() && card.cells[1].blank()) continue;
+      if (last != nullptr && !(x.real > last->real)) {
+        r.report(rule, block, x.span.valid() ? x.span : block.header_span,
+                 fmt::format("abscissa of {} {} is {}, and the one before it is {}",
+                             block.schema->keyword, block.id.value, number_text(x.real),
+                             number_text(last->real)));
+        break;
+      }
+      last = &x;
+    }
+    if (last == nullptr)
+      r.report(rule, block, block.header_span,
+               fmt::format("{} {} has no point", block.schema->keyword, block.id.value));
+  }
+}
+
+void add_shape_rules(std::vector<Rule>& out) {
+  constexpr auto stop = Severity::error;
+  const auto add = [&](std::string_view id, std::string_view title, std::string_view problem,
+                       std::string_view why, std::string_view bad, std::string_view good,
+                       void (*check)(const LintContext&, const Rule&, Reporter&)) {
+    out.push_back({.id = id,
+                   .title = title,
+                   .severity = stop,
+                   .problem = problem,
+                   .why = why,
+                   .solver = "it stops with an error",
+                   .fix = "correct the nodes of the element or their coordinates, or delete it",
+                   .ignore = "Never.",
+                   .bad = bad,
+                   .good = good,
+                   .check = check});
+  };
+  add("DK130", "shell without area",
+      "The corners of a shell lie on one line, or its sides cross, so that the cross product of "
+      "its "
+      "diagonals vanishes.",
+      "Mass, stiffness and normal come from the area.",
+      "/SHELL/1\n         9         1         3         2         4\n"
+      "/SH3N/1\n        10         1         2         2\n",
+      "/SHELL/1\n         9         1         2         3         4\n", check_area);
+  add("DK131", "solid without volume", "The corners of a solid lie in one plane.",
+      "Mass and stiffness come from the volume; the time step becomes zero.",
+      "/PROP/SOLID/9\nblock\n        14\n/PART/9\nflat\n         9         1\n"
+      "/BRICK/9\n         9         1         2         3         4         1         2         3"
+      "         4\n",
+      "/PROP/SOLID/9\nblock\n        14\n/PART/9\nblock\n         9         1\n"
+      "/BRICK/9\n         9         1         2         3         4        11        12        13"
+      "        14\n",
+      check_volume);
+  add("DK132", "beam or truss without length", "Both ends of a beam or truss are at one place.",
+      "Stiffness is per length; the time step becomes zero.",
+      "/PROP/TRUSS/9\nrod\n                 1.0\n/PART/9\nrod\n         9         1\n"
+      "/TRUSS/9\n         9         1         1\n",
+      "/PROP/TRUSS/9\nrod\n                 1.0\n/PART/9\nrod\n         9         1\n"
+      "/TRUSS/9\n         9         1         2\n",
+      check_length);
+}
+
+}  // namespace
+
+void add_element_rules(std::vector<Rule>& out) {
+  constexpr auto stop = Severity::error;
+  add_shape_rules(out);
+  out.push_back({.id = "DK129",
+                 .title = "property of another kind of element",
+                 .severity = stop,
+                 .problem = "The elements of a part and the property of the part do not go "
+                            "together: shells with a solid property, beams with a shell property.",
+                 .why = "The property has no thickness or section for these elements.",
+                 .solver = "it stops with an error",
+                 .message = 60,
+                 .message_severity = stop,
+                 .fix = "give the part a property of the right type, or move the elements",
+                 .ignore = "Never.",
+                 .bad = "/PROP/SOLID/9\nblock\n        14\n/PART/9\nmixed\n         9         1\n"
+                        "/SHELL/9\n         9         1         2         3         4\n",
+                 .good = "/PART/9\nplate\n         1         1\n"
+                         "/SHELL/9\n         9         1         2         3         4\n",
+                 .check = check_property_kind});
+  out.push_back({.id = "DK133",
+                 .title = "function whose points are not in order",
+                 .severity = stop,
+                 .problem = "The abscissas of a function do not increase from point to point, or "
+                            "it has no point.",
+                 .why = "Between two points the function is a line; its value is then open.",
+                 .solver = "it stops with an error",
+                 .fix = "put the points in order and remove the double ones",
+                 .ignore = "Never.",
+                 .bad = "/FUNCT/9\nback\n                 0.0                 0.0\n"
+                        "                 2.0                 1.0\n"
+                        "                 1.0                 1.0\n",
+                 .good = "/FUNCT/9\nforth\n                 0.0                 0.0\n"
+                         "                 1.0                 1.0\n"
+                         "                 2.0                 1.0\n",
+                 .check = check_curves});
+}
+
+}  // namespace deck::detail

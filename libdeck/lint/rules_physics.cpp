@@ -1,0 +1,339 @@
+// What a model cannot be computed with: no density, no stiffness, thickness below zero, a rigid
+// body without mass, a deck without nodes.
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "lint/check.hpp"
+#include "lint/rule_tables.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// Laws that do without a density of their own: void, boundaries, mixtures, connections and
+/// springs, user laws.
+bool needs_density(int law) {
+  static constexpr std::array without = {0,   11,  20,  29,  30,  31,  37,  46,  51,
+                                         59,  75,  83,  97,  99,  105, 108, 113, 114,
+                                         116, 117, 119, 130, 135, 151, 169};
+  return law > 0 && std::find(without.begin(), without.end(), law) == without.end();
+}
+
+/// Laws that need this modulus.
+bool needs_modulus(int law, std::string_view field) {
+  static constexpr std::array isotropic = {1,  2,  3,  4,  22, 23, 27, 32, 36, 43, 44, 48, 52,
+                                           57, 60, 63, 64, 65, 66, 71, 73, 74, 76, 78, 84, 87};
+  static constexpr std::array orthotropic = {15, 19, 25};
+  const auto has = [law](const auto& laws) {
+    return std::find(laws.begin(), laws.end(), law) != laws.end();
+  };
+  return field == "E" ? has(isotropic) : has(orthotropic);
+}
+
+void check_not_positive(const LintContext& c, const Rule& rule, Reporter& r,
+                        std::initializer_list<std::string_view> fields,
+                        bool (*wanted)(int, std::string_view)) {
+  if (c.model == nullptr) return;
+  for (const Material& m : c.model->materials) {
+    if (m.block == nullptr || m.block->opaque) continue;
+    const DecodedBlock d = decode(c.deck, *m.block);
+    for (const std::string_view field : fields) {
+      const Cell* cell = d.find(field);
+      if (cell == nullptr || !wanted(m.law, field) || cell->real > 0) continue;
+      const bool blank = cell->blank() || !cell->span.valid();
+      r.report(rule, *m.block, cell->span.valid() ? cell->span : m.block->header_span,
+               fmt::format("{} of {} {} is {}", field, m.type, m.id,
+                           blank ? "blank" : std::string(trim(cell->text))));
+    }
+  }
+}
+
+void check_density(const LintContext& c, const Rule& rule, Reporter& r) {
+  check_not_positive(c, rule, r, {"Rho_I"},
+                     [](int law, std::string_view) { return needs_density(law); });
+}
+
+void check_modulus(const LintContext& c, const Rule& rule, Reporter& r) {
+  check_not_positive(c, rule, r, {"E", "E11", "E22"}, needs_modulus);
+}
+
+/// First cell of the third line of LAW2: a, or SIG_Y where Iflag is 1. Found by name where the
+/// schema describes the line, else in the lines that it leaves open.
+std::pair<Span, double> yield_of(const LintContext& c, const DecodedBlock& d) {
+  for (const char* name : {"a", "SIG_Y"})
+    if (const Cell* cell = d.find(name); cell != nullptr) return {cell->span, cell->real};
+  if (d.extra.empty()) return {d.block->header_span, 0};
+  const Span span = d.extra.front().columns(1, c.deck.version < 51 ? 16 : 20);
+  const std::string_view text = trim(c.text(span));
+  return {span, text.starts_with('&') ? 1 : read_real(text).value};
+}
+
+void check_yield(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr) return;
+  for (const Material& m : c.model->materials) {
+    if (m.law != 2 || m.block == nullptr || m.block->opaque) continue;
+    if (m.block->header.find("PLAS_ZERIL") != std::string_view::npos) continue;
+    const auto [span, yield] = yield_of(c, decode(c.deck, *m.block));
+    if (yield > 0) continue;
+    r.report(rule, *m.block, span.valid() ? span : m.block->header_span,
+             fmt::format("the yield stress a of {} {} is {}", m.type, m.id, number_text(yield)));
+  }
+}
+
+void check_no_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr || c.model->nodes.size() > 0 || c.deck.blocks.empty()) return;
+  r.report(rule, c.deck.blocks.front().header_span, "the deck has no node");
+}
+
+/// Nodes that elements give a mass.
+class MassiveNodes {
+ public:
+  explicit MassiveNodes(const Model& m) : m_(m), massive_(m.nodes.size(), false) {
+    for (const Elements* family :
+         {&m.shell4, &m.shell3, &m.solid8, &m.quad, &m.tria, &m.truss, &m.beam, &m.spring})
+      take(*family);
+  }
+  bool operator()(NodeIndex n) const { return n < massive_.size() && massive_[n]; }
+
+ private:
+  /// Springs have their mass in the property; of others the material decides.
+  bool heavy(const Elements& family, std::uint32_t part) const {
+    if (family.kind == ElementKind::spring || part == no_index) return true;
+    const Part& p = m_.parts[part];
+    return p.mat == no_index || m_.materials[p.mat].density > 0 ||
+           !needs_density(m_.materials[p.mat].law);
+  }
+  void take(const Elements& family) {
+    for (std::size_t e = 0; e < family.size(); ++e) {
+      if (!heavy(family, family.part[e])) continue;
+      const NodeIndex* n = family.of(e);
+      for (int i = 0; i < family.width; ++i)
+        if (n[i] < massive_.size()) massive_[n[i]] = true;
+    }
+  }
+  const Model& m_;
+  std::vector<bool> massive_;
+};
+
+/// Options that give nodes a mass in other ways than these rules look at.
+bool has_other_masses(const LintContext& c) {
+  static constexpr std::array keywords = {"/ADMAS", "/SPHCEL", "/XELEM", "/RBE3", "/RBE2"};
+  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(), [](const Block& b) {
+    return std::any_of(keywords.begin(), keywords.end(),
+                       [&](std::string_view k) { return b.header.starts_with(k); });
+  });
+}
+
+void check_rigid_mass(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr || c.selections == nullptr || c.model->rbodies.empty()) return;
+  if (has_other_masses(c)) return;
+  const MassiveNodes massive(*c.model);
+  for (const DecodedBlock& d : c.loads) {
+    if (d.block->schema->keyword != "/RBODY" || d.real("Mass") > 0) continue;
+    const std::int64_t group = c.resolved(*d.block, "grnod", d.integer("grnd_ID"));
+    const std::int64_t main = c.resolved(*d.block, "node", d.integer("node_ID"));
+    const NodeIndex centre = c.model->find_node(main);
+    if (centre == no_index || massive(centre)) continue;
+    const NodeSet* set = group > 0 ? c.selections->node_group(group) : nullptr;
+    if (group > 0 && set == nullptr) continue;  // DK120 says so
+    if (set != nullptr && std::any_of(set->nodes.begin(), set->nodes.end(), massive)) continue;
+    const Cell* cell = d.find("grnd_ID");
+    r.report(rule, *d.block,
+             cell != nullptr && cell->span.valid() ? cell->span : d.block->header_span,
+             fmt::format("/RBODY {} has no mass: {}", d.block->id.value,
+                         set == nullptr || set->nodes.empty()
+                             ? "it has no secondary node"
+                             : "no element with a density touches its nodes"));
+  }
+}
+
+/// Thickness that the solver takes for shell `e`, as far as its sign goes.
+double thickness_of(const Model& m, const Elements& shells, std::size_t e) {
+  if (e < shells.thickness.size() && shells.thickness[e] != 0) return shells.thickness[e];
+  const std::uint32_t part = shells.part[e];
+  if (part == no_index || m.parts[part].prop == no_index) return 0;
+  return m.properties[m.parts[part].prop].thickness;
+}
+
+/// Nodes of shells with a thickness below zero.
+std::vector<bool> thin_nodes(const Model& m) {
+  std::vector<bool> out(m.nodes.size(), false);
+  for (const Elements* shells : {&m.shell4, &m.shell3})
+    for (std::size_t e = 0; e < shells->size(); ++e) {
+      if (!(thickness_of(m, *shells, e) < 0)) continue;
+      const NodeIndex* n = shells->of(e);
+      for (int i = 0; i < shells->width; ++i)
+        if (n[i] < out.size()) out[n[i]] = true;
+    }
+  return out;
+}
+
+/// Whether a contact looks for the shells behind segments or lines on these nodes: lines of
+/// TYPE11 and TYPE19 always, plain segments in all types. Shells below zero are not found.
+bool searched(const LintContext& c, const std::vector<bool>& thin) {
+  const auto all_thin = [&](const auto& nodes) {
+    return std::all_of(nodes.begin(), nodes.end(),
+                       [&](NodeIndex n) { return n < thin.size() && thin[n]; });
+  };
+  for (const ContactCard& card : c.contacts)
+    for (const FieldView& f : card.fields) {
+      if (f.field == nullptr || f.field->type != FieldType::id || !(f.input > 0)) continue;
+      const auto id = static_cast<std::int64_t>(f.input);
+      if (card.type == 11 && f.field->ref == "line") {
+        const LineSet* s = c.selections->line(id);
+        if (s != nullptr && std::any_of(s->edges.begin(), s->edges.end(), [&](const Edge& e) {
+              return e.carrier != Carrier::truss && e.carrier != Carrier::beam &&
+                     e.carrier != Carrier::spring && all_thin(e.nodes);
+            }))
+          return true;
+      }
+      if (f.field->ref != "surf" || card.inter == nullptr) continue;
+      const Surface* s = c.selections->surface(id);
+      if (s != nullptr &&
+          std::any_of(s->segments.begin(), s->segments.end(), [&](const Segment& g) {
+            return (card.type == 19 || g.carrier == Carrier::none) && all_thin(g.nodes);
+          }))
+        return true;
+    }
+  return false;
+}
+
+void check_thickness(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr || c.selections == nullptr) return;
+  const Model& m = *c.model;
+  std::vector<const Property*> below;
+  for (const Property& p : m.properties)
+    if (p.thickness < 0 && p.block != nullptr) below.push_back(&p);
+  const std::vector<bool> thin = thin_nodes(m);
+  const bool any = std::find(thin.begin(), thin.end(), true) != thin.end();
+  if (below.empty() && !any) return;
+  const Severity severity = any && searched(c, thin) ? Severity::error : Severity::warning;
+  const auto report = [&](Diagnostic* d) {
+    if (d == nullptr) return;
+    d->severity = severity;
+    if (severity != Severity::error) d->reference.reset();
+  };
+  for (const Property* p : below)
+    report(r.report(
+        rule, *p->block, p->span,
+        fmt::format("the thickness of {} {} is {}", p->type, p->id, number_text(p->thickness))));
+  for (const Elements* shells : {&m.shell4, &m.shell3})
+    for (std::size_t e = 0; e < shells->size() && e < shells->thickness.size(); ++e)
+      if (shells->thickness[e] < 0)
+        report(r.report(rule, m.element_span(shells->kind, static_cast<std::uint32_t>(e)),
+                        fmt::format("the thickness of element {} is {}", shells->id[e],
+                                    number_text(shells->thickness[e]))));
+}
+
+void add_material_rules(std::vector<Rule>& out) {
+  constexpr auto stop = Severity::error;
+  out.push_back({.id = "DK123",
+                 .title = "material without density",
+                 .severity = stop,
+                 .problem = "The density of a material is zero, negative or blank.",
+                 .why = "Masses of elements and nodes, and with them the time step, come from it.",
+                 .solver = "it stops with an error",
+                 .message = 683,
+                 .message_severity = stop,
+                 .fix = "write a density above 0; a line may be missing or out of order",
+                 .ignore = "Never.",
+                 .bad = "/MAT/ELAST/9\nsoft\n                 0.0\n"
+                        "                 1.0                 0.3\n",
+                 .good = "/MAT/ELAST/9\nsoft\n               1e-09\n"
+                         "                 1.0                 0.3\n",
+                 .check = check_density});
+  out.push_back({.id = "DK124",
+                 .title = "material without stiffness",
+                 .severity = stop,
+                 .problem = "The Young modulus of a material is zero, negative or blank.",
+                 .why = "Stresses and contact stiffness come from it.",
+                 .solver = "it stops with an error",
+                 .message = 683,
+                 .message_severity = stop,
+                 .fix = "write a modulus above 0; a line may be missing or out of order",
+                 .ignore = "Never.",
+                 .bad = "/MAT/ELAST/9\nsoft\n               1e-09\n"
+                        "                                     0.3\n",
+                 .good = "/MAT/ELAST/9\nsoft\n               1e-09\n"
+                         "                 1.0                 0.3\n",
+                 .check = check_modulus});
+  out.push_back({.id = "DK134",
+                 .title = "plastic law without yield stress",
+                 .severity = stop,
+                 .problem = "The yield stress a of /MAT/PLAS_JOHNS is zero, negative or blank.",
+                 .why = "The yield curve a + b eps^n begins there.",
+                 .solver = "it stops with an error",
+                 .message = 301,
+                 .message_severity = stop,
+                 .fix = "write a yield stress above 0; a line may be missing or out of order",
+                 .ignore = "Never.",
+                 .bad = "/MAT/PLAS_JOHNS/9\nsoft\n               1e-09\n"
+                        "                 1.0                 0.3\n"
+                        "                 0.0                 1.0                 0.5\n",
+                 .good = "/MAT/PLAS_JOHNS/9\nsoft\n               1e-09\n"
+                         "                 1.0                 0.3\n"
+                         "                 0.1                 1.0                 0.5\n",
+                 .check = check_yield});
+}
+
+void add_geometry_of_model_rules(std::vector<Rule>& out) {
+  constexpr auto stop = Severity::error;
+  out.push_back({.id = "DK125",
+                 .title = "negative shell thickness",
+                 .severity = stop,
+                 .problem = "The thickness of a shell or of its property is negative.",
+                 .why = "Gap, stiffness and mass come from it. For lines of TYPE11 and TYPE19, and "
+                        "for plain segments, the solver looks for the shell behind them and finds "
+                        "none; elsewhere it computes with the value, and lint warns.",
+                 .solver = "it does not check the sign; the contact then finds no element",
+                 .message = 481,
+                 .message_severity = stop,
+                 .fix = "write a thickness above 0",
+                 .ignore = "Never.",
+                 .bad = "/PROP/SHELL/9\nthin\n        24\n                 0.0\n"
+                        "         5                          -1.0\n",
+                 .good = "/PROP/SHELL/9\nthin\n        24\n                 0.0\n"
+                         "         5                           1.0\n",
+                 .check = check_thickness});
+  out.push_back({.id = "DK126",
+                 .title = "deck without nodes",
+                 .severity = stop,
+                 .problem = "No node was read.",
+                 .why = "There is no model. An early /END, or an include that ends the deck, cuts "
+                        "off what follows.",
+                 .solver = "it stops with an error",
+                 .message = 3,
+                 .message_severity = stop,
+                 .fix = "define the nodes before /END",
+                 .ignore = "When the file is an include of another deck.",
+                 .bad = "@bare\n/TITLE\nnothing\n",
+                 .good = "/TITLE\nplates\n",
+                 .check = check_no_nodes});
+  out.push_back({.id = "DK127",
+                 .title = "rigid body without mass",
+                 .severity = stop,
+                 .problem = "The rigid body has no mass of its own, and no element with a density "
+                            "touches one of its nodes.",
+                 .why = "Its motion follows from force and mass.",
+                 .solver = "it stops with an error",
+                 .message = 274,
+                 .message_severity = stop,
+                 .fix = "correct the secondary nodes, or give the body a mass and inertia",
+                 .ignore = "Never.",
+                 .bad = "/NODE\n"
+                        "        21                 5.0                 5.0                 9.0\n"
+                        "/GRNOD/NODE/7\nnothing\n\n@/RBODY/1 node_ID=21 grnd_ID=7\n",
+                 .good = "/NODE\n"
+                         "        21                 5.0                 5.0                 9.0\n"
+                         "@/RBODY/1 node_ID=21 grnd_ID=2\n",
+                 .check = check_rigid_mass});
+}
+
+}  // namespace
+
+void add_physics_rules(std::vector<Rule>& out) {
+  add_material_rules(out);
+  add_geometry_of_model_rules(out);
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,174 @@
+// Ids on boundary conditions, loads, constraints and sensors: the schemas say which targets the
+// reference solver asks for; here the deck is held against them.
+#include <vector>
+
+#include "lint/check.hpp"
+#include "lint/rule_tables.hpp"
+#include "lint/targets.hpp"
+
+namespace deck::detail {
+namespace {
+
+std::string name_of(const DecodedBlock& d) {
+  return fmt::format("{} {}", d.block->schema->keyword, d.block->id.value);
+}
+
+ReferenceMessage stops_with(int message) { return {message, Severity::error}; }
+
+/// Says with which message the solver stops; 0: not known, the finding then names none.
+void set_message(Diagnostic* d, int message) {
+  if (d == nullptr) return;
+  if (message > 0)
+    d->reference = stops_with(message);
+  else
+    d->reference.reset();
+}
+
+/// Calls f(block, cell, id, message) for every id whose field has the given demand.
+template <class F>
+void each_demand(const LintContext& c, std::optional<int> Field::*demand, F&& f) {
+  for (const DecodedBlock& d : c.loads)
+    for (const DecodedCard& card : d.cards)
+      for (const Cell& cell : card.cells) {
+        if (cell.field->type != FieldType::id) continue;
+        std::optional<int> message = cell.field->*demand;
+        // Laws and properties cannot do without the curves they name.
+        if (demand == &Field::missing && !message && cell.field->ref == "funct") message = 0;
+        if (message) f(d, cell, c.resolved(*d.block, cell.field->ref, cell.integer), *message);
+      }
+}
+
+void check_missing_target(const LintContext& c, const Rule& rule, Reporter& r) {
+  each_demand(c, &Field::missing,
+              [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
+                if (id == 0 || target_exists(c, cell.field->ref, id).value_or(true)) return;
+                const std::string_view kind = cell.field->ref;
+                const bool group = kind == "grnod" || kind == "surf" || kind == "line";
+                std::string message =
+                    fmt::format("{} of {} is {}, and there is no {}{} of that id", cell.field->name,
+                                name_of(d), id, kind_name(kind), group ? " or /SET" : "");
+                const std::int64_t offset = c.deck.offset_of(*d.block, kind);
+                if (offset != 0 && target_exists(c, kind, id - offset).value_or(false))
+                  message += fmt::format("; {} exists outside the submodel, whose offset is {}",
+                                         id - offset, offset);
+                set_message(r.report(rule, *d.block, cell.span, std::move(message)), message_id);
+              });
+}
+
+void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.selections == nullptr) return;
+  each_demand(c, &Field::empty,
+              [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
+                const std::string_view kind = cell.field->ref;
+                if (id <= 0 || !selection_exists(c, kind, id) || selection_size(c, kind, id) != 0)
+                  return;
+                Diagnostic* found =
+                    r.report(rule, *d.block, cell.span,
+                             fmt::format("{} of {} is {}, and {} {} is empty", cell.field->name,
+                                         name_of(d), id, kind_name(kind), id));
+                set_message(found, message_id);
+                if (found == nullptr) return;
+                const bool plain = c.selections->is_plain(kind, id);
+                if (const auto at = c.selections->where(plain ? kind : "set", id))
+                  found->notes.emplace_back(*at, "it is defined here");
+              });
+}
+
+void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) {
+  each_demand(c, &Field::required,
+              [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
+                if (id != 0) return;
+                Diagnostic* found =
+                    r.report(rule, *d.block, cell.span.valid() ? cell.span : d.block->header_span,
+                             fmt::format("{} of {} names no {}", cell.field->name, name_of(d),
+                                         kind_name(cell.field->ref)));
+                set_message(found, message_id);
+              });
+}
+
+/// Ids that are used twice among functions, sensors and axes: one of the two is meant by nobody.
+void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const std::string_view kind : {"funct", "sensor", "skew", "frame"}) {
+    const auto all = c.defined.find(kind);
+    if (all == c.defined.end()) continue;
+    const Block* first = nullptr;
+    std::int64_t last = 0;
+    for (const auto& [id, block] : all->second) {
+      if (first == nullptr || id != last) {
+        first = block;
+        last = id;
+        continue;
+      }
+      Diagnostic* d = r.report(rule, *block, block->header_span,
+                               fmt::format("{} {} is defined twice", kind_name(kind), id));
+      if (d != nullptr) d->notes.emplace_back(first->header_span, "first defined here");
+    }
+  }
+}
+
+}  // namespace
+
+void add_target_demand_rules(std::vector<Rule>& out) {
+  constexpr auto stop = Severity::error;
+  out.push_back({.id = "DK120",
+                 .title = "load or constraint refers to something that does not exist",
+                 .severity = stop,
+                 .problem = "A boundary condition, load, initial velocity, rigid body, rigid wall "
+                            "or sensor names a node group, node, function, sensor, skew or surface "
+                            "that does not exist.",
+                 .why = "The load acts on nothing, or without its curve or axes.",
+                 .solver = "it stops with an error",
+                 .message = 53,
+                 .message_severity = stop,
+                 .fix = "correct the id or define what it names",
+                 .ignore = "When the definition is in an include that cannot be read.",
+                 .bad = "@/BCS/1 Tx=1 grnod_ID=77\n",
+                 .good = "@/BCS/1 Tx=1 grnod_ID=2\n",
+                 .check = check_missing_target});
+  out.push_back({.id = "DK121",
+                 .title = "load on an empty node group",
+                 .severity = stop,
+                 .problem = "A load names a node group without a node.",
+                 .why = "There is nothing that it could act on.",
+                 .solver = "it stops with an error",
+                 .message = 3026,
+                 .message_severity = stop,
+                 .fix = "correct the definition of the group, or remove the load",
+                 .ignore = "Never.",
+                 .bad = "/GRNOD/NODE/7\nnothing\n\n@/CLOAD/1 funct_IDT=1 Dir=X grnod_ID=7\n",
+                 .good = "/GRNOD/NODE/7\ncorner\n         1\n"
+                         "@/CLOAD/1 funct_IDT=1 Dir=X grnod_ID=7\n",
+                 .check = check_empty_target});
+  out.push_back({.id = "DK122",
+                 .title = "necessary reference left out",
+                 .severity = stop,
+                 .problem = "A cell is 0 or blank, or its line is missing, that has to name "
+                            "something: the nodes of a displacement sensor, the main node of a "
+                            "rigid body, the nodes of a force.",
+                 .why = "There is no default for it.",
+                 .solver = "it stops with an error; a sensor is then unknown to all its users",
+                 .message = 43,
+                 .message_severity = stop,
+                 .fix = "write the id",
+                 .ignore = "Never.",
+                 .bad = "/SENSOR/DISP/3\napart\n                0.01\n",
+                 .good = "/SENSOR/DISP/3\napart\n                0.01\n         1        11\n",
+                 .check = check_required_target});
+  out.push_back({.id = "DK128",
+                 .title = "function, sensor or axes defined twice",
+                 .severity = stop,
+                 .problem = "Two functions, sensors, skews or frames have the same id.",
+                 .why = "Only one of them can be meant by a reference.",
+                 .solver = "it stops with an error",
+                 .message = 79,
+                 .message_severity = stop,
+                 .fix = "give one of them another id",
+                 .ignore = "Never.",
+                 .bad = "/FUNCT/1\nagain\n                 0.0                 0.0\n"
+                        "                 1.0                 2.0\n",
+                 .good = "/FUNCT/2\nother\n                 0.0                 0.0\n"
+                         "                 1.0                 2.0\n",
+                 .check = check_twice});
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,53 @@
+// What an id on a card refers to: existence and size of the target.
+#include "lint/targets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace deck::detail {
+
+std::string_view kind_name(std::string_view kind) {
+  using Name = std::pair<std::string_view, std::string_view>;
+  static constexpr std::array<Name, 12> names = {
+      Name{"grnod", "/GRNOD"},       Name{"surf", "/SURF"},     Name{"line", "/LINE"},
+      Name{"funct", "/FUNCT"},       Name{"sensor", "/SENSOR"}, Name{"skew", "/SKEW"},
+      Name{"frame", "/FRAME"},       Name{"prop", "/PROP"},     Name{"mat", "/MAT"},
+      Name{"friction", "/FRICTION"}, Name{"part", "/PART"},     Name{"node", "node"}};
+  const auto it =
+      std::find_if(names.begin(), names.end(), [&](const Name& n) { return n.first == kind; });
+  return it == names.end() ? "/SET" : it->second;
+}
+
+bool selection_exists(const LintContext& c, std::string_view kind, std::int64_t id) {
+  return c.selections->is_plain(kind, id) || c.selections->where("set", id).has_value();
+}
+
+std::size_t selection_size(const LintContext& c, std::string_view kind, std::int64_t id) {
+  if (kind == "grnod") {
+    const NodeSet* s = c.selections->node_group(id);
+    return s ? s->nodes.size() : 0;
+  }
+  if (kind == "surf") {
+    const Surface* s = c.selections->surface(id);
+    return s ? (s->analytical ? 1 : s->segments.size()) : 0;
+  }
+  const LineSet* s = c.selections->line(id);
+  return s ? s->edges.size() : 0;
+}
+
+std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id) {
+  if (kind == "grnod" || kind == "surf" || kind == "line") {
+    if (c.selections == nullptr) return std::nullopt;
+    return selection_exists(c, kind, id);
+  }
+  if (kind == "node") {
+    if (c.model == nullptr) return std::nullopt;
+    return c.model->find_node(id) != no_index;
+  }
+  if (kind_name(kind) == "/SET") return std::nullopt;
+  const auto all = c.defined.find(kind);
+  return all != c.defined.end() && all->second.count(id) > 0;
+}
+
+}  // namespace deck::detail

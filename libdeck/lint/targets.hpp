@@ -1,0 +1,24 @@
+// What an id on a card refers to: whether the target exists and how many members it has. Shared by
+// the checks of references.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "deck/lint/lint.hpp"
+
+namespace deck::detail {
+
+/// "/GRNOD" for "grnod", "node" for "node": how people name the kind of an entity.
+std::string_view kind_name(std::string_view kind);
+
+/// A /GRNOD, /SURF or /LINE (`kind` "grnod", "surf", "line"), or a /SET in its place.
+bool selection_exists(const LintContext& c, std::string_view kind, std::int64_t id);
+
+/// Nodes, segments or edges of such a selection.
+std::size_t selection_size(const LintContext& c, std::string_view kind, std::int64_t id);
+
+/// Whether the entity exists; nothing: it cannot be said (no model, or a kind nobody counts).
+std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id);
+
+}  // namespace deck::detail
