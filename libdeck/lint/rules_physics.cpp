@@ -38,12 +38,14 @@ void check_not_positive(const LintContext& c, const Rule& rule, Reporter& r,
     if (m.block == nullptr || m.block->opaque) continue;
     const DecodedBlock d = decode(c.deck, *m.block);
     for (const std::string_view field : fields) {
+      if (!wanted(m.law, field) || m.block->schema->find_field(field) == nullptr) continue;
+      // A line that is not there counts as blank.
       const Cell* cell = d.find(field);
-      if (cell == nullptr || !wanted(m.law, field) || cell->real > 0) continue;
-      const bool blank = cell->blank() || !cell->span.valid();
-      r.report(rule, *m.block, cell->span.valid() ? cell->span : m.block->header_span,
+      if (cell != nullptr && (cell->real > 0 || cell->parameter)) continue;
+      const bool placed = cell != nullptr && cell->span.valid();
+      r.report(rule, *m.block, placed ? cell->span : m.block->header_span,
                fmt::format("{} of {} {} is {}", field, m.type, m.id,
-                           blank ? "blank" : std::string(trim(cell->text))));
+                           placed && !cell->blank() ? std::string(trim(cell->text)) : "blank"));
     }
   }
 }

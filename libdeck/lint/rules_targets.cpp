@@ -74,16 +74,21 @@ void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
               });
 }
 
+/// By the schema, not by the cells: the line of the id may be missing altogether.
 void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_demand(c, &Field::required,
-              [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
-                if (id != 0) return;
-                Diagnostic* found =
-                    r.report(rule, *d.block, cell.span.valid() ? cell.span : d.block->header_span,
-                             fmt::format("{} of {} names no {}", cell.field->name, name_of(d),
-                                         kind_name(cell.field->ref)));
-                set_message(found, message_id);
-              });
+  for (const DecodedBlock& d : c.loads)
+    for (const CardSchema& card : d.block->schema->cards)
+      for (const Field& field : card.fields) {
+        const int version = d.block->version;
+        if (!field.required || !card.in_version(version) || !field.in_version(version)) continue;
+        const Cell* cell = d.find(field.name);
+        if (cell != nullptr && cell->integer != 0) continue;
+        const bool placed = cell != nullptr && cell->span.valid();
+        Diagnostic* found = r.report(
+            rule, *d.block, placed ? cell->span : d.block->header_span,
+            fmt::format("{} of {} names no {}", field.name, name_of(d), kind_name(field.ref)));
+        set_message(found, *field.required);
+      }
 }
 
 /// Ids that are used twice among functions, sensors and axes: one of the two is meant by nobody.

@@ -10,7 +10,7 @@ namespace {
 /// Message number that a finding of the rule names; 0: the rule is silent, or names none.
 int message_of(const Linted& run, std::string_view rule) {
   const Diagnostic* d = run.find(rule);
-  return d != nullptr && d->reference ? d->reference->message : 0;
+  return d != nullptr && d->reference ? d->reference->number : 0;
 }
 
 bool is_error(const Linted& run, std::string_view rule) {
