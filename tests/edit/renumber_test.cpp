@@ -148,10 +148,10 @@ TEST(Renumber, MaterialsOfMaterialOptionsFollow) {
 
 TEST(Renumber, TextThatMayHoldAnIdIsRefusedOrUndecided) {
   const auto w = Whole::text(
-      plates().add("/RBODY/1\nr\n        50         0\n/NEWTHING/2\n        51").text());
+      plates().add("/RBE2/1\nr\n        50         0\n/NEWTHING/2\n        51").text());
   const Rewrite r = numbered(*w, {"node+1000"});
   ASSERT_EQ(r.refusals.size(), 2u);
-  EXPECT_NE(r.refusals[0].find("/RBODY/1: "), std::string::npos) << r.refusals[0];
+  EXPECT_NE(r.refusals[0].find("/RBE2/1: "), std::string::npos) << r.refusals[0];
   EXPECT_TRUE(r.edits.empty());
   const Rewrite partial = numbered(*w, {"node+1000"}, true);
   EXPECT_TRUE(partial.refusals.empty());
@@ -159,6 +159,17 @@ TEST(Renumber, TextThatMayHoldAnIdIsRefusedOrUndecided) {
   // The id of an unknown keyword may be that of a part or a surface.
   EXPECT_EQ(numbered(*w, {"part+1000"}).refusals.size(), 1u);
   EXPECT_EQ(numbered(*w, {"surf+1000"}).refusals.size(), 1u);
+}
+
+TEST(Renumber, NodesAndGroupsOfRigidBodiesAndLoadsFollow) {
+  const auto w = Whole::text(plates()
+                                 .add("@/RBODY/1 node_ID=50 grnd_ID=52\n"
+                                      "@/BCS/2 Tx=1 grnod_ID=52\n")
+                                 .text());
+  const auto after = w->after(numbered(*w, {"node+1000", "grnod+5"}));
+  EXPECT_TRUE(after->contains("      1050")) << after->main_text();
+  EXPECT_TRUE(after->contains("        57"));
+  EXPECT_FALSE(after->contains("        52\n"));
 }
 
 TEST(Renumber, NumbersThatNoIdHasAreNoReasonToRefuse) {
