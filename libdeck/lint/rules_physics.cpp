@@ -293,9 +293,17 @@ void add_geometry_of_model_rules(std::vector<Rule>& out) {
                  .fix = "write a thickness above 0",
                  .ignore = "Never.",
                  .bad = "/PROP/SHELL/9\nthin\n        24\n                 0.0\n"
-                        "         5                          -1.0\n",
+                        "         5                          -1.0\n"
+                        "/PART/9\nthin\n         9         1\n"
+                        "/SHELL/9\n        21         1         2         3         4\n"
+                        "/LINE/SURF/9\nthin\n         9\n/SURF/PART/9\nthin\n         9\n"
+                        "@/INTER/TYPE11/1 line_IDs=2 line_IDm=9 Gapmin=1.0\n",
                  .good = "/PROP/SHELL/9\nthin\n        24\n                 0.0\n"
-                         "         5                           1.0\n",
+                         "         5                           1.0\n"
+                         "/PART/9\nthin\n         9         1\n"
+                         "/SHELL/9\n        21         1         2         3         4\n"
+                         "/LINE/SURF/9\nthin\n         9\n/SURF/PART/9\nthin\n         9\n"
+                         "@/INTER/TYPE11/1 line_IDs=2 line_IDm=9 Gapmin=1.0\n",
                  .check = check_thickness});
   out.push_back({.id = "DK126",
                  .title = "deck without nodes",
