@@ -198,6 +198,8 @@ class Resolver {
         lines_.change(card.line, card.free_format ? fixed_text(card) : edited(card), out_.edits);
     }
     behind.resize(needed);
+    // A header without any line: the first one would be taken for the title.
+    if (needed > 0 && detail::lacks_title(decoded_)) lines_.insert_after(anchor, "");
     for (const std::string& text : behind) lines_.insert_after(anchor, text);
   }
 

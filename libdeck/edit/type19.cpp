@@ -394,6 +394,7 @@ class Expander {
       lines_.change(card.line, compose(card, *target, texts), out_.edits);
     }
     missing.resize(needed);
+    if (needed > 0 && detail::lacks_title(decoded_)) lines_.insert_after(last_, "");
     for (const std::string& line : missing) lines_.insert_after(last_, line);
   }
 

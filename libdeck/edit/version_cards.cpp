@@ -77,6 +77,12 @@ std::optional<FormattedReal> cell_text(double value, double factor, int width) {
   return best;
 }
 
+bool lacks_title(const DecodedBlock& block) {
+  const Schema* schema = block.block->schema;
+  return schema != nullptr && schema->has_title && block.block->version >= 51 &&
+         !block.title_line.valid();
+}
+
 void LineEdits::change(const Line& line, const std::string& text,
                        std::vector<TextEdit>& out) const {
   const std::string_view old = line.text;

@@ -31,6 +31,9 @@ void put_cell(std::string& line, int first, int last, std::string_view text);
 /// or the closest one there is. nullopt: nothing fits.
 std::optional<FormattedReal> cell_text(double value, double factor, int width);
 
+/// True for a block that ends before its title line: a line put there would be taken for the title.
+bool lacks_title(const DecodedBlock& block);
+
 /// Edits of whole lines, collected so that several at one place come out in order.
 class LineEdits {
  public:

@@ -127,6 +127,17 @@ TEST(ResolveDefaults, LinesThatTheBlockEndsBeforeAreAdded) {
   EXPECT_EQ(after->interfaces.type7.at(0).Iform.input, 2);
 }
 
+TEST(ResolveDefaults, AHeaderWithoutAnyLineGetsATitleLineToo) {
+  const auto before = open_text(deck_of_version(2022, defaults_7 + "/INTER/TYPE7/1\n"));
+  const auto after = resolved(*before);
+  const InterType7& t = after->interfaces.type7.at(0);
+  EXPECT_EQ(t.title, "");
+  EXPECT_EQ(t.Istf.value, 4);
+  EXPECT_EQ(t.Istf.origin, Origin::card);
+  EXPECT_EQ(t.surf_IDm.value, 0);
+  EXPECT_EQ(t.Inacti.value, 6);
+}
+
 TEST(ResolveDefaults, LinesWithCommasGetFixedColumns) {
   const auto before = open_text(deck_of_version(
       2022, defaults_7 + "/INTER/TYPE7/1\nfree\n5,1,,0,1000,0,0\n,,\n\n1.5,0.1,0.3\n"
