@@ -215,6 +215,27 @@ TEST(NotChecked, NamesWhatWasLeftOutAndWhy) {
   EXPECT_NE(all.find("geometry"), std::string::npos) << all;
 }
 
+TEST(NotChecked, CountsRulesOnlyWhereSomeAreOff) {
+  const auto rules_off = [](const LintOptions& options) {
+    const Linted run = lint_example("@/INTER/TYPE7/1 Gapmin=1\n", options);
+    for (const NotChecked& n : run.result.not_checked)
+      if (n.why.find("--select") != std::string::npos) return n.what;
+    return std::string();
+  };
+  EXPECT_EQ(rules_off({}), "");
+  LintOptions options;
+  options.ignore = {"DK203"};
+  EXPECT_EQ(rules_off(options), "1 of " + std::to_string(all_rules().size()) + " rules");
+}
+
+TEST(UnusedEntities, NumbersInBlocksThatNobodyKnowsCountAsUse) {
+  const std::string group = "@bare\n/GRNOD/NODE/5\nfive\n         1\n";
+  EXPECT_TRUE(lint_example(group).fires("DK188"));
+  EXPECT_FALSE(lint_example(group + "/NONSENSE/9\ntitle\n         5\n").fires("DK188"));
+  EXPECT_TRUE(
+      lint_example(group + "/NONSENSE/9\ntitle\n       5.0   7.8e-5        5x\n").fires("DK188"));
+}
+
 TEST(ExtraChecks, ReportThroughTheEngine) {
   const ExampleDeck example = example_deck("@/INTER/TYPE7/1\n", SchemaSet::built_in());
   auto deck = read_deck_text("x", example.main, SchemaSet::built_in());
@@ -357,6 +378,15 @@ TEST(Config, RefusesUnknownKeysRulesAndValuesWithTheLine) {
   EXPECT_FALSE(parse_lint_config("fail-on = \"maybe\"", "c.toml"));
   EXPECT_FALSE(parse_lint_config("[severity]\nDK2 = \"fatal\"", "c.toml"));
   EXPECT_FALSE(parse_lint_config("= broken", "c.toml"));
+}
+
+TEST(Config, RefusesKeysThatStartWithWhatNoKeyCanStartWith) {
+  for (const char* text :
+       {"[*b*]\n", "[", "[[*]]\n", "select = []\n[\nDK104 = \"error\"\n[x]\n", "[ ,", "*=1\n"}) {
+    const auto config = parse_lint_config(text, "c.toml");
+    ASSERT_FALSE(config.ok()) << text;
+    EXPECT_EQ(config.error().message.find("c.toml"), 0u) << config.error().message;
+  }
 }
 
 TEST(Config, IsFoundAboveTheDeck) {
