@@ -268,8 +268,8 @@ struct SegmentTest {
              threshold.limit;
     }
     const std::uint32_t node = w.nodes[rank];
-    const bool own =
-        (node == corners[0]) | (node == corners[1]) | (node == corners[2]) | (node == corners[3]);
+    bool own = false;
+    for (const std::uint32_t corner : corners) own |= node == corner;
     sink.push_if(near & !own, {w.items[rank], segment});
   }
 };

@@ -1,0 +1,78 @@
+// Lint with geometry, every output format, and --fix: the documents are valid, safe fixes change no
+// effective value, and fixing ends: a text that was fixed to the end has nothing more to fix.
+#include <nlohmann/json.hpp>
+
+#include "deck/lint/config.hpp"
+#include "deck/lint/fix.hpp"
+#include "deck/lint/geometry.hpp"
+#include "deck/lint/lint.hpp"
+#include "deck/report/diagnostics.hpp"
+#include "support.hpp"
+
+namespace {
+
+using namespace deck;
+using fuzz::require;
+
+LintResult lint(fuzz::Whole& whole, bool geometry) {
+  Selections& selections = *whole.model.selections;
+  selections.resolve_all();
+  LintInput input{whole.deck, SchemaSet::built_in(), &whole.model, &whole.interfaces, &selections};
+  input.earlier = {&whole.diagnostics, &selections.diagnostics()};
+  if (geometry)
+    input.extra_checks.push_back(
+        [](const LintContext& c, Reporter& r) { check_geometry(c, r, 1); });
+  return run_lint(input, {});
+}
+
+void check_documents(const fuzz::Whole& whole, const LintResult& result) {
+  const std::vector<LintedDeck> decks = {{"fuzz", &whole.deck, &result, ""}};
+  for (const std::string& document :
+       {lint_json(decks), lint_sarif(decks, SchemaSet::built_in()), lint_gitlab(decks)})
+    require(nlohmann::json::accept(document), "a document is valid JSON", document);
+  lint_junit(decks);
+  lint_github(decks);
+  lint_human(decks, {});
+  const auto baseline = parse_baseline(
+      write_baseline({{"fuzz", &whole.deck, &result}}, "baseline.json"), "baseline.json");
+  require(baseline.ok(), "a baseline that was written is read");
+}
+
+/// The text after one round of fixes; the same text where there is nothing to fix.
+std::string fixed(const fuzz::Whole& whole, const LintResult& result, bool unsafe) {
+  const FixResult fixes = apply_fixes(whole.deck.sources, result.diagnostics, unsafe);
+  require(fixes.files.size() <= 1, "one file is fixed at most");
+  require((fixes.applied > 0) == !fixes.files.empty(), "a fix that was applied is in the text");
+  return fixes.files.empty() ? std::string(whole.bytes()) : fixes.files[0].text;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > 12288) return 0;
+  const std::string text = fuzz::text_of(data, size);
+  const std::uint64_t h = fuzz::hash_of(text);
+  auto whole = fuzz::read_text(text);
+  if (!whole) return 0;
+  LintResult result = lint(*whole, h % 4 == 0);
+  for (const Diagnostic& d : result.diagnostics) {
+    require(find_rule(d.rule) != nullptr, "a finding has a rule", d.rule);
+    if (d.span.valid()) whole->deck.sources.where(d.span);
+  }
+  require(result.fingerprints.size() == result.diagnostics.size(), "every finding has its print");
+  // The documents are many times as long as the deck.
+  if (h / 32 % 8 == 0) check_documents(*whole, result);
+  const bool unsafe = h / 4 % 3 == 0;
+  const std::string before = fuzz::effective_values(whole->interfaces);
+  for (int round = 0;; ++round) {
+    const std::string next = fixed(*whole, result, unsafe);
+    if (next == whole->bytes()) return 0;
+    require(round < 20, "fixing ends", next);
+    whole = fuzz::read_text(next);
+    require(whole != nullptr, "a fixed deck is a deck", next);
+    if (!unsafe)
+      require(fuzz::effective_values(whole->interfaces) == before,
+              "a safe fix changes no effective value", next);
+    result = lint(*whole, false);
+  }
+}

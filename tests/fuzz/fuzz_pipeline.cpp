@@ -1,0 +1,92 @@
+// A deck all the way: read, model, interfaces, contacts, penetrations, crossings, forces, and their
+// JSON. Positions and numbers must be sound, the documents valid, and one thread and three must
+// give the same bytes.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "deck/contact/crossings.hpp"
+#include "deck/contact/view.hpp"
+#include "deck/cycle/scene_cycle.hpp"
+#include "deck/report/cycle.hpp"
+#include "deck/report/gaps.hpp"
+#include "deck/report/params_report.hpp"
+#include "support.hpp"
+
+namespace {
+
+using namespace deck;
+using fuzz::require;
+
+void check_scene(const Scene& scene) {
+  const std::size_t nodes = scene.model->nodes.size();
+  for (const Contact& c : scene.contacts) {
+    const bool edges = c.kind == ContactKind::edge_edge;
+    for (const SecondaryNode& n : c.secondary) require(n.node < nodes, "a secondary node exists");
+    for (const MainSegment& m : c.main)
+      for (const NodeIndex n : m.nodes) require(n < nodes, "a node of a segment exists");
+    for (const PenetrationRow& p : c.penetrations) {
+      require(p.secondary < (edges ? c.secondary_edges.size() : c.secondary.size()) &&
+                  p.main < (edges ? c.main_edges.size() : c.main.size()),
+              "a penetration is between sides of its contact");
+      require(std::isfinite(p.depth) && std::isfinite(p.gap) && std::isfinite(p.distance),
+              "a penetration is a number");
+      require(p.distance >= 0, "a distance is not negative");
+    }
+  }
+}
+
+/// Everything that the verbs would print about the deck as JSON.
+std::string answers(const std::string& text, int threads) {
+  const auto whole = fuzz::read_text(text, threads);
+  if (!whole) return "";
+  fuzz::check_spans(whole->deck, whole->deck.diagnostics);
+  std::string out;
+  const auto add = [&](std::string document) {
+    require(nlohmann::json::accept(document), "a document is valid JSON", document);
+    out += document;
+  };
+  ParamsInput params;
+  params.path = "fuzz";
+  params.deck = &whole->deck;
+  params.model = &whole->model;
+  params.interfaces = &whole->interfaces;
+  add(params_json(params));
+  SceneOptions options;
+  options.threads = threads;
+  options.nodal_stiffness = true;
+  const Scene scene = build_scene(whole->model, whole->interfaces, whole->diagnostics, options);
+  check_scene(scene);
+  fuzz::check_spans(whole->deck, whole->diagnostics);
+  const SceneView view = make_view(scene);
+  const auto crossings = find_crossings(scene, threads);
+  add(gaps_json("fuzz", whole->deck, scene, view, true, &crossings));
+  out += gaps_text(whole->deck, scene, view);
+  const cycle::State state = cycle::make_state(scene);
+  cycle::CycleOptions cycle_options;
+  cycle_options.threads = threads;
+  cycle_options.keep_pairs = true;
+  cycle_options.dt1 = cycle_options.dt12 = fuzz::hash_of(text) % 2 == 0 ? 0.0 : 1e-3;
+  const cycle::SceneOutcome outcome = cycle::run_cycle(scene, state, cycle_options);
+  CycleInput input;
+  input.path = "fuzz";
+  input.deck = &whole->deck;
+  input.scene = &scene;
+  input.state = &state;
+  input.outcome = &outcome;
+  input.options = cycle_options;
+  add(cycle_json(input, true));
+  for (const Diagnostic& d : whole->diagnostics.all()) out += d.message + "\n";
+  return out;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > 16384) return 0;
+  const std::string text = fuzz::text_of(data, size);
+  const std::string serial = answers(text, 1);
+  // Starting threads costs more than a small deck: every sixteenth input.
+  if (!serial.empty() && fuzz::hash_of(text) / 2 % 16 == 0)
+    require(answers(text, 3) == serial, "three threads give the answer of one");
+  return 0;
+}

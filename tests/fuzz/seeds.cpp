@@ -1,0 +1,218 @@
+// Writes the first inputs of the fuzz targets below a directory: fuzz_seeds DIR. They are made of
+// the decks in samples/, of the examples of every rule, and of what the library makes of those.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/keyword/deck.hpp"
+#include "deck/lint/example.hpp"
+#include "deck/lint/rule.hpp"
+#include "deck/model/interfaces.hpp"
+#include "deck/report/deck_json.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+class Seeds {
+ public:
+  explicit Seeds(fs::path root) : root_(std::move(root)) {}
+  void put(const std::string& target, const std::string& name, std::string_view text) {
+    fs::create_directories(root_ / target);
+    std::ofstream(root_ / target / name, std::ios::binary) << text;
+    ++count;
+  }
+  /// For every target whose input is one deck.
+  void deck(const std::string& name, const std::string& text) {
+    for (const char* t : {"fuzz_deck", "fuzz_pipeline", "fuzz_lint", "fuzz_edits", "fuzz_includes"})
+      put(t, name, text);
+    auto deck = deck::read_deck_text("a_0000.rad", text, deck::SchemaSet::built_in());
+    if (!deck || text.size() > 8000) return;
+    if (const auto json = deck::deck_to_json({"a_0000.rad", &*deck})) put("fuzz_json", name, *json);
+  }
+  std::size_t count = 0;
+
+ private:
+  fs::path root_;
+};
+
+/// A deck too large for a fuzzer, in parts: its head and a run of blocks each.
+void parts_of(Seeds& seeds, const std::string& name, const std::string& text) {
+  const auto head = text.substr(0, text.find("\n/", text.find("/BEGIN")) + 1);
+  std::string part = head;
+  int n = 0;
+  for (std::size_t at = head.size(); at < text.size();) {
+    const auto next = std::min(text.find("\n/", at), text.size() - 1) + 1;
+    if (next - at < 3000) part += text.substr(at, next - at);
+    if (part.size() > 4000 || next >= text.size()) {
+      seeds.deck(name + "_" + std::to_string(n++), part + "/END\n");
+      part = head;
+    }
+    at = next;
+  }
+}
+
+/// Blocks of groups, surfaces, lines, boxes and sets of a deck.
+std::string selections_of(std::string_view text) {
+  std::string out;
+  bool inside = false;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto end = std::min(text.find('\n', at), text.size() - 1) + 1;
+    const std::string_view line = text.substr(at, end - at);
+    if (line.starts_with("/")) {
+      inside = false;
+      for (const char* k : {"/GR", "/SURF", "/LINE", "/SET", "/BOX", "/SUBSET"})
+        inside = inside || line.starts_with(k);
+    }
+    if (inside) out += line;
+    at = end;
+  }
+  return out;
+}
+
+void samples(Seeds& seeds, const fs::path& directory) {
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    if (!entry.path().string().ends_with("_0000.rad")) continue;
+    std::string name = entry.path().stem().string();
+    const std::string text = read(entry.path());
+    if (text.size() < 12000)
+      seeds.deck(name, text);
+    else
+      parts_of(seeds, name, text);
+    if (const std::string s = selections_of(text); !s.empty())
+      seeds.put("fuzz_selections", name, s.substr(0, 8000));
+  }
+  std::string tree = read(directory / "include_tree_0000.rad");
+  for (const char* file : {"mesh.inc", "sheets.inc"})
+    tree +=
+        "=== include_tree/" + std::string(file) + "\n" + read(directory / "include_tree" / file);
+  seeds.put("fuzz_includes", "tree", tree);
+}
+
+void examples(Seeds& seeds) {
+  for (const deck::Rule& rule : deck::all_rules())
+    for (const std::string_view text : {rule.bad, rule.good}) {
+      if (text.empty()) continue;
+      const auto example = deck::example_deck(text, deck::SchemaSet::built_in());
+      const std::string name = std::string(rule.id) + (text == rule.bad ? "_bad" : "_good");
+      if (example.main.size() > 12000) continue;
+      std::string tree = example.main;
+      for (const auto& [file, content] : example.files) tree += "=== " + file + "\n" + content;
+      if (!example.files.empty()) seeds.put("fuzz_includes", name, tree);
+      seeds.deck(name, example.main);
+      if (const std::string s = selections_of(example.main); s.size() > 300)
+        seeds.put("fuzz_selections", name, s);
+    }
+}
+
+std::string card(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& c : cells)
+    line += std::string(10 - std::min<std::size_t>(c.size(), 10), ' ') + c;
+  return line + "\n";
+}
+
+void lsdyna(Seeds& seeds) {
+  const std::string plain =
+      card({"11", "12", "2", "2"}) + card({"0.2", "0.1", "0", "0", "20"}) + card({"1.0", "1.0"});
+  int n = 0;
+  for (const char* keyword :
+       {"SINGLE_SURFACE", "SINGLE_SURFACE_ID", "SURFACE_TO_SURFACE", "ONE_WAY_SURFACE_TO_SURFACE",
+        "NODES_TO_SURFACE", "GENERAL", "GENERAL_INTERIOR", "SURFACE_TO_SURFACE_MORTAR"}) {
+    std::string text = "*KEYWORD\n*PARAMETER\nR fric      0.3\n*CONTACT_AUTOMATIC_" +
+                       std::string(keyword) + "\n$ c\n";
+    if (text.find("_ID") != std::string::npos) text += card({"77", "all of it"});
+    seeds.put("fuzz_lsdyna", std::to_string(n++),
+              text + plain + card({"2", "0.1", "", "1.025", "2", "2"}) + "*END\n");
+  }
+  for (const char* keyword :
+       {"NODES_TO_SURFACE", "SURFACE_TO_SURFACE_OFFSET", "SHELL_EDGE_TO_SURFACE_MPP"})
+    seeds.put(
+        "fuzz_lsdyna", std::to_string(n++),
+        "*CONTACT_TIED_" + std::string(keyword) + "\n" + plain + "11,12,2,2\n&fric,0\n*PART\n");
+}
+
+/// A states file: column names with stems given three axes, and rows of plain numbers.
+std::string states(const std::vector<std::string>& names, const std::vector<std::string>& stems) {
+  std::string head, row;
+  int n = 0;
+  const auto add = [&](const std::string& name, double v) {
+    head += (head.empty() ? "" : ",") + name;
+    row += (row.empty() ? "" : ",") + std::to_string(v);
+  };
+  for (const std::string& name : names) add(name, 0.5 + 0.25 * (n++ % 5));
+  for (const std::string& stem : stems)
+    for (const char* axis : {"_x", "_y", "_z"}) add(stem + axis, (n++ * 7 % 11) * 0.3);
+  return head + "\n" + row + "\n" + row + "\n";
+}
+
+void replays(Seeds& seeds) {
+  using Names = std::vector<std::string>;
+  const Names nodes = {"xs", "x1", "x2", "x3", "x4",    "vs",    "v1",
+                       "v2", "v3", "v4", "F",  "ft_in", "ft_out"};
+  const Names plain = {"interface", "dt1", "dt12", "K0",      "gap",   "P0_in", "ms",
+                       "m1",        "m2",  "m3",   "m4",      "n3",    "n4",    "H1",
+                       "H2",        "H3",  "H4",   "K_nodal", "P0_out"};
+  seeds.put("fuzz_replay", "nodes", states(plain, nodes));
+  Names tie = plain;
+  for (const char* k : {"Fn", "Ft1", "Ft2", "H1", "H2", "H3"})
+    for (const char* side : {"_in", "_out"}) tie.push_back(k + std::string(side));
+  seeds.put("fuzz_replay", "tied", states(tie, nodes));
+  seeds.put("fuzz_replay", "edges",
+            states({"interface", "dt1", "dt12", "K0", "gap", "pen_s_used", "pen_m_used", "mass_s1",
+                    "mass_s2", "mass_m1", "mass_m2", "hs1", "hs2", "hm1", "hm2"},
+                   {"xs1", "xs2", "xm1", "xm2", "vs1", "vs2", "vm1", "vm2", "f1", "f2", "f3", "f4",
+                    "ft_in"}));
+  Names hot = {"dt1", "gap", "area_s", "Fn", "E_fric", "H1", "H2", "H3", "H4"};
+  for (const char* r : {"s", "1", "2", "3", "4"}) {
+    hot.push_back("T" + std::string(r));
+    hot.push_back("Q_" + std::string(r));
+  }
+  seeds.put("fuzz_replay", "heat", states(hot, nodes));
+}
+
+void others(Seeds& seeds) {
+  seeds.put("fuzz_config", "toml",
+            "select = [\"DK2\", \"DK104\"]\nignore = [\"DK203\"]\nfail-on = \"warning\"\nbaseline "
+            "= \"b.json\"\n"
+            "[severity]\nDK104 = \"error\"\n[per-file-ignores]\n\"legacy/**/*.rad\" = [\"DK1\"]\n");
+  seeds.put(
+      "fuzz_config", "baseline",
+      R"({"schema":"deck.baseline/2","decks":{"a_0000.rad":[{"file":"a_0000.rad","fingerprint":)"
+      R"("0123456789abcdef","rule":"DK104","entity":"","count":2}]}})");
+  int n = 0;
+  for (const char* glob :
+       {"*.rad\na/b_0000.rad", "a/**/b?.rad\na/x/y/b1.rad", "**\n", "**/x\nx", "a*b*c\naabbcc"})
+    seeds.put("fuzz_config", "glob" + std::to_string(n++), glob);
+  for (const char* number :
+       {"  -1.5d3 ", "1e400", "0x10", "       123", "1+5", "9223372036854775808"})
+    seeds.put("fuzz_number", "n" + std::to_string(n++), number);
+  for (const char* text : {"1+2*P0", "sqrt(2)\nP0^2\nint(P1/3)\n", "((((1))))\n-P0\nmax(P0,P1)"})
+    seeds.put("fuzz_parameters", "p" + std::to_string(n++), text);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return std::fprintf(stderr, "usage: fuzz_seeds DIR\n"), 2;
+  Seeds seeds{argv[1]};
+  samples(seeds, fs::path(DECK_SOURCE_DIR) / "samples");
+  examples(seeds);
+  lsdyna(seeds);
+  replays(seeds);
+  others(seeds);
+  std::printf("%zu inputs\n", seeds.count);
+  return 0;
+}

@@ -1,0 +1,102 @@
+// What the fuzz targets share: a property that must hold, and decks read from text in memory with
+// all that is made of them. Nothing here visits the file system.
+#pragma once
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "deck/edit/rewrite.hpp"
+#include "deck/keyword/deck.hpp"
+#include "deck/model/interfaces.hpp"
+#include "deck/model/model.hpp"
+
+namespace deck::fuzz {
+
+/// Ends the process where a property does not hold: libFuzzer keeps the input that did it.
+inline void require(bool good, const char* what, std::string_view detail = {}) {
+  if (good) return;
+  std::fprintf(stderr, "property does not hold: %s\n%.*s\n", what,
+               static_cast<int>(std::min<std::size_t>(detail.size(), 4000)), detail.data());
+  std::abort();
+}
+
+inline std::string text_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+/// A number that depends on every byte of the input, to choose among variants of a target.
+inline std::uint64_t hash_of(std::string_view text) {
+  std::uint64_t h = 1469598103934665603u;
+  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return h ^ (h >> 29);
+}
+
+/// The text without directives that would lead to a file: "#include" becomes a comment.
+inline std::string without_includes(std::string text) {
+  for (std::size_t at = 0; (at = text.find('#', at)) != std::string::npos; ++at)
+    if (at + 1 < text.size() && (text[at + 1] | 0x20) == 'i') text[at + 1] = '-';
+  return text;
+}
+
+using Files = std::map<std::string, std::string>;
+
+/// A deck with its model and interfaces. Never moved: the parts point to one another.
+struct Whole {
+  Files files;
+  Deck deck;
+  Model model;
+  Interfaces interfaces;
+  Diagnostics diagnostics;
+
+  EditContext context() const { return {deck, model, interfaces, SchemaSet::built_in()}; }
+  std::string_view bytes(std::uint32_t file = 0) const { return deck.sources[file].bytes(); }
+};
+
+inline ReadOptions read_options(const Files& files) {
+  ReadOptions options;
+  options.limits.files = 8;
+  options.limits.include_depth = 6;
+  options.overlay = &files;
+  return options;
+}
+
+/// Reads the file `main` of `files`; nullptr: not a deck.
+inline std::unique_ptr<Whole> read_files(Files files, const std::string& main, int threads = 1) {
+  auto whole = std::make_unique<Whole>();
+  whole->files = std::move(files);
+  auto deck = read_deck(main, SchemaSet::built_in(), read_options(whole->files));
+  if (!deck) return nullptr;
+  whole->deck = std::move(*deck);
+  ModelOptions options;
+  options.threads = threads;
+  whole->model = build_model(whole->deck, SchemaSet::built_in(), whole->diagnostics, options);
+  whole->interfaces = read_interfaces(whole->deck, whole->model, whole->diagnostics);
+  return whole;
+}
+
+inline constexpr const char* main_name = "fuzz_0000.rad";
+
+/// Reads one text, without includes; nullptr: not a deck.
+inline std::unique_ptr<Whole> read_text(std::string text, int threads = 1) {
+  return read_files({{main_name, without_includes(std::move(text))}}, main_name, threads);
+}
+
+/// Every span of the findings lies in its file.
+inline void check_spans(const Deck& deck, const Diagnostics& findings) {
+  for (const Diagnostic& d : findings.all()) {
+    if (!d.span.valid()) continue;
+    require(d.span.file < deck.sources.size(), "a finding lies in a file of the deck", d.message);
+    require(d.span.offset + d.span.length <= deck.sources[d.span.file].bytes().size(),
+            "a finding lies in its file", d.message);
+  }
+}
+
+/// The effective values of all interfaces, one line each, to compare decks by.
+std::string effective_values(const Interfaces& interfaces);
+
+}  // namespace deck::fuzz
