@@ -1,0 +1,194 @@
+#!/usr/bin/env python3
+"""Every allocation and every call about files fails once: whatever a verb was doing, it ends with an exit code
+of its own (never a signal), says what is wrong, and leaves no file that is neither as it was nor as it should be.
+
+shortage.c, preloaded, numbers what the program asks for and refuses the N-th. By default the first ones of every
+verb and a sample of the others, with --all all of them (of very many allocations every k-th, see `places`)."""
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+
+from common import ROOT, Checks
+from kill import TEMPORARY, put, read, tree
+
+FIRST, SAMPLED, MOST = 20, 20, 6000  # by default the first and so many others; with --all at most so many
+
+
+def build_shim(directory):
+    path = os.path.join(directory, "shortage.so")
+    source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "shortage.c")
+    for compiler in ("cc", "gcc", "clang-14", "clang"):
+        if shutil.which(compiler):
+            r = subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-fno-builtin", "-o", path, source, "-ldl"],
+                               capture_output=True, text=True)
+            if r.returncode != 0:
+                sys.exit("shortage.c: " + r.stderr[-500:])
+            return path
+    return None
+
+
+def sample(name):
+    return read(os.path.join(ROOT, "samples", name))
+
+
+def small_states():
+    """A states file of two pairs, for replay."""
+    names = ["interface", "dt1", "dt12", "K0", "gap", "P0_in", "ms", "m1", "m2", "m3", "m4", "H1", "H2", "H3", "H4"]
+    values = ["1", "0", "0", "100", "1", "0", "1e-3", "1e-3", "1e-3", "1e-3", "1e-3", "0.25", "0.25", "0.25", "0.25"]
+    for role, x in (("xs", (5, 5, 0.5)), ("x1", (0, 0, 0)), ("x2", (10, 0, 0)), ("x3", (10, 10, 0)), ("x4", (0, 10, 0))):
+        for axis, v in zip("xyz", x):
+            names.append("%s_%s" % (role, axis))
+            values.append(str(v))
+    for role in ("vs", "v1", "v2", "v3", "v4", "F", "ft_in"):
+        for axis in "xyz":
+            names.append("%s_%s" % (role, axis))
+            values.append("0")
+    return (",".join(names) + "\n" + (",".join(values) + "\n") * 2).encode()
+
+
+def verbs():
+    """(name, arguments, files) of a small run of every verb."""
+    clean, bad = {"car_0000.rad": sample("too_close_0000.rad")}, {"car_0000.rad": sample("variable_gap_0000.rad")}
+    tree_of = {"car_0000.rad": sample("include_tree_0000.rad"), "include_tree/mesh.inc": sample("include_tree/mesh.inc"),
+               "include_tree/sheets.inc": sample("include_tree/sheets.inc")}
+    fixable = {"car_0000.rad": b"".join(sample("too_close_0000.rad").rpartition(b"/END")[:1]) +
+               b"/INTER/TYPE7/77\nx\n" + b" " * 60 + b"         1\n/END\n"}
+    yield "lint", ("lint", "car_0000.rad", "-o", "sarif=a.sarif", "-o", "junit=a.xml"), tree_of
+    yield "lint --geometry", ("lint", "car_0000.rad", "--geometry"), clean
+    yield "lint --fix", ("lint", "car_0000.rad", "--fix"), fixable
+    yield "params", ("params", "car_0000.rad", "--json", "a.json"), clean
+    yield "gaps", ("gaps", "car_0000.rad", "--json", "a.json", "--csv", "a.csv", "--vtk", "v", "--html", "a.html"), bad
+    yield "cycle", ("cycle", "car_0000.rad", "--all", "--json", "a.json"), bad
+    yield "convert --to json", ("convert", "car_0000.rad", "--to", "json", "-o", "out"), tree_of
+    yield "convert --flatten", ("convert", "car_0000.rad", "--flatten", "-o", "out"), tree_of
+    yield "convert --units --in-place", ("convert", "car_0000.rad", "--units", "Mg,mm,s", "--in-place"), clean
+    yield "convert --version", ("convert", "car_0000.rad", "--version", "2026", "-o", "out"), clean
+    yield "fix", ("fix", "car_0000.rad", "--strategy", "reduce-gap", "--in-place"), bad
+    yield "replay", ("replay", "car_0000.rad", "--interface", "1", "states.csv"), dict(clean, **{"states.csv": small_states()})
+    yield "accuracy", ("accuracy", "--samples", "2"), {}
+    yield "explain", ("explain", "/INTER/TYPE7.Inacti"), {}
+    yield "rules", ("rules",), {}
+    yield "batch", ("batch", "car_0000.rad", "-o", "out", "--jobs", "1"), clean
+
+
+def whole(name, data):
+    """True for a document that does not end in the middle."""
+    if name.endswith((".json", ".sarif")):
+        try:
+            json.loads(data)
+        except ValueError:
+            return False
+    return data.endswith(b"\n")
+
+
+def own_notes(name):
+    """Where `deck batch` keeps what it has done: times differ from run to run."""
+    return ".batch" in name.split(os.sep)
+
+
+class Shortage:
+    def __init__(self, c, shim, tmp):
+        self.c, self.shim, self.tmp = c, shim, tmp
+
+    def run(self, args, work, of, at):
+        """(exit code, what was printed, number of things asked for or None)."""
+        count = work + ".count"
+        if os.path.exists(count):
+            os.remove(count)
+        env = dict(os.environ, NO_COLOR="1", LD_PRELOAD=self.shim, DECK_SHORT_OF=of, DECK_SHORT_AT=str(at), DECK_SHORT_COUNT=count)
+        try:
+            r = subprocess.run([self.c.program, *args, "--threads", "2"] if args[0] not in ("explain", "rules", "batch", "accuracy")
+                               else [self.c.program, *args], cwd=work, env=env, stdin=subprocess.DEVNULL, capture_output=True, timeout=60)
+            code, text = r.returncode, (r.stdout + r.stderr).decode("utf-8", "replace")
+        except subprocess.TimeoutExpired:
+            code, text = None, ""
+        asked = int(read(count)) if os.path.exists(count) else None
+        return code, text, asked
+
+    def places(self, total):
+        if self.c.options.all:
+            step = max(1, total // MOST)
+            return sorted(set(range(1, min(total, 300) + 1)) | set(range(1, total + 1, step)))
+        chosen = set(range(1, min(total, FIRST) + 1))
+        if total > FIRST:
+            chosen |= set(random.Random(total).sample(range(FIRST + 1, total + 1), min(SAMPLED, total - FIRST)))
+        return sorted(chosen)
+
+    def judge(self, code, text, usual, old, now, new):
+        """What is wrong with the end of a run in which one thing was refused."""
+        if code is None:
+            return "it hangs"
+        if not 0 <= code <= 4:
+            return "exit code %d" % code
+        if "terminate called" in text or "internal error" in text and code != 4:
+            return "an exception came through"
+        if code not in (0, 1) and not text.strip():
+            return "exit code %d without a word" % code
+        for name in sorted(set(old) | {k for k in new if not own_notes(k)}):
+            if name not in now:
+                if name in old:
+                    return name + " is lost"
+                if code == usual:
+                    return "%s is missing, but the exit code is as usual" % name
+            elif now[name] not in (old.get(name), new.get(name)) and not (name not in old and whole(name, now[name])):
+                # A report about what could not be read says something else, but it is a whole report.
+                return "%s is neither old nor new nor whole" % name
+        strays = [k for k in now if k not in old and k not in new and not own_notes(k)]
+        # What failed may have been the removal of just that file.
+        if [k for k in strays if not TEMPORARY.match(os.path.basename(k))] or len(strays) > 1:
+            return "left behind: " + ", ".join(strays)
+        return ""
+
+    def verb(self, name, args, old, of):
+        slug = "".join(ch if ch.isalnum() else "-" for ch in name + of)
+        base = os.path.join(self.tmp, slug)
+        put(base, old)
+        usual, text, total = self.run(args, base, of, 0)
+        if not self.c.check("%s: runs" % name, usual in (0, 1) and total is not None, text[-300:]):
+            return
+        new = tree(base)
+
+        def one(at):
+            work = "%s.%d" % (base, at % 2)  # two workers, never the same number at a time
+
+            def attempt(directory):
+                put(directory, old)
+                code, out, _ = self.run(args, directory, of, at)
+                why = self.judge(code, out, usual, old, tree(directory), new)
+                return why and "%s at %d of %d: %s (%s)" % (of, at, total, why, out[-160:].strip().replace("\n", " | "))
+            return attempt(work)
+        places = self.places(total)
+        with ThreadPoolExecutor(2) as pool:
+            halves = pool.map(lambda parity: [one(n) for n in places if n % 2 == parity], (0, 1))
+            faults = [w for half in halves for w in half if w]
+        self.c.check("%s: %d of %d refusals of %s" % (name, len(places), total, of), not faults,
+                     "%d faults; first: %s" % (len(faults), "; ".join(faults[:3])))
+
+
+def main():
+    c = Checks()
+    if c.sanitized:
+        c.skip("shortages", "the preloaded library and a sanitizer do not go together")
+        c.finish()
+    tmp = tempfile.mkdtemp(prefix="deck-shortage-")
+    try:
+        shim = build_shim(tmp)
+        if shim is None:
+            c.skip("shortages", "no C compiler")
+            c.finish()
+        s = Shortage(c, shim, tmp)
+        for of in ("memory", "calls"):
+            for name, args, files in verbs():
+                s.verb(name, args, files, of)
+    finally:
+        shutil.rmtree(tmp, ignore_errors=True)
+    c.finish()
+
+
+if __name__ == "__main__":
+    main()
