@@ -89,10 +89,6 @@ void check_range(const LintContext& c, const Rule& rule, Reporter& r) {
         if (f.values.empty() || cell.blank() || f.name == "Iedge") continue;
         if (cell.status == NumberStatus::not_a_number) continue;
         if (std::find(f.values.begin(), f.values.end(), cell.integer) != f.values.end()) continue;
-        // Read as 1000 there.
-        if (f.name == "Idel" && cell.integer == 3 &&
-            block.block->schema->keyword == "/DEFAULT/INTER/TYPE19")
-          continue;
         std::string legal;
         for (const std::int64_t v : f.values)
           legal += (legal.empty() ? "" : ", ") + std::to_string(v);

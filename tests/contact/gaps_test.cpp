@@ -261,6 +261,18 @@ TEST(EdgeGap, DefaultIsTheMeanOfBothSides) {
   EXPECT_EQ(b.contact(1).gapmin_origin, GapminOrigin::both_sides);
 }
 
+TEST(EdgeGap, ShortestSideIsThatOfBothLists) {
+  const Built b(edge_scene()
+                    .add("@/INTER/TYPE11/3 line_IDs=3 line_IDm=1")
+                    .add("@/INTER/TYPE11/4 line_IDs=4 line_IDm=5")
+                    .add("@/INTER/TYPE11/5 line_IDs=5 line_IDm=4")
+                    .add("@/INTER/TYPE11/6 line_IDs=99 line_IDm=98"));
+  EXPECT_DOUBLE_EQ(b.contact(3).shortest_side, 8);
+  EXPECT_DOUBLE_EQ(b.contact(4).shortest_side, 2);
+  EXPECT_DOUBLE_EQ(b.contact(5).shortest_side, 2);
+  EXPECT_EQ(b.contact(6).shortest_side, 0);
+}
+
 TEST(EdgeGap, VariableGapIsTheSumAndAtLeastGapmin) {
   const Built b(edge_scene()
                     .add("@/INTER/TYPE11/1 line_IDs=3 line_IDm=1 Igap=1 Gapmin=0.5")

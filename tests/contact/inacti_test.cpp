@@ -143,6 +143,23 @@ TEST(Inacti3, TheLargerMoveReplacesTheSmallerOne) {
   EXPECT_NEAR(b.scene.coordinates.x[n], 9 - 7.5e-9, 1e-14);
 }
 
+TEST(Inacti3, OfTwoEqualMovesTheFirstStays) {
+  // All in binary fractions, the node at the origin of the floor's axis: both moves are equal.
+  SmallDeck d;
+  d.node(1, 0, 0, -0.5).node(2, 8, 0, -0.5).node(3, 8, 8, -0.5).node(4, 0, 8, -0.5);
+  d.node(5, 8, 0, 7.5).node(6, 8, 8, 7.5).node(101, 7.5, 4, 0);
+  d.shell_part(1, 2).shell(1, 1, 1, 2, 3, 4).shell(1, 2, 2, 5, 6, 3);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {101});
+  const Built b(d.add("@/INTER/TYPE7/1 Gapmin=1 Inacti=3"));
+  const Contact& c = b.contact();
+  ASSERT_EQ(c.penetrations.size(), 2u);
+  ASSERT_EQ(c.penetrations[0].depth, c.penetrations[1].depth);
+  const NodeIndex n = b.model.nodes.map.find(101);
+  EXPECT_EQ(b.scene.coordinates.x[n], 7.5);
+  EXPECT_GT(b.scene.coordinates.z[n], 0.49);
+  EXPECT_EQ(c.penetrations[1].moved_by, Normal{});
+}
+
 TEST(Inacti3, GroupsOf128CandidatesAddUp) {
   // 127 nodes far enough to be candidates only, then the node: its two pairs fall into two groups.
   SmallDeck d = floor_and_wall(0.25, 0.5);
@@ -237,6 +254,19 @@ TEST(OnSurface, ExactZeroOnly) {
   EXPECT_FALSE(b.row(c, 104)->on_surface);
   EXPECT_DOUBLE_EQ(b.row(c, 104)->depth, 1);
   EXPECT_TRUE(b.row(c, 105)->on_surface);
+}
+
+TEST(OnSurface, EveryAccuracyTellsItFromBeingNear) {
+  for (const Accuracy accuracy :
+       {Accuracy::fast, Accuracy::reference, Accuracy::robust, Accuracy::exact}) {
+    SceneOptions options;
+    options.accuracy = accuracy;
+    const Built b(on_surface("@/INTER/TYPE7/1 Gapmin=1"), options);
+    const Contact& c = b.contact();
+    EXPECT_TRUE(b.row(c, 101)->on_surface) << to_string(accuracy);
+    EXPECT_EQ(b.row(c, 101)->normal, Normal{}) << to_string(accuracy);
+    EXPECT_FALSE(b.row(c, 104)->on_surface) << to_string(accuracy);
+  }
 }
 
 TEST(OnSurface, SolverStopsUnlessTheCardAvoidsIt) {

@@ -135,6 +135,33 @@ TEST(Tie, Type7TiesWhenTheStepFallsToDtmin) {
   EXPECT_EQ(testing::run(card, p, 1e-9, 1e-9).all.status[0] & status_tied, 0);
 }
 
+TEST(Tie, Type7KnowsItsSideWhereverTheSegmentLies) {
+  ContactCard card;
+  card.itied = 1;
+  card.dtmin = 1e-3;
+  for (const double height : {0.0, 3.0, -40.0})
+    for (const double side : {0.25, -0.25}) {
+      Pair p = testing::quad_pair({6, 3.2, height + side});
+      for (std::size_t r = 1; r < 5; ++r) p.x[r][2] = height;
+      p.v[0] = {0, 0, side > 0 ? -400.0 : 400.0};
+      const Outcome r = testing::run(card, p, 1e-9, 1e-9);
+      ASSERT_NE(r.all.status[0] & status_tied, 0) << height << " " << side;
+      EXPECT_NEAR(r.all.tie[7][0], side, 1e-12) << height;
+      EXPECT_EQ(r.all.tie[0][0]<0, side> 0) << height;
+    }
+}
+
+TEST(Tie, Type10RemembersAPairThatDoesNotMoveYet) {
+  ContactCard card;
+  card.kind = ContactKind::tied;
+  Pair p = testing::quad_pair({5, 5, 0.4});
+  const Outcome still = testing::run(card, p, 1e-6, 1e-6);
+  EXPECT_EQ(still.all.tie[0][0], 1e-30);
+  EXPECT_EQ(still.all.status[0], status_tied | status_contact);
+  p.x[0][2] = 1.4;  // outside the gap there is nothing to remember
+  EXPECT_EQ(testing::run(card, p, 1e-6, 1e-6).all.tie[0][0], 0.0);
+}
+
 TEST(ContactFlag, MarksTheNodesOfPairsWithAForce) {
   const std::vector<Pair> pairs = {testing::quad_pair({5, 5, 0.5}), testing::quad_pair({5, 5, 7})};
   const Packet packet(pairs);

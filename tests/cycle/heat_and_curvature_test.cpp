@@ -107,6 +107,22 @@ TEST(Curvature, BicubicSurfaceOverAFlatQuad) {
   expect_digits(r.weights(), {.2371084791, .2628915209, .2628915209, .2371084791});
 }
 
+TEST(Curvature, BicubicSurfaceIsContinuousUpToEveryEdge) {
+  ContactCard card = elastic_card();
+  card.icurv = 3;
+  const auto depth = [&](double x, double y) {
+    Pair p = quad_pair({x, y, .8});
+    p.normal = {Vec{-.2, -.1, 1}, Vec{.3, -.2, 1}, Vec{.2, .1, 1}, Vec{-.1, .2, 1}};
+    return run(card, p).all.penetration[0];
+  };
+  // On an edge two weights are nothing; just inside they are small.
+  const double inside = 0.004;
+  EXPECT_NEAR(depth(3, 0), depth(3, inside), 1e-3);
+  EXPECT_NEAR(depth(3, 10), depth(3, 10 - inside), 1e-3);
+  EXPECT_NEAR(depth(0, 7), depth(inside, 7), 1e-3);
+  EXPECT_NEAR(depth(10, 7), depth(10 - inside, 7), 1e-3);
+}
+
 TEST(Adaptivity, RadiusPenetrationAndAngle) {
   ContactCard card = elastic_card();
   card.iadm = 2;

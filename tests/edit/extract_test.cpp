@@ -162,6 +162,21 @@ TEST(Extract, BoxSelectionsKeepTheirElements) {
   same_contacts(*w, {1});
 }
 
+TEST(Extract, BoxSelectionsKeepElementsWithoutAPart) {
+  const std::string box =
+      "/BOX/RECTA/1\nbox\n\n               -1.00               -1.00               -1.00\n"
+      "               15.00               15.00                2.00\n";
+  test::SmallDeck d = plates();
+  d.node(201, 400, 0, 0).node(202, 401, 0, 0).node(203, 401, 1, 0).node(204, 400, 1, 0);
+  const auto w = Whole::text(d.shell(77, 201, 201, 202, 203, 204)
+                                 .add(box)
+                                 .group("/SURF/BOX/5", {1})
+                                 .add("@/INTER/TYPE7/1 surf_IDm=5 Igap=1")
+                                 .text());
+  const auto small = same_contacts(*w, {1});
+  EXPECT_TRUE(small->contains("/SHELL/77"));
+}
+
 TEST(Extract, FrictionFunctionsSensorsAndDefaultsComeAlong) {
   const std::string more =
       "/FUNCT/4\nramp\n                 0.0                 0.0\n                 1.0"

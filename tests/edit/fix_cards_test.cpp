@@ -107,6 +107,25 @@ TEST(ReduceGap, ScalesOrCapsAGapThatFollowsTheThickness) {
   }
 }
 
+TEST(ReduceGap, SharesCountFromTheScaleInEffect) {
+  // Plates of thickness 1, 0.6 apart: the scale that leaves nothing is 0.6 whatever it is now,
+  // which is a share of 0.6 of the blank cell's 1 and of 0.3 of 2.
+  const auto fix = [](const char* scale, double least) {
+    const Built before(two_plates(
+        2, 0.6, std::string("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Igap=2 Gapmin=0.1 ") + scale));
+    return reduced(before, {}, least);
+  };
+  const PenetrationFix blank = fix("", 0.1), two = fix("Fscalegap=2", 0.1);
+  for (const PenetrationFix* f : {&blank, &two})
+    if (const FieldChange* c = change(*f, "Fscalegap")) {
+      EXPECT_EQ(c->old_value, f == &blank ? 1.0 : 2.0);
+    }
+  EXPECT_TRUE(blank.complete);
+  EXPECT_TRUE(two.complete);
+  EXPECT_FALSE(fix("Fscalegap=2", 0.5).complete);
+  EXPECT_TRUE(fix("", 0.5).complete);
+}
+
 TEST(ReduceGap, TurnsIgap1Into2WithoutOtherEffect) {
   // Fscalegap and Gapmax on the card count with Igap 2 only; the new values replace them.
   const Built before(two_plates(

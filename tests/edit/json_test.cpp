@@ -242,6 +242,12 @@ TEST(DeckFromJson, AKeywordLineKeepsItsCommentAndAnIdOfZero) {
   EXPECT_THAT(main_of(doc), HasSubstr("/INTER/TYPE7/5   # first\n"));
 }
 
+TEST(DeckFromJson, TheIdOfAnIndentedHeaderIsReplacedInItsPlace) {
+  Json doc = Json::parse(json_of(deck_of_version(2022, "  /GRNOD/NODE/7/3   \ng\n         1\n")));
+  block_of(doc, "/GRNOD/NODE")["id"] = 4711;
+  EXPECT_THAT(main_of(doc), HasSubstr("\n  /GRNOD/NODE/4711/3   \ng\n"));
+}
+
 TEST(DeckFromJson, LinesWithoutTextAreMadeOfTheirValues) {
   const Json doc =
       Json::parse(R"({"schema":{"id":"deck/deck","version":1},"files":[{"path":"a_0000.rad",

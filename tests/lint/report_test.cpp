@@ -108,6 +108,12 @@ TEST(SarifReport, HasRulesRegionsFixesAndFingerprints) {
   EXPECT_EQ(replacement["deletedRegion"]["endColumn"], 71);
 }
 
+TEST(SarifReport, SaysThatColumnsCountCharacters) {
+  const Linted run = lint_example("@/INTER/TYPE7/1 Ibag=1\n", only("DK258"));
+  const auto json = nlohmann::json::parse(lint_sarif(one(run), SchemaSet::built_in()));
+  EXPECT_EQ(json["runs"][0]["columnKind"], "unicodeCodePoints");
+}
+
 TEST(SarifReport, SaysWhichDeckCouldNotBeRead) {
   const std::vector<LintedDeck> decks = {{"a b_0000.rad", nullptr, nullptr, "it is a folder"}};
   const auto run = nlohmann::json::parse(lint_sarif(decks, SchemaSet::built_in()))["runs"][0];

@@ -49,6 +49,18 @@ TEST(BoxCylinder, HoldsRadiusAndEnds) {
   EXPECT_EQ(b.group(1), (Ids{1, 2, 4, 5, 7, 8}));
 }
 
+TEST(BoxCylinder, HoldsThePointsOfItsOwnAxisWhicheverWayThatLeans) {
+  const std::string axes[] = {reals({0, 10, 10}), reals({10, 0, 10}), reals({10, 10, 0})};
+  const std::vector<double> middles[] = {{0, 5, 5}, {5, 0, 5}, {5, 5, 0}};
+  for (int i = 0; i < 3; ++i) {
+    std::string nodes = "/NODE\n";
+    for (int k = 0; k < 3; ++k) nodes += node(k + 1, middles[k][0], middles[k][1], middles[k][2]);
+    Built b(nodes + "/BOX/CYLIN/1\nb\n" + "                              " + reals({2}) +
+            reals({0, 0, 0}) + axes[i] + in_box(1, 1));
+    EXPECT_EQ(b.group(1), (Ids{i + 1}));
+  }
+}
+
 TEST(BoxSphere, HoldsItsSurface) {
   Built b(grid_nodes() + "/BOX/SPHER/1\nb\n" + "                              " + reals({20}) +
           reals({10, 10, 0}) + in_box(1, 1));

@@ -282,6 +282,17 @@ TEST(InterfaceFriction, FrictionBlockReplacesTheCard) {
   EXPECT_EQ(f->pairs[0].values.VISF, 1.0);
 }
 
+TEST(InterfaceFriction, PairsWithoutFrictionHaveNoDampingEither) {
+  const Read r("/FRICTION/7\nlaw\n\n\n\n" + with(at(30, "11"), 40, "12") + "\n\n\n" +
+               with(at(30, "11"), 40, "13") + "\n\n" + at(40, "0.6") + "\n");
+  const Friction* f = r.all.friction(7);
+  ASSERT_NE(f, nullptr);
+  ASSERT_EQ(f->pairs.size(), 2u);
+  EXPECT_EQ(f->values.VISF, 0.0);
+  EXPECT_EQ(f->pairs[0].values.VISF, 0.0);
+  EXPECT_EQ(f->pairs[1].values.VISF, 1.0);
+}
+
 TEST(InterfaceFriction, MissingFrictionBlockLeavesTheCard) {
   Type7Text text;
   text.stfac = at(40, "0.9");

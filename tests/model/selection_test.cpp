@@ -143,6 +143,15 @@ TEST(PartGroup, ListsParts) {
   EXPECT_EQ(*b.selections().part_group(1), (std::vector<std::uint32_t>{3, 4}));
 }
 
+TEST(PartGroup, RangesCountIdsAsWrittenInTheirSubmodel) {
+  Built b(parts() + "//SUBMODEL/1\nsub\n" + cells({0, 0, 0, 100}) + "/PART/1\np\n" + cells({1, 1}) +
+          "/PART/5\np\n" + cells({1, 1}) + "/GRPART/GENE/7\ng\n" + cells({1, 3}) + "//ENDSUB\n");
+  const auto* group = b.selections().part_group(7);
+  ASSERT_NE(group, nullptr);
+  ASSERT_EQ(group->size(), 1u);
+  EXPECT_EQ(b.model().parts[group->front()].id, 101);
+}
+
 TEST(Surface, ShellSegmentsAreSortedByFamilyThenElementId) {
   Built b(parts() + grid_nodes() + "/SH3N/1\n" + cells({1, 1, 2, 4}) + "/SHELL/1\n" +
           cells({9, 2, 3, 6, 5}) + cells({4, 4, 5, 8, 7}) + "/SURF/PART/1\ns\n" + cells({1}));

@@ -1,0 +1,86 @@
+// The interactive page: its data are readable, whatever the titles hold.
+#include "deck/report/html.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "contact/small_deck.hpp"
+#include "deck/contact/view.hpp"
+
+namespace deck::test {
+namespace {
+
+std::string page_of(const Built& b, const char* path = "small_0000.rad") {
+  const SceneView view = make_view(b.scene);
+  HtmlInput input;
+  input.path = path;
+  input.deck = &b.deck;
+  input.scene = &b.scene;
+  input.view = &view;
+  const auto page = gaps_html(input);
+  return page ? *page : "";
+}
+
+/// Text of a data block of the page.
+std::string block(const std::string& page, const std::string& id) {
+  const std::string mark = "id=\"" + id + "\">";
+  const auto at = page.find(mark);
+  if (at == std::string::npos) return "";
+  return page.substr(at + mark.size(), page.find("</script>", at) - at - mark.size());
+}
+
+SmallDeck plate() {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0).node(9, 5, 5, 0.5);
+  d.shell_part(1, 2).shell(1, 1, 1, 2, 3, 4);
+  return d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {9});
+}
+
+class Page : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!html_available()) GTEST_SKIP() << "this build has no viewer";
+  }
+};
+
+TEST_F(Page, DescribesEveryInterfaceInValidJson) {
+  const Built b(plate().add("@/INTER/TYPE7/1 Gapmin=1").add("@/INTER/TYPE7/2 Gapmin=2 Igap=1"));
+  const auto meta = nlohmann::json::parse(block(page_of(b), "deck-meta"), nullptr, false);
+  ASSERT_FALSE(meta.is_discarded());
+  ASSERT_EQ(meta["interfaces"].size(), 2u);
+  EXPECT_EQ(meta["interfaces"][1]["id"], 2);
+  EXPECT_TRUE(meta["interfaces"][1]["values"].contains("Gapmin"));
+}
+
+TEST_F(Page, ShowsTitlesByCharactersAndOtherBytesAsLatin1) {
+  const auto shown = [](const std::string& title) {
+    SmallDeck d = plate();
+    const Built b(d.add("/INTER/TYPE7/1\n" + title + "\n" + "         2         1\n"));
+    const std::string page = page_of(b);
+    const auto cell = page.find("<td>1</td><td>") + 14;
+    return page.substr(cell, page.find("</td>", cell) - cell);
+  };
+  EXPECT_EQ(shown("\xc3\xa4 at the start"), "\xc3\xa4 at the start");
+  EXPECT_EQ(shown("\xe2\x82\xac"), "\xe2\x82\xac");
+  EXPECT_EQ(shown("cut \xe2\x82"), "cut \xc3\xa2\xc2\x82");
+  EXPECT_EQ(shown("\xe4 <b> & \"x\""), "\xc3\xa4 &lt;b&gt; &amp; &quot;x&quot;");
+}
+
+TEST_F(Page, HoldsPlaneElementsOfEveryShape) {
+  // The mesh grows with every family that is added.
+  const auto mesh = [](const std::string& more) {
+    const Built b(plate().add(more).add("@/INTER/TYPE7/1 Gapmin=1"));
+    return block(page_of(b), "deck-mesh");
+  };
+  const std::string none = mesh("");
+  EXPECT_FALSE(none.empty());
+  for (const char* more : {"/QUAD/1\n         7         1         2         3         4",
+                           "/TRIA/1\n         7         1         2         3",
+                           "/SH3N/1\n         7         1         2         3",
+                           "/TRUSS/1\n         7         1         2"})
+    EXPECT_NE(mesh(more), none) << more;
+}
+
+}  // namespace
+}  // namespace deck::test
