@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <set>
 
 #include "contact/box_tree.hpp"
 #include "contact/crossings_exact.hpp"
@@ -137,8 +138,16 @@ std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t e) 
 constexpr ElementKind families[] = {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
                                     ElementKind::truss, ElementKind::beam};
 
-/// Every edge of the model once, with the first element that has it, sorted by nodes.
-std::vector<ElementEdge> edges_of(const Model& model) {
+/// Marks the nodes that are secondary in any node-to-segment contact.
+std::vector<std::uint8_t> secondary_nodes(const Scene& scene) {
+  std::vector<std::uint8_t> marks(scene.model->nodes.size());
+  for (const Contact& c : scene.contacts)
+    for (const SecondaryNode& s : c.secondary) marks[s.node] = 1;
+  return marks;
+}
+
+/// Every edge between two marked nodes once, with the first element that has it, sorted by nodes.
+std::vector<ElementEdge> edges_between(const Model& model, const std::vector<std::uint8_t>& marks) {
   std::vector<ElementEdge> out;
   for (const ElementKind kind : families) {
     const Elements& family = model.family(kind);
@@ -146,7 +155,7 @@ std::vector<ElementEdge> edges_of(const Model& model) {
       const NodeIndex* n = family.of(e);
       for (const LocalEdge& local : local_edges(family, e)) {
         const NodeIndex a = n[local[0]], b = n[local[1]];
-        if (a == b || a == no_index || b == no_index) continue;
+        if (a == b || a == no_index || b == no_index || !marks[a] || !marks[b]) continue;
         out.push_back({{std::min(a, b), std::max(a, b)}, kind, e});
       }
     }
@@ -158,58 +167,42 @@ std::vector<ElementEdge> edges_of(const Model& model) {
   return out;
 }
 
+/// An edge and the nodes of a segment in any order: segments on the same nodes are one place.
+using SpotKey = std::pair<std::array<NodeIndex, 2>, std::array<NodeIndex, 4>>;
+SpotKey spot_of(const Crossing& crossing, const MainSegment& segment) {
+  SpotKey spot{crossing.edge, segment.nodes};
+  std::sort(spot.second.begin(), spot.second.end());
+  return spot;
+}
+
 }  // namespace
 
 std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
   std::vector<Crossing> out;
-  const Model& model = *scene.model;
   const Coordinates& x = scene.coordinates;
-  const std::vector<ElementEdge> all = edges_of(model);
-  std::vector<std::uint8_t> secondary(model.nodes.size()), main(model.nodes.size());
+  const std::vector<ElementEdge> all = edges_between(*scene.model, secondary_nodes(scene));
+  if (all.empty()) return out;
+  std::vector<std::uint32_t> contact_of(scene.model->nodes.size(), no_index);
+  std::set<SpotKey> seen;
   for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
     const Contact& contact = scene.contacts[c];
     if (contact.main.empty()) continue;
-    std::fill(secondary.begin(), secondary.end(), 0);
-    std::fill(main.begin(), main.end(), 0);
-    for (const SecondaryNode& s : contact.secondary) secondary[s.node] = 1;
+    for (const SecondaryNode& s : contact.secondary) contact_of[s.node] = c;
     std::vector<std::array<std::uint32_t, 4>> segments;
-    std::vector<std::array<std::uint32_t, 2>> sides;
     segments.reserve(contact.main.size());
-    for (const MainSegment& m : contact.main) {
-      segments.push_back(m.nodes);
-      for (std::size_t k = 0; k < 4; ++k) {
-        const NodeIndex a = m.nodes[k], b = m.nodes[(k + 1) % 4];
-        if (a != b) sides.push_back({std::min(a, b), std::max(a, b)});
-        main[a] = 1;
-      }
-    }
-    std::sort(sides.begin(), sides.end());
-    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
-    // Both lists are sorted by nodes: their union is formed in one pass.
-    std::vector<ElementEdge> owners;
+    for (const MainSegment& m : contact.main) segments.push_back(m.nodes);
+    std::vector<std::uint32_t> owners;
     std::vector<std::array<std::uint32_t, 2>> edges;
-    auto side = sides.begin();
-    const auto add_sides_before = [&](const std::array<NodeIndex, 2>* end) {
-      for (; side != sides.end() && (end == nullptr || *side < *end); ++side) {
-        owners.push_back({*side, ElementKind::shell4, no_index});
-        edges.push_back(*side);
-      }
-    };
-    for (const ElementEdge& e : all) {
-      const bool both = secondary[e.nodes[0]] && secondary[e.nodes[1]];
-      if (!both && !(main[e.nodes[0]] && main[e.nodes[1]])) continue;
-      add_sides_before(&e.nodes);
-      const bool is_side = side != sides.end() && *side == e.nodes;
-      if (is_side) ++side;
-      if (!both && !is_side) continue;
+    for (std::uint32_t e = 0; e < all.size(); ++e) {
+      if (contact_of[all[e].nodes[0]] != c || contact_of[all[e].nodes[1]] != c) continue;
       owners.push_back(e);
-      edges.push_back(e.nodes);
+      edges.push_back(all[e].nodes);
     }
-    add_sides_before(nullptr);
     for (const CandidatePair& pair :
          find_crossing_pairs({x.x, x.y, x.z}, edges, segments, threads)) {
-      const ElementEdge& e = owners[pair.secondary];
-      out.push_back({c, e.nodes, e.kind, e.element, pair.main});
+      const ElementEdge& e = all[owners[pair.secondary]];
+      const Crossing crossing{c, e.nodes, e.kind, e.element, pair.main};
+      if (seen.insert(spot_of(crossing, contact.main[pair.main])).second) out.push_back(crossing);
     }
   }
   return out;

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "deck/lint/config.hpp"
+#include "deck/model/coverage.hpp"
 #include "lint/attach_fixes.hpp"
 #include "lint/context.hpp"
 #include "lint/suppress.hpp"
@@ -173,20 +174,20 @@ std::string joined(const std::map<std::string, std::uint64_t>& counts) {
 std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& options,
                                     const std::vector<Diagnostic>& found) {
   std::vector<NotChecked> out;
-  std::map<std::string, std::uint64_t> unknown, opaque, untyped;
+  std::map<std::string, std::uint64_t> unknown, opaque;
   for (const Block& b : input.deck.blocks) {
     if (b.opaque)
       ++opaque[std::string(b.keyword)];
     else if (b.schema == nullptr && !b.header.starts_with("//"))
       ++unknown[detail::clipped(b.keyword)];
-    if (b.header.starts_with("/INTER/") && (b.schema == nullptr || b.schema->cards.empty()))
-      ++untyped[detail::clipped(b.keyword)];
   }
   if (!unknown.empty())
     out.push_back({"blocks of " + std::to_string(unknown.size()) + " keywords: " + joined(unknown),
                    "no schema describes their cards; --schemas DIR adds some"});
-  if (!untyped.empty())
-    out.push_back({"interfaces " + joined(untyped), "only types 7, 10, 11 and 19 have rules"});
+  if (input.interfaces != nullptr)
+    if (const auto text = not_examined_text(coverage_of(input.deck, *input.interfaces));
+        !text.empty())
+      out.push_back({text, "only types 7, 10, 11 and 19 have rules"});
   if (!opaque.empty())
     out.push_back({"encrypted blocks: " + joined(opaque), "their cards cannot be read"});
   std::set<std::string> missing;

@@ -171,7 +171,7 @@ void add_geometry_segment_rules(std::vector<Rule>& out) {
        .title = "crossed elements",
        .severity = warning,
        .stage = RuleStage::extra,
-       .problem = "Edges of elements pass through main segments.",
+       .problem = "Edges of elements of the secondary side pass through main segments.",
        .why = "The parts already are through each other. Nodes beyond the surface are held there "
               "by the contact: the parts hook. Depths do not show it, and often no node is near.",
        .solver = "it has no such check",

@@ -130,13 +130,11 @@ void check_solids(const GeometryRun& run, const Contact& c) {
 void check_crossings(const GeometryRun& run) {
   struct Group {
     const Crossing* first = nullptr;
-    std::set<std::pair<std::array<NodeIndex, 2>, std::array<NodeIndex, 4>>> places;
-    std::set<std::int64_t> interfaces;
+    std::uint64_t places = 0;
   };
   const Model& model = run.model();
   const std::vector<Crossing> all = find_crossings(run.scene, run.threads);
   const auto part_of = [&](const Crossing& x) -> std::int64_t {
-    if (x.edge_element == no_index) return 0;
     const std::uint32_t p = model.family(x.edge_kind).part[x.edge_element];
     return p == no_index ? 0 : model.parts[p].id;
   };
@@ -147,8 +145,7 @@ void check_crossings(const GeometryRun& run) {
     const std::int64_t a = part_of(x), b = carrier_name(model, m.carrier, m.element).part;
     Group& g = groups[{std::min(a, b), std::max(a, b)}];
     if (g.first == nullptr) g.first = &x;
-    g.places.emplace(x.edge, m.nodes);
-    g.interfaces.insert(c.inter->id);
+    ++g.places;
   }
   for (const auto& [parts, g] : groups) {
     const Crossing& x = *g.first;
@@ -156,11 +153,8 @@ void check_crossings(const GeometryRun& run) {
     std::string message = fmt::format(
         "{}: elements of part {} and part {} pass through each other in {}; edge {} {} goes "
         "through {}",
-        name_of(run, c), parts.first, parts.second, count_text(g.places.size(), "place"),
+        name_of(run, c), parts.first, parts.second, count_text(g.places, "place"),
         model.node_id(x.edge[0]), model.node_id(x.edge[1]), nodes_text(model, c.main[x.main]));
-    if (g.interfaces.size() > 1)
-      message +=
-          fmt::format(" (also in {})", count_text(g.interfaces.size() - 1, "other interface"));
     Diagnostic* d = run.report("DK328", c, main_field(c), std::move(message));
     if (d != nullptr) d->notes.emplace_back(model.node_span(x.edge[0]), "one end of the edge");
   }

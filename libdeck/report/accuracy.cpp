@@ -1,5 +1,6 @@
 // `deck accuracy`: the measured tiers as text, JSON and CSV.
 #include "deck/report/accuracy.hpp"
+#include "deck/base/escape.hpp"
 
 #include <fmt/format.h>
 
@@ -79,8 +80,9 @@ std::string accuracy_compiler() {
 std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& context,
                           bool color) {
   if (report.tiers.empty()) return "No pairs to measure.\n";
-  std::string out = fmt::format("{} pairs of {}\n\n", report.tiers[0].samples,
-                                context.path.empty() ? "the hard cases" : context.path);
+  std::string out =
+      fmt::format("{} pairs of {}\n\n", report.tiers[0].samples,
+                  context.path.empty() ? "the hard cases" : terminal_text(context.path));
   TextTable table({{"tier"},
                    {"what"},
                    {"ns/pair", Align::right},
@@ -129,7 +131,7 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
     }
     out += "\nFamilies (robust only where it fails):\n" + families.render(color);
   }
-  out += fmt::format("\n{}; {}\n", context.processor, accuracy_compiler());
+  out += fmt::format("\n{}; {}\n", terminal_text(context.processor), accuracy_compiler());
   return out;
 }
 

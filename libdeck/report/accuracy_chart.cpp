@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deck/base/escape.hpp"
 #include "deck/report/accuracy.hpp"
 
 namespace deck {
@@ -12,24 +13,6 @@ namespace {
 
 constexpr double kWidth = 920, kPanel = 540, kHead = 44, kFoot = 70;
 constexpr double kLeft = 84, kRight = 590, kTop = 50, kBottom = 460;  // within a panel
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
 
 // The tiers of one kind, and what is drawn upwards for them.
 struct Panel {
@@ -93,7 +76,7 @@ std::string line(double x1, double y1, double x2, double y2, std::string_view co
 std::string text(double x, double y, std::string_view anchor, std::string_view content,
                  std::string_view extra = "") {
   return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' {}>{}</text>\n", x, y, anchor,
-                     extra, escaped(content));
+                     extra, xml_text(content));
 }
 
 std::string frame(const Panel& panel) {
@@ -212,12 +195,12 @@ std::string accuracy_svg(const AccuracyReport& report, const AccuracyContext& co
 
 std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& context) {
   std::string out = "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>\n<title>" +
-                    escaped(title_of(report, context)) +
+                    html_text(title_of(report, context)) +
                     "</title>\n<style>body{font-family:sans-serif;margin:2em;max-width:70em}"
                     "svg{max-width:100%;height:auto}pre{overflow-x:auto}</style></head><body>\n";
   out += accuracy_svg(report, context);
-  out += "<pre>" + escaped(accuracy_text(report, context)) + "\n" +
-         escaped(accuracy_examples(report)) + "</pre>\n";
+  out += "<pre>" + html_text(accuracy_text(report, context)) + "\n" +
+         html_text(accuracy_examples(report)) + "</pre>\n";
   return out + "</body></html>\n";
 }
 

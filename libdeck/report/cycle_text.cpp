@@ -5,6 +5,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "deck/base/escape.hpp"
+#include "deck/model/coverage.hpp"
 #include "deck/report/cycle.hpp"
 #include "deck/report/text_table.hpp"
 #include "report/accuracy_decisions.hpp"
@@ -183,6 +185,9 @@ std::string step_lines(const CycleInput& input) {
 }  // namespace
 
 std::string cycle_verdict(const CycleInput& input) {
+  const Coverage coverage = coverage_of(*input.deck, *input.scene->interfaces);
+  const std::string tail = coverage_tail(coverage);
+  if (const std::string lead = coverage_lead(coverage); !lead.empty()) return lead + tail;
   const cycle::SceneOutcome& o = *input.outcome;
   const Model& model = *input.scene->model;
   std::size_t pairs = 0, closed = 0;
@@ -193,8 +198,8 @@ std::string cycle_verdict(const CycleInput& input) {
     if (worst == nullptr || c.largest_acceleration > worst->largest_acceleration) worst = &c;
   }
   if (pairs == 0 && closed == 0)
-    return fmt::format("No contact force at the start in {} contact{}.", o.contacts.size(),
-                       o.contacts.size() == 1 ? "" : "s");
+    return fmt::format("No contact force at the start in {} contact{}.{}", o.contacts.size(),
+                       o.contacts.size() == 1 ? "" : "s", tail);
   std::string text = fmt::format("{} pair{} push{} at the start; largest nodal force {:.4g} at {}.",
                                  pairs, pairs == 1 ? "" : "s", pairs == 1 ? "es" : "",
                                  o.largest_nodal_force, node_text(model, o.force_node));
@@ -208,14 +213,15 @@ std::string cycle_verdict(const CycleInput& input) {
   if (o.contact_dt < o.structure.dt && o.structure.dt < 1e30)
     text += fmt::format(" Contact limits the time step: {:.4g} against {:.4g} of the elements.",
                         o.contact_dt, o.structure.dt);
-  return text;
+  return text + tail;
 }
 
 std::string cycle_text(const CycleInput& input, const CycleTextOptions& options) {
   const char* bold = options.color ? "\033[1m" : "";
   const char* plain = options.color ? "\033[0m" : "";
-  std::string out = fmt::format("{}{}{}\n\n", bold, cycle_verdict(input), plain);
-  out += fmt::format("{}Contacts{}\n{}", bold, plain, contact_table(input, options.color));
+  std::string out = fmt::format("{}{}{}\n", bold, terminal_text(cycle_verdict(input)), plain);
+  if (input.scene->contacts.empty()) return out;
+  out += fmt::format("\n{}Contacts{}\n{}", bold, plain, contact_table(input, options.color));
   out += fmt::format("\n{}Time step{}\n{}", bold, plain, step_lines(input));
   for (const cycle::ContactOutcome& o : input.outcome->contacts)
     if (o.heat_secondary != 0 || o.heat_main != 0)
@@ -231,16 +237,18 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
   for (const InterBase* inter : input.scene->interfaces->ordered) {
     const auto lines = effect_lines(*input.deck, *input.outcome, *inter);
     if (lines.empty()) continue;
-    out += fmt::format("  {} TYPE{} on: {}\n", inter->id, inter->type, joined(lines, true));
-    if (options.effects) out += fmt::format("    off: {}\n", joined(lines, false));
+    out += fmt::format("  {} TYPE{} on: {}\n", inter->id, inter->type,
+                       terminal_text(joined(lines, true)));
+    if (options.effects) out += fmt::format("    off: {}\n", terminal_text(joined(lines, false)));
   }
   if (!options.effects) out += "  (--effects lists what is off, and why)\n";
   std::string left_out;
-  for (const std::string& text : input.state->not_evaluated) left_out += "  " + text + "\n";
+  for (const std::string& text : input.state->not_evaluated)
+    left_out += "  " + terminal_text(text) + "\n";
   for (const cycle::ContactOutcome& o : input.outcome->contacts)
     for (const std::string& text : o.notes)
-      left_out +=
-          fmt::format("  interface {} {}: {}\n", o.contact->inter->id, kind_name(*o.contact), text);
+      left_out += fmt::format("  interface {} {}: {}\n", o.contact->inter->id,
+                              kind_name(*o.contact), terminal_text(text));
   if (!left_out.empty()) out += fmt::format("\n{}Not evaluated{}\n{}", bold, plain, left_out);
   return out;
 }

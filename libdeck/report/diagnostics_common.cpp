@@ -48,6 +48,11 @@ std::string details(const Diagnostic& d) {
   return out;
 }
 
+std::optional<Coverage> coverage_of(const LintedDeck& linted) {
+  if (linted.deck == nullptr || linted.interfaces == nullptr) return std::nullopt;
+  return deck::coverage_of(*linted.deck, *linted.interfaces);
+}
+
 std::string relative_path(std::string_view path) {
   while (path.starts_with("./")) path.remove_prefix(2);
   return std::string(path);

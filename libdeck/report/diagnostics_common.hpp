@@ -1,8 +1,10 @@
 // What the writers of lint results share. Private to the report stage.
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "deck/model/coverage.hpp"
 #include "deck/report/diagnostics.hpp"
 
 namespace deck::detail {
@@ -20,5 +22,8 @@ const char* severity_name(Severity severity);
 std::string details(const Diagnostic& d);
 /// Path as SARIF and GitHub want it: relative, with forward slashes, no "./".
 std::string relative_path(std::string_view path);
+
+/// What the contact rules covered; nullopt where no interfaces were formed.
+std::optional<Coverage> coverage_of(const LintedDeck& linted);
 
 }  // namespace deck::detail

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "deck/base/escape.hpp"
+#include "deck/report/text_table.hpp"
 #include "report/diagnostics_common.hpp"
 
 namespace deck {
@@ -16,41 +18,6 @@ struct Colors {
 constexpr Colors no_colors = {"", "", "", "", "", ""};
 constexpr Colors ansi = {"\x1b[1;31m", "\x1b[1;33m", "\x1b[1;36m",
                          "\x1b[1m",    "\x1b[1;34m", "\x1b[0m"};
-
-/// Bytes as a terminal can show them: control characters become blanks, and bytes that are no UTF-8
-/// a question mark. One byte of input stays one column unless it belongs to a UTF-8 character.
-std::string printable(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const std::size_t n = c < 0x80                ? 1
-                          : c >= 0xf0 && c < 0xf8 ? 4
-                          : c >= 0xe0             ? 3
-                          : c >= 0xc2             ? 2
-                                                  : 0;
-    const bool good = n > 1 && i + n <= text.size() &&
-                      std::all_of(text.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                                  text.begin() + static_cast<std::ptrdiff_t>(i + n), [](char k) {
-                                    return (static_cast<unsigned char>(k) & 0xc0) == 0x80;
-                                  });
-    if (c < 0x20 || c == 0x7f)
-      out += ' ';
-    else if (c < 0x80)
-      out += text[i];
-    else if (good)
-      out += text.substr(i, n);
-    else
-      out += '?';
-    i += good ? n : 1;
-  }
-  return out;
-}
-
-std::size_t width_of(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-  }));
-}
 
 /// Columns 10, 20, ... as an editor's ruler shows them.
 std::string ruler_text(std::size_t first, std::size_t count) {
@@ -87,7 +54,7 @@ class Human {
 
   std::string summary() {
     const LintResult& r = *deck_.result;
-    std::string out = fmt::format("{}{}{}: ", c_.bold, deck_.path, c_.off);
+    std::string out = fmt::format("{}{}{}: ", c_.bold, terminal_text(deck_.path), c_.off);
     out += count(r.errors, "error") + ", " + count(r.warnings, "warning");
     if (r.infos > 0) out += fmt::format(", {} info", r.infos);
     if (r.suppressed > 0) out += fmt::format(", {} suppressed", r.suppressed);
@@ -98,8 +65,12 @@ class Human {
     if (safe > 0) out += fmt::format("; --fix repairs {}", safe);
     if (unsafe > 0) out += fmt::format("{} --unsafe-fixes {} more", safe > 0 ? "," : ";", unsafe);
     out += "\n";
+    if (const auto coverage = detail::coverage_of(deck_))
+      if (const std::string lead = coverage_lead(*coverage); !lead.empty())
+        out += c_.bold + terminal_text(lead) + c_.off + "\n";
     if (!r.not_checked.empty()) out += "not checked:\n";
-    for (const NotChecked& n : r.not_checked) out += fmt::format("  - {}: {}\n", n.what, n.why);
+    for (const NotChecked& n : r.not_checked)
+      out += fmt::format("  - {}: {}\n", terminal_text(n.what), terminal_text(n.why));
     return out;
   }
 
@@ -118,23 +89,23 @@ class Human {
   std::string one(const Diagnostic& d) {
     std::string out =
         fmt::format("{}{}[{}]{}{}: {}{}\n", color(d.severity), detail::severity_name(d.severity),
-                    d.rule, c_.off, c_.bold, printable(d.message), c_.off);
+                    d.rule, c_.off, c_.bold, terminal_text(d.message), c_.off);
     const detail::Place at = detail::place_of(deck_, d.span);
     const std::string number = std::to_string(at.line);
     const std::string gutter(number.size(), ' ');
     const std::string bar = fmt::format("{}{} |{}", c_.blue, gutter, c_.off);
     if (!at.known) {
-      out += fmt::format("{}{}-->{} {}\n", gutter, c_.blue, c_.off, printable(at.file));
+      out += fmt::format("{}{}-->{} {}\n", gutter, c_.blue, c_.off, terminal_text(at.file));
     } else {
-      out += fmt::format("{}{}-->{} {}:{}:{}\n{}\n", gutter, c_.blue, c_.off, printable(at.file),
-                         at.line, at.column, bar);
+      out += fmt::format("{}{}-->{} {}:{}:{}\n{}\n", gutter, c_.blue, c_.off,
+                         terminal_text(at.file), at.line, at.column, bar);
       out += card(d, at, number, bar);
       out += bar + "\n";
     }
     const auto note = [&](std::string_view label, const std::string& text) {
       if (!text.empty())
         out += fmt::format("{} {}={} {}{}:{} {}\n", gutter, c_.blue, c_.off, c_.bold, label, c_.off,
-                           printable(text));
+                           terminal_text(text));
     };
     std::string solver = d.reference_behaviour;
     if (d.reference)
@@ -170,15 +141,15 @@ class Human {
     if (options_.ruler)
       out += fmt::format("{} {}{}\n", bar, begin > 0 ? " " : "",
                          ruler_text(begin + 1, std::max<std::size_t>(shown.size(), 10)));
-    out += fmt::format("{}{} |{} {}{}{}\n", c_.blue, number, c_.off, before, printable(shown),
-                       begin + shown.size() < line.size() ? "…" : "");
+    out += fmt::format("{}{} |{} {}{}{}\n", c_.blue, number, c_.off, before,
+                       terminal_columns(shown), begin + shown.size() < line.size() ? "…" : "");
     const std::size_t from = first - std::min(first, begin);
     const std::size_t lead =
-        from <= shown.size() ? width_of(printable(shown.substr(0, from))) : from;
+        from <= shown.size() ? display_width(terminal_columns(shown.substr(0, from))) : from;
     const std::size_t room = shown.size() > from ? shown.size() - from : 0;
     const std::size_t length =
-        std::max<std::size_t>(1, width_of(printable(shown.substr(std::min(from, shown.size()),
-                                                                 std::min(last - first, room)))));
+        std::max<std::size_t>(1, display_width(terminal_columns(shown.substr(
+                                     std::min(from, shown.size()), std::min(last - first, room)))));
     out += fmt::format("{} {}{}{}{}{}\n", bar, begin > 0 ? " " : "", std::string(lead, ' '),
                        color(d.severity), std::string(length, '^'), c_.off);
     return out;

@@ -94,6 +94,7 @@ void write_document(JsonWriter& json, const LintedDeck& deck) {
   for (const NotChecked& n : r.not_checked)
     json.begin_object(true).field("what", n.what).field("why", n.why).end_object();
   json.end_array();
+  if (const auto coverage = detail::coverage_of(deck)) write_json_coverage(json, *coverage);
   json.end_object();
 }
 

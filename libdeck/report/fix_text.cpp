@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "deck/base/escape.hpp"
 #include "deck/report/fix.hpp"
 #include "deck/report/text_table.hpp"
 
@@ -149,7 +150,7 @@ std::string refused_text(const PenetrationFix& fix, const FixTextOptions& option
     text += fmt::format("  interface {}", g.interface_id);
     if (g.count > 0) text += fmt::format(", {}", count(g.count, "node or edge", "nodes or edges"));
     if (g.deepest > 0) text += fmt::format(", up to {:.4g} deep", g.deepest);
-    text += ": " + g.reason;
+    text += ": " + terminal_text(g.reason);
     if (g.count > 0) {
       text += " (";
       for (std::size_t k = 0; k < g.examples.size(); ++k)

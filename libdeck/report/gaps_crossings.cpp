@@ -22,7 +22,6 @@ std::vector<NodeIndex> first_nodes(const Scene& scene, const SceneView& view) {
 }
 
 ElementName edge_element(const Model& model, const Crossing& x) {
-  if (x.edge_element == no_index) return {};
   const Elements& family = model.family(x.edge_kind);
   const std::uint32_t part = family.part[x.edge_element];
   return {x.edge_kind, x.edge_element, family.id[x.edge_element],
@@ -36,15 +35,11 @@ ElementName segment_element(const Scene& scene, const Crossing& x) {
 
 std::string crossings_text(const Scene& scene, const std::vector<Crossing>& crossings,
                            const GapsTextOptions& options) {
-  if (crossings.empty()) return "\nNo edge passes through a main segment.\n";
+  if (crossings.empty()) return "\nNo edge of the secondary side passes through a main segment.\n";
   const Model& model = *scene.model;
-  // An edge through a segment is listed once, however many interfaces contain the two.
-  std::map<std::pair<std::array<NodeIndex, 2>, std::array<NodeIndex, 4>>, const Crossing*> distinct;
-  for (const Crossing& x : crossings)
-    distinct.emplace(std::pair{x.edge, scene.contacts[x.contact].main[x.main].nodes}, &x);
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<const Crossing*>> by_parts;
-  for (const auto& [key, x] : distinct)
-    by_parts[{edge_element(model, *x).part, segment_element(scene, *x).part}].push_back(x);
+  for (const Crossing& x : crossings)
+    by_parts[{edge_element(model, x).part, segment_element(scene, x).part}].push_back(&x);
   TextTable table({{"part", Align::right},
                    {"through part", Align::right},
                    {"crossings", Align::right},
@@ -66,7 +61,7 @@ std::string crossings_text(const Scene& scene, const std::vector<Crossing>& cros
                fmt::format("{}", edge_element(model, x).id), segment,
                fmt::format("{}", segment_element(scene, x).id)});
   }
-  return fmt::format("\nEdges through main segments: {}\n{}", distinct.size(),
+  return fmt::format("\nCrossed elements: {}\n{}", crossings.size(),
                      table.render(options.color, 2));
 }
 

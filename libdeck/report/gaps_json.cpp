@@ -135,13 +135,21 @@ void write_crossings(JsonWriter& j, const Scene& scene, const std::vector<Crossi
   j.end_array();
 }
 
+}  // namespace
+
+void write_on_segment(JsonWriter& j, const ItemCounts& c) {
+  j.key("on_segment").begin_object(true);
+  j.field("nodes", c.nodes).field("edges", c.edges).field("pairs", c.pairs).end_object();
+}
+
 void write_totals(JsonWriter& j, const ContactTotals& t) {
-  j.field("pairs", t.pairs).field("nodes", t.nodes).field("on_surface", t.on_surface);
+  j.field("pairs", t.count.pairs).field("nodes", t.count.nodes).field("edges", t.count.edges);
+  write_on_segment(j, t.on_segment);
+  j.key("crossed_elements");
+  t.crossed_elements ? j.value(*t.crossed_elements) : j.null();
   j.field("solver_errors", t.solver_errors).field("acted", t.acted);
   j.field("max_depth", t.max_depth).field("max_ratio", t.max_ratio);
 }
-
-}  // namespace
 
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
                       const SceneView& view, bool all, const std::vector<Crossing>* crossings) {
@@ -150,16 +158,17 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
   j.begin_object();
   write_json_head(j, "deck/gaps", 1);
   write_json_deck(j, path, deck, scene.model, scene.interfaces);
-  j.field("verdict", gaps_verdict(scene, view));
+  j.field("verdict", gaps_verdict(deck, scene, view));
   j.key("summary").begin_object(true);
   write_totals(j, view.total);
-  if (crossings != nullptr) j.field("crossings", crossings->size());
   j.end_object();
+  write_json_coverage(j, coverage_of(deck, *scene.interfaces));
   write_decisions(j, scene);
   j.key("part_pairs").begin_array();
   for (const PartPair& p : view.part_pairs) {
     j.begin_object(true).field("secondary", p.secondary).field("main", p.main);
-    j.field("pairs", p.pairs).field("nodes", p.nodes).field("on_surface", p.on_surface);
+    j.field("pairs", p.count.pairs).field("nodes", p.count.nodes).field("edges", p.count.edges);
+    write_on_segment(j, p.on_segment);
     j.field("max_depth", p.max_depth).field("mean_depth", p.mean_depth);
     j.field("p95_depth", p.p95_depth).field("max_ratio", p.max_ratio).end_object();
   }

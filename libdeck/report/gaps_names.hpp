@@ -1,9 +1,11 @@
-// Nodes and elements behind the rows of the gaps reports. Private to the report stage.
+// Nodes and elements behind the rows of the gaps reports, and their totals as JSON. Private to the
+// report stage.
 #pragma once
 #include <vector>
 
 #include "deck/contact/crossings.hpp"
 #include "deck/contact/view.hpp"
+#include "deck/report/json.hpp"
 
 namespace deck {
 
@@ -13,5 +15,10 @@ std::vector<NodeIndex> first_nodes(const Scene& scene, const SceneView& view);
 /// The element that has the edge of a crossing, and the one behind its segment.
 ElementName edge_element(const Model& model, const Crossing& crossing);
 ElementName segment_element(const Scene& scene, const Crossing& crossing);
+
+/// The members of "summary" and "totals", the same in the document and in the page.
+void write_totals(JsonWriter& json, const ContactTotals& totals);
+/// The member "on_segment".
+void write_on_segment(JsonWriter& json, const ItemCounts& counts);
 
 }  // namespace deck

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <iterator>
 
+#include "deck/base/escape.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/text_table.hpp"
 #include "model/item_spans.hpp"
@@ -67,9 +68,9 @@ TextTable make_table(std::initializer_list<const char*> titles) {
 }
 
 std::string interface_table(const Scene& scene, const SceneView& view, bool color) {
-  TextTable table =
-      make_table({">interface", "kind", ">Igap", ">Gapmin", ">nodes", ">segments", ">in reach",
-                  ">pairs", ">nodes in", ">deepest", ">of gap", "the solver does", "Gapmin from"});
+  TextTable table = make_table({">interface", "kind", ">Igap", ">Gapmin", ">nodes", ">segments",
+                                ">in reach", ">pairs", ">nodes in", ">edges in", ">deepest",
+                                ">of gap", "the solver does", "Gapmin from"});
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const Contact& c = scene.contacts[i];
     const ContactTotals& t = view.contacts[i];
@@ -78,9 +79,11 @@ std::string interface_table(const Scene& scene, const SceneView& view, bool colo
                fmt::format("{:.6g}", c.gapmin),
                fmt::format("{}", edges ? c.secondary_edges.size() : c.secondary.size()),
                fmt::format("{}", edges ? c.main_edges.size() : c.main.size()),
-               fmt::format("{}", c.candidates), fmt::format("{}", t.pairs),
-               fmt::format("{}", t.nodes), t.pairs ? fmt::format("{:.6g}", t.max_depth) : "-",
-               t.pairs ? fmt::format("{:.0f} %", 100 * t.max_ratio) : "-", action_words(c),
+               fmt::format("{}", c.candidates), fmt::format("{}", t.count.pairs),
+               edges ? "-" : fmt::format("{}", t.count.nodes),
+               edges ? fmt::format("{}", t.count.edges) : "-",
+               t.count.pairs ? fmt::format("{:.6g}", t.max_depth) : "-",
+               t.count.pairs ? fmt::format("{:.0f} %", 100 * t.max_ratio) : "-", action_words(c),
                to_string(c.gapmin_origin)});
   }
   return table.render(color, 2);
@@ -89,33 +92,58 @@ std::string interface_table(const Scene& scene, const SceneView& view, bool colo
 std::string part_name(const Model& model, std::int64_t id) {
   const auto it = model.part_of_id.find(id);
   if (it == model.part_of_id.end()) return id == 0 ? "(no part)" : fmt::format("{}", id);
-  std::string title = model.parts[it->second].title.substr(0, 30);
+  std::string title = model.parts[it->second].title;
+  if (title.size() > 30) {  // not through the middle of a character
+    std::size_t end = 0;
+    while (end < 30) end += text_unit_at(title, end).length;
+    title.resize(end);
+  }
   while (!title.empty() && title.back() == ' ') title.pop_back();
-  for (char& ch : title)
-    if (static_cast<unsigned char>(ch) < ' ') ch = '?';
   return title.empty() ? fmt::format("{}", id) : fmt::format("{} {}", id, title);
 }
 
 }  // namespace
 
-std::string gaps_verdict(const Scene& scene, const SceneView& view) {
+namespace {
+
+/// "62 nodes and 12 edges", without what there is none of.
+std::string items_text(const ItemCounts& c) {
+  if (c.edges == 0) return count(c.nodes, "node", "nodes");
+  if (c.nodes == 0) return count(c.edges, "edge", "edges");
+  return count(c.nodes, "node", "nodes") + " and " + count(c.edges, "edge", "edges");
+}
+
+std::string penetration_sentence(const Scene& scene, const SceneView& view) {
   const ContactTotals& t = view.total;
-  if (t.pairs == 0)
+  if (t.count.pairs == 0)
     return fmt::format("No initial penetration in {}.",
                        count(scene.contacts.size(), "contact", "contacts"));
   // One figure for the deepest pair, one for the largest share of a gap.
   const PenetrationRow& deepest = row_of(scene, view.penetrations.front());
   std::string text =
       fmt::format("{} on {}, deepest {:.6g} of a gap of {:.6g}; worst share of a gap {:.1f} %.",
-                  count(t.pairs, "initial penetration", "initial penetrations"),
-                  count(t.nodes, "node or edge", "nodes and edges"), deepest.depth, deepest.gap,
-                  100 * t.max_ratio);
+                  count(t.count.pairs, "initial penetration", "initial penetrations"),
+                  items_text(t.count), deepest.depth, deepest.gap, 100 * t.max_ratio);
   if (t.solver_errors > 0)
     text += fmt::format(" The solver will stop: {} exactly on a segment (error 611/612).",
                         count(t.solver_errors, "node lies", "nodes lie"));
-  else if (t.on_surface > 0)
-    text += fmt::format(" {} exactly on a segment.", count(t.on_surface, "node lies", "nodes lie"));
+  else if (t.on_segment.pairs > 0)
+    text += fmt::format(" Exactly on a segment: {}.", items_text(t.on_segment));
   return text;
+}
+
+}  // namespace
+
+std::string gaps_verdict(const Deck& deck, const Scene& scene, const SceneView& view) {
+  const Coverage coverage = coverage_of(deck, *scene.interfaces);
+  std::string text = coverage_lead(coverage);
+  if (text.empty()) {
+    text = penetration_sentence(scene, view);
+    if (const std::uint64_t n = view.total.crossed_elements.value_or(0); n > 0)
+      text += fmt::format(" {}: an edge of the secondary side passes through a main segment.",
+                          count(n, "crossed element", "crossed elements"));
+  }
+  return text + coverage_tail(coverage);
 }
 
 std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
@@ -123,20 +151,23 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
   const Model& model = *scene.model;
   const char* bold = options.color ? "\033[1m" : "";
   const char* plain = options.color ? "\033[0m" : "";
-  std::string out = fmt::format("{}{}{}\n\n", bold, gaps_verdict(scene, view), plain);
+  std::string out =
+      fmt::format("{}{}{}\n", bold, terminal_text(gaps_verdict(deck, scene, view)), plain);
+  if (scene.contacts.empty()) return out;
   out +=
-      fmt::format("{}Interfaces{}\n{}", bold, plain, interface_table(scene, view, options.color));
+      fmt::format("\n{}Interfaces{}\n{}", bold, plain, interface_table(scene, view, options.color));
   const std::string decisions = decisions_text(scene, 5, options.color);
   if (!decisions.empty()) out += "\n" + decisions;
   if (view.penetrations.empty()) return out;
 
-  TextTable pairs = make_table(
-      {"secondary part", "main part", ">pairs", ">nodes", ">deepest", ">mean", ">p95", ">of gap"});
+  TextTable pairs = make_table({"secondary part", "main part", ">pairs", ">nodes", ">edges",
+                                ">deepest", ">mean", ">p95", ">of gap"});
   const std::size_t shown = std::min(options.part_pairs, view.part_pairs.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const PartPair& p = view.part_pairs[i];
-    pairs.row({part_name(model, p.secondary), part_name(model, p.main), fmt::format("{}", p.pairs),
-               fmt::format("{}", p.nodes), fmt::format("{:.6g}", p.max_depth),
+    pairs.row({part_name(model, p.secondary), part_name(model, p.main),
+               fmt::format("{}", p.count.pairs), fmt::format("{}", p.count.nodes),
+               fmt::format("{}", p.count.edges), fmt::format("{:.6g}", p.max_depth),
                fmt::format("{:.6g}", p.mean_depth), fmt::format("{:.6g}", p.p95_depth),
                fmt::format("{:.0f} %", 100 * p.max_ratio)});
   }
@@ -195,14 +226,14 @@ std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view
                    c.inter->id, c.inter->type, to_string(c.role), to_string(c.kind), p.secondary[0],
                    id(p.secondary[1]), p.main[0], p.main[1], id(p.main[2]), id(p.main[3]), r.depth,
                    r.gap, r.distance, r.gap > 0 ? r.depth / r.gap : 0.0);
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n",
-                   r.normal[0], r.normal[1], r.normal[2], r.on_surface ? 1 : 0, to_string(r.action),
-                   r.has_gap0 ? fmt::format("{}", r.gap0) : "",
-                   r.has_gap0 ? fmt::format("{}", r.p0) : "", p.at[0], p.at[1], p.at[2],
-                   id(p.secondary_element.id), id(p.secondary_element.part), id(p.main_element.id),
-                   id(p.main_element.part),
-                   span.valid() ? quote(deck.sources[span.file].path()) : std::string(),
-                   span.valid() ? fmt::format("{}", deck.sources.position(span).line) : "");
+    fmt::format_to(
+        std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", r.normal[0],
+        r.normal[1], r.normal[2], r.on_surface ? 1 : 0, to_string(r.action),
+        r.has_gap0 ? fmt::format("{}", r.gap0) : "", r.has_gap0 ? fmt::format("{}", r.p0) : "",
+        p.at[0], p.at[1], p.at[2], id(p.secondary_element.id), id(p.secondary_element.part),
+        id(p.main_element.id), id(p.main_element.part),
+        span.valid() ? quote(terminal_text(deck.sources[span.file].path())) : std::string(),
+        span.valid() ? fmt::format("{}", deck.sources.position(span).line) : "");
   }
   return out;
 }

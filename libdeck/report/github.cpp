@@ -1,32 +1,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "deck/base/escape.hpp"
 #include "report/diagnostics_common.hpp"
 
 namespace deck {
-namespace {
-
-/// Escapes what workflow commands use themselves; properties also escape ':' and ','.
-std::string escaped(std::string_view text, bool property) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '%')
-      out += "%25";
-    else if (c == '\r')
-      out += "%0D";
-    else if (c == '\n')
-      out += "%0A";
-    else if (property && c == ':')
-      out += "%3A";
-    else if (property && c == ',')
-      out += "%2C";
-    else
-      out += c;
-  }
-  return out;
-}
-
-}  // namespace
 
 std::string lint_github(const std::vector<LintedDeck>& decks) {
   struct Item {
@@ -34,14 +12,24 @@ std::string lint_github(const std::vector<LintedDeck>& decks) {
     const Diagnostic* d;
   };
   std::vector<Item> items;
-  std::string out;
+  std::string out, left_out;
   for (const LintedDeck& deck : decks) {
     if (deck.result == nullptr) {
-      out += "::error file=" + escaped(detail::relative_path(deck.path), true) +
-             ",title=deck::" + escaped(deck.error, false) + "\n";
+      out += "::error file=" + workflow_property(detail::relative_path(deck.path)) +
+             ",title=deck::" + workflow_text(deck.error) + "\n";
       continue;
     }
     for (const Diagnostic& d : deck.result->diagnostics) items.push_back({&deck, &d});
+    const auto coverage = detail::coverage_of(deck);
+    if (!coverage) continue;
+    // Behind it all that the findings say nothing about.
+    const std::string lead = coverage_lead(*coverage);
+    const std::string text = lead + coverage_tail(*coverage);
+    if (!text.empty())
+      left_out += std::string(lead.empty() ? "::notice" : "::warning") +
+                  " file=" + workflow_property(detail::relative_path(deck.path)) +
+                  ",title=not examined::" + workflow_text(lead.empty() ? text.substr(1) : text) +
+                  "\n";
   }
   // Only the first annotations of a step are shown.
   std::stable_sort(items.begin(), items.end(),
@@ -52,12 +40,13 @@ std::string lint_github(const std::vector<LintedDeck>& decks) {
     const char* const command = d.severity == Severity::error     ? "error"
                                 : d.severity == Severity::warning ? "warning"
                                                                   : "notice";
-    out += std::string("::") + command + " file=" + escaped(detail::relative_path(at.file), true) +
+    out += std::string("::") + command +
+           " file=" + workflow_property(detail::relative_path(at.file)) +
            ",line=" + std::to_string(at.line) + ",col=" + std::to_string(at.column) +
            ",endColumn=" + std::to_string(at.end_column) + ",title=" + std::string(d.rule) +
-           "::" + escaped(d.message + ". " + detail::details(d), false) + "\n";
+           "::" + workflow_text(d.message + ". " + detail::details(d)) + "\n";
   }
-  return out;
+  return out + left_out;
 }
 
 }  // namespace deck

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 
+#include "deck/base/escape.hpp"
 #include "deck/report/gaps.hpp"
+#include "report/gaps_names.hpp"
 #include "report/html_parts.hpp"
 
 namespace deck {
 namespace {
-
-using detail::html_escaped;
 
 /// '<' occurs in JSON only inside strings.
 std::string script_safe(std::string_view json) {
@@ -47,12 +47,13 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page) {
   j.begin_object();
   write_json_head(j, "deck/gaps-html", 1);
   write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
-  j.field("verdict", gaps_verdict(*in.scene, *in.view));
-  const ContactTotals& t = in.view->total;
+  j.field("verdict", gaps_verdict(*in.deck, *in.scene, *in.view));
   j.key("summary").begin_object(true);
-  j.field("pairs", t.pairs).field("nodes", t.nodes).field("on_surface", t.on_surface);
-  j.field("solver_errors", t.solver_errors).field("acted", t.acted);
-  j.field("max_depth", t.max_depth).field("max_ratio", t.max_ratio).end_object();
+  write_totals(j, in.view->total);
+  j.end_object();
+  const Coverage coverage = coverage_of(*in.deck, *in.scene->interfaces);
+  write_json_coverage(j, coverage);
+  j.field("coverage_lead", coverage_lead(coverage)).field("coverage_tail", coverage_tail(coverage));
   j.key("files").begin_array();
   for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f) j.value(in.deck->sources[f].path());
   j.end_array().key("parts").begin_array();
@@ -84,16 +85,16 @@ std::string earlier_json(const EarlierGaps& earlier) {
 
 /// What a reader without scripts gets: the verdict and a table of the contacts.
 std::string static_body(const HtmlInput& in) {
-  std::string out = "<main id=\"static\"><h1>" + html_escaped(file_name(in.path)) + "</h1>\n<p>" +
-                    html_escaped(gaps_verdict(*in.scene, *in.view)) +
+  std::string out = "<main id=\"static\"><h1>" + html_text(file_name(in.path)) + "</h1>\n<p>" +
+                    html_text(gaps_verdict(*in.deck, *in.scene, *in.view)) +
                     "</p>\n<table><thead><tr><th>Interface</th><th>Title</th><th>Part of it</th>"
                     "<th>Gapmin</th><th>Penetrations</th><th>Deepest</th></tr></thead><tbody>\n";
   for (std::size_t i = 0; i < in.scene->contacts.size(); ++i) {
     const Contact& c = in.scene->contacts[i];
     const ContactTotals& t = in.view->contacts[i];
-    out += "<tr><td>" + std::to_string(c.inter->id) + "</td><td>" + html_escaped(c.inter->title) +
+    out += "<tr><td>" + std::to_string(c.inter->id) + "</td><td>" + html_text(c.inter->title) +
            "</td><td>" + to_string(c.role) + "</td><td>" + shortest(c.gapmin) + "</td><td>" +
-           std::to_string(t.pairs) + "</td><td>" + shortest(t.max_depth) + "</td></tr>\n";
+           std::to_string(t.count.pairs) + "</td><td>" + shortest(t.max_depth) + "</td></tr>\n";
   }
   return out +
          "</tbody></table>\n<noscript><p>This page needs JavaScript for its lists and the "
@@ -137,7 +138,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"generator\" "
       "content=\"deck " +
-      std::string(library_version()) + "\">\n<title>" + html_escaped(file_name(in.path)) +
+      std::string(library_version()) + "\">\n<title>" + html_text(file_name(in.path)) +
       " \xe2\x80\x93 initial penetrations</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>";
   out += bundle.style;
   out += "</style>\n</head>\n<body>\n";

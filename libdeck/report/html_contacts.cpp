@@ -8,6 +8,7 @@
 
 #include "contact/node_elements.hpp"
 #include "deck/contact/search.hpp"
+#include "report/gaps_names.hpp"
 #include "report/html_parts.hpp"
 
 namespace deck::detail {
@@ -506,13 +507,6 @@ void write_default_gap(JsonWriter& j, const Contact& plain, const Coordinates& x
   j.end_array();
 }
 
-void write_totals(JsonWriter& j, const ContactTotals& t) {
-  j.key("totals").begin_object(true);
-  j.field("pairs", t.pairs).field("nodes", t.nodes).field("on_surface", t.on_surface);
-  j.field("solver_errors", t.solver_errors).field("acted", t.acted);
-  j.field("max_depth", t.max_depth).field("max_ratio", t.max_ratio).end_object();
-}
-
 /// What the card and the defaults say before the rules of the contact's kind apply.
 void write_card(JsonWriter& j, const InterBase& inter, const std::vector<WhatIf>& what_if) {
   const auto flag = [](const EffectiveInt& f) { return f.value == 1000 ? 0 : f.value; };
@@ -579,7 +573,9 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
     j.field("reoriented", c.reoriented_segments).field("no_carrier", c.no_carrier.size());
     j.field("reach", wide.reach).field("margin", wide.margin).field("complete", wide.complete);
     j.field("pairs", wide.pairs.size());
+    j.key("totals").begin_object(true);
     write_totals(j, input.view->contacts[i]);
+    j.end_object();
     write_card(j, *c.inter, input.what_if);
     write_default_gap(j, plain, page.scene.coordinates);
     j.end_object();

@@ -23,10 +23,8 @@ std::string crossings_block(const Model& model, const std::vector<Crossing>& cro
   j.key("rows").begin_array(true);
   for (std::size_t i = 0; i < std::min(crossings.size(), most_rows); ++i) {
     const Crossing& c = crossings[i];
-    const bool named = c.edge_element != no_index;
     j.begin_array(true).value(c.contact).value(nodes[c.edge[0]]).value(nodes[c.edge[1]]);
-    j.value(named ? static_cast<int>(c.edge_kind) : -1);
-    j.value(named ? model.family(c.edge_kind).id[c.edge_element] : std::int64_t{0});
+    j.value(static_cast<int>(c.edge_kind)).value(model.family(c.edge_kind).id[c.edge_element]);
     j.value(c.main).end_array();
   }
   j.end_array().end_object();

@@ -50,7 +50,4 @@ class Delta {
 /// zlib stream of `bytes` as base64 text.
 std::string packed_text(std::string_view bytes);
 
-/// HTML text: & < > " ' as references, bytes that are no UTF-8 as Latin-1.
-std::string html_escaped(std::string_view text);
-
 }  // namespace deck::detail

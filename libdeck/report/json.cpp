@@ -14,55 +14,6 @@ std::string shortest(double number) {
   return text;
 }
 
-namespace {
-
-/// Length of the UTF-8 sequence at `at`, 0 if the bytes are none (overlong and surrogates too).
-std::size_t utf8_length(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t k) {
-    return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : 0u;
-  };
-  const auto tail = [&](std::size_t k) { return (byte(k) & 0xc0u) == 0x80u; };
-  const unsigned b0 = byte(0), b1 = byte(1);
-  if (b0 < 0x80) return 1;
-  if (b0 >= 0xc2 && b0 <= 0xdf) return tail(1) ? 2 : 0;
-  if (b0 >= 0xe0 && b0 <= 0xef) {
-    if (!tail(1) || !tail(2)) return 0;
-    if ((b0 == 0xe0 && b1 < 0xa0) || (b0 == 0xed && b1 > 0x9f)) return 0;
-    return 3;
-  }
-  if (b0 >= 0xf0 && b0 <= 0xf4) {
-    if (!tail(1) || !tail(2) || !tail(3)) return 0;
-    if ((b0 == 0xf0 && b1 < 0x90) || (b0 == 0xf4 && b1 > 0x8f)) return 0;
-    return 4;
-  }
-  return 0;
-}
-
-}  // namespace
-
-void append_json_string(std::string& out, std::string_view text) {
-  out += '"';
-  for (std::size_t i = 0; i < text.size();) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += static_cast<char>(c);
-      ++i;
-    } else if (c < 0x20 || c == 0x7f) {
-      fmt::format_to(std::back_inserter(out), "\\u{:04x}", c);
-      ++i;
-    } else if (const std::size_t n = utf8_length(text, i); n > 0) {
-      out += text.substr(i, n);
-      i += n;
-    } else {
-      out += static_cast<char>(0xc0 | (c >> 6));
-      out += static_cast<char>(0x80 | (c & 0x3f));
-      ++i;
-    }
-  }
-  out += '"';
-}
-
 void JsonWriter::before_value() {
   if (after_key_) {
     after_key_ = false;
@@ -176,6 +127,17 @@ void write_json_deck(JsonWriter& json, std::string_view path, const Deck& deck, 
   }
   json.end_array();
   json.end_object();
+}
+
+void write_json_coverage(JsonWriter& json, const Coverage& coverage) {
+  json.field("examined", coverage.examined).key("not_examined").begin_array();
+  for (const NotExamined& n : coverage.not_examined) {
+    json.begin_object(true).field("keyword", n.keyword).field("count", n.ids.size()).key("ids");
+    json.begin_array(true);
+    for (const std::int64_t id : n.ids) json.value(id);
+    json.end_array().end_object();
+  }
+  json.end_array();
 }
 
 void write_json_place(JsonWriter& json, const Deck& deck, const Span& span) {

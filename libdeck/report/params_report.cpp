@@ -1,9 +1,9 @@
 #include "deck/report/params_report.hpp"
+#include "deck/base/escape.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 
 #include "deck/report/json.hpp"
@@ -123,12 +123,17 @@ void json_field(JsonWriter& json, const ParamsInput& in, const InterBase& inter,
 }  // namespace
 
 std::string params_text(const ParamsInput& in, const ParamsTextOptions& options) {
+  const Coverage coverage = coverage_of(*in.deck, *in.interfaces);
   std::string out;
+  if (const std::string lead = coverage_lead(coverage); !lead.empty())
+    out += toned(terminal_text(lead), Tone::bold, options.color) + "\n";
   for (const InterBase* inter : in.interfaces->ordered) {
     out +=
         toned(fmt::format("/INTER/TYPE{}/{}", inter->type, inter->id), Tone::bold, options.color);
-    if (!inter->title.empty()) out += "  " + inter->title;
-    out += "  " + toned(in.deck->sources.where(inter->span), Tone::dim, options.color) + "\n";
+    if (!inter->title.empty()) out += "  " + terminal_text(inter->title);
+    out += "  " +
+           toned(terminal_text(in.deck->sources.where(inter->span)), Tone::dim, options.color) +
+           "\n";
     TextTable table({{"field", Align::left},
                      {"card", Align::right},
                      {"value", Align::right},
@@ -142,16 +147,11 @@ std::string params_text(const ParamsInput& in, const ParamsTextOptions& options)
     out += table.render(options.color, 2) + "\n";
   }
   const auto& all = *in.interfaces;
-  out += fmt::format("{}: {} interfaces (TYPE7 {}, TYPE10 {}, TYPE11 {}, TYPE19 {})", in.path,
-                     all.ordered.size(), all.type7.size(), all.type10.size(), all.type11.size(),
-                     all.type19.size());
-  std::map<std::string, int> left_out;
-  for (const Block* b : others(in)) ++left_out[keyword_of(*b)];
-  const char* separator = "; not evaluated: ";
-  for (const auto& [keyword, count] : left_out) {
-    out += fmt::format("{}{} {}", separator, count, keyword);
-    separator = ", ";
-  }
+  out += fmt::format("{}: {} interfaces (TYPE7 {}, TYPE10 {}, TYPE11 {}, TYPE19 {})",
+                     terminal_text(in.path), all.ordered.size(), all.type7.size(),
+                     all.type10.size(), all.type11.size(), all.type19.size());
+  if (!coverage.not_examined.empty())
+    out += "; not examined: " + terminal_text(not_examined_text(coverage));
   return out + "\n";
 }
 
@@ -161,6 +161,7 @@ std::string params_json(const ParamsInput& in) {
   json.begin_object();
   write_json_head(json, "deck/params", 1);
   write_json_deck(json, in.path, *in.deck, in.model, in.interfaces);
+  write_json_coverage(json, coverage_of(*in.deck, *in.interfaces));
   json.key("interfaces").begin_array();
   for (const InterBase* inter : in.interfaces->ordered) {
     json.begin_object();

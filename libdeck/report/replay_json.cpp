@@ -1,6 +1,7 @@
 // `deck replay`: how well the force kernel reproduces recorded states, as JSON and as text.
 #include <fmt/format.h>
 
+#include "deck/base/escape.hpp"
 #include "deck/report/cycle.hpp"
 #include "deck/report/json.hpp"
 
@@ -55,9 +56,9 @@ std::string replay_json(const ReplayInput& input, const cycle::ReplayReport& r) 
 }
 
 std::string replay_text(const ReplayInput& input, const cycle::ReplayReport& r) {
-  std::string out =
-      fmt::format("{}: {} states ({}) of interface {}, {} compared, model {}\n", input.states,
-                  r.records, r.kind, input.inter->id, r.compared, name_of(input.model));
+  std::string out = fmt::format("{}: {} states ({}) of interface {}, {} compared, model {}\n",
+                                terminal_text(input.states), r.records, r.kind, input.inter->id,
+                                r.compared, name_of(input.model));
   out += fmt::format("  relative error of the {}: median {:.1e}, 99 % {:.1e}, worst {:.1e}\n",
                      r.kind == "heat" ? "heat" : "pair force", r.median, r.p99, r.max);
   if (r.zero_rows > 0)

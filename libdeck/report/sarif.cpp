@@ -89,10 +89,17 @@ class Sarif {
       if (deck.result == nullptr)
         notification("error", deck.error);
       else
-        for (const NotChecked& n : deck.result->not_checked)
-          notification("note", deck.path + ": not checked: " + n.what + ": " + n.why);
+        left_out(deck);
     }
     json_.end_array().end_object().end_array();
+  }
+
+  void left_out(const LintedDeck& deck) {
+    if (const auto coverage = detail::coverage_of(deck))
+      if (const std::string lead = coverage_lead(*coverage); !lead.empty())
+        notification("warning", deck.path + ": " + lead);
+    for (const NotChecked& n : deck.result->not_checked)
+      notification("note", deck.path + ": not checked: " + n.what + ": " + n.why);
   }
 
   void notification(std::string_view level, const std::string& message) {

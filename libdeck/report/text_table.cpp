@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "deck/base/escape.hpp"
+
 namespace deck {
 
 std::string toned(std::string_view text, Tone tone, bool color) {
@@ -36,6 +38,11 @@ std::size_t display_width(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;
   }));
+}
+
+void TextTable::row(std::vector<Cell> cells) {
+  for (Cell& cell : cells) cell.text = terminal_text(cell.text);
+  rows_.push_back(std::move(cells));
 }
 
 std::string TextTable::render(bool color, std::size_t indent) const {

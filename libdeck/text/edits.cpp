@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "deck/base/escape.hpp"
+
 namespace deck {
 
 Result<std::string> apply_edits(const Source& source, std::vector<TextEdit> edits) {
@@ -96,6 +98,29 @@ std::string range(std::size_t begin, std::size_t count) {
   return std::to_string(first) + (count == 1 ? "" : "," + std::to_string(count));
 }
 
+/// The name of a file as git writes it: quoted where it holds what cannot stand in a line.
+std::string diff_name(std::string_view prefix, std::string_view path) {
+  std::string out(prefix);
+  bool quoted = false;
+  for (std::size_t i = 0; i < path.size();) {
+    const TextUnit unit = text_unit_at(path, i);
+    const bool plain = unit.visible() && unit.code != '"' && unit.code != '\\';
+    for (const char c : path.substr(i, unit.length)) {
+      const auto byte = static_cast<unsigned>(static_cast<unsigned char>(c));
+      if (plain) {
+        out += c;
+      } else {
+        out += '\\';
+        for (const unsigned shift : {6U, 3U, 0U})
+          out += static_cast<char>('0' + (byte >> shift & 7U));
+      }
+    }
+    quoted = quoted || !plain;
+    i += unit.length;
+  }
+  return quoted ? '"' + out + '"' : out;
+}
+
 }  // namespace
 
 std::string unified_diff(std::string_view path, std::string_view before, std::string_view after) {
@@ -105,7 +130,7 @@ std::string unified_diff(std::string_view path, std::string_view before, std::st
   if (diff.empty()) return {};
   while (path.starts_with("./")) path.remove_prefix(2);
   const std::string_view rooted = path.starts_with('/') ? path.substr(1) : path;
-  std::string out = "--- a/" + std::string(rooted) + "\n+++ b/" + std::string(rooted) + "\n";
+  std::string out = "--- " + diff_name("a/", rooted) + "\n+++ " + diff_name("b/", rooted) + "\n";
   for (std::size_t k = 0; k < diff.size();) {
     std::size_t last = k;
     while (last + 1 < diff.size() && diff[last + 1].a0 - diff[last].a1 <= 2 * context) ++last;

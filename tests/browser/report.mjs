@@ -34,16 +34,18 @@ async function crashBox() {
   // Tables.
   const tiles = await p.$$eval(".tile-value", (t) => t.map((e) => e.textContent));
   same("verdict counts the penetrations of the JSON", tiles[0], String(json.summary.pairs));
-  same("verdict counts the nodes of the JSON", tiles[1], String(json.summary.nodes));
+  same("verdict counts the nodes and edges of the JSON", tiles[1], `${json.summary.nodes}, ${json.summary.edges}`);
+  const sentence = await p.$eval(".verdict-text", (e) => e.textContent.replace(/\u202f/g, ""));
+  check("verdict keeps nodes, edges and pairs apart", sentence.includes(`${json.summary.pairs} initial penetrations on ${json.summary.nodes} nodes and ${json.summary.edges} edges`), sentence);
   same("verdict counts the solver's errors of the JSON", tiles[4], String(json.summary.solver_errors));
-  const contacts = json.interfaces.flatMap((i) => i.contacts.map((c) => ({ id: i.id, pairs: c.totals.pairs, nodes: c.totals.nodes, depth: c.totals.max_depth })));
+  const contacts = json.interfaces.flatMap((i) => i.contacts.map((c) => ({ id: i.id, pairs: c.totals.pairs, nodes: c.totals.nodes, edges: c.totals.edges, depth: c.totals.max_depth })));
   const rows = await cells(p, ".interfaces-table");
   same("one row per contact", rows.length, contacts.length);
-  const key = (id, pairs, nodes) => `${id} ${pairs} ${nodes}`;
-  same("interface table agrees with the JSON", rows.map((r) => key(r[0], r[5], r[6])).sort(), contacts.map((c) => key(c.id, c.pairs, c.nodes)).sort());
+  const key = (id, pairs, nodes, edges) => `${id} ${pairs} ${nodes} ${edges}`;
+  same("interface table agrees with the JSON", rows.map((r) => key(r[0], r[5], r[6], r[7])).sort(), contacts.map((c) => key(c.id, c.pairs, c.nodes, c.edges)).sort());
   const pairs = await cells(p, "#pairs");
-  same("part-pair table agrees with the JSON", pairs.map((r) => `${r[0].split(" ")[0]} ${r[1].split(" ")[0]} ${r[2]} ${r[3]}`).sort(),
-    json.part_pairs.map((x) => `${x.secondary} ${x.main} ${x.pairs} ${x.nodes}`).sort());
+  same("part-pair table agrees with the JSON", pairs.map((r) => `${r[0].split(" ")[0]} ${r[1].split(" ")[0]} ${r[2]} ${r[3]} ${r[4]}`).sort(),
+    json.part_pairs.map((x) => `${x.secondary} ${x.main} ${x.pairs} ${x.nodes} ${x.edges}`).sort());
   const deepest = await p.evaluate(() => window.deckReport.report.hits[0].depth);
   same("the deepest row is that of the JSON", deepest, json.summary.max_depth);
   check("the page's own evaluation is the program's", await p.evaluate(() => window.deckReport.report.verified));

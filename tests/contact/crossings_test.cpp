@@ -214,7 +214,7 @@ TEST(Crossings, NoneWhereTheWallEndsAboveOrOnTheFloor) {
   }
 }
 
-TEST(Crossings, SelfContactAndSidesOfTheMainSurface) {
+TEST(Crossings, AreOfTheSecondarySideAndListedOnceOverAllContacts) {
   const Built b(wall_through_floor(-1)
                     .add("@/INTER/TYPE7/1 grnd_IDs=0 surf_IDm=3 Gapmin=0.1")
                     .add("/GRNOD/NODE/9\nfar\n         1")
@@ -222,8 +222,27 @@ TEST(Crossings, SelfContactAndSidesOfTheMainSurface) {
                     .add("@/INTER/TYPE19/3 surf_IDs=1 surf_IDm=2"));
   std::vector<std::uint32_t> per_contact(b.scene.contacts.size());
   for (const Crossing& c : find_crossings(b.scene)) ++per_contact[c.contact];
-  // TYPE19: floor edges through the wall (none), reversed: wall edges through the floor.
-  EXPECT_EQ(per_contact, (std::vector<std::uint32_t>{2, 2, 0, 2, 0}));
+  // The self contact has them. In the second the wall is on the main side alone; the TYPE19 has the
+  // same edges through the same floor once more.
+  EXPECT_EQ(per_contact, (std::vector<std::uint32_t>{2, 0, 0, 0, 0}));
+}
+
+TEST(Crossings, SegmentsOnTheSameNodesAreOnePlace) {
+  const Built b(wall_through_floor(-1)
+                    .segments("/SURF/SEG/4", {{1, 2, 3, 4}, {2, 3, 4, 1}})
+                    .add("@/INTER/TYPE7/1 surf_IDm=4 Gapmin=0.1"));
+  EXPECT_EQ(find_crossings(b.scene).size(), 2u);
+}
+
+TEST(Crossings, AreCountedInTheViewAsTheyAreListed) {
+  const Built b(
+      wall_through_floor(-1).add("@/INTER/TYPE7/1 Gapmin=0.1").add("@/INTER/TYPE7/2 Gapmin=0.2"));
+  const auto found = find_crossings(b.scene);
+  const SceneView view = make_view(b.scene, &found);
+  EXPECT_EQ(view.total.crossed_elements, 2u);
+  EXPECT_EQ(view.contacts[0].crossed_elements, 2u);
+  EXPECT_EQ(view.contacts[1].crossed_elements, 0u);
+  EXPECT_FALSE(make_view(b.scene).total.crossed_elements.has_value()) << "not looked for";
 }
 
 TEST(Crossings, SolidsAndTheirInnerEdges) {

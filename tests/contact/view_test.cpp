@@ -51,21 +51,22 @@ TEST(SceneView, PartPairsAndTotals) {
   const PartPair& lid = v.part_pairs[0];
   EXPECT_EQ(lid.secondary, 2);
   EXPECT_EQ(lid.main, 1);
-  EXPECT_EQ(lid.pairs, 5u);
-  EXPECT_EQ(lid.nodes, 3u);
+  EXPECT_EQ(lid.count.pairs, 5u);
+  EXPECT_EQ(lid.count.nodes, 3u);
+  EXPECT_EQ(lid.count.edges, 0u);
   EXPECT_DOUBLE_EQ(lid.max_depth, 0.75);
   EXPECT_DOUBLE_EQ(lid.mean_depth, (0.75 + 0.75 + 0.5 + 0.25 + 0.25) / 5);
   EXPECT_DOUBLE_EQ(lid.p95_depth, 0.75);
   EXPECT_DOUBLE_EQ(lid.max_ratio, 0.75);
   EXPECT_EQ(v.part_pairs[1].secondary, 0) << "no part";
-  EXPECT_EQ(v.total.pairs, 6u);
-  EXPECT_EQ(v.total.nodes, 4u);
-  EXPECT_EQ(v.total.on_surface, 0u);
+  EXPECT_EQ(v.total.count.pairs, 6u);
+  EXPECT_EQ(v.total.count.nodes, 4u);
+  EXPECT_EQ(v.total.on_segment.pairs, 0u);
   EXPECT_EQ(v.total.acted, 0u);
   EXPECT_DOUBLE_EQ(v.total.max_depth, 0.75);
 }
 
-TEST(SceneView, SolverErrorsAreOnSurfacePairsOfCardsThatStop) {
+TEST(SceneView, SolverErrorsAreNodesOnSegmentsOfCardsThatStop) {
   SmallDeck d = floor_and_lid();
   d.node(31, 3, 3, 0).group("/GRNOD/NODE/3", {31});
   d.add("@/INTER/TYPE7/2 grnd_IDs=3 Gapmin=1");
@@ -73,10 +74,24 @@ TEST(SceneView, SolverErrorsAreOnSurfacePairsOfCardsThatStop) {
   const Built b(d);
   const SceneView v = make_view(b.scene);
   EXPECT_EQ(v.contacts[1].solver_errors, 1u);
-  EXPECT_EQ(v.contacts[2].on_surface, 1u);
+  EXPECT_EQ(v.contacts[2].on_segment.nodes, 1u);
   EXPECT_EQ(v.contacts[2].solver_errors, 0u);
   EXPECT_EQ(v.contacts[2].acted, 1u);
-  EXPECT_EQ(v.total.on_surface, 2u);
+  EXPECT_EQ(v.total.on_segment.pairs, 2u);
+  EXPECT_EQ(v.total.on_segment.nodes, 1u) << "one node, in two contacts";
+  EXPECT_EQ(v.total.solver_errors, 1u);
+}
+
+TEST(SceneView, ANodeOnACommonEdgeIsOneNodeInTwoPairs) {
+  SmallDeck d = floor_and_lid();
+  d.node(31, 10, 5, 0).group("/GRNOD/NODE/3", {31});
+  d.add("@/INTER/TYPE7/2 grnd_IDs=3 Gapmin=1");
+  const Built b(d);
+  const ContactTotals t = make_view(b.scene).contacts[1];
+  EXPECT_EQ(t.on_segment.pairs, 2u);
+  EXPECT_EQ(t.on_segment.nodes, 1u);
+  EXPECT_EQ(t.solver_errors, 1u);
+  EXPECT_EQ(t.count.nodes, 1u);
 }
 
 TEST(SceneView, EdgePairsAreNamedByTheirElements) {
@@ -93,6 +108,8 @@ TEST(SceneView, EdgePairsAreNamedByTheirElements) {
   EXPECT_EQ(p.secondary_element.id, 6);
   EXPECT_EQ(p.main_element.part, 1);
   EXPECT_EQ(p.at, (std::array<double, 3>{0, 0, 0.5}));
+  EXPECT_EQ(v.total.count.edges, 1u);
+  EXPECT_EQ(v.total.count.nodes, 0u) << "an edge is no node";
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all
     task.options.insert(task.options.end(), {"--include-path", dir});
   for (const std::string& dir : o.common.schema_dirs)
     task.options.insert(task.options.end(), {"--schemas", dir});
+  if (o.common.require_examined) task.options.push_back("--require-examined");
   task.options.insert(task.options.end(), task.words.begin(), task.words.end());
   return task;
 }
@@ -118,6 +119,7 @@ Action setup(CLI::App& app) {
       ->type_name("SECONDS");
   app.add_option("--shard", o.shard, "Only part i of n: every n-th deck of the list")
       ->type_name("i/n");
+  add_require_examined(app, o.common);
   app.add_flag("--merge", o.merge, "Put the summaries of all shards in DIR together");
   app.add_flag("--force", o.force, "Do finished decks again");
   app.add_flag("--no-mpi", o.no_mpi, "Under mpirun: do not share the decks among the ranks");

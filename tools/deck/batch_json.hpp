@@ -1,6 +1,7 @@
 // JSON in the hands of `deck batch`: the numbers that a verb's document opens with, without holding
 // the document as a tree, and parsed values printed the way the library prints them.
 #pragma once
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -12,6 +13,9 @@ namespace deck::cli {
 struct DocumentFacts {
   std::string counts;                  ///< JSON object: members of "summary", number of interfaces
   std::optional<std::string> verdict;  ///< member "verdict"
+  std::optional<std::uint64_t> examined;  ///< member "examined"; nullopt: there is none
+  bool others = false;                    ///< "not_examined" lists something
+  bool errors = false;                    ///< "summary" counts errors or warnings
 };
 /// nullopt: not JSON.
 std::optional<DocumentFacts> document_facts(std::string_view document);

@@ -19,6 +19,7 @@
 #include <unordered_map>
 
 #include "batch_json.hpp"
+#include "deck/base/escape.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/report/json.hpp"
 
@@ -68,6 +69,19 @@ std::vector<std::string> settings_of(const BatchTask& task, const std::string& d
   for (const std::string& path : {config->path, config->baseline})
     if (!path.empty()) paths.push_back(path);
   return paths;
+}
+
+/// A deck is only clean if something was examined. Lint has rules for decks without any contact.
+std::string_view status_in(const BatchTask& task, int code,
+                           const std::optional<DocumentFacts>& facts) {
+  if (!facts || code > exit_findings || facts->examined.value_or(1) > 0) return status_of(code);
+  const bool lint = task.verb.name == "lint";
+  if (lint && (facts->errors || !facts->others)) return status_of(code);
+  const bool required = std::find(task.options.begin(), task.options.end(), "--require-examined") !=
+                        task.options.end();
+  return code == exit_clean || required || task.verb.name == "gaps" || task.verb.name == "cycle"
+             ? "not-examined"
+             : status_of(code);
 }
 
 std::string first_line(std::string_view text) {
@@ -289,9 +303,9 @@ std::string Batch::work_on(std::size_t index, Captured& output) const {
     unlink(in_directory(deck.result).c_str());  // a result of earlier would be taken for this one
   }
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  record.entry = summary_entry(deck.path, record.result, record.code, error,
-                               facts && facts->verdict ? &*facts->verdict : nullptr,
-                               facts ? facts->counts : "{}");
+  record.entry = summary_entry(
+      deck.path, status_in(task_, record.code, facts), record.result, record.code, error,
+      facts && facts->verdict ? &*facts->verdict : nullptr, facts ? facts->counts : "{}");
   return record_line(record);
 }
 
@@ -306,7 +320,8 @@ Record Batch::record_of(const JobReport& report) const {
   std::string why = report.why;
   if (const std::string said = first_line(report.err); !said.empty())
     why = report.exit_code == exit_input ? said : why + ": " + said;
-  record.entry = summary_entry(deck.path, "", record.code, why, nullptr, "{}");
+  record.entry =
+      summary_entry(deck.path, status_of(record.code), "", record.code, why, nullptr, "{}");
   unlink(in_directory(deck.result).c_str());
   return record;
 }
@@ -377,7 +392,7 @@ Summary Batch::summary() const {
   s.arguments = task_.words;
   s.shard = shard_;
   s.all = all_;
-  for (const Record& r : records_) s.entries.push_back({r.entry, r.code});
+  for (const Record& r : records_) s.entries.push_back(entry_of(r.entry, r.code));
   return s;
 }
 
@@ -414,12 +429,15 @@ int report_batch(const BatchOptions& o, const Summary& s, std::size_t kept) {
       return exit_usage;
     }
   if (o.common.wants_text()) {
+    const std::size_t nothing = s.count("not-examined");
+    const std::string not_examined =
+        nothing > 0 ? fmt::format("{} with nothing examined, ", nothing) : std::string();
     std::string text =
-        fmt::format("{} decks: {} clean, {} with findings, {} unreadable, {} failed",
-                    s.entries.size(), s.count(exit_clean), s.count(exit_findings),
-                    s.count(exit_input), s.count(exit_usage) + s.count(exit_internal));
+        fmt::format("{} decks: {} clean, {} with findings, {}{} unreadable, {} failed",
+                    s.entries.size(), s.count("clean"), s.count("findings"), not_examined,
+                    s.count("unreadable"), s.count("failed"));
     if (kept > 0) text += fmt::format("; {} were finished before", kept);
-    print_text(text + "; " + o.directory + "/" + summary_name(s.shard) + "\n");
+    print_text(text + "; " + terminal_text(o.directory) + "/" + summary_name(s.shard) + "\n");
   }
   return s.worst();
 }

@@ -21,13 +21,26 @@ int Summary::worst() const {
   return worst;
 }
 
-std::size_t Summary::count(int code) const {
+std::size_t Summary::count(std::string_view status) const {
   return static_cast<std::size_t>(std::count_if(
-      entries.begin(), entries.end(), [&](const SummaryEntry& e) { return e.code == code; }));
+      entries.begin(), entries.end(), [&](const SummaryEntry& e) { return e.status == status; }));
 }
 
-std::string summary_entry(std::string_view deck, std::string_view result, int code,
-                          std::string_view error, const std::string* verdict,
+std::string_view status_of(int code) {
+  if (code == exit_clean) return "clean";
+  if (code == exit_findings) return "findings";
+  return code == exit_input ? "unreadable" : "failed";
+}
+
+SummaryEntry entry_of(std::string json, int code) {
+  const auto parsed = nlohmann::json::parse(json, nullptr, false);
+  const auto status = parsed.is_object() ? parsed.find("status") : parsed.end();
+  const bool known = parsed.is_object() && status != parsed.end() && status->is_string();
+  return {std::move(json), code, known ? status->get<std::string>() : std::string(status_of(code))};
+}
+
+std::string summary_entry(std::string_view deck, std::string_view status, std::string_view result,
+                          int code, std::string_view error, const std::string* verdict,
                           std::string_view counts) {
   std::string text;
   JsonWriter json(text);
@@ -38,7 +51,7 @@ std::string summary_entry(std::string_view deck, std::string_view result, int co
     else
       json.value(value);
   };
-  json.begin_object(true).field("deck", deck);
+  json.begin_object(true).field("deck", deck).field("status", status);
   text_or_null("result", result);
   json.field("exit_code", code);
   text_or_null("error", error);
@@ -69,10 +82,11 @@ std::string summary_json(const Summary& s) {
   json.key("totals")
       .begin_object(true)
       .field("decks", s.entries.size())
-      .field("clean", s.count(exit_clean))
-      .field("findings", s.count(exit_findings))
-      .field("unreadable", s.count(exit_input))
-      .field("failed", s.count(exit_usage) + s.count(exit_internal))
+      .field("clean", s.count("clean"))
+      .field("findings", s.count("findings"))
+      .field("not_examined", s.count("not-examined"))
+      .field("unreadable", s.count("unreadable"))
+      .field("failed", s.count("failed"))
       .end_object();
   json.key("decks").begin_array();
   for (const SummaryEntry& e : s.entries) json.raw(e.json);
@@ -90,7 +104,7 @@ Result<Summary> parse_summary(std::string_view text) {
     s.verb = json.at("verb").get<std::string>();
     s.arguments = json.at("arguments").get<std::vector<std::string>>();
     for (const auto& e : json.at("decks"))
-      s.entries.push_back({json_line(e), e.at("exit_code").get<int>()});
+      s.entries.push_back(entry_of(json_line(e), e.at("exit_code").get<int>()));
     s.all = s.entries.size();
     if (const auto& shard = json.at("shard"); shard.is_object()) {
       s.shard = {shard.at("index").get<std::size_t>(), shard.at("count").get<std::size_t>()};

@@ -12,8 +12,9 @@
 namespace deck::cli {
 
 struct SummaryEntry {
-  std::string json;  ///< one line: deck, result, exit_code, error, verdict, counts
+  std::string json;  ///< one line: deck, status, result, exit_code, error, verdict, counts
   int code = 0;
+  std::string status = {};  ///< as in the line
 };
 
 struct Summary {
@@ -26,13 +27,18 @@ struct Summary {
 
   /// Worst exit code of the decks.
   int worst() const;
-  /// Decks with this exit code.
-  std::size_t count(int code) const;
+  /// Decks with this status.
+  std::size_t count(std::string_view status) const;
 };
 
+/// clean, findings, unreadable or failed.
+std::string_view status_of(int code);
+/// An entry from its line.
+SummaryEntry entry_of(std::string json, int code);
+
 /// The line of one deck. `result` empty: there is none; `counts` is a JSON object.
-std::string summary_entry(std::string_view deck, std::string_view result, int code,
-                          std::string_view error, const std::string* verdict,
+std::string summary_entry(std::string_view deck, std::string_view status, std::string_view result,
+                          int code, std::string_view error, const std::string* verdict,
                           std::string_view counts);
 
 std::string summary_json(const Summary& summary);

@@ -12,6 +12,9 @@
 #include <ctime>
 #include <thread>
 
+#include "deck/base/escape.hpp"
+#include "deck/keyword/recognise.hpp"
+#include "deck/model/coverage.hpp"
 #include "deck/report/json.hpp"
 
 namespace deck::cli {
@@ -79,6 +82,12 @@ void add_common(CLI::App& app, CommonOptions& options, bool with_json) {
       ->allow_extra_args(false);
 }
 
+void add_require_examined(CLI::App& app, CommonOptions& options) {
+  app.add_flag(
+      "--require-examined", options.require_examined,
+      "Exit 1 if the deck has no interface of a type that is examined (TYPE7, 10, 11, 19)");
+}
+
 // ---- loading --------------------------------------------------------------------------------
 
 Result<SchemaSet> load_schemas(const CommonOptions& options) {
@@ -131,7 +140,7 @@ Result<bool> settle_interrupted(const Deck& deck, const SchemaSet& schemas,
                  "deck: note: a rewriting of {} was interrupted ({}): some of its files may be "
                  "old and some new; the next convert --in-place, fix --in-place or lint --fix of "
                  "it finishes that\n",
-                 files.front(), *unfinished_note(files.front()));
+                 terminal_text(files.front()), terminal_text(*unfinished_note(files.front())));
     return false;
   }
   const std::vector<std::string> tree = files_of_call(schemas, options);
@@ -149,7 +158,7 @@ Result<bool> settle_interrupted(const Deck& deck, const SchemaSet& schemas,
   }
   if (finished > 0 && !options.quiet)
     fmt::print(stderr, "deck: note: an interrupted rewriting of {} was finished: {} file{}\n",
-               files.front(), finished, finished == 1 ? "" : "s");
+               terminal_text(files.front()), finished, finished == 1 ? "" : "s");
   return finished > 0;
 }
 
@@ -205,6 +214,8 @@ Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& s
   auto deck = read_settled(path, schemas, options, read);
   if (!deck) return deck.error();
   remember_read(deck->sources);
+  if (const std::string other = no_starter_deck(*deck); !other.empty())
+    return Error{Error::Code::syntax, path + ": " + other};
   auto loaded = std::make_unique<Loaded>();
   loaded->path = path;
   loaded->deck = std::move(*deck);
@@ -239,9 +250,62 @@ int for_each_deck(const CommonOptions& options, Stage stage,
       continue;
     }
     worst = std::max(worst, body(**loaded));
+    if (stage == Stage::interfaces) worst = std::max(worst, examined_code(**loaded, options));
     if ((*loaded)->incomplete()) worst = std::max<int>(worst, exit_input);
   }
   return worst;
+}
+
+int examined_code(const Loaded& loaded, const CommonOptions& options) {
+  if (!options.require_examined) return exit_clean;
+  const bool nothing = coverage_of(loaded.deck, loaded.interfaces).nothing();
+  return nothing ? exit_findings : exit_clean;
+}
+
+namespace {
+
+/// "1, 2, 3 and 4 more".
+std::string list_of(const std::vector<std::int64_t>& ids) {
+  constexpr std::size_t most = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, ids.size()); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", ids[i]);
+  if (ids.size() > most) text += fmt::format(" and {} more", ids.size() - most);
+  return text;
+}
+
+}  // namespace
+
+Result<void> check_interfaces(const Loaded& loaded, const std::vector<std::int64_t>& ids,
+                              std::string_view option) {
+  std::vector<std::int64_t> known;
+  for (const InterBase* i : loaded.interfaces.ordered) known.push_back(i->id);
+  std::sort(known.begin(), known.end());
+  for (const std::int64_t id : ids) {
+    if (std::binary_search(known.begin(), known.end(), id)) continue;
+    std::string text = fmt::format("{} {}: {} has no interface {} of TYPE7, 10, 11 or 19", option,
+                                   id, loaded.path, id);
+    for (const NotExamined& n : coverage_of(loaded.deck, loaded.interfaces).not_examined)
+      if (std::find(n.ids.begin(), n.ids.end(), id) != n.ids.end())
+        text += fmt::format("; {}/{} is of a type that is not examined", n.keyword, id);
+    text += known.empty() ? "; it has none at all" : "; it has " + list_of(known);
+    return Error{Error::Code::config, text};
+  }
+  return {};
+}
+
+Result<void> check_parts(const Loaded& loaded, const std::vector<std::int64_t>& ids,
+                         std::string_view option) {
+  for (const std::int64_t id : ids) {
+    if (loaded.model.part_of_id.contains(id)) continue;
+    std::vector<std::int64_t> known;
+    for (const Part& p : loaded.model.parts) known.push_back(p.id);
+    std::sort(known.begin(), known.end());
+    return Error{Error::Code::config,
+                 fmt::format("{} {}: {} has no part {}; {}", option, id, loaded.path, id,
+                             known.empty() ? "it has none at all" : "it has " + list_of(known))};
+  }
+  return {};
 }
 
 // ---- printing -------------------------------------------------------------------------------
@@ -277,7 +341,7 @@ const char* color_of(Severity severity) {
 void print_error(const CommonOptions& options, std::string_view message) {
   const bool color = options.color_on(2);
   fmt::print(stderr, "deck: {}error:{} {}\n", color ? "\x1b[1;31m" : "", color ? "\x1b[0m" : "",
-             message);
+             terminal_text(message));
 }
 
 std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options, bool errors_only,
@@ -294,19 +358,31 @@ std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options,
       }
       ++shown;
       const std::string where = d.span.valid() ? loaded.deck.sources.where(d.span) : loaded.path;
-      fmt::print(stderr, "{}: {}{}:{} {} [{}]\n", where, color ? color_of(d.severity) : "",
-                 name_of(d.severity), color ? "\x1b[0m" : "", d.message, d.rule);
+      fmt::print(stderr, "{}: {}{}:{} {} [{}]\n", terminal_text(where),
+                 color ? color_of(d.severity) : "", name_of(d.severity), color ? "\x1b[0m" : "",
+                 terminal_text(d.message), d.rule);
     }
   }
   if (hidden > 0)
-    fmt::print(stderr, "{}: {} more like these; 'deck lint {}' shows them all\n", loaded.path,
-               hidden, loaded.path);
+    fmt::print(stderr, "{}: {} more like these; 'deck lint {}' shows them all\n",
+               terminal_text(loaded.path), hidden, terminal_text(loaded.path));
   return errors;
 }
 
 // ---- output ---------------------------------------------------------------------------------
 
 void print_text(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+void print_contents(std::string_view text) {
+  if (isatty(1) == 1)
+    print_text(terminal_lines(text));
+  else
+    print_text(text);
+}
+
+void print_note(std::string_view note) {
+  fmt::print(stderr, "deck: note: {}\n", terminal_text(note));
+}
 
 int JsonOutput::finish(int code) const {
   if (!wanted() || documents_.empty()) return code;

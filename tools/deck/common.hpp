@@ -32,6 +32,7 @@ struct CommonOptions {
   std::string json;                ///< file, "-" for standard output, empty: none
   int threads = 0;                 ///< 0: all processors
   bool quiet = false;
+  bool require_examined = false;  ///< exit 1 where no interface was examined
   std::string color = "auto";
   std::vector<std::string> include_paths, schema_dirs;
   /// The verb will change files of the decks in place. Set by the verb, not by an option.
@@ -52,6 +53,9 @@ void add_common_without_decks(CLI::App& app, CommonOptions& options);
 /// Built-in schemas plus those of --schemas. A directory that cannot be used is a usage error.
 Result<SchemaSet> load_schemas(const CommonOptions& options);
 
+/// Adds --require-examined, for verbs whose result is a verdict about contacts.
+void add_require_examined(CLI::App& app, CommonOptions& options);
+
 /// How far to read.
 enum class Stage { blocks, model, interfaces };
 
@@ -70,15 +74,16 @@ struct Loaded {
 /// Contents that files are taken to have, by path; see ReadOptions::overlay.
 using Overlay = std::map<std::string, std::string>;
 
-/// Reads one deck. Error: the main file cannot be read, or is no deck. `schemas` must outlive it.
+/// Reads one deck. Error: the main file cannot be read, or is no Starter deck; the message says
+/// what it is. `schemas` must outlive it.
 /// Where the deck is to be rewritten in place (options.rewrites), an interrupted writing of its
 /// files is finished first; a verb that only reads says that there is one and changes nothing.
 Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& schemas,
                                      const CommonOptions& options, Stage stage = Stage::interfaces,
                                      const Overlay* overlay = nullptr);
 
-/// From now on load() shows every deck it has read: for `deck batch`, which runs the other verbs and
-/// has to know the files that a result came from.
+/// From now on load() shows every deck it has read: for `deck batch`, which runs the other verbs
+/// and has to know the files that a result came from.
 void observe_loading(std::function<void(const Deck&)> observer);
 
 /// Loads the decks one after the other and calls `body`; returns the worst exit code. What cannot
@@ -86,16 +91,34 @@ void observe_loading(std::function<void(const Deck&)> observer);
 int for_each_deck(const CommonOptions& options, Stage stage,
                   const std::function<int(Loaded&)>& body);
 
+/// exit_findings if --require-examined is given and nothing was examined, else exit_clean.
+int examined_code(const Loaded& loaded, const CommonOptions& options);
+
+/// Refuses ids that are no interface of the deck of TYPE7, 10, 11 or 19. The error lists those that
+/// there are. `option` is what the ids were given to.
+Result<void> check_interfaces(const Loaded& loaded, const std::vector<std::int64_t>& ids,
+                              std::string_view option);
+/// The same for parts.
+Result<void> check_parts(const Loaded& loaded, const std::vector<std::int64_t>& ids,
+                         std::string_view option);
+
 /// Prints findings of reading and building on standard error, one line each: errors only, or all.
 /// At most `limit`, then how many more there are. Returns the number of errors.
 std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options,
                              bool errors_only = true, std::size_t limit = 20);
 
-/// "deck: error: ..." on standard error.
+/// "deck: error: ..." on standard error. The message is one line, whatever it quotes.
 void print_error(const CommonOptions& options, std::string_view message);
 
 /// Prints results on standard output. A failure (full disk) is noticed at the end of the program.
 void print_text(std::string_view text);
+
+/// The same for contents of files (a deck, a patch): as they are, but on a terminal with what it
+/// would obey spelled out.
+void print_contents(std::string_view text);
+
+/// "deck: note: ..." on standard error.
+void print_note(std::string_view note);
 
 // ---- outputs.cpp: files with results
 
@@ -116,7 +139,6 @@ Result<void> check_output(const std::string& path, const OutputRules& rules = {}
 /// The same for the files named on a command line, before the work begins; "" and "-" are none. Says
 /// what is wrong and returns exit_usage, or exit_clean.
 int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths);
-
 /// Writes bytes to standard output ("-") or atomically to a file.
 Result<void> write_output(const std::string& path, std::string_view bytes);
 /// Writes a set of files, all or none.

@@ -11,6 +11,7 @@
 
 #include "common.hpp"
 #include "convert_steps.hpp"
+#include "deck/base/escape.hpp"
 #include "deck/edit/edit_set.hpp"
 #include "deck/edit/rewrite.hpp"
 #include "deck/edit/write.hpp"
@@ -94,7 +95,7 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
   }
   if (!common.quiet)
     for (const std::string& note : rewrite.notes)
-      fmt::print(stderr, "deck: note: {}: {}\n", step.option, note);
+      print_note(std::string(step.option) + ": " + note);
   auto files = apply_rewrite(c.now->deck.sources, rewrite);
   if (!files) {
     print_error(common, files.error().message);
@@ -127,10 +128,11 @@ void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& com
       continue;
     }
     constexpr std::string_view names[] = {"kept", "approximated", "dropped", "undecided"};
-    fmt::print(stderr, "{}:{}: {}: {}/{} {}{}{}{}{}\n", e.file, e.line,
-               names[static_cast<std::size_t>(e.loss)], e.keyword, e.id, e.field,
-               e.old_text.empty() ? "" : " " + e.old_text,
-               e.new_text.empty() ? "" : " -> " + e.new_text, e.note.empty() ? "" : ": ", e.note);
+    const std::string line = fmt::format(
+        "{}:{}: {}: {}/{} {}{}{}{}{}", e.file, e.line, names[static_cast<std::size_t>(e.loss)],
+        e.keyword, e.id, e.field, e.old_text.empty() ? "" : " " + e.old_text,
+        e.new_text.empty() ? "" : " -> " + e.new_text, e.note.empty() ? "" : ": ", e.note);
+    fmt::print(stderr, "{}\n", terminal_text(line));
   }
   if (hidden > 0) fmt::print(stderr, "... and {} more; --report FILE lists all\n", hidden);
   fmt::print(stderr, "deck: kept {}, approximated {}, dropped {}, undecided {}\n", count[0],
@@ -156,7 +158,7 @@ int fail(const Run& run, const Error& error) {
 
 void list(const Run& run, const std::vector<OutputFile>& files) {
   if (run.options.common.quiet) return;
-  for (const OutputFile& f : files) print_text(f.path + "\n");
+  for (const OutputFile& f : files) print_text(terminal_text(f.path) + "\n");
 }
 
 int write_in_place(const Run& run) {
@@ -177,8 +179,7 @@ int write_tree(const Run& run) {
   rules.overwrite = run.options.overwrite;
   if (auto done = write_outputs(plan->files, rules); !done) return fail(run, done.error());
   for (const std::string& path : plan->outside)
-    fmt::print(stderr, "deck: note: {} is included by its absolute path and was not copied\n",
-               path);
+    print_note(path + " is included by its absolute path and was not copied");
   list(run, plan->files);
   return exit_clean;
 }
@@ -201,7 +202,7 @@ int write_all(const Run& run) {
   if (!options.diff) return exit_clean;  // standard input, which went to standard output
   const auto patch = run.set.diff();
   if (!patch) return fail(run, patch.error());
-  print_text(*patch);
+  print_contents(*patch);
   return exit_clean;
 }
 
@@ -231,7 +232,7 @@ int add_result(Run& run, std::size_t member, Conversion& c) {
   if (options.to == "json") return add_document(run, c);
   if (c.now->path == "-" && options.from == "rad" && !options.diff) {
     if (c.now->deck.sources.size() == 1 && options.directory.empty()) {
-      print_text(c.now->deck.sources[0].bytes());
+      print_contents(c.now->deck.sources[0].bytes());
       return exit_clean;
     }
     print_error(options.common,

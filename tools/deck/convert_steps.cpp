@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "deck/base/escape.hpp"
 #include "deck/edit/extract.hpp"
 #include "deck/edit/flatten.hpp"
 #include "deck/edit/from_json.hpp"
@@ -151,10 +152,10 @@ int convert_lsdyna(const std::string& path, const ConvertSteps& steps, const std
     return exit_findings;
   }
   if (!common.quiet)
-    for (const std::string& note : made.notes) fmt::print(stderr, "deck: note: {}\n", note);
+    for (const std::string& note : made.notes) print_note(note);
   const std::string text = made.new_text.value_or("");
   if (directory.empty()) {
-    print_text(text);
+    print_contents(text);
     return exit_clean;
   }
   namespace fs = std::filesystem;
@@ -167,7 +168,7 @@ int convert_lsdyna(const std::string& path, const ConvertSteps& steps, const std
     print_error(common, done.error().message);
     return exit_usage;
   }
-  if (!common.quiet) print_text(target + "\n");
+  if (!common.quiet) print_text(terminal_text(target) + "\n");
   return exit_clean;
 }
 

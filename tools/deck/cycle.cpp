@@ -74,7 +74,15 @@ int run(const Options& o) {
   }
   JsonOutput json(o.common, "deck/cycle", 1);
   options.keep_pairs = (o.all && json.wanted()) || !o.vtk.empty();
+  std::vector<std::int64_t> parts;
+  for (const cycle::PartVelocity& v : velocities) parts.push_back(v.part);
   const int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
+    for (const auto& known : {check_interfaces(loaded, o.only, "--interface"),
+                              check_parts(loaded, parts, "--velocity")})
+      if (!known) {
+        print_error(o.common, known.error().message);
+        return static_cast<int>(exit_usage);
+      }
     print_findings(loaded, o.common);
     SceneOptions scene_options;
     scene_options.threads = options.threads;
@@ -142,7 +150,11 @@ Action setup(CLI::App& app) {
   app.add_option("--velocity", options->velocities,
                  "Velocity of a part instead of the deck's, e.g. 12=0,0,-5 (repeatable)")
       ->type_name("PART=VX,VY,VZ");
-  app.add_option("--interface", options->only, "Only these interface ids")->type_name("ID");
+  app.add_option("--interface", options->only, "Only these interface ids")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  add_require_examined(app, options->common);
   app.add_flag("--fail-on-force", options->fail, "Exit 1 when any contact pushes at the start");
   return [options] { return run(*options); };
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common.hpp"
+#include "deck/base/escape.hpp"
 #include "deck/lint/rule.hpp"
 
 namespace {
@@ -26,10 +27,14 @@ std::string upper(std::string text) {
 const Schema* keyword_named(const SchemaSet& schemas, const std::string& name) {
   const std::string wanted = upper(name.starts_with('/') ? name : "/" + name);
   if (const Schema* s = schemas.find(wanted)) return s;
-  // "TYPE7" for "/INTER/TYPE7": the first keyword that ends so.
+  // "TYPE7" for "/INTER/TYPE7": of the keywords that end so the shortest, "/DEFAULT/INTER/TYPE7" is
+  // about it.
+  const Schema* best = nullptr;
   for (const Schema* s : schemas.all())
-    if (upper(s->keyword).ends_with(wanted)) return s;
-  return nullptr;
+    if (upper(s->keyword).ends_with(wanted) &&
+        (best == nullptr || s->keyword.size() < best->keyword.size()))
+      best = s;
+  return best;
 }
 
 std::string page_of(const SchemaSet& schemas, const std::string& topic) {
@@ -63,7 +68,7 @@ int run(const Options& options) {
                                       "field (/INTER/TYPE7.Igap)");
       return exit_usage;
     }
-    print_text((first ? "" : "\n") + page);
+    print_text((first ? "" : "\n") + terminal_lines(page));
     first = false;
   }
   return exit_clean;

@@ -6,9 +6,11 @@
 #include <algorithm>
 
 #include "common.hpp"
+#include "deck/base/escape.hpp"
 #include "deck/edit/depenetrate.hpp"
 #include "deck/edit/edit_set.hpp"
 #include "deck/edit/write.hpp"
+#include "deck/model/coverage.hpp"
 #include "deck/report/fix.hpp"
 #include "deck/text/number.hpp"
 
@@ -50,6 +52,13 @@ class FixRun {
       print_error(o_.common, loaded.path + ": not fixed, the include tree is not complete");
       return exit_input;
     }
+    for (const auto& known :
+         {check_interfaces(loaded, o_.interfaces, "--interface"),
+          check_parts(loaded, o_.move.lock, "--lock"), check_parts(loaded, o_.move.move, "--only")})
+      if (!known) return fail(known.error());
+    if (const std::string lead = coverage_lead(coverage_of(loaded.deck, loaded.interfaces));
+        !lead.empty() && !o_.common.quiet)
+      print_note(loaded.path + ": " + lead);
     const auto member = set_.add(loaded.deck);
     if (!member) return fail(member.error());
     auto fix = make(loaded);
@@ -81,7 +90,7 @@ class FixRun {
     if (o_.diff) {
       const auto patch = set_.diff();
       if (!patch) return fail(patch.error());
-      print_text(*patch);
+      print_contents(*patch);
     }
     if (o_.in_place)
       if (auto done = write_in_place(); !done) return std::max(code, usage(done.error()));
@@ -176,13 +185,13 @@ class FixRun {
     const bool to_stderr = o_.diff || o_.common.json == "-";
     text.color = o_.common.color_on(to_stderr ? 2 : 1);
     std::string out;
-    if (o_.common.decks.size() > 1) out += path + "\n";
+    if (o_.common.decks.size() > 1) out += terminal_text(path) + "\n";
     out += fix_text(fix, text);
     if (!changed.empty()) {
       const bool written = o_.in_place || !o_.directory.empty();
       out += "\n";
       for (const auto& [file, bytes] : changed)
-        out += fmt::format("{} {}\n", written ? "changed:" : "would change:", file);
+        out += fmt::format("{} {}\n", written ? "changed:" : "would change:", terminal_text(file));
       if (!written && !o_.diff)
         out += "nothing was written: --diff shows the patch, --in-place or -o DIR writes it\n";
     } else if (!fix.interfaces.empty()) {

@@ -1,14 +1,18 @@
 // deck gaps: gaps, stiffness, initial penetrations and what the solver does about them.
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "accuracy_option.hpp"
 #include "common.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/html.hpp"
+#include "deck/report/json.hpp"
 #include "deck/report/vtk.hpp"
 #include "deck/text/number.hpp"
 
@@ -52,7 +56,10 @@ Result<WhatIf> parse_what_if(const std::string& text) {
     const std::string name = item.substr(0, equal);
     const RealCell v = read_real(std::string_view(item).substr(equal + 1));
     if (v.status != NumberStatus::ok) return bad("the value of '" + name + "' is not a number");
-    const int flag = static_cast<int>(v.value);
+    const bool is_flag = name == "Igap" || name == "Inacti" || name == "Irem_gap";
+    if (is_flag && !(std::abs(v.value) < 1e9 && v.value == std::floor(v.value)))
+      return bad("the value of '" + name + "' is not a whole number of at most nine digits");
+    const int flag = is_flag ? static_cast<int>(v.value) : 0;
     if (name == "Gapmin")
       w.Gapmin = v.value;
     else if (name == "Fscalegap")
@@ -75,6 +82,58 @@ Result<WhatIf> parse_what_if(const std::string& text) {
   return w;
 }
 
+/// Refuses values that the cells of the interface cannot hold, and fields that it does not have.
+Result<void> check_what_if(const WhatIf& w, const InterBase& inter) {
+  const Schema* schema = inter.block->schema;
+  if (schema == nullptr) return {};
+  const auto check = [&](std::string_view name, double value) -> Result<void> {
+    const auto refuse = [&](const std::string& why) {
+      return Error{Error::Code::config, "--what-if " + std::to_string(w.interface_id) + ":" +
+                                            std::string(name) + "=" + shortest(value) + ": " + why};
+    };
+    const bool tied = inter.type == 10 && name == "Gapmin";
+    const Field* field = schema->find_field(tied ? "Gap" : name);
+    // The node parts of a TYPE19 have it, though its card does not.
+    if (field == nullptr && inter.type == 19 && name == "Fpenmax") return {};
+    if (field == nullptr)
+      return refuse("TYPE" + std::to_string(inter.type) + " has no field " + std::string(name));
+    if (!std::isfinite(value)) return refuse("the value is not finite");
+    if (!field->values.empty() &&
+        std::none_of(field->values.begin(), field->values.end(),
+                     [&](std::int64_t v) { return static_cast<double>(v) == value; })) {
+      std::string legal;
+      for (const std::int64_t v : field->values)
+        legal += (legal.empty() ? "" : ", ") + std::to_string(v);
+      return refuse("the field takes " + legal);
+    }
+    if ((field->min && value < *field->min) || (field->max && value > *field->max))
+      return refuse("the field takes " + (field->min ? "at least " + shortest(*field->min) : "") +
+                    (field->max ? " at most " + shortest(*field->max) : ""));
+    return {};
+  };
+  const std::pair<std::string_view, std::optional<double>> fields[] = {
+      {"Gapmin", w.Gapmin},   {"Fscalegap", w.Fscalegap},  {"Gapmax", w.Gapmax},
+      {"Fpenmax", w.Fpenmax}, {"%mesh_size", w.mesh_size}, {"Igap", w.Igap},
+      {"Inacti", w.Inacti},   {"Irem_gap", w.Irem_gap}};
+  for (const auto& [name, value] : fields)
+    if (value)
+      if (auto fits = check(name, *value); !fits) return fits;
+  return {};
+}
+
+/// Refuses --interface and --what-if that do not fit the deck.
+Result<void> check_options(const Options& o, const Loaded& loaded,
+                           const std::vector<WhatIf>& what_if) {
+  if (auto known = check_interfaces(loaded, o.only, "--interface"); !known) return known;
+  for (const WhatIf& w : what_if) {
+    if (auto known = check_interfaces(loaded, {w.interface_id}, "--what-if"); !known) return known;
+    for (const InterBase* inter : loaded.interfaces.ordered)
+      if (inter->id == w.interface_id)
+        if (auto fits = check_what_if(w, *inter); !fits) return fits;
+  }
+  return {};
+}
+
 /// Writes the VTK files: into the directory itself, or one below it per deck if there are several.
 Result<void> write_vtk(const Options& o, const Loaded& loaded, const Scene& scene,
                        const SceneView& view) {
@@ -89,7 +148,8 @@ Result<void> write_vtk(const Options& o, const Loaded& loaded, const Scene& scen
 
 /// Writes the HTML report; what can be wrong is wrong usage or a file.
 Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& scene,
-                        const SceneView& view, const SceneOptions& scene_options) {
+                        const SceneView& view, const std::vector<Crossing>& crossings,
+                        const SceneOptions& scene_options) {
   EarlierGaps earlier;
   if (!o.compare.empty()) {
     const auto source = Source::open(o.compare, Limits{});
@@ -104,7 +164,6 @@ Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& sce
   cycle_options.keep_pairs = true;
   const cycle::SceneOutcome forces =
       cycle::run_cycle(scene, cycle::make_state(scene), cycle_options);
-  const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
   HtmlInput input;
   input.cycle = &forces;
   input.crossings = &crossings;
@@ -149,6 +208,10 @@ int run(const Options& o) {
   }
   JsonOutput json(o.common, "deck/gaps", 1);
   int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
+    if (auto fits = check_options(o, loaded, scene_options.what_if); !fits) {
+      print_error(o.common, fits.error().message);
+      return static_cast<int>(exit_usage);
+    }
     Scene scene;
     {
       Progress progress(!o.common.quiet);
@@ -160,9 +223,8 @@ int run(const Options& o) {
       scene = build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
     }
     print_findings(loaded, o.common);
-    const SceneView view = make_view(scene);
-    std::vector<Crossing> crossings;
-    if (o.crossings) crossings = find_crossings(scene, scene_options.threads);
+    const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
+    const SceneView view = make_view(scene, &crossings);
     if (json.wanted())
       json.add(gaps_json(loaded.path, loaded.deck, scene, view, o.all,
                          o.crossings ? &crossings : nullptr));
@@ -177,7 +239,7 @@ int run(const Options& o) {
         return static_cast<int>(exit_usage);
       }
     if (!o.html.empty())
-      if (auto r = write_html(o, loaded, scene, view, scene_options); !r) {
+      if (auto r = write_html(o, loaded, scene, view, crossings, scene_options); !r) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }
@@ -188,7 +250,7 @@ int run(const Options& o) {
       print_text(gaps_text(loaded.deck, scene, view, text));
       if (o.crossings) print_text(crossings_text(scene, crossings, text));
     }
-    const bool found = o.fail ? view.total.pairs > 0 : view.total.solver_errors > 0;
+    const bool found = o.fail ? view.total.count.pairs > 0 : view.total.solver_errors > 0;
     return static_cast<int>(found ? exit_findings : exit_clean);
   });
   return json.finish(code);
@@ -203,7 +265,7 @@ Action setup(CLI::App& app) {
                  "Write one line per penetration to FILE ('-': standard output)")
       ->type_name("FILE");
   app.add_flag("--crossings", options->crossings,
-               "Also look for edges of elements that pass through main segments");
+               "List the crossed elements: edges of the secondary side through main segments");
   app.add_option("--vtk", options->vtk,
                  "Write the contacts and penetrations as VTK files (ParaView) into DIR")
       ->type_name("DIR");
@@ -216,7 +278,11 @@ Action setup(CLI::App& app) {
   add_accuracy(app, options->accuracy);
   app.add_option("--worst", options->worst, "Rows of the list of deepest penetrations")
       ->capture_default_str();
-  app.add_option("--interface", options->only, "Only these interface ids")->type_name("ID");
+  app.add_option("--interface", options->only, "Only these interface ids")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  add_require_examined(app, options->common);
   app.add_option("--what-if", options->what_if,
                  "Evaluate an interface with other values, e.g. 3:Gapmin=2,Inacti=6 (repeatable); "
                  "the deck is not changed")

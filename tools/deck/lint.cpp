@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common.hpp"
+#include "deck/base/escape.hpp"
 #include "deck/edit/edit_set.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/lint/fix.hpp"
@@ -190,6 +191,7 @@ class Run {
                                   : !config->fail_on.empty() ? config->fail_on
                                                              : "error";
       if (at_or_above(job->result, fail_on)) code = exit_findings;
+      code = std::max(code, examined_code(*job->loaded, common_));
       if (job->loaded->incomplete()) code = exit_input;
     }
     jobs_.push_back(std::move(job));
@@ -229,10 +231,10 @@ class Run {
     constexpr std::size_t most = 10;
     for (std::size_t i = 0; i < std::min(most, agreed.withheld.size()) && !common_.quiet; ++i) {
       const WithheldFix& w = agreed.withheld[i];
-      std::fprintf(stderr,
-                   "%s: note: not fixed (%s): %s includes this file, too, and needs it as it is\n",
-                   jobs[w.deck]->loaded->deck.sources.where(w.diagnostic->span).c_str(),
-                   std::string(w.diagnostic->rule).c_str(), jobs[w.other]->path.c_str());
+      std::fprintf(
+          stderr, "%s: note: not fixed (%s): %s includes this file, too, and needs it as it is\n",
+          terminal_text(jobs[w.deck]->loaded->deck.sources.where(w.diagnostic->span)).c_str(),
+          std::string(w.diagnostic->rule).c_str(), terminal_text(jobs[w.other]->path).c_str());
     }
     if (agreed.withheld.size() > most && !common_.quiet)
       std::fprintf(stderr, "deck: note: %zu more were not fixed for that reason\n",
@@ -250,7 +252,7 @@ class Run {
     if (options_.diff) {
       const auto patch = set.diff();
       if (!patch) return usage(patch.error().message);
-      print_text(*patch);
+      print_contents(*patch);
     } else if (*changed > 0) {
       const auto plan = set.in_place();
       if (!plan) return usage(plan.error().message);
@@ -260,8 +262,9 @@ class Run {
         if (!jobs_[d]->loaded) continue;
         const FixResult& fixed = results[r++];
         if (!common_.quiet && !fixed.files.empty())
-          std::fprintf(stderr, "%s: %zu fixed in %zu file%s\n", jobs_[d]->path.c_str(),
-                       fixed.applied, fixed.files.size(), fixed.files.size() == 1 ? "" : "s");
+          std::fprintf(stderr, "%s: %zu fixed in %zu file%s\n",
+                       terminal_text(jobs_[d]->path).c_str(), fixed.applied, fixed.files.size(),
+                       fixed.files.size() == 1 ? "" : "s");
       }
       relint_ = true;
     }
@@ -282,14 +285,15 @@ class Run {
       std::fprintf(stderr,
                    "%s: note: %zu entries of the baseline do not occur any more; write it again "
                    "with --write-baseline\n",
-                   job->path.c_str(), job->result.stale.size());
+                   terminal_text(job->path).c_str(), job->result.stale.size());
       std::size_t shown = 0;
       for (const auto& [key, count] : job->result.stale) {
         if (shown++ == most) break;
         const auto& [rule, entity] = job->baseline_names.at(key);
-        std::fprintf(stderr, "  %s %s%s%s: %llu time%s\n", key.first.c_str(), rule.c_str(),
-                     entity.empty() ? "" : " ", entity.c_str(),
-                     static_cast<unsigned long long>(count), count == 1 ? "" : "s");
+        std::fprintf(stderr, "  %s %s%s%s: %llu time%s\n", terminal_text(key.first).c_str(),
+                     terminal_text(rule).c_str(), entity.empty() ? "" : " ",
+                     terminal_text(entity).c_str(), static_cast<unsigned long long>(count),
+                     count == 1 ? "" : "s");
       }
     }
   }
@@ -298,7 +302,8 @@ class Run {
     std::vector<LintedDeck> out;
     for (const auto& job : jobs_)
       out.push_back({job->path, job->loaded ? &job->loaded->deck : nullptr,
-                     job->loaded ? &job->result : nullptr, job->error});
+                     job->loaded ? &job->result : nullptr, job->error,
+                     job->loaded ? &job->loaded->interfaces : nullptr});
     return out;
   }
 
@@ -383,6 +388,7 @@ Action setup(CLI::App& app) {
       ->type_name("FILE");
   app.add_option("--config", o.config, "Use FILE instead of looking for .decklint.toml")
       ->type_name("FILE");
+  add_require_examined(app, o.common);
   app.add_flag("--no-config", o.no_config, "Use no configuration file");
   app.add_flag(
       "--geometry", o.geometry,

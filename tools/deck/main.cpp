@@ -7,10 +7,12 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <sstream>
 
 #include <unistd.h>
 
 #include "common.hpp"
+#include "deck/base/escape.hpp"
 
 namespace {
 
@@ -61,9 +63,9 @@ int check_verb(int argc, char** argv, const std::vector<Verb>& all) {
       best = &v;
     }
   }
-  std::string text = "deck: error: there is no verb '" + std::string(word) + "'";
+  std::string text = "deck: error: there is no verb '" + deck::terminal_text(word) + "'";
   if (word.find('.') != std::string_view::npos)
-    text += "; name what to do first, for example: deck params " + std::string(word);
+    text += "; name what to do first, for example: deck params " + deck::terminal_text(word);
   else if (best != nullptr)
     text += "; did you mean '" + std::string(best->name) + "'?";
   text += "\nRun 'deck --help' for the list.\n";
@@ -95,7 +97,11 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? exit_clean : exit_usage;
+    std::ostringstream out, err;
+    const int code = app.exit(e, out, err);
+    std::fputs(out.str().c_str(), stdout);
+    std::fputs(deck::terminal_lines(err.str()).c_str(), stderr);
+    return code == 0 ? exit_clean : exit_usage;
   }
   const auto chosen = app.get_subcommands();
   if (chosen.empty()) {
@@ -115,7 +121,8 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::fputs("deck: internal error: out of memory\n", stderr);
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "deck: internal error: %s\nPlease report it with the deck.\n", e.what());
+    std::fprintf(stderr, "deck: internal error: %s\nPlease report it with the deck.\n",
+                 deck::terminal_text(e.what()).c_str());
   } catch (...) {
     std::fputs("deck: internal error of unknown kind\n", stderr);
   }

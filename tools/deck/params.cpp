@@ -72,6 +72,7 @@ Action setup(CLI::App& app) {
   add_common(app, options->common);
   app.add_flag("--changed", options->changed,
                "Show only fields whose effective value is not what the card says");
+  add_require_examined(app, options->common);
   app.add_flag("--no-geometry", options->no_geometry,
                "Do not derive default gaps from the mesh; such values are left open");
   return [options] { return run(*options); };

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "deck/base/escape.hpp"
+
 namespace deck::cli {
 namespace {
 
@@ -22,7 +24,7 @@ Progress::~Progress() { clear(); }
 
 void Progress::step(std::string_view what) {
   if (!enabled_) return;
-  what_ = what;
+  what_ = terminal_text(what);
   if (steady_clock::now() - start_ > patience) draw(-1);
 }
 

@@ -30,9 +30,8 @@ int run_deck(const Options& o, const std::string& csv, Loaded& loaded, JsonOutpu
   const auto& all = loaded.interfaces.ordered;
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&](const InterBase* i) { return i->id == o.interface_id; });
-  if (found == all.end()) {
-    print_error(o.common, loaded.path + ": there is no interface " +
-                              std::to_string(o.interface_id) + " of TYPE7, 10, 11 or 19");
+  if (auto known = check_interfaces(loaded, {o.interface_id}, "--interface"); !known) {
+    print_error(o.common, known.error().message);
     return exit_usage;
   }
   SceneOptions scene_options;

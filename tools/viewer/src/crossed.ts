@@ -20,9 +20,9 @@ export function crossedSection(report: Report, open: (points: number[][]) => voi
     section.hidden = true;
     return section;
   }
-  section.append(h("h2", null, "Crossed elements", h("span", { class: "muted count" }, plural(crossed.total, "edge through a segment", "edges through segments"))));
+  section.append(h("h2", null, "Crossed elements", h("span", { class: "muted count" }, plural(crossed.total, "crossed element", "crossed elements"))));
   if (crossed.total === 0) {
-    section.append(h("p", { class: "note" }, "No edge passes through a main segment. The search is exact."));
+    section.append(h("p", { class: "note" }, "No edge of the secondary side passes through a main segment. The search is exact."));
     return section;
   }
   const owner = (r: Row) => report.data.contacts[r[0]].mainOwner;
@@ -34,7 +34,7 @@ export function crossedSection(report: Report, open: (points: number[][]) => voi
       { key: "inter", title: "Int.", hint: "Interface id", width: "78px", right: true, value: (r) => inter(r).id, cell: (r) => String(inter(r).id) },
       { key: "kind", title: "Kind", width: "minmax(88px,.7fr)", value: (r) => report.roleText(r[0]), cell: (r) => report.roleText(r[0]) },
       { key: "edge", title: "Edge", width: "minmax(110px,1.1fr)", value: (r) => report.nodeId(r[1]), cell: edge },
-      { key: "element", title: "of element", width: "minmax(100px,1fr)", value: (r) => r[4], cell: (r) => (r[3] < 0 ? "–" : `${kindNames[r[3]]} ${r[4]}`) },
+      { key: "element", title: "of element", width: "minmax(100px,1fr)", value: (r) => r[4], cell: (r) => `${kindNames[r[3]]} ${r[4]}` },
       { key: "segment", title: "Segment", width: "minmax(150px,1.5fr)", value: (r) => report.nodeId(segmentOf(report, r)[0]), cell: (r) => segmentOf(report, r).map((n) => report.nodeId(n)).join(" ") },
       { key: "part", title: "Main part", width: "minmax(80px,1fr)", value: (r) => report.partText(owner(r).part[r[5]]), cell: (r) => report.partText(owner(r).part[r[5]]) },
     ],

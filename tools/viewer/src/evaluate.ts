@@ -270,7 +270,9 @@ export class Evaluator {
       if (meta.kind === "edge_edge") this.edgeRows(i, setting, gaps, points, moved, result);
       else this.nodeRows(i, setting, gaps, points, moved, result);
     }
-    count(meta, setting, result);
+    const tally = new Tally();
+    tally.add(meta, data, result);
+    result.totals = tally.totals();
     return result;
   }
 
@@ -441,41 +443,50 @@ function sameGaps(meta: ContactMeta, s: Setting): boolean {
 }
 
 export function emptyTotals(): Totals {
-  return { pairs: 0, nodes: 0, on_surface: 0, solver_errors: 0, acted: 0, max_depth: 0, max_ratio: 0 };
+  return { pairs: 0, nodes: 0, edges: 0, on_segment: { nodes: 0, edges: 0, pairs: 0 }, solver_errors: 0, acted: 0, max_depth: 0, max_ratio: 0 };
 }
 
 export function ratioOf(row: Row): number {
   return row.gap > 0 ? row.depth / row.gap : 0;
 }
 
-function count(meta: ContactMeta, s: Setting, result: Result): void {
-  const t = result.totals;
-  const stops = on_surface_error(meta, s) !== 0;
-  const distinct = new Set<number>();
-  for (const row of result.rows) {
-    distinct.add(row.secondary);
-    t.pairs++;
-    if (row.onSurface) {
-      t.on_surface++;
-      if (stops) t.solver_errors++;
+/** Counts rows, and the nodes and edges among them once each, also over several contacts. */
+export class Tally {
+  private readonly t = emptyTotals();
+  private readonly nodes = new Set<number>();
+  private readonly edges = new Set<number>();
+  private readonly onNodes = new Set<number>();
+  private readonly onEdges = new Set<number>();
+  private readonly stopped = new Set<number>();
+
+  add(meta: ContactMeta, data: ContactData, result: Result): void {
+    const stops = on_surface_error(meta, result.setting) !== 0;
+    const isEdge = meta.kind === "edge_edge";
+    for (const row of result.rows) {
+      const item = isEdge ? edgeKey(data.secondaryNode[2 * row.secondary], data.secondaryNode[2 * row.secondary + 1]) : data.secondaryNode[row.secondary];
+      (isEdge ? this.edges : this.nodes).add(item);
+      this.t.pairs++;
+      if (row.onSurface) {
+        this.t.on_segment.pairs++;
+        (isEdge ? this.onEdges : this.onNodes).add(item);
+        if (stops && !isEdge) this.stopped.add(item);
+      }
+      if (row.action !== "none") this.t.acted++;
+      this.t.max_depth = Math.max(this.t.max_depth, row.depth);
+      this.t.max_ratio = Math.max(this.t.max_ratio, ratioOf(row));
     }
-    if (row.action !== "none") t.acted++;
-    t.max_depth = Math.max(t.max_depth, row.depth);
-    t.max_ratio = Math.max(t.max_ratio, ratioOf(row));
   }
-  t.nodes = distinct.size;
+
+  totals(): Totals {
+    const { t } = this;
+    return {
+      ...t, nodes: this.nodes.size, edges: this.edges.size, solver_errors: this.stopped.size,
+      on_segment: { nodes: this.onNodes.size, edges: this.onEdges.size, pairs: t.on_segment.pairs },
+    };
+  }
 }
 
-export function sumTotals(results: Result[]): Totals {
-  const t = emptyTotals();
-  for (const r of results) {
-    t.pairs += r.totals.pairs;
-    t.nodes += r.totals.nodes;
-    t.on_surface += r.totals.on_surface;
-    t.solver_errors += r.totals.solver_errors;
-    t.acted += r.totals.acted;
-    t.max_depth = Math.max(t.max_depth, r.totals.max_depth);
-    t.max_ratio = Math.max(t.max_ratio, r.totals.max_ratio);
-  }
-  return t;
+/** Two page nodes as one number; a page has far fewer than 2^26 nodes. */
+function edgeKey(a: number, b: number): number {
+  return Math.min(a, b) * 2 ** 26 + Math.max(a, b);
 }

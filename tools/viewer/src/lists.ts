@@ -11,6 +11,7 @@ interface PairRow {
   main: number;
   pairs: number;
   nodes: number;
+  edges: number;
   max: number;
   mean: number;
   p95: number;
@@ -30,7 +31,8 @@ export function partPairs(report: Report, hits: Hit[]): PairRow[] {
       secondary: list[0].secondaryPart,
       main: list[0].mainPart,
       pairs: list.length,
-      nodes: new Set(list.map((x) => `${x.contact}/${x.row.secondary}`)).size,
+      nodes: new Set(list.filter((x) => x.nodes[1] === 0).map((x) => x.nodes[0])).size,
+      edges: new Set(list.filter((x) => x.nodes[1] !== 0).map((x) => [...x.nodes].sort((a, b) => a - b).join("-"))).size,
       max: list[0].depth,
       mean: list.reduce((s, x) => s + x.depth, 0) / list.length,
       p95: list[Math.floor(list.length / 20)].depth, // deepest first
@@ -50,6 +52,7 @@ export function pairsSection(report: Report, look: Look): HTMLElement {
       { key: "m", title: "Main part", width: "minmax(110px,1.4fr)", value: (r) => report.partText(r.main), cell: (r) => partName(report, r.main) },
       { key: "pairs", title: "Pairs", width: "64px", right: true, value: (r) => r.pairs, cell: (r) => group(r.pairs) },
       { key: "nodes", title: "Nodes", width: "62px", right: true, value: (r) => r.nodes, cell: (r) => group(r.nodes) },
+      { key: "edges", title: "Edges", width: "58px", right: true, value: (r) => r.edges, cell: (r) => group(r.edges) },
       { key: "max", title: "Deepest", width: "78px", right: true, value: (r) => r.max, cell: (r) => num(r.max) },
       { key: "mean", title: "Mean", width: "70px", right: true, value: (r) => r.mean, cell: (r) => num(r.mean) },
       { key: "p95", title: "p95", hint: "95 % of the pairs are not deeper", width: "70px", right: true, value: (r) => r.p95, cell: (r) => num(r.p95) },

@@ -1,10 +1,12 @@
 // The JSON part of the page's data as `deck gaps --html` writes it.
 
+/** Secondary nodes and edges, each once, and pairs: never added up. */
 export interface Totals {
   pairs: number;
   nodes: number;
-  on_surface: number;
-  solver_errors: number;
+  edges: number;
+  on_segment: { nodes: number; edges: number; pairs: number };
+  solver_errors: number; // nodes for which the solver stops
   acted: number;
   max_depth: number;
   max_ratio: number;
@@ -111,7 +113,9 @@ export interface Meta {
     includes: { path: string; written: string; from: { file: string; line: number } | null }[];
   };
   verdict: string;
-  summary: Totals;
+  summary: Totals & { crossed_elements: number | null };
+  coverage_lead: string; // in place of a verdict: nothing examined, or files missing
+  coverage_tail: string; // behind a verdict: what was not examined
   files: string[];
   parts: { id: number; title: string; prop: number; mat: number }[];
   free_group_id: number;
@@ -144,8 +148,8 @@ export interface Cycle {
   }[];
 }
 
-/** Edges through main segments: contact, the edge's page nodes, kind and id of its element (kind -1:
- * none), position of the segment. */
+/** Crossed elements: contact, page nodes of the edge, kind and id of its element, position of the
+ * segment. */
 export interface Crossed {
   total: number;
   rows: [number, number, number, number, number, number][];

@@ -8,6 +8,17 @@ import type { Report } from "./report";
 import { VirtualTable } from "./table";
 import { actionWords, flagText } from "./words";
 
+/** "62 nodes and 12 edges", without what there is none of. */
+function itemsText(c: { nodes: number; edges: number }): string {
+  const nodes = plural(c.nodes, "node", "nodes");
+  const edges = plural(c.edges, "edge", "edges");
+  return c.edges === 0 ? nodes : c.nodes === 0 ? edges : `${nodes} and ${edges}`;
+}
+
+function countsText(t: { nodes: number; edges: number }): string {
+  return `${group(t.nodes)}, ${group(t.edges)}`;
+}
+
 export function verdict(report: Report): HTMLElement {
   const sentence = h("p", { class: "verdict-text" });
   const tiles = h("div", { class: "tiles" });
@@ -18,17 +29,20 @@ export function verdict(report: Report): HTMLElement {
     const base = report.totals("base", null);
     const changed = report.anyChanged;
     const stops = now.solver_errors > 0;
-    element.dataset.level = stops ? "error" : now.pairs > 0 ? "warning" : "good";
+    element.dataset.level = report.meta.coverage_lead ? "warning" : stops ? "error" : now.pairs > 0 ? "warning" : "good";
+    const crossed = report.crossed?.total ?? 0;
+    const outcome = stops
+      ? `. The solver will stop: ${plural(now.solver_errors, "node lies", "nodes lie")} exactly on a segment (error 611/612).`
+      : now.on_segment.pairs > 0
+        ? `. Exactly on a segment: ${itemsText(now.on_segment)}.`
+        : ".";
+    const lead = report.meta.coverage_lead;
     replace(
       sentence,
-      h("strong", null, now.pairs === 0 ? "No initial penetration" : plural(now.pairs, "initial penetration", "initial penetrations")),
-      now.pairs === 0
-        ? ` in ${plural(report.meta.contacts.length, "contact", "contacts")}.`
-        : stops
-          ? `. The solver will stop: ${plural(now.solver_errors, "node lies", "nodes lie")} exactly on a segment (error 611/612).`
-          : now.on_surface > 0
-            ? `. ${plural(now.on_surface, "node lies", "nodes lie")} exactly on a segment.`
-            : ".",
+      h("strong", null, lead || (now.pairs === 0 ? "No initial penetration" : plural(now.pairs, "initial penetration", "initial penetrations"))),
+      lead ? "" : now.pairs === 0 ? ` in ${plural(report.meta.contacts.length, "contact", "contacts")}.` : ` on ${itemsText(now)}${outcome}`,
+      !lead && crossed > 0 ? ` ${plural(crossed, "crossed element", "crossed elements")}.` : "",
+      report.meta.coverage_tail,
       changed ? h("span", { class: "tag test" }, "with settings under test") : null,
     );
     const deepest = report.hits[0];
@@ -38,10 +52,10 @@ export function verdict(report: Report): HTMLElement {
     replace(
       tiles,
       tile("Penetrations", group(now.pairs), `in ${plural(report.meta.contacts.length, "contact", "contacts")}`, group(base.pairs)),
-      tile("Nodes and edges", group(now.nodes), now.acted > 0 ? `${group(now.acted)} acted on` : "none acted on", group(base.nodes)),
+      tile("Nodes, edges", countsText(now), now.acted > 0 ? `${group(now.acted)} pairs acted on` : "none acted on", countsText(base)),
       tile("Deepest", deepest ? num(deepest.depth) : "–", deepest ? `of a gap of ${num(deepest.row.gap)}` : "", num(base.max_depth)),
       tile("Depth ÷ gap", now.pairs ? percent(now.max_ratio) : "–", "at worst", percent(base.max_ratio)),
-      tile("Solver errors", group(now.solver_errors), now.on_surface > 0 ? `${group(now.on_surface)} on a surface` : "none on a surface", group(base.solver_errors)),
+      tile("Solver errors", group(now.solver_errors), now.on_segment.pairs > 0 ? `${itemsText(now.on_segment)} on a segment` : "none on a segment", group(base.solver_errors)),
     );
     if (report.earlier) drawCompare(report, compare);
   };
@@ -99,8 +113,10 @@ export function interfaces(report: Report): HTMLElement {
         } },
       { key: "pairs", title: "Pairs", hint: "Penetrating pairs", width: "62px", right: true, value: (r) => now(r).totals.pairs,
         cell: (r) => changedCell(group(now(r).totals.pairs), group(report.base[r.contact].totals.pairs)) },
-      { key: "nodes", title: "Nodes", hint: "Distinct secondary nodes or edges", width: "60px", right: true, value: (r) => now(r).totals.nodes,
+      { key: "nodes", title: "Nodes", hint: "Distinct secondary nodes", width: "56px", right: true, value: (r) => now(r).totals.nodes,
         cell: (r) => changedCell(group(now(r).totals.nodes), group(report.base[r.contact].totals.nodes)) },
+      { key: "edges", title: "Edges", hint: "Distinct secondary edges", width: "56px", right: true, value: (r) => now(r).totals.edges,
+        cell: (r) => changedCell(group(now(r).totals.edges), group(report.base[r.contact].totals.edges)) },
       { key: "depth", title: "Deepest", width: "82px", right: true, value: (r) => now(r).totals.max_depth,
         cell: (r) => changedCell(now(r).totals.pairs ? num(now(r).totals.max_depth) : "–", report.base[r.contact].totals.pairs ? num(report.base[r.contact].totals.max_depth) : "–") },
       { key: "ratio", title: "Of gap", width: "58px", right: true, value: (r) => now(r).totals.max_ratio,
@@ -220,6 +236,7 @@ function build(report: Report, inter: number, panel: HTMLElement): () => void {
       outcome,
       part("pairs", group(base.pairs), group(now.pairs)),
       part("nodes", group(base.nodes), group(now.nodes)),
+      part("edges", group(base.edges), group(now.edges)),
       part("deepest", num(base.max_depth), num(now.max_depth)),
       part("of gap", percent(base.max_ratio), percent(now.max_ratio)),
       part("solver errors", group(base.solver_errors), group(now.solver_errors)),

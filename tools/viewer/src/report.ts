@@ -1,7 +1,7 @@
 // The state of the page: data, settings under test, results, filters, selection; and who is told
 // when one of them changes.
 import { kindNames, type Contacts, type Mesh } from "./data";
-import { Evaluator, on_surface_error, ratioOf, sumTotals, type Result, type Row } from "./evaluate";
+import { Evaluator, on_surface_error, ratioOf, Tally, type Result, type Row } from "./evaluate";
 import type { Crossed, Cycle, Earlier, FieldName, Meta, Overrides, Totals } from "./meta";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";
@@ -101,7 +101,7 @@ export class Report {
       return (
         this.meta.what_if.length > 0 ||
         !c.complete ||
-        (Object.keys(t) as (keyof Totals)[]).every((k) => t[k] === c.totals[k])
+        (Object.keys(t) as (keyof Totals)[]).every((k) => JSON.stringify(t[k]) === JSON.stringify(c.totals[k]))
       );
     });
   }
@@ -140,7 +140,11 @@ export class Report {
   }
   totals(which: "base" | "now", inter: number | null): Totals {
     const list = which === "base" ? this.base : this.results;
-    return sumTotals(inter === null ? list : this.contactsOf(inter).map((i) => list[i]));
+    const tally = new Tally();
+    this.meta.contacts.forEach((c, i) => {
+      if (inter === null || c.interface === inter) tally.add(c, this.data.contacts[i], list[i]);
+    });
+    return tally.totals();
   }
 
   // ---- names --------------------------------------------------------------------------------

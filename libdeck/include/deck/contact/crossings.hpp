@@ -25,14 +25,15 @@ struct Crossing {
   std::uint32_t contact = 0;        ///< Scene::contacts
   std::array<NodeIndex, 2> edge{};  ///< smaller index first
   ElementKind edge_kind{};          ///< the element that has the edge: of several the first one
-  std::uint32_t edge_element = no_index;  ///< no_index: only a main segment without element has it
-  std::uint32_t main = 0;                 ///< Contact::main
+  std::uint32_t edge_element = no_index;
+  std::uint32_t main = 0;  ///< Contact::main
 };
 
-/// Crossings of every node-to-segment contact: edges of shells, solids, trusses and beams whose
-/// nodes are both secondary, and the sides of the main segments, through the main segments. Springs
-/// are left out: they join what they pass through. Ordered by contact, edge, segment. Positions are
-/// those of Scene::coordinates.
+/// Crossed elements of all node-to-segment contacts, the secondary side against the main side:
+/// edges of shells, solids, trusses and beams whose nodes are both secondary, through main
+/// segments. An edge and the four nodes of a segment are listed once, in the first contact that has
+/// both. Springs are left out: they join what they pass through. Ordered by contact, edge, segment.
+/// Positions are those of Scene::coordinates.
 std::vector<Crossing> find_crossings(const Scene& scene, int threads = 1);
 
 }  // namespace deck

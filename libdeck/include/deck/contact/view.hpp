@@ -2,9 +2,11 @@
 // node (the deepest), part pairs sorted by depth, and totals for the verdict.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "deck/contact/crossings.hpp"
 #include "deck/contact/scene.hpp"
 
 namespace deck {
@@ -26,35 +28,43 @@ struct NamedPenetration {
   std::array<std::int64_t, 2> secondary{};  ///< node id (second 0), or the two nodes of an edge
   std::array<std::int64_t, 4> main{};       ///< segment nodes, or edge nodes and zeros
   ElementName secondary_element, main_element;
-  std::array<double, 3> at{};               ///< secondary node (edge: closest point), working units
+  std::array<double, 3> at{};  ///< secondary node (edge: closest point), working units
+};
+
+/// How much there is of what: secondary nodes and edges, each once, and pairs. Never added up.
+struct ItemCounts {
+  std::uint64_t pairs = 0, nodes = 0, edges = 0;
 };
 
 struct PartPair {
   std::int64_t secondary = 0, main = 0;  ///< part ids, 0: no part
-  std::uint64_t pairs = 0, nodes = 0, on_surface = 0;
+  ItemCounts count, on_segment;
   double max_depth = 0, mean_depth = 0, p95_depth = 0, max_ratio = 0;
   std::uint32_t worst = 0;  ///< index into Named view
 };
 
 struct ContactTotals {
-  std::uint64_t pairs = 0;
-  std::uint64_t nodes = 0;       ///< distinct secondary nodes or edges
-  std::uint64_t on_surface = 0;
-  std::uint64_t solver_errors = 0;  ///< pairs for which the solver stops: 611, 612
-  std::uint64_t acted = 0;          ///< pairs on which Inacti or Fpenmax do something
+  ItemCounts count;                               ///< what penetrates
+  ItemCounts on_segment;                          ///< what of it lies exactly on a segment
+  std::optional<std::uint64_t> crossed_elements;  ///< crossings listed; nullopt: not looked for
+  std::uint64_t solver_errors = 0;                ///< nodes for which the solver stops: 611, 612
+  std::uint64_t acted = 0;                        ///< pairs on which Inacti or Fpenmax do something
   double max_depth = 0, max_ratio = 0;
 };
 
 struct SceneView {
   std::vector<NamedPenetration> penetrations;  ///< deepest first; ties by contact and row
-  std::vector<std::uint32_t> deepest_per_node; ///< indices into penetrations, one per contact side node
-  std::vector<PartPair> part_pairs;            ///< deepest first
-  std::vector<ContactTotals> contacts;         ///< parallel to Scene::contacts
-  ContactTotals total;
+  std::vector<std::uint32_t>
+      deepest_per_node;                 ///< indices into penetrations, one per contact side node
+  std::vector<PartPair> part_pairs;     ///< deepest first
+  std::vector<ContactTotals> contacts;  ///< parallel to Scene::contacts
+  ContactTotals total;                  ///< a node or edge in several contacts counts once
 };
 
-/// Forms all views. Costs time in proportion to the penetrations, not to the model.
-SceneView make_view(const Scene& scene);
+/// Forms all views; this is where penetrations are counted, for every medium. `crossings` is what
+/// find_crossings gave for the scene. Costs time in proportion to the penetrations, not to the
+/// model.
+SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings = nullptr);
 
 /// The element behind a segment or edge; not valid for carriers without an element.
 ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t element);

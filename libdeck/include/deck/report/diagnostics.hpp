@@ -15,6 +15,8 @@ struct LintedDeck {
   const Deck* deck = nullptr;  ///< nullptr: could not be read
   const LintResult* result = nullptr;
   std::string error;  ///< why it could not be read
+  const Interfaces* interfaces =
+      nullptr;  ///< nullptr: not formed, so nothing says what was left out
 };
 
 struct HumanOptions {

@@ -20,8 +20,9 @@ struct GapsTextOptions {
 /// Verdict, interface table, part pairs, worst list.
 std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
                       const GapsTextOptions& options = {});
-/// One sentence: how many, how deep, and whether the solver stops.
-std::string gaps_verdict(const Scene& scene, const SceneView& view);
+/// How many, how deep, whether the solver stops, crossed elements, and what was not examined; or
+/// why there is no verdict. The same words in every medium.
+std::string gaps_verdict(const Deck& deck, const Scene& scene, const SceneView& view);
 
 /// The document of `deck gaps --json`. With `all`, every secondary node and main segment; with
 /// `crossings`, what find_crossings gave for the scene.
@@ -29,7 +30,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
                       const SceneView& view, bool all,
                       const std::vector<Crossing>* crossings = nullptr);
 
-/// Crossed elements by part pair, each edge and segment once.
+/// Crossed elements by part pair.
 std::string crossings_text(const Scene& scene, const std::vector<Crossing>& crossings,
                            const GapsTextOptions& options = {});
 

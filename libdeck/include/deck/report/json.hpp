@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "deck/base/escape.hpp"
 #include "deck/keyword/deck.hpp"
+#include "deck/model/coverage.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
 
@@ -59,8 +61,6 @@ class JsonWriter {
   bool after_key_ = false;
 };
 
-/// Appends `text` as a JSON string with its quotes.
-void append_json_string(std::string& out, std::string_view text);
 /// Shortest text that reads back to `number`, with a point or an exponent.
 std::string shortest(double number);
 
@@ -73,6 +73,8 @@ void write_json_head(JsonWriter& json, std::string_view schema_id, int schema_ve
 /// nullptr where they were not built.
 void write_json_deck(JsonWriter& json, std::string_view path, const Deck& deck, const Model* model,
                      const Interfaces* interfaces);
+/// The members "examined" (how many interfaces) and "not_examined" (the others, by keyword).
+void write_json_coverage(JsonWriter& json, const Coverage& coverage);
 /// {"file": ..., "line": ..., "column": ...} of a span, or null.
 void write_json_place(JsonWriter& json, const Deck& deck, const Span& span);
 

@@ -28,8 +28,8 @@ class TextTable {
     Cell(std::string t, Tone n = Tone::plain) : text(std::move(t)), tone(n) {}  // NOLINT
     Cell(const char* t) : text(t) {}                                            // NOLINT
   };
-  /// Missing cells at the end are blank.
-  void row(std::vector<Cell> cells) { rows_.push_back(std::move(cells)); }
+  /// Missing cells at the end are blank. What a terminal would obey is spelled out (terminal_text).
+  void row(std::vector<Cell> cells);
   std::size_t size() const { return rows_.size(); }
 
   /// Every line indented by `indent` blanks; no blanks at line ends.

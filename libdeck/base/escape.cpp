@@ -1,0 +1,261 @@
+// Escaping for every medium that text leaves through.
+#include "deck/base/escape.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace deck {
+
+TextUnit text_unit_at(std::string_view text, std::size_t at) {
+  if (at >= text.size()) return {};
+  const auto byte = [&](std::size_t k) -> std::uint32_t {
+    return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : 0U;
+  };
+  const std::uint32_t first = byte(0);
+  if (first < 0x80) return {first, 1, true};
+  const std::size_t length = first >= 0xf8   ? 1
+                             : first >= 0xf0 ? 4
+                             : first >= 0xe0 ? 3
+                             : first >= 0xc0 ? 2
+                                             : 1;
+  constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  std::uint32_t code = first & (0xffU >> (length + 1));
+  bool good = length > 1;
+  for (std::size_t k = 1; good && k < length; ++k) {
+    good = (byte(k) & 0xc0U) == 0x80U;
+    code = code << 6 | (byte(k) & 0x3fU);
+  }
+  good = good && code >= least[length] && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff);
+  if (!good) return {first, 1, false};
+  return {code, length, true};
+}
+
+bool TextUnit::visible() const {
+  if (!character || code < 0x20 || (code >= 0x7f && code < 0xa0)) return false;
+  if (code < 0x61c) return true;
+  const auto within = [&](std::uint32_t low, std::uint32_t high) {
+    return code >= low && code <= high;
+  };
+  const bool direction =
+      code == 0x61c || within(0x200e, 0x200f) || within(0x202a, 0x202e) || within(0x2066, 0x2069);
+  const bool separator = within(0x2028, 0x2029);
+  const bool unseen = code == 0x200b || within(0x2060, 0x2064) || within(0x206a, 0x206f) ||
+                      code == 0xfeff || within(0xfff9, 0xfffb) || within(0xe0000, 0xe007f);
+  const bool none = within(0xfdd0, 0xfdef) || (code & 0xfffeU) == 0xfffeU;
+  return !direction && !separator && !unseen && !none;
+}
+
+namespace {
+
+/// How a unit that may not be shown is written.
+void spell(std::string& out, const TextUnit& unit) {
+  if (unit.code == '\n')
+    out += "\\n";
+  else if (unit.code == '\r')
+    out += "\\r";
+  else if (unit.code == '\t')
+    out += "\\t";
+  else if (!unit.character || unit.code < 0x80)
+    fmt::format_to(std::back_inserter(out), "\\x{:02x}", unit.code);
+  else
+    fmt::format_to(std::back_inserter(out), "\\u{{{:x}}}", unit.code);
+}
+
+/// True at the second character of "##[" and "##vso[": CI runners look for them anywhere in a line.
+bool starts_command(std::string_view text, std::size_t at) {
+  if (text[at] != '#' || at == 0 || text[at - 1] != '#') return false;
+  const std::string_view rest = text.substr(at + 1);
+  return rest.starts_with('[') || rest.starts_with("vso[");
+}
+
+/// Calls show(bytes) for what may be shown and spells the rest, but for what `special` handles.
+template <class Special>
+std::string escaped(std::string_view text, const Special& special) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0; i < text.size();) {
+    const TextUnit unit = text_unit_at(text, i);
+    if (unit.code == '#' && starts_command(text, i))
+      fmt::format_to(std::back_inserter(out), "\\x23");
+    else if (!special(out, unit, i)) {
+      if (unit.visible())
+        out += text.substr(i, unit.length);
+      else
+        spell(out, unit);
+    }
+    i += unit.length;
+  }
+  return out;
+}
+
+/// "::" that opens a line is a workflow command; its first colon is spelled.
+bool opens_command(std::string_view text, std::size_t at) {
+  if (!text.substr(at).starts_with("::")) return false;
+  while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\t')) --at;
+  return at == 0 || text[at - 1] == '\n';
+}
+
+bool spell_command(std::string& out, std::string_view text, const TextUnit& unit, std::size_t at) {
+  if (unit.code != ':' || !opens_command(text, at)) return false;
+  out += "\\x3a";
+  return true;
+}
+
+bool add_markup(std::string& out, const TextUnit& unit) {
+  if (!unit.character) return false;
+  switch (unit.code) {
+    case '&':
+      out += "&amp;";
+      return true;
+    case '<':
+      out += "&lt;";
+      return true;
+    case '>':
+      out += "&gt;";
+      return true;
+    case '"':
+      out += "&quot;";
+      return true;
+    case '\'':
+      out += "&#39;";
+      return true;
+    case '\t':
+      out += "&#9;";
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool add_percent(std::string& out, const TextUnit& unit) {
+  if (!unit.character) return false;
+  switch (unit.code) {
+    case '%':
+      out += "%25";
+      return true;
+    case '\r':
+      out += "%0D";
+      return true;
+    case '\n':
+      out += "%0A";
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+std::string terminal_text(std::string_view text) {
+  return escaped(text, [&](std::string& out, const TextUnit& unit, std::size_t at) {
+    return spell_command(out, text, unit, at);
+  });
+}
+
+std::string terminal_lines(std::string_view text) {
+  return escaped(text, [&](std::string& out, const TextUnit& unit, std::size_t at) {
+    if (unit.code == '\n' || unit.code == '\t') {
+      out += static_cast<char>(unit.code);
+      return true;
+    }
+    return spell_command(out, text, unit, at);
+  });
+}
+
+std::string terminal_columns(std::string_view text) {
+  std::string out;
+  const auto add = [&](std::uint32_t code) {  // three bytes of UTF-8
+    out += static_cast<char>(0xe0U | code >> 12);
+    out += static_cast<char>(0x80U | (code >> 6 & 0x3fU));
+    out += static_cast<char>(0x80U | (code & 0x3fU));
+  };
+  for (std::size_t i = 0; i < text.size();) {
+    const TextUnit unit = text_unit_at(text, i);
+    if (unit.visible())
+      out += text.substr(i, unit.length);
+    else if (unit.code == '\t')
+      out += ' ';
+    else if (unit.character && unit.code < 0x20)
+      add(0x2400 + unit.code);
+    else if (unit.character && unit.code == 0x7f)
+      add(0x2421);
+    else
+      add(0xfffd);
+    i += unit.length;
+  }
+  return out;
+}
+
+std::string xml_text(std::string_view text) {
+  return escaped(text, [](std::string& out, const TextUnit& unit, std::size_t) {
+    if (unit.code == '\n') {
+      out += "&#10;";
+      return true;
+    }
+    return add_markup(out, unit);
+  });
+}
+
+std::string html_text(std::string_view text) {
+  return escaped(text, [](std::string& out, const TextUnit& unit, std::size_t) {
+    if (unit.code == '\n') {
+      out += '\n';
+      return true;
+    }
+    return add_markup(out, unit);
+  });
+}
+
+std::string workflow_text(std::string_view text) {
+  return escaped(text, [](std::string& out, const TextUnit& unit, std::size_t) {
+    return add_percent(out, unit);
+  });
+}
+
+std::string workflow_property(std::string_view text) {
+  return escaped(text, [](std::string& out, const TextUnit& unit, std::size_t) {
+    if (unit.code == ':' || unit.code == ',') {
+      out += unit.code == ':' ? "%3A" : "%2C";
+      return true;
+    }
+    return add_percent(out, unit);
+  });
+}
+
+void append_json_string(std::string& out, std::string_view text) {
+  out += '"';
+  const auto number = [&](std::uint32_t code) {
+    fmt::format_to(std::back_inserter(out), "\\u{:04x}", code);
+  };
+  for (std::size_t i = 0; i < text.size();) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    if (c >= 0x20 && c < 0x7f && c != '"' && c != '\\' && c != '#') {  // nearly all there is
+      out += static_cast<char>(c);
+      ++i;
+      continue;
+    }
+    const TextUnit unit = text_unit_at(text, i);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += static_cast<char>(c);
+    } else if (c == '#' && starts_command(text, i)) {
+      number(c);
+    } else if (unit.visible()) {
+      out += text.substr(i, unit.length);
+    } else if (!unit.character && c >= 0xa0) {  // Latin-1
+      out += static_cast<char>(0xc0 | (c >> 6));
+      out += static_cast<char>(0x80 | (c & 0x3f));
+    } else if (unit.code > 0xffff) {
+      const std::uint32_t rest = unit.code - 0x10000;
+      number(0xd800 + (rest >> 10));
+      number(0xdc00 + (rest & 0x3ffU));
+    } else {
+      number(unit.code);
+    }
+    i += unit.length;
+  }
+  out += '"';
+}
+
+}  // namespace deck

@@ -1,0 +1,130 @@
+// What the main file is if it is no Starter deck.
+#include "deck/keyword/recognise.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "deck/base/escape.hpp"
+
+namespace deck {
+namespace {
+
+constexpr std::size_t head_bytes = 4096;  // where a file says what it is
+
+struct Magic {
+  std::string_view bytes, what;
+};
+constexpr Magic magics[] = {
+    {"\x1f\x8b", "gzip-compressed data; unpack it first (gunzip)"},
+    {"BZh", "bzip2-compressed data; unpack it first (bunzip2)"},
+    {"\xfd"
+     "7zXZ",
+     "xz-compressed data; unpack it first (unxz)"},
+    {"\x28\xb5\x2f\xfd", "zstd-compressed data; unpack it first (unzstd)"},
+    {"PK\x03\x04", "a ZIP archive; unpack it first (unzip)"},
+    {"\x7f"
+     "ELF",
+     "a program"},
+    {"%PDF", "a PDF document"},
+    {"\x89PNG", "a picture (PNG)"},
+    {"\xff\xfe", "UTF-16 text; save it as UTF-8 or ASCII"},
+    {"\xfe\xff", "UTF-16 text; save it as UTF-8 or ASCII"},
+};
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  return out;
+}
+
+/// First line that is neither blank nor a comment of any of these formats.
+std::string_view first_line(std::string_view text) {
+  while (!text.empty()) {
+    const auto nl = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, nl);
+    text.remove_prefix(std::min(nl + 1, text.size()));
+    while (!line.empty() && static_cast<unsigned char>(line.front()) <= ' ') line.remove_prefix(1);
+    while (!line.empty() && static_cast<unsigned char>(line.back()) <= ' ') line.remove_suffix(1);
+    if (!line.empty() && line[0] != '$' && line[0] != '#') return line;
+  }
+  return {};
+}
+
+bool mostly_binary(std::string_view head) {
+  std::size_t odd = 0;
+  for (std::size_t i = 0; i < head.size();) {
+    const TextUnit unit = text_unit_at(head, i);
+    // Latin-1 letters are text.
+    odd += !unit.visible() && unit.code != '\n' && unit.code != '\r' && unit.code != '\t' &&
+           (unit.character || unit.code < 0xa0);
+    i += unit.length;
+  }
+  return odd * 20 > head.size();
+}
+
+bool has_block(const Deck& deck, std::string_view start) {
+  return std::any_of(deck.blocks.begin(), deck.blocks.end(), [&](const Block& b) {
+    return b.header == start || b.header.starts_with(std::string(start) + "/");
+  });
+}
+
+/// Keywords that only an Engine file has.
+bool is_engine(const Deck& deck) {
+  constexpr std::string_view keywords[] = {"/RUN",   "/TFILE", "/STOP",   "/ANIM/DT", "/RFILE",
+                                           "/PRINT", "/DT",    "/H3D/DT", "/MON"};
+  if (has_block(deck, "/RUN")) return true;
+  const auto found = std::count_if(std::begin(keywords), std::end(keywords),
+                                   [&](std::string_view k) { return has_block(deck, k); });
+  return found >= 2;
+}
+
+std::string text_kind(const Deck& deck, std::string_view head) {
+  const std::string small = lower(head.substr(0, 1024));
+  const std::string_view line = first_line(head);
+  const std::string shown = "'" + std::string(line.substr(0, 60)) + "'";
+  if (small.find("<html") != std::string::npos || small.find("<!doctype html") != std::string::npos)
+    return "an HTML page; was the deck downloaded as a web page?";
+  if (line.starts_with("<?xml")) return "an XML document";
+  if (line.starts_with("{")) return "a JSON document; deck convert --from json makes a deck of it";
+  if (small.find("#radioss engine") != std::string::npos || is_engine(deck))
+    return "an Engine file (*_0001.rad); name the Starter deck (*_0000.rad)";
+  if (line.size() > 1 && line[0] == '*' && ((line[1] | 0x20) >= 'a' && (line[1] | 0x20) <= 'z'))
+    return "a deck of LS-DYNA or Abaqus (it begins with " + shown +
+           "); deck convert --from lsdyna takes the contacts of LS-DYNA";
+  if (const std::string first = lower(line);
+      first.starts_with("begin bulk") || first.starts_with("cend") || first.starts_with("sol "))
+    return "a deck of Nastran (it begins with " + shown + ")";
+  if (!deck.blocks.empty())
+    return "a part of one: it has " + std::string(deck.blocks.front().header.substr(0, 60)) +
+           ", but neither '#RADIOSS STARTER' nor /BEGIN; if it is an include file, name the deck "
+           "that includes it";
+  return "text without a keyword, beginning with " + shown;
+}
+
+}  // namespace
+
+std::string no_starter_deck(const Deck& deck) {
+  const std::string_view bytes = deck.sources[0].bytes();
+  const std::string_view head = bytes.substr(0, head_bytes);
+  const auto is = [](std::string_view what) {
+    return "is no Starter deck but " + std::string(what);
+  };
+  for (const Magic& m : magics)
+    if (head.starts_with(m.bytes)) return is(m.what);
+  const auto lines = static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), '\n') +
+                                              (bytes.empty() || bytes.back() != '\n'));
+  const bool begin = deck.begin.span.valid() || has_block(deck, "/BEGIN");
+  const bool banner = head.find("#RADIOSS STARTER") != std::string_view::npos;
+  const bool more = deck.sources.size() > 1 || lines > 1;
+  const bool keywords = std::any_of(deck.blocks.begin(), deck.blocks.end(),
+                                    [](const Block& b) { return !b.header.starts_with("/END"); });
+  if (more && (begin || (banner && keywords))) return {};
+  if (mostly_binary(head)) return is("binary data");
+  if (banner && !keywords)
+    return "is no Starter deck: behind '#RADIOSS STARTER' there is no keyword";
+  if (lines == 1) return is("a single line of text; expected /BEGIN ... /END");
+  return is(text_kind(deck, head));
+}
+
+}  // namespace deck

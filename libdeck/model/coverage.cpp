@@ -1,0 +1,85 @@
+// Interfaces that are examined and those that are not, and the words for it.
+#include "deck/model/coverage.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace deck {
+namespace {
+
+constexpr std::size_t most_ids = 10;  // in a sentence; JSON has all
+constexpr std::size_t most_files = 3;
+
+std::string keyword_of(const Block& block) {
+  return block.schema != nullptr && !block.schema->cards.empty() ? block.schema->keyword
+                                                                 : std::string(block.keyword);
+}
+
+/// "/INTER/TYPE25" as "TYPE25".
+std::string type_of(const std::string& keyword) {
+  return keyword.substr(std::string_view("/INTER/").size());
+}
+
+std::string ids_text(const std::vector<std::int64_t>& ids) {
+  std::string text = ids.size() == 1 ? "id " : "ids ";
+  for (std::size_t i = 0; i < std::min(ids.size(), most_ids); ++i)
+    text += (i == 0 ? "" : ", ") + std::to_string(ids[i]);
+  if (ids.size() > most_ids) text += " and " + std::to_string(ids.size() - most_ids) + " more";
+  return text;
+}
+
+}  // namespace
+
+Coverage coverage_of(const Deck& deck, const Interfaces& interfaces) {
+  Coverage out;
+  out.examined = interfaces.ordered.size();
+  std::set<const Block*> known;
+  for (const InterBase* i : interfaces.ordered) known.insert(i->block);
+  std::map<std::string, std::vector<std::int64_t>> left;
+  for (const Block& b : deck.blocks) {
+    // /INTER/SUB asks for the output of a part of an interface; it is no interface.
+    if (!b.header.starts_with("/INTER/") || b.header.starts_with("/INTER/SUB") ||
+        known.contains(&b))
+      continue;
+    const std::int64_t id = b.id.value;
+    left[keyword_of(b)].push_back(id > 0 ? id + deck.offset_of(b, "inter") : id);
+  }
+  for (auto& [keyword, ids] : left) out.not_examined.push_back({keyword, std::move(ids)});
+  std::set<std::string> missing;
+  for (const Diagnostic& d : deck.diagnostics.all())
+    if (d.rule == "DK004" || d.rule == "DK005" || d.rule == "DK006")
+      missing.emplace(deck.sources.text(d.span));
+  out.missing.assign(missing.begin(), missing.end());
+  return out;
+}
+
+std::string not_examined_text(const Coverage& coverage) {
+  std::string text;
+  for (const NotExamined& n : coverage.not_examined)
+    text += (text.empty() ? "" : ", ") + std::to_string(n.ids.size()) +
+            (n.ids.size() == 1 ? " interface of " : " interfaces of ") + type_of(n.keyword) + " (" +
+            ids_text(n.ids) + ")";
+  return text;
+}
+
+std::string coverage_lead(const Coverage& coverage) {
+  if (!coverage.complete()) {
+    std::string text = "No verdict: the model is incomplete, ";
+    for (std::size_t i = 0; i < std::min(coverage.missing.size(), most_files); ++i)
+      text += (i == 0 ? "'" : ", '") + coverage.missing[i] + "'";
+    if (coverage.missing.size() > most_files)
+      text += " and " + std::to_string(coverage.missing.size() - most_files) + " more";
+    return text + " could not be read.";
+  }
+  if (!coverage.nothing()) return {};
+  if (coverage.not_examined.empty()) return "Nothing examined: the deck has no contact interface.";
+  return "Nothing examined: " + not_examined_text(coverage) + ".";
+}
+
+std::string coverage_tail(const Coverage& coverage) {
+  if (coverage.not_examined.empty() || (coverage.nothing() && coverage.complete())) return {};
+  return " Not examined: " + not_examined_text(coverage) + ".";
+}
+
+}  // namespace deck

@@ -1,0 +1,145 @@
+// What a title or a file name may hold, and what of it reaches a terminal, a log and a parser.
+#include "deck/base/escape.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <random>
+
+namespace deck {
+namespace {
+
+const std::vector<std::pair<const char*, std::function<std::string(std::string_view)>>> media = {
+    {"terminal", terminal_text},
+    {"lines", terminal_lines},
+    {"columns", terminal_columns},
+    {"xml", xml_text},
+    {"html", html_text},
+    {"workflow", workflow_text},
+    {"property", workflow_property},
+    {"json", [](std::string_view text) {
+       std::string out;
+       append_json_string(out, text);
+       return out;
+     }}};
+
+/// True if all of it is UTF-8 and nothing in it is a control character but those allowed.
+bool harmless(std::string_view text, std::string_view allowed) {
+  for (std::size_t i = 0; i < text.size();) {
+    const TextUnit unit = text_unit_at(text, i);
+    const bool fine = unit.visible() || (unit.character && unit.code < 0x80 &&
+                                         allowed.find(text[i]) != std::string_view::npos);
+    if (!fine && !(unit.code == 0xfffd && unit.character)) return false;
+    i += unit.length;
+  }
+  return true;
+}
+
+TEST(Escape, AllPairsOfBytesLeaveNoControlCharacterInAnyMedium) {
+  for (int a = 0; a < 256; ++a)
+    for (int b = 0; b < 256; ++b) {
+      const std::string text = {static_cast<char>(a), static_cast<char>(b), 'x'};
+      for (const auto& [name, escape] : media) {
+        const bool lines = std::string_view(name) == "lines" || std::string_view(name) == "html";
+        EXPECT_TRUE(harmless(escape(text), lines ? "\n\t" : "")) << name << " " << a << " " << b;
+      }
+    }
+}
+
+TEST(Escape, RandomBytesLeaveNoControlCharacterInAnyMedium) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 20000; ++round) {
+    std::string text;
+    // Half of the bytes are such that open or continue a character.
+    for (int i = 0; i < 12; ++i)
+      text += static_cast<char>(random() % 2 == 0 ? random() & 0xff : 0x80 | (random() & 0x7f));
+    for (const auto& [name, escape] : media) {
+      const bool lines = std::string_view(name) == "lines" || std::string_view(name) == "html";
+      ASSERT_TRUE(harmless(escape(text), lines ? "\n\t" : "")) << name << " " << round;
+    }
+  }
+}
+
+TEST(Escape, NothingIsDropped) {
+  std::mt19937 random(8);
+  for (int round = 0; round < 2000; ++round) {
+    std::string text;
+    for (int i = 0; i < 8; ++i) text += static_cast<char>(random() & 0xff);
+    std::size_t units = 0;
+    for (std::size_t i = 0; i < text.size(); i += text_unit_at(text, i).length) ++units;
+    const std::string columns = terminal_columns(text);
+    std::size_t shown = 0;
+    for (std::size_t i = 0; i < columns.size(); i += text_unit_at(columns, i).length) ++shown;
+    EXPECT_EQ(shown, units) << "a column for each";
+    for (const auto& [name, escape] : media) EXPECT_GE(escape(text).size(), units) << name;
+  }
+}
+
+TEST(Escape, AllCodePointsAreWellFormedOrSpelled) {
+  for (std::uint32_t code = 0x80; code <= 0x10ffff; code += code < 0x3000 ? 1 : 7) {
+    std::string text;
+    if (code < 0x800) {
+      text = {static_cast<char>(0xc0 | code >> 6), static_cast<char>(0x80 | (code & 63))};
+    } else if (code < 0x10000) {
+      text = {static_cast<char>(0xe0 | code >> 12), static_cast<char>(0x80 | (code >> 6 & 63)),
+              static_cast<char>(0x80 | (code & 63))};
+    } else {
+      text = {static_cast<char>(0xf0 | code >> 18), static_cast<char>(0x80 | (code >> 12 & 63)),
+              static_cast<char>(0x80 | (code >> 6 & 63)), static_cast<char>(0x80 | (code & 63))};
+    }
+    const TextUnit unit = text_unit_at(text, 0);
+    const bool surrogate = code >= 0xd800 && code <= 0xdfff;
+    ASSERT_EQ(unit.character, !surrogate) << code;
+    if (surrogate) continue;
+    ASSERT_EQ(unit.code, code);
+    std::string json;
+    append_json_string(json, text);
+    ASSERT_EQ(nlohmann::json::parse(json).get<std::string>(), text) << "JSON keeps the value";
+  }
+}
+
+TEST(Escape, OverlongAndImpossibleSequencesAreBytes) {
+  for (const char* text :
+       {"\xc0\xaf", "\xc1\xbf", "\xe0\x80\xaf", "\xf0\x80\x80\xaf", "\xf4\x90\x80\x80",
+        "\xf8\x90\x80\x80", "\xfc\x84\x80\x80", "\xed\xa0\x80", "\xff", "\x80"})
+    EXPECT_FALSE(text_unit_at(text, 0).character) << terminal_text(text);
+  EXPECT_EQ(terminal_text("\xed\xa0\x80"), "\\xed\\xa0\\x80");
+}
+
+TEST(Escape, TerminalSpellsEscapeSequencesAndDirectionControls) {
+  EXPECT_EQ(terminal_text("a\x1b[2J\x07\r\nb\tc"), "a\\x1b[2J\\x07\\r\\nb\\tc");
+  EXPECT_EQ(terminal_text("\xc2\x9b"
+                          "31m"),
+            "\\u{9b}31m")
+      << "a C1 control opens a sequence too";
+  EXPECT_EQ(terminal_text("user\xe2\x80\xae nimda"), "user\\u{202e} nimda");
+  EXPECT_EQ(terminal_text("\xe2\x81\xa6x\xe2\x81\xa9"), "\\u{2066}x\\u{2069}");
+  EXPECT_EQ(terminal_text("Tr\xc3\xa4ger \xe6\x9d\xbf"), "Tr\xc3\xa4ger \xe6\x9d\xbf");
+  EXPECT_EQ(terminal_lines("a\n\tb\r\n"), "a\n\tb\\r\n");
+}
+
+TEST(Escape, NoTextBecomesACommandOfARunner) {
+  EXPECT_EQ(terminal_text("::error file=x::y"), "\\x3a:error file=x::y");
+  EXPECT_EQ(terminal_text("  ::stop-commands::t"), "  \\x3a:stop-commands::t");
+  EXPECT_EQ(terminal_lines("a\n::warning::b"), "a\n\\x3a:warning::b");
+  EXPECT_EQ(terminal_text("std::string"), "std::string");
+  EXPECT_EQ(terminal_text("a ##[error]x ##vso[task.setvariable]y"),
+            "a #\\x23[error]x #\\x23vso[task.setvariable]y");
+  EXPECT_EQ(workflow_text("50%\r\n::error::x"), "50%25%0D%0A::error::x");
+  EXPECT_EQ(workflow_property("a:b,c\x1b"), "a%3Ab%2Cc\\x1b");
+}
+
+TEST(Escape, MarkupIsEscaped) {
+  EXPECT_EQ(xml_text("<a b=\"c\">'&\n\t\x01"), "&lt;a b=&quot;c&quot;&gt;&#39;&amp;&#10;&#9;\\x01");
+  EXPECT_EQ(html_text("<\n>"), "&lt;\n&gt;");
+  EXPECT_EQ(xml_text("\xef\xbf\xbf\xef\xb7\x90"), "\\u{ffff}\\u{fdd0}") << "non-characters";
+}
+
+TEST(Escape, ColumnsOfACardStayColumns) {
+  EXPECT_EQ(terminal_columns("a\tb\x1b\x7f"), "a b\xe2\x90\x9b\xe2\x90\xa1");
+  EXPECT_EQ(terminal_columns("\xe4\xe2\x80\xae"), "\xef\xbf\xbd\xef\xbf\xbd");
+}
+
+}  // namespace
+}  // namespace deck

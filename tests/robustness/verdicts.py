@@ -1,0 +1,400 @@
+#!/usr/bin/env python3
+"""What a verdict may say: nothing about what is no Starter deck, nothing clean about what was not
+examined, the same counts in every medium; and what titles and file names may do to a terminal, a log
+or a parser: nothing."""
+import base64
+import gzip
+import json
+import os
+import random
+import re
+import shutil
+import tempfile
+import xml.dom.minidom
+import zlib
+
+from common import ROOT, SAMPLES, Checks
+
+SAMPLE = {os.path.basename(p)[:-len("_0000.rad")]: p for p in SAMPLES}
+
+
+def write(path, data):
+    with open(path, "wb") as f:
+        f.write(data)
+    return path
+
+
+def read(path):
+    with open(path, "rb") as f:
+        return f.read()
+
+
+def verbs(c, deck, tmp):
+    """(verb, arguments) for every verb that reads a deck."""
+    states = write(os.path.join(tmp, "states.csv"), b"inter,x\n1,0\n")
+    out = os.path.join(tmp, "out")
+    for verb, *rest in (("lint",), ("lint", "--geometry"), ("params",), ("gaps",), ("cycle",), ("accuracy",),
+                        ("convert", "-o", out), ("convert", "--version", "2022", "--diff"), ("convert", "--to", "json"),
+                        ("fix", "--strategy", "move-nodes"), ("replay", "--interface", "1", states)):
+        if not c.has(verb):
+            continue
+        yield (verb, deck, rest[2]) + tuple(rest[:2]) if verb == "replay" else (verb, deck, *rest)
+
+
+# ---- what is no Starter deck ---------------------------------------------------------------------
+
+def no_decks():
+    deck = read(SAMPLE["too_close"])
+    rng = random.Random(4)
+    yield "empty", b"", "empty"
+    yield "blank", b"  \n\n", "empty"
+    yield "compressed", gzip.compress(deck), "gzip"
+    yield "LS-DYNA", b"$ a comment\n*KEYWORD\n*NODE\n       1             0.0             0.0             0.0\n*END\n", "LS-DYNA"
+    yield "Engine", b"#RADIOSS ENGINE\n/VERS/2022\n/RUN/car/1\n              10.0\n/DT/NODA/CST/0\n 0.9 0.0\n/TFILE\n 0.1\n", "Engine"
+    yield "Engine without banner", b"/RUN/car/1/\n 10.\n/TFILE/4\n 0.1\n/PRINT/-100\n", "Engine"
+    yield "HTML", b"<!DOCTYPE html>\n<html><head><title>404</title></head>\n<body>not found</body></html>\n", "HTML"
+    yield "random bytes", bytes(rng.randrange(256) for _ in range(4000)), ""
+    yield "random bytes with line ends", b"\n".join(bytes(rng.randrange(1, 256) for _ in range(60)) for _ in range(80)), ""
+    yield "one line", b"just one line\n", "single line"
+    yield "banner alone", b"#RADIOSS STARTER\n", "keyword"
+    yield "letter", b"Dear all,\nplease find the deck attached.\n", "without a keyword"
+    yield "UTF-16", deck.decode().encode("utf-16"), ""
+    yield "include file", b"/NODE\n         1                 0.0                 0.0                 0.0\n", "include"
+
+
+def not_a_deck(c, tmp):
+    for name, data, word in no_decks():
+        path = write(os.path.join(tmp, "x_0000.rad"), data)
+        for args in verbs(c, path, tmp):
+            r = c.run(*args)
+            title = "%s: deck %s" % (name, " ".join(a for a in args if not a.startswith(tmp)))
+            if c.check(title + " ends with 3", r.code == 3, "%s; %s" % (r.code, r.text[-200:])):
+                c.check(title + " says what it is", word in r.text and "x_0000.rad" in r.text, r.text[-300:])
+            c.check(title + " gives no verdict", "No initial penetration" not in r.text and "0 errors" not in r.text, r.text[-200:])
+        out = os.path.join(tmp, "batch")
+        r = c.run("batch", "-o", out, path)
+        entry = json.loads(read(os.path.join(out, "summary.json")))["decks"][0]
+        c.check(name + ": batch", r.code == 3 and entry["status"] == "unreadable" and word in entry["error"], str(entry))
+        shutil.rmtree(out)
+    directory = os.path.join(tmp, "dir_0000.rad")
+    os.makedirs(directory)
+    for args in verbs(c, directory, tmp):
+        r = c.run(*args)
+        c.check("directory: deck %s" % args[0], r.code == 3 and "directory" in r.text, "%s; %s" % (r.code, r.text[-200:]))
+
+
+def incomplete(c, tmp):
+    path = write(os.path.join(tmp, "lacking_0000.rad"), read(SAMPLE["clean_plates"]).replace(b"/END", b"#include nowhere.inc\n/END"))
+    for args in (("gaps",), ("cycle",), ("lint", "--geometry"), ("params",)):
+        r = c.run(args[0], path, *args[1:])
+        c.check("missing include: deck %s ends with 3" % args[0], r.code == 3, "%s; %s" % (r.code, r.text[-200:]))
+        c.check("missing include: deck %s gives no verdict" % args[0], "No verdict" in r.text and "nowhere.inc" in r.text
+                and "No initial penetration" not in r.text and "No contact force" not in r.text, r.text[-300:])
+    document = json.loads(c.run("gaps", path, "--json", "-").out)
+    c.check("missing include: the verdict of the JSON", document["verdict"].startswith("No verdict"), document["verdict"])
+
+
+# ---- ids and values of options -------------------------------------------------------------------
+
+def options(c, tmp):
+    path = SAMPLE["crash_box"]
+    wrong = [("gaps", "--interface", "99"), ("gaps", "--interface", "1,99"), ("cycle", "--interface", "99"), ("gaps", "--what-if", "99:Gapmin=1"),
+             ("fix", "--strategy", "reduce-gap", "--interface", "99"), ("cycle", "--velocity", "99=0,0,1")]
+    for verb, *rest in wrong:
+        r = c.run(verb, path, *rest)
+        c.check("unknown id: deck %s %s" % (verb, " ".join(rest)), r.code == 2 and "99" in r.text and re.search(r"it has 1, 2", r.text),
+                "%s; %s" % (r.code, r.text[-300:]))
+    for text, word in (("1:Gapmni=1", "Gapmni"), ("1:Inacti=7", "0, 1, 2, 3"), ("1:Inacti=5.9", "whole number"), ("1:Igap=-1", "0, 1, 2, 3"),
+                       ("1:Igap=4294967299", "whole number"), ("1:Gapmin=-1", "at least"), ("4:Igap=1", "no field"), ("1:Inacti=1e300", "whole number"),
+                       ("1:Gapmin=abc", "not a number"), ("1", "':'")):
+        r = c.run("gaps", path, "--what-if", text)
+        c.check("--what-if %s" % text, r.code == 2 and word in r.text, "%s; %s" % (r.code, r.text[-300:]))
+    for good in ("1:Inacti=6", "1:Igap=1000,Gapmin=0.5", "4:Gapmin=1"):
+        r = c.run("gaps", path, "--what-if", good)
+        c.check("--what-if %s is taken" % good, r.code in (0, 1), r.text[-200:])
+    r = c.run("gaps", path, "--interface", "1,4", "--json", "-")
+    if c.check("--interface 1,4", r.code in (0, 1), r.text[-200:]):
+        some = [i["id"] for i in json.loads(r.out)["interfaces"] if i["contacts"]]
+        c.check("--interface 1,4: both", sorted(some) == [1, 4], str(some))
+    other = write(os.path.join(tmp, "other_0000.rad"), read(path).replace(b"/END", b"/INTER/TYPE25/99\nother\n/END"))
+    r = c.run("gaps", other, "--interface", "99")
+    c.check("an interface of another type is named as such", r.code == 2 and "TYPE25/99" in r.text, r.text[-300:])
+
+
+# ---- what was not examined -----------------------------------------------------------------------
+
+def without_contacts(data):
+    return data[:data.index(b"/INTER/")]
+
+
+def page_text(path):
+    """Static text of a page and the data blocks, unpacked."""
+    html = read(path).decode()
+    blocks = dict(re.findall(r'<script type="[^"]*" id="([^"]*)">(.*?)</script>', html, re.S))
+    static = html[html.index('<main id="static">'):html.index("</main>")]
+    return static, json.loads(blocks["deck-meta"].replace("\\u003c", "<")), blocks
+
+
+def not_examined(c, tmp):
+    base = without_contacts(read(SAMPLE["too_close"]))
+    contact = read(SAMPLE["too_close"])[len(base):].replace(b"/END\n", b"")
+    others = b"".join(b"/INTER/TYPE25/%d\nother\n         1         2\n" % i for i in (4, 5, 6))
+    decks = {"others": base + others + b"/END\n", "mixed": base + contact + others + b"/INTER/TYPE2/9\ntie\n/END\n", "none": base + b"/END\n"}
+    says = {"others": "3 interfaces of TYPE25 (ids 4, 5, 6)", "mixed": "1 interface of TYPE2 (id 9), 3 interfaces of TYPE25 (ids 4, 5, 6)",
+            "none": "no contact interface"}
+    expected = {"others": [("/INTER/TYPE25", 3, [4, 5, 6])], "mixed": [("/INTER/TYPE2", 1, [9]), ("/INTER/TYPE25", 3, [4, 5, 6])], "none": []}
+    for name, data in decks.items():
+        path = write(os.path.join(tmp, name + "_0000.rad"), data)
+        for verb in ("gaps", "cycle", "params", "lint"):
+            r = c.run(verb, path)
+            c.check("%s: the text of %s names them" % (name, verb), says[name] in r.text, r.text[-300:])
+            if name != "mixed" and verb != "lint":
+                c.check("%s: the text of %s begins with that" % (name, verb), r.out.decode().startswith("Nothing examined"), r.text[:200])
+            document = json.loads(c.run(verb, path, "--json", "-", "--quiet").out)
+            got = [(n["keyword"], n["count"], n["ids"]) for n in document["not_examined"]]
+            c.check("%s: the JSON of %s" % (name, verb), got == expected[name] and document["examined"] == (name == "mixed"), str(got))
+            strict = c.run(verb, path, "--require-examined", "--quiet").code
+            plain = c.run(verb, path, "--quiet").code
+            c.check("%s: %s --require-examined" % (name, verb), strict == (plain if name == "mixed" else max(plain, 1)), "%s, %s" % (strict, plain))
+            if verb != "lint":
+                c.check("%s: %s without it" % (name, verb), plain == 0, str(plain))
+        for fmt in ("sarif", "junit", "github"):
+            r = c.run("lint", path, "--format", fmt)
+            text = r.out.decode()
+            if fmt == "sarif":
+                runs = json.loads(text)["runs"][0]
+                text = "\n".join(n["message"]["text"] for n in runs["invocations"][0]["toolExecutionNotifications"])
+            if fmt == "junit":
+                suite = xml.dom.minidom.parseString(r.out).getElementsByTagName("testsuite")[0]
+                cases = suite.getElementsByTagName("testcase")
+                c.check("%s: JUnit counts its cases" % name, len(cases) == int(suite.getAttribute("tests"))
+                        and len(suite.getElementsByTagName("skipped")) == int(suite.getAttribute("skipped")) == 1, text[:300])
+            c.check("%s: %s names them" % (name, fmt), says[name] in text, text[:300])
+        html = os.path.join(tmp, "page.html")
+        if c.run("gaps", path, "--html", html, "--quiet").code in (0, 1):
+            static, meta, _ = page_text(html)
+            c.check("%s: the page names them" % name, says[name] in static and says[name] in meta["verdict"]
+                    and says[name] in meta["coverage_lead"] + meta["coverage_tail"], static[:300])
+        out = os.path.join(tmp, "batch")
+        for verb in ("gaps", "cycle", "params", "lint"):
+            for strict in (False, True):
+                r = c.run("batch", "-o", out, "--verb", verb, path, *(["--require-examined"] if strict else []))
+                s = json.loads(read(os.path.join(out, "summary.json")))
+                entry = s["decks"][0]
+                title = "%s: batch %s%s" % (name, verb, " --require-examined" if strict else "")
+                if name == "mixed" or verb == "lint":
+                    c.check(title + ": not what was examined", (entry["status"] == "not-examined") == (name == "others" and r.code <= 1 and not entry["counts"].get("errors")
+                            and not entry["counts"].get("warnings")), str(entry)[:200])
+                else:
+                    c.check(title, entry["status"] == "not-examined" and s["totals"]["not_examined"] == 1 and s["totals"]["clean"] == 0
+                            and r.code == int(strict), "%s %s" % (r.code, str(entry)[:200]))
+                shutil.rmtree(out)
+
+
+# ---- counts --------------------------------------------------------------------------------------
+
+def recount(document):
+    """The summary from the rows alone."""
+    nodes, edges, on, stops, pairs, on_pairs = set(), set(), set(), set(), 0, 0
+    for inter in document["interfaces"]:
+        for contact in inter["contacts"]:
+            mine, mine_edges = set(), set()
+            for p in contact["penetrations"]:
+                pairs += 1
+                if "node" in p:
+                    mine.add(p["node"])
+                    if p["on_surface"]:
+                        on.add(p["node"])
+                        on_pairs += 1
+                else:
+                    mine_edges.add(tuple(sorted(p["edge"])))
+            yield (contact["totals"]["nodes"], contact["totals"]["edges"], contact["totals"]["pairs"]), (len(mine), len(mine_edges), len(contact["penetrations"]))
+            nodes |= mine
+            edges |= mine_edges
+    s = document["summary"]
+    yield (s["nodes"], s["edges"], s["pairs"], s["on_segment"]["nodes"], s["on_segment"]["pairs"]), (len(nodes), len(edges), pairs, len(on), on_pairs)
+
+
+def counts(c, tmp):
+    paths = list(SAMPLES) + [p for _, p in c.corpus_decks() if "EuroSID" in p][:1]
+    for path in paths:
+        name = os.path.basename(path)
+        if "every_mistake" in name:
+            continue
+        html = os.path.join(tmp, "page.html")
+        r = c.run("gaps", path, "--json", "-", "--quiet", "--crossings", timeout=300)
+        if not c.check(name + ": gaps", r.code in (0, 1), r.text[-200:]):
+            continue
+        document = json.loads(r.out)
+        c.check(name + ": counts are those of the rows", all(a == b for a, b in recount(document)), str(list(recount(document))))
+        s = document["summary"]
+        listed = [x for i in document["interfaces"] for k in i["contacts"] for x in k.get("crossings", [])]
+        keys = {(tuple(x["edge"]), tuple(sorted(x["segment"]))) for x in listed}
+        c.check(name + ": a crossing is listed once", len(keys) == len(listed) == s["crossed_elements"], "%d %d %s" % (len(keys), len(listed), s["crossed_elements"]))
+        text = c.run("gaps", path, "--crossings").out.decode()
+        first = text.split("\n")[0]
+        c.check(name + ": the terminal has the verdict of the JSON", first == document["verdict"], first)
+        words = [("initial penetration", s["pairs"]), ("node", s["nodes"]), ("edge", s["edges"]), ("crossed element", s["crossed_elements"])]
+        for word, n in words:
+            said = re.search(r"(\d+) %ss?\b" % word, document["verdict"])
+            if n and s["pairs"] or word == "crossed element" and n:
+                c.check("%s: the verdict counts %d %s" % (name, n, word), said and int(said.group(1)) == n, document["verdict"])
+        table = re.search(r"^Crossed elements: (\d+)$", text, re.M)
+        c.check(name + ": the table of crossings", (int(table.group(1)) if table else 0) == s["crossed_elements"], text[-200:])
+        if c.run("gaps", path, "--html", html, "--quiet", timeout=300).code not in (0, 1):
+            continue
+        static, meta, blocks = page_text(html)
+        c.check(name + ": the page has the summary of the JSON", meta["summary"] == s and meta["verdict"] == document["verdict"], str(meta["summary"]))
+        crossed = json.loads(zlib.decompress(base64.b64decode(blocks["deck-crossed"])))
+        c.check(name + ": the page has the crossings of the JSON", crossed["total"] == len(listed) == len(crossed["rows"]), str(crossed["total"]))
+    s = json.loads(c.run("gaps", SAMPLE["crash_box"], "--json", "-", "--quiet").out)["summary"]
+    c.check("crash_box: 4 nodes on segments, in 6 pairs", s["on_segment"] == {"nodes": 4, "edges": 0, "pairs": 6} and s["solver_errors"] == 4, str(s))
+
+
+# ---- text from outside ---------------------------------------------------------------------------
+
+ODD = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028\u2029\u202a-\u202e\u2066-\u2069\ufeff\ufdd0-\ufdef\ufffe\uffff]")
+COMMAND = re.compile(r"^\s*::|##\[|##vso\[", re.M)
+
+
+def scan(c, title, data, commands=True):
+    """No control character, nothing but UTF-8, no command of a CI runner."""
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as e:
+        return c.check(title + " is UTF-8", False, "%s: %r" % (e, data[max(0, e.start - 30):e.start + 10]))
+    found = ODD.search(text)
+    c.check(title + " holds no control character", not found, found and repr(text[max(0, found.start() - 60):found.start() + 20]))
+    if commands:
+        found = COMMAND.search(text)
+        c.check(title + " holds no command", not found, found and repr(text[max(0, found.start() - 40):found.start() + 60]))
+
+
+def outputs_of(c, path, tmp, title, cwd=None):
+    """Every verb and every format over one deck; what is printed and written is scanned."""
+    runs = [("lint", path), ("lint", path, "--color", "never", "--per-rule", "0", "--geometry"), ("params", path), ("gaps", path, "--crossings"), ("cycle", path, "--effects"),
+            ("fix", path, "--strategy", "reduce-gap"), ("fix", path, "--strategy", "move-nodes"), ("accuracy", path, "--samples", "1", "--repeats", "1"),
+            ("params", path, "--json", "-"), ("gaps", path, "--json", "-", "--all"), ("gaps", path, "--csv", "-"), ("cycle", path, "--json", "-"), ("lint", path, "--format", "json"),
+            ("lint", path, "--format", "sarif"), ("lint", path, "--format", "gitlab"), ("convert", path, "--to", "json"), ("convert", path, "--units", "kg,m,s", "-o", os.path.join(tmp, "converted")),
+            ("lint", path, "--baseline", path + "x"), ("lint", path, "--config", path + "x"), ("gaps", path, "--compare", path + "x", "--html", os.path.join(tmp, "x.html")),
+            ("batch", path, "-o", os.path.join(tmp, "batch"))]
+    for args in runs:
+        r = c.run(*args, cwd=cwd)
+        name = "%s: deck %s" % (title, " ".join(a for a in args if a != path and not a.startswith(tmp)))
+        if not c.no_crash(name, r, (0, 1, 2, 3)):
+            continue
+        scan(c, name, r.out)
+        scan(c, name + " (stderr)", r.err)
+        if "json" in args or "sarif" in args or "gitlab" in args or "--json" in args:
+            if r.code in (0, 1):
+                c.check(name + " is JSON", json.loads(r.out) is not None)
+    r = c.run("lint", path, "--format", "github", cwd=cwd)
+    scan(c, title + ": workflow commands", r.out, commands=False)
+    c.check(title + ": each line is one of our commands", all(re.match(rb"::(error|warning|notice) (file|title)=", x) for x in r.out.splitlines()), r.text[:300])
+    documents = [c.run("lint", path, "--format", "junit", cwd=cwd).out]
+    svg, page, html = (os.path.join(tmp, n) for n in ("a.svg", "a.html", "g.html"))
+    c.run("accuracy", path, "--samples", "1", "--repeats", "1", "--quiet", "--svg", svg, "--html", page, cwd=cwd)
+    c.run("gaps", path, "--quiet", "--html", html, cwd=cwd)
+    for f in (svg, page, html):
+        if os.path.exists(f):
+            data = read(f)
+            if f == html:
+                data = data[:data.index(b"<style>")] + data[data.index(b"<main"):data.index(b"</main>")]
+            scan(c, title + ": " + os.path.basename(f), data, commands=f != html)
+            if f == svg:
+                documents.append(data)
+            os.remove(f)
+    for document in documents:
+        scan(c, title + ": XML", document)
+        try:
+            xml.dom.minidom.parseString(document)
+            c.check(title + ": well-formed XML", True)
+        except Exception as e:  # any parser error
+            c.check(title + ": well-formed XML", False, str(e))
+    shutil.rmtree(os.path.join(tmp, "batch"), ignore_errors=True)
+    shutil.rmtree(os.path.join(tmp, "converted"), ignore_errors=True)
+
+
+def all_pairs():
+    """All pairs of bytes that can stand within a line, in titles of 90 bytes."""
+    pairs = b"".join(bytes((a, b)) for a in range(256) for b in range(256) if a not in (0, 10, 13) and b not in (0, 10, 13))
+    return [b"t" + pairs[i:i + 90] + b"t" for i in range(0, len(pairs), 90)]
+
+
+def titles(c, tmp):
+    data = read(SAMPLE["too_close"])
+    head, contact = data[:data.index(b"/INTER/")], data[data.index(b"/INTER/"):].replace(b"/END\n", b"")
+    many = head
+    for i, title in enumerate(all_pairs(), 1):
+        many += contact.replace(b"/INTER/TYPE7/1\n", b"/INTER/TYPE7/%d\n" % i).replace(b"upper on lower", title)
+    path = write(os.path.join(tmp, "pairs_0000.rad"), many + b"/END\n")
+    for args in (("params", path, "--no-geometry"), ("params", path, "--no-geometry", "--json", "-"), ("lint", path, "--per-rule", "0"), ("lint", path, "--format", "gitlab")):
+        r = c.run(*args, timeout=300)
+        if c.no_crash("all pairs of bytes: deck %s" % " ".join(args[:1] + args[2:]), r, (0, 1, 3)):
+            scan(c, "all pairs of bytes: deck %s" % " ".join(args[:1] + args[2:]), r.out)
+    junit = c.run("lint", path, "--format", "junit", timeout=300).out
+    scan(c, "all pairs of bytes: JUnit", junit)
+    try:
+        xml.dom.minidom.parseString(junit)
+        c.check("all pairs of bytes: JUnit is XML", True)
+    except Exception as e:  # any parser error
+        c.check("all pairs of bytes: JUnit is XML", False, str(e))
+    evil = [b"\x1b]0;owned\x07\x1b[2J", b"\xed\xa0\x80\xc0\xaf\xef\xbf\xbf\xef\xb7\x90\xf4\x90\x80\x80", "\u202enimda \u2066x\u2069\u009b31m".encode(),
+            b"::error::x ##[error]y ##vso[z]", b"]]>&amp;<script>alert(1)</script>", b"\r::error file=a::b", b"tr\xe4ger\x85\x9b2J"]
+    rng = random.Random(11)
+    evil += [bytes(rng.choice([n for n in range(256) if n != 10]) for _ in range(60)) for _ in range(3)]
+    for i, title in enumerate(evil):
+        # Titles of interface, parts and run; the same as a cell, a keyword and a name of a file.
+        text = data.replace(b"upper on lower", title).replace(b"upper plate", title).replace(b"lower plate", title).replace(b"two plates closer than the contact gap", title)
+        text = text.replace(b"/INTER/", b"/NONSENSE" + title[:20].replace(b"\n", b"") + b"/7\nx\n/INTER/", 1)
+        text = text.replace(b"       000", b"       000 " + title[:8], 1)
+        outputs_of(c, write(os.path.join(tmp, "title_0000.rad"), text), tmp, "title %d" % i)
+    text = data.replace(b"/END", b"#include " + evil[0] + b".inc\n/END")
+    r = c.run("lint", write(os.path.join(tmp, "lacking_0000.rad"), text))
+    scan(c, "name of an include", r.out + r.err)
+
+
+def file_names(c, tmp):
+    names = [b"a\x1b[31mred_0000.rad", b"b\n::error::x_0000.rad", b"::error file=x::y_0000.rad", b"c\xff\xfe\xed\xa0\x80_0000.rad", "d\u202e\u0085_0000.rad".encode(),
+             b"e<&\">'_0000.rad", b"f\r::warning::z_0000.rad", b"g##[error]_0000.rad"]
+    folder = os.path.join(tmp, "names")
+    for i, name in enumerate(names):
+        os.makedirs(folder)
+        path = write(os.path.join(os.fsencode(folder), name), read(SAMPLE["too_close"]).replace(b"       000", b"       00x", 1))
+        outputs_of(c, os.fsdecode(name), tmp, "file name %d" % i, cwd=folder)
+        for args in (("lint", os.fsdecode(name) + "absent"), ("gaps", os.fsdecode(name) + "absent"), (os.fsdecode(name),), ("gaps", "--" + os.fsdecode(name)),
+                     ("explain", os.fsdecode(name)), ("batch", "-o", "out", "--manifest", os.fsdecode(name) + "absent"), ("convert", os.fsdecode(name), "-o", "o", "--version", "2020")):
+            r = c.run(*args, cwd=folder)
+            scan(c, "file name %d: %s" % (i, args[0] if args[0].isalpha() else "as verb"), r.out + r.err)
+        os.unlink(path)
+        shutil.rmtree(folder)
+    os.makedirs(folder)
+    write(os.path.join(folder, "a_0000.rad"), read(SAMPLE["too_close"]))
+    for text in (b'"\\u001b]0;x\\u0007" = 1\n', b'[severity]\n"DK1\\u001b[2J" = "error"\n', b'select = ["\\u202e\\u0007"]\n', b"x = \x1b\n", b'[lint]\n"a\\n::error::b" = 2\n'):
+        write(os.path.join(folder, ".decklint.toml"), text)
+        r = c.run("lint", "a_0000.rad", cwd=folder)
+        scan(c, "configuration %r" % text, r.out + r.err)
+
+
+def explain(c):
+    for topic in ("TYPE7", "type11", "INTER/TYPE19"):
+        r = c.run("explain", topic)
+        wanted = "/INTER/TYPE" + topic.upper().split("TYPE")[1]
+        c.check("explain %s shows %s first" % (topic, wanted), r.code == 0 and r.out.decode().startswith(wanted), r.text[:100])
+
+
+def main():
+    c = Checks()
+    steps = (not_a_deck, incomplete, options, not_examined, counts, titles, file_names)
+    for step in steps:
+        tmp = tempfile.mkdtemp(prefix="verdicts-")
+        try:
+            step(c, tmp)
+        finally:
+            shutil.rmtree(tmp, ignore_errors=True)
+    explain(c)
+    c.finish()
+
+
+if __name__ == "__main__":
+    main()
