@@ -112,18 +112,18 @@ std::string no_starter_deck(const Deck& deck) {
   };
   for (const Magic& m : magics)
     if (head.starts_with(m.bytes)) return is(m.what);
-  const auto lines = static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), '\n') +
-                                              (bytes.empty() || bytes.back() != '\n'));
+  const auto end = bytes.find('\n');
+  const bool one_line = end == std::string_view::npos || end + 1 == bytes.size();
   const bool begin = deck.begin.span.valid() || has_block(deck, "/BEGIN");
   const bool banner = head.find("#RADIOSS STARTER") != std::string_view::npos;
-  const bool more = deck.sources.size() > 1 || lines > 1;
+  const bool more = deck.sources.size() > 1 || !one_line;
   const bool keywords = std::any_of(deck.blocks.begin(), deck.blocks.end(),
                                     [](const Block& b) { return !b.header.starts_with("/END"); });
   if (more && (begin || (banner && keywords))) return {};
   if (mostly_binary(head)) return is("binary data");
   if (banner && !keywords)
     return "is no Starter deck: behind '#RADIOSS STARTER' there is no keyword";
-  if (lines == 1) return is("a single line of text; expected /BEGIN ... /END");
+  if (one_line) return is("a single line of text; expected /BEGIN ... /END");
   return is(text_kind(deck, head));
 }
 
