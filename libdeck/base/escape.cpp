@@ -172,7 +172,9 @@ std::string terminal_columns(std::string_view text) {
   };
   for (std::size_t i = 0; i < text.size();) {
     const TextUnit unit = text_unit_at(text, i);
-    if (unit.visible())
+    if (unit.code == '#' && starts_command(text, i))
+      add(0xfffd);
+    else if (unit.visible())
       out += text.substr(i, unit.length);
     else if (unit.code == '\t')
       out += ' ';

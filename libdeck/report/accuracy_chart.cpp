@@ -195,7 +195,7 @@ std::string accuracy_svg(const AccuracyReport& report, const AccuracyContext& co
 
 std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& context) {
   std::string out = "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>\n<title>" +
-                    html_text(title_of(report, context)) +
+                    xml_text(title_of(report, context)) +
                     "</title>\n<style>body{font-family:sans-serif;margin:2em;max-width:70em}"
                     "svg{max-width:100%;height:auto}pre{overflow-x:auto}</style></head><body>\n";
   out += accuracy_svg(report, context);

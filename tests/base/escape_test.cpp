@@ -139,6 +139,7 @@ TEST(Escape, MarkupIsEscaped) {
 TEST(Escape, ColumnsOfACardStayColumns) {
   EXPECT_EQ(terminal_columns("a\tb\x1b\x7f"), "a b\xe2\x90\x9b\xe2\x90\xa1");
   EXPECT_EQ(terminal_columns("\xe4\xe2\x80\xae"), "\xef\xbf\xbd\xef\xbf\xbd");
+  EXPECT_EQ(terminal_columns("##[error]"), "#\xef\xbf\xbd[error]") << "a command of a runner";
 }
 
 }  // namespace

@@ -283,7 +283,7 @@ def outputs_of(c, path, tmp, title, cwd=None):
         name = "%s: deck %s" % (title, " ".join(a for a in args if a != path and not a.startswith(tmp)))
         if not c.no_crash(name, r, (0, 1, 2, 3)):
             continue
-        scan(c, name, r.out)
+        scan(c, name, r.out.replace(b"\r\n", b"\n") if "--csv" in args else r.out)
         scan(c, name + " (stderr)", r.err)
         if "json" in args or "sarif" in args or "gitlab" in args or "--json" in args:
             if r.code in (0, 1):
