@@ -12,7 +12,7 @@ std::string lint_github(const std::vector<LintedDeck>& decks) {
     const Diagnostic* d;
   };
   std::vector<Item> items;
-  std::string out, left_out;
+  std::string out, leads, notices, tails;
   for (const LintedDeck& deck : decks) {
     if (deck.result == nullptr) {
       out += "::error file=" + workflow_property(detail::relative_path(deck.path)) +
@@ -22,14 +22,14 @@ std::string lint_github(const std::vector<LintedDeck>& decks) {
     for (const Diagnostic& d : deck.result->diagnostics) items.push_back({&deck, &d});
     const auto coverage = detail::coverage_of(deck);
     if (!coverage) continue;
-    // Behind it all that the findings say nothing about.
-    const std::string lead = coverage_lead(*coverage);
-    const std::string text = lead + coverage_tail(*coverage);
-    if (!text.empty())
-      left_out += std::string(lead.empty() ? "::notice" : "::warning") +
-                  " file=" + workflow_property(detail::relative_path(deck.path)) +
-                  ",title=not examined::" + workflow_text(lead.empty() ? text.substr(1) : text) +
-                  "\n";
+    const std::string lead = coverage_lead(*coverage), tail = coverage_tail(*coverage);
+    const auto command = [&](const char* level, std::string_view text) {
+      return std::string("::") + level +
+             " file=" + workflow_property(detail::relative_path(deck.path)) +
+             ",title=not examined::" + workflow_text(text) + "\n";
+    };
+    if (!lead.empty()) leads += command("warning", lead + tail);
+    if (lead.empty() && !tail.empty()) tails += command("notice", tail.substr(1));
   }
   // Only the first annotations of a step are shown.
   std::stable_sort(items.begin(), items.end(),
@@ -40,13 +40,13 @@ std::string lint_github(const std::vector<LintedDeck>& decks) {
     const char* const command = d.severity == Severity::error     ? "error"
                                 : d.severity == Severity::warning ? "warning"
                                                                   : "notice";
-    out += std::string("::") + command +
-           " file=" + workflow_property(detail::relative_path(at.file)) +
-           ",line=" + std::to_string(at.line) + ",col=" + std::to_string(at.column) +
-           ",endColumn=" + std::to_string(at.end_column) + ",title=" + std::string(d.rule) +
-           "::" + workflow_text(d.message + ". " + detail::details(d)) + "\n";
+    (d.severity == Severity::info ? notices : out) +=
+        std::string("::") + command + " file=" + workflow_property(detail::relative_path(at.file)) +
+        ",line=" + std::to_string(at.line) + ",col=" + std::to_string(at.column) +
+        ",endColumn=" + std::to_string(at.end_column) + ",title=" + std::string(d.rule) +
+        "::" + workflow_text(d.message + ". " + detail::details(d)) + "\n";
   }
-  return out + left_out;
+  return out + leads + notices + tails;
 }
 
 }  // namespace deck

@@ -189,7 +189,7 @@ def outputs(c, tmp):
     commands = open(paths["github"]).read().splitlines()
     order = ["::error", "::warning", "::notice"]
     ranks = [order.index(re.match(r"::\w+", x).group(0)) for x in commands]
-    c.check("GitHub commands, worst first", len(commands) == len(findings) and ranks == sorted(ranks))
+    c.check("GitHub commands, worst first", len([x for x in commands if ",title=not examined::" not in x]) == len(findings) and ranks == sorted(ranks))
     gitlab = json.load(open(paths["gitlab"]))
     c.check("GitLab fingerprints are unique", len({x["fingerprint"] for x in gitlab}) == len(gitlab) == len(findings))
     lines = {}
