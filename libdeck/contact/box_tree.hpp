@@ -24,15 +24,17 @@ struct Box {
   double size() const { return (high[0] - low[0]) + (high[1] - low[1]) + (high[2] - low[2]); }
 };
 
-// Eight boxes. Unused places hold the empty box, which overlaps nothing.
+// Eight boxes. Unused places hold no number at all: no comparison with them is true, so that they
+// overlap nothing, not even a box without bounds, and add nothing to the bounds of the block.
 struct alignas(64) BoxBlock {
   static constexpr std::size_t kWidth = 8;
   std::array<std::array<double, kWidth>, 3> low;
   std::array<std::array<double, kWidth>, 3> high;
 
   BoxBlock() {
-    for (auto& axis : low) axis.fill(Box::kInf);
-    for (auto& axis : high) axis.fill(-Box::kInf);
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    for (auto& axis : low) axis.fill(none);
+    for (auto& axis : high) axis.fill(none);
   }
   void set(std::size_t child, const Box& b) {
     for (std::size_t k = 0; k < 3; ++k) {

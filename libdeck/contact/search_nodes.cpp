@@ -50,7 +50,10 @@ bool NodeSweep::looks_ordered() const {
   if (items.size() < kWorthTrying || segments.empty()) return false;
   const auto median = [](std::size_t count, const auto& size_of) {
     std::vector<double> sizes;
-    for (std::size_t i = 0; i < kSamples; ++i) sizes.push_back(size_of(i * (count / kSamples)));
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const double size = size_of(i * (count / kSamples));
+      sizes.push_back(size >= 0.0 ? size : sweep::kInfinity);  // an order needs numbers
+    }
     std::nth_element(sizes.begin(), sizes.begin() + kSamples / 2, sizes.end());
     return sizes[kSamples / 2];
   };
@@ -113,7 +116,7 @@ bool NodeSweep::serves_well() const {
   for (std::size_t i = stride / 2; i < segments.size(); i += stride) {
     const Box b = segment_box(*input, *options, segments[i]);
     const auto apart = [&b](std::size_t axis, double low, double high) {
-      return low > b.high[axis] || high < b.low[axis];
+      return !(low <= b.high[axis] && high >= b.low[axis]);  // unused places are apart
     };
     allowed += kPerLevel * tree.levels();
     stack.emplace_back(tree.levels() - 1, 0);

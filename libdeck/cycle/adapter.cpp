@@ -66,7 +66,8 @@ void take_surface_fields(const Scene& scene, const Inter& i, ContactCard& c) {
   c.c = {i.C1.value, i.C2.value, i.C3.value, i.C4.value, i.C5.value, i.C6.value};
   c.ifiltr = static_cast<int>(i.Ifiltr.value);
   c.xfreq = i.Xfreq.value;
-  c.icurv = flag(i.Icurv);
+  const int icurv = flag(i.Icurv);
+  c.icurv = icurv >= 1 && icurv <= 3 ? icurv : 0;  // no other value names a surface
   if (c.icurv == 1 || c.icurv == 2) {
     c.curv_node1 = node_position(scene, i.node_ID1.value);
     c.curv_node2 = node_position(scene, i.node_ID2.value);

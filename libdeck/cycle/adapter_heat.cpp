@@ -27,6 +27,8 @@ void node_areas(const Scene& scene, const Contact& contact, ContactPairs& out) {
         for (const std::uint32_t e : connectivity.elements(kind, node)) {
           const NodeIndex* n = scene.model->family(kind).of(e);
           const bool quad = kind == ElementKind::shell4;
+          // A shell with a node that does not exist has no area.
+          if (std::find(n, n + (quad ? 4 : 3), no_index) != n + (quad ? 4 : 3)) continue;
           const Vec d = quad ? cross(at(x, n[2]) - at(x, n[0]), at(x, n[3]) - at(x, n[1]))
                              : cross(at(x, n[1]) - at(x, n[0]), at(x, n[2]) - at(x, n[0]));
           a += std::sqrt(dot(d, d)) / (quad ? 8.0 : 6.0);

@@ -170,7 +170,7 @@ void apply_curvature(const KernelPlan& plan, const PacketView& view, std::size_t
       sphere(of(card.curv_node1), node, x, gap, c);
     } else if (card.icurv == 2) {
       cylinder(of(card.curv_node1), of(card.curv_node2), node, x, gap, c);
-    } else if (!is_triangle(view, i) && c.keep) {
+    } else if (card.icurv == 3 && !is_triangle(view, i) && c.keep) {
       std::array<Vec, 4> nodal;
       for (std::size_t k = 0; k < 4; ++k) nodal[k] = at(view.normal[k], i);
       bicubic(nodal, node, x, h, gap, c);
