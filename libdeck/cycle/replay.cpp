@@ -78,7 +78,13 @@ class Table {
   std::vector<std::vector<double>> columns_;
 };
 
+bool finite(const std::vector<double>& v) {
+  return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// Euclidean norm; infinite where a component is no number.
 double norm(const std::vector<double>& v) {
+  if (!finite(v)) return INFINITY;
   double scale = 0.0, sum = 0.0;
   for (const double x : v) scale = std::max(scale, std::abs(x));
   if (scale == 0.0) return 0.0;
@@ -86,7 +92,9 @@ double norm(const std::vector<double>& v) {
   return scale * std::sqrt(sum);
 }
 
+/// |computed - reference| / |reference|. What is no number equals nothing, not even itself.
 double relative(const std::vector<double>& computed, const std::vector<double>& reference) {
+  if (!finite(computed) || !finite(reference)) return INFINITY;
   std::vector<double> difference(reference.size());
   for (std::size_t c = 0; c < reference.size(); ++c) difference[c] = computed[c] - reference[c];
   const double size = norm(reference), off = norm(difference);
@@ -105,7 +113,7 @@ class Comparison {
       return;
     }
     const double e = relative(computed, reference);
-    errors_.push_back(std::isnan(e) ? INFINITY : e);
+    errors_.push_back(e);
     rows_.push_back({number, errors_.back(), std::move(reference), std::move(computed)});
     if (rows_.size() > 4096) keep_worst();
   }
