@@ -50,9 +50,13 @@ std::array<double, 3> node_position(const Scene& scene, std::int64_t id) {
 void take_own_fields(const Scene& scene, const InterType7& i, ContactCard& c) {
   c.iadm = flag(i.Iadm);
   c.itied = static_cast<int>(i.ITIED.value);
-  c.nradm = i.NRadm.value != 0 ? static_cast<double>(i.NRadm.value) : c.nradm;
-  c.padm = i.Padm.value != 0.0 ? i.Padm.value : c.padm;
+  c.nradm = i.NRadm.value != 0 ? static_cast<double>(i.NRadm.value) : 3.0;
+  c.padm = i.Padm.value != 0.0 ? i.Padm.value : 1.0;
   c.angladm = i.Angladm.value;
+  if (c.iadm == 1) {  // the criteria of the card are those of Iadm 2
+    c.nradm = c.padm = 1.0;
+    c.angladm = 0.0;
+  }
   if (i.fct_IDF.value != 0) c.fct_idf = curve_of(*scene.model, i.fct_IDF.value);
   if (i.AscaleF.value != 0.0) c.ascalef = i.AscaleF.value;
   if (c.fct_idf && c.fric == 0.0) c.fric = 1.0;

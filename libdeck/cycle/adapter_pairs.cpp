@@ -19,6 +19,53 @@ using deck::detail::Vec;
 
 constexpr std::size_t most_pairs = std::size_t{64} << 20;
 
+/// Nodal normals of the main side: sums of facet normals, weighted with area (Icurv 3) or not.
+std::map<NodeIndex, Vec> nodal_normals(const Scene& scene, const Contact& contact, bool weighted) {
+  std::map<NodeIndex, Vec> sum;
+  const Coordinates& x = scene.coordinates;
+  for (const MainSegment& m : contact.main) {
+    Vec n = cross(at(x, m.nodes[2]) - at(x, m.nodes[0]), at(x, m.nodes[3]) - at(x, m.nodes[1]));
+    const double length = std::sqrt(dot(n, n));
+    if (!weighted && length > 0.0) n = (1.0 / length) * n;
+    for (std::size_t c = 0; c < (m.nodes[2] == m.nodes[3] ? 3u : 4u); ++c)
+      sum[m.nodes[c]] = sum[m.nodes[c]] + n;
+  }
+  return sum;
+}
+
+void normals(const Scene& scene, const Contact& contact, bool weighted, ContactPairs& out) {
+  const std::map<NodeIndex, Vec> sum = nodal_normals(scene, contact, weighted);
+  for (const CandidatePair& p : out.at) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Vec& n = sum.at(contact.main[p.main].nodes[c]);
+      out.normal[c][0].push_back(n.x);
+      out.normal[c][1].push_back(n.y);
+      out.normal[c][2].push_back(n.z);
+    }
+  }
+}
+
+/// The largest distance at which the bicubic surface (Icurv 3) may still keep a pair beyond its
+/// gap.
+double bicubic_reach(const Scene& scene, const Contact& contact) {
+  const std::map<NodeIndex, Vec> sum = nodal_normals(scene, contact, true);
+  double worst = 0.0;
+  for (const MainSegment& m : contact.main) {
+    if (m.nodes[2] == m.nodes[3]) continue;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec edge =
+          at(scene.coordinates, m.nodes[(k + 1) % 4]) - at(scene.coordinates, m.nodes[k]);
+      const double l2 = dot(edge, edge);
+      for (const std::size_t end : {k, (k + 1) % 4}) {
+        const Vec& n = sum.at(m.nodes[end]);
+        const double along2 = dot(n, edge) * dot(n, edge), rest = dot(n, n) * l2 - along2;
+        if (rest > 0.0) worst = std::max(worst, along2 * l2 / rest);
+      }
+    }
+  }
+  return 0.5 * std::sqrt(worst);
+}
+
 /// How far beyond the gap a curved main side may reach: its facets are not where the surface is.
 double curvature_reach(const Scene& scene, const Contact& contact, const ContactCard& card) {
   if (card.kind != ContactKind::node_segment || card.icurv == 0) return 0.0;
@@ -32,7 +79,7 @@ double curvature_reach(const Scene& scene, const Contact& contact, const Contact
     }
     reach = std::max({reach, high.x - low.x, high.y - low.y, high.z - low.z});
   }
-  return 0.5 * reach;
+  return std::max(0.5 * reach, card.icurv == 3 ? bicubic_reach(scene, contact) : 0.0);
 }
 
 /// The lists of one contact as the search takes them. What start-up switched off takes no part.
@@ -139,27 +186,6 @@ void edge_values(const Contact& contact, const ContactCard& card, Model model, C
   }
 }
 
-/// Nodal normals of the main side: sums of facet normals, weighted with area (Icurv 3) or not.
-void normals(const Scene& scene, const Contact& contact, bool weighted, ContactPairs& out) {
-  std::map<NodeIndex, Vec> sum;
-  const Coordinates& x = scene.coordinates;
-  for (const MainSegment& m : contact.main) {
-    Vec n = cross(at(x, m.nodes[2]) - at(x, m.nodes[0]), at(x, m.nodes[3]) - at(x, m.nodes[1]));
-    const double length = std::sqrt(dot(n, n));
-    if (!weighted && length > 0.0) n = (1.0 / length) * n;
-    for (std::size_t c = 0; c < (m.nodes[2] == m.nodes[3] ? 3u : 4u); ++c)
-      sum[m.nodes[c]] = sum[m.nodes[c]] + n;
-  }
-  for (const CandidatePair& p : out.at) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      const Vec& n = sum[contact.main[p.main].nodes[c]];
-      out.normal[c][0].push_back(n.x);
-      out.normal[c][1].push_back(n.y);
-      out.normal[c][2].push_back(n.z);
-    }
-  }
-}
-
 }  // namespace
 
 ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const ContactCard& card,
@@ -179,14 +205,14 @@ ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const 
   remove_pairs(scene, contact, out.at);
   if (card.kind == ContactKind::edge_edge) {
     edge_values(contact, card, model, out);
-    if (card.ithe > 0) detail::edge_widths(contact, out);
-    if (card.fric_id) detail::pair_friction(scene, contact, model, out);
+    if (card.ithe > 0) detail::edge_widths(scene, contact, model, out);
+    if (card.fric_id) detail::pair_friction(scene, contact, out);
     return out;
   }
   node_values(contact, card, model, out);
   if (card.ithe > 0) detail::node_areas(scene, contact, out);
   if (card.icurv == 3 || card.iadm != 0) normals(scene, contact, card.icurv == 3, out);
-  if (card.fric_id) detail::pair_friction(scene, contact, model, out);
+  if (card.fric_id) detail::pair_friction(scene, contact, out);
   return out;
 }
 

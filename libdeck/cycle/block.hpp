@@ -22,7 +22,8 @@ struct Constants {
   double inacti_share = 0.0;  ///< Inacti 6 leaves 5 % of the remaining gap
   double xi = 0.0;            ///< VISs
   double quadratic = 0.0;     ///< factor of the quadratic damping, 0.32 with damping
-  double zeta = 0.0;          ///< VISF, 0 for Iform 2
+  double zeta = 0.0;          ///< VISF, 0 for Iform 2 and where pairs have their own
+  double zeta2 = 0.0;         ///< its square
   double mu = 0.0;
   double alpha = 1.0;            ///< filter weight
   bool filter_low_pass = false;  ///< Iform 2 in the robust model: filter the force, not the step
@@ -77,8 +78,13 @@ Constants make_constants(const KernelPlan& plan, const PacketView& view);
 // Stages in plain scalar code, for effects too rare to be worth a composition.
 void apply_curvature(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                      std::size_t n, int width, GeometryBlock& block);
+/// Sets status_kept where the block says so, once its force is done.
+void mark_kept(const PacketView& view, std::size_t begin, std::size_t n, int width,
+               const GeometryBlock& block, PacketResult& out);
 void force_tied_block(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                       std::size_t n, int width, const GeometryBlock& block, PacketResult& out);
+void apply_step_deletion(const KernelPlan& plan, const PacketView& view, std::size_t begin,
+                         std::size_t end, PacketResult& out);
 void apply_time_step_tie(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                          std::size_t end, PacketResult& out);
 void apply_heat(const KernelPlan& plan, const PacketView& view, std::size_t begin, std::size_t end,

@@ -67,12 +67,12 @@ void cylinder(const Vec& a, const Vec& b, const Vec& node, const std::array<Vec,
     c.keep = false;
     return;
   }
-  int signs = 0;
+  int signs = 0;  // a side of no length gives 0 and has no say
   for (std::size_t k = 0; k < 4; ++k) {
     const double triple = dot(r, cross(x[k] - node, x[(k + 1) % 4] - node));
     signs |= triple > 0.0 ? 1 : (triple < 0.0 ? 2 : 0);
   }
-  if (signs == 1 || signs == 2) {
+  if (signs != 3) {
     c.penetration = gap + radius - rs;
     c.normal = unit(r);
   }
@@ -151,19 +151,47 @@ double bicubic_allowance(const PacketView& view, std::size_t i) {
   return 0.5 * std::sqrt(worst);
 }
 
+double curvature_allowance(const ContactCard& card, const PacketView& view, std::size_t i) {
+  if (card.icurv == 3) return bicubic_allowance(view, i);
+  double extent = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double low = view.position[1][axis][i], high = low;
+    for (std::size_t corner = 2; corner < 5; ++corner) {
+      low = std::min(low, view.position[corner][axis][i]);
+      high = std::max(high, view.position[corner][axis][i]);
+    }
+    extent = std::max(extent, high - low);
+  }
+  return 0.5 * extent;
+}
+
+void mark_kept(const PacketView& view, std::size_t begin, std::size_t n, int width,
+               const GeometryBlock& g, PacketResult& out) {
+  const auto w = static_cast<std::size_t>(width);
+  for (std::size_t slot = 0; slot < (n + w - 1) / w * w; ++slot) {
+    const std::size_t first = begin + slot / w * w;
+    const std::size_t i = (first + w <= view.size ? first : view.size - w) + slot % w;
+    if (g.keep[slot] != 0.0) out.status[i] |= status_kept;
+  }
+}
+
 void apply_curvature(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                      std::size_t n, int width, GeometryBlock& g) {
   const auto w = static_cast<std::size_t>(width);
   const ContactCard& card = plan.card;
+  const double drad = card.ithe > 0 ? card.drad : 0.0;
   for (std::size_t slot = 0; slot < (n + w - 1) / w * w; ++slot) {
     const std::size_t first = begin + slot / w * w;
     const std::size_t i = (first + w <= view.size ? first : view.size - w) + slot % w;
     const std::array<Vec, 4> x = corners(view, i);
     const Vec node = at(view.position[0], i);
     const double gap = view.gap[i];
+    // A curved surface leaves its facets: pairs are kept further out than the gap, and then damp
+    // and rub there without penetration, as in the reference solver (robust: nothing acts).
+    const double reach = std::max(gap + curvature_allowance(card, view, i), drad);
     Contact c{g.penetration[slot],
               g.distance[slot],
-              g.keep[slot] != 0.0,
+              g.distance[slot] < reach,
               {g.normal[0][slot], g.normal[1][slot], g.normal[2][slot]}};
     const std::array<double, 4> h{g.raw[0][slot], g.raw[1][slot], g.raw[2][slot], g.raw[3][slot]};
     if (card.icurv == 1) {
@@ -195,7 +223,12 @@ void apply_criteria(const KernelPlan& plan, const PacketView& view, std::size_t 
     const double length = norm(e);
     return length / std::max(1e-20, std::abs(dot(turn, unit(e))));
   };
+  const double limit = card.ithe > 0 ? card.drad : 0.0;
   for (std::size_t i = begin; i < end; ++i) {
+    if (!(out.distance[i] < std::max(view.gap[i], limit))) {  // not a pair
+      for (auto& c : out.criteria) c[i] = 0.0;
+      continue;
+    }
     const std::array<Vec, 4> x = corners(view, i);
     std::array<Vec, 4> n;
     for (std::size_t c = 0; c < 4; ++c) n[c] = unit(at(view.normal[c], i));
@@ -207,7 +240,7 @@ void apply_criteria(const KernelPlan& plan, const PacketView& view, std::size_t 
     for (const Vec& corner : n) least = std::min(least, dot(face, corner));
     out.criteria[0][i] = std::min(r1, r2);
     const double room = card.padm * out.effective_gap[i];
-    out.criteria[1][i] = room > 0.0 ? out.penetration[i] / room : 0.0;
+    if (card.iadm == 2) out.criteria[1][i] = room > 0.0 ? out.penetration[i] / room : 0.0;
     out.criteria[2][i] = least / std::max(1e-20, cosine);
   }
 }

@@ -338,13 +338,21 @@ struct FrictionIncremental {
 struct FrictionLaw {
   static constexpr Field needs = Field::position;
   static constexpr Field writes = Field::none;
-  template <Model M, class V>
-  static void apply(const PacketView& view, std::size_t i, const ContactCard& card, bool pairs,
-                    PairState<V>& s) {
+  template <class V>
+  static V area(const PacketView& view, std::size_t i) {
     const Vec3<V> d13 = Vec3<V>::load(view.position[3], i) - Vec3<V>::load(view.position[1], i);
     const Vec3<V> d24 = Vec3<V>::load(view.position[4], i) - Vec3<V>::load(view.position[2], i);
     const Vec3<V> area2 = cross(d13, d24);
-    const V area = V::fill(0.5) * sqrt(dot(area2, area2));
+    return V::fill(0.5) * sqrt(dot(area2, area2));
+  }
+  template <Model M>
+  static double pressure(double fn, double area) {
+    return M == Model::robust && !(area > 0.0) ? 0.0 : -fn / area;
+  }
+  template <Model M, class V>
+  static void apply(const PacketView& view, std::size_t i, const ContactCard& card, bool pairs,
+                    PairState<V>& s) {
+    const V whole = area<V>(view, i);
     const V speed = sqrt(max(V::fill(1e-30), dot(s.vt, s.vt)));
     for (int l = 0; l < V::width; ++l) {
       const std::size_t pair = i + static_cast<std::size_t>(l);
@@ -352,9 +360,8 @@ struct FrictionLaw {
       for (std::size_t q = 0; pairs && q < 6; ++q) {
         if (view.c[q] != nullptr) c[q] = view.c[q][pair];
       }
-      double pressure = -s.fn[l] / area[l];
-      if (M == Model::robust && !(area[l] > 0.0)) pressure = 0.0;
-      s.mu.r[l] = friction_coefficient(card.ifric, s.mu[l], c, pressure, speed[l]);
+      s.mu.r[l] =
+          friction_coefficient(card.ifric, s.mu[l], c, pressure<M>(s.fn[l], whole[l]), speed[l]);
     }
   }
 };
@@ -382,40 +389,62 @@ struct FrictionTemperature {
   }
 };
 
+/// What the ellipse of a directed pair is made from.
+struct SlipState {
+  double normal[3], velocity[3];  ///< velocity: all of the pair's relative velocity
+  double fn = 0.0;                ///< signed
+  double pressure = 0.0;          ///< for the law, over the whole segment
+  bool incremental = false;       ///< Iform 2
+};
 /// Brings the tangential force of a pair back to its ellipse. Compiled once, outside the kernels: a
 /// plain function in a header could be linked from a translation unit of another instruction set.
-void orthotropic_slip(const PacketView& view, std::size_t pair, const double (&normal)[3],
-                      double normal_force, Model model, double (&ft)[3]);
+void orthotropic_slip(const ContactCard& card, const PacketView& view, std::size_t pair,
+                      const SlipState& state, Model model, double (&ft)[3]);
 
 /// Orthotropic coefficients of a pair of parts: the sticking force of the chosen form is brought
-/// back to an ellipse whose axes follow the segment. One return for both forms (the reference
-/// uses other ones in its viscous form, with the sign of the slip force reversed).
+/// back to an ellipse whose axes follow the segment. In the reference the viscous form (Iform 1)
+/// gives a sliding pair under pressure the opposite sign: it is pushed along.
 struct FrictionOrthotropic {
   static constexpr Field needs = Field::position | Field::pair_friction;
   static constexpr Field writes = Field::friction_energy;
+
+  /// Pairs with a direction; null: all are.
+  template <class V>
+  static auto directed(const PacketView& view, std::size_t i) {
+    const V flag = view.directed != nullptr ? V::load(view.directed + i) : V::fill(1.0);
+    return flag != V::fill(0.0);
+  }
 
   template <Model M, class V>
   static void apply(const Constants& k, bool incremental, const PacketView& view, std::size_t i,
                     PairState<V>& s) {
     const Vec3<V> trial = s.ft;
+    const V area = k.card->ifric > 0 ? FrictionLaw::area<V>(view, i) : V::fill(1.0);
     for (int l = 0; l < V::width; ++l) {
-      const double limit = M == Model::robust ? (s.fn[l] < 0.0 ? -s.fn[l] : 0.0) : s.fn[l];
+      const std::size_t pair = i + static_cast<std::size_t>(l);
+      if (view.directed != nullptr && view.directed[pair] == 0.0) continue;
+      const double fn = M == Model::robust && s.fn[l] > 0.0 ? 0.0 : s.fn[l];
       double ft[3] = {trial.x[l], trial.y[l], trial.z[l]};
-      const double n[3] = {s.n.x[l], s.n.y[l], s.n.z[l]};
-      orthotropic_slip(view, i + static_cast<std::size_t>(l), n, limit, M, ft);
+      orthotropic_slip(*k.card, view, pair,
+                       {{s.n.x[l], s.n.y[l], s.n.z[l]},
+                        {s.v.x[l], s.v.y[l], s.v.z[l]},
+                        fn,
+                        FrictionLaw::pressure<M>(s.fn[l], area[l]),
+                        incremental},
+                       M, ft);
       s.ft.x.r[l] = ft[0];
       s.ft.y.r[l] = ft[1];
       s.ft.z.r[l] = ft[2];
     }
-    if (!incremental) {
-      s.slip_heat = k.dt1 * dot(s.ft, s.vt);
-      return;
-    }
     const V zero = V::fill(0.0), one = V::fill(1.0);
-    const V spring = M == Model::robust ? min(s.k0, s.k_tan) : s.k0;
-    const V lost = dot(trial - s.ft, s.ft);
-    s.slip_heat = select(spring != zero, lost / select(spring != zero, spring, one), zero);
-    s.ft_keep = s.ft;
+    V heat = k.dt1 * dot(s.ft, s.vt);
+    if (incremental) {
+      const V spring = M == Model::robust ? min(s.k0, s.k_tan) : s.k0;
+      const V lost = dot(trial - s.ft, s.ft);
+      heat = select(spring != zero, lost / select(spring != zero, spring, one), zero);
+      s.ft_keep = s.ft;
+    }
+    s.slip_heat = select(directed<V>(view, i), heat, s.slip_heat);
   }
 };
 

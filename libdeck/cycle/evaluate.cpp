@@ -45,6 +45,8 @@ Constants make_constants(const KernelPlan& plan, const PacketView& view) {
   const bool rubs =
       (plan.effects & (bit(Effect::friction_viscous) | bit(Effect::friction_incremental))) != 0;
   if (card.iform != 2) k.zeta = card.visf != 0.0 ? card.visf : (rubs ? 1.0 : 0.0);
+  k.zeta2 = k.zeta * k.zeta;
+  if ((plan.effects & bit(Effect::friction_pairs)) != 0 && view.visf2 != nullptr) k.zeta = 0.0;
   k.mu = card.fric;
   k.alpha = filter_weight(plan, view);
   k.filter_low_pass = plan.model == Model::robust && k.alpha < 1.0;
@@ -103,6 +105,7 @@ void evaluate_range(const KernelPlan& plan, const PacketView& view, const Packet
     } else {
       plan.table->force(k, plan.effects, view, b, n, block, out);
     }
+    if (curved) detail::mark_kept(view, b, n, width, block, out);
   }
 }
 
@@ -112,6 +115,8 @@ void evaluate_rest(const KernelPlan& plan, const PacketView& view, std::size_t b
   const ContactCard& card = plan.card;
   if (card.kind == ContactKind::edge_edge && card.ithe > 0)
     detail::apply_edge_heat(plan, view, begin, end, out);
+  if (card.kind != ContactKind::tied && card.dtmin > 0.0 && card.itied == 0)
+    detail::apply_step_deletion(plan, view, begin, end, out);
   if (card.kind != ContactKind::node_segment) return;
   if (card.itied != 0) detail::apply_time_step_tie(plan, view, begin, end, out);
   if (card.ithe > 0) detail::apply_heat(plan, view, begin, end, out);
@@ -132,7 +137,7 @@ class PaddedView {
     }
     pad(view_.mass, n);
     for (const double** p : {&view_.k0, &view_.gap, &view_.p0, &view_.area, &view_.conductivity,
-                             &view_.fric, &view_.visf2}) {
+                             &view_.fric, &view_.visf2, &view_.directed, &view_.allowance}) {
       *p = pad(*p, n);
     }
     pad(view_.ft_old, n);
@@ -141,8 +146,10 @@ class PaddedView {
     pad(view_.edge_width, n);
     pad(view_.edge_conductivity, n);
     pad(view_.c, n);
+    pad(view_.c2, n);
     pad(view_.ortho_mu, n);
     pad(view_.ortho_direction, n);
+    for (auto& axis : view_.ortho_axis) pad(axis, n);
     for (auto& corner : view_.normal) pad(corner, n);
     if (view.triangle != nullptr) {
       triangle_.assign(width, view.triangle[n - 1]);
@@ -228,8 +235,10 @@ Field missing_fields(const KernelPlan& plan, const PacketView& view) {
   check(Field::tie_record, present(view.tie, 0, tie));
   check(Field::temperature, present(view.temperature, 0, roles));
   check(Field::contact_area, present(view.edge_width));
+  const bool directions =
+      present(view.ortho_direction) || (present(view.ortho_axis[0]) && present(view.ortho_axis[1]));
   check(Field::pair_friction,
-        !plan.card.fric_orthotropic || (present(view.ortho_mu) && present(view.ortho_direction)));
+        !plan.card.fric_orthotropic || (present(view.ortho_mu) && directions));
   check(Field::nodal_normals, std::all_of(view.normal.begin(), view.normal.end(),
                                           [](const auto& corner) { return present(corner); }));
   return missing;
@@ -256,7 +265,8 @@ void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& resu
     // The curved surface leaves the facet: weights are wanted further out than the gap.
     std::vector<double> reach(view.size);
     for (std::size_t i = 0; i < view.size; ++i) {
-      reach[i] = view.gap[i] + detail::bicubic_allowance(view, i);
+      reach[i] = view.gap[i] + (view.allowance != nullptr ? view.allowance[i]
+                                                          : detail::bicubic_allowance(view, i));
     }
     PacketView wide = view;
     wide.gap = reach.data();

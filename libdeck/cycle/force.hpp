@@ -40,7 +40,7 @@ void apply_friction(const Effects& on, const Constants& k, const PacketView& vie
                     PairState<V>& s) {
   Friction::slide(s);
   s.mu = V::fill(k.mu);
-  s.zeta2 = V::fill(k.zeta * k.zeta);
+  s.zeta2 = V::fill(k.zeta2);
   if (on.has(Effect::friction_pairs)) {
     if (view.fric != nullptr) s.mu = V::load(view.fric + i);
     if (view.visf2 != nullptr) s.zeta2 = V::load(view.visf2 + i);
@@ -49,8 +49,10 @@ void apply_friction(const Effects& on, const Constants& k, const PacketView& vie
   if (on.has(Effect::friction_law)) {
     FrictionLaw::apply<M>(view, i, *k.card, on.has(Effect::friction_pairs), s);
   }
-  // The ellipse is the limit then: the form itself only sticks.
-  if (on.has(Effect::friction_orthotropic)) s.mu = V::fill(1e30);
+  // The ellipse is the limit of directed pairs: the form itself only sticks.
+  if (on.has(Effect::friction_orthotropic)) {
+    s.mu = select(FrictionOrthotropic::directed<V>(view, i), V::fill(1e30), s.mu);
+  }
   if (on.has(Effect::friction_viscous)) {
     if (on.has(Effect::friction_pairs)) {
       s.k_nodal = max(s.k_nodal, k.inverse_dt1 * sqrt(s.zeta2 * s.a));

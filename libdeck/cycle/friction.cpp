@@ -67,29 +67,65 @@ std::array<double, 2> orthotropic_return(double f1, double f2, double mu1, doubl
 namespace detail {
 namespace {
 
-/// Material direction of a pair in the tangent plane of the contact.
-Vec material_direction(const PacketView& view, std::size_t i, const Vec& n) {
-  const Vec x1 = at(view.position[1], i), x2 = at(view.position[2], i);
-  const Vec x3 = at(view.position[3], i), x4 = at(view.position[4], i);
-  const bool triangle = view.triangle != nullptr && view.triangle[i] != 0;
-  const Vec a = triangle ? x2 - x1 : (x2 + x3) - (x1 + x4);
-  const Vec b = triangle ? x3 - x1 : (x3 + x4) - (x1 + x2);
-  const Vec e3 = unit(cross(a, b));
-  const double ratio = norm(b) > 0.0 ? norm(a) / norm(b) : 0.0;
-  const Vec e1 = unit(a + ratio * cross(b, e3));
-  const Vec t = view.ortho_direction[0][i] * e1 + view.ortho_direction[1][i] * cross(e3, e1);
-  return unit(t - dot(t, n) * n);
+struct Directions {
+  Vec along, across;
+};
+
+/// Directions of a pair: given, or A and B in the axes of its segment. The reference leaves them in
+/// the plane of the segment; the robust model turns them into the tangent plane of the contact.
+Directions directions_of(const PacketView& view, std::size_t i, const Vec& n, Model model) {
+  Directions d;
+  if (view.ortho_axis[0][0] != nullptr) {
+    d = {at(view.ortho_axis[0], i), at(view.ortho_axis[1], i)};
+  } else {
+    const Vec x1 = at(view.position[1], i), x2 = at(view.position[2], i);
+    const Vec x3 = at(view.position[3], i), x4 = at(view.position[4], i);
+    const bool triangle = view.triangle != nullptr && view.triangle[i] != 0;
+    const SegmentAxes axes(x1, x2, x3, x4, triangle);
+    const Vec e1 = axes.first, e2 = axes.second;
+    const double p = view.ortho_direction[0][i], q = view.ortho_direction[1][i];
+    d = {p * e1 + q * e2, p * e2 + (-q) * e1};
+  }
+  if (model == Model::reference) return d;
+  const Vec along = unit(d.along - dot(d.along, n) * n);
+  return {along, cross(n, along)};
+}
+
+/// Coefficient of a direction by the law of the card, at the speed along it; sliding backwards
+/// counts as no speed.
+double directed_coefficient(const ContactCard& card, double mu0,
+                            const std::array<const double*, 6>& columns, bool first,
+                            std::size_t pair, double pressure, double speed) {
+  if (card.ifric == 0) return mu0;
+  std::array<double, 6> c = card.c;
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (columns[k] != nullptr) c[k] = columns[k][pair];
+  }
+  // The reference solver exchanges two coefficients of law 4 along the first direction.
+  if (card.ifric == 4 && first) std::swap(mu0, c[0]);
+  return friction_coefficient(card.ifric, mu0, c, pressure, std::max(1e-30, speed));
 }
 
 }  // namespace
 
-void orthotropic_slip(const PacketView& view, std::size_t pair, const double (&normal)[3],
-                      double normal_force, Model model, double (&ft)[3]) {
-  const Vec n{normal[0], normal[1], normal[2]}, trial{ft[0], ft[1], ft[2]};
-  const Vec t1 = material_direction(view, pair, n), t2 = cross(n, t1);
-  const auto f = orthotropic_return(dot(trial, t1), dot(trial, t2), view.ortho_mu[0][pair],
-                                    view.ortho_mu[1][pair], normal_force, model);
-  const Vec back = f[0] * t1 + f[1] * t2;
+void orthotropic_slip(const ContactCard& card, const PacketView& view, std::size_t pair,
+                      const SlipState& s, Model model, double (&ft)[3]) {
+  const Vec n{s.normal[0], s.normal[1], s.normal[2]}, trial{ft[0], ft[1], ft[2]};
+  const Vec v{s.velocity[0], s.velocity[1], s.velocity[2]};
+  const Directions d = directions_of(view, pair, n, model);
+  const double mu1 = directed_coefficient(card, view.ortho_mu[0][pair], view.c, true, pair,
+                                          s.pressure, dot(v, d.along));
+  const double mu2 = directed_coefficient(card, view.ortho_mu[1][pair], view.c2, false, pair,
+                                          s.pressure, dot(v, d.across));
+  // A direction without friction is removed; what is left of the trial decides.
+  const double f1 = mu1 > 1e-30 ? dot(trial, d.along) : 0.0;
+  const double f2 = mu2 > 1e-30 ? dot(trial, d.across) : 0.0;
+  const auto f = orthotropic_return(f1, f2, mu1, mu2, s.fn, model);
+  // Sticking in the reference keeps the whole trial, whatever its part outside both directions.
+  if (model == Model::reference && s.fn != 0.0 && f[0] == f1 && f[1] == f2) return;
+  double sense = 1.0;
+  if (model == Model::reference && !s.incremental && s.fn < 0.0) sense = -1.0;
+  const Vec back = sense * (f[0] * d.along + f[1] * d.across);
   ft[0] = back.x;
   ft[1] = back.y;
   ft[2] = back.z;

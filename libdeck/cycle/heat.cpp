@@ -93,14 +93,14 @@ HeatFlow pair_heat(const ContactCard& card, const EdgeHeatState& s, Model model)
   };
   const double ts = mean(s.temperature, 0);
   const double tm = both ? mean(s.temperature, 2) : card.tint;
-  const double area = edge_contact_area(card, s);
+  const double area = s.area < 0.0 ? edge_contact_area(card, s) : s.area;
   const double beyond = s.distance - s.gap;
   double h = 0.0;
   if (beyond > 0.0) {
     const bool near = robust ? s.distance <= card.drad : beyond <= card.drad;
     if (card.frad == 0.0 || !near) return flow;
     h = card.frad * (tm * tm + ts * ts) * (tm + ts);
-    flow.conductance = robust ? area * h * card.thermal_speed_up : 0.0;
+    flow.conductance = robust ? area * h : 0.0;
   } else {
     h = exchange(card, s.normal_force, area, robust);
     const double width = robust ? s.distance : std::max(beyond + s.effective_gap, 0.0);
@@ -111,9 +111,10 @@ HeatFlow pair_heat(const ContactCard& card, const EdgeHeatState& s, Model model)
     } else if (!robust && width > 0.0) {
       return flow;
     }
-    flow.conductance = area * h * card.thermal_speed_up;
+    flow.conductance = area * h;
   }
-  const double q = area * (tm - ts) * (s.dt1 * card.thermal_speed_up) * h;
+  // The thermal speed-up factor is not applied between edges.
+  const double q = area * (tm - ts) * s.dt1 * h;
   for (std::size_t r = 0; r < 2; ++r) {
     flow.q[r] = s.weight[r] * q;
     if (both) flow.q[r + 2] = -(s.weight[r + 2] * q);
@@ -148,7 +149,10 @@ void apply_edge_heat(const KernelPlan& plan, const PacketView& view, std::size_t
 void apply_heat(const KernelPlan& plan, const PacketView& view, std::size_t begin, std::size_t end,
                 PacketResult& out) {
   for (std::size_t i = begin; i < end; ++i) {
-    if (!(out.distance[i] < std::max(view.gap[i], plan.card.drad))) {  // not a pair
+    const bool kept = plan.card.icurv != 0
+                          ? (out.status[i] & status_kept) != 0
+                          : out.distance[i] < std::max(view.gap[i], plan.card.drad);
+    if (!kept) {
       for (auto& q : out.heat) q[i] = 0.0;
       out.conductance[i] = 0.0;
       continue;

@@ -172,6 +172,8 @@ void collect_fields(KernelPlan& plan) {
   }
   if ((set & bit(Effect::friction_pairs)) != 0) plan.needs |= Field::pair_friction;
   collect<detail::FrictionOrthotropic>(set, Effect::friction_orthotropic, plan);
+  if (card.dtmin > 0.0 && card.itied == 0 && card.kind != ContactKind::tied)
+    plan.needs |= Field::mass_secondary | Field::mass_main;
   if (card.kind == ContactKind::tied) {
     plan.needs |= Field::tie_record | Field::velocity | Field::mass_secondary | Field::step_times;
     if (plan.model == Model::robust) plan.needs |= Field::mass_main;

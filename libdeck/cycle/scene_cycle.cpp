@@ -81,6 +81,8 @@ void attach(PacketView& view, const ContactPairs& pairs, const std::vector<doubl
   view.fric = data(pairs.fric);
   view.visf2 = data(pairs.visf2);
   for (std::size_t k = 0; k < 6; ++k) view.c[k] = data(pairs.c[k]);
+  for (std::size_t k = 0; k < 6; ++k) view.c2[k] = data(pairs.c2[k]);
+  view.directed = data(pairs.directed);
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t c = 0; c < 3; ++c) view.normal[k][c] = data(pairs.normal[k][c]);
 }
@@ -227,20 +229,7 @@ bool sane(const ContactCard& card, const Contact& contact) {
 }
 
 /// What the card asks for and this evaluation leaves out.
-void note_gaps(const Scene& scene, const State& state, ContactOutcome& out) {
-  std::int64_t id = 0;
-  visit_interface(*out.contact->inter, [&](const auto& i) {
-    if constexpr (requires { i.fric_ID; }) id = i.fric_ID.value;
-  });
-  const Friction* friction = scene.interfaces->friction(id);
-  const bool directed =
-      friction != nullptr && std::any_of(friction->pairs.begin(), friction->pairs.end(),
-                                         [](const FrictionPair& p) { return p.Idir == 1; });
-  if (out.card.fric_orthotropic)
-    out.notes.emplace_back(
-        "direction-dependent friction: directions are the segments' own, /FRIC_ORIENT is not read");
-  else if (directed)
-    out.notes.emplace_back("direction-dependent friction: the values of direction 1 are used");
+void note_gaps(const State& state, ContactOutcome& out) {
   if (out.card.ithe > 0 && !state.heated)
     out.notes.emplace_back("the deck gives no initial temperature: all are 0");
 }
@@ -254,7 +243,7 @@ NodeStiffness run_contact(const Scene& scene, const State& state, const CycleOpt
   out.effects = plan.account;
   out.composition = plan.composition;
   out.isa = plan.isa;
-  note_gaps(scene, state, out);
+  note_gaps(state, out);
   if (!sane(out.card, contact)) {
     out.notes.emplace_back("the card has values out of range: nothing was evaluated");
     out.complete = false;

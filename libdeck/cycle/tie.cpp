@@ -126,7 +126,6 @@ bool continue_tie(const KernelPlan& plan, const PacketView& view, std::size_t i,
   out.p0[i] = p0;
   out.friction_energy[i] = out.friction_heat[i] = 0.0;
   out.elastic_energy[i] = out.damping_energy[i] = 0.0;
-  if (card.itied == 1 && pi == 0.0 && side * view.tie[7][i] > 0.0) return false;
   const double kappa =
       card.istf == 1 && plan.model == Model::robust ? std::abs(card.stfac) : 0.5 * view.k0[i];
   const double room = ge - std::min(pi, view.tie[6][i]);
@@ -134,6 +133,13 @@ bool continue_tie(const KernelPlan& plan, const PacketView& view, std::size_t i,
       plan.model == Model::reference ? ge / std::max(1e-10, room) : ge / std::max(1e-8 * ge, room);
   const double kt = kappa * phi * phi;
   const double c = card.viss * std::sqrt(2.0 * kappa * phi * tie_mass(plan, view, i, h));
+  // A tie that lets go still stiffens its nodes once, and leaves weights, depth and side behind.
+  out.k_nodal[i] = view.dt1 != 0.0 ? kt + 2.0 * c / view.dt1 : kt;
+  for (std::size_t j = 3; j < 8; ++j) out.tie[j][i] = view.tie[j][i];
+  if (card.itied == 1 && pi == 0.0 && side * view.tie[7][i] > 0.0) {
+    for (std::size_t j = 0; j < 3; ++j) out.tie[j][i] = 0.0;
+    return false;
+  }
   const Vec v = relative_velocity(view, i, h);
   const std::array<double, 3> rate{dot(v, frame.n), dot(v, frame.t1), dot(v, frame.t2)};
   std::array<double, 3> applied{};
@@ -144,11 +150,9 @@ bool continue_tie(const KernelPlan& plan, const PacketView& view, std::size_t i,
     applied[j] = now + c * rate[j];
     out.elastic_energy[i] += 0.5 * view.dt1 * (old + now) * rate[j];
   }
-  for (std::size_t j = 3; j < 8; ++j) out.tie[j][i] = view.tie[j][i];
   set_force(out, i, frame.along(applied[0], applied[1], applied[2]));
   out.normal_force[i] = applied[0];
   out.damping_energy[i] = c * dot(v, v) * view.dt1;
-  out.k_nodal[i] = view.dt1 != 0.0 ? kt + 2.0 * c / view.dt1 : kt;
   out.status[i] = status_tied | status_contact;
   return true;
 }
@@ -166,9 +170,18 @@ double pair_nodal_step(const PacketView& view, std::size_t i, const PacketResult
   return dt;
 }
 
+double edge_nodal_step(const PacketView& view, std::size_t i, const PacketResult& out) {
+  const auto mass = [&](std::size_t a) {
+    return out.weights[a][i] * view.mass[a][i] + out.weights[a + 1][i] * view.mass[a + 1][i];
+  };
+  const double m = std::min(mass(0), mass(2));
+  return m > 0.0 ? std::sqrt(2.0 * m / out.k_nodal[i]) : 1e30;
+}
+
 void start_tie(const KernelPlan& plan, const PacketView& view, std::size_t i, PacketResult& out) {
   const double limit = plan.card.dtmin > 0.0 ? plan.card.dtmin : 1e-30;
   const double kinematic = out.dt_kinematic[i];
+  for (std::size_t j = 0; j < 8; ++j) out.tie[j][i] = view.tie[j][i];  // a new tie overwrites it
   out.dt_kinematic[i] = 1e30;  // with ITIED no pair limits the step
   if ((out.status[i] & status_contact) == 0) return;
   if (kinematic > limit && pair_nodal_step(view, i, out) > limit) return;
@@ -208,6 +221,17 @@ void force_tied_block(const KernelPlan& plan, const PacketView& view, std::size_
   }
 }
 
+void apply_step_deletion(const KernelPlan& plan, const PacketView& view, std::size_t begin,
+                         std::size_t end, PacketResult& out) {
+  const ContactCard& card = plan.card;
+  const bool edges = card.kind == ContactKind::edge_edge;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!(out.k_nodal[i] > 0.0)) continue;
+    const double step = edges ? edge_nodal_step(view, i, out) : pair_nodal_step(view, i, out);
+    if (card.step_factor * step <= card.dtmin) out.status[i] |= status_step_deleted;
+  }
+}
+
 void apply_time_step_tie(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                          std::size_t end, PacketResult& out) {
   for (std::size_t i = begin; i < end; ++i) {
@@ -219,7 +243,6 @@ void apply_time_step_tie(const KernelPlan& plan, const PacketView& view, std::si
     if (continue_tie(plan, view, i, out)) continue;
     set_force(out, i, {});
     out.normal_force[i] = 0.0;
-    out.k_nodal[i] = 0.0;
     out.status[i] = status_released;
   }
 }

@@ -42,6 +42,20 @@ struct Frame {
   }
 };
 
+/// Axes of a segment for directed friction: the mean directions of its sides (a triangle: its first
+/// side and the one from corner 1 to 3), turned against one another until they are square.
+struct SegmentAxes {
+  Vec first, second, normal;
+  SegmentAxes(const Vec& x1, const Vec& x2, const Vec& x3, const Vec& x4, bool triangle) {
+    const Vec a = triangle ? x2 - x1 : (x2 + x3) - (x1 + x4);
+    const Vec b = triangle ? x3 - x1 : (x3 + x4) - (x1 + x2);
+    normal = unit(cross(a, b));
+    const double ratio = norm(b) > 0.0 ? norm(a) / norm(b) : 0.0;
+    first = unit(a + ratio * cross(b, normal));
+    second = cross(normal, first);
+  }
+};
+
 }  // namespace deck::cycle::detail
 
 #endif  // DECK_CYCLE_VECTOR_HPP_

@@ -39,9 +39,14 @@ std::string replay_json(const ReplayInput& input, const cycle::ReplayReport& r) 
   j.field("median", r.median).field("p99", r.p99).field("max", r.max).end_object();
   j.key("zero_rows").begin_object(true).field("count", r.zero_rows);
   j.field("max_over_k0_gap", r.zero_max_over_k0_gap).end_object();
-  j.key("other_outputs").begin_object(true).field("weights", r.max_weights);
-  j.field("nodal_stiffness", r.max_nodal_stiffness).field("p0", r.max_p0);
-  j.field("friction_memory", r.max_friction_memory).field("tie_record", r.max_tie).end_object();
+  j.field("acting", r.acting);
+  j.key("columns").begin_array();
+  for (const cycle::ReplayColumn& c : r.columns) {
+    j.begin_object(true).field("name", c.name).field("rows", c.rows).field("acting", c.acting);
+    j.field("median", c.median).field("p99", c.p99).field("max", c.max);
+    j.field("zero_max", c.zero_max).end_object();
+  }
+  j.end_array();
   j.key("worst").begin_array();
   for (const cycle::ReplayWorst& w : r.worst) {
     j.begin_object(true).field("row", w.row).field("relative_error", w.relative_error);
@@ -60,10 +65,17 @@ std::string replay_text(const ReplayInput& input, const cycle::ReplayReport& r) 
                                 terminal_text(input.states), r.records, r.kind, input.inter->id,
                                 r.compared, name_of(input.model));
   out += fmt::format("  relative error of the {}: median {:.1e}, 99 % {:.1e}, worst {:.1e}\n",
-                     r.kind == "heat" ? "heat" : "pair force", r.median, r.p99, r.max);
+                     r.kind.starts_with("heat") ? "heat" : "pair force", r.median, r.p99, r.max);
   if (r.zero_rows > 0)
-    out += fmt::format("  {} states without force: at most {:.1e} of K0 gap\n", r.zero_rows,
-                       r.zero_max_over_k0_gap);
+    out += fmt::format("  {} states without {}: at most {:.1e} of {}\n", r.zero_rows,
+                       r.kind.starts_with("heat") ? "heat" : "force", r.zero_max_over_k0_gap,
+                       r.kind.starts_with("heat") ? "the largest heat" : "K0 gap");
+  if (10 * r.acting < 3 * r.records)
+    out += fmt::format("  only {} of {} states record any action: this proves little\n", r.acting,
+                       r.records);
+  for (const cycle::ReplayColumn& c : r.columns)
+    out += fmt::format("  {:<12} median {:.1e}, worst {:.1e}, where zero {:.1e}\n", c.name,
+                       c.median, c.max, c.zero_max);
   std::size_t shown = 0;
   for (const cycle::ReplayWorst& w : r.worst) {
     if (shown++ == 3) break;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "deck/cycle/adapter.hpp"
@@ -36,46 +37,96 @@ std::set<std::int64_t> interfaces_of(const std::string& csv) {
   return ids;
 }
 
-void replay_set(const fs::path& dir) {
-  SCOPED_TRACE(dir.filename().string());
-  std::ifstream in(file_like(dir, ".csv.gz"), std::ios::binary);
+/// What a record does not allow, named: everything else holds to 1e-13 (median) and 1e-9 (worst).
+struct Known {
+  std::size_t mismatches = 0;  ///< rows of a group beyond 1e-9
+  const char* why = "";
+};
+std::map<std::string, Known> known_limits() {
+  return {
+      {"r_fctidf_form0/node_segment F", {1, "the run itself ends in a NaN"}},
+      {"r_fctidf_form0/heat Q", {1, "the run itself ends in a NaN"}},
+      {"r_fctidf_form0/heat conductance", {1, "the run itself ends in a NaN"}},
+      {"eng_TRITUBV4/node_segment F", {1, "a force of 1e-6 K0 gap: the depth has lost 7 digits"}},
+      // An edge pair 1e-15 deep: the recorded coordinates do not say on which side of 0.
+      {"t11_inacti5/edge_edge K_nodal", {0, "one row where 0 is recorded, of 1097"}},
+  };
+}
+/// Sets in which fewer than 30 % of the rows act: named as no proof.
+const std::set<std::string> empty_sets{"kern_icurv1/node_segment", "t11_inacti5/edge_edge",
+                                       "t11_heat_solid1/heat_edges"};
+
+std::size_t replay_states(const fs::path& states, const Scene& scene) {
+  std::string stem = states.filename().string();
+  stem = stem.substr(0, stem.find('.'));
+  const std::string name = states.parent_path().filename().string() + "/" + stem;
+  SCOPED_TRACE(name);
+  std::ifstream in(states, std::ios::binary);
   const auto csv = cycle::states_text(std::string{std::istreambuf_iterator<char>(in), {}});
-  ASSERT_TRUE(csv.has_value());
+  EXPECT_TRUE(csv.has_value());
+  if (!csv) return 0;
+  const bool edges = stem != "node_segment" && stem != "tied" && stem != "heat";
+  const auto limits = known_limits();
+  std::size_t groups = 0;
+  for (const std::int64_t id : interfaces_of(*csv)) {
+    const Contact* contact = nullptr;
+    for (const Contact& c : scene.contacts)
+      if (contact == nullptr && c.inter->id == id && (c.kind == ContactKind::edge_edge) == edges)
+        contact = &c;
+    EXPECT_NE(contact, nullptr) << id;
+    if (contact == nullptr) continue;
+    cycle::ReplayOptions options;
+    options.interface_id = static_cast<int>(id);
+    options.scene = &scene;
+    const auto r = cycle::replay(cycle::make_card(scene, *contact), *csv, options);
+    EXPECT_EQ(r.error, "");
+    EXPECT_EQ(r.compared, r.records);
+    const bool empty = 10 * r.acting < 3 * r.records;
+    EXPECT_EQ(empty, empty_sets.contains(name)) << r.acting << " of " << r.records << " rows act";
+    for (const cycle::ReplayColumn& c : r.columns) {
+      ++groups;
+      const auto limit = limits.find(name + " " + c.name);
+      EXPECT_LE(c.median, 1e-13) << c.name;
+      if (limit != limits.end()) continue;
+      EXPECT_LE(c.max, 1e-9) << c.name;
+      EXPECT_LE(c.zero_max, 1e-12) << c.name;
+    }
+    // A named limit covers one row each, and no other comes in under its name.
+    if (const auto limit = limits.find(name + " " + r.columns.front().name);
+        limit != limits.end() && r.worst.size() > limit->second.mismatches) {
+      EXPECT_LE(r.worst[limit->second.mismatches].relative_error, 1e-9) << limit->second.why;
+    }
+  }
+  return groups;
+}
+
+std::size_t replay_set(const fs::path& dir) {
   auto deck = read_deck(file_like(dir, "_0000.rad").string(), SchemaSet::built_in());
-  ASSERT_TRUE(deck.ok());
+  EXPECT_TRUE(deck.ok()) << dir;
+  if (!deck.ok()) return 0;
   Diagnostics diagnostics;
   const Model model = build_model(*deck, SchemaSet::built_in(), diagnostics);
   const Interfaces interfaces = read_interfaces(*deck, model, diagnostics);
   SceneOptions options;
   options.penetrations = options.candidates = false;
   const Scene scene = build_scene(model, interfaces, diagnostics, options);
-  for (const std::int64_t id : interfaces_of(*csv)) {
-    const Contact* contact = nullptr;
-    for (const Contact& c : scene.contacts)
-      if (c.inter->id == id) contact = &c;
-    ASSERT_NE(contact, nullptr) << id;
-    cycle::ReplayOptions replay_options;
-    replay_options.interface_id = static_cast<int>(id);
-    const auto r = cycle::replay(cycle::make_card(scene, *contact), *csv, replay_options);
-    ASSERT_EQ(r.error, "");
-    EXPECT_GT(r.records, 300u);
-    EXPECT_GE(static_cast<double>(r.compared), 0.95 * static_cast<double>(r.records));
-    EXPECT_LE(r.median, 1e-13);
-    EXPECT_LE(r.p99, 1e-9);
-    EXPECT_LE(r.max, 1e-6);
-    EXPECT_LE(r.zero_max_over_k0_gap, 1e-12);
-  }
+  std::size_t groups = 0;
+  for (const auto& entry : fs::directory_iterator(dir))
+    if (entry.path().filename().string().ends_with(".csv.gz"))
+      groups += replay_states(entry.path(), scene);
+  return groups;
 }
 
-TEST(Replay, CardsOfTheDecksReproduceEveryRecordedForce) {
+TEST(Replay, CardsOfTheDecksReproduceEveryRecordedResult) {
   const fs::path base = corpus() / "oracle" / "kernel";
   if (!fs::is_directory(base)) GTEST_SKIP() << base << " is not there (DECK_CORPUS)";
-  std::size_t sets = 0;
+  std::size_t sets = 0, groups = 0;
   for (const auto& entry : fs::directory_iterator(base)) {
-    replay_set(entry.path());
+    groups += replay_set(entry.path());
     ++sets;
   }
-  EXPECT_GE(sets, 29u);
+  EXPECT_GE(sets, 52u);
+  EXPECT_GE(groups, 250u);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
-  std::string states;
+  std::string states, csv;
   std::int64_t interface_id = 0;
   std::string model = "reference";
 };
@@ -41,7 +41,7 @@ int run_deck(const Options& o, const std::string& csv, Loaded& loaded, JsonOutpu
   const Scene scene =
       build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
   const std::string_view header = std::string_view(csv).substr(0, csv.find('\n'));
-  const bool edges = header.find("hs1") != std::string_view::npos;
+  const bool edges = header.find("hs1") != std::string_view::npos;  // also in heat of edges
   const Contact* contact = contact_of(scene, edges);
   if (contact == nullptr) {
     print_error(o.common, o.states + ": the states do not fit the type of interface " +
@@ -51,6 +51,8 @@ int run_deck(const Options& o, const std::string& csv, Loaded& loaded, JsonOutpu
   cycle::ReplayOptions options;
   options.interface_id = static_cast<int>(o.interface_id);
   options.model = o.model == "robust" ? cycle::Model::robust : cycle::Model::reference;
+  options.scene = &scene;
+  options.csv = !o.csv.empty();
   const auto report = cycle::replay(cycle::make_card(scene, *contact, options.model), csv, options);
   if (!report.error.empty()) {
     print_error(o.common, o.states + ": " + report.error);
@@ -61,9 +63,14 @@ int run_deck(const Options& o, const std::string& csv, Loaded& loaded, JsonOutpu
                 o.states + ": no state belongs to interface " + std::to_string(o.interface_id));
     return exit_input;
   }
+  if (options.csv)
+    if (auto r = write_output(o.csv, report.csv); !r) {
+      print_error(o.common, r.error().message);
+      return exit_usage;
+    }
   const ReplayInput input{loaded.path, o.states, &loaded.deck, *found, options.model};
   if (json.wanted()) json.add(replay_json(input, report));
-  if (o.common.wants_text()) print_text(replay_text(input, report));
+  if (o.common.wants_text() && o.csv != "-") print_text(replay_text(input, report));
   return exit_clean;
 }
 
@@ -102,13 +109,19 @@ Action setup(CLI::App& app) {
   app.add_option("--model", options->model, "reference or robust")
       ->check(CLI::IsMember({"reference", "robust"}))
       ->capture_default_str();
+  app.add_option("--csv", options->csv,
+                 "Writes every result column of STATES as computed here, one line per state of the "
+                 "interface, with the 0-based number of its data line in front (- for standard "
+                 "output)")
+      ->type_name("FILE");
   return [options] { return run(*options); };
 }
 
 const VerbRegistration registration{
     {"replay", 45, "Contact kernel on recorded pair states, compared with the recorded forces",
      "  deck replay car_0000.rad --interface 3 states.csv.gz\n"
-     "  deck replay car_0000.rad --interface 3 states.csv.gz --json replay.json\n",
+     "  deck replay car_0000.rad --interface 3 states.csv.gz --json replay.json\n"
+     "  deck replay car_0000.rad --interface 3 states.csv.gz --csv computed.csv\n",
      setup}};
 
 }  // namespace

@@ -44,6 +44,8 @@ struct ContactPairs {
   std::vector<double> fric, visf2;                               ///< with fric_ID only
   std::array<std::vector<double>, 6> c;                          ///< with fric_ID only
   std::array<std::vector<double>, 2> ortho_mu, ortho_direction;  ///< with orthotropic pairs only
+  std::array<std::vector<double>, 6> c2;                         ///< with orthotropic pairs only
+  std::vector<double> directed;                                  ///< with orthotropic pairs only
   std::array<std::array<std::vector<double>, 3>, 4> normal;      ///< with Icurv 3 and Iadm only
   bool complete = true;  ///< false: too many pairs, none was kept
   [[nodiscard]] std::size_t size() const { return at.size(); }

@@ -91,6 +91,7 @@ struct ContactCard {
   double tstop = 1e30;
   std::optional<double> sensor_time;  ///< activation time of sens_ID, when one is given
   double dtmin = 0.0;                 ///< pairs (nodes) below this contact time step are deleted
+  double step_factor = 0.9;           ///< of nodal time steps, when held against dtmin
   int itied = 0;                      ///< TYPE7: 0/1/2; TYPE10: 0 rebound, 1 none
 
   // Flags with side effects outside the pair force.

@@ -40,6 +40,7 @@ struct EdgeHeatState {
   double normal_force = 0.0;             ///< signed, negative presses
   double distance = 0.0;
   double gap = 0.0;            ///< pair gap, before Inacti
+  double area = -1.0;          ///< shared area where it is known already; < 0: from the widths
   double effective_gap = 0.0;  ///< after Inacti; in the reference nine tenths of it
   double dt1 = 0.0;
 };

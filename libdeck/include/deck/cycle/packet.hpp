@@ -74,10 +74,16 @@ struct PacketView {
   std::array<const double*, 2> edge_width{};  ///< of the secondary and the main edge
   std::array<const double*, 4> edge_conductivity{};  ///< at each end, 0: none
   const double* fric = nullptr;                      ///< per-pair friction coefficient
-  const double* visf2 = nullptr;            ///< per-pair square of the tangential damping factor
-  std::array<const double*, 6> c{};         ///< per-pair friction law coefficients
-  std::array<const double*, 2> ortho_mu{};  ///< per pair, along and across the direction
-  std::array<const double*, 2> ortho_direction{};        ///< A, B in the segment's own axes
+  const double* visf2 = nullptr;     ///< per-pair factor of A in the tangential dashpot's square
+  std::array<const double*, 6> c{};  ///< per-pair friction law coefficients
+  const double* directed = nullptr;  ///< orthotropic contacts: 0 for isotropic pairs; null: none is
+  std::array<const double*, 2> ortho_mu{};         ///< per pair, along and across the direction
+  std::array<const double*, 6> c2{};               ///< coefficients of the law across the direction
+  std::array<const double*, 2> ortho_direction{};  ///< A, B in the segment's own axes
+  /// Unit directions along and across; null: formed from ortho_direction.
+  std::array<std::array<const double*, 3>, 2> ortho_axis{};
+  /// Icurv 3: how far beyond the gap weights are formed; null: from the pair's nodal normals.
+  const double* allowance = nullptr;
   std::array<std::array<const double*, 3>, 4> normal{};  ///< nodal normals of the corners
 };
 
@@ -89,6 +95,7 @@ enum Status : std::int64_t {
   status_tied = 8,          ///< a tie is live after this cycle
   status_released = 16,     ///< a tie ended in this cycle
   status_bc_release = 32,   ///< fixed translations named by IBC are to be released
+  status_kept = 64,         ///< curved main sides only: the pair is within reach
 };
 
 /// Sums over a packet (or over a whole interface), on the main side.

@@ -1,0 +1,57 @@
+// Columns of numbers by name, read from CSV text, and written as such.
+#ifndef DECK_CYCLE_REPLAY_TABLE_HPP_
+#define DECK_CYCLE_REPLAY_TABLE_HPP_
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace deck::cycle::detail {
+
+class Table {
+ public:
+  /// False when the text has no header or a row does not fit it; `error` says why.
+  bool read(std::string_view text, std::string& error);
+  [[nodiscard]] bool has(const std::string& name) const { return names_.contains(name); }
+  [[nodiscard]] std::size_t rows() const { return columns_.empty() ? 0 : columns_[0].size(); }
+  /// Names in the order of the text; one that is repeated stands for its first column.
+  [[nodiscard]] const std::vector<std::string>& names() const { return order_; }
+  /// Null when there is no such column.
+  [[nodiscard]] const double* column(const std::string& name) const;
+  /// stem_x, stem_y, stem_z.
+  [[nodiscard]] std::array<const double*, 3> triple(const std::string& stem) const;
+  /// stem + "1" ... stem + "n" + tail for the whole array.
+  template <std::size_t N>
+  [[nodiscard]] std::array<const double*, N> numbered(const std::string& stem,
+                                                      const std::string& tail = {}) const {
+    std::array<const double*, N> out{};
+    for (std::size_t k = 0; k < N; ++k) out[k] = column(stem + std::to_string(k + 1) + tail);
+    return out;
+  }
+
+ private:
+  void header(std::string_view line);
+  bool values(std::string_view line);
+
+  std::map<std::string, std::size_t> names_;
+  std::vector<std::string> order_;
+  std::vector<std::vector<double>> columns_;
+};
+
+/// Result columns of some rows of the states.
+struct ResultTable {
+  std::vector<std::size_t> row;  ///< 0-based data lines of the states
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;  ///< parallel to `names`, each as long as `row`
+  [[nodiscard]] const std::vector<double>* column(std::string_view name) const;
+};
+
+/// One line a row after a header "row,NAME,...": 17 significant digits, nan and inf written out.
+std::string to_csv(const ResultTable& table);
+
+}  // namespace deck::cycle::detail
+
+#endif  // DECK_CYCLE_REPLAY_TABLE_HPP_

@@ -1,0 +1,101 @@
+// `deck replay` as a judge: what counts as equal, and what it writes row by row.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "cycle/support.hpp"
+#include "deck/cycle/replay.hpp"
+
+namespace deck::cycle {
+namespace {
+
+const char* const header =
+    "cycle,interface,node,n1,n2,n3,n4,t,dt1,dt12,xs_x,xs_y,xs_z,x1_x,x1_y,x1_z,x2_x,x2_y,x2_z,"
+    "x3_x,x3_y,x3_z,x4_x,x4_y,x4_z,vs_x,vs_y,vs_z,v1_x,v1_y,v1_z,v2_x,v2_y,v2_z,v3_x,v3_y,v3_z,"
+    "v4_x,v4_y,v4_z,ms,K0,gap,P0_in,F_x,F_y,F_z,K_nodal";
+
+/// A node 0.4 above the middle of a unit-thick square of side 10 with gap 1, and what was recorded.
+std::string state(const std::string& height, const std::string& recorded, int interface = 3,
+                  const std::string& time = "0") {
+  return "0," + std::to_string(interface) + ",9,1,2,3,4," + time + ",0,0,5,5," + height +
+         ",0,0,0,10,0,0,10,10,0,0,10,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,1,1000,1,0," + recorded + "\n";
+}
+
+ContactCard spring() {
+  ContactCard card;
+  card.viss = 0.0;
+  return card;
+}
+
+std::string table(const std::string& rows) { return std::string(header) + "\n" + rows; }
+
+TEST(ReplayJudge, NoNumberIsNeverEqualToARecordedForce) {
+  // Recorded (3, 4, -12), computed nan: once counted as error 0.
+  const ReplayReport r = replay(spring(), table(state("nan", "3,4,-12,0")));
+  ASSERT_EQ(r.error, "");
+  EXPECT_EQ(r.compared, 1u);
+  EXPECT_TRUE(std::isinf(r.max)) << r.max;
+}
+
+TEST(ReplayJudge, NoNumberInTheRecordIsAMismatchEvenWhereBothSidesHaveIt) {
+  for (const char* recorded : {"nan,0,0,0", "0,0,inf,0", "-inf,0,0,0"}) {
+    EXPECT_TRUE(std::isinf(replay(spring(), table(state("0.4", recorded))).max)) << recorded;
+    EXPECT_TRUE(std::isinf(replay(spring(), table(state("nan", recorded))).max)) << recorded;
+  }
+}
+
+TEST(ReplayJudge, EveryRecordedColumnIsComparedNotTheForceAlone) {
+  // d = 0.4: F = 0.5 K0 p / d = 750, k_tan = 0.5 K0 / d^2 = 3125.
+  const ReplayReport right = replay(spring(), table(state("0.4", "0,0,-750,3125")));
+  ASSERT_EQ(right.columns.size(), 2u);
+  EXPECT_LE(right.max, 1e-15);
+  EXPECT_LE(right.columns[1].max, 1e-15);
+  const ReplayReport wrong = replay(spring(), table(state("0.4", "0,0,-750,3126")));
+  EXPECT_LE(wrong.max, 1e-15);
+  EXPECT_EQ(wrong.columns[1].name, "K_nodal");
+  EXPECT_NEAR(wrong.columns[1].max, 1.0 / 3126.0, 1e-12);
+}
+
+TEST(ReplayJudge, RowsThatRecordNothingAreCounted) {
+  const ReplayReport r =
+      replay(spring(), table(state("2", "0,0,0,0") + state("0.4", "0,0,-750,3125")));
+  EXPECT_EQ(r.records, 2u);
+  EXPECT_EQ(r.acting, 1u);
+  EXPECT_EQ(r.zero_rows, 1u);
+}
+
+TEST(ReplayCsv, HasOneLinePerStateOfTheInterfaceInOrder) {
+  ReplayOptions options;
+  options.csv = true;
+  options.interface_id = 3;
+  const ReplayReport r = replay(spring(),
+                                table(state("0.5", "0,0,0,0") + state("0.4", "0,0,0,0", 8) +
+                                      state("2", "9,9,9,9") + state("nan", "0,0,0,0")),
+                                options);
+  std::istringstream in(r.csv);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[0], "row,F_x,F_y,F_z,K_nodal");
+  EXPECT_TRUE(lines[1].starts_with("0,"));
+  EXPECT_NE(lines[1].find("-5.0000000000000000e+02,2.0000000000000000e+03"), std::string::npos)
+      << lines[1];
+  // Row 2 of the states, 0-based: nothing of the record passes into what is computed.
+  EXPECT_EQ(lines[2],
+            "2,0.0000000000000000e+00,0.0000000000000000e+00,0.0000000000000000e+00,"
+            "0.0000000000000000e+00");
+  EXPECT_TRUE(lines[3].starts_with("3,nan,nan,nan")) << lines[3];
+}
+
+TEST(ReplayCsv, PairsOutsideTheTimeWindowDoNothing) {
+  ContactCard card = spring();
+  card.tstart = 0.5;
+  card.sensor_time = 0.75;  // both conditions hold together
+  for (const char* time : {"0.4", "0.6"})
+    EXPECT_EQ(replay(card, table(state("0.4", "0,0,-750,3125", 3, time))).max, 1.0) << time;
+  EXPECT_LE(replay(card, table(state("0.4", "0,0,-750,3125", 3, "0.75"))).max, 1e-15);
+}
+
+}  // namespace
+}  // namespace deck::cycle
