@@ -255,7 +255,10 @@ void add_geometry_segment_rules(std::vector<Rule>& out) {
            "All nodes of a face of a solid belong to another solid, of which they are no face.",
        .why = "The two solids overlap. A node of the other side can get in touch with a face that "
               "is inside the material.",
-       .solver = "it keeps most of these faces and drops some; it has no such check",
+       .solver = "it has no such check; it takes such a face for an interior one where a face of "
+                 "the other "
+                 "solid has as many nodes, the same smallest one, and the second node of this face "
+                 "just before it, and keeps it elsewhere: those reported here are kept",
        .fix = "mend the mesh: neighbours share whole faces",
        .ignore = "Where the other side never gets there.",
        .bad = overlapping,

@@ -44,7 +44,10 @@ void turn(SolidShape shape, NodeIndex* n, NodeIndex* mid) {
       break;
     }
     case SolidShape::penta6:
-      // Slots hold 1 2 3 1 4 5 6 4.
+      // Slots hold 1 2 3 1 4 5 6 4; the solver leaves slots 4 and 8 as they are, which spoils two
+      // of the faces.
+      std::swap_ranges(n, n + 3, n + 4);
+      break;
     case SolidShape::brick8:
     case SolidShape::brick20:
     case SolidShape::thick16:

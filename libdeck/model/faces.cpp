@@ -1,5 +1,6 @@
-// Exterior faces by hashing: every face is a key made of its nodes in a canonical order and one bit
-// for the sense of traversal; a face met again in the opposite sense is interior.
+// Exterior faces by hashing. A face starts at its smallest node; its second and its last node there
+// make two keys: what it offers to other solids (smallest, last) and what would end it (smallest,
+// second). A face that another one offers an end to is interior if that solid has all its nodes.
 #include "model/faces.hpp"
 
 #include <algorithm>
@@ -15,37 +16,14 @@ constexpr int face_slots[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
 constexpr int tetra_mids[6][3] = {{-1, -1, -1}, {-1, -1, -1}, {2, 5, 3},
                                   {4, 5, 1},    {0, 1, 2},    {3, 4, 0}};
 
-struct OrientedKey {
-  NodeKey key;
-  bool forward = false;
-};
-
-/// Smallest node first, then the smaller of its two neighbours: the same key for both senses.
-OrientedKey oriented_key(const Face& face) {
-  const auto n = static_cast<std::size_t>(face.corners);
-  std::size_t least = 0;
-  for (std::size_t i = 1; i < n; ++i)
-    if (face.nodes[i] < face.nodes[least]) least = i;
-  const NodeIndex next = face.nodes[(least + 1) % n];
-  const NodeIndex previous = face.nodes[(least + n - 1) % n];
-  OrientedKey out;
-  out.forward = next < previous;
-  out.key.nodes = {face.nodes[least], std::min(next, previous), std::max(next, previous),
-                   n == 4 ? face.nodes[(least + 2) % n] : no_index};
-  return out;
+/// Solids whose faces can make those of others interior.
+bool is_neighbour(SolidShape shape) {
+  return shape != SolidShape::brick20 && shape != SolidShape::thick16;
 }
 
 bool complete(const Elements& solids, std::size_t e) {
   const NodeIndex* n = solids.of(e);
   return std::find(n, n + 8, no_index) == n + 8;
-}
-
-NodeElements solids_at_nodes(const Elements& solids) {
-  NodeIndex last = 0;
-  for (std::uint32_t e = 0; e < solids.size(); ++e)
-    for (int i = 0; i < 8; ++i)
-      if (const NodeIndex n = solids.of(e)[i]; n != no_index) last = std::max(last, n);
-  return connect_nodes(solids, std::size_t{last} + 1, 8);
 }
 
 void append_face(const Elements& solids, std::uint32_t e, int f, const Face& face,
@@ -169,79 +147,62 @@ void ShellCover::select(const std::vector<std::uint32_t>& shells4,
 bool ShellCover::hides(const Face& face) const {
   const std::uint32_t key = table_.find(node_key(face.nodes.data(), face.corners));
   if (key == no_index) return false;
+  const bool four = face.corners == 4;
   const Entry* best = nullptr;
   std::pair<std::ptrdiff_t, std::uint32_t> best_place;
   for (std::uint32_t i = first_[key]; i != no_index; i = entries_[i].next) {
     const Entry& entry = entries_[i];
-    const Elements& shells = entry.four ? *shell4_ : *shell3_;
+    if (entry.four != four) continue;
+    const Elements& shells = four ? *shell4_ : *shell3_;
     const NodeIndex* n = shells.of(entry.element);
     const std::pair place(std::find(n, n + shells.width, face.nodes[0]) - n, entry.element);
-    // Quadrangles are looked through before triangles.
-    if (best == nullptr || (entry.four && !best->four) ||
-        (entry.four == best->four && place < best_place)) {
+    if (best == nullptr || place < best_place) {
       best = &entry;
       best_place = place;
     }
   }
-  return (best->four ? stamp4_ : stamp3_)[best->element] == generation_;
+  return best != nullptr && (four ? stamp4_ : stamp3_)[best->element] == generation_;
 }
 
-SolidFaces::SolidFaces(const Elements& solids)
-    : solids_(&solids),
-      key_(solids.size() * 6, no_index),
-      forward_(solids.size() * 6),
-      outside_all_(solids.size() * 6),
-      stamp_(solids.size(), 0) {
-  KeyTable table(solids.size() * 4);
+SolidFaces::SolidFaces(const Elements& solids, const std::vector<std::uint32_t>& ranks)
+    : solids_(&solids), ends_(solids.size() * 6, no_index), stamp_(solids.size(), 0) {
+  const auto rank = [&](NodeIndex n) { return ranks.empty() ? n : ranks[n]; };
+  KeyTable table(solids.size() * 6);
   owners_.reserve(solids.size() * 6);
   for (std::uint32_t e = 0; e < solids.size(); ++e) {
     if (!complete(solids, e)) continue;
     for (std::uint32_t f = 0; f < 6; ++f) {
       const Face face = solid_face(solids.of(e), static_cast<int>(f));
       if (face.corners == 0) continue;
-      const OrientedKey k = oriented_key(face);
-      const std::uint32_t key = table.insert(k.key);
-      if (key == first_.size()) first_.push_back(no_index);
-      owners_.push_back({e, first_[key], k.forward});
-      first_[key] = static_cast<std::uint32_t>(owners_.size()) - 1;
-      key_[e * std::size_t{6} + f] = key;
-      forward_[e * std::size_t{6} + f] = k.forward;
+      const auto n = static_cast<std::size_t>(face.corners);
+      std::size_t least = 0;
+      for (std::size_t i = 1; i < n; ++i)
+        if (rank(face.nodes[i]) < rank(face.nodes[least])) least = i;
+      const auto key = [&](std::size_t other) {
+        const std::uint32_t k = table.insert(
+            {{face.nodes[least], face.nodes[(least + other) % n], static_cast<NodeIndex>(n)}});
+        if (k == first_.size()) first_.push_back(no_index);
+        return k;
+      };
+      ends_[e * std::size_t{6} + f] = key(1);
+      if (!is_neighbour(solids.shape[e])) continue;
+      const std::uint32_t offered = key(n - 1);
+      owners_.push_back({e, first_[offered]});
+      first_[offered] = static_cast<std::uint32_t>(owners_.size()) - 1;
     }
   }
 }
 
-bool SolidFaces::interior(std::uint32_t solid, int face, bool against_all) const {
-  const std::size_t at = solid * std::size_t{6} + static_cast<std::size_t>(face);
-  for (std::uint32_t i = first_[key_[at]]; i != no_index; i = owners_[i].next) {
-    const Owner& o = owners_[i];
-    if (o.solid != solid && o.forward != forward_[at] && counts(o.solid, against_all)) return true;
-  }
-  return false;
-}
-
-bool SolidFaces::inside_another(std::uint32_t solid, int f, const Face& face, bool against_all) {
+bool SolidFaces::interior(std::uint32_t solid, int f, const Face& face, bool against_all) const {
+  const auto has = [&](std::uint32_t other) {
+    const NodeIndex* slots = solids_->of(other);
+    return std::all_of(face.nodes.begin(), face.nodes.begin() + face.corners,
+                       [&](NodeIndex n) { return std::find(slots, slots + 8, n) != slots + 8; });
+  };
   const std::size_t at = solid * std::size_t{6} + static_cast<std::size_t>(f);
-  if (face.corners != 4 || outside_all_[at]) return false;
-  const auto slot = [&](std::uint32_t e, NodeIndex node) {
-    const NodeIndex* slots = solids_->of(e);
-    return std::find(slots, slots + 8, node) - slots;
-  };
-  const auto has_it = [&](std::uint32_t other) {
-    std::uint32_t i = first_[key_[at]];
-    while (i != no_index && owners_[i].solid != other) i = owners_[i].next;
-    return i != no_index;
-  };
-  outside_all_[at] = true;
-  for (const std::uint32_t other : around_.row(face.nodes[0])) {
-    if (other == solid) continue;
-    const bool first_everywhere =
-        std::all_of(face.nodes.begin(), face.nodes.end(), [&](NodeIndex node) {
-          const auto there = slot(other, node);
-          return there < 8 && std::pair(there, other) < std::pair(slot(solid, node), solid);
-        });
-    if (!first_everywhere || !complete(*solids_, other) || has_it(other)) continue;
-    outside_all_[at] = false;
-    if (counts(other, against_all)) return true;
+  for (std::uint32_t i = first_[ends_[at]]; i != no_index; i = owners_[i].next) {
+    const std::uint32_t other = owners_[i].solid;
+    if (other != solid && counts(other, against_all) && has(other)) return true;
   }
   return false;
 }
@@ -251,17 +212,17 @@ std::vector<Segment> SolidFaces::segments(const FaceQuery& query) {
   const auto& members = *query.solids;
   ++generation_;
   for (const std::uint32_t e : members) stamp_[e] = generation_;
-  if (query.exterior_only && around_.first.empty()) around_ = solids_at_nodes(*solids_);
   for (const std::uint32_t e : members) {
     const bool all = !query.exterior_only || (query.all_faces_of != nullptr &&
                                               std::binary_search(query.all_faces_of->begin(),
                                                                  query.all_faces_of->end(), e));
     for (int f = 0; f < 6; ++f) {
-      if (key_[e * std::size_t{6} + static_cast<std::size_t>(f)] == no_index) continue;
-      if (!all && interior(e, f, query.against_all)) continue;
+      if (ends_[e * std::size_t{6} + static_cast<std::size_t>(f)] == no_index) continue;
       const Face face = solid_face(solids_->of(e), f);
-      if (!all && inside_another(e, f, face, query.against_all)) continue;
-      if (query.cover != nullptr && query.cover->hides(face)) continue;
+      if (!all && interior(e, f, face, query.against_all)) continue;
+      // Faces of 10-node tetrahedra are not held against shells.
+      const bool covered = query.cover != nullptr && solids_->shape[e] != SolidShape::tetra10;
+      if (covered && query.cover->hides(face)) continue;
       append_face(*solids_, e, f, face, out);
     }
   }
@@ -296,18 +257,11 @@ int cut_triangle(const std::array<NodeIndex, 3>& c, const std::array<NodeIndex, 
     triangle(0, c[0], c[1], c[2]);
     return 1;
   }
-  // Turn the triangle so that the odd one out is the first side.
+  // One or two: the first there is cuts the triangle in two.
   std::size_t k = 0;
-  while ((m[k] != no_index) != (present == 1)) ++k;
-  const NodeIndex a = c[k], b = c[(k + 1) % 3], d = c[(k + 2) % 3];
-  if (present == 1) {
-    triangle(0, a, m[k], d);
-    triangle(1, m[k], b, d);
-  } else {
-    const NodeIndex mb = m[(k + 1) % 3], md = m[(k + 2) % 3];  // between b and d, d and a
-    out[0] = {a, b, mb, md};
-    triangle(1, d, md, mb);
-  }
+  while (m[k] == no_index) ++k;
+  triangle(0, c[k], m[k], c[(k + 2) % 3]);
+  triangle(1, m[k], c[(k + 1) % 3], c[(k + 2) % 3]);
   return 2;
 }
 

@@ -50,10 +50,11 @@ class KeyTable {
   std::vector<Slot> slots_;
 };
 
-/// Shells that lie on faces of solids. A selected shell replaces the face under it. Where several
-/// shells have the same nodes only one decides: the first in the list of elements at the first node
-/// of the face, which holds those that have it as their first node, then as their second, and so
-/// on. If that one is not selected the face stays.
+/// Shells that lie on faces of solids. A selected shell replaces the face under it: 4-node shells
+/// those of four nodes, 3-node shells triangles. Where several shells have the same nodes only one
+/// decides: the first in the list of elements at the first node of the face, which holds those that
+/// have it as their first node, then as their second, and so on. If that one is not selected the
+/// face stays.
 class ShellCover {
  public:
   ShellCover(const Elements& shell4, const Elements& shell3);
@@ -87,12 +88,16 @@ struct FaceQuery {
   const ShellCover* cover = nullptr;  ///< shells that replace faces; may be nullptr
 };
 
-/// All faces of all solids, hashed once: which solids have a face, and in which sense. A face is
-/// interior where another solid of the group has the same nodes in the opposite sense, and where
-/// solids overlap and it lies inside one that comes first (see inside_another).
+/// All faces of all solids, hashed once. A face is interior, and left out, where one other solid
+/// that counts as a neighbour has all its nodes and a face of as many nodes with the same smallest
+/// node, in whose own sense the second node of this face stands just before that node. The nodes
+/// between are not compared. For solids that share faces properly this is the same face in the
+/// opposite sense; where solids overlap it decides as the reference solver does, and not always
+/// alike for both.
 class SolidFaces {
  public:
-  explicit SolidFaces(const Elements& solids);
+  /// `ranks`: position of each node in the solver's internal order; empty: nodes are in that order.
+  explicit SolidFaces(const Elements& solids, const std::vector<std::uint32_t>& ranks = {});
   /// Segments of the faces, solid after solid, face after face. Solids with missing nodes have
   /// none; 10-node tetrahedra are cut into their small triangles.
   std::vector<Segment> segments(const FaceQuery& query);
@@ -100,31 +105,22 @@ class SolidFaces {
  private:
   struct Owner {
     std::uint32_t solid;
-    std::uint32_t next;  ///< owner of the same face
-    bool forward;
+    std::uint32_t next;  ///< owner of a face with the same key
   };
   bool counts(std::uint32_t solid, bool against_all) const {
     return against_all || stamp_[solid] == generation_;
   }
-  bool interior(std::uint32_t solid, int face, bool against_all) const;
-  /// Four nodes that all belong to one other solid, of which they are no face: the solids overlap.
-  /// The reference solver drops such a face if the other solid precedes this one in the lists of
-  /// solids at all four nodes (those that have the node in their first slot come first, then their
-  /// second, and so on), and keeps it otherwise. This is the simplest rule that explains the eight
-  /// such faces of the recorded decks, one of which is dropped; triangles are kept in all 32 cases.
-  bool inside_another(std::uint32_t solid, int f, const Face& face, bool against_all);
+  bool interior(std::uint32_t solid, int f, const Face& face, bool against_all) const;
   const Elements* solids_;
-  NodeElements around_;               ///< solids at each node
-  std::vector<std::uint32_t> key_;    ///< per solid and face; no_index: no face
-  std::vector<bool> forward_;         ///< per solid and face
-  std::vector<bool> outside_all_;     ///< per solid and face: known to lie inside no other solid
+  std::vector<std::uint32_t> ends_;   ///< per solid and face: key that ends it; no_index: no face
   std::vector<std::uint32_t> first_;  ///< per key: owner
   std::vector<Owner> owners_;
   std::vector<std::uint32_t> stamp_;  ///< per solid: generation in which it was a member
   std::uint32_t generation_ = 0;
 };
 
-/// Cuts a triangle with mid-side nodes (no_index: missing; mids[0] between corners 0 and 1).
+/// Cuts a triangle with mid-side nodes (no_index: missing; mids[0] between corners 0 and 1): all
+/// three make four pieces, one or two make two pieces at the first that is there.
 /// Returns the number of pieces written to `out`.
 int cut_triangle(const std::array<NodeIndex, 3>& corners, const std::array<NodeIndex, 3>& mids,
                  std::array<std::array<NodeIndex, 4>, 4>& out);

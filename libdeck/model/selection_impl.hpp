@@ -66,6 +66,9 @@ struct SetGroup {
   std::vector<Segment> rows;               ///< SEG rows with three or four nodes
   std::vector<Edge> row_edges;             ///< SEG rows with two nodes
   bool external = false;                   ///< option E
+  /// Faces of its solids are held against every solid of the model: so for all clauses but those
+  /// of parts and of solids, whose own members are the only neighbours.
+  bool against_all = false;
 };
 /// A /SET while its clauses are evaluated. Every group has projections of its own: exterior faces
 /// and edges are looked for within a group. The first group holds all clauses of parts, and

@@ -37,6 +37,7 @@ std::vector<Segment> Selections::Impl::group_segments(const SetGroup& group) {
   detail::FaceQuery query;
   query.solids = &group.elements[at(ElementKind::solid8)];
   query.all_faces_of = &group.all_faces;
+  query.against_all = group.against_all;
   if (!query.solids->empty()) {
     if (!shells4.empty() || !shells3.empty()) {
       cover().select(shells4, shells3);

@@ -185,7 +185,8 @@ detail::ShellCover& Selections::Impl::cover() {
 }
 
 detail::SolidFaces& Selections::Impl::solid_faces() {
-  if (!all_solid_faces) all_solid_faces = std::make_unique<detail::SolidFaces>(model->solid8);
+  if (!all_solid_faces)
+    all_solid_faces = std::make_unique<detail::SolidFaces>(model->solid8, ranks);
   return *all_solid_faces;
 }
 

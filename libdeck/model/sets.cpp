@@ -76,6 +76,9 @@ bool same_edge(const Edge& a, const Edge& b) {
 }
 
 void add(SetGroup& group, const SetGroup& clause) {
+  const auto solids = static_cast<std::size_t>(ElementKind::solid8);
+  if (!clause.elements[solids].empty())
+    group.against_all = clause.against_all && (group.elements[solids].empty() || group.against_all);
   const auto join = [](Indices& a, const Indices& b) { a = combine(a, b, Operator::add); };
   for (std::size_t k = 0; k < SetGroup::families; ++k) join(group.elements[k], clause.elements[k]);
   join(group.reversed4, clause.reversed4);
@@ -190,6 +193,9 @@ class ClauseReader {
 
   /// What the options change after the members are known.
   void finish() {
+    if (clause_.kind == "SUBS" || clause_.kind == "SUBM" || clause_.kind == "ALL" ||
+        clause_.kind == "BOX" || clause_.kind == "BOX2")
+      group().against_all = true;
     for (const char option : clause_.options) {
       if (option == 'O') {
         group().reversed4 = of(ElementKind::shell4);

@@ -54,6 +54,24 @@ TEST(Set, ClausesOfPartsAreSeenTogether) {
   EXPECT_EQ(b.surface(1).size(), 10u);
 }
 
+TEST(Set, OnlyPartsAndSolidsAreAmongThemselvesOtherClausesSeeTheWholeModel) {
+  // The first of two cubes with a common face: as a part or a solid it has six faces, in a box its
+  // neighbour outside the set counts.
+  const std::string box =
+      "/BOX/RECTA/1\nbox\n         0\n" + reals({-0.5, -0.5, -0.5}) + reals({1.5, 1.5, 1.5});
+  Built b(model() + box + set(1, clause("PART", {4})) + set(2, clause("SOLID", {1})) +
+          set(3, clause("BOX", {1})) + set(4, clause("SUBS", {2})));
+  const auto solids = [&](std::int64_t id) {
+    const auto& all = b.selections().surface(id)->segments;
+    return std::count_if(all.begin(), all.end(),
+                         [](const Segment& s) { return s.carrier == Carrier::solid; });
+  };
+  EXPECT_EQ(solids(1), 6);
+  EXPECT_EQ(solids(2), 6);
+  EXPECT_EQ(solids(3), 5);
+  EXPECT_EQ(solids(4), 10);
+}
+
 TEST(Set, EdgesOfDifferentClausesAreNotMerged) {
   Built b(model() + "/SH3N/3\n" + cells({1, 1, 2, 8}) +
           set(1, clause("SH3N", {1}) + clause("SHELL", {1})));
