@@ -117,6 +117,47 @@ std::size_t replay_set(const fs::path& dir) {
   return groups;
 }
 
+/// A deck with what replays ask of it.
+struct Loaded {
+  explicit Loaded(const fs::path& dir)
+      : deck(std::move(*read_deck(file_like(dir, "_0000.rad").string(), SchemaSet::built_in()))),
+        model(build_model(deck, SchemaSet::built_in(), diagnostics)),
+        interfaces(read_interfaces(deck, model, diagnostics)) {
+    SceneOptions options;
+    options.penetrations = options.candidates = false;
+    scene = build_scene(model, interfaces, diagnostics, options);
+  }
+  Diagnostics diagnostics;
+  Deck deck;
+  Model model;
+  Interfaces interfaces;
+  Scene scene;
+};
+
+TEST(Replay, FrictionOfTheDecksOwnTablesAndTemperaturesIsWhatTheSolverUsed) {
+  // Coefficients by parts and direction, laws, directions of segments, temperature functions: from
+  // the deck and the state, with nothing taken from the columns that say what was used.
+  const fs::path base = corpus() / "oracle" / "kernel";
+  if (!fs::is_directory(base / "fricparts")) GTEST_SKIP() << "no new sets (DECK_CORPUS)";
+  for (const char* name : {"fricparts", "fricparts_ifric1", "r_fricparts", "fricortho_i2",
+                           "fricortho_i1f1", "fctidf_form0", "fctidf_i2"}) {
+    SCOPED_TRACE(name);
+    const Loaded d(base / name);
+    std::ifstream in(base / name / "node_segment.csv.gz", std::ios::binary);
+    const auto csv = cycle::states_text(std::string{std::istreambuf_iterator<char>(in), {}});
+    ASSERT_TRUE(csv.has_value());
+    cycle::ReplayOptions options;
+    options.scene = &d.scene;
+    options.own_inputs = true;
+    const auto r = cycle::replay(cycle::make_card(d.scene, d.scene.contacts.at(0)), *csv, options);
+    ASSERT_EQ(r.error, "");
+    for (const cycle::ReplayColumn& c : r.columns) {
+      EXPECT_LE(c.median, 1e-13) << c.name;
+      EXPECT_LE(c.max, 1e-9) << c.name;
+    }
+  }
+}
+
 TEST(Replay, CardsOfTheDecksReproduceEveryRecordedResult) {
   const fs::path base = corpus() / "oracle" / "kernel";
   if (!fs::is_directory(base)) GTEST_SKIP() << base << " is not there (DECK_CORPUS)";

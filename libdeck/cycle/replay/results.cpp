@@ -136,6 +136,10 @@ const std::map<std::string, Getter>& getters(const std::string& kind) {
   return kind == "edge_edge" ? edges : nodes;
 }
 
+bool takes_as_used(const ReplayOptions& options) {
+  return options.model == Model::reference && !options.own_inputs;
+}
+
 /// Rows of one interface.
 std::vector<std::size_t> wanted_rows(const Table& table, int interface_id) {
   const double* id = table.column("interface");
@@ -175,7 +179,7 @@ void compute_pairs(const ContactCard& card, const Table& table, const std::strin
   const RecordedDeck deck(options.scene, table);
   ContactCard prepared = card;
   if (kind == "edge_edge" || (!prepared.fct_idf && prepared.drad <= 0.0)) prepared.ithe = 0;
-  const States states(table, kind, deck, options.model, prepared, error);
+  const States states(table, kind, deck, takes_as_used(options), prepared, error);
   if (!error.empty()) return;
   const KernelPlan plan = make_plan(states.card(), options.model, options.plan);
   if (missing_fields(plan, states.all()) != Field::none) {
@@ -264,7 +268,7 @@ void compute_edge_heat(const ContactCard& card, const Table& t, const ReplayOpti
       s.weight[r] = t.column("h" + role[r])[row];
       // As used: the solver can take the temperatures of another pair of its packet.
       const double* used = t.column("T" + role[r] + "_used");
-      const bool own = used == nullptr || options.model != Model::reference;
+      const bool own = used == nullptr || !takes_as_used(options);
       s.temperature[r] = own ? t.column("T" + role[r])[row] : used[row];
       const std::string side = r < 2 ? "lam_s" : "lam_m";
       const double* a = t.column(side + "_a");
@@ -273,7 +277,7 @@ void compute_edge_heat(const ContactCard& card, const Table& t, const ReplayOpti
     }
     if (const double* width = t.column("width_s")) s.width[0] = width[row];
     if (const double* width = t.column("width_m")) s.width[1] = width[row];
-    if (options.model == Model::reference) s.area = t.column("area")[row];
+    if (takes_as_used(options)) s.area = t.column("area")[row];
     s.normal_force = t.column("Fn")[row];
     s.gap = t.column("gap")[row];
     s.distance = t.column("r")[row] + s.gap;

@@ -145,7 +145,7 @@ std::optional<RecordedDeck::Place> RecordedDeck::place(std::size_t row) const {
   return std::nullopt;
 }
 
-States::States(const Table& table, const std::string& kind, const RecordedDeck& deck, Model model,
+States::States(const Table& table, const std::string& kind, const RecordedDeck& deck, bool as_used,
                ContactCard card, std::string& error)
     : card_(std::move(card)) {
   const bool edges = kind == "edge_edge";
@@ -162,7 +162,7 @@ States::States(const Table& table, const std::string& kind, const RecordedDeck& 
     if (card_.iadm == 1) card_.nradm = card_.padm = 1.0;
     if (card_.iadm == 1) card_.angladm = 0.0;
   }
-  if (!edges && kind != "tied") take_friction(table, deck, model, error);
+  if (!edges && kind != "tied") take_friction(table, deck, as_used, error);
 }
 
 void States::take_geometry(const Table& t, bool edges) {
@@ -202,12 +202,12 @@ void States::take_ties(const Table& t, bool tied) {
   for (std::size_t k = 0; k < 8; ++k) view_.tie[k] = t.column(std::string("tie_in_") + part[k]);
 }
 
-void States::take_friction(const Table& t, const RecordedDeck& deck, Model model,
+void States::take_friction(const Table& t, const RecordedDeck& deck, bool as_used,
                            std::string& error) {
   // As used: what the solver took for the force step, which can be another pair's.
-  if (model == Model::reference && card_.icurv == 3) view_.allowance = t.column("cmaj");
+  if (as_used && card_.icurv == 3) view_.allowance = t.column("cmaj");
   const double* mu = t.column("mu0");
-  if (model != Model::reference || mu == nullptr) {
+  if (!as_used || mu == nullptr) {
     if (card_.fric_id) take_own_friction(t, deck, error);
     return;
   }

@@ -53,8 +53,9 @@ class RecordedDeck {
 /// The kernel's inputs. The card may be changed by it: values that rows carry replace its own.
 class States {
  public:
-  /// `card` is that of the deck; `error` is set when an effect of it lacks its inputs.
-  States(const Table& table, const std::string& kind, const RecordedDeck& deck, Model model,
+  /// `card` is that of the deck; `as_used` takes what rows recorded as such; `error` is set when an
+  /// effect of it lacks its inputs.
+  States(const Table& table, const std::string& kind, const RecordedDeck& deck, bool as_used,
          ContactCard card, std::string& error);
   [[nodiscard]] const ContactCard& card() const { return card_; }
   [[nodiscard]] const PacketView& all() const { return view_; }
@@ -64,7 +65,8 @@ class States {
  private:
   void take_geometry(const Table& table, bool edges);
   void take_ties(const Table& table, bool tied);
-  void take_friction(const Table& table, const RecordedDeck& deck, Model model, std::string& error);
+  void take_friction(const Table& table, const RecordedDeck& deck, bool as_used,
+                     std::string& error);
   void take_own_friction(const Table& table, const RecordedDeck& deck, std::string& error);
 
   ContactCard card_;

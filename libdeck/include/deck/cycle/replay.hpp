@@ -53,6 +53,9 @@ struct ReplayOptions {
   Model model = Model::reference;
   PlanOptions plan;
   bool csv = false;
+  /// Inputs that rows carry "as used" are formed from the deck and the state instead, also in model
+  /// reference; the robust model always does that.
+  bool own_inputs = false;
   /// The deck beside the record: conductivities, friction by parts and the order of candidates come
   /// from it where rows do not carry them. May be null.
   const Scene* scene = nullptr;
