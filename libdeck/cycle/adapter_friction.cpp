@@ -13,12 +13,13 @@
 namespace deck::cycle {
 namespace {
 
-/// The part a node counts for: that of its first shell, then solid, beam, truss, spring.
+/// The part a node counts for: that of its last shell, else solid, beam, truss, spring. In the
+/// recorded run of a deck with nodes between two parts it is the later one.
 std::uint32_t part_at(const deck::Model& model, Connectivity& connectivity, NodeIndex node) {
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
                                  ElementKind::beam, ElementKind::truss, ElementKind::spring}) {
     const auto list = connectivity.elements(kind, node);
-    if (!list.empty()) return model.family(kind).part[list[0]];
+    if (!list.empty()) return model.family(kind).part[list[list.size() - 1]];
   }
   return no_index;
 }

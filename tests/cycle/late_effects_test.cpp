@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/small_deck.hpp"
+#include "cycle/adapter_parts.hpp"
 #include "cycle/support.hpp"
 #include "deck/cycle/heat.hpp"
 #include "deck/cycle/replay.hpp"
@@ -173,9 +174,9 @@ TEST(EdgeWidth, IsHalfTheRootOfTheSharesOfItsShellsAndTheirHalfThicknessAtABorde
   d.add("@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Gapmin=1 Ithe=1 Kthe=0.5");
   const deck::test::Built b(d);
   for (const Model model : {Model::reference, Model::robust}) {
-    const ContactCard card = make_card(b.scene, b.scene.contacts.at(0), model);
-    const ContactPairs pairs = make_pairs(b.scene, b.scene.contacts[0], card, model);
-    ASSERT_EQ(pairs.size(), 1u);
+    ContactPairs pairs;
+    pairs.at.push_back({0, 0});
+    detail::edge_widths(b.scene, b.scene.contacts.at(0), model, pairs);
     EXPECT_NEAR(pairs.edge_width[0].at(0), 0.5 * std::sqrt(16.0 / 4 + 16.0 / 4), 1e-14);
     // Trusses in the reference: the root of the mean of sqrt(area) at both ends.
     EXPECT_NEAR(pairs.edge_width[1].at(0), model == Model::reference ? std::sqrt(0.5) : 0.5, 1e-14);
