@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/search_parallel.hpp"
+#include "base/parallel.hpp"
 #include "deck/contact/closest.hpp"
 
 namespace deck {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "contact/search_parallel.hpp"
+#include "base/parallel.hpp"
 
 namespace deck {
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numeric>
 #include <set>
 
+#include "base/parallel.hpp"
 #include "contact/box_tree.hpp"
 #include "contact/crossings_exact.hpp"
-#include "contact/search_parallel.hpp"
 #include "contact/search_sweep.hpp"
 
 namespace deck {
@@ -55,6 +56,12 @@ bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>&
   for (const std::uint32_t n : s)
     if (n == edge[0] || n == edge[1]) return false;
   const auto at = [&](std::uint32_t n) { return sweep::point(nodes, n); };
+  // Exact numbers are made of finite ones only; without a place nothing passes through anything.
+  const auto lost = [&](std::uint32_t n) {
+    return !std::isfinite(nodes.x[n]) || !std::isfinite(nodes.y[n]) || !std::isfinite(nodes.z[n]);
+  };
+  if (std::any_of(edge.begin(), edge.end(), lost) || std::any_of(s.begin(), s.end(), lost))
+    return false;
   const Point3<double> p = at(edge[0]), q = at(edge[1]), a = at(s[0]), c = at(s[2]);
   if (detail::passes_through(p, q, a, at(s[1]), c)) return true;
   return s[2] != s[3] && detail::passes_through(p, q, a, c, at(s[3]));

@@ -1,3 +1,6 @@
+// Initial penetrations of a contact: pairs by search, verdicts by distance, what Inacti does.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -12,7 +15,8 @@ namespace {
 /// next (Inacti 3).
 constexpr std::size_t group_size = 128;
 constexpr double inflation = 1e-8;  // keeps a repaired pair just outside the gap
-constexpr std::size_t most_pairs = std::size_t{200} << 20;
+/// While the search in both forms is merged, a pair is held this often.
+constexpr std::size_t copies_of_a_pair = 4;
 
 bool is_removed(const RemovalLists& removed, const CandidatePair& pair) {
   if (removed.empty()) return false;
@@ -20,18 +24,52 @@ bool is_removed(const RemovalLists& removed, const CandidatePair& pair) {
   return std::binary_search(list.begin(), list.end(), pair.secondary);
 }
 
-void report_overflow(SceneContext& c, const Contact& contact) {
+std::size_t most_pairs(const SceneContext& c) {
+  return c.options.limits.pair_bytes / (copies_of_a_pair * sizeof(CandidatePair));
+}
+
+/// Mean length of the main side's edges: what a gap is to be compared with.
+double mean_main_edge(const SceneContext& c, const Contact& contact) {
+  double sum = 0;
+  std::size_t count = 0;
+  const auto add = [&](NodeIndex a, NodeIndex b) {
+    if (a == b) return;
+    sum += distance(c.scene.coordinates, a, b);
+    ++count;
+  };
+  for (const MainSegment& m : contact.main)
+    for (std::size_t k = 0; k < 4; ++k) add(m.nodes[k], m.nodes[(k + 1) % 4]);
+  for (const ContactEdge& e : contact.main_edges) add(e.nodes[0], e.nodes[1]);
+  return count == 0 ? 0 : sum / static_cast<double>(count);
+}
+
+/// Drops what was found of a contact that has more pairs than there is room for.
+void give_up(SceneContext& c, Contact& contact) {
+  contact.evaluated = false;
+  std::vector<PenetrationRow>().swap(contact.penetrations);
+  contact.candidates = contact.removed_pairs = 0;
   if (!c.diagnostics.wants("DK390")) return;
+  const double gap = std::max(contact.max_gap, contact.gapmin);
+  const double edge = mean_main_edge(c, contact);
   Diagnostic d;
   d.rule = "DK390";
   d.span = contact.inter->span;
-  d.message = "more than " + std::to_string(most_pairs) +
-              " pairs are within gap; penetrations of this interface were not evaluated";
+  d.message = fmt::format(
+      "/INTER/TYPE{} {}: so many pairs are within the gap that their list would take more than {} "
+      "MB; penetrations of this interface were not evaluated. Its largest gap is {:.6g}, {:.3g} "
+      "times the mean edge of its main side ({:.6g})",
+      contact.inter->type, contact.inter->id, c.options.limits.pair_bytes >> 20, gap,
+      edge > 0 ? gap / edge : 0.0, edge);
   d.reference_behaviour = "it allocates memory for all of them or stops";
-  d.help = "check the gap against the size of the model (units?)";
+  d.help = "check the gap against the size of the mesh (units?); --max-memory raises the bound";
   d.keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
   d.id = contact.inter->id;
   c.diagnostics.add(std::move(d));
+}
+
+/// True while the penetrations found fit into the room there is for them.
+bool rows_fit(const SceneContext& c, const Contact& contact) {
+  return contact.penetrations.size() <= c.options.limits.pair_bytes / sizeof(PenetrationRow);
 }
 
 NodeArrays arrays(const Coordinates& c) { return {c.x, c.y, c.z}; }
@@ -228,7 +266,7 @@ void find_penetrations(SceneContext& c, Contact& contact) {
   search.gap = contact.gap_rule;
   search.drad = contact.drad;
   search.threads = c.options.threads;
-  search.max_pairs = most_pairs;
+  search.max_pairs = most_pairs(c);
   Candidates found;
   {
     const NodeSegmentArrays lists(contact);
@@ -245,10 +283,11 @@ void find_penetrations(SceneContext& c, Contact& contact) {
     }
   }
   if (!found.complete) {
-    report_overflow(c, contact);
+    give_up(c, contact);
     return;
   }
-  const RemovalLists removed = curvilinear_removal(c, contact);
+  RemovalLists removed;
+  if (!curvilinear_removal(c, contact, removed)) return give_up(c, contact);
   PairJudge judge(c.options.accuracy, c.scene.decisions);
   // The solver measures a whole group of candidates before it acts on any of them.
   GroupStart start;
@@ -273,6 +312,7 @@ void find_penetrations(SceneContext& c, Contact& contact) {
       ++contact.candidates;
       if (in_group++ == group_size) {
         act_on_group();
+        if (!rows_fit(c, contact)) return give_up(c, contact);
         in_group = 1;
       }
     }
@@ -300,7 +340,7 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     search.gap = contact.gap_rule;
     search.drad = contact.drad;
     search.threads = c.options.threads;
-    search.max_pairs = most_pairs;
+    search.max_pairs = most_pairs(c);
     const double size = candidate_margin(arrays(x), s.edges, m.edges);
     found = candidates(c.options.accuracy, size, search, [&](const SearchOptions& o) {
       return find_edge_edge_pairs(
@@ -309,10 +349,11 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     });
   }
   if (!found.complete) {
-    report_overflow(c, contact);
+    give_up(c, contact);
     return;
   }
-  const RemovalLists removed = curvilinear_edge_removal(c, contact);
+  RemovalLists removed;
+  if (!curvilinear_edge_removal(c, contact, removed)) return give_up(c, contact);
   PairJudge judge(c.options.accuracy, c.scene.decisions);
   for (const CandidatePair& pair : found.pairs) {
     if (is_removed(removed, pair)) {
@@ -331,6 +372,7 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     if (verdict.solver_acts) act(contact, verdict.row, s, m);
     if (verdict.differs) note(c, judge, verdict, verdict.row);
     if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
+    if (!rows_fit(c, contact)) return give_up(c, contact);
   }
   // The store is per edge, so the gap left is known only now.
   for (PenetrationRow& row : contact.penetrations) {

@@ -39,6 +39,20 @@ struct NodeItems {
   }
 };
 
+/// What is left of the room for removal lists.
+class Room {
+ public:
+  explicit Room(const MemoryLimits& limits) : left_(limits.pair_bytes / sizeof(std::uint32_t)) {}
+  bool take(std::size_t entries) {
+    if (entries > left_) return false;
+    left_ -= entries;
+    return true;
+  }
+
+ private:
+  std::uint64_t left_;
+};
+
 /// Distances along the mesh from one item, with stamps so that nothing is cleared between items.
 struct Front {
   explicit Front(std::size_t nodes, std::size_t items)
@@ -67,8 +81,9 @@ struct Front {
 
 }  // namespace
 
-RemovalLists curvilinear_removal(SceneContext& c, const Contact& contact) {
-  if (contact.irem_gap != 2) return {};
+bool curvilinear_removal(const SceneContext& c, const Contact& contact, RemovalLists& removed) {
+  removed.clear();
+  if (contact.irem_gap != 2) return true;
   const Coordinates& x = c.scene.coordinates;
   const std::size_t nodes = x.x.size();
   std::vector<std::uint32_t> position(nodes, no_index);
@@ -80,9 +95,10 @@ RemovalLists curvilinear_removal(SceneContext& c, const Contact& contact) {
     longest = std::max(longest, s.length);
   }
   const NodeItems at_node(nodes, contact.main, position);
-  if (at_node.item.empty()) return {};
+  if (at_node.item.empty()) return true;
   const double shortest = contact.shortest_side;
-  RemovalLists removed(contact.main.size());
+  removed.resize(contact.main.size());
+  Room room(c.scene.limits);
   Front f(nodes, contact.main.size());
   for (std::uint32_t i = 0; i < contact.main.size(); ++i) {
     const MainSegment& main = contact.main[i];
@@ -133,12 +149,15 @@ RemovalLists curvilinear_removal(SceneContext& c, const Contact& contact) {
       if (f.dist[b] <= bound) removed[i].push_back(position[b]);
     }
     std::sort(removed[i].begin(), removed[i].end());
+    if (!room.take(removed[i].size())) return false;
   }
-  return removed;
+  return true;
 }
 
-RemovalLists curvilinear_edge_removal(SceneContext& c, const Contact& contact) {
-  if (contact.irem_gap != 2) return {};
+bool curvilinear_edge_removal(const SceneContext& c, const Contact& contact,
+                              RemovalLists& removed) {
+  removed.clear();
+  if (contact.irem_gap != 2) return true;
   const Coordinates& x = c.scene.coordinates;
   const std::size_t nodes = x.x.size();
   std::vector<std::uint32_t> position(nodes, no_index);
@@ -153,9 +172,10 @@ RemovalLists curvilinear_edge_removal(SceneContext& c, const Contact& contact) {
   }
   std::sort(lookup.begin(), lookup.end());
   const NodeItems at_node(nodes, contact.main_edges, position);
-  if (at_node.item.empty()) return {};
+  if (at_node.item.empty()) return true;
   const double reach = root2 * contact.max_gap;
-  RemovalLists removed(contact.main_edges.size());
+  removed.resize(contact.main_edges.size());
+  Room room(c.scene.limits);
   Front f(nodes, contact.main_edges.size());
   const auto point = [&](NodeIndex n) { return Point3<double>{x.x[n], x.y[n], x.z[n]}; };
   const auto apart = [&](const ContactEdge& a, const ContactEdge& b) {
@@ -210,8 +230,9 @@ RemovalLists curvilinear_edge_removal(SceneContext& c, const Contact& contact) {
       if (it != lookup.end() && it->first == n) removed[i].push_back(it->second);
     }
     std::sort(removed[i].begin(), removed[i].end());
+    if (!room.take(removed[i].size())) return false;
   }
-  return removed;
+  return true;
 }
 
 }  // namespace deck::detail

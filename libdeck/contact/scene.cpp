@@ -161,6 +161,10 @@ class Builder {
       type19_edges(*i);
       step();
     }
+    // Why contacts were not evaluated is known to the selections alone.
+    if (!selections_.complete())
+      for (const Diagnostic& d : selections_.diagnostics().all())
+        if (d.rule == "DK332") c_.diagnostics.report(d);
   }
 
  private:
@@ -284,9 +288,38 @@ class Builder {
     detail::set_main_stiffness(c_, contact);
     detail::set_gaps(c_, contact, card.gapmin);
     detail::set_radiation_distance(contact, card.thermal, card.drad);
-    if (c_.options.penetrations) detail::find_penetrations(c_, contact);
+    if (c_.options.penetrations && computable(contact)) detail::find_penetrations(c_, contact);
     if (c_.options.nodal_stiffness && contact.istf >= 2) detail::set_nodal_stiffness(c_, contact);
     c_.scene.contacts.push_back(std::move(contact));
+  }
+
+  /// False, with a finding, where members are missing or have no place.
+  bool computable(Contact& contact) {
+    const Coordinates& x = c_.scene.coordinates;
+    NodeIndex lost = no_index;
+    const auto look = [&](NodeIndex n) {
+      if (!std::isfinite(x.x[n]) || !std::isfinite(x.y[n]) || !std::isfinite(x.z[n])) lost = n;
+    };
+    for (const SecondaryNode& s : contact.secondary) look(s.node);
+    for (const MainSegment& m : contact.main)
+      for (const NodeIndex n : m.nodes) look(n);
+    for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
+      for (const ContactEdge& e : *edges)
+        for (const NodeIndex n : e.nodes) look(n);
+    contact.evaluated = lost == no_index && selections_.complete();
+    if (contact.evaluated || lost == no_index) return contact.evaluated;
+    Diagnostic d;
+    d.rule = "DK380";
+    d.span = contact.inter->span;
+    d.keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
+    d.id = contact.inter->id;
+    d.message = d.keyword + " " + std::to_string(d.id) + ": node " +
+                std::to_string(c_.model.nodes.id[lost]) +
+                " has a coordinate that is no finite number; the contact was not evaluated";
+    d.reference_behaviour = "it computes with the infinite number";
+    d.help = "correct the coordinate";
+    c_.diagnostics.report(std::move(d));
+    return false;
   }
 
   void finish_edges(Contact contact, const Card& card) {
@@ -294,7 +327,7 @@ class Builder {
     detail::set_edge_stiffness(c_, contact.secondary_edges, contact);
     detail::set_edge_gaps(c_, contact, card.gapmin);
     detail::set_radiation_distance(contact, card.thermal, card.drad);
-    if (c_.options.penetrations) detail::find_edge_penetrations(c_, contact);
+    if (c_.options.penetrations && computable(contact)) detail::find_edge_penetrations(c_, contact);
     c_.scene.contacts.push_back(std::move(contact));
   }
 
@@ -357,6 +390,7 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics&
   Scene scene;
   scene.model = &model;
   scene.interfaces = &interfaces;
+  scene.limits = options.limits;
   scene.coordinates = {model.nodes.x, model.nodes.y, model.nodes.z};
   if (model.selections == nullptr) return scene;
   Connectivity connectivity(model);

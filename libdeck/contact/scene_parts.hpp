@@ -73,8 +73,10 @@ void set_radiation_distance(Contact& contact, bool thermal, double drad_input);
 /// Per main segment: secondary positions not to be paired with it, sorted. Empty if nothing is
 /// removed.
 using RemovalLists = std::vector<std::vector<std::uint32_t>>;
-RemovalLists curvilinear_removal(SceneContext& context, const Contact& contact);
-RemovalLists curvilinear_edge_removal(SceneContext& context, const Contact& contact);
+/// False: the lists would take more room than MemoryLimits::pair_bytes.
+bool curvilinear_removal(const SceneContext& context, const Contact& contact, RemovalLists& lists);
+bool curvilinear_edge_removal(const SceneContext& context, const Contact& contact,
+                              RemovalLists& lists);
 
 // penetrations.cpp
 void find_penetrations(SceneContext& context, Contact& contact);

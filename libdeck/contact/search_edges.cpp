@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "contact/box_order.hpp"
-#include "contact/search_parallel.hpp"
 #include "contact/search_sweep.hpp"
 
 namespace deck {

@@ -344,6 +344,7 @@ inline void sweep_nodes(const NodeSweep& w, std::size_t begin, std::size_t end, 
       }
     }
     for (std::size_t i = 0; i < count; ++i) {
+      if (sink.full()) return;
       if (!shared) walk.find(w.tree, shapes[i].wide);
       sweep_segment(w, walk.hits, shapes[i], w.segments[first + i], sink);
     }
@@ -483,6 +484,7 @@ inline void sweep_edges(const EdgeSweep& w, std::size_t begin, std::size_t end, 
     const bool shared = worth_sharing(group.size(), sizes);
     if (shared) walk.find(w.tree, group);
     for (std::size_t i = 0; i < count; ++i) {
+      if (sink.full()) return;
       if (!shared) walk.find(w.tree, boxes[i]);
       sweep_edge(w, walk.hits, boxes[i], w.mains[first + i], sink);
     }

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <limits>
 
-#include "contact/search_parallel.hpp"
+#include "base/parallel.hpp"
 #include "contact/search_sweep.hpp"
 
 namespace deck::sweep {
@@ -61,26 +61,29 @@ void run(const std::function<void(std::size_t, std::size_t, Sink&)>& body, std::
   constexpr std::size_t kChunk = 64 * kGroup;
   const std::size_t chunks = (count + kChunk - 1) / kChunk;
   const int threads = effective_threads(options.threads);
-  std::vector<Sink> sinks(static_cast<std::size_t>(threads));
+  // Every sink may leave its last chunk nearly empty: full means that there are too many for sure.
+  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<std::int64_t>::max() / 2);
+  const std::size_t slack = static_cast<std::size_t>(threads) * Sink::kChunk;
+  std::atomic<std::int64_t> allowance{
+      static_cast<std::int64_t>(std::min(options.max_pairs, kMost) + slack)};
+  std::vector<Sink> sinks;
+  for (int t = 0; t < threads; ++t) sinks.emplace_back(&allowance);
   std::atomic<std::size_t> next_chunk{0}, found{0};
-  const auto work = [&](Sink& sink) {
+  CancelFlag cancel;
+  const auto work = [&](std::size_t worker) {
+    Sink& sink = sinks[worker];
     for (;;) {
       const std::size_t chunk = next_chunk.fetch_add(1);
-      if (chunk >= chunks || found.load() > options.max_pairs) return;
+      if (chunk >= chunks || found.load() > options.max_pairs || cancel.is_set()) return;
       const std::size_t before = sink.size();
       body(chunk * kChunk, std::min(count, (chunk + 1) * kChunk), sink);
+      if (sink.full()) cancel.set();
       found += sink.size() - before;
     }
   };
-  {
-    std::vector<std::jthread> workers;
-    for (std::size_t t = 1; t < sinks.size() && t < chunks; ++t) {
-      workers.emplace_back([&work, &sinks, t] { work(sinks[t]); });
-    }
-    work(sinks[0]);
-  }
+  run_workers(static_cast<int>(std::min(sinks.size(), chunks)), cancel, work);
   for (const Sink& sink : sinks) result.tested += sink.tested;
-  if (found.load() > options.max_pairs) {
+  if (found.load() > options.max_pairs || cancel.is_set()) {
     result.complete = false;
     return;
   }

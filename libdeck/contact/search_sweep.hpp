@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -46,21 +47,23 @@ struct Reach {
   }
 };
 
-// Pairs found by one thread, in the order found. Grows by whole chunks: nothing is ever copied.
+// Pairs found by one thread, in the order found. Grows by whole chunks: nothing is ever copied. All
+// sinks of a search draw on one allowance; when that is used up they are full and keep nothing
+// more.
 class Sink {
  public:
+  static constexpr std::size_t kChunk = 16384;
+  // Without an allowance there is no bound.
+  explicit Sink(std::atomic<std::int64_t>* allowance = nullptr) : allowance_(allowance) {}
   void push(CandidatePair pair) { push_if(true, pair); }
   // Without a branch: whether a pair is within its gap is known late and cannot be predicted, and a
   // wrong guess would throw away the distances of the next pairs that are under way.
   void push_if(bool wanted, CandidatePair pair) {
-    if (fill_ == kChunk) {
-      chunks_.push_back(std::make_unique_for_overwrite<CandidatePair[]>(kChunk));
-      last_ = chunks_.back().get();
-      fill_ = 0;
-    }
+    if (fill_ == kChunk) grow();
     last_[fill_] = pair;
     fill_ += wanted;
   }
+  bool full() const { return full_; }
   std::size_t size() const { return chunks_.empty() ? 0 : (chunks_.size() - 1) * kChunk + fill_; }
   template <class Visit>
   void for_each(const Visit& visit) const {
@@ -72,7 +75,18 @@ class Sink {
   std::size_t tested = 0;  // distances computed
 
  private:
-  static constexpr std::size_t kChunk = 16384;
+  void grow() {
+    fill_ = 0;
+    if (allowance_ != nullptr && !chunks_.empty() &&
+        allowance_->fetch_sub(static_cast<std::int64_t>(kChunk)) <
+            static_cast<std::int64_t>(kChunk))
+      full_ = true;
+    if (full_) return;  // what comes now overwrites: nobody reads a full sink
+    chunks_.push_back(std::make_unique_for_overwrite<CandidatePair[]>(kChunk));
+    last_ = chunks_.back().get();
+  }
+  std::atomic<std::int64_t>* allowance_;
+  bool full_ = false;
   std::vector<std::unique_ptr<CandidatePair[]>> chunks_;
   CandidatePair* last_ = nullptr;
   std::size_t fill_ = kChunk;

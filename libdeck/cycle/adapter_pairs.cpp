@@ -17,7 +17,8 @@ using deck::detail::cross;
 using deck::detail::dot;
 using deck::detail::Vec;
 
-constexpr std::size_t most_pairs = std::size_t{64} << 20;
+/// What a pair takes while forces are evaluated: its lists here, its packed state and its results.
+constexpr std::size_t bytes_of_a_pair = 512;
 
 /// Nodal normals of the main side: sums of facet normals, weighted with area (Icurv 3) or not.
 std::map<NodeIndex, Vec> nodal_normals(const Scene& scene, const Contact& contact, bool weighted) {
@@ -130,24 +131,28 @@ struct SearchLists {
   }
 };
 
-/// Takes out what Irem_gap = 2 keeps apart.
-void remove_pairs(const Scene& scene, const Contact& contact, std::vector<CandidatePair>& pairs) {
-  if (contact.irem_gap != 2) return;
+/// Takes out what Irem_gap = 2 keeps apart; false if there is no room for that.
+bool remove_pairs(const Scene& scene, const Contact& contact, std::vector<CandidatePair>& pairs) {
+  if (contact.irem_gap != 2) return true;
   Scene copy;
   copy.model = scene.model;
   copy.interfaces = scene.interfaces;
   copy.coordinates = scene.coordinates;
+  copy.limits = scene.limits;
   Diagnostics ignored;
   const SceneOptions options;
   Connectivity connectivity(*scene.model);
   deck::detail::SceneContext context{*scene.model, connectivity, copy, ignored, options};
-  const auto removed = contact.kind == deck::ContactKind::edge_edge
-                           ? deck::detail::curvilinear_edge_removal(context, contact)
-                           : deck::detail::curvilinear_removal(context, contact);
-  if (removed.empty()) return;
+  deck::detail::RemovalLists removed;
+  if (!(contact.kind == deck::ContactKind::edge_edge
+            ? deck::detail::curvilinear_edge_removal(context, contact, removed)
+            : deck::detail::curvilinear_removal(context, contact, removed)))
+    return false;
+  if (removed.empty()) return true;
   std::erase_if(pairs, [&](const CandidatePair& p) {
     return std::binary_search(removed[p.main].begin(), removed[p.main].end(), p.secondary);
   });
+  return true;
 }
 
 void node_values(const Contact& contact, const ContactCard& card, Model model, ContactPairs& out) {
@@ -198,11 +203,14 @@ ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const 
   search.drad = card.ithe > 0 ? card.drad : 0.0;
   search.margin = curvature_reach(scene, contact, card);
   search.threads = threads;
-  search.max_pairs = most_pairs;
+  search.max_pairs = scene.limits.pair_bytes / bytes_of_a_pair;
   SearchResult found = SearchLists(contact).find(scene.coordinates, search);
   out.complete = found.complete;
   out.at = std::move(found.pairs);
-  remove_pairs(scene, contact, out.at);
+  if (!remove_pairs(scene, contact, out.at)) {
+    out.complete = false;
+    out.at.clear();
+  }
   if (card.kind == ContactKind::edge_edge) {
     edge_values(contact, card, model, out);
     if (card.ithe > 0) detail::edge_widths(scene, contact, model, out);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
+
+#include "base/parallel.hpp"
 
 namespace deck::cycle {
 namespace {
@@ -137,9 +138,7 @@ void assemble(const KernelPlan& plan, const Incidence& incidence, const PacketRe
       }
     }
   };
-  std::vector<std::jthread> pool;
-  for (std::size_t part = 1; part < parts; ++part) pool.emplace_back(run, part);
-  run(0);
+  parallel_items(static_cast<int>(parts), parts, run);
 }
 
 StepLimit step_limit(const Totals& t, const NodalSums& sums, const double* mass, double factor,

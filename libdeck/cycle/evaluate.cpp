@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "cycle/block.hpp"
 #include "cycle/curvature.hpp"
 #include "cycle/vector.hpp"
@@ -90,7 +90,8 @@ void evaluate_range(const KernelPlan& plan, const PacketView& view, const Packet
   const detail::Constants k = detail::make_constants(plan, view);
   const int width = plan.table->width;
   const bool tied = plan.card.kind == ContactKind::tied;
-  const bool curved = plan.card.icurv != 0 && plan.card.kind == ContactKind::node_segment;
+  const bool curved =
+      plan.card.icurv >= 1 && plan.card.icurv <= 3 && plan.card.kind == ContactKind::node_segment;
   const bool triangles = plan.table->geometry_triangles != nullptr;
   for (std::size_t b = begin; b < end; b += kBlock) {
     GeometryBlock block;
@@ -210,9 +211,7 @@ void evaluate_split(const KernelPlan& plan, const PacketView& view, const Packet
     evaluate_range(plan, view, wide, bound(part), bound(part + 1), out);
     evaluate_rest(plan, view, bound(part), bound(part + 1), out);
   };
-  std::vector<std::jthread> pool;
-  for (std::size_t part = 1; part < parts; ++part) pool.emplace_back(run, part);
-  run(0);
+  parallel_items(static_cast<int>(parts), parts, run);
 }
 
 }  // namespace

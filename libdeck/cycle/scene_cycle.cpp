@@ -249,10 +249,19 @@ NodeStiffness run_contact(const Scene& scene, const State& state, const CycleOpt
     out.complete = false;
     return {};
   }
+  if (!contact.evaluated) {
+    out.notes.emplace_back("start-up could not be evaluated, see the findings: no forces either");
+    out.complete = false;
+    return {};
+  }
   out.active = is_active(out.card, options.time, options.model == Model::robust);
   if (!out.active) return {};
   ContactPairs pairs = make_pairs(scene, contact, out.card, options.model, options.threads);
   out.complete = pairs.complete;
+  if (!pairs.complete)
+    out.notes.emplace_back(
+        "too many pairs are within reach for the memory allowed (--max-memory): nothing was "
+        "evaluated");
   if (out.card.ithe > 0) add_conductivity(scene, contact, state.temperature, pairs);
   out.pairs_in_reach = pairs.size();
   const double from_velocity = velocity_limit(contact, out.card, state);

@@ -51,6 +51,7 @@ class Depenetrator {
     if (!holds) return holds.error();
     holds_ = std::move(*holds);
     const Scene before = evaluate();
+    if (auto why = unevaluated(before, options_)) return *why;
     begin(before);
     for (int round = 0; round < rounds && anything_to_do_; ++round) {
       const bool solved = iterate();

@@ -39,6 +39,7 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const FixOptio
   SceneOptions scene;
   scene.threads = options.threads;
   scene.candidates = false;
+  scene.limits = options.memory;
   scene.only = std::move(only);
   if (!as_written) {
     for (const InterBase* inter : interfaces.ordered) {
@@ -51,6 +52,17 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const FixOptio
   scene.what_if.insert(scene.what_if.end(), what_if.begin(), what_if.end());
   Diagnostics unused;
   return build_scene(model, interfaces, unused, scene);
+}
+
+std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options) {
+  for (const Contact& contact : scene.contacts)
+    if (!contact.evaluated && is_wanted(options, contact.inter->id))
+      return Error{
+          Error::Code::limit,
+          "the penetrations of interface " + std::to_string(contact.inter->id) +
+              " cannot be evaluated ('deck gaps' says why): nothing was fixed; --interface "
+              "leaves it out"};
+  return std::nullopt;
 }
 
 bool is_wanted(const FixOptions& options, std::int64_t interface_id) {

@@ -29,6 +29,9 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const FixOptio
                 bool as_written, std::vector<WhatIf> what_if = {},
                 std::vector<std::int64_t> only = {});
 
+/// Why nothing can be said about a wanted interface; nothing: all were evaluated.
+std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options);
+
 /// True if the options ask for this interface.
 bool is_wanted(const FixOptions& options, std::int64_t interface_id);
 

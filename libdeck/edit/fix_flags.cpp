@@ -133,6 +133,7 @@ Result<PenetrationFix> set_inacti(const EditContext& context, const InactiOption
   PenetrationFix fix;
   fix.strategy = "inacti";
   const Scene before = fix_scene(context.model, context.interfaces, options, true);
+  if (auto why = unevaluated(before, options)) return *why;
   const auto counts = count_interfaces(before, options);
   const int effective = value == 1000 ? 0 : value;
 
@@ -192,6 +193,7 @@ Result<PenetrationFix> set_fpenmax(const EditContext& context, const FpenmaxOpti
   PenetrationFix fix;
   fix.strategy = "fpenmax";
   const Scene before = fix_scene(context.model, context.interfaces, options, true);
+  if (auto why = unevaluated(before, options)) return *why;
   FieldEdits edits(context.deck);
   for (const Contact& contact : before.contacts) {
     if (contact.penetrations.empty() || !is_wanted(options, contact.inter->id)) continue;

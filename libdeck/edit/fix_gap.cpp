@@ -240,6 +240,7 @@ Result<PenetrationFix> reduce_gaps(const EditContext& context, const ReduceGapOp
   PenetrationFix fix;
   fix.strategy = "reduce-gap";
   const Scene before = fix_scene(context.model, context.interfaces, options, false);
+  if (auto why = unevaluated(before, options)) return *why;
   const auto counts = count_interfaces(before, options);
   FieldEdits edits(context.deck);
   std::size_t done = 0;

@@ -5,6 +5,7 @@
 
 #include "deck/text/number.hpp"
 #include "keyword/header_line.hpp"
+#include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
 
 namespace deck {
@@ -151,7 +152,9 @@ void parse_header(const SchemaSet& schemas, Block& block) {
       id.present = false;
       return false;
     }
-    id.value = read_integer(text).value;
+    const IntegerCell number = read_integer(text);
+    constexpr auto most = std::numeric_limits<std::int32_t>::max();
+    id.value = number.status == NumberStatus::overflow ? most : saturated(number.value);
     return true;
   };
   const bool wants_id = block.schema == nullptr || block.schema->has_id;

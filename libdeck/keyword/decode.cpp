@@ -148,6 +148,15 @@ void apply_parameter(const Deck& deck, Findings& findings, Cell& cell) {
     return;
   }
   cell.integer = detail::as_integer(*p);
+  if (cell.field->type != FieldType::real && cell.integer != detail::saturated(cell.integer)) {
+    findings.report("DK023", Severity::error, cell.span,
+                    cell_name(*cell.field) + " takes " + std::to_string(cell.integer) +
+                        " from parameter " + quoted(name) + ", which 32 bits do not hold",
+                    "it reads an undefined value", "write a smaller number", 100103,
+                    Severity::error);
+    cell.status = NumberStatus::overflow;
+  }
+  cell.integer = detail::saturated(cell.integer);
   cell.real = p->type == Parameter::Type::integer ? static_cast<double>(p->integer) : p->real;
   if (minus) {
     cell.integer = -cell.integer;
@@ -180,8 +189,8 @@ Cell read_cell(const Deck& deck, Findings& findings, const Field& field, std::st
     cell.status = r.status;
   } else {
     const IntegerCell i = read_integer(cell.text);
-    cell.integer = i.value;
     cell.status = detail::narrowed(i);
+    cell.integer = detail::saturated(i.value);
   }
   if (findings.on() && cell.status != NumberStatus::blank) report_number(findings, cell);
   return cell;

@@ -75,6 +75,13 @@ inline NumberStatus narrowed(IntegerCell cell) {
   return cell.status;
 }
 
+/// The nearest number that 32 bits hold: what lies beyond is reported, and must not wrap around to
+/// a small number that means something else.
+inline std::int64_t saturated(std::int64_t value) {
+  return std::clamp<std::int64_t>(value, std::numeric_limits<std::int32_t>::min(),
+                                  std::numeric_limits<std::int32_t>::max());
+}
+
 /// Columns that belong to a cell of a card in one version.
 struct ColumnMap {
   bool covered[line_columns + 2] = {};  // 1-based; the last entry is never covered

@@ -4,6 +4,7 @@
 
 #include "deck/text/number.hpp"
 #include "keyword/blank_units.hpp"
+#include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
 
 namespace deck::detail {
@@ -32,20 +33,54 @@ void drop_before_begin(Deck& deck, ReaderNotes& notes) {
   for (std::size_t& block : notes.submodel_blocks) block = place[block];
 }
 
+void report_wide(Deck& deck, const Span& span, const std::string& what) {
+  report(deck, "DK335", Severity::error, span,
+         what + " does not fit into 32 bits; " + "the nearest number that does is taken",
+         "it reads an undefined value", "use smaller numbers", 100103);
+}
+
 void resolve_header_parameters(Deck& deck) {
   for (Block& b : deck.blocks) {
     for (HeaderId* id : {&b.id, &b.unit_id}) {
       const std::string_view text = deck.sources.text(id->span);
-      if (!text.starts_with('&')) continue;
+      if (!text.starts_with('&')) {
+        // As digits alone, longer numbers are beyond 64 bits as well.
+        if (id->present && id->value == std::numeric_limits<std::int32_t>::max() &&
+            text.find_last_not_of("0123456789") == std::string_view::npos &&
+            text.substr(std::min(text.find_first_not_of('0'), text.size())) != "2147483647")
+          report_wide(
+              deck, id->span,
+              std::string(b.header.substr(0, 60)) + ": the id " + std::string(text.substr(0, 40)));
+        continue;
+      }
       const Parameter* p = deck.find_parameter(text.substr(1), id->span.file);
       if (p != nullptr && p->valid && p->type != Parameter::Type::text) {
-        id->value = as_integer(*p);
+        id->value = saturated(as_integer(*p));
+        if (id->value != as_integer(*p))
+          report_wide(deck, id->span,
+                      std::string(b.header.substr(0, 60)) + ": the id " +
+                          std::to_string(as_integer(*p)) + " of parameter '" + std::string(text) +
+                          "'");
       } else {
         report(deck, "DK018", Severity::error, id->span,
                "parameter '" + std::string(text) + "' is not defined here", "it reads 0",
                "define it with /PARAMETER before its first use", 100105);
       }
     }
+  }
+}
+
+/// Keeps the offsets of a submodel, its parents' included, within the range of ids.
+void fit_offsets(Deck& deck, Submodel& s) {
+  bool reported = false;
+  for (std::int64_t* offset : {&s.definitions, &s.nodes, &s.elements, &s.parts, &s.materials,
+                               &s.properties, &s.submodels}) {
+    const std::int64_t written = *offset;
+    *offset = saturated(written);
+    if (*offset == written || reported) continue;
+    report_wide(deck, s.span,
+                "//SUBMODEL/" + std::to_string(s.id) + ": the offset " + std::to_string(written));
+    reported = true;
   }
 }
 
@@ -62,6 +97,7 @@ void fill_submodels(Deck& deck, const ReaderNotes& notes) {
                                       &s.materials,   &s.properties, &s.submodels};
       for (int c = 0; c < 7; ++c)
         *cells[c] = read_offset(deck, line.columns(10 * c + 1, 10 * c + 10));
+      fit_offsets(deck, s);
       for (int c = 1; c < 7; ++c)
         if (*cells[c] == 0) *cells[c] = s.definitions;
     }
@@ -75,6 +111,7 @@ void fill_submodels(Deck& deck, const ReaderNotes& notes) {
     s.materials += p.materials;
     s.properties += p.properties;
     s.submodels += p.submodels;
+    fit_offsets(deck, s);
     if (!s.units && p.units) s.units = p.units;
   }
   if (notes.unclosed_submodel >= 0)

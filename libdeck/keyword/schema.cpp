@@ -6,11 +6,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <set>
 
+#include "deck/text/source.hpp"
 #include "keyword/embedded.hpp"
 #include "keyword/schema_json.hpp"
 
@@ -113,11 +112,9 @@ Result<void> SchemaSet::add_directory(const std::string& dir) {
                  fmt::format("{}: cannot list the schema directory: {}", dir, error.message())};
   std::sort(files.begin(), files.end());
   for (const auto& path : files) {
-    std::ifstream in(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (!in && !in.eof())
-      return Error{Error::Code::io, fmt::format("{}: cannot read the file", path.string())};
-    if (auto added = add_json(path.string(), text); !added) return added;
+    const auto source = Source::open(path.string(), Limits{});
+    if (!source) return source.error();
+    if (auto added = add_json(path.string(), (*source)->bytes()); !added) return added;
   }
   return {};
 }

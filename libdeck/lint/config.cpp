@@ -29,10 +29,9 @@ struct ParserLost {};
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 namespace deck {
 namespace fs = std::filesystem;
@@ -130,7 +129,48 @@ Result<void> read_key(std::string_view key, const toml::node& node, LintConfig& 
 
 }  // namespace
 
+namespace {
+
+/// Line in which a dotted key has more parts than any key of a configuration: the parser would nest
+/// a table per part, and give up only when the stack is used up. 0: none.
+std::uint64_t overlong_key(std::string_view text) {
+  constexpr std::size_t most_parts = 16;
+  std::uint64_t line = 1;
+  std::size_t dots = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char ch = text[at];
+    if (ch == '"' || ch == '\'') {  // a quoted part of a key, or a value
+      const std::string_view mark = text.substr(at, 3);
+      const bool lines = mark.size() == 3 && mark[1] == ch && mark[2] == ch;
+      std::size_t end = at + (lines ? 3 : 1);
+      while (end < text.size() && (lines ? text.substr(end, 3) != mark : text[end] != ch)) {
+        if (text[end] == '\n' && !lines) break;
+        line += text[end] == '\n';
+        end += ch == '"' && text[end] == '\\' ? 2 : 1;
+      }
+      at = end + (lines ? 2 : 0);
+      if (at < text.size() && text[at] == '\n') --at;  // a string without an end
+    } else if (ch == '#') {
+      at = std::min(text.find('\n', at), text.size()) - 1;
+    } else if (ch == '.') {
+      if (++dots >= most_parts) return line;
+    } else if (ch == '\n') {
+      ++line;
+      dots = 0;
+    } else if (ch == '=' || ch == '[' || ch == '{' || ch == ',') {
+      dots = 0;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
 Result<LintConfig> parse_lint_config(std::string_view text, const std::string& path) try {
+  if (const std::uint64_t line = overlong_key(text); line > 0)
+    return config_error(path, line,
+                        "a key has more dotted parts than any setting; quote the file patterns of "
+                        "'per-file-ignores'");
   const toml::parse_result parsed = toml::parse(text, path);
   if (!parsed)
     return config_error(path, parsed.error().source().begin.line,
@@ -145,6 +185,14 @@ Result<LintConfig> parse_lint_config(std::string_view text, const std::string& p
                       "is no TOML: a table or a key starts with what no key can start with");
 }
 
+Result<std::string> read_config_file(const std::string& path, std::uint64_t most) {
+  Limits limits;
+  limits.total_bytes = limits.stdin_bytes = limits.map_threshold = most;
+  const auto source = Source::open(path, limits);
+  if (!source) return Error{Error::Code::config, source.error().message};
+  return std::string((*source)->bytes());
+}
+
 Result<LintConfig> find_lint_config(const std::string& deck_path) {
   std::error_code ec;
   fs::path dir =
@@ -152,11 +200,9 @@ Result<LintConfig> find_lint_config(const std::string& deck_path) {
   while (!dir.empty()) {
     const fs::path file = dir / ".decklint.toml";
     if (fs::is_regular_file(file, ec)) {
-      std::ifstream in(file, std::ios::binary);
-      std::ostringstream text;
-      text << in.rdbuf();
-      if (!in) return config_error(file.string(), 0, "cannot be read");
-      return parse_lint_config(text.str(), file.string());
+      const auto text = read_config_file(file.string(), most_config_bytes);
+      if (!text) return text.error();
+      return parse_lint_config(*text, file.string());
     }
     if (dir == dir.parent_path()) break;
     dir = dir.parent_path();
@@ -255,42 +301,6 @@ std::string write_baseline(const std::vector<BaselinedDeck>& decks, const std::s
                       {"count", e.count}});
   }
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
-namespace {
-
-bool match_here(std::string_view p, std::string_view s) {
-  while (!p.empty()) {
-    if (p[0] == '*') {
-      const bool deep = p.starts_with("**");
-      p.remove_prefix(deep ? 2 : 1);
-      if (deep && p.starts_with('/') && match_here(p.substr(1), s)) return true;
-      for (std::size_t i = 0; i <= s.size(); ++i) {
-        if (match_here(p, s.substr(i))) return true;
-        if (i < s.size() && !deep && s[i] == '/') return false;
-      }
-      return false;
-    }
-    if (s.empty() || (p[0] == '?' ? s[0] == '/' : p[0] != s[0])) return false;
-    p.remove_prefix(1);
-    s.remove_prefix(1);
-  }
-  return s.empty();
-}
-
-}  // namespace
-
-bool glob_match(std::string_view pattern, std::string_view path) {
-  while (path.starts_with("./")) path.remove_prefix(2);
-  if (match_here(pattern, path)) return true;
-  if (pattern.find('/') == std::string_view::npos) {
-    const auto slash = path.rfind('/');
-    return slash != std::string_view::npos && match_here(pattern, path.substr(slash + 1));
-  }
-  // A relative pattern with folders matches the end of the path.
-  for (std::size_t at = path.find('/'); at != std::string_view::npos; at = path.find('/', at + 1))
-    if (match_here(pattern, path.substr(at + 1))) return true;
-  return false;
 }
 
 }  // namespace deck

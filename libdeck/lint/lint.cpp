@@ -26,13 +26,26 @@ bool enabled(const LintOptions& options, std::string_view rule) {
   return !any_selects(options.ignore, rule);
 }
 
-bool ignored_in_file(const Deck& deck, const LintOptions& options, const Diagnostic& d) {
-  if (!d.span.valid()) return false;
-  for (const auto& [glob, rules] : options.per_file_ignores)
-    if (any_selects(rules, d.rule) && glob_match(glob, deck.sources[d.span.file].path()))
-      return true;
-  return false;
-}
+/// per-file-ignores, each pattern matched once with each file.
+class FileIgnores {
+ public:
+  FileIgnores(const Deck& deck, const LintOptions& options) : deck_(deck), options_(options) {}
+
+  bool ignore(const Diagnostic& d) {
+    if (!d.span.valid()) return false;
+    const auto [it, fresh] = rules_.try_emplace(d.span.file);
+    if (fresh)
+      for (const auto& [glob, rules] : options_.per_file_ignores)
+        if (glob_match(glob, deck_.sources[d.span.file].path())) it->second.push_back(&rules);
+    return std::any_of(it->second.begin(), it->second.end(),
+                       [&](const auto* rules) { return any_selects(*rules, d.rule); });
+  }
+
+ private:
+  const Deck& deck_;
+  const LintOptions& options_;
+  std::map<std::uint32_t, std::vector<const std::vector<std::string>*>> rules_;
+};
 
 /// Zeros behind column 100 are tolerated by the solver itself.
 void soften(const Deck& deck, Diagnostic& d) {
@@ -290,8 +303,9 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
 
   LintResult result;
   result.not_checked = not_checked(input, options, pool.kept);
+  FileIgnores file_ignores(deck, options);
   const auto hidden = [&](const Diagnostic& d) {
-    if (ignored_in_file(deck, options, d)) return true;
+    if (file_ignores.ignore(d)) return true;
     if (detail::Suppression* s = detail::covering(suppressions, index, d)) {
       s->used = true;
       ++result.suppressed;

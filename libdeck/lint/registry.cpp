@@ -49,6 +49,7 @@ const std::vector<Rule>& all_rules() {
     detail::add_difference_rules(out);
     detail::add_companion_rules(out);
     detail::add_geometry_rules(out);
+    detail::add_bound_rules(out);
     detail::add_default_rules(out);
     detail::add_advice_rules(out);
     std::sort(out.begin(), out.end(), [](const Rule& a, const Rule& b) { return a.id < b.id; });

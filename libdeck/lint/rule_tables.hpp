@@ -25,6 +25,7 @@ void add_companion_rules(std::vector<Rule>& out);    // DK916-DK919: what belong
 void add_geometry_rules(std::vector<Rule>& out);     // DK3xx: found by extra checks
 void add_geometry_segment_rules(std::vector<Rule>& out);  // part of the geometry
 void add_geometry_manual_rules(std::vector<Rule>& out);  // part of the geometry
+void add_bound_rules(std::vector<Rule>& out);        // DK332-DK335, DK380, DK381: out of bounds
 void add_cycle_rules(std::vector<Rule>& out);        // DK4xx, part of the geometry
 void add_default_rules(std::vector<Rule>& out);      // DK5xx: /DEFAULT/INTER
 void add_advice_rules(std::vector<Rule>& out);       // DK9xx: known traps

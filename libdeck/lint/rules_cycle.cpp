@@ -120,6 +120,10 @@ void check_cycle(const GeometryRun& run) {
   options.threads = run.threads;
   const cycle::SceneOutcome outcome =
       cycle::run_cycle(run.scene, cycle::make_state(run.scene), options);
+  for (const cycle::ContactOutcome& c : outcome.contacts)
+    if (!c.complete && c.contact->evaluated && !c.notes.empty())
+      run.report("DK381", *c.contact, gap_field(*c.contact),
+                 fmt::format("{}: {}", name_of(run, *c.contact), c.notes.back()));
   for (const InterfaceSummary& s : cycle::summarize(run.scene, outcome)) {
     const Contact* contact = contact_of(outcome, s);
     if (contact == nullptr) continue;

@@ -53,11 +53,13 @@ std::string list_text(const std::vector<std::int64_t>& list) {
 
 }  // namespace detail
 
-void check_geometry(const LintContext& context, Reporter& reporter, int threads) {
+void check_geometry(const LintContext& context, Reporter& reporter, int threads,
+                    const MemoryLimits& limits) {
   if (context.model == nullptr || context.interfaces == nullptr) return;
   Diagnostics found;
   SceneOptions options;
   options.threads = threads;
+  options.limits = limits;
   options.candidates = false;
   options.nodal_stiffness = true;  // the forces of Istf 2 to 5 need it
   const Scene scene = build_scene(*context.model, *context.interfaces, found, options);

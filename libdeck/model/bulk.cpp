@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "base/parallel.hpp"
 #include "model/bulk_read.hpp"
-#include "model/bulk_run.hpp"
 
 namespace deck::detail {
 namespace {

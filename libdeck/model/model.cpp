@@ -239,6 +239,7 @@ Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagn
   model.selections = std::make_shared<Selections>(model, schemas);
   detail::apply_group_transforms(context);
   detail::apply_random_noise(context);
+  detail::check_coordinates(context);
   return model;
 }
 

@@ -78,6 +78,9 @@ void apply_submodel_transforms(BuildContext& context);
 /// The other /TRANSFORM: after all groups and sets, in the order of the deck.
 void apply_group_transforms(BuildContext& context);
 
+/// Nodes whose coordinates, as they are at last, no distance can be computed with.
+void check_coordinates(BuildContext& context);
+
 /// /RANDOM: the solver's noise on all coordinates, reproduced for seed 0.
 void apply_random_noise(BuildContext& context);
 

@@ -1,10 +1,13 @@
 // /CNODE: connection nodes that lie within the tolerance of another node are that node. Elements
 // and groups then refer to the other node.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
 #include "deck/text/number.hpp"
+#include "model/item_spans.hpp"
 #include "model/model_build.hpp"
 
 namespace deck {
@@ -102,6 +105,37 @@ void merge_connection_nodes(BuildContext& c) {
   std::sort(m.merged_nodes.begin(), m.merged_nodes.end());
   // A node merged with one that was merged itself belongs to the last of them.
   for (auto& [node, target] : m.merged_nodes) target = m.find_node(m.nodes.id[target]);
+}
+
+void check_coordinates(BuildContext& c) {
+  constexpr double largest = 1e75;  // products of four lengths stay in range
+  const Nodes& nodes = c.model.nodes;
+  std::vector<NodeIndex> shown;
+  for (NodeIndex n = 0; n < nodes.size(); ++n) {
+    const auto fits = [](double v) { return std::abs(v) <= largest; };
+    if (fits(nodes.x[n]) && fits(nodes.y[n]) && fits(nodes.z[n])) continue;
+    const bool finite =
+        std::isfinite(nodes.x[n]) && std::isfinite(nodes.y[n]) && std::isfinite(nodes.z[n]);
+    if (c.diagnostics.wants(finite ? "DK334" : "DK333")) shown.push_back(n);
+  }
+  if (shown.empty()) return;
+  const std::vector<Span> spans = node_spans(c.model, shown);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const NodeIndex n = shown[i];
+    const double at[] = {nodes.x[n], nodes.y[n], nodes.z[n]};
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+      if (!(std::abs(at[k]) <= std::abs(at[axis]))) axis = k;
+    const bool finite = std::isfinite(at[0]) && std::isfinite(at[1]) && std::isfinite(at[2]);
+    const char* const behaviour = finite ? "its distances become infinite" : "it computes with it";
+    c.diagnostics.add(make_diagnostic(
+        {finite ? "DK334" : "DK333", finite ? Severity::warning : Severity::error, spans[i],
+         fmt::format("node {}: {} is {:.6g} in working units, {}", nodes.id[n], "XYZ"[axis],
+                     at[axis],
+                     finite ? "too large for distances to be computed" : "not a finite number"),
+         behaviour, "correct the coordinate, its unit system or its transformation", 0,
+         Severity::error, "/NODE", nodes.id[n]}));
+  }
 }
 
 void redirect_elements(BuildContext& c) {

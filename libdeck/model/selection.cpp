@@ -57,7 +57,12 @@ int carrying_nodes(ElementKind kind) {
 
 }  // namespace detail
 
-Selections::Impl::Impl(const Model& m, const SchemaSet& s) : model(&m), schemas(&s) {
+Selections::Impl::Impl(const Model& m, const SchemaSet& s, const MemoryLimits& l)
+    : model(&m), schemas(&s), limits(l) {
+  std::uint64_t members = m.nodes.size();
+  for (const detail::FamilyName& name : detail::family_names())
+    members += 8 * m.family(name.kind).size();
+  most_members = 16 * members + m.deck->total_bytes;  // rows of the deck may be members, too
   static constexpr std::string_view kinds[] = {"grnod",  "surf",   "line",   "set",    "box",
                                                "skew",   "grshel", "grsh3n", "grbric", "grquad",
                                                "grtria", "grtrus", "grbeam", "grspri", "grpart"};
@@ -178,8 +183,38 @@ bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const B
   return true;
 }
 
-Selections::Selections(const Model& model, const SchemaSet& schemas)
-    : impl_(std::make_unique<Impl>(model, schemas)) {}
+bool Selections::Impl::fits(std::size_t count, std::size_t size, const Block& block) {
+  const bool room = bytes_held <= limits.selection_bytes &&
+                    count <= (limits.selection_bytes - bytes_held) / size;
+  // Repetitions count, but no list needs every member of the model over and over.
+  const bool sensible = count <= most_members;
+  if (all_held && room && sensible) return true;
+  if (all_held)
+    report({"DK332", Severity::error, block.header_span,
+            std::string(block.keyword) + " " + std::to_string(block.id.value) +
+                (sensible ? ": the members of all groups, surfaces, lines and sets together would "
+                            "take more than " +
+                                std::to_string(limits.selection_bytes >> 20) + " MB"
+                          : " lists the members of the model over and over: more than " +
+                                std::to_string(most_members)) +
+                "; from here on members are left out, and so are contacts that use them",
+            "it allocates memory for all of them or stops",
+            "flatten groups that list one another over and over; --max-memory raises the bound", 0,
+            Severity::error, std::string(block.keyword), block.id.value});
+  all_held = false;
+  return false;
+}
+
+bool Selections::Impl::hold(std::size_t count, std::size_t size, const Block& block) {
+  if (!fits(count, size, block)) return false;
+  bytes_held += std::uint64_t{count} * size;
+  return true;
+}
+
+Selections::Selections(const Model& model, const SchemaSet& schemas, const MemoryLimits& limits)
+    : impl_(std::make_unique<Impl>(model, schemas, limits)) {}
+void Selections::set_limits(const MemoryLimits& limits) { impl_->limits = limits; }
+bool Selections::complete() const { return impl_->all_held; }
 Selections::~Selections() = default;
 
 const NodeSet* Selections::node_group(std::int64_t id) { return impl_->node_group(id); }

@@ -14,12 +14,17 @@ using detail::Indices;
 
 namespace {
 
-/// Ids of a subset and of all subsets below it. `seen` guards against circles.
+/// Ids of a subset and of all subsets below it, each once: circles end there.
 void collect_subsets(const Model& model, std::int64_t id, std::set<std::int64_t>& seen) {
-  if (!seen.insert(id).second) return;
-  const auto it = model.subset_children.find(id);
-  if (it == model.subset_children.end()) return;
-  for (const std::int64_t child : it->second) collect_subsets(model, child, seen);
+  std::vector<std::int64_t> open{id};
+  while (!open.empty()) {
+    const std::int64_t next = open.back();
+    open.pop_back();
+    if (!seen.insert(next).second) continue;
+    const auto it = model.subset_children.find(next);
+    if (it != model.subset_children.end())
+      open.insert(open.end(), it->second.begin(), it->second.end());
+  }
 }
 
 bool in_submodel(const Deck& deck, std::int32_t submodel, std::int64_t id) {
@@ -144,17 +149,21 @@ const Indices* Selections::Impl::element_group(const FamilyName& name, std::int6
     const detail::SetState* state = set_state(id);
     if (state == nullptr) return nullptr;
     Indices members;
-    for (const detail::SetGroup& group : state->groups) {
+    const Block& block = *definition("set", id)->block;
+    state->each_group([&](const detail::SetGroup& group) {
       const Indices& some = group.elements[static_cast<std::size_t>(name.kind)];
-      members.insert(members.end(), some.begin(), some.end());
-    }
+      if (fits(members.size() + some.size(), sizeof some[0], block))
+        members.insert(members.end(), some.begin(), some.end());
+    });
     detail::normalise(members);
+    keep(members, block);
     return &element_groups.emplace(key, std::move(members)).first->second;
   }
   if (recursive(name.group, id, *def->block, 176)) return nullptr;
   const auto guard = open.insert(key).first;
   Indices members = resolve_elements(name, *def, decode(deck(), *def->block));
   open.erase(guard);
+  keep(members, *def->block);
   return &element_groups.emplace(key, std::move(members)).first->second;
 }
 
@@ -205,6 +214,7 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
         if (family.id[e] >= first && family.id[e] <= last &&
             (family.id[e] - first) % increment == 0)
           out.push_back(e);
+      if (!fits(out.size(), sizeof out[0], block)) break;
     }
   } else if (def.type == name.keyword) {
     Indices gone;
@@ -213,7 +223,7 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
         const Indices* group = element_group(name, ref.id);
         if (group == nullptr)
           missing.push_back(ref);
-        else
+        else if (fits(into.size() + group->size(), sizeof(*group)[0], block))
           into.insert(into.end(), group->begin(), group->end());
       }
     };
@@ -273,6 +283,7 @@ const Indices* Selections::Impl::part_group(std::int64_t id) {
   const auto guard = open.emplace("grpart", id).first;
   Indices parts = resolve_part_group(*def, decode(deck(), *def->block));
   open.erase(guard);
+  keep(parts, *def->block);
   return &part_groups.emplace(id, std::move(parts)).first->second;
 }
 
@@ -302,7 +313,7 @@ Indices Selections::Impl::resolve_part_group(const Definition& def, const Decode
         const Indices* group = part_group(ref.id);
         if (group == nullptr)
           missing.push_back(ref);
-        else
+        else if (fits(into.size() + group->size(), sizeof(*group)[0], block))
           into.insert(into.end(), group->begin(), group->end());
       }
     };

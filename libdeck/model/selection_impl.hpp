@@ -1,10 +1,12 @@
 // Inside of Selections: where definitions are, the lists they hold, the results kept, and the
 // resolvers, which are spread over the selection_*.cpp files by kind.
 #pragma once
+#include <deque>
 #include <map>
 #include <memory>
 #include <set>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -69,12 +71,24 @@ struct SetGroup {
   /// Faces of its solids are held against every solid of the model: so for all clauses but those
   /// of parts and of solids, whose own members are the only neighbours.
   bool against_all = false;
+  /// True if it changes nothing wherever it is added.
+  bool empty() const;
+  std::size_t size() const;  ///< members, counted as 32-bit numbers
 };
 /// A /SET while its clauses are evaluated. Every group has projections of its own: exterior faces
-/// and edges are looked for within a group. The first group holds all clauses of parts, and
-/// everything that is left after a removal or an intersection.
+/// and edges are looked for within a group. `own` holds all clauses of parts, and everything that
+/// is left after a removal or an intersection. The others are shared with the sets they come from,
+/// each held once however often it is referred to: a projection merges what comes twice.
 struct SetState {
-  std::vector<SetGroup> groups{1};
+  SetGroup own;
+  std::vector<const SetGroup*> others;
+  std::unordered_set<const SetGroup*> known;  ///< the same, while the set is built
+  /// Calls f(group) for all groups in order.
+  template <class F>
+  void each_group(F&& f) const {
+    f(own);
+    for (const SetGroup* group : others) f(*group);
+  }
   Indices parts;    ///< ascending
   Indices removed;  ///< nodes taken away by name, ascending
 };
@@ -94,6 +108,7 @@ struct Selections::Impl {
   std::map<std::int64_t, LineSet> lines;
   std::map<std::int64_t, SetGeneral> sets;
   std::map<std::int64_t, detail::SetState> set_states;
+  std::deque<detail::SetGroup> clause_groups;  ///< what SetState::others points to, beside `own`
   std::map<std::int64_t, detail::Box> boxes;
   std::map<std::pair<std::string, std::int64_t>, detail::Indices> element_groups;
   std::map<std::int64_t, detail::Indices> part_groups;
@@ -121,7 +136,21 @@ struct Selections::Impl {
   std::uint32_t rank(NodeIndex n) const { return ranks.empty() ? n : ranks[n]; }
   void sort_nodes(std::vector<NodeIndex>& nodes) const;
 
-  explicit Impl(const Model& m, const SchemaSet& s);
+  MemoryLimits limits;
+  std::uint64_t most_members = 0;  ///< of one list, repetitions included
+  std::uint64_t bytes_held = 0;  ///< by all results together
+  bool all_held = true;  ///< false: something was left out for want of MemoryLimits
+  /// True if `count` more items of `size` bytes may be held; otherwise that is reported once.
+  bool fits(std::size_t count, std::size_t size, const Block& block);
+  /// The same, and counts them as held.
+  bool hold(std::size_t count, std::size_t size, const Block& block);
+  /// Counts a result as held; empties it if there is no room.
+  template <class List>
+  void keep(List& list, const Block& block) {
+    if (!hold(list.size(), sizeof(typename List::value_type), block)) List().swap(list);
+  }
+
+  Impl(const Model& m, const SchemaSet& s, const MemoryLimits& l);
   const Deck& deck() const { return *model->deck; }
 
   // ---- definitions and lists (selection.cpp)
@@ -224,9 +253,12 @@ struct Selections::Impl {
   std::vector<Segment> group_segments(const detail::SetGroup& group);
   std::vector<Edge> group_edges(const detail::SetGroup& group);
   detail::Indices group_nodes(const detail::SetGroup& group);
-  std::vector<NodeIndex> set_node_list(const detail::SetState& state);
-  std::vector<Segment> set_segment_list(const detail::SetState& state);
-  std::vector<Edge> set_edge_list(const detail::SetState& state);
+  std::vector<NodeIndex> set_node_list(const detail::SetState& state, const Block& block);
+  std::vector<Segment> set_segment_list(const detail::SetState& state, const Block& block);
+  std::vector<Edge> set_edge_list(const detail::SetState& state, const Block& block);
+  /// Adds groups that the set does not hold yet.
+  void share_groups(detail::SetState& set, const std::vector<const detail::SetGroup*>& groups,
+                    const Block& block);
   /// Title and place of a set.
   std::pair<std::string, Span> set_heading(std::int64_t id) const;
   /// Sorts by nodes and merges what is the same segment (edge) of the same element.

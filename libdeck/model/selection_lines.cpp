@@ -18,13 +18,17 @@ const LineSet* Selections::Impl::line(std::int64_t id) {
     const detail::SetState* state = set_state(id);
     if (state == nullptr) return nullptr;
     const auto [title, span] = set_heading(id);
-    return &set_lines.emplace(id, LineSet{id, title, set_edge_list(*state), span}).first->second;
+    const Block& block = *definition("set", id)->block;
+    LineSet view{id, title, set_edge_list(*state, block), span};
+    keep(view.edges, block);
+    return &set_lines.emplace(id, std::move(view)).first->second;
   }
   if (recursive("line", id, *def->block, 176)) return nullptr;
   const auto guard = open.emplace("line", id).first;
   const DecodedBlock d = decode(deck(), *def->block);
   LineSet l{id, d.title, resolve_line(*def, d), def->block->header_span};
   open.erase(guard);
+  keep(l.edges, *def->block);
   if (l.edges.empty())
     report({"DK154", Severity::warning, l.span,
             std::string(def->block->keyword) + " " + std::to_string(id) + " has no edge",
@@ -74,14 +78,17 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
   if (type == "LINE") {
     for (const IdRef& ref : list.positive) {
       if (recursive("line", ref.id, block, 176)) continue;
-      if (const LineSet* l = line(ref.id)) out.insert(out.end(), l->edges.begin(), l->edges.end());
+      if (const LineSet* l = line(ref.id);
+          l != nullptr && fits(out.size() + l->edges.size(), sizeof(Edge), block))
+        out.insert(out.end(), l->edges.begin(), l->edges.end());
     }
     return out;
   }
   if (type == "SURF" || type == "EDGE") {
     std::vector<Segment> segments;
     for (const IdRef& ref : list.positive)
-      if (const Surface* s = surface(ref.id))
+      if (const Surface* s = surface(ref.id);
+          s != nullptr && fits(segments.size() + s->segments.size(), 4 * sizeof(Segment), block))
         segments.insert(segments.end(), s->segments.begin(), s->segments.end());
     return edges_of(segments, type == "EDGE");
   }
@@ -112,7 +119,9 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
     const detail::FamilyName& name = detail::family_name(kind);
     if (type != name.keyword) continue;
     for (const IdRef& ref : list.positive)
-      if (const Indices* group = element_group(name, ref.id)) add_line_elements(kind, *group, out);
+      if (const Indices* group = element_group(name, ref.id);
+          group != nullptr && fits(out.size() + group->size(), sizeof(Edge), block))
+        add_line_elements(kind, *group, out);
     return out;
   }
   report({"DK165", Severity::error, block.header_span,

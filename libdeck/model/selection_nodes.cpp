@@ -36,13 +36,17 @@ const NodeSet* Selections::Impl::node_group(std::int64_t id) {
     const detail::SetState* state = set_state(id);
     if (state == nullptr) return nullptr;
     const auto [title, span] = set_heading(id);
-    return &set_nodes.emplace(id, NodeSet{id, title, set_node_list(*state), span}).first->second;
+    const Block& block = *definition("set", id)->block;
+    NodeSet view{id, title, set_node_list(*state, block), span};
+    keep(view.nodes, block);
+    return &set_nodes.emplace(id, std::move(view)).first->second;
   }
   if (recursive("grnod", id, *def->block, 176)) return nullptr;
   const auto key = open.emplace("grnod", id).first;
   const DecodedBlock d = decode(deck(), *def->block);
   NodeSet group{id, d.title, resolve_nodes(*def, d), def->block->header_span};
   open.erase(key);
+  keep(group.nodes, *def->block);
   if (group.nodes.empty())
     report({"DK153", Severity::warning, group.span,
             std::string(def->block->keyword) + " " + std::to_string(id) + " has no node",

@@ -147,34 +147,47 @@ void Selections::Impl::merge_edges(std::vector<Edge>& edges) const {
               edges.end());
 }
 
-std::vector<NodeIndex> Selections::Impl::set_node_list(const SetState& state) {
+namespace {
+
+// What looking at a group costs at least, members or not: bounds sets of very many groups.
+constexpr std::size_t bytes_of_a_group = 256;
+
+}  // namespace
+
+std::vector<NodeIndex> Selections::Impl::set_node_list(const SetState& state, const Block& block) {
   Indices nodes;
-  for (const SetGroup& group : state.groups) {
+  if (!hold(state.others.size(), bytes_of_a_group, block)) return nodes;
+  state.each_group([&](const SetGroup& group) {
     const Indices some = group_nodes(group);
-    nodes.insert(nodes.end(), some.begin(), some.end());
-  }
+    if (fits(nodes.size() + some.size(), sizeof some[0], block))
+      nodes.insert(nodes.end(), some.begin(), some.end());
+  });
   detail::normalise(nodes);
   if (!state.removed.empty()) nodes = without(nodes, state.removed);
   sort_nodes(nodes);
   return nodes;
 }
 
-std::vector<Segment> Selections::Impl::set_segment_list(const SetState& state) {
+std::vector<Segment> Selections::Impl::set_segment_list(const SetState& state, const Block& block) {
   std::vector<Segment> out;
-  for (const SetGroup& group : state.groups) {
+  if (!hold(state.others.size(), bytes_of_a_group, block)) return out;
+  state.each_group([&](const SetGroup& group) {
     const auto some = group_segments(group);
-    out.insert(out.end(), some.begin(), some.end());
-  }
+    if (fits(out.size() + some.size(), sizeof(Segment), block))
+      out.insert(out.end(), some.begin(), some.end());
+  });
   merge_segments(out);
   return out;
 }
 
-std::vector<Edge> Selections::Impl::set_edge_list(const SetState& state) {
+std::vector<Edge> Selections::Impl::set_edge_list(const SetState& state, const Block& block) {
   std::vector<Edge> out;
-  for (const SetGroup& group : state.groups) {
+  if (!hold(state.others.size(), bytes_of_a_group, block)) return out;
+  state.each_group([&](const SetGroup& group) {
     const auto some = group_edges(group);
-    out.insert(out.end(), some.begin(), some.end());
-  }
+    if (fits(out.size() + some.size(), sizeof(Edge), block))
+      out.insert(out.end(), some.begin(), some.end());
+  });
   merge_edges(out);
   return out;
 }
@@ -192,10 +205,15 @@ const SetGeneral* Selections::Impl::set(std::int64_t id) {
   SetGeneral s;
   s.id = id;
   std::tie(s.title, s.span) = set_heading(id);
-  s.nodes = set_node_list(*state);
-  s.segments = set_segment_list(*state);
-  s.edges = set_edge_list(*state);
+  const Block& block = *definition("set", id)->block;
+  s.nodes = set_node_list(*state, block);
+  s.segments = set_segment_list(*state, block);
+  s.edges = set_edge_list(*state, block);
   s.parts = state->parts;
+  keep(s.nodes, block);
+  keep(s.segments, block);
+  keep(s.edges, block);
+  keep(s.parts, block);
   return &sets.emplace(id, std::move(s)).first->second;
 }
 

@@ -44,8 +44,10 @@ const Surface* Selections::Impl::surface(std::int64_t id) {
     const detail::SetState* state = set_state(id);
     if (state == nullptr) return nullptr;
     const auto [title, span] = set_heading(id);
-    return &set_surfaces.emplace(id, Surface{id, title, set_segment_list(*state), false, span})
-                .first->second;
+    const Block& block = *definition("set", id)->block;
+    Surface view{id, title, set_segment_list(*state, block), false, span};
+    keep(view.segments, block);
+    return &set_surfaces.emplace(id, std::move(view)).first->second;
   }
   if (recursive("surf", id, *def->block, 189)) return nullptr;
   const auto guard = open.emplace("surf", id).first;
@@ -53,6 +55,7 @@ const Surface* Selections::Impl::surface(std::int64_t id) {
   Surface s{id, d.title, {}, false, def->block->header_span};
   s.segments = resolve_surface(*def, d, s.analytical);
   open.erase(guard);
+  keep(s.segments, *def->block);
   sort_segments(s.segments);
   return &surfaces.emplace(id, std::move(s)).first->second;
 }
@@ -307,6 +310,8 @@ std::vector<Segment> Selections::Impl::segments_of_groups(const Definition& def,
       const Indices* group = element_group(name, ref.id);
       if (group == nullptr)
         missing.push_back(ref);
+      else if (!fits(solids.size() + out.size() + group->size(), sizeof(Segment), block))
+        break;
       else if (kind == ElementKind::solid8)
         solids.insert(solids.end(), group->begin(), group->end());
       else
@@ -354,10 +359,12 @@ std::vector<Segment> Selections::Impl::segments_of_surfaces(const Block& block,
   std::vector<Segment> out;
   std::vector<IdRef> missing;
   for (const IdRef& ref : list.positive)
-    if (const auto* segments = listed_surface(block, ref, missing))
+    if (const auto* segments = listed_surface(block, ref, missing);
+        segments != nullptr && fits(out.size() + segments->size(), sizeof(Segment), block))
       out.insert(out.end(), segments->begin(), segments->end());
   for (const IdRef& ref : list.negative)
-    if (const auto* segments = listed_surface(block, ref, missing))
+    if (const auto* segments = listed_surface(block, ref, missing);
+        segments != nullptr && fits(out.size() + segments->size(), sizeof(Segment), block))
       std::transform(segments->begin(), segments->end(), std::back_inserter(out), turned);
   report_missing("DK151", block, "surface", missing, 188, Severity::warning);
   return out;
@@ -371,7 +378,8 @@ std::vector<Segment> Selections::Impl::difference_of_surfaces(const Block& block
   std::vector<IdRef> missing;
   const auto collect = [&](const std::vector<IdRef>& refs, std::vector<Segment>& into) {
     for (const IdRef& ref : refs)
-      if (const auto* segments = listed_surface(block, ref, missing))
+      if (const auto* segments = listed_surface(block, ref, missing);
+          segments != nullptr && fits(into.size() + segments->size(), sizeof(Segment), block))
         for (Segment s : *segments) {
           s.nodes = from_smallest(s.nodes, [&](NodeIndex n) { return rank(n); });
           into.push_back(s);

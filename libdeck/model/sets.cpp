@@ -91,18 +91,19 @@ void add(SetGroup& group, const SetGroup& clause) {
   group.external = group.external || clause.external;
 }
 
-/// Moves all groups of a set into the first one.
+/// Moves all groups of a set into its own one.
 SetGroup& unite(SetState& set) {
-  for (std::size_t i = 1; i < set.groups.size(); ++i) add(set.groups[0], set.groups[i]);
-  set.groups.resize(1);
-  return set.groups[0];
+  for (const SetGroup* group : set.others) add(set.own, *group);
+  set.others.clear();
+  set.known.clear();
+  return set.own;
 }
 
 /// Removes what `clause` selects, or keeps nothing else.
 void reduce(SetState& set, const SetState& clause, Operator op) {
   SetGroup& group = unite(set);
   SetGroup other;
-  for (const SetGroup& g : clause.groups) add(other, g);
+  clause.each_group([&](const SetGroup& g) { add(other, g); });
   for (std::size_t k = 0; k < SetGroup::families; ++k)
     group.elements[k] = combine(group.elements[k], other.elements[k], op);
   set.parts = combine(set.parts, clause.parts, op);
@@ -119,17 +120,26 @@ void reduce(SetState& set, const SetState& clause, Operator op) {
   });
 }
 
-/// Adds what a clause selects: clauses of parts to the first group, others as groups of their own.
-void join(Selections::Impl& all, SetState& set, const SetState& clause, bool of_parts) {
+constexpr std::size_t bytes_of_a_member = sizeof(std::uint32_t);
+
+/// Adds what a clause selects: clauses of parts to the set's own group, others as groups of their
+/// own.
+void join(Selections::Impl& all, SetState& set, SetState clause, bool of_parts,
+          const Block& block) {
   set.parts = combine(set.parts, clause.parts, Operator::add);
-  for (const SetGroup& group : clause.groups) {
-    if (!set.removed.empty())
+  if (!set.removed.empty())
+    clause.each_group([&](const SetGroup& group) {
       set.removed = combine(set.removed, all.group_nodes(group), Operator::subtract);
-    if (of_parts)
-      add(set.groups[0], group);
-    else
-      set.groups.push_back(group);
+    });
+  if (of_parts) {
+    clause.each_group([&](const SetGroup& group) { add(set.own, group); });
+    return;
   }
+  if (!clause.own.empty() && all.hold(clause.own.size(), bytes_of_a_member, block)) {
+    all.clause_groups.push_back(std::move(clause.own));
+    all.share_groups(set, {&all.clause_groups.back()}, block);
+  }
+  all.share_groups(set, clause.others, block);
 }
 
 struct ElementClause {
@@ -337,12 +347,13 @@ class ClauseReader {
     missing("set", absent);
   }
 
-  SetGroup& group() { return state_.groups[0]; }
+  SetGroup& group() { return state_.own; }
   Indices& of(ElementKind kind) { return group().elements[static_cast<std::size_t>(kind)]; }
 
   /// The groups of another set come as they are.
   void add_set(const SetState& other) {
-    state_.groups.insert(state_.groups.end(), other.groups.begin(), other.groups.end());
+    if (!other.own.empty()) all_.share_groups(state_, {&other.own}, block_);
+    all_.share_groups(state_, other.others, block_);
     state_.parts = combine(state_.parts, other.parts, Operator::add);
   }
 
@@ -398,7 +409,30 @@ class ClauseReader {
 };
 
 }  // namespace
+
+bool SetGroup::empty() const {
+  return !external && reversed4.empty() && reversed3.empty() && all_faces.empty() &&
+         named.empty() && rows.empty() && row_edges.empty() &&
+         std::all_of(elements.begin(), elements.end(), [](const Indices& e) { return e.empty(); });
+}
+
+std::size_t SetGroup::size() const {
+  std::size_t sum = reversed4.size() + reversed3.size() + all_faces.size() + named.size() +
+                    sizeof(Segment) / sizeof(std::uint32_t) * rows.size() +
+                    sizeof(Edge) / sizeof(std::uint32_t) * row_edges.size();
+  for (const Indices& e : elements) sum += e.size();
+  return sum;
+}
+
 }  // namespace detail
+
+void Selections::Impl::share_groups(SetState& set,
+                                    const std::vector<const detail::SetGroup*>& groups,
+                                    const Block& block) {
+  if (!hold(groups.size(), sizeof groups[0], block)) return;
+  for (const detail::SetGroup* group : groups)
+    if (set.known.insert(group).second) set.others.push_back(group);
+}
 
 const SetState* Selections::Impl::set_state(std::int64_t id) {
   if (const auto it = set_states.find(id); it != set_states.end()) return &it->second;
@@ -418,18 +452,20 @@ const SetState* Selections::Impl::set_state(std::int64_t id) {
       SetState selected = detail::ClauseReader(*this, *def.block, clause).read();
       if (op == detail::Operator::intersect) {
         // Nodes of elements count as well as nodes named.
-        detail::unite(selected).named = set_node_list(selected);
-        detail::unite(state).named = set_node_list(state);
-        detail::normalise(selected.groups[0].named);
-        detail::normalise(state.groups[0].named);
+        detail::unite(selected).named = set_node_list(selected, *def.block);
+        detail::unite(state).named = set_node_list(state, *def.block);
+        detail::normalise(selected.own.named);
+        detail::normalise(state.own.named);
       }
       if (op == detail::Operator::add)
-        detail::join(*this, state, selected, clause.of_parts());
+        detail::join(*this, state, std::move(selected), clause.of_parts(), *def.block);
       else
         detail::reduce(state, selected, op);
     }
   }
   open.erase(guard);
+  state.known = {};
+  if (!hold(state.own.size(), detail::bytes_of_a_member, *defs->second.front().block)) state = {};
   return &set_states.emplace(id, std::move(state)).first->second;
 }
 

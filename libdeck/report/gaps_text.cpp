@@ -115,12 +115,19 @@ std::string items_text(const ItemCounts& c) {
 
 std::string penetration_sentence(const Scene& scene, const SceneView& view) {
   const ContactTotals& t = view.total;
+  const auto unknown = static_cast<std::size_t>(std::count_if(
+      scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) { return !c.evaluated; }));
+  const std::string open = unknown == 0
+                               ? ""
+                               : fmt::format("{} could not be evaluated, see the findings. ",
+                                             count(unknown, "contact", "contacts"));
   if (t.count.pairs == 0)
-    return fmt::format("No initial penetration in {}.",
-                       count(scene.contacts.size(), "contact", "contacts"));
+    return open + fmt::format("No initial penetration in {}.",
+                              count(scene.contacts.size() - unknown, "contact", "contacts"));
   // One figure for the deepest pair, one for the largest share of a gap.
   const PenetrationRow& deepest = row_of(scene, view.penetrations.front());
   std::string text =
+      open +
       fmt::format("{} on {}, deepest {:.6g} of a gap of {:.6g}; worst share of a gap {:.1f} %.",
                   count(t.count.pairs, "initial penetration", "initial penetrations"),
                   items_text(t.count), deepest.depth, deepest.gap, 100 * t.max_ratio);

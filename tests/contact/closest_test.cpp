@@ -15,6 +15,20 @@
 namespace deck {
 namespace {
 
+TEST(Closest, CoordinatesWithoutBoundsGiveAnAnswerOfSomeKind) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  for (const double far : {inf, -inf, std::nan(""), 1.7e308, 1.4e154})
+    for (std::size_t bad = 0; bad < 5; ++bad) {
+      std::array<Point3<double>, 5> x{{{0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
+      x[bad].y = far;
+      const std::array<Point3<double>, 4> corners{x[1], x[2], x[3], x[4]};
+      const auto robust = closest_on_segment<Form::robust>(x[0], corners, false);
+      const auto reference = closest_on_segment<Form::reference>(x[0], corners, false);
+      EXPECT_FALSE(robust.distance() < 0 || reference.distance() < 0);
+      EXPECT_FALSE(closest_between_edges<Form::robust>(x[0], x[1], x[2], x[3]).distance < 0);
+    }
+}
+
 using P = Point3<double>;
 using Corners = std::array<P, 4>;
 

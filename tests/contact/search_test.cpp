@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "contact/box_order.hpp"
 #include "contact/search_scenes.hpp"
@@ -275,6 +277,51 @@ TEST(SearchLimits, TooManyPairsAreReportedNotStored) {
   EXPECT_TRUE(all.complete);
   // Every pair but the four nodes of each segment.
   EXPECT_EQ(all.pairs.size(), mesh.segments.size() * (mesh.secondary.size() - 4));
+}
+
+TEST(SearchLimits, ABoundBelowOneChunkOfPairsHoldsForAnyNumberOfThreads) {
+  const Mesh mesh = two_sheets(20);
+  const std::size_t pairs = mesh.segments.size() * (mesh.secondary.size() - 4);
+  for (const int threads : {1, 2, 4}) {
+    SearchOptions o;
+    o.gap = PairGap::constant(1e3);
+    o.threads = threads;
+    o.max_pairs = pairs - 1;
+    EXPECT_FALSE(find_node_segment_pairs(node_input(mesh), o).complete);
+    o.max_pairs = pairs;
+    EXPECT_EQ(find_node_segment_pairs(node_input(mesh), o).pairs.size(), pairs);
+  }
+}
+
+// The places of the tree that hold no box must stay out of an infinite reach.
+TEST(SearchLimits, AnInfiniteReachFindsWhatIsThereAndNothingElse) {
+  for (const int size : {1, 3, 20}) {
+    const Mesh mesh = two_sheets(size);
+    SearchOptions o;
+    o.gap = PairGap::constant(1.0);
+    o.margin = std::numeric_limits<double>::infinity();
+    const auto nodes = find_node_segment_pairs(node_input(mesh), o);
+    EXPECT_EQ(nodes.pairs, scenes::brute_force(node_input(mesh), o));
+    const auto edges = find_edge_edge_pairs(edge_input(mesh), o);
+    EXPECT_EQ(edges.pairs, scenes::brute_force(edge_input(mesh), o));
+  }
+}
+
+TEST(SearchLimits, CoordinatesWithoutBoundsAreNoReadsOutOfBounds) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  for (const double far : {1e154, 1e300, inf, -inf, std::nan("")}) {
+    Mesh mesh = two_sheets(60);  // large enough for the order of the mesh to be tried
+    for (std::size_t n = 0; n < mesh.x.size(); n += 7) mesh.x[n] = far;
+    SearchOptions o;
+    o.gap = PairGap::constant(0.5);
+    for (const Form form : {Form::reference, Form::robust}) {
+      o.form = form;
+      for (const CandidatePair& p : find_node_segment_pairs(node_input(mesh), o).pairs) {
+        ASSERT_LT(p.secondary, mesh.secondary.size());
+        ASSERT_LT(p.main, mesh.segments.size());
+      }
+    }
+  }
 }
 
 TEST(SearchLimits, EmptyInputsGiveNothing) {

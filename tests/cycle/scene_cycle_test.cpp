@@ -151,6 +151,57 @@ TEST(FirstCycle, ValuesOutOfRangeAreNotEvaluated) {
   EXPECT_EQ(r.largest_nodal_force, 0.0);
 }
 
+TEST(FirstCycle, AnIcurvThatNoSurfaceHasIsNoCurvature) {
+  const auto forces = [](const std::string& icurv) {
+    const auto b = scene_of("Icurv=" + icurv, 0.6);
+    return run(*b).nodes.force;
+  };
+  for (const char* icurv : {"4", "7", "-1", "2147483647"})
+    EXPECT_EQ(forces(icurv), forces("0")) << icurv;
+}
+
+TEST(FirstCycle, AContactThatCouldNotBeEvaluatedHasNoForces) {
+  SmallDeck d = plates(0.6);
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1");
+  SceneOptions o;
+  o.limits.pair_bytes = 64;
+  const Built b(d, o);
+  EXPECT_FALSE(b.contact().evaluated);
+  EXPECT_EQ(b.diagnostics.counts().at("DK390"), 1u);
+  const SceneOutcome r = run(b);
+  EXPECT_FALSE(r.contacts[0].complete);
+  EXPECT_EQ(r.largest_nodal_force, 0.0);
+}
+
+TEST(FirstCycle, PairsBeyondTheMemoryAreNotEvaluated) {
+  SmallDeck d = plates(0.6);
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1");
+  SceneOptions o;
+  o.penetrations = false;
+  o.limits.pair_bytes = 3 * 512;  // for three pairs of the four
+  const Built b(d, o);
+  const SceneOutcome r = run(b);
+  EXPECT_FALSE(r.contacts[0].complete);
+  EXPECT_EQ(r.contacts[0].notes.size(), 1u);
+  EXPECT_EQ(r.largest_nodal_force, 0.0);
+}
+
+TEST(FirstCycle, AShellWithAMissingNodeExchangesNoHeat) {
+  SmallDeck d = plates(0.6);
+  d.shell(2, 3, 11, 12, 13, 999).shell3(2, 4, 11, 12, 998);
+  d.elastic_material(2, 200.0);
+  d.add("/HEAT/MAT/1\n               300.0                 1.0");
+  d.group("/GRNOD/PART/3", {2});
+  d.add("/INITEMP/1\nt\n               400.0         3");
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 Ithe=1 Kthe=0.5 Ithe_form=1");
+  SceneOptions o;
+  o.nodal_stiffness = true;
+  const Built b(d, o);
+  CycleOptions options;
+  options.dt1 = options.dt12 = 1e-3;
+  EXPECT_NEAR(run(b, options).contacts[0].heat_secondary, -0.5 * 32 * 100 * 1e-3, 1e-12);
+}
+
 TEST(FirstCycle, SummaryPutsThePartsOfAnInterfaceTogether) {
   SmallDeck d = plates(0.6);
   d.group("/SURF/PART/3", {2});

@@ -39,6 +39,50 @@ class Hostile : public Folder {
   std::chrono::steady_clock::time_point start_;
 };
 
+TEST_F(Hostile, NumbersBeyondThirtyTwoBitsKeepTheirSignAndAreReported) {
+  const auto deck = read_deck(file("d_0000.rad",
+                                   "#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n"
+                                   "                  kg                  mm                  ms\n"
+                                   "                  kg                  mm                  ms\n"
+                                   "/PARAMETER/GLOBAL/INTEGER/1\nwide\nwide      4294967299\n"
+                                   "/SURF/PART/7\nt\n4294967299-999999999     &wide    -&wide\n"
+                                   "/SURF/PART/99999999999999999999999\nt\n         1\n"
+                                   "/SURF/PART/2147483647\nt\n         1\n/END\n"),
+                              SchemaSet::built_in());
+  ASSERT_TRUE(deck.ok());
+  Diagnostics findings;
+  const Block* surf = nullptr;
+  for (const Block& b : deck->blocks)
+    if (b.header == "/SURF/PART/7") surf = &b;
+  ASSERT_NE(surf, nullptr);
+  const DecodedBlock d = decode(*deck, *surf, &findings);
+  std::vector<std::int64_t> ids;
+  for (const DecodedCard& card : d.cards)
+    for (const Cell& cell : card.cells)
+      if (cell.field->type == FieldType::id) ids.push_back(cell.integer);
+  EXPECT_EQ(ids, (std::vector<std::int64_t>{2147483647, -999999999, 2147483647, -2147483647}));
+  EXPECT_EQ(findings.counts().at("DK023"), 3u);
+  EXPECT_EQ(count(deck->diagnostics, "DK335"), 1u);
+}
+
+TEST_F(Hostile, OffsetsOfSubmodelsDoNotAddUpBeyondThirtyTwoBits) {
+  std::string text =
+      "#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n"
+      "                  kg                  mm                  ms\n"
+      "                  kg                  mm                  ms\n";
+  for (int i = 1; i <= 300; ++i)
+    text += "//SUBMODEL/" + std::to_string(i) + "\ns\n2147483647-214748364\n";
+  text += "/SURF/PART/7\nt\n         1\n";
+  for (int i = 0; i < 300; ++i) text += "//ENDSUB\n";
+  const auto deck = read_deck(file("d_0000.rad", text), SchemaSet::built_in());
+  ASSERT_TRUE(deck.ok());
+  EXPECT_GE(count(deck->diagnostics, "DK335"), 1u);
+  for (const Submodel& s : deck->submodels) {
+    EXPECT_LE(s.definitions, 2147483647);
+    EXPECT_GE(s.nodes, -2147483648LL);
+  }
+}
+
 TEST_F(Hostile, WhatIsNoDeckIsRefusedWithTheReason) {
   EXPECT_THAT(refusal(file("empty", "")), HasSubstr("is empty (0 bytes"));
   EXPECT_THAT(refusal(file("blank", "  \n\r\n\t\n")), HasSubstr("is empty"));

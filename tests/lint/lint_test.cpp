@@ -410,6 +410,89 @@ TEST(Glob, MatchesNamesPathsAndDepth) {
   EXPECT_FALSE(glob_match("x?.rad", "x/.rad"));
 }
 
+/// The definition of a match, branch by branch: exponential, so for short texts only.
+bool matches(std::string_view p, std::string_view s) {
+  if (p.empty()) return s.empty();
+  if (p[0] == '*') {
+    const bool deep = p.starts_with("**");
+    p.remove_prefix(deep ? 2 : 1);
+    if (deep && p.starts_with('/') && matches(p.substr(1), s)) return true;
+    for (std::size_t i = 0; i <= s.size(); ++i) {
+      if (matches(p, s.substr(i))) return true;
+      if (i < s.size() && !deep && s[i] == '/') return false;
+    }
+    return false;
+  }
+  if (s.empty() || (p[0] == '?' ? s[0] == '/' : p[0] != s[0])) return false;
+  return matches(p.substr(1), s.substr(1));
+}
+
+bool matches_anywhere(std::string_view p, std::string_view s) {
+  if (matches(p, s)) return true;
+  if (p.find('/') == std::string_view::npos)
+    return s.rfind('/') != std::string_view::npos && matches(p, s.substr(s.rfind('/') + 1));
+  for (std::size_t at = s.find('/'); at != std::string_view::npos; at = s.find('/', at + 1))
+    if (matches(p, s.substr(at + 1))) return true;
+  return false;
+}
+
+/// All texts of up to `length` of these letters.
+std::vector<std::string> words(std::string_view letters, std::size_t length) {
+  std::vector<std::string> out{""};
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (out[i].size() < length)
+      for (const char letter : letters) out.push_back(out[i] + letter);
+  return out;
+}
+
+TEST(Glob, AgreesWithItsDefinitionOnAllShortPatternsAndPaths) {
+  const auto paths = words("a/b", 5);
+  for (const std::string& pattern : words("a*/?", 5))
+    for (const std::string& path : paths)
+      ASSERT_EQ(glob_match(pattern, path), matches_anywhere(pattern, path))
+          << pattern << " " << path;
+}
+
+TEST(Glob, ManyStarsTakeNoMoreThanTheLengthOfPatternAndPath) {
+  std::string pattern;
+  for (int i = 0; i < 200; ++i) pattern += "*a";
+  EXPECT_FALSE(glob_match(pattern + "b", std::string(4000, 'a')));
+  EXPECT_TRUE(glob_match(pattern, std::string(4000, 'a')));
+  EXPECT_FALSE(glob_match("**/" + pattern + "/b", std::string(2000, 'a') + "/c"));
+}
+
+TEST(Config, KeysOfVeryManyPartsAreRefusedWithTheLine) {
+  std::string key = "a";
+  for (int i = 0; i < 200'000; ++i) key += ".a";
+  for (const std::string& text : {"\n" + key + " = 1\n", "\n[" + key + "]\n",
+                                  "\nx = {" + key + " = 1}\n", "\ny = \"'\" \n" + key + " = 1\n"}) {
+    const auto config = parse_lint_config(text, "c.toml");
+    ASSERT_FALSE(config);
+    EXPECT_NE(config.error().message.find("dotted parts"), std::string::npos)
+        << config.error().message;
+  }
+  const auto line = parse_lint_config("# a.b\n\n" + key + " = 1\n", "c.toml");
+  EXPECT_NE(line.error().message.find("c.toml:3"), std::string::npos) << line.error().message;
+}
+
+TEST(Config, DotsInPatternsCommentsAndStringsAreNoParts) {
+  const std::string dots(100, '.');
+  EXPECT_TRUE(parse_lint_config("# " + dots + "\n[per-file-ignores]\n\"a" + dots +
+                                    "\" = [\"DK0\"] # " + dots + "\n'b" + dots +
+                                    "' = [\n \"DK0\"]\n",
+                                "c.toml"));
+  EXPECT_TRUE(parse_lint_config("baseline = \"\"\"\\\\\n" + dots + "\n\\\"\"\"\"\n", "c.toml"));
+}
+
+TEST(Config, OnlyRegularFilesOfBoundedSizeAreRead) {
+  EXPECT_FALSE(read_config_file("/dev/zero", 1000));
+  const Folder folder;
+  const std::string file = folder.write("c.toml", std::string(1001, '#'));
+  EXPECT_FALSE(read_config_file(file, 1000));
+  EXPECT_TRUE(read_config_file(file, 1001));
+  EXPECT_FALSE(parse_baseline(R"({"schema":5,"decks":{}})", "b.json"));
+}
+
 TEST(Explain, KeywordPageListsColumnsValuesAndDefaults) {
   const Schema* schema = SchemaSet::built_in().find("/INTER/TYPE7");
   ASSERT_NE(schema, nullptr);

@@ -133,6 +133,47 @@ TEST(Set, SetsOfSetsAndTheirCircles) {
   EXPECT_GE(b.findings("DK152"), 1u);
 }
 
+// Each set lists the one before it twice, through two others: 2^40 ways from the last to the first.
+TEST(Set, IsHeldOnceHoweverManyWaysLeadToIt) {
+  std::string text = model() + set(1, clause("NODE", {1}));
+  for (int k = 1; k <= 40; ++k) {
+    text += set(3 * k, clause("SET", {3 * k - 2}) + clause("SHELL", {1}));
+    text += set(3 * k - 1, clause("SET", {3 * k - 2}));
+    text += set(3 * k + 1, clause("SET", {3 * k, 3 * k - 1}));
+  }
+  Built b(text);
+  EXPECT_EQ(b.group(121), (Ids{1, 2, 4, 5}));
+  EXPECT_EQ(b.surface(121), (std::vector<Ids>{{1, 2, 5, 4}}));
+  EXPECT_EQ(b.findings("DK332"), 0u);
+}
+
+TEST(Set, AChainOfSetsTakesRoomOnlyForWhatTheyHold) {
+  std::string text = model() + set(1, clause("NODE", {9}));
+  for (int k = 2; k <= 240; ++k)
+    text += set(k, clause("SET", {k - 1}) + clause("NODE", {k % 9 + 1}));
+  Built b(text);
+  EXPECT_EQ(b.group(240), (Ids{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+}
+
+TEST(SelectionBounds, WhatExceedsTheMemoryIsLeftOutWithOneFinding) {
+  std::string text = model();
+  for (int k = 1; k <= 60; ++k)
+    text += "/SURF/SURF/" + std::to_string(k) + "\ns\n" + cells({k + 100, k + 1});
+  for (int k = 1; k <= 60; ++k)
+    text += "/SURF/SURF/" + std::to_string(k + 100) + "\ns\n" + cells({k + 1});
+  text += "/SURF/PART/61\ns\n" + cells({1});
+  Built b(text);
+  MemoryLimits limits;
+  limits.selection_bytes = 1 << 20;
+  Selections bounded(b.model(), SchemaSet::built_in(), limits);
+  bounded.resolve_all();
+  EXPECT_FALSE(bounded.complete());
+  EXPECT_EQ(bounded.diagnostics().counts().at("DK332"), 1u);
+  Selections small(b.model(), SchemaSet::built_in(), limits);
+  EXPECT_EQ(small.surface(55)->segments.size(), 2u << 6);
+  EXPECT_TRUE(small.complete());
+}
+
 TEST(Set, CollectGathersAllDefinitionsOfTheId) {
   Built b(model() + "/SET/COLLECT/1\na\n" + clause("NODE", {1}) + "/SET/COLLECT/1\nb\n" +
           clause("NODE", {2}));

@@ -15,6 +15,52 @@ TEST_F(CommandLine, WrongUsageIsTwo) {
   EXPECT_EQ(deck("params --color sometimes x.rad"), 2);
 }
 
+TEST_F(CommandLine, NumbersThatAreNoneOrWithoutBoundsAreTwo) {
+  write(dir_ / "a_0000.rad", std::string(begin) + contact + "/END\n");
+  for (const char* value : {"nan", "inf", "-1", "1e11", "1e999", "x", ""}) {
+    const std::string quoted = " '" + std::string(value) + "'";
+    EXPECT_EQ(deck("batch a_0000.rad -o out --timeout" + quoted), 2) << value;
+    EXPECT_FALSE(fs::exists(dir_ / "out"));
+  }
+  for (const char* value : {"nan", "inf", "1e999"})
+    EXPECT_EQ(deck("cycle a_0000.rad --time " + std::string(value)), 2) << value;
+  for (const char* value : {"nan", "-1", "inf"})
+    EXPECT_EQ(deck("cycle a_0000.rad --dt " + std::string(value)), 2) << value;
+}
+
+TEST_F(CommandLine, WhatIfTakesWholeNumbersForFlags) {
+  write(dir_ / "a_0000.rad", std::string(begin) + contact + "/END\n");
+  for (const char* value : {"Inacti=5.9", "Inacti=4294967302", "Igap=-1", "Irem_gap=1e0",
+                            "Gapmin=nan", "Gapmin=1e300", "Inacti="})
+    EXPECT_EQ(deck("gaps a_0000.rad --what-if 2:" + std::string(value)), 2) << value;
+  EXPECT_EQ(deck("gaps a_0000.rad --what-if 2:Gapmin=1.5,Inacti=6"), 0) << err();
+}
+
+TEST_F(CommandLine, AFlagBeyondThirtyTwoBitsDoesNotWrapAround) {
+  const std::string wide =
+      "/INTER/TYPE10/2\ntied\n         1         2\n"
+      "                                                         1.0\n"
+      "                    4294967297\n";
+  write(dir_ / "a_0000.rad", std::string(begin) + wide + "/END\n");
+  EXPECT_EQ(deck("lint a_0000.rad --format json"), 1);
+  EXPECT_NE(out().find("DK023"), std::string::npos) << out();
+  ASSERT_EQ(deck("params a_0000.rad --no-geometry --json -"), 0) << err();
+  EXPECT_EQ(out().find("4294967297"), std::string::npos);
+  EXPECT_NE(out().find("2147483647"), std::string::npos) << out();
+}
+
+TEST_F(CommandLine, FixMendsMoreThanAThousandFindingsOfARule) {
+  std::string text = begin;
+  for (int i = 0; i < 1500; ++i)
+    text += "/INTER/TYPE11/" + std::to_string(5000 + i) +
+            "\nlate\n         1         1\n                 1.0                 0.1              "
+            "   0.5\n";
+  write(dir_ / "many_0000.rad", text + "/END\n");
+  deck("lint many_0000.rad --unsafe-fixes -q");
+  EXPECT_EQ(deck("lint many_0000.rad --diff"), 1);
+  EXPECT_EQ(out(), "");
+}
+
 TEST_F(CommandLine, UnknownVerbNamesTheClosestOne) {
   EXPECT_EQ(deck("parms x.rad"), 2);
   EXPECT_NE(err().find("did you mean 'params'"), std::string::npos);

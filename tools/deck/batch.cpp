@@ -115,7 +115,7 @@ Action setup(CLI::App& app) {
       ->check(CLI::Range(0, 4096))
       ->type_name("N");
   app.add_option("--timeout", o.timeout, "Give a deck up after SECONDS (default 3600); 0: never")
-      ->check(CLI::NonNegativeNumber)
+      ->check(finite_number(0, 1e9))
       ->type_name("SECONDS");
   app.add_option("--shard", o.shard, "Only part i of n: every n-th deck of the list")
       ->type_name("i/n");

@@ -8,12 +8,11 @@
 
 #include <bit>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "batch_json.hpp"
 #include "deck/report/json.hpp"
+#include "deck/text/source.hpp"
 
 namespace deck::cli {
 
@@ -74,11 +73,9 @@ std::int64_t nanoseconds(const timespec& t) {
 }
 
 std::optional<std::string> contents(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return std::nullopt;
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad()) return std::nullopt;
-  return text;
+  const auto source = Source::open(path, Limits{});  // regular files only
+  if (!source) return std::nullopt;
+  return std::string((*source)->bytes());
 }
 
 }  // namespace

@@ -11,10 +11,10 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <thread>
 #include <unordered_map>
 
@@ -22,6 +22,7 @@
 #include "deck/base/escape.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/report/json.hpp"
+#include "deck/text/source.hpp"
 
 namespace deck::cli {
 namespace fs = std::filesystem;
@@ -235,7 +236,9 @@ void Batch::read_journals() {
         it->symlink_status(ec).type() == fs::file_type::regular)
       journals.insert(it->path());
   for (const fs::path& journal : journals) {
-    std::ifstream in(journal, std::ios::binary);
+    const auto source = Source::open(journal.string(), Limits{});
+    if (!source) continue;
+    std::istringstream in{std::string((*source)->bytes())};
     for (std::string line; std::getline(in, line);) {
       auto record = parse_record(line);
       if (!record) continue;

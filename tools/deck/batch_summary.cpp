@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,6 +9,7 @@
 #include "batch_json.hpp"
 #include "common.hpp"
 #include "deck/report/json.hpp"
+#include "deck/text/source.hpp"
 
 namespace deck::cli {
 namespace fs = std::filesystem;
@@ -151,9 +150,9 @@ Result<std::vector<Summary>> read_shard_summaries(const std::string& directory) 
        it.increment(ec)) {
     const std::string name = it->path().filename().string();
     if (!name.starts_with("summary-") || !name.ends_with(".json")) continue;
-    std::ifstream in(it->path(), std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    auto summary = parse_summary(text);
+    const auto source = Source::open(it->path().string(), Limits{});
+    if (!source) return refuse(source.error().message);
+    auto summary = parse_summary((*source)->bytes());
     if (!summary) return refuse(it->path().string() + ": " + summary.error().message);
     if (summary_name(summary->shard) != name)
       return refuse(it->path().string() + " says it is " + summary_name(summary->shard));

@@ -15,7 +15,9 @@
 #include "deck/base/escape.hpp"
 #include "deck/keyword/recognise.hpp"
 #include "deck/model/coverage.hpp"
+#include "deck/model/selection.hpp"
 #include "deck/report/json.hpp"
+#include "deck/text/number.hpp"
 
 namespace deck::cli {
 
@@ -55,6 +57,17 @@ bool CommonOptions::color_on(int fd) const {
   return isatty(fd) == 1 && (term == nullptr || std::strcmp(term, "dumb") != 0);
 }
 
+CLI::Validator finite_number(double least, double most) {
+  const auto check = [least, most](std::string& text) -> std::string {
+    const RealCell cell = read_real(text);
+    const bool number =
+        cell.status == NumberStatus::ok || cell.status == NumberStatus::implicit_exponent;
+    if (number && cell.value >= least && cell.value <= most) return {};
+    return fmt::format("'{}' is not a number from {} to {}", text, least, most);
+  };
+  return CLI::Validator(check, "");
+}
+
 void add_common_without_decks(CLI::App& app, CommonOptions& options) {
   app.add_option("--json", options.json, "Write JSON to FILE; '-' is standard output")
       ->type_name("FILE");
@@ -76,6 +89,15 @@ void add_common(CLI::App& app, CommonOptions& options, bool with_json) {
   app.add_option("--threads", options.threads, "Threads; 0 takes all processors")
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
+  app.add_option_function<std::uint64_t>(
+         "--max-memory",
+         [&options](std::uint64_t bytes) {
+           options.memory.pair_bytes = options.memory.selection_bytes = bytes;
+         },
+         "Memory for the pairs of one contact (default 2GB), and for the members of all groups "
+         "(default 4GB); a contact that needs more is not evaluated, with a finding")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("SIZE");
   app.add_option("--include-path", options.include_paths,
                  "Search included files in DIR as well (repeatable)")
       ->type_name("DIR")
@@ -211,6 +233,7 @@ Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& s
   ReadOptions read;
   read.include_paths = options.include_paths;
   read.overlay = overlay;
+  read.limits = options.limits;
   auto deck = read_settled(path, schemas, options, read);
   if (!deck) return deck.error();
   remember_read(deck->sources);
@@ -218,6 +241,7 @@ Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& s
     return Error{Error::Code::syntax, path + ": " + other};
   auto loaded = std::make_unique<Loaded>();
   loaded->path = path;
+  loaded->diagnostics = Diagnostics(options.limits.diagnostics_per_rule);
   loaded->deck = std::move(*deck);
   if (load_observer()) load_observer()(loaded->deck);
   if (stage == Stage::blocks) return loaded;
@@ -226,6 +250,7 @@ Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& s
   build.threads = options.thread_count();
   build.limits = read.limits;
   loaded->model = build_model(loaded->deck, schemas, loaded->diagnostics, build);
+  loaded->model.selections->set_limits(options.memory);
   if (stage == Stage::model) return loaded;
   loaded->interfaces = read_interfaces(loaded->deck, loaded->model, loaded->diagnostics);
   return loaded;

@@ -13,9 +13,14 @@
 #include "deck/edit/write.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
+#include "deck/model/memory_limits.hpp"
 #include "deck/model/model.hpp"
 #include "progress.hpp"
 #include "verbs.hpp"
+
+namespace CLI {
+class Validator;
+}  // namespace CLI
 
 namespace deck::cli {
 
@@ -37,6 +42,8 @@ struct CommonOptions {
   std::vector<std::string> include_paths, schema_dirs;
   /// The verb will change files of the decks in place. Set by the verb, not by an option.
   bool rewrites = false;
+  Limits limits;
+  MemoryLimits memory;
 
   int thread_count() const;
   /// True if text to this descriptor (1, 2) is to be coloured.
@@ -44,6 +51,10 @@ struct CommonOptions {
   /// True if results for people are to be printed: not --quiet, and standard output not taken.
   bool wants_text() const { return !quiet && json != "-"; }
 };
+
+/// For options that take a number: a finite one from `least` to `most`. (CLI::Range lets "nan"
+/// pass.)
+CLI::Validator finite_number(double least, double most);
 
 /// Adds the shared options. With `with_json` false the verb has no --json.
 void add_common(CLI::App& app, CommonOptions& options, bool with_json = true);

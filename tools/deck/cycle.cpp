@@ -83,13 +83,13 @@ int run(const Options& o) {
         print_error(o.common, known.error().message);
         return static_cast<int>(exit_usage);
       }
-    print_findings(loaded, o.common);
     SceneOptions scene_options;
     scene_options.threads = options.threads;
     scene_options.candidates = false;
     scene_options.nodal_stiffness = true;
     scene_options.only = o.only;
     scene_options.accuracy = accuracy_of(o.accuracy);
+    scene_options.limits = o.common.memory;
     Scene scene;
     cycle::SceneOutcome outcome;
     cycle::State state;
@@ -106,6 +106,7 @@ int run(const Options& o) {
       options.progress = update;
       outcome = cycle::run_cycle(scene, state, options);
     }
+    print_findings(loaded, o.common);
     CycleInput input;
     input.path = loaded.path;
     input.deck = &loaded.deck;
@@ -143,9 +144,10 @@ Action setup(CLI::App& app) {
       ->capture_default_str();
   add_accuracy(app, options->accuracy);
   app.add_option("--dt", options->dt, "Time step for rate effects; 0: the first evaluation")
-      ->check(CLI::NonNegativeNumber)
+      ->check(finite_number(0, 1e30))
       ->type_name("DT");
   app.add_option("--time", options->time, "Time that decides Tstart, Tstop and sensors")
+      ->check(finite_number(-1e30, 1e30))
       ->type_name("T");
   app.add_option("--velocity", options->velocities,
                  "Velocity of a part instead of the deck's, e.g. 12=0,0,-5 (repeatable)")

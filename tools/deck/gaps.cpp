@@ -57,9 +57,12 @@ Result<WhatIf> parse_what_if(const std::string& text) {
     const RealCell v = read_real(std::string_view(item).substr(equal + 1));
     if (v.status != NumberStatus::ok) return bad("the value of '" + name + "' is not a number");
     const bool is_flag = name == "Igap" || name == "Inacti" || name == "Irem_gap";
-    if (is_flag && !(std::abs(v.value) < 1e9 && v.value == std::floor(v.value)))
-      return bad("the value of '" + name + "' is not a whole number of at most nine digits");
-    const int flag = is_flag ? static_cast<int>(v.value) : 0;
+    const IntegerCell whole = read_integer(std::string_view(item).substr(equal + 1));
+    if (is_flag && (whole.status != NumberStatus::ok || whole.value < 0 || whole.value > 1000))
+      return bad("'" + name + "' is a flag, a whole number from 0 to 1000");
+    if (!is_flag && !(std::abs(v.value) <= 1e30))
+      return bad("the value of '" + name + "' is out of range");
+    const int flag = static_cast<int>(whole.value);
     if (name == "Gapmin")
       w.Gapmin = v.value;
     else if (name == "Fscalegap")
@@ -198,6 +201,7 @@ int run(const Options& o) {
   scene_options.threads = o.common.thread_count();
   scene_options.only = o.only;
   scene_options.accuracy = accuracy_of(o.accuracy);
+  scene_options.limits = o.common.memory;
   for (const std::string& text : o.what_if) {
     auto w = parse_what_if(text);
     if (!w) {
@@ -250,7 +254,8 @@ int run(const Options& o) {
       print_text(gaps_text(loaded.deck, scene, view, text));
       if (o.crossings) print_text(crossings_text(scene, crossings, text));
     }
-    const bool found = o.fail ? view.total.count.pairs > 0 : view.total.solver_errors > 0;
+    bool found = o.fail ? view.total.count.pairs > 0 : view.total.solver_errors > 0;
+    for (const Contact& c : scene.contacts) found = found || !c.evaluated;
     return static_cast<int>(found ? exit_findings : exit_clean);
   });
   return json.finish(code);

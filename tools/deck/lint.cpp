@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "common.hpp"
 #include "deck/base/escape.hpp"
@@ -58,14 +56,6 @@ std::string render(std::string_view format, const std::vector<LintedDeck>& decks
   return lint_human(decks, human);
 }
 
-Result<std::string> read_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in) return Error{Error::Code::config, "cannot read " + path};
-  return text.str();
-}
-
 /// What the command line says, over what the configuration says.
 Result<LintOptions> lint_options(const Options& options, const LintConfig& config, Job& job) {
   LintOptions out;
@@ -74,6 +64,7 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
   out.ignore.insert(out.ignore.end(), options.ignore.begin(), options.ignore.end());
   out.severity = config.severity;
   out.per_file_ignores = config.per_file_ignores;
+  out.diagnostics_per_rule = options.common.limits.diagnostics_per_rule;
   for (const auto* list : {&options.select, &options.ignore})
     for (const std::string& s : *list)
       if (!known_selector(s))
@@ -81,7 +72,7 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
   const std::string baseline = options.baseline.empty() ? config.baseline : options.baseline;
   // A baseline that is about to be written replaces the old one.
   if (baseline.empty() || !options.write_baseline.empty()) return out;
-  const auto text = read_text(baseline);
+  const auto text = read_config_file(baseline, most_baseline_bytes);
   if (!text) return text.error();
   const auto parsed = parse_baseline(*text, baseline);
   if (!parsed) return parsed.error();
@@ -104,7 +95,7 @@ LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptio
                   {}};
   if (command.geometry)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
-      check_geometry(context, reporter, command.common.thread_count());
+      check_geometry(context, reporter, command.common.thread_count(), command.common.memory);
     });
   return run_lint(input, options);
 }
@@ -156,7 +147,7 @@ class Run {
     if (!schemas) return usage(schemas.error().message);
     schemas_ = std::move(*schemas);
     if (!options_.config.empty()) {
-      const auto text = read_text(options_.config);
+      const auto text = read_config_file(options_.config, most_config_bytes);
       if (!text) return usage(text.error().message);
       auto config = parse_lint_config(*text, options_.config);
       if (!config) return usage(config.error().message);
@@ -407,6 +398,10 @@ Action setup(CLI::App& app) {
       ->type_name("N");
   return [options] {
     options->common.rewrites = (options->fix || options->unsafe_fixes) && !options->diff;
+    // What is fixed has to be kept, not only counted.
+    constexpr int most_fixes_of_a_rule = 1'000'000;
+    if (options->fix || options->unsafe_fixes || options->diff)
+      options->common.limits.diagnostics_per_rule = most_fixes_of_a_rule;
     return run(*options);
   };
 }

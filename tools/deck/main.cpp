@@ -1,9 +1,11 @@
 // deck: the command line of libdeck. Finds the verb, lets it add its options, runs it and turns
 // whatever goes wrong into one of the promised exit codes.
+#include <gmp.h>
 #include <CLI/CLI.hpp>
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <map>
 #include <new>
@@ -24,6 +26,31 @@ void on_bus_error(int) {
   [[maybe_unused]] const auto written = write(2, text, sizeof text - 1);
   _exit(exit_input);
 }
+
+/// What no handler is left for, such as an exception where none may pass.
+[[noreturn]] void on_terminate() {
+  constexpr char text[] = "deck: internal error: no way to go on (out of memory?)\n";
+  [[maybe_unused]] const auto written = write(2, text, sizeof text - 1);
+  _exit(exit_internal);
+}
+
+// The library of long numbers knows no error but the end of the program: let it be an orderly one.
+[[noreturn]] void no_memory() {
+  constexpr char text[] = "deck: internal error: out of memory\n";
+  [[maybe_unused]] const auto written = write(2, text, sizeof text - 1);
+  _exit(exit_internal);
+}
+void* gmp_allocate(std::size_t size) {
+  void* const p = std::malloc(size);
+  if (p == nullptr) no_memory();
+  return p;
+}
+void* gmp_reallocate(void* old, std::size_t, std::size_t size) {
+  void* const p = std::realloc(old, size);
+  if (p == nullptr) no_memory();
+  return p;
+}
+void gmp_free(void* p, std::size_t) { std::free(p); }
 
 std::string version_text() {
   return std::string("deck ") + DECK_VERSION + " (compiled " +
@@ -115,6 +142,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGBUS, on_bus_error);
+  std::set_terminate(on_terminate);
+  mp_set_memory_functions(gmp_allocate, gmp_reallocate, gmp_free);
   int code = exit_internal;
   try {
     code = run(argc, argv);

@@ -12,6 +12,7 @@
 #include "deck/contact/pair_gap.hpp"
 #include "deck/contact/search.hpp"
 #include "deck/model/interfaces.hpp"
+#include "deck/model/memory_limits.hpp"
 #include "deck/model/model.hpp"
 
 namespace deck {
@@ -128,6 +129,8 @@ struct Contact {
   ContactRole role = ContactRole::primary;
   int type = 7;            ///< 7, 10 or 11: whose rules it follows
   bool dropped = false;    ///< TYPE19 edges: no edges, the solver drops the part
+  bool evaluated = true;   ///< false: too many pairs, or coordinates that are no numbers; whether
+                           ///< anything penetrates is not known then
 
   // Effective options, 1000 already turned into 0.
   int istf = 0, igap = 0, inacti = 0, irem_gap = 1, itied = 0;
@@ -164,6 +167,7 @@ struct Scene {
   Coordinates coordinates;           ///< after Inacti 3 moved nodes
   std::vector<Contact> contacts;     ///< in the solver's processing order
   DecisionReport decisions;          ///< of the penetrations
+  MemoryLimits limits;               ///< of SceneOptions, for what is made of the scene
 };
 
 /// Other values for one interface, to see what they would do; the deck is not read again.
@@ -181,6 +185,7 @@ struct SceneOptions {
   bool nodal_stiffness = false;  ///< fill SecondaryNode::nodal_stiffness (needed for forces)
   std::vector<std::int64_t> only;  ///< interface ids to build; empty: all
   std::vector<WhatIf> what_if;
+  MemoryLimits limits;             ///< pair_bytes: what lies beyond is not evaluated, with a finding
   /// Called with (contacts done, contacts in all); may be empty.
   std::function<void(std::size_t, std::size_t)> progress;
 };

@@ -25,6 +25,11 @@ struct LintConfig {
 
 /// Parses the text of a configuration; unknown keys and unknown rules are errors.
 Result<LintConfig> parse_lint_config(std::string_view text, const std::string& path);
+inline constexpr std::uint64_t most_config_bytes = std::uint64_t{1} << 20;
+inline constexpr std::uint64_t most_baseline_bytes = std::uint64_t{256} << 20;
+
+/// The bytes of a regular file of at most `most` bytes, or of standard input ("-").
+Result<std::string> read_config_file(const std::string& path, std::uint64_t most);
 /// Looks for .decklint.toml in the directory of `deck_path` and above. No file: an empty config.
 Result<LintConfig> find_lint_config(const std::string& deck_path);
 

@@ -13,6 +13,7 @@ namespace deck {
 ///   input.extra_checks.push_back([](const LintContext& c, Reporter& r) { check_geometry(c, r); });
 ///
 /// Does nothing where the context has no model or interfaces. `threads` changes no finding.
-void check_geometry(const LintContext& context, Reporter& reporter, int threads = 1);
+void check_geometry(const LintContext& context, Reporter& reporter, int threads = 1,
+                    const MemoryLimits& limits = {});
 
 }  // namespace deck

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "deck/model/memory_limits.hpp"
 #include "deck/model/model.hpp"
 
 namespace deck {
@@ -15,7 +16,12 @@ class Selections {
  public:
   /// Collects the definitions of `model`'s deck; nothing is resolved yet. The model must stay at
   /// its address (build_model's own selections follow their model when it is moved).
-  Selections(const Model& model, const SchemaSet& schemas);
+  Selections(const Model& model, const SchemaSet& schemas, const MemoryLimits& limits = {});
+  /// For what is resolved from now on.
+  void set_limits(const MemoryLimits& limits);
+  /// False: members were left out because the results would need more than
+  /// MemoryLimits::selection_bytes (DK332).
+  bool complete() const;
   ~Selections();
   Selections(const Selections&) = delete;
   Selections& operator=(const Selections&) = delete;

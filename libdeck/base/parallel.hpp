@@ -1,0 +1,138 @@
+// Running work on several threads: the one place that starts threads. An exception of any of them
+// stops the others and comes out of the call; where the system has no more threads, fewer do it.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace deck {
+
+// Processors of this machine, at least 1.
+int processors();
+
+// Number of threads to use: `requested`, or one per processor for 0 and below.
+inline int effective_threads(int requested) { return requested > 0 ? requested : processors(); }
+
+// Set once, when the rest of a piece of work is not wanted any more.
+class CancelFlag {
+ public:
+  void set() { set_.store(true, std::memory_order_relaxed); }
+  bool is_set() const { return set_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<bool> set_{false};
+};
+
+// Calls body(0) here and body(1) ... body(workers-1) on threads of their own, as many as the system
+// grants: what body does must not depend on how many of them run. Waits for all. The exception of
+// the lowest worker that threw one is thrown on; `cancel` is set as soon as there is one, and the
+// bodies look at it.
+void run_workers(int workers, CancelFlag& cancel, const std::function<void(std::size_t)>& body);
+
+// Calls body(item) for every item of 0 ... count-1 once, on up to `threads` threads; no further
+// item is begun after an exception.
+template <class Body>
+void parallel_items(int threads, std::size_t count, const Body& body) {
+  if (threads <= 1 || count <= 1) {
+    for (std::size_t i = 0; i < count; ++i) body(i);
+    return;
+  }
+  CancelFlag cancel;
+  std::atomic<std::size_t> next{0};
+  run_workers(static_cast<int>(std::min(count, static_cast<std::size_t>(threads))), cancel,
+              [&](std::size_t) {
+                for (;;) {
+                  const std::size_t item = next.fetch_add(1);
+                  if (item >= count || cancel.is_set()) return;
+                  body(item);
+                }
+              });
+}
+
+// Calls body(part, begin, end) for `threads` contiguous parts of [0, count). The bounds of a part
+// depend only on the number of threads, so that callers can make results independent of it.
+template <class Body>
+void parallel_parts(int threads, std::size_t count, const Body& body) {
+  constexpr std::size_t kWorthAThread = 4096;
+  const auto parts = static_cast<std::size_t>(std::max(1, threads));
+  const auto bound = [count, parts](std::size_t part) {
+    return count / parts * part + std::min(part, count % parts);
+  };
+  parallel_items(count < kWorthAThread ? 1 : threads, parts,
+                 [&](std::size_t part) { body(part, bound(part), bound(part + 1)); });
+}
+
+// Calls work(k, out) for k = 0 ... n-1 on up to `threads` threads, and take(k, out) in the order of
+// k, one at a time. `Out` objects are reused.
+template <class Out, class Work, class Take>
+void run_in_order(std::size_t n, int threads, const Work& work, const Take& take) {
+  if (threads <= 1 || n <= 1) {
+    Out out;
+    for (std::size_t k = 0; k < n; ++k) {
+      work(k, out);
+      take(k, out);
+    }
+    return;
+  }
+  constexpr std::size_t ahead = 16;  // bound on results that wait for an earlier one
+  std::mutex mutex;
+  std::condition_variable moved;
+  std::vector<std::unique_ptr<Out>> waiting(n), spare;
+  spare.reserve(ahead + static_cast<std::size_t>(threads));
+  std::size_t next = 0, taken = 0;
+  bool taking = false;
+  CancelFlag cancel;
+  const auto loop = [&] {
+    std::unique_lock lock(mutex);
+    for (;;) {
+      moved.wait(lock, [&] { return cancel.is_set() || next >= n || next < taken + ahead; });
+      if (cancel.is_set() || next >= n) return;
+      const std::size_t k = next++;
+      std::unique_ptr<Out> out;
+      if (spare.empty()) {
+        out = std::make_unique<Out>();
+      } else {
+        out = std::move(spare.back());
+        spare.pop_back();
+      }
+      lock.unlock();
+      work(k, *out);
+      lock.lock();
+      waiting[k] = std::move(out);
+      // One thread takes, without the lock; the others go on with their work.
+      if (taking) continue;
+      taking = true;
+      while (taken < n && waiting[taken] != nullptr) {
+        const std::size_t t = taken;
+        std::unique_ptr<Out> ready = std::move(waiting[t]);
+        lock.unlock();
+        take(t, *ready);
+        lock.lock();
+        if (spare.size() < spare.capacity()) spare.push_back(std::move(ready));
+        taken = t + 1;
+        moved.notify_all();
+      }
+      taking = false;
+    }
+  };
+  run_workers(threads, cancel, [&](std::size_t) {
+    try {
+      loop();
+    } catch (...) {
+      {
+        const std::lock_guard lock(mutex);
+        cancel.set();
+      }
+      moved.notify_all();
+      throw;
+    }
+  });
+}
+
+}  // namespace deck

@@ -1,0 +1,102 @@
+// One place starts threads: exceptions come out of the call, every item runs once, order holds.
+#include "base/parallel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <new>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace deck {
+namespace {
+
+TEST(ParallelItems, EveryItemRunsOnceOnAnyNumberOfThreads) {
+  for (const int threads : {1, 2, 7, 64}) {
+    std::vector<std::atomic<int>> ran(1000);
+    parallel_items(threads, ran.size(), [&](std::size_t i) { ++ran[i]; });
+    for (const auto& count : ran) EXPECT_EQ(count.load(), 1) << threads;
+  }
+}
+
+TEST(ParallelItems, AnExceptionOfAnyThreadComesOutOfTheCall) {
+  for (const int threads : {1, 2, 8})
+    for (const std::size_t bad : {std::size_t{0}, std::size_t{5}, std::size_t{99}})
+      EXPECT_THROW(parallel_items(threads, 100,
+                                  [&](std::size_t i) {
+                                    if (i == bad) throw std::bad_alloc();
+                                  }),
+                   std::bad_alloc)
+          << threads << " " << bad;
+}
+
+TEST(ParallelItems, NoFurtherItemBeginsAfterAnException) {
+  std::atomic<int> begun{0};
+  EXPECT_THROW(parallel_items(2, 1'000'000,
+                              [&](std::size_t) {
+                                ++begun;
+                                throw std::runtime_error("stop");
+                              }),
+               std::runtime_error);
+  EXPECT_LE(begun.load(), 2);
+}
+
+TEST(RunWorkers, OfSeveralExceptionsThatOfTheLowestWorkerIsThrownOn) {
+  CancelFlag cancel;
+  std::atomic<int> ready{0};
+  try {
+    run_workers(4, cancel, [&](std::size_t worker) {
+      ++ready;
+      while (ready.load() < 4) std::this_thread::yield();
+      throw std::runtime_error(std::to_string(worker));
+    });
+    FAIL() << "nothing was thrown";
+  } catch (const std::runtime_error& e) {
+    EXPECT_STREQ(e.what(), "0");
+  }
+  EXPECT_TRUE(cancel.is_set());
+}
+
+TEST(ParallelParts, BoundsDependOnTheNumberOfThreadsOnly) {
+  for (const std::size_t count : {std::size_t{10}, std::size_t{100'000}}) {
+    std::vector<std::pair<std::size_t, std::size_t>> bounds(4);
+    parallel_parts(4, count, [&](std::size_t part, std::size_t begin, std::size_t end) {
+      bounds[part] = {begin, end};
+    });
+    EXPECT_EQ(bounds.front().first, 0u);
+    EXPECT_EQ(bounds.back().second, count);
+    for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(bounds[k].first, bounds[k - 1].second);
+  }
+}
+
+TEST(RunInOrder, ResultsAreTakenInOrder) {
+  std::vector<std::size_t> taken;
+  run_in_order<std::size_t>(
+      500, 4, [](std::size_t k, std::size_t& out) { out = 2 * k; },
+      [&](std::size_t k, const std::size_t& out) {
+        EXPECT_EQ(out, 2 * k);
+        taken.push_back(k);
+      });
+  std::vector<std::size_t> expected(500);
+  std::iota(expected.begin(), expected.end(), std::size_t{0});
+  EXPECT_EQ(taken, expected);
+}
+
+TEST(RunInOrder, AnExceptionOfWorkOrTakeEndsTheOthersToo) {
+  for (const int threads : {1, 2, 8})
+    for (const bool in_work : {true, false})
+      EXPECT_THROW(run_in_order<int>(
+                       10'000, threads,
+                       [&](std::size_t k, int&) {
+                         if (in_work && k == 40) throw std::bad_alloc();
+                       },
+                       [&](std::size_t k, int&) {
+                         if (!in_work && k == 40) throw std::bad_alloc();
+                       }),
+                   std::bad_alloc)
+          << threads << " " << in_work;
+}
+
+}  // namespace
+}  // namespace deck
