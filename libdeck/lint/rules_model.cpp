@@ -320,12 +320,12 @@ void add_model_3(std::vector<Rule>& out) {
                  .message_severity = Severity::error,
                  .fix = "use a smaller id or offset",
                  .ignore = "Never.",
-                 .bad = "/PART/2999999999\n"
-                        "part\n"
-                        "         1         1\n",
-                 .good = "/PART/29\n"
-                         "part\n"
-                         "         1         1\n"});
+                 .bad = "//SUBMODEL/1\n\n"
+                        "         0         0         02147483000\n"
+                        "/PART/999\npart\n         1         1\n//ENDSUB\n",
+                 .good = "//SUBMODEL/1\n\n"
+                         "         0         0         0      1000\n"
+                         "/PART/999\npart\n         1         1\n//ENDSUB\n"});
 }
 
 void add_model_4(std::vector<Rule>& out) {

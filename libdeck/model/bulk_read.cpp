@@ -121,7 +121,7 @@ void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std
       count(number_rule(*cell.field, r.status, cell_text.size(), r.value));
     } else {
       const IntegerCell n = read_integer(cell_text);
-      item.line[card].integer[i] = n.value;
+      item.line[card].integer[i] = saturated(n.value);
       count(number_rule(*cell.field, narrowed(n), cell_text.size(), 0));
     }
   }

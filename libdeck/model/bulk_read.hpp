@@ -91,7 +91,7 @@ inline Unclean read_cells(const CardPlan& plan, const char* line, std::uint32_t 
       continue;
     }
     const IntegerCell n = scan_integer<Blanks::spaces>(first, last);
-    out.integer[i] = n.value;
+    out.integer[i] = saturated(n.value);
     unclean |= static_cast<Unclean>(narrowed(n) > NumberStatus::blank) << i;
   }
   bool clean = true;
