@@ -55,6 +55,7 @@ const std::string* CardValues::find(std::string_view name) const {
 
 std::string CardValues::block(const std::string& header, const std::string& title) const {
   std::string out = header + "\n" + title + "\n";
+  std::string pending;  // blank optional lines, which are needed only in front of others
   for (const CardSchema& card : schema_->cards) {
     if (!card.in_version(version_)) continue;
     const bool there = std::all_of(card.when.begin(), card.when.end(), [&](const Condition& c) {
@@ -70,7 +71,11 @@ std::string CardValues::block(const std::string& header, const std::string& titl
       if (line.size() < last) line.resize(last, ' ');
       line.replace(last - text->size(), text->size(), *text);
     }
-    out += line + "\n";
+    if (card.repeat != Repeat::once && !card.count.empty() && line.empty()) continue;
+    pending += line + "\n";
+    if (card.optional && line.empty()) continue;
+    out += pending;
+    pending.clear();
   }
   return out;
 }

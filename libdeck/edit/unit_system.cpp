@@ -295,6 +295,10 @@ class BlockConverter {
       if (c_.working_changes && f.ref == "funct" && cell.integer != 0 && f.name != "fct_IDF")
         c_.undecided(b, cell.span, f.name,
                      "the function's values are in working units, which change");
+      if (f.type == FieldType::id && !f.dimension_known && !own_units_ &&
+          (cell.integer != 0 || cell.parameter))
+        c_.undecided(b, cell.span, f.name,
+                     "a blank scale of its values means 1 in the units of the block, which change");
       if (f.type != FieldType::real) continue;
       const bool zero = cell.blank() || (cell.status == NumberStatus::ok && cell.real == 0);
       if (!f.dimension_known) {

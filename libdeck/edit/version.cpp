@@ -5,14 +5,18 @@
 
 #include "deck/text/number.hpp"
 #include "edit/version_cards.hpp"
+#include "edit/version_layout.hpp"
 
 namespace deck {
 namespace {
 
 using detail::canonical_name;
+using detail::cell_of;
 using detail::is_zero_text;
 using detail::LineEdits;
+using detail::NewLine;
 using detail::put_cell;
+using detail::TargetLayout;
 
 constexpr int oldest_source = 100;
 constexpr int oldest_target = 110;
@@ -34,12 +38,6 @@ std::string_view columns(std::string_view line, int first, int last) {
 
 bool is_begin(const Block& b) { return b.header == "/BEGIN" || b.header.starts_with("/BEGIN/"); }
 
-/// A line of the new layout and the old line it comes from.
-struct NewLine {
-  const CardSchema* card = nullptr;
-  const DecodedCard* old = nullptr;
-};
-
 class VersionRewriter {
  public:
   VersionRewriter(const EditContext& context, int target, const VersionOptions& options)
@@ -56,7 +54,7 @@ class VersionRewriter {
         convert_block(block);
     }
     lines_.finish(out_.edits);
-    note_partial();
+    report_unknown();
     return std::move(out_);
   }
 
@@ -99,7 +97,9 @@ class VersionRewriter {
   void undecided(const Block& block, Span span, std::string_view field, std::string_view text,
                  const std::string& why) {
     report(Loss::undecided, block, span, field, text, why);
-    refuse(span, std::string(block.keyword) + " " + std::string(field) + ": " + why);
+    if (options_.allow_loss) return;
+    refuse(span, std::string(block.keyword) + (field.empty() ? "" : " ") + std::string(field) +
+                     ": " + why);
   }
 
   std::string step(const Block& block) const {
@@ -142,12 +142,14 @@ class VersionRewriter {
   // ---- blocks -------------------------------------------------------------------------------
 
   void convert_block(const Block& block) {
-    if (block.schema == nullptr || block.opaque) {
-      ++partial_[std::string(block.keyword)];
+    if (block.schema != nullptr && block.schema->kind == "engine") return;
+    if (block.schema == nullptr || block.opaque || !block.schema->layout_known()) {
+      // What it holds is read with other columns, as far as anybody knows.
+      auto& unknown = unknown_[{std::string(block.keyword), block.version}];
+      if (unknown.count++ == 0) unknown.first = &block;
       return;
     }
     const Schema& schema = *block.schema;
-    if (schema.opaque_tail && schema.kind != "engine") ++partial_[schema.keyword];
     if (target_ < schema.from && block.version >= schema.from)
       report(Loss::kept, block, {}, "", "",
              schema.keyword + " is newer than version " + number(target_) +
@@ -155,17 +157,15 @@ class VersionRewriter {
                  number(schema.from) + " and warns (100211)");
     if (!differs(schema, block.version)) return;
     const DecodedBlock decoded = decode(c_.deck, block);
-    if (schema.opaque_tail) {
-      check_partial(block, decoded);
+    const TargetLayout layout(block, decoded, target_);
+    if (layout.counts_lines()) {
+      undecided(block, block.header_span, "", "",
+                "in version " + number(target_) +
+                    " the reference solver tells two forms of this keyword apart by their number "
+                    "of lines; write the form that is meant by hand");
       return;
     }
-    const std::size_t before = out_.edits.size();
-    const bool repeated = std::any_of(schema.cards.begin(), schema.cards.end(),
-                                      [](const CardSchema& c) { return c.repeat != Repeat::once; });
-    bool changed = convert_once(block, decoded);
-    if (repeated) convert_repeated(block, decoded);
-    changed = changed || out_.edits.size() != before;
-    if (!changed) return;
+    if (!convert_lines(block, decoded, layout)) return;
     LossEntry& entry = report(Loss::kept, block, {}, "", number(block.version), step(block));
     entry.new_text = number(target_);
   }
@@ -176,63 +176,44 @@ class VersionRewriter {
     return it->second;
   }
 
-  /// Value of a flag in the new layout: what has no cell any more is 0.
-  std::int64_t flag_after(const Block& block, const DecodedBlock& decoded,
-                          std::string_view field) const {
-    for (const CardSchema& card : block.schema->cards)
-      if (card.in_version(target_))
-        for (const Field& f : card.fields)
-          if (f.in_version(target_) && f.name == field) return decoded.integer(field);
-    return 0;
-  }
+  /// A line that is being written: where its cells come from, and who hears what was found.
+  struct Compose {
+    const Block& block;
+    const DecodedBlock& decoded;
+    const TargetLayout& layout;
+    const std::vector<NewLine>* lines;  ///< all lines of the new block
+    VersionRewriter* findings;          ///< this or nullptr
+  };
 
-  bool holds_after(const Block& block, const DecodedBlock& decoded, const CardSchema& card) const {
-    return card.in_version(target_) &&
-           std::all_of(card.when.begin(), card.when.end(), [&](const Condition& c) {
-             return c.holds(flag_after(block, decoded, c.field));
-           });
-  }
-
-  /// The lines of the new layout, in order, as far as the old block goes.
-  std::vector<NewLine> plan(const Block& block, const DecodedBlock& decoded) const {
-    std::vector<NewLine> plan;
-    std::vector<bool> used(decoded.cards.size(), false);
-    for (const CardSchema& card : block.schema->cards) {
-      if (card.repeat != Repeat::once || !holds_after(block, decoded, card)) continue;
-      NewLine line{&card, nullptr};
-      for (std::size_t k = 0; k < decoded.cards.size() && line.old == nullptr; ++k) {
-        const CardSchema& old = *decoded.cards[k].schema;
-        if (used[k] || old.repeat != Repeat::once || (&old != &card && old.name != card.name))
-          continue;
-        used[k] = true;
-        line.old = &decoded.cards[k];
-      }
-      plan.push_back(line);
-    }
-    // What follows the last line that is there: a new line right behind it is needed, so that the
-    // block is complete; behind a missing one nothing is.
+  /// The lines of the new layout, in order, as far as the old block goes. What follows the last
+  /// line that is there: a new line right behind it is needed, so that the block is complete;
+  /// behind a missing one nothing is.
+  std::vector<NewLine> plan(const Compose& compose) const {
+    std::vector<NewLine> plan = *compose.lines;
     std::size_t last = plan.size();
     while (last > 0 && (plan[last - 1].old == nullptr || plan[last - 1].old->missing())) --last;
     if (last == 0) return {};
     while (last < plan.size() && plan[last].old == nullptr) ++last;
     while (last > 0 && plan[last - 1].old == nullptr && plan[last - 1].card->optional &&
-           compose(block, decoded, plan[last - 1], nullptr).empty())
+           text_of(compose, plan[last - 1]).empty())
       --last;
     plan.resize(last);
     return plan;
   }
 
-  /// Lines that occur once. True if something changed.
-  bool convert_once(const Block& block, const DecodedBlock& decoded) {
-    const std::vector<NewLine> lines = plan(block, decoded);
-    if (lines.empty()) return false;
+  /// True if something changed.
+  bool convert_lines(const Block& block, const DecodedBlock& decoded, const TargetLayout& layout) {
+    const std::vector<NewLine> all = layout.lines();
+    const Compose quiet{block, decoded, layout, &all, nullptr};
+    const std::vector<NewLine> lines = plan(quiet);
+    const Compose compose{block, decoded, layout, &lines, this};
     const std::size_t before = out_.edits.size();
     bool inserted = false;
     std::vector<bool> stays(decoded.cards.size(), false);
     Span anchor = decoded.title_line.valid() ? decoded.title_line.whole() : block.header_span;
     std::ptrdiff_t place = -1;  // of the last old line that stayed where it was
     for (const NewLine& line : lines) {
-      const std::string text = compose(block, decoded, line, this);
+      const std::string text = text_of(compose, line);
       const bool there = line.old != nullptr && !line.old->missing();
       const std::ptrdiff_t k = line.old == nullptr ? -1 : line.old - decoded.cards.data();
       if (there && k > place) {
@@ -247,91 +228,93 @@ class VersionRewriter {
     }
     for (std::size_t k = 0; k < decoded.cards.size(); ++k) {
       const DecodedCard& card = decoded.cards[k];
-      if (card.schema->repeat != Repeat::once || card.missing()) continue;
-      if (stays[k]) continue;
+      if (card.missing() || stays[k]) continue;
       const bool moved =
           std::any_of(lines.begin(), lines.end(), [&](const NewLine& l) { return l.old == &card; });
       if (!moved)
         for (const Cell& cell : card.cells)
-          if (!has_cell(lines, cell.field->name)) vanish(block, cell);
+          if (!has_cell(compose, cell.field->name, card.round)) vanish(block, cell);
       lines_.remove(card.line, out_.edits);
     }
+    if (lines.size() < all.size()) remove_extra(block, decoded);
     return inserted || out_.edits.size() != before;
   }
 
-  bool has_cell(const std::vector<NewLine>& lines, std::string_view field) const {
-    return std::any_of(lines.begin(), lines.end(), [&](const NewLine& l) {
-      return std::any_of(l.card->fields.begin(), l.card->fields.end(), [&](const Field& f) {
-        return f.in_version(target_) && canonical_name(f.name) == canonical_name(field);
+  /// Lines behind the last one that is read would become cells where the new layout has more lines.
+  void remove_extra(const Block& block, const DecodedBlock& decoded) {
+    for (const Line& line : decoded.extra) {
+      if (trimmed(line.text).empty()) continue;
+      report(Loss::kept, block, line.whole(), "", trimmed(line.text),
+             "removed: the line has no meaning in version " + number(block.version) +
+                 " and would get one");
+      lines_.remove(line, out_.edits);
+    }
+  }
+
+  /// True if the new block has a cell of that name in that round.
+  static bool has_cell(const Compose& compose, std::string_view field, int round) {
+    return std::any_of(compose.lines->begin(), compose.lines->end(), [&](const NewLine& l) {
+      if (l.round != round) return false;
+      const auto fields = compose.layout.fields(*l.card, l.round);
+      return std::any_of(fields.begin(), fields.end(), [&](const Field* f) {
+        return canonical_name(f->name) == canonical_name(field);
       });
     });
   }
 
-  /// Groups and lists: cards are changed or taken away where they stand. No version adds a card to
-  /// a round whose flags are blank.
-  void convert_repeated(const Block& block, const DecodedBlock& decoded) {
-    for (const DecodedCard& card : decoded.cards) {
-      if (card.schema->repeat == Repeat::once || card.missing()) continue;
-      if (card.schema->in_version(target_)) {
-        if (card.schema->repeat == Repeat::ids) continue;
-        lines_.change(card.line, compose(block, decoded, {card.schema, &card}, this), out_.edits);
-        continue;
-      }
-      for (const Cell& cell : card.cells) vanish(block, cell);
-      lines_.remove(card.line, out_.edits);
-    }
-  }
-
   // ---- one line -----------------------------------------------------------------------------
 
-  /// Cell of that name on another line of the old block.
-  static const Cell* elsewhere(const DecodedBlock& decoded, const DecodedCard* not_here,
-                               std::string_view field) {
-    for (const DecodedCard& card : decoded.cards) {
-      if (&card == not_here || card.schema->repeat != Repeat::once) continue;
-      for (const Cell& cell : card.cells)
-        if (canonical_name(cell.field->name) == canonical_name(field)) return &cell;
-    }
-    return nullptr;
-  }
-
-  /// Text of a line in the new layout. Findings go to `findings`, which is this or nullptr.
-  std::string compose(const Block& block, const DecodedBlock& decoded, const NewLine& line,
-                      VersionRewriter* findings) const {
-    const auto fields = detail::fields_of(*line.card, target_);
+  /// Text of a line in the new layout.
+  std::string text_of(const Compose& compose, const NewLine& line) const {
     const bool there = line.old != nullptr && !line.old->missing();
-    if (there && line.old->free_format) return compose_free(block, fields, *line.old, findings);
+    if (line.card->repeat == Repeat::ids) return list_text(compose, line);
+    const auto fields = compose.layout.fields(*line.card, line.round);
+    if (there && line.old->free_format) return free_text(compose, fields, *line.old);
     std::string text = there ? std::string(line.old->line.text) : std::string();
-    std::vector<std::pair<const Field*, const Cell*>> moved;
-    std::vector<const Field*> fresh;
+    struct Target {
+      const Field* field;
+      const Cell* source;
+    };
+    std::vector<Target> targets;
     for (const Field* f : fields) {
       const Cell* source = there ? cell_of(*line.old, f->name) : nullptr;
       if (source != nullptr && source->field->first == f->first && source->field->last == f->last)
         continue;
-      if (source == nullptr && line.card->repeat == Repeat::once)
-        source = elsewhere(decoded, line.old, f->name);
-      if (source != nullptr)
-        moved.emplace_back(f, source);
-      else
-        fresh.push_back(f);
+      if (source == nullptr) source = compose.layout.elsewhere(f->name, line.round, line.old);
+      targets.push_back({f, source});
     }
-    if (there) leave_cells(block, fields, *line.old, text, findings);
+    if (there) leave_cells(compose, fields, line, text);
     if (there)
-      for (const Field* f : fresh) clear_stray(block, *f, *line.old, text, findings);
-    for (const auto& [field, cell] : moved) carry(block, *field, *cell, text, findings);
+      for (const Target& t : targets) clear_stray(compose, *t.field, *line.old, text);
+    for (const Target& t : targets)
+      if (t.source != nullptr) carry(compose, *t.field, *t.source, text);
+    text.resize(text.find_last_not_of(' ') + 1);
     return text;
   }
 
-  static const Cell* cell_of(const DecodedCard& card, std::string_view field) {
-    for (const Cell& cell : card.cells)
-      if (canonical_name(cell.field->name) == canonical_name(field)) return &cell;
-    return nullptr;
+  /// A line of a list: the same cells in the columns of the new version.
+  std::string list_text(const Compose& compose, const NewLine& line) const {
+    if (line.old == nullptr || line.old->missing()) return {};
+    const CardSchema& old = *line.old->schema;
+    const Field& from = old.fields.back();
+    const Field& to = line.card->fields.back();
+    if (line.old->free_format || &old == line.card ||
+        (from.first == to.first && from.last == to.last))
+      return std::string(line.old->line.text);
+    std::string text;
+    Field column = to;
+    for (const Cell& cell : line.old->cells) {
+      carry(compose, column, cell, text);
+      column.first += to.last - to.first + 1;
+      column.last += to.last - to.first + 1;
+    }
+    return text;
   }
 
   /// Blanks the cells of the old line that the new one does not have in those columns.
-  void leave_cells(const Block& block, const std::vector<const Field*>& fields,
-                   const DecodedCard& old, std::string& text, VersionRewriter* findings) const {
-    for (const Cell& cell : old.cells) {
+  static void leave_cells(const Compose& compose, const std::vector<const Field*>& fields,
+                          const NewLine& line, std::string& text) {
+    for (const Cell& cell : line.old->cells) {
       const Field& f = *cell.field;
       const auto same = std::find_if(fields.begin(), fields.end(), [&](const Field* other) {
         return canonical_name(other->name) == canonical_name(f.name);
@@ -339,35 +322,27 @@ class VersionRewriter {
       if (same != fields.end() && (*same)->first == f.first && (*same)->last == f.last) continue;
       if (cell.blank()) continue;
       put_cell(text, f.first, f.last, "");
-      if (same == fields.end() && !elsewhere_after(block, old, f.name) && findings != nullptr)
-        findings->vanish(block, cell);
+      if (compose.findings != nullptr && same == fields.end() &&
+          !has_cell(compose, f.name, line.round))
+        compose.findings->vanish(compose.block, cell);
     }
-  }
-
-  /// True if another card of the new layout has the cell.
-  bool elsewhere_after(const Block& block, const DecodedCard& old, std::string_view field) const {
-    for (const CardSchema& card : block.schema->cards) {
-      if (&card == old.schema || !card.in_version(target_)) continue;
-      for (const Field& f : card.fields)
-        if (f.in_version(target_) && canonical_name(f.name) == canonical_name(field)) return true;
-    }
-    return false;
   }
 
   /// Text that meant nothing must not become a value.
-  void clear_stray(const Block& block, const Field& field, const DecodedCard& old,
-                   std::string& text, VersionRewriter* findings) const {
+  static void clear_stray(const Compose& compose, const Field& field, const DecodedCard& old,
+                          std::string& text) {
+    const Block& block = compose.block;
     const std::string stray(columns(text, field.first, field.last));
-    if (stray.empty() || is_zero_text(stray)) return;
+    if (stray.empty() || (field.type != FieldType::text && is_zero_text(stray))) return;
     put_cell(text, field.first, field.last, "");
-    if (findings == nullptr) return;
-    findings->report(
+    if (compose.findings == nullptr) return;
+    compose.findings->report(
         Loss::kept, block, old.line.columns(field.first, field.last), field.name, stray,
         "removed: it has no meaning in version " + number(block.version) + " and would get one");
   }
 
-  void carry(const Block& block, const Field& field, const Cell& cell, std::string& text,
-             VersionRewriter* findings) const {
+  void carry(const Compose& compose, const Field& field, const Cell& cell,
+             std::string& text) const {
     const auto width = static_cast<std::size_t>(field.last - field.first + 1);
     if (cell.blank()) return;
     if (cell.text.size() <= width) {
@@ -379,15 +354,16 @@ class VersionRewriter {
                              : std::nullopt;
     if (shorter && shorter->exact)
       put_cell(text, field.first, field.last, shorter->text);
-    else if (findings != nullptr)
-      findings->undecided(block, cell.span, field.name, cell.text,
-                          "the value does not fit its " + number(field.last - field.first + 1) +
-                              " columns in version " + number(target_) + "; shorten it");
+    else if (compose.findings != nullptr)
+      compose.findings->undecided(compose.block, cell.span, field.name, cell.text,
+                                  "the value does not fit its " +
+                                      number(field.last - field.first + 1) +
+                                      " columns in version " + number(target_) + "; shorten it");
   }
 
   /// A line with commas stays as it is if it has the same cells; otherwise it gets fixed columns.
-  std::string compose_free(const Block& block, const std::vector<const Field*>& fields,
-                           const DecodedCard& old, VersionRewriter* findings) const {
+  std::string free_text(const Compose& compose, const std::vector<const Field*>& fields,
+                        const DecodedCard& old) const {
     const bool same =
         std::equal(fields.begin(), fields.end(), old.cells.begin(), old.cells.end(),
                    [](const Field* f, const Cell& cell) {
@@ -395,14 +371,15 @@ class VersionRewriter {
                    });
     if (same) return std::string(old.line.text);
     std::string text;
-    for (const Field* f : fields)
-      if (const Cell* cell = cell_of(old, f->name)) carry(block, *f, *cell, text, findings);
-    if (findings != nullptr)
+    for (const Field* f : fields) {
+      const Cell* source = cell_of(old, f->name);
+      if (source == nullptr) source = compose.layout.elsewhere(f->name, old.round, &old);
+      if (source != nullptr) carry(compose, *f, *source, text);
+    }
+    if (compose.findings != nullptr)
       for (const Cell& cell : old.cells)
-        if (std::none_of(fields.begin(), fields.end(), [&](const Field* f) {
-              return canonical_name(f->name) == canonical_name(cell.field->name);
-            }))
-          findings->vanish(block, cell);
+        if (!has_cell(compose, cell.field->name, old.round))
+          compose.findings->vanish(compose.block, cell);
     return text;
   }
 
@@ -421,10 +398,11 @@ class VersionRewriter {
     if (is_default(block, cell)) return;
     const std::string why = "version " + number(target_) + " has no cell for it";
     if (field.name == "Ists") {
-      undecided(block, cell.span, field.name, cell.text,
-                why +
-                    ", and grnd_IDs would be read as a node group; set Ists to 0 and name a "
-                    "node group first");
+      const std::string note = why +
+                               ", and grnd_IDs would be read as a node group; set Ists to 0 and "
+                               "name a node group first";
+      report(Loss::undecided, block, cell.span, field.name, cell.text, note);
+      refuse(cell.span, std::string(block.keyword) + " Ists: " + note);
       return;
     }
     report(Loss::dropped, block, cell.span, field.name, cell.text, why);
@@ -476,48 +454,20 @@ class VersionRewriter {
     return default_of(field);
   }
 
-  // ---- keywords described in part -----------------------------------------------------------
+  // ---- keywords of which not every column is known --------------------------------------------
 
-  /// Cells that come or go in a block of which only some cells are known: text in those columns
-  /// cannot be judged, so it has to be blank or zero.
-  void check_partial(const Block& block, const DecodedBlock& decoded) {
-    for (const CardSchema& card : block.schema->cards)
-      if (card.repeat == Repeat::once && card.in_version(block.version) != card.in_version(target_))
-        undecided(block, block.header_span, card.name, "",
-                  "its lines differ between these versions and are known in part only");
-    for (const DecodedCard& card : decoded.cards) {
-      if (card.missing() || !card.schema->in_version(target_)) continue;
-      for (const Field& f : card.schema->fields) {
-        const bool had = f.in_version(block.version), has = f.in_version(target_);
-        if (had == has) continue;
-        const std::string_view text = columns(card.line.text, f.first, f.last);
-        if (is_zero_text(text)) continue;
-        const Span span = card.line.columns(f.first, f.last);
-        if (has) {
-          undecided(block, span, f.name, text,
-                    "columns " + number(f.first) + "-" + number(f.last) + " become " + f.name +
-                        " in version " + number(target_) + "; what they were is not known");
-          continue;
-        }
-        const Cell* cell = cell_of(card, f.name);
-        if (cell == nullptr || cell->blank()) continue;
-        vanish(block, *cell);
-        std::string line(card.line.text);
-        put_cell(line, f.first, f.last, "");
-        lines_.change(card.line, line, out_.edits);
-      }
+  void report_unknown() {
+    for (const auto& [key, unknown] : unknown_) {
+      const Block& block = *unknown.first;
+      const std::string blocks =
+          unknown.count == 1 ? "its block" : "its " + number(unknown.count) + " blocks";
+      const std::string why =
+          block.opaque ? "is encrypted" : "has columns that no schema describes in full";
+      undecided(block, block.header_span, "", "",
+                why + ": whether " + blocks + " mean the same in version " + number(target_) +
+                    " as in version " + number(block.version) +
+                    " is not known; compare the manuals of both versions and convert by hand");
     }
-  }
-
-  void note_partial() {
-    if (partial_.empty()) return;
-    std::string text = "kept as they are, because no schema describes them in full:";
-    const char* separator = " ";
-    for (const auto& [keyword, count] : partial_) {
-      text += separator + keyword + (count > 1 ? " (" + number(count) + ")" : "");
-      separator = ", ";
-    }
-    out_.notes.push_back(std::move(text));
   }
 
   const EditContext& c_;
@@ -527,7 +477,11 @@ class VersionRewriter {
   LineEdits lines_;
   std::unordered_map<const Block*, const InterBase*> inter_of_;
   std::map<std::pair<const Schema*, int>, bool> differs_;
-  std::map<std::string, int> partial_;
+  struct Unknown {
+    const Block* first = nullptr;
+    int count = 0;
+  };
+  std::map<std::pair<std::string, int>, Unknown> unknown_;  ///< by keyword and version
 };
 
 }  // namespace

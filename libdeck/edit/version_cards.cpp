@@ -18,13 +18,6 @@ bool layout_differs(const Schema& schema, int a, int b) {
   });
 }
 
-std::vector<const Field*> fields_of(const CardSchema& card, int version) {
-  std::vector<const Field*> out;
-  for (const Field& f : card.fields)
-    if (f.in_version(version)) out.push_back(&f);
-  return out;
-}
-
 std::string_view canonical_name(std::string_view field) {
   // Versions before 130 call the heat exchange coefficient Rthe.
   return field == "Rthe" ? "Kthe" : field;

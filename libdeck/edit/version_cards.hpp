@@ -16,8 +16,6 @@ namespace deck::detail {
 
 /// True if some card or cell of `schema` is in one of the versions only.
 bool layout_differs(const Schema& schema, int a, int b);
-/// Fields of a card in one version.
-std::vector<const Field*> fields_of(const CardSchema& card, int version);
 /// One name for a cell that was renamed between versions.
 std::string_view canonical_name(std::string_view field);
 /// The number a default text names ("0 (none)", "/DEFAULT/INTER/TYPE7, else 1"); 0 if it is words.

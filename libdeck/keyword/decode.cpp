@@ -1,6 +1,8 @@
 #include "deck/keyword/decode.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <functional>
 #include <span>
 
 #include "keyword/line_check.hpp"
@@ -274,8 +276,9 @@ bool has_comma(const CardSchema& card, const Line& line) {
   return line.text.substr(0, line_columns).find(',') != std::string_view::npos;
 }
 
+/// Cells of a list. `limit`: how many there are at most on this line, blank ones included.
 void read_ids(const Deck& deck, Findings& findings, const CardSchema& card, int version,
-              const Line& line, DecodedCard& out) {
+              const Line& line, int limit, DecodedCard& out) {
   const Field& f = card.fields.back();
   for (std::size_t i = 0; i + 1 < card.fields.size(); ++i) {
     const Field& lead = card.fields[i];
@@ -284,13 +287,14 @@ void read_ids(const Deck& deck, Findings& findings, const CardSchema& card, int 
                                   line.columns(lead.first, lead.last)));
   }
   const int width = f.last - f.first + 1;
-  const auto limit = static_cast<std::size_t>(detail::columns_of_version(version));
-  const int size = static_cast<int>(std::min(line.text.size(), limit));
-  for (int first = f.first; first <= size; first += width) {
+  const bool counted = !card.count.empty();
+  const auto meaningful = static_cast<std::size_t>(detail::columns_of_version(version));
+  const int size = static_cast<int>(std::min(line.text.size(), meaningful));
+  for (int first = f.first, n = 0; n < limit && (counted || first <= size); first += width, ++n) {
     const int last = first + width - 1;
     Cell cell = read_cell(deck, findings, f, detail::columns(line.text, first, last),
                           line.columns(first, last));
-    if (!cell.blank()) out.cells.push_back(std::move(cell));
+    if (counted || !cell.blank()) out.cells.push_back(std::move(cell));
   }
 }
 
@@ -313,8 +317,72 @@ double DecodedBlock::real(std::string_view field) const {
   return cell ? cell->real : 0;
 }
 
-DecodedCard decode_line(const Deck& deck, const Block& block, const CardSchema& card,
-                        const Line& line, Diagnostics* diagnostics) {
+namespace {
+
+/// How the conditions of the cells of a line find the cells of other lines, and how long a list is.
+struct LineContext {
+  const std::function<std::int64_t(std::string_view)>* value = nullptr;
+  int cells = 0;  ///< of a list, on this line; 0: not known
+};
+
+bool holds_on_line(const Field& field, const DecodedCard& line, const LineContext& context) {
+  return std::all_of(field.when.begin(), field.when.end(), [&](const Condition& c) {
+    for (const Cell& cell : line.cells)
+      if (cell.field->name == c.field) return c.holds(cell.integer);
+    return context.value == nullptr || c.holds((*context.value)(c.field));
+  });
+}
+
+/// The fields of a line, those without conditions first: the others may look at them.
+template <class F>
+void for_each_field(const CardSchema& card, int version, const DecodedCard& line,
+                    const LineContext& context, F&& f) {
+  for (const Field& field : card.fields)
+    if (field.when.empty() && field.in_version(version)) f(field);
+  for (const Field& field : card.fields)
+    if (!field.when.empty() && field.in_version(version) && holds_on_line(field, line, context))
+      f(field);
+}
+
+void sort_by_column(DecodedCard& card) {
+  const bool sorted = std::none_of(card.schema->fields.begin(), card.schema->fields.end(),
+                                   [](const Field& f) { return !f.when.empty(); });
+  if (!sorted)
+    std::stable_sort(card.cells.begin(), card.cells.end(),
+                     [](const Cell& a, const Cell& b) { return a.field->first < b.field->first; });
+}
+
+void read_free(const Deck& deck, const Block& block, Findings& findings, const LineContext& context,
+               DecodedCard& out) {
+  const CardSchema& card = *out.schema;
+  const auto cells = split_free(out.line);
+  const bool list = card.repeat == Repeat::ids;
+  std::size_t next = 0;
+  const auto take = [&](const Field& f) {
+    const auto [text, span] = next < cells.size()
+                                  ? cells[next]
+                                  : std::pair{std::string_view(), out.line.columns(101, 101)};
+    ++next;
+    out.cells.push_back(read_cell(deck, findings, f, text, span));
+  };
+  for (const Field& f : card.fields)
+    if (f.in_version(block.version) && holds_on_line(f, out, context)) take(f);
+  if (list && !card.fields.empty())
+    while (next < cells.size() &&
+           (context.cells == 0 || out.cells.size() < static_cast<std::size_t>(context.cells)))
+      take(card.fields.back());
+  if (next < cells.size() && !list)
+    findings.report("DK028", Severity::warning, cells[next].second,
+                    "text " + quoted(cells[next].first) +
+                        " follows the last cell of this "
+                        "free-format line (" +
+                        std::to_string(next) + " cells)",
+                    "it drops the text", "delete it, or check the commas of the line", 100213);
+}
+
+DecodedCard decode_in_context(const Deck& deck, const Block& block, const CardSchema& card,
+                              const Line& line, Diagnostics* diagnostics,
+                              const LineContext& context) {
   Findings findings(diagnostics, block);
   DecodedCard out;
   out.schema = &card;
@@ -323,39 +391,31 @@ DecodedCard decode_line(const Deck& deck, const Block& block, const CardSchema& 
   out.free_format = has_comma(card, line);
   if (findings.on()) check_line(findings, line, !out.free_format && !is_text_card(card));
   if (out.free_format) {
-    std::size_t next = 0;
-    const auto cells = split_free(line);
-    const bool list = card.repeat == Repeat::ids;
-    for (std::size_t i = 0; i < card.fields.size() || (list && next < cells.size()); ++i) {
-      const Field& f = card.fields[std::min(i, card.fields.size() - 1)];
-      if (!f.in_version(block.version)) continue;
-      const auto [text, span] =
-          next < cells.size() ? cells[next] : std::pair{std::string_view(), line.columns(101, 101)};
-      ++next;
-      out.cells.push_back(read_cell(deck, findings, f, text, span));
-    }
-    if (next < cells.size() && !list)
-      findings.report("DK028", Severity::warning, cells[next].second,
-                      "text " + quoted(cells[next].first) +
-                          " follows the last cell of this "
-                          "free-format line (" +
-                          std::to_string(next) + " cells)",
-                      "it drops the text", "delete it, or check the commas of the line", 100213);
+    read_free(deck, block, findings, context, out);
     return out;
   }
   if (card.repeat == Repeat::ids) {
-    read_ids(deck, findings, card, block.version, line, out);
+    const int most = card.count.empty() ? line_columns : card.per_line;
+    read_ids(deck, findings, card, block.version, line, context.cells > 0 ? context.cells : most,
+             out);
     return out;
   }
   // Where a schema describes only the cells that matter here, the other columns are not blank.
   const bool complete = block.schema == nullptr || !block.schema->opaque_tail;
   if (findings.on() && complete) check_gaps(findings, card, block.version, line);
-  for (const Field& f : card.fields) {
-    if (!f.in_version(block.version)) continue;
+  for_each_field(card, block.version, out, context, [&](const Field& f) {
     out.cells.push_back(read_cell(deck, findings, f, detail::columns(line.text, f.first, f.last),
                                   line.columns(f.first, f.last)));
-  }
+  });
+  sort_by_column(out);
   return out;
+}
+
+}  // namespace
+
+DecodedCard decode_line(const Deck& deck, const Block& block, const CardSchema& card,
+                        const Line& line, Diagnostics* diagnostics) {
+  return decode_in_context(deck, block, card, line, diagnostics, {});
 }
 
 namespace {
@@ -379,17 +439,18 @@ class BlockDecoder {
     if (block_.opaque) return std::move(out_);
     for (std::size_t i = 0; i < schema->cards.size(); ++i) {
       const CardSchema& card = schema->cards[i];
-      if (!holds(card)) continue;
-      if (card.repeat == Repeat::once) {
-        read_once(card);
-        continue;
-      }
-      std::size_t count = 1;
-      if (card.repeat == Repeat::group)
-        while (i + count < schema->cards.size() && schema->cards[i + count].repeat == Repeat::group)
+      if (card.repeat == Repeat::group) {
+        std::size_t count = 1;
+        while (i + count < schema->cards.size() &&
+               schema->cards[i + count].repeat == Repeat::group &&
+               schema->cards[i + count].count == card.count)
           ++count;
-      read_repeated({schema->cards.data() + i, count});
-      return std::move(out_);  // a repeated card takes all lines
+        const bool to_the_end = read_group({schema->cards.data() + i, count});
+        if (to_the_end) break;
+        i += count - 1;
+      } else if (holds(card) && !read_card(card)) {
+        break;
+      }
     }
     read_extra(*schema);
     return std::move(out_);
@@ -405,17 +466,105 @@ class BlockDecoder {
     }
   }
 
-  bool holds(const CardSchema& card) const {
-    return card.in_version(block_.version) &&
-           std::all_of(card.when.begin(), card.when.end(),
-                       [&](const Condition& c) { return c.holds(out_.integer(c.field)); });
+  /// The cells that conditions look at: those of the same round first, then the cards before.
+  const Cell* search(std::string_view field, std::size_t once, std::size_t round) const {
+    for (std::size_t k = out_.cards.size(); k-- > round;)
+      for (const Cell& cell : out_.cards[k].cells)
+        if (cell.field->name == field) return &cell;
+    for (std::size_t k = 0; k < once; ++k)
+      for (const Cell& cell : out_.cards[k].cells)
+        if (cell.field->name == field) return &cell;
+    return nullptr;
   }
 
-  void read_once(const CardSchema& card) {
-    const Line line = cursor_.next();
-    if (!line.valid() && card.optional) return;
-    if (!line.valid()) report_missing(card);
-    out_.cards.push_back(decode_line(deck_, block_, card, line, diagnostics_));
+  std::int64_t value_of(std::string_view field, std::size_t once, std::size_t round) {
+    if (field == Condition::data_lines) return data_lines();
+    const Cell* cell = search(field, once, round);
+    return cell ? cell->integer : 0;
+  }
+
+  /// Data lines of the block behind its title.
+  std::int64_t data_lines() {
+    if (lines_ < 0) {
+      LineCursor cursor(deck_.sources, block_);
+      lines_ = block_.schema->has_title && block_.version >= 51 ? -1 : 0;
+      while (cursor.next().valid()) ++lines_;
+      lines_ = std::max<std::int64_t>(lines_, 0);
+    }
+    return lines_;
+  }
+
+  /// True if the card has a line here. A line none of whose cells is read does not exist.
+  bool holds(const CardSchema& card, std::size_t once, std::size_t round) {
+    const auto all = [&](const std::vector<Condition>& when) {
+      return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
+        return c.holds(value_of(c.field, once, round));
+      });
+    };
+    if (!card.in_version(block_.version) || !all(card.when)) return false;
+    bool any = false;
+    for (const Field& f : card.fields) {
+      if (!f.in_version(block_.version)) continue;
+      if (f.when.empty() || all(f.when)) return true;
+      any = true;
+    }
+    return !any;
+  }
+  bool holds(const CardSchema& card) { return holds(card, out_.cards.size(), out_.cards.size()); }
+
+  void add(const CardSchema& card, const Line& line, std::size_t once, std::size_t round,
+           int number = 0, int cells = 0) {
+    const std::function<std::int64_t(std::string_view)> value = [&](std::string_view field) {
+      return value_of(field, once, round);
+    };
+    out_.cards.push_back(
+        decode_in_context(deck_, block_, card, line, diagnostics_, {&value, cells}));
+    out_.cards.back().round = number;
+  }
+
+  /// A card that is no group. False if it took all lines to the end of the block.
+  bool read_card(const CardSchema& card) {
+    const std::size_t once = out_.cards.size();
+    if (card.repeat == Repeat::once) {
+      const Line line = cursor_.next();
+      if (!line.valid() && card.optional) return true;
+      if (!line.valid()) report_missing(card);
+      add(card, line, once, once);
+      return true;
+    }
+    if (card.words) {
+      for (LineCursor ahead = cursor_;; cursor_ = ahead) {
+        const Line line = ahead.next();
+        if (!line.valid() || !begins_with_word(line.text)) return true;
+        add(card, line, once, once);
+      }
+    }
+    if (card.repeat == Repeat::ids && !card.count.empty()) {
+      const std::int64_t count = count_of(card, once);
+      int number = 0;
+      for (std::int64_t done = 0; done < count; done += card.per_line) {
+        const Line line = cursor_.next();
+        if (!line.valid()) {
+          if (!card.optional) report_missing(card);
+          return true;
+        }
+        add(card, line, once, once, ++number,
+            static_cast<int>(std::min<std::int64_t>(card.per_line, count - done)));
+      }
+      return true;
+    }
+    return !read_group({&card, 1});
+  }
+
+  static bool begins_with_word(std::string_view text) {
+    const std::string_view word = trim(text.substr(0, 10));
+    if (word.empty()) return false;
+    return std::isalpha(static_cast<unsigned char>(word.front())) != 0;
+  }
+
+  std::int64_t count_of(const CardSchema& card, std::size_t once) {
+    const IntegerCell number = read_integer(card.count);
+    return number.status == NumberStatus::ok ? number.value : value_of(card.count, once, once);
   }
 
   void report_missing(const CardSchema& card) {
@@ -436,40 +585,29 @@ class BlockDecoder {
         d->notes.emplace_back(cause->span, c.field + " asks for the line");
   }
 
-  /// Conditions of a repeated card look at the cells of the same round first, then at the cards
-  /// before the repetition.
-  bool holds_in_round(const CardSchema& card, std::size_t once, std::size_t round) const {
-    return std::all_of(card.when.begin(), card.when.end(), [&](const Condition& c) {
-      const auto search = [&](std::size_t first, std::size_t last) -> const Cell* {
-        for (std::size_t k = last; k-- > first;)
-          for (const Cell& cell : out_.cards[k].cells)
-            if (cell.field->name == c.field) return &cell;
-        return nullptr;
-      };
-      const Cell* cell = search(round, out_.cards.size());
-      if (cell == nullptr) cell = search(0, once);
-      return c.holds(cell ? cell->integer : 0);
-    });
-  }
-
-  void read_repeated(std::span<const CardSchema> group) {
+  /// Cards that repeat. True if they take all lines to the end of the block.
+  bool read_group(std::span<const CardSchema> group) {
+    if (std::none_of(group.begin(), group.end(),
+                     [&](const CardSchema& c) { return c.in_version(block_.version); }))
+      return false;
     const std::size_t once = out_.cards.size();
-    for (;;) {
+    const bool counted = !group[0].count.empty();
+    const std::int64_t rounds = counted ? count_of(group[0], once) : 0;
+    for (std::int64_t number = 1; !counted || number <= rounds; ++number) {
       const std::size_t round = out_.cards.size();
       for (const CardSchema& card : group) {
-        if (!card.in_version(block_.version) || !holds_in_round(card, once, round)) continue;
+        if (!holds(card, once, round)) continue;
         const Line line = cursor_.next();
         if (!line.valid()) {
-          if (out_.cards.size() > round && !card.optional) report_missing(card);
-          return;
+          if ((counted || out_.cards.size() > round) && !card.optional) report_missing(card);
+          return true;
         }
-        out_.cards.push_back(decode_line(deck_, block_, card, line, diagnostics_));
+        add(card, line, once, round, static_cast<int>(std::min<std::int64_t>(number, 1 << 30)));
       }
-      // A group without a member in this version, or with all conditions false, takes no line.
-      if (out_.cards.size() == round) break;
+      // A round with all conditions false takes no line.
+      if (out_.cards.size() == round) return false;
     }
-    for (Line line = cursor_.next(); line.valid(); line = cursor_.next())
-      out_.extra.push_back(line);
+    return false;
   }
 
   void read_extra(const Schema& schema) {
@@ -496,6 +634,7 @@ class BlockDecoder {
   Findings findings_;
   LineCursor cursor_;
   DecodedBlock out_;
+  std::int64_t lines_ = -1;  ///< data lines of the block, once they are counted
 };
 
 }  // namespace

@@ -17,6 +17,7 @@ namespace deck {
 
 bool Condition::holds(std::int64_t value) const {
   if (!in.empty() && std::find(in.begin(), in.end(), value) == in.end()) return false;
+  if (std::find(not_in.begin(), not_in.end(), value) != not_in.end()) return false;
   return (!min || value >= *min) && (!max || value <= *max);
 }
 

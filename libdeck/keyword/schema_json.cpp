@@ -129,15 +129,19 @@ std::vector<Condition> conditions_of(const Json& json, const Path& path) {
   std::vector<Condition> conditions;
   for (const auto& item : expect_array(json, path)) {
     const auto here = at(path, conditions.size());
-    expect_object(item, here, {"field", "in", "min", "max"});
-    require(item, here, "field");
+    expect_object(item, here, {"field", "lines", "in", "not_in", "min", "max"});
     Condition condition;
+    bool lines = false;
+    read(item, here, "lines", lines);
+    if (lines == item.contains("field")) fail(here, "expected \"field\" or \"lines\": true");
     read(item, here, "field", condition.field);
+    if (lines) condition.field = Condition::data_lines;
     if (item.contains("in")) condition.in = integers_of(item["in"], at(here, "in"));
+    if (item.contains("not_in")) condition.not_in = integers_of(item["not_in"], at(here, "not_in"));
     if (item.contains("min")) condition.min = integer_of(item["min"], at(here, "min"));
     if (item.contains("max")) condition.max = integer_of(item["max"], at(here, "max"));
-    if (condition.in.empty() && !condition.min && !condition.max)
-      fail(here, "the condition tests nothing: give \"in\", \"min\" or \"max\"");
+    if (condition.in.empty() && condition.not_in.empty() && !condition.min && !condition.max)
+      fail(here, "the condition tests nothing: give \"in\", \"not_in\", \"min\" or \"max\"");
     conditions.push_back(std::move(condition));
   }
   if (conditions.empty()) fail(path, "the list is empty");
@@ -197,7 +201,9 @@ void read_dimension(const Json& json, const Path& path, Field& field) {
     }
   }
   const bool any = json.contains("dim") || json.contains("dim_when") || unknown;
-  if (any && field.type != FieldType::real) fail(path, "only real fields have a dimension");
+  const bool axes = unknown && field.type == FieldType::id;  // of the function or table
+  if (any && field.type != FieldType::real && !axes)
+    fail(path, "only real fields have a dimension");
 }
 
 void read_range(const Json& json, const Path& path, Field& field) {
@@ -231,7 +237,7 @@ void read_target(const Json& json, const Path& path, Field& field) {
 
 Field field_of(const Json& json, const Path& path) {
   expect_object(json, path,
-                {"name", "cols",        "type",     "ref",     "versions", "values",   "min",
+                {"name", "cols",        "type",     "ref",     "versions", "when", "values",   "min",
                  "max",  "min_open",    "max_open", "missing", "empty",    "required", "default",
                  "dim",  "dim_unknown", "dim_when", "ignored", "doc",      "manual"});
   Field field;
@@ -248,6 +254,7 @@ Field field_of(const Json& json, const Path& path) {
     fail(path, "\"ref\" is required for fields of type id and only for those");
   read_target(json, path, field);
   read_versions(json, path, field.from, field.until);
+  if (json.contains("when")) field.when = conditions_of(json["when"], at(path, "when"));
   read_range(json, path, field);
   read(json, path, "default", field.default_text);
   read_dimension(json, path, field);
@@ -257,8 +264,24 @@ Field field_of(const Json& json, const Path& path) {
   return field;
 }
 
+void read_count(const Json& json, const Path& path, CardSchema& card) {
+  if (const auto it = json.find("count"); it != json.end()) {
+    if (card.repeat == Repeat::once || card.words)
+      fail(at(path, "count"), "only what repeats is counted");
+    card.count = it->is_number_integer() ? std::to_string(integer_of(*it, at(path, "count")))
+                                         : text_of(*it, at(path, "count"));
+  }
+  if (const auto it = json.find("per_line"); it != json.end())
+    card.per_line = small_of(*it, at(path, "per_line"));
+  const bool counted_list = card.repeat == Repeat::ids && !card.count.empty();
+  if (counted_list ? card.per_line < 1 : card.per_line != 0)
+    fail(path, "\"per_line\" goes with lists that have a \"count\", and with those only");
+}
+
 CardSchema card_of(const Json& json, const Path& path) {
-  expect_object(json, path, {"name", "doc", "versions", "when", "repeat", "optional", "fields"});
+  expect_object(
+      json, path,
+      {"name", "doc", "versions", "when", "repeat", "count", "per_line", "optional", "fields"});
   CardSchema card;
   require(json, path, "name");
   read(json, path, "name", card.name);
@@ -267,15 +290,17 @@ CardSchema card_of(const Json& json, const Path& path) {
   if (json.contains("when")) card.when = conditions_of(json["when"], at(path, "when"));
   std::string repeat;
   read(json, path, "repeat", repeat);
+  card.words = repeat == "words";
   if (repeat == "rows") {
     card.repeat = Repeat::rows;
-  } else if (repeat == "ids") {
+  } else if (repeat == "ids" || card.words) {
     card.repeat = Repeat::ids;
   } else if (repeat == "group") {
     card.repeat = Repeat::group;
   } else if (json.contains("repeat")) {
-    fail(at(path, "repeat"), fmt::format("\"{}\" is not rows, ids or group", repeat));
+    fail(at(path, "repeat"), fmt::format("\"{}\" is not rows, ids, words or group", repeat));
   }
+  read_count(json, path, card);
   read(json, path, "optional", card.optional);
   require(json, path, "fields");
   const auto here = at(path, "fields");
@@ -296,7 +321,7 @@ void check_keyword(const std::string& keyword, const Path& path) {
 Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   expect_object(json, path,
                 {"$schema", "keyword", "aliases", "kind", "id", "title", "unit", "bulk",
-                 "opaque_tail", "from", "doc", "cards"});
+                 "opaque_tail", "full_layout", "from", "doc", "cards"});
   Schema schema;
   schema.source = source;
   require(json, path, "keyword");
@@ -316,6 +341,9 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   read(json, path, "unit", schema.has_unit);
   read(json, path, "bulk", schema.bulk);
   read(json, path, "opaque_tail", schema.opaque_tail);
+  read(json, path, "full_layout", schema.full_layout);
+  if (schema.full_layout && !schema.opaque_tail)
+    fail(at(path, "full_layout"), "a schema without opaque_tail describes everything anyway");
   if (json.contains("from")) schema.from = version_of(json["from"], at(path, "from"));
   read(json, path, "doc", schema.doc);
   if (json.contains("cards")) {
@@ -370,7 +398,9 @@ bool knows_before(const Schema& schema, std::size_t cards, int version, std::str
 }
 
 /// The first version in which a condition tests a field that is not known yet; 0 if there is none.
+/// A field that comes later only is 0 where it is not there.
 int unknown_in(const Schema& schema, std::size_t cards, Range range, const Condition& condition) {
+  if (condition.field == Condition::data_lines) return 0;
   for (const int version : known_versions())
     if (version >= std::max(range.from, schema.from) && version <= range.until &&
         !knows_before(schema, cards, version, condition.field))
@@ -385,6 +415,22 @@ std::string check_conditions(const Schema& schema, std::size_t index) {
       return fmt::format(
           "/cards/{}/when: in version {} no earlier card has an integer field \"{}\"", index,
           version, condition.field);
+  const auto at_least_once = [&](std::string_view name) {
+    for (const int version : known_versions())
+      if (knows_before(schema, index + 1, version, name)) return true;
+    return name == Condition::data_lines;
+  };
+  for (std::size_t f = 0; f < card.fields.size(); ++f)
+    for (const auto& condition : card.fields[f].when)
+      if (!at_least_once(condition.field))
+        return fmt::format(
+            "/cards/{}/fields/{}/when: neither this nor an earlier card has an integer field "
+            "\"{}\"",
+            index, f, condition.field);
+  const bool number = card.count.find_first_not_of("0123456789") == std::string::npos;
+  if (!number && !at_least_once(card.count))
+    return fmt::format("/cards/{}/count: no earlier card has an integer field \"{}\"", index,
+                       card.count);
   for (std::size_t f = 0; f < card.fields.size(); ++f)
     for (const auto& entry : card.fields[f].dimension_when)
       for (const auto& condition : entry.first)
@@ -409,7 +455,8 @@ std::string check_columns(const CardSchema& card, std::size_t index) {
                          j);
     for (std::size_t i = 0; i < j; ++i) {
       const auto& other = card.fields[i];
-      if (range.meets(range_of(card, other)) && field.first <= other.last &&
+      const bool alternatives = !field.when.empty() && !other.when.empty();
+      if (!alternatives && range.meets(range_of(card, other)) && field.first <= other.last &&
           other.first <= field.last)
         return fmt::format("/cards/{}/fields/{}/cols: {}-{} of \"{}\" overlap {}-{} of \"{}\"",
                            index, j, field.first, field.last, field.name, other.first, other.last,
@@ -419,7 +466,8 @@ std::string check_columns(const CardSchema& card, std::size_t index) {
   return {};
 }
 
-/// Names must be unique within a version, or conditions and look-ups would be ambiguous.
+/// Names must be unique within a version, or conditions and look-ups would be ambiguous. Only
+/// alternatives, which conditions tell apart, may share one.
 std::string check_names(const Schema& schema, std::size_t index) {
   const auto& card = schema.cards[index];
   for (std::size_t f = 0; f < card.fields.size(); ++f)
@@ -427,7 +475,9 @@ std::string check_names(const Schema& schema, std::size_t index) {
       const auto& earlier = schema.cards[c];
       const auto count = c == index ? f : earlier.fields.size();
       for (std::size_t g = 0; g < count; ++g)
-        if (earlier.fields[g].name == card.fields[f].name &&
+        if (const bool alternatives = (!earlier.when.empty() || !earlier.fields[g].when.empty()) &&
+                                      (!card.when.empty() || !card.fields[f].when.empty());
+            !alternatives && earlier.fields[g].name == card.fields[f].name &&
             range_of(earlier, earlier.fields[g]).meets(range_of(card, card.fields[f])))
           return fmt::format("/cards/{}/fields/{}: the name \"{}\" is already used by card {}",
                              index, f, card.fields[f].name, c);
@@ -443,7 +493,7 @@ std::string check_repeat(const Schema& schema, std::size_t index) {
     return fmt::format("/cards/{}: repeated rows without fields", index);
   for (std::size_t c = 0; c < index; ++c) {
     const auto& earlier = schema.cards[c];
-    if (earlier.repeat == Repeat::once ||
+    if (earlier.repeat == Repeat::once || earlier.words || !earlier.count.empty() ||
         !Range{earlier.from, earlier.until}.meets({card.from, card.until}))
       continue;
     if (earlier.repeat != Repeat::group || card.repeat != Repeat::group)

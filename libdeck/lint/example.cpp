@@ -166,6 +166,7 @@ std::string render_card(const Schema& schema, std::string_view header, int versi
   std::string out = std::string(header) + "\n";
   if (schema.has_title && version >= 51) out += "example\n";
   std::vector<std::string> used;
+  std::string pending;  // blank optional lines, which are needed only in front of others
   const auto holds = [&](const Condition& c) {
     return c.holds(c.field.empty() ? 0 : integer_of(values, c.field));
   };
@@ -187,8 +188,11 @@ std::string render_card(const Schema& schema, std::string_view header, int versi
         any = true;
       }
     }
-    if ((card.repeat != Repeat::once || card.optional) && !any) continue;
-    out += head + "\n" + line + "\n";
+    if (card.repeat != Repeat::once && !any) continue;
+    pending += head + "\n" + line + "\n";
+    if (card.optional && !any) continue;
+    out += pending;
+    pending.clear();
   }
   for (const auto& [name, value] : values)
     if (std::find(used.begin(), used.end(), name) == used.end())

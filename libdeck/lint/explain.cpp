@@ -97,11 +97,15 @@ std::string conditions(const std::vector<Condition>& when) {
   std::string out;
   for (const Condition& c : when) {
     std::string one = c.field;
-    if (!c.in.empty()) {
-      one += c.in.size() == 1 ? " = " : " in ";
-      for (std::size_t i = 0; i < c.in.size(); ++i)
-        one += (i > 0 ? ", " : "") + std::to_string(c.in[i]);
-    }
+    const auto list = [&](const std::vector<std::int64_t>& values, const char* single,
+                          const char* several) {
+      if (values.empty()) return;
+      one += values.size() == 1 ? single : several;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        one += (i > 0 ? ", " : "") + std::to_string(values[i]);
+    };
+    list(c.in, " = ", " in ");
+    list(c.not_in, " other than ", " none of ");
     if (c.min) one += " >= " + std::to_string(*c.min);
     if (c.max) one += " <= " + std::to_string(*c.max);
     out += (out.empty() ? "" : " and ") + one;
@@ -131,7 +135,9 @@ std::string field_page(const Schema& schema, const CardSchema& card, const Field
   };
   row("columns", fmt::format("{}-{} of the line '{}', {}", f.first, f.last, card.name,
                              field_versions(card, f)));
-  row("present if", conditions(card.when));
+  std::vector<Condition> present = card.when;
+  present.insert(present.end(), f.when.begin(), f.when.end());
+  row("present if", conditions(present));
   row("type", type_name(f));
   row("legal", range_text(f));
   row("default", f.default_text);
@@ -185,12 +191,15 @@ std::string explain_keyword(const Schema& schema, std::string_view field) {
   for (const CardSchema& card : schema.cards) {
     out += fmt::format("\n{} ({}{}{})\n", card.name, versions(card.from, card.until),
                        card.when.empty() ? "" : "; only if " + conditions(card.when),
-                       card.repeat == Repeat::once ? "" : "; repeats");
+                       card.repeat == Repeat::once ? ""
+                       : card.count.empty()        ? "; repeats"
+                                                   : "; repeats, count " + card.count);
     for (const Field& f : card.fields) {
       out += fmt::format("  {:>3}-{:<3} {:<15} {}", f.first, f.last, f.name, f.doc);
       if (const std::string range = range_text(f); !range.empty()) out += " [" + range + "]";
       if (!f.default_text.empty()) out += "; 0 or blank: " + f.default_text;
       if (f.from != 0 || f.until != 9999) out += " (" + versions(f.from, f.until) + ")";
+      if (!f.when.empty()) out += "; only if " + conditions(f.when);
       if (f.ignored) out += " (not used)";
       out += "\n";
       if (!f.from_manual.empty()) out += wrapped("Manual: " + f.from_manual, 12);

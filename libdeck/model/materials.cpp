@@ -136,6 +136,10 @@ double isotropic_bulk(double e, double nu) { return e / (3 * (1 - 2 * nu)); }
 
 /// LAWn of a schema keyword; gases, user laws and unknown names give -1.
 int law_number(const Schema& schema) {
+  // Names whose cards are not those of the number.
+  if (schema.keyword == "/MAT/PLAS_ZERIL") return 2;
+  if (schema.keyword == "/MAT/K-EPS") return 6;
+  if (schema.keyword == "/MAT/B-K-EPS") return 11;
   constexpr std::string_view prefix = "/MAT/LAW";
   const std::string_view keyword = schema.keyword;
   if (!keyword.starts_with(prefix)) return -1;
@@ -260,7 +264,10 @@ class MaterialReader {
   void hyperfoam(Material& m) const {
     double nu = value("Nu");
     if (nu >= 0.5) nu = 0.499;
-    const double twice = sum_terms([](double mu, double) { return 2 * mu; });
+    double twice = 0;
+    for (const DecodedCard& card : d_.cards)
+      for (const Cell& cell : card.cells)
+        if (cell.field->name == "mu_i") twice += 2 * working_value(c_.deck, d_, cell);
     m.young = twice * (1 + nu);
     m.bulk = twice * (1.0 / 3.0 + nu / (1 - 2 * nu));
     // Viscous terms change the shear modulus that E is formed with.

@@ -19,6 +19,7 @@ int to_number(std::string_view digits) {
 /// TYPEn of a schema: from its keyword or, where that is a name, from its aliases.
 int type_number(const Schema& schema) {
   constexpr std::string_view prefix = "/PROP/TYPE";
+  if (schema.keyword == "/PROP/FLUID") return 14;  // its cards are not those of TYPE14
   if (schema.keyword.starts_with(prefix)) return to_number(schema.keyword.substr(prefix.size()));
   for (const std::string& alias : schema.aliases)
     if (alias.starts_with(prefix)) return to_number(std::string_view(alias).substr(prefix.size()));

@@ -176,14 +176,16 @@ TEST(ToVersion, ParameterReferencesStayReferences) {
   EXPECT_EQ(open_text(then)->interfaces.type11.at(0).Gapmin.value, 0.75);
 }
 
-TEST(ToVersion, ColumnsOfAPartlyDescribedPropertyAreNotGivenAMeaning) {
-  const std::string text = deck_of_version(
-      2022, "/PROP/SHELL/1\np\n        24\n\n         3" + std::string(80, ' ') + "         2\n");
+TEST(ToVersion, TextThatMeantNothingDoesNotBecomeACell) {
+  const std::string head = "/PROP/SHELL/1\np\n        24\n\n         3";
+  const std::string text =
+      deck_of_version(2022, head + std::string(80, ' ') + "         2\n");  // Ipos from 2024 on
   const Rewrite r = rewrite_of(text, 2024);
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_THAT(r.refusals[0], HasSubstr("Ipos"));
-  EXPECT_EQ(losses_of(r, Loss::undecided).size(), 1u);
-  EXPECT_EQ(rewrite_of(text, 2024, {.allow_loss = true}).refusals.size(), 1u);
+  EXPECT_TRUE(r.refusals.empty()) << joined(r.refusals);
+  const auto there = applied(*open_text(text), r);
+  EXPECT_EQ(decode(there->deck, there->deck.blocks[1]).integer("Ipos"), 0);
+  EXPECT_EQ(decode(there->deck, there->deck.blocks[1]).integer("N"), 3);
+  EXPECT_EQ(losses_of(r, Loss::kept).size(), 3u);  // the version, the text, the block
 }
 
 TEST(ToVersion, SensorStopLineIsReadAsBeforeAfterGoingUpAndDown) {
@@ -244,13 +246,24 @@ TEST(ToVersion, UnknownTargetsAndOldDecksAreRefused) {
   EXPECT_FALSE(rewrite_of("#RADIOSS STARTER\n/PART/1\np\n/END\n", 2022).refusals.empty());
 }
 
-TEST(ToVersion, KeywordsWithoutFullDescriptionAreNamed) {
-  const Rewrite r =
-      rewrite_of(deck_of_version(2022, "/FAIL/UNKNOWN/1\n  1.0\n/ACCEL/1\na\n"), 2024);
-  EXPECT_TRUE(r.refusals.empty());
-  ASSERT_EQ(r.notes.size(), 1u);
-  EXPECT_THAT(r.notes[0], HasSubstr("/ACCEL"));
-  EXPECT_THAT(r.notes[0], HasSubstr("/FAIL"));
+TEST(ToVersion, KeywordsOfWhichNotEveryColumnIsKnownAreUndecidedByNameAndCount) {
+  const std::string text = deck_of_version(
+      2022, "/FAIL/UNKNOWN/1\n  1.0\n/FXBODY/1\na\n/FXBODY/2\nb\n/NOBODY/KNOWS\n 1\n");
+  const Rewrite r = rewrite_of(text, 2024);
+  ASSERT_EQ(r.refusals.size(), 3u) << joined(r.refusals);
+  EXPECT_THAT(joined(r.refusals), HasSubstr("main_0000.rad:7:1: /FAIL"));
+  EXPECT_THAT(joined(r.refusals), HasSubstr("/FXBODY: has columns"));
+  EXPECT_THAT(joined(r.refusals), HasSubstr("its 2 blocks"));
+  EXPECT_THAT(joined(r.refusals), HasSubstr("/NOBODY/KNOWS"));
+  EXPECT_EQ(losses_of(r, Loss::undecided).size(), 3u);
+  const Rewrite kept = rewrite_of(text, 2024, {.allow_loss = true});
+  EXPECT_TRUE(kept.refusals.empty()) << joined(kept.refusals);
+  EXPECT_EQ(losses_of(kept, Loss::undecided).size(), 3u);
+  EXPECT_EQ(kept.edits.size(), 1u) << "only the version changes";
+}
+
+TEST(ToVersion, EngineKeywordsAreNoQuestionOfVersion) {
+  EXPECT_TRUE(rewrite_of(deck_of_version(2022, "/ANIM/DT\n 0.0 1.0\n"), 2024).refusals.empty());
 }
 
 // ---- properties -----------------------------------------------------------------------------

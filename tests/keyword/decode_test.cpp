@@ -44,6 +44,33 @@ constexpr std::string_view schema_text = R"({"schemas":[
  {"keyword":"/X/NEWGROUP","cards":[
     {"name":"pair","versions":[2024,null],"repeat":"group",
      "fields":[{"name":"p","cols":[1,10],"type":"int"}]}]},
+ {"keyword":"/X/ALTERNATIVES","cards":[
+    {"name":"head","fields":[{"name":"mode","cols":[1,10],"type":"int"},
+      {"name":"area","cols":[11,30],"type":"real","when":[{"field":"mode","in":[1]}]},
+      {"name":"f","cols":[11,20],"type":"int","when":[{"field":"mode","not_in":[1]}]}]},
+    {"name":"either","fields":[
+      {"name":"a","cols":[1,20],"type":"real","when":[{"field":"mode","in":[1]}]},
+      {"name":"b","cols":[1,10],"type":"int","when":[{"field":"mode","in":[2]}]}]},
+    {"name":"last","fields":[{"name":"z","cols":[1,10],"type":"int"}]}]},
+ {"keyword":"/X/COUNTED","cards":[
+    {"name":"counts","fields":[{"name":"N","cols":[1,10],"type":"int"},
+                               {"name":"M","cols":[11,20],"type":"int"}]},
+    {"name":"ids","repeat":"ids","count":"N","per_line":3,"fields":[
+      {"name":"item","cols":[1,10],"type":"id","ref":"node"}]},
+    {"name":"head","repeat":"group","count":"M","fields":[{"name":"two","cols":[1,10],"type":"int"}]},
+    {"name":"more","repeat":"group","count":"M","when":[{"field":"two","in":[1]}],
+     "fields":[{"name":"c","cols":[1,20],"type":"real"}]},
+    {"name":"pairs","repeat":"rows","count":2,"optional":true,
+     "fields":[{"name":"p","cols":[1,10],"type":"int"}]},
+    {"name":"end","optional":true,"fields":[{"name":"e","cols":[1,10],"type":"int"}]}]},
+ {"keyword":"/X/WORDS","cards":[
+    {"name":"names","repeat":"words","fields":[{"name":"var","cols":[1,10],"type":"text"}]},
+    {"name":"ids","repeat":"ids","fields":[{"name":"item","cols":[1,10],"type":"id","ref":"node"}]}]},
+ {"keyword":"/X/FORMS","cards":[
+    {"name":"one","fields":[{"name":"r","cols":[1,10],"type":"int"}]},
+    {"name":"long","when":[{"lines":true,"in":[3]}],
+     "fields":[{"name":"c0","cols":[1,10],"type":"int"}]},
+    {"name":"end","fields":[{"name":"p","cols":[1,10],"type":"int"}]}]},
  {"keyword":"/X/TAIL","opaque_tail":true,"cards":[
     {"name":"one","fields":[{"name":"a","cols":[1,10],"type":"int"}]}]}
 ]})";
@@ -99,6 +126,82 @@ TEST(Decode, ConditionalLinesFollowTheirFlag) {
   EXPECT_EQ(d.result.real("v"), 2.5);
   EXPECT_EQ(d.result.real("w"), 1000);
   EXPECT_TRUE(d.findings.all().empty());
+}
+
+TEST(Decode, CellsOfALineFollowAFlagOfTheSameLine) {
+  const Decoded one("/X/ALTERNATIVES/5\nt\n" + cells({{10, "1"}, {28, "2.5"}}) +
+                    cells({{18, "0.5"}}) + cells({{10, "7"}}));
+  EXPECT_EQ(one.result.real("area"), 2.5);
+  EXPECT_EQ(one.result.find("f"), nullptr);
+  EXPECT_EQ(one.result.real("a"), 0.5);
+  EXPECT_EQ(one.result.integer("z"), 7);
+  const Decoded two("/X/ALTERNATIVES/5\nt\n" + cells({{10, "2"}, {20, "33"}}) + cells({{10, "4"}}) +
+                    cells({{10, "7"}}));
+  EXPECT_EQ(two.result.integer("f"), 33);
+  EXPECT_EQ(two.result.find("area"), nullptr);
+  EXPECT_EQ(two.result.integer("b"), 4);
+  EXPECT_EQ(two.result.integer("z"), 7);
+}
+
+TEST(Decode, ALineNoneOfWhoseCellsIsReadIsNotThere) {
+  const Decoded d("/X/ALTERNATIVES/5\nt\n" + cells({{10, "3"}}) + cells({{10, "7"}}));
+  EXPECT_EQ(d.result.integer("z"), 7);
+  EXPECT_TRUE(d.result.extra.empty());
+}
+
+TEST(Decode, ACountedListTakesItsLinesAndKeepsThePlacesOfBlankCells) {
+  const Decoded d("/X/COUNTED/5\nt\n" + cells({{10, "4"}}) + cells({{10, "11"}, {30, "13"}}) +
+                  cells({{10, "14"}, {20, "99"}}) + cells({{10, "1"}}) + cells({{10, "2"}}) +
+                  cells({{10, "8"}}));
+  std::vector<std::int64_t> items;
+  for (const DecodedCard& card : d.result.cards)
+    for (const Cell& cell : card.cells)
+      if (cell.field->name == "item") items.push_back(cell.integer);
+  EXPECT_THAT(items, ::testing::ElementsAre(11, 0, 13, 14));
+  EXPECT_EQ(d.result.cards[1].round, 1);
+  EXPECT_EQ(d.result.cards[2].round, 2);
+  EXPECT_EQ(d.result.integer("p"), 1);
+  EXPECT_EQ(d.result.integer("e"), 8);
+}
+
+TEST(Decode, ACountedGroupComesThatOftenAndLooksAtItsOwnRound) {
+  const Decoded d("/X/COUNTED/5\nt\n" + cells({{20, "2"}}) + cells({{10, "1"}}) +
+                  cells({{10, "2.5"}}) + cells({{10, "0"}}) + cells({{10, "5"}}) +
+                  cells({{10, "6"}}) + cells({{10, "9"}}));
+  std::vector<int> rounds;
+  for (const DecodedCard& card : d.result.cards)
+    if (card.schema->name == "head" || card.schema->name == "more") rounds.push_back(card.round);
+  EXPECT_THAT(rounds, ::testing::ElementsAre(1, 1, 2));
+  EXPECT_EQ(d.result.real("c"), 2.5);
+  EXPECT_EQ(d.result.integer("e"), 9);
+  EXPECT_TRUE(d.result.extra.empty());
+}
+
+TEST(Decode, AnImpossibleCountEndsWithTheBlock) {
+  const Decoded d("/X/COUNTED/5\nt\n" + cells({{1, "2000000000"}, {11, "2000000000"}}) +
+                  cells({{10, "11"}}));
+  EXPECT_EQ(d.result.cards.size(), 2u);
+  EXPECT_EQ(count(d.findings, "DK029"), 2u);
+}
+
+TEST(Decode, NamesAreReadAsLongAsLinesBeginWithAWord) {
+  const Decoded d("/X/WORDS/5\nt\nDEF       XREAC\nV\n" + cells({{10, "12"}, {20, "13"}}));
+  std::string names;
+  for (const DecodedCard& card : d.result.cards)
+    for (const Cell& cell : card.cells)
+      if (cell.field->name == "var") names += std::string(cell.text) + " ";
+  EXPECT_EQ(names, "DEF XREAC V ");
+  EXPECT_EQ(d.result.integer("item"), 12);
+}
+
+TEST(Decode, TheNumberOfLinesTellsTwoFormsApart) {
+  const Decoded longer("/X/FORMS/5\nt\n" + cells({{10, "1"}}) + cells({{10, "2"}}) +
+                       cells({{10, "3"}}));
+  EXPECT_EQ(longer.result.integer("c0"), 2);
+  EXPECT_EQ(longer.result.integer("p"), 3);
+  const Decoded shorter("/X/FORMS/5\nt\n" + cells({{10, "1"}}) + cells({{10, "3"}}));
+  EXPECT_EQ(shorter.result.find("c0"), nullptr);
+  EXPECT_EQ(shorter.result.integer("p"), 3);
 }
 
 TEST(Decode, AMissingLineNamesTheFlagThatAsksForIt) {

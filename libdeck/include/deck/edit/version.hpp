@@ -6,7 +6,8 @@
 namespace deck {
 
 struct VersionOptions {
-  /// Drop values that the other version has no cell for. Without it such a value is a refusal.
+  /// Drop values that the other version has no cell for, and keep blocks whose columns there are
+  /// not known as they are. Without it both are refusals.
   bool allow_loss = false;
 };
 
@@ -14,10 +15,11 @@ struct VersionOptions {
 /// layout differs between its own version and that one: cells that both have keep their text, cells
 /// that only the old one has are blanked, lines are inserted, removed and moved as the new layout
 /// asks. Comments stay where they are. Loss report: one `kept` per block that was changed;
-/// `dropped` for a value that is not at its default and has no cell any more (a refusal without
-/// allow_loss); `undecided`, always a refusal, where text stands in columns whose meaning differs
-/// and the schema does not tell what it was. Blocks that no schema describes in full are listed in
-/// the notes. Refused as a whole: unknown target, decks older than version 100 or without /BEGIN.
+/// `dropped` for a value that is not at its default and has no cell any more; `undecided` for every
+/// keyword of which not every column is known in both versions, with the number of its blocks, and
+/// for values that do not fit. `dropped` and `undecided` are refusals without allow_loss; a
+/// smoothed surface (Ists) that would be read as a node group always is. Refused as a whole:
+/// unknown target, decks older than version 100 or without /BEGIN.
 Rewrite to_version(const EditContext& context, int version, const VersionOptions& options = {});
 
 }  // namespace deck

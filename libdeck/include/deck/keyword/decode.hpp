@@ -1,5 +1,5 @@
-// Decoding: the lines of a block against its schema. Every value keeps its span, so that a diagnostic
-// can point at the columns and an edit can change them and nothing else.
+// Decoding: the lines of a block against its schema. Every value keeps its span, so that a
+// diagnostic can point at the columns and an edit can change them and nothing else.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -14,20 +14,23 @@ namespace deck {
 /// One decoded cell.
 struct Cell {
   const Field* field = nullptr;
-  Span span;                ///< its columns on the line, clipped to the line (may be empty)
-  std::string_view text;    ///< trimmed
+  Span span;              ///< its columns on the line, clipped to the line (may be empty)
+  std::string_view text;  ///< trimmed
   NumberStatus status = NumberStatus::blank;
-  std::int64_t integer = 0; ///< int, id, flag; what the reference solver reads
-  double real = 0;          ///< real cells, in the deck's units
-  bool parameter = false;   ///< the value came from a &parameter
+  std::int64_t integer = 0;  ///< int, id, flag; what the reference solver reads
+  double real = 0;           ///< real cells, in the deck's units
+  bool parameter = false;    ///< the value came from a &parameter
   bool blank() const { return status == NumberStatus::blank; }
 };
 
 struct DecodedCard {
   const CardSchema* schema = nullptr;
-  Line line;                ///< invalid: the line is missing
-  std::vector<Cell> cells;  ///< one per field of this version; for Repeat::ids one per non-blank id
+  Line line;  ///< invalid: the line is missing
+  /// One per field of this version whose conditions hold; for Repeat::ids one per non-blank id, for
+  /// lists with a count one per id.
+  std::vector<Cell> cells;
   bool free_format = false;
+  int round = 0;  ///< repeated cards and counted lists: which time, or which line, from 1
   bool missing() const { return !line.valid(); }
 };
 
@@ -57,7 +60,8 @@ Dimension dimension_of(const Field& field, const DecodedBlock& block);
 /// Value of a real cell in working units.
 double working_value(const Deck& deck, const DecodedBlock& block, const Cell& cell);
 
-/// Cells of one line. Free format if the line holds a comma (titles never are).
+/// Cells of one line. Free format if the line holds a comma (titles never are). Conditions of cells
+/// can look at this line only: where they test another field they count as true.
 DecodedCard decode_line(const Deck& deck, const Block& block, const CardSchema& card,
                         const Line& line, Diagnostics* diagnostics);
 

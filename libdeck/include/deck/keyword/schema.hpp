@@ -29,52 +29,63 @@ enum class FieldType : std::uint8_t {
   id,       ///< integer that refers to another entity (see Field::ref)
 };
 
-/// A test on an integer field of the same block that was read on an earlier card.
+/// A test on a field of the same block that was read on an earlier card or, for the condition of a
+/// cell, on the same line.
 struct Condition {
+  /// Instead of a field: the number of data lines of the block, its title excluded.
+  static constexpr std::string_view data_lines = "(data lines)";
+
   std::string field;
-  std::vector<std::int64_t> in;           ///< the value is one of these (empty: not tested)
-  std::optional<std::int64_t> min, max;   ///< and within these bounds
+  std::vector<std::int64_t> in;          ///< the value is one of these (empty: not tested)
+  std::vector<std::int64_t> not_in;      ///< and none of these
+  std::optional<std::int64_t> min, max;  ///< and within these bounds
   bool holds(std::int64_t value) const;
 };
 
 /// One fixed-column cell. Columns are 1-based and inclusive.
 struct Field {
-  std::string name;                       ///< the manual's name, e.g. "Fscalegap"
-  int first = 0, last = 0;                ///< columns
+  std::string name;         ///< the manual's name, e.g. "Fscalegap"
+  int first = 0, last = 0;  ///< columns
   FieldType type = FieldType::integer;
-  std::string ref;                        ///< for ids: kind of the target ("grnod", "surf", "node", ...)
+  std::string ref;                   ///< for ids: kind of the target ("grnod", "surf", "node", ...)
   /// For ids: the solver stops with this message (0: number not known) where the target does not
   /// exist, has no member, or is not named at all. Without a value that is legal or not known.
   std::optional<int> missing, empty, required;
-  int from = 0, until = 9999;             ///< input versions that have this cell
-  std::vector<std::int64_t> values;       ///< legal values (empty: any)
-  std::optional<double> min, max;         ///< legal range, inclusive
-  bool min_open = false, max_open = false;///< the bound itself is not legal
-  std::string default_text;               ///< the effective value of 0/blank, in words or a number
+  int from = 0, until = 9999;        ///< input versions that have this cell
+  std::vector<Condition> when;       ///< all must hold; a line all of whose cells fail is none
+  std::vector<std::int64_t> values;  ///< legal values (empty: any)
+  std::optional<double> min, max;    ///< legal range, inclusive
+  bool min_open = false, max_open = false;  ///< the bound itself is not legal
+  std::string default_text;  ///< the effective value of 0/blank, in words or a number
   Dimension dimension;
-  bool dimension_known = true;            ///< false: unit conversion must refuse this field
+  bool dimension_known = true;  ///< false: unit conversion must refuse this field
   /// Dimension that depends on an integer field, first match wins.
   std::vector<std::pair<std::vector<Condition>, Dimension>> dimension_when;
-  bool ignored = false;                   ///< the reference solver reads it and does nothing with it
-  std::string doc;                        ///< one line
-  std::string from_manual;                ///< where manual and reference solver differ, one line
+  bool ignored = false;     ///< the reference solver reads it and does nothing with it
+  std::string doc;          ///< one line
+  std::string from_manual;  ///< where manual and reference solver differ, one line
   bool in_version(int version) const { return version >= from && version <= until; }
 };
 
 enum class Repeat : std::uint8_t {
   once,
   rows,   ///< this card repeats to the end of the block
-  ids,    ///< id list: cells of the first field's width to the end of every line
-  group,  ///< this and the following cards marked `group` repeat together to the end of the block
+  ids,    ///< id list: cells of the last field's width to the end of every line
+  group,  ///< this and the following cards marked `group` with the same count repeat together
 };
 
 /// One line of a block.
 struct CardSchema {
-  std::string name;               ///< what the card holds ("ids and flags", "friction")
-  int from = 0, until = 9999;     ///< input versions that have this card
-  std::vector<Condition> when;    ///< all must hold; empty: always present
+  std::string name;             ///< what the card holds ("ids and flags", "friction")
+  int from = 0, until = 9999;   ///< input versions that have this card
+  std::vector<Condition> when;  ///< all must hold; empty: always present
   Repeat repeat = Repeat::once;
-  bool optional = false;          ///< may be missing at the end of the block without a complaint
+  /// How often a repeated card or group comes, or how many cells a list has: an integer field or a
+  /// number. Empty: to the end of the block.
+  std::string count;
+  int per_line = 0;       ///< lists with a count: cells of a line
+  bool words = false;     ///< lists: as many lines as do not begin with a number
+  bool optional = false;  ///< may be missing at the end of the block without a complaint
   std::vector<Field> fields;
   std::string doc;
   bool in_version(int version) const { return version >= from && version <= until; }
@@ -83,20 +94,25 @@ struct CardSchema {
 struct Schema {
   std::string keyword;               ///< canonical, e.g. "/INTER/TYPE7"
   std::vector<std::string> aliases;  ///< e.g. "/PROP/TYPE1" for "/PROP/SHELL"
-  std::string kind;                  ///< entity kind whose ids it defines ("inter", "surf", ...); may be empty
-  bool has_id = true;                ///< header carries an id
-  bool has_title = true;             ///< a title line follows the header
-  bool has_unit = true;              ///< header may carry a unit id after the id
-  bool bulk = false;                 ///< read by the fast path straight into arrays
+  std::string kind;       ///< entity kind whose ids it defines ("inter", "surf", ...); may be empty
+  bool has_id = true;     ///< header carries an id
+  bool has_title = true;  ///< a title line follows the header
+  bool has_unit = true;   ///< header may carry a unit id after the id
+  bool bulk = false;      ///< read by the fast path straight into arrays
   /// Described in part: lines after the described cards, and columns between the described cells,
   /// are legal and not interpreted.
   bool opaque_tail = false;
-  int from = 0;                      ///< first input version that knows the keyword
+  /// With opaque_tail: every line and cell that the solver reads is described after all, for every
+  /// version from 51 on. Cells can be moved; what some of them mean is not interpreted.
+  bool full_layout = false;
+  int from = 0;  ///< first input version that knows the keyword
   std::string doc;
   std::vector<CardSchema> cards;
-  std::string source;                ///< file name the schema came from
+  std::string source;  ///< file name the schema came from
 
   const Field* find_field(std::string_view name) const;
+  /// True if no line and no column of the block has a meaning that the cards do not tell.
+  bool layout_known() const { return !opaque_tail || full_layout; }
 };
 
 /// All known schemas and the longest-prefix lookup of header lines.
