@@ -1,17 +1,17 @@
 #include "deck/keyword/decode.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <functional>
-#include <span>
 
+#include "keyword/decode_parts.hpp"
 #include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
 
 namespace deck {
 namespace {
 
+using detail::Findings;
 using detail::line_columns;
+using detail::LineContext;
 using detail::LineRule;
 using detail::trim;
 
@@ -21,43 +21,6 @@ std::string quoted(std::string_view text) {
   for (const char c : text.substr(0, longest)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
   return out + (text.size() > longest ? "…'" : "'");
 }
-
-/// Findings of one decode call, about one block.
-class Findings {
- public:
-  Findings(Diagnostics* sink, const Block& block) : sink_(sink), block_(block) {}
-  bool on() const { return sink_ != nullptr; }
-  /// Counts one finding; true if its message is wanted. Then keep() it.
-  bool wants(std::string_view rule) { return sink_ != nullptr && sink_->wants(rule); }
-
-  Diagnostic* report(std::string_view rule, Severity severity, Span span, std::string message,
-                     std::string behaviour, std::string help, int number = 0,
-                     Severity number_severity = Severity::warning) {
-    return wants(rule) ? keep(rule, severity, span, std::move(message), std::move(behaviour),
-                              std::move(help), number, number_severity)
-                       : nullptr;
-  }
-
-  Diagnostic* keep(std::string_view rule, Severity severity, Span span, std::string message,
-                   std::string behaviour, std::string help, int number = 0,
-                   Severity number_severity = Severity::warning) {
-    Diagnostic d;
-    d.rule = rule;
-    d.severity = severity;
-    d.span = span;
-    d.message = std::move(message);
-    d.reference_behaviour = std::move(behaviour);
-    d.help = std::move(help);
-    if (number != 0) d.reference = ReferenceMessage{number, number_severity};
-    d.keyword = std::string(block_.keyword);
-    d.id = block_.id.value;
-    return &sink_->add(std::move(d));
-  }
-
- private:
-  Diagnostics* sink_;
-  const Block& block_;
-};
 
 std::string shown(double value) {
   const auto text = format_real(value, 24);
@@ -319,12 +282,6 @@ double DecodedBlock::real(std::string_view field) const {
 
 namespace {
 
-/// How the conditions of the cells of a line find the cells of other lines, and how long a list is.
-struct LineContext {
-  const std::function<std::int64_t(std::string_view)>* value = nullptr;
-  int cells = 0;  ///< of a list, on this line; 0: not known
-};
-
 bool holds_on_line(const Field& field, const DecodedCard& line, const LineContext& context) {
   return std::all_of(field.when.begin(), field.when.end(), [&](const Condition& c) {
     for (const Cell& cell : line.cells)
@@ -380,9 +337,11 @@ void read_free(const Deck& deck, const Block& block, Findings& findings, const L
                     "it drops the text", "delete it, or check the commas of the line", 100213);
 }
 
-DecodedCard decode_in_context(const Deck& deck, const Block& block, const CardSchema& card,
-                              const Line& line, Diagnostics* diagnostics,
-                              const LineContext& context) {
+}  // namespace
+
+DecodedCard detail::decode_in_context(const Deck& deck, const Block& block, const CardSchema& card,
+                                      const Line& line, Diagnostics* diagnostics,
+                                      const LineContext& context) {
   Findings findings(diagnostics, block);
   DecodedCard out;
   out.schema = &card;
@@ -411,251 +370,9 @@ DecodedCard decode_in_context(const Deck& deck, const Block& block, const CardSc
   return out;
 }
 
-}  // namespace
-
 DecodedCard decode_line(const Deck& deck, const Block& block, const CardSchema& card,
                         const Line& line, Diagnostics* diagnostics) {
-  return decode_in_context(deck, block, card, line, diagnostics, {});
-}
-
-namespace {
-
-/// One decode() call: the state that its steps share.
-class BlockDecoder {
- public:
-  BlockDecoder(const Deck& deck, const Block& block, Diagnostics* diagnostics)
-      : deck_(deck),
-        block_(block),
-        diagnostics_(diagnostics),
-        findings_(diagnostics, block),
-        cursor_(deck.sources, block) {
-    out_.block = &block;
-  }
-
-  DecodedBlock run() {
-    const Schema* schema = block_.schema;
-    if (schema == nullptr) return std::move(out_);
-    read_title(*schema);
-    if (block_.opaque) return std::move(out_);
-    for (std::size_t i = 0; i < schema->cards.size(); ++i) {
-      const CardSchema& card = schema->cards[i];
-      if (card.repeat == Repeat::group) {
-        std::size_t count = 1;
-        while (i + count < schema->cards.size() &&
-               schema->cards[i + count].repeat == Repeat::group &&
-               schema->cards[i + count].count == card.count)
-          ++count;
-        const bool to_the_end = read_group({schema->cards.data() + i, count});
-        if (to_the_end) break;
-        i += count - 1;
-      } else if (holds(card) && !read_card(card)) {
-        break;
-      }
-    }
-    read_extra(*schema);
-    return std::move(out_);
-  }
-
- private:
-  void read_title(const Schema& schema) {
-    if (schema.has_title && block_.version >= 51) {
-      out_.title_line = cursor_.next();
-      out_.title = std::string(detail::trim_right(out_.title_line.text.substr(0, line_columns)));
-    } else {
-      out_.title = std::string(block_.inline_title);
-    }
-  }
-
-  /// The cells that conditions look at: those of the same round first, then the cards before.
-  const Cell* search(std::string_view field, std::size_t once, std::size_t round) const {
-    for (std::size_t k = out_.cards.size(); k-- > round;)
-      for (const Cell& cell : out_.cards[k].cells)
-        if (cell.field->name == field) return &cell;
-    for (std::size_t k = 0; k < once; ++k)
-      for (const Cell& cell : out_.cards[k].cells)
-        if (cell.field->name == field) return &cell;
-    return nullptr;
-  }
-
-  std::int64_t value_of(std::string_view field, std::size_t once, std::size_t round) {
-    if (field == Condition::data_lines) return data_lines();
-    const Cell* cell = search(field, once, round);
-    return cell ? cell->integer : 0;
-  }
-
-  /// Data lines of the block behind its title.
-  std::int64_t data_lines() {
-    if (lines_ < 0) {
-      LineCursor cursor(deck_.sources, block_);
-      lines_ = block_.schema->has_title && block_.version >= 51 ? -1 : 0;
-      while (cursor.next().valid()) ++lines_;
-      lines_ = std::max<std::int64_t>(lines_, 0);
-    }
-    return lines_;
-  }
-
-  /// True if the card has a line here. A line none of whose cells is read does not exist.
-  bool holds(const CardSchema& card, std::size_t once, std::size_t round) {
-    const auto all = [&](const std::vector<Condition>& when) {
-      return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
-        return c.holds(value_of(c.field, once, round));
-      });
-    };
-    if (!card.in_version(block_.version) || !all(card.when)) return false;
-    bool any = false;
-    for (const Field& f : card.fields) {
-      if (!f.in_version(block_.version)) continue;
-      if (f.when.empty() || all(f.when)) return true;
-      any = true;
-    }
-    return !any;
-  }
-  bool holds(const CardSchema& card) { return holds(card, out_.cards.size(), out_.cards.size()); }
-
-  void add(const CardSchema& card, const Line& line, std::size_t once, std::size_t round,
-           int number = 0, int cells = 0) {
-    const std::function<std::int64_t(std::string_view)> value = [&](std::string_view field) {
-      return value_of(field, once, round);
-    };
-    out_.cards.push_back(
-        decode_in_context(deck_, block_, card, line, diagnostics_, {&value, cells}));
-    out_.cards.back().round = number;
-  }
-
-  /// A card that is no group. False if it took all lines to the end of the block.
-  bool read_card(const CardSchema& card) {
-    const std::size_t once = out_.cards.size();
-    if (card.repeat == Repeat::once) {
-      const Line line = cursor_.next();
-      if (!line.valid() && card.optional) return true;
-      if (!line.valid()) report_missing(card);
-      add(card, line, once, once);
-      return true;
-    }
-    if (card.words) {
-      for (LineCursor ahead = cursor_;; cursor_ = ahead) {
-        const Line line = ahead.next();
-        if (!line.valid() || !begins_with_word(line.text)) return true;
-        add(card, line, once, once);
-      }
-    }
-    if (card.repeat == Repeat::ids && !card.count.empty()) {
-      const std::int64_t count = count_of(card, once);
-      int number = 0;
-      for (std::int64_t done = 0; done < count; done += card.per_line) {
-        const Line line = cursor_.next();
-        if (!line.valid()) {
-          if (!card.optional) report_missing(card);
-          return true;
-        }
-        add(card, line, once, once, ++number,
-            static_cast<int>(std::min<std::int64_t>(card.per_line, count - done)));
-      }
-      return true;
-    }
-    return !read_group({&card, 1});
-  }
-
-  static bool begins_with_word(std::string_view text) {
-    const std::string_view word = trim(text.substr(0, 10));
-    if (word.empty()) return false;
-    return std::isalpha(static_cast<unsigned char>(word.front())) != 0;
-  }
-
-  std::int64_t count_of(const CardSchema& card, std::size_t once) {
-    const IntegerCell number = read_integer(card.count);
-    return number.status == NumberStatus::ok ? number.value : value_of(card.count, once, once);
-  }
-
-  void report_missing(const CardSchema& card) {
-    if (!findings_.wants("DK029")) return;
-    std::string why;
-    for (const Condition& c : card.when) {
-      const Cell* cause = out_.find(c.field);
-      why +=
-          " (present because " + c.field + " = " + std::to_string(cause ? cause->integer : 0) + ")";
-    }
-    Diagnostic* d = findings_.keep(
-        "DK029", Severity::warning, block_.header_span,
-        std::string(block_.keyword) + " ends before its line '" + card.name + "'" + why,
-        "it takes every cell of the line for 0 and goes on",
-        "add the line; blanks are enough where defaults are wanted", 100217);
-    for (const Condition& c : card.when)
-      if (const Cell* cause = out_.find(c.field))
-        d->notes.emplace_back(cause->span, c.field + " asks for the line");
-  }
-
-  /// Cards that repeat. True if they take all lines to the end of the block.
-  bool read_group(std::span<const CardSchema> group) {
-    if (std::none_of(group.begin(), group.end(),
-                     [&](const CardSchema& c) { return c.in_version(block_.version); }))
-      return false;
-    const std::size_t once = out_.cards.size();
-    const bool counted = !group[0].count.empty();
-    const std::int64_t rounds = counted ? count_of(group[0], once) : 0;
-    for (std::int64_t number = 1; !counted || number <= rounds; ++number) {
-      const std::size_t round = out_.cards.size();
-      for (const CardSchema& card : group) {
-        if (!holds(card, once, round)) continue;
-        const Line line = cursor_.next();
-        if (!line.valid()) {
-          if ((counted || out_.cards.size() > round) && !card.optional) report_missing(card);
-          return true;
-        }
-        add(card, line, once, round, static_cast<int>(std::min<std::int64_t>(number, 1 << 30)));
-      }
-      // A round with all conditions false takes no line.
-      if (out_.cards.size() == round) return false;
-    }
-    return false;
-  }
-
-  void read_extra(const Schema& schema) {
-    for (Line line = cursor_.next(); line.valid(); line = cursor_.next())
-      out_.extra.push_back(line);
-    if (!findings_.on() || schema.opaque_tail || schema.cards.empty()) return;
-    // One finding for all of them: a text that lost its comment mark has many lines.
-    const auto blank = [](const Line& line) { return trim(line.text).empty(); };
-    const auto first = std::find_if_not(out_.extra.begin(), out_.extra.end(), blank);
-    if (first == out_.extra.end() || !findings_.wants("DK030")) return;
-    const auto more = out_.extra.end() - first - std::count_if(first, out_.extra.end(), blank) - 1;
-    findings_.keep(
-        "DK030", Severity::warning, first->whole(),
-        std::string(block_.keyword) + " is complete; this line is one too many" +
-            (more > 0 ? ", and " + std::to_string(more) + " more follow" : ""),
-        "it ignores the line",
-        "check the flags that ask for optional lines, then delete the line or set the flag",
-        100219);
-  }
-
-  const Deck& deck_;
-  const Block& block_;
-  Diagnostics* diagnostics_;
-  Findings findings_;
-  LineCursor cursor_;
-  DecodedBlock out_;
-  std::int64_t lines_ = -1;  ///< data lines of the block, once they are counted
-};
-
-}  // namespace
-
-DecodedBlock decode(const Deck& deck, const Block& block, Diagnostics* diagnostics) {
-  return BlockDecoder(deck, block, diagnostics).run();
-}
-
-Dimension dimension_of(const Field& field, const DecodedBlock& block) {
-  for (const auto& [when, dimension] : field.dimension_when)
-    if (std::all_of(when.begin(), when.end(),
-                    [&](const Condition& c) { return c.holds(block.integer(c.field)); }))
-      return dimension;
-  return field.dimension;
-}
-
-double working_value(const Deck& deck, const DecodedBlock& block, const Cell& cell) {
-  const UnitSystem* units = deck.units_of(*block.block);
-  if (units == nullptr || cell.field == nullptr) return cell.real;
-  return cell.real *
-         conversion_factor(*units, deck.begin.working, dimension_of(*cell.field, block));
+  return detail::decode_in_context(deck, block, card, line, diagnostics, {});
 }
 
 }  // namespace deck

@@ -390,7 +390,7 @@ TEST_F(SchemaDirectory, AMissingDirectoryIsAnIoError) {
 }
 
 TEST(ConditionTest, ListAndBoundsMustBothHold) {
-  Condition condition{"f", {1, 2, 9}, 2, std::nullopt};
+  Condition condition{"f", {1, 2, 9}, {}, 2, std::nullopt};
   EXPECT_FALSE(condition.holds(1));
   EXPECT_TRUE(condition.holds(2));
   EXPECT_FALSE(condition.holds(3));

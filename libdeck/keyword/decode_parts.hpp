@@ -1,0 +1,60 @@
+// What decoding of a line and decoding of a block share: the findings of one call, and what the
+// cells of a line can know about other lines. Private to the keyword stage.
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "deck/keyword/decode.hpp"
+
+namespace deck::detail {
+
+/// Findings of one decode call, about one block.
+class Findings {
+ public:
+  Findings(Diagnostics* sink, const Block& block) : sink_(sink), block_(block) {}
+  bool on() const { return sink_ != nullptr; }
+  /// Counts one finding; true if its message is wanted. Then keep() it.
+  bool wants(std::string_view rule) { return sink_ != nullptr && sink_->wants(rule); }
+
+  Diagnostic* report(std::string_view rule, Severity severity, Span span, std::string message,
+                     std::string behaviour, std::string help, int number = 0,
+                     Severity number_severity = Severity::warning) {
+    return wants(rule) ? keep(rule, severity, span, std::move(message), std::move(behaviour),
+                              std::move(help), number, number_severity)
+                       : nullptr;
+  }
+
+  Diagnostic* keep(std::string_view rule, Severity severity, Span span, std::string message,
+                   std::string behaviour, std::string help, int number = 0,
+                   Severity number_severity = Severity::warning) {
+    Diagnostic d;
+    d.rule = rule;
+    d.severity = severity;
+    d.span = span;
+    d.message = std::move(message);
+    d.reference_behaviour = std::move(behaviour);
+    d.help = std::move(help);
+    if (number != 0) d.reference = ReferenceMessage{number, number_severity};
+    d.keyword = std::string(block_.keyword);
+    d.id = block_.id.value;
+    return &sink_->add(std::move(d));
+  }
+
+ private:
+  Diagnostics* sink_;
+  const Block& block_;
+};
+
+/// How the conditions of the cells of a line find the cells of other lines, and how long a list is.
+struct LineContext {
+  const std::function<std::int64_t(std::string_view)>* value = nullptr;
+  int cells = 0;  ///< of a list, on this line; 0: not known
+};
+
+DecodedCard decode_in_context(const Deck& deck, const Block& block, const CardSchema& card,
+                              const Line& line, Diagnostics* diagnostics,
+                              const LineContext& context);
+
+}  // namespace deck::detail
