@@ -135,7 +135,7 @@ TEST(Decode, CellsOfALineFollowAFlagOfTheSameLine) {
   EXPECT_EQ(one.result.find("f"), nullptr);
   EXPECT_EQ(one.result.real("a"), 0.5);
   EXPECT_EQ(one.result.integer("z"), 7);
-  const Decoded two("/X/ALTERNATIVES/5\nt\n" + cells({{10, "2"}, {20, "33"}}) + cells({{10, "4"}}) +
+  const Decoded two("/X/ALTERNATIVES/5\nt\n" + cells({{10, "2"}, {19, "33"}}) + cells({{10, "4"}}) +
                     cells({{10, "7"}}));
   EXPECT_EQ(two.result.integer("f"), 33);
   EXPECT_EQ(two.result.find("area"), nullptr);
@@ -150,8 +150,8 @@ TEST(Decode, ALineNoneOfWhoseCellsIsReadIsNotThere) {
 }
 
 TEST(Decode, ACountedListTakesItsLinesAndKeepsThePlacesOfBlankCells) {
-  const Decoded d("/X/COUNTED/5\nt\n" + cells({{10, "4"}}) + cells({{10, "11"}, {30, "13"}}) +
-                  cells({{10, "14"}, {20, "99"}}) + cells({{10, "1"}}) + cells({{10, "2"}}) +
+  const Decoded d("/X/COUNTED/5\nt\n" + cells({{10, "4"}}) + cells({{9, "11"}, {29, "13"}}) +
+                  cells({{9, "14"}, {19, "99"}}) + cells({{10, "1"}}) + cells({{10, "2"}}) +
                   cells({{10, "8"}}));
   std::vector<std::int64_t> items;
   for (const DecodedCard& card : d.result.cards)
@@ -179,13 +179,13 @@ TEST(Decode, ACountedGroupComesThatOftenAndLooksAtItsOwnRound) {
 
 TEST(Decode, AnImpossibleCountEndsWithTheBlock) {
   const Decoded d("/X/COUNTED/5\nt\n" + cells({{1, "2000000000"}, {11, "2000000000"}}) +
-                  cells({{10, "11"}}));
+                  cells({{9, "11"}}));
   EXPECT_EQ(d.result.cards.size(), 2u);
   EXPECT_EQ(count(d.findings, "DK029"), 2u);
 }
 
 TEST(Decode, NamesAreReadAsLongAsLinesBeginWithAWord) {
-  const Decoded d("/X/WORDS/5\nt\nDEF       XREAC\nV\n" + cells({{10, "12"}, {20, "13"}}));
+  const Decoded d("/X/WORDS/5\nt\nDEF       XREAC\nV\n" + cells({{9, "12"}, {19, "13"}}));
   std::string names;
   for (const DecodedCard& card : d.result.cards)
     for (const Cell& cell : card.cells)
