@@ -1,5 +1,7 @@
 // Ids on boundary conditions, loads, constraints and sensors: the schemas say which targets the
 // reference solver asks for; here the deck is held against them.
+#include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include "lint/check.hpp"
@@ -38,11 +40,29 @@ void each_demand(const LintContext& c, std::optional<int> Field::*demand, F&& f)
       }
 }
 
+/// Tables stand where functions are asked for. Their number follows that of their kind
+/// (/TABLE/1/id), so every number of the header counts.
+bool table_exists(const LintContext& c, std::int64_t id) {
+  return std::any_of(c.deck.blocks.begin(), c.deck.blocks.end(), [&](const Block& block) {
+    if (block.schema == nullptr || block.schema->keyword != "/TABLE") return false;
+    const std::int64_t offset = c.deck.offset_of(block, "funct");
+    std::string_view rest = block.header;
+    while (!rest.empty()) {
+      const std::size_t end = std::min(rest.find('/'), rest.size());
+      const IntegerCell number = read_integer(rest.substr(0, end));
+      if (number.value != 0 && number.value + offset == id) return true;
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return false;
+  });
+}
+
 void check_missing_target(const LintContext& c, const Rule& rule, Reporter& r) {
   each_demand(c, &Field::missing,
               [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
                 if (id == 0 || target_exists(c, cell.field->ref, id).value_or(true)) return;
                 const std::string_view kind = cell.field->ref;
+                if (kind == "funct" && table_exists(c, id)) return;
                 const bool group = kind == "grnod" || kind == "surf" || kind == "line";
                 std::string message =
                     fmt::format("{} of {} is {}, and there is no {}{} of that id", cell.field->name,

@@ -63,6 +63,14 @@ TEST(MissingTarget, FunctionSensorSkewAndNodeAreLookedFor) {
   }
 }
 
+TEST(MissingTarget, TableStandsForFunctionOfMaterial) {
+  const std::string card = "@/MAT/LAW76/5 Rho_I=1.0 E=2.0 Nu=0.3 TAB_ID1=9\n";
+  const Linted bad = lint_example(card);
+  EXPECT_TRUE(is_error(bad, "DK120")) << bad.list();
+  const Linted good = lint_example(card + "/TABLE/1/9\ntable\n         1\n         1\n");
+  EXPECT_FALSE(good.fires("DK120")) << good.list();
+}
+
 TEST(MissingTarget, IdsOfSubmodelAreShifted) {
   const auto deck = [](const char* offset, const char* group) {
     return std::string("//SUBMODEL/7\nmoved\n") + offset + "\n/GRNOD/NODE/" + group +
