@@ -166,7 +166,7 @@ TEST(EdgeWidth, IsHalfTheRootOfTheSharesOfItsShellsAndTheirHalfThicknessAtABorde
   d.node(1, 0, 0, 0).node(2, 4, 0, 0).node(3, 4, 4, 0).node(4, 0, 4, 0);
   d.node(5, 8, 0, 0).node(6, 8, 4, 0).node(7, 2, 2, 0.5).node(8, 6, 2.5, 0.5);
   d.shell_part(1, 0.6).truss_part(2, 0.25);
-  d.shell(1, 1, 1, 2, 3, 4).shell(2, 1, 2, 5, 6, 3).bar("TRUSS", 1, 2, 7, 8);
+  d.shell(1, 1, 1, 2, 3, 4).shell(2, 1, 2, 5, 6, 3).bar("TRUSS", 2, 9, 7, 8);
   d.segments("/LINE/SEG/1", {{2, 3}}).segments("/LINE/SEG/2", {{7, 8}});
   d.add(
       "/HEAT/MAT/1\n               300.0                 1.0                 2.0                 "

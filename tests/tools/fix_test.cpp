@@ -26,7 +26,9 @@ class FixCommand : public CommandLine {
 
 TEST_F(FixCommand, OnlyShowsUnlessAskedToWrite) {
   EXPECT_FALSE(is_clean("too_close_0000.rad"));
-  ASSERT_EQ(deck(std::string("fix --interface 1,2 ") + move + " too_close_0000.rad"), 0) << err();
+  EXPECT_EQ(deck(std::string("fix --interface 1,2 ") + move + " too_close_0000.rad"), 2);
+  EXPECT_NE(err().find("it has 1"), std::string::npos) << "the interfaces there are";
+  ASSERT_EQ(deck(std::string("fix --interface 1 ") + move + " too_close_0000.rad"), 0) << err();
   EXPECT_NE(out().find("nothing was written"), std::string::npos);
   EXPECT_EQ(read(dir_ / "too_close_0000.rad"), too_close_);
 }
