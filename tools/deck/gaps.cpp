@@ -58,8 +58,8 @@ Result<WhatIf> parse_what_if(const std::string& text) {
     if (v.status != NumberStatus::ok) return bad("the value of '" + name + "' is not a number");
     const bool is_flag = name == "Igap" || name == "Inacti" || name == "Irem_gap";
     const IntegerCell whole = read_integer(std::string_view(item).substr(equal + 1));
-    if (is_flag && (whole.status != NumberStatus::ok || whole.value < 0 || whole.value > 1000))
-      return bad("'" + name + "' is a flag, a whole number from 0 to 1000");
+    if (is_flag && (whole.status != NumberStatus::ok || std::abs(whole.value) > 1000))
+      return bad("'" + name + "' is a flag, a whole number of at most 1000");
     if (!is_flag && !(std::abs(v.value) <= 1e30))
       return bad("the value of '" + name + "' is out of range");
     const int flag = static_cast<int>(whole.value);
