@@ -367,6 +367,9 @@ class FileWriter {
     std::vector<const Cell*> have;
     for (const Cell& cell : old.cells)
       if (cell.field == &field) have.push_back(&cell);
+    // A list with a count ends before the line does: its cells behind it are blank.
+    while (have.size() > row.size() - first && have.back()->status == NumberStatus::blank)
+      have.pop_back();
     bool equal = have.size() == row.size() - first;
     for (std::size_t i = 0; equal && i < have.size(); ++i)
       equal = same(*have[i], row[first + i], {&path, {}, first + i});

@@ -221,6 +221,18 @@ TEST(DeckFromJson, RowsOfNodesAndIdsCanBeChangedAndAdded) {
   EXPECT_THAT(bytes_of(*deck), HasSubstr("        11         2         3\n         4         5\n"));
 }
 
+TEST(DeckFromJson, CellsOfACountedListKeepTheirBytes) {
+  const std::string text =
+      "#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n"
+      "                  kg                  mm                  ms\n"
+      "                  kg                  mm                  ms\n"
+      "/MAT/LAW62/11\nfoam\n               5e-11                   0\n"
+      "                   0         2         0                   0         0         0\n"
+      "                .015                .005\n                   2                  -2\n"
+      "                   0                   0\n/END\n";
+  EXPECT_EQ(main_of(Json::parse(json_of(text))), text);
+}
+
 TEST(DeckFromJson, TitleIdAndReferencesCanBeChanged) {
   Json doc = Json::parse(json_of(small));
   Json& block = block_of(doc, "/INTER/TYPE7");
