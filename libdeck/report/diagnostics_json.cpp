@@ -87,6 +87,14 @@ void write_document(JsonWriter& json, const LintedDeck& deck) {
       .field("suppressed", r.suppressed)
       .field("baselined", r.baselined)
       .end_object();
+  json.key("baseline_stale").begin_array();
+  for (const auto& [key, count] : r.stale)
+    json.begin_object(true)
+        .field("file", key.first)
+        .field("fingerprint", key.second)
+        .field("count", count)
+        .end_object();
+  json.end_array();
   json.key("counts").begin_object();
   for (const auto& [rule, count] : r.counts) json.field(rule, count);
   json.end_object();

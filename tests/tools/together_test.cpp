@@ -133,6 +133,27 @@ TEST_F(Together, AnOutputThatIsReadUnderAnotherNameIsRefused) {
   EXPECT_EQ(shared(), "# nothing that looks like a deck\n");
 }
 
+TEST_F(Together, SettingsThatTheCallReadsAreNoOutput) {
+  ASSERT_LE(deck("lint a/a_0000.rad --no-config --write-baseline base.json"), 1);
+  const std::string baseline = read(dir_ / "base.json");
+  EXPECT_EQ(deck("lint a/a_0000.rad --no-config --baseline base.json --json base.json"), 2);
+  EXPECT_EQ(read(dir_ / "base.json"), baseline);
+  write(dir_ / "a/.decklint.toml", "ignore = [\"DK223\"]\n");
+  EXPECT_EQ(deck("lint a/a_0000.rad -o junit=a/.decklint.toml"), 2);
+  EXPECT_EQ(read(dir_ / "a/.decklint.toml"), "ignore = [\"DK223\"]\n");
+}
+
+TEST_F(Together, WhatABaselineHidesNoMoreIsListed) {
+  write(dir_ / "common/x.inc", std::string(contact) + "/TITLE\n\tx\n");
+  ASSERT_LE(deck("lint a/a_0000.rad --no-config --write-baseline base.json"), 1);
+  write(dir_ / "common/x.inc", "/TITLE\nx\n");
+  deck("lint a/a_0000.rad --no-config --baseline base.json --json lint.json");
+  EXPECT_NE(err().find("do not occur any more"), std::string::npos) << err();
+  const auto json = nlohmann::json::parse(read(dir_ / "lint.json"));
+  ASSERT_FALSE(json["baseline_stale"].empty());
+  EXPECT_NE(json["baseline_stale"][0]["file"].get<std::string>().find("x.inc"), std::string::npos);
+}
+
 TEST_F(Together, AnotherDeckInTheDirectoryIsReplacedOnlyOnRequest) {
   const std::string older = main_deck("/TITLE\nsomebody else's\n");
   write(dir_ / "out/a/a_0000.rad", older);

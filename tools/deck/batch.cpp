@@ -85,6 +85,7 @@ int run(const BatchOptions& o) {
   if (!task) return usage(task.error().message);
   const auto decks = list_decks(o.common.decks, o.manifest);
   if (!decks) return usage(decks.error().message);
+  remember_read(o.manifest);
   if (decks->empty()) return usage("no decks: name some, or a directory, or a --manifest");
   if (const auto schemas = load_schemas(o.common); !schemas) return usage(schemas.error().message);
   Batch batch(o, std::move(*task), *decks, *shard,

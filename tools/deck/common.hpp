@@ -143,6 +143,7 @@ struct OutputRules {
 /// From now on no output is written over these files.
 void remember_read(const SourceSet& sources);
 void remember_read(const Source& source);
+void remember_read(const std::string& path);
 /// Error: the path is an existing file that the rules protect. Without `bytes` what will be written
 /// is not known yet; a file that holds it already is no obstacle.
 Result<void> check_output(const std::string& path, const OutputRules& rules = {},

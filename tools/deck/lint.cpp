@@ -74,6 +74,7 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
   if (baseline.empty() || !options.write_baseline.empty()) return out;
   const auto text = read_config_file(baseline, most_baseline_bytes);
   if (!text) return text.error();
+  remember_read(baseline);
   const auto parsed = parse_baseline(*text, baseline);
   if (!parsed) return parsed.error();
   if (const auto* entries = parsed->find(job.path))
@@ -167,6 +168,7 @@ class Run {
     job->path = path;
     const auto config = config_for(path);
     if (!config) return usage(config.error().message);
+    remember_read(config->path);
     const auto lint = lint_options(options_, *config, *job);
     if (!lint) return usage(lint.error().message);
     auto loaded = load(path, schemas_, common_, Stage::interfaces);

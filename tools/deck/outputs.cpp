@@ -84,6 +84,12 @@ void remember_read(const Source& source) {
     files_read().emplace(Identity{source.device(), source.inode()}, source.path());
 }
 
+void remember_read(const std::string& path) {
+  struct stat status {};
+  if (path != "-" && stat(path.c_str(), &status) == 0)
+    files_read().emplace(Identity{status.st_dev, status.st_ino}, path);
+}
+
 Result<void> check_output(const std::string& path, const OutputRules& rules,
                           std::optional<std::string_view> bytes) {
   struct stat status {};
@@ -91,9 +97,15 @@ Result<void> check_output(const std::string& path, const OutputRules& rules,
   const auto look = rules.follow_links ? stat : lstat;
   if (look(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
   if (const auto read = files_read().find({status.st_dev, status.st_ino});
-      read != files_read().end())
+      read != files_read().end()) {
+    if (rules.deck_tree)
+      return Error{Error::Code::config, path +
+                                            " is a file of the decks that are read; nothing was "
+                                            "written. Name another directory, or change them with "
+                                            "--in-place"};
     return refused(path, read->second == path ? "this call reads it"
                                               : "this call reads it, as " + read->second);
+  }
   if (rules.overwrite || !file_looks_like_deck(path)) return {};
   if (bytes && holds(path, static_cast<std::uint64_t>(status.st_size), *bytes)) return {};
   if (rules.deck_tree)
