@@ -1,3 +1,4 @@
+// The one place that starts threads: shared loops that carry exceptions and a cancel flag.
 #include "base/parallel.hpp"
 
 #include <exception>

@@ -1,3 +1,4 @@
+// Crossed elements: edges of the secondary side that pass through main segments, counted once.
 #include "deck/contact/crossings.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Gaps of a contact: default Gapmin, gaps of nodes and segments, the limits of Igap 3.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,3 +1,4 @@
+// Turns the interfaces of a model into elementary contacts, in the order of the solver.
 #include "deck/contact/scene.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tables and totals of a scene that every medium shows: nodes, edges and pairs counted apart.
 #include "deck/contact/view.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// From a contact of a scene to the card and the pairs that the force stage computes with.
 #include "deck/cycle/adapter.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Sums pair forces and stiffnesses into the nodes.
 #include "deck/cycle/assemble.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Curved main surfaces: sphere, cylinder and bicubic interpolation (Icurv 1 to 3), and Iadm.
 #include "cycle/curvature.hpp"
 
 #include <algorithm>

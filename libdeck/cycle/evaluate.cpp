@@ -1,3 +1,4 @@
+// Runs a plan over a packet of pairs: the composed kernel, then the effects outside it.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,4 @@
+// Heat between the two sides of a pair: conduction, radiation and friction heat.
 #include "deck/cycle/heat.hpp"
 
 #include <algorithm>

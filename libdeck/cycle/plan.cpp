@@ -1,3 +1,4 @@
+// Chooses the effects of an interface once, before any pair is looked at.
 #include "deck/cycle/plan.hpp"
 
 #include <string>

@@ -1,3 +1,4 @@
+// One cycle of all contacts of a scene: forces, energies, time steps, and which effects ran.
 #include "deck/cycle/scene_cycle.hpp"
 
 #include <algorithm>
