@@ -1,5 +1,4 @@
 // deck accuracy: what accuracy costs in time, on the hard cases or on the pairs of a deck.
-#include <CLI/CLI.hpp>
 
 #include <fstream>
 
@@ -122,26 +121,25 @@ int run(const Options& o) {
   return json.finish(code);
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  add_common(app, options->common);
-  app.get_option("decks")->required(false)->expected(0, -1)->description(
+  add_common(line, options->common);
+  line.existing("decks").required(false).any_number().describe(
       "Starter decks (*_0000.rad) whose candidate pairs are measured; none: the "
       "built-in hard cases");
-  app.add_option("--samples", options->samples,
-                 "Pairs per family of hard cases; of a deck, 40 times as many in all")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{10000000}))
-      ->capture_default_str();
-  app.add_option("--seed", options->seed, "Seed of the hard cases")->capture_default_str();
-  app.add_option("--repeats", options->repeats, "Timings per tier; the median counts")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_option("--csv", options->csv, "Write the figures to FILE ('-': standard output)")
-      ->type_name("FILE");
-  app.add_option("--svg", options->svg, "Write the chart of error against time to FILE")
-      ->type_name("FILE");
-  app.add_option("--html", options->html, "Write chart and table to FILE: one page, no network")
-      ->type_name("FILE");
+  line.option("--samples", options->samples,
+              "Pairs per family of hard cases; of a deck, 40 times as many in all")
+      .range(std::size_t{1}, std::size_t{10000000})
+      .show_default();
+  line.option("--seed", options->seed, "Seed of the hard cases").show_default();
+  line.option("--repeats", options->repeats, "Timings per tier; the median counts")
+      .range(1, 1000)
+      .show_default();
+  line.option("--csv", options->csv, "Write the figures to FILE ('-': standard output)")
+      .value("FILE");
+  line.option("--svg", options->svg, "Write the chart of error against time to FILE").value("FILE");
+  line.option("--html", options->html, "Write chart and table to FILE: one page, no network")
+      .value("FILE");
   return [options] { return run(*options); };
 }
 

@@ -1,20 +1,20 @@
 // The option --accuracy of the verbs that decide about contact.
 #pragma once
-#include <CLI/CLI.hpp>
 
 #include <string>
 
+#include "command_line.hpp"
 #include "deck/contact/scene.hpp"
 
 namespace deck::cli {
 
 /// Adds --accuracy; `value` keeps the word.
-inline void add_accuracy(CLI::App& app, std::string& value) {
-  app.add_option("--accuracy", value,
-                 "What decides that a pair is in contact: fast (plain double), reference (the "
-                 "solver's formula), robust (never wrong, filtered), exact (rationals)")
-      ->check(CLI::IsMember({"fast", "reference", "robust", "exact"}))
-      ->capture_default_str();
+inline void add_accuracy(CommandLine& line, std::string& value) {
+  line.option("--accuracy", value,
+              "What decides that a pair is in contact: fast (plain double), reference (the "
+              "solver's formula), robust (never wrong, filtered), exact (rationals)")
+      .one_of({"fast", "reference", "robust", "exact"})
+      .show_default();
 }
 
 inline Accuracy accuracy_of(const std::string& value) {

@@ -1,7 +1,6 @@
 // deck batch: one verb over many decks, each in a worker process; a result file per deck and a
 // summary. What is finished is remembered, so that a batch that was killed goes on where it
 // stopped.
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
@@ -27,7 +26,7 @@ Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all
     return Error{Error::Code::config, "--verb '" + o.verb + "': " + why};
   };
   BatchTask task;
-  std::vector<std::string> words = CLI::detail::split_up(o.verb);
+  const std::vector<std::string> words = split_words(o.verb);
   if (words.empty()) return refuse("name a verb");
   for (const Verb& v : all)
     if (v.name == words.front() &&
@@ -36,21 +35,14 @@ Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all
       task.verb = v;
   if (task.verb.setup == nullptr) return refuse("expected lint, params, gaps or cycle");
   task.words.assign(words.begin() + 1, words.end());
-  for (std::string& w : task.words) CLI::detail::remove_quotes(w);
-  CLI::App app;
-  const Action action = task.verb.setup(app);  // holds what the options are stored in
-  std::vector<std::string> arguments = {"deck", "--"};
-  arguments.insert(arguments.end(), task.words.rbegin(), task.words.rend());
-  try {
-    app.parse(arguments);
-  } catch (const CLI::ParseError& e) {
-    return refuse(e.what());
-  }
+  CommandLine line("", "");
+  const Action action = task.verb.setup(line);  // holds what the options are stored in
+  std::vector<std::string> arguments = task.words;
+  arguments.insert(arguments.end(), {"--", "deck"});
+  if (const auto parsed = line.parse(arguments); !parsed) return refuse(parsed.error().message);
   for (const std::string& name : not_in_a_batch)
-    if (const auto* option = app.get_option_no_throw(name);
-        option != nullptr && option->count() > 0)
-      return refuse(name + " is not for a batch");
-  if (app.get_option("decks")->count() != 1) return refuse("decks are named behind the options");
+    if (line.given(name)) return refuse(name + " is not for a batch");
+  if (line.existing("decks").count() != 1) return refuse("decks are named behind the options");
   for (const std::string& dir : o.common.include_paths)
     task.options.insert(task.options.end(), {"--include-path", dir});
   for (const std::string& dir : o.common.schema_dirs)
@@ -93,37 +85,35 @@ int run(const BatchOptions& o) {
   return batch.run();
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<BatchOptions>();
   BatchOptions& o = *options;
-  add_common(app, o.common);
-  app.get_option("decks")->required(false)->description(
+  add_common(line, o.common);
+  line.existing("decks").required(false).describe(
       "Starter decks, or directories: all *_0000.rad below them");
-  app.get_option("--json")->description(
-      "Write the summary to FILE as well; '-' is standard output");
-  app.get_option("--threads")->description("Threads of each worker; 0 shares out the processors");
-  app.add_option("-o,--output", o.directory, "Directory of the results; made if missing")
-      ->required()
-      ->type_name("DIR");
-  app.add_option("--manifest", o.manifest,
-                 "File with one deck per line, # begins a comment; '-' is standard input")
-      ->type_name("FILE");
-  app.add_option("--verb", o.verb,
-                 "What to do with each deck: lint, params, gaps (default) or cycle, with options: "
-                 "--verb 'lint --geometry'")
-      ->type_name("VERB");
-  app.add_option("-j,--jobs", o.jobs, "Decks at the same time; 0 takes all processors")
-      ->check(CLI::Range(0, 4096))
-      ->type_name("N");
-  app.add_option("--timeout", o.timeout, "Give a deck up after SECONDS (default 3600); 0: never")
-      ->check(finite_number(0, 1e9))
-      ->type_name("SECONDS");
-  app.add_option("--shard", o.shard, "Only part i of n: every n-th deck of the list")
-      ->type_name("i/n");
-  add_require_examined(app, o.common);
-  app.add_flag("--merge", o.merge, "Put the summaries of all shards in DIR together");
-  app.add_flag("--force", o.force, "Do finished decks again");
-  app.add_flag("--no-mpi", o.no_mpi, "Under mpirun: do not share the decks among the ranks");
+  line.existing("--json").describe("Write the summary to FILE as well; '-' is standard output");
+  line.existing("--threads").describe("Threads of each worker; 0 shares out the processors");
+  line.option("-o,--output", o.directory, "Directory of the results; made if missing")
+      .required()
+      .value("DIR");
+  line.option("--manifest", o.manifest,
+              "File with one deck per line, # begins a comment; '-' is standard input")
+      .value("FILE");
+  line.option("--verb", o.verb,
+              "What to do with each deck: lint, params, gaps (default) or cycle, with options: "
+              "--verb 'lint --geometry'")
+      .value("VERB");
+  line.option("-j,--jobs", o.jobs, "Decks at the same time; 0 takes all processors")
+      .range(0, 4096)
+      .value("N");
+  line.option("--timeout", o.timeout, "Give a deck up after SECONDS (default 3600); 0: never")
+      .number(0, 1e9)
+      .value("SECONDS");
+  line.option("--shard", o.shard, "Only part i of n: every n-th deck of the list").value("i/n");
+  add_require_examined(line, o.common);
+  line.flag("--merge", o.merge, "Put the summaries of all shards in DIR together");
+  line.flag("--force", o.force, "Do finished decks again");
+  line.flag("--no-mpi", o.no_mpi, "Under mpirun: do not share the decks among the ranks");
   return [options] { return run(*options); };
 }
 

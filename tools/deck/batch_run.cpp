@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -30,12 +29,12 @@ namespace {
 
 /// Runs a verb as `deck VERB ... DECK` would; its output goes where standard output goes.
 int run_verb(const BatchTask& task, const std::string& deck) {
-  CLI::App app("", "deck " + std::string(task.verb.name));
-  const Action action = task.verb.setup(app);
+  CommandLine line("", "deck " + std::string(task.verb.name));
+  const Action action = task.verb.setup(line);
   std::vector<std::string> arguments = task.options;
   arguments.insert(arguments.end(), {"--", deck});
-  std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
-  app.parse(arguments);
+  if (const auto parsed = line.parse(std::move(arguments)); !parsed)
+    throw std::runtime_error(parsed.error().message);
   return action();
 }
 

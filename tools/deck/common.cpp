@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -57,57 +56,43 @@ bool CommonOptions::color_on(int fd) const {
   return isatty(fd) == 1 && (term == nullptr || std::strcmp(term, "dumb") != 0);
 }
 
-CLI::Validator finite_number(double least, double most) {
-  const auto check = [least, most](std::string& text) -> std::string {
-    const RealCell cell = read_real(text);
-    const bool number =
-        cell.status == NumberStatus::ok || cell.status == NumberStatus::implicit_exponent;
-    if (number && cell.value >= least && cell.value <= most) return {};
-    return fmt::format("'{}' is not a number from {} to {}", text, least, most);
-  };
-  return CLI::Validator(check, "");
+void add_common_without_decks(CommandLine& line, CommonOptions& options) {
+  line.option("--json", options.json, "Write JSON to FILE; '-' is standard output").value("FILE");
+  line.flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  line.option("--color", options.color, "Colours: auto, always or never (NO_COLOR is honoured)")
+      .one_of({"auto", "always", "never"})
+      .value("WHEN");
+  line.option("--schemas", options.schema_dirs, "Add the keyword schemas (*.json) of DIR")
+      .value("DIR")
+      .one_each();
 }
 
-void add_common_without_decks(CLI::App& app, CommonOptions& options) {
-  app.add_option("--json", options.json, "Write JSON to FILE; '-' is standard output")
-      ->type_name("FILE");
-  app.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
-  app.add_option("--color", options.color, "Colours: auto, always or never (NO_COLOR is honoured)")
-      ->check(CLI::IsMember({"auto", "always", "never"}))
-      ->type_name("WHEN");
-  app.add_option("--schemas", options.schema_dirs, "Add the keyword schemas (*.json) of DIR")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
+void add_common(CommandLine& line, CommonOptions& options, bool with_json) {
+  line.option("decks", options.decks, "Starter decks (*_0000.rad); '-' is standard input")
+      .required()
+      .value("DECK");
+  add_common_without_decks(line, options);
+  if (!with_json) line.remove("--json");
+  line.option("--threads", options.threads, "Threads; 0 takes all processors")
+      .range(0, 1024)
+      .value("N");
+  line.bytes(
+          "--max-memory",
+          [&options](std::uint64_t bytes) {
+            options.memory.pair_bytes = options.memory.selection_bytes = bytes;
+          },
+          "Memory for the pairs of one contact (default 2GB), and for the members of all groups "
+          "(default 4GB); a contact that needs more is not evaluated, with a finding")
+      .value("SIZE");
+  line.option("--include-path", options.include_paths,
+              "Search included files in DIR as well (repeatable)")
+      .value("DIR")
+      .one_each();
 }
 
-void add_common(CLI::App& app, CommonOptions& options, bool with_json) {
-  app.add_option("decks", options.decks, "Starter decks (*_0000.rad); '-' is standard input")
-      ->required()
-      ->type_name("DECK");
-  add_common_without_decks(app, options);
-  if (!with_json) app.remove_option(app.get_option("--json"));
-  app.add_option("--threads", options.threads, "Threads; 0 takes all processors")
-      ->check(CLI::Range(0, 1024))
-      ->type_name("N");
-  app.add_option_function<std::uint64_t>(
-         "--max-memory",
-         [&options](std::uint64_t bytes) {
-           options.memory.pair_bytes = options.memory.selection_bytes = bytes;
-         },
-         "Memory for the pairs of one contact (default 2GB), and for the members of all groups "
-         "(default 4GB); a contact that needs more is not evaluated, with a finding")
-      ->transform(CLI::AsSizeValue(false))
-      ->type_name("SIZE");
-  app.add_option("--include-path", options.include_paths,
-                 "Search included files in DIR as well (repeatable)")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
-}
-
-void add_require_examined(CLI::App& app, CommonOptions& options) {
-  app.add_flag(
-      "--require-examined", options.require_examined,
-      "Exit 1 if the deck has no interface of a type that is examined (TYPE7, 10, 11, 19)");
+void add_require_examined(CommandLine& line, CommonOptions& options) {
+  line.flag("--require-examined", options.require_examined,
+            "Exit 1 if the deck has no interface of a type that is examined (TYPE7, 10, 11, 19)");
 }
 
 // ---- loading --------------------------------------------------------------------------------

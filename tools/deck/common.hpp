@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "command_line.hpp"
 #include "deck/edit/write.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
@@ -17,10 +18,6 @@
 #include "deck/model/model.hpp"
 #include "progress.hpp"
 #include "verbs.hpp"
-
-namespace CLI {
-class Validator;
-}  // namespace CLI
 
 namespace deck::cli {
 
@@ -52,20 +49,16 @@ struct CommonOptions {
   bool wants_text() const { return !quiet && json != "-"; }
 };
 
-/// For options that take a number: a finite one from `least` to `most`. (CLI::Range lets "nan"
-/// pass.)
-CLI::Validator finite_number(double least, double most);
-
 /// Adds the shared options. With `with_json` false the verb has no --json.
-void add_common(CLI::App& app, CommonOptions& options, bool with_json = true);
+void add_common(CommandLine& line, CommonOptions& options, bool with_json = true);
 /// Only those that do not need a deck: --json, --quiet, --color, --schemas.
-void add_common_without_decks(CLI::App& app, CommonOptions& options);
+void add_common_without_decks(CommandLine& line, CommonOptions& options);
 
 /// Built-in schemas plus those of --schemas. A directory that cannot be used is a usage error.
 Result<SchemaSet> load_schemas(const CommonOptions& options);
 
 /// Adds --require-examined, for verbs whose result is a verdict about contacts.
-void add_require_examined(CLI::App& app, CommonOptions& options);
+void add_require_examined(CommandLine& line, CommonOptions& options);
 
 /// How far to read.
 enum class Stage { blocks, model, interfaces };
@@ -148,8 +141,8 @@ void remember_read(const std::string& path);
 /// is not known yet; a file that holds it already is no obstacle.
 Result<void> check_output(const std::string& path, const OutputRules& rules = {},
                           std::optional<std::string_view> bytes = std::nullopt);
-/// The same for the files named on a command line, before the work begins; "" and "-" are none. Says
-/// what is wrong and returns exit_usage, or exit_clean.
+/// The same for the files named on a command line, before the work begins; "" and "-" are none.
+/// Says what is wrong and returns exit_usage, or exit_clean.
 int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths);
 /// Writes bytes to standard output ("-") or atomically to a file.
 Result<void> write_output(const std::string& path, std::string_view bytes);

@@ -1,7 +1,6 @@
 // deck completion: scripts with which bash, zsh and fish complete verbs, options and their values,
 // made from the options that the parser knows.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
@@ -249,13 +248,13 @@ int run(const Options& o) {
   return exit_clean;
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  app.group("");  // for the build and for setting up, not for the list of verbs
-  app.add_option("shell", options->shell, "bash, zsh or fish")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
-      ->type_name("SHELL");
+  line.hide();  // for the build and for setting up, not for the list of verbs
+  line.option("shell", options->shell, "bash, zsh or fish")
+      .required()
+      .one_of({"bash", "zsh", "fish"})
+      .value("SHELL");
   return [options] { return run(*options); };
 }
 

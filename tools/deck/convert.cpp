@@ -2,7 +2,6 @@
 // sees the deck as the one before left it; nothing is written before all of them have succeeded.
 #include <fmt/format.h>
 #include <unistd.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -375,34 +374,34 @@ int run(const Options& options) {
   return worst;
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  add_common(app, options->common, false);
-  app.add_option("--to", options->to,
-                 "Format to write: rad (Starter deck), json (typed fields with effective values)")
-      ->check(CLI::IsMember({"rad", "json"}))
-      ->type_name("FORMAT");
-  app.add_option("--from", options->from,
-                 "Format to read: rad, json (as written by --to json), lsdyna (contact keywords "
-                 "only)")
-      ->check(CLI::IsMember({"rad", "json", "lsdyna"}))
-      ->type_name("FORMAT");
-  app.add_option("-o,--output", options->directory,
-                 "Directory to write to; made if missing. The include tree keeps its relative "
-                 "names. With --to json also FILE.json")
-      ->type_name("DIR");
-  app.add_flag("--overwrite", options->overwrite,
-               "With -o: replace decks and includes that lie in DIR already and differ");
-  app.add_flag("--in-place", options->in_place, "Change the files of the deck");
-  app.add_flag("--backup{.orig}", options->backup_suffix,
-               "With --in-place: keep the old file under its name plus .orig (--backup=SUFFIX); a "
-               "backup is never replaced, the next one is .orig.2");
-  app.add_flag("--diff", options->diff,
-               "Write nothing; print the changes as a unified diff that git apply takes");
-  app.add_option("--report", options->report,
-                 "Loss report (JSON): what was kept, approximated, dropped, left undecided")
-      ->type_name("FILE");
-  add_step_options(app, options->steps);
+  add_common(line, options->common, false);
+  line.option("--to", options->to,
+              "Format to write: rad (Starter deck), json (typed fields with effective values)")
+      .one_of({"rad", "json"})
+      .value("FORMAT");
+  line.option("--from", options->from,
+              "Format to read: rad, json (as written by --to json), lsdyna (contact keywords "
+              "only)")
+      .one_of({"rad", "json", "lsdyna"})
+      .value("FORMAT");
+  line.option("-o,--output", options->directory,
+              "Directory to write to; made if missing. The include tree keeps its relative "
+              "names. With --to json also FILE.json")
+      .value("DIR");
+  line.flag("--overwrite", options->overwrite,
+            "With -o: replace decks and includes that lie in DIR already and differ");
+  line.flag("--in-place", options->in_place, "Change the files of the deck");
+  line.flag("--backup{.orig}", options->backup_suffix,
+            "With --in-place: keep the old file under its name plus .orig (--backup=SUFFIX); a "
+            "backup is never replaced, the next one is .orig.2");
+  line.flag("--diff", options->diff,
+            "Write nothing; print the changes as a unified diff that git apply takes");
+  line.option("--report", options->report,
+              "Loss report (JSON): what was kept, approximated, dropped, left undecided")
+      .value("FILE");
+  add_step_options(line, options->steps);
   return [options] {
     options->backup = !options->backup_suffix.empty();
     options->common.rewrites = options->in_place;

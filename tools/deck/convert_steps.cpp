@@ -1,7 +1,6 @@
 #include "convert_steps.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 
@@ -19,56 +18,52 @@
 
 namespace deck::cli {
 
-void add_step_options(CLI::App& app, ConvertSteps& steps) {
-  app.add_option("--target", steps.target,
-                 "With --from lsdyna: interface type of every contact; 0: by its keyword")
-      ->check(CLI::IsMember({0, 7, 10, 11, 19}))
-      ->type_name("TYPE");
+void add_step_options(CommandLine& line, ConvertSteps& steps) {
+  line.option("--target", steps.target,
+              "With --from lsdyna: interface type of every contact; 0: by its keyword")
+      .one_of({0, 7, 10, 11, 19})
+      .value("TYPE");
   const std::string group = "Conversions, in this order";
-  app.add_option("--extract-contacts", steps.extract,
-                 "A small deck of one file with these interfaces and all that they need")
-      ->group(group)
-      ->delimiter(',')
-      ->expected(1)
-      ->take_all()
-      ->type_name("ID[,ID...]");
-  app.add_flag("--flatten", steps.flatten, "One file: every #include replaced by what it holds")
-      ->group(group);
-  app.add_flag("--expand-type19", steps.expand_type19,
-               "Every TYPE19 as the TYPE7 and TYPE11 that the solver makes of it")
-      ->group(group);
-  app.add_flag("--resolve-defaults", steps.resolve_defaults,
-               "Write effective values onto the contact cards: no longer any need of "
-               "/DEFAULT/INTER")
-      ->group(group);
-  app.add_option("--version", steps.version,
-                 "Input version to write: 110, 120, 130, 140, 2017 ... 2026. Rewrites every block "
-                 "whose columns differ")
-      ->group(group)
-      ->type_name("N");
-  app.add_flag("--allow-loss", steps.allow_loss,
-               "With --version: drop values that the other version has no cell for")
-      ->group(group);
-  app.add_option("--units", steps.units,
-                 "Unit system to write, mass,length,time: kg,mm,ms or Mg,mm,s or numbers (factors "
-                 "to kg, m, s)")
-      ->group(group)
-      ->type_name("SYSTEM");
-  app.add_flag("--keep-working-units", steps.keep_working,
-               "With --units: change the input units only; the solver computes as before")
-      ->group(group);
-  app.add_option("--renumber", steps.renumber,
-                 "New ids: KIND+N and KIND-N shift them, KIND=N counts from N on; KIND is node, "
-                 "part, element, surf, all ... (repeatable)")
-      ->group(group)
-      ->delimiter(',')
-      ->expected(1)
-      ->take_all()
-      ->type_name("RULE");
-  app.add_flag("--partial", steps.partial,
-               "With --units or --renumber: convert what is known although the deck holds what no "
-               "schema describes, and list that as undecided")
-      ->group(group);
+  line.option("--extract-contacts", steps.extract,
+              "A small deck of one file with these interfaces and all that they need")
+      .heading(group)
+      .comma_list()
+      .value("ID[,ID...]");
+  line.flag("--flatten", steps.flatten, "One file: every #include replaced by what it holds")
+      .heading(group);
+  line.flag("--expand-type19", steps.expand_type19,
+            "Every TYPE19 as the TYPE7 and TYPE11 that the solver makes of it")
+      .heading(group);
+  line.flag("--resolve-defaults", steps.resolve_defaults,
+            "Write effective values onto the contact cards: no longer any need of "
+            "/DEFAULT/INTER")
+      .heading(group);
+  line.option("--version", steps.version,
+              "Input version to write: 110, 120, 130, 140, 2017 ... 2026. Rewrites every block "
+              "whose columns differ")
+      .heading(group)
+      .value("N");
+  line.flag("--allow-loss", steps.allow_loss,
+            "With --version: drop values that the other version has no cell for")
+      .heading(group);
+  line.option("--units", steps.units,
+              "Unit system to write, mass,length,time: kg,mm,ms or Mg,mm,s or numbers (factors "
+              "to kg, m, s)")
+      .heading(group)
+      .value("SYSTEM");
+  line.flag("--keep-working-units", steps.keep_working,
+            "With --units: change the input units only; the solver computes as before")
+      .heading(group);
+  line.option("--renumber", steps.renumber,
+              "New ids: KIND+N and KIND-N shift them, KIND=N counts from N on; KIND is node, "
+              "part, element, surf, all ... (repeatable)")
+      .heading(group)
+      .comma_list()
+      .value("RULE");
+  line.flag("--partial", steps.partial,
+            "With --units or --renumber: convert what is known although the deck holds what no "
+            "schema describes, and list that as undecided")
+      .heading(group);
 }
 
 Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {

@@ -21,7 +21,7 @@ struct ConvertSteps {
   std::vector<std::string> renumber;
 };
 
-void add_step_options(CLI::App& app, ConvertSteps& steps);
+void add_step_options(CommandLine& line, ConvertSteps& steps);
 
 struct ConvertStep {
   std::string option;  ///< as on the command line, for messages

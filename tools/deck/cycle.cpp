@@ -1,5 +1,4 @@
 // deck cycle: one contact force evaluation at the start: forces, energies, time steps, effects.
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "accuracy_option.hpp"
@@ -129,35 +128,32 @@ int run(const Options& o) {
   return json.finish(code);
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  add_common(app, options->common);
-  app.add_flag("--all", options->all, "JSON with every pair that has a penetration");
-  app.add_flag("--effects", options->effects, "Also list the effects that are off, and why");
-  app.add_option("--vtk", options->vtk,
-                 "Write pairs and nodes with their forces as VTK files (ParaView) into DIR")
-      ->type_name("DIR");
-  app.add_option("--model", options->model,
-                 "reference: as the solver computes; robust: the same physics without its "
-                 "numerical quirks")
-      ->check(CLI::IsMember({"reference", "robust"}))
-      ->capture_default_str();
-  add_accuracy(app, options->accuracy);
-  app.add_option("--dt", options->dt, "Time step for rate effects; 0: the first evaluation")
-      ->check(finite_number(0, 1e30))
-      ->type_name("DT");
-  app.add_option("--time", options->time, "Time that decides Tstart, Tstop and sensors")
-      ->check(finite_number(-1e30, 1e30))
-      ->type_name("T");
-  app.add_option("--velocity", options->velocities,
-                 "Velocity of a part instead of the deck's, e.g. 12=0,0,-5 (repeatable)")
-      ->type_name("PART=VX,VY,VZ");
-  app.add_option("--interface", options->only, "Only these interface ids")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("ID");
-  add_require_examined(app, options->common);
-  app.add_flag("--fail-on-force", options->fail, "Exit 1 when any contact pushes at the start");
+  add_common(line, options->common);
+  line.flag("--all", options->all, "JSON with every pair that has a penetration");
+  line.flag("--effects", options->effects, "Also list the effects that are off, and why");
+  line.option("--vtk", options->vtk,
+              "Write pairs and nodes with their forces as VTK files (ParaView) into DIR")
+      .value("DIR");
+  line.option("--model", options->model,
+              "reference: as the solver computes; robust: the same physics without its "
+              "numerical quirks")
+      .one_of({"reference", "robust"})
+      .show_default();
+  add_accuracy(line, options->accuracy);
+  line.option("--dt", options->dt, "Time step for rate effects; 0: the first evaluation")
+      .number(0, 1e30)
+      .value("DT");
+  line.option("--time", options->time, "Time that decides Tstart, Tstop and sensors")
+      .number(-1e30, 1e30)
+      .value("T");
+  line.option("--velocity", options->velocities,
+              "Velocity of a part instead of the deck's, e.g. 12=0,0,-5 (repeatable)")
+      .value("PART=VX,VY,VZ");
+  line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
+  add_require_examined(line, options->common);
+  line.flag("--fail-on-force", options->fail, "Exit 1 when any contact pushes at the start");
   return [options] { return run(*options); };
 }
 

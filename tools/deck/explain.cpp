@@ -1,5 +1,4 @@
 // deck explain: the page of a rule, of a keyword, or of one field of a keyword.
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
@@ -74,15 +73,14 @@ int run(const Options& options) {
   return exit_clean;
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  app.add_option("topics", options->topics, "Rule id, keyword, or KEYWORD.FIELD")
-      ->required()
-      ->type_name("TOPIC");
-  app.add_option("--schemas", options->common.schema_dirs,
-                 "Add the keyword schemas (*.json) of DIR")
-      ->type_name("DIR")
-      ->allow_extra_args(false);
+  line.option("topics", options->topics, "Rule id, keyword, or KEYWORD.FIELD")
+      .required()
+      .value("TOPIC");
+  line.option("--schemas", options->common.schema_dirs, "Add the keyword schemas (*.json) of DIR")
+      .value("DIR")
+      .one_each();
   return [options] { return run(*options); };
 }
 

@@ -1,7 +1,6 @@
 // deck fix: repairs initial penetrations, by moving nodes or by changing the interface cards, as a
 // patch that has been verified by reading the deck again with it.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
@@ -242,89 +241,83 @@ int run(const Options& o) {
 }
 
 /// Options of the strategies that change interface cards.
-void add_card_options(CLI::App& app, Options& o) {
-  auto* others = app.add_option_group("reduce-gap, inacti, fpenmax");
-  others->add_option("--min-gap", o.min_gap, "reduce-gap: least share of the present gap to keep")
-      ->capture_default_str()
-      ->type_name("SHARE");
-  others->add_option("--digits", o.digits, "reduce-gap: significant digits, rounded down")
-      ->check(CLI::Range(1, 17))
-      ->capture_default_str()
-      ->type_name("N");
-  others->add_option("--inacti", o.inacti, "inacti: 0 (or 1000), 1, 2, 3, 5 or 6")
-      ->check(CLI::IsMember({0, 1, 2, 3, 5, 6, 1000}))
-      ->capture_default_str()
-      ->type_name("N");
+void add_card_options(CommandLine& line, Options& o) {
+  CommandLine others = line.group("reduce-gap, inacti, fpenmax");
+  others.option("--min-gap", o.min_gap, "reduce-gap: least share of the present gap to keep")
+      .show_default()
+      .value("SHARE");
+  others.option("--digits", o.digits, "reduce-gap: significant digits, rounded down")
+      .range(1, 17)
+      .show_default()
+      .value("N");
+  others.option("--inacti", o.inacti, "inacti: 0 (or 1000), 1, 2, 3, 5 or 6")
+      .one_of({0, 1, 2, 3, 5, 6, 1000})
+      .show_default()
+      .value("N");
   others
-      ->add_option("--fpenmax", o.fpenmax,
-                   "fpenmax: switch off nodes deeper than this share of the gap (default: only "
-                   "nodes at distance 0, at which the solver stops)")
-      ->type_name("SHARE");
+      .option("--fpenmax", o.fpenmax,
+              "fpenmax: switch off nodes deeper than this share of the gap (default: only "
+              "nodes at distance 0, at which the solver stops)")
+      .value("SHARE");
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   Options& o = *options;
-  add_common(app, o.common);
-  app.add_option("--strategy", o.strategy,
-                 "move-nodes: out of each other's gap; reduce-gap: the largest gap without a "
-                 "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones")
-      ->required()
-      ->check(CLI::IsMember({"move-nodes", "reduce-gap", "inacti", "fpenmax"}))
-      ->type_name("STRATEGY");
-  app.add_option("--interface", o.interfaces, "Only these interface ids")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("ID");
-  app.add_flag("--diff", o.diff, "Print the patch (git apply takes it); the report goes to stderr");
-  app.add_option("-o,--output", o.directory, "Write the deck with all it includes below DIR")
-      ->type_name("DIR");
-  app.add_flag("--in-place", o.in_place, "Rewrite the files that change");
-  app.add_flag("--backup", o.backup,
-               "With --in-place: keep each old file as FILE.orig (a backup is never replaced: then "
-               "FILE.orig.2)");
-  app.add_flag("--overwrite", o.overwrite,
-               "With -o: replace decks and includes that lie in DIR already and differ");
-  app.add_option("--rows", o.rows, "Rows of the lists in the report")->capture_default_str();
+  add_common(line, o.common);
+  line.option("--strategy", o.strategy,
+              "move-nodes: out of each other's gap; reduce-gap: the largest gap without a "
+              "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones")
+      .required()
+      .one_of({"move-nodes", "reduce-gap", "inacti", "fpenmax"})
+      .value("STRATEGY");
+  line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
+  line.flag("--diff", o.diff, "Print the patch (git apply takes it); the report goes to stderr");
+  line.option("-o,--output", o.directory, "Write the deck with all it includes below DIR")
+      .value("DIR");
+  line.flag("--in-place", o.in_place, "Rewrite the files that change");
+  line.flag("--backup", o.backup,
+            "With --in-place: keep each old file as FILE.orig (a backup is never replaced: then "
+            "FILE.orig.2)");
+  line.flag("--overwrite", o.overwrite,
+            "With -o: replace decks and includes that lie in DIR already and differ");
+  line.option("--rows", o.rows, "Rows of the lists in the report").show_default();
 
-  auto* move = app.add_option_group("move-nodes");
-  move->add_option("--lock", o.move.lock, "Nodes of these parts stay (also where shared)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("PART");
-  move->add_option("--only", o.move.move, "Only nodes of these parts alone move")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("PART");
-  move->add_flag("--lock-rigid-bodies", o.move.lock_rigid_bodies, "Nodes of /RBODY stay");
-  move->add_flag("--lock-boundary-conditions", o.move.lock_boundary_conditions,
-                 "Nodes of /BCS stay");
-  move->add_flag("--secondary-only", o.move.secondary_only, "Main sides do not give way");
-  move->add_option("--max-moved", o.max_moved, "Share of the nodes of a part that may move")
-      ->capture_default_str()
-      ->type_name("SHARE");
-  move->add_option("--max-displacement", o.max_displacement,
-                   "Farthest a node may move, working units (default: ten times the deepest "
-                   "penetration)")
-      ->type_name("LENGTH");
-  move->add_option("--smooth", o.move.smooth, "Rings of neighbours that follow the moved nodes")
-      ->check(CLI::Range(0, 20))
-      ->capture_default_str()
-      ->type_name("N");
-  move->add_option("--step", o.move.share, "Share of the depth that one iteration takes away")
-      ->check(CLI::Range(0.05, 1.0))
-      ->capture_default_str()
-      ->type_name("SHARE");
-  move->add_option("--clearance", o.move.clearance, "Distance left beyond the gap, share of it")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str()
-      ->type_name("SHARE");
-  move->add_option("--iterations", o.move.iterations, "At most this many, up to four times")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str()
-      ->type_name("N");
+  CommandLine move = line.group("move-nodes");
+  move.option("--lock", o.move.lock, "Nodes of these parts stay (also where shared)")
+      .by_commas()
+      .value("PART");
+  move.option("--only", o.move.move, "Only nodes of these parts alone move")
+      .by_commas()
+      .value("PART");
+  move.flag("--lock-rigid-bodies", o.move.lock_rigid_bodies, "Nodes of /RBODY stay");
+  move.flag("--lock-boundary-conditions", o.move.lock_boundary_conditions, "Nodes of /BCS stay");
+  move.flag("--secondary-only", o.move.secondary_only, "Main sides do not give way");
+  move.option("--max-moved", o.max_moved, "Share of the nodes of a part that may move")
+      .show_default()
+      .value("SHARE");
+  move.option("--max-displacement", o.max_displacement,
+              "Farthest a node may move, working units (default: ten times the deepest "
+              "penetration)")
+      .value("LENGTH");
+  move.option("--smooth", o.move.smooth, "Rings of neighbours that follow the moved nodes")
+      .range(0, 20)
+      .show_default()
+      .value("N");
+  move.option("--step", o.move.share, "Share of the depth that one iteration takes away")
+      .range(0.05, 1.0)
+      .show_default()
+      .value("SHARE");
+  move.option("--clearance", o.move.clearance, "Distance left beyond the gap, share of it")
+      .range(0.0, 1.0)
+      .show_default()
+      .value("SHARE");
+  move.option("--iterations", o.move.iterations, "At most this many, up to four times")
+      .range(1, 10000)
+      .show_default()
+      .value("N");
 
-  add_card_options(app, o);
+  add_card_options(line, o);
   return [options] {
     options->common.rewrites = options->in_place;
     return run(*options);

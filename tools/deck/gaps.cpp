@@ -1,5 +1,4 @@
 // deck gaps: gaps, stiffness, initial penetrations and what the solver does about them.
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -261,39 +260,35 @@ int run(const Options& o) {
   return json.finish(code);
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  add_common(app, options->common);
-  app.add_flag("--all", options->all,
-               "JSON with every secondary node, main segment and edge, not only penetrations");
-  app.add_option("--csv", options->csv,
-                 "Write one line per penetration to FILE ('-': standard output)")
-      ->type_name("FILE");
-  app.add_flag("--crossings", options->crossings,
-               "List the crossed elements: edges of the secondary side through main segments");
-  app.add_option("--vtk", options->vtk,
-                 "Write the contacts and penetrations as VTK files (ParaView) into DIR")
-      ->type_name("DIR");
-  app.add_option("--html", options->html,
-                 "Write the interactive report to FILE: one page, no network needed")
-      ->type_name("FILE");
-  app.add_option("--compare", options->compare,
-                 "With --html: an earlier 'deck gaps --json' FILE to compare with")
-      ->type_name("FILE");
-  add_accuracy(app, options->accuracy);
-  app.add_option("--worst", options->worst, "Rows of the list of deepest penetrations")
-      ->capture_default_str();
-  app.add_option("--interface", options->only, "Only these interface ids")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("ID");
-  add_require_examined(app, options->common);
-  app.add_option("--what-if", options->what_if,
-                 "Evaluate an interface with other values, e.g. 3:Gapmin=2,Inacti=6 (repeatable); "
-                 "the deck is not changed")
-      ->type_name("ID:FIELD=VALUE,...");
-  app.add_flag("--fail-on-penetration", options->fail,
-               "Exit 1 for any initial penetration (default: only where the solver stops)");
+  add_common(line, options->common);
+  line.flag("--all", options->all,
+            "JSON with every secondary node, main segment and edge, not only penetrations");
+  line.option("--csv", options->csv,
+              "Write one line per penetration to FILE ('-': standard output)")
+      .value("FILE");
+  line.flag("--crossings", options->crossings,
+            "List the crossed elements: edges of the secondary side through main segments");
+  line.option("--vtk", options->vtk,
+              "Write the contacts and penetrations as VTK files (ParaView) into DIR")
+      .value("DIR");
+  line.option("--html", options->html,
+              "Write the interactive report to FILE: one page, no network needed")
+      .value("FILE");
+  line.option("--compare", options->compare,
+              "With --html: an earlier 'deck gaps --json' FILE to compare with")
+      .value("FILE");
+  add_accuracy(line, options->accuracy);
+  line.option("--worst", options->worst, "Rows of the list of deepest penetrations").show_default();
+  line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
+  add_require_examined(line, options->common);
+  line.option("--what-if", options->what_if,
+              "Evaluate an interface with other values, e.g. 3:Gapmin=2,Inacti=6 (repeatable); "
+              "the deck is not changed")
+      .value("ID:FIELD=VALUE,...");
+  line.flag("--fail-on-penetration", options->fail,
+            "Exit 1 for any initial penetration (default: only where the solver stops)");
   return [options] { return run(*options); };
 }
 

@@ -1,5 +1,4 @@
 // deck lint: findings with file, line and column, in every format that people and pipelines read.
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -31,7 +30,7 @@ struct Options {
   int per_rule = 10;
 };
 
-const std::vector<std::string> formats = {"human", "json", "sarif", "github", "junit", "gitlab"};
+constexpr std::initializer_list<const char*> formats = {"human", "json", "sarif", "github", "junit", "gitlab"};
 
 /// One deck of the run, kept until everything is written.
 struct Job {
@@ -353,51 +352,44 @@ int run(const Options& options) {
   return lint.relinted() && code <= exit_findings ? lint.after_fix() : code;
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   Options& o = *options;
-  add_common(app, o.common);
-  app.add_option("--format", o.format, "What to print: human, json, sarif, github, junit, gitlab")
-      ->check(CLI::IsMember(formats))
-      ->type_name("FORMAT");
-  app.add_option("-o,--output", o.outputs, "Write FORMAT to FILE as well (repeatable)")
-      ->type_name("FORMAT=FILE")
-      ->allow_extra_args(false);
-  app.add_option("--select", o.select, "Only these rules: ids or prefixes (DK2), comma-separated")
-      ->delimiter(',')
-      ->type_name("RULES")
-      ->allow_extra_args(false);
-  app.add_option("--ignore", o.ignore, "Not these rules")
-      ->delimiter(',')
-      ->type_name("RULES")
-      ->allow_extra_args(false);
-  app.add_option("--fail-on", o.fail_on, "Exit with 1 at or above: error (default), warning, never")
-      ->check(CLI::IsMember({"error", "warning", "never"}))
-      ->type_name("LEVEL");
-  app.add_option("--baseline", o.baseline,
-                 "Leave out the findings listed in FILE, of the decks listed there")
-      ->type_name("FILE");
-  app.add_option("--write-baseline", o.write_baseline, "Write all findings to FILE as a baseline")
-      ->type_name("FILE");
-  app.add_option("--config", o.config, "Use FILE instead of looking for .decklint.toml")
-      ->type_name("FILE");
-  add_require_examined(app, o.common);
-  app.add_flag("--no-config", o.no_config, "Use no configuration file");
-  app.add_flag(
-      "--geometry", o.geometry,
-      "Also check geometry and first cycle (rules DK3, DK4): penetrations, gaps against the "
-      "mesh, segments, contact forces and time step at the start");
-  app.add_flag(
-      "--fix", o.fix,
-      "Apply safe fixes: the reference solver does the same with the deck. Decks are fixed "
-      "together: a file that they share only as all of them want it");
-  app.add_flag("--unsafe-fixes", o.unsafe_fixes, "Apply the other fixes too");
-  app.add_flag("--diff", o.diff,
-               "Print the fixes as a patch (findings on standard error), write nothing");
-  app.add_flag("--ruler", o.ruler, "Show column numbers above each card line");
-  app.add_option("--per-rule", o.per_rule, "Findings shown per rule; 0 shows all")
-      ->check(CLI::Range(0, 1000000))
-      ->type_name("N");
+  add_common(line, o.common);
+  line.option("--format", o.format, "What to print: human, json, sarif, github, junit, gitlab")
+      .one_of(formats)
+      .value("FORMAT");
+  line.option("-o,--output", o.outputs, "Write FORMAT to FILE as well (repeatable)")
+      .value("FORMAT=FILE")
+      .one_each();
+  line.option("--select", o.select, "Only these rules: ids or prefixes (DK2), comma-separated")
+      .by_commas()
+      .value("RULES");
+  line.option("--ignore", o.ignore, "Not these rules").by_commas().value("RULES");
+  line.option("--fail-on", o.fail_on, "Exit with 1 at or above: error (default), warning, never")
+      .one_of({"error", "warning", "never"})
+      .value("LEVEL");
+  line.option("--baseline", o.baseline,
+              "Leave out the findings listed in FILE, of the decks listed there")
+      .value("FILE");
+  line.option("--write-baseline", o.write_baseline, "Write all findings to FILE as a baseline")
+      .value("FILE");
+  line.option("--config", o.config, "Use FILE instead of looking for .decklint.toml").value("FILE");
+  add_require_examined(line, o.common);
+  line.flag("--no-config", o.no_config, "Use no configuration file");
+  line.flag("--geometry", o.geometry,
+            "Also check geometry and first cycle (rules DK3, DK4): penetrations, gaps against the "
+            "mesh, segments, contact forces and time step at the start");
+  line.flag("--fix", o.fix,
+            "Apply safe fixes: the reference solver does the same with the deck. Decks are fixed "
+            "together: a file that they share only as all of them want it");
+  line.flag("--unsafe-fixes", o.unsafe_fixes, "Apply the other fixes too");
+  line.flag("--diff", o.diff,
+            "Print the fixes as a patch (findings on standard error), write nothing");
+  line.flag("--ruler", o.ruler, "Show column numbers above each card line");
+  line.option("--per-rule", o.per_rule, "Findings shown per rule; 0 shows all")
+      .range(0, 1000000)
+      .value("N");
   return [options] {
     options->common.rewrites = (options->fix || options->unsafe_fixes) && !options->diff;
     // What is fixed has to be kept, not only counted.

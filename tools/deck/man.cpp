@@ -1,6 +1,5 @@
 // deck man: the man pages, made from the options that the parser knows. The build calls it; it is
 // not listed among the verbs.
-#include <CLI/CLI.hpp>
 
 #include "common.hpp"
 #include "completion_table.hpp"
@@ -194,11 +193,11 @@ int run(const Options& o) {
   return exit_usage;
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  app.group("");  // for the build, not for the list of verbs
-  app.add_option("verb", options->verb, "Page of this verb; none: of deck")->type_name("VERB");
-  app.add_option("--directory", options->directory, "Write all pages into DIR")->type_name("DIR");
+  line.hide();  // for the build, not for the list of verbs
+  line.option("verb", options->verb, "Page of this verb; none: of deck").value("VERB");
+  line.option("--directory", options->directory, "Write all pages into DIR").value("DIR");
   return [options] { return run(*options); };
 }
 

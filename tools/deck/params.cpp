@@ -1,5 +1,4 @@
 // deck params: every interface with its effective values and where each came from.
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 
@@ -67,14 +66,14 @@ int run(const Options& options) {
   return json.finish(code);
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  add_common(app, options->common);
-  app.add_flag("--changed", options->changed,
-               "Show only fields whose effective value is not what the card says");
-  add_require_examined(app, options->common);
-  app.add_flag("--no-geometry", options->no_geometry,
-               "Do not derive default gaps from the mesh; such values are left open");
+  add_common(line, options->common);
+  line.flag("--changed", options->changed,
+            "Show only fields whose effective value is not what the card says");
+  add_require_examined(line, options->common);
+  line.flag("--no-geometry", options->no_geometry,
+            "Do not derive default gaps from the mesh; such values are left open");
   return [options] { return run(*options); };
 }
 

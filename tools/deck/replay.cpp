@@ -1,5 +1,4 @@
 // deck replay: the contact kernel on recorded pair states, held against the recorded forces.
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
@@ -96,24 +95,23 @@ int run(Options& o) {
   return json.finish(code);
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  add_common(app, options->common);
-  app.get_option("decks")
-      ->expected(2)
-      ->option_text("DECK STATES")
-      ->description("Starter deck (*_0000.rad), and recorded states: CSV, also compressed (.gz)");
-  app.add_option("--interface", options->interface_id, "Interface whose states are replayed")
-      ->required()
-      ->type_name("ID");
-  app.add_option("--model", options->model, "reference or robust")
-      ->check(CLI::IsMember({"reference", "robust"}))
-      ->capture_default_str();
-  app.add_option("--csv", options->csv,
-                 "Writes every result column of STATES as computed here, one line per state of the "
-                 "interface, with the 0-based number of its data line in front (- for standard "
-                 "output)")
-      ->type_name("FILE");
+  add_common(line, options->common);
+  line.existing("decks")
+      .takes(2, "DECK STATES")
+      .describe("Starter deck (*_0000.rad), and recorded states: CSV, also compressed (.gz)");
+  line.option("--interface", options->interface_id, "Interface whose states are replayed")
+      .required()
+      .value("ID");
+  line.option("--model", options->model, "reference or robust")
+      .one_of({"reference", "robust"})
+      .show_default();
+  line.option("--csv", options->csv,
+              "Writes every result column of STATES as computed here, one line per state of the "
+              "interface, with the 0-based number of its data line in front (- for standard "
+              "output)")
+      .value("FILE");
   return [options] { return run(*options); };
 }
 

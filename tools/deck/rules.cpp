@@ -1,5 +1,4 @@
 // deck rules: all rules of deck lint, as a table or as JSON.
-#include <CLI/CLI.hpp>
 
 #include "common.hpp"
 #include "deck/report/diagnostics.hpp"
@@ -19,9 +18,9 @@ int run(const CommonOptions& common) {
   return exit_clean;
 }
 
-Action setup(CLI::App& app) {
+Action setup(CommandLine& line) {
   auto options = std::make_shared<CommonOptions>();
-  add_common_without_decks(app, *options);
+  add_common_without_decks(line, *options);
   return [options] { return run(*options); };
 }
 

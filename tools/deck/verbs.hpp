@@ -3,10 +3,10 @@
 //
 //   namespace {
 //   struct Options { deck::cli::CommonOptions common; bool all = false; };
-//   deck::cli::Action setup(CLI::App& app) {
+//   deck::cli::Action setup(CommandLine& line) {
 //     auto options = std::make_shared<Options>();
-//     deck::cli::add_common(app, options->common);
-//     app.add_flag("--all", options->all, "Show everything");
+//     deck::cli::add_common(line, options->common);
+//     line.flag("--all", options->all, "Show everything");
 //     return [options] { return run(*options); };   // the exit code
 //   }
 //   const deck::cli::VerbRegistration registration{
@@ -18,11 +18,9 @@
 #include <string_view>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace deck::cli {
+
+class CommandLine;  // command_line.hpp
 
 /// Does the work once the command line is understood; returns the exit code.
 using Action = std::function<int()>;
@@ -32,7 +30,7 @@ struct Verb {
   int rank = 100;             ///< place in the list of verbs; ties by name
   std::string_view summary;   ///< one line
   std::string_view examples;  ///< command lines, two blanks before each, for the end of --help
-  Action (*setup)(CLI::App&) = nullptr;  ///< adds the options
+  Action (*setup)(CommandLine&) = nullptr;  ///< adds the options
 };
 
 /// Makes a verb known; meant for one static object per verb.
