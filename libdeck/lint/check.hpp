@@ -2,7 +2,6 @@
 #pragma once
 #include <fmt/format.h>
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -12,11 +11,11 @@
 
 namespace deck::detail {
 
-/// Calls f(card) for the interfaces of these types.
+/// Calls f(card) for the interfaces of the types that the rule is true for.
 template <class F>
-void each(const LintContext& c, std::initializer_list<int> types, F&& f) {
+void each(const LintContext& c, const Rule& rule, F&& f) {
   for (const ContactCard& card : c.contacts)
-    for (const int type : types)
+    for (const int type : rule.types)
       if (card.type == type) f(card);
 }
 

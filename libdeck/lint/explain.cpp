@@ -159,6 +159,11 @@ std::string explain_rule(const Rule& rule, const SchemaSet& schemas) {
                                 family_of(rule.id));
   if (rule.fixable != Fixable::no)
     out += rule.fixable == Fixable::safe ? ", fixed by --fix" : ", fixed by --unsafe-fixes";
+  if (!rule.types.empty()) {
+    out += "\nAbout";
+    for (std::size_t i = 0; i < rule.types.size(); ++i)
+      out += fmt::format("{} TYPE{}", i == 0 ? "" : ",", rule.types[i]);
+  }
   out += "\n\n" + section("What is wrong", rule.problem) + section("Why it matters", rule.why);
   std::string solver(rule.solver);
   if (rule.message != 0)
@@ -187,7 +192,7 @@ std::string explain_keyword(const Schema& schema, std::string_view field) {
   if (schema.from > 0) out += fmt::format("  from version {}\n", schema.from);
   out += std::string("  header: ") + schema.keyword + (schema.has_id ? "/id" : "") +
          (schema.has_id && schema.has_unit ? "/unit_ID" : "") +
-         (schema.has_title ? ", then a title line" : ", no title line") + "\n";
+         (schema.has_title ? ", then a title line of at most 100 characters" : ", no title line") + "\n";
   for (const CardSchema& card : schema.cards) {
     out += fmt::format("\n{} ({}{}{})\n", card.name, versions(card.from, card.until),
                        card.when.empty() ? "" : "; only if " + conditions(card.when),

@@ -52,6 +52,7 @@ const std::vector<Rule>& all_rules() {
     detail::add_bound_rules(out);
     detail::add_default_rules(out);
     detail::add_advice_rules(out);
+    for (Rule& r : out) r.types = detail::interface_types_of(r.id);
     std::sort(out.begin(), out.end(), [](const Rule& a, const Rule& b) { return a.id < b.id; });
     return out;
   }();

@@ -31,4 +31,7 @@ void add_default_rules(std::vector<Rule>& out);      // DK5xx: /DEFAULT/INTER
 void add_advice_rules(std::vector<Rule>& out);       // DK9xx: known traps
 void add_friction_pair_rules(std::vector<Rule>& out);  // DK183-DK188, part of the references
 
+/// The types that a rule is true for, by its id; empty: it is not about interfaces.
+std::vector<int> interface_types_of(std::string_view rule);  // rules_types.cpp
+
 }  // namespace deck::detail

@@ -40,7 +40,7 @@ void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
   std::vector<bool> on_spring(c.model->nodes.size(), false);
   for (const NodeIndex n : c.model->spring.nodes)
     if (n != no_index) on_spring[n] = true;
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Inacti") != 3) return;
     NodeIndex found = no_index;
     each_secondary_node(*c.selections, card, [&](NodeIndex n) {
@@ -54,7 +54,7 @@ void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_inacti5(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     // Airbag unfolding is what 5 is made for.
     if (card.flag("Ibag") != 0 && c.model != nullptr && c.model->has_monitored_volume) return;
     if (card.flag("Inacti") == 5)
@@ -63,39 +63,40 @@ void check_inacti5(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_dtmin(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.input("dtmin") > 0)
       report_at(r, rule, card, "dtmin", name_of(card) + " has " + card.show("dtmin"));
   });
 }
 
 void check_idel(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 10, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (std::abs(card.flag("Idel")) == 1)
       report_at(r, rule, card, "Idel", name_of(card) + " has " + card.show("Idel"));
   });
 }
 
 void check_edge_removal(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Irem_gap") != 2) return;
     if (card.type == 7 && card.flag("Igap") != 3) return;
-    note_field(
-        report_at(r, rule, card, "Irem_gap",
-                  name_of(card) + " has Irem_gap = 2" + (card.type == 7 ? " with Igap = 3" : "")),
-        card, "Igap");
+    const char* const where = card.type == 7    ? " with Igap = 3"
+                              : card.type == 19 ? ", which its edge contact gets as well"
+                                                : "";
+    note_field(report_at(r, rule, card, "Irem_gap", name_of(card) + " has Irem_gap = 2" + where),
+               card, "Igap");
   });
 }
 
 void check_icurv3(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Icurv") == 3)
       report_at(r, rule, card, "Icurv", name_of(card) + " has Icurv = 3 (bicubic surface)");
   });
 }
 
 void check_tied_lever(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {10}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     report_at(r, rule, card, "Gap",
               name_of(card) + " ties over a distance: " +
                   (card.input("Gap") > 0 ? card.show("Gap") : "the default gap, from the mesh"));
@@ -106,7 +107,7 @@ void check_sph(const LintContext& c, const Rule& rule, Reporter& r) {
   bool sph = false;
   for (const Block& b : c.deck.blocks) sph = sph || b.header.starts_with("/SPHCEL");
   if (!sph) return;
-  each(c, {7}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (const auto istf = card.flag("Istf"); istf >= 2 && istf <= 5)
       report_at(r, rule, card, "Istf",
                 name_of(card) + ": " + card.show("Istf") + " in a deck with SPH particles");
@@ -114,7 +115,7 @@ void check_sph(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_large_factor(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 10, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     const double factor = card.input("Stfac");
     if (card.flag("Istf") == 1 || !(factor > 100)) return;
     note_field(report_at(r, rule, card, "Stfac",
@@ -125,7 +126,7 @@ void check_large_factor(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_small_stiffness(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Istf") != 1) return;
     const FieldView* f = card.find("Stfac");
     const double written = f == nullptr || f->text.empty() ? 0 : read_real(f->text).value;
@@ -137,7 +138,7 @@ void check_small_stiffness(const LintContext& c, const Rule& rule, Reporter& r) 
 }
 
 void check_bumult(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 10, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (const double b = card.input("Bumult"); b > 1)
       report_at(r, rule, card, "Bumult", name_of(card) + " has Bumult = " + number_text(b));
   });
@@ -145,7 +146,7 @@ void check_bumult(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_same_sides(const LintContext& c, const Rule& rule, Reporter& r) {
   std::map<std::tuple<int, double, double>, const ContactCard*> seen;
-  each(c, {7, 10, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     const std::string_view one = card.type == 11   ? "line_IDs"
                                  : card.type == 19 ? "surf_IDs"
                                                    : "grnd_IDs";

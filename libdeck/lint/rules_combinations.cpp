@@ -23,7 +23,7 @@ std::string renard_problem(const std::array<double, 6>& k) {
 }
 
 void check_renard(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.input("Ifric") != 3 || card.given("fric_ID")) return;
     const std::array<double, 6> k = {card.input("C1"), card.input("C2"), card.input("C3"),
                                      card.input("C4"), card.input("C5"), card.input("C6")};
@@ -42,7 +42,7 @@ void check_renard(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_heat_sum(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     const double sum = card.input("Fheats") + card.input("Fheatm");
     if (!(sum > 1)) return;
     Diagnostic* d = report_at(
@@ -53,7 +53,7 @@ void check_heat_sum(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_times(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 10, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!card.given("Tstop") || card.input("Tstop") < 0) return;
     if (card.value("Tstart") < card.value("Tstop")) return;
     Diagnostic* d =
@@ -78,7 +78,7 @@ bool axis_is_a_point(const LintContext& c, const ContactCard& card) {
 }
 
 void check_curvature_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     const auto icurv = card.flag("Icurv");
     const bool first = card.given("node_ID1"), second = card.given("node_ID2");
     if (icurv == 2 && first && second && axis_is_a_point(c, card)) {
@@ -102,7 +102,7 @@ void check_curvature_nodes(const LintContext& c, const Rule& rule, Reporter& r) 
 }
 
 void check_type10_inacti(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {10}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.input("Inacti") != 5) return;
     Diagnostic* d = report_at(r, rule, card, "Inacti", name_of(card) + " has Inacti = 5");
     fix_field(d, c, card, "Inacti", "0", false, "write Inacti 0");
@@ -110,7 +110,7 @@ void check_type10_inacti(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_type11_igap(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {11}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Igap") != 2) return;
     Diagnostic* d =
         report_at(r, rule, card, "Igap",
@@ -120,7 +120,7 @@ void check_type11_igap(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_iadm_icurv(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!card.given("Iadm") || !card.given("Icurv")) return;
     note_field(report_at(r, rule, card, "Iadm",
                          name_of(card) + ": " + card.show("Iadm") + " together with " +
@@ -131,7 +131,7 @@ void check_iadm_icurv(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_iadm(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr || c.model->has_adaptive_mesh) return;
-  each(c, {7}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.given("Iadm"))
       report_at(r, rule, card, "Iadm",
                 name_of(card) + ": " + card.show("Iadm") + ", but the deck has no adaptive mesh");
@@ -142,7 +142,7 @@ void check_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr || c.model->has_monitored_volume || c.model->has_ale ||
       c.model->has_sol2sph)
     return;
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (const double v = card.input("Ibag"); v == 0 || v == 1000) return;
     Diagnostic* d = report_at(r, rule, card, "Ibag",
                               name_of(card) + ": " + card.show("Ibag") +
@@ -153,7 +153,7 @@ void check_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_thermal_material(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr || c.model->has_thermal_material) return;
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.given("Ithe"))
       report_at(r, rule, card, "Ithe",
                 name_of(card) + ": Ithe = " + number_text(card.input("Ithe")) +
@@ -178,7 +178,7 @@ std::string filter_problem(std::int64_t ifiltr, double xfreq) {
 }
 
 void check_filter(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.given("fric_ID")) return;
     const std::string problem =
         filter_problem(static_cast<std::int64_t>(card.input("Ifiltr")), card.input("Xfreq"));
@@ -198,7 +198,7 @@ void check_filter(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_gap_order(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     const double low = card.input("Gapmin"), high = card.input("Gapmax");
     if (card.flag("Igap") < 2 || !(low > 0) || !(high > 0) || !(low > high)) return;
     note_field(report_at(r, rule, card, "Gapmax",
@@ -209,7 +209,7 @@ void check_gap_order(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_stiffness_order(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     const double low = card.input("Stmin"), high = card.input("Stmax");
     if (!(low > 0) || !(high > 0) || !(low > high)) return;
     note_field(report_at(r, rule, card, "Stmax",
@@ -220,7 +220,7 @@ void check_stiffness_order(const LintContext& c, const Rule& rule, Reporter& r) 
 }
 
 void check_no_stfac(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Istf") != 1 || card.given("Stfac")) return;
     Diagnostic* d = report_at(r, rule, card, "Stfac",
                               name_of(card) +
@@ -232,7 +232,7 @@ void check_no_stfac(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_no_law(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     const double law = card.input("Ifric");
     if (card.given("fric_ID") || law <= 0 || law == 3) return;
     for (const std::string_view k : {"C1", "C2", "C3", "C4", "C5", "C6"})
@@ -244,7 +244,7 @@ void check_no_law(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_no_sink(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!card.given("Ithe") || (card.find("Kthe") == nullptr && card.find("Rthe") == nullptr))
       return;
     for (const std::string_view k : {"Kthe", "Rthe", "fct_IDK", "Frad", "Fheats", "Fheatm"})
@@ -265,7 +265,7 @@ void check_old_heat(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_angles(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {11}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (c.interfaces == nullptr || !card.given("fric_ID")) return;
     const Friction* f = c.interfaces->friction(static_cast<std::int64_t>(card.value("fric_ID")));
     if (f == nullptr || f->Ifric == 0) return;

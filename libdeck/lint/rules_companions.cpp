@@ -39,11 +39,12 @@ std::size_t count_free_edges(const Surface& surface) {
 void check_edge_companion(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.selections == nullptr) return;
   bool edges_seen = false;
-  each(c, {11, 19}, [&](const ContactCard&) { edges_seen = true; });
+  for (const ContactCard& card : c.contacts)
+    edges_seen = edges_seen || card.type == 11 || card.type == 19;
   if (edges_seen) return;
   const ContactCard* first = nullptr;
   std::size_t interfaces = 0, free = 0;
-  each(c, {7}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     const Surface* s = c.selections->surface(static_cast<std::int64_t>(card.value("surf_IDm")));
     const std::size_t n = s == nullptr ? 0 : count_free_edges(*s);
     if (n == 0) return;
@@ -66,7 +67,7 @@ void check_edge_companion(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_formulation(const LintContext& c, const Rule& rule, Reporter& r) {
   const ContactCard* first = nullptr;
   std::size_t interfaces = 0;
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.given("fric_ID") || !(card.given("Fric") || card.given("Ifric"))) return;
     if (card.find("Iform") == nullptr || card.flag("Iform") == 2) return;
     if (first == nullptr) first = &card;
@@ -80,6 +81,79 @@ void check_formulation(const LintContext& c, const Rule& rule, Reporter& r) {
                   interfaces == 1 ? "has" : "have"));
 }
 
+/// Nodes that follow a rigid body.
+std::vector<bool> rigid_nodes(const LintContext& c) {
+  std::vector<bool> out(c.model->nodes.size(), false);
+  for (const DecodedBlock& d : c.loads) {
+    if (d.block->schema->keyword != "/RBODY") continue;
+    const NodeSet* set =
+        c.selections->node_group(c.resolved(*d.block, "grnod", d.integer("grnd_ID")));
+    if (set == nullptr) continue;
+    for (const NodeIndex n : set->nodes)
+      if (n != no_index) out[n] = true;
+  }
+  return out;
+}
+
+/// Shortest side of a surface; 0: it has none.
+double shortest_side(const Model& model, const Surface& surface) {
+  double least = 0;
+  for (const auto& [a, b] : sides_of(surface)) {
+    const auto& x = model.nodes;
+    const double length = std::hypot(x.x[a] - x.x[b], x.y[a] - x.y[b], x.z[a] - x.z[b]);
+    if (length > 0 && (least == 0 || length < least)) least = length;
+  }
+  return least;
+}
+
+/// A node of either side that follows a rigid body; no_index: none.
+NodeIndex rigid_side(const LintContext& c, const ContactCard& card, const std::vector<bool>& rigid,
+                     const Surface& main) {
+  const auto first = [&](const auto& nodes) {
+    for (const NodeIndex n : nodes)
+      if (n != no_index && rigid[n]) return n;
+    return no_index;
+  };
+  const auto of_surface = [&](const Surface& surface) {
+    for (const Segment& s : surface.segments)
+      if (const NodeIndex n = first(s.nodes); n != no_index) return n;
+    return no_index;
+  };
+  const auto id = [&](std::string_view field) {
+    return static_cast<std::int64_t>(card.value(field));
+  };
+  NodeIndex found = no_index;
+  if (card.type == 19) {
+    if (const Surface* s = c.selections->surface(id("surf_IDs"))) found = of_surface(*s);
+  } else if (const NodeSet* set = c.selections->node_group(id("grnd_IDs"))) {
+    found = first(set->nodes);
+  }
+  return found != no_index ? found : of_surface(main);
+}
+
+void check_rigid_gap(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr || c.selections == nullptr || c.model->rbodies.empty()) return;
+  constexpr double small = 0.02;  // of the shortest main side; usual gaps are a tenth and more
+  std::vector<bool> rigid;
+  each(c, rule, [&](const ContactCard& card) {
+    const double gap = card.input("Gapmin");
+    // With a variable gap Gapmin is only its floor.
+    if (!(gap > 0) || card.flag("Igap") != 0) return;
+    const Surface* main = c.selections->surface(static_cast<std::int64_t>(card.value("surf_IDm")));
+    if (main == nullptr) return;
+    const double side = shortest_side(*c.model, *main);
+    if (!(gap < small * side)) return;
+    if (rigid.empty()) rigid = rigid_nodes(c);
+    const NodeIndex n = rigid_side(c, card, rigid, *main);
+    if (n == no_index) return;
+    report_at(
+        r, rule, card, "Gapmin",
+        fmt::format("{}: {} is {:.2g} of the shortest main side ({:.4g}), and node {} follows "
+                    "a rigid body",
+                    name_of(card), card.show("Gapmin"), gap / side, side, c.model->node_id(n)));
+  });
+}
+
 /// Stefan-Boltzmann constant, W/(m2 K4) (CODATA 2018, exact).
 constexpr double stefan_boltzmann = 5.670374419e-8;
 
@@ -89,7 +163,7 @@ void check_radiation_factor(const LintContext& c, const Rule& rule, Reporter& r)
   // M T^-3 per kelvin^4: so many kg/s3 are one unit of the deck.
   const double sigma = stefan_boltzmann / (u.mass / (u.time * u.time * u.time));
   if (!std::isfinite(sigma) || !(sigma > 0)) return;
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     const double frad = card.value("Frad");
     if (card.input("Ithe") != 1 || !(frad > 0)) return;
     // 1 / (1/e1 + 1/e2 - 1) is at most 1, and above 1e-3 for any surface that people make.
@@ -119,10 +193,29 @@ void add_companion_rules(std::vector<Rule>& out) {
                  .bad = "@/INTER/TYPE7/1\n",
                  .good = "@/INTER/TYPE7/1\n@/INTER/TYPE11/2\n",
                  .check = check_edge_companion});
+  out.push_back(
+      {.id = "DK917",
+       .title = "rigid body with a small gap",
+       .severity = Severity::info,
+       .problem = "Nodes of a rigid body take part in a contact with a constant gap below a "
+                  "fiftieth of the shortest main side.",
+       .why = "A rigid body does not yield: all its mass stands behind each node. In a small gap "
+              "the stiffness has no way to grow before the node is through, and the time step "
+              "falls with the gap over the speed. Manuals warn of rigid bodies at high speed or "
+              "with small gaps.",
+       .solver = "it computes with the gap, reduces the time step, and takes a node that reaches "
+                 "the mid-surface out of the contact",
+       .fix = "widen the gap (Gapmin, or Igap 1 to 3 for thickness), or let the body deform",
+       .ignore = "When the body is slow or already in contact.",
+       .bad = "/NODE\n        99                 5.0                 5.0                 9.0\n"
+              "@/RBODY/1 node_ID=99 grnd_ID=2\n@/INTER/TYPE7/1 Gapmin=0.01\n",
+       .good = "/NODE\n        99                 5.0                 5.0                 9.0\n"
+               "@/RBODY/1 node_ID=99 grnd_ID=2\n@/INTER/TYPE7/1 Gapmin=1.0\n",
+       .check = check_rigid_gap});
   out.push_back({.id = "DK918",
                  .title = "viscous friction where the incremental one is recommended",
                  .severity = Severity::info,
-                 .problem = "Friction is computed with Iform 1 (TYPE7, TYPE11, TYPE19).",
+                 .problem = "Friction is computed with Iform 1.",
                  .why = "Iform 1 is a damper with a limit: under a constant load things creep, and "
                         "the force depends on the time step. Iform 2 sticks with a stiffness. "
                         "Manuals recommend it for explicit and implicit runs.",
@@ -136,7 +229,7 @@ void add_companion_rules(std::vector<Rule>& out) {
                  .title = "radiation factor that no pair of surfaces has",
                  .severity = Severity::warning,
                  .problem = "Frad is above the Stefan-Boltzmann constant, or below a thousandth of "
-                            "it (TYPE7, TYPE11, TYPE19).",
+                            "it.",
                  .why = "Between two surfaces of emissivities e1 and e2 it is sigma / (1/e1 + 1/e2 "
                         "- 1), with sigma = 5.670374e-8 W/(m2 K4) in the units of the deck "
                         "(mass / time^3). A value outside is in other units.",

@@ -19,7 +19,7 @@ bool fixed_temperature(const ContactCard& card) {
 }
 
 void check_sensor_times(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!card.given("sens_ID")) return;
     for (const std::string_view field : {"Tstart", "Tstop"})
       if (card.given(field))
@@ -42,7 +42,7 @@ void check_title_length(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_blank_temperature(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!fixed_temperature(card) || card.given("Tint")) return;
     note_field(report_at(r, rule, card, "Tint",
                          name_of(card) + ": Tint is blank, so the secondary side exchanges heat "
@@ -52,7 +52,7 @@ void check_blank_temperature(const LintContext& c, const Rule& rule, Reporter& r
 }
 
 void check_blank_radiation(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.input("Ithe") != 1 || !card.given("Frad") || card.given("Drad")) return;
     note_field(
         report_at(r, rule, card, "Drad", name_of(card) + ": Drad is blank, so nothing radiates"),
@@ -61,7 +61,7 @@ void check_blank_radiation(const LintContext& c, const Rule& rule, Reporter& r) 
 }
 
 void check_main_share(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!fixed_temperature(card) || !card.given("Fheatm")) return;
     note_field(report_at(r, rule, card, "Fheatm",
                          fmt::format("{}: {} reaches nobody with Ithe_form 0", name_of(card),
@@ -71,7 +71,7 @@ void check_main_share(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_function_without_heat(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!card.given("fct_IDF") || card.given("fric_ID") || card.input("Ithe") == 1) return;
     note_field(report_at(r, rule, card, "fct_IDF",
                          name_of(card) + ": fct_IDF is not used, because the interface exchanges "
@@ -81,7 +81,7 @@ void check_function_without_heat(const LintContext& c, const Rule& rule, Reporte
 }
 
 void check_function_form1(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!card.given("fct_IDF") || card.given("fric_ID")) return;
     if (card.input("Ithe") != 1 || card.input("Ithe_form") != 1) return;
     note_field(report_at(r, rule, card, "fct_IDF",
@@ -93,8 +93,8 @@ void check_function_form1(const LintContext& c, const Rule& rule, Reporter& r) {
 
 /// Calls f(block, span, name, Ifiltr, Xfreq, Iform) for every friction filter that is on.
 template <class F>
-void each_filter(const LintContext& c, F&& f) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+void each_filter(const LintContext& c, const Rule& rule, F&& f) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.given("fric_ID") || !card.given("Ifiltr") || !card.given("Xfreq")) return;
     f(*card.block, card.span("Ifiltr"), name_of(card), card.flag("Ifiltr"), card.flag("Iform"));
   });
@@ -107,20 +107,24 @@ void each_filter(const LintContext& c, F&& f) {
 }
 
 void check_cutoff_filter(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_filter(c, [&](const Block& block, Span span, const std::string& name, std::int64_t ifiltr,
-                     std::int64_t) {
-    if (ifiltr == 3)
-      r.report(rule, block, span, name + ": Ifiltr = 3 does not filter: the factor is at least 1");
-  });
+  each_filter(c, rule,
+              [&](const Block& block, Span span, const std::string& name, std::int64_t ifiltr,
+                  std::int64_t) {
+                if (ifiltr == 3)
+                  r.report(rule, block, span,
+                           name + ": Ifiltr = 3 does not filter: the factor is at least 1");
+              });
 }
 
 void check_incremental_filter(const LintContext& c, const Rule& rule, Reporter& r) {
-  each_filter(c, [&](const Block& block, Span span, const std::string& name, std::int64_t ifiltr,
-                     std::int64_t iform) {
-    if (ifiltr != 3 && iform == 2)
-      r.report(rule, block, span,
-               name + ": with Iform 2 the filter factor scales the tangential stiffness");
-  });
+  each_filter(c, rule,
+              [&](const Block& block, Span span, const std::string& name, std::int64_t ifiltr,
+                  std::int64_t iform) {
+                if (ifiltr != 3 && iform == 2)
+                  r.report(
+                      rule, block, span,
+                      name + ": with Iform 2 the filter factor scales the tangential stiffness");
+              });
 }
 
 /// One finding for the deck: what holds for every incremental friction need not be said each time.
@@ -138,7 +142,7 @@ void check_incremental_stiffness(const LintContext& c, const Rule& rule, Reporte
     span = where;
     name = std::move(who);
   };
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (own_friction(card) && card.flag("Iform") == 2)
       add(*card.block, card.span("Iform"), name_of(card));
   });
@@ -151,25 +155,45 @@ void check_incremental_stiffness(const LintContext& c, const Rule& rule, Reporte
                        others == 0 ? "" : fmt::format(" (and {} more)", others)));
 }
 
+/// One finding for the deck, at the first interface with a bound.
 void check_half_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  const ContactCard* first = nullptr;
+  std::string_view field;
+  std::size_t others = 0;
+  each(c, rule, [&](const ContactCard& card) {
+    // Edges have the series stiffness, Istf 5, by default.
     const auto istf = card.flag("Istf");
-    if (istf < 2 || istf > 5) return;
-    for (const std::string_view field : {"Stmin", "Stmax"})
-      if (card.given(field))
-        note_field(report_at(r, rule, card, field,
-                             fmt::format("{}: {} bounds the stored stiffness; the bound of the one "
-                                         "that acts is {}",
-                                         name_of(card), card.show(field),
-                                         number_text(0.5 * card.value(field)))),
-                   card, "Istf");
+    if (istf < 2 || istf > 5 || !(card.given("Stmin") || card.given("Stmax"))) return;
+    if (first != nullptr) {
+      ++others;
+      return;
+    }
+    first = &card;
+    field = card.given("Stmax") ? "Stmax" : "Stmin";
   });
+  if (first == nullptr) return;
+  note_field(
+      report_at(
+          r, rule, *first, field,
+          fmt::format("{}: {} bounds the stored stiffness; the bound of the one that acts is "
+                      "{}{}",
+                      name_of(*first), first->show(field), number_text(0.5 * first->value(field)),
+                      others == 0 ? "" : fmt::format(" ({} more interfaces alike)", others))),
+      *first, "Istf");
 }
 
-void check_type19_edge_part(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {19}, [&](const ContactCard& card) {
+/// fric_ID names a /FRICTION without a law, which holds for edges as well.
+bool plain_friction(const LintContext& c, const ContactCard& card) {
+  if (c.interfaces == nullptr) return true;
+  const Friction* f = c.interfaces->friction(static_cast<std::int64_t>(card.value("fric_ID")));
+  return f == nullptr || f->Ifric == 0;
+}
+
+void check_edge_limits(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, rule, [&](const ContactCard& card) {
     for (const std::string_view field : {"fric_ID", "Ifric", "Ifiltr"})
-      if (card.given(field)) {
+      if (card.type == 19 && card.given(field) &&
+          !(field == "fric_ID" && plain_friction(c, card))) {
         report_at(r, rule, card, field,
                   fmt::format("{}: {} does not reach its edge contact, which knows Fric = {} only",
                               name_of(card), card.show(field), number_text(card.value("Fric"))));
@@ -178,14 +202,16 @@ void check_type19_edge_part(const LintContext& c, const Rule& rule, Reporter& r)
     for (const std::string_view field : {"IBCX", "IBCY", "IBCZ"})
       if (card.given(field)) {
         report_at(r, rule, card, field,
-                  name_of(card) + ": its edge contact releases no boundary conditions");
+                  name_of(card) + (card.type == 19
+                                       ? ": its edge contact releases no boundary conditions"
+                                       : ": an edge contact releases no boundary conditions"));
         break;
       }
   });
 }
 
 void check_release_column(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     const FieldView* x = card.find("IBCX");
     if (x == nullptr || x->field == nullptr || x->field->first != 8) return;
     if (!card.given("IBCX") || card.given("IBCY") || card.given("IBCZ")) return;
@@ -195,7 +221,7 @@ void check_release_column(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_tie_trigger(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!card.given("ITIED") || card.input("dtmin") > 0) return;
     note_field(report_at(r, rule, card, "ITIED",
                          name_of(card) + ": " + card.show("ITIED") +
@@ -236,21 +262,21 @@ void add(std::vector<Rule>& out, std::string_view id, Severity severity, std::st
 
 void add_heat(std::vector<Rule>& out) {
   add(out, "DK247", Severity::warning, "heat exchange with a body of temperature 0",
-      "Ithe is 1, Ithe_form 0, and Tint is blank (TYPE7, TYPE11, TYPE19).",
+      "Ithe is 1, Ithe_form 0, and Tint is blank.",
       "With Ithe_form 0 the secondary side exchanges heat with a body of the fixed temperature "
       "Tint. Blank is 0, the absolute zero where the deck computes in kelvin.",
       "it takes 0", "write Tint, or set Ithe_form 1", "When 0 is the temperature that is meant.",
       "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0\n", "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Tint=293.0\n",
       check_blank_temperature);
   add(out, "DK248", Severity::warning, "radiation without a distance",
-      "Frad is given and Drad is blank (TYPE7, TYPE11, TYPE19).",
+      "Frad is given and Drad is blank.",
       "The start-up prints a default distance, the larger of the gap and the shortest main side, "
       "but the computation does not get it: it has 0 there and nothing radiates.",
       "it prints a default distance and computes with 0", "write Drad",
       "When nothing shall radiate.", "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Tint=293.0 Frad=1.e-14\n",
       "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Tint=293.0 Frad=1.e-14 Drad=5.0\n", check_blank_radiation);
   add(out, "DK249", Severity::info, "friction heat of the main side is lost",
-      "Fheatm is given with Ithe_form 0 (TYPE7, TYPE19).",
+      "Fheatm is given with Ithe_form 0.",
       "The main side has no temperature of its own then. Its share of the friction heat is booked "
       "in the energies, but delivered to nobody.",
       "it books the share and heats nothing", "set Ithe_form 1, or blank Fheatm",
@@ -259,7 +285,7 @@ void add_heat(std::vector<Rule>& out) {
       "@/INTER/TYPE7/1 Fric=0.2 Ithe=1 Kthe=1.0 Ithe_form=1 Fheats=0.5 Fheatm=0.5\n",
       check_main_share);
   add(out, "DK291", Severity::warning, "friction function without heat exchange",
-      "fct_IDF is given, but Ithe is 0 (TYPE7).",
+      "fct_IDF is given, but Ithe is 0.",
       "The function is read at the temperature of the contact. Without heat exchange there is "
       "none, and friction stays Fric.",
       "it never evaluates the function", "set Ithe 1, or blank fct_IDF",
@@ -268,7 +294,7 @@ void add_heat(std::vector<Rule>& out) {
       "@/INTER/TYPE7/1 Fric=1.0 fct_IDF=1 Ithe=1 Kthe=1.0 Tint=293.0\n",
       check_function_without_heat);
   add(out, "DK914", Severity::warning, "friction function with Ithe_form 1",
-      "fct_IDF is given and both sides have temperatures (TYPE7).",
+      "fct_IDF is given and both sides have temperatures.",
       "The function should be read at the mean temperature of node and segment. The solver weights "
       "the corners of the segment with the weights of a pair that it looked at before: in a "
       "recorded run Fric 0.25 became 16. The models of deck cycle use the pair's own weights.",
@@ -280,33 +306,33 @@ void add_heat(std::vector<Rule>& out) {
 
 void add_friction(std::vector<Rule>& out) {
   add(out, "DK293", Severity::warning, "the cut-off filter does not filter",
-      "Ifiltr is 3 with a frequency in Xfreq (TYPE7, TYPE19, /FRICTION).",
+      "Ifiltr is 3 with a frequency in Xfreq (or in /FRICTION).",
       "Manuals give the factor 2 pi Xfreq dt. The solver takes the larger of that and 1, so the "
       "force is never smoothed, and is exaggerated where 2 pi Xfreq dt exceeds 1.",
       "it uses a factor of at least 1", "use Ifiltr 1 with the factor itself in Xfreq",
       "When no filter is meant.", "@/INTER/TYPE7/1 Fric=0.2 Ifiltr=3 Xfreq=100.0\n",
       "@/INTER/TYPE7/1 Fric=0.2 Ifiltr=1 Xfreq=0.3\n", check_cutoff_filter);
   add(out, "DK294", Severity::info, "filter with the incremental formulation",
-      "Ifiltr and Iform 2 stand together (TYPE7, TYPE19, /FRICTION).",
+      "Ifiltr and Iform 2 stand together (or in /FRICTION).",
       "With Iform 2 the factor multiplies the increment of the tangential force. That is a softer "
       "stick stiffness, not a smoothed force.",
       "it multiplies the increment", "set Ifiltr 0, or Iform 1", "When the softer stick is meant.",
       "@/INTER/TYPE7/1 Fric=0.2 Iform=2 Ifiltr=1 Xfreq=0.3\n",
       "@/INTER/TYPE7/1 Fric=0.2 Iform=1 Ifiltr=1 Xfreq=0.3\n", check_incremental_filter);
   add(out, "DK295", Severity::info, "Iform 2 sticks with twice the normal stiffness",
-      "Friction with Iform 2 (TYPE7, TYPE19, /FRICTION).",
+      "Friction with Iform 2 (or in /FRICTION).",
       "The manual's increment is K Vt dt with the K of the normal force. That K is halved before "
       "it acts on the normal force and is whole in the tangential increment: dFt = 2 K Vt dt.",
       "it uses the stiffness before the half", "nothing: know it when slip is compared by hand",
       "When the difference does not matter.", "@/INTER/TYPE7/1 Fric=0.2 Iform=2\n",
       "@/INTER/TYPE7/1 Fric=0.2 Iform=1\n", check_incremental_stiffness);
-  add(out, "DK297", Severity::info, "edges of a TYPE19: plain friction, no release",
-      "A friction law, a filter, fric_ID or IBC on a TYPE19.",
-      "The edge part of a TYPE19 is a TYPE11: it knows the constant Fric and nothing else, and it "
-      "never releases boundary conditions.",
+  add(out, "DK297", Severity::info, "edges: plain friction, no release",
+      "A friction law, a filter or fric_ID on a TYPE19; IBC on a TYPE19 or TYPE11.",
+      "The edge part of a TYPE19 is a TYPE11: it knows the constant Fric and nothing else. An edge "
+      "contact reads IBC and never releases a boundary condition.",
       "it passes Fric on and drops the rest", "add a TYPE7 and a TYPE11 instead, or accept Fric",
       "When edges matter little.", "@/INTER/TYPE19/1 Ifric=1 Fric=0.2 C2=0.01\n",
-      "@/INTER/TYPE19/1 Fric=0.2\n", check_type19_edge_part);
+      "@/INTER/TYPE19/1 Fric=0.2\n", check_edge_limits);
 }
 
 }  // namespace
@@ -323,27 +349,26 @@ void add_difference_rules(std::vector<Rule>& out) {
       "solver has place for.\n         2         1\n\n\n\n",
       "@/INTER/TYPE10/1\n", check_title_length);
   add(out, "DK268", Severity::info, "Tstart or Tstop beside a sensor",
-      "The card has a sensor and times of its own (TYPE7, TYPE11, TYPE19).",
+      "The card has a sensor and times of its own.",
       "Manuals say that the times are not used with a sensor. They are: there is contact only "
       "while Tstart <= t <= Tstop and the sensor is active.",
       "it asks both", "blank the times if the sensor alone shall decide",
       "When both conditions are meant.", "@/INTER/TYPE7/1 sens_ID=1 Tstop=50.0\n",
       "@/INTER/TYPE7/1 sens_ID=1\n", check_sensor_times);
   add(out, "DK296", Severity::info, "Stmin and Stmax act by half",
-      "Stmin or Stmax bounds the stiffness of Istf 2 to 5 (TYPE7, TYPE19).",
+      "Stmin or Stmax bounds the stiffness of Istf 2 to 5.",
       "The bounds hold for the stiffness that is stored and printed. Half of that acts in the "
       "force: the pair stiffness lies between Stmin / 2 and Stmax / 2.",
       "it bounds first and halves afterwards", "write twice the bound that is wanted",
       "When the factor is known.", "@/INTER/TYPE7/1 Istf=4 Stmax=5.0\n", "@/INTER/TYPE7/1 Istf=4\n",
       check_half_bounds);
   add(out, "DK298", Severity::info, "a single release flag in column 8",
-      "Of the three release flags only that in column 8 is set (TYPE7, TYPE19).",
+      "Of the three release flags only that in column 8 is set.",
       "The flags of X, Y and Z stand in columns 8, 9 and 10. Manual pages print them as columns "
       "6, 7 and 8, where column 8 is Z.",
       "it releases X", "move the 1 to column 10 if Z is meant", "When X is meant.",
       "@/INTER/TYPE7/1 IBCX=1\n", "@/INTER/TYPE7/1 IBCX=1 IBCY=1 IBCZ=1\n", check_release_column);
-  add(out, "DK915", Severity::warning, "ITIED without dtmin",
-      "ITIED is set and dtmin is blank (TYPE7).",
+  add(out, "DK915", Severity::warning, "ITIED without dtmin", "ITIED is set and dtmin is blank.",
       "A node is tied when its contact time step falls below dtmin. Manuals name the limit of "
       "/DT/INTER/DEL as well; it is not asked. Without dtmin the limit is 1e-30: nothing ties.",
       "it never ties a node", "write dtmin", "When the tie is switched off on purpose.",

@@ -27,7 +27,7 @@ void ignored(const LintContext& c, const Rule& rule, Reporter& r, const ContactC
 }
 
 void check_gap_scale(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Igap") >= 2) return;
     ignored(c, rule, r, card, {"Gapmax"}, "Igap", card.show("Igap") + " knows no upper bound",
             false);
@@ -37,7 +37,7 @@ void check_gap_scale(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_mesh_size(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Igap") != 3)
       ignored(c, rule, r, card, {"%mesh_size"}, "Igap",
               "only Igap 3 limits the gap by the mesh, here " + card.show("Igap"), false);
@@ -45,7 +45,7 @@ void check_mesh_size(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     const auto istf = card.flag("Istf");
     const bool used = card.type == 11 ? istf != 1 : istf > 1;
     if (!used)
@@ -55,7 +55,7 @@ void check_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_friction_source(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.given("fric_ID"))
       ignored(c, rule, r, card,
               {"Fric", "VISF", "Ifric", "Ifiltr", "Xfreq", "Iform", "C1", "C2", "C3", "C4", "C5",
@@ -65,14 +65,14 @@ void check_friction_source(const LintContext& c, const Rule& rule, Reporter& r) 
 }
 
 void check_second_node(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Icurv") == 1)
       ignored(c, rule, r, card, {"node_ID2"}, "Icurv", "a sphere has one centre", false);
   });
 }
 
 void check_visf(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.given("fric_ID")) return;
     if (card.flag("Iform") == 2)
       ignored(c, rule, r, card, {"VISF"}, "Iform",
@@ -81,7 +81,7 @@ void check_visf(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_no_friction(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.given("fric_ID") || card.given("Fric") || card.given("Ifric") || card.given("fct_IDF"))
       return;
     ignored(c, rule, r, card, {"Ifiltr", "Fheats", "Fheatm"}, "Fric", "there is no friction",
@@ -91,7 +91,7 @@ void check_no_friction(const LintContext& c, const Rule& rule, Reporter& r) {
 
 /// Coefficients that a law does not have: Ifric 3 has no Fric, 4 has C1 and C2 only.
 void check_coefficients(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.given("fric_ID")) return;
     if (card.input("Ifric") == 3)
       ignored(c, rule, r, card, {"Fric"}, "Ifric",
@@ -113,7 +113,7 @@ void check_never_read(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_function_scale(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.input("AscaleF") != 1)
       ignored(c, rule, r, card, {"AscaleF"}, "fct_IDF",
               card.given("fct_IDF") ? "the solver reads fct_IDF at the plain temperature"
@@ -125,7 +125,7 @@ void check_function_scale(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_tint(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.input("Ithe_form") == 1)
       ignored(c, rule, r, card, {"Tint"}, "Ithe_form",
               "with Ithe_form 1 the main side has its own temperature", false);
@@ -133,14 +133,14 @@ void check_tint(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_drad(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!card.given("Frad"))
       ignored(c, rule, r, card, {"Drad"}, "Frad", "Frad is 0, nothing radiates", false);
   });
 }
 
 void check_type10_penetration(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {10}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (const double v = card.input("Inacti"); v != 5 && v != 1000)
       ignored(c, rule, r, card, {"Inacti"}, "",
               "initial penetrations of a tied contact are only counted", true);
@@ -162,7 +162,7 @@ bool share_nodes(const LintContext& c, const ContactCard& card) {
 }
 
 void check_removal(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.input("Irem_gap") != 2) return;
     std::string_view one = card.type == 7 ? "grnd_IDs" : card.type == 11 ? "line_IDs" : "surf_IDs";
     std::string_view two = card.type == 11 ? "line_IDm" : "surf_IDm";

@@ -100,7 +100,7 @@ bool second_line_extra(const ContactCard& contact) {
 }
 
 void check_second_line(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {11}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     const bool missing = second_line_missing(card);
     if (!missing && !second_line_extra(card)) return;
     Diagnostic* d = r.report(

@@ -6,7 +6,7 @@ namespace deck::detail {
 namespace {
 
 void check_type19_istf(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.input("Istf") != 6) return;
     Diagnostic* d =
         report_at(r, rule, card, "Istf", name_of(card) + " has Istf = 6, a code of old manuals");
@@ -15,7 +15,7 @@ void check_type19_istf(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_type19_idel(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.input("Idel") != 3) return;
     Diagnostic* d =
         report_at(r, rule, card, "Idel", name_of(card) + " has Idel = 3, a code of old manuals");
@@ -24,14 +24,14 @@ void check_type19_idel(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_type19_igap(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Igap") == 4)
       report_at(r, rule, card, "Igap", name_of(card) + " has Igap = 4, which no manual describes");
   });
 }
 
 void check_type19_edges(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Igap") == 2)
       report_at(r, rule, card, "Igap",
                 name_of(card) + ": the gap scale of Igap = 2 does not reach its edge contact");
@@ -39,7 +39,7 @@ void check_type19_edges(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_type19_stfac(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!card.given("Stfac") && card.flag("Istf") != 1)
       report_at(r, rule, card, "Stfac",
                 name_of(card) + " leaves Stfac blank: the factor is 1, not 0 as old manuals say");
@@ -47,7 +47,7 @@ void check_type19_stfac(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_inacti(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 11, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Inacti") == 4)
       report_at(r, rule, card, "Inacti",
                 name_of(card) + ": " + card.show("Inacti") + " is described in no manual");
@@ -55,14 +55,14 @@ void check_inacti(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_ifric(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.input("Ifric") == 4)
       report_at(r, rule, card, "Ifric", name_of(card) + ": Ifric = 4 is described in no manual");
   });
 }
 
 void check_fric_function(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     // With fric_ID nothing of the card's friction is used.
     if (!card.given("fct_IDF") || card.given("Fric") || card.given("fric_ID")) return;
     Diagnostic* d =
@@ -74,7 +74,7 @@ void check_fric_function(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_filter_off(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!card.given("Ifiltr") || card.given("Xfreq") || card.given("fric_ID")) return;
     Diagnostic* d = report_at(
         r, rule, card, "Ifiltr",
@@ -92,7 +92,7 @@ void check_filter_off(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr || !c.model->has_monitored_volume) return;
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Ibag") == 2)
       report_at(r, rule, card, "Ibag",
                 name_of(card) +
@@ -101,12 +101,12 @@ void check_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void check_type11_istf(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {11, 19}, [&](const ContactCard& card) {
+void check_edge_istf(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Istf") != 1 || !card.given("Stfac")) return;
     note_field(report_at(r, rule, card, "Stfac",
                          fmt::format("{}: Stfac = {} is the stiffness of each line{}, that of a "
-                                     "pair of lines is {}",
+                                     "pair of lines is {}, and half of it acts",
                                      name_of(card), number_text(card.input("Stfac")),
                                      card.type == 19 ? " of its edge contact" : "",
                                      number_text(card.input("Stfac") / 2))),
@@ -200,10 +200,12 @@ void add_manual_rules(std::vector<Rule>& out) {
   add(out, "DK289", Severity::info, "edges: Istf 1 gives half of Stfac",
       "Istf 1 is to make Stfac the stiffness (TYPE11, and the edge part of TYPE19).",
       "In an edge contact both lines get Stfac, and the pair is the two in series: "
-      "1 / (1/Stfac + 1/Stfac) = Stfac / 2.",
-      "it combines the two sides in series", "write twice the stiffness that is wanted",
+      "1 / (1/Stfac + 1/Stfac) = Stfac / 2. As everywhere half of that acts in the force: Stfac / "
+      "4. "
+      "Node contact takes Stfac itself.",
+      "it combines the two sides in series", "write four times the stiffness that is wanted",
       "When the factor is known.", "@/INTER/TYPE11/1 Istf=1 Stfac=10.0\n",
-      "@/INTER/TYPE11/1 Istf=5 Stfac=1.0\n", check_type11_istf);
+      "@/INTER/TYPE11/1 Istf=5 Stfac=1.0\n", check_edge_istf);
   out.push_back({.id = "DK299",
                  .title = "surface-to-surface smoothing is not evaluated here",
                  .severity = Severity::warning,

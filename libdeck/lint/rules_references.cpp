@@ -203,7 +203,7 @@ void check_friction_id(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr) return;
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     for (const std::string_view field : {"node_ID1", "node_ID2"}) {
       const auto id = static_cast<std::int64_t>(card.input(field));
       if (id <= 0 || c.model->nodes.map.find(id) != no_index) continue;
@@ -233,7 +233,7 @@ void check_duplicates(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_no_secondary_line(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {11}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!card.given("line_IDs"))
       report_at(r, rule, card, "line_IDs", name_of(card) + " has no secondary line");
   });
@@ -251,7 +251,7 @@ void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_no_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {10}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     if (!card.given("grnd_IDs"))
       report_at(r, rule, card, "grnd_IDs", name_of(card) + " has no secondary node group");
   });

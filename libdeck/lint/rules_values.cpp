@@ -60,7 +60,7 @@ void check_sign(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_heat_share(const LintContext& c, const Rule& rule, Reporter& r) {
-  each(c, {7, 19}, [&](const ContactCard& card) {
+  each(c, rule, [&](const ContactCard& card) {
     for (const std::string_view name : {"Fheats", "Fheatm"})
       if (const double v = card.input(name); v < 0 || v > 1)
         report_at(r, rule, card, name,

@@ -42,6 +42,9 @@ struct Rule {
   std::string_view ignore = {};  ///< when the finding may be ignored
   Fixable fixable = Fixable::no;
   std::string_view bad = {}, good = {};
+  /// Numbers of the interface types that it is true for ("19": for some part of a TYPE19); empty:
+  /// it is not about interfaces of these types.
+  std::vector<int> types = {};
   void (*check)(const LintContext&, const Rule&, Reporter&) = nullptr;
 };
 
