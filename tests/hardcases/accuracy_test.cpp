@@ -56,6 +56,24 @@ TEST(Accuracy, CertifiedTiersDecideAllAlike) {
   EXPECT_GT(tier(r, "reference", "gaps").decision_errors, 0u);
 }
 
+TEST(Accuracy, AnotherPartAtTheSameDistanceIsNoError) {
+  // Two edges on one line meet in many points: every part that is as near as the nearest is right.
+  std::vector<PairSample> samples;
+  for (int i = 0; i < 40; ++i) {
+    PairSample s;
+    s.edges = true;
+    s.x = {Point3<double>{1000.0 + i, 7, 0}, Point3<double>{1010.0 + i, 7, 0},
+           Point3<double>{1002.0, 7, 1}, Point3<double>{1030.0, 7, 1}};
+    s.gap = 2;
+    samples.push_back(s);
+  }
+  for (const TierResult& t : measure_accuracy(samples).tiers) {
+    if (t.what == "distance" && t.name != "float") {
+      EXPECT_EQ(t.feature_errors, 0u) << t.name;
+    }
+  }
+}
+
 TEST(Accuracy, RobustAnswersDoNotNoticeHowAPairIsWritten) {
   const AccuracyReport r = small_report();
   for (const char* what : {"distance", "gaps"}) {
@@ -190,6 +208,36 @@ TEST(AccuracyReports, ChartMarksEveryTierAndFetchesNothing) {
   EXPECT_NE(html.find("a&lt;b&gt;.rad"), std::string::npos);
   EXPECT_EQ(html.find("src="), std::string::npos);
   EXPECT_EQ(html.find("href="), std::string::npos);
+}
+
+TEST(AccuracyReports, ChartPutsTimesAndLabelsWhereTheAxesAre) {
+  // Two tiers of one kind: the slower one stands to the right, both between the axes.
+  AccuracyReport r = small_report();
+  std::vector<TierResult> kept;
+  for (const TierResult& t : r.tiers)
+    if (t.what == "distance" && kept.size() < 2) kept.push_back(t);
+  ASSERT_EQ(kept.size(), 2u);
+  kept[0].ns_per_pair = 20;
+  kept[1].ns_per_pair = 2000;
+  r.tiers = kept;
+  const std::string svg = accuracy_svg(r, {});
+  const auto number = [&](std::size_t from, const std::string& name) {
+    const auto at = svg.find(name + "='", from);
+    return at == std::string::npos ? -1.0 : std::stod(svg.substr(at + name.size() + 2));
+  };
+  const auto first = svg.find("<circle"), second = svg.find("<circle", first + 1);
+  ASSERT_NE(second, std::string::npos);
+  const double x0 = number(first, "cx"), x1 = number(second, "cx");
+  const double width = number(svg.find("<svg"), "width");
+  EXPECT_GT(x0, 0);
+  EXPECT_LT(x0, x1);
+  EXPECT_LT(x1, width);
+  // The label of the upright axis is turned about its own place.
+  const auto turned = svg.find("rotate(-90 18 ");
+  ASSERT_NE(turned, std::string::npos);
+  const double about = std::stod(svg.substr(turned + 14));
+  const auto element = svg.rfind("<text", turned);
+  EXPECT_NEAR(number(element, " y"), about, 0.1);
 }
 
 }  // namespace
