@@ -16,9 +16,10 @@ std::string keyword_of(const Block& block) {
                                                                  : std::string(block.keyword);
 }
 
-/// "/INTER/TYPE25" as "TYPE25".
+/// "/INTER/TYPE25" as "TYPE25"; "/INTER", where no type stands, as it is.
 std::string type_of(const std::string& keyword) {
-  return keyword.substr(std::string_view("/INTER/").size());
+  constexpr std::string_view front = "/INTER/";
+  return keyword.starts_with(front) ? keyword.substr(front.size()) : keyword;
 }
 
 std::string ids_text(const std::vector<std::int64_t>& ids) {

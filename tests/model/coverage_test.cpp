@@ -35,6 +35,11 @@ TEST(Coverage, ComesFirstWhereNothingWasExamined) {
   EXPECT_EQ(coverage_tail(c), "") << "said already";
 }
 
+TEST(Coverage, AHeaderWithoutATypeIsNamedAsItIs) {
+  const Coverage c = coverage("/INTER/5\na\n");
+  EXPECT_EQ(not_examined_text(c), "1 interface of /INTER (id 5)");
+}
+
 TEST(Coverage, DeckWithoutContactsSaysThat) {
   const Coverage c = coverage("/TITLE\nx\n/INTER/SUB/1\na\n");
   EXPECT_TRUE(c.nothing());
