@@ -227,7 +227,10 @@ void check_no_stfac(const LintContext& c, const Rule& rule, Reporter& r) {
                                   ": Istf = 1 makes Stfac the stiffness, and Stfac is "
                                   "0");
     note_field(d, card, "Istf");
-    fix_field(d, c, card, "Stfac", "1.0", true, "write what is used: 1.0");
+    // The default is 1 in working units: in a block of other units 1.0 would be something else.
+    const UnitSystem* units = c.deck.units_of(*card.block);
+    if (units == nullptr || *units == c.deck.begin.working)
+      fix_field(d, c, card, "Stfac", "1.0", true, "write what is used: 1.0");
   });
 }
 

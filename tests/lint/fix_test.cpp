@@ -86,6 +86,25 @@ TEST_P(EveryFix, SafeOnesLeaveTheEffectiveValuesAlone) {
 INSTANTIATE_TEST_SUITE_P(Fixes, EveryFix, testing::ValuesIn(fixable_ids()),
                          [](const auto& one) { return one.param; });
 
+TEST(SafeFixes, WriteNoDefaultIntoABlockOfOtherUnits) {
+  // The default of Stfac is 1 in working units; here 1.0 on the card would be 1e-6 of them.
+  const std::string deck =
+      "#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n" +
+      std::string("                  kg                  mm                   s\n") +
+      "                  kg                  mm                  ms\n"
+      "/INTER/TYPE7/1\ncontact\n         2         1         1\n\n\n\n\n\n/END\n";
+  LintOptions only;
+  only.select = {"DK219"};
+  const Linted other = lint_text(deck, only);
+  ASSERT_EQ(other.count("DK219"), 1u) << other.list();
+  EXPECT_FALSE(other.result.diagnostics[0].fix.has_value());
+  std::string same = deck;
+  same.replace(same.find("   s\n"), 5, "  ms\n");
+  const Linted own = lint_text(same, only);
+  ASSERT_EQ(own.count("DK219"), 1u) << own.list();
+  EXPECT_TRUE(own.result.diagnostics[0].fix.has_value());
+}
+
 TEST(CellEdit, KeepsTheLengthOfTheLineAndAlignsRight) {
   const Linted run = lint_text("#RADIOSS STARTER\n/BEGIN\nabcdefghij0123456789tail\n/END\n");
   const SourceSet& sources = run.deck->sources;
