@@ -251,6 +251,16 @@ TEST(ExpandType19, ShortBlocksGetTheLinesTheirFlagsNeed) {
   expect_same_scene(*before, *after, "short block");
 }
 
+TEST(ExpandType19, AHeaderWithoutAnyLineGetsATitleLineToo) {
+  const auto before = open_text(with("@/DEFAULT/INTER/TYPE19 Istf=4 Inacti=5\n/INTER/TYPE19/5"));
+  const Rewrite r = expand_type19(before->context());
+  const auto after = applied(*before, r);
+  ASSERT_FALSE(after->interfaces.type7.empty());
+  EXPECT_EQ(after->interfaces.type7[0].title, "");
+  EXPECT_EQ(after->interfaces.type7[0].Istf.value, 4);
+  EXPECT_EQ(after->interfaces.type7[0].Inacti.value, 5);
+}
+
 TEST(ExpandType19, InterfaceInASubmodelStaysThereWithItsUnits) {
   SmallDeck d = plates(0.75);
   d.add(

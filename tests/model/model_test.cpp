@@ -51,6 +51,16 @@ TEST(Part, SecondDefinitionIsReported) {
   EXPECT_EQ(b.findings("DK100"), 1u);
 }
 
+TEST(ModelFindings, CarryKeywordAndIdOfTheirBlock) {
+  Built b(parts() + quad() + "/PROP/SHELL/7/5\np\n\n\n" + reals({3, 1}));
+  for (const Diagnostic& d : b.diagnostics().all())
+    if (d.rule == "DK109") {
+      EXPECT_EQ(d.keyword, "/PROP/SHELL");
+      EXPECT_EQ(d.id, 7);
+    }
+  EXPECT_EQ(b.findings("DK109"), 1u);
+}
+
 TEST(Shell, WithoutAnyThicknessIsMessage495) {
   Built b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
           "/PART/1\np\n" + cells({1, 1}) + quad());

@@ -1,0 +1,96 @@
+// Which elements count as turned inside out when nodes have moved: also those pressed flat.
+#include "edit/depenetrate_mesh.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <map>
+
+#include "contact/small_deck.hpp"
+
+namespace deck::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// Nodes of the elements that turn when nodes are put elsewhere.
+std::vector<std::int64_t> turned(const SmallDeck& small,
+                                 const std::map<std::int64_t, std::array<double, 3>>& moved) {
+  const Built b(small);
+  const detail::FixMesh mesh(b.scene);
+  Coordinates now{b.model.nodes.x, b.model.nodes.y, b.model.nodes.z};
+  const Coordinates before = now;
+  std::vector<NodeIndex> nodes;
+  for (const auto& [id, x] : moved) {
+    const NodeIndex n = b.model.find_node(id);
+    nodes.push_back(n);
+    now.x[n] = x[0];
+    now.y[n] = x[1];
+    now.z[n] = x[2];
+  }
+  std::vector<std::int64_t> out;
+  for (const NodeIndex n : mesh.inverted(before, now, nodes)) out.push_back(b.model.node_id(n));
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+SmallDeck square() {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 8, 0, 0).node(3, 8, 8, 0).node(4, 0, 8, 0);
+  return d.shell_part(1, 1.0).shell(1, 1, 1, 2, 3, 4);
+}
+
+SmallDeck tetra() {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 8, 0, 0).node(3, 0, 8, 0).node(4, 0, 0, 8);
+  return d.solid_part(1).tetra(1, 1, 1, 2, 3, 4);
+}
+
+SmallDeck cube() {
+  SmallDeck d;
+  for (int i = 0; i < 8; ++i)
+    d.node(i + 1, i % 4 == 1 || i % 4 == 2 ? 8 : 0, i % 4 > 1 ? 8 : 0, i > 3 ? 8 : 0);
+  return d.solid_part(1).brick(1, 1, {1, 2, 3, 4, 5, 6, 7, 8});
+}
+
+TEST(InvertedElements, AShellThatKeepsItsSideIsNone) {
+  EXPECT_THAT(turned(square(), {{3, {6, 6, 3}}}), IsEmpty());
+}
+
+TEST(InvertedElements, AShellWhoseCornerBecomesStraightIsOne) {
+  EXPECT_THAT(turned(square(), {{3, {4, 4, 0}}}), ElementsAre(1, 2, 3, 4));
+}
+
+TEST(InvertedElements, AShellWhoseCornerTurnsOverIsOne) {
+  EXPECT_THAT(turned(square(), {{3, {1, 1, 0}}}), ElementsAre(1, 2, 3, 4));
+}
+
+TEST(InvertedElements, AnElementThatNoMovedNodeTouchesIsNotLookedAt) {
+  SmallDeck d = square();
+  d.node(5, 20, 0, 0);
+  EXPECT_THAT(turned(d, {{5, {1, 1, 0}}}), IsEmpty());
+}
+
+TEST(InvertedElements, ATetrahedronPressedFlatIsOne) {
+  EXPECT_THAT(turned(tetra(), {{4, {0, 0, 0.5}}}), IsEmpty());
+  EXPECT_THAT(turned(tetra(), {{4, {1, 1, 0}}}), ElementsAre(1, 2, 3, 4));
+}
+
+TEST(InvertedElements, ATetrahedronThatWasInsideOutAlreadyMayTurnBackOnlyByPassingFlat) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 8, 0, 0).node(3, 0, 8, 0).node(4, 0, 0, -8);
+  d.solid_part(1).tetra(1, 1, 1, 2, 3, 4);
+  EXPECT_THAT(turned(d, {{4, {0, 0, -1}}}), IsEmpty());
+  EXPECT_THAT(turned(d, {{4, {0, 0, 0}}}), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(turned(d, {{4, {0, 0, 1}}}), ElementsAre(1, 2, 3, 4));
+}
+
+TEST(InvertedElements, ABrickWithAFlatCornerIsOne) {
+  EXPECT_THAT(turned(cube(), {{7, {7, 7, 7}}}), IsEmpty());
+  // Node 7 in the plane of its neighbours 3, 6 and 8.
+  EXPECT_THAT(turned(cube(), {{7, {8, 8, 0}}}), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+}
+
+}  // namespace
+}  // namespace deck::test
