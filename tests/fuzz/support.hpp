@@ -20,8 +20,8 @@ namespace deck::fuzz {
 /// Ends the process where a property does not hold: libFuzzer keeps the input that did it.
 inline void require(bool good, const char* what, std::string_view detail = {}) {
   if (good) return;
-  std::fprintf(stderr, "property does not hold: %s\n%.*s\n", what,
-               static_cast<int>(std::min<std::size_t>(detail.size(), 4000)), detail.data());
+  std::fprintf(stderr, "property does not hold: %s\n%s\n", what,
+               std::string(detail.substr(0, 4000)).c_str());
   std::abort();
 }
 
@@ -96,7 +96,8 @@ inline void check_spans(const Deck& deck, const Diagnostics& findings) {
   }
 }
 
-/// The effective values of all interfaces, one line each, to compare decks by.
-std::string effective_values(const Interfaces& interfaces);
+/// The effective values of all interfaces, one line each, to compare decks by; `only_used`: without
+/// Inacti of a tied contact and Iedge, which are printed and never used.
+std::string effective_values(const Interfaces& interfaces, bool only_used = false);
 
 }  // namespace deck::fuzz
