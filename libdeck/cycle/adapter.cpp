@@ -84,7 +84,7 @@ void take_surface_fields(const Scene& scene, const Inter& i, ContactCard& c) {
 }
 
 template <class Inter>
-void take_common_fields(const Scene& scene, const Inter& i, Model model, const Contact& contact,
+void take_common_fields(const Scene& scene, const Inter& i, const Contact& contact,
                         ContactCard& c) {
   c.stfac = i.Stfac.value;
   c.viss = i.VISs.value;
@@ -98,8 +98,8 @@ void take_common_fields(const Scene& scene, const Inter& i, Model model, const C
   if (i.AscaleK.value != 0.0) c.ascalek = i.AscaleK.value;
   c.tint = i.Tint.value;
   c.frad = i.Frad.value;
-  const bool derived = i.Drad.origin == Origin::derived;
-  c.drad = derived && model == Model::reference ? 0.0 : contact.drad;
+  // The default of a blank Drad is printed at start-up but never reaches the force stage.
+  c.drad = i.Drad.origin == Origin::derived ? 0.0 : contact.drad;
   c.tstart = i.Tstart.value;
   c.tstop = i.Tstop.value;
   c.sensor_time = sensor_time(*scene.model, i.sens_ID.value);
@@ -112,21 +112,18 @@ void take_common_fields(const Scene& scene, const Inter& i, Model model, const C
   c.fric_orthotropic = friction != nullptr && contact.type != 11 && detail::orthotropic(*friction);
 }
 
-void take_card(const Scene& scene, const InterType7& i, Model m, const Contact& contact,
-               ContactCard& c) {
-  take_common_fields(scene, i, m, contact, c);
+void take_card(const Scene& scene, const InterType7& i, const Contact& contact, ContactCard& c) {
+  take_common_fields(scene, i, contact, c);
   take_surface_fields(scene, i, c);
 }
-void take_card(const Scene& scene, const InterType19& i, Model m, const Contact& contact,
-               ContactCard& c) {
-  take_common_fields(scene, i, m, contact, c);
+void take_card(const Scene& scene, const InterType19& i, const Contact& contact, ContactCard& c) {
+  take_common_fields(scene, i, contact, c);
   if (contact.type != 11) take_surface_fields(scene, i, c);
 }
-void take_card(const Scene& scene, const InterType11& i, Model m, const Contact& contact,
-               ContactCard& c) {
-  take_common_fields(scene, i, m, contact, c);
+void take_card(const Scene& scene, const InterType11& i, const Contact& contact, ContactCard& c) {
+  take_common_fields(scene, i, contact, c);
 }
-void take_card(const Scene&, const InterType10& i, Model, const Contact& contact, ContactCard& c) {
+void take_card(const Scene&, const InterType10& i, const Contact& contact, ContactCard& c) {
   c.stfac = i.Stfac.value;
   c.viss = i.VISs.value;
   c.tstart = i.Tstart.value;
@@ -137,12 +134,12 @@ void take_card(const Scene&, const InterType10& i, Model, const Contact& contact
 
 }  // namespace
 
-ContactCard make_card(const Scene& scene, const deck::Contact& contact, Model model) {
+ContactCard make_card(const Scene& scene, const deck::Contact& contact) {
   ContactCard c;
   c.kind = contact.type == 11   ? ContactKind::edge_edge
            : contact.type == 10 ? ContactKind::tied
                                 : ContactKind::node_segment;
-  visit_interface(*contact.inter, [&](const auto& i) { take_card(scene, i, model, contact, c); });
+  visit_interface(*contact.inter, [&](const auto& i) { take_card(scene, i, contact, c); });
   // The scene holds what the contact's own rules made of these.
   c.istf = contact.istf;
   if (contact.factor < 0) c.stfac = -contact.factor;

@@ -45,8 +45,7 @@ namespace {
 /// Widths of the edges of one side.
 class Widths {
  public:
-  Widths(const Scene& scene, Model model)
-      : scene_(&scene), model_(model), connectivity_(*scene.model) {}
+  explicit Widths(const Scene& scene) : scene_(&scene), connectivity_(*scene.model) {}
 
   std::vector<double> of(const std::vector<ContactEdge>& edges) {
     std::vector<double> out;
@@ -57,9 +56,9 @@ class Widths {
       if (rule == Carrier::shell4 || rule == Carrier::shell3)
         out.push_back(on_shells(e));
       else if (rule == Carrier::solid)
-        out.push_back(model_ == Model::reference ? on_solids_reference(e) : on_solids(e));
+        out.push_back(on_solids(e));
       else
-        out.push_back(model_ == Model::reference ? on_lines(e, rule) : e.section);
+        out.push_back(on_lines(e, rule));
     }
     return out;
   }
@@ -111,7 +110,8 @@ class Widths {
     return distinct < 3 ? 0.0 : 0.5 * std::sqrt(dot(d, d)) / static_cast<double>(distinct);
   }
 
-  double on_solids_reference(const ContactEdge& e) {
+  /// Only edges whose second node is in the second slot count; the areas are not made a width.
+  double on_solids(const ContactEdge& e) {
     double sum = 0.0;
     for (const std::uint32_t solid : around(ElementKind::solid8, e)) {
       const NodeIndex* n = scene_->model->solid8.of(solid);
@@ -123,31 +123,6 @@ class Widths {
       if (n[5] == e.nodes[0]) sum += share(n, {5, 6, 7, 8}) + side;
     }
     return sum;
-  }
-
-  /// Half the root of what the outer faces at the edge give to it: faces of one solid only.
-  double on_solids(const ContactEdge& e) {
-    static constexpr std::array<std::array<int, 4>, 6> faces{
-        {{1, 2, 3, 4}, {5, 6, 7, 8}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}}};
-    std::map<std::array<NodeIndex, 4>, std::pair<int, double>> seen;
-    for (const std::uint32_t solid : around(ElementKind::solid8, e)) {
-      const NodeIndex* n = scene_->model->solid8.of(solid);
-      for (const auto& f : faces) {
-        std::array<NodeIndex, 4> key{};
-        for (std::size_t i = 0; i < 4; ++i) key[i] = n[f[i] - 1];
-        const auto has = [&](NodeIndex node) {
-          return std::find(key.begin(), key.end(), node) != key.end();
-        };
-        if (!has(e.nodes[0]) || !has(e.nodes[1])) continue;
-        std::sort(key.begin(), key.end());
-        auto& [count, area] = seen[key];
-        ++count;
-        area = share(n, f);
-      }
-    }
-    double sum = 0.0;
-    for (const auto& [key, face] : seen) sum += face.first == 1 ? face.second : 0.0;
-    return 0.5 * std::sqrt(sum);
   }
 
   /// The solver's formula for beams and trusses, whose dimension is the root of a length.
@@ -164,14 +139,13 @@ class Widths {
   }
 
   const Scene* scene_;
-  Model model_;
   Connectivity connectivity_;
 };
 
 }  // namespace
 
-void edge_widths(const Scene& scene, const Contact& contact, Model model, ContactPairs& out) {
-  Widths widths(scene, model);
+void edge_widths(const Scene& scene, const Contact& contact, ContactPairs& out) {
+  Widths widths(scene);
   const std::vector<double> secondary = widths.of(contact.secondary_edges);
   const std::vector<double> main = widths.of(contact.main_edges);
   for (const CandidatePair& p : out.at) {

@@ -213,7 +213,7 @@ ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const 
   }
   if (card.kind == ContactKind::edge_edge) {
     edge_values(contact, card, model, out);
-    if (card.ithe > 0) detail::edge_widths(scene, contact, model, out);
+    if (card.ithe > 0) detail::edge_widths(scene, contact, out);
     if (card.fric_id) detail::pair_friction(scene, contact, out);
     return out;
   }

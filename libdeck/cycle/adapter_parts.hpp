@@ -14,10 +14,9 @@ void node_areas(const Scene& scene, const Contact& contact, ContactPairs& out);
 /// Widths of both edges for heat, of the mesh at the start. What carries the last edge of a side
 /// rules for all of them: half the root of the area that its shells give to it (half the thickness
 /// more where it has one shell only), shares of faces of solids, or sections of beams and trusses.
-/// For solids the reference solver counts only edges whose second node is in the second slot, and
-/// takes the sum of areas for the width, so nearly all are 0; robust: half the root of the shares
-/// of both outer faces.
-void edge_widths(const Scene& scene, const Contact& contact, Model model, ContactPairs& out);
+/// As in the solver edges of solids count only when their second node is in the second slot, and
+/// take the sum of areas for the width, so nearly all are 0.
+void edge_widths(const Scene& scene, const Contact& contact, ContactPairs& out);
 
 /// /FRICTION by pairs of parts: coefficient, tangential damping, constants of the law, and both
 /// directions where there are orthotropic pairs. Parts that no pair names, and pairs that are not

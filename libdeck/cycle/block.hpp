@@ -25,9 +25,8 @@ struct Constants {
   double zeta = 0.0;          ///< VISF, 0 for Iform 2 and where pairs have their own
   double zeta2 = 0.0;         ///< its square
   double mu = 0.0;
-  double alpha = 1.0;            ///< filter weight
-  bool filter_low_pass = false;  ///< Iform 2 in the robust model: filter the force, not the step
-  double reach = 0.0;            ///< pairs are kept to max(gap, reach): radiation distance
+  double alpha = 1.0;  ///< filter weight; Iform 2: of the step
+  double reach = 0.0;  ///< pairs are kept to max(gap, reach): radiation distance
   double dt1 = 0.0;
   double inverse_dt1 = 0.0;
   double dt12 = 0.0;

@@ -16,11 +16,9 @@ double Curve::operator()(double abscissa) const {
   return y[right - 1] + (y[right] - y[right - 1]) / dx * (abscissa - x[right - 1]);
 }
 
-bool is_active(const ContactCard& card, double t, bool sensor_overrides) {
+bool is_active(const ContactCard& card, double t) {
   const bool window = card.tstart <= t && t <= card.tstop;
-  if (!card.sensor_time) return window;
-  const bool sensor = t >= *card.sensor_time;
-  return sensor_overrides ? sensor : sensor && window;
+  return window && (!card.sensor_time || t >= *card.sensor_time);
 }
 
 bool segment_stays(int idel, int live_elements, bool own_element_alive) {

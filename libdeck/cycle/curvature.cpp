@@ -188,7 +188,7 @@ void apply_curvature(const KernelPlan& plan, const PacketView& view, std::size_t
     const Vec node = at(view.position[0], i);
     const double gap = view.gap[i];
     // A curved surface leaves its facets: pairs are kept further out than the gap, and then damp
-    // and rub there without penetration, as in the reference solver (robust: nothing acts).
+    // and rub there without penetration, as in the solver.
     const double reach = std::max(gap + curvature_allowance(card, view, i), drad);
     Contact c{g.penetration[slot],
               g.distance[slot],

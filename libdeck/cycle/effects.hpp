@@ -40,8 +40,8 @@ struct PairState {
 
 // Distance, relative to the gap, below which the robust law continues linearly.
 inline constexpr double kRobustFloor = 1e-8;
-// The reference drops a node when less than this share of its gap is left (double precision).
-inline constexpr double kReferenceFloor = 1e-10;
+// The solver drops a node when less than this share of its gap is left (double precision).
+inline constexpr double kClosed = 1e-10;
 
 /// Inacti 5 and 6: the penetration found at start is taken off the gap and slowly given back.
 struct GapReduction {
@@ -70,26 +70,28 @@ struct Elastic {
   static constexpr Field needs = Field::position | Field::stiffness | Field::gap;
   static constexpr Field writes = Field::force | Field::nodal_stiffness | Field::weights;
 
-  /// Remaining distance and share; the reference subtracts, the robust model measured d.
+  /// Remaining distance and share; the reference subtracts, the robust model measured d. Edges
+  /// work with nine tenths of the gap: their singularity sits at a tenth of it.
   template <Model M, ContactKind K, class V>
   static void remaining(PairState<V>& s) {
     const V zero = V::fill(0.0);
+    if constexpr (K == ContactKind::edge_edge) s.k0 = select(s.pi == zero, zero, s.k0);
     if constexpr (M == Model::reference) {
-      if constexpr (K == ContactKind::edge_edge) {
-        s.k0 = select(s.pi == zero, zero, s.k0);
-        s.ge = 0.9 * s.ge;  // the singularity of edges sits at a tenth of the gap
-      }
+      if constexpr (K == ContactKind::edge_edge) s.ge = 0.9 * s.ge;
       s.d = s.ge - s.pi;
       s.rho = s.d / s.ge;
-      s.gap_closed = (s.rho < V::fill(kReferenceFloor)) & (s.k0 > zero);
-      s.k0 = select(s.gap_closed, zero, s.k0);
-      if constexpr (K == ContactKind::edge_edge) s.pi = select(s.gap_closed, zero, s.pi);
     } else {
-      s.k0 = select(s.pi > zero, s.k0, zero);
       s.d = select(s.pi > zero, s.distance, s.ge);
-      s.gap_closed = zero != zero;
-      s.rho = max(ratio_or_one(s.d, s.ge), V::fill(kRobustFloor));
+      if constexpr (K == ContactKind::edge_edge) {
+        s.d = s.d - 0.1 * s.ge;
+        s.ge = 0.9 * s.ge;
+      }
+      s.rho = ratio_or_one(s.d, s.ge);
     }
+    s.gap_closed = (s.rho < V::fill(kClosed)) & (s.k0 > zero);
+    s.k0 = select(s.gap_closed, zero, s.k0);
+    if constexpr (K == ContactKind::edge_edge) s.pi = select(s.gap_closed, zero, s.pi);
+    if constexpr (M == Model::robust) s.rho = max(s.rho, V::fill(kRobustFloor));
   }
   template <class V>
   static V ratio_or_one(const V& num, const V& den) {
@@ -150,37 +152,14 @@ struct Rates {
   static constexpr Field needs = Field::velocity | Field::step_times;
   static constexpr Field writes = Field::kinematic_step | Field::status;
 
-  template <Model M, ContactKind K>
+  /// The mass of the secondary node; between edges the smaller of both weighted means.
+  template <ContactKind K>
   static constexpr Field mass_needs() {
-    if constexpr (M == Model::reference && K == ContactKind::node_segment) {
-      return Field::mass_secondary;
-    } else {
-      return Field::mass_secondary | Field::mass_main;
-    }
+    return K == ContactKind::node_segment ? Field::mass_secondary
+                                          : Field::mass_secondary | Field::mass_main;
   }
 
-  /// m_a m_b / (m_a + m_b); a side without mass is taken as following the other.
-  template <class V>
-  static V reduced(const V& ma, const V& mb) {
-    const V zero = V::fill(0.0);
-    const V sum = ma + mb;
-    const V both = select(sum > zero, ma * mb / sum, zero);
-    return select((ma > zero) & (mb > zero), both, sum);
-  }
-  /// Mass that the contact point of a weighted group of nodes opposes: 1 / sum(H^2 / m).
-  template <class V>
-  static V point_mass(const V* h, const V* m, std::size_t count) {
-    const V zero = V::fill(0.0);
-    V compliance = zero;
-    auto massless = zero != zero;
-    for (std::size_t c = 0; c < count; ++c) {
-      compliance = compliance + select(m[c] > zero, h[c] * h[c] / m[c], zero);
-      massless = massless | ((h[c] > zero) & (m[c] <= zero));
-    }
-    return select((compliance > zero) & ~massless, 1.0 / compliance, zero);
-  }
-
-  template <Model M, ContactKind K, class V>
+  template <ContactKind K, class V>
   static void gather(const PacketView& view, std::size_t i, PairState<V>& s) {
     if constexpr (K == ContactKind::edge_edge) {
       s.v = (s.weight[0] * Vec3<V>::load(view.velocity[0], i) +
@@ -189,13 +168,8 @@ struct Rates {
              s.weight[3] * Vec3<V>::load(view.velocity[3], i));
       std::array<V, 4> m;
       four_times([&](auto c) DECK_INLINE { m[c] = V::load(view.mass[c] + i); });
-      if constexpr (M == Model::reference) {
-        s.mass =
-            min(s.weight[0] * m[0] + s.weight[1] * m[1], s.weight[2] * m[2] + s.weight[3] * m[3]);
-      } else {
-        s.mass = reduced(point_mass(s.weight.data(), m.data(), 2),
-                         point_mass(s.weight.data() + 2, m.data() + 2, 2));
-      }
+      s.mass =
+          min(s.weight[0] * m[0] + s.weight[1] * m[1], s.weight[2] * m[2] + s.weight[3] * m[3]);
     } else {
       Vec3<V> main = s.raw[0] * Vec3<V>::load(view.velocity[1], i);
       four_times([&](auto c) DECK_INLINE {
@@ -203,11 +177,6 @@ struct Rates {
       });
       s.v = Vec3<V>::load(view.velocity[0], i) - main;
       s.mass = V::load(view.mass[0] + i);
-      if constexpr (M == Model::robust) {
-        std::array<V, 4> m;
-        four_times([&](auto c) DECK_INLINE { m[c] = V::load(view.mass[c + 1] + i); });
-        s.mass = reduced(s.mass, point_mass(s.weight.data(), m.data(), 4));
-      }
     }
     s.vn = dot(s.n, s.v);
   }
@@ -242,10 +211,10 @@ struct Damping {
     }
     s.c = select(s.k0 != zero, k.xi * sqrt(s.a) + quad, zero);
     const V elastic = s.fn;
-    if constexpr (M == Model::reference && K == ContactKind::node_segment) {
-      s.fn = s.fn + s.c * s.vn;  // may pull: kept as it is
+    if constexpr (K == ContactKind::node_segment) {
+      s.fn = s.fn + s.c * s.vn;  // may pull, as in the solver
     } else {
-      s.fn = s.fn + min(s.c * s.vn, -s.fn);  // never pulls
+      s.fn = s.fn + min(s.c * s.vn, -s.fn);  // between edges it never does
     }
     if constexpr (M == Model::robust) {
       s.e_damping = k.dt1 * ((s.fn - elastic) * s.vn);
@@ -265,9 +234,8 @@ struct Friction {
   static void slide(PairState<V>& s) {
     s.vt = s.v - s.vn * s.n;
   }
-  template <Model M, class V>
+  template <class V>
   static V limit(const PairState<V>& s) {
-    if constexpr (M == Model::robust) return s.mu * max(V::fill(0.0), -s.fn);
     return s.mu * abs(s.fn);
   }
 };
@@ -281,7 +249,7 @@ struct FrictionViscous {
     const V v2 = dot(s.vt, s.vt);
     const V ct2 = s.zeta2 * s.a;
     const V stick2 = ct2 * v2;
-    const V cap = Friction::limit<M>(s);
+    const V cap = Friction::limit(s);
     V factor;
     if constexpr (M == Model::reference) {
       factor = sqrt(ct2 * min(stick2, cap * cap) / max(V::fill(1e-30), stick2));
@@ -295,30 +263,20 @@ struct FrictionViscous {
   }
 };
 
-/// Iform 2: a spring on the sliding path, limited by mu |Fn|; its force is remembered.
+/// Iform 2: a spring on the sliding path, limited by mu |Fn|; its force is remembered. The spring
+/// is K0, twice the stiffness that the normal force starts with (edges: the stabilised stiffness),
+/// and the filter scales its step.
 struct FrictionIncremental {
   static constexpr Field needs = Friction::needs | Field::friction_memory;
   static constexpr Field writes = Friction::writes | Field::friction_memory;
   template <Model M, ContactKind K, class V>
   static void apply(const Constants& k, const PacketView& view, std::size_t i, PairState<V>& s) {
     const V zero = V::fill(0.0), one = V::fill(1.0);
-    const Vec3<V> old = Vec3<V>::load(view.ft_old, i);
-    const V cap = Friction::limit<M>(s);
-    V spring;
-    Vec3<V> trial;
-    if constexpr (M == Model::reference) {
-      spring = K == ContactKind::edge_edge ? s.k_nodal : s.k0;
-      const V step = (K == ContactKind::edge_edge ? k.dt12 : k.alpha * k.dt12) * spring;
-      trial = old + step * s.v;
-      trial = trial - dot(trial, s.n) * s.n;
-    } else {
-      spring = min(s.k0, s.k_tan);
-      Vec3<V> turned = old - dot(old, s.n) * s.n;
-      const V was = dot(old, old), is = dot(turned, turned);
-      turned = select(is > zero, sqrt(was / select(is > zero, is, one)), zero) * turned;
-      trial = turned + (k.dt12 * spring) * s.vt;
-      if (k.filter_low_pass) trial = k.alpha * one * trial + (1.0 - k.alpha) * one * turned;
-    }
+    const V cap = Friction::limit(s);
+    const V spring = K == ContactKind::edge_edge ? s.k_nodal : s.k0;
+    const V step = (K == ContactKind::edge_edge ? k.dt12 : k.alpha * k.dt12) * spring;
+    Vec3<V> trial = Vec3<V>::load(view.ft_old, i) + step * s.v;
+    trial = trial - dot(trial, s.n) * s.n;
     const V size2 = dot(trial, trial);
     V beta;
     if constexpr (M == Model::reference) {
@@ -366,11 +324,13 @@ struct FrictionLaw {
   }
 };
 
-/// fct_IDF: mu scaled by a function of the mean temperature of both sides.
+/// fct_IDF: mu scaled by a function of the mean temperature of both sides. AscaleF is inert. With
+/// Ithe_form 1 the solver weights the corners as another pair of its packet does; here they have
+/// the weights of their own pair.
 struct FrictionTemperature {
   static constexpr Field needs = Field::temperature;
   static constexpr Field writes = Field::none;
-  template <Model M, class V>
+  template <class V>
   static void apply(const PacketView& view, std::size_t i, const ContactCard& card,
                     PairState<V>& s) {
     for (int l = 0; l < V::width; ++l) {
@@ -384,7 +344,7 @@ struct FrictionTemperature {
       }
       const double mean = 0.5 * (view.temperature[0][pair] + main);
       const double scale = card.fric != 0.0 ? card.fric : 1.0;
-      s.mu.r[l] = scale * (*card.fct_idf)(M == Model::robust ? mean * card.ascalef : mean);
+      s.mu.r[l] = scale * (*card.fct_idf)(mean);
     }
   }
 };
@@ -399,11 +359,11 @@ struct SlipState {
 /// Brings the tangential force of a pair back to its ellipse. Compiled once, outside the kernels: a
 /// plain function in a header could be linked from a translation unit of another instruction set.
 void orthotropic_slip(const ContactCard& card, const PacketView& view, std::size_t pair,
-                      const SlipState& state, Model model, double (&ft)[3]);
+                      const SlipState& state, double (&ft)[3]);
 
 /// Orthotropic coefficients of a pair of parts: the sticking force of the chosen form is brought
-/// back to an ellipse whose axes follow the segment. In the reference the viscous form (Iform 1)
-/// gives a sliding pair under pressure the opposite sign: it is pushed along.
+/// back to an ellipse whose axes follow the segment. The viscous form (Iform 1) gives a sliding
+/// pair under pressure the opposite sign, as in the solver: it is pushed along.
 struct FrictionOrthotropic {
   static constexpr Field needs = Field::position | Field::pair_friction;
   static constexpr Field writes = Field::friction_energy;
@@ -423,15 +383,14 @@ struct FrictionOrthotropic {
     for (int l = 0; l < V::width; ++l) {
       const std::size_t pair = i + static_cast<std::size_t>(l);
       if (view.directed != nullptr && view.directed[pair] == 0.0) continue;
-      const double fn = M == Model::robust && s.fn[l] > 0.0 ? 0.0 : s.fn[l];
       double ft[3] = {trial.x[l], trial.y[l], trial.z[l]};
       orthotropic_slip(*k.card, view, pair,
                        {{s.n.x[l], s.n.y[l], s.n.z[l]},
                         {s.v.x[l], s.v.y[l], s.v.z[l]},
-                        fn,
+                        s.fn[l],
                         FrictionLaw::pressure<M>(s.fn[l], area[l]),
                         incremental},
-                       M, ft);
+                       ft);
       s.ft.x.r[l] = ft[0];
       s.ft.y.r[l] = ft[1];
       s.ft.z.r[l] = ft[2];
@@ -439,30 +398,23 @@ struct FrictionOrthotropic {
     const V zero = V::fill(0.0), one = V::fill(1.0);
     V heat = k.dt1 * dot(s.ft, s.vt);
     if (incremental) {
-      const V spring = M == Model::robust ? min(s.k0, s.k_tan) : s.k0;
       const V lost = dot(trial - s.ft, s.ft);
-      heat = select(spring != zero, lost / select(spring != zero, spring, one), zero);
+      heat = select(s.k0 != zero, lost / select(s.k0 != zero, s.k0, one), zero);
       s.ft_keep = s.ft;
     }
     s.slip_heat = select(directed<V>(view, i), heat, s.slip_heat);
   }
 };
 
-/// Ifiltr with Iform 1: the tangential force is smoothed with the last one.
+/// Ifiltr with Iform 1: the tangential force is smoothed with the last one, after its limit.
 struct Filter {
   static constexpr Field needs = Field::friction_memory;
   static constexpr Field writes = Field::friction_memory;
-  template <Model M, class V>
+  template <class V>
   static void apply(const Constants& k, const PacketView& view, std::size_t i, PairState<V>& s) {
     const V one = V::fill(1.0);
     const Vec3<V> old = Vec3<V>::load(view.ft_old, i);
     s.ft = (k.alpha * one) * s.ft + ((1.0 - k.alpha) * one) * old;
-    if constexpr (M == Model::robust) {  // the filter may neither leave the plane nor the limit
-      s.ft = s.ft - dot(s.ft, s.n) * s.n;
-      const V cap = Friction::limit<M>(s), size = sqrt(dot(s.ft, s.ft));
-      const auto over = size > cap;
-      s.ft = select(over, cap / select(over, size, one), one) * s.ft;
-    }
     s.ft_keep = s.ft;
     s.slip_heat = k.dt1 * dot(s.ft, s.vt);
   }

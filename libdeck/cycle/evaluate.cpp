@@ -20,15 +20,9 @@ double filter_weight(const KernelPlan& plan, const PacketView& view) {
   const ContactCard& card = plan.card;
   if (card.ifiltr <= 0 || card.xfreq == 0.0) return 1.0;
   const double turn = 2.0 * std::numbers::pi;
-  if (plan.model == Model::robust) {
-    const double alpha = card.ifiltr == 1   ? card.xfreq
-                         : card.ifiltr == 2 ? turn * card.xfreq
-                                            : turn * card.xfreq * view.dt12;
-    return std::min(1.0, alpha);
-  }
   if (card.ifiltr == 1) return card.xfreq;
   if (card.ifiltr == 2) return turn / card.xfreq;
-  return std::max(1.0, turn * card.xfreq * view.dt12);  // the reference: never below 1
+  return std::max(1.0, turn * card.xfreq * view.dt12);  // as in the solver: never below 1
 }
 
 }  // namespace
@@ -50,8 +44,6 @@ Constants make_constants(const KernelPlan& plan, const PacketView& view) {
   if ((plan.effects & bit(Effect::friction_pairs)) != 0 && view.visf2 != nullptr) k.zeta = 0.0;
   k.mu = card.fric;
   k.alpha = filter_weight(plan, view);
-  k.filter_low_pass = plan.model == Model::robust && k.alpha < 1.0;
-  if (k.filter_low_pass == false && plan.model == Model::robust) k.alpha = 1.0;
   k.reach = card.ithe > 0 && card.kind == ContactKind::node_segment ? card.drad : 0.0;
   k.dt1 = view.dt1;
   k.inverse_dt1 = view.dt1 != 0.0 ? 1.0 / view.dt1 : 0.0;
@@ -278,7 +270,6 @@ void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& resu
 
 Totals totals(const KernelPlan& plan, const PacketView& view, const PacketResult& r) {
   const bool edges = plan.card.kind == ContactKind::edge_edge;
-  const double side = plan.model == Model::reference ? 1.0 : -1.0;
   Totals all;
   for (std::size_t begin = 0; begin < r.size; begin += 4096) {
     Totals t;
@@ -291,8 +282,8 @@ Totals totals(const KernelPlan& plan, const PacketView& view, const PacketResult
       const detail::Vec s = edges ? r.weights[0][i] * detail::at(view.position[0], i) +
                                         r.weights[1][i] * detail::at(view.position[1], i)
                                   : detail::at(view.position[0], i);
-      // The reference takes the moment at x_s + pi n, outward; the robust model at x_s - pi n.
-      const detail::Vec m = cross(s + (side * r.penetration[i]) * n, f);
+      // The solver takes the moment at x_s + pi n, outward.
+      const detail::Vec m = cross(s + r.penetration[i] * n, f);
       t.normal = {t.normal[0] + fn.x, t.normal[1] + fn.y, t.normal[2] + fn.z};
       t.tangential = {t.tangential[0] + ft.x, t.tangential[1] + ft.y, t.tangential[2] + ft.z};
       t.moment = {t.moment[0] + m.x, t.moment[1] + m.y, t.moment[2] + m.z};
@@ -301,10 +292,9 @@ Totals totals(const KernelPlan& plan, const PacketView& view, const PacketResult
       t.elastic_energy += r.elastic_energy[i];
       t.friction_energy += r.friction_energy[i];
       t.damping_energy += r.damping_energy[i];
-      const double share =
-          plan.card.fheats +
-          (plan.model == Model::robust && plan.card.ithe_form == 0 ? 0.0 : plan.card.fheatm);
-      if (plan.card.ithe > 0) t.friction_heat += share * r.friction_heat[i];
+      // Booked in full, also the main side's share that Ithe_form 0 gives to nobody.
+      if (plan.card.ithe > 0)
+        t.friction_heat += (plan.card.fheats + plan.card.fheatm) * r.friction_heat[i];
       if (r.dt_kinematic[i] < t.dt_kinematic) {
         t.dt_kinematic = r.dt_kinematic[i];
         t.dt_kinematic_pair = i;
@@ -335,10 +325,7 @@ double pair_stiffness(const ContactCard& card, double k_main, double k_secondary
     case 5:
       return clamp(series);
     case 1:
-      if (edges)
-        return model == Model::robust ? 2.0 * std::abs(card.stfac) : 0.5 * std::abs(card.stfac);
-      if (model == Model::robust) return std::abs(card.stfac);
-      return k_main * std::abs(k_secondary);
+      return edges ? 0.5 * std::abs(card.stfac) : k_main * std::abs(k_secondary);
     default:
       return edges ? clamp(series) : k_main * std::abs(k_secondary);
   }

@@ -45,7 +45,7 @@ void apply_friction(const Effects& on, const Constants& k, const PacketView& vie
     if (view.fric != nullptr) s.mu = V::load(view.fric + i);
     if (view.visf2 != nullptr) s.zeta2 = V::load(view.visf2 + i);
   }
-  if (on.has(Effect::friction_temperature)) FrictionTemperature::apply<M>(view, i, *k.card, s);
+  if (on.has(Effect::friction_temperature)) FrictionTemperature::apply(view, i, *k.card, s);
   if (on.has(Effect::friction_law)) {
     FrictionLaw::apply<M>(view, i, *k.card, on.has(Effect::friction_pairs), s);
   }
@@ -61,7 +61,7 @@ void apply_friction(const Effects& on, const Constants& k, const PacketView& vie
     if (on.has(Effect::friction_orthotropic)) {
       FrictionOrthotropic::apply<M>(k, false, view, i, s);
     }
-    if (on.has(Effect::filter)) Filter::apply<M>(k, view, i, s);
+    if (on.has(Effect::filter)) Filter::apply(k, view, i, s);
   }
   if (on.has(Effect::friction_incremental)) {
     FrictionIncremental::apply<M, K>(k, view, i, s);
@@ -134,7 +134,7 @@ DECK_FLATTEN void force_block(const Effects& on, const Constants& shared, const 
     if (on.has(Effect::gap_reduction)) GapReduction::apply<M, K>(k, view, i, s);
     Elastic::remaining<M, K>(s);
     if (on.has(Effect::damping)) {
-      Rates::gather<M, K>(view, i, s);
+      Rates::gather<K>(view, i, s);
       Rates::limit(k, s);
     }
     Elastic::apply<M>(k, on.has(Effect::fixed_stiffness), s);

@@ -42,8 +42,7 @@ double friction_coefficient(int ifric, double mu0, const std::array<double, 6>& 
   return std::max(mu, 1e-30);
 }
 
-std::array<double, 2> orthotropic_return(double f1, double f2, double mu1, double mu2, double fn,
-                                         Model model) {
+std::array<double, 2> orthotropic_return(double f1, double f2, double mu1, double mu2, double fn) {
   const double force = std::abs(fn);
   if (mu1 <= 1e-30) f1 = 0.0;
   if (mu2 <= 1e-30) f2 = 0.0;
@@ -52,7 +51,7 @@ std::array<double, 2> orthotropic_return(double f1, double f2, double mu1, doubl
   const double level = r1 * r1 + r2 * r2;
   if (force == 0.0) return {0.0, 0.0};
   if (level <= 1.0) return {f1, f2};
-  if (model == Model::robust || a <= 0.0 || b <= 0.0) {
+  if (a <= 0.0 || b <= 0.0) {
     const double scale = 1.0 / std::sqrt(level);
     return {f1 * scale, f2 * scale};
   }
@@ -71,24 +70,17 @@ struct Directions {
   Vec along, across;
 };
 
-/// Directions of a pair: given, or A and B in the axes of its segment. The reference leaves them in
-/// the plane of the segment; the robust model turns them into the tangent plane of the contact.
-Directions directions_of(const PacketView& view, std::size_t i, const Vec& n, Model model) {
-  Directions d;
-  if (view.ortho_axis[0][0] != nullptr) {
-    d = {at(view.ortho_axis[0], i), at(view.ortho_axis[1], i)};
-  } else {
-    const Vec x1 = at(view.position[1], i), x2 = at(view.position[2], i);
-    const Vec x3 = at(view.position[3], i), x4 = at(view.position[4], i);
-    const bool triangle = view.triangle != nullptr && view.triangle[i] != 0;
-    const SegmentAxes axes(x1, x2, x3, x4, triangle);
-    const Vec e1 = axes.first, e2 = axes.second;
-    const double p = view.ortho_direction[0][i], q = view.ortho_direction[1][i];
-    d = {p * e1 + q * e2, p * e2 + (-q) * e1};
-  }
-  if (model == Model::reference) return d;
-  const Vec along = unit(d.along - dot(d.along, n) * n);
-  return {along, cross(n, along)};
+/// Directions of a pair, in the plane of its segment: given, or A and B in the segment's axes.
+Directions directions_of(const PacketView& view, std::size_t i) {
+  if (view.ortho_axis[0][0] != nullptr)
+    return {at(view.ortho_axis[0], i), at(view.ortho_axis[1], i)};
+  const Vec x1 = at(view.position[1], i), x2 = at(view.position[2], i);
+  const Vec x3 = at(view.position[3], i), x4 = at(view.position[4], i);
+  const bool triangle = view.triangle != nullptr && view.triangle[i] != 0;
+  const SegmentAxes axes(x1, x2, x3, x4, triangle);
+  const Vec e1 = axes.first, e2 = axes.second;
+  const double p = view.ortho_direction[0][i], q = view.ortho_direction[1][i];
+  return {p * e1 + q * e2, p * e2 + (-q) * e1};
 }
 
 /// Coefficient of a direction by the law of the card, at the speed along it; sliding backwards
@@ -109,10 +101,10 @@ double directed_coefficient(const ContactCard& card, double mu0,
 }  // namespace
 
 void orthotropic_slip(const ContactCard& card, const PacketView& view, std::size_t pair,
-                      const SlipState& s, Model model, double (&ft)[3]) {
-  const Vec n{s.normal[0], s.normal[1], s.normal[2]}, trial{ft[0], ft[1], ft[2]};
+                      const SlipState& s, double (&ft)[3]) {
+  const Vec trial{ft[0], ft[1], ft[2]};
   const Vec v{s.velocity[0], s.velocity[1], s.velocity[2]};
-  const Directions d = directions_of(view, pair, n, model);
+  const Directions d = directions_of(view, pair);
   const double mu1 = directed_coefficient(card, view.ortho_mu[0][pair], view.c, true, pair,
                                           s.pressure, dot(v, d.along));
   const double mu2 = directed_coefficient(card, view.ortho_mu[1][pair], view.c2, false, pair,
@@ -120,11 +112,11 @@ void orthotropic_slip(const ContactCard& card, const PacketView& view, std::size
   // A direction without friction is removed; what is left of the trial decides.
   const double f1 = mu1 > 1e-30 ? dot(trial, d.along) : 0.0;
   const double f2 = mu2 > 1e-30 ? dot(trial, d.across) : 0.0;
-  const auto f = orthotropic_return(f1, f2, mu1, mu2, s.fn, model);
-  // Sticking in the reference keeps the whole trial, whatever its part outside both directions.
-  if (model == Model::reference && s.fn != 0.0 && f[0] == f1 && f[1] == f2) return;
-  double sense = 1.0;
-  if (model == Model::reference && !s.incremental && s.fn < 0.0) sense = -1.0;
+  const auto f = orthotropic_return(f1, f2, mu1, mu2, s.fn);
+  // Sticking keeps the whole trial, whatever its part outside both directions.
+  if (s.fn != 0.0 && f[0] == f1 && f[1] == f2) return;
+  // The viscous form takes the radius of its ellipse with the sign of the normal force.
+  const double sense = !s.incremental && s.fn < 0.0 ? -1.0 : 1.0;
   const Vec back = sense * (f[0] * d.along + f[1] * d.across);
   ft[0] = back.x;
   ft[1] = back.y;

@@ -28,17 +28,16 @@ Plane plane_of(const HeatState& s) {
 }
 
 /// Heat exchange coefficient of the contact: Kthe, or Kthe times a function of the pressure.
-double exchange(const ContactCard& card, double normal_force, double area, bool unsigned_force) {
+double exchange(const ContactCard& card, double force, double area) {
   if (!card.fct_idk) return card.kthe != 0.0 ? card.kthe : 1e-30;
   const double scale = card.kthe != 0.0 ? card.kthe : 1.0;
-  const double force = unsigned_force ? std::abs(normal_force) : normal_force;
   const double pressure = area > 0.0 ? card.ascalek * force / area : 0.0;
   return scale * std::max(1e-30, (*card.fct_idk)(pressure));
 }
 
 }  // namespace
 
-HeatFlow pair_heat(const ContactCard& card, const HeatState& s, Model model) {
+HeatFlow pair_heat(const ContactCard& card, const HeatState& s) {
   HeatFlow flow;
   const Plane plane = plane_of(s);
   const double area = s.area != 0.0 ? s.area : plane.area;
@@ -53,20 +52,19 @@ HeatFlow pair_heat(const ContactCard& card, const HeatState& s, Model model) {
   const double away = std::abs(plane.distance);
   double h;
   if (card.frad != 0.0 && s.gap <= away && away <= card.drad) {
-    h = card.frad * (tm * tm + ts * ts) * (tm + ts);
-    flow.conductance = model == Model::robust ? area * h * card.thermal_speed_up : 0.0;
+    h = card.frad * (tm * tm + ts * ts) * (tm + ts);  // radiation reports no conductance
   } else {
-    h = exchange(card, s.normal_force, area, true);
+    h = exchange(card, std::abs(s.normal_force), area);
     if (!both && s.conductivity > 0.0) {
-      // The reference counts the gap as a resistance only on one side of the segment.
-      const double width = model == Model::robust ? away : std::max(plane.distance, 0.0);
+      // The solver counts the gap as a resistance only on one side of the segment.
+      const double width = std::max(plane.distance, 0.0);
       h = 1.0 / (width / s.conductivity + 1.0 / h);
     }
     flow.conductance = area * h * card.thermal_speed_up;
   }
   const double q = area * (tm - ts) * tau * h;
   flow.q[0] = q + card.fheats * s.friction_heat;
-  if (!both && card.fct_idk && model == Model::reference) flow.q[0] = q;
+  if (!both && card.fct_idk) flow.q[0] = q;  // here the solver forgets the friction heat
   if (both) {
     for (std::size_t c = 0; c < 4; ++c) {
       flow.q[c + 1] = s.weight[c] * (card.fheatm * s.friction_heat) - s.weight[c] * q;
@@ -86,9 +84,9 @@ double edge_contact_area(const ContactCard& card, const EdgeHeatState& s) {
                   s.width[0] * s.width[1] / std::max(1e-30, sine));
 }
 
-HeatFlow pair_heat(const ContactCard& card, const EdgeHeatState& s, Model model) {
+HeatFlow pair_heat(const ContactCard& card, const EdgeHeatState& s) {
   HeatFlow flow;
-  const bool both = card.ithe_form == 1, robust = model == Model::robust;
+  const bool both = card.ithe_form == 1;
   const auto mean = [&](const std::array<double, 4>& v, std::size_t first) {
     return s.weight[first] * v[first] + s.weight[first + 1] * v[first + 1];
   };
@@ -98,19 +96,17 @@ HeatFlow pair_heat(const ContactCard& card, const EdgeHeatState& s, Model model)
   const double beyond = s.distance - s.gap;
   double h = 0.0;
   if (beyond > 0.0) {
-    const bool near = robust ? s.distance <= card.drad : beyond <= card.drad;
-    if (card.frad == 0.0 || !near) return flow;
+    if (card.frad == 0.0 || !(beyond <= card.drad)) return flow;
     h = card.frad * (tm * tm + ts * ts) * (tm + ts);
-    flow.conductance = robust ? area * h : 0.0;
   } else {
-    h = exchange(card, s.normal_force, area, robust);
-    const double width = robust ? s.distance : std::max(beyond + s.effective_gap, 0.0);
+    h = exchange(card, s.normal_force, area);  // at the signed force: negative under pressure
+    const double width = std::max(beyond + s.effective_gap, 0.0);
     double conductivity = mean(s.conductivity, 0);
     if (both) conductivity = 0.5 * (conductivity + mean(s.conductivity, 2));
     if (conductivity > 0.0) {
       h = 1.0 / (width / conductivity + 1.0 / h);
-    } else if (!robust && width > 0.0) {
-      return flow;
+    } else if (width > 0.0) {
+      return flow;  // no conductivity: nothing passes a gap
     }
     flow.conductance = area * h;
   }
@@ -141,7 +137,7 @@ void apply_edge_heat(const KernelPlan& plan, const PacketView& view, std::size_t
     s.gap = view.gap[i];
     s.effective_gap = out.effective_gap[i];
     s.dt1 = view.dt1;
-    const HeatFlow flow = pair_heat(plan.card, s, plan.model);
+    const HeatFlow flow = pair_heat(plan.card, s);
     for (std::size_t r = 0; r < 5; ++r) out.heat[r][i] = flow.q[r];
     out.conductance[i] = flow.conductance;
   }
@@ -170,7 +166,7 @@ void apply_heat(const KernelPlan& plan, const PacketView& view, std::size_t begi
     s.gap = out.effective_gap[i];
     s.conductivity = view.conductivity != nullptr ? view.conductivity[i] : 0.0;
     s.dt1 = view.dt1;
-    const HeatFlow flow = pair_heat(plan.card, s, plan.model);
+    const HeatFlow flow = pair_heat(plan.card, s);
     for (std::size_t r = 0; r < 5; ++r) out.heat[r][i] = flow.q[r];
     out.conductance[i] = flow.conductance;
   }

@@ -138,13 +138,6 @@ EffectSet choose_effects(const ContactCard& card, const PlanOptions& options) {
   return set;
 }
 
-template <ContactKind K>
-Field mass_needs(Model model) {
-  using detail::Rates;
-  return model == Model::reference ? Rates::mass_needs<Model::reference, K>()
-                                   : Rates::mass_needs<Model::robust, K>();
-}
-
 /// Adds an effect's arrays when it is in the set.
 template <class E>
 void collect(EffectSet set, Effect e, KernelPlan& plan) {
@@ -168,8 +161,8 @@ void collect_fields(KernelPlan& plan) {
   collect<detail::Filter>(set, Effect::filter, plan);
   if ((set & bit(Effect::damping)) != 0) {
     plan.needs |= card.kind == ContactKind::edge_edge
-                      ? mass_needs<ContactKind::edge_edge>(plan.model)
-                      : mass_needs<ContactKind::node_segment>(plan.model);
+                      ? detail::Rates::mass_needs<ContactKind::edge_edge>()
+                      : detail::Rates::mass_needs<ContactKind::node_segment>();
   }
   if ((set & bit(Effect::friction_pairs)) != 0) plan.needs |= Field::pair_friction;
   collect<detail::FrictionOrthotropic>(set, Effect::friction_orthotropic, plan);
@@ -177,7 +170,6 @@ void collect_fields(KernelPlan& plan) {
     plan.needs |= Field::mass_secondary | Field::mass_main;
   if (card.kind == ContactKind::tied) {
     plan.needs |= Field::tie_record | Field::velocity | Field::mass_secondary | Field::step_times;
-    if (plan.model == Model::robust) plan.needs |= Field::mass_main;
     plan.writes |= Field::tie_record | Field::damping_energy;
   }
   if (card.kind == ContactKind::edge_edge && card.ithe > 0) {

@@ -255,7 +255,7 @@ NodeStiffness run_contact(const Scene& scene, const State& state, const CycleOpt
     out.complete = false;
     return {};
   }
-  out.active = is_active(out.card, options.time, options.model == Model::robust);
+  out.active = is_active(out.card, options.time);
   if (!out.active) return {};
   ContactPairs pairs = make_pairs(scene, contact, out.card, options.model, options.threads);
   out.complete = pairs.complete;
@@ -346,7 +346,7 @@ SceneOutcome run_cycle(const Scene& scene, const State& state, const CycleOption
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     ContactOutcome& c = out.contacts[i];
     c.contact = &scene.contacts[i];
-    c.card = make_card(scene, *c.contact, options.model);
+    c.card = make_card(scene, *c.contact);
     stiffness[i] = run_contact(scene, state, options, c, out.nodes);
     if (options.progress) options.progress(i + 1, scene.contacts.size());
   }

@@ -20,20 +20,6 @@ Vec relative_velocity(const PacketView& view, std::size_t i, const std::array<do
   return at(view.velocity[0], i) - main;
 }
 
-/// Mass of the tie's dashpot: the secondary node's (reference), or reduced with the main side.
-double tie_mass(const KernelPlan& plan, const PacketView& view, std::size_t i,
-                const std::array<double, 4>& h) {
-  const double ms = view.mass[0][i];
-  if (plan.model == Model::reference) return ms;
-  double compliance = 0.0;
-  for (std::size_t c = 0; c < 4; ++c) {
-    const double m = view.mass[c + 1][i];
-    if (m > 0.0) compliance += h[c] * h[c] / m;
-  }
-  if (compliance <= 0.0) return ms;
-  return ms > 0.0 ? ms / (1.0 + ms * compliance) : 1.0 / compliance;
-}
-
 void set_weights(PacketResult& out, std::size_t i, const std::array<double, 4>& h) {
   for (std::size_t c = 0; c < 4; ++c) out.weights[c][i] = h[c];
 }
@@ -73,7 +59,7 @@ void tied_pair(const KernelPlan& plan, const PacketView& view, std::size_t i, do
   const Frame frame(corners(view, i));
   const Vec v = relative_velocity(view, i, h);
   const std::array<double, 3> rate{dot(v, frame.n), dot(v, frame.t1), dot(v, frame.t2)};
-  const double c = plan.card.viss * std::sqrt(2.0 * k0 * tie_mass(plan, view, i, h));
+  const double c = plan.card.viss * std::sqrt(2.0 * k0 * view.mass[0][i]);
   std::array<double, 3> now{}, applied{};
   for (std::size_t j = 0; j < 3; ++j) {
     now[j] = old[j] + k0 * rate[j] * view.dt1;
@@ -86,7 +72,6 @@ void tied_pair(const KernelPlan& plan, const PacketView& view, std::size_t i, do
     now = {penetration > 0.0 ? std::copysign(1e-30, old[0]) : 0.0, 0.0, 0.0};
     applied = {};
     status = status_released;
-    if (plan.model == Model::robust) out.damping_energy[i] = 0.0;
   } else if (now[0] == 0.0 && penetration > 0.0) {
     now[0] = 1e-30;
   }
@@ -126,13 +111,12 @@ bool continue_tie(const KernelPlan& plan, const PacketView& view, std::size_t i,
   out.p0[i] = p0;
   out.friction_energy[i] = out.friction_heat[i] = 0.0;
   out.elastic_energy[i] = out.damping_energy[i] = 0.0;
-  const double kappa =
-      card.istf == 1 && plan.model == Model::robust ? std::abs(card.stfac) : 0.5 * view.k0[i];
+  const double kappa = 0.5 * view.k0[i];  // the half also with Istf 1
   const double room = ge - std::min(pi, view.tie[6][i]);
   const double phi =
       plan.model == Model::reference ? ge / std::max(1e-10, room) : ge / std::max(1e-8 * ge, room);
   const double kt = kappa * phi * phi;
-  const double c = card.viss * std::sqrt(2.0 * kappa * phi * tie_mass(plan, view, i, h));
+  const double c = card.viss * std::sqrt(2.0 * kappa * phi * view.mass[0][i]);
   // A tie that lets go still stiffens its nodes once, and leaves weights, depth and side behind.
   out.k_nodal[i] = view.dt1 != 0.0 ? kt + 2.0 * c / view.dt1 : kt;
   for (std::size_t j = 3; j < 8; ++j) out.tie[j][i] = view.tie[j][i];

@@ -108,14 +108,15 @@ TEST(ElasticLaw, AbsoluteFloorHalvesTheReferenceForceInMetres) {
   expect_digits(run(elastic_card(), p, 0, 0, Model::robust).all.normal_force[0], -999.95);
 }
 
-TEST(ElasticLaw, ReferenceDropsTheNodeAtTheMidSurfaceRobustDoesNot) {
-  const Pair p = triangle_pair({2, 3, 0.5e-10});
-  const Outcome reference = run(elastic_card(), p);
-  EXPECT_EQ(reference.all.normal_force[0], 0.0);
-  EXPECT_NE(reference.all.status[0] & status_gap_closed, 0);
-  const Outcome robust = run(elastic_card(), p, 0, 0, Model::robust);
-  EXPECT_LT(robust.all.normal_force[0], -5e12);
-  EXPECT_EQ(robust.all.status[0] & status_gap_closed, 0);
+TEST(ElasticLaw, TheNodeIsDroppedAtTheMidSurface) {
+  for (const Model model : {Model::reference, Model::robust}) {
+    const Outcome closed = run(elastic_card(), triangle_pair({2, 3, 0.5e-10}), 0, 0, model);
+    EXPECT_EQ(closed.all.normal_force[0], 0.0);
+    EXPECT_NE(closed.all.status[0] & status_gap_closed, 0);
+    const Outcome open = run(elastic_card(), triangle_pair({2, 3, 2e-10}), 0, 0, model);
+    EXPECT_LT(open.all.normal_force[0], -5e12);
+    EXPECT_EQ(open.all.status[0] & status_gap_closed, 0);
+  }
 }
 
 ContactCard damped() {
@@ -141,14 +142,14 @@ TEST(Damping, ApproachIsStifferThanSeparation) {
   expect_digits(away.all.k_nodal[0], 18257418.58);
 }
 
-TEST(Damping, PullsInTheReferenceAndNeverInTheRobustModel) {
+TEST(Damping, OfANodePullsWhenItLeavesFastEnough) {
   Pair p = triangle_pair({2, 3, 0.999});
   p.m[0] = 2e-3;
   p.v[0] = {0, 0, 20};
   expect_digits(run(damped(), p, 1e-6, 1e-6).all.normal_force[0], -35.90083805);
   p.v[0] = {0, 0, 100};
   expect_digits(run(damped(), p, 1e-6, 1e-6).all.normal_force[0], 20.69600995);
-  EXPECT_EQ(run(damped(), p, 1e-6, 1e-6, Model::robust).all.normal_force[0], 0.0);
+  expect_digits(run(damped(), p, 1e-6, 1e-6, Model::robust).all.normal_force[0], 20.69600995);
 }
 
 TEST(FrictionViscous, SticksThenSlips) {
@@ -226,12 +227,10 @@ TEST(FrictionLaw, CoefficientsByPressureAndSpeed) {
 }
 
 TEST(FrictionLaw, OrthotropicForceReturnsToTheEllipse) {
-  const auto reference = orthotropic_return(400, 150, 0.3, 0.1, -1000, Model::reference);
-  expect_digits(reference, {293.2412913, 21.10698960});
-  const auto robust = orthotropic_return(400, 150, 0.3, 0.1, -1000, Model::robust);
-  EXPECT_NEAR(std::hypot(robust[0] / 300.0, robust[1] / 100.0), 1.0, 1e-15);
-  EXPECT_NEAR(robust[0] / robust[1], 400.0 / 150.0, 1e-14);
-  EXPECT_EQ(orthotropic_return(10, 5, 0.3, 0.1, -1000, Model::reference)[0], 10.0);
+  const auto slip = orthotropic_return(400, 150, 0.3, 0.1, -1000);
+  expect_digits(slip, {293.2412913, 21.10698960});
+  EXPECT_NEAR(std::hypot(slip[0] / 300.0, slip[1] / 100.0), 1.0, 1e-14);
+  EXPECT_EQ(orthotropic_return(10, 5, 0.3, 0.1, -1000)[0], 10.0);
 }
 
 TEST(FrictionLaw, OrthotropicPairsSlipOnTheirEllipse) {
@@ -249,12 +248,14 @@ TEST(FrictionLaw, OrthotropicPairsSlipOnTheirEllipse) {
       const double level = std::hypot(ft[0] / (0.3 * fn), ft[1] / (0.1 * fn));
       if (speed > 1.0) {
         EXPECT_NEAR(level, 1.0, 1e-12);
-        EXPECT_GT(r.all.friction_heat[0], 0.0);
+        // Iform 1 pushes a sliding pair along.
+        EXPECT_GT((iform == 2 ? 1 : -1) * r.all.friction_heat[0], 0.0);
+        EXPECT_GT((iform == 2 ? 1 : -1) * ft[0], 0.0);
       } else {
         EXPECT_LT(level, 1.0);
         EXPECT_GT(level, 0.0);
+        EXPECT_NEAR(ft[0] / ft[1], 400.0 / 150.0, 1e-9);
       }
-      EXPECT_NEAR(ft[0] / ft[1], 400.0 / 150.0, 1e-9);
     }
     p.ortho_direction = {0.0, 1.0};  // the strong direction along y
     const Outcome turned = run(card, p, 1e-6, 1e-6, Model::robust);
@@ -271,23 +272,17 @@ TEST(Filter, WeightsByKind) {
   Pair p = moving({30, -40, -20});
   p.ft = {10, -5, 0};
   const Vec raw = {707.1067812, -942.8090416, 0};
-  const auto filtered = [&](int kind, double xfreq, Model model = Model::reference) {
+  const auto filtered = [&](int kind, double xfreq, Model model) {
     card.ifiltr = kind;
     card.xfreq = xfreq;
     return run(card, p, 1e-6, 1e-6, model).memory();
   };
   const auto mix = [&](double a) { return a * raw + (1.0 - a) * p.ft; };
-  expect_digits(filtered(1, 0.3), mix(0.3));
-  expect_digits(filtered(2, 40.0), mix(0.1570796327));
-  expect_digits(filtered(3, 1000.0), raw);  // the reference's weight is never below 1
-  // As documented, with the reduced mass of the robust model in the dashpot.
-  card.ifiltr = 0;
-  Pair rest = p;
-  rest.ft = {};
-  const Outcome r = run(card, rest, 1e-6, 1e-6, Model::robust);
-  const Vec ft = r.force() - r.all.normal_force[0] * r.normal();
-  expect_digits(filtered(3, 1000.0, Model::robust),
-                0.006283185307 * ft + (1.0 - 0.006283185307) * p.ft);
+  for (const Model model : {Model::reference, Model::robust}) {
+    expect_digits(filtered(1, 0.3, model), mix(0.3));
+    expect_digits(filtered(2, 40.0, model), mix(0.1570796327));
+    expect_digits(filtered(3, 1000.0, model), raw);  // the weight is never below 1
+  }
 }
 
 Pair edges(const Vec& s1, const Vec& s2, const Vec& m1, const Vec& m2) {
@@ -519,8 +514,10 @@ TEST(Activity, WindowAndSensor) {
   EXPECT_FALSE(is_active(card, 2.5));
   card.sensor_time = 0.2;
   EXPECT_FALSE(is_active(card, 0.5));
-  EXPECT_TRUE(is_active(card, 0.5, true));
-  EXPECT_FALSE(is_active(card, 0.1, true));
+  EXPECT_TRUE(is_active(card, 1.5));
+  card.sensor_time = 1.7;
+  EXPECT_FALSE(is_active(card, 1.5));
+  EXPECT_FALSE(is_active(card, 2.5)) << "Tstop ends it also behind a sensor";
 }
 
 TEST(ElementLoss, FollowsIdel) {

@@ -52,7 +52,7 @@ int run_deck(const Options& o, const std::string& csv, Loaded& loaded, JsonOutpu
   options.model = o.model == "robust" ? cycle::Model::robust : cycle::Model::reference;
   options.scene = &scene;
   options.csv = !o.csv.empty();
-  const auto report = cycle::replay(cycle::make_card(scene, *contact, options.model), csv, options);
+  const auto report = cycle::replay(cycle::make_card(scene, *contact), csv, options);
   if (!report.error.empty()) {
     print_error(o.common, o.states + ": " + report.error);
     return exit_input;

@@ -202,8 +202,7 @@ void compute_pairs(const ContactCard& card, const Table& table, const std::strin
     PacketView view = states.rows(row, n);
     view.dt1 = dt1[row];
     view.dt12 = dt12[row];
-    const bool active =
-        t == nullptr || is_active(states.card(), t[row], options.model == Model::robust);
+    const bool active = t == nullptr || is_active(states.card(), t[row]);
     if (active) {
       evaluate(plan, view, result);
       for (std::size_t i = 0; i < n; ++i)
@@ -250,7 +249,7 @@ void compute_heat(const ContactCard& card, const Table& t, const ReplayOptions& 
           options.scene->model->nodes.map.find(static_cast<std::int64_t>(node[row]));
       if (n != no_index) s.conductivity = (*of_deck)(n, s.temperature[0]);
     }
-    const HeatFlow flow = pair_heat(card, s, options.model);
+    const HeatFlow flow = pair_heat(card, s);
     for (std::size_t r = 0; r < 5; ++r) put(out, "Q_" + role[r], i, flow.q[r]);
     put(out, "conductance", i, flow.conductance);
   }
@@ -283,7 +282,7 @@ void compute_edge_heat(const ContactCard& card, const Table& t, const ReplayOpti
     s.distance = t.column("r")[row] + s.gap;
     s.effective_gap = t.column("gap_eff")[row];
     s.dt1 = t.column("dt1")[row];
-    const HeatFlow flow = pair_heat(card, s, options.model);
+    const HeatFlow flow = pair_heat(card, s);
     const bool both = card.ithe_form == 1;
     for (std::size_t r = 0; r < 4; ++r) {
       put(out, "Q_" + role[r], i, flow.q[r]);

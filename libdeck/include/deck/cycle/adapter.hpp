@@ -17,10 +17,9 @@
 namespace deck::cycle {
 
 /// The card of one contact of a scene, in working units. A TYPE19 part follows the rules of the
-/// type it stands for. A blank Drad counts as 0 for the reference model, which does not hand its
-/// default on to the force stage; the robust model takes the distance that start-up prints.
-[[nodiscard]] ContactCard make_card(const Scene& scene, const deck::Contact& contact,
-                                    Model model = Model::reference);
+/// type it stands for. A blank Drad is 0 here: the default that start-up prints is not handed on to
+/// the force stage.
+[[nodiscard]] ContactCard make_card(const Scene& scene, const deck::Contact& contact);
 
 /// Where a field of an interface stands, for "because of this field on this line".
 struct FieldPlace {

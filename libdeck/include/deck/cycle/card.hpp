@@ -109,8 +109,8 @@ struct EffectState {
 };
 
 /// True when the interface acts at time t: Tstart <= t <= Tstop, and after its sensor if it has
-/// one. In the reference solver both tests apply together (robust: the sensor alone decides).
-[[nodiscard]] bool is_active(const ContactCard& card, double t, bool sensor_overrides = false);
+/// one. Both tests apply together.
+[[nodiscard]] bool is_active(const ContactCard& card, double t);
 
 /// Idel: whether a main segment stays, given the live elements left behind it and whether the
 /// element it was made from is alive.

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "deck/cycle/card.hpp"
-#include "deck/cycle/plan.hpp"
 
 namespace deck::cycle {
 
@@ -26,7 +25,7 @@ struct HeatState {
 
 struct HeatFlow {
   std::array<double, 5> q{};  ///< energy received by each role, see PacketView
-  double conductance = 0.0;   ///< A h; the reference reports none for radiation
+  double conductance = 0.0;   ///< A h; 0 for radiation, as in the solver
 };
 
 /// State of an edge-edge pair; roles 0, 1 are the ends of the secondary edge, 2, 3 of the main
@@ -35,13 +34,13 @@ struct EdgeHeatState {
   std::array<std::array<double, 3>, 4> position{};
   std::array<double, 4> temperature{};
   std::array<double, 4> weight{};        ///< h_s, 1 - h_s, h_m, 1 - h_m
-  std::array<double, 4> conductivity{};  ///< at each end; all 0: no extra resistance (robust)
+  std::array<double, 4> conductivity{};  ///< at each end
   std::array<double, 2> width{};         ///< of the secondary and the main edge
   double normal_force = 0.0;             ///< signed, negative presses
   double distance = 0.0;
   double gap = 0.0;            ///< pair gap, before Inacti
   double area = -1.0;          ///< shared area where it is known already; < 0: from the widths
-  double effective_gap = 0.0;  ///< after Inacti; in the reference nine tenths of it
+  double effective_gap = 0.0;  ///< nine tenths of what Inacti leaves
   double dt1 = 0.0;
 };
 
@@ -50,17 +49,15 @@ struct EdgeHeatState {
 /// that cross at their angle.
 [[nodiscard]] double edge_contact_area(const ContactCard& card, const EdgeHeatState& state);
 
-/// Heat between two edges: conduction within the gap, radiation up to Drad beyond it (robust: up to
-/// a distance of Drad, as between nodes and segments). No share of friction becomes heat. q[4] is
-/// 0. The reference evaluates fct_IDK at the signed force, which is negative under pressure, and
-/// lets nothing through a gap whose conductivity is 0.
-[[nodiscard]] HeatFlow pair_heat(const ContactCard& card, const EdgeHeatState& state,
-                                 Model model = Model::reference);
+/// Heat between two edges: conduction within the gap, radiation up to Drad beyond it. No share of
+/// friction becomes heat. q[4] is 0. As in the solver fct_IDK is evaluated at the signed force,
+/// which is negative under pressure, and nothing passes a gap whose conductivity is 0.
+[[nodiscard]] HeatFlow pair_heat(const ContactCard& card, const EdgeHeatState& state);
 
 /// Ithe_form 0 exchanges with Tint on the secondary side only, form 1 between both sides (sum of q
-/// without friction is 0).
-[[nodiscard]] HeatFlow pair_heat(const ContactCard& card, const HeatState& state,
-                                 Model model = Model::reference);
+/// without friction is 0). The gap is a resistance (form 0) on one side of the segment only, and
+/// with fct_IDK form 0 delivers no friction heat, as in the solver.
+[[nodiscard]] HeatFlow pair_heat(const ContactCard& card, const HeatState& state);
 
 }  // namespace deck::cycle
 

@@ -27,7 +27,8 @@ void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& resu
 
 /// Pair stiffness K0 from main and secondary values by Istf (before the 1/2 of the law), clamped
 /// to [Stmin, Stmax] for Istf 2..5. TYPE10: the main value. TYPE11: Istf 0 and 5 in series, Istf 1
-/// two springs of |Stfac| in series (robust: 2 Stfac, so that the law starts at Stfac).
+/// two springs of |Stfac| in series, so that the law starts at a quarter of Stfac. The models
+/// differ in the guard against 0/0 only.
 [[nodiscard]] double pair_stiffness(const ContactCard& card, double k_main, double k_secondary,
                                     Model model = Model::reference);
 
@@ -46,10 +47,10 @@ void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& resu
                                           double pressure, double speed);
 
 /// Orthotropic Coulomb limit: returns the trial force (f1, f2) brought back to the ellipse
-/// (f1/mu1)^2 + (f2/mu2)^2 = fn^2 if it lies outside. `reference` projects along the gradient and
-/// then returns radially; `robust` scales the trial. A coefficient of 0 removes its direction.
+/// (f1/mu1)^2 + (f2/mu2)^2 = fn^2 if it lies outside: projected along the gradient, then radially.
+/// A coefficient of 0 removes its direction.
 [[nodiscard]] std::array<double, 2> orthotropic_return(double f1, double f2, double mu1, double mu2,
-                                                       double fn, Model model);
+                                                       double fn);
 
 }  // namespace deck::cycle
 

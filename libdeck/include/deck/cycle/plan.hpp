@@ -12,42 +12,24 @@
 
 namespace deck::cycle {
 
-/// The numerical model. `reference` reproduces the published solver guard for guard (the recorded
-/// states decide). `robust` is the same physics without its numerical quirks. What differs, and by
-/// how much in a telling case (tests/cycle/model_differences_test.cpp holds the figures):
-///  * node–segment: the closest of the four sub-triangles gives normal, distance and weights, with
-///    relative guards; no blending, no shift of weights, the same weights for velocity and force
-///    (power at the pair = power at the nodes; normal forces keep moment balance). On a flat square
-///    the blend tilts the normal by up to 25 degrees, a side force of 0.43 of the whole;
+/// The numerical model. Which effect acts, and with which coefficient, is the same in both and is
+/// the solver's; `robust` changes arithmetic only. tools/docs/differences.md lists the solver's
+/// rules that differ from its manual, and all that differs between the models, each held by a test:
+/// tests/cycle/solver_rules_test.cpp (both models) and tests/cycle/model_differences_test.cpp.
+///
+/// `reference` reproduces the published solver guard for guard (the recorded states decide).
+/// `robust`:
+///  * node-segment: the closest of the four sub-triangles gives normal, distance and weights, with
+///    relative guards; no blending, no shift of weights, the same weights for velocity and force;
 ///  * neighbouring segments or edges that meet the other side at the same edge or corner share one
-///    force instead of adding up (see sharing.hpp; whole contacts only, single pairs stay alone):
-///    2 times over an edge, 4 times over a corner of a regular mesh;
-///  * the law works with the distance d itself: F = k g (g-d)/d, energy by log1p: the reference is
-///    off by 1e-16 g/d (1e-9 at d/g = 2e-8), and by half at d = 5e-11 length units, below its
-///    floor; under d/g = 1e-8 the robust law continues as its tangent (C1), the reference drops
-///    the node under 1e-10;
-///  * a node on the surface takes the facet normal instead of none (no force at all there);
-///  * damping uses the reduced mass of both sides (0.89 of the dashpot at the centre of a square of
-///    equal nodes, 0.71 at a corner), never pulls, and its work is booked;
-///  * friction is limited by max(0,-Fn) instead of |Fn|; the old tangential force keeps its length
-///    when turned into the new tangent plane (0.87 is left after 30 degrees); its stiffness is at
-///    most the normal tangent stiffness (half, at the edge of the gap);
-///  * filters: a true low-pass with weight at most 1, limit applied after it; Ifiltr 2 and 3 as
-///    documented (2 pi Xfreq, 2 pi Xfreq dt): at 1000 per time and dt 1e-6 the reference does not
-///    filter, the robust model takes 0.6 % of the new force;
-///  * AscaleF is applied; temperature friction uses this cycle's weights;
-///  * no mechanical action without penetration (with Drad beyond the gap the reference damps and
-///    rubs at a distance); a gap used up by Inacti switches the pair off (no number otherwise);
-///  * edge–edge: relative parallel test, parallel edges meet at the middle of their overlap (the
-///    reference at either end, by the order of nodes), crossing edges take e_s x e_m as normal, no
-///    0.9 on the gap (1.13 times the force at half the gap), fixed stiffness is Stfac (a quarter of
-///    it in the reference);
-///  * conduction counts the gap distance on both sides (on one in the reference: the heat changes
-///    with the orientation of the segment); radiation reports a conductance; the share of friction
-///    heat that has no receiver (Ithe_form 0) is not booked;
-///  * a sensor replaces Tstart/Tstop.
-/// Unchanged in both: Inacti relaxes per cycle (the card gives no time constant), clamps act
-/// before the 1/2, the viscosity scale sqrt(2 k M).
+///    force instead of adding up (sharing.hpp; whole contacts only);
+///  * the law works with the distance itself, not with gap minus penetration, its energy by log1p;
+///    under 1e-8 of the gap it continues as its tangent down to 1e-10, where the node is dropped;
+///  * edge-edge: relative parallel test, parallel edges meet at the middle of their overlap,
+///  crossing
+///    edges have a normal;
+///  * a gap used up by Inacti switches the pair off (no number otherwise);
+///  * the work of the normal dashpot is booked.
 enum class Model { reference, robust };
 
 /// Instruction set of the compiled kernels, as far as the processor has it. All give the same bits.
