@@ -62,11 +62,15 @@ void check_blank_radiation(const LintContext& c, const Rule& rule, Reporter& r) 
 
 void check_main_share(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
-    if (!fixed_temperature(card) || !card.given("Fheatm")) return;
-    note_field(report_at(r, rule, card, "Fheatm",
-                         fmt::format("{}: {} reaches nobody with Ithe_form 0", name_of(card),
-                                     card.show("Fheatm"))),
-               card, "Ithe_form");
+    if (!fixed_temperature(card)) return;
+    for (const std::string_view field : {"Fheats", "Fheatm"}) {
+      const bool secondary = field == "Fheats";
+      if (!card.given(field) || (secondary && !card.given("fct_IDK"))) continue;
+      note_field(report_at(r, rule, card, field,
+                           fmt::format("{}: {} reaches nobody with Ithe_form 0{}", name_of(card),
+                                       card.show(field), secondary ? " and fct_IDK" : "")),
+                 card, "Ithe_form");
+    }
   });
 }
 
@@ -275,10 +279,11 @@ void add_heat(std::vector<Rule>& out) {
       "it prints a default distance and computes with 0", "write Drad",
       "When nothing shall radiate.", "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Tint=293.0 Frad=1.e-14\n",
       "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Tint=293.0 Frad=1.e-14 Drad=5.0\n", check_blank_radiation);
-  add(out, "DK249", Severity::info, "friction heat of the main side is lost",
-      "Fheatm is given with Ithe_form 0.",
+  add(out, "DK249", Severity::info, "friction heat that is lost",
+      "Fheatm is given with Ithe_form 0, or Fheats with Ithe_form 0 and fct_IDK.",
       "The main side has no temperature of its own then. Its share of the friction heat is booked "
-      "in the energies, but delivered to nobody.",
+      "in the energies, but delivered to nobody. With fct_IDK the share of the secondary side is "
+      "lost as well.",
       "it books the share and heats nothing", "set Ithe_form 1, or blank Fheatm",
       "When the share shall leave the model.",
       "@/INTER/TYPE7/1 Fric=0.2 Ithe=1 Kthe=1.0 Tint=293.0 Fheats=0.5 Fheatm=0.5\n",

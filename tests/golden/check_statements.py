@@ -137,9 +137,19 @@ def problems(statements, decks):
                 yield "%s: a run that cannot be read or asks for nothing: %s" % (name, r)
 
 
+def both_models(runs):
+    """A command with {model} is run with both models of cycle, which have to agree."""
+    for run in runs:
+        if "{model}" in run["cmd"]:
+            yield dict(run, cmd=run["cmd"].replace(" {model}", ""))
+            yield dict(run, cmd=run["cmd"].replace("{model}", "--model reference"))
+        else:
+            yield run
+
+
 def cases(s, decks):
     """(type, run, text of the deck or None) of a statement."""
-    for run in s["runs"]:
+    for run in both_models(s["runs"]):
         for type_ in str(run.get("types", s["types"])).split():
             version = run.get("version", VERSION)
             fill = lambda t: t.replace("{T}", type_)
@@ -234,7 +244,7 @@ def render(statements):
         if s["chapter"] != chapter:
             chapter = s["chapter"]
             out += ["", "## " + chapter, "", "| field | types | the manual says | the solver does | this program tells you |", "|---|---|---|---|---|"]
-        commands = list(dict.fromkeys(shown(s, r) for r in s["runs"]))
+        commands = list(dict.fromkeys(shown(s, r) for r in both_models(s["runs"])))
         solver = s.get("solver", "the same")
         if s["verdict"] == "differs":
             solver = "**" + solver + "**"
