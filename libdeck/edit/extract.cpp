@@ -240,7 +240,7 @@ void Extraction::process(const Task& task) {
     resolved(b, touch);
     if ((kind == "surf" || kind == "line") && is_box_selection(b)) everything();
   }
-  if (b.schema->opaque_tail) tokens(b, d);
+  if (!b.schema->layout_known()) tokens(b, d);
 }
 
 /// Nodes and elements that a group, surface, line or set comes to.

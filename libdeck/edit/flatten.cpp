@@ -256,7 +256,7 @@ class Comparison {
 
   /// What no schema describes may stand in other columns in another version.
   void note_version(const Block& b, int version, std::vector<LossEntry>& losses) {
-    if (b.schema != nullptr && (!b.schema->opaque_tail || b.schema->kind == "engine")) return;
+    if (b.schema != nullptr && (b.schema->layout_known() || b.schema->kind == "engine")) return;
     if (!noted_.insert(b.keyword).second) return;
     losses.push_back(loss_entry(deck_, Loss::undecided, b, b.header_span));
     losses.back().note = "written for input version " + std::to_string(b.version) +

@@ -59,7 +59,15 @@ class Renumbering {
       : deck_(context.deck), options_(options), spaces_(std::move(spaces)) {}
 
   Rewrite run() {
-    for (const Block& b : deck_.blocks) block(b);
+    for (const Block& b : deck_.blocks) {
+      const std::size_t before = out_.edits.size();
+      block(b);
+      const std::size_t ids = out_.edits.size() - before;
+      if (ids == 0) continue;
+      LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
+      entry.note = std::to_string(ids) + (ids == 1 ? " id" : " ids") + " changed";
+      out_.losses.push_back(std::move(entry));
+    }
     for (std::string& why : detail::contradicting_copies(deck_.sources, out_.edits))
       out_.refusals.push_back(std::move(why));
     for (const auto& [name, space] : spaces_)
@@ -199,17 +207,23 @@ class Renumbering {
           return std::any_of(card.fields.begin(), card.fields.end(),
                              [&](const Field& f) { return f.type == FieldType::id; });
         });
-    if (!references && !s.opaque_tail && s.kind != "set") return;
+    if (!references && s.layout_known() && s.kind != "set") return;
     const DecodedBlock d = decode(deck_, b);
     if (s.kind == "set")
       clauses(b, d);
     else if (s.keyword.ends_with("/GENE") || s.keyword.ends_with("/GEN_INCR"))
       ranges(b, d, s.keyword.ends_with("/GENE") ? 2 : 3);
     else
-      for (const DecodedCard& card : d.cards)
-        for (const Cell& c : card.cells)
-          if (c.field->type == FieldType::id) cell(b, card, c, c.field->ref, false);
-    if (s.opaque_tail) tokens(b, d);
+      for (const DecodedCard& card : d.cards) ids(b, card);
+    if (!s.layout_known()) tokens(b, d);
+  }
+
+  /// The ids of a line. One of them that cannot change keeps the others as they are.
+  void ids(const Block& b, const DecodedCard& card) {
+    const std::size_t edits = out_.edits.size(), open = out_.losses.size();
+    for (const Cell& c : card.cells)
+      if (c.field->type == FieldType::id) cell(b, card, c, c.field->ref, false);
+    if (out_.losses.size() > open) out_.edits.resize(edits);
   }
 
   /// Nodes and elements: many lines, few kinds of cells.
@@ -379,6 +393,21 @@ class Renumbering {
     return false;
   }
 
+  /// Text longer than a cell may be ids of ten columns with no blank between them.
+  bool glued(const Block& b, const Line& line, std::size_t begin, std::size_t end) {
+    constexpr std::size_t width = 10;
+    if (end - begin <= width) return false;
+    for (std::size_t at = begin; at < end;) {
+      const std::size_t next = std::min(end, (at / width + 1) * width);
+      const IntegerCell n = read_integer(line.text.substr(at, next - at));
+      if (n.status == NumberStatus::ok && n.value != 0 &&
+          number(b, line.columns(static_cast<int>(at) + 1, static_cast<int>(next)), n.value))
+        return true;
+      at = next;
+    }
+    return false;
+  }
+
   /// One finding a block is enough.
   void tokens(const Block& b, const DecodedBlock& d) {
     if (const auto spaces = possible_spaces(b); spaces && spaces->empty()) return;
@@ -393,6 +422,7 @@ class Renumbering {
         while (at < text.size() && !hidden(at)) ++at;
         const std::string_view token = text.substr(begin, at - begin);
         const Span place = line.columns(static_cast<int>(begin) + 1, static_cast<int>(at));
+        if (glued(b, line, begin, at)) return true;
         if (token.starts_with('&') || token.starts_with("-&")) {
           const std::int64_t value = detail::read_offset(deck_, place);
           if (value != 0 && number(b, place, value)) return true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <set>
 
 #include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
@@ -19,6 +20,30 @@ namespace detail {
 
 void UnitConversion::undecided(const Block& block, Span place, std::string field, std::string why) {
   leave_undecided(out, deck, block, place, std::move(field), std::move(why), options.partial);
+  if (options.partial) left.insert(&block);
+}
+
+void UnitConversion::leave_blocks() {
+  std::vector<bool> edit_goes(out.edits.size()), loss_goes(out.losses.size());
+  for (const Block* block : left) {
+    const auto share = shares.find(block);
+    if (share == shares.end()) continue;
+    const Share& s = share->second;
+    for (std::size_t i = s.edits; i < s.edits_end; ++i) edit_goes[i] = true;
+    for (std::size_t i = s.losses; i < s.losses_end; ++i)
+      loss_goes[i] = out.losses[i].loss != Loss::undecided;
+  }
+  const auto keep = [](auto& list, const std::vector<bool>& goes) {
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (!goes[i]) {
+        if (to != i) list[to] = std::move(list[i]);
+        ++to;
+      }
+    list.resize(to);
+  };
+  keep(out.edits, edit_goes);
+  keep(out.losses, loss_goes);
 }
 
 void UnitConversion::changed(const Block& block, Span place, std::string_view field,
@@ -160,7 +185,7 @@ bool free_of_units(std::string_view keyword) {
       "/ANALY", "/DEF_SHELL", "/DEF_SOLID",   "/IOFLAG",    "/MEMORY", "/SPMD",
       "/BCS",   "/TH",        "/ATH",         "/BTH",       "/CTH",    "/DTH",
       "/RBE2",  "/SHFRA",     "/CAA",         "/REFSTA",    "/UPWIND", "/ALE/GRID/ZERO",
-      "/RLINK", "/ALE/BCS",   "/DUMMY_START", "/DUMMY_END", "/AMS"};
+      "/RLINK", "/ALE/BCS",   "/DUMMY_START", "/DUMMY_END", "/AMS",   "/TABLE", "/FUNCT_PYTHON"};
   for (const std::string_view k : list)
     if (keyword == k || (keyword.starts_with(k) && keyword[k.size()] == '/')) return true;
   return false;
@@ -184,7 +209,9 @@ bool worth_decoding(const Schema& s) {
   if (s.opaque_tail) return true;
   for (const CardSchema& card : s.cards)
     for (const Field& f : card.fields)
-      if (has_dimension(f) || !f.dimension_known || f.ref == "funct") return true;
+      if (has_dimension(f) || !f.dimension_known || !f.unit_for.empty() || f.ref == "funct" ||
+          f.ref == "table")
+        return true;
   return false;
 }
 
@@ -202,6 +229,25 @@ class BlockConverter {
   explicit BlockConverter(UnitConversion& c) : c_(c), deck_(c.deck) {}
 
   void convert(const Block& b) {
+    UnitConversion::Share share;
+    share.edits = c_.out.edits.size();
+    share.losses = c_.out.losses.size();
+    convert_block(b);
+    for (TextEdit& e : grown_.finish(deck_.sources)) c_.out.edits.push_back(std::move(e));
+    grown_ = {};
+    if (const auto values = c_.out.edits.size() - share.edits; values > 0) {
+      LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
+      entry.note = std::to_string(values) + (values == 1 ? " value" : " values") + " converted";
+      c_.out.losses.push_back(std::move(entry));
+    }
+    share.edits_end = c_.out.edits.size();
+    share.losses_end = c_.out.losses.size();
+    if (share.edits_end > share.edits || share.losses_end > share.losses)
+      c_.shares.emplace(&b, share);
+  }
+
+ private:
+  void convert_block(const Block& b) {
     const UnitSystem* units = deck_.units_of(b);
     own_units_ = units != &deck_.begin.input;
     if (b.schema == nullptr) {
@@ -234,7 +280,6 @@ class BlockConverter {
       convert_cards(b);
   }
 
- private:
   /// The one repeated card of a block without conditions; nullptr: the block is another one.
   static const CardSchema* plain_rows(const Block& b) {
     const CardSchema* only = nullptr;
@@ -284,36 +329,155 @@ class BlockConverter {
 
   void convert_cards(const Block& b) {
     const DecodedBlock d = decode(deck_, b);
+    brought_.clear();
+    for (const DecodedCard& card : d.cards) {
+      if (card.missing()) continue;
+      for (const Cell& cell : card.cells) function_use(b, d, card, cell);
+      for (const Cell& cell : card.cells) reference_value(d, card, cell);
+    }
     for (const DecodedCard& card : d.cards)
       if (!card.missing()) convert_card(b, d, card);
-    if (!own_units_ && b.schema->opaque_tail) undescribed(b, d);
+    if (!own_units_ && !b.schema->layout_known()) undescribed(b, d);
   }
+
+  // ---- functions ------------------------------------------------------------------------------
+
+  /// Which cells scale the axes of the function that `cell` names, and what its points are.
+  void function_use(const Block& b, const DecodedBlock& d, const DecodedCard& card,
+                    const Cell& cell) {
+    const Field& f = *cell.field;
+    if (f.axes.empty() || (cell.integer == 0 && !cell.parameter)) return;
+    UnitConversion::FunctionUse use{&b, cell.span, f.name, std::abs(cell.integer), {}};
+    for (const Axis& axis : f.axes) {
+      bool scaled = axis.scales.empty();
+      for (const std::string& name : axis.scales) {
+        const Cell* scale = beside(d, card, cell, name);
+        if (scale != nullptr) brought_.insert(scale);
+        scaled = scaled || scale != nullptr;
+        if (scale == nullptr && has_field(b, name)) {
+          if (!own_units_)
+            c_.undecided(b, cell.span, f.name,
+                         "its scale " + name + " has no line in this block; add the line");
+          scaled = true;
+        }
+      }
+      Dimension points;
+      if (axis.scales.empty()) {
+        points = axis.dimension;
+        for (const auto& [when, dimension] : axis.dimension_when)
+          if (holds(when, d, &card)) {
+            points = dimension;
+            break;
+          }
+      } else if (!scaled) {
+        // This version has no cell for the scale: it is 1, and the points have its dimension.
+        const Field* scale = b.schema->find_field(axis.scales.front());
+        if (scale != nullptr) points = dimension_of(*scale, d, &card);
+      }
+      points.temperature = 0;
+      use.points.push_back(points);
+    }
+    c_.function_uses.push_back(std::move(use));
+  }
+
+  /// The cell `name` that goes with `cell`: on its line, in its round, at its place of a list, or
+  /// the only one of the block.
+  static const Cell* beside(const DecodedBlock& d, const DecodedCard& card, const Cell& cell,
+                            std::string_view name) {
+    std::vector<const Cell*> found;
+    std::size_t place = 0, before = 0;
+    for (const DecodedCard& other : d.cards)
+      for (const Cell& c : other.cells) {
+        if (&c == &cell) place = before;
+        if (c.field->name == cell.field->name) ++before;
+        if (c.field->name != name) continue;
+        if (&other == &card && card.schema->repeat != Repeat::ids) return &c;
+        found.push_back(&c);
+      }
+    if (found.size() == 1) return found.front();
+    return place < found.size() ? found[place] : nullptr;
+  }
+
+  static bool has_field(const Block& b, std::string_view name) {
+    for (const CardSchema& card : b.schema->cards)
+      if (card.in_version(b.version))
+        for (const Field& f : card.fields)
+          if (f.name == name && f.in_version(b.version)) return true;
+    return false;
+  }
+
+  /// A reference value that is 1 where it is blank, as far as something is measured by it.
+  void reference_value(const DecodedBlock& d, const DecodedCard& card, const Cell& cell) {
+    for (const std::string& name : cell.field->unit_for) {
+      const Cell* user = beside(d, card, cell, name);
+      if (user != nullptr && (user->real != 0 || user->integer != 0 || user->parameter))
+        brought_.insert(&cell);
+    }
+  }
+
+  // ---- cells ----------------------------------------------------------------------------------
 
   void convert_card(const Block& b, const DecodedBlock& d, const DecodedCard& card) {
     for (const Cell& cell : card.cells) {
       const Field& f = *cell.field;
-      if (c_.working_changes && f.ref == "funct" && cell.integer != 0 && f.name != "fct_IDF")
-        c_.undecided(b, cell.span, f.name,
-                     "the function's values are in working units, which change");
-      if (f.type == FieldType::id && !f.dimension_known && !own_units_ &&
-          (cell.integer != 0 || cell.parameter))
-        c_.undecided(b, cell.span, f.name,
-                     "a blank scale of its values means 1 in the units of the block, which change");
+      if (f.type == FieldType::id && f.axes.empty() && (cell.integer != 0 || cell.parameter)) {
+        if (c_.working_changes && f.ref == "funct")
+          c_.undecided(b, cell.span, f.name,
+                       "the function's values are in working units, which change");
+        else if (!f.dimension_known && !own_units_)
+          c_.undecided(b, cell.span, f.name,
+                       "the units of the axes of this function are not known");
+        else if (f.ref == "funct")
+          c_.function_uses.push_back({&b, cell.span, f.name, std::abs(cell.integer), {}});
+      }
       if (f.type != FieldType::real) continue;
       const bool zero = cell.blank() || (cell.status == NumberStatus::ok && cell.real == 0);
+      const bool brought = brought_.contains(&cell);
       if (!f.dimension_known) {
-        if (!own_units_ && (!zero || cell.parameter))
+        if (!own_units_ && (!zero || cell.parameter || brought))
           c_.undecided(b, cell.span, f.name, "the dimension of this value is not known");
         continue;
       }
+      const bool working = stiffness_in_working_units(d, cell);
       const Dimension dimension =
-          stiffness_in_working_units(d, cell) ? Dimension{1, 0, -2, 0} : dimension_of(f, d);
+          working ? Dimension{1, 0, -2, 0} : effective_dimension(d, card, cell);
       if (zero && !cell.parameter) {
-        if (c_.working_changes) write_default(b, card, cell, dimension);
-      } else if (!own_units_ || stiffness_in_working_units(d, cell)) {
+        if (brought)
+          write_one(b, card, cell, dimension);
+        else if (c_.working_changes)
+          write_default(b, card, cell, dimension_of(f, d, &card));
+      } else if (!own_units_ || working || f.solver_dimension) {
         convert_cell(b, d, card, cell, dimension);
       }
     }
+  }
+
+  /// The power of the units with which the number itself changes. The solver brings a number from
+  /// the units of its block to working units by S, while it means a quantity of dimension P: with
+  /// new working units the number that arrives must change by P.
+  Dimension effective_dimension(const DecodedBlock& d, const DecodedCard& card,
+                                const Cell& cell) const {
+    const Field& f = *cell.field;
+    Dimension physical = dimension_of(f, d, &card);
+    if (!f.over.empty() && holds(f.over_when, d, &card)) {
+      // The number counts times that of the scale: where the scale's number changes, it does not.
+      const Cell* scale = beside(d, card, cell, f.over);
+      if (scale != nullptr && (brought_.contains(scale) || scale->parameter ||
+                               (!scale->blank() && scale->real != 0)))
+        physical = minus(physical, dimension_of(*scale->field, d, &card));
+    }
+    const Dimension solver =
+        f.solver_dimension && holds(f.solver_when, d, &card) ? *f.solver_dimension : physical;
+    if (own_units_) return minus(physical, solver);
+    return c_.working_changes ? physical : solver;
+  }
+
+  static Dimension minus(Dimension a, const Dimension& b) {
+    a.mass = static_cast<std::int8_t>(a.mass - b.mass);
+    a.length = static_cast<std::int8_t>(a.length - b.length);
+    a.time = static_cast<std::int8_t>(a.time - b.time);
+    a.temperature = static_cast<std::int8_t>(a.temperature - b.temperature);
+    return a;
   }
 
   void convert_cell(const Block& b, const DecodedBlock& d, const DecodedCard& card,
@@ -353,6 +517,22 @@ class BlockConverter {
     return false;
   }
 
+  /// A blank scale is 1 in the units of the block: written out when these change.
+  void write_one(const Block& b, const DecodedCard& card, const Cell& cell,
+                 const Dimension& dimension) {
+    const Field& f = *cell.field;
+    const UnitFactor factor = c_.factors.of(dimension);
+    if (factor.one()) return;
+    const auto text = detail::scale_text("1", f.last - f.first + 1, factor);
+    if (!text) {
+      c_.undecided(b, cell.span, f.name, "blank means 1, which does not fit in the new units");
+      return;
+    }
+    c_.note_dimension(dimension, factor);
+    write_out(b, card, cell, text->text,
+              "blank is 1 in the units of the block, which change; it was written out");
+  }
+
   /// 0 and blank mean a number in working units: written out when these change.
   void write_default(const Block& b, const DecodedCard& card, const Cell& cell,
                      const Dimension& dimension) {
@@ -360,23 +540,40 @@ class BlockConverter {
     const auto value = ordinary_default(f);
     const UnitFactor factor = from_working_.of(dimension);
     if (!value || factor.one()) return;
-    const int width = f.last - f.first + 1;
-    const auto text = detail::scale_text(f.default_text, width, factor);
-    if (card.free_format || !text) {
+    const auto text = detail::scale_text(f.default_text, f.last - f.first + 1, factor);
+    if (!text) {
       c_.undecided(b, cell.span, f.name,
                    "blank means " + f.default_text + " in working units, which change");
       return;
     }
+    write_out(b, card, cell, text->text,
+              "the default " + f.default_text + " is in working units and was written out");
+  }
+
+  /// Puts `text` into a cell that was 0 or blank.
+  void write_out(const Block& b, const DecodedCard& card, const Cell& cell, const std::string& text,
+                 std::string note) {
+    const Field& f = *cell.field;
     const Line& line = card.line;
-    if (static_cast<int>(line.text.size()) >= f.first)
-      c_.replace_fixed(line, f.first, f.last, text->text);
-    else
-      grown_.set(deck_.sources, line.whole(), f.first, f.last, text->text);
+    if (card.free_format) {
+      const bool there = cell.span.offset + cell.span.length <= line.offset + line.text.size();
+      if (!there || line.text.size() + text.size() > detail::line_columns) {
+        c_.undecided(b, cell.span, f.name,
+                     "blank means a number that has to be written out, and this free-format line "
+                     "has no room for it");
+        return;
+      }
+      c_.out.edits.push_back({cell.span, text});
+    } else if (static_cast<int>(line.text.size()) >= f.first) {
+      c_.replace_fixed(line, f.first, f.last, text);
+    } else {
+      grown_.set(deck_.sources, line.whole(), f.first, f.last, text);
+    }
     LossEntry entry = loss_entry(deck_, Loss::kept, b, cell.span);
     entry.field = f.name;
     entry.old_text = std::string(cell.text);
-    entry.new_text = text->text;
-    entry.note = "the default " + f.default_text + " is in working units and was written out";
+    entry.new_text = text;
+    entry.note = std::move(note);
     c_.out.losses.push_back(std::move(entry));
   }
 
@@ -464,17 +661,12 @@ class BlockConverter {
     }
   }
 
- public:
-  void finish() {
-    for (TextEdit& e : grown_.finish(deck_.sources)) c_.out.edits.push_back(std::move(e));
-  }
-
- private:
   UnitConversion& c_;
   const Deck& deck_;
   bool own_units_ = false;
   detail::UnitFactors from_working_{{}, {}};
   CellEdits grown_;  // cells behind the end of their line
+  std::set<const Cell*> brought_;  // of this block: blank is 1 and has to be said
 };
 
 void add_notes(UnitConversion& c) {
@@ -547,8 +739,9 @@ Rewrite to_units(const EditContext& context, const UnitSystem& target,
   }
   BlockConverter blocks(c);
   for (const Block& b : context.deck.blocks) blocks.convert(b);
-  blocks.finish();
+  detail::convert_functions(c);
   detail::convert_parameters(c);
+  c.leave_blocks();
   for (std::string& why : detail::contradicting_copies(context.deck.sources, c.out.edits))
     c.out.refusals.push_back(std::move(why));
   add_notes(c);

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -31,7 +32,8 @@ struct UnitConversion {
   bool working_changes;
   Rewrite out;
 
-  /// Something that cannot be converted: a refusal, or with `partial` an undecided loss.
+  /// Something that cannot be converted: a refusal, or with `partial` an undecided loss; the block
+  /// then stays as it is as a whole.
   void undecided(const Block& block, Span place, std::string field, std::string why);
   /// New text for the cell in columns first..last of a fixed-column line.
   void convert_fixed(const Block& block, const Line& line, int first, int last,
@@ -50,6 +52,25 @@ struct UnitConversion {
   };
   std::map<std::string, std::vector<ParameterUse>, std::less<>> parameter_uses;
 
+  /// An id of a function or table in a block.
+  struct FunctionUse {
+    const Block* block = nullptr;
+    Span span;
+    std::string field;
+    std::int64_t id = 0;
+    std::vector<Dimension> points;  ///< dimension that the points themselves carry, axis by axis
+  };
+  std::vector<FunctionUse> function_uses;
+
+  /// What a block added to `out`, and with `partial` the blocks that stay as they are.
+  struct Share {
+    std::size_t edits = 0, edits_end = 0, losses = 0, losses_end = 0;
+  };
+  std::map<const Block*, Share> shares;
+  std::set<const Block*> left;
+  /// Takes the edits of the blocks in `left` out again.
+  void leave_blocks();
+
   std::uint64_t changed_cells = 0, own_unit_blocks = 0;
   std::map<std::string, std::string> used_factors;  ///< dimension -> factor, for the notes
   void note_dimension(const Dimension& dimension, const UnitFactor& factor);
@@ -64,6 +85,9 @@ struct UnitConversion {
 bool convert_begin(UnitConversion& conversion);
 /// The definitions of the parameters that converted cells use.
 void convert_parameters(UnitConversion& conversion);
+
+/// The points of functions whose axes have no scale.
+void convert_functions(UnitConversion& conversion);
 
 /// Puts `text` into columns first..last of a fixed-column line, ending where the old text ended if
 /// there is room; nothing else on the line moves.

@@ -367,7 +367,8 @@ class VersionRewriter {
     const bool same =
         std::equal(fields.begin(), fields.end(), old.cells.begin(), old.cells.end(),
                    [](const Field* f, const Cell& cell) {
-                     return canonical_name(f->name) == canonical_name(cell.field->name);
+                     return canonical_name(f->name) == canonical_name(cell.field->name) &&
+                            f->first == cell.field->first;
                    });
     if (same) return std::string(old.line.text);
     std::string text;

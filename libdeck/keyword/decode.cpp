@@ -309,6 +309,21 @@ void sort_by_column(DecodedCard& card) {
                      [](const Cell& a, const Cell& b) { return a.field->first < b.field->first; });
 }
 
+/// Narrower stretches belong to the flags behind them.
+constexpr int shortest_blank_cell = 8;
+
+/// A cell of a free-format line that stands for columns without meaning.
+void drop_blank_cell(Findings& findings, const Block& block,
+                     const std::pair<std::string_view, Span>* cell, int first, int last) {
+  if (cell == nullptr || cell->first.empty()) return;
+  findings.report("DK028", Severity::warning, cell->second,
+                  "text " + quoted(cell->first) + " of this free-format line falls on columns " +
+                      std::to_string(first) + "-" + std::to_string(last) + ", which version " +
+                      std::to_string(block.version) + " leaves blank",
+                  "it drops the text; the next one goes to the next cell",
+                  "write two commas for the blank columns, or fixed columns", 100213);
+}
+
 void read_free(const Deck& deck, const Block& block, Findings& findings, const LineContext& context,
                DecodedCard& out) {
   const CardSchema& card = *out.schema;
@@ -322,8 +337,26 @@ void read_free(const Deck& deck, const Block& block, Findings& findings, const L
     ++next;
     out.cells.push_back(read_cell(deck, findings, f, text, span));
   };
+  // Columns that stay blank between two cells of this version are a cell of the format, too: its
+  // text is dropped. Where the schema tells some cells only, nobody knows what lies between them.
+  const bool gaps = !list && (block.schema == nullptr || block.schema->layout_known());
+  std::vector<const Field*> fields;
   for (const Field& f : card.fields)
-    if (f.in_version(block.version) && holds_on_line(f, out, context)) take(f);
+    if (f.in_version(block.version)) fields.push_back(&f);
+  if (gaps)
+    std::stable_sort(fields.begin(), fields.end(),
+                     [](const Field* a, const Field* b) { return a->first < b->first; });
+  int end = 0;  // last column so far
+  for (const Field* f : fields) {
+    if (!holds_on_line(*f, out, context)) continue;
+    if (gaps && f->first > end + 1 && f->first - end > shortest_blank_cell) {
+      drop_blank_cell(findings, block, next < cells.size() ? &cells[next] : nullptr, end + 1,
+                      f->first - 1);
+      ++next;
+    }
+    take(*f);
+    end = f->last;
+  }
   if (list && !card.fields.empty())
     while (next < cells.size() &&
            (context.cells == 0 || out.cells.size() < static_cast<std::size_t>(context.cells)))

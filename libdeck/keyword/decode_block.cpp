@@ -238,11 +238,47 @@ DecodedBlock decode(const Deck& deck, const Block& block, Diagnostics* diagnosti
   return BlockDecoder(deck, block, diagnostics).run();
 }
 
-Dimension dimension_of(const Field& field, const DecodedBlock& block) {
+namespace {
+
+const Cell* cell_of(const DecodedCard& card, std::string_view field) {
+  for (const Cell& cell : card.cells)
+    if (cell.field->name == field) return &cell;
+  return nullptr;
+}
+
+/// The cell that a condition on a line looks at.
+const Cell* seen_from(const DecodedBlock& block, const DecodedCard* line, std::string_view field) {
+  if (line == nullptr) return block.find(field);
+  if (const Cell* cell = cell_of(*line, field)) return cell;
+  for (const int round : {line->round, 0})
+    for (const DecodedCard& card : block.cards)
+      if (card.round == round)
+        if (const Cell* cell = cell_of(card, field)) return cell;
+  return nullptr;
+}
+
+bool same_word(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return std::toupper(static_cast<unsigned char>(x)) ==
+           std::toupper(static_cast<unsigned char>(y));
+  });
+}
+
+}  // namespace
+
+bool holds(const std::vector<Condition>& when, const DecodedBlock& block, const DecodedCard* card) {
+  return std::all_of(when.begin(), when.end(), [&](const Condition& c) {
+    const Cell* cell = seen_from(block, card, c.field);
+    if (c.words.empty()) return c.holds(cell != nullptr ? cell->integer : 0);
+    return cell != nullptr &&
+           std::any_of(c.words.begin(), c.words.end(),
+                       [&](const std::string& word) { return same_word(cell->text, word); });
+  });
+}
+
+Dimension dimension_of(const Field& field, const DecodedBlock& block, const DecodedCard* card) {
   for (const auto& [when, dimension] : field.dimension_when)
-    if (std::all_of(when.begin(), when.end(),
-                    [&](const Condition& c) { return c.holds(block.integer(c.field)); }))
-      return dimension;
+    if (holds(when, block, card)) return dimension;
   return field.dimension;
 }
 

@@ -75,9 +75,23 @@ const SchemaSet& SchemaSet::built_in() {
   return set;
 }
 
+namespace {
+
+/// Keywords of a text that say what their cards are, an empty list included.
+std::set<std::string, std::less<>> with_cards(std::string_view text) {
+  std::set<std::string, std::less<>> keywords;
+  for (const auto& piece : detail::split_schemas(text))
+    if (piece.text.find("\"cards\"") != std::string_view::npos)
+      keywords.emplace(piece.keyword);
+  return keywords;
+}
+
+}  // namespace
+
 Result<void> SchemaSet::add_json(std::string_view name, std::string_view text) {
   auto parsed = detail::parse_schemas(name, text);
   if (!parsed) return parsed.error();
+  const auto described = with_cards(text);
 
   // Build the new table first so that a bad file leaves the set as it was.
   auto table = by_name_;
@@ -87,8 +101,17 @@ Result<void> SchemaSet::add_json(std::string_view name, std::string_view text) {
     names.insert(names.begin(), schema.keyword);
     const auto added = std::make_shared<const Entry>(std::move(schema));
     if (const auto it = table.find(added->keyword);
-        it != table.end() && it->second->keyword == added->keyword && !fresh.count(added->keyword))
+        it != table.end() && it->second->keyword == added->keyword &&
+        !fresh.count(added->keyword)) {
+      // Without cards nothing of the keyword is read, so nothing of it is checked either.
+      if (!it->second->get().cards.empty() && !described.contains(added->keyword))
+        return Error{Error::Code::config,
+                     fmt::format("{}: {} replaces a schema with cards ({}) and has none itself; "
+                                 "describe its lines, or write \"cards\": [] if nothing of it is "
+                                 "to be read",
+                                 name, added->keyword, it->second->source)};
       std::erase_if(table, [old = it->second](const auto& entry) { return entry.second == old; });
+    }
     for (const auto& key : names) {
       const auto [it, inserted] = table.emplace(key, added);
       if (!inserted)

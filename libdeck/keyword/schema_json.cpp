@@ -125,22 +125,32 @@ void read_versions(const Json& json, const Path& path, int& from, int& until) {
   if (until < from) fail(here, "the range is empty");
 }
 
-std::vector<Condition> conditions_of(const Json& json, const Path& path) {
+/// `words`: conditions on text cells are possible here.
+std::vector<Condition> conditions_of(const Json& json, const Path& path, bool words = false) {
   std::vector<Condition> conditions;
   for (const auto& item : expect_array(json, path)) {
     const auto here = at(path, conditions.size());
-    expect_object(item, here, {"field", "lines", "in", "not_in", "min", "max"});
+    expect_object(item, here, {"field", "lines", "words", "in", "not_in", "min", "max"});
     Condition condition;
     bool lines = false;
     read(item, here, "lines", lines);
     if (lines == item.contains("field")) fail(here, "expected \"field\" or \"lines\": true");
     read(item, here, "field", condition.field);
     if (lines) condition.field = Condition::data_lines;
+    if (item.contains("words")) {
+      const auto list = at(here, "words");
+      if (!words || lines) fail(list, "words are tested by dimensions only");
+      for (const auto& word : expect_array(item["words"], list))
+        condition.words.push_back(text_of(word, at(list, condition.words.size())));
+      if (condition.words.empty()) fail(list, "the list is empty");
+      if (item.size() != 2) fail(here, "\"words\" goes with \"field\" alone");
+    }
     if (item.contains("in")) condition.in = integers_of(item["in"], at(here, "in"));
     if (item.contains("not_in")) condition.not_in = integers_of(item["not_in"], at(here, "not_in"));
     if (item.contains("min")) condition.min = integer_of(item["min"], at(here, "min"));
     if (item.contains("max")) condition.max = integer_of(item["max"], at(here, "max"));
-    if (condition.in.empty() && condition.not_in.empty() && !condition.min && !condition.max)
+    if (condition.words.empty() && condition.in.empty() && condition.not_in.empty() &&
+        !condition.min && !condition.max)
       fail(here, "the condition tests nothing: give \"in\", \"not_in\", \"min\" or \"max\"");
     conditions.push_back(std::move(condition));
   }
@@ -182,24 +192,97 @@ void read_columns(const Json& json, const Path& path, Field& field) {
     fail(here, fmt::format("columns {}-{} do not lie in 1-100", field.first, field.last));
 }
 
+using DimensionWhen = std::vector<std::pair<std::vector<Condition>, Dimension>>;
+
+void read_dimension_when(const Json& json, const Path& path, DimensionWhen& out) {
+  if (!json.contains("dim_when")) return;
+  const auto here = at(path, "dim_when");
+  std::size_t n = 0;
+  for (const auto& item : expect_array(json["dim_when"], here)) {
+    const auto entry = at(here, n++);
+    expect_object(item, entry, {"when", "dim"});
+    require(item, entry, "when");
+    require(item, entry, "dim");
+    out.emplace_back(conditions_of(item["when"], at(entry, "when"), true),
+                     dimension_of(item["dim"], at(entry, "dim")));
+  }
+}
+
+std::vector<std::string> names_of(const Json& json, const Path& path) {
+  std::vector<std::string> names;
+  for (const auto& item : expect_array(json, path))
+    names.push_back(text_of(item, at(path, names.size())));
+  if (names.empty()) fail(path, "the list is empty");
+  return names;
+}
+
+/// The axes of the function or table that an id names.
+void read_axes(const Json& json, const Path& path, Field& field) {
+  if (!json.contains("axes")) return;
+  const auto here = at(path, "axes");
+  if (field.type != FieldType::id || (field.ref != "funct" && field.ref != "table"))
+    fail(here, "only ids of functions and tables have axes");
+  if (!field.dimension_known) fail(path, "\"axes\" and \"dim_unknown\" exclude each other");
+  for (const auto& item : expect_array(json["axes"], here)) {
+    const auto entry = at(here, field.axes.size());
+    expect_object(item, entry, {"scale", "dim", "dim_when"});
+    Axis axis;
+    if (item.contains("scale")) {
+      const auto scale = at(entry, "scale");
+      if (item.size() != 1) fail(entry, "an axis has a scale, or points with a dimension");
+      if (item["scale"].is_string())
+        axis.scales = {item["scale"].get<std::string>()};
+      else
+        axis.scales = names_of(item["scale"], scale);
+    }
+    if (item.contains("dim")) axis.dimension = dimension_of(item["dim"], at(entry, "dim"));
+    read_dimension_when(item, entry, axis.dimension_when);
+    field.axes.push_back(std::move(axis));
+  }
+  if (field.axes.size() < 2) fail(here, "expected the axes, the ordinate last");
+}
+
+/// What the value of a real cell depends on besides its own number.
+void read_relations(const Json& json, const Path& path, Field& field) {
+  const auto real_only = [&](const char* key) {
+    if (field.type != FieldType::real) fail(at(path, key), "only real fields have it");
+  };
+  if (json.contains("solver_dim")) {
+    real_only("solver_dim");
+    const auto here = at(path, "solver_dim");
+    const Json& solver = json["solver_dim"];
+    if (solver.is_object()) {
+      expect_object(solver, here, {"when", "dim"});
+      require(solver, here, "when");
+      require(solver, here, "dim");
+      field.solver_when = conditions_of(solver["when"], at(here, "when"));
+      field.solver_dimension = dimension_of(solver["dim"], at(here, "dim"));
+    } else {
+      field.solver_dimension = dimension_of(solver, here);
+    }
+  }
+  if (json.contains("unit_for")) {
+    real_only("unit_for");
+    field.unit_for = names_of(json["unit_for"], at(path, "unit_for"));
+  }
+  if (json.contains("over")) {
+    real_only("over");
+    const auto here = at(path, "over");
+    expect_object(json["over"], here, {"field", "when"});
+    require(json["over"], here, "field");
+    read(json["over"], here, "field", field.over);
+    if (json["over"].contains("when"))
+      field.over_when = conditions_of(json["over"]["when"], at(here, "when"));
+  }
+}
+
 void read_dimension(const Json& json, const Path& path, Field& field) {
   if (json.contains("dim")) field.dimension = dimension_of(json["dim"], at(path, "dim"));
   bool unknown = false;
   read(json, path, "dim_unknown", unknown);
   field.dimension_known = !unknown;
   if (unknown && json.contains("dim")) fail(path, "\"dim\" and \"dim_unknown\" exclude each other");
-  if (json.contains("dim_when")) {
-    const auto here = at(path, "dim_when");
-    std::size_t n = 0;
-    for (const auto& item : expect_array(json["dim_when"], here)) {
-      const auto entry = at(here, n++);
-      expect_object(item, entry, {"when", "dim"});
-      require(item, entry, "when");
-      require(item, entry, "dim");
-      field.dimension_when.emplace_back(conditions_of(item["when"], at(entry, "when")),
-                                        dimension_of(item["dim"], at(entry, "dim")));
-    }
-  }
+  read_dimension_when(json, path, field.dimension_when);
   const bool any = json.contains("dim") || json.contains("dim_when") || unknown;
   const bool axes = unknown && field.type == FieldType::id;  // of the function or table
   if (any && field.type != FieldType::real && !axes)
@@ -239,7 +322,8 @@ Field field_of(const Json& json, const Path& path) {
   expect_object(json, path,
                 {"name", "cols",        "type",     "ref",     "versions", "when", "values",   "min",
                  "max",  "min_open",    "max_open", "missing", "empty",    "required", "default",
-                 "dim",  "dim_unknown", "dim_when", "ignored", "doc",      "manual"});
+                 "dim",  "dim_unknown", "dim_when", "solver_dim", "axes", "unit_for", "over",
+                 "ignored", "doc",      "manual"});
   Field field;
   require(json, path, "name");
   read(json, path, "name", field.name);
@@ -258,6 +342,8 @@ Field field_of(const Json& json, const Path& path) {
   read_range(json, path, field);
   read(json, path, "default", field.default_text);
   read_dimension(json, path, field);
+  read_axes(json, path, field);
+  read_relations(json, path, field);
   read(json, path, "ignored", field.ignored);
   read(json, path, "doc", field.doc);
   read(json, path, "manual", field.from_manual);
@@ -387,11 +473,13 @@ Range range_of(const CardSchema& card, const Field& field) {
   return {std::max(card.from, field.from), std::min(card.until, field.until)};
 }
 
-/// Whether `schema` has, in `version`, an integer field `name` on the first `cards` cards.
-bool knows_before(const Schema& schema, std::size_t cards, int version, std::string_view name) {
+/// Whether `schema` has, in `version`, an integer (or text) field `name` on the first `cards` cards.
+bool knows_before(const Schema& schema, std::size_t cards, int version, std::string_view name,
+                  bool text = false) {
   for (std::size_t i = 0; i < cards; ++i)
     for (const auto& field : schema.cards[i].fields)
-      if (field.name == name && field.type != FieldType::real && field.type != FieldType::text &&
+      if (field.name == name && field.type != FieldType::real &&
+          (field.type == FieldType::text) == text &&
           schema.cards[i].in_version(version) && field.in_version(version))
         return true;
   return false;
@@ -431,15 +519,51 @@ std::string check_conditions(const Schema& schema, std::size_t index) {
   if (!number && !at_least_once(card.count))
     return fmt::format("/cards/{}/count: no earlier card has an integer field \"{}\"", index,
                        card.count);
+  // A dimension may ask for a cell of any version: where it is not, it counts as 0.
+  const auto ever = [&](const Condition& condition) {
+    for (const int version : known_versions())
+      if (knows_before(schema, index + 1, version, condition.field, !condition.words.empty()))
+        return true;
+    return condition.field == Condition::data_lines;
+  };
   for (std::size_t f = 0; f < card.fields.size(); ++f)
     for (const auto& entry : card.fields[f].dimension_when)
       for (const auto& condition : entry.first)
-        if (const int version =
-                unknown_in(schema, index + 1, range_of(card, card.fields[f]), condition))
+        if (!ever(condition))
           return fmt::format(
-              "/cards/{}/fields/{}/dim_when: in version {} neither this nor an earlier card has an "
-              "integer field \"{}\"",
-              index, f, version, condition.field);
+              "/cards/{}/fields/{}/dim_when: neither this nor an earlier card has {} field \"{}\"",
+              index, f, condition.words.empty() ? "an integer" : "a text", condition.field);
+  return {};
+}
+
+/// Cells that another cell's unit depends on must be real fields of the schema.
+std::string check_relations(const Schema& schema, std::size_t index) {
+  const auto real = [&](std::string_view name) {
+    for (const auto& card : schema.cards)
+      for (const auto& field : card.fields)
+        if (field.name == name && field.type == FieldType::real) return true;
+    return false;
+  };
+  const auto number = [&](std::string_view name) {
+    for (const auto& card : schema.cards)
+      for (const auto& field : card.fields)
+        if (field.name == name && field.type != FieldType::text) return true;
+    return false;
+  };
+  const auto& card = schema.cards[index];
+  for (std::size_t f = 0; f < card.fields.size(); ++f) {
+    const auto wrong = [&](const char* key, std::string_view name) {
+      return fmt::format("/cards/{}/fields/{}/{}: no card has a {}field \"{}\"", index, f, key,
+                         std::string_view(key) == "unit_for" ? "" : "real ", name);
+    };
+    for (const auto& axis : card.fields[f].axes)
+      for (const auto& name : axis.scales)
+        if (!real(name)) return wrong("axes", name);
+    for (const auto& name : card.fields[f].unit_for)
+      if (!number(name)) return wrong("unit_for", name);
+    if (const auto& over = card.fields[f].over; !over.empty() && !real(over))
+      return wrong("over", over);
+  }
   return {};
 }
 
@@ -511,6 +635,7 @@ std::string check_schema(const Schema& schema) {
     if (wrong.empty()) wrong = check_names(schema, c);
     if (wrong.empty()) wrong = check_repeat(schema, c);
     if (wrong.empty()) wrong = check_conditions(schema, c);
+    if (wrong.empty()) wrong = check_relations(schema, c);
     if (!wrong.empty()) return wrong;
   }
   return {};

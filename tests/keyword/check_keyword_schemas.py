@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Validates schemas/keywords/*.json against schemas/keyword.schema.json, as 2020-12 and as draft-7.
+"""Validates schemas/keywords/*.json, and the examples of tools/docs/schemas.md, against
+schemas/keyword.schema.json, as 2020-12 and as draft-7.
 
 Prints every violation with file and JSON path, then "N passed, 0 failed"; exit code 1 on failure.
 Some deliberately wrong documents must be refused as well, so that a lax schema is noticed.
@@ -7,6 +8,7 @@ Some deliberately wrong documents must be refused as well, so that a lax schema 
 import copy
 import json
 import pathlib
+import re
 import sys
 
 import jsonschema
@@ -42,6 +44,11 @@ BAD = {
     "dimension of an id": changed(FIELD + ("dim",), [0, 1, 0]),
     "version that does not exist": changed(("from",), 111),
     "condition that tests nothing": changed(("cards", 0, "when"), [{"field": "f"}]),
+    "axes of a node": changed(FIELD + ("axes",), [{}, {}, {"colour": 1}]),
+    "a single axis": changed(FIELD + ("axes",), [{}]),
+    "a factor that is an id": changed(FIELD + ("over",), {"field": "f"}),
+    "a reference value that is an id": changed(FIELD + ("unit_for",), ["f"]),
+    "no words": changed(("cards", 0, "when"), [{"field": "f", "words": []}]),
     "empty family": {"schemas": []},
 }
 
@@ -72,6 +79,16 @@ def check(validator_class, schema):
             print(f"{dialect}: {file.name}: /{where}: {error.message}")
         failed += bool(errors)
         passed += not errors
+    examples = re.findall(r"```json\n(.*?)```", (ROOT / "tools/docs/schemas.md").read_text(encoding="utf-8"), re.S)
+    for number, example in enumerate(examples, 1):
+        errors = list(validator.iter_errors(json.loads(example)))
+        for error in errors:
+            print(f"{dialect}: schemas.md, example {number}: {error.message}")
+        failed += bool(errors)
+        passed += not errors
+    if not examples:
+        print("no example in tools/docs/schemas.md")
+        failed += 1
     return passed, failed
 
 

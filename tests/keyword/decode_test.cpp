@@ -258,13 +258,14 @@ TEST(Decode, TextBehindTheCellsIsNamedUnlessItIsZero) {
 }
 
 TEST(Decode, ACommaSwitchesTheLineToFreeFormat) {
-  const Decoded d("/X/CARDS/5\nt\n12, 7,,1 \t 2\n3.5,4\n");
+  // The third cell stands for columns 21-38, which are blank in this version.
+  const Decoded d("/X/CARDS/5\nt\n12, 7,,,1 \t 2\n3.5,4\n");
   EXPECT_TRUE(d.result.cards[0].free_format);
   EXPECT_EQ(d.result.integer("id1"), 12);
   EXPECT_EQ(d.result.integer("n"), 7);
   EXPECT_TRUE(d.result.find("fx")->blank());
   EXPECT_EQ(d.result.integer("mode"), 1);
-  EXPECT_EQ(d.at(d.result.find("mode")->span).column, 8u);
+  EXPECT_EQ(d.at(d.result.find("mode")->span).column, 9u);
   EXPECT_EQ(d.result.real("v"), 3.5);
   EXPECT_EQ(count(d.findings, "DK028"), 1u);  // the fifth value has no cell
   EXPECT_EQ(count(d.findings, "DK013"), 0u);  // tabs separate as blanks do
@@ -272,6 +273,22 @@ TEST(Decode, ACommaSwitchesTheLineToFreeFormat) {
   EXPECT_EQ(short_line.result.integer("id1"), 12);
   EXPECT_TRUE(short_line.result.find("n")->blank());
   EXPECT_TRUE(short_line.findings.all().empty());
+}
+
+TEST(Decode, BlankColumnsTakeACellOfAFreeFormatLine) {
+  // The reference solver stops such a shell: 1 falls on the columns of a flag that version 2024 no
+  // longer has, and the thickness is 0.
+  const Deck d = read(deck_of("/PROP/SHELL/1\ns\n\n\n5 1,0 0.0 0 0\n"));
+  const DecodedBlock shell = decode(d, *block(d, "/PROP/SHELL/1"));
+  EXPECT_EQ(shell.integer("N"), 5);
+  EXPECT_EQ(shell.real("Thick"), 0);
+  EXPECT_FALSE(shell.find("Thick")->blank());
+  const Deck older = read(deck_of("/PROP/SHELL/1\ns\n\n\n5 1,2.5 0.0 0 0\n", "2022"));
+  const DecodedBlock with_flag = decode(older, *block(older, "/PROP/SHELL/1"));
+  EXPECT_EQ(with_flag.integer("Istrain"), 1);
+  EXPECT_EQ(with_flag.real("Thick"), 2.5);
+  // Text that falls on blank columns is lost, which has to be said.
+  EXPECT_EQ(count(Decoded("/X/CARDS/5\nt\n12,7,9,0\n").findings, "DK028"), 1u);
 }
 
 TEST(Decode, TabsAndNulBytesInFixedColumnsAreNamed) {

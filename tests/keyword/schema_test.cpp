@@ -343,6 +343,40 @@ TEST(SchemaLoader, ALaterFileReplacesAKeywordWithItsAliases) {
   EXPECT_EQ(set.all().size(), 1u);
 }
 
+TEST(SchemaLoader, ASchemaWithoutCardsReplacesOneWithCardsOnlyWhenItSaysSo) {
+  SchemaSet set = SchemaSet::built_in();
+  const auto silent = set.add_json("a", R"({"keyword":"/INTER/TYPE7","kind":"inter"})");
+  ASSERT_FALSE(silent);
+  EXPECT_THAT(silent.error().message, HasSubstr("/INTER/TYPE7 replaces a schema with cards"));
+  EXPECT_FALSE(set.find("/INTER/TYPE7")->cards.empty());
+  EXPECT_TRUE(set.add_json("b", R"({"keyword":"/INTER/TYPE7","kind":"inter","cards":[]})"));
+  EXPECT_TRUE(set.find("/INTER/TYPE7")->cards.empty());
+}
+
+TEST(SchemaLoader, WhatAValueDependsOnMustBeThere) {
+  const auto fields = [](const std::string& more) {
+    return with_cards(R"({"name":"c","fields":[
+      {"name":"Dir","cols":[1,10],"type":"text"},{"name":"n","cols":[11,20],"type":"int"},
+      {"name":"s","cols":[21,40],"type":"real"},)" +
+                      more + "]}");
+  };
+  const std::string id = R"({"name":"f","cols":[41,50],"type":"id","ref":"funct",)";
+  const std::string real = R"({"name":"r","cols":[51,70],"type":"real",)";
+  EXPECT_EQ(error_of(fields(id + R"("axes":[{"scale":"s"},{"dim":[0,1,0]}]})")), "accepted");
+  EXPECT_THAT(error_of(fields(id + R"("axes":[{"scale":"n"},{}]})")),
+              HasSubstr("no card has a real field \"n\""));
+  EXPECT_THAT(error_of(fields(id + R"("axes":[{}]})")), HasSubstr("the ordinate last"));
+  EXPECT_THAT(error_of(fields(id + R"("dim_unknown":true,"axes":[{},{}]})")),
+              HasSubstr("exclude each other"));
+  EXPECT_THAT(error_of(fields(real + R"("axes":[{},{}]})")), HasSubstr("only ids of functions"));
+  EXPECT_THAT(error_of(fields(real + R"("over":{"field":"x"}})")), HasSubstr("real field \"x\""));
+  EXPECT_THAT(error_of(fields(real + R"("unit_for":["x"]})")), HasSubstr("field \"x\""));
+  const std::string when = R"("dim_when":[{"when":[{"field":"Dir","words":["X"]}],"dim":[0,1,0]}]})";
+  EXPECT_EQ(error_of(fields(real + when)), "accepted");
+  EXPECT_THAT(error_of(fields(real + R"("when":[{"field":"Dir","words":["X"]}]})")),
+              HasSubstr("words are tested by dimensions only"));
+}
+
 TEST(SchemaLoader, TheSameKeywordTwiceInOneFileIsAnError) {
   EXPECT_THAT(error_of(R"({"schemas":[{"keyword":"/A"},{"keyword":"/A"}]})"),
               HasSubstr("/A of /A already names /A"));
@@ -393,7 +427,7 @@ TEST_F(SchemaDirectory, AMissingDirectoryIsAnIoError) {
 }
 
 TEST(ConditionTest, ListAndBoundsMustBothHold) {
-  Condition condition{"f", {1, 2, 9}, {}, 2, std::nullopt};
+  Condition condition{.field = "f", .words = {}, .in = {1, 2, 9}, .not_in = {}, .min = 2, .max = {}};
   EXPECT_FALSE(condition.holds(1));
   EXPECT_TRUE(condition.holds(2));
   EXPECT_FALSE(condition.holds(3));

@@ -365,6 +365,10 @@ int run(const Options& options) {
   else if (options.common.decks.size() > 1)
     print_error(options.common, "nothing was written: the decks of a call are converted together");
   unite(work.losses);
+  const bool open = std::any_of(work.losses.begin(), work.losses.end(), [](const LossEntry& e) {
+    return e.loss == Loss::undecided;
+  });
+  if (open) worst = std::max<int>(worst, exit_findings);
   if (!options.report.empty()) {
     if (auto done = write_output(options.report, losses_json(work.losses)); !done) {
       print_error(options.common, done.error().message);
@@ -422,7 +426,8 @@ const VerbRegistration registration{
      "\n"
      "Conversions are done in the order of their options above, whatever their order on the\n"
      "command line. A conversion that would lose a value is refused with the place of the value\n"
-     "(exit code 1); nothing is written then.\n"
+     "(exit code 1); nothing is written then. What was written and is left for somebody to decide\n"
+     "gives exit code 1 as well.\n"
      "Several decks are converted together: a file that they share is read and written once, and\n"
      "if they want different texts for it nothing is written (exit code 2). Nothing is written\n"
      "either where a file was changed by somebody else since it was read.\n"

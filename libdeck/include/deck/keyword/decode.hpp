@@ -55,8 +55,13 @@ struct DecodedBlock {
 /// numbers, tabs, text beyond the last cell).
 DecodedBlock decode(const Deck& deck, const Block& block, Diagnostics* diagnostics = nullptr);
 
-/// Dimension of a field in a given block (resolves Field::dimension_when).
-Dimension dimension_of(const Field& field, const DecodedBlock& block);
+/// True if all conditions hold for the cells of a block. Cells of `card` count first, then those of
+/// the same round, then those that do not repeat.
+bool holds(const std::vector<Condition>& when, const DecodedBlock& block,
+           const DecodedCard* card = nullptr);
+/// Dimension of a field in a given block (resolves Field::dimension_when), `card` being its line.
+Dimension dimension_of(const Field& field, const DecodedBlock& block,
+                       const DecodedCard* card = nullptr);
 /// Value of a real cell in working units.
 double working_value(const Deck& deck, const DecodedBlock& block, const Cell& cell);
 

@@ -36,10 +36,20 @@ struct Condition {
   static constexpr std::string_view data_lines = "(data lines)";
 
   std::string field;
+  std::vector<std::string> words;        ///< of a text cell: its text is one of these, in any case
   std::vector<std::int64_t> in;          ///< the value is one of these (empty: not tested)
   std::vector<std::int64_t> not_in;      ///< and none of these
   std::optional<std::int64_t> min, max;  ///< and within these bounds
   bool holds(std::int64_t value) const;
+};
+
+/// What scales one axis of a function or table.
+struct Axis {
+  /// Real cells of the block whose product with the points counts. 0 or blank is 1 in the units of
+  /// the block. Empty: nothing scales the points of this axis.
+  std::vector<std::string> scales;
+  Dimension dimension;  ///< of the points of an axis without scale
+  std::vector<std::pair<std::vector<Condition>, Dimension>> dimension_when;
 };
 
 /// One fixed-column cell. Columns are 1-based and inclusive.
@@ -61,6 +71,17 @@ struct Field {
   bool dimension_known = true;  ///< false: unit conversion must refuse this field
   /// Dimension that depends on an integer field, first match wins.
   std::vector<std::pair<std::vector<Condition>, Dimension>> dimension_when;
+  /// Dimension with which the solver itself brings the cell from the units of its block to working
+  /// units, where that is not its physical one.
+  std::optional<Dimension> solver_dimension;
+  std::vector<Condition> solver_when;  ///< and these hold
+  /// For ids of functions and tables: every axis, the ordinate last. Empty: not known.
+  std::vector<Axis> axes;
+  /// 0 or blank is 1 in the units of the block if one of these cells is not 0.
+  std::vector<std::string> unit_for;
+  /// The solver multiplies the number by the number in this cell (blank: 1), if `over_when` holds.
+  std::string over;
+  std::vector<Condition> over_when;
   bool ignored = false;     ///< the reference solver reads it and does nothing with it
   std::string doc;          ///< one line
   std::string from_manual;  ///< where manual and reference solver differ, one line

@@ -1,0 +1,151 @@
+// Unit conversion of what depends on more than one cell: functions and their scales, values that
+// count in units of another cell, and dimensions that depend on a word.
+#include <gtest/gtest.h>
+
+#include "deck/edit/unit_system.hpp"
+#include "edit/units_support.hpp"
+
+namespace deck {
+namespace {
+
+using edit_test::real;
+using edit_test::Whole;
+
+std::unique_ptr<Whole> deck_of(const std::string& body, const char* work = "kg,mm,ms",
+                               const std::string& version = "2022") {
+  const auto line = [](std::string_view units) {
+    std::string text;
+    for (int i = 0; i < 3; ++i) {
+      const auto cut = std::min(units.find(','), units.size());
+      text += std::string(20 - cut, ' ') + std::string(units.substr(0, cut));
+      units.remove_prefix(std::min(cut + 1, units.size()));
+    }
+    return text + "\n";
+  };
+  return Whole::text("#RADIOSS STARTER\n/BEGIN\nrun\n" + std::string(10 - version.size(), ' ') +
+                     version + "         0\n" + line("kg,mm,ms") + line(work) + body + "/END\n");
+}
+
+Rewrite convert(const Whole& w, const char* target, const UnitsOptions& options = {}) {
+  auto units = parse_unit_system(target);
+  EXPECT_TRUE(units.ok());
+  return to_units(w.context(), *units, options);
+}
+
+std::string cell(const char* text, int width) {
+  const std::string s = text;
+  return std::string(static_cast<std::size_t>(width) - s.size(), ' ') + s;
+}
+
+std::string load(const char* header, const char* direction, const char* scale_y) {
+  return std::string(header) + "\nload\n         5" + cell(direction, 10) +
+         "         0         0         3         0\n" + cell("", 20) + cell(scale_y, 20) + "\n";
+}
+
+const char* const curve = "/FUNCT/5\nf\n                 0.0                 1.0\n"
+                             "                10.0                 2.0\n";
+
+TEST(ToUnitsFunctions, BlankScalesOfALoadAreWrittenOutAndThePointsStay) {
+  const auto w = deck_of(load("/IMPVEL/1", "X", "") + curve);
+  const auto after = w->after(convert(*w, "Mg,m,s"));
+  EXPECT_EQ(real(*after, "/IMPVEL/1", "Scale_x"), 0.001);
+  EXPECT_EQ(real(*after, "/IMPVEL/1", "Scale_y"), 0) << "mm/ms is m/s";
+  EXPECT_TRUE(after->contains(curve)) << after->main_text();
+}
+
+TEST(ToUnitsFunctions, TheDirectionDecidesTheDimensionOfTheScale) {
+  for (const auto& [direction, scale] : {std::pair{"X", 0.003}, {"XX", 3.0}, {"yy", 3.0}}) {
+    const auto w = deck_of(load("/IMPDISP/1", direction, "3.0") + curve);
+    const auto after = w->after(convert(*w, "kg,m,ms"));
+    EXPECT_EQ(real(*after, "/IMPDISP/1", "Scale_y"), scale) << direction;
+  }
+}
+
+TEST(ToUnitsFunctions, ScaleOfAFunctionThatIsNotThereStaysBlank) {
+  const std::string pload = "/PLOAD/1\np\n         1         0\n";
+  const auto w = deck_of(pload);
+  EXPECT_TRUE(w->after(convert(*w, "Mg,m,s"))->contains(pload));
+}
+
+TEST(ToUnitsFunctions, ValuesThatTheSolverTakesAsTheyAreStayWhereWorkingUnitsStay) {
+  const std::string gravity =
+      "/GRAV/1\ng\n         5         Z         0         0         3" + cell("", 30) +
+      cell("0.00981", 20) + "\n";
+  const auto same = deck_of(gravity + curve);
+  EXPECT_EQ(real(*same->after(convert(*same, "kg,m,s")), "/GRAV/1", "Fscale_Y"), 9.81);
+  const auto other = deck_of(gravity + curve, "kg,m,s");
+  EXPECT_EQ(real(*other->after(convert(*other, "Mg,mm,s")), "/GRAV/1", "Fscale_Y"), 0.00981);
+}
+
+std::string spring(const char* ascale, const char* id) {
+  return "/PROP/SPRING/7\ns\n" + cell("0.1", 20) + "\n" + cell("2.0", 20) + cell("", 20) +
+         cell("", 60) + "\n" + cell(id, 10) + cell("", 50) + cell("-4.0", 20) +
+         cell("6.0", 20) + "\n" + cell("", 40) + cell(ascale, 20) + "\n";
+}
+
+TEST(ToUnitsFunctions, LimitsThatCountInUnitsOfAScaleChangeOnlyWithoutIt) {
+  const auto plain = deck_of(spring("", "0"));
+  EXPECT_EQ(real(*plain->after(convert(*plain, "kg,m,ms")), "/PROP/SPRING/7", "DeltaMax"), 0.006);
+  for (const char* scale : {"", "2.0"}) {
+    const auto scaled = deck_of(spring(scale, "5") + curve);
+    const auto after = scaled->after(convert(*scaled, "kg,m,ms"));
+    EXPECT_EQ(real(*after, "/PROP/SPRING/7", "DeltaMax"), 6.0) << scale;
+    EXPECT_EQ(real(*after, "/PROP/SPRING/7", "AScale1"), *scale == '\0' ? 0.001 : 0.002);
+  }
+}
+
+// ---- points -------------------------------------------------------------------------------------
+
+/// A joint: the abscissa of its friction function is a length and has no scale.
+std::string joint(const char* id) {
+  return "/PROP/KJOINT2/9\nj\n         3" + cell("", 90) + "\n" + cell("1.0", 20) + "\n\n" +
+         cell("1.0", 20) + cell("2.0", 20) + cell(id, 10) + "\n";
+}
+
+TEST(ToUnitsFunctions, PointsOfAnAxisWithoutScaleAreConverted) {
+  const auto w = deck_of(joint("5") + curve);
+  const auto after = w->after(convert(*w, "kg,m,ms"));
+  EXPECT_TRUE(after->contains("/FUNCT/5\nf\n                 0.0                 1.0\n"
+                              "                0.01                 2.0\n"))
+      << after->main_text();
+}
+
+TEST(ToUnitsFunctions, PointsStayWhereWorkingUnitsStay) {
+  const auto w = deck_of(joint("5") + curve, "kg,m,s");
+  EXPECT_TRUE(w->after(convert(*w, "Mg,cm,s"))->contains(curve));
+}
+
+TEST(ToUnitsFunctions, PointsThatTwoUsesReadInDifferentUnitsAreRefused) {
+  const auto w = deck_of(joint("5") + load("/IMPVEL/1", "X", "1.0") + curve);
+  const Rewrite r = convert(*w, "kg,m,ms");
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_NE(r.refusals[0].find("function 5 is used in several units"), std::string::npos)
+      << r.refusals[0];
+}
+
+// ---- added mass ---------------------------------------------------------------------------------
+
+TEST(ToUnitsFunctions, AddedMassOfASurfaceIsMassPerArea) {
+  const auto w = deck_of("/ADMAS/2/4\nm\n" + cell("3.0", 20) + cell("1", 10) + "\n/ADMAS/5/6\nm\n" +
+                         cell("3.0", 20) + cell("1", 10) + "\n");
+  const auto after = w->after(convert(*w, "kg,m,ms"));
+  EXPECT_EQ(real(*after, "/ADMAS/2/4", "MASS"), 3e6);
+  EXPECT_EQ(real(*after, "/ADMAS/5/6", "MASS"), 3.0);
+}
+
+// ---- what is left -------------------------------------------------------------------------------
+
+TEST(ToUnitsFunctions, PartialLeavesABlockAsItWasWhenOneOfItsValuesIsOpen) {
+  const std::string material = "/MAT/ELAST/1\nm\n" + cell("1e-6", 20) + "\n" + cell("&e", 20) +
+                               cell("0.3", 20) + "\n";
+  const std::string parameter = "/PARAMETER/GLOBAL/REAL/1\np\ne                        200.0\n";
+  const auto w = deck_of(parameter + material + "/UNKNOWN/1\n&e\n");
+  const Rewrite r = convert(*w, "Mg,mm,ms", {.partial = true});
+  EXPECT_TRUE(w->after(r)->contains(parameter + material)) << w->after(r)->main_text();
+  std::size_t open = 0;
+  for (const LossEntry& e : r.losses) open += e.loss == Loss::undecided && e.keyword == "/MAT/ELAST";
+  EXPECT_EQ(open, 1u);
+}
+
+}  // namespace
+}  // namespace deck
