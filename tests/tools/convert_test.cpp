@@ -118,10 +118,20 @@ TEST_F(ConvertTwoFiles, ARefusalNamesThePlaceAndWritesNothing) {
   EXPECT_EQ(refused["undecided"][0]["line"], 1);
   EXPECT_EQ(refused["undecided"][0]["keyword"], "/UNKNOWN/KEYWORD");
   EXPECT_EQ(refused["undecided"][0]["id"], 1);
-  EXPECT_EQ(deck("convert m_0000.rad --units kg,m,s -o x --partial --report losses.json"), 0);
+  EXPECT_EQ(deck("convert m_0000.rad --units kg,m,s -o x --partial --report losses.json"), 1);
+  EXPECT_TRUE(fs::exists(dir_ / "x/m_0000.rad"));
   const auto report = nlohmann::json::parse(read(dir_ / "losses.json"));
   ASSERT_EQ(report["undecided"].size(), 1u);
   EXPECT_EQ(report["undecided"][0]["line"], 1);
+}
+
+TEST_F(ConvertTwoFiles, WhatIsUndecidedEndsWithExitCodeOneAlsoWhereItIsAccepted) {
+  write(dir_ / "sub/a.inc", "/UNKNOWN/KEYWORD/1\n1.0\n");
+  EXPECT_EQ(deck("convert m_0000.rad --version 2018 -o x"), 1);
+  EXPECT_FALSE(fs::exists(dir_ / "x"));
+  EXPECT_EQ(deck("convert m_0000.rad --version 2018 -o x --allow-loss"), 1);
+  EXPECT_TRUE(fs::exists(dir_ / "x/m_0000.rad"));
+  EXPECT_NE(err().find("undecided 1"), std::string::npos) << err();
 }
 
 TEST_F(ConvertTwoFiles, StandardInputGoesToStandardOutput) {
