@@ -98,7 +98,7 @@ def card(line, version):
 
 
 def expand(text, version):
-    return "".join(card(line, version) if line.startswith("@/") else line + "\n" for line in text.rstrip("\n").split("\n")) if text else ""
+    return "".join(card(line, version) if line.startswith("@/") else line + "\n" for line in text.removesuffix("\n").split("\n")) if text else ""
 
 
 def load():
@@ -162,7 +162,7 @@ def cases(s, decks):
                 decks[run.get("deck", "plates")].replace("{base}", decks["plates"])
             text += fill(run.get("extra", ""))
             if "card" in run:
-                text = text.rstrip("\n") + "\n@/INTER/TYPE%s/1 %s\n" % (type_, fill(run["card"]))
+                text = text.removesuffix("\n") + "\n@/INTER/TYPE%s/1 %s\n" % (type_, fill(run["card"]))
             yield type_, run, expand(text, version) + "/END\n"
 
 
