@@ -131,6 +131,92 @@ NodeIndex rigid_side(const LintContext& c, const ContactCard& card, const std::v
   return found != no_index ? found : of_surface(main);
 }
 
+/// Nodes that an /INTER/TYPE2 ties to a surface.
+struct Ties {
+  const ContactCard* card;
+  const NodeSet* nodes;
+  std::vector<bool> on_main;  ///< by node
+};
+
+std::vector<Ties> ties_of(const LintContext& c) {
+  std::vector<Ties> out;
+  for (const ContactCard& card : c.contacts) {
+    if (card.block->schema->keyword != "/INTER/TYPE2") continue;
+    const auto id = [&](std::string_view field, std::string_view kind) {
+      return c.resolved(*card.block, kind, static_cast<std::int64_t>(card.value(field)));
+    };
+    const NodeSet* nodes = c.selections->node_group(id("grnd_IDs", "grnod"));
+    const Surface* main = c.selections->surface(id("surf_IDm", "surf"));
+    if (nodes == nullptr || main == nullptr) continue;
+    out.push_back({&card, nodes, std::vector<bool>(c.model->nodes.size(), false)});
+    for (const Segment& s : main->segments)
+      for (const NodeIndex n : s.nodes)
+        if (n != no_index) out.back().on_main[n] = true;
+  }
+  return out;
+}
+
+/// First node of `tie` that the contact may push off the surface that it is tied to.
+NodeIndex pushed_tied_node(const LintContext& c, const ContactCard& card, const Ties& tie) {
+  const auto id = [&](std::string_view field) {
+    return static_cast<std::int64_t>(card.value(field));
+  };
+  const Surface* main = c.selections->surface(id("surf_IDm"));
+  if (main == nullptr) return no_index;
+  std::vector<bool> secondary(c.model->nodes.size(), false);
+  const auto mark = [&](const auto& nodes) {
+    for (const NodeIndex n : nodes)
+      if (n != no_index) secondary[n] = true;
+  };
+  if (card.type == 7) {
+    const NodeSet* group = c.selections->node_group(id("grnd_IDs"));
+    if (group == nullptr) return no_index;
+    mark(group->nodes);
+  } else if (const Surface* other = c.selections->surface(id("surf_IDs"))) {
+    for (const Segment& s : other->segments) mark(s.nodes);
+  }
+  const auto met = [&](const Segment& s) {
+    return std::any_of(s.nodes.begin(), s.nodes.end(),
+                       [&](NodeIndex n) { return n != no_index && tie.on_main[n]; });
+  };
+  if (std::none_of(main->segments.begin(), main->segments.end(), met)) return no_index;
+  for (const NodeIndex n : tie.nodes->nodes)
+    if (n != no_index && secondary[n]) return n;
+  return no_index;
+}
+
+/// One finding for the deck: spot welds in a contact of everything are common.
+void check_tied_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr || c.selections == nullptr) return;
+  const std::vector<Ties> ties = ties_of(c);
+  if (ties.empty()) return;
+  const ContactCard* first = nullptr;
+  const Ties* tie = nullptr;
+  NodeIndex node = no_index;
+  std::size_t interfaces = 0;
+  each(c, rule, [&](const ContactCard& card) {
+    const FieldView* f = card.find("Irem_i2");
+    if (f == nullptr || f->field == nullptr || card.value("Irem_i2") == 1) return;
+    for (const Ties& t : ties) {
+      const NodeIndex n = pushed_tied_node(c, card, t);
+      if (n == no_index) continue;
+      ++interfaces;
+      if (first != nullptr) return;
+      first = &card;
+      tie = &t;
+      node = n;
+      return;
+    }
+  });
+  if (first == nullptr) return;
+  Diagnostic* d = report_at(
+      r, rule, *first, "Irem_i2",
+      fmt::format("{}{}: node {} may be pushed off the surface that {} ties it to", name_of(*first),
+                  interfaces == 1 ? "" : fmt::format(" (and {} more)", interfaces - 1),
+                  c.model->node_id(node), name_of(*tie->card)));
+  if (d != nullptr) d->notes.emplace_back(tie->card->block->header_span, "the tie");
+}
+
 void check_rigid_gap(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr || c.selections == nullptr || c.model->rbodies.empty()) return;
   constexpr double small = 0.02;  // of the shortest main side; usual gaps are a tenth and more
@@ -193,6 +279,22 @@ void add_companion_rules(std::vector<Rule>& out) {
                  .bad = "@/INTER/TYPE7/1\n",
                  .good = "@/INTER/TYPE7/1\n@/INTER/TYPE11/2\n",
                  .check = check_edge_companion});
+  out.push_back(
+      {.id = "DK404",
+       .title = "contact against a tie",
+       .severity = Severity::info,
+       .problem = "Secondary nodes of an /INTER/TYPE2 are secondary in a contact with the surface "
+                  "that they are tied to, and Irem_i2 is not 1.",
+       .why = "The tie holds the nodes where they are. Inside the gap the contact pushes against "
+              "it from the start: a force that does nothing but cost time step. Irem_i2 1 drops "
+              "the pairs of a tied node with segments around its tie, and keeps all others.",
+       .solver = "it computes both; in implicit analyses it drops these pairs by itself",
+       .fix = "write Irem_i2 1, or set it in /DEFAULT/INTER",
+       .ignore = "When the tied nodes stand off by more than the gap, or Inacti 5 or 6 takes the "
+                 "penetration off.",
+       .bad = "/INTER/TYPE2/9\ntie\n         2         1\n@/INTER/TYPE7/1\n",
+       .good = "/INTER/TYPE2/9\ntie\n         2         1\n@/INTER/TYPE7/1 Irem_i2=1\n",
+       .check = check_tied_nodes});
   out.push_back(
       {.id = "DK917",
        .title = "rigid body with a small gap",
