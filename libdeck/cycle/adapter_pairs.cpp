@@ -20,22 +20,25 @@ using deck::detail::Vec;
 /// What a pair takes while forces are evaluated: its lists here, its packed state and its results.
 constexpr std::size_t bytes_of_a_pair = 512;
 
-/// Nodal normals of the main side: sums of facet normals, weighted with area (Icurv 3) or not.
-std::map<NodeIndex, Vec> nodal_normals(const Scene& scene, const Contact& contact, bool weighted) {
+/// Nodal normals of the main side: sums of facet normals, weighted with area (Icurv 3) or not (Iadm:
+/// the repeated corner of a triangle counts twice, as recorded).
+std::map<NodeIndex, Vec> nodal_normals(const Coordinates& x, const Contact& contact,
+                                       bool weighted) {
   std::map<NodeIndex, Vec> sum;
-  const Coordinates& x = scene.coordinates;
   for (const MainSegment& m : contact.main) {
     Vec n = cross(at(x, m.nodes[2]) - at(x, m.nodes[0]), at(x, m.nodes[3]) - at(x, m.nodes[1]));
     const double length = std::sqrt(dot(n, n));
     if (!weighted && length > 0.0) n = (1.0 / length) * n;
-    for (std::size_t c = 0; c < (m.nodes[2] == m.nodes[3] ? 3u : 4u); ++c)
+    for (std::size_t c = 0; c < (weighted && m.nodes[2] == m.nodes[3] ? 3u : 4u); ++c)
       sum[m.nodes[c]] = sum[m.nodes[c]] + n;
   }
   return sum;
 }
 
-void normals(const Scene& scene, const Contact& contact, bool weighted, ContactPairs& out) {
-  const std::map<NodeIndex, Vec> sum = nodal_normals(scene, contact, weighted);
+void normals(const Coordinates& x, const Contact& contact, bool weighted, ContactPairs& out) {
+  const std::map<NodeIndex, Vec> sum = nodal_normals(x, contact, weighted);
+  for (auto& corner : out.normal)
+    for (auto& component : corner) component.clear();
   for (const CandidatePair& p : out.at) {
     for (std::size_t c = 0; c < 4; ++c) {
       const Vec& n = sum.at(contact.main[p.main].nodes[c]);
@@ -48,14 +51,13 @@ void normals(const Scene& scene, const Contact& contact, bool weighted, ContactP
 
 /// The largest distance at which the bicubic surface (Icurv 3) may still keep a pair beyond its
 /// gap.
-double bicubic_reach(const Scene& scene, const Contact& contact) {
-  const std::map<NodeIndex, Vec> sum = nodal_normals(scene, contact, true);
+double bicubic_reach(const Coordinates& x, const Contact& contact) {
+  const std::map<NodeIndex, Vec> sum = nodal_normals(x, contact, true);
   double worst = 0.0;
   for (const MainSegment& m : contact.main) {
     if (m.nodes[2] == m.nodes[3]) continue;
     for (std::size_t k = 0; k < 4; ++k) {
-      const Vec edge =
-          at(scene.coordinates, m.nodes[(k + 1) % 4]) - at(scene.coordinates, m.nodes[k]);
+      const Vec edge = at(x, m.nodes[(k + 1) % 4]) - at(x, m.nodes[k]);
       const double l2 = dot(edge, edge);
       for (const std::size_t end : {k, (k + 1) % 4}) {
         const Vec& n = sum.at(m.nodes[end]);
@@ -68,19 +70,19 @@ double bicubic_reach(const Scene& scene, const Contact& contact) {
 }
 
 /// How far beyond the gap a curved main side may reach: its facets are not where the surface is.
-double curvature_reach(const Scene& scene, const Contact& contact, const ContactCard& card) {
+double curvature_reach(const Coordinates& x, const Contact& contact, const ContactCard& card) {
   if (card.kind != ContactKind::node_segment || card.icurv == 0) return 0.0;
   double reach = 0.0;
   for (const MainSegment& m : contact.main) {
-    Vec low = at(scene.coordinates, m.nodes[0]), high = low;
+    Vec low = at(x, m.nodes[0]), high = low;
     for (const NodeIndex n : m.nodes) {
-      const Vec p = at(scene.coordinates, n);
+      const Vec p = at(x, n);
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
     reach = std::max({reach, high.x - low.x, high.y - low.y, high.z - low.z});
   }
-  return std::max(0.5 * reach, card.icurv == 3 ? bicubic_reach(scene, contact) : 0.0);
+  return std::max(0.5 * reach, card.icurv == 3 ? bicubic_reach(x, contact) : 0.0);
 }
 
 /// The lists of one contact as the search takes them. What start-up switched off takes no part.
@@ -193,23 +195,35 @@ void edge_values(const Contact& contact, const ContactCard& card, Model model, C
 
 }  // namespace
 
+void renew_normals(const deck::Contact& contact, const ContactCard& card, const Coordinates& x,
+                   ContactPairs& pairs) {
+  if (card.kind == ContactKind::node_segment && (card.icurv == 3 || card.iadm != 0))
+    normals(x, contact, card.icurv == 3, pairs);
+}
+
 ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const ContactCard& card,
-                        Model model, int threads) {
+                        Model model, int threads, const PairSearch& where) {
+  const Coordinates& x = where.at != nullptr ? *where.at : scene.coordinates;
   ContactPairs out;
   out.nodes.kind = card.kind;
   if (contact.dropped) return out;
   SearchOptions search;
   search.gap = contact.gap_rule;
   search.drad = card.ithe > 0 ? card.drad : 0.0;
-  search.margin = curvature_reach(scene, contact, card);
+  search.margin = curvature_reach(x, contact, card) + where.margin;
   search.threads = threads;
   search.max_pairs = scene.limits.pair_bytes / bytes_of_a_pair;
-  SearchResult found = SearchLists(contact).find(scene.coordinates, search);
+  SearchResult found = SearchLists(contact).find(x, search);
   out.complete = found.complete;
   out.at = std::move(found.pairs);
   if (!remove_pairs(scene, contact, out.at)) {
     out.complete = false;
     out.at.clear();
+  }
+  if (out.complete && !where.always.empty()) {
+    out.at.insert(out.at.end(), where.always.begin(), where.always.end());
+    std::sort(out.at.begin(), out.at.end());
+    out.at.erase(std::unique(out.at.begin(), out.at.end()), out.at.end());
   }
   if (card.kind == ContactKind::edge_edge) {
     edge_values(contact, card, model, out);
@@ -219,7 +233,7 @@ ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const 
   }
   node_values(contact, card, model, out);
   if (card.ithe > 0) detail::node_areas(scene, contact, out);
-  if (card.icurv == 3 || card.iadm != 0) normals(scene, contact, card.icurv == 3, out);
+  renew_normals(contact, card, x, out);
   if (card.fric_id) detail::pair_friction(scene, contact, out);
   return out;
 }

@@ -31,6 +31,44 @@ std::string number(const char* field, int value) {
   return std::string(field) + " = " + std::to_string(value);
 }
 
+std::string directions(int bits) {
+  std::string text;
+  for (const auto& [bit, name] : {std::pair{4, "X"}, {2, "Y"}, {1, "Z"}})
+    if ((bits & bit) != 0) text += text.empty() ? name : std::string(", ") + name;
+  return text;
+}
+
+/// Why a filter does nothing, or what it does instead of smoothing.
+std::string filter_reason(const ContactCard& card) {
+  if (card.ifiltr <= 0) return "Ifiltr = 0";
+  if (card.xfreq == 0.0) return number("Xfreq", 0.0);
+  if (card.ifiltr == 3) return "Ifiltr = 3: the solver's weight is never below 1";
+  if (card.ifiltr == 1 && card.xfreq >= 1.0) return number("Xfreq", card.xfreq) + ": a weight of 1";
+  std::string text = number("Xfreq", card.xfreq);
+  if (card.iform == 2) text += ", scales the spring of Iform 2 and smooths nothing";
+  return text;
+}
+bool filters(const ContactCard& card) {
+  return has_filter(card) && card.ifiltr != 3 && !(card.ifiltr == 1 && card.xfreq >= 1.0);
+}
+
+/// Who gets the heat of friction, or why nobody does.
+struct RubHeat {
+  bool on = false;
+  std::string reason;
+};
+RubHeat rub_heat(const ContactCard& card) {
+  const bool main = card.fheatm != 0.0 && card.ithe_form == 1;
+  const std::string shares = number("Fheats", card.fheats) + ", " + number("Fheatm", card.fheatm);
+  const std::string lost = card.fheatm != 0.0 && !main
+                               ? number("Fheatm", card.fheatm) + " goes to nobody: Ithe_form = 0"
+                               : std::string();
+  if (card.fct_idk && card.ithe_form != 1 && (card.fheats != 0.0 || card.fheatm != 0.0))
+    return {false, shares + ": lost with fct_IDK and Ithe_form = 0"};
+  if (card.fheats == 0.0 && !main) return {false, lost.empty() ? shares : lost};
+  return {has_friction(card), lost.empty() ? shares : number("Fheats", card.fheats) + "; " + lost};
+}
+
 /// The account is a list of rows, each a decision and the field behind it.
 class Account {
  public:
@@ -74,10 +112,21 @@ void account_friction(const ContactCard& card, Account& out) {
   out.row("friction-law", rubs && card.ifric > 0 && !edges, "Ifric",
           edges ? "edge contacts use a constant coefficient" : number("Ifric", card.ifric));
   const bool heat_mu = rubs && card.ithe && card.fct_idf && !card.fric_id && !edges;
-  out.row("friction-temperature", heat_mu, "fct_IDF",
-          !card.fct_idf ? "fct_IDF = 0" : (card.ithe ? "fct_IDF" : "Ithe = 0"));
-  out.row("friction-filter", rubs && has_filter(card), card.ifiltr > 0 ? "Xfreq" : "Ifiltr",
-          card.ifiltr > 0 ? number("Xfreq", card.xfreq) : "Ifiltr = 0");
+  out.row(
+      "friction-temperature", heat_mu, card.fct_idf && !card.ithe ? "Ithe" : "fct_IDF",
+      !card.fct_idf  ? "fct_IDF = 0"
+      : !card.ithe   ? "fct_IDF acts with heat exchange only: Ithe = 0"
+      : card.fric_id ? "fct_IDF does nothing beside fric_ID"
+      : card.ithe_form == 1
+          ? "fct_IDF; with Ithe_form 1 the solver weights the main side as another pair, here as "
+            "its own"
+          : "fct_IDF");
+  out.row("friction-temperature-scale", false, "AscaleF",
+          card.ascalef != 1.0 ? number("AscaleF", card.ascalef) + ": the solver never applies it"
+                              : "AscaleF = 1");
+  out.row("friction-filter", rubs && filters(card),
+          card.ifiltr > 0 && card.ifiltr != 3 ? "Xfreq" : "Ifiltr",
+          edges ? "no filter between edges" : filter_reason(card));
   const bool ortho = card.fric_id && card.fric_orthotropic && node_segment(card);
   out.row("orthotropic-friction", ortho, "fric_ID",
           card.fric_id ? (ortho ? "directions in /FRICTION" : "no directions in /FRICTION")
@@ -93,13 +142,14 @@ void account_rest(const ContactCard& card, Account& out) {
   out.row("radiation", heat && card.frad != 0.0 && card.drad > 0.0,
           heat ? (card.frad != 0.0 ? "Drad" : "Frad") : "Ithe",
           heat ? (card.frad != 0.0 ? number("Drad", card.drad) : "Frad = 0") : ithe);
-  const bool rub_heat = heat && node_segment(card) && (card.fheats != 0.0 || card.fheatm != 0.0) &&
-                        has_friction(card);
-  out.row("friction-heat", rub_heat, heat ? "Fheats" : "Ithe",
-          heat ? (node_segment(card)
-                      ? number("Fheats", card.fheats) + ", " + number("Fheatm", card.fheatm)
-                      : std::string("no friction heat between edges"))
-               : ithe);
+  const RubHeat rubbed = rub_heat(card);
+  out.row("friction-heat", heat && node_segment(card) && rubbed.on,
+          !heat                                      ? "Ithe"
+          : card.fheats == 0.0 && card.fheatm != 0.0 ? "Fheatm"
+                                                     : "Fheats",
+          !heat                ? ithe
+          : node_segment(card) ? rubbed.reason
+                               : "no friction heat between edges");
   out.row("curvature", card.icurv != 0 && node_segment(card), "Icurv", number("Icurv", card.icurv));
   out.row("adaptivity-criteria", card.iadm != 0 && node_segment(card), "Iadm",
           number("Iadm", card.iadm));
@@ -107,11 +157,15 @@ void account_rest(const ContactCard& card, Account& out) {
           card.kind == ContactKind::tied ? "a tie has no kinematic limit" : "always");
   out.row("time-step-deletion", card.dtmin > 0.0 && card.itied == 0, "dtmin",
           card.itied != 0 ? "ITIED ties instead" : number("dtmin", card.dtmin));
-  out.row("tie-on-time-step", card.itied != 0 && node_segment(card), "ITIED",
-          number("ITIED", card.itied));
+  const bool never = card.itied != 0 && node_segment(card) && !(card.dtmin > 0.0);
+  out.row("tie-on-time-step", card.itied != 0 && node_segment(card) && !never,
+          never ? "dtmin" : "ITIED",
+          number("ITIED", card.itied) + (never ? ", but dtmin = 0: no step is ever below it" : ""));
   const bool ibc = card.ibc != 0 && node_segment(card);
   out.row("boundary-release", ibc, "IBC",
-          card.ibc != 0 && !ibc ? "applies to TYPE7 only" : number("IBC", card.ibc));
+          card.ibc == 0 ? "IBC = 000"
+          : ibc         ? "IBC frees " + directions(card.ibc)
+                        : "edges release nothing");
   out.row("contact-flag", card.ibag == 1 || card.iadm != 0, "Ibag", number("Ibag", card.ibag));
   out.row("element-deletion", card.idel != 0, "Idel", number("Idel", card.idel));
   const bool window = card.tstart > 0.0 || card.tstop < 1e30 || card.sensor_time.has_value();

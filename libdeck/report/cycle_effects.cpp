@@ -31,6 +31,13 @@ std::string because_of(const Deck& deck, const InterBase& inter, const cycle::Ef
   return where.empty() ? e.reason : fmt::format("{} ({})", e.reason, where);
 }
 
+/// Effects that a TYPE19 asks for as a whole and its edges do not have.
+bool wanted_by_card(const InterBase& inter, const cycle::EffectState& e) {
+  return inter.type == 19 &&
+         (e.name == "boundary-release" || e.name == "friction-law" || e.name == "friction-filter" ||
+          e.name == "friction-heat" || e.name == "curvature");
+}
+
 }  // namespace
 
 std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome& outcome,
@@ -41,6 +48,10 @@ std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome
     for (const cycle::EffectState& e : c.effects) {
       const auto known = std::find_if(lines.begin(), lines.end(),
                                       [&](const EffectLine& l) { return l.name == e.name; });
+      // On in one part of a TYPE19 and off in another: both are said.
+      if (known != lines.end() && known->on && !e.on && c.contact->role == ContactRole::edges &&
+          wanted_by_card(inter, e))
+        known->because += fmt::format("; not between edges: {}", e.reason);
       if (known != lines.end() && (known->on || !e.on)) continue;
       EffectLine line{e.name, e.on, {}, {}};
       line.because = because_of(deck, inter, e, line.span);

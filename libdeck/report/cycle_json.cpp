@@ -49,6 +49,118 @@ void write_pair(JsonWriter& j, const Model& model, const Contact& c, const cycle
   j.field("k0", p.k0).field("k_nodal", p.k_nodal).end_object();
 }
 
+/// "node", or "edge" with both ends.
+void write_secondary(JsonWriter& j, const Model& model, const Contact& c, std::uint32_t i) {
+  if (c.kind == ContactKind::edge_edge) {
+    j.key("edge");
+    write_nodes(j, model, c.secondary_edges[i].nodes.data(), 2);
+  } else {
+    j.field("node", model.node_id(c.secondary[i].node));
+  }
+}
+
+void write_tie(JsonWriter& j, const Model& model, const Contact& c, const CandidatePair& at) {
+  write_secondary(j, model, c, at.secondary);
+  j.key("segment");
+  write_nodes(j, model, c.main[at.main].nodes.data(), 4);
+}
+
+void write_release(JsonWriter& j, const Model& model, const cycle::NodeRelease& r) {
+  j.field("node", model.node_id(r.node)).field("before", static_cast<int>(r.before));
+  j.field("after", static_cast<int>(r.after));
+}
+
+/// Who leaves the interface, ties, is released; and the figures of Iadm.
+void write_lasting(JsonWriter& j, const Model& model, const cycle::ContactOutcome& o) {
+  const Contact& c = *o.contact;
+  j.field("pairs_tied", o.pairs_tied).key("removed").begin_array();
+  for (const cycle::Removal& r : o.removed) {
+    j.begin_object(true);
+    write_secondary(j, model, c, r.secondary);
+    j.field("because", to_string(r.because)).end_object();
+  }
+  j.end_array().key("ties").begin_array();
+  for (const cycle::TieChange& t : o.ties) {
+    j.begin_object(true);
+    write_tie(j, model, c, t.at);
+    j.field("tied", t.tied).end_object();
+  }
+  j.end_array().key("released").begin_array();
+  for (const cycle::NodeRelease& r : o.released) {
+    j.begin_object(true);
+    write_release(j, model, r);
+    j.end_object();
+  }
+  j.end_array().key("criteria").begin_array();
+  for (const cycle::NodeCriteria& n : o.criteria) {
+    j.begin_object(true).field("node", model.node_id(n.node)).field("radius", n.radius);
+    j.field("penetration", n.penetration).key("angle");
+    n.angle < 1e30 ? j.value(n.angle) : j.null();
+    j.end_object();
+  }
+  j.end_array();
+}
+
+const char* name_of(cycle::StepEvent::Kind kind) {
+  switch (kind) {
+    case cycle::StepEvent::Kind::tied:
+      return "tied";
+    case cycle::StepEvent::Kind::let_go:
+      return "let-go";
+    case cycle::StepEvent::Kind::released:
+      return "released";
+    default:
+      return "removed";
+  }
+}
+
+void write_steps(JsonWriter& j, const CycleInput& input) {
+  j.key("steps");
+  if (input.steps == nullptr) {
+    j.null();
+    return;
+  }
+  const Model& model = *input.scene->model;
+  const cycle::StepsOutcome& s = *input.steps;
+  const auto contact = [&](std::size_t i) -> const Contact& { return input.scene->contacts[i]; };
+  j.begin_object().field("count", s.lines.size()).field("motion", "prescribed");
+  j.field("searches", s.searches).key("history").begin_array();
+  for (std::size_t k = 0; k < s.lines.size(); ++k) {
+    j.begin_object().field("step", k).field("time", s.lines[k].time).field("dt1", s.lines[k].dt1);
+    j.key("contacts").begin_array();
+    for (std::size_t i = 0; i < s.lines[k].contacts.size(); ++i) {
+      const cycle::StepContact& c = s.lines[k].contacts[i];
+      j.begin_object(true).field("interface", contact(i).inter->id);
+      j.field("role", to_string(contact(i).role)).field("active", c.active);
+      j.field("pairs_with_force", c.pairs_with_force).field("pairs_tied", c.pairs_tied);
+      j.field("removed", c.removed).key("normal");
+      write_vector(j, c.normal);
+      j.key("tangential");
+      write_vector(j, c.tangential);
+      j.field("sizes", c.force_sum).field("elastic", c.elastic_energy);
+      j.field("friction", c.friction_energy).field("damping", c.damping_energy).end_object();
+    }
+    j.end_array().end_object();
+  }
+  j.end_array().key("events").begin_array();
+  for (const cycle::StepEvent& e : s.events) {
+    const Contact& c = contact(e.contact);
+    j.begin_object(true).field("step", e.step).field("time", e.time);
+    j.field("interface", c.inter->id).field("role", to_string(c.role));
+    j.field("event", name_of(e.kind));
+    if (e.kind == cycle::StepEvent::Kind::removed) {
+      write_secondary(j, model, c, e.at.secondary);
+      j.field("because", to_string(e.because));
+    } else if (e.kind == cycle::StepEvent::Kind::released) {
+      write_release(j, model, e.release);
+    } else {
+      write_tie(j, model, c, e.at);
+    }
+    j.end_object();
+  }
+  j.end_array().end_object();
+}
+
 const char* name_of(cycle::StepLimit::Source source) {
   switch (source) {
     case cycle::StepLimit::Source::kinematic:
@@ -92,6 +204,7 @@ void write_contact(JsonWriter& j, const Model& model, const cycle::ContactOutcom
   j.field("gap_closed", o.gap_closed).key("worst").begin_array();
   for (const cycle::PairOutcome& p : o.near_singular) write_pair(j, model, c, p);
   j.end_array().end_object();
+  write_lasting(j, model, o);
   j.key("notes").begin_array();
   for (const std::string& text : o.notes) j.value(text);
   j.end_array();
@@ -166,6 +279,7 @@ std::string cycle_json(const CycleInput& input, bool all) {
   else
     j.value(model.family(o.structure.kind).id[o.structure.element]);
   j.end_object();
+  write_steps(j, input);
   j.key("not_evaluated").begin_array();
   for (const std::string& text : input.state->not_evaluated) j.value(text);
   j.end_array().end_object();

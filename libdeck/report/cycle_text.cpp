@@ -28,6 +28,15 @@ std::string kind_name(const Contact& c) {
   return name;
 }
 
+/// "X, Y" of fixed translations.
+std::string directions(int bits) {
+  std::string text;
+  const char* const names[] = {"X", "Y", "Z"};
+  for (int k = 0; k < 3; ++k)
+    if ((bits & (4 >> k)) != 0) text += (text.empty() ? "" : ", ") + std::string(names[k]);
+  return text.empty() ? "none" : text;
+}
+
 std::string node_text(const Model& model, NodeIndex n) {
   return n == no_index ? "-" : fmt::format("{}", model.node_id(n));
 }
@@ -60,12 +69,142 @@ std::string main_text(const Model& model, const Contact& c, const cycle::PairOut
   return text;
 }
 
+std::size_t removed_by_step(const cycle::ContactOutcome& o) {
+  return static_cast<std::size_t>(
+      std::count_if(o.removed.begin(), o.removed.end(), [](const cycle::Removal& r) {
+        return r.because == cycle::Removal::Because::kinematic_step ||
+               r.because == cycle::Removal::Because::nodal_step;
+      }));
+}
+
+/// "node 1, node 2, … and 5 more" of those that leave an interface.
+std::string names_of(const Model& model, const Contact& c, const std::vector<cycle::Removal>& list,
+                     std::size_t most) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, list.size()); ++i)
+    text += (i == 0 ? "" : ", ") + secondary_name(model, c, list[i].secondary);
+  if (list.size() > most) text += fmt::format(" and {} more", list.size() - most);
+  return text;
+}
+
+/// Who leaves its interface for good, ties, or is released in this cycle.
+std::string lasting_lines(const CycleInput& input) {
+  const Model& model = *input.scene->model;
+  std::string out;
+  for (const cycle::ContactOutcome& o : input.outcome->contacts) {
+    const std::string head =
+        fmt::format("  interface {} {}: ", o.contact->inter->id, kind_name(*o.contact));
+    for (const auto because :
+         {cycle::Removal::Because::mid_surface, cycle::Removal::Because::kinematic_step,
+          cycle::Removal::Because::nodal_step, cycle::Removal::Because::no_element_left}) {
+      std::vector<cycle::Removal> list;
+      for (const cycle::Removal& r : o.removed)
+        if (r.because == because) list.push_back(r);
+      if (!list.empty())
+        out += fmt::format("{}removed for good, {}: {}\n", head, to_string(because),
+                           names_of(model, *o.contact, list, 10));
+    }
+    std::size_t tied = 0, let_go = 0;
+    for (const cycle::TieChange& t : o.ties) ++(t.tied ? tied : let_go);
+    if (tied > 0) out += fmt::format("{}{} pair{} tied\n", head, tied, tied == 1 ? " is" : "s are");
+    if (let_go > 0)
+      out += fmt::format("{}{} pair{} go\n", head, let_go, let_go == 1 ? " lets" : "s let");
+    if (!o.released.empty()) {
+      out += head + "boundary conditions released (IBC) at ";
+      for (std::size_t i = 0; i < std::min<std::size_t>(10, o.released.size()); ++i)
+        out += fmt::format("{}node {}: {} -> {}", i == 0 ? "" : ", ",
+                           model.node_id(o.released[i].node), directions(o.released[i].before),
+                           directions(o.released[i].after));
+      if (o.released.size() > 10) out += fmt::format(" and {} more", o.released.size() - 10);
+      out += "\n";
+    }
+  }
+  return out;
+}
+
+/// Iadm: the nodes with the sharpest radius.
+std::string criteria_table(const CycleInput& input, bool color) {
+  const Model& model = *input.scene->model;
+  TextTable table =
+      make_table({">interface", ">node", ">radius", ">penetration / (Padm gap)", ">angle"});
+  for (const cycle::ContactOutcome& o : input.outcome->contacts) {
+    std::vector<cycle::NodeCriteria> list = o.criteria;
+    std::stable_sort(list.begin(), list.end(),
+                     [](const auto& a, const auto& b) { return a.radius < b.radius; });
+    for (std::size_t i = 0; i < std::min<std::size_t>(10, list.size()); ++i)
+      table.row({fmt::format("{}", o.contact->inter->id), node_text(model, list[i].node),
+                 fmt::format("{:.6g}", list[i].radius), fmt::format("{:.4g}", list[i].penetration),
+                 list[i].angle < 1e30 ? fmt::format("{:.6g}", list[i].angle) : "-"});
+  }
+  return table.size() > 0 ? table.render(color, 2) : std::string();
+}
+
+std::string event_text(const CycleInput& input, const cycle::StepEvent& e) {
+  const Model& model = *input.scene->model;
+  const Contact& c = input.scene->contacts[e.contact];
+  std::string text = fmt::format("  step {} ({:.6g}): interface {} {}: ", e.step, e.time,
+                                 c.inter->id, kind_name(c));
+  switch (e.kind) {
+    case cycle::StepEvent::Kind::removed:
+      return text + fmt::format("{} removed, {}\n", secondary_name(model, c, e.at.secondary),
+                                to_string(e.because));
+    case cycle::StepEvent::Kind::released:
+      return text + fmt::format("node {} fixed in {} -> {}\n", model.node_id(e.release.node),
+                                directions(e.release.before), directions(e.release.after));
+    default: {
+      cycle::PairOutcome pair;
+      pair.at = e.at;
+      return text + fmt::format("{} {} {}\n", secondary_name(model, c, e.at.secondary),
+                                e.kind == cycle::StepEvent::Kind::tied ? "tied to" : "lets go of",
+                                main_text(model, c, pair));
+    }
+  }
+}
+
+/// The history in at most twenty lines, and the first events.
+std::string steps_text(const CycleInput& input, bool color) {
+  const cycle::StepsOutcome& s = *input.steps;
+  TextTable table = make_table({">step", ">time", ">pairs with force", ">sum of |F|",
+                                ">elastic energy", ">tied", ">removed so far"});
+  const std::size_t n = s.lines.size(), shown = std::min<std::size_t>(n, 20);
+  for (std::size_t r = 0; r < shown; ++r) {
+    const std::size_t k = shown < 2 ? 0 : r * (n - 1) / (shown - 1);
+    cycle::StepContact sum;
+    for (const cycle::StepContact& c : s.lines[k].contacts) {
+      sum.pairs_with_force += c.pairs_with_force;
+      sum.pairs_tied += c.pairs_tied;
+      sum.removed += c.removed;
+      sum.force_sum += c.force_sum;
+      sum.elastic_energy += c.elastic_energy;
+    }
+    table.row({fmt::format("{}", k), fmt::format("{:.6g}", s.lines[k].time),
+               fmt::format("{}", sum.pairs_with_force), fmt::format("{:.4g}", sum.force_sum),
+               fmt::format("{:.4g}", sum.elastic_energy), fmt::format("{}", sum.pairs_tied),
+               fmt::format("{}", sum.removed)});
+  }
+  std::string out =
+      "  prescribed motion only: nodes keep their given velocities, no structure answers and "
+      "contact "
+      "forces move nothing\n" +
+      table.render(color, 2);
+  for (std::size_t i = 0; i < std::min<std::size_t>(20, s.events.size()); ++i)
+    out += event_text(input, s.events[i]);
+  if (s.events.size() > 20)
+    out += fmt::format("  and {} more (--json has all)\n", s.events.size() - 20);
+  return out;
+}
+
 std::string state_words(const cycle::ContactOutcome& o) {
   if (o.contact->dropped) return "no edges, dropped";
   if (!o.active) return "not active yet";
   if (!o.complete) return o.notes.empty() ? "too many pairs" : "not evaluated";
   std::string text;
-  if (o.gap_closed > 0) text = fmt::format("{} at the mid-surface", o.gap_closed);
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+  };
+  add(o.gap_closed, "at the mid-surface");
+  add(removed_by_step(o), "removed by dtmin");
+  add(o.pairs_tied, "tied");
   if (o.massless_nodes > 0)
     text += fmt::format("{}{} without mass", text.empty() ? "" : ", ", o.massless_nodes);
   return text;
@@ -184,32 +323,78 @@ std::string step_lines(const CycleInput& input) {
 
 }  // namespace
 
+std::string secondary_name(const Model& model, const Contact& contact, std::uint32_t secondary) {
+  cycle::PairOutcome pair;
+  pair.at.secondary = secondary;
+  return (contact.kind == ContactKind::edge_edge ? "edge " : "node ") +
+         secondary_text(model, contact, pair);
+}
+
+const char* to_string(cycle::Removal::Because because) {
+  switch (because) {
+    case cycle::Removal::Because::kinematic_step:
+      return "dtmin (time to the mid-surface)";
+    case cycle::Removal::Because::nodal_step:
+      return "dtmin (stiffness against mass)";
+    case cycle::Removal::Because::no_element_left:
+      return "no element left (Idel)";
+    default:
+      return "mid-surface reached";
+  }
+}
+
 std::string cycle_verdict(const CycleInput& input) {
   const Coverage coverage = coverage_of(*input.deck, *input.scene->interfaces);
   const std::string tail = coverage_tail(coverage);
   if (const std::string lead = coverage_lead(coverage); !lead.empty()) return lead + tail;
   const cycle::SceneOutcome& o = *input.outcome;
   const Model& model = *input.scene->model;
-  std::size_t pairs = 0, closed = 0;
+  std::size_t pairs = 0, closed = 0, by_step = 0, tied = 0;
+  std::string gone;
   const cycle::ContactOutcome* worst = nullptr;
   for (const cycle::ContactOutcome& c : o.contacts) {
     pairs += c.pairs_with_force;
     closed += c.gap_closed;
+    tied += c.pairs_tied;
+    by_step += removed_by_step(c);
+    if (gone.empty() && removed_by_step(c) > 0) gone = names_of(model, *c.contact, c.removed, 3);
     if (worst == nullptr || c.largest_acceleration > worst->largest_acceleration) worst = &c;
   }
+  const std::string when =
+      input.steps == nullptr
+          ? std::string("at the start")
+          : fmt::format("after {} step{} of prescribed motion", input.steps->lines.size() - 1,
+                        input.steps->lines.size() == 2 ? "" : "s");
+  std::string removal;  // and what else must not be missed
+  if (tied > 0) removal = fmt::format(" {} pair{} tied.", tied, tied == 1 ? " is" : "s are");
+  if (by_step > 0)
+    removal += fmt::format(
+        " dtmin is above the time step of {} node{} or edge{} in contact: the solver removes {} "
+        "from "
+        "the interface for good ({}).",
+        by_step, by_step == 1 ? "" : "s", by_step == 1 ? "" : "s", by_step == 1 ? "it" : "them",
+        gone);
+  const auto open = std::count_if(o.contacts.begin(), o.contacts.end(),
+                                  [](const cycle::ContactOutcome& c) { return !c.complete; });
+  if (open > 0)
+    removal += fmt::format(" Not evaluated: {} contact{}, see below.", open, open == 1 ? "" : "s");
+  if (pairs == 0 && closed == 0 && open == static_cast<std::ptrdiff_t>(o.contacts.size()))
+    return "Nothing was evaluated." + removal + tail;
   if (pairs == 0 && closed == 0)
-    return fmt::format("No contact force at the start in {} contact{}.{}", o.contacts.size(),
-                       o.contacts.size() == 1 ? "" : "s", tail);
-  std::string text = fmt::format("{} pair{} push{} at the start; largest nodal force {:.4g} at {}.",
-                                 pairs, pairs == 1 ? "" : "s", pairs == 1 ? "es" : "",
+    return fmt::format("No contact force {} in {} contact{}.{}{}", when, o.contacts.size(),
+                       o.contacts.size() == 1 ? "" : "s", removal, tail);
+  std::string text = fmt::format("{} pair{} push{} {}; largest nodal force {:.4g} at {}.", pairs,
+                                 pairs == 1 ? "" : "s", pairs == 1 ? "es" : "", when,
                                  o.largest_nodal_force, node_text(model, o.force_node));
+  text += removal;
   if (worst != nullptr && worst->acceleration_node != no_index)
     text += fmt::format(" Largest acceleration {:.4g}: node {}, interface {}.",
                         worst->largest_acceleration, model.node_id(worst->acceleration_node),
                         worst->contact->inter->id);
   if (closed > 0)
-    text += fmt::format(" {} pair{} at the mid-surface: the solver drops the node{}.", closed,
-                        closed == 1 ? " is" : "s are", closed == 1 ? "" : "s");
+    text +=
+        fmt::format(" {} pair{} at the mid-surface: the solver drops the {}.", closed,
+                    closed == 1 ? " is" : "s are", closed == 1 ? "node or edge" : "nodes or edges");
   if (o.contact_dt < o.structure.dt && o.structure.dt < 1e30)
     text += fmt::format(" Contact limits the time step: {:.4g} against {:.4g} of the elements.",
                         o.contact_dt, o.structure.dt);
@@ -222,6 +407,12 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
   std::string out = fmt::format("{}{}{}\n", bold, terminal_text(cycle_verdict(input)), plain);
   if (input.scene->contacts.empty()) return out;
   out += fmt::format("\n{}Contacts{}\n{}", bold, plain, contact_table(input, options.color));
+  if (const std::string text = lasting_lines(input); !text.empty() && input.steps == nullptr)
+    out += fmt::format("\n{}From now on{}\n{}", bold, plain, text);
+  if (input.steps != nullptr)
+    out += fmt::format("\n{}Steps{}\n{}", bold, plain, steps_text(input, options.color));
+  if (const std::string text = criteria_table(input, options.color); !text.empty())
+    out += fmt::format("\n{}Criteria of adaptive meshing, sharpest first{}\n{}", bold, plain, text);
   out += fmt::format("\n{}Time step{}\n{}", bold, plain, step_lines(input));
   for (const cycle::ContactOutcome& o : input.outcome->contacts)
     if (o.heat_secondary != 0 || o.heat_main != 0)

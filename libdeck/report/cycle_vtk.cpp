@@ -1,5 +1,9 @@
 // The force stage as VTK files for ParaView.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "deck/contact/view.hpp"
 #include "deck/report/cycle.hpp"
@@ -80,16 +84,17 @@ std::string pairs_file(const CycleInput& input) {
   VtkPolyData out(Cells::vertices);
   PairColumns columns;
   const Scene& scene = *input.scene;
+  const Coordinates& now = input.coordinates != nullptr ? *input.coordinates : scene.coordinates;
   for (const cycle::ContactOutcome& o : input.outcome->contacts) {
     const Contact& c = *o.contact;
     for (const cycle::PairOutcome& p : o.pairs) {
       std::array<double, 3> x{};
       if (c.kind == ContactKind::edge_edge) {
         const auto& n = c.secondary_edges[p.at.secondary].nodes;
-        const auto a = at(scene.coordinates, n[0]), b = at(scene.coordinates, n[1]);
+        const auto a = at(now, n[0]), b = at(now, n[1]);
         for (std::size_t k = 0; k < 3; ++k) x[k] = p.weights[0] * a[k] + p.weights[1] * b[k];
       } else {
-        x = at(scene.coordinates, c.secondary[p.at.secondary].node);
+        x = at(now, c.secondary[p.at.secondary].node);
       }
       out.add_cell(std::array{out.points()});
       out.add_point(x[0], x[1], x[2]);
@@ -100,21 +105,44 @@ std::string pairs_file(const CycleInput& input) {
   return out.document();
 }
 
+/// The figures of Iadm by node, over all contacts.
+std::map<NodeIndex, cycle::NodeCriteria> criteria_of(const cycle::SceneOutcome& outcome) {
+  std::map<NodeIndex, cycle::NodeCriteria> all;
+  for (const cycle::ContactOutcome& o : outcome.contacts)
+    for (const cycle::NodeCriteria& c : o.criteria) {
+      cycle::NodeCriteria& sum = all[c.node];
+      sum.radius = std::min(sum.radius, c.radius);
+      sum.penetration = std::max(sum.penetration, c.penetration);
+      sum.angle = std::min(sum.angle, c.angle);
+    }
+  return all;
+}
+
 std::string nodes_file(const CycleInput& input) {
   VtkPolyData out(Cells::vertices);
   const Scene& scene = *input.scene;
+  const Coordinates& now = input.coordinates != nullptr ? *input.coordinates : scene.coordinates;
+  const std::map<NodeIndex, cycle::NodeCriteria> figures = criteria_of(*input.outcome);
   const cycle::NodalSums& sums = input.outcome->nodes;
   std::vector<double> force, force_size, acceleration, stiffness, mass, dt, heat;
-  std::vector<std::int64_t> removed, node;
+  std::vector<double> radius, relative, angle;
+  std::vector<std::int64_t> removed, released, node;
   for (NodeIndex n = 0; n < sums.stiffness.size(); ++n) {
+    const auto known = figures.find(n);
     if (sums.contact[n] == 0 && sums.removed[n] == 0 && sums.stiffness[n] == 0.0 &&
-        sums.heat[n] == 0.0)
+        sums.heat[n] == 0.0 && known == figures.end())
       continue;
     const std::array<double, 3> f{sums.force[0][n], sums.force[1][n], sums.force[2][n]};
     const double m = input.state->mass[n], k = sums.stiffness[n];
-    const auto x = at(scene.coordinates, n);
+    const auto x = at(now, n);
     out.add_cell(std::array{out.points()});
     out.add_point(x[0], x[1], x[2]);
+    const cycle::NodeCriteria none{n, 0.0, 0.0, 0.0};
+    const cycle::NodeCriteria& figure = known != figures.end() ? known->second : none;
+    radius.push_back(figure.radius);
+    relative.push_back(figure.penetration);
+    angle.push_back(figure.angle < 1e30 ? figure.angle : 0.0);
+    released.push_back(sums.released[n]);
     force.insert(force.end(), f.begin(), f.end());
     force_size.push_back(size(f));
     acceleration.push_back(m > 0 ? size(f) / m : 0.0);
@@ -133,14 +161,33 @@ std::string nodes_file(const CycleInput& input) {
   out.point_data("dt", dt);
   out.point_data("heat", heat);
   out.point_data("removed", removed);
+  out.point_data("released", released);
+  out.point_data("radius", radius);
+  out.point_data("relative_penetration", relative);
+  out.point_data("angle", angle);
   out.point_data("node", node);
   return out.document();
 }
 
 }  // namespace
 
-std::vector<VtkFile> cycle_vtk(const CycleInput& input) {
-  return {{"contact_pairs.vtp", pairs_file(input)}, {"contact_nodes.vtp", nodes_file(input)}};
+std::vector<VtkFile> cycle_vtk(const CycleInput& input, const std::string& suffix) {
+  return {{"contact_pairs" + suffix + ".vtp", pairs_file(input)},
+          {"contact_nodes" + suffix + ".vtp", nodes_file(input)}};
+}
+
+std::vector<VtkFile> cycle_vtk_series(const cycle::StepsOutcome& steps,
+                                      const std::vector<std::string>& suffixes) {
+  std::vector<VtkFile> files;
+  for (const std::string name : {"contact_pairs", "contact_nodes"}) {
+    std::string text =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+    for (std::size_t k = 0; k < steps.lines.size() && k < suffixes.size(); ++k)
+      text += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}{}.vtp\"/>\n",
+                          steps.lines[k].time, name, suffixes[k]);
+    files.push_back({name + ".pvd", text + "  </Collection>\n</VTKFile>\n"});
+  }
+  return files;
 }
 
 }  // namespace deck

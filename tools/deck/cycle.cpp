@@ -1,4 +1,7 @@
-// deck cycle: one contact force evaluation at the start: forces, energies, time steps, effects.
+// deck cycle: contact forces, energies, time steps and effects at the start, or over some steps of
+// prescribed motion.
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "accuracy_option.hpp"
@@ -17,9 +20,54 @@ struct Options {
   std::string model = "robust", accuracy = "robust";
   double dt = 0, time = 0;
   std::vector<std::int64_t> only;
-  std::vector<std::string> velocities;
+  std::vector<std::string> velocities, gone;
   std::string vtk;
+  int steps = 1;
 };
+
+/// "KIND:ID" or "KIND:ID@TIME": an element that is gone from a time on.
+Result<cycle::DeadElement> parse_gone(const Model& model, const std::string& text) {
+  const auto bad = [&](const std::string& why) {
+    return Error{Error::Code::config,
+                 "--gone " + text + ": " + why +
+                     "; expected shell:ID, sh3n:ID, solid:ID, truss:ID, beam:ID "
+                     "or spring:ID, and @TIME if it is not gone from the start"};
+  };
+  const auto colon = text.find(':'), mark = text.find('@');
+  if (colon == std::string::npos) return bad("there is no ':'");
+  const std::string name = text.substr(0, colon);
+  cycle::DeadElement dead;
+  if (name == "shell")
+    dead.kind = ElementKind::shell4;
+  else if (name == "sh3n")
+    dead.kind = ElementKind::shell3;
+  else if (name == "solid")
+    dead.kind = ElementKind::solid8;
+  else if (name == "truss")
+    dead.kind = ElementKind::truss;
+  else if (name == "beam")
+    dead.kind = ElementKind::beam;
+  else if (name == "spring")
+    dead.kind = ElementKind::spring;
+  else
+    return bad("'" + name + "' is no kind of element");
+  const std::string id =
+      text.substr(colon + 1, mark == std::string::npos ? mark : mark - colon - 1);
+  const IntegerCell number = read_integer(id);
+  if (number.status != NumberStatus::ok) return bad("the element id is not a number");
+  if (mark != std::string::npos) {
+    const RealCell time = read_real(std::string_view(text).substr(mark + 1));
+    if (time.status != NumberStatus::ok) return bad("the time is not a number");
+    dead.from = time.value;
+  } else {
+    dead.from = -1e300;
+  }
+  const Elements& family = model.family(dead.kind);
+  for (std::uint32_t e = 0; e < family.size(); ++e)
+    if (family.id[e] == number.value) dead.element = e;
+  if (dead.element == no_index) return bad("the deck has no such element");
+  return dead;
+}
 
 /// "PART=vx,vy,vz".
 Result<cycle::PartVelocity> parse_velocity(const std::string& text) {
@@ -46,15 +94,16 @@ Result<cycle::PartVelocity> parse_velocity(const std::string& text) {
   return v;
 }
 
-/// Writes the VTK files: into the directory itself, or one below it per deck if there are several.
-Result<void> write_vtk(const Options& o, const CycleInput& input) {
+/// Writes VTK files: into the directory itself, or one below it per deck if there are several.
+Result<void> write_vtk(const Options& o, std::string_view path, const std::vector<VtkFile>& vtk) {
   std::filesystem::path directory = o.vtk;
-  if (o.common.decks.size() > 1) directory /= std::filesystem::path(input.path).stem();
+  if (o.common.decks.size() > 1) directory /= std::filesystem::path(path).stem();
   std::vector<OutputFile> files;
-  for (const VtkFile& f : cycle_vtk(input))
-    files.push_back({(directory / f.name).string(), f.bytes});
+  for (const VtkFile& f : vtk) files.push_back({(directory / f.name).string(), f.bytes});
   return write_outputs(files);
 }
+
+std::string suffix_of(std::size_t step) { return fmt::format("_{:04}", step); }
 
 int run(const Options& o) {
   cycle::CycleOptions options;
@@ -71,6 +120,10 @@ int run(const Options& o) {
     }
     velocities.push_back(*v);
   }
+  if (o.steps > 1 && !(o.dt > 0)) {
+    print_error(o.common, "--steps needs --dt: how long is a step?");
+    return exit_usage;
+  }
   JsonOutput json(o.common, "deck/cycle", 1);
   options.keep_pairs = (o.all && json.wanted()) || !o.vtk.empty();
   std::vector<std::int64_t> parts;
@@ -82,6 +135,15 @@ int run(const Options& o) {
         print_error(o.common, known.error().message);
         return static_cast<int>(exit_usage);
       }
+    options.dead.clear();
+    for (const std::string& text : o.gone) {
+      auto dead = parse_gone(loaded.model, text);
+      if (!dead) {
+        print_error(o.common, dead.error().message);
+        return static_cast<int>(exit_usage);
+      }
+      options.dead.push_back(*dead);
+    }
     SceneOptions scene_options;
     scene_options.threads = options.threads;
     scene_options.candidates = false;
@@ -90,8 +152,10 @@ int run(const Options& o) {
     scene_options.accuracy = accuracy_of(o.accuracy);
     scene_options.limits = o.common.memory;
     Scene scene;
-    cycle::SceneOutcome outcome;
+    cycle::StepsOutcome steps;
     cycle::State state;
+    CycleInput input;
+    Result<void> written;
     {
       Progress progress(!o.common.quiet);
       progress.step("contacts");
@@ -103,25 +167,43 @@ int run(const Options& o) {
       progress.step("forces");
       state = cycle::make_state(scene, velocities);
       options.progress = update;
-      outcome = cycle::run_cycle(scene, state, options);
+      input.path = loaded.path;
+      input.deck = &loaded.deck;
+      input.scene = &scene;
+      input.state = &state;
+      input.options = options;
+      const bool series = o.steps > 1 && !o.vtk.empty();
+      const auto watch = [&](std::size_t step, const cycle::SceneOutcome& now,
+                             const Coordinates& x) {
+        if (!series || !written) return;
+        CycleInput one = input;
+        one.outcome = &now;
+        one.coordinates = &x;
+        written = write_vtk(o, loaded.path, cycle_vtk(one, suffix_of(step)));
+      };
+      steps = cycle::run_steps(scene, state, options, static_cast<std::size_t>(o.steps), {}, watch);
+      input.outcome = &steps.last;
+      if (o.steps > 1) {
+        input.steps = &steps;
+        input.coordinates = &steps.coordinates;
+      }
+      if (series && written) {
+        std::vector<std::string> suffixes;
+        for (std::size_t k = 0; k < steps.lines.size(); ++k) suffixes.push_back(suffix_of(k));
+        written = write_vtk(o, loaded.path, cycle_vtk_series(steps, suffixes));
+      } else if (!o.vtk.empty() && written) {
+        written = write_vtk(o, loaded.path, cycle_vtk(input));
+      }
     }
     print_findings(loaded, o.common);
-    CycleInput input;
-    input.path = loaded.path;
-    input.deck = &loaded.deck;
-    input.scene = &scene;
-    input.state = &state;
-    input.outcome = &outcome;
-    input.options = options;
     if (json.wanted()) json.add(cycle_json(input, o.all));
-    if (!o.vtk.empty())
-      if (auto r = write_vtk(o, input); !r) {
-        print_error(o.common, r.error().message);
-        return static_cast<int>(exit_usage);
-      }
+    if (!written) {
+      print_error(o.common, written.error().message);
+      return static_cast<int>(exit_usage);
+    }
     if (o.common.wants_text()) print_text(cycle_text(input, {o.common.color_on(1), o.effects}));
     bool found = false;
-    for (const cycle::ContactOutcome& c : outcome.contacts)
+    for (const cycle::ContactOutcome& c : steps.last.contacts)
       found = found || (o.fail && c.pairs_with_force > 0) || !c.complete;
     return static_cast<int>(found ? exit_findings : exit_clean);
   });
@@ -145,6 +227,15 @@ Action setup(CommandLine& line) {
   line.option("--dt", options->dt, "Time step for rate effects; 0: the first evaluation")
       .number(0, 1e30)
       .value("DT");
+  line.option("--steps", options->steps,
+              "Steps of --dt with the given velocities: no structure, prescribed motion only")
+      .range(1, 1000)
+      .value("N")
+      .show_default();
+  line.option("--gone", options->gone,
+              "An element that is gone (Idel), e.g. shell:1003 or shell:1003@0.02 (repeatable)")
+      .one_each()
+      .value("KIND:ID[@T]");
   line.option("--time", options->time, "Time that decides Tstart, Tstop and sensors")
       .number(-1e30, 1e30)
       .value("T");
@@ -162,7 +253,7 @@ const VerbRegistration registration{
      "  deck cycle car_0000.rad\n"
      "  deck cycle car_0000.rad --interface 3 --effects\n"
      "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3\n"
-     "  deck cycle car_0000.rad --vtk paraview\n"
+     "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3 --steps 200 --vtk paraview\n"
      "  deck cycle car_0000.rad --model reference --all --json cycle.json\n",
      setup}};
 

@@ -50,11 +50,23 @@ struct ContactPairs {
   [[nodiscard]] std::size_t size() const { return at.size(); }
 };
 
+/// Where and how far pairs are searched.
+struct PairSearch {
+  const Coordinates* at = nullptr;    ///< null: the scene's
+  double margin = 0.0;                ///< beyond the reach of every pair
+  std::vector<CandidatePair> always;  ///< pairs that are wanted wherever they are
+};
+
 /// Finds the pairs closer than their gap (or Drad, or what Icurv adds) at the scene's coordinates
 /// and forms their values. The scene must have been built with penetrations and, for Istf 2 to 5,
 /// with nodal stiffness.
 [[nodiscard]] ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact,
-                                      const ContactCard& card, Model model, int threads = 1);
+                                      const ContactCard& card, Model model, int threads = 1,
+                                      const PairSearch& where = {});
+
+/// Forms the nodal normals (Icurv 3, Iadm) of pairs again, with the nodes at `x`.
+void renew_normals(const deck::Contact& contact, const ContactCard& card, const Coordinates& x,
+                   ContactPairs& pairs);
 
 /// Adds the conductivity that /HEAT/MAT gives the material of the secondary node's shell, or of the
 /// elements that carry both edges, at temperatures given node by node; 0 where there is none.

@@ -5,6 +5,7 @@
 #define DECK_CYCLE_SCENE_CYCLE_HPP_
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,13 @@
 
 namespace deck::cycle {
 
+/// An element that is taken as gone from a time on, for Idel.
+struct DeadElement {
+  ElementKind kind = ElementKind::shell4;
+  std::uint32_t element = no_index;
+  double from = 0.0;
+};
+
 struct CycleOptions {
   Model model = Model::robust;
   double dt1 = 0.0;   ///< last step; 0: the very first evaluation
@@ -22,6 +30,8 @@ struct CycleOptions {
   int threads = 1;
   bool keep_pairs = false;      ///< fill ContactOutcome::pairs
   double near_singular = 0.05;  ///< pairs with less than this share of their gap left are counted
+  double margin = 0.0;  ///< search pairs this much further, so that the list lasts for some motion
+  std::vector<DeadElement> dead;
   PlanOptions plan;
   /// Called with (contacts done, contacts in all); may be empty.
   std::function<void(std::size_t, std::size_t)> progress;
@@ -38,6 +48,38 @@ struct PairOutcome {
   std::int64_t status = 0;  ///< bits of Status
 };
 
+/// A secondary node or edge that leaves its interface for good, from the next evaluation on.
+struct Removal {
+  enum class Because : std::uint8_t {
+    mid_surface,     ///< nothing was left of its gap
+    kinematic_step,  ///< dtmin: half the time to the mid-surface; no force any more
+    nodal_step,      ///< dtmin: contact stiffness against nodal mass; the force of this cycle stays
+    no_element_left  ///< Idel: all its elements are gone
+  };
+  std::uint32_t secondary = 0;  ///< position in the contact's list
+  Because because = Because::mid_surface;
+};
+
+/// A pair that ties, or lets go.
+struct TieChange {
+  CandidatePair at;
+  bool tied = false;
+};
+
+/// IBC: fixed translations of a node, 4 X + 2 Y + Z, before and after.
+struct NodeRelease {
+  NodeIndex node = no_index;
+  std::uint8_t before = 0, after = 0;
+};
+
+/// Iadm: what adaptive meshing asks of a node.
+struct NodeCriteria {
+  NodeIndex node = no_index;
+  double radius = 1e30;      ///< smallest radius of curvature of its segments
+  double penetration = 0.0;  ///< Iadm 2, secondary side: deepest, over Padm times the gap
+  double angle = 1e30;       ///< Iadm 2, secondary side: smallest cosine over that of Angladm
+};
+
 /// What one contact does.
 struct ContactOutcome {
   const deck::Contact* contact = nullptr;
@@ -48,7 +90,13 @@ struct ContactOutcome {
   bool complete = true;  ///< false: nothing was evaluated (too many pairs, values out of range)
   std::size_t pairs_in_reach = 0;
   std::size_t pairs_with_force = 0;
-  std::size_t pairs_switched_off = 0;  ///< in reach, without stiffness
+  /// In reach, but without a force: off since start-up, removed, or switched off in this cycle.
+  std::size_t pairs_switched_off = 0;
+  std::size_t pairs_tied = 0;
+  std::vector<Removal> removed;        ///< who leaves the interface after this evaluation
+  std::vector<TieChange> ties;         ///< pairs that tie or let go in it
+  std::vector<NodeRelease> released;   ///< fixed translations that IBC frees in it
+  std::vector<NodeCriteria> criteria;  ///< with Iadm only, by node
   Totals totals;                       ///< totals.dt_kinematic_pair is a position in the search
   double heat_secondary = 0.0, heat_main = 0.0;  ///< energy given to each side in this cycle
   StepLimit step;  ///< its own; index is a node index of the model (kinematic: of that pair)
@@ -75,6 +123,29 @@ struct SceneOutcome {
   std::size_t limiting_contact = SIZE_MAX;  ///< position in `contacts`
   NodeIndex limiting_node = no_index;
   StructureStep structure;
+};
+
+/// Evaluations in a row, each from what the contacts remember of the one before.
+class CycleRun {
+ public:
+  /// The scene must outlive it and be built with penetrations and nodal stiffness. `remember`: more
+  /// than one evaluation is wanted.
+  explicit CycleRun(const Scene& scene, bool remember = true);
+  ~CycleRun();
+  CycleRun(const CycleRun&) = delete;
+  CycleRun& operator=(const CycleRun&) = delete;
+  /// With the nodes at `x`; areas and widths for heat stay those of the scene. The model must be the
+  /// same in every call.
+  [[nodiscard]] SceneOutcome evaluate(const Coordinates& x, const State& state,
+                                      const CycleOptions& options);
+  /// How often the pairs of a contact were searched.
+  [[nodiscard]] std::size_t searches() const;
+
+ private:
+  struct Memory;
+  const Scene* scene_;
+  bool remember_;
+  std::unique_ptr<Memory> memory_;
 };
 
 /// Evaluates all contacts of a scene that was built with penetrations and nodal stiffness. The

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "deck/cycle/replay.hpp"
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/cycle/steps.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/report/vtk.hpp"
@@ -21,6 +21,8 @@ struct CycleInput {
   const cycle::State* state = nullptr;
   const cycle::SceneOutcome* outcome = nullptr;
   cycle::CycleOptions options;
+  const cycle::StepsOutcome* steps = nullptr;  ///< of several steps; `outcome` is then the last
+  const Coordinates* coordinates = nullptr;  ///< where the outcome was computed; null: the scene's
 };
 
 /// An effect of an interface: on where any of its parts has it on; `because` names the deciding
@@ -60,8 +62,18 @@ std::string cycle_verdict(const CycleInput& input);
 ///   contacts), force_size, acceleration and dt (0 without mass), stiffness, mass, heat, removed
 ///   (1: leaves its interface), node.
 ///
-/// Coordinates are those that were evaluated, in working units.
-std::vector<VtkFile> cycle_vtk(const CycleInput& input);
+/// Coordinates are those that were evaluated, in working units. Nodes also carry released (bits of
+/// the translations that IBC frees, 4 X + 2 Y + Z) and the figures of Iadm: radius (0: none),
+/// relative_penetration and angle. A `suffix` such as "_0003" makes files of a series.
+std::vector<VtkFile> cycle_vtk(const CycleInput& input, const std::string& suffix = {});
+
+/// The two collections that put a series in time: contact_pairs.pvd and contact_nodes.pvd.
+std::vector<VtkFile> cycle_vtk_series(const cycle::StepsOutcome& steps,
+                                      const std::vector<std::string>& suffixes);
+
+/// "node 57" or "edge 1-2" of a contact's secondary side, and why it leaves the interface.
+std::string secondary_name(const Model& model, const Contact& contact, std::uint32_t secondary);
+const char* to_string(cycle::Removal::Because because);
 
 /// What one replay was about.
 struct ReplayInput {

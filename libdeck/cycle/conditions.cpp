@@ -1,0 +1,130 @@
+// What the deck says about nodes besides contact: fixed translations, ties of other interfaces, and
+// elements that are gone.
+#include <algorithm>
+
+#include "cycle/contact_run.hpp"
+#include "deck/contact/view.hpp"
+#include "deck/keyword/decode.hpp"
+#include "deck/model/selection.hpp"
+
+namespace deck::cycle::detail {
+namespace {
+
+/// Calls f(decoded block, nodes of its group) for every block of a keyword.
+template <class F>
+void each_group(const deck::Model& model, std::string_view keyword, std::string_view field, F&& f) {
+  if (model.deck == nullptr || model.selections == nullptr) return;
+  const Deck& deck = *model.deck;
+  for (const Block& block : deck.blocks) {
+    if (block.schema == nullptr || block.schema->keyword != keyword) continue;
+    const DecodedBlock decoded = decode(deck, block);
+    const std::int64_t id = decoded.integer(field);
+    if (id == 0) continue;
+    if (const NodeSet* nodes = model.selections->node_group(id + deck.offset_of(block, "grnod")))
+      f(decoded, *nodes);
+  }
+}
+
+bool dead(const CycleOptions& options, ElementKind kind, std::uint32_t element) {
+  return std::any_of(options.dead.begin(), options.dead.end(), [&](const DeadElement& d) {
+    return d.kind == kind && d.element == element && options.time >= d.from;
+  });
+}
+
+/// Elements of all kinds around some nodes: how many live, how many are gone.
+struct Around {
+  std::size_t live = 0, gone = 0;
+};
+
+/// Elements that have all the nodes given.
+template <std::size_t N>
+Around elements_with(const RunContext& run, const std::array<NodeIndex, N>& nodes) {
+  Around a;
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
+                                 ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
+    const Elements& family = run.scene.model->family(kind);
+    const bool line = kind == ElementKind::beam || kind == ElementKind::spring;
+    const int count = line ? 2 : family.width;
+    std::uint32_t before = no_index;  // a solid with repeated nodes is listed once for each
+    for (const std::uint32_t e : run.connectivity.elements(kind, nodes[0])) {
+      if (e == before) continue;
+      before = e;
+      const NodeIndex* n = family.of(e);
+      if (!std::all_of(nodes.begin(), nodes.end(),
+                       [&](NodeIndex node) { return std::find(n, n + count, node) != n + count; }))
+        continue;
+      ++(dead(run.options, kind, e) ? a.gone : a.live);
+    }
+  }
+  return a;
+}
+
+template <class Item>
+bool own_element_lives(const RunContext& run, const Item& item) {
+  if (item.element == no_index) return true;
+  const Elements* family = elements_of(*run.scene.model, item.carrier);
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
+                                 ElementKind::truss, ElementKind::beam, ElementKind::spring})
+    if (family == &run.scene.model->family(kind)) return !dead(run.options, kind, item.element);
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> fixed_translations(const deck::Model& model) {
+  std::vector<std::uint8_t> fixed(model.nodes.size(), 0);
+  each_group(model, "/BCS", "grnod_ID", [&](const DecodedBlock& d, const NodeSet& nodes) {
+    std::uint8_t code = 0;
+    if (d.integer("Tx") == 1) code |= 4;
+    if (d.integer("Ty") == 1) code |= 2;
+    if (d.integer("Tz") == 1) code |= 1;
+    for (const NodeIndex n : nodes.nodes)
+      if (n != no_index) fixed[n] |= code;
+  });
+  return fixed;
+}
+
+std::vector<std::uint8_t> tied_secondary_nodes(const deck::Model& model) {
+  std::vector<std::uint8_t> tied(model.nodes.size(), 0);
+  each_group(model, "/INTER/TYPE2", "grnd_IDs", [&](const DecodedBlock&, const NodeSet& nodes) {
+    for (const NodeIndex n : nodes.nodes)
+      if (n != no_index) tied[n] = 1;
+  });
+  return tied;
+}
+
+void follow_dead_elements(const RunContext& run, const Contact& contact, int idel,
+                          ContactMemory& memory, std::vector<Removal>& removed) {
+  if (idel == 0 || run.options.dead.empty()) return;
+  const auto now = static_cast<std::size_t>(
+      std::count_if(run.options.dead.begin(), run.options.dead.end(),
+                    [&](const DeadElement& d) { return run.options.time >= d.from; }));
+  if (now == memory.deaths) return;
+  memory.deaths = now;
+  const auto main = [&](const auto& list) {
+    memory.main_off.assign(list.size(), 0);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Around behind = elements_with(run, list[i].nodes);
+      if (behind.gone == 0 && own_element_lives(run, list[i])) continue;
+      memory.main_off[i] =
+          !segment_stays(idel, static_cast<int>(behind.live), own_element_lives(run, list[i]));
+    }
+  };
+  const auto secondary = [&](const auto& list, auto&& nodes_of) {
+    for (std::uint32_t i = 0; i < list.size(); ++i) {
+      if (memory.off[i] != 0) continue;
+      const Around around = elements_with(run, nodes_of(list[i]));
+      if (around.gone > 0 && !secondary_stays(idel, static_cast<int>(around.live)))
+        removed.push_back({i, Removal::Because::no_element_left});
+    }
+  };
+  if (contact.kind == deck::ContactKind::edge_edge) {
+    main(contact.main_edges);
+    secondary(contact.secondary_edges, [](const ContactEdge& e) { return e.nodes; });
+  } else {
+    main(contact.main);
+    secondary(contact.secondary, [](const SecondaryNode& s) { return std::array{s.node}; });
+  }
+}
+
+}  // namespace deck::cycle::detail

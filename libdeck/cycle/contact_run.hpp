@@ -1,0 +1,78 @@
+// One contact in one evaluation, and what it remembers until the next. Private to the stage.
+#ifndef DECK_CYCLE_CONTACT_RUN_HPP_
+#define DECK_CYCLE_CONTACT_RUN_HPP_
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "contact/node_elements.hpp"
+#include "deck/cycle/scene_cycle.hpp"
+
+namespace deck::cycle::detail {
+
+/// What a pair takes into the next evaluation; pairs with nothing to remember are not kept.
+struct PairMemory {
+  CandidatePair at;
+  double p0 = 0.0;              ///< Inacti 5, 6: residual penetration
+  std::array<double, 3> ft{};   ///< friction memory
+  std::array<double, 8> tie{};  ///< tie record; first 0: not tied
+};
+
+/// Where the nodes of both sides were when the pairs were searched.
+class SearchedAt {
+ public:
+  void take(const Contact& contact, const Coordinates& x);
+  /// How far the sides can have come nearer since: the solver's re-sort test.
+  [[nodiscard]] double approach(const Coordinates& x) const;
+
+ private:
+  std::array<std::vector<NodeIndex>, 2> nodes_;
+  std::array<std::array<std::vector<double>, 3>, 2> x_;
+};
+
+struct ContactMemory {
+  std::optional<KernelPlan> plan;
+  bool started = false;                ///< some evaluation has been done
+  std::vector<PairMemory> pairs;       ///< in the order of the search
+  std::vector<std::uint8_t> off;       ///< by secondary node or edge: out of the interface for good
+  std::vector<std::uint8_t> main_off;  ///< by main segment or edge, Idel
+  std::size_t tied_elsewhere = 0;      ///< secondary nodes out because of Irem_i2
+  /// Inacti 5, 6 between edges: what is taken off now, and the most that pairs of this cycle allow.
+  std::array<std::vector<double>, 2> used, most;
+  ContactPairs candidates;
+  SearchedAt searched;
+  bool has_candidates = false;
+  std::size_t searches = 0, deaths = 0;
+};
+
+/// What all contacts of one evaluation share.
+struct RunContext {
+  const Scene& scene;
+  const Coordinates& x;  ///< where the nodes are now
+  const State& state;
+  const CycleOptions& options;
+  bool remember = false;             ///< a further evaluation may follow
+  std::vector<std::uint8_t>& fixed;  ///< fixed translations by node, 4 X + 2 Y + Z; empty: none
+  Connectivity& connectivity;
+};
+
+using NodeStiffness = std::vector<std::pair<NodeIndex, double>>;
+
+/// Evaluates one contact; returns the stiffness it gives to its nodes, in the order of nodes.
+NodeStiffness run_contact(const RunContext& run, ContactMemory& memory, ContactOutcome& out,
+                          NodalSums& all);
+
+/// Translations that /BCS fix, by node: 4 X + 2 Y + Z.
+std::vector<std::uint8_t> fixed_translations(const deck::Model& model);
+/// Secondary nodes of all /INTER/TYPE2, by node.
+std::vector<std::uint8_t> tied_secondary_nodes(const deck::Model& model);
+
+/// Idel: takes out main segments and edges whose elements are gone at this time, and secondary
+/// nodes (edges) without any element left; those go into `removed`.
+void follow_dead_elements(const RunContext& run, const Contact& contact, int idel,
+                          ContactMemory& memory, std::vector<Removal>& removed);
+
+}  // namespace deck::cycle::detail
+
+#endif  // DECK_CYCLE_CONTACT_RUN_HPP_
