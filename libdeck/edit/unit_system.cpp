@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
 #include "edit/unit_system_state.hpp"
+#include "edit/version_cards.hpp"
 #include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
 
@@ -330,6 +332,7 @@ class BlockConverter {
   void convert_cards(const Block& b) {
     const DecodedBlock d = decode(deck_, b);
     brought_.clear();
+    absent_.clear();
     for (const DecodedCard& card : d.cards) {
       if (card.missing()) continue;
       for (const Cell& cell : card.cells) function_use(b, d, card, cell);
@@ -337,7 +340,58 @@ class BlockConverter {
     }
     for (const DecodedCard& card : d.cards)
       if (!card.missing()) convert_card(b, d, card);
+    add_lines(b, d);
     if (!own_units_ && !b.schema->layout_known()) undescribed(b, d);
+  }
+
+  /// Blank scales on lines that the block leaves away at its end are written out, too.
+  void add_lines(const Block& b, const DecodedBlock& d) {
+    std::map<const CardSchema*, std::string> texts;
+    for (const std::string& name : absent_)
+      for (const CardSchema& card : b.schema->cards)
+        for (const Field& f : card.fields) {
+          if (f.name != name || !card.in_version(b.version) || !f.in_version(b.version)) continue;
+          if (!holds(card.when, d) || !holds(f.when, d)) continue;
+          const UnitFactor factor = c_.factors.of(written_dimension(
+              f, dimension_of(f, d), f.solver_dimension && holds(f.solver_when, d)));
+          if (factor.one()) continue;
+          const auto text = detail::scale_text("1", f.last - f.first + 1, factor);
+          if (!text) {
+            c_.undecided(b, {}, name, "blank means 1, which does not fit in the new units");
+            continue;
+          }
+          detail::put_cell(texts[&card], f.first, f.last, text->text);
+          LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
+          entry.field = name;
+          entry.new_text = text->text;
+          entry.note = "its line was missing; blank is 1 in the units of the block, which change";
+          c_.out.losses.push_back(std::move(entry));
+        }
+    if (texts.empty()) return;
+    const CardSchema* next = b.schema->cards.data();
+    Span anchor = d.title_line.valid() ? d.title_line.whole() : b.header_span;
+    for (const DecodedCard& card : d.cards)
+      if (!card.missing()) {
+        next = card.schema + 1;
+        anchor = card.line.whole();
+      }
+    std::vector<std::string> lines;
+    std::size_t added = 0;
+    const CardSchema* const end = b.schema->cards.data() + b.schema->cards.size();
+    for (; next != end && added < texts.size(); ++next) {
+      if (!next->in_version(b.version) || !holds(next->when, d)) continue;
+      if (next->repeat != Repeat::once) break;
+      const auto text = texts.find(next);
+      added += text == texts.end() ? 0 : 1;
+      lines.push_back(text == texts.end() ? std::string() : text->second);
+    }
+    if (added < texts.size() || !d.extra.empty() || detail::lacks_title(d)) {
+      c_.undecided(b, {}, *absent_.begin(), "this scale has no line in the block; add the line");
+      return;
+    }
+    detail::LineEdits edits(deck_.sources);
+    for (const std::string& line : lines) edits.insert_after(anchor, line);
+    edits.finish(c_.out.edits);
   }
 
   // ---- functions ------------------------------------------------------------------------------
@@ -355,9 +409,7 @@ class BlockConverter {
         if (scale != nullptr) brought_.insert(scale);
         scaled = scaled || scale != nullptr;
         if (scale == nullptr && has_field(b, name)) {
-          if (!own_units_)
-            c_.undecided(b, cell.span, f.name,
-                         "its scale " + name + " has no line in this block; add the line");
+          absent_.insert(name);
           scaled = true;
         }
       }
@@ -466,8 +518,12 @@ class BlockConverter {
                                (!scale->blank() && scale->real != 0)))
         physical = minus(physical, dimension_of(*scale->field, d, &card));
     }
-    const Dimension solver =
-        f.solver_dimension && holds(f.solver_when, d, &card) ? *f.solver_dimension : physical;
+    return written_dimension(
+        f, physical, f.solver_dimension && holds(f.solver_when, d, &card));
+  }
+
+  Dimension written_dimension(const Field& f, const Dimension& physical, bool by_solver) const {
+    const Dimension solver = by_solver ? *f.solver_dimension : physical;
     if (own_units_) return minus(physical, solver);
     return c_.working_changes ? physical : solver;
   }
@@ -667,6 +723,7 @@ class BlockConverter {
   detail::UnitFactors from_working_{{}, {}};
   CellEdits grown_;  // cells behind the end of their line
   std::set<const Cell*> brought_;  // of this block: blank is 1 and has to be said
+  std::set<std::string> absent_;   // the same, where the block has no line for the cell
 };
 
 void add_notes(UnitConversion& c) {

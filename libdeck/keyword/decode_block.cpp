@@ -285,8 +285,10 @@ Dimension dimension_of(const Field& field, const DecodedBlock& block, const Deco
 double working_value(const Deck& deck, const DecodedBlock& block, const Cell& cell) {
   const UnitSystem* units = deck.units_of(*block.block);
   if (units == nullptr || cell.field == nullptr) return cell.real;
-  return cell.real *
-         conversion_factor(*units, deck.begin.working, dimension_of(*cell.field, block));
+  const Field& f = *cell.field;
+  const bool own = f.solver_dimension && holds(f.solver_when, block);
+  return cell.real * conversion_factor(*units, deck.begin.working,
+                                       own ? *f.solver_dimension : dimension_of(f, block));
 }
 
 }  // namespace deck

@@ -519,10 +519,11 @@ std::string check_conditions(const Schema& schema, std::size_t index) {
   if (!number && !at_least_once(card.count))
     return fmt::format("/cards/{}/count: no earlier card has an integer field \"{}\"", index,
                        card.count);
-  // A dimension may ask for a cell of any version: where it is not, it counts as 0.
+  // A dimension may ask for a cell of any line and version: where it is not, it counts as 0.
   const auto ever = [&](const Condition& condition) {
     for (const int version : known_versions())
-      if (knows_before(schema, index + 1, version, condition.field, !condition.words.empty()))
+      if (knows_before(schema, schema.cards.size(), version, condition.field,
+                       !condition.words.empty()))
         return true;
     return condition.field == Condition::data_lines;
   };
@@ -531,7 +532,7 @@ std::string check_conditions(const Schema& schema, std::size_t index) {
       for (const auto& condition : entry.first)
         if (!ever(condition))
           return fmt::format(
-              "/cards/{}/fields/{}/dim_when: neither this nor an earlier card has {} field \"{}\"",
+              "/cards/{}/fields/{}/dim_when: no card has {} field \"{}\"",
               index, f, condition.words.empty() ? "an integer" : "a text", condition.field);
   return {};
 }

@@ -94,6 +94,39 @@ TEST(ToUnitsFunctions, LimitsThatCountInUnitsOfAScaleChangeOnlyWithoutIt) {
   }
 }
 
+TEST(ToUnitsFunctions, AFactorWithoutItsFunctionOnlyDividesTheContactStiffnessAndStays) {
+  const auto with = [](const char* id) {
+    return deck_of("/PROP/SPRING/7\ns\n" + cell("0.1", 20) + "\n" + cell("3.0", 20) +
+                   cell("", 20) + cell("2.0", 20) + "\n" + cell(id, 10) + "\n" + curve);
+  };
+  const auto without = with("0");
+  EXPECT_EQ(real(*without->after(convert(*without, "kg,m,ms")), "/PROP/SPRING/7", "A"), 2.0);
+  const auto used = with("5");
+  EXPECT_EQ(real(*used->after(convert(*used, "kg,m,ms")), "/PROP/SPRING/7", "A"), 0.002);
+}
+
+TEST(ToUnitsFunctions, ScalesOnLinesThatTheBlockLeavesAwayAreAdded) {
+  const std::string head = "/IMPVEL/1\nload\n         5         X         0         0         3\n";
+  const auto w = deck_of(head + curve);
+  EXPECT_TRUE(w->after(convert(*w, "kg,m,s"))->contains(head + cell("0.001", 20) + "\n" + curve));
+  const auto spring = deck_of("/PROP/SPRING/7\ns\n" + cell("0.1", 20) + "\n" + cell("3.0", 20) +
+                              "\n" + cell("5", 10) + "\n" + curve);
+  const auto after = spring->after(convert(*spring, "kg,m,ms"));
+  EXPECT_EQ(real(*after, "/PROP/SPRING/7", "AScale1"), 0.001);
+  EXPECT_EQ(real(*after, "/PROP/SPRING/7", "A"), 0.001);
+}
+
+TEST(ToUnitsFunctions, SpringsPerUnitLengthHaveOtherDimensions) {
+  const auto w = deck_of("/PROP/SPRING/7\ns\n" + cell("0.1", 20) + cell("", 50) + cell("1", 10) +
+                         "\n" + cell("3.0", 20) + "\n");
+  EXPECT_EQ(w->deck.diagnostics.counts().size(), 0u);
+  const auto after = w->after(convert(*w, "kg,m,ms"));
+  const std::int64_t per_length = decode(w->deck, *edit_test::block(w->deck, "/PROP/SPRING/7")).integer("Ileng");
+  ASSERT_EQ(per_length, 1);
+  EXPECT_EQ(real(*after, "/PROP/SPRING/7", "Mass"), 100.0);
+  EXPECT_EQ(real(*after, "/PROP/SPRING/7", "K"), 0.003);
+}
+
 // ---- points -------------------------------------------------------------------------------------
 
 /// A joint: the abscissa of its friction function is a length and has no scale.

@@ -16,6 +16,7 @@ from common import SAMPLES, Checks
 PLACES = {"source", "file", "line", "column", "path", "places", "place", "deck", "tool", "schema", "span", "defined_at",
           "input", "origin", "gapmin_origin", "accuracy"}
 VERSIONS = (2018, 2020, 2022, 2024, 2026)
+EVERY_VERSION = (110, 120, 130, 140) + tuple(range(2017, 2027))  # with --all
 SLOW = 1_000_000  # bytes; larger decks go through fewer rounds
 
 
@@ -106,7 +107,8 @@ def conversions(deck, tmp):
                      penetrations(deck.view("gaps", deck.path, "--all")) == penetrations(deck.view("gaps", apart, "--all")))
     original = deck.c.run("params", deck.path, "--json", "-", "--quiet")
     version = json.loads(original.out)["deck"]["version"] if original.code in (0, 1) else None
-    for to in VERSIONS if deck.size < SLOW else VERSIONS[-1:]:
+    versions = EVERY_VERSION if deck.c.options.all else VERSIONS
+    for to in versions if deck.size < SLOW or deck.c.options.all else VERSIONS[-1:]:
         there = deck.convert(deck.path, "--version", str(to)) if version and version != to else None
         if there:
             deck.same("--version %d" % to, "params", there)
