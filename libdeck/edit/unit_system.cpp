@@ -184,10 +184,11 @@ namespace {
 /// Keywords described in part whose undescribed text holds ids, flags and names only.
 bool free_of_units(std::string_view keyword) {
   constexpr std::string_view list[] = {
-      "/ANALY", "/DEF_SHELL", "/DEF_SOLID",   "/IOFLAG",    "/MEMORY", "/SPMD",
-      "/BCS",   "/TH",        "/ATH",         "/BTH",       "/CTH",    "/DTH",
-      "/RBE2",  "/SHFRA",     "/CAA",         "/REFSTA",    "/UPWIND", "/ALE/GRID/ZERO",
-      "/RLINK", "/ALE/BCS",   "/DUMMY_START", "/DUMMY_END", "/AMS",   "/TABLE", "/FUNCT_PYTHON"};
+      "/ANALY",       "/DEF_SHELL", "/DEF_SOLID",   "/IOFLAG",    "/MEMORY", "/SPMD",
+      "/BCS",         "/TH",        "/ATH",         "/BTH",       "/CTH",    "/DTH",
+      "/RBE2",        "/SHFRA",     "/CAA",         "/REFSTA",    "/UPWIND", "/ALE/GRID/ZERO",
+      "/RLINK",       "/ALE/BCS",   "/DUMMY_START", "/DUMMY_END", "/AMS",    "/TABLE",
+      "/FUNCT_PYTHON"};
   for (const std::string_view k : list)
     if (keyword == k || (keyword.starts_with(k) && keyword[k.size()] == '/')) return true;
   return false;
@@ -514,12 +515,11 @@ class BlockConverter {
     if (!f.over.empty() && holds(f.over_when, d, &card)) {
       // The number counts times that of the scale: where the scale's number changes, it does not.
       const Cell* scale = beside(d, card, cell, f.over);
-      if (scale != nullptr && (brought_.contains(scale) || scale->parameter ||
-                               (!scale->blank() && scale->real != 0)))
+      if (scale != nullptr &&
+          (brought_.contains(scale) || scale->parameter || (!scale->blank() && scale->real != 0)))
         physical = minus(physical, dimension_of(*scale->field, d, &card));
     }
-    return written_dimension(
-        f, physical, f.solver_dimension && holds(f.solver_when, d, &card));
+    return written_dimension(f, physical, f.solver_dimension && holds(f.solver_when, d, &card));
   }
 
   Dimension written_dimension(const Field& f, const Dimension& physical, bool by_solver) const {
@@ -721,7 +721,7 @@ class BlockConverter {
   const Deck& deck_;
   bool own_units_ = false;
   detail::UnitFactors from_working_{{}, {}};
-  CellEdits grown_;  // cells behind the end of their line
+  CellEdits grown_;                // cells behind the end of their line
   std::set<const Cell*> brought_;  // of this block: blank is 1 and has to be said
   std::set<std::string> absent_;   // the same, where the block has no line for the cell
 };

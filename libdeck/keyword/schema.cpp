@@ -81,8 +81,7 @@ namespace {
 std::set<std::string, std::less<>> with_cards(std::string_view text) {
   std::set<std::string, std::less<>> keywords;
   for (const auto& piece : detail::split_schemas(text))
-    if (piece.text.find("\"cards\"") != std::string_view::npos)
-      keywords.emplace(piece.keyword);
+    if (piece.text.find("\"cards\"") != std::string_view::npos) keywords.emplace(piece.keyword);
   return keywords;
 }
 
@@ -100,9 +99,9 @@ Result<void> SchemaSet::add_json(std::string_view name, std::string_view text) {
     std::vector<std::string> names = schema.aliases;
     names.insert(names.begin(), schema.keyword);
     const auto added = std::make_shared<const Entry>(std::move(schema));
-    if (const auto it = table.find(added->keyword);
-        it != table.end() && it->second->keyword == added->keyword &&
-        !fresh.count(added->keyword)) {
+    if (const auto it = table.find(added->keyword); it != table.end() &&
+                                                    it->second->keyword == added->keyword &&
+                                                    !fresh.count(added->keyword)) {
       // Without cards nothing of the keyword is read, so nothing of it is checked either.
       if (!it->second->get().cards.empty() && !described.contains(added->keyword))
         return Error{Error::Code::config,

@@ -320,10 +320,10 @@ void read_target(const Json& json, const Path& path, Field& field) {
 
 Field field_of(const Json& json, const Path& path) {
   expect_object(json, path,
-                {"name", "cols",        "type",     "ref",     "versions", "when", "values",   "min",
-                 "max",  "min_open",    "max_open", "missing", "empty",    "required", "default",
-                 "dim",  "dim_unknown", "dim_when", "solver_dim", "axes", "unit_for", "over",
-                 "ignored", "doc",      "manual"});
+                {"name",    "cols",    "type",        "ref",      "versions",   "when",  "values",
+                 "min",     "max",     "min_open",    "max_open", "missing",    "empty", "required",
+                 "default", "dim",     "dim_unknown", "dim_when", "solver_dim", "axes",  "unit_for",
+                 "over",    "ignored", "doc",         "manual"});
   Field field;
   require(json, path, "name");
   read(json, path, "name", field.name);
@@ -473,14 +473,15 @@ Range range_of(const CardSchema& card, const Field& field) {
   return {std::max(card.from, field.from), std::min(card.until, field.until)};
 }
 
-/// Whether `schema` has, in `version`, an integer (or text) field `name` on the first `cards` cards.
+/// Whether `schema` has, in `version`, an integer (or text) field `name` on the first `cards`
+/// cards.
 bool knows_before(const Schema& schema, std::size_t cards, int version, std::string_view name,
                   bool text = false) {
   for (std::size_t i = 0; i < cards; ++i)
     for (const auto& field : schema.cards[i].fields)
       if (field.name == name && field.type != FieldType::real &&
-          (field.type == FieldType::text) == text &&
-          schema.cards[i].in_version(version) && field.in_version(version))
+          (field.type == FieldType::text) == text && schema.cards[i].in_version(version) &&
+          field.in_version(version))
         return true;
   return false;
 }
@@ -531,9 +532,8 @@ std::string check_conditions(const Schema& schema, std::size_t index) {
     for (const auto& entry : card.fields[f].dimension_when)
       for (const auto& condition : entry.first)
         if (!ever(condition))
-          return fmt::format(
-              "/cards/{}/fields/{}/dim_when: no card has {} field \"{}\"",
-              index, f, condition.words.empty() ? "an integer" : "a text", condition.field);
+          return fmt::format("/cards/{}/fields/{}/dim_when: no card has {} field \"{}\"", index, f,
+                             condition.words.empty() ? "an integer" : "a text", condition.field);
   return {};
 }
 

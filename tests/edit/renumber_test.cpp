@@ -114,13 +114,12 @@ TEST(Renumber, IdsWithoutABlankBetweenThemAreSeenInUndescribedText) {
 }
 
 TEST(Renumber, IdsOfLoadsConstraintsAndRequestsFollow) {
-  const auto w = Whole::text(
-      plates()
-          .add("/TH/PART/4\nh\nDEF       IE\n         2         3\n"
-               "/TH/NODE/5\nh\nDEF\n        10         0corner\n"
-               "/ADMAS/5/6\nm\n                 0.5        10\n"
-               "@/RBODY/1 node_ID=10 grnd_ID=0\n")
-          .text());
+  const auto w = Whole::text(plates()
+                                 .add("/TH/PART/4\nh\nDEF       IE\n         2         3\n"
+                                      "/TH/NODE/5\nh\nDEF\n        10         0corner\n"
+                                      "/ADMAS/5/6\nm\n                 0.5        10\n"
+                                      "@/RBODY/1 node_ID=10 grnd_ID=0\n")
+                                 .text());
   const auto after = w->after(numbered(*w, {"node+100", "part+50"}));
   EXPECT_TRUE(after->contains("DEF       IE\n        52        53\n")) << after->main_text();
   EXPECT_TRUE(after->contains("DEF\n       110         0corner\n"));
@@ -171,8 +170,8 @@ TEST(Renumber, MaterialsOfMaterialOptionsFollow) {
 }
 
 TEST(Renumber, TextThatMayHoldAnIdIsRefusedOrUndecided) {
-  const auto w = Whole::text(
-      plates().add("/RBE2/1\nr\n        50         0\n/NEWTHING/2\n        51").text());
+  const auto w =
+      Whole::text(plates().add("/RBE2/1\nr\n        50         0\n/NEWTHING/2\n        51").text());
   const Rewrite r = numbered(*w, {"node+1000"});
   ASSERT_EQ(r.refusals.size(), 2u);
   EXPECT_NE(r.refusals[0].find("/RBE2/1: "), std::string::npos) << r.refusals[0];

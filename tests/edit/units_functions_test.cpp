@@ -42,8 +42,9 @@ std::string load(const char* header, const char* direction, const char* scale_y)
          "         0         0         3         0\n" + cell("", 20) + cell(scale_y, 20) + "\n";
 }
 
-const char* const curve = "/FUNCT/5\nf\n                 0.0                 1.0\n"
-                             "                10.0                 2.0\n";
+const char* const curve =
+    "/FUNCT/5\nf\n                 0.0                 1.0\n"
+    "                10.0                 2.0\n";
 
 TEST(ToUnitsFunctions, BlankScalesOfALoadAreWrittenOutAndThePointsStay) {
   const auto w = deck_of(load("/IMPVEL/1", "X", "") + curve);
@@ -68,9 +69,8 @@ TEST(ToUnitsFunctions, ScaleOfAFunctionThatIsNotThereStaysBlank) {
 }
 
 TEST(ToUnitsFunctions, ValuesThatTheSolverTakesAsTheyAreStayWhereWorkingUnitsStay) {
-  const std::string gravity =
-      "/GRAV/1\ng\n         5         Z         0         0         3" + cell("", 30) +
-      cell("0.00981", 20) + "\n";
+  const std::string gravity = "/GRAV/1\ng\n         5         Z         0         0         3" +
+                              cell("", 30) + cell("0.00981", 20) + "\n";
   const auto same = deck_of(gravity + curve);
   EXPECT_EQ(real(*same->after(convert(*same, "kg,m,s")), "/GRAV/1", "Fscale_Y"), 9.81);
   const auto other = deck_of(gravity + curve, "kg,m,s");
@@ -79,8 +79,8 @@ TEST(ToUnitsFunctions, ValuesThatTheSolverTakesAsTheyAreStayWhereWorkingUnitsSta
 
 std::string spring(const char* ascale, const char* id) {
   return "/PROP/SPRING/7\ns\n" + cell("0.1", 20) + "\n" + cell("2.0", 20) + cell("", 20) +
-         cell("", 60) + "\n" + cell(id, 10) + cell("", 50) + cell("-4.0", 20) +
-         cell("6.0", 20) + "\n" + cell("", 40) + cell(ascale, 20) + "\n";
+         cell("", 60) + "\n" + cell(id, 10) + cell("", 50) + cell("-4.0", 20) + cell("6.0", 20) +
+         "\n" + cell("", 40) + cell(ascale, 20) + "\n";
 }
 
 TEST(ToUnitsFunctions, LimitsThatCountInUnitsOfAScaleChangeOnlyWithoutIt) {
@@ -96,8 +96,8 @@ TEST(ToUnitsFunctions, LimitsThatCountInUnitsOfAScaleChangeOnlyWithoutIt) {
 
 TEST(ToUnitsFunctions, AFactorWithoutItsFunctionOnlyDividesTheContactStiffnessAndStays) {
   const auto with = [](const char* id) {
-    return deck_of("/PROP/SPRING/7\ns\n" + cell("0.1", 20) + "\n" + cell("3.0", 20) +
-                   cell("", 20) + cell("2.0", 20) + "\n" + cell(id, 10) + "\n" + curve);
+    return deck_of("/PROP/SPRING/7\ns\n" + cell("0.1", 20) + "\n" + cell("3.0", 20) + cell("", 20) +
+                   cell("2.0", 20) + "\n" + cell(id, 10) + "\n" + curve);
   };
   const auto without = with("0");
   EXPECT_EQ(real(*without->after(convert(*without, "kg,m,ms")), "/PROP/SPRING/7", "A"), 2.0);
@@ -121,7 +121,8 @@ TEST(ToUnitsFunctions, SpringsPerUnitLengthHaveOtherDimensions) {
                          "\n" + cell("3.0", 20) + "\n");
   EXPECT_EQ(w->deck.diagnostics.counts().size(), 0u);
   const auto after = w->after(convert(*w, "kg,m,ms"));
-  const std::int64_t per_length = decode(w->deck, *edit_test::block(w->deck, "/PROP/SPRING/7")).integer("Ileng");
+  const std::int64_t per_length =
+      decode(w->deck, *edit_test::block(w->deck, "/PROP/SPRING/7")).integer("Ileng");
   ASSERT_EQ(per_length, 1);
   EXPECT_EQ(real(*after, "/PROP/SPRING/7", "Mass"), 100.0);
   EXPECT_EQ(real(*after, "/PROP/SPRING/7", "K"), 0.003);
@@ -138,8 +139,9 @@ std::string joint(const char* id) {
 TEST(ToUnitsFunctions, PointsOfAnAxisWithoutScaleAreConverted) {
   const auto w = deck_of(joint("5") + curve);
   const auto after = w->after(convert(*w, "kg,m,ms"));
-  EXPECT_TRUE(after->contains("/FUNCT/5\nf\n                 0.0                 1.0\n"
-                              "                0.01                 2.0\n"))
+  EXPECT_TRUE(
+      after->contains("/FUNCT/5\nf\n                 0.0                 1.0\n"
+                      "                0.01                 2.0\n"))
       << after->main_text();
 }
 
@@ -169,14 +171,15 @@ TEST(ToUnitsFunctions, AddedMassOfASurfaceIsMassPerArea) {
 // ---- what is left -------------------------------------------------------------------------------
 
 TEST(ToUnitsFunctions, PartialLeavesABlockAsItWasWhenOneOfItsValuesIsOpen) {
-  const std::string material = "/MAT/ELAST/1\nm\n" + cell("1e-6", 20) + "\n" + cell("&e", 20) +
-                               cell("0.3", 20) + "\n";
+  const std::string material =
+      "/MAT/ELAST/1\nm\n" + cell("1e-6", 20) + "\n" + cell("&e", 20) + cell("0.3", 20) + "\n";
   const std::string parameter = "/PARAMETER/GLOBAL/REAL/1\np\ne                        200.0\n";
   const auto w = deck_of(parameter + material + "/UNKNOWN/1\n&e\n");
   const Rewrite r = convert(*w, "Mg,mm,ms", {.partial = true});
   EXPECT_TRUE(w->after(r)->contains(parameter + material)) << w->after(r)->main_text();
   std::size_t open = 0;
-  for (const LossEntry& e : r.losses) open += e.loss == Loss::undecided && e.keyword == "/MAT/ELAST";
+  for (const LossEntry& e : r.losses)
+    open += e.loss == Loss::undecided && e.keyword == "/MAT/ELAST";
   EXPECT_EQ(open, 1u);
 }
 

@@ -371,7 +371,8 @@ TEST(SchemaLoader, WhatAValueDependsOnMustBeThere) {
   EXPECT_THAT(error_of(fields(real + R"("axes":[{},{}]})")), HasSubstr("only ids of functions"));
   EXPECT_THAT(error_of(fields(real + R"("over":{"field":"x"}})")), HasSubstr("real field \"x\""));
   EXPECT_THAT(error_of(fields(real + R"("unit_for":["x"]})")), HasSubstr("field \"x\""));
-  const std::string when = R"("dim_when":[{"when":[{"field":"Dir","words":["X"]}],"dim":[0,1,0]}]})";
+  const std::string when =
+      R"("dim_when":[{"when":[{"field":"Dir","words":["X"]}],"dim":[0,1,0]}]})";
   EXPECT_EQ(error_of(fields(real + when)), "accepted");
   EXPECT_THAT(error_of(fields(real + R"("when":[{"field":"Dir","words":["X"]}]})")),
               HasSubstr("words are tested by dimensions only"));
@@ -427,7 +428,8 @@ TEST_F(SchemaDirectory, AMissingDirectoryIsAnIoError) {
 }
 
 TEST(ConditionTest, ListAndBoundsMustBothHold) {
-  Condition condition{.field = "f", .words = {}, .in = {1, 2, 9}, .not_in = {}, .min = 2, .max = {}};
+  Condition condition{
+      .field = "f", .words = {}, .in = {1, 2, 9}, .not_in = {}, .min = 2, .max = {}};
   EXPECT_FALSE(condition.holds(1));
   EXPECT_TRUE(condition.holds(2));
   EXPECT_FALSE(condition.holds(3));
