@@ -7,7 +7,10 @@ endif()
 
 find_program(DECK_CCACHE ccache)
 if(DECK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${DECK_CCACHE})
+  # Precompiled headers are in the cache too if their macros may be trusted.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros ${DECK_CCACHE})
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endif()
 
 set(DECK_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thread")

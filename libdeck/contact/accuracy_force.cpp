@@ -16,11 +16,6 @@ namespace {
 
 constexpr double kFloor = 1e-8;  // of the gap: the law is linear below
 
-template <class T>
-Point3<T> cast(const Point3<double>& p) {
-  return {T(p.x), T(p.y), T(p.z)};
-}
-
 // Force for K0 = 1, from the depth where it is known better than gap - distance. In ratios: small
 // numbers must not meet in a product.
 template <class T>
@@ -86,7 +81,7 @@ Outcome robust_force(const PairSample& s, FilterCounters& counters) {
   return out;
 }
 
-const Tier kTiers[] = {
+const Tier kForceTiers[] = {
     {"float", "force", force<float, Way::residual>},
     {"float-local", "force", force<float, Way::local>},
     {"double", "force", force<double, Way::textbook>},
@@ -159,7 +154,7 @@ double force_slope(double distance, double gap) {
   return 0.5 / (rho * rho);
 }
 
-std::span<const Tier> force_tiers() { return kTiers; }
+std::span<const Tier> force_tiers() { return kForceTiers; }
 
 KernelRun run_kernel(std::span<const PairSample> samples, int repeats) {
   KernelRun out;

@@ -10,11 +10,6 @@
 namespace deck::accuracy {
 namespace {
 
-template <class T>
-Point3<T> cast(const Point3<double>& p) {
-  return {T(p.x), T(p.y), T(p.z)};
-}
-
 // One arithmetic and form, with the coordinates as they are or seen from the first one (`local`),
 // the distance from the formula itself or by subtracting the closest point (`textbook`).
 template <class T, Form F, bool local = false, bool textbook = false>
@@ -85,7 +80,7 @@ Outcome robust_distance(const PairSample& s, FilterCounters& counters) {
 
 constexpr Form kRobust = Form::robust, kReference = Form::reference;
 
-const Tier kTiers[] = {
+const Tier kDistanceTiers[] = {
     {"float", "distance", evaluate<float, kRobust>},
     {"float-local", "distance", evaluate<float, kRobust, true>},
     {"double", "distance", evaluate<double, kRobust, false, true>},
@@ -129,6 +124,6 @@ Outcome exact(const PairSample& s, FilterCounters&) {
   return out;
 }
 
-std::span<const Tier> distance_tiers() { return kTiers; }
+std::span<const Tier> distance_tiers() { return kDistanceTiers; }
 
 }  // namespace deck::accuracy

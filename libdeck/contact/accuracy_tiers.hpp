@@ -36,6 +36,12 @@ inline double thread_nanoseconds() {
   return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
 }
 
+/// A point in other numbers.
+template <class T>
+Point3<T> cast(const Point3<double>& p) {
+  return {T(p.x), T(p.y), T(p.z)};
+}
+
 inline int number_of(Feature feature, int index) { return 8 * static_cast<int>(feature) + index; }
 inline int number_of(EdgeFeature s, EdgeFeature m) {
   return 64 + 8 * static_cast<int>(s) + static_cast<int>(m);

@@ -22,11 +22,6 @@ struct NumberTraits<CGAL::Lazy_exact_nt<CGAL::Gmpq>> {
 namespace accuracy {
 namespace {
 
-template <class T>
-Point3<T> cast(const Point3<double>& p) {
-  return {T(p.x), T(p.y), T(p.z)};
-}
-
 template <class T, class F>
 void run(const PairSample& s, Outcome& out, const F& take) {
   std::array<Point3<T>, 5> x;

@@ -1,5 +1,6 @@
 // Crossed elements: edges of the secondary side that pass through main segments, counted once.
 #include "deck/contact/crossings.hpp"
+#include "contact/node_elements.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -143,9 +144,6 @@ std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t e) 
   }
 }
 
-constexpr ElementKind families[] = {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
-                                    ElementKind::truss, ElementKind::beam};
-
 /// Marks the nodes that are secondary in any node-to-segment contact.
 std::vector<std::uint8_t> secondary_nodes(const Scene& scene) {
   std::vector<std::uint8_t> marks(scene.model->nodes.size());
@@ -157,7 +155,7 @@ std::vector<std::uint8_t> secondary_nodes(const Scene& scene) {
 /// Every edge between two marked nodes once, with the first element that has it, sorted by nodes.
 std::vector<ElementEdge> edges_between(const Model& model, const std::vector<std::uint8_t>& marks) {
   std::vector<ElementEdge> out;
-  for (const ElementKind kind : families) {
+  for (const ElementKind kind : families_with_edges) {
     const Elements& family = model.family(kind);
     for (std::uint32_t e = 0; e < family.size(); ++e) {
       const NodeIndex* n = family.of(e);

@@ -7,6 +7,11 @@
 
 namespace deck {
 
+/// Families whose elements have edges of their own.
+inline constexpr ElementKind families_with_edges[] = {ElementKind::shell4, ElementKind::shell3,
+                                                      ElementKind::solid8, ElementKind::truss,
+                                                      ElementKind::beam};
+
 class Connectivity {
  public:
   explicit Connectivity(const Model& model) : model_(model) {}

@@ -1,9 +1,9 @@
 // The steps that turn an interface into contacts, one concept per file. Private to the stage.
 #pragma once
-#include <cmath>
 #include <unordered_map>
 #include <vector>
 
+#include "base/vec.hpp"
 #include "contact/node_elements.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/model/selection.hpp"
@@ -19,21 +19,10 @@ struct SceneContext {
   const SceneOptions& options;
 };
 
-struct Vec {
-  double x = 0, y = 0, z = 0;
-};
-inline Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec operator*(double f, Vec a) { return {f * a.x, f * a.y, f * a.z}; }
-inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec cross(Vec a, Vec b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 inline Vec at(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
 /// Distance of two nodes.
 inline double distance(const Coordinates& c, NodeIndex a, NodeIndex b) {
-  const Vec d = at(c, b) - at(c, a);
-  return std::sqrt(dot(d, d));
+  return norm(at(c, b) - at(c, a));
 }
 
 // segments.cpp — clean-up, orientation, carriers (reference solver: surface clean-up)

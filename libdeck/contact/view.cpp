@@ -12,8 +12,9 @@
 namespace deck {
 namespace {
 
-constexpr ElementKind families[] = {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
-                                    ElementKind::beam,   ElementKind::truss,  ElementKind::spring};
+constexpr ElementKind families_in_view[] = {ElementKind::shell4, ElementKind::shell3,
+                                            ElementKind::solid8, ElementKind::beam,
+                                            ElementKind::truss,  ElementKind::spring};
 
 ElementName name_of(const Model& model, ElementKind kind, std::uint32_t e) {
   const Elements& family = model.family(kind);
@@ -56,7 +57,7 @@ namespace {
 
 /// The element a node is named after: the first family that has one, smallest index.
 ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex node) {
-  for (const ElementKind kind : families) {
+  for (const ElementKind kind : families_in_view) {
     const auto list = connectivity.elements(kind, node);
     if (!list.empty()) return name_of(model, kind, list[0]);
   }

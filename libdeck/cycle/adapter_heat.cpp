@@ -11,9 +11,6 @@ namespace deck::cycle {
 namespace detail {
 
 using deck::detail::at;
-using deck::detail::cross;
-using deck::detail::dot;
-using deck::detail::Vec;
 
 void node_areas(const Scene& scene, const Contact& contact, ContactPairs& out) {
   Connectivity connectivity(*scene.model);

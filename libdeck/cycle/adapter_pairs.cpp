@@ -13,9 +13,6 @@ namespace deck::cycle {
 namespace {
 
 using deck::detail::at;
-using deck::detail::cross;
-using deck::detail::dot;
-using deck::detail::Vec;
 
 /// What a pair takes while forces are evaluated: its lists here, its packed state and its results.
 constexpr std::size_t bytes_of_a_pair = 512;

@@ -10,8 +10,6 @@
 namespace deck::cycle {
 namespace {
 
-using detail::Vec;
-
 /// Plane of the segment: half of N is its area vector; distance is signed by its orientation.
 struct Plane {
   double area;

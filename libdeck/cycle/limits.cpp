@@ -12,9 +12,6 @@ namespace deck::cycle {
 namespace {
 
 using deck::detail::at;
-using deck::detail::cross;
-using deck::detail::dot;
-using deck::detail::Vec;
 
 constexpr double factor = 0.9;
 

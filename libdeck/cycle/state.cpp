@@ -15,9 +15,6 @@ namespace deck::cycle {
 namespace {
 
 using deck::detail::at;
-using deck::detail::cross;
-using deck::detail::dot;
-using deck::detail::Vec;
 
 double distance(const Coordinates& x, NodeIndex a, NodeIndex b) {
   const Vec d = at(x, b) - at(x, a);

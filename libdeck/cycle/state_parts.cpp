@@ -8,9 +8,6 @@
 namespace deck::cycle::detail {
 
 using deck::detail::at;
-using deck::detail::cross;
-using deck::detail::dot;
-using deck::detail::Vec;
 
 double density_of(const deck::Model& model, ElementKind kind, std::uint32_t e) {
   const std::uint32_t part = model.family(kind).part[e];

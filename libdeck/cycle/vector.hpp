@@ -3,27 +3,14 @@
 #define DECK_CYCLE_VECTOR_HPP_
 
 #include <array>
-#include <cmath>
 #include <cstddef>
+
+#include "base/vec.hpp"
 
 namespace deck::cycle::detail {
 
-struct Vec {
-  double x = 0.0, y = 0.0, z = 0.0;
-  friend Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Vec operator*(double s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
-};
-inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec cross(Vec a, Vec b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double norm(Vec a) { return std::sqrt(dot(a, a)); }
-/// Unit vector; the null vector stays null.
-inline Vec unit(Vec a) {
-  const double l = norm(a);
-  return l > 0.0 ? (1.0 / l) * a : Vec{};
-}
+using deck::Vec;
+
 inline Vec at(const std::array<const double*, 3>& p, std::size_t i) {
   return {p[0][i], p[1][i], p[2][i]};
 }

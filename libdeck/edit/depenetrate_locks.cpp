@@ -9,9 +9,9 @@
 namespace deck::detail {
 namespace {
 
-constexpr ElementKind families[] = {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
-                                    ElementKind::quad,   ElementKind::tria,   ElementKind::truss,
-                                    ElementKind::beam,   ElementKind::spring};
+constexpr ElementKind all_families[] = {
+    ElementKind::shell4, ElementKind::shell3, ElementKind::solid8, ElementKind::quad,
+    ElementKind::tria,   ElementKind::truss,  ElementKind::beam,   ElementKind::spring};
 
 Result<std::set<std::uint32_t>> parts_of(const Model& model, const std::vector<std::int64_t>& ids) {
   std::set<std::uint32_t> out;
@@ -108,7 +108,7 @@ Result<std::vector<std::uint8_t>> make_holds(const EditContext& context,
   };
   // A node that a part shares with another one would move that part too.
   std::vector<bool> in_wanted(model.nodes.size(), false);
-  for (const ElementKind kind : families) {
+  for (const ElementKind kind : all_families) {
     const Elements& family = model.family(kind);
     for (std::size_t e = 0; e < family.size(); ++e) {
       const bool lock = locked->contains(family.part[e]);

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <queue>
 
+#include "contact/node_elements.hpp"
 #include "contact/scene_parts.hpp"
 #include "deck/contact/crossings.hpp"
 #include "model/faces.hpp"
@@ -31,9 +32,6 @@ IndexRows rows_by_node(const Items& items, std::size_t nodes) {
   each([&](NodeIndex n, std::uint32_t i) { rows.entries[at[n]++] = i; });
   return rows;
 }
-
-constexpr ElementKind families[] = {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
-                                    ElementKind::truss, ElementKind::beam};
 
 /// Slots of a node-defined shape that are part of it: a beam's third node only orients it.
 int shape_slots(const Elements& family) {
@@ -82,7 +80,7 @@ FixMesh::FixMesh(const Scene& scene) : model_(*scene.model) {
   solids_ = connect_nodes(model_.solid8, n);
   part_.assign(n, no_index);
   part_nodes_.assign(model_.parts.size(), 0);
-  for (const ElementKind kind : families) {
+  for (const ElementKind kind : families_with_edges) {
     const Elements& family = model_.family(kind);
     for (std::size_t e = 0; e < family.size(); ++e)
       for (int k = 0; k < shape_slots(family); ++k) {
@@ -99,7 +97,7 @@ void FixMesh::collect_edges() {
     if (a != b && a != no_index && b != no_index)
       edges_.push_back({std::min(a, b), std::max(a, b)});
   };
-  for (const ElementKind kind : families) {
+  for (const ElementKind kind : families_with_edges) {
     const Elements& family = model_.family(kind);
     for (std::size_t e = 0; e < family.size(); ++e) {
       const NodeIndex* n = family.of(e);

@@ -59,11 +59,6 @@ bool is_selection(std::string_view kind) {
          std::end(selection_kinds);
 }
 
-bool starts(const Block& b, std::string_view keyword) {
-  return b.header.starts_with(keyword) &&
-         (b.header.size() == keyword.size() || b.header[keyword.size()] == '/');
-}
-
 /// Switches of the whole run that contacts or their elements depend on, and what names units.
 bool is_switch(const Block& b) {
   constexpr std::string_view list[] = {"/BEGIN",  "/TITLE",    "/UNIT",      "/PARAMETER",
@@ -71,7 +66,7 @@ bool is_switch(const Block& b) {
                                        "/RANDOM", "/IOFLAG",   "/SPMD",      "/IMPLICIT",
                                        "/CAA",    "/SHFRA",    "/DEFAULT"};
   for (const std::string_view k : list)
-    if (starts(b, k)) return true;
+    if (detail::is_below(b.header, k)) return true;
   return false;
 }
 
@@ -391,7 +386,8 @@ void Extraction::keep_switches() {
     const Block& b = deck_.blocks[i];
     if (is_switch(b) && b.submodel < 0) keep_block(i);
     // Merging and noise depend on all nodes and their order.
-    if (starts(b, "/CNODE") || (starts(b, "/RANDOM") && model_.has_random))
+    if (detail::is_below(b.header, "/CNODE") ||
+        (detail::is_below(b.header, "/RANDOM") && model_.has_random))
       std::fill(node_kept.begin(), node_kept.end(), std::uint8_t{1});
   }
 }
@@ -476,7 +472,7 @@ void Extraction::materials() {
   for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
     const Block& b = deck_.blocks[i];
     if (!std::any_of(std::begin(by_material), std::end(by_material),
-                     [&](std::string_view k) { return starts(b, k); }))
+                     [&](std::string_view k) { return detail::is_below(b.header, k); }))
       continue;
     // The schemas do not say that this id is a material's.
     const auto last = b.header.rfind('/');
@@ -486,7 +482,7 @@ void Extraction::materials() {
         definitions_.find(std::pair{std::string("mat"), id + deck_.offset_of(b, "mat")});
     const bool kept = it != definitions_.end() && block_kept[it->second] != 0;
     if (kept) keep_block(i);
-    if (!starts(b, "/HEAT/MAT")) continue;
+    if (!detail::is_below(b.header, "/HEAT/MAT")) continue;
     thermal = thermal || kept;
     if (first_thermal == deck_.blocks.size() && it != definitions_.end()) first_thermal = i;
   }
@@ -538,7 +534,8 @@ void Extraction::submodel_frames() {
       block_kept[i] = !open.empty() && open.back() != 0 ? 1 : 0;
       if (!open.empty()) open.pop_back();
     } else if (b.submodel >= 0 && wanted[static_cast<std::size_t>(b.submodel)] != 0 &&
-               (starts(b, "/BEGIN") || starts(b, "/PARAMETER") || starts(b, "/UNIT"))) {
+               (detail::is_below(b.header, "/BEGIN") || detail::is_below(b.header, "/PARAMETER") ||
+                detail::is_below(b.header, "/UNIT"))) {
       block_kept[i] = 1;
     }
   }

@@ -87,7 +87,7 @@ std::int64_t integer_of(const Json& json, const Path& path) {
   return json.get<std::int64_t>();
 }
 
-std::string_view right_trimmed(std::string_view s) { return detail::trim_right(s); }
+using detail::trim_right;
 
 bool is_reference(std::string_view text) { return text.starts_with('&') || text.starts_with("-&"); }
 
@@ -216,7 +216,7 @@ class FileWriter {
     if (id == nullptr) return text;
     Block block;
     const std::size_t slash = text.find('/');
-    block.header = right_trimmed(std::string_view(text).substr(slash));
+    block.header = trim_right(std::string_view(text).substr(slash));
     block.header_span = {0, static_cast<std::uint32_t>(block.header.size()), slash};
     detail::parse_header(schemas_, block);
     const std::int64_t wanted = integer_of(*id, id_path);
@@ -282,7 +282,7 @@ class FileWriter {
   }
 
   static std::string title_line(std::string line, const std::string& title, const Path& path) {
-    if (right_trimmed(right_trimmed(line).substr(0, title_columns)) == title) return line;
+    if (trim_right(trim_right(line).substr(0, title_columns)) == title) return line;
     if (title.size() > title_columns) fail(path, "longer than 100 columns");
     const std::string_view start = detail::trim(title);
     if (title.starts_with('#') || title.starts_with('$') || start.starts_with('/'))
@@ -323,7 +323,7 @@ class FileWriter {
   };
 
   DecodedCard decoded(const Block& block, const CardSchema& card, const std::string& line) const {
-    return decode_line(nothing_, block, card, Line{right_trimmed(line), 0, 0}, nullptr);
+    return decode_line(nothing_, block, card, Line{trim_right(line), 0, 0}, nullptr);
   }
 
   /// True if the JSON value is what the cell holds.

@@ -17,25 +17,18 @@ using detail::IdSpace;
 using detail::IdSpaces;
 using detail::trim;
 
-constexpr std::int64_t largest_id = 2147483647;
-
-bool starts(const Block& b, std::string_view keyword) {
-  return b.header.starts_with(keyword) &&
-         (b.header.size() == keyword.size() || b.header[keyword.size()] == '/');
-}
-
 /// Spaces whose ids the undescribed text of a keyword may name; nullopt: any.
 std::optional<std::vector<std::string_view>> possible_spaces(const Block& b) {
   constexpr std::string_view none[] = {
       "/ANALY", "/DEF_SHELL", "/DEF_SOLID", "/IOFLAG", "/MEMORY", "/SPMD",  "/TITLE", "/RANDOM",
       "/AMS",   "/CAA",       "/SHFRA",     "/UPWIND", "/REFSTA", "/BEGIN", "/UNIT",  "/INTTHICK"};
   for (const std::string_view k : none)
-    if (starts(b, k)) return std::vector<std::string_view>{};
+    if (detail::is_below(b.header, k)) return std::vector<std::string_view>{};
   if (b.schema != nullptr && (b.schema->kind == "engine" || b.schema->kind == "parameter"))
     return std::vector<std::string_view>{};
-  if (starts(b, "/MAT") || detail::header_reference(b) == "mat")
+  if (detail::is_below(b.header, "/MAT") || detail::header_reference(b) == "mat")
     return std::vector<std::string_view>{"funct", "mat", "skew", "sensor"};
-  if (starts(b, "/PROP"))
+  if (detail::is_below(b.header, "/PROP"))
     return std::vector<std::string_view>{"funct", "mat", "prop", "skew", "frame", "sensor"};
   return std::nullopt;
 }
@@ -121,7 +114,7 @@ class Renumbering {
                   " would get that id"};
     const std::int64_t offset = deck_.offset_of(b, kind);
     const std::int64_t now = *mapped - offset;
-    if (now < 1 || *mapped > largest_id)
+    if (now < 1 || *mapped > detail::largest_id)
       return {
           true, 0,
           "the new id " + std::to_string(*mapped) +
@@ -305,7 +298,8 @@ class Renumbering {
       new_from = *target->mapped(*lower);
       new_to = *target->mapped(*(upper - 1));
     }
-    if (new_from - offset < 1 || new_to > largest_id) return refuse("the new range is not legal");
+    if (new_from - offset < 1 || new_to > detail::largest_id)
+      return refuse("the new range is not legal");
     write_cell(b, *first.first, *first.second, {true, new_from - offset, {}});
     write_cell(b, *last.first, *last.second, {true, new_to - offset, {}});
   }

@@ -38,11 +38,6 @@ std::vector<std::string_view> spaces_of_rule(std::string_view kind) {
   return out;
 }
 
-bool starts(const Block& b, std::string_view keyword) {
-  return b.header.starts_with(keyword) &&
-         (b.header.size() == keyword.size() || b.header[keyword.size()] == '/');
-}
-
 }  // namespace
 
 Result<RenumberRule> parse_renumber_rule(std::string_view text) {
@@ -81,9 +76,9 @@ std::string_view header_reference(const Block& b) {
                                             "/VISC",     "/FAIL",      "/LEAK/MAT",
                                             "/ALE/MAT",  "/EULER/MAT", "/NONLOCAL/MAT"};
   for (const std::string_view k : materials)
-    if (starts(b, k)) return "mat";
-  if (starts(b, "/MOVE_FUNCT")) return "funct";
-  if (starts(b, "/XELEM") || starts(b, "/SPHCEL")) return "part";
+    if (detail::is_below(b.header, k)) return "mat";
+  if (detail::is_below(b.header, "/MOVE_FUNCT")) return "funct";
+  if (detail::is_below(b.header, "/XELEM") || detail::is_below(b.header, "/SPHCEL")) return "part";
   const bool element = b.schema != nullptr && b.schema->bulk && b.schema->kind != "node";
   return element ? "part" : std::string_view();
 }

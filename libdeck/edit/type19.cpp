@@ -14,6 +14,7 @@
 namespace deck {
 namespace {
 
+using detail::largest_id;
 using detail::LineEdits;
 using detail::put_cell;
 
@@ -21,19 +22,12 @@ using Texts = std::map<std::string, std::string>;
 
 constexpr int oldest_version = 100;
 constexpr std::int64_t nothing = 1000;
-constexpr std::int64_t largest_id = 2147483647;
 constexpr std::size_t title_columns = 100;
 
-std::string_view trimmed(std::string_view s) {
-  while (!s.empty() && static_cast<unsigned char>(s.front()) <= ' ') s.remove_prefix(1);
-  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
-  return s;
-}
+using detail::trim;
 
 std::string_view columns(std::string_view line, const Field& f) {
-  const auto begin = static_cast<std::size_t>(f.first - 1);
-  if (begin >= line.size()) return {};
-  return trimmed(line.substr(begin, static_cast<std::size_t>(f.last - f.first + 1)));
+  return trim(detail::columns(line, f.first, f.last));
 }
 
 /// Ids in use by keyword family ("/INTER/", "/GRNOD/", ...), submodel offsets applied.
@@ -445,7 +439,7 @@ Span end_of_main(const Deck& deck) {
     for (std::uint64_t at = bytes.find('\n', from); at < bytes.size(); at = bytes.find('\n', at)) {
       ++at;
       const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), bytes.size());
-      if (trimmed(bytes.substr(at, nl - at)) != "/END") continue;
+      if (trim(bytes.substr(at, nl - at)) != "/END") continue;
       end = at;
       break;
     }

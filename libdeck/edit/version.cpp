@@ -23,17 +23,11 @@ constexpr int oldest_target = 110;
 
 std::string number(std::int64_t n) { return std::to_string(n); }
 
-std::string_view trimmed(std::string_view s) {
-  while (!s.empty() && static_cast<unsigned char>(s.front()) <= ' ') s.remove_prefix(1);
-  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
-  return s;
-}
+using detail::trim;
 
-/// Text of columns first..last of a line.
-std::string_view columns(std::string_view line, int first, int last) {
-  const auto begin = static_cast<std::size_t>(first - 1);
-  if (begin >= line.size()) return {};
-  return trimmed(line.substr(begin, static_cast<std::size_t>(last - first + 1)));
+/// Text of columns first..last of a line, without blanks.
+std::string_view cell_text(std::string_view line, int first, int last) {
+  return trim(detail::columns(line, first, last));
 }
 
 bool is_begin(const Block& b) { return b.header == "/BEGIN" || b.header.starts_with("/BEGIN/"); }
@@ -117,7 +111,7 @@ class VersionRewriter {
       return;
     }
     const std::string_view cell = line.text.substr(0, 10);
-    const std::string_view old = trimmed(cell);
+    const std::string_view old = trim(cell);
     const std::string fresh = number(target_);
     if (old == fresh) return;
     std::string text(line.text);
@@ -243,8 +237,8 @@ class VersionRewriter {
   /// Lines behind the last one that is read would become cells where the new layout has more lines.
   void remove_extra(const Block& block, const DecodedBlock& decoded) {
     for (const Line& line : decoded.extra) {
-      if (trimmed(line.text).empty()) continue;
-      report(Loss::kept, block, line.whole(), "", trimmed(line.text),
+      if (trim(line.text).empty()) continue;
+      report(Loss::kept, block, line.whole(), "", trim(line.text),
              "removed: the line has no meaning in version " + number(block.version) +
                  " and would get one");
       lines_.remove(line, out_.edits);
@@ -332,7 +326,7 @@ class VersionRewriter {
   static void clear_stray(const Compose& compose, const Field& field, const DecodedCard& old,
                           std::string& text) {
     const Block& block = compose.block;
-    const std::string stray(columns(text, field.first, field.last));
+    const std::string stray(cell_text(text, field.first, field.last));
     if (stray.empty() || (field.type != FieldType::text && is_zero_text(stray))) return;
     put_cell(text, field.first, field.last, "");
     if (compose.findings == nullptr) return;

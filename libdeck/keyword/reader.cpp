@@ -27,7 +27,6 @@ bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20; }
 constexpr std::size_t header_columns = 202;  // the line buffer of the reference solver
 constexpr int deepest_include = 250;         // the walk is recursive; more would endanger the stack
 constexpr std::size_t most_blocks = 20'000'000;
-constexpr std::int64_t largest_id = 2147483647;
 constexpr std::uint64_t release_step = 8 << 20;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
@@ -501,13 +500,13 @@ class Reader {
       const std::string_view text = deck_.sources.text(id->span);
       if (text.empty() || text[0] == '&') continue;
       if (const IntegerCell n = read_integer(text);
-          n.status != NumberStatus::overflow && n.value <= largest_id)
+          n.status != NumberStatus::overflow && n.value <= detail::largest_id)
         continue;
-      report(
-          "DK054", Severity::error, id->span,
-          "id " + std::string(text.substr(0, 30)) + " is larger than " + std::to_string(largest_id),
-          "it goes on with another number, so nothing can refer to the entity",
-          "give the entity an id of at most 9 digits");
+      report("DK054", Severity::error, id->span,
+             "id " + std::string(text.substr(0, 30)) + " is larger than " +
+                 std::to_string(detail::largest_id),
+             "it goes on with another number, so nothing can refer to the entity",
+             "give the entity an id of at most 9 digits");
     }
   }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "deck/keyword/deck.hpp"
+#include "text/columns.hpp"
 
 namespace deck::detail {
 
@@ -46,20 +47,6 @@ std::int64_t as_integer(const Parameter& parameter);
 /// An integer cell that is a number or a parameter; 0 if it is neither.
 std::int64_t read_offset(const Deck& deck, const Span& cell);
 
-inline std::string_view trim(std::string_view s) {
-  while (!s.empty() && static_cast<unsigned char>(s.front()) <= ' ') s.remove_prefix(1);
-  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
-  return s;
-}
-inline std::string_view trim_right(std::string_view s) {
-  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
-  return s;
-}
-inline std::string_view columns(std::string_view line, int first, int last) {
-  const auto begin = static_cast<std::size_t>(first - 1);
-  if (begin >= line.size()) return {};
-  return line.substr(begin, static_cast<std::size_t>(last - first + 1));
-}
 inline bool starts_with_nocase(std::string_view text, std::string_view lower_case) {
   if (text.size() < lower_case.size()) return false;
   for (std::size_t i = 0; i < lower_case.size(); ++i) {

@@ -2,6 +2,7 @@
 // values beside the cells they came from. Private to the lint stage.
 #pragma once
 #include "deck/lint/lint.hpp"
+#include "text/columns.hpp"
 
 namespace deck::detail {
 
@@ -14,12 +15,6 @@ std::string number_text(double value);
 /// The beginning of a text that may be arbitrarily long.
 inline std::string clipped(std::string_view text, std::size_t longest = 60) {
   return std::string(text.substr(0, longest)) + (text.size() > longest ? "…" : "");
-}
-
-inline std::string_view trim(std::string_view s) {
-  while (!s.empty() && static_cast<unsigned char>(s.front()) <= ' ') s.remove_prefix(1);
-  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
-  return s;
 }
 
 }  // namespace deck::detail

@@ -191,23 +191,6 @@ void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void add(std::vector<Rule>& out, std::string_view id, Severity severity, std::string_view title,
-         std::string_view problem, std::string_view why, std::string_view solver,
-         std::string_view fix, std::string_view ignore, std::string_view bad, std::string_view good,
-         Check check) {
-  out.push_back({.id = id,
-                 .title = title,
-                 .severity = severity,
-                 .problem = problem,
-                 .why = why,
-                 .solver = solver,
-                 .fix = fix,
-                 .ignore = ignore,
-                 .bad = bad,
-                 .good = good,
-                 .check = check});
-}
-
 constexpr std::string_view spring =
     "/PROP/SPRING/9\nspring\n"
     "               0.001                                                           0\n"

@@ -22,7 +22,7 @@ const Contact* contact_of(const cycle::SceneOutcome& outcome, const InterfaceSum
   return nullptr;
 }
 
-std::string name_of(const InterfaceSummary& s) {
+std::string summary_name(const InterfaceSummary& s) {
   return fmt::format("/INTER/TYPE{} {}", s.inter->type, s.id);
 }
 
@@ -38,7 +38,7 @@ bool counts(const cycle::SceneOutcome& outcome, const InterfaceSummary& s) {
 void report_force(const GeometryRun& run, const Contact& contact, const InterfaceSummary& s) {
   if (s.pairs_with_force == 0) return;
   std::string message = fmt::format(
-      "{}: {} with a force before anything moves, {:.4g} in all, {:.4g} at most", name_of(s),
+      "{}: {} with a force before anything moves, {:.4g} in all, {:.4g} at most", summary_name(s),
       count_text(s.pairs_with_force, "pair"), s.force_sum, s.largest_pair_force);
   if (s.acceleration_node != no_index)
     message += fmt::format("; node {} starts with an acceleration of {:.4g}",
@@ -64,7 +64,7 @@ void report_step(const GeometryRun& run, const Contact& contact, const Interface
   if (!(s.contact_dt < s.structure_dt) || s.structure_dt >= 1e30) return;
   std::string message = fmt::format(
       "{}: time step {:.4g} from {}{}, the mesh allows {:.4g}: {:.1f} times as many steps",
-      name_of(s), s.contact_dt, why(s.contact_dt_source),
+      summary_name(s), s.contact_dt, why(s.contact_dt_source),
       s.contact_dt_node == no_index
           ? std::string()
           : fmt::format(" at node {}", node_text(run.model(), s.contact_dt_node)),
@@ -100,7 +100,7 @@ void report_singular(const GeometryRun& run, const Contact& contact, const Inter
     least = left;
   }
   if (worst == nullptr && s.gap_closed == 0) return;
-  std::string message = fmt::format("{}:", name_of(s));
+  std::string message = fmt::format("{}:", summary_name(s));
   if (worst != nullptr)
     message +=
         fmt::format(" {} with less than 5 % of the gap left; {} has {:.3g} of {:.4g} ({:.2g} %)",

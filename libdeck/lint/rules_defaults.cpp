@@ -65,7 +65,7 @@ void check_overrides(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void check_unused(const LintContext& c, const Rule& rule, Reporter& r) {
+void check_unused_defaults(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& block : c.defaults) {
     if (!honoured(c, block) || !typed(block)) continue;
     bool any = false, used = false;
@@ -158,7 +158,7 @@ void add_default_rules(std::vector<Rule>& out) {
                  .ignore = "When a library include brings it along.",
                  .bad = "@/DEFAULT/INTER/TYPE7 Inacti=6\n@/INTER/TYPE7/1 Inacti=5\n",
                  .good = "@/DEFAULT/INTER/TYPE7 Inacti=6\n@/INTER/TYPE7/1\n",
-                 .check = check_unused});
+                 .check = check_unused_defaults});
   out.push_back({.id = "DK503",
                  .title = "default card outside the main file",
                  .severity = Severity::warning,

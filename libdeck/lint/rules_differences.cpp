@@ -247,23 +247,6 @@ void check_default_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void add(std::vector<Rule>& out, std::string_view id, Severity severity, std::string_view title,
-         std::string_view problem, std::string_view why, std::string_view solver,
-         std::string_view fix, std::string_view ignore, std::string_view bad, std::string_view good,
-         Check check) {
-  out.push_back({.id = id,
-                 .title = title,
-                 .severity = severity,
-                 .problem = problem,
-                 .why = why,
-                 .solver = solver,
-                 .fix = fix,
-                 .ignore = ignore,
-                 .bad = bad,
-                 .good = good,
-                 .check = check});
-}
-
 void add_heat(std::vector<Rule>& out) {
   add(out, "DK247", Severity::warning, "heat exchange with a body of temperature 0",
       "Ithe is 1, Ithe_form 0, and Tint is blank.",

@@ -93,7 +93,7 @@ void check_unused_friction(const LintContext& c, const Rule& rule, Reporter& r) 
   }
 }
 
-void check_unused(const LintContext& c, const Rule& rule, Reporter& r) {
+void check_unused_groups(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const std::string_view kind : {"grnod", "surf", "line"}) {
     const auto all = c.defined.find(kind);
     if (all == c.defined.end()) continue;
@@ -148,7 +148,7 @@ void add_friction_pair_rules(std::vector<Rule>& out) {
                  .ignore = "When it is kept for later.",
                  .bad = "@/FRICTION/6 C1=0.0 Fric=0.1\n@/INTER/TYPE7/1\n",
                  .good = "@/FRICTION/6 C1=0.0 Fric=0.1\n@/INTER/TYPE7/1 fric_ID=6\n",
-                 .check = check_unused_friction});
+                 .check = check_unused_groups});
   out.push_back({.id = "DK186",
                  .title = "friction pair with one side only",
                  .severity = Severity::error,
@@ -176,7 +176,7 @@ void add_friction_pair_rules(std::vector<Rule>& out) {
                  .bad = "/SURF/PART/1234567\nspare\n         1\n",
                  .good = "@bare\n/SURF/PART/1234567\nspare\n         1\n"
                          "@/INTER/TYPE7/1 grnd_IDs=0 surf_IDm=1234567\n",
-                 .check = check_unused});
+                 .check = check_unused_groups});
 }
 
 }  // namespace deck::detail

@@ -114,24 +114,6 @@ void check_edge_istf(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void add(std::vector<Rule>& out, std::string_view id, Severity severity, std::string_view title,
-         std::string_view problem, std::string_view why, std::string_view solver,
-         std::string_view fix, std::string_view ignore, std::string_view bad, std::string_view good,
-         void (*check)(const LintContext&, const Rule&, Reporter&), Fixable fixable = Fixable::no) {
-  out.push_back({.id = id,
-                 .title = title,
-                 .severity = severity,
-                 .problem = problem,
-                 .why = why,
-                 .solver = solver,
-                 .fix = fix,
-                 .ignore = ignore,
-                 .fixable = fixable,
-                 .bad = bad,
-                 .good = good,
-                 .check = check});
-}
-
 void add_type19(std::vector<Rule>& out) {
   add(out, "DK281", Severity::warning, "TYPE19: Istf 6",
       "Old manuals list Istf 6 as the default of TYPE19.",

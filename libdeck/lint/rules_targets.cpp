@@ -11,7 +11,7 @@
 namespace deck::detail {
 namespace {
 
-std::string name_of(const DecodedBlock& d) {
+std::string block_name(const DecodedBlock& d) {
   return fmt::format("{} {}", d.block->schema->keyword, d.block->id.value);
 }
 
@@ -66,7 +66,7 @@ void check_missing_target(const LintContext& c, const Rule& rule, Reporter& r) {
                 const bool group = kind == "grnod" || kind == "surf" || kind == "line";
                 std::string message =
                     fmt::format("{} of {} is {}, and there is no {}{} of that id", cell.field->name,
-                                name_of(d), id, kind_name(kind), group ? " or /SET" : "");
+                                block_name(d), id, kind_name(kind), group ? " or /SET" : "");
                 const std::int64_t offset = c.deck.offset_of(*d.block, kind);
                 if (offset != 0 && target_exists(c, kind, id - offset).value_or(false))
                   message += fmt::format("; {} exists outside the submodel, whose offset is {}",
@@ -85,7 +85,7 @@ void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
                 Diagnostic* found =
                     r.report(rule, *d.block, cell.span,
                              fmt::format("{} of {} is {}, and {} {} is empty", cell.field->name,
-                                         name_of(d), id, kind_name(kind), id));
+                                         block_name(d), id, kind_name(kind), id));
                 set_message(found, message_id);
                 if (found == nullptr) return;
                 const bool plain = c.selections->is_plain(kind, id);
@@ -106,7 +106,7 @@ void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) 
         const bool placed = cell != nullptr && cell->span.valid();
         Diagnostic* found = r.report(
             rule, *d.block, placed ? cell->span : d.block->header_span,
-            fmt::format("{} of {} names no {}", field.name, name_of(d), kind_name(field.ref)));
+            fmt::format("{} of {} names no {}", field.name, block_name(d), kind_name(field.ref)));
         set_message(found, *field.required);
       }
 }

@@ -9,6 +9,7 @@
 #include "model/bulk.hpp"
 #include "model/item_spans.hpp"
 #include "model/model_build.hpp"
+#include "text/columns.hpp"
 
 namespace deck {
 namespace detail {
@@ -53,11 +54,11 @@ std::vector<std::string_view> header_fields(const Block& block) {
 
 void register_id(BuildContext& c, std::map<std::int64_t, std::uint32_t>& map, std::int64_t id,
                  std::uint32_t index, const Block& block, Span first) {
-  constexpr std::int64_t largest_id = 2147483647;
-  if (id > largest_id)
+  if (id > detail::largest_id)
     report(c.diagnostics,
            {"DK114", Severity::error, block.header_span,
-            "id " + std::to_string(id) + " is above the largest id " + std::to_string(largest_id),
+            "id " + std::to_string(id) + " is above the largest id " +
+                std::to_string(detail::largest_id),
             "it stops with an error", "use a smaller id or a smaller submodel offset", 509,
             Severity::error, std::string(block.keyword), id});
   if (map.emplace(id, index).second) return;

@@ -9,6 +9,7 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/report/json.hpp"
 #include "report/deck_json_cells.hpp"
+#include "text/columns.hpp"
 
 namespace deck {
 namespace {
@@ -345,19 +346,15 @@ class DeckWriter {
       }
       json_.begin_array(true).value(shown(text));
       const DecodedCard row =
-          decode_line(deck_, block, card, Line{right_trimmed(text), file_, offset}, nullptr);
+          decode_line(deck_, block, card, Line{detail::trim_right(text), file_, offset}, nullptr);
       for (const Cell& cell : row.cells) write_value(cell);
       json_.end_array();
     });
     json_.end_array();
   }
 
-  static std::string_view right_trimmed(std::string_view text) {
-    while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
-    return text;
-  }
   static std::string_view trimmed_title(std::string_view text) {
-    return right_trimmed(right_trimmed(text).substr(0, 100));
+    return detail::trim_right(detail::trim_right(text).substr(0, 100));
   }
 
   /// Behind the first line that is no comment.

@@ -6,13 +6,10 @@
 #include "deck/base/escape.hpp"
 #include "deck/report/fix.hpp"
 #include "deck/report/text_table.hpp"
+#include "report/words.hpp"
 
 namespace deck {
 namespace {
-
-std::string count(std::uint64_t n, const char* one, const char* many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
-}
 
 FixCount total(const PenetrationFix& fix, FixCount FixedInterface::*which) {
   FixCount sum;

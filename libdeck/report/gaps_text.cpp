@@ -10,6 +10,7 @@
 #include "model/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
+#include "report/words.hpp"
 
 namespace deck {
 namespace {
@@ -22,10 +23,6 @@ std::string kind_name(const Contact& c) {
   std::string name = fmt::format("TYPE{}", c.inter->type);
   if (c.inter->type == 19) name += fmt::format(" {}", to_string(c.role));
   return name;
-}
-
-std::string count(std::uint64_t n, const char* one, const char* many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
 /// What the solver does about the penetrations of a contact, in a few words.

@@ -6,7 +6,7 @@
 namespace deck::detail {
 namespace {
 
-constexpr std::size_t most_rows = 20000;
+constexpr std::size_t most_crossings = 20000;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ std::string crossings_block(const Model& model, const std::vector<Crossing>& cro
   JsonWriter j(out);
   j.begin_object(true).field("total", crossings.size());
   j.key("rows").begin_array(true);
-  for (std::size_t i = 0; i < std::min(crossings.size(), most_rows); ++i) {
+  for (std::size_t i = 0; i < std::min(crossings.size(), most_crossings); ++i) {
     const Crossing& c = crossings[i];
     j.begin_array(true).value(c.contact).value(nodes[c.edge[0]]).value(nodes[c.edge[1]]);
     j.value(static_cast<int>(c.edge_kind)).value(model.family(c.edge_kind).id[c.edge_element]);

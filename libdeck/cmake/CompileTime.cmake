@@ -1,0 +1,24 @@
+# What keeps the build short.
+
+# Code that runs once per deck or per finding is hardly optimised, loops over pairs fully.
+target_compile_options(libdeck_seldom PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
+file(GLOB loops CONFIGURE_DEPENDS contact/search*.cpp contact/box_*.cpp contact/filtered*.cpp
+     contact/penetrations.cpp contact/gaps.cpp contact/removal.cpp cycle/kernels*.cpp)
+set_property(SOURCE ${loops} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+
+# Headers of the standard library and of fmt are compiled once for each target.
+if(LIBDECK_PRECOMPILE)
+  target_precompile_headers(libdeck PRIVATE precompiled.hpp)
+  target_precompile_headers(libdeck_seldom PRIVATE precompiled.hpp)
+  # Other registers, other headers; data.
+  set_source_files_properties(cycle/kernels_avx2.cpp cycle/kernels_avx512.cpp
+    cycle/kernels_baseline.cpp ${DECK_EMBEDDED} ${DECK_EMBEDDED_VIEWER}
+    PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+endif()
+
+# A build from nothing compiles about a dozen files as one.
+if(LIBDECK_UNITY)
+  set_target_properties(libdeck libdeck_seldom PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  set_source_files_properties(${DECK_EMBEDDED} ${DECK_EMBEDDED_VIEWER}
+    PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endif()

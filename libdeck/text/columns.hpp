@@ -1,0 +1,32 @@
+// Text of a line by its columns, and without the blanks around it.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace deck::detail {
+
+/// Ids are 32-bit integers.
+inline constexpr std::int64_t largest_id = 2147483647;
+
+inline std::string_view trim_right(std::string_view s) {
+  while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
+  return s;
+}
+inline std::string_view trim(std::string_view s) {
+  while (!s.empty() && static_cast<unsigned char>(s.front()) <= ' ') s.remove_prefix(1);
+  return trim_right(s);
+}
+/// Columns first to last, counted from 1, as far as the line reaches.
+inline std::string_view columns(std::string_view line, int first, int last) {
+  const auto begin = static_cast<std::size_t>(first - 1);
+  if (begin >= line.size()) return {};
+  return line.substr(begin, static_cast<std::size_t>(last - first + 1));
+}
+/// True for a header of this keyword or of one below it: "/INTER" of "/INTER/TYPE7/1".
+inline bool is_below(std::string_view header, std::string_view keyword) {
+  return header.starts_with(keyword) &&
+         (header.size() == keyword.size() || header[keyword.size()] == '/');
+}
+
+}  // namespace deck::detail
