@@ -1,7 +1,7 @@
 # What keeps the build short.
 
 # Code that runs once per deck or per finding is hardly optimised, loops over pairs fully.
-target_compile_options(libdeck_seldom PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
+target_link_libraries(libdeck_seldom PRIVATE deck_lightly)
 file(GLOB loops CONFIGURE_DEPENDS contact/search*.cpp contact/box_*.cpp contact/filtered*.cpp
      contact/penetrations.cpp contact/gaps.cpp contact/removal.cpp cycle/kernels*.cpp)
 set_property(SOURCE ${loops} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)

@@ -26,7 +26,7 @@ using P = Point3<double>;
 template <class T>
 using Hull = std::array<Point3<T>, 4>;
 
-constexpr double kTiny = 0x1p-500, kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTiny = 0x1p-500, kUnbounded = std::numeric_limits<double>::infinity();
 
 // 16 times a bound of the relative error of one operation.
 template <class T>
@@ -117,7 +117,7 @@ struct WeightedPoint {
   // Upper bound of the distance.
   T bound() const {
     using std::sqrt;
-    if (!usable) return T(kInfinity);
+    if (!usable) return T(kUnbounded);
     return (sqrt(dot(r, r)) + T(error)) / sum * (T(1) + T(kSlack<T>));
   }
   // True only if the distance is below `gap`.
@@ -151,7 +151,7 @@ struct Scaled {
   static Scaled of(std::array<P, N>& points, double big) {
     Scaled out;
     if (big >= 0x1p-100 && big <= 0x1p100) return out;
-    out.shift = big < kInfinity ? -std::ilogb(big) : -1026;
+    out.shift = big < kUnbounded ? -std::ilogb(big) : -1026;
     for (P& q : points) {
       for (double* c : {&q.x, &q.y, &q.z}) {
         const double y = std::ldexp(*c, out.shift);
@@ -166,7 +166,7 @@ struct Scaled {
     if (!possible) return std::nullopt;
     if (shift == 0) return value;
     const double scaled = std::ldexp(value, shift);
-    if (!std::isfinite(scaled)) return kInfinity;
+    if (!std::isfinite(scaled)) return kUnbounded;
     if (std::ldexp(scaled, -shift) != value) return std::nullopt;
     return scaled;
   }
@@ -315,7 +315,7 @@ inline SegmentClosest<DoubleDouble> wide_closest(const SegmentPair& pair,
   bool first = true;
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t next = (k + 1) % 4;
-    out.sub[k].distance = T(kInfinity);
+    out.sub[k].distance = T(kUnbounded);
     out.sub[k].vector = lift<T>(narrow.sub[k].vector);
     const Support<double> own(narrow.sub[k].vector, pair.v, pair.largest);
     if (own.bound(own.least(k)) > high) continue;

@@ -40,7 +40,7 @@ struct Binary {
 };
 
 template <std::size_t N>
-bool all_finite(const std::array<Point3<double>, N>& points) {
+bool finite_points(const std::array<Point3<double>, N>& points) {
   for (const Point3<double>& p : points)
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
   return true;
@@ -73,7 +73,7 @@ bool apart(const V& w, std::initializer_list<const V*> vertices, const Z& gap) {
 }
 
 // A closest point by its part: the direction from it to the node, and whether it is nearer.
-struct Part {
+struct Region {
   V w;
   bool nearer = false;
 };
@@ -83,9 +83,9 @@ bool is_nearer(const Z& value, const Z& scale, const Z& gap) {
   return sgn(gap) == 0 ? sgn(value) == 0 : value < gap * gap * scale;
 }
 
-Part corner_part(const V& p, const Z& gap) { return {-p, is_nearer(dot(p, p), Z(1), gap)}; }
+Region corner_part(const V& p, const Z& gap) { return {-p, is_nearer(dot(p, p), Z(1), gap)}; }
 
-Part edge_part(const V& p, const V& q, const Z& gap) {
+Region edge_part(const V& p, const V& q, const Z& gap) {
   const V e = q - p, moment = cross(p, e);
   const Z along = -dot(e, p), ee = dot(e, e);
   const bool inside = sgn(along) >= 0 && along <= ee;
@@ -93,7 +93,7 @@ Part edge_part(const V& p, const V& q, const Z& gap) {
 }
 
 // Triangle o, a, b; `whole` true: the parallelogram that o-a and o-b span.
-Part face_part(const V& o, const V& a, const V& b, bool whole, const Z& gap) {
+Region face_part(const V& o, const V& a, const V& b, bool whole, const Z& gap) {
   const V p = a - o, q = b - o;
   V n = cross(p, q);
   const V r = -o;
@@ -105,7 +105,7 @@ Part face_part(const V& o, const V& a, const V& b, bool whole, const Z& gap) {
   return {n, inside && is_nearer(height * height, nn, gap)};
 }
 
-Part part_of(const PartGuess& guess, const V& o, const V& a, const V& b, const Z& gap) {
+Region part_of(const PartGuess& guess, const V& o, const V& a, const V& b, const Z& gap) {
   if (guess.o && guess.a && guess.b) return face_part(o, a, b, false, gap);
   if (guess.a && guess.b) return edge_part(a, b, gap);
   if (guess.o && guess.a) return edge_part(o, a, gap);
@@ -117,14 +117,14 @@ Part part_of(const PartGuess& guess, const V& o, const V& a, const V& b, const Z
 
 std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bool triangle,
                                  int best, const std::array<PartGuess, 4>& guess, double gap) {
-  if (!all_finite(points) || !std::isfinite(gap)) return std::nullopt;
+  if (!finite_points(points) || !std::isfinite(gap)) return std::nullopt;
   const int unit = common_unit(points, gap);
   const V node = vector_of(points[4], unit);
   std::array<V, 4> v;
   for (std::size_t k = 0; k < 4; ++k) v[k] = vector_of(points[k], unit) - node;
   Z limit = Binary(gap).at(unit);
   if (triangle) {
-    const Part part = part_of(guess[0], v[2], v[0], v[1], limit);
+    const Region part = part_of(guess[0], v[2], v[0], v[1], limit);
     if (part.nearer) return true;
     if (apart(part.w, {&v[0], &v[1], &v[2]}, limit)) return false;
     return std::nullopt;
@@ -134,14 +134,14 @@ std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bo
   for (V& corner : v) corner = Z(4) * corner;
   limit *= 4;
   const auto k = static_cast<std::size_t>(best);
-  const Part part = part_of(guess[k], centre, v[k], v[(k + 1) % 4], limit);
+  const Region part = part_of(guess[k], centre, v[k], v[(k + 1) % 4], limit);
   if (part.nearer) return true;
   if (apart(part.w, {&v[0], &v[1], &v[2], &v[3]}, limit)) return false;
   for (std::size_t i = 0; i < 4; ++i) {
     const V &a = v[i], &b = v[(i + 1) % 4];
     if (apart(part.w, {&centre, &a, &b}, limit)) continue;
     if (i == k || !(guess[i].o || guess[i].a || guess[i].b)) return std::nullopt;
-    const Part other = part_of(guess[i], centre, a, b, limit);
+    const Region other = part_of(guess[i], centre, a, b, limit);
     if (other.nearer) return true;
     if (!apart(other.w, {&centre, &a, &b}, limit)) return std::nullopt;
   }
@@ -150,7 +150,7 @@ std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bo
 
 std::optional<bool> prove_closer(const std::array<Point3<double>, 4>& x, EdgeFeature secondary,
                                  EdgeFeature main, bool parallel, double gap) {
-  if (!all_finite(x) || !std::isfinite(gap)) return std::nullopt;
+  if (!finite_points(x) || !std::isfinite(gap)) return std::nullopt;
   const int unit = common_unit(x, gap);
   std::array<V, 4> p;
   for (std::size_t k = 0; k < 4; ++k) p[k] = vector_of(x[k], unit);
@@ -159,7 +159,7 @@ std::optional<bool> prove_closer(const std::array<Point3<double>, 4>& x, EdgeFea
   const std::array<V, 4> v{p[0] - p[2], p[0] - p[3], p[1] - p[3], p[1] - p[2]};
   const bool first_s = secondary == EdgeFeature::first_node;
   const bool first_m = main == EdgeFeature::first_node;
-  Part part;
+  Region part;
   if (parallel) {
     part = edge_part(v[0], v[3], limit);
   } else if (secondary == EdgeFeature::interior && main == EdgeFeature::interior) {

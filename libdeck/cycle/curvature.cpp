@@ -19,11 +19,6 @@ struct Contact {
   Vec normal;
 };
 
-std::array<Vec, 4> corners(const PacketView& view, std::size_t i) {
-  return {at(view.position[1], i), at(view.position[2], i), at(view.position[3], i),
-          at(view.position[4], i)};
-}
-
 bool is_triangle(const PacketView& view, std::size_t i) {
   return view.triangle != nullptr && view.triangle[i] != 0;
 }

@@ -9,11 +9,6 @@
 namespace deck::cycle::detail {
 namespace {
 
-std::array<Vec, 4> corners(const PacketView& view, std::size_t i) {
-  return {at(view.position[1], i), at(view.position[2], i), at(view.position[3], i),
-          at(view.position[4], i)};
-}
-
 Vec relative_velocity(const PacketView& view, std::size_t i, const std::array<double, 4>& h) {
   Vec main = h[0] * at(view.velocity[1], i);
   for (std::size_t c = 1; c < 4; ++c) main = main + h[c] * at(view.velocity[c + 1], i);

@@ -14,6 +14,12 @@ using deck::Vec;
 inline Vec at(const std::array<const double*, 3>& p, std::size_t i) {
   return {p[0][i], p[1][i], p[2][i]};
 }
+/// Corners of the segment of a pair.
+template <class View>
+std::array<Vec, 4> corners(const View& view, std::size_t i) {
+  return {at(view.position[1], i), at(view.position[2], i), at(view.position[3], i),
+          at(view.position[4], i)};
+}
 inline Vec of(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
 
 /// The frame that ties ride on: first diagonal, its companion in the surface, the normal.

@@ -187,7 +187,7 @@ std::vector<TextEdit> FieldEdits::finish() const {
 namespace {
 
 /// value = mantissa * 10^exponent, the mantissa having `digits` digits.
-struct Decimal {
+struct RoundedNumber {
   std::int64_t mantissa = 0;
   int exponent = 0;
   double value() const {
@@ -199,12 +199,12 @@ struct Decimal {
 };
 
 /// The decimal of that many digits nearest to `value` > 0.
-Decimal nearest(double value, int digits) {
+RoundedNumber nearest(double value, int digits) {
   char buffer[64];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value,
                                  std::chars_format::scientific, digits - 1);
   const std::string_view text(buffer, static_cast<std::size_t>(end.ptr - buffer));
-  Decimal out;
+  RoundedNumber out;
   const auto e = text.find('e');
   for (const char c : text.substr(0, e))
     if (c != '.') out.mantissa = out.mantissa * 10 + (c - '0');
@@ -221,7 +221,7 @@ std::optional<RoundedText> search(double bound, int digits, int width, int direc
                                   const Accept& accept) {
   if (!(bound > 0)) return std::nullopt;
   for (int d = std::min(digits, 17); d >= 1; --d) {
-    Decimal number = nearest(bound, d);
+    RoundedNumber number = nearest(bound, d);
     // The nearest decimal is off by at most one; ties with `below` cost a few more.
     for (int tries = 0; tries < 4 && number.mantissa > 0; ++tries, number.mantissa += direction) {
       const double value = number.value();

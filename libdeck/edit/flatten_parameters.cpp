@@ -5,13 +5,10 @@
 #include <set>
 
 #include "keyword/reader.hpp"
+#include "text/columns.hpp"
 
 namespace deck::detail {
 namespace {
-
-bool name_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
 
 using Places = std::map<std::string, std::vector<Span>, std::less<>>;
 

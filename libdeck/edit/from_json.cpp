@@ -21,8 +21,6 @@ namespace {
 using Json = nlohmann::json;
 using detail::CellKind;
 
-constexpr std::size_t title_columns = 100;
-
 /// Thrown inside this file only: the first thing that is wrong, with its JSON path.
 struct Wrong {
   std::string what;
@@ -282,8 +280,8 @@ class FileWriter {
   }
 
   static std::string title_line(std::string line, const std::string& title, const Path& path) {
-    if (trim_right(trim_right(line).substr(0, title_columns)) == title) return line;
-    if (title.size() > title_columns) fail(path, "longer than 100 columns");
+    if (trim_right(trim_right(line).substr(0, detail::title_columns)) == title) return line;
+    if (title.size() > detail::title_columns) fail(path, "longer than 100 columns");
     const std::string_view start = detail::trim(title);
     if (title.starts_with('#') || title.starts_with('$') || start.starts_with('/'))
       fail(path, "would be read as a comment or as a keyword");
@@ -380,7 +378,7 @@ class FileWriter {
     if (line.text.size() > start) line.text.resize(start);
     int column = field.first;
     for (std::size_t i = first; i < row.size(); ++i, column += width) {
-      if (column + width - 1 > static_cast<int>(title_columns))
+      if (column + width - 1 > static_cast<int>(detail::title_columns))
         fail({&path, {}, i}, "more ids than the line has cells");
       detail::put_cell(line.text, column, column + width - 1,
                        format(field, row[i], width, {&path, {}, i}));

@@ -16,9 +16,9 @@ using detail::cell_text;
 using detail::LineEdits;
 using detail::put_cell;
 
-std::string shown(std::int64_t v) { return std::to_string(v); }
-std::string shown(const std::string& v) { return v; }
-std::string shown(double v) {
+std::string cell_for(std::int64_t v) { return std::to_string(v); }
+std::string cell_for(const std::string& v) { return v; }
+std::string cell_for(double v) {
   const auto text = format_real(v, 24);
   return text ? text->text : std::string();
 }
@@ -82,7 +82,7 @@ class Resolver {
     const bool unread = inter_.type == 19 && name == "Iedge";
     if (f == nullptr || unread) {
       if (e.origin == Origin::default_block)
-        report(Loss::undecided, {}, name, "", shown(e.value),
+        report(Loss::undecided, {}, name, "", cell_for(e.value),
                unread ? "the card's Iedge is not read: the default card stays in force"
                       : "version " + std::to_string(block_.version) +
                             " has no cell for it: the default card stays in force; convert to a "
@@ -91,7 +91,7 @@ class Resolver {
     }
     const Cell* cell = cell_of(*f);
     if (cell != nullptr && cell->parameter) {
-      report(Loss::undecided, cell->span, name, std::string(cell->text), shown(e.value),
+      report(Loss::undecided, cell->span, name, std::string(cell->text), cell_for(e.value),
              "the parameter is 0, so a default is at work; give it the value");
       return;
     }
@@ -112,14 +112,14 @@ class Resolver {
     const auto text = format_integer(value, f.last - f.first + 1);
     if (!text) return;
     flags_[f.name] = value;
-    put(f, *text, shown(value), Loss::kept, note);
+    put(f, *text, cell_for(value), Loss::kept, note);
   }
   // IBC has no default.
   void set(const Field&, const std::string&, const std::string&) {}
   void set(const Field& f, double value, const std::string& note) {
     const auto text = cell_text(value, factor(f, true), f.last - f.first + 1);
     if (!text) return;
-    put(f, text->text, shown(value), text->exact ? Loss::kept : Loss::approximated, note);
+    put(f, text->text, cell_for(value), text->exact ? Loss::kept : Loss::approximated, note);
   }
 
   void put(const Field& f, const std::string& text, const std::string& value, Loss loss,
@@ -172,7 +172,7 @@ class Resolver {
         const double value = cell.real * before;
         const auto text = cell_text(value, after, f.last - f.first + 1);
         if (text)
-          put(f, text->text, shown(value), text->exact ? Loss::kept : Loss::approximated,
+          put(f, text->text, cell_for(value), text->exact ? Loss::kept : Loss::approximated,
               "the same value in the unit that goes with the flags now on the card");
       }
   }

@@ -10,6 +10,7 @@
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
 #include "edit/version_cards.hpp"
+#include "text/columns.hpp"
 
 namespace deck {
 namespace {
@@ -22,8 +23,6 @@ using Texts = std::map<std::string, std::string>;
 
 constexpr int oldest_version = 100;
 constexpr std::int64_t nothing = 1000;
-constexpr std::size_t title_columns = 100;
-
 using detail::trim;
 
 std::string_view columns(std::string_view line, const Field& f) {
@@ -357,7 +356,7 @@ class Expander {
       at = nl + 1;
     }
     if (lines.size() > 1)
-      lines[1] = decoded_.title.substr(0, title_columns - suffix.size()) + suffix;
+      lines[1] = decoded_.title.substr(0, detail::title_columns - suffix.size()) + suffix;
     // Texts of cards that are not there (friction coefficients without friction law).
     std::erase_if(lines, [](const std::string& l) { return l.starts_with("# unused: "); });
     behind_.insert(behind_.end(), lines.begin(), lines.end());

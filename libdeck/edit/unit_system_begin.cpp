@@ -6,6 +6,7 @@
 #include "deck/text/number.hpp"
 #include "edit/unit_system_state.hpp"
 #include "keyword/reader.hpp"
+#include "text/columns.hpp"
 
 namespace deck::detail {
 namespace {
@@ -119,10 +120,6 @@ bool convert_begin(UnitConversion& c) {
 }
 
 namespace {
-
-bool name_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
 
 /// How often every parameter is named anywhere: in cells, headers, expressions, unread text.
 std::map<std::string, std::size_t, std::less<>> count_names(const Deck& deck) {

@@ -6,6 +6,7 @@
 #include "deck/text/number.hpp"
 #include "edit/version_cards.hpp"
 #include "edit/version_layout.hpp"
+#include "text/columns.hpp"
 
 namespace deck {
 namespace {

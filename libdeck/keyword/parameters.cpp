@@ -217,7 +217,7 @@ bool evaluate(Deck& deck, const Limits& limits, Parameter& p, std::set<const Par
   return true;
 }
 
-void report(Deck& deck, Span span, std::string message) {
+void report_parameter(Deck& deck, Span span, std::string message) {
   detail::report(deck, "DK019", Severity::warning, span, std::move(message),
                  "it reads 0 wherever the parameter is used",
                  "write the name in columns 1-10 and the value (or expression) from column 11 on");
@@ -242,14 +242,14 @@ std::optional<std::pair<std::string, Parameter>> read_definition(Deck& deck, con
   if (!text) cursor.next();  // title
   const Line line = cursor.next();
   if (!line.valid()) {
-    report(deck, b.header_span, "/PARAMETER without its data line");
+    report_parameter(deck, b.header_span, "/PARAMETER without its data line");
     return std::nullopt;
   }
   p.file = line.file;
   p.span = line.whole();
   std::string name(trim(columns(line.text, 1, 10)));
   if (name.empty()) {
-    report(deck, p.span, "/PARAMETER without a name in columns 1-10");
+    report_parameter(deck, p.span, "/PARAMETER without a name in columns 1-10");
     return std::nullopt;
   }
   std::string partly_read;  // the leading number of a value that is more than a number
@@ -272,15 +272,15 @@ std::optional<std::pair<std::string, Parameter>> read_definition(Deck& deck, con
       if (const auto shown = format_real(cell.value, 24)) partly_read = shown->text;
   }
   if (!partly_read.empty()) {
-    report(deck, p.span,
-           "parameter '" + name + "' holds more than a number in '" +
-               std::string(line.text.substr(0, 100)) + "'; it is read as " + partly_read);
+    report_parameter(deck, p.span,
+                     "parameter '" + name + "' holds more than a number in '" +
+                         std::string(line.text.substr(0, 100)) + "'; it is read as " + partly_read);
     p.valid = true;
   }
   if (!p.valid && p.expression.empty())
-    report(deck, p.span,
-           "parameter '" + name + "' has no readable value in '" +
-               std::string(line.text.substr(0, 100)) + "'");
+    report_parameter(deck, p.span,
+                     "parameter '" + name + "' has no readable value in '" +
+                         std::string(line.text.substr(0, 100)) + "'");
   return std::pair{std::move(name), std::move(p)};
 }
 
@@ -323,7 +323,7 @@ void read_parameters(Deck& deck, const Limits& limits) {
     std::set<const Parameter*> open;
     std::string why;
     if (!p->valid && !evaluate(deck, limits, *p, open, 0, why))
-      report(deck, p->span, "expression '" + p->expression + "': " + why);
+      report_parameter(deck, p->span, "expression '" + p->expression + "': " + why);
   }
 }
 

@@ -49,7 +49,7 @@ void report_force(const GeometryRun& run, const Contact& contact, const Interfac
     d->notes.emplace_back(run.model().node_span(s.acceleration_node), "the node pushed most");
 }
 
-std::string_view why(cycle::StepLimit::Source source) {
+std::string_view element_of(cycle::StepLimit::Source source) {
   switch (source) {
     case cycle::StepLimit::Source::kinematic:
       return "half the time to the mid-surface";
@@ -64,7 +64,7 @@ void report_step(const GeometryRun& run, const Contact& contact, const Interface
   if (!(s.contact_dt < s.structure_dt) || s.structure_dt >= 1e30) return;
   std::string message = fmt::format(
       "{}: time step {:.4g} from {}{}, the mesh allows {:.4g}: {:.1f} times as many steps",
-      summary_name(s), s.contact_dt, why(s.contact_dt_source),
+      summary_name(s), s.contact_dt, element_of(s.contact_dt_source),
       s.contact_dt_node == no_index
           ? std::string()
           : fmt::format(" at node {}", node_text(run.model(), s.contact_dt_node)),

@@ -148,7 +148,7 @@ void add_friction_pair_rules(std::vector<Rule>& out) {
                  .ignore = "When it is kept for later.",
                  .bad = "@/FRICTION/6 C1=0.0 Fric=0.1\n@/INTER/TYPE7/1\n",
                  .good = "@/FRICTION/6 C1=0.0 Fric=0.1\n@/INTER/TYPE7/1 fric_ID=6\n",
-                 .check = check_unused_groups});
+                 .check = check_unused_friction});
   out.push_back({.id = "DK186",
                  .title = "friction pair with one side only",
                  .severity = Severity::error,

@@ -174,7 +174,8 @@ void check_removal(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 constexpr std::string_view problem = "A field has a value that nothing reads.";
-constexpr std::string_view why = "Whoever reads the card believes in an effect that is not there.";
+constexpr std::string_view belief =
+    "Whoever reads the card believes in an effect that is not there.";
 
 void add_ignored(std::vector<Rule>& out, std::string_view id, std::string_view title,
                  std::string_view reason, std::string_view solver, std::string_view fix,
@@ -185,7 +186,7 @@ void add_ignored(std::vector<Rule>& out, std::string_view id, std::string_view t
                  .title = title,
                  .severity = severity,
                  .problem = problem,
-                 .why = reason.empty() ? why : reason,
+                 .why = reason.empty() ? belief : reason,
                  .solver = solver,
                  .fix = fix,
                  .ignore = "When the value is kept for later on purpose.",

@@ -90,7 +90,7 @@ void check_filter_off(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void check_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
+void check_ibag_value(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr || !c.model->has_monitored_volume) return;
   each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Ibag") == 2)
@@ -178,7 +178,7 @@ void add_manual_rules(std::vector<Rule>& out) {
       "Manuals say 2 means no closure. The solver asks only whether Ibag is 0.",
       "it closes vent holes as for 1", "write 1000 for no closure", "When closure is meant.",
       "/MONVOL/AIRBAG1/1\nbag\n         1\n@/INTER/TYPE7/1 Ibag=2\n",
-      "/MONVOL/AIRBAG1/1\nbag\n         1\n@/INTER/TYPE7/1 Ibag=1\n", check_ibag);
+      "/MONVOL/AIRBAG1/1\nbag\n         1\n@/INTER/TYPE7/1 Ibag=1\n", check_ibag_value);
   add(out, "DK289", Severity::info, "edges: Istf 1 gives half of Stfac",
       "Istf 1 is to make Stfac the stiffness (TYPE11, and the edge part of TYPE19).",
       "In an edge contact both lines get Stfac, and the pair is the two in series: "

@@ -68,7 +68,7 @@ void each_side(const LintContext& c, F&& f) {
       if (const std::int64_t id = side_id(c, card, side); id != 0) f(card, side, id);
 }
 
-void check_missing(const LintContext& c, const Rule& rule, Reporter& r) {
+void check_missing_entity(const LintContext& c, const Rule& rule, Reporter& r) {
   each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
     if (id < 0 || selection_exists(c, side.kind, id) || !other_kind(c, side.kind, id).empty())
       return;
@@ -250,7 +250,7 @@ void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void check_no_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
+void check_side_without_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (!card.given("grnd_IDs"))
       report_at(r, rule, card, "grnd_IDs", name_of(card) + " has no secondary node group");
@@ -272,7 +272,7 @@ void add_side_rules(std::vector<Rule>& out) {
                  .ignore = "When the definition is in an include that cannot be read.",
                  .bad = "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=55\n",
                  .good = "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1\n",
-                 .check = check_missing});
+                 .check = check_missing_entity});
   out.push_back({.id = "DK171",
                  .title = "id of another kind of entity",
                  .severity = stop,
@@ -408,7 +408,7 @@ void add_target_rules(std::vector<Rule>& out) {
   add("DK182", "TYPE10 without secondary nodes", "grnd_IDs is 0.",
       "Tied contact does not take the nodes of the main surface instead.", 552,
       "give the node group", "@/INTER/TYPE10/1 grnd_IDs=0\n", "@/INTER/TYPE10/1 grnd_IDs=2\n",
-      check_no_nodes);
+      check_side_without_nodes);
   out.back().severity = Severity::warning;
   out.back().solver = "it warns and goes on: the interface has no secondary node";
   out.back().message_severity = Severity::warning;

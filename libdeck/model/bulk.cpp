@@ -79,7 +79,7 @@ class ProblemReporter {
         for (std::size_t r = 0; r < bulk_rules; ++r) pending[r] += problem.counts[r];
         continue;
       }
-      const Segment& segment = chunk.segments[problem.segment];
+      const TextSegment& segment = chunk.segments[problem.segment];
       report_problem(deck_, plans_[segment.plan], segment.file, problem, nodes_, diagnostics_);
       refresh();
     }
@@ -133,7 +133,7 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 
 /// Gives the text of a chunk back.
 void release(const Deck& deck, const Chunk& chunk) {
-  for (const Segment& s : chunk.segments) deck.sources[s.file].release(s.begin, s.end);
+  for (const TextSegment& s : chunk.segments) deck.sources[s.file].release(s.begin, s.end);
 }
 
 /// True while 32-bit indices suffice; reports once otherwise.

@@ -61,7 +61,7 @@ std::vector<BlockPlan> plan_blocks(const Deck& deck, const std::vector<const Blo
                                    Diagnostics& diagnostics);
 
 /// Whole lines of one block in one file.
-struct Segment {
+struct TextSegment {
   std::uint32_t plan = 0;
   std::uint32_t file = 0;
   std::uint64_t begin = 0, end = 0;
@@ -70,7 +70,7 @@ struct Segment {
 
 /// Consecutive segments of one family; no item crosses from one chunk to the next.
 struct Chunk {
-  std::vector<Segment> segments;
+  std::vector<TextSegment> segments;
   std::uint64_t bytes = 0;
   ElementKind kind{};
 };

@@ -128,7 +128,7 @@ void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chu
   Item item;
   std::size_t card = 0;
   for (std::uint32_t s = 0; s < chunk.segments.size(); ++s) {
-    const Segment& segment = chunk.segments[s];
+    const TextSegment& segment = chunk.segments[s];
     const BlockPlan& plan = plans[segment.plan];
     const std::vector<CardPlan>& cards = plan.item->cards;
     const char* const data = deck.sources[segment.file].bytes().data();

@@ -100,7 +100,7 @@ SetGroup& unite(SetState& set) {
 }
 
 /// Removes what `clause` selects, or keeps nothing else.
-void reduce(SetState& set, const SetState& clause, Operator op) {
+void reduce_set(SetState& set, const SetState& clause, Operator op) {
   SetGroup& group = unite(set);
   SetGroup other;
   clause.each_group([&](const SetGroup& g) { add(other, g); });
@@ -460,7 +460,7 @@ const SetState* Selections::Impl::set_state(std::int64_t id) {
       if (op == detail::Operator::add)
         detail::join(*this, state, std::move(selected), clause.of_parts(), *def.block);
       else
-        detail::reduce(state, selected, op);
+        detail::reduce_set(state, selected, op);
     }
   }
   open.erase(guard);

@@ -24,7 +24,9 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector difference(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 double length(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
 
 /// Map with the given matrix that leaves `centre` where it is.
@@ -32,7 +34,7 @@ AffineMap about(const std::array<double, 9>& matrix, const Vector& centre) {
   AffineMap map;
   map.matrix = matrix;
   const Vector moved = map.turn(centre);
-  map.shift = minus(centre, moved);
+  map.shift = difference(centre, moved);
   return map;
 }
 
@@ -134,12 +136,12 @@ class TransformReader {
   std::optional<std::pair<Vector, Vector>> two_points() {
     if (!has_nodes()) {
       const Vector p = point("X1", "Y1", "Z1");
-      return std::pair{p, minus(point("X2", "Y2", "Z2"), p)};
+      return std::pair{p, difference(point("X2", "Y2", "Z2"), p)};
     }
     const auto p = node("node_ID1");
     const auto q = node("node_ID2");
     if (!p || !q) return std::nullopt;
-    return std::pair{*p, minus(*q, *p)};
+    return std::pair{*p, difference(*q, *p)};
   }
 
   std::optional<AffineMap> translation() {
@@ -148,7 +150,7 @@ class TransformReader {
       const auto p = node("node_ID1");
       const auto q = node("node_ID2");
       if (!p || !q) return std::nullopt;
-      map.shift = minus(*q, *p);
+      map.shift = difference(*q, *p);
       return map;
     }
     if (d_.integer("skew_ID") != 0)

@@ -2,6 +2,7 @@
 #include "deck/report/cycle.hpp"
 #include "deck/report/json.hpp"
 #include "report/accuracy_decisions.hpp"
+#include "report/gaps_names.hpp"
 
 namespace deck {
 namespace {
@@ -10,12 +11,6 @@ template <std::size_t N>
 void write_vector(JsonWriter& j, const std::array<double, N>& v) {
   j.begin_array(true);
   for (const double x : v) j.value(x);
-  j.end_array();
-}
-
-void write_nodes(JsonWriter& j, const Model& model, const NodeIndex* nodes, std::size_t count) {
-  j.begin_array(true);
-  for (std::size_t i = 0; i < count; ++i) j.value(model.node_id(nodes[i]));
   j.end_array();
 }
 

@@ -10,23 +10,10 @@
 #include "deck/report/cycle.hpp"
 #include "deck/report/text_table.hpp"
 #include "report/accuracy_decisions.hpp"
+#include "report/words.hpp"
 
 namespace deck {
 namespace {
-
-TextTable make_table(std::initializer_list<const char*> titles) {
-  std::vector<TextTable::Column> columns;
-  for (const char* t : titles)
-    columns.push_back(*t == '>' ? TextTable::Column{t + 1, Align::right}
-                                : TextTable::Column{t, Align::left});
-  return TextTable(std::move(columns));
-}
-
-std::string kind_name(const Contact& c) {
-  std::string name = fmt::format("TYPE{}", c.inter->type);
-  if (c.inter->type == 19) name += fmt::format(" {}", to_string(c.role));
-  return name;
-}
 
 /// "X, Y" of fixed translations.
 std::string directions(int bits) {

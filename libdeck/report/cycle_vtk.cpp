@@ -15,7 +15,7 @@ namespace {
 using detail::VtkPolyData;
 using Cells = VtkPolyData::Cells;
 
-double size(const std::array<double, 3>& v) {
+double length(const std::array<double, 3>& v) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
@@ -29,7 +29,7 @@ struct PairColumns {
   void add(const Model& model, const Contact& c, const cycle::PairOutcome& p) {
     // The outcome holds the force on the main side.
     for (const double f : p.force) force.push_back(0.0 - f);
-    force_size.push_back(size(p.force));
+    force_size.push_back(length(p.force));
     normal_force.push_back(p.normal_force);
     penetration.push_back(p.penetration);
     gap.push_back(p.gap);
@@ -144,8 +144,8 @@ std::string nodes_file(const CycleInput& input) {
     angle.push_back(figure.angle < 1e30 ? figure.angle : 0.0);
     released.push_back(sums.released[n]);
     force.insert(force.end(), f.begin(), f.end());
-    force_size.push_back(size(f));
-    acceleration.push_back(m > 0 ? size(f) / m : 0.0);
+    force_size.push_back(length(f));
+    acceleration.push_back(m > 0 ? length(f) / m : 0.0);
     stiffness.push_back(k);
     mass.push_back(m);
     dt.push_back(m > 0 && k > 0 ? 0.9 * std::sqrt(2 * m / k) : 0.0);

@@ -10,12 +10,6 @@
 namespace deck {
 namespace {
 
-void write_nodes(JsonWriter& j, const Model& model, const NodeIndex* nodes, std::size_t count) {
-  j.begin_array(true);
-  for (std::size_t i = 0; i < count; ++i) j.value(model.node_id(nodes[i]));
-  j.end_array();
-}
-
 void write_vector(JsonWriter& j, const std::array<double, 3>& v) {
   j.begin_array(true);
   for (const double x : v) j.value(x);

@@ -9,6 +9,14 @@
 
 namespace deck {
 
+/// Ids of nodes as a JSON array.
+inline void write_nodes(JsonWriter& j, const Model& model, const NodeIndex* nodes,
+                        std::size_t count) {
+  j.begin_array(true);
+  for (std::size_t i = 0; i < count; ++i) j.value(model.node_id(nodes[i]));
+  j.end_array();
+}
+
 /// The secondary node of every penetration of a view (edge pairs: the first node of the edge).
 std::vector<NodeIndex> first_nodes(const Scene& scene, const SceneView& view);
 

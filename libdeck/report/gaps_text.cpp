@@ -19,12 +19,6 @@ const PenetrationRow& row_of(const Scene& scene, const NamedPenetration& p) {
   return scene.contacts[p.contact].penetrations[p.row];
 }
 
-std::string kind_name(const Contact& c) {
-  std::string name = fmt::format("TYPE{}", c.inter->type);
-  if (c.inter->type == 19) name += fmt::format(" {}", to_string(c.role));
-  return name;
-}
-
 /// What the solver does about the penetrations of a contact, in a few words.
 std::string action_words(const Contact& c) {
   if (c.penetrations.empty()) return "-";
@@ -56,14 +50,6 @@ std::string secondary_text(const NamedPenetration& p) {
 }
 
 /// Columns by title; a title that starts with '>' is aligned to the right.
-TextTable make_table(std::initializer_list<const char*> titles) {
-  std::vector<TextTable::Column> columns;
-  for (const char* t : titles)
-    columns.push_back(*t == '>' ? TextTable::Column{t + 1, Align::right}
-                                : TextTable::Column{t, Align::left});
-  return TextTable(std::move(columns));
-}
-
 std::string interface_table(const Scene& scene, const SceneView& view, bool color) {
   TextTable table = make_table({">interface", "kind", ">Igap", ">Gapmin", ">nodes", ">segments",
                                 ">in reach", ">pairs", ">nodes in", ">edges in", ">deepest",

@@ -9,6 +9,14 @@ namespace deck::detail {
 /// Ids are 32-bit integers.
 inline constexpr std::int64_t largest_id = 2147483647;
 
+/// Titles end here.
+inline constexpr std::size_t title_columns = 100;
+
+/// Of what names of parameters are made.
+inline bool name_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
 inline std::string_view trim_right(std::string_view s) {
   while (!s.empty() && static_cast<unsigned char>(s.back()) <= ' ') s.remove_suffix(1);
   return s;
