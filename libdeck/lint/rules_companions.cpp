@@ -280,7 +280,7 @@ void add_companion_rules(std::vector<Rule>& out) {
                  .good = "@/INTER/TYPE7/1\n@/INTER/TYPE11/2\n",
                  .check = check_edge_companion});
   out.push_back(
-      {.id = "DK404",
+      {.id = "DK920",
        .title = "contact against a tie",
        .severity = Severity::info,
        .problem = "Secondary nodes of an /INTER/TYPE2 are secondary in a contact with the surface "
