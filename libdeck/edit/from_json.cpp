@@ -12,6 +12,7 @@
 
 #include "deck/keyword/decode.hpp"
 #include "edit/version_cards.hpp"
+#include "keyword/header_line.hpp"
 #include "keyword/reader.hpp"
 #include "report/deck_json_cells.hpp"
 
@@ -171,8 +172,9 @@ class FileWriter {
       block.version = static_cast<int>(n);
     }
     if (with_header) {
-      lines_.push_back(header_of(json, path));
-      block.schema = schemas_.match(lines_.back());
+      lines_.push_back(header_of(json, path, block.version));
+      const std::string_view line = lines_.back();
+      block.schema = schemas_.match(trim_right(detail::without_comment(line, block.version)));
     } else {
       block.schema = schemas_.find(string_of(member(json, "keyword", path), {&path, "keyword"}));
     }
@@ -198,7 +200,7 @@ class FileWriter {
   }
 
   /// The keyword line: `header` if given, with another `id` if that was changed.
-  std::string header_of(const Json& json, const Path& path) const {
+  std::string header_of(const Json& json, const Path& path, int version) const {
     const Json* header = optional_member(json, "header", path);
     const Json* id = optional_member(json, "id", path);
     const Path id_path{&path, "id"};
@@ -214,7 +216,7 @@ class FileWriter {
     if (id == nullptr) return text;
     Block block;
     const std::size_t slash = text.find('/');
-    block.header = trim_right(std::string_view(text).substr(slash));
+    block.header = trim_right(detail::without_comment(text, version).substr(slash));
     block.header_span = {0, static_cast<std::uint32_t>(block.header.size()), slash};
     detail::parse_header(schemas_, block);
     const std::int64_t wanted = integer_of(*id, id_path);

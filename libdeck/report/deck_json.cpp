@@ -259,12 +259,23 @@ class DeckWriter {
       if (decoded.title_line.valid() && decoded.title_line.file == file_ &&
           decoded.title_line.offset == offset)
         write_title(text, decoded.title);
-      else if (it != card_at.end() && !it->second->cells.empty())
+      else if (it != card_at.end() && !it->second->cells.empty() && !goes_on(text, *it->second))
         write_card(text, *it->second);
       else
         json_.value(shown(text));
     });
     json_.end_array();
+  }
+
+  /// True if something stands behind the cells of a list that has a count. Such a line is text: its
+  /// values alone do not say what it holds.
+  static bool goes_on(std::string_view text, const DecodedCard& card) {
+    if (card.schema->repeat != Repeat::ids || card.free_format) return false;
+    const Field& ids = card.schema->fields.back();
+    std::size_t end = static_cast<std::size_t>(ids.first - 1);
+    for (const Cell& cell : card.cells)
+      if (cell.field == &ids) end += static_cast<std::size_t>(ids.last - ids.first + 1);
+    return detail::trim_right(text).size() > end;
   }
 
   void write_title(std::string_view text, std::string_view title) {

@@ -233,6 +233,20 @@ TEST(DeckFromJson, CellsOfACountedListKeepTheirBytes) {
   EXPECT_EQ(main_of(Json::parse(json_of(text))), text);
 }
 
+TEST(DeckFromJson, WhatStandsBehindACountedListKeepsItsBytes) {
+  // Two values are counted, the third is not read; so with one that leaves its cell.
+  for (const char* tail : {"                   7", "7"}) {
+    const std::string text = deck_of_version(
+        2022, "/MAT/LAW62/11\nfoam\n               5e-11                   0\n"
+              "                   0         2         0                   0         0         0\n"
+              "                .015                .005" +
+                  std::string(tail) +
+                  "\n                   2                  -2\n"
+                  "                   0                   0\n");
+    EXPECT_EQ(main_of(Json::parse(json_of(text))), text);
+  }
+}
+
 TEST(DeckFromJson, TitleIdAndReferencesCanBeChanged) {
   Json doc = Json::parse(json_of(small));
   Json& block = block_of(doc, "/INTER/TYPE7");
@@ -252,6 +266,11 @@ TEST(DeckFromJson, AKeywordLineKeepsItsCommentAndAnIdOfZero) {
   EXPECT_EQ(main_of(doc), deck);
   block_of(doc, "/INTER/TYPE7")["id"] = 5;
   EXPECT_THAT(main_of(doc), HasSubstr("/INTER/TYPE7/5   # first\n"));
+}
+
+TEST(DeckFromJson, AListBelowAKeywordLineWithACommentAndNoIdIsReadBack) {
+  const std::string text = deck_of_version(2022, "/SURF/PART   # which\ns\n         1\n");
+  EXPECT_EQ(main_of(Json::parse(json_of(text))), text);
 }
 
 TEST(DeckFromJson, TheIdOfAnIndentedHeaderIsReplacedInItsPlace) {
