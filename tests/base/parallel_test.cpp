@@ -42,6 +42,16 @@ TEST(ParallelItems, NoFurtherItemBeginsAfterAnException) {
   EXPECT_LE(begun.load(), 2);
 }
 
+TEST(RunWorkers, EveryNumberBelowTheCountRunsOnce) {
+  for (const int count : {1, 2, 5}) {
+    CancelFlag cancel;
+    std::vector<std::atomic<int>> ran(8);
+    run_workers(count, cancel, [&](std::size_t worker) { ++ran.at(worker); });
+    for (std::size_t k = 0; k < ran.size(); ++k)
+      EXPECT_EQ(ran[k].load(), k < static_cast<std::size_t>(count) ? 1 : 0) << count << " " << k;
+  }
+}
+
 TEST(RunWorkers, OfSeveralExceptionsThatOfTheLowestWorkerIsThrownOn) {
   CancelFlag cancel;
   std::atomic<int> ready{0};

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "contact/small_deck.hpp"
 #include "deck/cycle/scene_cycle.hpp"
@@ -109,6 +110,57 @@ TEST(PartFriction, DirectionsOfAnOrthotropicPairFollowTheSegment) {
   // The other pair of parts has no directions.
   for (const std::array<double, 3>& v : {std::array{1e5, 0.0, 0.0}, std::array{0.0, 1e5, 0.0}})
     EXPECT_NEAR(slide(d, v).at(1).coefficient, 0.3, 1e-12);
+}
+
+/// The plate with 0.4 along the first direction and 0.1 across, the direction given by lines of
+/// /FRIC_ORIENT for part 1.
+std::array<double, 2> along_x_and_y(const std::string& before, const std::string& owner,
+                                    const std::array<double, 3>& v, int skew = 0, double phi = 0) {
+  char line[128];
+  std::snprintf(line, sizeof line, "%20g%20g%20g%10d%20g", v[0], v[1], v[2], skew, phi);
+  const SmallDeck d = plate(
+      "@/FRICTION/5 C1=0.0 Fric=0.3 part_ID1=1 part_ID2=2 Idir=1 C1_pair=0.0 Fric_pair=0.4 "
+      "C1_dir2=0.0 Fric_dir2=0.1\n" +
+      before + "/FRIC_ORIENT/9\ndirections\n" + owner + "\n" + line);
+  return {slide(d, {1e5, 0, 0}).at(0).coefficient, slide(d, {0, 1e5, 0}).at(0).coefficient};
+}
+void expect_coefficients(const std::array<double, 2>& got, double x, double y) {
+  EXPECT_NEAR(got[0], x, 1e-9);
+  EXPECT_NEAR(got[1], y, 1e-9);
+}
+const std::string part_1 = "         0         1";
+
+TEST(FrictionOrientation, TheVectorOfAPartIsItsFirstDirection) {
+  expect_coefficients(along_x_and_y("", part_1, {1, 0, 0}), 0.4, 0.1);
+  expect_coefficients(along_x_and_y("", part_1, {0, 3, 0}), 0.1, 0.4);
+}
+
+TEST(FrictionOrientation, OnlyThePartOfTheVectorInTheSegmentCounts) {
+  expect_coefficients(along_x_and_y("", part_1, {0, 1, 5}), 0.1, 0.4);
+  // A vector along the normal says nothing: the first axis of the segment stays.
+  expect_coefficients(along_x_and_y("", part_1, {0, 0, 1}), 0.4, 0.1);
+}
+
+TEST(FrictionOrientation, PhiTurnsAboutTheNormalInDegrees) {
+  expect_coefficients(along_x_and_y("", part_1, {1, 0, 0}, 0, 90), 0.1, 0.4);
+  expect_coefficients(along_x_and_y("", part_1, {1, 1, 0}, 0, 45), 0.1, 0.4);
+  expect_coefficients(along_x_and_y("", part_1, {1, 1, 0}, 0, -45), 0.4, 0.1);
+}
+
+TEST(FrictionOrientation, TheVectorIsWrittenInTheAxesOfItsSkew) {
+  // y' is -x and z' is z: x' is y.
+  const std::string skew =
+      "/SKEW/FIX/3\naxes\n                   0                   0                   0\n"
+      "                  -1                   0                   0\n"
+      "                   0                   0                   1\n";
+  expect_coefficients(along_x_and_y(skew, part_1, {1, 0, 0}, 3), 0.1, 0.4);
+}
+
+TEST(FrictionOrientation, PartsMayBeGivenAsAGroup) {
+  const std::string group = "/GRPART/PART/7\nparts\n         1         2\n";
+  expect_coefficients(along_x_and_y(group, "         7         0", {0, 1, 0}), 0.1, 0.4);
+  const std::string other = "/GRPART/PART/7\nparts\n         2         3\n";
+  expect_coefficients(along_x_and_y(other, "         7         0", {0, 1, 0}), 0.4, 0.1);
 }
 
 }  // namespace
