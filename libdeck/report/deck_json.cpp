@@ -259,7 +259,7 @@ class DeckWriter {
       if (decoded.title_line.valid() && decoded.title_line.file == file_ &&
           decoded.title_line.offset == offset)
         write_title(text, decoded.title);
-      else if (it != card_at.end() && !it->second->cells.empty() && !goes_on(text, *it->second))
+      else if (it != card_at.end() && !it->second->cells.empty() && !only_text(text, *it->second))
         write_card(text, *it->second);
       else
         json_.value(shown(text));
@@ -267,10 +267,13 @@ class DeckWriter {
     json_.end_array();
   }
 
-  /// True if something stands behind the cells of a list that has a count. Such a line is text: its
-  /// values alone do not say what it holds.
-  static bool goes_on(std::string_view text, const DecodedCard& card) {
-    if (card.schema->repeat != Repeat::ids || card.free_format) return false;
+  /// True for a line whose values alone do not say what it holds: something stands behind the cells
+  /// of a list that has a count, or other lines decide which cells its commas separate.
+  static bool only_text(std::string_view text, const DecodedCard& card) {
+    if (card.free_format)
+      return std::any_of(card.schema->fields.begin(), card.schema->fields.end(),
+                         [](const Field& f) { return !f.when.empty(); });
+    if (card.schema->repeat != Repeat::ids) return false;
     const Field& ids = card.schema->fields.back();
     std::size_t end = static_cast<std::size_t>(ids.first - 1);
     for (const Cell& cell : card.cells)

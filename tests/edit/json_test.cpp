@@ -247,6 +247,18 @@ TEST(DeckFromJson, WhatStandsBehindACountedListKeepsItsBytes) {
   }
 }
 
+TEST(DeckFromJson, CommasBetweenCellsThatAFlagChoosesKeepTheirBytes) {
+  // The seventh line has other cells where Iform is 1.
+  const std::string text = deck_of_version(
+      2022,
+      "/MAT/LAW25/1\nlayers\n               1e-06\n                  6.                  7.\n"
+      "                  1.\n                  1.\n                  1.\n                  2.\n"
+      "1.,2.,3.,4.,5.\n                  1.                  1.                  2.\n");
+  const std::string json = json_of(text);
+  EXPECT_THAT(json, HasSubstr("EPS_t1"));
+  EXPECT_EQ(main_of(Json::parse(json)), text);
+}
+
 TEST(DeckFromJson, TitleIdAndReferencesCanBeChanged) {
   Json doc = Json::parse(json_of(small));
   Json& block = block_of(doc, "/INTER/TYPE7");
