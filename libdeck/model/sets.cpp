@@ -1,5 +1,7 @@
 // /SET/GENERAL and /SET/COLLECT: clauses evaluated from top to bottom into elements, nodes and
 // segments. The three projections are in selection_set_views.cpp.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "model/selection_impl.hpp"
@@ -215,7 +217,7 @@ class ClauseReader {
       } else if (option == 'E') {
         group().external = true;
       } else if (option == 'B' || option == 'C') {
-        unsupported(std::string("option ") + option + " is not evaluated here");
+        unsupported(fmt::format("option {} is not evaluated here", option));
       }
     }
   }

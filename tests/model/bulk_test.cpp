@@ -423,7 +423,7 @@ TEST(BulkChunks, CutsNeverSplitALineOrAnItem) {
     for (const Block* b : blocks)
       for (const Piece& p : b->body) expected += p.end - p.begin;
     for (const detail::Chunk& chunk : detail::cut_chunks(deck, plans, target)) {
-      for (const detail::Segment& s : chunk.segments) {
+      for (const detail::TextSegment& s : chunk.segments) {
         bytes += s.end - s.begin;
         EXPECT_EQ(deck.sources[s.file].bytes()[s.end - 1], '\n');
         EXPECT_EQ(plans[s.plan].format.kind, chunk.kind);
