@@ -270,6 +270,9 @@ class DeckWriter {
   /// True for a line whose values alone do not say what it holds: something stands behind the cells
   /// of a list that has a count, or other lines decide which cells its commas separate.
   static bool only_text(std::string_view text, const DecodedCard& card) {
+    if (card.free_format && card.schema->repeat == Repeat::ids &&
+        card.cells.size() <= static_cast<std::size_t>(std::count(text.begin(), text.end(), ',')))
+      return true;
     if (card.free_format)
       return std::any_of(card.schema->fields.begin(), card.schema->fields.end(),
                          [](const Field& f) { return !f.when.empty(); });

@@ -247,6 +247,15 @@ TEST(DeckFromJson, WhatStandsBehindACountedListKeepsItsBytes) {
   }
 }
 
+TEST(DeckFromJson, ACountedListWithCommasKeepsWhatStandsBehindIt) {
+  const std::string text = deck_of_version(
+      2022, "/MAT/LAW62/11\nfoam\n               5e-11                   0\n"
+            "                   0         2         0                   0         0         0\n"
+            ".015,.005,7\n                   2                  -2\n"
+            "                   0                   0\n");
+  EXPECT_EQ(main_of(Json::parse(json_of(text))), text);
+}
+
 TEST(DeckFromJson, CommasBetweenCellsThatAFlagChoosesKeepTheirBytes) {
   // The seventh line has other cells where Iform is 1.
   const std::string text = deck_of_version(
