@@ -2,8 +2,8 @@
 
 # Code that runs once per deck or per finding is hardly optimised, loops over pairs fully.
 target_link_libraries(libdeck_seldom PRIVATE deck_lightly)
-file(GLOB loops CONFIGURE_DEPENDS contact/search*.cpp contact/box_*.cpp contact/filtered*.cpp
-     contact/penetrations.cpp contact/gaps.cpp contact/removal.cpp cycle/kernels*.cpp)
+file(GLOB loops CONFIGURE_DEPENDS contact/search/*.cpp contact/distance/filtered*.cpp
+     contact/rules/*.cpp cycle/kernel/kernels*.cpp)
 set_property(SOURCE ${loops} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
 
 # Headers of the standard library and of fmt are compiled once for each target.
@@ -11,8 +11,8 @@ if(LIBDECK_PRECOMPILE)
   target_precompile_headers(libdeck PRIVATE precompiled.hpp)
   target_precompile_headers(libdeck_seldom PRIVATE precompiled.hpp)
   # Other registers, other headers; data.
-  set_source_files_properties(cycle/kernels_avx2.cpp cycle/kernels_avx512.cpp
-    cycle/kernels_baseline.cpp ${DECK_EMBEDDED} ${DECK_EMBEDDED_VIEWER}
+  set_source_files_properties(cycle/kernel/kernels_avx2.cpp cycle/kernel/kernels_avx512.cpp
+    cycle/kernel/kernels_baseline.cpp ${DECK_EMBEDDED} ${DECK_EMBEDDED_VIEWER}
     PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 endif()
 

@@ -4,9 +4,9 @@
 #include <map>
 #include <numbers>
 
-#include "contact/scene_parts.hpp"
+#include "contact/scene/scene_parts.hpp"
 #include "cycle/adapter_parts.hpp"
-#include "cycle/vector.hpp"
+#include "cycle/kernel/vector.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"
 

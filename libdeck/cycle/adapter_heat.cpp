@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 
-#include "contact/scene_parts.hpp"
+#include "contact/scene/scene_parts.hpp"
 #include "cycle/adapter_parts.hpp"
-#include "cycle/state_parts.hpp"
+#include "cycle/state/state_parts.hpp"
 
 namespace deck::cycle {
 namespace detail {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "contact/scene_parts.hpp"
+#include "contact/scene/scene_parts.hpp"
 #include "cycle/adapter_parts.hpp"
 #include "deck/cycle/adapter.hpp"
 #include "deck/cycle/kernel.hpp"

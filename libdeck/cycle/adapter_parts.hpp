@@ -3,8 +3,8 @@
 #ifndef DECK_CYCLE_ADAPTER_PARTS_HPP_
 #define DECK_CYCLE_ADAPTER_PARTS_HPP_
 
-#include "contact/node_elements.hpp"
-#include "cycle/state_parts.hpp"
+#include "contact/scene/node_elements.hpp"
+#include "cycle/state/state_parts.hpp"
 #include "deck/cycle/adapter.hpp"
 
 namespace deck::cycle::detail {

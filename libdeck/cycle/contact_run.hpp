@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact/node_elements.hpp"
+#include "contact/scene/node_elements.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 
 namespace deck::cycle::detail {

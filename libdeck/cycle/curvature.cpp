@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "cycle/block.hpp"
-#include "cycle/vector.hpp"
+#include "cycle/kernel/block.hpp"
+#include "cycle/kernel/vector.hpp"
 
 namespace deck::cycle::detail {
 namespace {

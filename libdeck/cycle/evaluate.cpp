@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "cycle/block.hpp"
+#include "cycle/kernel/block.hpp"
 #include "cycle/curvature.hpp"
-#include "cycle/vector.hpp"
+#include "cycle/kernel/vector.hpp"
 #include "deck/cycle/kernel.hpp"
 
 namespace deck::cycle {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cycle/effects.hpp"
-#include "cycle/vector.hpp"
+#include "cycle/kernel/effects.hpp"
+#include "cycle/kernel/vector.hpp"
 #include "deck/cycle/kernel.hpp"
 
 namespace deck::cycle {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "cycle/block.hpp"
-#include "cycle/effects.hpp"
+#include "cycle/kernel/block.hpp"
+#include "cycle/kernel/effects.hpp"
 
 namespace deck::cycle {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cycle/block.hpp"
-#include "cycle/vector.hpp"
+#include "cycle/kernel/block.hpp"
+#include "cycle/kernel/vector.hpp"
 
 namespace deck::cycle::detail {
 namespace {

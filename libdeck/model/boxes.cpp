@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/selection_impl.hpp"
+#include "model/selection/selection_impl.hpp"
 
 namespace deck {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "deck/model/selection.hpp"
-#include "model/bulk.hpp"
+#include "model/bulk/bulk.hpp"
 #include "model/item_spans.hpp"
 #include "model/model_build.hpp"
 #include "text/columns.hpp"

@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "contact/dd.hpp"
-#include "contact/exact.hpp"
-#include "contact/exact_rational.hpp"
+#include "contact/distance/dd.hpp"
+#include "contact/distance/exact.hpp"
+#include "contact/distance/exact_rational.hpp"
 
 namespace deck {
 namespace {

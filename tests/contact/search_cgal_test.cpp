@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-#include "contact/exact_rational.hpp"
+#include "contact/distance/exact_rational.hpp"
 #include "contact/search_scenes.hpp"
 #include "deck/contact/search.hpp"
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/box_order.hpp"
+#include "contact/search/box_order.hpp"
 #include "contact/search_scenes.hpp"
-#include "contact/search_sweep.hpp"
+#include "contact/search/sweep.hpp"
 
 namespace deck {
 namespace {

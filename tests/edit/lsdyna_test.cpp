@@ -7,7 +7,7 @@
 #include "../contact/small_deck.hpp"
 #include "deck/edit/lsdyna.hpp"
 #include "edit/extract_support.hpp"
-#include "edit/lsdyna_read.hpp"
+#include "edit/lsdyna/read.hpp"
 
 namespace deck {
 namespace {

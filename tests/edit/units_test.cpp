@@ -8,7 +8,7 @@
 #include "../contact/small_deck.hpp"
 #include "deck/edit/unit_system.hpp"
 #include "deck/text/number.hpp"
-#include "edit/unit_system_decimal.hpp"
+#include "edit/convert/units/unit_system_decimal.hpp"
 #include "edit/units_support.hpp"
 
 namespace deck {

@@ -6,7 +6,7 @@
 
 #include "deck/keyword/deck.hpp"
 #include "deck/keyword/decode.hpp"
-#include "model/bulk.hpp"
+#include "model/bulk/bulk.hpp"
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "contact/accuracy_tiers.hpp"
-#include "contact/dd.hpp"
-#include "contact/search_sweep.hpp"
+#include "accuracy/tiers.hpp"
+#include "contact/distance/dd.hpp"
+#include "contact/search/sweep.hpp"
 #include "deck/contact/search.hpp"
 #include "deck/cycle/kernel.hpp"
 

@@ -8,10 +8,10 @@
 #include <limits>
 #include <set>
 
-#include "contact/exact.hpp"
-#include "contact/exact_rational.hpp"
-#include "contact/pair_rewriting.hpp"
-#include "deck/contact/accuracy.hpp"
+#include "contact/distance/exact.hpp"
+#include "contact/distance/exact_rational.hpp"
+#include "accuracy/pair_rewriting.hpp"
+#include "deck/accuracy/accuracy.hpp"
 #include "deck/contact/filtered.hpp"
 
 namespace deck {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
-#include "contact/exact.hpp"
-#include "deck/contact/accuracy.hpp"
+#include "contact/distance/exact.hpp"
+#include "deck/accuracy/accuracy.hpp"
 #include "deck/contact/filtered.hpp"
 
 namespace deck {

@@ -1,6 +1,6 @@
 // The bulk reader against decode(): same values, same findings, whatever the lines look like, and
 // the same for every number of threads.
-#include "model/bulk.hpp"
+#include "model/bulk/bulk.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "keyword/reading.hpp"
-#include "model/bulk_plan.hpp"
+#include "model/bulk/bulk_plan.hpp"
 
 namespace deck {
 namespace {

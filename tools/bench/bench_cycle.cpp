@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "cycle/block.hpp"
-#include "cycle/force.hpp"
-#include "cycle/geometry.hpp"
+#include "cycle/kernel/block.hpp"
+#include "cycle/kernel/force.hpp"
+#include "cycle/kernel/geometry.hpp"
 #include "cycle_scene.hpp"
 
 // One pair at a time, for the rival that tests flags per pair.

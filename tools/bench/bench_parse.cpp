@@ -21,7 +21,7 @@
 
 #include "deck/keyword/deck.hpp"
 #include "deck/text/number.hpp"
-#include "model/bulk.hpp"
+#include "model/bulk/bulk.hpp"
 
 namespace {
 

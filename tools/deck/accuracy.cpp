@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "common.hpp"
-#include "deck/contact/accuracy.hpp"
+#include "deck/accuracy/accuracy.hpp"
 #include "deck/report/accuracy.hpp"
 
 namespace {

@@ -53,7 +53,7 @@ if (options.cpp)
   writeFileSync(
     options.cpp,
     `// Generated from tools/viewer; do not edit.
-#include "report/html_parts.hpp"
+#include "report/html/parts.hpp"
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Woverlength-strings"
 #endif

@@ -1,4 +1,4 @@
-// Decodes the binary blocks of the page (see libdeck/report/html_*.cpp for the writers).
+// Decodes the binary blocks of the page (see libdeck/report/html/*.cpp for the writers).
 import { unzlibSync } from "fflate";
 import type { ContactMeta, Crossed, Cycle, Earlier, Meta } from "./meta";
 

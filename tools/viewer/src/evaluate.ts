@@ -1,4 +1,4 @@
-// Evaluates all contacts for given card values, as libdeck/contact/{scene,gaps,penetrations}.cpp do:
+// Evaluates all contacts for given card values, as libdeck/contact/{scene/scene,rules/gaps,rules/penetrations}.cpp do:
 // pair gaps, penetrations, and what Inacti and Fpenmax do about each. Same order of operations, so
 // the numbers are those of `deck gaps --what-if`. Inacti 3 moves nodes, and later contacts see that.
 import type { ContactData, Contacts } from "./data";

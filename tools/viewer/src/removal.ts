@@ -1,5 +1,5 @@
 // Irem_gap = 2: secondary nodes (edges) of a self contact within sqrt(2) gaps of a main segment
-// (edge) along the mesh are not paired with it. Follows libdeck/contact/removal.cpp step by step.
+// (edge) along the mesh are not paired with it. Follows libdeck/contact/rules/removal.cpp step by step.
 import type { ContactData, Contacts } from "./data";
 import { pairGap, sideGaps, type Setting } from "./evaluate";
 import { closestBetweenEdges, edge, type Points } from "./kernel";

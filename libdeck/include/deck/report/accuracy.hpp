@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "deck/contact/accuracy.hpp"
+#include "deck/accuracy/accuracy.hpp"
 #include "deck/keyword/deck.hpp"
 
 namespace deck {

@@ -1,0 +1,264 @@
+// Errors of the tiers against exact rationals, and their time per pair.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string_view>
+
+#include "accuracy/tiers.hpp"
+#include "contact/distance/dd.hpp"
+
+namespace deck {
+namespace {
+
+using accuracy::Outcome;
+using accuracy::Tier;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+double relative_error(double got, double want) {
+  if (got == want) return 0.0;
+  if (!std::isfinite(got) || want == 0.0) return kNever;
+  return std::abs(got - want) / want;
+}
+
+double error_in_ulp(double got, double want) {
+  if (got == want) return 0.0;
+  if (!std::isfinite(got)) return kNever;
+  return std::abs(got - want) / (std::nextafter(want, kNever) - want);
+}
+
+// The point a tier names, measured exactly: how far is it from the other side?
+double distance_of_weights(const PairSample& s, const Outcome& o) {
+  using D = DoubleDouble;
+  const auto x = [&](std::size_t k) { return Point3<D>{s.x[k].x, s.x[k].y, s.x[k].z}; };
+  const D w0(o.weights[0]), w1(o.weights[1]);
+  Point3<D> v;
+  if (s.edges) {
+    v = (x(1) - x(3)) + w0 * (x(0) - x(1)) - w1 * (x(2) - x(3));
+  } else {
+    for (std::size_t k = 0; k < 4; ++k) v = v + D(o.weights[k]) * (x(k) - x(4));
+  }
+  return closest_detail::length(v).hi();
+}
+
+// Largest difference of coordinates.
+double size_of(const PairSample& s) {
+  double out = 0.0;
+  for (std::size_t k = 1; k < (s.edges ? 4u : 5u); ++k)
+    out = std::max(out, closest_detail::largest_component(s.x[k] - s.x[0]));
+  return out;
+}
+
+// Another part than the exact one, whose own point is farther than round-off of weights explains.
+bool wrong_feature(const PairSample& s, const Outcome& got, const Outcome& want) {
+  if (got.feature < 0 || got.feature == want.feature) return false;
+  const double found = distance_of_weights(s, got);
+  if (!std::isfinite(found)) return true;
+  const double epsilon = std::numeric_limits<double>::epsilon();
+  return found - want.value > 4.0 * epsilon * (want.value + 4.0 * size_of(s));
+}
+
+// Error of the distance over the size of the pair. A force error counts as the error of the
+// distance that would make it.
+double scaled_error(const PairSample& s, double got, double want, bool force, double distance) {
+  if (got == want) return 0.0;
+  const double size = force ? std::max(size_of(s), s.gap) : size_of(s);
+  if (!std::isfinite(got) || !(size > 0.0)) return kNever;
+  const double slope = force ? accuracy::force_slope(distance, s.gap) : 1.0;
+  return std::abs(got / slope - want / slope) / size;
+}
+
+struct Errors {
+  double relative = 0.0, ulp = 0.0, scaled = 0.0;
+  std::uint64_t decisions = 0, features = 0, non_finite = 0, samples = 0;
+  // The first wrong decision, else the worst distance.
+  const PairSample* example = nullptr;
+  double got = 0.0, want = 0.0;
+  bool example_is_decision = false;
+
+  void add(const PairSample& s, const Outcome& o, const Outcome& truth, std::string_view what,
+           double distance) {
+    ++samples;
+    const bool wrong = o.closer != truth.closer;
+    decisions += wrong;
+    const bool values = what != "gaps";
+    // Near the end of the exponent range a depth has no digits left that a force could have.
+    const bool small = s.gap < 0x1p-900 || (truth.value != 0.0 && !std::isnormal(truth.value));
+    const bool digits = what == "distance" || !small;
+    const double error = values && digits ? relative_error(o.value, truth.value) : 0.0;
+    if ((wrong && !example_is_decision) || (!example_is_decision && error > relative)) {
+      example = &s;
+      example_is_decision = wrong;
+      got = o.value;
+      want = truth.value;
+    }
+    if (!values) return;
+    non_finite += !std::isfinite(o.value) && std::isfinite(truth.value);
+    if (!digits) return;
+    relative = std::max(relative, error);
+    ulp = std::max(ulp, error_in_ulp(o.value, truth.value));
+    scaled = std::max(scaled, scaled_error(s, o.value, truth.value, what == "force", distance));
+    if (what == "distance") features += wrong_feature(s, o, truth);
+  }
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Median over the repeats of the time per pair. The sum keeps the work from being left out.
+double time_of(const Tier& tier, std::span<const PairSample> samples, int repeats) {
+  std::vector<double> times;
+  volatile double sink = 0.0;
+  for (int r = 0; r < std::max(1, repeats); ++r) {
+    FilterCounters counters;
+    double sum = 0.0;
+    const double start = accuracy::thread_nanoseconds();
+    for (const PairSample& s : samples) {
+      const Outcome o = tier.run(s, counters);
+      sum += o.value + static_cast<double>(o.closer);
+    }
+    const double spent = accuracy::thread_nanoseconds() - start;
+    sink = sink + sum;
+    times.push_back(spent / static_cast<double>(samples.size()));
+  }
+  return median(std::move(times));
+}
+
+// Every n-th sample, so that all families are there.
+std::vector<PairSample> thinned(std::span<const PairSample> samples, std::size_t limit) {
+  std::vector<PairSample> out;
+  const std::size_t step = samples.size() / std::max<std::size_t>(1, limit) + 1;
+  for (std::size_t k = 0; k < samples.size(); k += step) out.push_back(samples[k]);
+  return out;
+}
+
+bool has_family_rows(const Tier& tier) {
+  const std::string_view name = tier.name, what = tier.what;
+  return what == "distance" && (name == "reference" || name == "robust");
+}
+
+void add_family_rows(AccuracyReport& report, const Tier& tier,
+                     const std::vector<Errors>& families) {
+  for (const HardFamily& f : hard_families()) {
+    const Errors& e = families[static_cast<std::size_t>(f.id)];
+    if (e.samples == 0) continue;
+    FamilyResult row{f.id,       f.name, f.expected,  tier.name,    e.samples,
+                     e.relative, e.ulp,  e.decisions, e.non_finite, e.example != nullptr,
+                     {},         e.got,  e.want};
+    if (e.example != nullptr) row.example = *e.example;
+    report.families.push_back(row);
+  }
+}
+
+TierResult row_of(const Tier& tier, const Errors& e, const FilterCounters& counters) {
+  TierResult row;
+  row.name = tier.name;
+  row.what = tier.what;
+  row.samples = e.samples;
+  row.max_relative_error = e.relative;
+  row.max_ulp = e.ulp;
+  row.max_scaled_error = e.scaled;
+  row.decision_errors = e.decisions;
+  row.feature_errors = e.features;
+  row.non_finite = e.non_finite;
+  if (counters.pairs > 0) {
+    const auto pairs = static_cast<double>(counters.pairs);
+    row.fallback_share = static_cast<double>(counters.double_double) / pairs;
+    row.exact_share = static_cast<double>(counters.exact) / pairs;
+  }
+  return row;
+}
+
+// The samples with the exact answers to both questions.
+struct Measurement {
+  std::span<const PairSample> samples;
+  const AccuracyOptions& options;
+  std::vector<Outcome> distances, forces;
+  std::vector<PairSample> few, rewritten;
+
+  Measurement(std::span<const PairSample> all, const AccuracyOptions& o)
+      : samples(all),
+        options(o),
+        few(thinned(all, o.slow_limit)),
+        rewritten(thinned(all, o.rewritten_limit)) {
+    FilterCounters unused;
+    distances.reserve(all.size());
+    forces.reserve(all.size());
+    for (const PairSample& s : all) {
+      distances.push_back(accuracy::exact(s, unused));
+      forces.push_back(accuracy::exact_force(s, unused));
+    }
+  }
+  void run(const Tier& tier, AccuracyReport& report) const {
+    Errors errors;
+    std::vector<Errors> families(64);
+    FilterCounters counters;
+    const std::string_view what = tier.what;
+    const std::vector<Outcome>& truth = what == "force" ? forces : distances;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const PairSample& s = samples[k];
+      const Outcome got = tier.is_truth ? truth[k] : tier.run(s, counters);
+      errors.add(s, got, truth[k], what, distances[k].value);
+      families[static_cast<std::size_t>(s.family) % 64].add(s, got, truth[k], what,
+                                                            distances[k].value);
+    }
+    TierResult row = row_of(tier, errors, counters);
+    row.ns_per_pair = tier.slow ? time_of(tier, few, 1) : time_of(tier, samples, options.repeats);
+    if (!tier.slow && what != "force") check_invariance(tier, row);
+    report.tiers.push_back(row);
+    if (has_family_rows(tier)) add_family_rows(report, tier, families);
+  }
+  void check_invariance(const Tier& tier, TierResult& row) const {
+    const bool values = row.what == "distance";
+    row.rewritten = rewritten.size();
+    for (const PairSample& s : rewritten) {
+      row.invariance_violations += !accuracy::is_invariant(tier, s, values);
+      row.jumps += values && !accuracy::is_continuous(tier, s);
+    }
+  }
+  void run_kernel(AccuracyReport& report) const {
+    const accuracy::KernelRun run = accuracy::run_kernel(samples, options.repeats);
+    Errors errors;
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      errors.add(samples[k], run.outcomes[k], forces[k], "force", distances[k].value);
+    TierResult row = row_of({"kernel", "force", nullptr}, errors, {});
+    row.ns_per_pair = run.ns_per_pair;
+    report.tiers.push_back(row);
+  }
+};
+
+}  // namespace
+
+void mark_dominated(std::vector<TierResult>& tiers) {
+  for (TierResult& a : tiers) {
+    a.dominated = false;
+    for (const TierResult& b : tiers) {
+      if (&a == &b || a.what != b.what) continue;
+      const bool no_worse =
+          b.ns_per_pair <= a.ns_per_pair && b.max_relative_error <= a.max_relative_error &&
+          b.max_scaled_error <= a.max_scaled_error && b.decision_errors <= a.decision_errors;
+      const bool better =
+          b.ns_per_pair < a.ns_per_pair || b.max_relative_error < a.max_relative_error ||
+          b.max_scaled_error < a.max_scaled_error || b.decision_errors < a.decision_errors;
+      a.dominated |= no_worse && better;
+    }
+  }
+}
+
+AccuracyReport measure_accuracy(std::span<const PairSample> samples,
+                                const AccuracyOptions& options) {
+  AccuracyReport report;
+  report.scene = !samples.empty() && samples[0].family > 0 ? "hard-cases" : "deck";
+  if (samples.empty()) return report;
+  const Measurement measurement(samples, options);
+  for (const Tier& tier : accuracy::distance_tiers()) measurement.run(tier, report);
+  for (const Tier& tier : accuracy::force_tiers()) measurement.run(tier, report);
+  measurement.run_kernel(report);
+  mark_dominated(report.tiers);
+  return report;
+}
+
+}  // namespace deck

@@ -1,0 +1,129 @@
+// The distance and the contact decision of one pair in several arithmetics.
+#include "accuracy/tiers.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "contact/distance/dd.hpp"
+#include "contact/distance/exact.hpp"
+
+namespace deck::accuracy {
+namespace {
+
+// One arithmetic and form, with the coordinates as they are or seen from the first one (`local`),
+// the distance from the formula itself or by subtracting the closest point (`textbook`).
+template <class T, Form F, bool local = false, bool textbook = false>
+Outcome evaluate(const PairSample& s, FilterCounters&) {
+  std::array<Point3<T>, 5> x;
+  for (std::size_t k = 0; k < 5; ++k) x[k] = cast<T>(local ? s.x[k] - s.x[0] : s.x[k]);
+  Outcome out;
+  // Coordinates that the number type cannot hold: the tier has no answer.
+  if constexpr (std::is_same_v<T, float>) {
+    for (const Point3<T>& q : x) {
+      if (std::isfinite(closest_detail::largest_component(q))) continue;
+      out.value = std::numeric_limits<double>::quiet_NaN();
+      return out;
+    }
+  }
+  T distance;
+  if (s.edges) {
+    const auto c = closest_between_edges<F>(x[0], x[1], x[2], x[3]);
+    distance = c.distance;
+    if constexpr (textbook) {
+      const Point3<T> a = c.weight_s * x[0] + (T(1) - c.weight_s) * x[1];
+      const Point3<T> b = c.weight_m * x[2] + (T(1) - c.weight_m) * x[3];
+      distance = closest_detail::length(a - b);
+    }
+    out.feature = number_of(c.feature_s, c.feature_m);
+    out.weights = {static_cast<double>(c.weight_s), static_cast<double>(c.weight_m), 0.0, 0.0};
+  } else {
+    const auto c = closest_on_segment<F>(x[4], {x[0], x[1], x[2], x[3]}, s.triangle);
+    distance = c.distance();
+    if constexpr (textbook) {
+      Point3<T> q = c.weights[0] * x[0];
+      for (std::size_t k = 1; k < 4; ++k) q = q + c.weights[k] * x[k];
+      distance = closest_detail::length(x[4] - q);
+    }
+    out.feature = number_of(c.feature, c.feature_index);
+    for (std::size_t k = 0; k < 4; ++k) out.weights[k] = static_cast<double>(c.weights[k]);
+  }
+  out.value = static_cast<double>(distance);
+  out.closer = distance < T(s.gap);
+  return out;
+}
+
+// The decision alone.
+Outcome robust_decision(const PairSample& s, FilterCounters& counters) {
+  Outcome out;
+  out.closer = decide(s, counters);
+  return out;
+}
+
+Outcome robust_distance(const PairSample& s, FilterCounters& counters) {
+  Outcome out;
+  if (s.edges) {
+    const auto c = filtered_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3], &counters);
+    out.value = c.distance;
+    out.feature = number_of(c.feature_s, c.feature_m);
+    out.weights = {c.weight_s, c.weight_m, 0.0, 0.0};
+  } else {
+    const auto c = filtered_closest_on_segment(s.x[4], s.corners(), s.triangle, &counters);
+    out.value = c.distance;
+    out.feature = number_of(c.feature, c.feature_index);
+    out.weights = c.weights;
+  }
+  // Rounding is monotone: the digits behind matter only where the rounded distance is the gap.
+  FilterCounters again;
+  out.closer = out.value == s.gap ? decide(s, again) : out.value < s.gap;
+  return out;
+}
+
+constexpr Form kRobust = Form::robust, kReference = Form::reference;
+
+const Tier kDistanceTiers[] = {
+    {"float", "distance", evaluate<float, kRobust>},
+    {"float-local", "distance", evaluate<float, kRobust, true>},
+    {"double", "distance", evaluate<double, kRobust, false, true>},
+    {"double-residual", "distance", evaluate<double, kRobust>},
+    {"reference", "distance", evaluate<double, kReference>},
+    {"double-double", "distance", evaluate<DoubleDouble, kRobust>},
+    {"robust", "distance", robust_distance},
+    {"interval", "distance", interval, true},
+    {"epeck", "distance", lazy_exact, true},
+    {"exact", "distance", exact, true, true},
+    {"fast", "gaps", evaluate<double, kRobust>},
+    {"reference", "gaps", evaluate<double, kReference>},
+    {"robust", "gaps", robust_decision},
+    {"exact", "gaps", exact, true, true},
+};
+
+}  // namespace
+
+bool decide(const PairSample& s, FilterCounters& counters) {
+  return s.edges ? is_closer_than(s.x[0], s.x[1], s.x[2], s.x[3], s.gap, &counters)
+                 : is_closer_than(s.x[4], s.corners(), s.triangle, s.gap, &counters);
+}
+
+Outcome exact(const PairSample& s, FilterCounters&) {
+  Outcome out;
+  if (s.edges) {
+    const auto c = exact_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3]);
+    out.value = c.distance;
+    out.feature = number_of(c.feature_s, c.feature_m);
+  } else {
+    const auto c = exact_closest_on_segment(s.x[4], s.corners(), s.triangle);
+    out.value = c.distance;
+    out.feature = number_of(c.feature, c.feature_index);
+  }
+  out.closer = out.value < s.gap;
+  if (out.value == s.gap && s.gap > 0.0) {
+    const int side = s.edges ? exact_compare_distance(s.x[0], s.x[1], s.x[2], s.x[3], s.gap)
+                             : exact_compare_distance(s.x[4], s.corners(), s.triangle, s.gap);
+    out.closer = side < 0;
+  }
+  return out;
+}
+
+std::span<const Tier> distance_tiers() { return kDistanceTiers; }
+
+}  // namespace deck::accuracy

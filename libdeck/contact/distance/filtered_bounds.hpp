@@ -1,0 +1,432 @@
+// Brackets of the exact distance of a pair, in double and double-double: what the filtered
+// decisions and distances are made of. Private to the contact stage.
+//
+// Node-segment and edge-edge are the same question: how far is the origin from the convex hull of
+// a few points v_k (corner minus node; secondary minus main end). Error terms, with u the rounding
+// unit: v_k has relative error u per component; a product sum of three to five terms then has at
+// most 8u times the sum of magnitudes. 16u is used throughout. Quantities below 2^-500 are never
+// believed (they may have lost digits to underflow): inputs are scaled so that the largest v_k is
+// between 2^-100 and 2^100.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "contact/distance/dd.hpp"
+#include "contact/distance/filtered_exact.hpp"
+#include "deck/contact/filtered.hpp"
+
+namespace deck::filter {
+
+using closest_detail::larger;
+using closest_detail::smaller;
+using P = Point3<double>;
+template <class T>
+using Hull = std::array<Point3<T>, 4>;
+
+constexpr double kTiny = 0x1p-500, kUnbounded = std::numeric_limits<double>::infinity();
+
+// 16 times a bound of the relative error of one operation.
+template <class T>
+inline constexpr double kSlack = 0x1p-49;
+template <>
+inline constexpr double kSlack<DoubleDouble> = 0x1p-98;
+
+// The leading double of a number: enough for error bounds, which have a factor of 16 to spare.
+inline double head(double a) { return a; }
+inline double head(const DoubleDouble& a) { return a.hi(); }
+
+template <class T>
+P magnitude_of(const Point3<T>& v) {
+  return {std::abs(head(v.x)), std::abs(head(v.y)), std::abs(head(v.z))};
+}
+
+template <class T>
+P largest_magnitudes(const Hull<T>& v) {
+  P out = magnitude_of(v[0]);
+  for (std::size_t k = 1; k < 4; ++k) {
+    const P m = magnitude_of(v[k]);
+    out = {larger(out.x, m.x), larger(out.y, m.y), larger(out.z, m.z)};
+  }
+  return out;
+}
+
+// Gaps whose square and its product with a usable square stay among the normal numbers.
+inline bool can_be_squared(double gap) { return gap > 0x1p-200 && gap < 0x1p250; }
+
+// The four support values w.(-v_k) and what to take off them for round-off.
+template <class T>
+struct Support {
+  std::array<T, 4> value;
+  T squared;  // length of w
+  double error;
+  bool usable;
+
+  Support(const Point3<T>& w, const Hull<T>& v, const P& largest) {
+    for (std::size_t k = 0; k < 4; ++k) value[k] = -dot(w, v[k]);
+    error = dot(magnitude_of(w), largest);
+    squared = dot(w, w);
+    usable = error > kTiny && head(squared) > kTiny && head(squared) < 1 / kTiny;
+    error *= kSlack<T>;
+  }
+  T least() const { return smaller(smaller(value[0], value[1]), smaller(value[2], value[3])); }
+  // Of points k, k+1 and the mean of all.
+  T least(std::size_t k) const {
+    const T mean = T(0.25) * ((value[0] + value[2]) + (value[1] + value[3]));
+    return smaller(smaller(value[k], value[(k + 1) % 4]), mean);
+  }
+  // Lower bound of the distance to the points of which `smallest` is the least value.
+  T bound(const T& smallest) const {
+    using std::sqrt;
+    if (!usable || !(head(smallest) > error)) return T(0);
+    return (smallest - T(error)) / sqrt(squared) * (T(1) - T(kSlack<T>));
+  }
+  // True only if that distance is at least `gap`. Squares instead of a root and a quotient.
+  bool is_apart(const T& smallest, double gap) const {
+    if (!usable || !(head(smallest) > error)) return false;
+    if (!can_be_squared(gap)) return bound(smallest) >= T(gap);
+    const T m = smallest - T(error);
+    return m * m * (T(1) - T(2 * kSlack<T>)) >= T(gap) * T(gap) * squared;
+  }
+  bool is_apart(double gap) const { return is_apart(least(), gap); }
+};
+
+// The point with given weights (which may not quite add up), and a bound of its error.
+template <class T>
+struct WeightedPoint {
+  Point3<T> r{T(0), T(0), T(0)};
+  T sum{0.0};
+  double error = 0.0;
+  bool usable = false;
+
+  WeightedPoint(const std::array<T, 4>& weights, const Hull<T>& v) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double w = head(weights[k]);
+      if (!(w >= 0.0)) return;
+      if (w == 0.0) continue;
+      r = r + weights[k] * v[k];
+      const P m = magnitude_of(v[k]);
+      error += w * (m.x + m.y + m.z);
+      sum = sum + weights[k];
+    }
+    error = kSlack<T> * error + kTiny;
+    usable = head(sum) > 0.5 && head(sum) < 2.0;
+  }
+  // Upper bound of the distance.
+  T bound() const {
+    using std::sqrt;
+    if (!usable) return T(kUnbounded);
+    return (sqrt(dot(r, r)) + T(error)) / sum * (T(1) + T(kSlack<T>));
+  }
+  // True only if the distance is below `gap`.
+  bool is_closer(double gap) const {
+    if (!usable) return false;
+    if (!can_be_squared(gap)) return bound() < T(gap);
+    const T limit = T(gap) * sum - T(error);
+    return head(limit) > 0x1p-250 && dot(r, r) * (T(1) + T(2 * kSlack<T>)) < limit * limit;
+  }
+};
+
+template <class T>
+T upper_bound(const std::array<T, 4>& weights, const Hull<T>& v) {
+  return WeightedPoint<T>(weights, v).bound();
+}
+
+enum class Answer : std::uint8_t { no, yes, unknown };
+
+template <std::size_t N>
+bool all_finite(const std::array<P, N>& points) {
+  for (const P& q : points)
+    if (!std::isfinite(q.x) || !std::isfinite(q.y) || !std::isfinite(q.z)) return false;
+  return true;
+}
+
+// Five (four) input points brought to a harmless size by a power of two, exactly.
+struct Scaled {
+  int shift = 0;
+  bool possible = true;
+  template <std::size_t N>
+  static Scaled of(std::array<P, N>& points, double big) {
+    Scaled out;
+    if (big >= 0x1p-100 && big <= 0x1p100) return out;
+    out.shift = big < kUnbounded ? -std::ilogb(big) : -1026;
+    for (P& q : points) {
+      for (double* c : {&q.x, &q.y, &q.z}) {
+        const double y = std::ldexp(*c, out.shift);
+        out.possible &= std::isfinite(y) && std::ldexp(y, -out.shift) == *c;
+        *c = y;
+      }
+    }
+    return out;
+  }
+  // The gap at the same scale; nothing if digits are lost.
+  std::optional<double> gap(double value) const {
+    if (!possible) return std::nullopt;
+    if (shift == 0) return value;
+    const double scaled = std::ldexp(value, shift);
+    if (!std::isfinite(scaled)) return kUnbounded;
+    if (std::ldexp(scaled, -shift) != value) return std::nullopt;
+    return scaled;
+  }
+};
+
+template <class T>
+Point3<T> lift(const P& a) {
+  return {T(a.x), T(a.y), T(a.z)};
+}
+
+inline double largest_of(const P& v) { return larger(v.x, larger(v.y, v.z)); }
+
+// --- node and segment -----------------------------------------------------------------------
+
+// Corners, then the node; a triangle's fourth corner is its third.
+inline std::array<P, 5> points_of(const P& p, const std::array<P, 4>& x, bool triangle) {
+  return {x[0], x[1], x[2], triangle ? x[2] : x[3], p};
+}
+
+struct SegmentPair {
+  std::array<P, 5> points;  // corners, node
+  bool triangle = false;
+  Hull<double> v;
+  P largest;
+
+  SegmentPair(const P& p, const std::array<P, 4>& x, bool is_triangle)
+      : points(points_of(p, x, is_triangle)), triangle(is_triangle) {
+    refresh();
+  }
+  void refresh() {
+    for (std::size_t k = 0; k < 4; ++k) v[k] = points[k] - points[4];
+    largest = largest_magnitudes(v);
+  }
+  std::array<P, 4> corners() const { return {points[0], points[1], points[2], points[3]}; }
+};
+
+// Lower bound from the vectors of the sub-triangles: first one for all four, then each on its own.
+template <class T>
+T lower_bound(const SegmentClosest<T>& c, const Hull<T>& v, const P& largest, bool triangle) {
+  const Support<T> best(c.closest().vector, v, largest);
+  const T hull = best.bound(best.least());
+  if (triangle) return hull;
+  const auto b = static_cast<std::size_t>(c.best);
+  T low = best.bound(best.least(b));
+  for (std::size_t k = 0; k < 4 && hull < low; ++k) {
+    if (k == b) continue;
+    T other = best.bound(best.least(k));
+    if (other < low) {
+      const Support<T> own(c.sub[k].vector, v, largest);
+      other = larger(other, own.bound(own.least(k)));
+    }
+    low = smaller(low, other);
+  }
+  return larger(hull, low);
+}
+
+// In contact or not, as far as these closest points prove it.
+template <class T>
+Answer answer_of(const SegmentClosest<T>& c, const Hull<T>& v, const P& largest, bool triangle,
+                 double gap) {
+  if (WeightedPoint<T>(c.weights, v).is_closer(gap)) return Answer::yes;
+  const Support<T> best(c.closest().vector, v, largest);
+  if (best.is_apart(gap)) return Answer::no;
+  if (triangle) return Answer::unknown;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (best.is_apart(best.least(k), gap)) continue;
+    if (k == static_cast<std::size_t>(c.best)) return Answer::unknown;
+    const Support<T> own(c.sub[k].vector, v, largest);
+    if (!own.is_apart(own.least(k), gap)) return Answer::unknown;
+  }
+  return Answer::no;
+}
+
+// Two cheap directions that often prove the distance without any closest point: the normal of the
+// diagonals, and from the middle to the node.
+inline bool clearly_apart(const SegmentPair& pair, double gap) {
+  const Hull<double>& v = pair.v;
+  const P middle = (v[0] + v[2]) + (v[1] + v[3]);
+  P n = cross(v[2] - v[0], v[3] - v[1]);
+  if (dot(n, middle) > 0.0) n = -n;
+  if (Support<double>(n, v, pair.largest).is_apart(gap)) return true;
+  return Support<double>(-middle, v, pair.largest).is_apart(gap);
+}
+
+// Double-double closest point of one sub-triangle where the double result tells on which part it
+// lies: most of the work is finding that out. A wrong part gives bounds that decide nothing.
+inline SubTriangleClosest<DoubleDouble> guided_sub_triangle(
+    const SubTriangleClosest<double>& hint, const Point3<DoubleDouble>& vo,
+    const Point3<DoubleDouble>& va, const Point3<DoubleDouble>& vb, const Point3<DoubleDouble>& a,
+    const Point3<DoubleDouble>& b, const Point3<DoubleDouble>& e) {
+  using T = DoubleDouble;
+  const bool has_o = hint.weight_o > 0.0, has_a = hint.weight_a > 0.0, has_b = hint.weight_b > 0.0;
+  SubTriangleClosest<T> out;
+  if (has_o && has_a && has_b) {
+    const Point3<T> n = cross(a, b);
+    const T fa = dot(n, cross(b, vo)), fb = dot(n, cross(vo, a)), nn = dot(n, n);
+    const T height = -dot(n, vo), scale = T(1) / nn;
+    out.weight_a = scale * fa;
+    out.weight_b = scale * fb;
+    out.weight_o = T(1) - out.weight_a - out.weight_b;
+    out.vector = height < T(0) ? -n : n;
+    out.distance = abs(height) / sqrt(nn);
+    return out;
+  }
+  const auto edge = [&out](const Point3<T>& u, const Point3<T>& v, const Point3<T>& along,
+                           T& weight_u, T& weight_v) {
+    const auto point = closest_detail::closest_on_edge(u, v, along);
+    weight_u = T(1) - point.t;
+    weight_v = point.t;
+    out.vector = point.vector;
+    out.distance = point.distance;
+  };
+  if (has_a && has_b) {
+    edge(va, vb, e, out.weight_a, out.weight_b);
+  } else if (has_o && has_b) {
+    edge(vo, vb, b, out.weight_o, out.weight_b);
+  } else if (has_o && has_a) {
+    edge(vo, va, a, out.weight_o, out.weight_a);
+  } else {
+    (has_a ? out.weight_a : has_b ? out.weight_b : out.weight_o) = T(1);
+    out.vector = -(has_a ? va : has_b ? vb : vo);
+    out.distance = closest_detail::length(out.vector);
+  }
+  return out;
+}
+
+// Double-double closest point of those sub-triangles that can hold it; the others keep the
+// distance infinity.
+inline SegmentClosest<DoubleDouble> wide_closest(const SegmentPair& pair,
+                                                 const SegmentClosest<double>& narrow,
+                                                 const Hull<DoubleDouble>& v, bool guided) {
+  using T = DoubleDouble;
+  SegmentClosest<T> out;
+  const auto sub = [&](const SubTriangleClosest<double>& hint, const auto&... vectors) {
+    return guided ? guided_sub_triangle(hint, vectors...)
+                  : closest_detail::robust_sub_triangle(vectors...);
+  };
+  const auto x = [&](std::size_t k) { return lift<T>(pair.points[k]); };
+  if (pair.triangle) {
+    out.sub[0] = sub(narrow.sub[0], v[2], v[0], v[1], x(0) - x(2), x(1) - x(2), x(1) - x(0));
+    closest_detail::classify(out, true);
+    return out;
+  }
+  const double high = upper_bound(narrow.weights, pair.v);
+  const Point3<T> vo = T(0.25) * ((v[0] + v[2]) + (v[1] + v[3]));
+  bool first = true;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t next = (k + 1) % 4;
+    out.sub[k].distance = T(kUnbounded);
+    out.sub[k].vector = lift<T>(narrow.sub[k].vector);
+    const Support<double> own(narrow.sub[k].vector, pair.v, pair.largest);
+    if (own.bound(own.least(k)) > high) continue;
+    out.sub[k] = sub(narrow.sub[k], vo, v[k], v[next], v[k] - vo, v[next] - vo, x(next) - x(k));
+    if (first || out.sub[k].distance < out.distance()) out.best = static_cast<int>(k);
+    first = false;
+  }
+  closest_detail::classify(out, false);
+  // A guided point outside its sub-triangle may still be a mean of the four corners, but it is no
+  // point of the segment: it bounds nothing.
+  const SubTriangleClosest<T>& best = out.closest();
+  if (!(best.weight_o >= T(0) && best.weight_a >= T(0) && best.weight_b >= T(0)))
+    out.weights[0] = T(-1);
+  return out;
+}
+
+template <class T>
+Hull<T> wide_hull(const SegmentPair& pair) {
+  Hull<T> v;
+  for (std::size_t k = 0; k < 4; ++k) v[k] = lift<T>(pair.points[k]) - lift<T>(pair.points[4]);
+  return v;
+}
+
+// --- two edges ------------------------------------------------------------------------------
+
+struct EdgePair {
+  std::array<P, 4> points;  // s1, s2, m1, m2
+  Hull<double> v;           // s1-m1, s1-m2, s2-m2, s2-m1
+  P largest;
+
+  explicit EdgePair(const std::array<P, 4>& x) : points(x) { refresh(); }
+  void refresh() {
+    v = hull_of<double>();
+    largest = largest_magnitudes(v);
+  }
+  template <class T>
+  Hull<T> hull_of() const {
+    const Point3<T> s1 = lift<T>(points[0]), s2 = lift<T>(points[1]), m1 = lift<T>(points[2]),
+                    m2 = lift<T>(points[3]);
+    return {s1 - m1, s1 - m2, s2 - m2, s2 - m1};
+  }
+};
+
+template <class T>
+std::array<T, 4> hull_weights(const EdgeClosest<T>& c) {
+  const T rest_s = T(1) - c.weight_s, rest_m = T(1) - c.weight_m;
+  return {c.weight_s * c.weight_m, c.weight_s * rest_m, rest_s * rest_m, rest_s * c.weight_m};
+}
+
+// The vector points from the main to the secondary edge, like the v_k: the support wants -vector.
+template <class T>
+T lower_bound(const EdgeClosest<T>& c, const Hull<T>& v, const P& largest) {
+  const Support<T> support(-c.vector, v, largest);
+  return support.bound(support.least());
+}
+
+template <class T>
+Answer answer_of(const EdgeClosest<T>& c, const Hull<T>& v, const P& largest, double gap) {
+  if (WeightedPoint<T>(hull_weights(c), v).is_closer(gap)) return Answer::yes;
+  return Support<T>(-c.vector, v, largest).is_apart(gap) ? Answer::no : Answer::unknown;
+}
+
+inline bool clearly_apart(const EdgePair& pair, double gap) {
+  const Hull<double>& v = pair.v;
+  const P middle = (v[0] + v[2]) + (v[1] + v[3]);
+  P n = cross(pair.points[1] - pair.points[0], pair.points[3] - pair.points[2]);
+  if (dot(n, middle) > 0.0) n = -n;
+  if (Support<double>(n, v, pair.largest).is_apart(gap)) return true;
+  return Support<double>(-middle, v, pair.largest).is_apart(gap);
+}
+
+inline EdgeClosest<double> closest_of(const EdgePair& pair) {
+  const auto& x = pair.points;
+  return closest_between_edges<Form::robust>(x[0], x[1], x[2], x[3]);
+}
+
+inline EdgeClosest<DoubleDouble> wide_closest(const EdgePair& pair) {
+  const auto x = [&](std::size_t k) { return lift<DoubleDouble>(pair.points[k]); };
+  return closest_between_edges<Form::robust>(x(0), x(1), x(2), x(3));
+}
+
+inline void count(FilterCounters* counters, FilterStage stage) {
+  if (counters == nullptr) return;
+  ++counters->pairs;
+  counters->double_double += stage != FilterStage::double_precision;
+  counters->exact += stage == FilterStage::exact;
+}
+
+// The double that both ends of the bracket round to, back at the original scale.
+inline std::optional<double> rounded(const DoubleDouble& low, const DoubleDouble& high, int shift) {
+  if (low.hi() != high.hi() || !(low.hi() > 0.0)) return std::nullopt;
+  const double value = std::ldexp(low.hi(), -shift);
+  if (!std::isnormal(value)) return std::nullopt;
+  return value;
+}
+
+// The corners of each sub-triangle that carry its closest point; none for those that were ruled
+// out in double.
+inline std::array<PartGuess, 4> guesses(const SegmentClosest<DoubleDouble>& c) {
+  std::array<PartGuess, 4> out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const DoubleDouble zero(0.0);
+    const auto& sub = c.sub[k];
+    out[k] = {sub.weight_o > zero, sub.weight_a > zero, sub.weight_b > zero};
+  }
+  return out;
+}
+
+inline Answer proved(std::optional<bool> closer) {
+  if (!closer) return Answer::unknown;
+  return *closer ? Answer::yes : Answer::no;
+}
+
+}  // namespace deck::filter

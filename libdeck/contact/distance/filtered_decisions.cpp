@@ -1,0 +1,184 @@
+#include "contact/distance/filtered_decisions.hpp"
+
+#include <cmath>
+
+#include "contact/distance/exact.hpp"
+
+namespace deck {
+
+const char* to_string(Accuracy accuracy) {
+  switch (accuracy) {
+    case Accuracy::fast:
+      return "fast";
+    case Accuracy::reference:
+      return "reference";
+    case Accuracy::robust:
+      return "robust";
+    case Accuracy::exact:
+      break;
+  }
+  return "exact";
+}
+
+namespace detail {
+namespace {
+
+using P = Point3<double>;
+constexpr std::size_t most_listed = 1000;
+
+std::array<double, 3> direction(const P& v) {
+  const double n = closest_detail::length(v);
+  if (!(n > 0)) return {};
+  return {v.x / n, v.y / n, v.z / n};
+}
+
+template <Form F>
+PenetrationRow plain_row(const P& p, const std::array<P, 4>& corners, bool triangle, double gap) {
+  const auto closest = closest_on_segment<F>(p, corners, triangle);
+  const auto pene = penetration(closest, gap);
+  PenetrationRow row;
+  row.depth = pene.value;
+  row.gap = gap;
+  row.distance = closest.sub[static_cast<std::size_t>(pene.sub)].distance;
+  row.normal = {pene.normal.x, pene.normal.y, pene.normal.z};
+  row.on_surface = pene.on_surface;
+  row.feature = closest.feature;
+  return row;
+}
+
+template <Form F>
+PenetrationRow plain_row(const std::array<P, 4>& x, double gap) {
+  const auto closest = closest_between_edges<F>(x[0], x[1], x[2], x[3]);
+  PenetrationRow row;
+  row.gap = gap;
+  row.distance = closest.distance;
+  row.depth = gap - closest.distance;
+  row.on_surface = !(closest.distance > 0);
+  if (!row.on_surface)
+    row.normal = {closest.vector.x / closest.distance, closest.vector.y / closest.distance,
+                  closest.vector.z / closest.distance};
+  row.feature = Feature::edge;
+  row.weight_s = closest.weight_s;
+  row.weight_m = closest.weight_m;
+  return row;
+}
+
+/// A pair in contact has a depth, also where the distance rounds to the gap.
+double depth_of(double gap, double distance) {
+  const double depth = gap - distance;
+  return depth > 0 ? depth : gap - std::nextafter(gap, 0.0);
+}
+
+/// Figures rounded once from the exact ones.
+PenetrationRow rounded_row(const P& p, const std::array<P, 4>& corners, bool triangle, double gap) {
+  const FilteredSegment c = filtered_closest_on_segment(p, corners, triangle);
+  PenetrationRow row;
+  row.gap = gap;
+  row.distance = c.distance;
+  row.depth = depth_of(gap, c.distance);
+  row.on_surface = !(c.distance > 0);
+  if (!row.on_surface)
+    row.normal = direction(closest_on_segment<Form::robust>(p, corners, triangle).closest().vector);
+  row.feature = c.feature;
+  return row;
+}
+PenetrationRow rounded_row(const std::array<P, 4>& x, double gap) {
+  const FilteredEdges c = filtered_closest_between_edges(x[0], x[1], x[2], x[3]);
+  PenetrationRow row = plain_row<Form::robust>(x, gap);
+  row.distance = c.distance;
+  row.depth = depth_of(gap, c.distance);
+  row.on_surface = !(c.distance > 0);
+  if (row.on_surface) row.normal = {};
+  row.weight_s = c.weight_s;
+  row.weight_m = c.weight_m;
+  return row;
+}
+
+/// Rationals cannot hold what is not finite.
+template <std::size_t N>
+bool all_finite(const std::array<P, N>& x, const P& p, double gap) {
+  bool finite = std::isfinite(gap);
+  for (const P& q : x)
+    finite = finite && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
+  return finite && std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+PairVerdict plain_verdict(const PenetrationRow& row) {
+  PairVerdict out;
+  out.in_contact = out.solver_acts = row.depth > 0;
+  out.row = row;
+  return out;
+}
+
+}  // namespace
+
+PairJudge::~PairJudge() {
+  report_.fallback += counters_.double_double;
+  report_.exact += counters_.exact;
+}
+
+void PairJudge::note(const DecisionDifference& difference) {
+  ++(difference.surface ? report_.surface_differs : report_.contact_differs);
+  if (report_.differences.size() < most_listed) report_.differences.push_back(difference);
+}
+
+template <class Exact>
+PairVerdict PairJudge::combine(const PenetrationRow& solver, bool touching, double gap, bool closer,
+                               const Exact& exact_row) {
+  PairVerdict out;
+  const bool solver_closer = solver.depth > 0;
+  out.in_contact = closer;
+  out.solver_acts = accuracy_ == Accuracy::exact ? closer : solver_closer;
+  out.row = solver;
+  const bool surface = closer && solver_closer && solver.on_surface != touching;
+  out.differs = closer != solver_closer || surface;
+  if (closer && (accuracy_ == Accuracy::exact || !solver_closer)) out.row = exact_row();
+  out.row.in_contact = closer;
+  if (!out.differs) return out;
+  out.difference.surface = surface;
+  out.difference.exact = surface ? touching : closer;
+  out.difference.gap = gap;
+  out.difference.solver_distance = solver.distance;
+  out.difference.exact_distance = exact_row().distance;
+  return out;
+}
+
+PairVerdict PairJudge::judge(const P& p, const std::array<P, 4>& corners, bool triangle,
+                             double gap) {
+  ++report_.pairs;
+  if (accuracy_ == Accuracy::fast)
+    return plain_verdict(plain_row<Form::robust>(p, corners, triangle, gap));
+  const PenetrationRow solver = plain_row<Form::reference>(p, corners, triangle, gap);
+  if (accuracy_ == Accuracy::reference) return plain_verdict(solver);
+  bool closer = false, touching = false;
+  if (accuracy_ == Accuracy::exact && all_finite(corners, p, gap)) {
+    ++counters_.pairs, ++counters_.double_double, ++counters_.exact;
+    closer = gap > 0 && exact_compare_distance(p, corners, triangle, gap) < 0;
+    touching = closer && exact_compare_distance(p, corners, triangle, 0.0) == 0;
+  } else {
+    closer = is_closer_than(p, corners, triangle, gap, &counters_);
+    touching = closer && is_touching(p, corners, triangle);
+  }
+  return combine(solver, touching, gap, closer,
+                 [&] { return rounded_row(p, corners, triangle, gap); });
+}
+
+PairVerdict PairJudge::judge(const std::array<P, 4>& x, double gap) {
+  ++report_.pairs;
+  if (accuracy_ == Accuracy::fast) return plain_verdict(plain_row<Form::robust>(x, gap));
+  const PenetrationRow solver = plain_row<Form::reference>(x, gap);
+  if (accuracy_ == Accuracy::reference) return plain_verdict(solver);
+  bool closer = false, touching = false;
+  if (accuracy_ == Accuracy::exact && all_finite(x, x[0], gap)) {
+    ++counters_.pairs, ++counters_.double_double, ++counters_.exact;
+    closer = gap > 0 && exact_compare_distance(x[0], x[1], x[2], x[3], gap) < 0;
+    touching = closer && exact_compare_distance(x[0], x[1], x[2], x[3], 0.0) == 0;
+  } else {
+    closer = is_closer_than(x[0], x[1], x[2], x[3], gap, &counters_);
+    touching = closer && is_touching(x[0], x[1], x[2], x[3]);
+  }
+  return combine(solver, touching, gap, closer, [&] { return rounded_row(x, gap); });
+}
+
+}  // namespace detail
+}  // namespace deck

@@ -1,0 +1,205 @@
+// Distances and depths as exact as they are asked for, by the brackets of the filtered decisions.
+#include <cmath>
+
+#include "contact/distance/exact.hpp"
+#include "contact/distance/exact_rational.hpp"
+#include "contact/distance/filtered_bounds.hpp"
+
+namespace deck {
+
+using namespace filter;
+
+namespace {
+
+// Depth and distance if the bracket [low, high] of the distance fixes both well enough.
+constexpr double kDepthTolerance = 0x1p-40;
+template <class T>
+std::optional<FilteredDepth> depth_within(const T& low, const T& high, double gap) {
+  if (low >= T(gap)) return FilteredDepth{};
+  const T width = high - low, depth = T(gap) - high;
+  if (!(width <= T(kDepthTolerance) * low && width <= T(kDepthTolerance) * depth))
+    return std::nullopt;
+  FilteredDepth out;
+  out.depth = static_cast<double>(T(gap) - low);
+  out.distance = static_cast<double>(low);
+  return out;
+}
+// Back at the original scale; nothing where that loses digits.
+std::optional<FilteredDepth> rescaled(FilteredDepth out, int shift, FilterStage stage) {
+  out.stage = stage;
+  if (shift == 0 || out.depth == 0.0) return out;
+  out.depth = std::ldexp(out.depth, -shift);
+  out.distance = std::ldexp(out.distance, -shift);
+  if (!std::isnormal(out.depth) || !std::isnormal(out.distance)) return std::nullopt;
+  return out;
+}
+FilteredDepth exact_depth(const mpq_class& squared, double gap) {
+  FilteredDepth out;
+  out.stage = FilterStage::exact;
+  out.depth = rounded_depth(gap, squared);
+  if (out.depth > 0.0) out.distance = rounded_square_root(squared);
+  return out;
+}
+
+}  // namespace
+
+FilteredDepth filtered_depth(const P& p, const std::array<P, 4>& corners, bool triangle, double gap,
+                             FilterCounters* counters) {
+  const auto give = [counters](const FilteredDepth& out) {
+    count(counters, out.stage);
+    return out;
+  };
+  if (!(gap > 0.0)) return give({});
+  SegmentPair pair(p, corners, triangle);
+  const double big = largest_of(pair.largest);
+  const Scaled scaled = big == 0.0 ? Scaled{} : Scaled::of(pair.points, big);
+  if (scaled.shift != 0) pair.refresh();
+  if (const std::optional<double> limit = scaled.gap(gap); limit && std::isfinite(*limit)) {
+    if (clearly_apart(pair, *limit)) return give({});
+    const auto c = closest_on_segment<Form::robust>(pair.points[4], pair.corners(), triangle);
+    const auto narrow = depth_within(lower_bound(c, pair.v, pair.largest, triangle),
+                                     upper_bound(c.weights, pair.v), *limit);
+    if (narrow)
+      if (const auto out = rescaled(*narrow, scaled.shift, FilterStage::double_precision))
+        return give(*out);
+    const auto v = wide_hull<DoubleDouble>(pair);
+    const auto largest = largest_magnitudes(v);
+    for (const bool guided : {true, false}) {
+      const auto w = wide_closest(pair, c, v, guided);
+      const auto wide =
+          depth_within(lower_bound(w, v, largest, triangle), upper_bound(w.weights, v), *limit);
+      if (!wide) continue;
+      if (const auto out = rescaled(*wide, scaled.shift, FilterStage::double_double))
+        return give(*out);
+    }
+  }
+  if (!all_finite(points_of(p, corners, triangle)) || !std::isfinite(gap)) return give({});
+  return give(exact_depth(exact_distance_squared(p, corners, triangle), gap));
+}
+
+FilteredDepth filtered_depth(const P& s1, const P& s2, const P& m1, const P& m2, double gap,
+                             FilterCounters* counters) {
+  const auto give = [counters](const FilteredDepth& out) {
+    count(counters, out.stage);
+    return out;
+  };
+  if (!(gap > 0.0)) return give({});
+  EdgePair pair({s1, s2, m1, m2});
+  const double big = largest_of(pair.largest);
+  const Scaled scaled = big == 0.0 ? Scaled{} : Scaled::of(pair.points, big);
+  if (scaled.shift != 0) pair.refresh();
+  if (const std::optional<double> limit = scaled.gap(gap); limit && std::isfinite(*limit)) {
+    if (clearly_apart(pair, *limit)) return give({});
+    const auto c = closest_of(pair);
+    const auto narrow = depth_within(lower_bound(c, pair.v, pair.largest),
+                                     upper_bound(hull_weights(c), pair.v), *limit);
+    if (narrow)
+      if (const auto out = rescaled(*narrow, scaled.shift, FilterStage::double_precision))
+        return give(*out);
+    const auto v = pair.hull_of<DoubleDouble>();
+    const auto w = wide_closest(pair);
+    const auto wide = depth_within(lower_bound(w, v, largest_magnitudes(v)),
+                                   upper_bound(hull_weights(w), v), *limit);
+    if (wide)
+      if (const auto out = rescaled(*wide, scaled.shift, FilterStage::double_double))
+        return give(*out);
+  }
+  if (!all_finite(std::array<P, 4>{s1, s2, m1, m2}) || !std::isfinite(gap)) return give({});
+  return give(exact_depth(exact_distance_squared(s1, s2, m1, m2), gap));
+}
+
+bool is_touching(const P& p, const std::array<P, 4>& corners, bool triangle) {
+  // Nearer than the smallest number: not nearer in double is an answer for nearly all pairs.
+  SegmentPair pair(p, corners, triangle);
+  if (clearly_apart(pair, std::numeric_limits<double>::denorm_min())) return false;
+  return filtered_closest_on_segment(p, corners, triangle).distance == 0.0 &&
+         exact_compare_distance(p, corners, triangle, 0.0) == 0;
+}
+
+bool is_touching(const P& s1, const P& s2, const P& m1, const P& m2) {
+  EdgePair pair({s1, s2, m1, m2});
+  if (clearly_apart(pair, std::numeric_limits<double>::denorm_min())) return false;
+  return filtered_closest_between_edges(s1, s2, m1, m2).distance == 0.0 &&
+         exact_compare_distance(s1, s2, m1, m2, 0.0) == 0;
+}
+
+FilteredSegment filtered_closest_on_segment(const P& p, const std::array<P, 4>& corners,
+                                            bool triangle, FilterCounters* counters) {
+  FilteredSegment out;
+  SegmentPair pair(p, corners, triangle);
+  const double big = largest_of(pair.largest);
+  const Scaled scaled = big == 0.0 ? Scaled{0, false} : Scaled::of(pair.points, big);
+  if (scaled.possible) {
+    if (scaled.shift != 0) pair.refresh();
+    const auto c = closest_on_segment<Form::robust>(pair.points[4], pair.corners(), triangle);
+    const auto v = wide_hull<DoubleDouble>(pair);
+    const auto largest = largest_magnitudes(v);
+    const auto round_once = [&](const SegmentClosest<DoubleDouble>& w) {
+      return rounded(lower_bound(w, v, largest, triangle), upper_bound(w.weights, v), scaled.shift);
+    };
+    auto w = wide_closest(pair, c, v, true);
+    auto value = round_once(w);
+    if (!value) {
+      w = wide_closest(pair, c, v, false);
+      value = round_once(w);
+    }
+    if (value) {
+      out.distance = *value;
+      out.feature = w.feature;
+      out.feature_index = w.feature_index;
+      for (std::size_t k = 0; k < 4; ++k) out.weights[k] = w.weights[k].hi();
+      count(counters, out.stage);
+      return out;
+    }
+    if (prove_closer(pair.points, triangle, w.best, guesses(w), 0.0).value_or(false)) {
+      for (std::size_t k = 0; k < 4; ++k) out.weights[k] = w.weights[k].hi();
+      out = {0.0, w.feature, w.feature_index, out.weights, FilterStage::exact};
+      count(counters, out.stage);
+      return out;
+    }
+  }
+  if (!all_finite(points_of(p, corners, triangle))) {
+    out.distance = std::numeric_limits<double>::quiet_NaN();
+    return out;
+  }
+  const ExactSegment e = exact_closest_on_segment(p, corners, triangle);
+  out = {e.distance, e.feature, e.feature_index, e.weights, FilterStage::exact};
+  count(counters, out.stage);
+  return out;
+}
+
+FilteredEdges filtered_closest_between_edges(const P& s1, const P& s2, const P& m1, const P& m2,
+                                             FilterCounters* counters) {
+  FilteredEdges out;
+  EdgePair pair({s1, s2, m1, m2});
+  const double big = largest_of(pair.largest);
+  const Scaled scaled = big == 0.0 ? Scaled{0, false} : Scaled::of(pair.points, big);
+  if (scaled.possible) {
+    if (scaled.shift != 0) pair.refresh();
+    const auto v = pair.hull_of<DoubleDouble>();
+    const auto w = wide_closest(pair);
+    const auto value = rounded(lower_bound(w, v, largest_magnitudes(v)),
+                               upper_bound(hull_weights(w), v), scaled.shift);
+    if (value) {
+      out = {*value,      w.weight_s.hi(), w.weight_m.hi(),
+             w.feature_s, w.feature_m,     FilterStage::double_double};
+      count(counters, out.stage);
+      return out;
+    }
+    if (prove_closer(pair.points, w.feature_s, w.feature_m, w.parallel, 0.0).value_or(false)) {
+      out = {0.0, w.weight_s.hi(), w.weight_m.hi(), w.feature_s, w.feature_m, FilterStage::exact};
+      count(counters, out.stage);
+      return out;
+    }
+  }
+  if (!all_finite(std::array<P, 4>{s1, s2, m1, m2})) {
+    out.distance = std::numeric_limits<double>::quiet_NaN();
+    return out;
+  }
+  const ExactEdges e = exact_closest_between_edges(s1, s2, m1, m2);
+  out = {e.distance, e.weight_s, e.weight_m, e.feature_s, e.feature_m, FilterStage::exact};
+  count(counters, out.stage);
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,179 @@
+// All coordinates become integers in units of the lowest bit among them. A guess is proved either
+// by a point nearer than the gap, or by a direction w in which every vertex lies at least the gap
+// away: min_k(w.(node - v_k))^2 >= gap^2 w.w. No division, so everything stays an integer.
+#include "contact/distance/filtered_exact.hpp"
+
+#include <gmpxx.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace deck {
+namespace {
+
+using Z = mpz_class;
+using V = Point3<Z>;
+
+// Integer times 2^exponent, with the integer odd or 0.
+struct Binary {
+  std::int64_t integer = 0;
+  int exponent = 0;
+  explicit Binary(double value) {
+    if (value == 0.0) return;
+    int e = 0;
+    integer = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &e), 53));
+    const int zeros = std::countr_zero(static_cast<std::uint64_t>(integer));
+    integer /= std::int64_t{1} << zeros;
+    exponent = e - 53 + zeros;
+  }
+  void lowest(int& exponent_so_far) const {
+    if (integer != 0 && exponent < exponent_so_far) exponent_so_far = exponent;
+  }
+  Z at(int unit) const {
+    Z out(static_cast<long>(integer));
+    if (integer != 0)
+      mpz_mul_2exp(out.get_mpz_t(), out.get_mpz_t(), static_cast<mp_bitcnt_t>(exponent - unit));
+    return out;
+  }
+};
+
+template <std::size_t N>
+bool finite_points(const std::array<Point3<double>, N>& points) {
+  for (const Point3<double>& p : points)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
+  return true;
+}
+
+template <std::size_t N>
+int common_unit(const std::array<Point3<double>, N>& points, double gap) {
+  int unit = std::numeric_limits<int>::max();
+  for (const Point3<double>& p : points)
+    for (const double c : {p.x, p.y, p.z}) Binary(c).lowest(unit);
+  Binary(gap).lowest(unit);
+  return unit;
+}
+
+V vector_of(const Point3<double>& p, int unit) {
+  return {Binary(p.x).at(unit), Binary(p.y).at(unit), Binary(p.z).at(unit)};
+}
+
+// The distance is at least the gap in direction w for all these vertices (as seen from the node).
+bool apart(const V& w, std::initializer_list<const V*> vertices, const Z& gap) {
+  Z least;
+  bool first = true;
+  for (const V* v : vertices) {
+    const Z value = -dot(w, *v);
+    if (sgn(value) <= 0) return false;
+    if (first || value < least) least = value;
+    first = false;
+  }
+  return least * least >= gap * gap * dot(w, w);
+}
+
+// A closest point by its part: the direction from it to the node, and whether it is nearer.
+struct Region {
+  V w;
+  bool nearer = false;
+};
+
+// value / scale < gap^2; with a gap of 0: value is 0.
+bool is_nearer(const Z& value, const Z& scale, const Z& gap) {
+  return sgn(gap) == 0 ? sgn(value) == 0 : value < gap * gap * scale;
+}
+
+Region corner_part(const V& p, const Z& gap) { return {-p, is_nearer(dot(p, p), Z(1), gap)}; }
+
+Region edge_part(const V& p, const V& q, const Z& gap) {
+  const V e = q - p, moment = cross(p, e);
+  const Z along = -dot(e, p), ee = dot(e, e);
+  const bool inside = sgn(along) >= 0 && along <= ee;
+  return {cross(moment, e), inside && is_nearer(dot(moment, moment), ee, gap)};
+}
+
+// Triangle o, a, b; `whole` true: the parallelogram that o-a and o-b span.
+Region face_part(const V& o, const V& a, const V& b, bool whole, const Z& gap) {
+  const V p = a - o, q = b - o;
+  V n = cross(p, q);
+  const V r = -o;
+  const Z fp = dot(n, cross(r, q)), fq = dot(n, cross(p, r)), nn = dot(n, n);
+  const bool inside =
+      sgn(nn) > 0 && sgn(fp) >= 0 && sgn(fq) >= 0 && (whole ? fp <= nn && fq <= nn : fp + fq <= nn);
+  const Z height = -dot(n, o);
+  if (sgn(height) < 0) n = -n;
+  return {n, inside && is_nearer(height * height, nn, gap)};
+}
+
+Region part_of(const PartGuess& guess, const V& o, const V& a, const V& b, const Z& gap) {
+  if (guess.o && guess.a && guess.b) return face_part(o, a, b, false, gap);
+  if (guess.a && guess.b) return edge_part(a, b, gap);
+  if (guess.o && guess.a) return edge_part(o, a, gap);
+  if (guess.o && guess.b) return edge_part(o, b, gap);
+  return corner_part(guess.o ? o : (guess.a ? a : b), gap);
+}
+
+}  // namespace
+
+std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bool triangle,
+                                 int best, const std::array<PartGuess, 4>& guess, double gap) {
+  if (!finite_points(points) || !std::isfinite(gap)) return std::nullopt;
+  const int unit = common_unit(points, gap);
+  const V node = vector_of(points[4], unit);
+  std::array<V, 4> v;
+  for (std::size_t k = 0; k < 4; ++k) v[k] = vector_of(points[k], unit) - node;
+  Z limit = Binary(gap).at(unit);
+  if (triangle) {
+    const Region part = part_of(guess[0], v[2], v[0], v[1], limit);
+    if (part.nearer) return true;
+    if (apart(part.w, {&v[0], &v[1], &v[2]}, limit)) return false;
+    return std::nullopt;
+  }
+  // Four times as large, so that the mean of the corners is an integer too.
+  const V centre = (v[0] + v[1]) + (v[2] + v[3]);
+  for (V& corner : v) corner = Z(4) * corner;
+  limit *= 4;
+  const auto k = static_cast<std::size_t>(best);
+  const Region part = part_of(guess[k], centre, v[k], v[(k + 1) % 4], limit);
+  if (part.nearer) return true;
+  if (apart(part.w, {&v[0], &v[1], &v[2], &v[3]}, limit)) return false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const V &a = v[i], &b = v[(i + 1) % 4];
+    if (apart(part.w, {&centre, &a, &b}, limit)) continue;
+    if (i == k || !(guess[i].o || guess[i].a || guess[i].b)) return std::nullopt;
+    const Region other = part_of(guess[i], centre, a, b, limit);
+    if (other.nearer) return true;
+    if (!apart(other.w, {&centre, &a, &b}, limit)) return std::nullopt;
+  }
+  return false;
+}
+
+std::optional<bool> prove_closer(const std::array<Point3<double>, 4>& x, EdgeFeature secondary,
+                                 EdgeFeature main, bool parallel, double gap) {
+  if (!finite_points(x) || !std::isfinite(gap)) return std::nullopt;
+  const int unit = common_unit(x, gap);
+  std::array<V, 4> p;
+  for (std::size_t k = 0; k < 4; ++k) p[k] = vector_of(x[k], unit);
+  const Z limit = Binary(gap).at(unit);
+  // Corners of the parallelogram of differences, in order.
+  const std::array<V, 4> v{p[0] - p[2], p[0] - p[3], p[1] - p[3], p[1] - p[2]};
+  const bool first_s = secondary == EdgeFeature::first_node;
+  const bool first_m = main == EdgeFeature::first_node;
+  Region part;
+  if (parallel) {
+    part = edge_part(v[0], v[3], limit);
+  } else if (secondary == EdgeFeature::interior && main == EdgeFeature::interior) {
+    part = face_part(v[0], v[1], v[3], true, limit);
+  } else if (secondary == EdgeFeature::interior) {
+    part = first_m ? edge_part(v[0], v[3], limit) : edge_part(v[1], v[2], limit);
+  } else if (main == EdgeFeature::interior) {
+    part = first_s ? edge_part(v[0], v[1], limit) : edge_part(v[3], v[2], limit);
+  } else {
+    part = corner_part(first_s ? v[first_m ? 0 : 1] : v[first_m ? 3 : 2], limit);
+  }
+  if (part.nearer) return true;
+  if (apart(part.w, {&v[0], &v[1], &v[2], &v[3]}, limit)) return false;
+  return std::nullopt;
+}
+
+}  // namespace deck

@@ -1,0 +1,387 @@
+// Initial penetrations of a contact: pairs by search, verdicts by distance, what Inacti does.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "contact/distance/filtered_decisions.hpp"
+#include "contact/scene/scene_parts.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// The solver evaluates candidates in groups of this size; nodes moved by one group are seen by the
+/// next (Inacti 3).
+constexpr std::size_t group_size = 128;
+constexpr double inflation = 1e-8;  // keeps a repaired pair just outside the gap
+/// While the search in both forms is merged, a pair is held this often.
+constexpr std::size_t copies_of_a_pair = 4;
+
+bool is_removed(const RemovalLists& removed, const CandidatePair& pair) {
+  if (removed.empty()) return false;
+  const auto& list = removed[pair.main];
+  return std::binary_search(list.begin(), list.end(), pair.secondary);
+}
+
+std::size_t most_pairs(const SceneContext& c) {
+  return c.options.limits.pair_bytes / (copies_of_a_pair * sizeof(CandidatePair));
+}
+
+/// Mean length of the main side's edges: what a gap is to be compared with.
+double mean_main_edge(const SceneContext& c, const Contact& contact) {
+  double sum = 0;
+  std::size_t count = 0;
+  const auto add = [&](NodeIndex a, NodeIndex b) {
+    if (a == b) return;
+    sum += distance(c.scene.coordinates, a, b);
+    ++count;
+  };
+  for (const MainSegment& m : contact.main)
+    for (std::size_t k = 0; k < 4; ++k) add(m.nodes[k], m.nodes[(k + 1) % 4]);
+  for (const ContactEdge& e : contact.main_edges) add(e.nodes[0], e.nodes[1]);
+  return count == 0 ? 0 : sum / static_cast<double>(count);
+}
+
+/// Drops what was found of a contact that has more pairs than there is room for.
+void give_up(SceneContext& c, Contact& contact) {
+  contact.evaluated = false;
+  std::vector<PenetrationRow>().swap(contact.penetrations);
+  contact.candidates = contact.removed_pairs = 0;
+  if (!c.diagnostics.wants("DK390")) return;
+  const double gap = std::max(contact.max_gap, contact.gapmin);
+  const double edge = mean_main_edge(c, contact);
+  Diagnostic d;
+  d.rule = "DK390";
+  d.span = contact.inter->span;
+  d.message = fmt::format(
+      "/INTER/TYPE{} {}: so many pairs are within the gap that their list would take more than {} "
+      "MB; penetrations of this interface were not evaluated. Its largest gap is {:.6g}, {:.3g} "
+      "times the mean edge of its main side ({:.6g})",
+      contact.inter->type, contact.inter->id, c.options.limits.pair_bytes >> 20, gap,
+      edge > 0 ? gap / edge : 0.0, edge);
+  d.reference_behaviour = "it allocates memory for all of them or stops";
+  d.help = "check the gap against the size of the mesh (units?); --max-memory raises the bound";
+  d.keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
+  d.id = contact.inter->id;
+  c.diagnostics.add(std::move(d));
+}
+
+/// True while the penetrations found fit into the room there is for them.
+bool rows_fit(const SceneContext& c, const Contact& contact) {
+  return contact.penetrations.size() <= c.options.limits.pair_bytes / sizeof(PenetrationRow);
+}
+
+NodeArrays arrays(const Coordinates& c) { return {c.x, c.y, c.z}; }
+
+Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
+
+struct NodeSegmentArrays {
+  std::vector<std::uint32_t> secondary;
+  std::vector<double> secondary_gap, secondary_length, secondary_stiffness;
+  std::vector<std::array<std::uint32_t, 4>> segments;
+  std::vector<double> segment_gap, segment_length, segment_stiffness;
+
+  explicit NodeSegmentArrays(const Contact& contact) {
+    const std::size_t n = contact.secondary.size(), m = contact.main.size();
+    secondary.reserve(n);
+    segments.reserve(m);
+    for (const SecondaryNode& s : contact.secondary) {
+      secondary.push_back(s.node);
+      secondary_gap.push_back(s.gap);
+      secondary_length.push_back(s.length);
+      secondary_stiffness.push_back(s.multiplier);
+    }
+    for (const MainSegment& s : contact.main) {
+      segments.push_back(s.nodes);
+      segment_gap.push_back(s.gap);
+      segment_length.push_back(s.length);
+      segment_stiffness.push_back(s.stiffness);
+    }
+  }
+  NodeSegmentInput view(const Coordinates& c) const {
+    return {arrays(c), secondary,   secondary_gap,  secondary_length, secondary_stiffness,
+            segments,  segment_gap, segment_length, segment_stiffness};
+  }
+};
+
+struct EdgeArrays {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  std::vector<double> gap, length, stiffness;
+  explicit EdgeArrays(const std::vector<ContactEdge>& list) {
+    for (const ContactEdge& e : list) {
+      edges.push_back(e.nodes);
+      gap.push_back(e.gap);
+      length.push_back(e.length);
+      stiffness.push_back(e.stiffness);
+    }
+  }
+};
+
+/// Where the secondary nodes of one group of candidates stood before anything in it moved.
+class GroupStart {
+ public:
+  void clear() { seen_.clear(); }
+  /// The start of `node`, which is where it stands now unless the group has it already.
+  Vec of(const Coordinates& x, NodeIndex node) {
+    // Candidates are sorted by secondary node, so the group's last one is nearly always it.
+    for (auto it = seen_.rbegin(); it != seen_.rend(); ++it)
+      if (it->first == node) return it->second;
+    seen_.emplace_back(node, at(x, node));
+    return seen_.back().second;
+  }
+
+ private:
+  std::vector<std::pair<NodeIndex, Vec>> seen_;
+};
+
+/// What Inacti and Fpenmax do about one node-segment penetration, in the solver's order.
+void act(SceneContext& c, Contact& contact, PenetrationRow& row, GroupStart& start) {
+  SecondaryNode& s = contact.secondary[row.secondary];
+  const double pene = row.on_surface ? row.depth : row.depth * (1 + inflation);
+  if (contact.fpenmax != 0 && pene > contact.fpenmax * row.gap) {
+    row.action = PenetrationAction::node_stiffness_zero;
+    s.off = true;
+    return;
+  }
+  switch (contact.inacti) {
+    case 1:
+      row.action = PenetrationAction::node_stiffness_zero;
+      s.off = true;
+      break;
+    case 2:
+      row.action = PenetrationAction::segment_stiffness_zero;
+      contact.main[row.main].off = true;
+      break;
+    case 3: {
+      row.action = PenetrationAction::node_moved;
+      Coordinates& x = c.scene.coordinates;
+      const Vec x0 = start.of(x, s.node);
+      const Vec moved = at(x, s.node) - x0;
+      if (pene > std::sqrt(dot(moved, moved))) {
+        row.moved_by = {pene * row.normal[0], pene * row.normal[1], pene * row.normal[2]};
+        x.x[s.node] = x0.x + row.moved_by[0];
+        x.y[s.node] = x0.y + row.moved_by[1];
+        x.z[s.node] = x0.z + row.moved_by[2];
+      }
+      break;
+    }
+    case 5:
+    case 6:
+      row.action = PenetrationAction::gap_reduced;
+      row.p0 = contact.inacti == 5 ? pene : pene + 0.05 * (row.gap - pene);
+      row.gap0 = row.gap - row.p0;
+      row.has_gap0 = true;
+      break;
+    default:
+      break;
+  }
+}
+
+/// What the solver does about one edge penetration.
+void act(const Contact& contact, PenetrationRow& row, ContactEdge& s, ContactEdge& m) {
+  // Only Inacti 6 keeps the penetration as it is.
+  const double pene = contact.inacti == 6 ? row.depth : row.depth * (1 + inflation);
+  const bool deep = pene >= 0.995 * row.gap;
+  switch (contact.inacti) {
+    case 1:
+      row.action = PenetrationAction::edge_stiffness_zero;
+      s.off = true;
+      break;
+    case 2:
+      row.action = PenetrationAction::edge_stiffness_zero;
+      m.off = true;
+      break;
+    case 5:
+    case 6: {
+      if (deep) {
+        row.action = PenetrationAction::edge_stiffness_zero;
+        s.off = true;
+        break;
+      }
+      row.action = PenetrationAction::gap_reduced;
+      const double p = contact.inacti == 5 ? pene : pene + 0.05 * (row.gap - pene);
+      s.stored_penetration = std::max(s.stored_penetration, 0.5 * p);
+      m.stored_penetration = std::max(m.stored_penetration, 0.5 * p);
+      break;
+    }
+    default:
+      break;
+  }
+}
+
+/// Candidates of a contact: what the solver's search gives, and what only an exact distance finds.
+struct Candidates {
+  std::vector<CandidatePair> pairs;  // both, sorted
+  std::vector<CandidatePair> extra;  // the second kind: not counted as candidates
+  bool complete = true;
+
+  bool is_counted(const CandidatePair& pair) const {
+    return !std::binary_search(extra.begin(), extra.end(), pair);
+  }
+};
+
+/// Runs `find` in the form that the accuracy needs. Exact decisions need both: the reference
+/// distance of a very obtuse segment can be far too large, and its round-off can hide a touch.
+template <class Find>
+Candidates candidates(Accuracy accuracy, double size, SearchOptions search, const Find& find) {
+  Candidates out;
+  search.form = accuracy == Accuracy::fast ? Form::robust : Form::reference;
+  SearchResult found = find(search);
+  out.complete = found.complete;
+  out.pairs = std::move(found.pairs);
+  if (accuracy == Accuracy::fast || accuracy == Accuracy::reference || !out.complete) return out;
+  search.form = Form::robust;
+  search.margin = 1e-6 * size;  // far above the round-off of the robust formula
+  const SearchResult near = find(search);
+  out.complete = near.complete;
+  std::set_difference(near.pairs.begin(), near.pairs.end(), out.pairs.begin(), out.pairs.end(),
+                      std::back_inserter(out.extra));
+  if (out.extra.empty()) return out;
+  std::vector<CandidatePair> all;
+  all.reserve(out.pairs.size() + out.extra.size());
+  std::merge(out.pairs.begin(), out.pairs.end(), out.extra.begin(), out.extra.end(),
+             std::back_inserter(all));
+  out.pairs = std::move(all);
+  return out;
+}
+
+/// The report's entry about a pair on which solver and exact arithmetic differ.
+void note(SceneContext& c, PairJudge& judge, const PairVerdict& verdict,
+          const PenetrationRow& row) {
+  DecisionDifference d = verdict.difference;
+  d.contact = static_cast<std::uint32_t>(c.scene.contacts.size());
+  d.secondary = row.secondary;
+  d.main = row.main;
+  d.action = row.action;
+  judge.note(d);
+}
+
+}  // namespace
+
+void find_penetrations(SceneContext& c, Contact& contact) {
+  if (contact.main.empty() || contact.secondary.empty()) return;
+  const Coordinates& x = c.scene.coordinates;
+  SearchOptions search;
+  search.gap = contact.gap_rule;
+  search.drad = contact.drad;
+  search.threads = c.options.threads;
+  search.max_pairs = most_pairs(c);
+  Candidates found;
+  {
+    const NodeSegmentArrays lists(contact);
+    const bool wide = c.options.candidates || contact.inacti == 3;
+    const double margin = candidate_margin(arrays(x), lists.segments);
+    const auto find = [&](const SearchOptions& o) {
+      return find_node_segment_pairs(lists.view(x), o);
+    };
+    search.margin = wide ? margin : 0;
+    found = candidates(c.options.accuracy, margin, search, find);
+    if (!found.complete && wide) {
+      search.margin = 0;
+      found = candidates(c.options.accuracy, margin, search, find);
+    }
+  }
+  if (!found.complete) {
+    give_up(c, contact);
+    return;
+  }
+  RemovalLists removed;
+  if (!curvilinear_removal(c, contact, removed)) return give_up(c, contact);
+  PairJudge judge(c.options.accuracy, c.scene.decisions);
+  // The solver measures a whole group of candidates before it acts on any of them.
+  GroupStart start;
+  std::vector<PairVerdict> group;
+  std::size_t in_group = 0;
+  const auto act_on_group = [&] {
+    start.clear();
+    for (PairVerdict& verdict : group) {
+      if (verdict.solver_acts) act(c, contact, verdict.row, start);
+      if (verdict.differs) note(c, judge, verdict, verdict.row);
+      if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
+    }
+    group.clear();
+    in_group = 0;
+  };
+  for (const CandidatePair& pair : found.pairs) {
+    if (is_removed(removed, pair)) {
+      contact.removed_pairs += found.is_counted(pair);
+      continue;
+    }
+    if (found.is_counted(pair)) {
+      ++contact.candidates;
+      if (in_group++ == group_size) {
+        act_on_group();
+        if (!rows_fit(c, contact)) return give_up(c, contact);
+        in_group = 1;
+      }
+    }
+    const SecondaryNode& s = contact.secondary[pair.secondary];
+    const MainSegment& m = contact.main[pair.main];
+    const std::array<Point3<double>, 4> corners{point(x, m.nodes[0]), point(x, m.nodes[1]),
+                                                point(x, m.nodes[2]), point(x, m.nodes[3])};
+    const double gap = contact.gap_rule(s.gap, m.gap, s.length, m.length);
+    PairVerdict verdict = judge.judge(point(x, s.node), corners, m.nodes[2] == m.nodes[3], gap);
+    if (!verdict.is_row() && !verdict.differs) continue;
+    verdict.row.secondary = pair.secondary;
+    verdict.row.main = pair.main;
+    group.push_back(verdict);
+  }
+  act_on_group();
+}
+
+void find_edge_penetrations(SceneContext& c, Contact& contact) {
+  if (contact.main_edges.empty() || contact.secondary_edges.empty()) return;
+  const Coordinates& x = c.scene.coordinates;
+  Candidates found;
+  {
+    const EdgeArrays s(contact.secondary_edges), m(contact.main_edges);
+    SearchOptions search;
+    search.gap = contact.gap_rule;
+    search.drad = contact.drad;
+    search.threads = c.options.threads;
+    search.max_pairs = most_pairs(c);
+    const double size = candidate_margin(arrays(x), s.edges, m.edges);
+    found = candidates(c.options.accuracy, size, search, [&](const SearchOptions& o) {
+      return find_edge_edge_pairs(
+          {arrays(x), s.edges, s.gap, s.length, s.stiffness, m.edges, m.gap, m.length, m.stiffness},
+          o);
+    });
+  }
+  if (!found.complete) {
+    give_up(c, contact);
+    return;
+  }
+  RemovalLists removed;
+  if (!curvilinear_edge_removal(c, contact, removed)) return give_up(c, contact);
+  PairJudge judge(c.options.accuracy, c.scene.decisions);
+  for (const CandidatePair& pair : found.pairs) {
+    if (is_removed(removed, pair)) {
+      contact.removed_pairs += found.is_counted(pair);
+      continue;
+    }
+    contact.candidates += found.is_counted(pair);
+    ContactEdge& s = contact.secondary_edges[pair.secondary];
+    ContactEdge& m = contact.main_edges[pair.main];
+    PairVerdict verdict = judge.judge(
+        {point(x, s.nodes[0]), point(x, s.nodes[1]), point(x, m.nodes[0]), point(x, m.nodes[1])},
+        contact.gap_rule(s.gap, m.gap, s.length, m.length));
+    if (!verdict.is_row() && !verdict.differs) continue;
+    verdict.row.secondary = pair.secondary;
+    verdict.row.main = pair.main;
+    if (verdict.solver_acts) act(contact, verdict.row, s, m);
+    if (verdict.differs) note(c, judge, verdict, verdict.row);
+    if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
+    if (!rows_fit(c, contact)) return give_up(c, contact);
+  }
+  // The store is per edge, so the gap left is known only now.
+  for (PenetrationRow& row : contact.penetrations) {
+    if (row.action != PenetrationAction::gap_reduced) continue;
+    row.p0 = contact.secondary_edges[row.secondary].stored_penetration +
+             contact.main_edges[row.main].stored_penetration;
+    row.gap0 = row.gap - row.p0;
+    row.has_gap0 = true;
+  }
+}
+
+}  // namespace deck::detail

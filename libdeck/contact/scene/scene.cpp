@@ -1,0 +1,403 @@
+// Turns the interfaces of a model into elementary contacts, in the order of the solver.
+#include "deck/contact/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/scene/scene_parts.hpp"
+
+namespace deck {
+namespace {
+
+using detail::SceneContext;
+
+int flag(const EffectiveInt& f) { return f.value == 1000 ? 0 : static_cast<int>(f.value); }
+
+/// What the card of any type has to say to a contact, before the rules of its kind apply.
+struct Card {
+  const InterBase* inter = nullptr;
+  int istf = 0, igap = 0, inacti = 0, irem_gap = 1, itied = 0;
+  double stfac = 1, gapmin = 0, stmin = 0, stmax = 1e30;
+  double gap_scale = 1, gapmax = 1e30, fpenmax = 0, mesh_fraction = 0.4, drad = 0;
+  bool thermal = false;
+};
+
+template <class Inter>
+Card common_card(const Inter& i) {
+  Card c;
+  c.inter = &i;
+  c.istf = flag(i.Istf);
+  c.igap = flag(i.Igap);
+  c.inacti = flag(i.Inacti);
+  c.irem_gap = flag(i.Irem_gap);
+  c.stfac = i.Stfac.value;
+  c.gapmin = i.Gapmin.value > 0 && i.Gapmin.origin != Origin::derived ? i.Gapmin.value : 0;
+  c.stmin = i.Stmin.value;
+  c.stmax = i.Stmax.value;
+  c.mesh_fraction = i.mesh_size.value > 0 ? i.mesh_size.value : 0.4;
+  c.thermal = i.Ithe.value > 0;
+  c.drad = i.Drad.value;
+  return c;
+}
+
+Card card_of(const InterType7& i) {
+  Card c = common_card(i);
+  c.gap_scale = i.Fscalegap.value;
+  c.gapmax = i.Gapmax.value;
+  c.fpenmax = i.Fpenmax.value;
+  c.itied = static_cast<int>(i.ITIED.value);
+  return c;
+}
+Card card_of(const InterType11& i) { return common_card(i); }
+Card card_of(const InterType19& i) {
+  Card c = common_card(i);
+  c.gap_scale = i.Fscalegap.value;
+  c.gapmax = i.Gapmax.value;
+  return c;
+}
+Card card_of(const InterType10& i) {
+  Card c;
+  c.inter = &i;
+  c.stfac = i.Stfac.value;
+  c.gapmin = i.Gap.value > 0 && i.Gap.origin != Origin::derived ? i.Gap.value : 0;
+  c.itied = static_cast<int>(i.ITIED.value);
+  return c;
+}
+
+Contact make_contact(const Card& card, int type, ContactRole role) {
+  Contact c;
+  c.inter = card.inter;
+  c.type = type;
+  c.kind = type == 11 ? ContactKind::edge_edge : ContactKind::node_segment;
+  c.role = role;
+  c.istf = card.istf;
+  c.igap = card.igap;
+  c.inacti = card.inacti;
+  c.irem_gap = card.irem_gap;
+  c.itied = card.itied;
+  c.factor = card.istf == 1 ? -card.stfac : card.stfac;
+  c.stmin = card.stmin;
+  c.stmax = card.stmax;
+  c.fpenmax = card.fpenmax;
+  c.gap_scale = card.igap >= 2 && card.gap_scale != 0 ? card.gap_scale : 1;
+  c.gapmax = card.igap >= 2 && card.gapmax > 0 ? card.gapmax : 1e30;
+  c.mesh_fraction = card.mesh_fraction;
+  if (type == 11) {
+    // Constant stiffness is Istf 1 for edges, and edges know no Fscalegap and no Gapmax.
+    if (card.stfac < 0) {
+      c.istf = 1;
+      c.factor = card.stfac;
+    }
+    if (c.istf == 0) c.istf = 5;
+    c.gap_scale = 1;
+    c.gapmax = 1e30;
+  }
+  return c;
+}
+
+/// Sets what the card of that type hands on to its contacts; the rest has no effect there.
+void apply(const std::vector<WhatIf>& all, Card& card) {
+  const int type = card.inter->type;
+  for (const WhatIf& w : all) {
+    if (w.interface_id != card.inter->id) continue;
+    if (w.Gapmin) card.gapmin = *w.Gapmin;
+    if (type == 10) continue;
+    if (w.Fscalegap) card.gap_scale = *w.Fscalegap;
+    if (w.Gapmax) card.gapmax = *w.Gapmax;
+    if (w.Fpenmax && type == 7) card.fpenmax = *w.Fpenmax;
+    if (w.mesh_size) card.mesh_fraction = *w.mesh_size > 0 ? *w.mesh_size : 0.4;
+    if (w.Igap) card.igap = *w.Igap == 1000 ? 0 : *w.Igap;
+    if (w.Inacti) card.inacti = *w.Inacti == 1000 ? 0 : *w.Inacti;
+    if (w.Irem_gap) card.irem_gap = *w.Irem_gap == 0 ? 1 : *w.Irem_gap;
+  }
+}
+
+class Builder {
+ public:
+  Builder(SceneContext& context, Selections& selections) : c_(context), selections_(selections) {}
+
+  void build() {
+    const Interfaces& all = *c_.scene.interfaces;
+    std::vector<const InterType19*> later;
+    std::size_t total = 0;
+    for (const InterBase* base : all.ordered) {
+      if (!wanted(*base)) continue;
+      ++total;
+      if (base->type != 19) continue;
+      const auto& i = static_cast<const InterType19&>(*base);
+      total += sides(i).first == sides(i).second ? 1 : 2;
+    }
+    std::size_t done = 0;
+    const auto step = [&] {
+      ++done;
+      if (c_.options.progress) c_.options.progress(done, total);
+    };
+    for (const InterBase* base : all.ordered) {
+      if (!wanted(*base)) continue;
+      switch (base->type) {
+        case 7:
+          type7(static_cast<const InterType7&>(*base));
+          break;
+        case 10:
+          type10(static_cast<const InterType10&>(*base));
+          break;
+        case 11:
+          type11(static_cast<const InterType11&>(*base));
+          break;
+        case 19:
+          type19_nodes(static_cast<const InterType19&>(*base), ContactRole::primary);
+          later.push_back(static_cast<const InterType19*>(base));
+          break;
+        default:
+          break;
+      }
+      step();
+    }
+    // What a TYPE19 generates beyond its first part comes after all interfaces of the user.
+    for (const InterType19* i : later) {
+      if (const auto [s, m] = sides(*i); s != m) {
+        type19_nodes(*i, ContactRole::reversed);
+        step();
+      }
+      type19_edges(*i);
+      step();
+    }
+    // Why contacts were not evaluated is known to the selections alone.
+    if (!selections_.complete())
+      for (const Diagnostic& d : selections_.diagnostics().all())
+        if (d.rule == "DK332") c_.diagnostics.report(d);
+  }
+
+ private:
+  bool wanted(const InterBase& i) const {
+    const auto& only = c_.options.only;
+    return only.empty() || std::find(only.begin(), only.end(), i.id) != only.end();
+  }
+
+  template <class Inter>
+  Card card_for(const Inter& i) const {
+    Card card = card_of(i);
+    apply(c_.options.what_if, card);
+    return card;
+  }
+
+  void type7(const InterType7& i) {
+    const Card card = card_for(i);
+    Contact contact = make_contact(card, 7, ContactRole::primary);
+    const Surface* surface = selections_.surface(i.surf_IDm.value);
+    if (i.grnd_IDs.value != 0) {
+      if (const NodeSet* group = selections_.node_group(i.grnd_IDs.value))
+        set_secondary(contact, group->nodes);
+    } else if (surface != nullptr) {
+      set_secondary(contact, selections_.nodes_of(surface->segments));
+    }
+    finish_nodes(std::move(contact), card, surface);
+  }
+
+  void type10(const InterType10& i) {
+    const Card card = card_for(i);
+    Contact contact = make_contact(card, 10, ContactRole::primary);
+    if (const NodeSet* group = selections_.node_group(i.grnd_IDs.value))
+      set_secondary(contact, group->nodes);
+    finish_nodes(std::move(contact), card, selections_.surface(i.surf_IDm.value));
+  }
+
+  void type11(const InterType11& i) {
+    const Card card = card_for(i);
+    Contact contact = make_contact(card, 11, ContactRole::primary);
+    const std::int64_t main = i.line_IDm.value == 0 ? i.line_IDs.value : i.line_IDm.value;
+    if (const LineSet* line = selections_.line(i.line_IDs.value))
+      set_edges(contact.secondary_edges, line->edges);
+    if (const LineSet* line = selections_.line(main)) set_edges(contact.main_edges, line->edges);
+    finish_edges(std::move(contact), card);
+  }
+
+  void type19_nodes(const InterType19& i, ContactRole role) {
+    Card card = card_for(i);
+    if (card.igap == 4) {  // undocumented: variable gap with curvilinear removal
+      card.igap = 2;
+      card.irem_gap = 2;
+    }
+    Contact contact = make_contact(card, 7, role);
+    const auto [s, m] = sides(i);
+    const std::int64_t from = role == ContactRole::primary ? s : m;
+    const std::int64_t to = role == ContactRole::primary ? m : s;
+    set_secondary(contact, nodes_of_surface(from));
+    finish_nodes(std::move(contact), card, selections_.surface(to));
+  }
+
+  void type19_edges(const InterType19& i) {
+    Card card = card_for(i);
+    card.igap = card.igap == 2 ? 1 : card.igap == 4 ? 0 : card.igap;
+    if (i.Edge_scale_gap.value != 0) card.gapmin *= i.Edge_scale_gap.value;
+    Contact contact = make_contact(card, 11, ContactRole::edges);
+    const auto [s, m] = sides(i);
+    const bool free_only = i.Iedge.value == 1;
+    set_edges(contact.secondary_edges, edges_of_surface(s, free_only));
+    set_edges(contact.main_edges, edges_of_surface(m, free_only));
+    contact.dropped = contact.secondary_edges.empty() || contact.main_edges.empty();
+    if (!contact.dropped) return finish_edges(std::move(contact), card);
+    contact.secondary_edges.clear();
+    contact.main_edges.clear();
+    c_.scene.contacts.push_back(std::move(contact));
+  }
+
+  static std::pair<std::int64_t, std::int64_t> sides(const InterType19& i) {
+    std::int64_t s = i.surf_IDs.value, m = i.surf_IDm.value;
+    if (s == 0) s = m;
+    if (m == 0) m = s;
+    return {s, m};
+  }
+
+  std::vector<NodeIndex> nodes_of_surface(std::int64_t id) {
+    if (!selections_.is_plain("surf", id))
+      if (const SetGeneral* set = selections_.set(id)) return set->nodes;
+    const Surface* surface = selections_.surface(id);
+    return surface == nullptr ? std::vector<NodeIndex>{} : selections_.nodes_of(surface->segments);
+  }
+
+  std::vector<Edge> edges_of_surface(std::int64_t id, bool free_only) {
+    if (!selections_.is_plain("surf", id))
+      if (const SetGeneral* set = selections_.set(id)) return set->edges;
+    const Surface* surface = selections_.surface(id);
+    return surface == nullptr ? std::vector<Edge>{}
+                              : selections_.edges_of(surface->segments, free_only);
+  }
+
+  static void set_secondary(Contact& contact, const std::vector<NodeIndex>& nodes) {
+    contact.secondary.reserve(nodes.size());
+    for (const NodeIndex n : nodes) {
+      if (n == no_index) continue;
+      SecondaryNode s;
+      s.node = n;
+      contact.secondary.push_back(s);
+    }
+  }
+
+  static void set_edges(std::vector<ContactEdge>& out, const std::vector<Edge>& edges) {
+    out.reserve(edges.size());
+    for (const Edge& e : edges) {
+      if (e.nodes[0] == e.nodes[1] || e.nodes[0] == no_index || e.nodes[1] == no_index) continue;
+      ContactEdge edge;
+      edge.nodes = e.nodes;
+      out.push_back(edge);
+    }
+  }
+
+  void finish_nodes(Contact contact, const Card& card, const Surface* surface) {
+    if (surface != nullptr) detail::make_main_segments(c_, surface->segments, contact);
+    detail::set_main_stiffness(c_, contact);
+    detail::set_gaps(c_, contact, card.gapmin);
+    detail::set_radiation_distance(contact, card.thermal, card.drad);
+    if (c_.options.penetrations && computable(contact)) detail::find_penetrations(c_, contact);
+    if (c_.options.nodal_stiffness && contact.istf >= 2) detail::set_nodal_stiffness(c_, contact);
+    c_.scene.contacts.push_back(std::move(contact));
+  }
+
+  /// False, with a finding, where members are missing or have no place.
+  bool computable(Contact& contact) {
+    const Coordinates& x = c_.scene.coordinates;
+    NodeIndex lost = no_index;
+    const auto look = [&](NodeIndex n) {
+      if (!std::isfinite(x.x[n]) || !std::isfinite(x.y[n]) || !std::isfinite(x.z[n])) lost = n;
+    };
+    for (const SecondaryNode& s : contact.secondary) look(s.node);
+    for (const MainSegment& m : contact.main)
+      for (const NodeIndex n : m.nodes) look(n);
+    for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
+      for (const ContactEdge& e : *edges)
+        for (const NodeIndex n : e.nodes) look(n);
+    contact.evaluated = lost == no_index && selections_.complete();
+    if (contact.evaluated || lost == no_index) return contact.evaluated;
+    Diagnostic d;
+    d.rule = "DK380";
+    d.span = contact.inter->span;
+    d.keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
+    d.id = contact.inter->id;
+    d.message = d.keyword + " " + std::to_string(d.id) + ": node " +
+                std::to_string(c_.model.nodes.id[lost]) +
+                " has a coordinate that is no finite number; the contact was not evaluated";
+    d.reference_behaviour = "it computes with the infinite number";
+    d.help = "correct the coordinate";
+    c_.diagnostics.report(std::move(d));
+    return false;
+  }
+
+  void finish_edges(Contact contact, const Card& card) {
+    detail::set_edge_stiffness(c_, contact.main_edges, contact);
+    detail::set_edge_stiffness(c_, contact.secondary_edges, contact);
+    detail::set_edge_gaps(c_, contact, card.gapmin);
+    detail::set_radiation_distance(contact, card.thermal, card.drad);
+    if (c_.options.penetrations && computable(contact)) detail::find_edge_penetrations(c_, contact);
+    c_.scene.contacts.push_back(std::move(contact));
+  }
+
+  SceneContext& c_;
+  Selections& selections_;
+};
+
+}  // namespace
+
+const char* to_string(PenetrationAction action) {
+  switch (action) {
+    case PenetrationAction::none:
+      return "none";
+    case PenetrationAction::node_stiffness_zero:
+      return "node-stiffness-zero";
+    case PenetrationAction::segment_stiffness_zero:
+      return "segment-stiffness-zero";
+    case PenetrationAction::node_moved:
+      return "node-moved";
+    case PenetrationAction::gap_reduced:
+      return "gap-reduced";
+    case PenetrationAction::edge_stiffness_zero:
+      return "edge-stiffness-zero";
+  }
+  return "none";
+}
+
+const char* to_string(ContactKind kind) {
+  return kind == ContactKind::node_segment ? "node_segment" : "edge_edge";
+}
+
+const char* to_string(ContactRole role) {
+  return role == ContactRole::primary    ? "primary"
+         : role == ContactRole::reversed ? "reversed"
+                                         : "edges";
+}
+
+const char* to_string(GapminOrigin origin) {
+  switch (origin) {
+    case GapminOrigin::card:
+      return "card";
+    case GapminOrigin::mean_thickness:
+      return "mean thickness of the main shells";
+    case GapminOrigin::minimum_thickness:
+      return "smallest thickness of the main shells";
+    case GapminOrigin::scaled_thickness:
+      return "Fscalegap times the smallest thickness of the main shells";
+    case GapminOrigin::half_edge:
+      return "half the shortest main side";
+    case GapminOrigin::solid_edge:
+      return "a tenth of the shortest main side";
+    case GapminOrigin::both_sides:
+      return "mean of the defaults of both sides";
+  }
+  return "card";
+}
+
+Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics& diagnostics,
+                  const SceneOptions& options) {
+  Scene scene;
+  scene.model = &model;
+  scene.interfaces = &interfaces;
+  scene.limits = options.limits;
+  scene.coordinates = {model.nodes.x, model.nodes.y, model.nodes.z};
+  if (model.selections == nullptr) return scene;
+  Connectivity connectivity(model);
+  SceneContext context{model, connectivity, scene, diagnostics, options};
+  Builder(context, *model.selections).build();
+  return scene;
+}
+
+}  // namespace deck

@@ -1,0 +1,74 @@
+// The steps that turn an interface into contacts, one concept per file. Private to the stage.
+#pragma once
+#include <unordered_map>
+#include <vector>
+
+#include "base/vec.hpp"
+#include "contact/scene/node_elements.hpp"
+#include "deck/contact/scene.hpp"
+#include "deck/model/selection.hpp"
+
+namespace deck::detail {
+
+/// What all contacts of a scene share.
+struct SceneContext {
+  const Model& model;
+  Connectivity& connectivity;
+  Scene& scene;
+  Diagnostics& diagnostics;
+  const SceneOptions& options;
+};
+
+inline Vec at(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
+/// Distance of two nodes.
+inline double distance(const Coordinates& c, NodeIndex a, NodeIndex b) {
+  return norm(at(c, b) - at(c, a));
+}
+
+// segments.cpp — clean-up, orientation, carriers (reference solver: surface clean-up)
+/// Turns surface segments into main segments: repairs repeated nodes, finds carriers of plain
+/// segments, orients faces of single solids outward, notes degenerate ones.
+void make_main_segments(SceneContext& context, const std::vector<Segment>& segments,
+                        Contact& contact);
+
+// thickness.cpp — sections and materials of elements
+/// Contact thickness of a shell (kind shell4 or shell3).
+double gap_thickness(const Model& model, ElementKind kind, std::uint32_t e);
+/// Thickness that enters main stiffness of TYPE7/10: the part thickness does not count.
+double stiffness_thickness(const Model& model, ElementKind kind, std::uint32_t e);
+double young_of(const Model& model, ElementKind kind, std::uint32_t e);
+double bulk_of(const Model& model, std::uint32_t solid);
+/// sqrt(area) of a truss or beam.
+double section_thickness(const Model& model, ElementKind kind, std::uint32_t e);
+double section_area(const Model& model, ElementKind kind, std::uint32_t e);
+double part_thickness(const Model& model, ElementKind kind, std::uint32_t e);
+/// One-point hexahedron volume from the eight stored slots, absolute value.
+double solid_volume(const Coordinates& x, const NodeIndex* slots);
+double spring_stiffness(const Model& model, std::uint32_t spring);
+
+// stiffness.cpp
+void set_main_stiffness(SceneContext& context, Contact& contact);
+void set_edge_stiffness(SceneContext& context, std::vector<ContactEdge>& edges,
+                        const Contact& contact);
+/// K_s of every secondary node (Istf 2..5).
+void set_nodal_stiffness(SceneContext& context, Contact& contact);
+
+// gaps.cpp
+void set_gaps(SceneContext& context, Contact& contact, double gapmin_input);
+void set_edge_gaps(SceneContext& context, Contact& contact, double gapmin_input);
+void set_radiation_distance(Contact& contact, bool thermal, double drad_input);
+
+// removal.cpp — Irem_gap = 2
+/// Per main segment: secondary positions not to be paired with it, sorted. Empty if nothing is
+/// removed.
+using RemovalLists = std::vector<std::vector<std::uint32_t>>;
+/// False: the lists would take more room than MemoryLimits::pair_bytes.
+bool curvilinear_removal(const SceneContext& context, const Contact& contact, RemovalLists& lists);
+bool curvilinear_edge_removal(const SceneContext& context, const Contact& contact,
+                              RemovalLists& lists);
+
+// penetrations.cpp
+void find_penetrations(SceneContext& context, Contact& contact);
+void find_edge_penetrations(SceneContext& context, Contact& contact);
+
+}  // namespace deck::detail

@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <cmath>
+
+#include "contact/scene/scene_parts.hpp"
+#include "model/faces.hpp"
+
+namespace deck::detail {
+namespace {
+
+using Quad = std::array<NodeIndex, 4>;
+
+/// First matching rule of the solver's repair (warning 106). True if something changed.
+bool repair(Quad& n) {
+  if (n[0] == n[3]) {
+    n[3] = n[2];
+    return true;
+  }
+  if (n[1] == n[2]) {
+    n[2] = n[3];
+    return true;
+  }
+  if (n[0] == n[1]) {
+    n = {n[0], n[2], n[3], n[3]};
+    return true;
+  }
+  return false;
+}
+
+bool contains_all(const NodeIndex* nodes, int width, const Quad& segment) {
+  return std::all_of(segment.begin(), segment.end(), [&](NodeIndex s) {
+    return std::find(nodes, nodes + width, s) != nodes + width;
+  });
+}
+
+bool solid_contains(const Model& model, std::uint32_t e, const Quad& segment) {
+  const Elements& solids = model.solid8;
+  if (contains_all(solids.of(e), 8, segment)) return true;
+  // Mid-side nodes of quadratic solids carry segments too.
+  if (e >= solids.extra.size() || solids.extra[e] == no_index) return false;
+  NodeIndex all[20];
+  int count = 0;
+  for (int i = 0; i < 8; ++i) all[count++] = solids.of(e)[i];
+  const int mids = solids.shape[e] == SolidShape::tetra10   ? 6
+                   : solids.shape[e] == SolidShape::brick20 ? 12
+                                                            : 8;
+  for (int i = 0; i < mids; ++i)
+    all[count++] = solids.extra_nodes[solids.extra[e] + static_cast<std::uint32_t>(i)];
+  return contains_all(all, count, segment);
+}
+
+struct Solids {
+  std::uint32_t best = no_index;  // largest user id
+  int count = 0;
+};
+
+Solids solids_of(SceneContext& c, const Quad& segment) {
+  Solids found;
+  const Elements& family = c.model.solid8;
+  for (const std::uint32_t e : c.connectivity.elements(ElementKind::solid8, segment[0])) {
+    if (!solid_contains(c.model, e, segment)) continue;
+    ++found.count;
+    if (found.best == no_index || family.id[e] > family.id[found.best]) found.best = e;
+  }
+  return found;
+}
+
+/// A solid that has all nodes of a quadrangle, but not as one of its faces: solids overlap there.
+bool inside_a_solid(SceneContext& c, const Quad& segment) {
+  if (segment[2] == segment[3]) return false;
+  const NodeKey wanted = node_key(segment.data(), 4);
+  const Elements& solids = c.model.solid8;
+  const auto& around = c.connectivity.elements(ElementKind::solid8, segment[0]);
+  return std::any_of(around.begin(), around.end(), [&](std::uint32_t e) {
+    if (!contains_all(solids.of(e), 8, segment)) return false;
+    for (int f = 0; f < 6; ++f) {
+      const Face face = solid_face(solids.of(e), f);
+      if (face.corners == 4 && node_key(face.nodes.data(), 4) == wanted) return false;
+    }
+    return true;
+  });
+}
+
+struct Shell {
+  ElementKind kind{};
+  std::uint32_t element = no_index;
+};
+
+/// Thickest shell holding all nodes; of equally thick ones the stiffest.
+Shell shell_of(SceneContext& c, const Quad& segment) {
+  Shell best;
+  double thickness = 0, young = 0;
+  const auto look = [&](ElementKind kind, bool last_wins) {
+    const Elements& family = c.model.family(kind);
+    for (const std::uint32_t e : c.connectivity.elements(kind, segment[0])) {
+      if (!contains_all(family.of(e), family.width, segment)) continue;
+      const double t = stiffness_thickness(c.model, kind, e);
+      const double y = young_of(c.model, kind, e);
+      const bool better = best.element == no_index || t > thickness ||
+                          (t == thickness && (y > young || (last_wins && y == young)));
+      if (!better) continue;
+      best = {kind, e};
+      thickness = t;
+      young = y;
+    }
+  };
+  look(ElementKind::shell4, false);
+  if (segment[2] == segment[3]) look(ElementKind::shell3, true);
+  return best;
+}
+
+/// Turns the segment away from the centroid of its solid. True if the order was reversed.
+bool orient_outward(SceneContext& c, std::uint32_t solid, Quad& n) {
+  const Coordinates& x = c.scene.coordinates;
+  Vec centre, middle;
+  const NodeIndex* slots = c.model.solid8.of(solid);
+  if (std::find(slots, slots + 8, no_index) != slots + 8) return false;
+  for (int i = 0; i < 8; ++i) centre = centre + at(x, slots[i]);
+  for (const NodeIndex i : n) middle = middle + at(x, i);
+  const Vec to_centre = 0.125 * centre - 0.25 * middle;
+  const Vec normal = cross(at(x, n[2]) - at(x, n[0]), at(x, n[3]) - at(x, n[1]));
+  // The solver reverses where the normal points towards the centroid, or sideways.
+  if (dot(normal, to_centre) < 0) return false;
+  if (n[2] == n[3])
+    std::swap(n[0], n[1]);
+  else
+    n = {n[3], n[2], n[1], n[0]};
+  return true;
+}
+
+/// Area vanishes or the opposite corners point in opposite directions (solver error 558).
+bool degenerate(const Coordinates& c, const Quad& n) {
+  Vec mean;
+  for (const NodeIndex i : n) mean = mean + at(c, i);
+  mean = 0.25 * mean;
+  Vec r[4];
+  for (std::size_t i = 0; i < 4; ++i) r[i] = at(c, n[i]) - mean;
+  const Vec a1 = cross(r[0], r[1]), a2 = cross(r[1], r[2]);
+  const Vec a3 = n[2] == n[3] ? Vec{} : cross(r[2], r[3]);
+  const Vec a4 = cross(r[3], r[0]);
+  const Vec sum = a1 + a2 + a3 + a4;
+  return dot(sum, a1) == 0 && dot(sum, a3) == 0;
+}
+
+}  // namespace
+
+void make_main_segments(SceneContext& c, const std::vector<Segment>& segments, Contact& contact) {
+  contact.main.reserve(segments.size());
+  for (const Segment& segment : segments) {
+    MainSegment m;
+    m.nodes = segment.nodes;
+    m.carrier = segment.carrier;
+    m.element = segment.element;
+    if (std::find(m.nodes.begin(), m.nodes.end(), no_index) != m.nodes.end()) continue;
+    contact.repaired_segments += repair(m.nodes);
+    bool outward = false, inside = false;
+    std::uint32_t solid = m.element;
+    if (segment.carrier == Carrier::none) {
+      const Solids found = solids_of(c, m.nodes);
+      solid = found.best;
+      outward = found.count == 1;
+      if (found.count > 2)
+        contact.crowded.push_back(static_cast<std::uint32_t>(contact.main.size()));
+      if (found.best != no_index) {
+        m.carrier = Carrier::solid;
+        m.element = found.best;
+      }
+      if (const Shell shell = shell_of(c, m.nodes); shell.element != no_index) {
+        m.carrier = shell.kind == ElementKind::shell4 ? Carrier::shell4 : Carrier::shell3;
+        m.element = shell.element;
+      }
+      if (m.carrier == Carrier::none)
+        contact.no_carrier.push_back(static_cast<std::uint32_t>(contact.main.size()));
+    } else if (segment.carrier == Carrier::solid) {
+      outward = solids_of(c, m.nodes).count == 1;
+      inside = !outward && inside_a_solid(c, m.nodes);
+    }
+    if (inside) contact.inside_solids.push_back(static_cast<std::uint32_t>(contact.main.size()));
+    if (outward && solid != no_index)
+      contact.reoriented_segments += orient_outward(c, solid, m.nodes);
+    if (contact.type == 7 && degenerate(c.scene.coordinates, m.nodes))
+      contact.degenerate.push_back(static_cast<std::uint32_t>(contact.main.size()));
+    contact.main.push_back(m);
+  }
+  contact.degenerate_segments = static_cast<int>(contact.degenerate.size());
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <cmath>
+
+#include "contact/scene/scene_parts.hpp"
+
+namespace deck::detail {
+namespace {
+
+double shell_stiffness(const Model& model, ElementKind kind, std::uint32_t e, double t) {
+  return young_of(model, kind, e) * t;
+}
+
+bool holds(const NodeIndex* nodes, int width, NodeIndex n) {
+  return std::find(nodes, nodes + width, n) != nodes + width;
+}
+
+bool solid_holds(const Elements& solids, std::uint32_t e, NodeIndex n) {
+  if (holds(solids.of(e), 8, n)) return true;
+  if (e >= solids.extra.size() || solids.extra[e] == no_index ||
+      solids.shape[e] != SolidShape::tetra10)
+    return false;
+  return holds(solids.extra_nodes.data() + solids.extra[e], 6, n);
+}
+
+}  // namespace
+
+void set_main_stiffness(SceneContext& c, Contact& contact) {
+  const double f = contact.factor;
+  for (MainSegment& m : contact.main) {
+    m.stiffness = f < 0 ? std::fabs(f) : 0;
+    if (m.element == no_index) {
+      m.stiffness = 0;
+      continue;
+    }
+    if (m.carrier == Carrier::solid) {
+      const Coordinates& x = c.scene.coordinates;
+      const Vec d =
+          cross(at(x, m.nodes[2]) - at(x, m.nodes[0]), at(x, m.nodes[3]) - at(x, m.nodes[1]));
+      // The solver's floor: a segment without area keeps a stiffness that is not quite zero.
+      const double area = 0.5 * std::max(1e-20, std::sqrt(dot(d, d)));
+      const double volume = solid_volume(x, c.model.solid8.of(m.element));
+      m.stiffness = volume > 0 ? f * area * area * bulk_of(c.model, m.element) / volume : 0;
+    } else if (m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3) {
+      const ElementKind kind =
+          m.carrier == Carrier::shell4 ? ElementKind::shell4 : ElementKind::shell3;
+      const double t = stiffness_thickness(c.model, kind, m.element);
+      m.stiffness = f < 0 ? std::fabs(f) : f * shell_stiffness(c.model, kind, m.element, t);
+    }
+  }
+}
+
+void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const Contact& contact) {
+  const Model& model = c.model;
+  const Coordinates& x = c.scene.coordinates;
+  const double f = contact.factor;
+  for (ContactEdge& edge : edges) {
+    const NodeIndex a = edge.nodes[0], b = edge.nodes[1];
+    const double l = distance(x, a, b);
+    double k = 0;
+    edge.shell = edge.section = 0;
+    edge.carrier = Carrier::none;
+    // Later rules override earlier ones: solid, shell, one-dimensional element.
+    std::uint32_t solid = no_index;
+    for (const std::uint32_t e : c.connectivity.elements(ElementKind::solid8, a))
+      if (solid_holds(model.solid8, e, b) &&
+          (solid == no_index || model.solid8.id[e] > model.solid8.id[solid]))
+        solid = e;
+    if (solid != no_index) {
+      k = l > 0 ? f * solid_volume(x, model.solid8.of(solid)) * bulk_of(model, solid) / (l * l) : 0;
+      edge.carrier = Carrier::solid;
+      edge.element = solid;
+    }
+    // The thickest shell, of equally thick ones the stiffest; a 3-node shell goes before any 4-node
+    // shell (as measured on the reference solver).
+    double thickness = 0, young = 0;
+    bool shell = false;
+    for (const ElementKind kind : {ElementKind::shell3, ElementKind::shell4}) {
+      if (shell) break;
+      const Elements& family = model.family(kind);
+      for (const std::uint32_t e : c.connectivity.elements(kind, a)) {
+        if (!holds(family.of(e), family.width, b)) continue;
+        const double t = gap_thickness(model, kind, e), y = young_of(model, kind, e);
+        if (shell && !(t > thickness || (t == thickness && y > young))) continue;
+        shell = true;
+        thickness = t;
+        young = y;
+        edge.carrier = kind == ElementKind::shell4 ? Carrier::shell4 : Carrier::shell3;
+        edge.element = e;
+      }
+    }
+    if (shell) {
+      k = f * thickness * young;
+      edge.shell = thickness;
+    }
+    for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
+      const Elements& family = model.family(kind);
+      for (const std::uint32_t e : c.connectivity.elements(kind, a)) {
+        const NodeIndex* n = family.of(e);
+        const bool exact = (n[0] == a && n[1] == b) || (n[0] == b && n[1] == a);
+        if (!exact) continue;
+        edge.carrier = kind == ElementKind::truss  ? Carrier::truss
+                       : kind == ElementKind::beam ? Carrier::beam
+                                                   : Carrier::spring;
+        edge.element = e;
+        if (kind == ElementKind::spring) {
+          k = f * spring_stiffness(model, e);
+          continue;
+        }
+        const double s = section_thickness(model, kind, e);
+        k = f * s * young_of(model, kind, e);
+        edge.section = s;
+      }
+    }
+    edge.stiffness = contact.istf == 1 && edge.carrier != Carrier::none ? std::fabs(f) : k;
+  }
+}
+
+void set_nodal_stiffness(SceneContext& c, Contact& contact) {
+  const Model& model = c.model;
+  const Coordinates& x = c.scene.coordinates;
+  for (SecondaryNode& s : contact.secondary) {
+    double k = 0;
+    for (const ElementKind kind : {ElementKind::truss, ElementKind::beam}) {
+      const Elements& family = model.family(kind);
+      for (const std::uint32_t e : c.connectivity.elements(kind, s.node)) {
+        const NodeIndex* n = family.of(e);
+        if (n[0] != s.node && n[1] != s.node) continue;
+        if (n[0] == no_index || n[1] == no_index) continue;
+        const double l = distance(x, n[0], n[1]);
+        if (l > 0) k += young_of(model, kind, e) * section_area(model, kind, e) / l;
+      }
+    }
+    for (const std::uint32_t e : c.connectivity.elements(ElementKind::spring, s.node)) {
+      const NodeIndex* n = model.spring.of(e);
+      if (n[0] == s.node || n[1] == s.node) k += spring_stiffness(model, e);
+    }
+    double shells = 0;
+    int count = 0;
+    for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
+      for (const std::uint32_t e : c.connectivity.elements(kind, s.node)) {
+        shells += shell_stiffness(model, kind, e, stiffness_thickness(model, kind, e));
+        ++count;
+      }
+    }
+    if (count > 0) k += shells / count;
+    double volume = 0, weighted = 0;
+    for (const std::uint32_t e : c.connectivity.elements(ElementKind::solid8, s.node)) {
+      const SolidShape shape = model.solid8.shape[e];
+      double share = 0.125, v = solid_volume(x, model.solid8.of(e));
+      if (shape == SolidShape::penta6) share = 1.0 / 6;
+      if (shape == SolidShape::tetra4) share = 0.25;
+      if (shape == SolidShape::tetra10) {
+        constexpr double q = 4 * 3.0 / 14 + 6;
+        share = holds(model.solid8.of(e), 8, s.node) ? (3.0 / 14) / q : 1 / q;
+      } else if (shape == SolidShape::brick20) {
+        constexpr double q = 8 * 3.0 / 14 + 12;
+        share = holds(model.solid8.of(e), 8, s.node) ? (3.0 / 14) / q : 1 / q;
+      } else if (shape == SolidShape::thick16) {
+        share = holds(model.solid8.of(e), 8, s.node) ? 1.0 / 32 : 3.0 / 32;
+      }
+      // The element's own volume, not the one-point rule, which makes tetrahedra 1.5 times larger.
+      if (shape == SolidShape::tetra4 || shape == SolidShape::tetra10) v /= 1.5;
+      volume += share * v;
+      weighted += share * v * bulk_of(model, e);
+    }
+    if (volume > 0) k += weighted / volume * std::cbrt(2 * volume);
+    s.nodal_stiffness = s.off ? 0 : k;
+  }
+}
+
+}  // namespace deck::detail

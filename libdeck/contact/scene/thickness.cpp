@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cmath>
+
+#include "contact/scene/scene_parts.hpp"
+
+namespace deck::detail {
+namespace {
+
+const Part* part_of(const Model& model, ElementKind kind, std::uint32_t e) {
+  const std::uint32_t p = model.family(kind).part[e];
+  return p == no_index ? nullptr : &model.parts[p];
+}
+const Property* property_of(const Model& model, ElementKind kind, std::uint32_t e) {
+  const Part* part = part_of(model, kind, e);
+  return part == nullptr || part->prop == no_index ? nullptr : &model.properties[part->prop];
+}
+const Material* material_of(const Model& model, ElementKind kind, std::uint32_t e) {
+  const Part* part = part_of(model, kind, e);
+  return part == nullptr || part->mat == no_index ? nullptr : &model.materials[part->mat];
+}
+double own_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
+  const auto& t = model.family(kind).thickness;
+  return model.intthick_v5 || e >= t.size() ? 0 : t[e];
+}
+
+}  // namespace
+
+double part_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
+  const Part* part = part_of(model, kind, e);
+  return part == nullptr ? 0 : part->thickness;
+}
+
+double gap_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
+  if (!model.intthick_v5)
+    if (const double t = part_thickness(model, kind, e); t != 0) return t;
+  return stiffness_thickness(model, kind, e);
+}
+
+double stiffness_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
+  if (const double t = own_thickness(model, kind, e); t != 0) return t;
+  const Property* p = property_of(model, kind, e);
+  return p == nullptr ? 0 : p->thickness;
+}
+
+double young_of(const Model& model, ElementKind kind, std::uint32_t e) {
+  const Material* m = material_of(model, kind, e);
+  return m == nullptr ? 0 : m->young;
+}
+
+double bulk_of(const Model& model, std::uint32_t solid) {
+  const Material* m = material_of(model, ElementKind::solid8, solid);
+  if (m == nullptr) return 0;
+  const Property* p = property_of(model, ElementKind::solid8, solid);
+  if (p == nullptr || p->icontrol != 1) return m->bulk;
+  return 2 * m->bulk * (m->law == 1 ? 5 : m->law == 62 ? 100 : 1);
+}
+
+double section_area(const Model& model, ElementKind kind, std::uint32_t e) {
+  const Property* p = property_of(model, kind, e);
+  return p == nullptr ? 0 : p->area;
+}
+
+double section_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
+  return std::sqrt(section_area(model, kind, e));
+}
+
+double spring_stiffness(const Model& model, std::uint32_t spring) {
+  const Property* p = property_of(model, ElementKind::spring, spring);
+  if (p == nullptr) return 0;
+  const auto& k = p->stiffness;
+  if (p->number == 8 || p->number == 13 || p->number == 23)
+    return std::fmax(k[0], std::fmax(k[1], k[2]));
+  return k[0];
+}
+
+double solid_volume(const Coordinates& x, const NodeIndex* n) {
+  if (std::find(n, n + 8, no_index) != n + 8) return 0;  // a node is missing: reported on reading
+  const Vec a = at(x, n[6]) - at(x, n[0]), b = at(x, n[7]) - at(x, n[1]);
+  const Vec c = at(x, n[4]) - at(x, n[2]), d = at(x, n[5]) - at(x, n[3]);
+  const Vec ad = a + d, bc = b + c;
+  const Vec j1 = ad - bc;
+  const Vec j2 = (a + b) - (c + d);
+  const Vec j3 = ad + bc;
+  return std::fabs(dot(j1, cross(j2, j3))) / 64;
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,233 @@
+// Tables and totals of a scene that every medium shows: nodes, edges and pairs counted apart.
+#include "deck/contact/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "contact/scene/node_elements.hpp"
+
+namespace deck {
+namespace {
+
+constexpr ElementKind families_in_view[] = {ElementKind::shell4, ElementKind::shell3,
+                                            ElementKind::solid8, ElementKind::beam,
+                                            ElementKind::truss,  ElementKind::spring};
+
+ElementName name_of(const Model& model, ElementKind kind, std::uint32_t e) {
+  const Elements& family = model.family(kind);
+  const std::uint32_t part = family.part[e];
+  return {kind, e, family.id[e], part == no_index ? 0 : model.parts[part].id};
+}
+
+std::optional<ElementKind> kind_of(Carrier carrier) {
+  switch (carrier) {
+    case Carrier::solid:
+      return ElementKind::solid8;
+    case Carrier::shell4:
+      return ElementKind::shell4;
+    case Carrier::shell3:
+      return ElementKind::shell3;
+    case Carrier::truss:
+      return ElementKind::truss;
+    case Carrier::beam:
+      return ElementKind::beam;
+    case Carrier::spring:
+      return ElementKind::spring;
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+const Elements* elements_of(const Model& model, Carrier carrier) {
+  const auto kind = kind_of(carrier);
+  return kind ? &model.family(*kind) : nullptr;
+}
+
+ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t e) {
+  const auto kind = kind_of(carrier);
+  return kind && e != no_index ? name_of(model, *kind, e) : ElementName{};
+}
+
+namespace {
+
+/// The element a node is named after: the first family that has one, smallest index.
+ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex node) {
+  for (const ElementKind kind : families_in_view) {
+    const auto list = connectivity.elements(kind, node);
+    if (!list.empty()) return name_of(model, kind, list[0]);
+  }
+  return {};
+}
+
+double ratio(const PenetrationRow& row) { return row.gap > 0 ? row.depth / row.gap : 0; }
+
+}  // namespace
+
+int on_surface_error(const Contact& contact) {
+  if (contact.kind == ContactKind::edge_edge || contact.fpenmax != 0 || contact.inacti == 1 ||
+      contact.inacti == 2)
+    return 0;
+  if (contact.type == 10 && contact.itied != 0) return 0;
+  return contact.inacti == 0 ? 612 : 611;
+}
+
+namespace {
+
+template <class T>
+std::uint64_t distinct(std::vector<T>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+  return items.size();
+}
+
+/// Counts rows, and the nodes and edges among them once each.
+class Tally {
+ public:
+  void add(const Contact& contact, const PenetrationRow& row) {
+    all_.add(contact, row);
+    if (row.on_surface) {
+      on_segment_.add(contact, row);
+      if (on_surface_error(contact) != 0) stopped_.add(contact, row);
+    }
+    totals_.acted += row.action != PenetrationAction::none;
+    totals_.max_depth = std::max(totals_.max_depth, row.depth);
+    totals_.max_ratio = std::max(totals_.max_ratio, ratio(row));
+  }
+  ContactTotals totals() {
+    totals_.count = all_.counts();
+    totals_.on_segment = on_segment_.counts();
+    totals_.solver_errors = stopped_.counts().nodes;
+    return totals_;
+  }
+
+ private:
+  struct Items {
+    std::uint64_t pairs = 0;
+    std::vector<NodeIndex> nodes = {};
+    std::vector<std::array<NodeIndex, 2>> edges = {};
+
+    void add(const Contact& contact, const PenetrationRow& row) {
+      ++pairs;
+      if (contact.kind == ContactKind::node_segment) {
+        nodes.push_back(contact.secondary[row.secondary].node);
+        return;
+      }
+      std::array<NodeIndex, 2> edge = contact.secondary_edges[row.secondary].nodes;
+      if (edge[1] < edge[0]) std::swap(edge[0], edge[1]);
+      edges.push_back(edge);
+    }
+    ItemCounts counts() { return {pairs, distinct(nodes), distinct(edges)}; }
+  };
+  Items all_, on_segment_, stopped_;
+  ContactTotals totals_;
+};
+
+NamedPenetration named(const Model& model, Connectivity& connectivity, const Contact& contact,
+                       const PenetrationRow& row) {
+  NamedPenetration p;
+  if (contact.kind == ContactKind::node_segment) {
+    const NodeIndex n = contact.secondary[row.secondary].node;
+    const MainSegment& m = contact.main[row.main];
+    p.secondary = {model.node_id(n), 0};
+    for (std::size_t k = 0; k < 4; ++k) p.main[k] = model.node_id(m.nodes[k]);
+    p.secondary_element = element_at(model, connectivity, n);
+    p.main_element = carrier_name(model, m.carrier, m.element);
+    p.at = {model.nodes.x[n], model.nodes.y[n], model.nodes.z[n]};
+    return p;
+  }
+  const ContactEdge& s = contact.secondary_edges[row.secondary];
+  const ContactEdge& m = contact.main_edges[row.main];
+  p.secondary = {model.node_id(s.nodes[0]), model.node_id(s.nodes[1])};
+  p.main = {model.node_id(m.nodes[0]), model.node_id(m.nodes[1]), 0, 0};
+  p.secondary_element = carrier_name(model, s.carrier, s.element);
+  p.main_element = carrier_name(model, m.carrier, m.element);
+  const double h = row.weight_s;
+  const Nodes& x = model.nodes;
+  const auto mix = [&](const std::vector<double>& a) {
+    return h * a[s.nodes[0]] + (1 - h) * a[s.nodes[1]];
+  };
+  p.at = {mix(x.x), mix(x.y), mix(x.z)};
+  return p;
+}
+
+/// `list`: positions in view.penetrations, deepest first.
+PartPair part_pair(const Scene& scene, const SceneView& view, std::int64_t secondary,
+                   std::int64_t main, const std::vector<std::uint32_t>& list) {
+  Tally tally;
+  PartPair pair;
+  pair.secondary = secondary;
+  pair.main = main;
+  pair.worst = list.front();
+  double sum = 0;
+  const auto row_of = [&](std::uint32_t i) -> const PenetrationRow& {
+    return scene.contacts[view.penetrations[i].contact].penetrations[view.penetrations[i].row];
+  };
+  for (const std::uint32_t i : list) {
+    sum += row_of(i).depth;
+    tally.add(scene.contacts[view.penetrations[i].contact], row_of(i));
+  }
+  const ContactTotals totals = tally.totals();
+  pair.count = totals.count;
+  pair.on_segment = totals.on_segment;
+  pair.max_ratio = totals.max_ratio;
+  pair.max_depth = row_of(list.front()).depth;
+  pair.mean_depth = sum / static_cast<double>(list.size());
+  // Nearest-rank percentile; the list runs from deep to shallow.
+  pair.p95_depth = row_of(list[list.size() / 20]).depth;
+  return pair;
+}
+
+}  // namespace
+
+SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings) {
+  SceneView view;
+  const Model& model = *scene.model;
+  Connectivity connectivity(model);
+  Tally all;
+  for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
+    const Contact& contact = scene.contacts[c];
+    Tally tally;
+    for (std::uint32_t r = 0; r < contact.penetrations.size(); ++r) {
+      const PenetrationRow& row = contact.penetrations[r];
+      NamedPenetration p = named(model, connectivity, contact, row);
+      p.contact = c;
+      p.row = r;
+      view.penetrations.push_back(p);
+      tally.add(contact, row);
+      all.add(contact, row);
+    }
+    view.contacts.push_back(tally.totals());
+  }
+  view.total = all.totals();
+  if (crossings != nullptr) {
+    view.total.crossed_elements = crossings->size();
+    for (ContactTotals& t : view.contacts) t.crossed_elements = 0;
+    for (const Crossing& x : *crossings) ++*view.contacts[x.contact].crossed_elements;
+  }
+  const auto row_of = [&](const NamedPenetration& p) -> const PenetrationRow& {
+    return scene.contacts[p.contact].penetrations[p.row];
+  };
+  std::stable_sort(view.penetrations.begin(), view.penetrations.end(),
+                   [&](const NamedPenetration& a, const NamedPenetration& b) {
+                     return row_of(a).depth > row_of(b).depth;
+                   });
+  std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> pairs;
+  for (std::uint32_t i = 0; i < view.penetrations.size(); ++i) {
+    const NamedPenetration& p = view.penetrations[i];
+    if (seen.emplace(p.contact, row_of(p).secondary).second) view.deepest_per_node.push_back(i);
+    pairs[{p.secondary_element.part, p.main_element.part}].push_back(i);
+  }
+  for (const auto& [parts, list] : pairs)
+    view.part_pairs.push_back(part_pair(scene, view, parts.first, parts.second, list));
+  std::stable_sort(view.part_pairs.begin(), view.part_pairs.end(),
+                   [](const PartPair& a, const PartPair& b) { return a.max_depth > b.max_depth; });
+  return view;
+}
+
+}  // namespace deck

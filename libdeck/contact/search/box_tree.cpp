@@ -1,0 +1,34 @@
+// Bottom-up construction of the box tree.
+#include "contact/search/box_tree.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/parallel.hpp"
+
+namespace deck {
+
+BoxTree::BoxTree(std::vector<BoxBlock> leaves, int threads) {
+  if (leaves.empty()) return;
+  levels_.push_back(std::move(leaves));
+  while (levels_.back().size() > 1) {
+    const std::vector<BoxBlock>& below = levels_.back();
+    constexpr std::size_t kWidth = BoxBlock::kWidth;
+    std::vector<BoxBlock> above((below.size() + kWidth - 1) / kWidth);
+    parallel_parts(threads, above.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t last = std::min(below.size(), (i + 1) * kWidth);
+        for (std::size_t j = i * kWidth; j < last; ++j) above[i].set(j % kWidth, below[j].bounds());
+      }
+    });
+    levels_.push_back(std::move(above));
+  }
+}
+
+std::size_t BoxTree::bytes() const {
+  std::size_t sum = 0;
+  for (const auto& level : levels_) sum += level.size() * sizeof(BoxBlock);
+  return sum;
+}
+
+}  // namespace deck

@@ -1,0 +1,56 @@
+// Edge-edge search: a tree over the secondary edges, swept by the main edges.
+#include <algorithm>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "contact/search/box_order.hpp"
+#include "contact/search/sweep.hpp"
+
+namespace deck {
+namespace {
+
+using sweep::at;
+}  // namespace
+
+namespace sweep {
+
+EdgeSweep::EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads)
+    : input(&in), options(&o) {
+  constexpr std::size_t kWidth = BoxBlock::kWidth;
+  const auto secondary_box = [&](std::uint32_t i) {
+    return edge_box(in.nodes, in.secondary[i], secondary_reach(o, at(in.secondary_gap, i, 0.0)));
+  };
+  items = active(in.secondary.size(), in.secondary_stiffness);
+  sort_in_space(items, secondary_box, threads);
+  std::vector<BoxBlock> blocks((items.size() + kWidth - 1) / kWidth);
+  parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin * kWidth; k < std::min(items.size(), end * kWidth); ++k) {
+      blocks[k / kWidth].set(k % kWidth, secondary_box(items[k]));
+    }
+  });
+  tree = BoxTree(std::move(blocks), threads);
+
+  mains = active(in.main.size(), in.main_stiffness);
+  const auto main_box = [&](std::uint32_t i) {
+    return edge_box(in.nodes, in.main[i], main_reach(o, at(in.main_gap, i, 0.0)));
+  };
+  put_in_order(mains, main_box, threads);
+}
+
+std::size_t EdgeSweep::bytes() const {
+  return tree.bytes() + (items.size() + mains.size()) * sizeof(std::uint32_t);
+}
+
+}  // namespace sweep
+
+SearchResult find_edge_edge_pairs(const EdgeEdgeInput& in, const SearchOptions& options) {
+  const sweep::EdgeSweep w(in, options, effective_threads(options.threads));
+  SearchResult result;
+  result.structure_bytes = w.bytes();
+  sweep::run([&w](std::size_t begin, std::size_t end,
+                  sweep::Sink& sink) { sweep::kernels().edges(w, begin, end, sink); },
+             w.mains.size(), in.secondary.size(), options, result);
+  return result;
+}
+
+}  // namespace deck

@@ -1,0 +1,169 @@
+// Node-segment search: packs the secondary nodes into a tree and sweeps the segments over it.
+#include <algorithm>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "contact/search/box_order.hpp"
+#include "contact/search/sweep.hpp"
+
+namespace deck {
+namespace {
+
+using sweep::at;
+
+// Box of a segment, widened by its own reach; only for judging order and size.
+Box segment_box(const NodeSegmentInput& in, const SearchOptions& options, std::uint32_t i) {
+  const double reach = sweep::main_reach(options, at(in.segment_gap, i, 0.0));
+  Box box;
+  for (const std::uint32_t node : in.segments[i]) {
+    const Point3<double> p = sweep::point(in.nodes, node);
+    box.add({{p.x - reach, p.y - reach, p.z - reach}, {p.x + reach, p.y + reach, p.z + reach}});
+  }
+  return box;
+}
+
+}  // namespace
+
+namespace sweep {
+
+NodeSweep::NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads)
+    : input(&in), options(&o) {
+  segments = active(in.segments.size(), in.segment_stiffness);
+  put_in_order(
+      segments, [&](std::uint32_t i) { return segment_box(in, o, i); }, threads);
+
+  items = active(in.secondary.size(), in.secondary_stiffness);
+  // Large meshes are mostly numbered along their rows, which serves as well as any order.
+  if (looks_ordered()) {
+    pack(threads);
+    if (serves_well()) return;
+  }
+  sort_by_place(
+      items, [&](std::uint32_t i) { return Place{point(in.nodes, in.secondary[i])}; }, threads);
+  pack(threads);
+}
+
+// Whether neighbours in the list of nodes are mostly no further apart than some segments are large:
+// a cheap look before the tree is tried.
+bool NodeSweep::looks_ordered() const {
+  constexpr std::size_t kWorthTrying = 8192, kSamples = 64, kWidth = PointBlock::kWidth;
+  if (items.size() < kWorthTrying || segments.empty()) return false;
+  const auto median = [](std::size_t count, const auto& size_of) {
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const double size = size_of(i * (count / kSamples));
+      sizes.push_back(size >= 0.0 ? size : sweep::kInfinity);  // an order needs numbers
+    }
+    std::nth_element(sizes.begin(), sizes.begin() + kSamples / 2, sizes.end());
+    return sizes[kSamples / 2];
+  };
+  const double apart = median(items.size() - kWidth, [&](std::size_t first) {
+    Box box;
+    for (std::size_t k = 0; k < kWidth; ++k) {
+      const Point3<double> p = point(input->nodes, input->secondary[items[first + k]]);
+      box.add({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
+    }
+    return box.size();
+  });
+  const double segment = median(segments.size(), [&](std::size_t i) {
+    return segment_box(*input, *options, segments[i]).size();
+  });
+  return apart <= 16.0 * segment;
+}
+
+// Packs points and gaps in the order of `items` and builds the tree over them.
+void NodeSweep::pack(int threads) {
+  constexpr std::size_t kWidth = PointBlock::kWidth;
+  const NodeSegmentInput& in = *input;
+  const std::size_t leaf_count = (items.size() + kWidth - 1) / kWidth;
+  points.resize(leaf_count);
+  reach.resize(leaf_count);
+  nodes.resize(items.size());
+  std::vector<BoxBlock> blocks((leaf_count + kWidth - 1) / kWidth);
+  parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    const std::size_t last = std::min(leaf_count, end * kWidth);
+    for (std::size_t i = begin * kWidth; i < last; ++i) {
+      PointBlock& leaf = points[i];
+      Box box;
+      for (std::size_t rank = i * kWidth; rank < std::min(items.size(), (i + 1) * kWidth); ++rank) {
+        const std::size_t k = rank % kWidth;
+        nodes[rank] = in.secondary[items[rank]];
+        const Point3<double> p = point(in.nodes, nodes[rank]);
+        leaf.x[k] = p.x;
+        leaf.y[k] = p.y;
+        leaf.z[k] = p.z;
+        leaf.gap[k] = at(in.secondary_gap, items[rank], 0.0);
+        const double own = secondary_reach(*options, leaf.gap[k]);
+        reach[i] = k == 0 ? own : std::max(reach[i], own);
+        const double r = Reach::widened(own, 0.0);
+        box.add({{p.x - r, p.y - r, p.z - r}, {p.x + r, p.y + r, p.z + r}});
+      }
+      blocks[i / kWidth].set(i % kWidth, box);
+    }
+  });
+  tree = BoxTree(std::move(blocks), threads);
+}
+
+// Whether walks through the tree meet little else than what they look for, tried with some of the
+// segments: boxes tested against points found. Decides speed only, never the result.
+bool NodeSweep::serves_well() const {
+  constexpr std::size_t kSamples = 64;
+  constexpr std::size_t kPerLevel = 3;  // and one per point; a space-filling curve needs about 2
+  constexpr std::size_t kPatience = 4096;
+  const std::size_t stride = segments.size() / kSamples + 1;
+  std::size_t tested = 0, allowed = 0;
+  std::vector<std::pair<std::size_t, std::size_t>> stack;  // level, block
+  for (std::size_t i = stride / 2; i < segments.size(); i += stride) {
+    const Box b = segment_box(*input, *options, segments[i]);
+    const auto apart = [&b](std::size_t axis, double low, double high) {
+      return !(low <= b.high[axis] && high >= b.low[axis]);  // unused places are apart
+    };
+    allowed += kPerLevel * tree.levels();
+    stack.emplace_back(tree.levels() - 1, 0);
+    while (!stack.empty()) {
+      if (++tested > allowed + kPatience) return false;
+      const auto [level, block] = stack.back();
+      stack.pop_back();
+      const BoxBlock& boxes = tree.level(level)[block];
+      for (std::size_t c = 0; c < BoxBlock::kWidth; ++c) {
+        if (apart(0, boxes.low[0][c], boxes.high[0][c]) ||
+            apart(1, boxes.low[1][c], boxes.high[1][c]) ||
+            apart(2, boxes.low[2][c], boxes.high[2][c]))
+          continue;
+        const std::size_t child = block * BoxBlock::kWidth + c;
+        if (level > 0) {
+          stack.emplace_back(level - 1, child);
+          continue;
+        }
+        ++tested;
+        const PointBlock& leaf = points[child];
+        const double r = reach[child];
+        for (std::size_t k = 0; k < PointBlock::kWidth; ++k) {
+          if (!apart(0, leaf.x[k] - r, leaf.x[k] + r) && !apart(1, leaf.y[k] - r, leaf.y[k] + r) &&
+              !apart(2, leaf.z[k] - r, leaf.z[k] + r))
+            ++allowed;
+        }
+      }
+    }
+  }
+  return tested <= allowed;
+}
+
+std::size_t NodeSweep::bytes() const {
+  return points.size() * sizeof(PointBlock) + reach.size() * sizeof(double) + tree.bytes() +
+         (items.size() + nodes.size() + segments.size()) * sizeof(std::uint32_t);
+}
+
+}  // namespace sweep
+
+SearchResult find_node_segment_pairs(const NodeSegmentInput& in, const SearchOptions& options) {
+  const sweep::NodeSweep w(in, options, effective_threads(options.threads));
+  SearchResult result;
+  result.structure_bytes = w.bytes();
+  sweep::run([&w](std::size_t begin, std::size_t end,
+                  sweep::Sink& sink) { sweep::kernels().nodes(w, begin, end, sink); },
+             w.segments.size(), in.secondary.size(), options, result);
+  return result;
+}
+
+}  // namespace deck

@@ -1,0 +1,260 @@
+// What the sweeps of the pair search share: the packed points, the shape of one segment, the
+// sinks, and the table of sweeps by instruction set.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contact/search/box_order.hpp"
+#include "contact/search/box_tree.hpp"
+#include "deck/contact/search.hpp"
+
+namespace deck::sweep {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+inline double at(std::span<const double> values, std::size_t i, double otherwise) {
+  return values.empty() ? otherwise : values[i];
+}
+
+// Eight secondary nodes, neighbours in space: a leaf of the tree. A node's rank is 8 * (number of
+// its leaf) + its place in it.
+struct alignas(64) PointBlock {
+  static constexpr std::size_t kWidth = BoxBlock::kWidth;
+  std::array<double, kWidth> x{}, y{}, z{};
+  std::array<double, kWidth> gap{};
+};
+
+// How far beyond a segment or edge its tests reach. Computed distances may be smaller than exact
+// ones by a few units in the last place of the coordinates; boxes are widened by much more than
+// that, so that no pair the distance formula accepts is lost to a box test.
+struct Reach {
+  static constexpr double kRelative = 0x1p-40;
+  static constexpr double kOfCoordinate = 0x1p-42;
+  static constexpr double kUnderflow = 0x1p-500;  // squares of shorter distances vanish
+  static double widened(double reach, double largest_coordinate) {
+    return reach + (std::abs(reach) * kRelative + largest_coordinate * kOfCoordinate + kUnderflow);
+  }
+};
+
+// Pairs found by one thread, in the order found. Grows by whole chunks: nothing is ever copied. All
+// sinks of a search draw on one allowance; when that is used up they are full and keep nothing
+// more.
+class Sink {
+ public:
+  static constexpr std::size_t kChunk = 16384;
+  // Without an allowance there is no bound.
+  explicit Sink(std::atomic<std::int64_t>* allowance = nullptr) : allowance_(allowance) {}
+  void push(CandidatePair pair) { push_if(true, pair); }
+  // Without a branch: whether a pair is within its gap is known late and cannot be predicted, and a
+  // wrong guess would throw away the distances of the next pairs that are under way.
+  void push_if(bool wanted, CandidatePair pair) {
+    if (fill_ == kChunk) grow();
+    last_[fill_] = pair;
+    fill_ += wanted;
+  }
+  bool full() const { return full_; }
+  std::size_t size() const { return chunks_.empty() ? 0 : (chunks_.size() - 1) * kChunk + fill_; }
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (std::size_t c = 0; c < chunks_.size(); ++c) {
+      const std::size_t count = c + 1 == chunks_.size() ? fill_ : kChunk;
+      for (std::size_t i = 0; i < count; ++i) visit(chunks_[c][i]);
+    }
+  }
+  std::size_t tested = 0;  // distances computed
+
+ private:
+  void grow() {
+    fill_ = 0;
+    if (allowance_ != nullptr && !chunks_.empty() &&
+        allowance_->fetch_sub(static_cast<std::int64_t>(kChunk)) <
+            static_cast<std::int64_t>(kChunk))
+      full_ = true;
+    if (full_) return;  // what comes now overwrites: nobody reads a full sink
+    chunks_.push_back(std::make_unique_for_overwrite<CandidatePair[]>(kChunk));
+    last_ = chunks_.back().get();
+  }
+  std::atomic<std::int64_t>* allowance_;
+  bool full_ = false;
+  std::vector<std::unique_ptr<CandidatePair[]>> chunks_;
+  CandidatePair* last_ = nullptr;
+  std::size_t fill_ = kChunk;
+};
+
+// Everything a sweep over the main side reads. Filled by search_nodes.cpp and search_edges.cpp.
+struct NodeSweep {
+  const NodeSegmentInput* input = nullptr;
+  const SearchOptions* options = nullptr;
+  std::vector<std::uint32_t> segments;  // active ones in spatial order
+  std::vector<PointBlock> points;
+  std::vector<double> reach;         // per leaf: largest share of the gap among its nodes
+  std::vector<std::uint32_t> items;  // per rank: position in the list of secondary nodes
+  std::vector<std::uint32_t> nodes;  // per rank: node
+  BoxTree tree;                      // leaves: boxes of the point blocks, widened by their reach
+
+  // The search structure over the secondary nodes of an input, and its segments in order.
+  NodeSweep(const NodeSegmentInput& in, const SearchOptions& o, int threads);
+  std::size_t bytes() const;
+
+ private:
+  bool looks_ordered() const;
+  void pack(int threads);
+  bool serves_well() const;
+};
+struct EdgeSweep {
+  const EdgeEdgeInput* input = nullptr;
+  const SearchOptions* options = nullptr;
+  std::vector<std::uint32_t> mains;  // active main edges in spatial order
+  std::vector<std::uint32_t> items;  // active secondary edges in spatial order
+  BoxTree tree;                      // leaves: boxes of single secondary edges, widened
+
+  EdgeSweep(const EdgeEdgeInput& in, const SearchOptions& o, int threads);
+  std::size_t bytes() const;
+};
+
+// The gap of a side's share that its own boxes are widened by; the other half of drad and the
+// whole margin belong to the main side.
+inline double secondary_reach(const SearchOptions& o, double gap) {
+  return std::max(o.gap.share(gap), 0.5 * o.drad);
+}
+inline double main_reach(const SearchOptions& o, double gap) {
+  return std::max(o.gap.share(gap), 0.5 * o.drad) + o.margin;
+}
+inline double pair_limit(const SearchOptions& o, double gap_s, double gap_m, double length_s,
+                         double length_m) {
+  return std::max(o.drad, o.gap(gap_s, gap_m, length_s, length_m)) + o.margin;
+}
+
+// Sweeps over positions [begin, end) of the main side. One version per instruction set; all give
+// the same pairs, bit for bit the same distances.
+struct Kernels {
+  void (*nodes)(const NodeSweep&, std::size_t begin, std::size_t end, Sink&);
+  void (*edges)(const EdgeSweep&, std::size_t begin, std::size_t end, Sink&);
+  const char* name;
+};
+// The fastest versions this processor runs.
+const Kernels& kernels();
+// Every version this processor runs, slowest first; for tests.
+std::span<const Kernels> all_kernels();
+
+inline Point3<double> point(const NodeArrays& nodes, std::uint32_t i) {
+  return {nodes.x[i], nodes.y[i], nodes.z[i]};
+}
+
+inline constexpr std::size_t kGroup = 8;  // main items that share one walk through the tree
+
+// A group walks the tree as one only if its box is not much larger than its members': a giant or a
+// stray among small ones would make the others test far too much.
+inline bool worth_sharing(double group_size, double sum_of_sizes) {
+  return group_size <= 0.75 * sum_of_sizes;
+}
+
+// Whether a list of main items is already in spatial order, well enough for groups of neighbours to
+// share walks and memory. Looks at samples; decides speed only, never the result.
+template <class BoxOf>
+bool is_coherent(std::span<const std::uint32_t> ids, const BoxOf& box_of) {
+  constexpr std::size_t kWindow = 64, kStride = 16 * kWindow;
+  std::size_t windows = 0, good = 0;
+  for (std::size_t first = 0; first + kWindow <= ids.size(); first += kStride) {
+    Box window;
+    double window_sum = 0.0;
+    bool in_order = true;
+    for (std::size_t g = 0; g < kWindow; g += kGroup) {
+      Box group;
+      double group_sum = 0.0;
+      for (std::size_t i = 0; i < kGroup; ++i) {
+        const Box b = box_of(ids[first + g + i]);
+        group.add(b);
+        group_sum += b.size();
+      }
+      in_order = in_order && worth_sharing(group.size(), group_sum);
+      window.add(group);
+      window_sum += group_sum;
+    }
+    ++windows;
+    if (in_order && window.size() <= window_sum) ++good;
+  }
+  return good * 10 >= windows * 9;
+}
+
+// Positions of everything whose stiffness is not 0.
+inline std::vector<std::uint32_t> active(std::size_t count, std::span<const double> stiffness) {
+  std::vector<std::uint32_t> ids;
+  ids.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (stiffness.empty() || stiffness[i] != 0.0) ids.push_back(static_cast<std::uint32_t>(i));
+  }
+  return ids;
+}
+
+// Things whose sizes differ by more than a factor of eight or so are kept in different leaves and
+// groups. The class repeats every 8^8, which does no harm.
+inline unsigned size_class(double size) {
+  return static_cast<unsigned>(((std::bit_cast<std::uint64_t>(size) >> 52) & 0x7ffU) / 3) & 7U;
+}
+
+// Box of an edge, widened by `reach`.
+inline Box edge_box(const NodeArrays& nodes, const std::array<std::uint32_t, 2>& edge,
+                    double reach) {
+  const Point3<double> a = point(nodes, edge[0]), b = point(nodes, edge[1]);
+  Box box;
+  box.low = {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+  box.high = {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+  double largest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    largest = std::max(largest, std::max(-box.low[k], box.high[k]));
+  }
+  const double r = Reach::widened(reach, largest);
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] -= r;
+    box.high[k] += r;
+  }
+  return box;
+}
+
+// Orders things in space by their places, place_of(id) each.
+template <class PlaceOf>
+void sort_by_place(std::vector<std::uint32_t>& ids, const PlaceOf& place_of, int threads) {
+  std::vector<std::uint32_t> order = order_by_place(
+      ids.size(), [&](std::uint32_t i) { return place_of(ids[i]); }, threads);
+  for (std::uint32_t& i : order) i = ids[i];
+  ids.swap(order);
+}
+
+// Orders things in space by the centres and sizes of their boxes.
+template <class BoxOf>
+void sort_in_space(std::vector<std::uint32_t>& ids, const BoxOf& box_of, int threads) {
+  sort_by_place(
+      ids,
+      [&](std::uint32_t id) {
+        const Box b = box_of(id);
+        return Place{{0.5 * b.low[0] + 0.5 * b.high[0], 0.5 * b.low[1] + 0.5 * b.high[1],
+                      0.5 * b.low[2] + 0.5 * b.high[2]},
+                     size_class(b.size())};
+      },
+      threads);
+}
+
+// The same, unless they are in good order already.
+template <class BoxOf>
+void put_in_order(std::vector<std::uint32_t>& ids, const BoxOf& box_of, int threads) {
+  if (!is_coherent(ids, box_of)) sort_in_space(ids, box_of, threads);
+}
+
+// Runs `body(begin, end, sink)` over `count` main items on several threads and leaves the pairs,
+// sorted by secondary and main, in `result`. `secondaries` is the length of the secondary list.
+void run(const std::function<void(std::size_t, std::size_t, Sink&)>& body, std::size_t count,
+         std::size_t secondaries, const SearchOptions& options, SearchResult& result);
+
+}  // namespace deck::sweep

@@ -1,0 +1,15 @@
+// Pair kernels for AVX2: packs of four. Compiled with -mavx2 where the target has it; the caller
+// asks the processor before using them.
+#include "cycle/kernel/kernels.hpp"
+
+namespace deck::cycle::detail {
+
+#if defined(__AVX2__)
+const KernelTable* find_avx2(ContactKind kind, Model model, EffectSet effects, bool generic) {
+  return find_kernel<4>(kind, model, effects, generic);
+}
+#else
+const KernelTable* find_avx2(ContactKind, Model, EffectSet, bool) { return nullptr; }
+#endif
+
+}  // namespace deck::cycle::detail

@@ -1,0 +1,570 @@
+#include "deck/edit/extract.hpp"
+
+#include <algorithm>
+
+#include "edit/convert/extract_state.hpp"
+#include "keyword/reader.hpp"
+
+namespace deck::detail {
+
+std::optional<ElementKind> family_of(std::string_view kind) {
+  constexpr std::pair<std::string_view, ElementKind> kinds[] = {
+      {"shell", ElementKind::shell4},  {"sh3n", ElementKind::shell3},
+      {"brick", ElementKind::solid8},  {"tetra4", ElementKind::solid8},
+      {"penta6", ElementKind::solid8}, {"tetra10", ElementKind::solid8},
+      {"bric20", ElementKind::solid8}, {"shel16", ElementKind::solid8},
+      {"quad", ElementKind::quad},     {"tria", ElementKind::tria},
+      {"truss", ElementKind::truss},   {"beam", ElementKind::beam},
+      {"spring", ElementKind::spring}};
+  for (const auto& [name, family] : kinds)
+    if (name == kind) return family;
+  return std::nullopt;
+}
+
+ItemLines::ItemLines(const Deck& deck, const Block& block)
+    : deck_(&deck), block_(&block), cursor_(deck.sources, block) {
+  for (const CardSchema& card : block.schema->cards)
+    if (card.in_version(block.version)) cards_.push_back(&card);
+}
+
+bool ItemLines::next() {
+  lines_.clear();
+  if (cards_.empty()) return false;
+  while (lines_.size() < cards_.size()) {
+    const Line line = cursor_.next();
+    if (!line.valid()) return false;
+    if (lines_.empty() && line.text.empty()) continue;
+    lines_.push_back(line);
+  }
+  const std::string_view text = lines_[0].text;
+  const Field& f = cards_[0]->fields[0];
+  if (text.find_first_of(",&") == std::string_view::npos) {
+    id_ = read_integer(columns(text, f.first, f.last)).value;
+  } else {
+    const DecodedCard card = decode_line(*deck_, *block_, *cards_[0], lines_[0], nullptr);
+    id_ = card.cells.empty() ? 0 : card.cells[0].integer;
+  }
+  if (id_ > 0) id_ += deck_->offset_of(*block_, block_->schema->kind);
+  return true;
+}
+
+namespace {
+
+constexpr std::string_view selection_kinds[] = {"grnod",  "grshel", "grsh3n", "grtria",
+                                                "grbric", "grquad", "grtrus", "grbeam",
+                                                "grspri", "surf",   "line",   "set"};
+
+bool is_selection(std::string_view kind) {
+  return std::find(std::begin(selection_kinds), std::end(selection_kinds), kind) !=
+         std::end(selection_kinds);
+}
+
+/// Switches of the whole run that contacts or their elements depend on, and what names units.
+bool is_switch(const Block& b) {
+  constexpr std::string_view list[] = {"/BEGIN",  "/TITLE",    "/UNIT",      "/PARAMETER",
+                                       "/ANALY",  "/INTTHICK", "/DEF_SHELL", "/DEF_SOLID",
+                                       "/RANDOM", "/IOFLAG",   "/SPMD",      "/IMPLICIT",
+                                       "/CAA",    "/SHFRA",    "/DEFAULT"};
+  for (const std::string_view k : list)
+    if (detail::is_below(b.header, k)) return true;
+  return false;
+}
+
+bool is_box_selection(const Block& b) { return b.header.find("/BOX") != std::string_view::npos; }
+
+}  // namespace
+
+Extraction::Extraction(const EditContext& c, std::span<const std::int64_t> interfaces)
+    : context(c),
+      block_kept(c.deck.blocks.size(), 0),
+      node_kept(c.model.nodes.size(), 0),
+      deck_(c.deck),
+      model_(c.model),
+      selections_(*c.model.selections),
+      visited_(c.deck.blocks.size(), 0),
+      touched_(c.model.nodes.size(), 0),
+      part_whole_(c.model.parts.size(), 0),
+      elements_of_part_(c.model.parts.size()) {
+  for (std::size_t k = 0; k < element_families; ++k) {
+    const Elements& family = model_.family(static_cast<ElementKind>(k));
+    element_kept[k].assign(family.size(), 0);
+    scanned_[k].assign(family.size(), 0);
+    for (std::uint32_t e = 0; e < family.size(); ++e)
+      if (family.part[e] != no_index)
+        elements_of_part_[family.part[e]].emplace_back(static_cast<ElementKind>(k), e);
+  }
+  for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
+    const Block& b = deck_.blocks[i];
+    if (b.schema == nullptr || b.schema->kind.empty() || b.schema->bulk) continue;
+    definitions_.emplace(std::pair{b.schema->kind, b.id.value + deck_.offset_of(b, b.schema->kind)},
+                         i);
+  }
+  for (const InterBase* inter : c.interfaces.ordered)
+    if (std::find(interfaces.begin(), interfaces.end(), inter->id) != interfaces.end())
+      keep_block(static_cast<std::size_t>(inter->block - deck_.blocks.data()), touching);
+}
+
+void Extraction::keep_block(std::size_t index, Level level) {
+  if (visited_[index] >= level) return;
+  visited_[index] = level;
+  block_kept[index] = 1;
+  queue_.push_back({index, level});
+}
+
+void Extraction::keep_block(std::string_view kind, std::int64_t id, Level level) {
+  auto it = definitions_.find(std::pair{std::string(kind), id});
+  constexpr std::string_view may_be_sets[] = {"grnod", "surf", "line", "grpart"};
+  if (it == definitions_.end() &&
+      std::find(std::begin(may_be_sets), std::end(may_be_sets), kind) != std::end(may_be_sets))
+    it = definitions_.find(std::pair{std::string("set"), id});
+  if (it != definitions_.end()) keep_block(it->second, level);
+}
+
+void Extraction::keep_node(NodeIndex n, bool touch) {
+  if (n == no_index) return;
+  node_kept[n] = 1;
+  if (touch) touched_[n] = 1;
+}
+
+void Extraction::keep_element(ElementKind kind, std::uint32_t e, bool touch) {
+  const Elements& family = model_.family(kind);
+  if (e >= family.size()) return;
+  element_kept[static_cast<std::size_t>(kind)][e] = 1;
+  for (int i = 0; i < family.width; ++i) keep_node(family.of(e)[i], touch);
+}
+
+void Extraction::keep_carrier(Carrier carrier, std::uint32_t e, bool touch) {
+  if (e == no_index) return;
+  switch (carrier) {
+    case Carrier::none:
+      return;
+    case Carrier::solid:
+      return keep_element(ElementKind::solid8, e, touch);
+    case Carrier::quad:
+      return keep_element(ElementKind::quad, e, touch);
+    case Carrier::shell4:
+      return keep_element(ElementKind::shell4, e, touch);
+    case Carrier::truss:
+      return keep_element(ElementKind::truss, e, touch);
+    case Carrier::beam:
+      return keep_element(ElementKind::beam, e, touch);
+    case Carrier::spring:
+      return keep_element(ElementKind::spring, e, touch);
+    case Carrier::shell3:
+      return keep_element(ElementKind::shell3, e, touch);
+  }
+}
+
+void Extraction::whole_part(std::uint32_t part, bool touch) {
+  const std::uint8_t how = touch ? 2 : 1;
+  if (part_whole_[part] >= how) return;
+  part_whole_[part] = how;
+  keep_block("part", model_.parts[part].id);
+  for (const auto& [kind, e] : elements_of_part_[part]) keep_element(kind, e, touch);
+}
+
+void Extraction::everything() {
+  for (std::uint32_t p = 0; p < model_.parts.size(); ++p) whole_part(p, true);
+  for (std::size_t k = 0; k < element_families; ++k)
+    for (std::uint32_t e = 0; e < element_kept[k].size(); ++e)
+      keep_element(static_cast<ElementKind>(k), e, true);
+  for (NodeIndex n = 0; n < node_kept.size(); ++n) keep_node(n, true);
+}
+
+/// `selects`: the reference makes a selection of elements, so what it is made of must stay whole.
+void Extraction::reference(std::string_view kind, std::int64_t id, bool selects, bool touch) {
+  if (kind == "node") return keep_node(model_.find_node(id), touch && selects);
+  if (const auto family = family_of(kind)) {
+    if (const std::uint32_t e = model_.family(*family).map.find(id); e != no_index)
+      keep_element(*family, e, touch);
+    return;
+  }
+  keep_block(kind, id, !selects ? defined : touch ? touching : selected);
+  if (!selects) return;
+  const auto parts = [&](auto&& belongs) {
+    for (std::uint32_t p = 0; p < model_.parts.size(); ++p)
+      if (belongs(model_.parts[p])) whole_part(p, touch);
+  };
+  if (kind == "part") {
+    if (const auto it = model_.part_of_id.find(id); it != model_.part_of_id.end())
+      whole_part(it->second, touch);
+  } else if (kind == "mat") {
+    parts([&](const Part& p) { return p.mat_id == id; });
+  } else if (kind == "prop") {
+    parts([&](const Part& p) { return p.prop_id == id; });
+  } else if (kind == "subset") {
+    // Children come by the references of the subset's own block.
+    parts([&](const Part& p) { return p.subset_id == id; });
+  } else if (kind == "submodel") {
+    parts([&](const Part& p) {
+      for (std::int32_t s = p.submodel; s >= 0;
+           s = deck_.submodels[static_cast<std::size_t>(s)].parent)
+        if (const Submodel& m = deck_.submodels[static_cast<std::size_t>(s)];
+            m.id + (m.parent < 0 ? 0
+                                 : deck_.submodels[static_cast<std::size_t>(m.parent)].submodels) ==
+            id)
+          return true;
+      return false;
+    });
+  }
+}
+
+void Extraction::process(const Task& task) {
+  const Block& b = deck_.blocks[task.block];
+  if (b.schema == nullptr || b.schema->bulk || b.opaque) return;
+  const std::string& kind = b.schema->kind;
+  const bool touch = task.level == touching;
+  const DecodedBlock d = decode(deck_, b);
+  if (kind == "set") {
+    set_clauses(b, d, touch);
+  } else {
+    // A subset that a selection names selects its children; one that a part names does not.
+    const bool selects = is_selection(kind) || (kind == "subset" && task.level >= selected);
+    for (const DecodedCard& card : d.cards)
+      for (const Cell& cell : card.cells)
+        if (cell.field->type == FieldType::id && cell.integer != 0) {
+          const std::string& ref = cell.field->ref;
+          const std::int64_t id = std::abs(cell.integer) + deck_.offset_of(b, ref);
+          reference(ref, id, selects || kind == "inter", touch);
+          // From 2026 on a smoothed surface may stand in the place of the node group.
+          if (kind == "inter" && ref == "grnod" && d.integer("Ists") != 0)
+            reference("surf", id, true, touch);
+        }
+  }
+  if (is_selection(kind)) {
+    resolved(b, touch);
+    if ((kind == "surf" || kind == "line") && is_box_selection(b)) everything();
+  }
+  if (!b.schema->layout_known()) tokens(b, d);
+}
+
+/// Nodes and elements that a group, surface, line or set comes to.
+void Extraction::resolved(const Block& b, bool touch) {
+  const std::string& kind = b.schema->kind;
+  const std::int64_t id = b.id.value + deck_.offset_of(b, kind);
+  const auto segments = [&](const std::vector<Segment>& list) {
+    for (const Segment& s : list) {
+      for (const NodeIndex n : s.nodes) keep_node(n, touch);
+      keep_carrier(s.carrier, s.element, touch);
+    }
+  };
+  const auto edges = [&](const std::vector<Edge>& list) {
+    for (const Edge& e : list) {
+      for (const NodeIndex n : e.nodes) keep_node(n, touch);
+      keep_carrier(e.carrier, e.element, touch);
+    }
+  };
+  const auto nodes = [&](const std::vector<NodeIndex>& list) {
+    for (const NodeIndex n : list) keep_node(n, touch);
+  };
+  if (kind == "grnod") {
+    if (const NodeSet* group = selections_.node_group(id)) nodes(group->nodes);
+  } else if (kind == "surf") {
+    if (const Surface* surface = selections_.surface(id)) segments(surface->segments);
+  } else if (kind == "line") {
+    if (const LineSet* line = selections_.line(id)) edges(line->edges);
+  } else if (kind == "set") {
+    if (const SetGeneral* set = selections_.set(id)) {
+      nodes(set->nodes);
+      segments(set->segments);
+      edges(set->edges);
+    }
+  } else if (const auto* group = selections_.element_group(kind, id)) {
+    constexpr std::pair<std::string_view, ElementKind> families[] = {
+        {"grshel", ElementKind::shell4}, {"grsh3n", ElementKind::shell3},
+        {"grbric", ElementKind::solid8}, {"grquad", ElementKind::quad},
+        {"grtria", ElementKind::tria},   {"grtrus", ElementKind::truss},
+        {"grbeam", ElementKind::beam},   {"grspri", ElementKind::spring}};
+    for (const auto& [name, family] : families)
+      if (name == kind)
+        for (const std::uint32_t e : *group) keep_element(family, e, touch);
+  }
+}
+
+// ---- sets ---------------------------------------------------------------------------------------
+
+void Extraction::set_clauses(const Block& b, const DecodedBlock& d, bool touch) {
+  std::string_view kind, options;
+  std::vector<std::int64_t> ids;
+  const auto flush = [&] {
+    if (!kind.empty()) clause_ids(b, kind, options, ids, touch);
+    ids.clear();
+  };
+  for (const DecodedCard& card : d.cards) {
+    if (card.cells.empty()) continue;
+    if (!card.cells[0].blank()) {
+      flush();
+      const std::string_view text = card.cells[0].text;
+      const std::size_t cut = std::min(text.find('_'), text.size());
+      kind = text.substr(0, cut);
+      options = text.substr(cut);
+    }
+    // The first number of a segment row is its own id.
+    for (std::size_t i = kind == "SEG" ? 2 : 1; i < card.cells.size(); ++i)
+      if (card.cells[i].integer != 0) ids.push_back(card.cells[i].integer);
+  }
+  flush();
+}
+
+void Extraction::clause_ids(const Block& b, std::string_view kind, std::string_view options,
+                            const std::vector<std::int64_t>& ids, bool touch) {
+  constexpr std::pair<std::string_view, std::string_view> clauses[] = {
+      {"SET", "set"},     {"SETCOL", "set"},    {"BOX", "box"},     {"BOX2", "box"},
+      {"NODE", "node"},   {"NODENS", "node"},   {"SEG", "node"},    {"PART", "part"},
+      {"SUBS", "subset"}, {"SUBM", "submodel"}, {"SHELL", "shell"}, {"SH3N", "sh3n"},
+      {"SOLID", "brick"}, {"QUAD", "quad"},     {"TRIA", "tria"},   {"BEAM", "beam"},
+      {"TRUSS", "truss"}, {"SPRING", "spring"}};
+  if (kind == "ALL" || kind == "BOX" || kind == "BOX2" || options.find('B') != options.npos)
+    everything();
+  if (kind == "RBODY")
+    open_questions.push_back("/SET " + std::to_string(b.id.value) +
+                             " selects rigid bodies, which were not carried");
+  std::string_view ref;
+  for (const auto& [clause, target] : clauses)
+    if (clause == kind) ref = target;
+  if (ref.empty()) return;
+  const std::int64_t offset = deck_.offset_of(b, ref);
+  if (options.find('G') == options.npos) {
+    for (const std::int64_t id : ids) reference(ref, std::abs(id) + offset, true, touch);
+    return;
+  }
+  // (first, last, increment): whatever exists there.
+  const auto in_range = [&](std::int64_t id) {
+    for (std::size_t i = 0; i + 3 <= ids.size(); i += 3)
+      if (id >= ids[i] + offset && id <= ids[i + 1] + offset && ids[i + 2] > 0 &&
+          (id - ids[i] - offset) % ids[i + 2] == 0)
+        return true;
+    return false;
+  };
+  if (ref == "node") {
+    for (NodeIndex n = 0; n < model_.nodes.size(); ++n)
+      if (in_range(model_.nodes.id[n])) keep_node(n, touch);
+  } else if (const auto family = family_of(ref)) {
+    const Elements& all = model_.family(*family);
+    for (std::uint32_t e = 0; e < all.size(); ++e)
+      if (in_range(all.id[e])) keep_element(*family, e, touch);
+  } else {
+    for (const auto& [key, index] : definitions_)
+      if (key.first == ref && in_range(key.second)) reference(ref, key.second, true, touch);
+  }
+}
+
+// ---- text that no schema describes --------------------------------------------------------------
+
+/// Functions, axes and sensors named in undescribed text: every whole number that could be one is
+/// taken for one. Too much is harmless, too little is not.
+void Extraction::tokens(const Block& b, const DecodedBlock& d) {
+  if (b.schema->kind != "mat" && b.schema->kind != "prop" && b.schema->kind != "sensor" &&
+      b.schema->kind != "other")
+    return;
+  const auto line_tokens = [&](const Line& line) {
+    const std::string_view text = line.text.substr(0, 100);
+    for (std::size_t at = 0; at < text.size();) {
+      const auto begin = text.find_first_not_of(" \t,", at);
+      if (begin == std::string_view::npos) break;
+      const auto end = std::min(text.find_first_of(" \t,", begin), text.size());
+      const std::string_view token = text.substr(begin, end - begin);
+      at = end;
+      if (token.find_first_not_of("0123456789") != std::string_view::npos) continue;
+      const std::int64_t id = read_integer(token).value;
+      if (id <= 0) continue;
+      for (const std::string_view kind : {"funct", "skew", "sensor"})
+        keep_block(kind, id + deck_.offset_of(b, kind));
+      if (b.schema->kind == "prop") keep_block("mat", id + deck_.offset_of(b, "mat"));
+    }
+  };
+  for (const DecodedCard& card : d.cards)
+    if (!card.missing()) line_tokens(card.line);
+  for (const Line& line : d.extra) line_tokens(line);
+}
+
+// ---- from the selections to everything around them
+// -----------------------------------------------
+
+void Extraction::keep_switches() {
+  for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
+    const Block& b = deck_.blocks[i];
+    if (is_switch(b) && b.submodel < 0) keep_block(i);
+    // Merging and noise depend on all nodes and their order.
+    if (detail::is_below(b.header, "/CNODE") ||
+        (detail::is_below(b.header, "/RANDOM") && model_.has_random))
+      std::fill(node_kept.begin(), node_kept.end(), std::uint8_t{1});
+  }
+}
+
+void Extraction::drain() {
+  while (!queue_.empty()) {
+    const Task task = queue_.front();
+    queue_.pop_front();
+    process(task);
+  }
+}
+
+/// Every element that has one of the nodes: it may carry a segment or decide a gap.
+void Extraction::neighbours() {
+  for (std::size_t k = 0; k < element_families; ++k) {
+    const Elements& family = model_.family(static_cast<ElementKind>(k));
+    const auto touches = [&](NodeIndex n) { return n != no_index && touched_[n] != 0; };
+    for (std::uint32_t e = 0; e < family.size(); ++e) {
+      if (element_kept[k][e] != 0) continue;
+      bool near = std::any_of(family.of(e), family.of(e) + family.width, touches);
+      if (!near && e < family.extra.size() && family.extra[e] != no_index) {
+        constexpr std::size_t most_mid_nodes = 12;
+        const std::size_t first = family.extra[e];
+        const std::size_t last = std::min(first + most_mid_nodes, family.extra_nodes.size());
+        near = std::any_of(family.extra_nodes.begin() + static_cast<std::ptrdiff_t>(first),
+                           family.extra_nodes.begin() + static_cast<std::ptrdiff_t>(last), touches);
+      }
+      if (near) element_kept[k][e] = 1;
+    }
+  }
+}
+
+/// Nodes, axes and parts of the elements that stay.
+void Extraction::scan_elements() {
+  for (const Block& b : deck_.blocks) {
+    if (b.schema == nullptr || !b.schema->bulk) continue;
+    const auto family = family_of(b.schema->kind);
+    if (!family) continue;
+    const auto k = static_cast<std::size_t>(*family);
+    const Elements& elements = model_.family(*family);
+    ItemLines items(deck_, b);
+    while (items.next()) {
+      const std::uint32_t e = elements.map.find(items.id());
+      if (e == no_index || element_kept[k][e] == 0 || scanned_[k][e] != 0) continue;
+      scanned_[k][e] = 1;
+      if (elements.part[e] != no_index) keep_block("part", model_.parts[elements.part[e]].id);
+      items.references([&](std::string_view kind, std::int64_t id) {
+        if (kind == "node") {
+          // The node as written, and the one it was merged with.
+          keep_node(model_.nodes.map.find(id), false);
+          keep_node(model_.find_node(id), false);
+        } else {
+          keep_block(kind, id);
+        }
+      });
+    }
+  }
+}
+
+/// Transformations that move a kept node, with their groups.
+void Extraction::transforms() {
+  for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
+    const Block& b = deck_.blocks[i];
+    if (!b.header.starts_with("/TRANSFORM/") || b.schema == nullptr || visited_[i] != 0) continue;
+    const DecodedBlock d = decode(deck_, b);
+    bool moves = d.integer("SUBMODEL") != 0;
+    if (const std::int64_t group = d.integer("GR_NODE"); group > 0 && !moves)
+      if (const NodeSet* set = selections_.node_group(group + deck_.offset_of(b, "grnod")))
+        moves = std::any_of(set->nodes.begin(), set->nodes.end(),
+                            [&](NodeIndex n) { return n != no_index && node_kept[n] != 0; });
+    if (moves) keep_block(i);
+  }
+}
+
+/// What belongs to a material under the material's own id.
+void Extraction::materials() {
+  constexpr std::string_view by_material[] = {"/HEAT/MAT", "/EOS",          "/THERM_STRESS/MAT",
+                                              "/VISC",     "/FAIL",         "/LEAK/MAT",
+                                              "/ALE/MAT",  "/NONLOCAL/MAT", "/EULER/MAT"};
+  bool thermal = false;
+  std::size_t first_thermal = deck_.blocks.size();
+  for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
+    const Block& b = deck_.blocks[i];
+    if (!std::any_of(std::begin(by_material), std::end(by_material),
+                     [&](std::string_view k) { return detail::is_below(b.header, k); }))
+      continue;
+    // The schemas do not say that this id is a material's.
+    const auto last = b.header.rfind('/');
+    const std::int64_t id =
+        b.id.present ? b.id.value : read_integer(b.header.substr(last + 1)).value;
+    const auto it =
+        definitions_.find(std::pair{std::string("mat"), id + deck_.offset_of(b, "mat")});
+    const bool kept = it != definitions_.end() && block_kept[it->second] != 0;
+    if (kept) keep_block(i);
+    if (!detail::is_below(b.header, "/HEAT/MAT")) continue;
+    thermal = thermal || kept;
+    if (first_thermal == deck_.blocks.size() && it != definitions_.end()) first_thermal = i;
+  }
+  // Heat exchange needs a thermal material somewhere in the model.
+  if (thermal || first_thermal == deck_.blocks.size()) return;
+  const Block& b = deck_.blocks[first_thermal];
+  for (std::size_t i = 0; i < deck_.blocks.size(); ++i)
+    if (block_kept[i] != 0 && deck_.blocks[i].schema != nullptr &&
+        deck_.blocks[i].schema->kind == "inter" &&
+        decode(deck_, deck_.blocks[i]).integer("Ithe") > 0) {
+      keep_block(first_thermal);
+      keep_block("mat", b.id.value + deck_.offset_of(b, "mat"));
+      return;
+    }
+}
+
+/// //SUBMODEL, its /BEGIN and //ENDSUB around everything that stays.
+void Extraction::submodel_frames() {
+  std::vector<std::uint8_t> wanted(deck_.submodels.size(), 0);
+  const auto bulk_kept = [&](const Block& b) {
+    const auto family = family_of(b.schema->kind);
+    ItemLines items(deck_, b);
+    while (items.next()) {
+      const std::uint32_t i =
+          family ? model_.family(*family).map.find(items.id()) : model_.nodes.map.find(items.id());
+      if (i != no_index &&
+          (family ? element_kept[static_cast<std::size_t>(*family)][i] : node_kept[i]) != 0)
+        return true;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
+    const Block& b = deck_.blocks[i];
+    if (b.submodel < 0 || b.header.starts_with("//")) continue;
+    const bool bulk = b.schema != nullptr && b.schema->bulk;
+    if (bulk ? !bulk_kept(b) : block_kept[i] == 0) continue;
+    for (std::int32_t s = b.submodel; s >= 0;
+         s = deck_.submodels[static_cast<std::size_t>(s)].parent)
+      wanted[static_cast<std::size_t>(s)] = 1;
+  }
+  std::vector<std::uint8_t> open;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
+    const Block& b = deck_.blocks[i];
+    if (b.header.starts_with("//SUBMODEL") && next < wanted.size()) {
+      open.push_back(wanted[next++]);
+      block_kept[i] = open.back();
+    } else if (b.header.starts_with("//ENDSUB")) {
+      block_kept[i] = !open.empty() && open.back() != 0 ? 1 : 0;
+      if (!open.empty()) open.pop_back();
+    } else if (b.submodel >= 0 && wanted[static_cast<std::size_t>(b.submodel)] != 0 &&
+               (detail::is_below(b.header, "/BEGIN") || detail::is_below(b.header, "/PARAMETER") ||
+                detail::is_below(b.header, "/UNIT"))) {
+      block_kept[i] = 1;
+    }
+  }
+}
+
+std::uint64_t Extraction::size() const {
+  std::uint64_t n = 0;
+  for (const auto* list : {&block_kept, &node_kept, &touched_, &visited_})
+    for (const std::uint8_t v : *list) n += v;
+  for (const auto& list : element_kept)
+    for (const std::uint8_t v : list) n += v;
+  return n;
+}
+
+void Extraction::run() {
+  keep_switches();
+  for (std::uint64_t before = 0, now = 1; before != now; now = size()) {
+    before = size();
+    drain();
+    neighbours();
+    scan_elements();
+    transforms();
+    materials();
+    drain();
+  }
+  // Nodes that were merged are needed together.
+  for (const auto& [a, b] : model_.merged_nodes)
+    if (node_kept[a] != 0 || node_kept[b] != 0) node_kept[a] = node_kept[b] = 1;
+  submodel_frames();
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,308 @@
+#include "deck/edit/flatten.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "edit/convert/flatten_parameters.hpp"
+#include "edit/convert/units/unit_system_state.hpp"
+#include "keyword/reader.hpp"
+
+namespace deck {
+namespace {
+
+using detail::starts_with_nocase;
+using detail::trim;
+using detail::trim_right;
+
+constexpr std::size_t header_columns = 202;  // as the reader cuts them
+
+class Flattener {
+ public:
+  Flattener(const Deck& deck, const FlattenOptions& options, std::vector<TextEdit> edits)
+      : deck_(deck), options_(options), edits_(deck.sources.size()) {
+    for (TextEdit& e : edits) edits_[e.span.file].push_back(std::move(e));
+    for (auto& list : edits_)
+      std::sort(list.begin(), list.end(),
+                [](const TextEdit& a, const TextEdit& b) { return a.span.offset < b.span.offset; });
+    children_.resize(deck.sources.size());
+    for (const IncludeEdge& e : deck.includes) children_[e.parent].push_back(&e);
+  }
+
+  std::string run() {
+    out_.reserve(deck_.total_bytes + 1024);
+    emit(0);
+    return std::move(out_);
+  }
+
+ private:
+  std::string_view line_end(std::uint32_t file) const {
+    const std::string_view bytes = deck_.sources[file].bytes();
+    const auto nl = bytes.find('\n');
+    return nl != std::string_view::npos && nl > 0 && bytes[nl - 1] == '\r' ? "\r\n" : "\n";
+  }
+
+  void append(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
+    const std::string_view bytes = deck_.sources[file].bytes();
+    const auto& list = edits_[file];
+    auto e = std::lower_bound(
+        list.begin(), list.end(), begin,
+        [](const TextEdit& edit, std::uint64_t offset) { return edit.span.offset < offset; });
+    for (; e != list.end() && e->span.offset < end; ++e) {
+      out_.append(bytes.substr(begin, e->span.offset - begin)).append(e->text);
+      begin = e->span.offset + e->span.length;
+    }
+    if (begin < end) out_.append(bytes.substr(begin, end - begin));
+  }
+
+  void close_line(std::uint32_t file) {
+    if (!out_.empty() && out_.back() != '\n') out_ += line_end(file);
+  }
+
+  /// End of an include directive, its continuation lines included.
+  static std::uint64_t directive_end(std::string_view bytes, std::uint64_t pos) {
+    for (bool more = true; more && pos < bytes.size();) {
+      const auto nl = std::min<std::size_t>(bytes.find('\n', pos), bytes.size());
+      const std::string_view line = trim_right(bytes.substr(pos, nl - pos));
+      pos = std::min<std::uint64_t>(nl + 1, bytes.size());
+      more = line.ends_with(" +") || line.ends_with("...") || line.ends_with("&") ||
+             (pos < bytes.size() && bytes[pos] == '+');
+    }
+    return pos;
+  }
+
+  /// The lines of a directive as comments.
+  void comment_out(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
+    const std::string_view bytes = deck_.sources[file].bytes();
+    for (std::uint64_t at = begin; at < end;) {
+      const std::uint64_t next = std::min<std::uint64_t>(bytes.find('\n', at), end - 1) + 1;
+      out_.append("## ").append(bytes.substr(at, next - at));
+      at = next;
+    }
+    close_line(file);
+  }
+
+  void include(std::uint32_t file, const IncludeEdge& edge, std::uint64_t end) {
+    if (options_.mark) comment_out(file, edge.directive.offset, end);
+    emit(edge.file);
+    close_line(edge.file);
+    if (options_.mark) out_.append("## end of ").append(edge.written).append(line_end(file));
+  }
+
+  void emit(std::uint32_t file) {
+    // What stands before the first keyword of an include belongs to no block, and what follows the
+    // include continues the block before it.
+    const bool outer = closed_, outer_headed = headed_;
+    headed_ = file == 0;
+    closed_ = closed_ || !headed_;
+    emit_lines(file);
+    if (!headed_) closed_ = outer;
+    headed_ = headed_ || outer_headed;
+  }
+
+  void emit_lines(std::uint32_t file) {
+    const std::string_view bytes = deck_.sources[file].bytes();
+    auto edge = children_[file].begin();
+    std::uint64_t run = 0;
+    for (std::uint64_t pos = 0; pos < bytes.size();) {
+      const auto nl = std::min<std::size_t>(bytes.find('\n', pos), bytes.size());
+      const std::uint64_t next = std::min<std::uint64_t>(nl + 1, bytes.size());
+      if (edge != children_[file].end() && (*edge)->directive.offset == pos) {
+        append(file, run, pos);
+        run = directive_end(bytes, pos);
+        include(file, **edge++, run);
+        pos = run;
+        continue;
+      }
+      const std::string_view line = bytes.substr(pos, nl - pos);
+      const auto first = line.find_first_not_of(" \t");
+      const bool header = first != std::string_view::npos && line[first] == '/';
+      if (file != 0 && starts_with_nocase(line, "#enddata")) {
+        append(file, run, pos);
+        return;
+      }
+      if (header && trim_right(line.substr(first, header_columns)) == "/END") {
+        append(file, run, file == 0 ? bytes.size() : pos);
+        closed_ = headed_ = true;
+        return;
+      }
+      if (header) {
+        closed_ = false;
+        headed_ = true;
+      } else if (closed_ && !line.starts_with('#') && !line.starts_with('$')) {
+        // Behind the /END of an included file and before its first keyword no block is open; the
+        // line would belong to the last block.
+        append(file, run, pos);
+        const bool directive =
+            starts_with_nocase(line, "include") || starts_with_nocase(line, "enddata");
+        out_ += directive ? "# " : "#";
+        run = pos;
+      }
+      pos = next;
+    }
+    append(file, run, bytes.size());
+  }
+
+  const Deck& deck_;
+  const FlattenOptions& options_;
+  std::vector<std::vector<TextEdit>> edits_;  // by file, ascending
+  std::vector<std::vector<const IncludeEdge*>> children_;
+  std::string out_;
+  bool closed_ = false;  // no block is open: the last thing read was an /END, or an include began
+  bool headed_ = false;  // the include that is being read had a keyword
+};
+
+/// A /BEGIN of an included file that says nothing but its version.
+bool repeated_begin(const Deck& deck, const Block& b) {
+  return (b.header == "/BEGIN" || b.header.starts_with("/BEGIN/")) && b.header_span.file != 0 &&
+         b.submodel < 0 && !(b.header_span == deck.begin.span);
+}
+
+/// Comment marks in front of the lines of a block.
+void disable(const Deck& deck, const Block& b, std::vector<TextEdit>& edits) {
+  const std::string_view bytes = deck.sources[b.header_span.file].bytes();
+  const auto nl = b.header_span.offset == 0 ? std::string_view::npos
+                                            : bytes.rfind('\n', b.header_span.offset - 1);
+  edits.push_back({Span{b.header_span.file, 0, nl == std::string_view::npos ? 0 : nl + 1}, "#"});
+  LineCursor cursor(deck.sources, b);
+  for (Line line = cursor.next(); line.valid(); line = cursor.next())
+    edits.push_back({Span{line.file, 0, line.offset}, "#"});
+}
+
+/// True if the columns of a keyword are the same in both input versions.
+bool same_layout(const Schema& schema, int a, int b) {
+  for (const CardSchema& card : schema.cards) {
+    if (card.in_version(a) != card.in_version(b)) return false;
+    for (const Field& f : card.fields)
+      if (f.in_version(a) != f.in_version(b)) return false;
+  }
+  return true;
+}
+
+/// The cells of two readings of a block, compared by name and content.
+struct CellTexts {
+  explicit CellTexts(const DecodedBlock& d) {
+    for (const DecodedCard& card : d.cards)
+      for (const Cell& cell : card.cells)
+        if (!cell.blank()) cells.emplace_back(&cell, cell.field->name);
+    extra = d.extra.size();
+  }
+  bool operator==(const CellTexts& other) const {
+    if (extra != other.extra || cells.size() != other.cells.size()) return false;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const auto& [p, name] = cells[i];
+      const auto& [q, other_name] = other.cells[i];
+      if (name != other_name || p->parameter != q->parameter) return false;
+      if (p->parameter ? p->integer != q->integer || p->real != q->real : p->text != q->text)
+        return false;
+    }
+    return true;
+  }
+  std::vector<std::pair<const Cell*, std::string_view>> cells;
+  std::size_t extra = 0;
+};
+
+/// Holds the flat form against the deck, block by block.
+class Comparison {
+ public:
+  Comparison(const Deck& deck, const Deck& flat) : deck_(deck), flat_(flat) {}
+
+  /// The first difference that matters; empty: none. Blocks that follow another input version now
+  /// and are described in part only become losses.
+  std::string difference(std::vector<LossEntry>& losses) {
+    std::size_t at = 0;
+    for (const Block& b : deck_.blocks) {
+      if (repeated_begin(deck_, b)) continue;
+      if (at == flat_.blocks.size()) return where(b) + "the block would be lost";
+      const Block& now = flat_.blocks[at++];
+      if (now.submodel != b.submodel || now.keyword != b.keyword || now.opaque != b.opaque ||
+          now.id.value != b.id.value || now.unit_id.value != b.unit_id.value)
+        return where(b) + "the block would be read differently in one file";
+      if (!same_lines(b, now)) return where(b) + "the block would get other lines in one file";
+      if (!same_cells(b, now))
+        return where(b) + "its cells follow input version " + std::to_string(b.version) +
+               ", the lines around its include follow " + std::to_string(now.version) +
+               " with other columns; convert one of them to the other version first";
+      if (b.version != now.version) note_version(b, now.version, losses);
+    }
+    return at == flat_.blocks.size() ? std::string()
+                                     : deck_.sources[0].path() + ":1:1: a block would be added";
+  }
+
+ private:
+  std::string where(const Block& b) const {
+    return deck_.sources.where(b.header_span) + ": " + std::string(b.header.substr(0, 60)) + ": ";
+  }
+
+  bool same_lines(const Block& b, const Block& now) const {
+    LineCursor left(deck_.sources, b), right(flat_.sources, now);
+    for (;;) {
+      const Line x = left.next(), y = right.next();
+      if (x.valid() != y.valid()) return false;
+      if (!x.valid()) return true;
+      if (x.text == y.text) continue;
+      if (x.text.find('&') == std::string_view::npos && !b.header.starts_with("/PARAMETER"))
+        return false;
+    }
+  }
+
+  /// Only parameters and versions can change what a cell means.
+  bool same_cells(const Block& b, const Block& now) const {
+    if (b.schema == nullptr || b.header.starts_with("/PARAMETER")) return true;
+    const bool moved = b.version != now.version && !same_layout(*b.schema, b.version, now.version);
+    if (!moved && deck_.parameters.empty()) return true;
+    const DecodedBlock x = decode(deck_, b), y = decode(flat_, now);
+    return CellTexts(x) == CellTexts(y);
+  }
+
+  /// What no schema describes may stand in other columns in another version.
+  void note_version(const Block& b, int version, std::vector<LossEntry>& losses) {
+    if (b.schema != nullptr && (b.schema->layout_known() || b.schema->kind == "engine")) return;
+    if (!noted_.insert(b.keyword).second) return;
+    losses.push_back(loss_entry(deck_, Loss::undecided, b, b.header_span));
+    losses.back().note = "written for input version " + std::to_string(b.version) +
+                         ", read as version " + std::to_string(version) +
+                         " from now on; the keyword is not described completely, so compare its "
+                         "columns in both versions (this and further blocks of the keyword)";
+  }
+
+  const Deck& deck_;
+  const Deck& flat_;
+  std::set<std::string_view> noted_;
+};
+
+}  // namespace
+
+Rewrite flatten(const EditContext& context, const FlattenOptions& options) {
+  const Deck& deck = context.deck;
+  Rewrite rewrite;
+  rewrite.refusals = detail::unread_files(deck);
+  if (!rewrite.refusals.empty()) return rewrite;
+  if (deck.includes.empty()) {
+    rewrite.notes.push_back("the deck has no includes");
+    return rewrite;
+  }
+  std::vector<TextEdit> edits =
+      detail::rename_local_parameters(deck, rewrite.refusals, rewrite.notes);
+  for (const Block& b : deck.blocks) {
+    if (!repeated_begin(deck, b)) continue;
+    disable(deck, b, edits);
+    LossEntry entry = loss_entry(deck, Loss::dropped, b, b.header_span);
+    entry.note = "a comment now: one file has one /BEGIN";
+    rewrite.losses.push_back(std::move(entry));
+  }
+  if (!rewrite.refusals.empty()) return rewrite;
+  std::string text = Flattener(deck, options, std::move(edits)).run();
+  const auto flat = read_deck_text(deck.sources[0].path(), text, context.schemas);
+  const std::string difference =
+      flat ? Comparison(deck, *flat).difference(rewrite.losses) : flat.error().message;
+  if (!difference.empty()) {
+    rewrite.refusals.push_back(difference);
+    return rewrite;
+  }
+  rewrite.notes.push_back(std::to_string(deck.includes.size()) +
+                          " includes replaced by their lines");
+  rewrite.new_text = std::move(text);
+  return rewrite;
+}
+
+}  // namespace deck

@@ -1,0 +1,468 @@
+#include "deck/edit/renumber.hpp"
+
+#include <algorithm>
+#include <bitset>
+#include <unordered_map>
+
+#include "deck/text/number.hpp"
+#include "edit/convert/renumber_ids.hpp"
+#include "edit/convert/units/unit_system_state.hpp"
+#include "keyword/line_check.hpp"
+#include "keyword/reader.hpp"
+
+namespace deck {
+namespace {
+
+using detail::IdSpace;
+using detail::IdSpaces;
+using detail::trim;
+
+/// Spaces whose ids the undescribed text of a keyword may name; nullopt: any.
+std::optional<std::vector<std::string_view>> possible_spaces(const Block& b) {
+  constexpr std::string_view none[] = {
+      "/ANALY", "/DEF_SHELL", "/DEF_SOLID", "/IOFLAG", "/MEMORY", "/SPMD",  "/TITLE", "/RANDOM",
+      "/AMS",   "/CAA",       "/SHFRA",     "/UPWIND", "/REFSTA", "/BEGIN", "/UNIT",  "/INTTHICK"};
+  for (const std::string_view k : none)
+    if (detail::is_below(b.header, k)) return std::vector<std::string_view>{};
+  if (b.schema != nullptr && (b.schema->kind == "engine" || b.schema->kind == "parameter"))
+    return std::vector<std::string_view>{};
+  if (detail::is_below(b.header, "/MAT") || detail::header_reference(b) == "mat")
+    return std::vector<std::string_view>{"funct", "mat", "skew", "sensor"};
+  if (detail::is_below(b.header, "/PROP"))
+    return std::vector<std::string_view>{"funct", "mat", "prop", "skew", "frame", "sensor"};
+  return std::nullopt;
+}
+
+/// Kind of the ids in a clause of /SET; empty: no ids.
+std::string_view kind_of_clause(std::string_view clause) {
+  constexpr std::pair<std::string_view, std::string_view> clauses[] = {
+      {"SET", "set"},     {"SETCOL", "set"},    {"BOX", "box"},     {"BOX2", "box"},
+      {"NODE", "node"},   {"NODENS", "node"},   {"SEG", "node"},    {"PART", "part"},
+      {"SUBS", "subset"}, {"SUBM", "submodel"}, {"SHELL", "shell"}, {"SH3N", "sh3n"},
+      {"SOLID", "brick"}, {"QUAD", "quad"},     {"TRIA", "tria"},   {"BEAM", "beam"},
+      {"TRUSS", "truss"}, {"SPRING", "spring"}};
+  for (const auto& [name, kind] : clauses)
+    if (name == clause) return kind;
+  return {};
+}
+
+class Renumbering {
+ public:
+  Renumbering(const EditContext& context, const RenumberOptions& options, IdSpaces spaces)
+      : deck_(context.deck), options_(options), spaces_(std::move(spaces)) {}
+
+  Rewrite run() {
+    for (const Block& b : deck_.blocks) {
+      const std::size_t before = out_.edits.size();
+      block(b);
+      const std::size_t ids = out_.edits.size() - before;
+      if (ids == 0) continue;
+      LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
+      entry.note = std::to_string(ids) + (ids == 1 ? " id" : " ids") + " changed";
+      out_.losses.push_back(std::move(entry));
+    }
+    for (std::string& why : detail::contradicting_copies(deck_.sources, out_.edits))
+      out_.refusals.push_back(std::move(why));
+    for (const auto& [name, space] : spaces_)
+      if (space.changes)
+        out_.notes.push_back(name + ": " + std::to_string(space.ids.size()) + " ids, " +
+                             std::to_string(space.ids.front()) + " becomes " +
+                             std::to_string(*space.mapped(space.ids.front())));
+    if (!out_.refusals.empty()) out_.edits.clear();
+    return std::move(out_);
+  }
+
+ private:
+  struct Renamed {
+    bool changes = false;
+    std::int64_t written = 0;  ///< as it stands in the deck afterwards
+    std::string why;           ///< not empty: impossible
+  };
+
+  const IdSpace* space(std::string_view kind) const {
+    const auto it = spaces_.find(detail::space_of(kind));
+    return it == spaces_.end() ? nullptr : &it->second;
+  }
+
+  void undecided(const Block& b, Span place, std::string field, std::string why) {
+    leave_undecided(out_, deck_, b, place, std::move(field), std::move(why), options_.partial);
+  }
+
+  /// New written form of an id; `definition`: the entity's own id, which no set stands for.
+  Renamed rename(const Block& b, std::string_view kind, std::int64_t written, bool definition) {
+    const IdSpace* target = space(kind);
+    if (written == 0) return {};
+    const std::int64_t sign = written < 0 ? -1 : 1;
+    const std::int64_t id = sign * written + deck_.offset_of(b, kind);
+    constexpr std::string_view may_be_sets[] = {"grnod", "surf", "line", "grpart"};
+    const IdSpace* sets = space("set");
+    if (!definition && (target == nullptr || !target->defined(id)) && sets != nullptr &&
+        std::find(std::begin(may_be_sets), std::end(may_be_sets), kind) != std::end(may_be_sets) &&
+        sets->defined(id)) {
+      const auto mapped = sets->mapped(id);
+      if (target != nullptr && mapped && target->taken(*mapped))
+        return {true, 0,
+                "set " + std::to_string(id) + " would be " + std::to_string(*mapped) +
+                    ", which a " + std::string(kind) + " has then"};
+      target = sets;
+    }
+    if (target == nullptr || !target->changes) return {};
+    const auto mapped = target->mapped(id);
+    if (!mapped)
+      return {true, 0,
+              std::to_string(id) + " is not defined, and another " + std::string(kind) +
+                  " would get that id"};
+    const std::int64_t offset = deck_.offset_of(b, kind);
+    const std::int64_t now = *mapped - offset;
+    if (now < 1 || *mapped > detail::largest_id)
+      return {
+          true, 0,
+          "the new id " + std::to_string(*mapped) +
+              (offset > 0 ? " cannot be written below the submodel's offset" : " is not legal")};
+    return {now != sign * written, sign * now, {}};
+  }
+
+  // ---- places ---------------------------------------------------------------------------------
+
+  void header_id(const Block& b, std::string_view kind, bool definition) {
+    const std::string_view text = deck_.sources.text(b.id.span);
+    const Renamed r = rename(b, kind, b.id.value, definition);
+    if (!r.changes) return;
+    if (!r.why.empty()) return undecided(b, b.id.span, "id", r.why);
+    if (!b.id.present || text.empty())
+      return undecided(b, {}, "id", "the header has no id; it counts as 1");
+    if (text.starts_with('&'))
+      return undecided(b, b.id.span, "id", "the id is made by a parameter");
+    out_.edits.push_back({b.id.span, std::to_string(r.written)});
+  }
+
+  /// `cell_text` is the cell, trimmed.
+  void write(const Block& b, const Line& line, Span cell, int first, int last, bool free_format,
+             std::string_view field, const Renamed& r) {
+    if (!r.why.empty()) return undecided(b, cell, std::string(field), r.why);
+    const std::string text = std::to_string(r.written);
+    if (free_format) {
+      int& spare = spare_
+                       .try_emplace((std::uint64_t{line.file} << 40) ^ line.offset,
+                                    detail::line_columns - static_cast<int>(line.text.size()))
+                       .first->second;
+      const int growth = static_cast<int>(text.size()) - static_cast<int>(cell.length);
+      if (growth > 0 && growth > spare)
+        return undecided(b, cell, std::string(field),
+                         "the new id makes this free-format line longer than 100 columns");
+      spare -= growth;
+      out_.edits.push_back({cell, text});
+      return;
+    }
+    if (static_cast<int>(text.size()) > last - first + 1)
+      return undecided(b, cell, std::string(field),
+                       "the new id " + text + " does not fit its columns");
+    out_.edits.push_back(detail::column_edit(deck_.sources, line, first, last, text));
+  }
+
+  void cell(const Block& b, const DecodedCard& card, const Cell& c, std::string_view kind,
+            bool definition) {
+    if (c.blank() || c.integer == 0) return;
+    const Renamed r = rename(b, kind, c.integer, definition);
+    if (!r.changes) return;
+    write_cell(b, card, c, r);
+  }
+
+  void write_cell(const Block& b, const DecodedCard& card, const Cell& c, const Renamed& r) {
+    if (c.parameter) return undecided(b, c.span, c.field->name, "the id is made by a parameter");
+    if (c.status != NumberStatus::ok)
+      return undecided(b, c.span, c.field->name, "the cell holds more than a number");
+    const int first = static_cast<int>(c.span.offset - card.line.offset) + 1;
+    write(b, card.line, c.span, first, first + c.field->last - c.field->first, card.free_format,
+          c.field->name, r);
+  }
+
+  // ---- blocks ---------------------------------------------------------------------------------
+
+  void block(const Block& b) {
+    if (b.schema == nullptr) return tokens(b, {});
+    const Schema& s = *b.schema;
+    if (const auto kind = detail::header_reference(b); !kind.empty())
+      header_id(b, kind, false);
+    else if (!s.bulk && s.has_id && !detail::space_of(s.kind).empty())
+      header_id(b, s.kind, true);
+    if (b.opaque) {
+      const auto spaces = possible_spaces(b);
+      for (const auto& [name, space] : spaces_)
+        if (space.changes &&
+            (!spaces || std::find(spaces->begin(), spaces->end(), name) != spaces->end()))
+          return undecided(b, {}, "", "the block is encrypted; it may hold ids of kind " + name);
+      return;
+    }
+    if (s.bulk) return items(b);
+    const bool references =
+        std::any_of(s.cards.begin(), s.cards.end(), [&](const CardSchema& card) {
+          return std::any_of(card.fields.begin(), card.fields.end(),
+                             [&](const Field& f) { return f.type == FieldType::id; });
+        });
+    if (!references && s.layout_known() && s.kind != "set") return;
+    const DecodedBlock d = decode(deck_, b);
+    if (s.kind == "set")
+      clauses(b, d);
+    else if (s.keyword.ends_with("/GENE") || s.keyword.ends_with("/GEN_INCR"))
+      ranges(b, d, s.keyword.ends_with("/GENE") ? 2 : 3);
+    else
+      for (const DecodedCard& card : d.cards) ids(b, card);
+    if (!s.layout_known()) tokens(b, d);
+  }
+
+  /// The ids of a line. One of them that cannot change keeps the others as they are.
+  void ids(const Block& b, const DecodedCard& card) {
+    const std::size_t edits = out_.edits.size(), open = out_.losses.size();
+    for (const Cell& c : card.cells)
+      if (c.field->type == FieldType::id) cell(b, card, c, c.field->ref, false);
+    if (out_.losses.size() > open) out_.edits.resize(edits);
+  }
+
+  /// Nodes and elements: many lines, few kinds of cells.
+  void items(const Block& b) {
+    struct Column {
+      const Field* field;
+      std::string_view kind;
+      bool definition;
+    };
+    std::vector<std::vector<Column>> rows;
+    std::vector<const CardSchema*> cards;
+    bool any = false;
+    for (const CardSchema& card : b.schema->cards) {
+      if (!card.in_version(b.version)) continue;
+      cards.push_back(&card);
+      rows.emplace_back();
+      for (const Field& f : card.fields) {
+        const bool own = cards.size() == 1 && &f == &card.fields[0];
+        const std::string_view kind = own ? std::string_view(b.schema->kind) : f.ref;
+        const IdSpace* target = kind.empty() ? nullptr : space(kind);
+        if (!f.in_version(b.version) || target == nullptr || !target->changes) continue;
+        rows.back().push_back({&f, kind, own});
+        any = true;
+      }
+    }
+    if (!any) return;
+    LineCursor cursor(deck_.sources, b);
+    std::size_t at = 0;
+    for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
+      if (at == 0 && line.text.empty()) continue;
+      const std::string_view text = line.text.substr(0, detail::line_columns);
+      if (text.find_first_of(",&") != std::string_view::npos) {
+        const DecodedCard card = decode_line(deck_, b, *cards[at], line, nullptr);
+        for (const Column& column : rows[at])
+          for (const Cell& c : card.cells)
+            if (c.field == column.field) cell(b, card, c, column.kind, column.definition);
+      } else {
+        for (const Column& column : rows[at])
+          plain_cell(b, line, *column.field, column.kind, column.definition);
+      }
+      at = at + 1 == cards.size() ? 0 : at + 1;
+    }
+  }
+
+  void plain_cell(const Block& b, const Line& line, const Field& f, std::string_view kind,
+                  bool definition) {
+    const IntegerCell n = read_integer(detail::columns(line.text, f.first, f.last));
+    if (n.status == NumberStatus::blank || n.value == 0) return;
+    const Renamed r = rename(b, kind, n.value, definition);
+    if (!r.changes) return;
+    if (n.status != NumberStatus::ok)
+      return undecided(b, line.columns(f.first, f.last), f.name,
+                       "the cell holds more than a number");
+    write(b, line, line.columns(f.first, f.last), f.first, f.last, false, f.name, r);
+  }
+
+  // ---- ranges and sets ------------------------------------------------------------------------
+
+  using Place = std::pair<const DecodedCard*, const Cell*>;
+
+  /// (first, last) or (first, last, increment).
+  void range(const Block& b, std::string_view kind, const Place& first, const Place& last,
+             std::int64_t increment) {
+    const IdSpace* target = space(kind);
+    if (target == nullptr || !target->changes) return;
+    const std::int64_t offset = deck_.offset_of(b, kind);
+    const std::int64_t from = first.second->integer + offset, to = last.second->integer + offset;
+    const auto refuse = [&](const std::string& why) {
+      undecided(b, first.second->span, first.second->field->name, why);
+    };
+    if (first.second->integer <= 0 || last.second->integer <= 0)
+      return refuse("a range with a negative id");
+    std::int64_t new_from = from + target->value, new_to = to + target->value;
+    if (target->compact) {
+      const auto lower = std::lower_bound(target->ids.begin(), target->ids.end(), from);
+      const auto upper = std::upper_bound(target->ids.begin(), target->ids.end(), to);
+      if (lower >= upper) return refuse("the range holds no id and has no new place");
+      if (increment != 1) return refuse("a range with an increment does not stay one");
+      new_from = *target->mapped(*lower);
+      new_to = *target->mapped(*(upper - 1));
+    }
+    if (new_from - offset < 1 || new_to > detail::largest_id)
+      return refuse("the new range is not legal");
+    write_cell(b, *first.first, *first.second, {true, new_from - offset, {}});
+    write_cell(b, *last.first, *last.second, {true, new_to - offset, {}});
+  }
+
+  void grouped(const Block& b, std::string_view kind, const std::vector<Place>& places,
+               std::size_t group) {
+    for (std::size_t i = 0; i + group <= places.size(); i += group)
+      range(b, kind, places[i], places[i + 1], group == 3 ? places[i + 2].second->integer : 1);
+  }
+
+  void ranges(const Block& b, const DecodedBlock& d, std::size_t group) {
+    std::vector<Place> places;
+    std::string_view kind;
+    for (const DecodedCard& card : d.cards)
+      for (const Cell& c : card.cells)
+        if (c.field->type == FieldType::id && c.integer != 0) {
+          places.emplace_back(&card, &c);
+          kind = c.field->ref;
+        }
+    grouped(b, kind, places, group);
+  }
+
+  void clauses(const Block& b, const DecodedBlock& d) {
+    std::string_view clause;
+    bool triplets = false;
+    int rows = 0;  // of the clause so far
+    std::vector<Place> places;
+    const auto flush = [&] {
+      if (triplets) grouped(b, kind_of_clause(clause), places, 3);
+      places.clear();
+    };
+    for (const DecodedCard& card : d.cards) {
+      if (card.cells.empty()) continue;
+      if (!card.cells[0].blank()) {
+        flush();
+        const std::string_view text = card.cells[0].text;
+        const std::size_t cut = std::min(text.find('_'), text.size());
+        clause = text.substr(0, cut);
+        triplets = text.find('G', cut) != std::string_view::npos;
+        rows = 0;
+      }
+      ++rows;
+      if (clause == "RBODY") {
+        unknown_numbers(b, card);
+        continue;
+      }
+      if (clause == "ELLIPS" && rows == 1 && card.cells.size() > 7)
+        cell(b, card, card.cells[7], "skew", false);
+      const std::string_view kind = kind_of_clause(clause);
+      if (kind.empty()) continue;
+      // The first number of a segment row is its own id.
+      for (std::size_t i = clause == "SEG" ? 2 : 1; i < card.cells.size(); ++i) {
+        if (card.cells[i].integer == 0) continue;
+        if (triplets)
+          places.emplace_back(&card, &card.cells[i]);
+        else
+          cell(b, card, card.cells[i], kind, false);
+      }
+    }
+    flush();
+  }
+
+  void unknown_numbers(const Block& b, const DecodedCard& card) {
+    for (std::size_t i = 1; i < card.cells.size(); ++i)
+      if (card.cells[i].integer != 0 && number(b, card.cells[i].span, card.cells[i].integer))
+        return;
+  }
+
+  // ---- text that no schema describes ----------------------------------------------------------
+
+  /// True: the number could be an id that changes; reported.
+  bool number(const Block& b, Span place, std::int64_t value) {
+    const auto spaces = possible_spaces(b);
+    for (const auto& [name, space] : spaces_) {
+      if (!space.changes) continue;
+      if (spaces && std::find(spaces->begin(), spaces->end(), name) == spaces->end()) continue;
+      const std::string_view kind = name == "solid" ? std::string_view("brick") : name;
+      const std::int64_t id = std::abs(value) + deck_.offset_of(b, kind);
+      if (!space.defined(id) || space.mapped(id) == id) continue;
+      undecided(b, place, "",
+                "the keyword is not described (completely), and " + std::to_string(value) +
+                    " may be the " + name + " that gets another id");
+      return true;
+    }
+    return false;
+  }
+
+  /// Text longer than a cell may be ids of ten columns with no blank between them.
+  bool glued(const Block& b, const Line& line, std::size_t begin, std::size_t end) {
+    constexpr std::size_t width = 10;
+    if (end - begin <= width) return false;
+    for (std::size_t at = begin; at < end;) {
+      const std::size_t next = std::min(end, (at / width + 1) * width);
+      const IntegerCell n = read_integer(line.text.substr(at, next - at));
+      if (n.status == NumberStatus::ok && n.value != 0 &&
+          number(b, line.columns(static_cast<int>(at) + 1, static_cast<int>(next)), n.value))
+        return true;
+      at = next;
+    }
+    return false;
+  }
+
+  /// One finding a block is enough.
+  void tokens(const Block& b, const DecodedBlock& d) {
+    if (const auto spaces = possible_spaces(b); spaces && spaces->empty()) return;
+    const auto scan = [&](const Line& line, const std::bitset<detail::line_columns + 1>& known) {
+      const std::string_view text = line.text.substr(0, detail::line_columns);
+      const auto hidden = [&](std::size_t i) {
+        return known.test(i + 1) || static_cast<unsigned char>(text[i]) <= ' ' || text[i] == ',';
+      };
+      for (std::size_t at = 0; at < text.size(); ++at) {
+        if (hidden(at)) continue;
+        const std::size_t begin = at;
+        while (at < text.size() && !hidden(at)) ++at;
+        const std::string_view token = text.substr(begin, at - begin);
+        const Span place = line.columns(static_cast<int>(begin) + 1, static_cast<int>(at));
+        if (glued(b, line, begin, at)) return true;
+        if (token.starts_with('&') || token.starts_with("-&")) {
+          const std::int64_t value = detail::read_offset(deck_, place);
+          if (value != 0 && number(b, place, value)) return true;
+          continue;
+        }
+        const IntegerCell n = read_integer(token);
+        if (n.status != NumberStatus::ok || n.value == 0) continue;
+        if (number(b, place, n.value)) return true;
+      }
+      return false;
+    };
+    if (b.schema == nullptr) {
+      if (b.id.present && number(b, b.id.span, b.id.value)) return;
+      LineCursor cursor(deck_.sources, b);
+      for (Line line = cursor.next(); line.valid(); line = cursor.next())
+        if (scan(line, {})) return;
+      return;
+    }
+    for (const DecodedCard& card : d.cards) {
+      if (card.missing() || card.free_format) continue;
+      std::bitset<detail::line_columns + 1> known;
+      for (const Field& f : card.schema->fields)
+        if (f.in_version(b.version))
+          for (int c = f.first; c <= std::min(f.last, detail::line_columns); ++c)
+            known.set(static_cast<std::size_t>(c));
+      if (scan(card.line, known)) return;
+    }
+    for (const Line& line : d.extra)
+      if (scan(line, {})) return;
+  }
+
+  const Deck& deck_;
+  const RenumberOptions& options_;
+  IdSpaces spaces_;
+  Rewrite out_;
+  std::unordered_map<std::uint64_t, int> spare_;  // columns left on free-format lines
+};
+
+}  // namespace
+
+Rewrite renumber(const EditContext& context, const RenumberOptions& options) {
+  Rewrite out;
+  out.refusals = detail::unread_files(context.deck);
+  IdSpaces spaces = detail::collect_spaces(context, options, out.refusals);
+  if (!out.refusals.empty()) return out;
+  return Renumbering(context, options, std::move(spaces)).run();
+}
+
+}  // namespace deck

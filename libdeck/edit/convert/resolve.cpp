@@ -1,0 +1,260 @@
+#include "deck/edit/resolve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "deck/keyword/decode.hpp"
+#include "deck/text/number.hpp"
+#include "edit/convert/version_cards.hpp"
+
+namespace deck {
+namespace {
+
+using detail::cell_text;
+using detail::LineEdits;
+using detail::put_cell;
+
+std::string cell_for(std::int64_t v) { return std::to_string(v); }
+std::string cell_for(const std::string& v) { return v; }
+std::string cell_for(double v) {
+  const auto text = format_real(v, 24);
+  return text ? text->text : std::string();
+}
+
+bool is_zero(std::int64_t v) { return v == 0; }
+bool is_zero(double v) { return v == 0; }
+bool is_zero(const std::string& v) { return v.find('1') == std::string::npos; }
+
+std::string_view source_of(Origin origin) {
+  return origin == Origin::default_block ? "from /DEFAULT/INTER" : "built-in default";
+}
+
+/// One interface: which cells get which text.
+class Resolver {
+ public:
+  Resolver(const EditContext& context, const InterBase& inter, LineEdits& lines, Rewrite& out)
+      : c_(context),
+        inter_(inter),
+        block_(*inter.block),
+        decoded_(decode(context.deck, *inter.block)),
+        lines_(lines),
+        out_(out) {}
+
+  void run() {
+    visit_interface(inter_, [&](const auto& t) {
+      t.for_each([&](std::string_view name, const auto& e) { field(name, e); });
+    });
+    keep_meaning();
+    write();
+  }
+
+ private:
+  LossEntry& report(Loss loss, Span span, std::string_view field, std::string old_text,
+                    std::string new_text, std::string note) {
+    LossEntry entry = loss_entry(c_.deck, loss, block_, span);
+    entry.field = std::string(field);
+    entry.old_text = std::move(old_text);
+    entry.new_text = std::move(new_text);
+    entry.note = std::move(note);
+    out_.losses.push_back(std::move(entry));
+    return out_.losses.back();
+  }
+
+  /// Cell of this version on a card that the block has or, at its end, should have.
+  const Field* field_of(std::string_view name) const {
+    for (const DecodedCard& card : decoded_.cards)
+      for (const Field& f : card.schema->fields)
+        if (f.in_version(block_.version) && detail::canonical_name(f.name) == name) return &f;
+    return nullptr;
+  }
+  const Cell* cell_of(const Field& field) const { return decoded_.find(field.name); }
+
+  template <class T>
+  void field(std::string_view name, const Effective<T>& e) {
+    if (e.origin == Origin::derived) {
+      if (!e.has_input) note_derived(name, e.span);
+      return;
+    }
+    if (e.origin == Origin::card || is_zero(e.value)) return;
+    const Field* f = field_of(name);
+    const bool unread = inter_.type == 19 && name == "Iedge";
+    if (f == nullptr || unread) {
+      if (e.origin == Origin::default_block)
+        report(Loss::undecided, {}, name, "", cell_for(e.value),
+               unread ? "the card's Iedge is not read: the default card stays in force"
+                      : "version " + std::to_string(block_.version) +
+                            " has no cell for it: the default card stays in force; convert to a "
+                            "newer version first");
+      return;
+    }
+    const Cell* cell = cell_of(*f);
+    if (cell != nullptr && cell->parameter) {
+      report(Loss::undecided, cell->span, name, std::string(cell->text), cell_for(e.value),
+             "the parameter is 0, so a default is at work; give it the value");
+      return;
+    }
+    set(*f, e.value, std::string(source_of(e.origin)));
+  }
+
+  void note_derived(std::string_view name, Span span) {
+    if (field_of(name) == nullptr) return;
+    const bool mesh = name == "Gapmin" || name == "Gap" || name == "Drad";
+    report(
+        Loss::kept, span, name, "", "",
+        mesh ? "left blank: it follows from the mesh" : "left blank: it follows from other values");
+  }
+
+  // ---- values -------------------------------------------------------------------------------
+
+  void set(const Field& f, std::int64_t value, const std::string& note) {
+    const auto text = format_integer(value, f.last - f.first + 1);
+    if (!text) return;
+    flags_[f.name] = value;
+    put(f, *text, cell_for(value), Loss::kept, note);
+  }
+  // IBC has no default.
+  void set(const Field&, const std::string&, const std::string&) {}
+  void set(const Field& f, double value, const std::string& note) {
+    const auto text = cell_text(value, factor(f, true), f.last - f.first + 1);
+    if (!text) return;
+    put(f, text->text, cell_for(value), text->exact ? Loss::kept : Loss::approximated, note);
+  }
+
+  void put(const Field& f, const std::string& text, const std::string& value, Loss loss,
+           const std::string& note) {
+    const Cell* cell = cell_of(f);
+    texts_[&f] = text;
+    LossEntry& entry =
+        report(loss, cell != nullptr ? cell->span : Span{}, f.name,
+               cell != nullptr ? std::string(cell->text) : std::string(), text, note);
+    if (loss == Loss::approximated)
+      entry.note += "; no text of the cell gives " + value + " in working units exactly";
+  }
+
+  std::int64_t flag(std::string_view name, bool after) const {
+    if (after)
+      if (const auto it = flags_.find(std::string(name)); it != flags_.end()) return it->second;
+    return decoded_.integer(name);
+  }
+
+  /// Deck units to working units, with the flags as they are or as they will be.
+  double factor(const Field& f, bool after) const {
+    const UnitSystem* units = c_.deck.units_of(block_);
+    if (units == nullptr) return 1;
+    Dimension dimension = f.dimension;
+    for (const auto& [when, d] : f.dimension_when)
+      if (std::all_of(when.begin(), when.end(),
+                      [&](const Condition& c) { return c.holds(flag(c.field, after)); })) {
+        dimension = d;
+        break;
+      }
+    return conversion_factor(*units, c_.deck.begin.working, dimension);
+  }
+
+  /// Values on the card whose unit depends on a flag that is now written.
+  void keep_meaning() {
+    for (const DecodedCard& card : decoded_.cards)
+      for (const Cell& cell : card.cells) {
+        const Field& f = *cell.field;
+        if (f.type != FieldType::real || f.dimension_when.empty() || cell.real == 0) continue;
+        if (texts_.count(&f) > 0) continue;
+        const double before = factor(f, false), after = factor(f, true);
+        if (before == after) continue;
+        if (cell.parameter) {
+          report(Loss::undecided, cell.span, f.name, std::string(cell.text), "",
+                 "its unit changes with a flag that is now on the card, and it is a parameter");
+          out_.refusals.push_back(c_.deck.sources.where(cell.span) + ": " + f.name +
+                                  " is a parameter whose unit would change");
+          continue;
+        }
+        const double value = cell.real * before;
+        const auto text = cell_text(value, after, f.last - f.first + 1);
+        if (text)
+          put(f, text->text, cell_for(value), text->exact ? Loss::kept : Loss::approximated,
+              "the same value in the unit that goes with the flags now on the card");
+      }
+  }
+
+  // ---- lines --------------------------------------------------------------------------------
+
+  void write() {
+    if (texts_.empty()) return;
+    Span anchor = decoded_.title_line.valid() ? decoded_.title_line.whole() : block_.header_span;
+    std::vector<std::string> behind;  // lines of cards that the block ends before
+    std::size_t needed = 0;
+    for (const DecodedCard& card : decoded_.cards) {
+      const auto changed = std::any_of(
+          card.schema->fields.begin(), card.schema->fields.end(),
+          [&](const Field& f) { return f.in_version(block_.version) && texts_.count(&f) > 0; });
+      if (card.missing()) {
+        behind.push_back(changed ? fixed_text(card) : std::string());
+        if (changed) needed = behind.size();
+        continue;
+      }
+      anchor = card.line.whole();
+      if (changed)
+        lines_.change(card.line, card.free_format ? fixed_text(card) : edited(card), out_.edits);
+    }
+    behind.resize(needed);
+    // A header without any line: the first one would be taken for the title.
+    if (needed > 0 && detail::lacks_title(decoded_)) lines_.insert_after(anchor, "");
+    for (const std::string& text : behind) lines_.insert_after(anchor, text);
+  }
+
+  std::string edited(const DecodedCard& card) const {
+    std::string text(card.line.text);
+    for (const Field& f : card.schema->fields)
+      if (const auto it = texts_.find(&f); it != texts_.end())
+        put_cell(text, f.first, f.last, it->second);
+    return text;
+  }
+
+  /// A line in fixed columns from the cells there are, for lines with commas and missing ones.
+  std::string fixed_text(const DecodedCard& card) {
+    std::string text;
+    for (const Cell& cell : card.cells) {
+      const Field& f = *cell.field;
+      const int width = f.last - f.first + 1;
+      if (cell.text.size() <= static_cast<std::size_t>(width)) {
+        put_cell(text, f.first, f.last, cell.text);
+        continue;
+      }
+      const auto shorter = f.type == FieldType::real && !cell.parameter
+                               ? format_real(cell.real, width)
+                               : std::nullopt;
+      if (shorter && shorter->exact)
+        put_cell(text, f.first, f.last, shorter->text);
+      else
+        out_.refusals.push_back(c_.deck.sources.where(cell.span) + ": " + f.name +
+                                " does not fit its columns; shorten it");
+    }
+    for (const Field& f : card.schema->fields)
+      if (const auto it = texts_.find(&f); it != texts_.end())
+        put_cell(text, f.first, f.last, it->second);
+    return text;
+  }
+
+  const EditContext& c_;
+  const InterBase& inter_;
+  const Block& block_;
+  DecodedBlock decoded_;
+  LineEdits& lines_;
+  Rewrite& out_;
+  std::map<const Field*, std::string> texts_;
+  std::map<std::string, std::int64_t> flags_;  ///< that are written
+};
+
+}  // namespace
+
+Rewrite resolve_defaults(const EditContext& context) {
+  Rewrite out;
+  LineEdits lines(context.deck.sources);
+  for (const InterBase* inter : context.interfaces.ordered)
+    Resolver(context, *inter, lines, out).run();
+  lines.finish(out.edits);
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,466 @@
+#include "deck/edit/type19.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "deck/keyword/decode.hpp"
+#include "deck/lint/example.hpp"
+#include "deck/model/selection.hpp"
+#include "deck/text/number.hpp"
+#include "edit/convert/version_cards.hpp"
+#include "text/columns.hpp"
+
+namespace deck {
+namespace {
+
+using detail::largest_id;
+using detail::LineEdits;
+using detail::put_cell;
+
+using Texts = std::map<std::string, std::string>;
+
+constexpr int oldest_version = 100;
+constexpr std::int64_t nothing = 1000;
+using detail::trim;
+
+std::string_view columns(std::string_view line, const Field& f) {
+  return trim(detail::columns(line, f.first, f.last));
+}
+
+/// Ids in use by keyword family ("/INTER/", "/GRNOD/", ...), submodel offsets applied.
+class FreeIds {
+ public:
+  explicit FreeIds(const Deck& deck) {
+    for (const Block& b : deck.blocks) {
+      if (!b.id.present) continue;
+      const std::int64_t id = b.id.value + deck.offset_of(b, "inter");
+      for (const char* family : {"/INTER/", "/GRNOD/", "/LINE/", "/SET/"})
+        if (b.header.starts_with(family)) used_[family].insert(id);
+    }
+    // Groups, lines and sets are referred to alike: one numbering for all of them.
+    for (const char* family : {"/GRNOD/", "/LINE/"})
+      used_[family].insert(used_["/SET/"].begin(), used_["/SET/"].end());
+  }
+  /// An id above all others of the family and above `floor`; below, where there is no room.
+  std::int64_t take(const std::string& family, std::int64_t floor) {
+    std::set<std::int64_t>& used = used_[family];
+    std::int64_t id = std::max(used.empty() ? 0 : *used.rbegin(), floor) + 1;
+    if (id > largest_id)
+      for (id = floor + 1; used.count(id) > 0;) ++id;
+    used.insert(id);
+    return id;
+  }
+
+ private:
+  std::map<std::string, std::set<std::int64_t>> used_;
+};
+
+/// Replaces one TYPE19.
+class Expander {
+ public:
+  Expander(const EditContext& context, const InterType19& inter, FreeIds& ids, LineEdits& lines,
+           Rewrite& out, std::map<std::string, std::int64_t>& shared, Span end_anchor)
+      : c_(context),
+        i_(inter),
+        block_(*inter.block),
+        decoded_(decode(context.deck, *inter.block)),
+        ids_(ids),
+        lines_(lines),
+        out_(out),
+        shared_(shared),
+        local_(block_.submodel >= 0 || block_.version != context.deck.version ||
+               !end_anchor.valid() || (block_.header_span.file != 0 && has_parameters())),
+        anchor_(end_anchor) {}
+
+  void run() {
+    s_ = i_.surf_IDs.value == 0 ? i_.surf_IDm.value : i_.surf_IDs.value;
+    m_ = i_.surf_IDm.value == 0 ? i_.surf_IDs.value : i_.surf_IDm.value;
+    if (!accepted()) return;
+    const bool two_sides = s_ != m_;
+    Texts primary = nodes_to_surface();
+    primary["grnd_IDs"] = two_sides || is_set(s_) ? std::to_string(node_group(s_)) : "0";
+    primary["surf_IDm"] = std::to_string(written(m_, "surf"));
+    in_place(primary);
+    std::string made = "/INTER/TYPE7/" + std::to_string(i_.id);
+    if (two_sides) made += ", " + reversed();
+    made += edges();
+    LossEntry entry = loss_entry(c_.deck, Loss::kept, block_, {});
+    entry.old_text = "/INTER/TYPE19/" + std::to_string(i_.id);
+    entry.new_text = made;
+    if (i_.Iedge.has_input && i_.Iedge.input != 0 && i_.Iedge.input != i_.Iedge.value)
+      entry.note =
+          "Iedge = " + std::to_string(i_.Iedge.input) + " on the card is not read by the solver";
+    out_.losses.push_back(std::move(entry));
+    flush();
+  }
+
+ private:
+  /// Local parameters are known in their own file only.
+  bool has_parameters() const {
+    for (const DecodedCard& card : decoded_.cards)
+      for (const Cell& cell : card.cells)
+        if (cell.parameter) return true;
+    return false;
+  }
+
+  void undecided(std::string_view field, std::string text, const std::string& why) {
+    LossEntry entry = loss_entry(c_.deck, Loss::undecided, block_, {});
+    entry.field = std::string(field);
+    entry.old_text = std::move(text);
+    entry.note = why;
+    out_.losses.push_back(std::move(entry));
+    out_.refusals.push_back(c_.deck.sources.where(block_.header_span) + ": TYPE19 " +
+                            std::to_string(i_.id) + " " + std::string(field) + ": " + why);
+  }
+
+  bool accepted() {
+    if (block_.version < oldest_version) {
+      undecided("", "",
+                "version " + std::to_string(block_.version) +
+                    " has other lines; convert the deck to a newer version first");
+      return false;
+    }
+    for (const std::int64_t id : {s_, m_})
+      for (const char* kind : {"grnod", "line"})
+        if (is_set(id) && selections().is_plain(kind, id)) {
+          undecided("surf_IDs", std::to_string(id),
+                    "set " + std::to_string(id) +
+                        " cannot be named here, because a group or line has the same id; "
+                        "renumber one of them first");
+          return false;
+        }
+    return true;
+  }
+
+  Selections& selections() const { return *c_.model.selections; }
+  bool is_set(std::int64_t id) const {
+    return c_.model.selections != nullptr && !selections().is_plain("surf", id) &&
+           selections().set(id) != nullptr;
+  }
+
+  // ---- ids ----------------------------------------------------------------------------------
+
+  std::int64_t offset(std::string_view kind) const {
+    return local_ ? c_.deck.offset_of(block_, kind) : 0;
+  }
+  /// An id as it is written where the new blocks stand. The TYPE19's own lines stay where they are,
+  /// in the same submodel if there is one.
+  std::int64_t written(std::int64_t id, std::string_view kind) const {
+    return id > 0 ? id - c_.deck.offset_of(block_, kind) : id;
+  }
+  std::int64_t take(const std::string& family, std::string_view kind) {
+    return ids_.take(family, offset(kind)) - offset(kind);
+  }
+
+  /// Group of one line of ids, made once per surface.
+  std::int64_t group(const std::string& keyword, const std::string& family, std::string_view kind,
+                     std::int64_t surface, const std::string& title) {
+    const std::string key =
+        keyword + "/" + std::to_string(surface) + (local_ ? "/" + std::to_string(i_.id) : "");
+    const auto [it, is_new] = shared_.emplace(key, 0);
+    if (is_new) {
+      it->second = take(family, kind);
+      std::string line;
+      put_cell(line, 1, 10, std::to_string(written(surface, "surf")));
+      behind_.push_back(keyword + "/" + std::to_string(it->second));
+      behind_.push_back(title);
+      behind_.push_back(line);
+    }
+    return it->second;
+  }
+  std::int64_t node_group(std::int64_t surface) {
+    if (is_set(surface)) return written(surface, "grnod");
+    return group("/GRNOD/SURF", "/GRNOD/", "grnod", surface,
+                 "nodes of surface " + std::to_string(surface));
+  }
+  std::int64_t line_group(std::int64_t surface) {
+    if (is_set(surface)) return written(surface, "line");
+    const bool free_only = i_.Iedge.value == 1;
+    return group(
+        free_only ? "/LINE/EDGE" : "/LINE/SURF", "/LINE/", "line", surface,
+        (free_only ? "free edges of surface " : "edges of surface ") + std::to_string(surface));
+  }
+  bool has_edges(std::int64_t surface) const {
+    if (c_.model.selections == nullptr) return true;
+    if (is_set(surface)) return !selections().set(surface)->edges.empty();
+    const Surface* found = selections().surface(surface);
+    return found != nullptr && !selections().edges_of(found->segments, i_.Iedge.value == 1).empty();
+  }
+
+  // ---- values -------------------------------------------------------------------------------
+
+  static std::int64_t flag(const EffectiveInt& e) { return e.value == nothing ? 0 : e.value; }
+  /// Text of a flag that must not be left to defaults; a parameter that has the value stays one.
+  std::string explicit_flag(std::string_view field, std::int64_t v) const {
+    if (v == 0) v = nothing;
+    const Cell* cell = decoded_.find(field);
+    return cell != nullptr && cell->parameter && cell->integer == v ? std::string(cell->text)
+                                                                    : std::to_string(v);
+  }
+
+  /// Text of a cell of the card; empty where it is blank.
+  std::string raw(std::string_view field) const {
+    const Cell* cell = decoded_.find(field);
+    return cell == nullptr || cell->blank() ? std::string() : std::string(cell->text);
+  }
+
+  /// The cells that TYPE7 and TYPE11 take over as they are.
+  void take_over(Texts& to, std::initializer_list<const char*> fields) const {
+    for (const char* field : fields)
+      if (std::string text = raw(field); !text.empty()) to[field] = std::move(text);
+  }
+
+  void common(Texts& t) const {
+    take_over(t, {"%mesh_size", "dtmin",     "Stmin",   "Stmax", "Stfac", "Fric",    "Gapmin",
+                  "Tstart",     "Tstop",     "IBCX",    "IBCY",  "IBCZ",  "VISs",    "VISF",
+                  "Bumult",     "sens_ID",   "fric_ID", "Ithe",  "Kthe",  "fct_IDK", "AscaleK",
+                  "Tint",       "Ithe_form", "Frad",    "Drad"});
+    t["Idel"] = explicit_flag("Idel", i_.Idel.value);
+    t["Inacti"] = explicit_flag("Inacti", i_.Inacti.value);
+    const std::int64_t iform = decoded_.integer("Iform");
+    t["Iform"] = explicit_flag("Iform", iform != 0 ? iform : default_iform());
+    keep_stiffness(t);
+  }
+
+  /// Iform of the default card or the built-in one: the effective value may come from /FRICTION.
+  std::int64_t default_iform() const {
+    if (i_.Iform.origin != Origin::derived) return i_.Iform.value;
+    for (const DefaultInter& d : c_.interfaces.defaults)
+      if (d.type == 19)
+        if (const auto* given = d.find("Iform")) return given->value;
+    return 1;
+  }
+
+  /// Stfac is a stiffness, converted with its unit, once Istf 1 stands on the card.
+  void keep_stiffness(Texts& t) const {
+    const Cell* cell = decoded_.find("Stfac");
+    if (i_.Istf.value != 1 || decoded_.integer("Istf") == 1) return;
+    const UnitSystem* units = c_.deck.units_of(block_);
+    if (units == nullptr) return;
+    const double factor = conversion_factor(*units, c_.deck.begin.working, {1, 0, -2, 0});
+    if (factor == 1) return;
+    const double value = cell == nullptr || cell->real == 0 ? 1 : cell->real;
+    if (const auto text = detail::cell_text(value, factor, 20)) t["Stfac"] = text->text;
+  }
+
+  Texts nodes_to_surface() const {
+    Texts t;
+    common(t);
+    take_over(t, {"Icurv", "Fscalegap", "Gapmax", "node_ID1", "node_ID2", "Ifric", "Ifiltr",
+                  "Xfreq", "C1", "C2", "C3", "C4", "C5", "C6", "Fheats", "Fheatm"});
+    t["Istf"] = explicit_flag("Istf", flag(i_.Istf));
+    const bool curvilinear =
+        i_.Igap.value == 4;  // undocumented: variable gap, removal along the mesh
+    t["Igap"] = explicit_flag("Igap", curvilinear ? 2 : flag(i_.Igap));
+    t["Irem_gap"] = explicit_flag("Irem_gap", curvilinear ? 2 : i_.Irem_gap.value);
+    t["Irem_i2"] = explicit_flag("Irem_i2", i_.Irem_i2.value);
+    // Without an airbag the effective value is none; the card's own may count with one.
+    const bool given = i_.Ibag.has_input && i_.Ibag.input != 0;
+    t["Ibag"] = explicit_flag("Ibag", given ? i_.Ibag.input : i_.Ibag.value);
+    return t;
+  }
+
+  Texts edge_to_edge() const {
+    Texts t;
+    common(t);
+    const std::int64_t istf = flag(i_.Istf), igap = flag(i_.Igap);
+    t["Istf"] = explicit_flag("Istf", istf == 0 ? 5 : istf);
+    t["Igap"] = explicit_flag("Igap", igap == 2 ? 1 : igap == 4 ? 0 : igap);
+    t["Irem_gap"] = explicit_flag("Irem_gap", i_.Irem_gap.value);
+    if (const double scale = i_.Edge_scale_gap.value; scale != 0 && scale != 1)
+      if (const Cell* gap = decoded_.find("Gapmin"); gap != nullptr && gap->real > 0)
+        if (const UnitSystem* units = c_.deck.units_of(block_)) {
+          const double factor = conversion_factor(*units, c_.deck.begin.working, {0, 1, 0, 0});
+          if (const auto text = detail::cell_text(i_.Gapmin.value * scale, factor, 20))
+            t["Gapmin"] = text->text;
+        }
+    return t;
+  }
+
+  /// What the solver would take for a flag without a cell.
+  std::int64_t fallback(const Schema& schema, int type, const std::string& field) const {
+    for (const DefaultInter& d : c_.interfaces.defaults)
+      if (d.type == type)
+        if (const auto* given = d.find(field)) return given->value;
+    if (field == "Irem_i2" && c_.model.implicit) return 1;
+    const Field* f = schema.find_field(field);
+    return f == nullptr ? 0 : static_cast<std::int64_t>(detail::default_number(*f));
+  }
+
+  /// Takes away texts that this version of the type has no cell for.
+  void fit(const Schema& schema, int type, Texts& texts) {
+    for (auto it = texts.begin(); it != texts.end();) {
+      const Field* cell = nullptr;
+      for (const CardSchema& card : schema.cards)
+        if (card.in_version(block_.version))
+          for (const Field& f : card.fields)
+            if (f.in_version(block_.version) && f.name == it->first) cell = &f;
+      if (cell != nullptr) {
+        if (it->second.size() > static_cast<std::size_t>(cell->last - cell->first + 1))
+          undecided(it->first, it->second, "does not fit its columns; shorten it");
+        ++it;
+        continue;
+      }
+      static const std::set<std::string> flags = {"Irem_gap", "Irem_i2", "Iform"};
+      if (schema.find_field(it->first) != nullptr && flags.count(it->first) > 0 &&
+          std::to_string(fallback(schema, type, it->first)) != it->second)
+        undecided(it->first, it->second,
+                  "version " + std::to_string(block_.version) + " of TYPE" + std::to_string(type) +
+                      " has no cell for it; convert the deck to a newer version first");
+      it = texts.erase(it);
+    }
+  }
+
+  // ---- blocks -------------------------------------------------------------------------------
+
+  const Schema& schema_of(const char* keyword) const { return *c_.schemas.find(keyword); }
+
+  std::string header(const char* keyword, std::int64_t id) const {
+    std::string text = keyword + ("/" + std::to_string(id));
+    if (block_.unit_id.present) text += "/" + std::to_string(block_.unit_id.value);
+    return text;
+  }
+
+  std::string reversed() {
+    Texts t = nodes_to_surface();
+    t["grnd_IDs"] = std::to_string(node_group(m_));
+    t["surf_IDm"] = std::to_string(written(s_, "surf"));
+    return add("/INTER/TYPE7", 7, std::move(t), " (reversed)");
+  }
+
+  std::string edges() {
+    if (!has_edges(s_) || !has_edges(m_)) {
+      LossEntry entry = loss_entry(c_.deck, Loss::kept, block_, {});
+      entry.note = "no TYPE11: a side has no edges, and the solver drops this part too (1577)";
+      out_.losses.push_back(std::move(entry));
+      return "";
+    }
+    Texts t = edge_to_edge();
+    t["line_IDs"] = std::to_string(line_group(s_));
+    t["line_IDm"] = std::to_string(line_group(m_));
+    return ", " + add("/INTER/TYPE11", 11, std::move(t), " (edges)");
+  }
+
+  std::string add(const char* keyword, int type, Texts texts, const std::string& suffix) {
+    const Schema& schema = schema_of(keyword);
+    fit(schema, type, texts);
+    const std::int64_t id = take("/INTER/", "inter");
+    std::string rendered =
+        render_card(schema, header(keyword, id), block_.version, {texts.begin(), texts.end()});
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at < rendered.size();) {
+      const std::size_t nl = std::min(rendered.find('\n', at), rendered.size());
+      lines.push_back(rendered.substr(at, nl - at));
+      at = nl + 1;
+    }
+    if (lines.size() > 1)
+      lines[1] = decoded_.title.substr(0, detail::title_columns - suffix.size()) + suffix;
+    // Texts of cards that are not there (friction coefficients without friction law).
+    std::erase_if(lines, [](const std::string& l) { return l.starts_with("# unused: "); });
+    behind_.insert(behind_.end(), lines.begin(), lines.end());
+    return std::string(keyword) + "/" + std::to_string(id + offset("inter"));
+  }
+
+  /// The TYPE19 becomes the first TYPE7 where it stands: keyword, then cell by cell.
+  void in_place(Texts& texts) {
+    const Schema& schema = schema_of("/INTER/TYPE7");
+    fit(schema, 7, texts);
+    const auto at = block_.header.find("TYPE19");
+    out_.edits.push_back(
+        {Span{block_.header_span.file, 6, block_.header_span.offset + at}, "TYPE7"});
+    last_ = decoded_.title_line.valid() ? decoded_.title_line.whole() : block_.header_span;
+    std::vector<std::string> missing;
+    std::size_t needed = 0;
+    for (const DecodedCard& card : decoded_.cards) {
+      const CardSchema* target = nullptr;
+      for (const CardSchema& c : schema.cards)
+        if (c.in_version(block_.version) && c.name == card.schema->name) target = &c;
+      if (target == nullptr) continue;
+      if (card.missing()) {
+        missing.push_back(compose(card, *target, texts));
+        if (!missing.back().empty()) needed = missing.size();
+        continue;
+      }
+      last_ = card.line.whole();
+      lines_.change(card.line, compose(card, *target, texts), out_.edits);
+    }
+    missing.resize(needed);
+    if (needed > 0 && detail::lacks_title(decoded_)) lines_.insert_after(last_, "");
+    for (const std::string& line : missing) lines_.insert_after(last_, line);
+  }
+
+  std::string compose(const DecodedCard& card, const CardSchema& target, const Texts& texts) const {
+    std::string line =
+        card.missing() || card.free_format ? std::string() : std::string(card.line.text);
+    for (const Field& f : card.schema->fields)
+      if (f.in_version(block_.version) && texts.count(f.name) == 0 && !columns(line, f).empty())
+        put_cell(line, f.first, f.last, "");
+    for (const Field& f : target.fields) {
+      if (!f.in_version(block_.version)) continue;
+      const auto it = texts.find(f.name);
+      const std::string want = it == texts.end() ? std::string() : it->second;
+      if (columns(line, f) != want) put_cell(line, f.first, f.last, want);
+    }
+    return line;
+  }
+
+  /// Writes the new blocks down.
+  void flush() {
+    const Span anchor = local_ ? last_ : anchor_;
+    for (const std::string& line : behind_) lines_.insert_after(anchor, line);
+  }
+
+  const EditContext& c_;
+  const InterType19& i_;
+  const Block& block_;
+  DecodedBlock decoded_;
+  FreeIds& ids_;
+  LineEdits& lines_;
+  Rewrite& out_;
+  std::map<std::string, std::int64_t>& shared_;
+  const bool local_;   ///< new blocks stand behind this one
+  const Span anchor_;  ///< last line in front of /END of the main file
+  Span last_;          ///< last line of the block
+  std::int64_t s_ = 0, m_ = 0;
+  std::vector<std::string> behind_;  ///< lines of the new blocks
+};
+
+/// A byte of the line behind which the end of the main file begins; invalid: there is none.
+Span end_of_main(const Deck& deck) {
+  const std::string_view bytes = deck.sources[0].bytes();
+  std::uint64_t end = bytes.size();
+  if (deck.end_seen) {
+    std::uint64_t from = 0;
+    for (const Block& b : deck.blocks)
+      if (b.header_span.file == 0) from = std::max(from, b.header_span.offset);
+    for (std::uint64_t at = bytes.find('\n', from); at < bytes.size(); at = bytes.find('\n', at)) {
+      ++at;
+      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), bytes.size());
+      if (trim(bytes.substr(at, nl - at)) != "/END") continue;
+      end = at;
+      break;
+    }
+  }
+  return end == 0 ? Span{} : Span{0, 1, end - 1};
+}
+
+}  // namespace
+
+Rewrite expand_type19(const EditContext& context) {
+  Rewrite out;
+  LineEdits lines(context.deck.sources);
+  FreeIds ids(context.deck);
+  std::map<std::string, std::int64_t> shared;
+  const Span end = end_of_main(context.deck);
+  for (const InterType19& inter : context.interfaces.type19)
+    Expander(context, inter, ids, lines, out, shared, end).run();
+  lines.finish(out.edits);
+  if (!context.interfaces.type19.empty())
+    out.notes.push_back(
+        "time histories (/TH/INTER) that name a TYPE19 now record its first TYPE7 only");
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,105 @@
+// What the steps of unit conversion share. Private to unit conversion.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "deck/edit/unit_system.hpp"
+#include "edit/convert/units/unit_system_decimal.hpp"
+
+namespace deck::detail {
+
+struct UnitConversion {
+  UnitConversion(const EditContext& c, const UnitSystem& t, const UnitsOptions& o)
+      : context(c),
+        deck(c.deck),
+        target(t),
+        options(o),
+        factors(c.deck.begin.input, t),
+        working_changes(!o.keep_working && c.deck.begin.input == c.deck.begin.working &&
+                        !(c.deck.begin.working == t)) {}
+
+  const EditContext& context;
+  const Deck& deck;
+  const UnitSystem& target;
+  const UnitsOptions& options;
+  UnitFactors factors;
+  bool working_changes;
+  Rewrite out;
+
+  /// Something that cannot be converted: a refusal, or with `partial` an undecided loss; the block
+  /// then stays as it is as a whole.
+  void undecided(const Block& block, Span place, std::string field, std::string why);
+  /// New text for the cell in columns first..last of a fixed-column line.
+  void convert_fixed(const Block& block, const Line& line, int first, int last,
+                     std::string_view field, const UnitFactor& factor);
+  /// New text for a cell of a free-format line.
+  void convert_free(const Block& block, const Line& line, Span cell, std::string_view field,
+                    const UnitFactor& factor);
+  /// Puts `text` into the columns, as far right as the old text stood.
+  void replace_fixed(const Line& line, int first, int last, std::string_view text);
+
+  struct ParameterUse {
+    const Block* block = nullptr;
+    Span span;
+    std::string field;
+    Dimension dimension;
+  };
+  std::map<std::string, std::vector<ParameterUse>, std::less<>> parameter_uses;
+
+  /// An id of a function or table in a block.
+  struct FunctionUse {
+    const Block* block = nullptr;
+    Span span;
+    std::string field;
+    std::int64_t id = 0;
+    std::vector<Dimension> points;  ///< dimension that the points themselves carry, axis by axis
+  };
+  std::vector<FunctionUse> function_uses;
+
+  /// What a block added to `out`, and with `partial` the blocks that stay as they are.
+  struct Share {
+    std::size_t edits = 0, edits_end = 0, losses = 0, losses_end = 0;
+  };
+  std::map<const Block*, Share> shares;
+  std::set<const Block*> left;
+  /// Takes the edits of the blocks in `left` out again.
+  void leave_blocks();
+
+  std::uint64_t changed_cells = 0, own_unit_blocks = 0;
+  std::map<std::string, std::string> used_factors;  ///< dimension -> factor, for the notes
+  void note_dimension(const Dimension& dimension, const UnitFactor& factor);
+
+ private:
+  void changed(const Block& block, Span place, std::string_view field, std::string_view before,
+               const ScaledText& after, int width);
+  std::unordered_map<std::uint64_t, int> spare_;  // columns left on free-format lines
+};
+
+/// /BEGIN, or the /UNIT/LENGTH ... of old versions. False: refused.
+bool convert_begin(UnitConversion& conversion);
+/// The definitions of the parameters that converted cells use.
+void convert_parameters(UnitConversion& conversion);
+
+/// The points of functions whose axes have no scale.
+void convert_functions(UnitConversion& conversion);
+
+/// Puts `text` into columns first..last of a fixed-column line, ending where the old text ended if
+/// there is room; nothing else on the line moves.
+TextEdit column_edit(const SourceSet& sources, const Line& line, int first, int last,
+                     std::string_view text);
+
+/// Refusals for includes that could not be read: a rewrite of half a deck is none.
+std::vector<std::string> unread_files(const Deck& deck);
+
+/// Refusals for files that the deck includes more than once and whose copies would get different
+/// edits.
+std::vector<std::string> contradicting_copies(const SourceSet& sources,
+                                              const std::vector<TextEdit>& edits);
+
+}  // namespace deck::detail

@@ -1,0 +1,489 @@
+#include "deck/edit/version.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "deck/text/number.hpp"
+#include "edit/convert/version_cards.hpp"
+#include "edit/convert/version_layout.hpp"
+#include "text/columns.hpp"
+
+namespace deck {
+namespace {
+
+using detail::canonical_name;
+using detail::cell_of;
+using detail::is_zero_text;
+using detail::LineEdits;
+using detail::NewLine;
+using detail::put_cell;
+using detail::TargetLayout;
+
+constexpr int oldest_source = 100;
+constexpr int oldest_target = 110;
+
+std::string number(std::int64_t n) { return std::to_string(n); }
+
+using detail::trim;
+
+/// Text of columns first..last of a line, without blanks.
+std::string_view cell_text(std::string_view line, int first, int last) {
+  return trim(detail::columns(line, first, last));
+}
+
+bool is_begin(const Block& b) { return b.header == "/BEGIN" || b.header.starts_with("/BEGIN/"); }
+
+class VersionRewriter {
+ public:
+  VersionRewriter(const EditContext& context, int target, const VersionOptions& options)
+      : c_(context), target_(target), options_(options), lines_(context.deck.sources) {
+    for (const InterBase* inter : c_.interfaces.ordered) inter_of_.emplace(inter->block, inter);
+  }
+
+  Rewrite run() {
+    if (!accepted()) return std::move(out_);
+    for (const Block& block : c_.deck.blocks) {
+      if (is_begin(block))
+        convert_begin(block);
+      else if (block.version != target_)
+        convert_block(block);
+    }
+    lines_.finish(out_.edits);
+    report_unknown();
+    return std::move(out_);
+  }
+
+ private:
+  // ---- what is refused as a whole -----------------------------------------------------------
+
+  bool accepted() {
+    const Begin& begin = c_.deck.begin;
+    if (target_ < oldest_target || !is_known_version(target_))
+      out_.refusals.push_back(c_.deck.sources[0].path() + ":1:1: " + number(target_) +
+                              " is no version that can be written; 110 to 140 and 2017 to " +
+                              number(newest_version) + " are");
+    if (!begin.span.valid())
+      out_.refusals.push_back(c_.deck.sources[0].path() +
+                              ":1:1: the deck has no /BEGIN, so its version is unknown");
+    for (const Block& b : c_.deck.blocks) {
+      if (b.version >= oldest_source) continue;
+      refuse(b.header_span, "version " + number(b.version) +
+                                " is too old: its units stand outside /BEGIN and its cards follow "
+                                "other rules; decks from version 100 on can be converted");
+      break;
+    }
+    return out_.refusals.empty();
+  }
+
+  void refuse(Span span, const std::string& why) {
+    out_.refusals.push_back(c_.deck.sources.where(span) + ": " + why);
+  }
+
+  LossEntry& report(Loss loss, const Block& block, Span span, std::string_view field,
+                    std::string_view old_text, std::string note) {
+    LossEntry entry = loss_entry(c_.deck, loss, block, span);
+    entry.field = std::string(field);
+    entry.old_text = std::string(old_text);
+    entry.note = std::move(note);
+    out_.losses.push_back(std::move(entry));
+    return out_.losses.back();
+  }
+
+  void undecided(const Block& block, Span span, std::string_view field, std::string_view text,
+                 const std::string& why) {
+    report(Loss::undecided, block, span, field, text, why);
+    if (options_.allow_loss) return;
+    refuse(span, std::string(block.keyword) + (field.empty() ? "" : " ") + std::string(field) +
+                     ": " + why);
+  }
+
+  std::string step(const Block& block) const {
+    return "version " + number(block.version) + " to " + number(target_);
+  }
+
+  // ---- /BEGIN -------------------------------------------------------------------------------
+
+  void convert_begin(const Block& block) {
+    LineCursor cursor(c_.deck.sources, block);
+    cursor.next();
+    const Line line = cursor.next();
+    if (!line.valid()) {
+      refuse(block.header_span, "/BEGIN has no line with the version; add it");
+      return;
+    }
+    const std::string_view cell = line.text.substr(0, 10);
+    const std::string_view old = trim(cell);
+    const std::string fresh = number(target_);
+    if (old == fresh) return;
+    std::string text(line.text);
+    // Where the number stands alone in its columns, only they change; a comma closer by does not
+    // count for the solver, but it is kept.
+    const auto comma = cell.find(',');
+    if (comma != std::string_view::npos) {
+      text.replace(0, comma, fresh);
+    } else {
+      if (text.size() < 10) text.resize(10, ' ');
+      text.replace(0, 10, 10 - fresh.size(), ' ');
+      text.insert(10 - fresh.size(), fresh);
+    }
+    lines_.change(line, text, out_.edits);
+    const bool known = is_known_version(static_cast<int>(read_integer(cell).value));
+    report(
+        Loss::kept, block, line.columns(1, 10), "version", old,
+        known ? std::string() : "it was read with the columns of version " + number(block.version))
+        .new_text = fresh;
+  }
+
+  // ---- blocks -------------------------------------------------------------------------------
+
+  void convert_block(const Block& block) {
+    if (block.schema != nullptr && block.schema->kind == "engine") return;
+    if (block.schema == nullptr || block.opaque || !block.schema->layout_known()) {
+      // What it holds is read with other columns, as far as anybody knows.
+      auto& unknown = unknown_[{std::string(block.keyword), block.version}];
+      if (unknown.count++ == 0) unknown.first = &block;
+      return;
+    }
+    const Schema& schema = *block.schema;
+    if (target_ < schema.from && block.version >= schema.from)
+      report(Loss::kept, block, {}, "", "",
+             schema.keyword + " is newer than version " + number(target_) +
+                 "; the reference solver reads it with the columns of version " +
+                 number(schema.from) + " and warns (100211)");
+    if (!differs(schema, block.version)) return;
+    const DecodedBlock decoded = decode(c_.deck, block);
+    const TargetLayout layout(block, decoded, target_);
+    if (layout.counts_lines()) {
+      undecided(block, block.header_span, "", "",
+                "in version " + number(target_) +
+                    " the reference solver tells two forms of this keyword apart by their number "
+                    "of lines; write the form that is meant by hand");
+      return;
+    }
+    if (!convert_lines(block, decoded, layout)) return;
+    LossEntry& entry = report(Loss::kept, block, {}, "", number(block.version), step(block));
+    entry.new_text = number(target_);
+  }
+
+  bool differs(const Schema& schema, int version) {
+    const auto [it, is_new] = differs_.try_emplace({&schema, version}, false);
+    if (is_new) it->second = detail::layout_differs(schema, version, target_);
+    return it->second;
+  }
+
+  /// A line that is being written: where its cells come from, and who hears what was found.
+  struct Compose {
+    const Block& block;
+    const DecodedBlock& decoded;
+    const TargetLayout& layout;
+    const std::vector<NewLine>* lines;  ///< all lines of the new block
+    VersionRewriter* findings;          ///< this or nullptr
+  };
+
+  /// The lines of the new layout, in order, as far as the old block goes. What follows the last
+  /// line that is there: a new line right behind it is needed, so that the block is complete;
+  /// behind a missing one nothing is.
+  std::vector<NewLine> plan(const Compose& compose) const {
+    std::vector<NewLine> plan = *compose.lines;
+    std::size_t last = plan.size();
+    while (last > 0 && (plan[last - 1].old == nullptr || plan[last - 1].old->missing())) --last;
+    if (last == 0) return {};
+    while (last < plan.size() && plan[last].old == nullptr) ++last;
+    while (last > 0 && plan[last - 1].old == nullptr && plan[last - 1].card->optional &&
+           text_of(compose, plan[last - 1]).empty())
+      --last;
+    plan.resize(last);
+    return plan;
+  }
+
+  /// True if something changed.
+  bool convert_lines(const Block& block, const DecodedBlock& decoded, const TargetLayout& layout) {
+    const std::vector<NewLine> all = layout.lines();
+    const Compose quiet{block, decoded, layout, &all, nullptr};
+    const std::vector<NewLine> lines = plan(quiet);
+    const Compose compose{block, decoded, layout, &lines, this};
+    const std::size_t before = out_.edits.size();
+    bool inserted = false;
+    std::vector<bool> stays(decoded.cards.size(), false);
+    Span anchor = decoded.title_line.valid() ? decoded.title_line.whole() : block.header_span;
+    std::ptrdiff_t place = -1;  // of the last old line that stayed where it was
+    for (const NewLine& line : lines) {
+      const std::string text = text_of(compose, line);
+      const bool there = line.old != nullptr && !line.old->missing();
+      const std::ptrdiff_t k = line.old == nullptr ? -1 : line.old - decoded.cards.data();
+      if (there && k > place) {
+        lines_.change(line.old->line, text, out_.edits);
+        stays[static_cast<std::size_t>(k)] = true;
+        place = k;
+        anchor = line.old->line.whole();
+      } else {
+        lines_.insert_after(anchor, text);
+        inserted = true;
+      }
+    }
+    for (std::size_t k = 0; k < decoded.cards.size(); ++k) {
+      const DecodedCard& card = decoded.cards[k];
+      if (card.missing() || stays[k]) continue;
+      const bool moved =
+          std::any_of(lines.begin(), lines.end(), [&](const NewLine& l) { return l.old == &card; });
+      if (!moved)
+        for (const Cell& cell : card.cells)
+          if (!has_cell(compose, cell.field->name, card.round)) vanish(block, cell);
+      lines_.remove(card.line, out_.edits);
+    }
+    if (lines.size() < all.size()) remove_extra(block, decoded);
+    return inserted || out_.edits.size() != before;
+  }
+
+  /// Lines behind the last one that is read would become cells where the new layout has more lines.
+  void remove_extra(const Block& block, const DecodedBlock& decoded) {
+    for (const Line& line : decoded.extra) {
+      if (trim(line.text).empty()) continue;
+      report(Loss::kept, block, line.whole(), "", trim(line.text),
+             "removed: the line has no meaning in version " + number(block.version) +
+                 " and would get one");
+      lines_.remove(line, out_.edits);
+    }
+  }
+
+  /// True if the new block has a cell of that name in that round.
+  static bool has_cell(const Compose& compose, std::string_view field, int round) {
+    return std::any_of(compose.lines->begin(), compose.lines->end(), [&](const NewLine& l) {
+      if (l.round != round) return false;
+      const auto fields = compose.layout.fields(*l.card, l.round);
+      return std::any_of(fields.begin(), fields.end(), [&](const Field* f) {
+        return canonical_name(f->name) == canonical_name(field);
+      });
+    });
+  }
+
+  // ---- one line -----------------------------------------------------------------------------
+
+  /// Text of a line in the new layout.
+  std::string text_of(const Compose& compose, const NewLine& line) const {
+    const bool there = line.old != nullptr && !line.old->missing();
+    if (line.card->repeat == Repeat::ids) return list_text(compose, line);
+    const auto fields = compose.layout.fields(*line.card, line.round);
+    if (there && line.old->free_format) return free_text(compose, fields, *line.old);
+    std::string text = there ? std::string(line.old->line.text) : std::string();
+    struct Target {
+      const Field* field;
+      const Cell* source;
+    };
+    std::vector<Target> targets;
+    for (const Field* f : fields) {
+      const Cell* source = there ? cell_of(*line.old, f->name) : nullptr;
+      if (source != nullptr && source->field->first == f->first && source->field->last == f->last)
+        continue;
+      if (source == nullptr) source = compose.layout.elsewhere(f->name, line.round, line.old);
+      targets.push_back({f, source});
+    }
+    if (there) leave_cells(compose, fields, line, text);
+    if (there)
+      for (const Target& t : targets) clear_stray(compose, *t.field, *line.old, text);
+    for (const Target& t : targets)
+      if (t.source != nullptr) carry(compose, *t.field, *t.source, text);
+    text.resize(text.find_last_not_of(' ') + 1);
+    return text;
+  }
+
+  /// A line of a list: the same cells in the columns of the new version.
+  std::string list_text(const Compose& compose, const NewLine& line) const {
+    if (line.old == nullptr || line.old->missing()) return {};
+    const CardSchema& old = *line.old->schema;
+    const Field& from = old.fields.back();
+    const Field& to = line.card->fields.back();
+    if (line.old->free_format || &old == line.card ||
+        (from.first == to.first && from.last == to.last))
+      return std::string(line.old->line.text);
+    std::string text;
+    Field column = to;
+    for (const Cell& cell : line.old->cells) {
+      carry(compose, column, cell, text);
+      column.first += to.last - to.first + 1;
+      column.last += to.last - to.first + 1;
+    }
+    return text;
+  }
+
+  /// Blanks the cells of the old line that the new one does not have in those columns.
+  static void leave_cells(const Compose& compose, const std::vector<const Field*>& fields,
+                          const NewLine& line, std::string& text) {
+    for (const Cell& cell : line.old->cells) {
+      const Field& f = *cell.field;
+      const auto same = std::find_if(fields.begin(), fields.end(), [&](const Field* other) {
+        return canonical_name(other->name) == canonical_name(f.name);
+      });
+      if (same != fields.end() && (*same)->first == f.first && (*same)->last == f.last) continue;
+      if (cell.blank()) continue;
+      put_cell(text, f.first, f.last, "");
+      if (compose.findings != nullptr && same == fields.end() &&
+          !has_cell(compose, f.name, line.round))
+        compose.findings->vanish(compose.block, cell);
+    }
+  }
+
+  /// Text that meant nothing must not become a value.
+  static void clear_stray(const Compose& compose, const Field& field, const DecodedCard& old,
+                          std::string& text) {
+    const Block& block = compose.block;
+    const std::string stray(cell_text(text, field.first, field.last));
+    if (stray.empty() || (field.type != FieldType::text && is_zero_text(stray))) return;
+    put_cell(text, field.first, field.last, "");
+    if (compose.findings == nullptr) return;
+    compose.findings->report(
+        Loss::kept, block, old.line.columns(field.first, field.last), field.name, stray,
+        "removed: it has no meaning in version " + number(block.version) + " and would get one");
+  }
+
+  void carry(const Compose& compose, const Field& field, const Cell& cell,
+             std::string& text) const {
+    const auto width = static_cast<std::size_t>(field.last - field.first + 1);
+    if (cell.blank()) return;
+    if (cell.text.size() <= width) {
+      put_cell(text, field.first, field.last, cell.text);
+      return;
+    }
+    const auto shorter = field.type == FieldType::real && !cell.parameter
+                             ? format_real(cell.real, static_cast<int>(width))
+                             : std::nullopt;
+    if (shorter && shorter->exact)
+      put_cell(text, field.first, field.last, shorter->text);
+    else if (compose.findings != nullptr)
+      compose.findings->undecided(compose.block, cell.span, field.name, cell.text,
+                                  "the value does not fit its " +
+                                      number(field.last - field.first + 1) +
+                                      " columns in version " + number(target_) + "; shorten it");
+  }
+
+  /// A line with commas stays as it is if it has the same cells; otherwise it gets fixed columns.
+  std::string free_text(const Compose& compose, const std::vector<const Field*>& fields,
+                        const DecodedCard& old) const {
+    const bool same =
+        std::equal(fields.begin(), fields.end(), old.cells.begin(), old.cells.end(),
+                   [](const Field* f, const Cell& cell) {
+                     return canonical_name(f->name) == canonical_name(cell.field->name) &&
+                            f->first == cell.field->first;
+                   });
+    if (same) return std::string(old.line.text);
+    std::string text;
+    for (const Field* f : fields) {
+      const Cell* source = cell_of(old, f->name);
+      if (source == nullptr) source = compose.layout.elsewhere(f->name, old.round, &old);
+      if (source != nullptr) carry(compose, *f, *source, text);
+    }
+    if (compose.findings != nullptr)
+      for (const Cell& cell : old.cells)
+        if (!has_cell(compose, cell.field->name, old.round))
+          compose.findings->vanish(compose.block, cell);
+    return text;
+  }
+
+  // ---- values without a cell ----------------------------------------------------------------
+
+  /// A value that the new version cannot hold.
+  void vanish(const Block& block, const Cell& cell) {
+    if (cell.blank()) return;
+    const Field& field = *cell.field;
+    if (field.ignored) {
+      if (cell.integer != 0)
+        report(Loss::kept, block, cell.span, field.name, cell.text,
+               "removed: the reference solver does not use it");
+      return;
+    }
+    if (is_default(block, cell)) return;
+    const std::string why = "version " + number(target_) + " has no cell for it";
+    if (field.name == "Ists") {
+      const std::string note = why +
+                               ", and grnd_IDs would be read as a node group; set Ists to 0 and "
+                               "name a node group first";
+      report(Loss::undecided, block, cell.span, field.name, cell.text, note);
+      refuse(cell.span, std::string(block.keyword) + " Ists: " + note);
+      return;
+    }
+    report(Loss::dropped, block, cell.span, field.name, cell.text, why);
+    if (!options_.allow_loss)
+      refuse(cell.span, std::string(block.keyword) + "/" + number(block.id.value) + " " +
+                            field.name + " = " + std::string(cell.text) + " would be lost: " + why);
+  }
+
+  /// True if the solver uses the same value without the cell.
+  bool is_default(const Block& block, const Cell& cell) const {
+    const Field& field = *cell.field;
+    if (field.type == FieldType::text) return cell.text == field.default_text;
+    const bool unreadable =
+        cell.status == NumberStatus::not_a_number || cell.status == NumberStatus::not_finite;
+    if (unreadable) return false;
+    const double value =
+        field.type == FieldType::real ? cell.real : static_cast<double>(cell.integer);
+    const auto inter = inter_of_.find(&block);
+    if (inter == inter_of_.end()) return value == 0 || value == default_of(field);
+    const double then = default_at(block, field, target_);
+    // A 0 is the default of its version.
+    return value == 0 ? default_at(block, field, block.version) == then : value == then;
+  }
+
+  double default_of(const Field& field) const {
+    if (field.name == "Irem_i2" && c_.model.implicit) return 1;
+    return detail::default_number(field);
+  }
+
+  /// What the solver fills in for a cell of an interface that is 0 or missing: its default card, as
+  /// far as that has the cell in this version, or the built-in value.
+  double default_at(const Block& block, const Field& field, int version) const {
+    const Block* card = nullptr;
+    const DefaultInter* in_force = nullptr;
+    for (const DefaultInter& d : c_.interfaces.defaults)
+      if (inter_of_.at(&block)->type == d.type) in_force = &d;
+    for (const Block& b : c_.deck.blocks) {
+      if (&b == &block) break;
+      if (in_force != nullptr && b.header_span == in_force->span) card = &b;
+    }
+    if (card == nullptr || card->schema == nullptr) return default_of(field);
+    const auto* given = in_force->find(field.name);
+    const int layout = std::max(version, card->schema->from);
+    for (const CardSchema& c : card->schema->cards)
+      if (given != nullptr && c.in_version(layout))
+        for (const Field& f : c.fields)
+          if (f.name == field.name && f.in_version(layout))
+            return static_cast<double>(given->value);
+    return default_of(field);
+  }
+
+  // ---- keywords of which not every column is known --------------------------------------------
+
+  void report_unknown() {
+    for (const auto& [key, unknown] : unknown_) {
+      const Block& block = *unknown.first;
+      const std::string blocks =
+          unknown.count == 1 ? "its block" : "its " + number(unknown.count) + " blocks";
+      const std::string why =
+          block.opaque ? "is encrypted" : "has columns that no schema describes in full";
+      undecided(block, block.header_span, "", "",
+                why + ": whether " + blocks + " mean the same in version " + number(target_) +
+                    " as in version " + number(block.version) +
+                    " is not known; compare the manuals of both versions and convert by hand");
+    }
+  }
+
+  const EditContext& c_;
+  const int target_;
+  const VersionOptions& options_;
+  Rewrite out_;
+  LineEdits lines_;
+  std::unordered_map<const Block*, const InterBase*> inter_of_;
+  std::map<std::pair<const Schema*, int>, bool> differs_;
+  struct Unknown {
+    const Block* first = nullptr;
+    int count = 0;
+  };
+  std::map<std::pair<std::string, int>, Unknown> unknown_;  ///< by keyword and version
+};
+
+}  // namespace
+
+Rewrite to_version(const EditContext& context, int version, const VersionOptions& options) {
+  return VersionRewriter(context, version, options).run();
+}
+
+}  // namespace deck

@@ -1,0 +1,119 @@
+#include "edit/convert/version_cards.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "deck/text/number.hpp"
+
+namespace deck::detail {
+
+bool layout_differs(const Schema& schema, int a, int b) {
+  return std::any_of(schema.cards.begin(), schema.cards.end(), [&](const CardSchema& card) {
+    if (card.in_version(a) != card.in_version(b)) return true;
+    return card.in_version(a) &&
+           std::any_of(card.fields.begin(), card.fields.end(),
+                       [&](const Field& f) { return f.in_version(a) != f.in_version(b); });
+  });
+}
+
+std::string_view canonical_name(std::string_view field) {
+  // Versions before 130 call the heat exchange coefficient Rthe.
+  return field == "Rthe" ? "Kthe" : field;
+}
+
+double default_number(const Field& field) {
+  std::string_view text = field.default_text;
+  if (const auto at = text.find("else "); at != std::string_view::npos) text.remove_prefix(at + 5);
+  double value = 0;
+  const auto end = std::min(text.find_first_of(" ,;("), text.size());
+  const auto result = std::from_chars(text.data(), text.data() + end, value);
+  return result.ec == std::errc() && result.ptr == text.data() + end ? value : 0;
+}
+
+bool is_zero_text(std::string_view text) {
+  return text.find_first_not_of("0.+- \t") == std::string_view::npos;
+}
+
+void put_cell(std::string& line, int first, int last, std::string_view text) {
+  const auto begin = static_cast<std::size_t>(first - 1);
+  const auto width = static_cast<std::size_t>(last - first + 1);
+  // A blank cell behind the end of the line is one already.
+  if (text.empty() && line.size() <= begin) return;
+  if (line.size() < begin) line.resize(begin, ' ');
+  std::string cell(text.size() < width ? width - text.size() : 0, ' ');
+  cell += text;
+  if (text.empty()) cell.resize(std::min(width, line.size() - begin));
+  if (line.size() < begin + cell.size()) line.resize(begin + cell.size(), ' ');
+  line.replace(begin, cell.size(), cell);
+}
+
+std::optional<FormattedReal> cell_text(double value, double factor, int width) {
+  const double start = value / factor;
+  std::optional<FormattedReal> best = format_real(start, width);
+  if (!best) return std::nullopt;
+  best->exact = read_real(best->text).value * factor == value;
+  double up = start, down = start;
+  for (int step = 0; step < 4 && !best->exact; ++step) {
+    up = std::nextafter(up, std::numeric_limits<double>::infinity());
+    down = std::nextafter(down, -std::numeric_limits<double>::infinity());
+    for (const double candidate : {up, down}) {
+      const auto text = format_real(candidate, width);
+      if (text && read_real(text->text).value * factor == value) {
+        best = text;
+        best->exact = true;
+        break;
+      }
+    }
+  }
+  return best;
+}
+
+bool lacks_title(const DecodedBlock& block) {
+  const Schema* schema = block.block->schema;
+  return schema != nullptr && schema->has_title && block.block->version >= 51 &&
+         !block.title_line.valid();
+}
+
+void LineEdits::change(const Line& line, const std::string& text,
+                       std::vector<TextEdit>& out) const {
+  const std::string_view old = line.text;
+  if (old == text) return;
+  std::size_t same = 0;
+  const std::size_t shorter = std::min(old.size(), text.size());
+  while (same < shorter && old[same] == text[same]) ++same;
+  std::size_t tail = 0;
+  while (tail < shorter - same && old[old.size() - 1 - tail] == text[text.size() - 1 - tail])
+    ++tail;
+  out.push_back(
+      {Span{line.file, static_cast<std::uint32_t>(old.size() - same - tail), line.offset + same},
+       text.substr(same, text.size() - same - tail)});
+}
+
+void LineEdits::remove(const Line& line, std::vector<TextEdit>& out) const {
+  const std::string_view bytes = sources_[line.file].bytes();
+  const std::uint64_t nl = bytes.find('\n', line.offset);
+  const std::uint64_t end = nl == std::string_view::npos ? bytes.size() : nl + 1;
+  out.push_back({Span{line.file, static_cast<std::uint32_t>(end - line.offset), line.offset}, {}});
+}
+
+void LineEdits::insert_after(Span anchor, const std::string& text) {
+  const std::string_view bytes = sources_[anchor.file].bytes();
+  const std::uint64_t nl = bytes.find('\n', anchor.offset);
+  const bool open_end = nl == std::string_view::npos;
+  const std::uint64_t at = open_end ? bytes.size() : nl + 1;
+  // The line end of the line before; without one, that of the file's first line.
+  const std::uint64_t sample = open_end ? bytes.find('\n') : nl;
+  const bool carriage = sample != std::string_view::npos && sample > 0 && bytes[sample - 1] == '\r';
+  const std::string end = carriage ? "\r\n" : "\n";
+  std::string& to = inserted_[{anchor.file, at}];
+  to += open_end ? end + text : text + end;
+}
+
+void LineEdits::finish(std::vector<TextEdit>& out) const {
+  for (const auto& [place, text] : inserted_)
+    out.push_back({Span{place.first, 0, place.second}, text});
+}
+
+}  // namespace deck::detail

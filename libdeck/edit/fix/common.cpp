@@ -1,0 +1,258 @@
+#include "edit/fix/common.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <set>
+
+#include "deck/contact/view.hpp"
+
+namespace deck::detail {
+
+Result<std::unique_ptr<Reread>> read_again(const EditContext& context, const Rewrite& rewrite,
+                                           const FixOptions& options) {
+  auto changed = apply_rewrite(context.deck.sources, rewrite);
+  if (!changed) return changed.error();
+  auto out = std::make_unique<Reread>();
+  if (options.read.overlay != nullptr) out->overlay = *options.read.overlay;
+  for (auto& [path, text] : *changed) out->overlay[path] = std::move(text);
+  // A deck that was never a file is read from memory again.
+  const Source& main = context.deck.sources[0];
+  std::error_code ec;
+  if (!std::filesystem::exists(main.path(), ec))
+    out->overlay.try_emplace(main.path(), main.bytes());
+  ReadOptions read = options.read;
+  read.overlay = &out->overlay;
+  auto deck = read_deck(main.path(), context.schemas, read);
+  if (!deck) return deck.error();
+  out->deck = std::move(*deck);
+  ModelOptions build;
+  build.threads = options.threads;
+  build.limits = read.limits;
+  out->model = build_model(out->deck, context.schemas, out->diagnostics, build);
+  out->interfaces = read_interfaces(out->deck, out->model, out->diagnostics);
+  return out;
+}
+
+Scene fix_scene(const Model& model, const Interfaces& interfaces, const FixOptions& options,
+                bool as_written, std::vector<WhatIf> what_if, std::vector<std::int64_t> only) {
+  SceneOptions scene;
+  scene.threads = options.threads;
+  scene.candidates = false;
+  scene.limits = options.memory;
+  scene.only = std::move(only);
+  if (!as_written) {
+    for (const InterBase* inter : interfaces.ordered) {
+      WhatIf still;
+      still.interface_id = inter->id;
+      still.Inacti = 0;
+      scene.what_if.push_back(still);
+    }
+  }
+  scene.what_if.insert(scene.what_if.end(), what_if.begin(), what_if.end());
+  Diagnostics unused;
+  return build_scene(model, interfaces, unused, scene);
+}
+
+std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options) {
+  for (const Contact& contact : scene.contacts)
+    if (!contact.evaluated && is_wanted(options, contact.inter->id))
+      return Error{
+          Error::Code::limit,
+          "the penetrations of interface " + std::to_string(contact.inter->id) +
+              " cannot be evaluated ('deck gaps' says why): nothing was fixed; --interface "
+              "leaves it out"};
+  return std::nullopt;
+}
+
+bool is_wanted(const FixOptions& options, std::int64_t interface_id) {
+  const auto& list = options.interfaces;
+  return list.empty() || std::find(list.begin(), list.end(), interface_id) != list.end();
+}
+
+bool is_untreated(const Contact& contact, const PenetrationRow& row) {
+  return row.action == PenetrationAction::none ||
+         (row.on_surface && on_surface_error(contact) != 0);
+}
+
+std::map<std::int64_t, FixCount> count_interfaces(const Scene& scene, const FixOptions& options) {
+  std::map<std::int64_t, FixCount> out;
+  for (const Contact& contact : scene.contacts) {
+    if (contact.penetrations.empty() || !is_wanted(options, contact.inter->id)) continue;
+    FixCount& count = out[contact.inter->id];
+    std::set<std::uint32_t> nodes;
+    for (const PenetrationRow& row : contact.penetrations) {
+      ++count.pairs;
+      nodes.insert(row.secondary);
+      count.untreated += is_untreated(contact, row);
+      count.on_surface += row.on_surface;
+      count.deepest = std::max(count.deepest, row.depth);
+    }
+    count.nodes += nodes.size();
+  }
+  return out;
+}
+
+FixedInterface& interface_entry(PenetrationFix& fix, const InterBase& inter) {
+  for (FixedInterface& entry : fix.interfaces)
+    if (entry.id == inter.id) return entry;
+  FixedInterface& entry = fix.interfaces.emplace_back();
+  entry.id = inter.id;
+  entry.type = inter.type;
+  entry.title = inter.title;
+  return entry;
+}
+
+void set_interfaces(PenetrationFix& fix, const Interfaces& interfaces, const FixOptions& options,
+                    const Scene& before, const Scene& after) {
+  const auto was = count_interfaces(before, options), is = count_interfaces(after, options);
+  for (const InterBase* inter : interfaces.ordered) {
+    const auto a = was.find(inter->id), b = is.find(inter->id);
+    if (a == was.end() && b == is.end()) continue;
+    FixedInterface& entry = interface_entry(fix, *inter);
+    if (a != was.end()) entry.before = a->second;
+    if (b != is.end()) entry.after = b->second;
+  }
+  std::sort(fix.interfaces.begin(), fix.interfaces.end(),
+            [](const FixedInterface& a, const FixedInterface& b) { return a.id < b.id; });
+}
+
+std::vector<std::int64_t> secondary_ids(const Model& model, const Contact& contact,
+                                        const PenetrationRow& row) {
+  if (contact.kind == ContactKind::node_segment)
+    return {model.node_id(contact.secondary[row.secondary].node)};
+  const auto& n = contact.secondary_edges[row.secondary].nodes;
+  return {model.node_id(n[0]), model.node_id(n[1])};
+}
+
+std::vector<std::int64_t> main_ids(const Model& model, const Contact& contact,
+                                   const PenetrationRow& row) {
+  std::vector<std::int64_t> out;
+  if (contact.kind == ContactKind::node_segment) {
+    for (const NodeIndex n : contact.main[row.main].nodes) out.push_back(model.node_id(n));
+  } else {
+    for (const NodeIndex n : contact.main_edges[row.main].nodes) out.push_back(model.node_id(n));
+  }
+  return out;
+}
+
+// ---- fields -----------------------------------------------------------------------------------
+
+Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_view name) {
+  const DecodedBlock decoded = decode(deck, block);
+  const auto fail = [&](const std::string& why) {
+    return Error{Error::Code::config, deck.sources.where(block.header_span) + ": " + why};
+  };
+  for (const DecodedCard& card : decoded.cards) {
+    if (card.schema == nullptr) continue;
+    if (card.missing()) {
+      for (const Field& field : card.schema->fields)
+        if (field.name == name && field.in_version(block.version))
+          return fail("the line that holds " + std::string(name) + " is missing");
+      continue;
+    }
+    for (const Cell& cell : card.cells) {
+      if (cell.field == nullptr || cell.field->name != name) continue;
+      FieldPlace place;
+      place.field = cell.field;
+      place.cell = cell;
+      place.line = card.line;
+      place.free_format = card.free_format;
+      if (cell.field->type == FieldType::real) {
+        const UnitSystem* units = deck.units_of(block);
+        if (units == nullptr) return fail("its unit system is not defined");
+        place.factor =
+            conversion_factor(*units, deck.begin.working, dimension_of(*cell.field, decoded));
+      }
+      return place;
+    }
+  }
+  return fail("the card has no " + std::string(name) + " in input version " +
+              std::to_string(block.version));
+}
+
+void FieldEdits::set(const FieldPlace& place, std::string_view text) {
+  if (place.free_format)
+    free_.push_back({place.cell.span, std::string(text)});
+  else
+    cells_.set(deck_.sources, place.line.whole(), place.field->first, place.field->last, text);
+}
+
+std::vector<TextEdit> FieldEdits::finish() const {
+  std::vector<TextEdit> out = cells_.finish(deck_.sources);
+  out.insert(out.end(), free_.begin(), free_.end());
+  return out;
+}
+
+namespace {
+
+/// value = mantissa * 10^exponent, the mantissa having `digits` digits.
+struct RoundedNumber {
+  std::int64_t mantissa = 0;
+  int exponent = 0;
+  double value() const {
+    const std::string text = std::to_string(mantissa) + "e" + std::to_string(exponent);
+    double out = 0;
+    std::from_chars(text.data(), text.data() + text.size(), out);
+    return out;
+  }
+};
+
+/// The decimal of that many digits nearest to `value` > 0.
+RoundedNumber nearest(double value, int digits) {
+  char buffer[64];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value,
+                                 std::chars_format::scientific, digits - 1);
+  const std::string_view text(buffer, static_cast<std::size_t>(end.ptr - buffer));
+  RoundedNumber out;
+  const auto e = text.find('e');
+  for (const char c : text.substr(0, e))
+    if (c != '.') out.mantissa = out.mantissa * 10 + (c - '0');
+  int power = 0;
+  std::string_view written = text.substr(e + 1);
+  if (written.starts_with('+')) written.remove_prefix(1);
+  std::from_chars(written.data(), written.data() + written.size(), power);
+  out.exponent = power - digits + 1;
+  return out;
+}
+
+template <class Accept>
+std::optional<RoundedText> search(double bound, int digits, int width, int direction,
+                                  const Accept& accept) {
+  if (!(bound > 0)) return std::nullopt;
+  for (int d = std::min(digits, 17); d >= 1; --d) {
+    RoundedNumber number = nearest(bound, d);
+    // The nearest decimal is off by at most one; ties with `below` cost a few more.
+    for (int tries = 0; tries < 4 && number.mantissa > 0; ++tries, number.mantissa += direction) {
+      const double value = number.value();
+      if (!accept(value)) continue;
+      const auto text = format_real(value, width);
+      if (!text) break;
+      const double back = read_real(text->text).value;
+      if (back > 0 && accept(back)) return RoundedText{text->text, back};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<RoundedText> round_down(double bound, int digits, int width,
+                                      std::optional<double> below) {
+  return search(bound, digits, width, -1,
+                [&](double v) { return v <= bound && (!below || v < *below); });
+}
+
+std::optional<RoundedText> round_up(double bound, int digits, int width) {
+  return search(bound, digits, width, +1, [&](double v) { return v >= bound; });
+}
+
+std::string place_of(const Deck& deck, const InterBase& inter) {
+  return deck.sources.where(inter.span);
+}
+
+std::string name_of(const InterBase& inter) {
+  return "/INTER/TYPE" + std::to_string(inter.type) + "/" + std::to_string(inter.id);
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,580 @@
+#include "deck/edit/depenetrate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "deck/contact/crossings.hpp"
+#include "edit/fix/depenetrate_cells.hpp"
+#include "edit/fix/depenetrate_locks.hpp"
+#include "edit/fix/depenetrate_mesh.hpp"
+#include "edit/fix/depenetrate_rows.hpp"
+#include "edit/fix/common.hpp"
+
+namespace deck {
+namespace {
+
+using namespace detail;
+
+constexpr int rounds = 4;                 // after each, harmful moves are taken back
+constexpr int sweeps = 200;               // projections per iteration
+constexpr int patience = 8;               // iterations without progress
+constexpr double largest_step = 0.45;     // of the gap: two sides cannot pass each other unseen
+constexpr double least_side = 0.5;        // of the length of an element's side before
+constexpr double least_component = 1e-3;  // of a move along an axis, to be printed
+constexpr double noise = 1e-6;            // of the gap: a vector this short has no direction
+constexpr double deeper = 1 + 1e-9;       // a penetration that grew by less is the same one
+
+double length(Vec v) { return std::sqrt(dot(v, v)); }
+void put(Nodes& nodes, NodeIndex n, Vec p) {
+  nodes.x[n] = p.x;
+  nodes.y[n] = p.y;
+  nodes.z[n] = p.z;
+}
+
+class Depenetrator {
+ public:
+  Depenetrator(const EditContext& context, const MoveNodesOptions& options)
+      : context_(context), options_(options), cells_(context) {
+    ModelOptions build;
+    build.threads = options.threads;
+    build.limits = options.read.limits;
+    Diagnostics unused;
+    model_ = build_model(context.deck, context.schemas, unused, build);
+    interfaces_ = read_interfaces(context.deck, model_, unused);
+    start_ = {model_.nodes.x, model_.nodes.y, model_.nodes.z};
+    now_ = start_;
+  }
+
+  Result<PenetrationFix> run() {
+    auto holds = make_holds(context_, options_);
+    if (!holds) return holds.error();
+    holds_ = std::move(*holds);
+    const Scene before = evaluate();
+    if (auto why = unevaluated(before, options_)) return *why;
+    begin(before);
+    for (int round = 0; round < rounds && anything_to_do_; ++round) {
+      const bool solved = iterate();
+      print_all();
+      // Printing leaves small components out, which may cost a little of the clearance.
+      if (take_back_harmful() == 0 && (!solved || tasks_left() == 0)) break;
+    }
+    return finish(before);
+  }
+
+ private:
+  Scene evaluate() const { return fix_scene(model_, interfaces_, options_, false); }
+
+  void begin(const Scene& scene) {
+    mesh_.emplace(scene);
+    moved_in_part_.assign(model_.parts.size(), 0);
+    looked_up_.assign(model_.nodes.size(), false);
+    crossings_ = mesh_->all_crossings(now_, options_.threads);
+    const auto crossed = find_crossings(scene, options_.threads);
+    fix_.crossings_before = crossed.size();
+    for (const Crossing& c : crossed) {
+      for (const NodeIndex n : c.edge) hold(n, Hold::crossed);
+      for (const NodeIndex n : scene.contacts[c.contact].main[c.main].nodes) hold(n, Hold::crossed);
+    }
+    double reach = 0;
+    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
+      const Contact& contact = scene.contacts[c];
+      const std::vector<bool> inside = inside_solids(scene, c);  // all false for edges
+      for (const PenetrationRow& row : contact.penetrations) {
+        const PairAt at{c, row.secondary, row.main};
+        double& depth = baseline_[key_of(scene, at)];
+        depth = std::max(depth, row.depth);
+        if (!is_wanted(options_, contact.inter->id)) continue;
+        reach = std::max(reach, row.depth + options_.clearance * row.gap);
+        if (!inside[row.secondary]) {
+          anything_to_do_ = true;
+          continue;
+        }
+        std::string why = why_not_movable(*mesh_, now_, state_of(scene, now_, at));
+        if (why.empty())
+          why =
+              "the node is inside a solid: the way out is not the way to its surface; separate "
+              "the parts first";
+        skipped_[key_of(scene, at)] = std::move(why);
+      }
+    }
+    limit_ = options_.most_displacement.value_or(10 * reach);
+  }
+
+  void hold(NodeIndex n, Hold why) {
+    if (holds_[n] == 0) holds_[n] = static_cast<std::uint8_t>(why);
+  }
+
+  // ---- one round ------------------------------------------------------------------------------
+
+  /// True if nothing is left to do.
+  bool iterate() {
+    double best = -1;
+    int waited = 0;
+    for (int i = 0; i < options_.iterations; ++i) {
+      const Scene scene = evaluate();
+      double total = 0;
+      std::size_t left = 0;
+      for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
+        for (const PenetrationRow& row : scene.contacts[c].penetrations)
+          if (is_task(scene, {c, row.secondary, row.main})) {
+            active_.insert({c, row.secondary, row.main});
+            total += row.depth / row.gap;
+            ++left;
+          }
+      if (options_.progress)
+        options_.progress("moving nodes", first_left_ - std::min(first_left_, left), first_left_);
+      if (fix_.iterations == 0) first_left_ = left;
+      if (left == 0) return true;
+      if (best < 0 || total < 0.99 * best) {
+        best = total;
+        waited = 0;
+      } else if (++waited >= patience) {
+        return false;
+      }
+      ++fix_.iterations;
+      if (!step(scene)) return false;
+    }
+    return false;
+  }
+
+  std::size_t tasks_left() {
+    const Scene scene = evaluate();
+    std::size_t left = 0;
+    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
+      for (const PenetrationRow& row : scene.contacts[c].penetrations)
+        left += is_task(scene, {c, row.secondary, row.main});
+    return left;
+  }
+
+  /// A penetration that should go: of the interfaces asked for, or one that was not there before.
+  bool is_task(const Scene& scene, const PairAt& at) {
+    const PairKey key = key_of(scene, at);
+    if (skipped_.contains(key)) return false;
+    if (!is_wanted(options_, scene.contacts[at.contact].inter->id)) return !baseline_.contains(key);
+    if (active_.contains(at) || !baseline_.contains(key)) return true;
+    std::string why = why_not_movable(*mesh_, now_, state_of(scene, now_, at));
+    if (why.empty()) return true;
+    skipped_[key] = std::move(why);
+    return false;
+  }
+
+  /// Moves nodes once; false if none can move.
+  bool step(const Scene& scene) {
+    const std::vector<PairNow> pairs = active_pairs(scene);
+    const std::vector<Wish> wishes = make_wishes(scene, pairs);
+    std::vector<NodeIndex> nodes;
+    for (const Wish& w : wishes)
+      nodes.insert(nodes.end(), w.state.nodes.begin(), w.state.nodes.begin() + w.state.count);
+    hold_unwritable(nodes);
+    std::map<NodeIndex, Vec> moves = solve_wishes(wishes, holds_, sweeps);
+    if (options_.smooth > 0) smooth(moves);
+    std::map<NodeIndex, double> cap;
+    for (const Wish& w : wishes)
+      for (int i = 0; i < w.state.count; ++i) {
+        const NodeIndex n = w.state.nodes[static_cast<std::size_t>(i)];
+        const auto it = cap.try_emplace(n, w.state.gap).first;
+        it->second = std::min(it->second, w.state.gap);
+      }
+    for (auto& [n, move] : moves) {
+      const auto it = cap.find(n);
+      if (it == cap.end()) continue;
+      const double most = largest_step * it->second, l = length(move);
+      if (l > most) move = (most / l) * move;
+    }
+    admit(moves);
+    keep_within_limit(moves);
+    return apply(scene, pairs, moves);
+  }
+
+  /// True if the closest point of a pair lies on nodes that `nearest`, the closest pair of the same
+  /// secondary node, has too: that pair is then the stricter one, and its direction the better.
+  static bool follows(const PairState& pair, const PairState& nearest) {
+    const auto end = nearest.nodes.begin() + nearest.count;
+    for (int i = 1; i < pair.count; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (pair.weights[k] != 0 && std::find(nearest.nodes.begin() + 1, end, pair.nodes[k]) == end)
+        return false;
+    }
+    return true;
+  }
+
+  struct PairNow {
+    PairAt at;
+    PairState state;
+  };
+  /// Every pair that was ever too close, as it is now; by contact and secondary node.
+  std::vector<PairNow> active_pairs(const Scene& scene) const {
+    std::vector<PairNow> out;
+    out.reserve(active_.size());
+    for (const PairAt& at : active_) out.push_back({at, state_of(scene, now_, at)});
+    return out;
+  }
+
+  std::vector<Wish> make_wishes(const Scene& scene, const std::vector<PairNow>& pairs) const {
+    std::vector<const PairNow*> order;
+    for (std::size_t i = 0; i < pairs.size();) {
+      std::size_t end = i, nearest = i;
+      for (; end < pairs.size() && pairs[end].at.contact == pairs[i].at.contact &&
+             pairs[end].at.secondary == pairs[i].at.secondary;
+           ++end)
+        if (pairs[end].state.distance < pairs[nearest].state.distance) nearest = end;
+      for (std::size_t k = i; k < end; ++k) {
+        const PairState& state = pairs[k].state;
+        const bool node = state.secondary_count == 1;
+        if (node && k != nearest && follows(state, pairs[nearest].state)) continue;
+        if (state.depth() > -state.gap) order.push_back(&pairs[k]);
+      }
+      i = end;
+    }
+    std::stable_sort(order.begin(), order.end(), [](const PairNow* a, const PairNow* b) {
+      return a->state.depth() > b->state.depth();
+    });
+    std::vector<Wish> wishes;
+    wishes.reserve(order.size());
+    for (const PairNow* pair : order) {
+      Wish w;
+      w.state = pair->state;
+      w.normal = w.state.distance > noise * w.state.gap
+                     ? w.state.normal
+                     : direction_on_surface(scene, *mesh_, now_, pair->at, w.state);
+      const double lack = w.state.depth() + options_.clearance * w.state.gap;
+      w.by = lack > 0 ? options_.share * lack : lack;
+      w.main_gives_way = !options_.secondary_only;
+      if (dot(w.normal, w.normal) > 0) wishes.push_back(w);
+    }
+    return wishes;
+  }
+
+  void hold_unwritable(std::vector<NodeIndex> nodes) {
+    std::erase_if(nodes, [&](NodeIndex n) { return looked_up_[n]; });
+    for (const NodeIndex n : nodes) looked_up_[n] = true;
+    cells_.look_up(nodes);
+    for (const NodeIndex n : nodes)
+      if (!cells_.obstacle(n).empty()) hold(n, Hold::not_writable);
+  }
+
+  /// Neighbours of moved nodes follow, ring by ring, less and less.
+  void smooth(std::map<NodeIndex, Vec>& moves) {
+    std::set<NodeIndex> ring;
+    for (const auto& [n, move] : moves) ring.insert(n);
+    for (int k = 1; k <= options_.smooth; ++k) {
+      std::map<NodeIndex, std::pair<Vec, int>> sums;
+      for (const NodeIndex n : ring)
+        for (const NodeIndex next : mesh_->neighbours(n)) {
+          if (moves.contains(next)) continue;
+          auto& [sum, count] = sums[next];
+          sum = sum + moves.at(n);
+          ++count;
+        }
+      std::vector<NodeIndex> nodes;
+      for (const auto& [n, sum] : sums) nodes.push_back(n);
+      hold_unwritable(nodes);
+      ring.clear();
+      for (const auto& [n, sum] : sums) {
+        if (holds_[n] != 0) continue;
+        const double share = 1 - k / (options_.smooth + 1.0);
+        moves.emplace(n, (share / sum.second) * sum.first);
+        ring.insert(n);
+      }
+    }
+  }
+
+  /// Drops moves of nodes beyond the share of their part; the largest ones go first.
+  void admit(std::map<NodeIndex, Vec>& moves) {
+    std::vector<std::pair<double, NodeIndex>> order;
+    for (const auto& [n, move] : moves)
+      if (!moved_.contains(n)) order.emplace_back(-length(move), n);
+    std::sort(order.begin(), order.end());
+    for (const auto& [size, n] : order) {
+      const std::uint32_t part = mesh_->part_of(n);
+      if (part != no_index) {
+        const double may = std::max(
+            1.0, std::floor(options_.most_moved * mesh_->nodes_of_part(part) * (1 + 1e-12)));
+        if (moved_in_part_[part] + 1 > may) {
+          moves.erase(n);
+          hold(n, Hold::share);
+          continue;
+        }
+        ++moved_in_part_[part];
+      }
+      moved_.insert(n);
+    }
+  }
+
+  void keep_within_limit(std::map<NodeIndex, Vec>& moves) {
+    for (auto& [n, move] : moves) {
+      const Vec total = at(now_, n) + move - at(start_, n);
+      const double l = length(total);
+      if (l <= limit_) continue;
+      move = at(start_, n) + (limit_ / l) * total - at(now_, n);
+      hold(n, Hold::displacement);
+    }
+  }
+
+  void place(NodeIndex n, Vec p) {
+    put(model_.nodes, n, p);
+    now_.x[n] = p.x;
+    now_.y[n] = p.y;
+    now_.z[n] = p.z;
+  }
+
+  /// Makes the moves; those that cross elements or spoil their shape are halved, then dropped.
+  bool apply(const Scene& scene, const std::vector<PairNow>& pairs,
+             const std::map<NodeIndex, Vec>& moves) {
+    std::map<NodeIndex, double> share;
+    std::map<NodeIndex, Vec> from;
+    std::vector<NodeIndex> nodes;
+    for (const auto& [n, move] : moves) {
+      share[n] = 1;
+      from[n] = at(now_, n);
+      nodes.push_back(n);
+    }
+    for (int attempt = 0;; ++attempt) {
+      for (const NodeIndex n : nodes)
+        place(n, share[n] == 0 ? from[n] : from[n] + share[n] * moves.at(n));
+      std::map<NodeIndex, Hold> bad = harmful_shapes(nodes);
+      // Lines and lone nodes have no faces that would cross: they must not change sides.
+      for (const auto& [pair, was] : pairs)
+        if (was.distance > noise * was.gap &&
+            dot(state_of(scene, now_, pair).normal, was.normal) < 0)
+          for (int i = 0; i < was.count; ++i)
+            bad.emplace(was.nodes[static_cast<std::size_t>(i)], Hold::would_cross);
+      bool changed = false;
+      for (const auto& [n, why] : bad) {
+        const auto it = share.find(n);
+        if (it == share.end() || it->second == 0) continue;
+        it->second = attempt < 2 ? 0.5 * it->second : 0;
+        changed = true;
+        if (it->second > 0) continue;
+        blocked_[n] = why;
+        if (++strikes_[n] >= 3) hold(n, why);
+      }
+      if (!changed) break;
+    }
+    return std::any_of(share.begin(), share.end(), [](const auto& s) { return s.second > 0; });
+  }
+
+  /// Nodes of elements that cross, are turned, or have shrunk, since the start.
+  std::map<NodeIndex, Hold> harmful_shapes(const std::vector<NodeIndex>& nodes) const {
+    std::map<NodeIndex, Hold> out;
+    for (const auto& crossing : mesh_->crossings(now_, nodes, options_.threads))
+      if (!std::binary_search(crossings_.begin(), crossings_.end(), crossing))
+        for (const NodeIndex n : mesh_->nodes_of(crossing)) out.emplace(n, Hold::would_cross);
+    for (const NodeIndex n : mesh_->inverted(start_, now_, nodes))
+      out.emplace(n, Hold::would_invert);
+    for (const NodeIndex n : nodes)
+      for (const NodeIndex next : mesh_->neighbours(n))
+        if (distance(now_, n, next) < least_side * distance(start_, n, next)) {
+          out.emplace(n, Hold::would_shrink);
+          out.emplace(next, Hold::would_shrink);
+        }
+    return out;
+  }
+
+  // ---- between rounds -------------------------------------------------------------------------
+
+  /// Puts every moved node where its printed coordinates are.
+  void print_all() {
+    texts_.clear();
+    for (auto it = moved_.begin(); it != moved_.end();) {
+      const NodeIndex n = *it;
+      const Vec u = at(now_, n) - at(start_, n);
+      const double size = length(u);
+      const double to[3] = {now_.x[n], now_.y[n], now_.z[n]};
+      const double old[3] = {start_.x[n], start_.y[n], start_.z[n]};
+      double printed[3] = {old[0], old[1], old[2]};
+      for (int axis = 0; axis < 3 && size > 0; ++axis) {
+        // What hardly counts in the move as a whole stays as it was written.
+        if (std::abs(to[axis] - old[axis]) <= least_component * size) continue;
+        const auto text = cells_.print(n, axis, to[axis]);
+        if (!text || text->value == old[axis]) continue;
+        printed[axis] = text->value;
+        texts_[{n, axis}] = text->text;
+      }
+      place(n, {printed[0], printed[1], printed[2]});
+      if (texts_.lower_bound({n, 0}) == texts_.lower_bound({n, 3})) {
+        forget(n);
+        it = moved_.erase(it);
+      } else {
+        ++it;
+      }
+    }
+  }
+
+  void forget(NodeIndex n) {
+    if (const std::uint32_t part = mesh_->part_of(n); part != no_index) --moved_in_part_[part];
+  }
+
+  /// Takes moves back until none is to blame for anything that was not there before. Returns how
+  /// many.
+  std::size_t take_back_harmful() {
+    std::size_t taken = 0;
+    while (!moved_.empty()) {
+      const std::vector<NodeIndex> nodes(moved_.begin(), moved_.end());
+      std::map<NodeIndex, Hold> bad = harmful_shapes(nodes);
+      blame(evaluate(), bad);
+      const std::size_t before = taken;
+      for (const auto& [n, why] : bad) taken += take_back(n, why);
+      if (taken == before) break;
+    }
+    return taken;
+  }
+
+  bool take_back(NodeIndex n, Hold why) {
+    if (moved_.erase(n) == 0) return false;
+    place(n, at(start_, n));
+    forget(n);
+    for (int axis = 0; axis < 3; ++axis) texts_.erase({n, axis});
+    holds_[n] = static_cast<std::uint8_t>(why);
+    return true;
+  }
+
+  /// Adds the moved nodes of pairs that penetrate and did not, or penetrate deeper than before.
+  void blame(const Scene& scene, std::map<NodeIndex, Hold>& bad) const {
+    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
+      for (const PenetrationRow& row : scene.contacts[c].penetrations) {
+        const PairAt pair{c, row.secondary, row.main};
+        const auto it = baseline_.find(key_of(scene, pair));
+        if (it != baseline_.end() && row.depth <= it->second * deeper) continue;
+        const PairState state = state_of(scene, now_, pair);
+        bool found = false;
+        for (int i = 0; i < state.count; ++i) {
+          const NodeIndex n = state.nodes[static_cast<std::size_t>(i)];
+          if (!moved_.contains(n)) continue;
+          bad.emplace(n, Hold::would_penetrate);
+          found = true;
+        }
+        // Nobody of the pair moved: its gap grew, because a default follows the shortest side.
+        if (!found)
+          for (const NodeIndex n : moved_) bad.emplace(n, Hold::would_penetrate);
+      }
+    }
+  }
+
+  // ---- the end --------------------------------------------------------------------------------
+
+  Result<PenetrationFix> finish(const Scene& before) {
+    for (;;) {
+      fix_.rewrite.edits = cells_.edits(texts_);
+      auto again = read_again(context_, fix_.rewrite, options_);
+      if (!again) return again.error();
+      const Scene after = fix_scene((*again)->model, (*again)->interfaces, options_, false);
+      std::map<NodeIndex, Hold> bad;
+      blame(after, bad);
+      std::size_t taken = 0;
+      for (const auto& [n, why] : bad) taken += take_back(n, why);
+      if (taken > 0) {
+        take_back_harmful();
+        continue;
+      }
+      if (!bad.empty())
+        return Error{Error::Code::internal, "the deck read again differs from the moved model"};
+      fix_.strategy = "move-nodes";
+      fix_.crossings_after = find_crossings(after, options_.threads).size();
+      set_interfaces(fix_, context_.interfaces, options_, before, after);
+      list_moved();
+      list_refused(after);
+      fix_.complete = fix_.refused.empty();
+      return std::move(fix_);
+    }
+  }
+
+  void list_moved() {
+    for (const NodeIndex n : moved_) {
+      const Vec u = at(now_, n) - at(start_, n);
+      MovedNode m;
+      m.id = model_.node_id(n);
+      if (const std::uint32_t part = mesh_->part_of(n); part != no_index)
+        m.part = model_.parts[part].id;
+      m.by = {u.x, u.y, u.z};
+      m.distance = length(u);
+      fix_.moved.push_back(m);
+    }
+    std::sort(fix_.moved.begin(), fix_.moved.end(),
+              [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
+  }
+
+  /// One line per secondary node or edge that still penetrates: the deepest pair and what held it.
+  void list_refused(const Scene& scene) {
+    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
+      const Contact& contact = scene.contacts[c];
+      if (!is_wanted(options_, contact.inter->id)) continue;
+      std::map<std::uint32_t, const PenetrationRow*> deepest;
+      for (const PenetrationRow& row : contact.penetrations) {
+        const PenetrationRow*& best = deepest[row.secondary];
+        if (best == nullptr || row.depth > best->depth) best = &row;
+      }
+      for (const auto& [secondary, row] : deepest) {
+        const PairAt at{c, row->secondary, row->main};
+        FixRefusal r;
+        r.interface_id = contact.inter->id;
+        r.nodes = secondary_ids(*scene.model, contact, *row);
+        r.depth = row->depth;
+        const auto it = skipped_.find(key_of(scene, at));
+        r.reason = it != skipped_.end() ? it->second : what_holds(state_of(scene, now_, at));
+        fix_.refused.push_back(std::move(r));
+      }
+    }
+    std::stable_sort(
+        fix_.refused.begin(), fix_.refused.end(), [](const FixRefusal& a, const FixRefusal& b) {
+          return std::tuple(a.interface_id, -a.depth) < std::tuple(b.interface_id, -b.depth);
+        });
+  }
+
+  std::string what_holds(const PairState& state) {
+    std::string secondary, main;
+    bool main_free = false;
+    for (int i = 0; i < state.count; ++i) {
+      const NodeIndex n = state.nodes[static_cast<std::size_t>(i)];
+      std::string& side = i < state.secondary_count ? secondary : main;
+      Hold why = static_cast<Hold>(holds_[n]);
+      if (const auto it = blocked_.find(n); why == Hold::none && it != blocked_.end())
+        why = it->second;
+      if (why == Hold::none && i >= state.secondary_count) main_free = true;
+      if (why == Hold::none || !side.empty()) continue;
+      side = to_string(why);
+      if (why == Hold::not_writable) side += ": " + cells_.obstacle(n);
+    }
+    if (options_.secondary_only && main.empty()) main = "main sides do not give way";
+    if (secondary.empty() && main.empty())
+      return "there is no room for both sides: not solved in " + std::to_string(fix_.iterations) +
+             " iterations";
+    std::string text;
+    if (!secondary.empty()) text = "secondary: " + secondary;
+    if (!main.empty()) text += (text.empty() ? "main: " : "; main: ") + main;
+    if (main_free && !options_.secondary_only && !main.empty()) text += " (some of its nodes)";
+    return text;
+  }
+
+  const EditContext& context_;
+  const MoveNodesOptions& options_;
+  Model model_;  ///< an own one, whose nodes move
+  Interfaces interfaces_;
+  Coordinates start_, now_;
+  NodeCells cells_;
+  std::optional<FixMesh> mesh_;
+  std::vector<std::uint8_t> holds_;
+  std::vector<bool> looked_up_;  ///< by cells_
+  std::set<NodeIndex> moved_;
+  std::vector<std::uint32_t> moved_in_part_;
+  std::map<NodeIndex, int> strikes_;        ///< how often a move was dropped
+  std::map<NodeIndex, Hold> blocked_;       ///< and why, the last time
+  std::set<PairAt> active_;                 ///< every pair that was ever too close
+  std::map<PairKey, double> baseline_;      ///< depths before
+  std::map<PairKey, std::string> skipped_;  ///< pairs that moving cannot solve, and why
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_;  ///< before
+  std::map<std::pair<NodeIndex, int>, std::string> texts_;
+  PenetrationFix fix_;
+  double limit_ = 0;
+  std::size_t first_left_ = 0;
+  bool anything_to_do_ = false;
+};
+
+}  // namespace
+
+Result<PenetrationFix> move_nodes(const EditContext& context, const MoveNodesOptions& options) {
+  return Depenetrator(context, options).run();
+}
+
+}  // namespace deck

@@ -1,0 +1,133 @@
+#include "edit/fix/depenetrate_cells.hpp"
+
+#include <algorithm>
+
+#include "deck/text/edits.hpp"
+#include "model/item_spans.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr std::string_view axis_names[3] = {"X", "Y", "Z"};
+constexpr int free_width = 24;  // columns of a value on a line with commas: any double fits exactly
+
+Line line_of(const SourceSet& sources, const Span& span) {
+  Line line;
+  line.text = sources.text(span);
+  line.file = span.file;
+  line.offset = span.offset;
+  return line;
+}
+
+}  // namespace
+
+NodeCells::NodeCells(const EditContext& context) : context_(context) {
+  std::map<std::string, int> times;
+  const SourceSet& sources = context.deck.sources;
+  for (std::uint32_t f = 0; f < sources.size(); ++f)
+    if (++times[sources[f].path()] > 1) twice_.insert(sources[f].path());
+  for (const auto& [a, b] : context.model.merged_nodes) {
+    merged_.insert(a);
+    merged_.insert(b);
+  }
+  // The noise of /RANDOM is added to whatever the line says; transforms may do more than add.
+  noise_only_ = context.model.has_random &&
+                std::none_of(context.deck.blocks.begin(), context.deck.blocks.end(),
+                             [](const Block& b) { return b.keyword.starts_with("/TRANSFORM"); });
+}
+
+void NodeCells::look_up(std::span<const NodeIndex> nodes) {
+  std::vector<NodeIndex> unknown;
+  for (const NodeIndex n : nodes)
+    if (!known_.contains(n)) unknown.push_back(n);
+  std::sort(unknown.begin(), unknown.end());
+  unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
+  if (unknown.empty()) return;
+  const std::vector<Span> spans = node_spans(context_.model, unknown);
+  const auto& blocks = context_.model.node_blocks;
+  for (std::size_t i = 0; i < unknown.size(); ++i) {
+    auto block = std::upper_bound(blocks.begin(), blocks.end(), unknown[i],
+                                  [](NodeIndex n, const BulkBlock& b) { return n < b.first; });
+    while (block != blocks.begin()) {
+      --block;
+      if (unknown[i] < block->first + block->count) break;
+    }
+    known_.emplace(unknown[i], read(unknown[i], *block->block, spans[i]));
+  }
+}
+
+NodeCells::Cells NodeCells::read(NodeIndex n, const Block& block, const Span& line) const {
+  Cells out;
+  const auto blocked = [&](std::string why) {
+    out.obstacle = std::move(why);
+    return out;
+  };
+  const Deck& deck = context_.deck;
+  if (block.keyword != "/NODE" || merged_.contains(n))
+    return blocked("the node is merged with another one (/CNODE)");
+  if (block.schema == nullptr || !line.valid() || line == block.header_span)
+    return blocked("its line was not found");
+  if (twice_.contains(deck.sources[line.file].path()))
+    return blocked("its file is included more than once: the copies would move too");
+  const UnitSystem* units = deck.units_of(block);
+  if (units == nullptr) return blocked("its unit system is not defined");
+  out.line = line_of(deck.sources, line);
+  const auto card = std::find_if(block.schema->cards.begin(), block.schema->cards.end(),
+                                 [&](const CardSchema& c) { return c.in_version(block.version); });
+  if (card == block.schema->cards.end()) return blocked("its line was not understood");
+  const DecodedCard decoded = decode_line(deck, block, *card, out.line, nullptr);
+  out.free_format = decoded.free_format;
+  const double coordinates[3] = {context_.model.nodes.x[n], context_.model.nodes.y[n],
+                                 context_.model.nodes.z[n]};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto cell = std::find_if(decoded.cells.begin(), decoded.cells.end(), [&](const Cell& c) {
+      return c.field != nullptr && c.field->name == axis_names[axis];
+    });
+    if (cell == decoded.cells.end()) return blocked("its line was not understood");
+    if (cell->parameter) return blocked("its coordinates are written as a &parameter");
+    if (cell->status != NumberStatus::ok && cell->status != NumberStatus::implicit_exponent &&
+        cell->status != NumberStatus::blank)
+      return blocked("its coordinates are not readable as numbers");
+    out.factor = conversion_factor(*units, deck.begin.working, cell->field->dimension);
+    // What the line says must be where the node is; else something else had a say in it.
+    out.offset[axis] = coordinates[axis] - cell->real * out.factor;
+    if (out.offset[axis] != 0 && !noise_only_)
+      return blocked("its place is not the one on its line (/TRANSFORM)");
+    out.span[axis] = cell->span;
+    out.columns[axis] = {cell->field->first, cell->field->last};
+  }
+  return out;
+}
+
+const std::string& NodeCells::obstacle(NodeIndex n) const { return known_.at(n).obstacle; }
+
+std::optional<NodeCells::Printed> NodeCells::print(NodeIndex n, int axis, double value) const {
+  const Cells& cells = known_.at(n);
+  const auto& [first, last] = cells.columns[static_cast<std::size_t>(axis)];
+  // One column stays blank: people and scripts read the numbers as words.
+  const double offset = cells.offset[static_cast<std::size_t>(axis)];
+  const auto text =
+      format_real((value - offset) / cells.factor, cells.free_format ? free_width : last - first);
+  if (!text) return std::nullopt;
+  return Printed{text->text, read_real(text->text).value * cells.factor + offset};
+}
+
+std::vector<TextEdit> NodeCells::edits(
+    const std::map<std::pair<NodeIndex, int>, std::string>& texts) const {
+  CellEdits fixed;
+  std::vector<TextEdit> out;
+  for (const auto& [place, text] : texts) {
+    const Cells& cells = known_.at(place.first);
+    const auto axis = static_cast<std::size_t>(place.second);
+    if (cells.free_format)
+      out.push_back({cells.span[axis], text});
+    else
+      fixed.set(context_.deck.sources, cells.line.whole(), cells.columns[axis].first,
+                cells.columns[axis].second, text);
+  }
+  const std::vector<TextEdit> rest = fixed.finish(context_.deck.sources);
+  out.insert(out.end(), rest.begin(), rest.end());
+  return out;
+}
+
+}  // namespace deck::detail

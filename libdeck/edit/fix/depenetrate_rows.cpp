@@ -1,0 +1,203 @@
+#include "edit/fix/depenetrate_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "deck/contact/closest.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr double least_share = 0.1;  // of a pair's weights, squared, on nodes that may move
+
+Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
+double length(Vec v) { return std::sqrt(dot(v, v)); }
+
+Vec segment_normal(const Coordinates& x, const std::array<NodeIndex, 4>& n) {
+  if (n[2] == n[3]) return cross(at(x, n[1]) - at(x, n[0]), at(x, n[2]) - at(x, n[0]));
+  return cross(at(x, n[2]) - at(x, n[0]), at(x, n[3]) - at(x, n[1]));
+}
+
+PairState segment_state(const Contact& c, const Coordinates& x, const PairAt& at) {
+  const SecondaryNode& s = c.secondary[at.secondary];
+  const MainSegment& m = c.main[at.main];
+  const bool triangle = m.nodes[2] == m.nodes[3];
+  const std::array<Point3<double>, 4> corners{point(x, m.nodes[0]), point(x, m.nodes[1]),
+                                              point(x, m.nodes[2]), point(x, m.nodes[3])};
+  const auto closest = closest_on_segment<Form::reference>(point(x, s.node), corners, triangle);
+  PairState out;
+  out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
+  const auto& sub = closest.closest();
+  out.distance = sub.distance;
+  if (sub.distance > 0)
+    out.normal = (1 / sub.distance) * Vec{sub.vector.x, sub.vector.y, sub.vector.z};
+  out.nodes[0] = s.node;
+  out.weights[0] = 1;
+  out.count = 1;
+  for (std::size_t k = 0; k < (triangle ? 3U : 4U); ++k) {
+    out.nodes[static_cast<std::size_t>(out.count)] = m.nodes[k];
+    out.weights[static_cast<std::size_t>(out.count++)] = -closest.weights[k];
+  }
+  return out;
+}
+
+PairState edge_state(const Contact& c, const Coordinates& x, const PairAt& at) {
+  const ContactEdge& s = c.secondary_edges[at.secondary];
+  const ContactEdge& m = c.main_edges[at.main];
+  const auto closest = closest_between_edges<Form::reference>(
+      point(x, s.nodes[0]), point(x, s.nodes[1]), point(x, m.nodes[0]), point(x, m.nodes[1]));
+  PairState out;
+  out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
+  out.distance = closest.distance;
+  if (out.distance > 0)
+    out.normal = (1 / out.distance) * Vec{closest.vector.x, closest.vector.y, closest.vector.z};
+  out.nodes = {s.nodes[0], s.nodes[1], m.nodes[0], m.nodes[1], 0, 0};
+  out.weights = {
+      closest.weight_s, 1 - closest.weight_s, -closest.weight_m, -(1 - closest.weight_m), 0, 0};
+  out.count = 4;
+  out.secondary_count = 2;
+  return out;
+}
+
+}  // namespace
+
+PairKey key_of(const Scene& scene, const PairAt& at) {
+  const Contact& c = scene.contacts[at.contact];
+  PairKey key;
+  key.contact = at.contact;
+  if (c.kind == ContactKind::node_segment) {
+    key.secondary = {c.secondary[at.secondary].node, 0};
+    key.main = c.main[at.main].nodes;
+    std::sort(key.main.begin(), key.main.end());
+    return key;
+  }
+  key.secondary = c.secondary_edges[at.secondary].nodes;
+  std::sort(key.secondary.begin(), key.secondary.end());
+  const auto& m = c.main_edges[at.main].nodes;
+  key.main = {std::min(m[0], m[1]), std::max(m[0], m[1]), 0, 0};
+  return key;
+}
+
+PairState state_of(const Scene& scene, const Coordinates& x, const PairAt& at) {
+  const Contact& c = scene.contacts[at.contact];
+  return c.kind == ContactKind::node_segment ? segment_state(c, x, at) : edge_state(c, x, at);
+}
+
+Vec direction_on_surface(const Scene& scene, const FixMesh& mesh, const Coordinates& x,
+                         const PairAt& place, const PairState& state) {
+  const Contact& c = scene.contacts[place.contact];
+  Vec n;
+  if (c.kind == ContactKind::node_segment) {
+    n = segment_normal(x, c.main[place.main].nodes);
+  } else {
+    const auto& s = c.secondary_edges[place.secondary].nodes;
+    const auto& m = c.main_edges[place.main].nodes;
+    n = cross(at(x, s[1]) - at(x, s[0]), at(x, m[1]) - at(x, m[0]));
+  }
+  const double l = length(n);
+  if (!(l > 0)) return {};
+  n = (1 / l) * n;
+  if (c.kind == ContactKind::node_segment && c.main[place.main].carrier == Carrier::solid) return n;
+  // The neighbours decide, each by how far it is off the plane. Where all are in it any side will
+  // do, if only it is the same for all: the one of the normal.
+  double side = 0, reach = 0;
+  const Vec origin = at(x, state.nodes[static_cast<std::size_t>(state.secondary_count)]);
+  for (int i = 0; i < state.secondary_count; ++i)
+    for (const NodeIndex next : mesh.neighbours(state.nodes[static_cast<std::size_t>(i)])) {
+      const Vec off = at(x, next) - origin;
+      side += dot(off, n);
+      reach += length(off);
+    }
+  return side < -1e-6 * reach ? -1.0 * n : n;
+}
+
+std::string why_not_movable(const FixMesh& mesh, const Coordinates& x, const PairState& state) {
+  const auto begin = state.nodes.begin();
+  const std::vector<NodeIndex> main(begin + state.secondary_count, begin + state.count);
+  for (int i = 0; i < state.secondary_count; ++i)
+    if (mesh.connected_within(x, state.nodes[static_cast<std::size_t>(i)], main,
+                              std::sqrt(2.0) * state.gap))
+      return "both sides are one mesh, less than 1.42 gaps apart along it: the gap is too large "
+             "for "
+             "this mesh; reduce it, or set Irem_gap to 2";
+  return {};
+}
+
+std::vector<bool> inside_solids(const Scene& scene, std::uint32_t contact) {
+  const Contact& c = scene.contacts[contact];
+  if (c.kind != ContactKind::node_segment)
+    return std::vector<bool>(c.secondary_edges.size(), false);
+  std::vector<bool> inside(c.secondary.size(), false);
+  std::vector<double> closest(c.secondary.size(), std::numeric_limits<double>::infinity());
+  for (const PenetrationRow& row : c.penetrations) {
+    if (row.on_surface || !(row.distance < closest[row.secondary])) continue;
+    closest[row.secondary] = row.distance;
+    const MainSegment& m = c.main[row.main];
+    const Vec n = segment_normal(scene.coordinates, m.nodes);
+    const double along = dot(n, {row.normal[0], row.normal[1], row.normal[2]});
+    inside[row.secondary] = m.carrier == Carrier::solid && along < -0.1 * length(n);
+  }
+  return inside;
+}
+
+std::map<NodeIndex, Vec> solve_wishes(const std::vector<Wish>& wishes,
+                                      const std::vector<std::uint8_t>& held, int sweeps) {
+  std::map<NodeIndex, std::uint32_t> index;
+  for (const Wish& w : wishes)
+    for (int i = 0; i < w.state.count; ++i)
+      index.emplace(w.state.nodes[static_cast<std::size_t>(i)],
+                    static_cast<std::uint32_t>(index.size()));
+  std::vector<Vec> move(index.size());
+  struct Row {
+    std::array<std::uint32_t, 6> at{};
+    std::array<double, 6> weight{}, give{};
+    double scale = 0;
+  };
+  std::vector<Row> rows(wishes.size());
+  for (std::size_t r = 0; r < wishes.size(); ++r) {
+    const Wish& w = wishes[r];
+    double sum = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(w.state.count); ++i) {
+      const NodeIndex n = w.state.nodes[i];
+      const bool main = static_cast<int>(i) >= w.state.secondary_count;
+      rows[r].at[i] = index.at(n);
+      rows[r].weight[i] = w.state.weights[i];
+      const bool free = held[n] == 0 && (!main || w.main_gives_way);
+      rows[r].give[i] = free ? w.state.weights[i] : 0;
+      sum += rows[r].give[i] * rows[r].weight[i];
+    }
+    // Where only a far corner of a side can give way it would have to go many times the depth.
+    rows[r].scale = sum > least_share ? 1 / sum : 0;
+  }
+  // Hildreth's method: a multiplier per wish that may shrink again, but not below 0.
+  std::vector<double> multiplier(wishes.size(), 0);
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    bool changed = false;
+    for (std::size_t r = 0; r < wishes.size(); ++r) {
+      if (rows[r].scale == 0) continue;
+      const Wish& w = wishes[r];
+      const auto count = static_cast<std::size_t>(w.state.count);
+      double have = 0;
+      for (std::size_t i = 0; i < count; ++i)
+        have += rows[r].weight[i] * dot(w.normal, move[rows[r].at[i]]);
+      const double next = std::max(0.0, multiplier[r] + (w.by - have) * rows[r].scale);
+      const double change = next - multiplier[r];
+      if (change == 0) continue;
+      multiplier[r] = next;
+      changed |= std::abs(change) > 1e-5 * w.state.gap;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (rows[r].give[i] == 0) continue;
+        Vec& m = move[rows[r].at[i]];
+        m = m + (change * rows[r].give[i]) * w.normal;
+      }
+    }
+    if (!changed) break;
+  }
+  std::map<NodeIndex, Vec> out;
+  for (const auto& [node, i] : index)
+    if (dot(move[i], move[i]) > 0) out.emplace(node, move[i]);
+  return out;
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,67 @@
+// Penetrations as conditions on the displacements of nodes, and the solution of many of them
+// together. Private to the stage.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "contact/scene/scene_parts.hpp"
+#include "edit/fix/depenetrate_mesh.hpp"
+
+namespace deck::detail {
+
+/// Positions in a scene's lists: a pair that is looked at again in the next iteration.
+struct PairAt {
+  std::uint32_t contact = 0, secondary = 0, main = 0;
+  friend auto operator<=>(const PairAt&, const PairAt&) = default;
+};
+
+/// Nodes of a pair, whatever the order of its lists: secondary (edge: two), then main, each sorted.
+struct PairKey {
+  std::uint32_t contact = 0;
+  std::array<NodeIndex, 2> secondary{};
+  std::array<NodeIndex, 4> main{};
+  friend auto operator<=>(const PairKey&, const PairKey&) = default;
+};
+PairKey key_of(const Scene& scene, const PairAt& at);
+
+/// Nodes of a pair with the share each has in the vector from main to secondary.
+struct PairState {
+  std::array<NodeIndex, 6> nodes{};
+  std::array<double, 6> weights{};  ///< secondary positive, main negative
+  int count = 0;
+  int secondary_count = 1;
+  Vec normal;  ///< unit, main to secondary; zero at distance 0
+  double distance = 0, gap = 0;
+  double depth() const { return gap - distance; }
+};
+/// Evaluates one pair with the solver's own formulas.
+PairState state_of(const Scene& scene, const Coordinates& x, const PairAt& at);
+
+/// A direction for a pair at distance 0: away from a solid, or to the side where the nodes next to
+/// the secondary one are.
+Vec direction_on_surface(const Scene& scene, const FixMesh& mesh, const Coordinates& x,
+                         const PairAt& at, const PairState& state);
+
+/// Why a pair is no task for moving nodes; empty: it is one.
+std::string why_not_movable(const FixMesh& mesh, const Coordinates& x, const PairState& state);
+/// Secondary nodes that are inside a solid, judged by their closest solid segment, per contact.
+std::vector<bool> inside_solids(const Scene& scene, std::uint32_t contact);
+
+/// A wish: the pair's vector has to grow by `by` along `normal`.
+struct Wish {
+  PairState state;
+  Vec normal;
+  double by = 0;  ///< negative: it may shrink by that much
+  bool main_gives_way = true;
+};
+
+/// The smallest displacements (sum of squares) that fulfil the wishes, approached in `sweeps`
+/// passes over them in the order given; nodes with held[n] != 0 stay. Where wishes contradict each
+/// other the result is a compromise.
+std::map<NodeIndex, Vec> solve_wishes(const std::vector<Wish>& wishes,
+                                      const std::vector<std::uint8_t>& held, int sweeps);
+
+}  // namespace deck::detail

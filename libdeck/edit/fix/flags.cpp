@@ -1,0 +1,260 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "deck/contact/view.hpp"
+#include "edit/fix/common.hpp"
+
+namespace deck {
+namespace {
+
+using namespace detail;
+
+constexpr double inflation = 1 + 1e-8;  // the solver compares the depth times this with Fpenmax
+
+void refuse(PenetrationFix& fix, const InterBase& inter, std::string reason) {
+  fix.refused.push_back({inter.id, {}, 0, std::move(reason)});
+}
+
+std::string count_of(std::uint64_t n, const char* what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+/// Reads the deck again and fills in what became of every penetration.
+Result<void> evaluate(PenetrationFix& fix, const EditContext& context, const FixOptions& options,
+                      const Scene& before) {
+  auto again = read_again(context, fix.rewrite, options);
+  if (!again) return again.error();
+  const Scene after = fix_scene((*again)->model, (*again)->interfaces, options, true);
+  set_interfaces(fix, context.interfaces, options, before, after);
+
+  using Key = std::tuple<std::int64_t, int, std::vector<std::int64_t>, std::vector<std::int64_t>>;
+  const auto key = [](const Model& model, const Contact& c, const PenetrationRow& r) {
+    return Key{c.inter->id, static_cast<int>(c.role), secondary_ids(model, c, r),
+               main_ids(model, c, r)};
+  };
+  std::map<Key, PenetrationAction> earlier;
+  for (const Contact& c : before.contacts)
+    for (const PenetrationRow& r : c.penetrations)
+      if (is_wanted(options, c.inter->id)) earlier[key(context.model, c, r)] = r.action;
+  for (const Contact& c : after.contacts) {
+    if (!is_wanted(options, c.inter->id)) continue;
+    for (const PenetrationRow& r : c.penetrations) {
+      FixAction action;
+      action.interface_id = c.inter->id;
+      action.secondary = secondary_ids((*again)->model, c, r);
+      action.main = main_ids((*again)->model, c, r);
+      action.depth = r.depth;
+      action.gap = r.gap;
+      const auto it = earlier.find(key((*again)->model, c, r));
+      if (it != earlier.end()) action.before = it->second;
+      action.after = r.action;
+      action.stops = r.on_surface && on_surface_error(c) != 0;
+      if (r.has_gap0) action.gap0 = r.gap0;
+      fix.actions.push_back(std::move(action));
+    }
+  }
+  std::stable_sort(
+      fix.actions.begin(), fix.actions.end(), [](const FixAction& a, const FixAction& b) {
+        return std::tuple(a.interface_id, -a.depth) < std::tuple(b.interface_id, -b.depth);
+      });
+  fix.complete = true;
+  for (const FixedInterface& i : fix.interfaces) {
+    if (i.after.untreated == 0) continue;
+    fix.complete = false;
+    const bool said = std::any_of(fix.refused.begin(), fix.refused.end(),
+                                  [&](const FixRefusal& r) { return r.interface_id == i.id; });
+    if (!said)
+      fix.refused.push_back({i.id,
+                             {},
+                             i.after.deepest,
+                             "the solver still does nothing about " +
+                                 count_of(i.after.untreated, "pair") + ": Inacti is 0"});
+  }
+  std::stable_sort(
+      fix.refused.begin(), fix.refused.end(),
+      [](const FixRefusal& a, const FixRefusal& b) { return a.interface_id < b.interface_id; });
+  return {};
+}
+
+/// Pairs at which the solver would stop, by interface, with these values.
+std::map<std::int64_t, std::uint64_t> stops_with(const EditContext& context,
+                                                 const FixOptions& options,
+                                                 const std::vector<WhatIf>& planned) {
+  std::map<std::int64_t, std::uint64_t> out;
+  const Scene scene = fix_scene(context.model, context.interfaces, options, true, planned);
+  for (const Contact& c : scene.contacts)
+    for (const PenetrationRow& r : c.penetrations)
+      if (r.on_surface && on_surface_error(c) != 0) ++out[c.inter->id];
+  return out;
+}
+
+void add_change(PenetrationFix& fix, const InterBase& inter, FieldEdits& edits,
+                const FieldPlace& place, std::string text, double old_value, double new_value) {
+  FieldChange change;
+  change.field = place.field->name;
+  change.old_text = std::string(place.cell.text);
+  change.new_text = text;
+  change.old_value = old_value;
+  change.new_value = new_value;
+  edits.set(place, text);
+  interface_entry(fix, inter).changes.push_back(std::move(change));
+}
+
+// ---- Inacti -----------------------------------------------------------------------------------
+
+int inacti_in_effect(const InterBase& inter) {
+  return visit_interface(inter, [](const auto& i) {
+    return i.Inacti.value == 1000 ? 0 : static_cast<int>(i.Inacti.value);
+  });
+}
+
+/// Why the solver cannot use this value here; empty if it can.
+std::string why_not_inacti(const InterBase& inter, int value) {
+  if (inter.type == 10)
+    return value == 5 ? "TYPE10 with Inacti 5 stops the solver (error 1162)"
+                      : "TYPE10 runs with Inacti 0 whatever the card says; move the nodes or "
+                        "reduce the gap";
+  if (inter.type == 11 && value == 3)
+    return "TYPE11 does nothing for Inacti 3; use 5 or 6, or move the nodes";
+  return {};
+}
+
+}  // namespace
+
+Result<PenetrationFix> set_inacti(const EditContext& context, const InactiOptions& options) {
+  const int value = options.inacti;
+  if (value != 0 && value != 1 && value != 2 && value != 3 && value != 5 && value != 6 &&
+      value != 1000)
+    return Error{Error::Code::config, "Inacti can be 0, 1, 2, 3, 5, 6 or 1000; not " +
+                                          std::to_string(value) +
+                                          (value == 4 ? " (executed, but not documented)" : "")};
+  PenetrationFix fix;
+  fix.strategy = "inacti";
+  const Scene before = fix_scene(context.model, context.interfaces, options, true);
+  if (auto why = unevaluated(before, options)) return *why;
+  const auto counts = count_interfaces(before, options);
+  const int effective = value == 1000 ? 0 : value;
+
+  std::vector<WhatIf> planned;
+  std::vector<const InterBase*> chosen;
+  for (const InterBase* inter : context.interfaces.ordered) {
+    if (!counts.contains(inter->id)) continue;
+    if (const std::string why = why_not_inacti(*inter, effective); !why.empty()) {
+      refuse(fix, *inter, why);
+      continue;
+    }
+    if (inacti_in_effect(*inter) == effective) continue;
+    chosen.push_back(inter);
+    WhatIf w;
+    w.interface_id = inter->id;
+    w.Inacti = value;
+    planned.push_back(w);
+  }
+  const auto stops = stops_with(context, options, planned);
+  FieldEdits edits(context.deck);
+  for (const InterBase* inter : chosen) {
+    if (const auto it = stops.find(inter->id); it != stops.end()) {
+      refuse(fix, *inter,
+             count_of(it->second, "pair") +
+                 " at distance 0, at which the solver stops with Inacti " +
+                 std::to_string(effective) + " (error " + (effective == 0 ? "612" : "611") +
+                 "): move these nodes, switch them off with Inacti 1, or set Fpenmax first "
+                 "(--strategy fpenmax)");
+      continue;
+    }
+    const auto place = find_field(context.deck, *inter->block, "Inacti");
+    if (!place) {
+      refuse(fix, *inter, place.error().message);
+      continue;
+    }
+    // A 0 on the card asks for the /DEFAULT/INTER of that type; 1000 is the 0 that does not.
+    const bool has_default =
+        std::any_of(context.interfaces.defaults.begin(), context.interfaces.defaults.end(),
+                    [&](const DefaultInter& d) {
+                      return d.type == inter->type && d.find("Inacti") != nullptr;
+                    });
+    const int written = effective != 0 ? effective : has_default ? 1000 : 0;
+    add_change(fix, *inter, edits, *place, std::to_string(written), inacti_in_effect(*inter),
+               effective);
+  }
+  fix.rewrite.edits = edits.finish();
+  if (auto done = evaluate(fix, context, options, before); !done) return done.error();
+  return fix;
+}
+
+// ---- Fpenmax ----------------------------------------------------------------------------------
+
+Result<PenetrationFix> set_fpenmax(const EditContext& context, const FpenmaxOptions& options) {
+  if (options.ratio && !(*options.ratio > 0 && *options.ratio <= 1))
+    return Error{Error::Code::config,
+                 "Fpenmax is a share of the gap: more than 0 and at most 1 (1 drops no node)"};
+  PenetrationFix fix;
+  fix.strategy = "fpenmax";
+  const Scene before = fix_scene(context.model, context.interfaces, options, true);
+  if (auto why = unevaluated(before, options)) return *why;
+  FieldEdits edits(context.deck);
+  for (const Contact& contact : before.contacts) {
+    if (contact.penetrations.empty() || !is_wanted(options, contact.inter->id)) continue;
+    const InterBase& inter = *contact.inter;
+    if (inter.type != 7) {
+      if (contact.role == ContactRole::primary || contact.kind == ContactKind::edge_edge)
+        if (fix.refused.empty() || fix.refused.back().interface_id != inter.id)
+          refuse(fix, inter,
+                 "TYPE" + std::to_string(inter.type) + " has no Fpenmax" +
+                     (inter.type == 10 ? "" : "; use --strategy inacti"));
+      continue;
+    }
+    double deepest = 0;  // share of the gap, of pairs that are not at distance 0
+    std::uint64_t on_surface = 0;
+    for (const PenetrationRow& row : contact.penetrations) {
+      if (row.on_surface)
+        ++on_surface;
+      else
+        deepest = std::max(deepest, row.depth * inflation / row.gap);
+    }
+    const auto& card = static_cast<const InterType7&>(inter);
+    double wanted = 0;
+    if (options.ratio) {
+      wanted = *options.ratio;
+    } else if (on_surface == 0 || on_surface_error(contact) == 0) {
+      continue;  // the solver does not stop: nothing to drop
+    } else if (deepest >= 1) {
+      refuse(fix, inter,
+             "a pair is so close to distance 0 that no Fpenmax drops only the pairs at 0; give a "
+             "ratio (--fpenmax)");
+      continue;
+    } else {
+      wanted = deepest > 0 ? deepest : 0.9;
+    }
+    if (card.Fpenmax.value != 0 && card.Fpenmax.value == wanted) continue;
+    const auto place = find_field(context.deck, *inter.block, "Fpenmax");
+    if (!place) {
+      refuse(fix, inter, place.error().message);
+      continue;
+    }
+    std::optional<RoundedText> text;
+    if (options.ratio) {
+      if (const auto exact = format_real(wanted, place->width()))
+        text = RoundedText{exact->text, read_real(exact->text).value};
+    } else {
+      for (const int digits : {3, 17}) {
+        text = round_up(wanted, digits, place->width());
+        if (text && text->value < 1) break;
+        text.reset();
+      }
+    }
+    if (!text) {
+      refuse(fix, inter, "the value does not fit the cell of Fpenmax");
+      continue;
+    }
+    if (card.Fpenmax.has_input && card.Fpenmax.value == text->value) continue;
+    add_change(fix, inter, edits, *place, text->text, card.Fpenmax.value, text->value);
+  }
+  fix.rewrite.edits = edits.finish();
+  if (auto done = evaluate(fix, context, options, before); !done) return done.error();
+  return fix;
+}
+
+}  // namespace deck

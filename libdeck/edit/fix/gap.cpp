@@ -1,0 +1,267 @@
+#include <algorithm>
+#include <cmath>
+
+#include "edit/fix/common.hpp"
+
+namespace deck {
+namespace {
+
+using namespace detail;
+
+/// Every round lowers a bound to a distance that occurs; more rounds than this are a sign that the
+/// pairs keep changing (curvilinear removal with ever smaller gaps).
+constexpr int most_rounds = 40;
+
+/// One field to lower: its cell, what is in effect now, and the value found so far.
+struct Knob {
+  std::string name;
+  std::optional<FieldPlace> place;
+  std::string missing;  ///< why there is no place
+  double present = 0;   ///< working units
+  std::optional<RoundedText> text;
+  double value = 0;  ///< working units, as the text reads
+
+  /// Lowers to at most `bound`; false if no text does that.
+  bool lower(double bound, int digits) {
+    if (!place) return false;
+    const std::optional<double> below = text ? std::optional<double>(text->value) : std::nullopt;
+    // The product with the unit factor may round up: step down until it does not.
+    auto next = round_down(bound / place->factor, digits, place->width(), below);
+    for (int i = 0; next && next->value * place->factor > bound && i < 8; ++i)
+      next = round_down(bound / place->factor, digits, place->width(), next->value);
+    if (!next || next->value * place->factor > bound) return false;
+    text = next;
+    value = next->value * place->factor;
+    return true;
+  }
+};
+
+/// What lowers the part of the pair gap that follows the thickness.
+enum class Lever { none, scale, cap };
+
+class GapReduction {
+ public:
+  GapReduction(const EditContext& context, const ReduceGapOptions& options, const InterBase& inter)
+      : context_(&context), options_(&options), inter_(&inter) {
+    gapmin_ = knob(inter.type == 10 ? "Gap" : "Gapmin");
+    scale_ = knob("Fscalegap");
+    cap_ = knob("Gapmax");
+    igap_ = visit_interface(inter, [](const auto& i) {
+      if constexpr (requires { i.Igap; })
+        return i.Igap.value == 1000 ? 0 : static_cast<int>(i.Igap.value);
+      else
+        return 0;
+    });
+    visit_interface(inter, [&](const auto& i) {
+      if constexpr (requires { i.Fscalegap; }) {
+        scale_.present = igap_ >= 2 && i.Fscalegap.value != 0 ? i.Fscalegap.value : 1;
+        edge_scale_ = 1;
+      }
+      if constexpr (requires { i.Edge_scale_gap; })
+        if (i.Edge_scale_gap.value != 0) edge_scale_ = i.Edge_scale_gap.value;
+    });
+  }
+
+  /// Finds values that leave no penetration. False: `why` says what is in the way.
+  bool solve(const Scene& before) {
+    for (const Contact& c : before.contacts) {
+      if (c.inter->id != inter_->id || c.dropped) continue;
+      const double own = c.gapmin / (c.role == ContactRole::edges ? edge_scale_ : 1);
+      smallest_gapmin_ = smallest_gapmin_ > 0 ? std::min(smallest_gapmin_, own) : own;
+      if (c.kind == ContactKind::node_segment && c.gap_rule.rule != GapRule::constant)
+        largest_gap_ = std::max(largest_gap_, c.max_gap);
+    }
+    gapmin_.present = smallest_gapmin_;
+    cap_.present = largest_gap_;
+    const GapReduction fresh = *this;
+    GapReduction best = fresh;
+    bool found = false;
+    for (const Lever lever : {Lever::scale, Lever::cap}) {
+      GapReduction attempt = fresh;
+      attempt.lever_ = lever;
+      const bool ok = attempt.search();
+      if (!ok) {
+        if (!found) why = attempt.why;
+        continue;
+      }
+      if (!found || attempt.least_share() > best.least_share()) best = attempt;
+      found = true;
+      if (!attempt.scale_.text && !attempt.cap_.text) break;  // no lever was needed
+    }
+    if (!found) return false;
+    *this = best;
+    if (least_share() >= options_->least_share) return true;
+    why = "the gap would shrink to " + percent(least_share()) + " of what it is, less than the " +
+          percent(options_->least_share) + " allowed (--min-gap): move the nodes instead";
+    return false;
+  }
+
+  void write(PenetrationFix& fix, FieldEdits& edits) const {
+    FixedInterface& entry = interface_entry(fix, *inter_);
+    for (const Knob* k : {&gapmin_, &scale_, &cap_}) {
+      if (!k->text) continue;
+      edits.set(*k->place, k->text->text);
+      entry.changes.push_back(
+          {k->name, std::string(k->place->cell.text), k->text->text, k->present, k->value});
+    }
+    if (!needs_igap_2()) return;
+    const auto place = find_field(context_->deck, *inter_->block, "Igap");
+    edits.set(*place, "2");
+    entry.changes.push_back({"Igap", std::string(place->cell.text), "2", 1, 2});
+  }
+
+  std::string why;
+
+ private:
+  Knob knob(const char* name) const {
+    Knob k;
+    k.name = name;
+    auto place = find_field(context_->deck, *inter_->block, name);
+    if (place)
+      k.place = *place;
+    else
+      k.missing = place.error().message;
+    return k;
+  }
+
+  static std::string percent(double share) {
+    return format_real(std::floor(share * 1000) / 10, 6)->text + " %";
+  }
+
+  bool needs_igap_2() const { return igap_ == 1 && (scale_.text || cap_.text); }
+
+  /// The smallest of new over present value of all fields that changed.
+  double least_share() const {
+    double share = 1;
+    for (const Knob* k : {&gapmin_, &scale_, &cap_})
+      if (k->text && k->present > 0) share = std::min(share, k->value / k->present);
+    return share;
+  }
+
+  std::vector<WhatIf> what_if() const {
+    WhatIf w;
+    w.interface_id = inter_->id;
+    if (gapmin_.text) w.Gapmin = gapmin_.value;
+    if (scale_.text) w.Fscalegap = scale_.value;
+    if (cap_.text) w.Gapmax = cap_.value;
+    // A Gapmax that Igap 1 ignores would count with Igap 2; the Fscalegap on the card too.
+    if (needs_igap_2()) {
+      w.Igap = 2;
+      visit_interface(*inter_, [&](const auto& i) {
+        if constexpr (requires { i.Fscalegap; }) {
+          if (!scale_.text) w.Fscalegap = written(i.Fscalegap, 1);
+          if (!cap_.text) w.Gapmax = written(i.Gapmax, 1e30);
+        }
+      });
+    }
+    return {w};
+  }
+
+  static double written(const EffectiveReal& field, double if_zero) {
+    return field.has_input && field.input != 0 ? field.input : if_zero;
+  }
+
+  bool search() {
+    for (int round = 0; round < most_rounds; ++round) {
+      const Scene scene = fix_scene(context_->model, context_->interfaces, *options_, false,
+                                    what_if(), {inter_->id});
+      double gapmin = -1, scale = -1, cap = -1;
+      bool any = false;
+      for (const Contact& c : scene.contacts) {
+        for (const PenetrationRow& row : c.penetrations) {
+          any = true;
+          if (!(row.distance > 0)) {
+            why = "a pair is at distance 0, which no gap leaves free: move the nodes";
+            return false;
+          }
+          if (!bounds(c, row, gapmin, scale, cap)) return false;
+        }
+      }
+      if (!any) return true;
+      // A new Gapmin replaces the defaults of all contacts of the card: none may grow by it.
+      if (gapmin > 0 && !gapmin_.lower(std::min(gapmin, smallest_gapmin_), options_->digits))
+        return no_cell(gapmin_);
+      if (scale > 0 && !scale_.lower(scale, options_->digits)) return no_cell(scale_);
+      if (cap > 0 && !cap_.lower(cap, options_->digits)) return no_cell(cap_);
+    }
+    why = "no gap was found in " + std::to_string(most_rounds) + " rounds";
+    return false;
+  }
+
+  bool no_cell(const Knob& k) {
+    why = k.place ? "no value of " + k.name + " fits its cell" : k.missing;
+    return false;
+  }
+
+  /// Tightens the bounds so that this pair is free.
+  bool bounds(const Contact& c, const PenetrationRow& row, double& gapmin, double& scale,
+              double& cap) {
+    const auto tighten = [](double& bound, double value) {
+      bound = bound > 0 ? std::min(bound, value) : value;
+    };
+    const double edge = c.role == ContactRole::edges ? edge_scale_ : 1;
+    const bool constant = c.gap_rule.rule == GapRule::constant;
+    if (constant || c.gapmin > row.distance) tighten(gapmin, row.distance / edge);
+    if (constant) return true;
+    const bool nodes = c.kind == ContactKind::node_segment;
+    const double sum = nodes ? c.secondary[row.secondary].gap + c.main[row.main].gap
+                             : c.secondary_edges[row.secondary].gap + c.main_edges[row.main].gap;
+    const double limit =
+        c.gap_rule.rule != GapRule::sum_limited
+            ? sum
+            : (nodes ? c.secondary[row.secondary].length + c.main[row.main].length
+                     : c.secondary_edges[row.secondary].length + c.main_edges[row.main].length);
+    if (std::min({sum, limit, c.gap_rule.gapmax}) <= row.distance) return true;
+    if (!nodes) {
+      why =
+          "the gap of edges with Igap 1 or 3 is their thickness, which no field lowers: move the "
+          "nodes, or use Igap 0 with a Gapmin";
+      return false;
+    }
+    if (lever_ == Lever::cap)
+      tighten(cap, row.distance);
+    else
+      tighten(scale, c.gap_scale * (row.distance / sum));
+    return true;
+  }
+
+  const EditContext* context_;
+  const ReduceGapOptions* options_;
+  const InterBase* inter_;
+  Knob gapmin_, scale_, cap_;
+  int igap_ = 0;
+  double edge_scale_ = 1, smallest_gapmin_ = 0, largest_gap_ = 0;
+  Lever lever_ = Lever::none;
+};
+
+}  // namespace
+
+Result<PenetrationFix> reduce_gaps(const EditContext& context, const ReduceGapOptions& options) {
+  PenetrationFix fix;
+  fix.strategy = "reduce-gap";
+  const Scene before = fix_scene(context.model, context.interfaces, options, false);
+  if (auto why = unevaluated(before, options)) return *why;
+  const auto counts = count_interfaces(before, options);
+  FieldEdits edits(context.deck);
+  std::size_t done = 0;
+  for (const InterBase* inter : context.interfaces.ordered) {
+    const auto it = counts.find(inter->id);
+    if (it == counts.end()) continue;
+    if (options.progress) options.progress("gaps", done++, counts.size());
+    GapReduction reduction(context, options, *inter);
+    if (reduction.solve(before))
+      reduction.write(fix, edits);
+    else
+      fix.refused.push_back({inter->id, {}, it->second.deepest, reduction.why});
+  }
+  fix.rewrite.edits = edits.finish();
+  auto again = read_again(context, fix.rewrite, options);
+  if (!again) return again.error();
+  const Scene after = fix_scene((*again)->model, (*again)->interfaces, options, false);
+  set_interfaces(fix, context.interfaces, options, before, after);
+  fix.complete = true;
+  for (const FixedInterface& i : fix.interfaces) fix.complete &= i.after.pairs == 0;
+  return fix;
+}
+
+}  // namespace deck

@@ -1,0 +1,77 @@
+#include "edit/write/tree.hpp"
+
+#include <algorithm>
+
+namespace deck::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Leading ".." of a normalized relative path.
+int climbs(const fs::path& path) {
+  int count = 0;
+  for (const fs::path& part : path) {
+    if (part != "..") break;
+    ++count;
+  }
+  return count;
+}
+
+/// Places every file so that the directive that names it leads to it. Relative to the main file's
+/// directory at first, which may need "..".
+std::vector<fs::path> relative_places(const Deck& deck, Layout& layout) {
+  std::vector<fs::path> place(deck.sources.size());
+  const fs::path main(deck.sources[0].path());
+  place[0] = main.filename();
+  std::vector<bool> known(deck.sources.size(), false);
+  known[0] = true;
+  for (const IncludeEdge& e : deck.includes) {
+    const fs::path written(e.written);
+    const std::string& opened = deck.sources[e.file].path();
+    if (written.is_absolute() || !known[e.parent]) {
+      // Its directive leads to the original, and so do those of the files it includes.
+      layout.outside.push_back(opened);
+      continue;
+    }
+    const fs::path beside = fs::path(deck.sources[e.parent].path()).parent_path() / written;
+    const fs::path by_main = main.parent_path() / written;
+    const bool from_main = beside.lexically_normal().string() != opened &&
+                           by_main.lexically_normal().string() == opened;
+    const fs::path base = from_main ? fs::path() : place[e.parent].parent_path();
+    place[e.file] = (base / written).lexically_normal();
+    known[e.file] = true;
+  }
+  return place;
+}
+
+}  // namespace
+
+Result<Layout> lay_out(const Deck& deck) {
+  Layout layout;
+  const std::vector<fs::path> places = relative_places(deck, layout);
+  int up = 0;
+  for (const fs::path& p : places) up = std::max(up, climbs(p));
+  // Files above the main file's directory: the main file moves down into directories of the same
+  // names, so that ".." leads where it should.
+  fs::path prefix;
+  fs::path dir = fs::absolute(deck.sources[0].path()).lexically_normal().parent_path();
+  for (int i = 0; i < up; ++i) {
+    if (!dir.has_relative_path())
+      return Error{Error::Code::config,
+                   deck.sources[0].path() + ": an include leads above the root directory"};
+    prefix = prefix.empty() ? dir.filename() : dir.filename() / prefix;
+    dir = dir.parent_path();
+  }
+  for (std::uint32_t f = 0; f < places.size(); ++f) {
+    if (places[f].empty()) continue;
+    const fs::path target = (prefix / places[f]).lexically_normal();
+    const auto [it, is_new] = layout.files.emplace(target, f);
+    if (!is_new && deck.sources[it->second].bytes() != deck.sources[f].bytes())
+      return Error{Error::Code::config,
+                   "two different files would be written to " + target.string() + ": " +
+                       deck.sources[it->second].path() + " and " + deck.sources[f].path()};
+  }
+  return layout;
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,138 @@
+// Findings about the first force evaluation: contacts that push before anything moves, contact
+// steps below that of the mesh, pairs close to the end of their gap.
+#include <algorithm>
+
+#include "deck/cycle/scene_cycle.hpp"
+#include "lint/checks/geometry/geometry.hpp"
+
+namespace deck::detail {
+namespace {
+
+using cycle::InterfaceSummary;
+using cycle::PairOutcome;
+
+std::string node_text(const Model& model, NodeIndex n) {
+  return n == no_index ? std::string("?") : std::to_string(model.node_id(n));
+}
+
+/// One contact of the interface; its card is where findings go.
+const Contact* contact_of(const cycle::SceneOutcome& outcome, const InterfaceSummary& s) {
+  for (const cycle::ContactOutcome& c : outcome.contacts)
+    if (c.contact->inter == s.inter) return c.contact;
+  return nullptr;
+}
+
+std::string summary_name(const InterfaceSummary& s) {
+  return fmt::format("/INTER/TYPE{} {}", s.inter->type, s.id);
+}
+
+/// Whether some pair is deeper than roundings: a millionth of its gap.
+bool counts(const cycle::SceneOutcome& outcome, const InterfaceSummary& s) {
+  return std::any_of(outcome.contacts.begin(), outcome.contacts.end(),
+                     [&](const cycle::ContactOutcome& c) {
+                       return c.contact->inter == s.inter && c.largest_force > 0.0 &&
+                              c.largest.penetration > 1e-6 * c.largest.gap;
+                     });
+}
+
+void report_force(const GeometryRun& run, const Contact& contact, const InterfaceSummary& s) {
+  if (s.pairs_with_force == 0) return;
+  std::string message = fmt::format(
+      "{}: {} with a force before anything moves, {:.4g} in all, {:.4g} at most", summary_name(s),
+      count_text(s.pairs_with_force, "pair"), s.force_sum, s.largest_pair_force);
+  if (s.acceleration_node != no_index)
+    message += fmt::format("; node {} starts with an acceleration of {:.4g}",
+                           node_text(run.model(), s.acceleration_node), s.largest_acceleration);
+  if (s.elastic_energy > 0) message += fmt::format("; stored energy {:.4g}", s.elastic_energy);
+  Diagnostic* d = run.report("DK401", contact, "Inacti", std::move(message));
+  if (d != nullptr && s.acceleration_node != no_index)
+    d->notes.emplace_back(run.model().node_span(s.acceleration_node), "the node pushed most");
+}
+
+std::string_view element_of(cycle::StepLimit::Source source) {
+  switch (source) {
+    case cycle::StepLimit::Source::kinematic:
+      return "half the time to the mid-surface";
+    case cycle::StepLimit::Source::velocity:
+      return "the gap over the largest relative velocity";
+    default:
+      return "contact stiffness against nodal mass";
+  }
+}
+
+void report_step(const GeometryRun& run, const Contact& contact, const InterfaceSummary& s) {
+  if (!(s.contact_dt < s.structure_dt) || s.structure_dt >= 1e30) return;
+  std::string message = fmt::format(
+      "{}: time step {:.4g} from {}{}, the mesh allows {:.4g}: {:.1f} times as many steps",
+      summary_name(s), s.contact_dt, element_of(s.contact_dt_source),
+      s.contact_dt_node == no_index
+          ? std::string()
+          : fmt::format(" at node {}", node_text(run.model(), s.contact_dt_node)),
+      s.structure_dt, s.structure_dt / s.contact_dt);
+  Diagnostic* d = run.report("DK402", contact, "Stfac", std::move(message));
+  if (d != nullptr && s.contact_dt_node != no_index)
+    d->notes.emplace_back(run.model().node_span(s.contact_dt_node), "the node that limits it");
+}
+
+/// "node 5 over segment 1 2 3 4"
+std::string pair_text(const Model& model, const Contact& c, const PairOutcome& p) {
+  if (c.kind == ContactKind::node_segment)
+    return fmt::format("node {} over segment {}", model.node_id(c.secondary[p.at.secondary].node),
+                       nodes_text(model, c.main[p.at.main]));
+  const auto& a = c.secondary_edges[p.at.secondary].nodes;
+  const auto& b = c.main_edges[p.at.main].nodes;
+  return fmt::format("edges {}-{} and {}-{}", model.node_id(a[0]), model.node_id(a[1]),
+                     model.node_id(b[0]), model.node_id(b[1]));
+}
+
+void report_singular(const GeometryRun& run, const Contact& contact, const InterfaceSummary& s,
+                     const cycle::SceneOutcome& outcome) {
+  const Contact* where = nullptr;
+  const PairOutcome* worst = nullptr;
+  double least = 1.0;
+  for (const cycle::ContactOutcome& c : outcome.contacts) {
+    if (c.contact->inter != s.inter || c.near_singular.empty()) continue;
+    const PairOutcome& p = c.near_singular.front();
+    const double left = p.gap > 0 ? (p.gap - p.penetration) / p.gap : 1.0;
+    if (worst != nullptr && left >= least) continue;
+    where = c.contact;
+    worst = &p;
+    least = left;
+  }
+  if (worst == nullptr && s.gap_closed == 0) return;
+  std::string message = fmt::format("{}:", summary_name(s));
+  if (worst != nullptr)
+    message +=
+        fmt::format(" {} with less than 5 % of the gap left; {} has {:.3g} of {:.4g} ({:.2g} %)",
+                    count_text(s.near_singular, "pair"), pair_text(run.model(), *where, *worst),
+                    worst->gap - worst->penetration, worst->gap, 100 * least);
+  if (s.gap_closed > 0)
+    message += fmt::format("{} {} at the end of the gap already, without any force",
+                           worst != nullptr ? ";" : "", count_text(s.gap_closed, "pair"));
+  run.report("DK403", contact, gap_field(contact), std::move(message));
+}
+
+}  // namespace
+
+void check_cycle(const GeometryRun& run) {
+  cycle::CycleOptions options;
+  options.model = cycle::Model::reference;  // what the solver will do, its double counting included
+  options.threads = run.threads;
+  const cycle::SceneOutcome outcome =
+      cycle::run_cycle(run.scene, cycle::make_state(run.scene), options);
+  for (const cycle::ContactOutcome& c : outcome.contacts)
+    if (!c.complete && c.contact->evaluated && !c.notes.empty())
+      run.report("DK381", *c.contact, gap_field(*c.contact),
+                 fmt::format("{}: {}", name_of(run, *c.contact), c.notes.back()));
+  for (const InterfaceSummary& s : cycle::summarize(run.scene, outcome)) {
+    const Contact* contact = contact_of(outcome, s);
+    if (contact == nullptr) continue;
+    if (s.inter->type != 10) {
+      if (counts(outcome, s)) report_force(run, *contact, s);
+      report_singular(run, *contact, s, outcome);
+    }
+    report_step(run, *contact, s);
+  }
+}
+
+}  // namespace deck::detail

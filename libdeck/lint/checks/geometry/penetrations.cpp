@@ -1,0 +1,173 @@
+// Findings about initial penetrations and what the options do with them.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "lint/checks/geometry/geometry.hpp"
+
+namespace deck::detail {
+namespace {
+
+const PenetrationRow& row_of(const GeometryRun& run, const NamedPenetration& p) {
+  return run.scene.contacts[p.contact].penetrations[p.row];
+}
+
+std::string part_text(std::int64_t part) {
+  return part == 0 ? std::string("no part") : fmt::format("part {}", part);
+}
+
+NodeIndex node_of(const Contact& c, const PenetrationRow& r) {
+  return c.kind == ContactKind::node_segment ? c.secondary[r.secondary].node
+                                             : c.secondary_edges[r.secondary].nodes[0];
+}
+
+std::string secondary_text(const NamedPenetration& p) {
+  return p.secondary[1] == 0 ? fmt::format("node {}", p.secondary[0])
+                             : fmt::format("edge {} {}", p.secondary[0], p.secondary[1]);
+}
+
+std::string main_text(const NamedPenetration& p) {
+  if (p.secondary[1] != 0) return fmt::format("edge {} {}", p.main[0], p.main[1]);
+  std::string out = fmt::format("segment {} {} {}", p.main[0], p.main[1], p.main[2]);
+  if (p.main[3] != p.main[2]) out += fmt::format(" {}", p.main[3]);
+  return out;
+}
+
+/// Nodes of one contact that a predicate picks, by id, each once.
+template <class Pick>
+std::vector<std::int64_t> nodes_where(const GeometryRun& run, const Contact& c, const Pick& pick) {
+  std::set<std::int64_t> ids;
+  for (const PenetrationRow& r : c.penetrations)
+    if (pick(r)) ids.insert(run.model().node_id(node_of(c, r)));
+  return {ids.begin(), ids.end()};
+}
+
+const char* treatment(const Contact& c) {
+  switch (c.inacti) {
+    case 1:
+      return c.kind == ContactKind::edge_edge ? "the edges are switched off"
+                                              : "the nodes are switched off";
+    case 2:
+      return c.kind == ContactKind::edge_edge ? "the main edges are switched off"
+                                              : "the segments are switched off";
+    case 3:
+      return c.kind == ContactKind::edge_edge ? "nothing is done about them"
+                                              : "the nodes are moved";
+    case 5:
+    case 6:
+      return "their gaps are reduced";
+    default:
+      return "nothing is done about them: they start with contact forces";
+  }
+}
+
+/// One finding per contact and pair of parts, with its deepest places.
+void check_depths(const GeometryRun& run) {
+  struct Group {
+    std::vector<std::uint32_t> rows;  // deepest first, as in the view
+    std::set<std::uint32_t> distinct;
+  };
+  using Key = std::tuple<std::uint32_t, std::int64_t, std::int64_t>;
+  std::map<Key, Group> groups;
+  for (std::uint32_t i = 0; i < run.view.penetrations.size(); ++i) {
+    const NamedPenetration& p = run.view.penetrations[i];
+    Group& g = groups[{p.contact, p.secondary_element.part, p.main_element.part}];
+    g.rows.push_back(i);
+    g.distinct.insert(row_of(run, p).secondary);
+  }
+  for (const auto& [key, group] : groups) {
+    const auto& [contact, from, to] = key;
+    const Contact& c = run.scene.contacts[contact];
+    const NamedPenetration& worst = run.view.penetrations[group.rows.front()];
+    const PenetrationRow& r = row_of(run, worst);
+    const bool edges = c.kind == ContactKind::edge_edge;
+    Diagnostic* d = run.report(
+        "DK301", c, "Inacti",
+        fmt::format("{}: {} of {} within the gap of {} ({}), deepest {:.6g} of a gap of {:.6g} "
+                    "between {} and {}; {}",
+                    name_of(run, c), count_text(group.distinct.size(), edges ? "edge" : "node"),
+                    part_text(from), part_text(to), count_text(group.rows.size(), "pair"), r.depth,
+                    r.gap, secondary_text(worst), main_text(worst), treatment(c)));
+    if (d == nullptr) continue;
+    if (edges) d->reference = ReferenceMessage{499, Severity::warning};
+    std::set<std::uint32_t> named;
+    for (const std::uint32_t i : group.rows) {
+      const PenetrationRow& row = row_of(run, run.view.penetrations[i]);
+      if (!named.insert(row.secondary).second) continue;
+      d->notes.emplace_back(
+          run.model().node_span(node_of(c, row)),
+          fmt::format("{} is {:.6g} deep", secondary_text(run.view.penetrations[i]), row.depth));
+      if (named.size() == 3) break;
+    }
+  }
+}
+
+void check_on_surface(const GeometryRun& run, const Contact& c) {
+  if (c.kind == ContactKind::edge_edge) return;
+  const auto nodes = nodes_where(run, c, [](const PenetrationRow& r) { return r.on_surface; });
+  if (nodes.empty()) return;
+  const int error = on_surface_error(c);
+  Diagnostic* d = run.report(error != 0 ? "DK302" : "DK303", c, "Inacti",
+                             fmt::format("{}: {} exactly on a main segment: {}", name_of(run, c),
+                                         count_text(nodes.size(), "node"), list_text(nodes)));
+  if (d != nullptr && error != 0) d->reference = ReferenceMessage{error, Severity::error};
+}
+
+void check_switched_off(const GeometryRun& run, const Contact& c) {
+  if (c.fpenmax == 0 || c.inacti == 1) return;
+  const auto nodes = nodes_where(run, c, [](const PenetrationRow& r) {
+    return r.action == PenetrationAction::node_stiffness_zero;
+  });
+  if (nodes.empty()) return;
+  run.report("DK304", c, "Fpenmax",
+             fmt::format("{}: Fpenmax = {:.6g} takes {} out of the contact: {}", name_of(run, c),
+                         c.fpenmax, count_text(nodes.size(), "node"), list_text(nodes)));
+}
+
+void check_moved_springs(const GeometryRun& run, const Contact& c) {
+  if (c.inacti != 3 || c.kind == ContactKind::edge_edge) return;
+  const Elements& springs = run.model().spring;
+  if (springs.size() == 0) return;
+  const std::set<NodeIndex> held(springs.nodes.begin(), springs.nodes.end());
+  const auto nodes = nodes_where(run, c, [&](const PenetrationRow& r) {
+    return r.moved_by != std::array<double, 3>{} && held.contains(c.secondary[r.secondary].node);
+  });
+  if (nodes.empty()) return;
+  run.report("DK305", c, "Inacti",
+             fmt::format("{}: Inacti = 3 moves {} of springs: {}", name_of(run, c),
+                         count_text(nodes.size(), "node"), list_text(nodes)));
+}
+
+void check_deep_edges(const GeometryRun& run, const Contact& c) {
+  if (c.kind != ContactKind::edge_edge || (c.inacti != 5 && c.inacti != 6)) return;
+  std::size_t edges = 0;
+  const PenetrationRow* worst = nullptr;
+  std::set<std::uint32_t> seen;
+  for (const PenetrationRow& r : c.penetrations) {
+    if (r.action != PenetrationAction::edge_stiffness_zero) continue;
+    edges += seen.insert(r.secondary).second;
+    if (worst == nullptr || r.depth > worst->depth) worst = &r;
+  }
+  if (worst == nullptr) return;
+  const auto id = [&](NodeIndex n) { return run.model().node_id(n); };
+  const auto &s = c.secondary_edges[worst->secondary].nodes, &m = c.main_edges[worst->main].nodes;
+  run.report("DK306", c, "Inacti",
+             fmt::format("{}: {} out of the contact, more than 99.5 % of the gap used up; edge {} "
+                         "{} is {:.6g} from edge {} {}, gap {:.6g}",
+                         name_of(run, c), count_text(edges, "secondary edge"), id(s[0]), id(s[1]),
+                         worst->distance, id(m[0]), id(m[1]), worst->gap));
+}
+
+}  // namespace
+
+void check_penetrations(const GeometryRun& run) {
+  check_depths(run);
+  for (const Contact& c : run.scene.contacts) {
+    check_on_surface(run, c);
+    check_switched_off(run, c);
+    check_moved_springs(run, c);
+    check_deep_edges(run, c);
+  }
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,176 @@
+// Findings about main segments and edges that cannot work as meant, and crossed elements.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "deck/contact/crossings.hpp"
+#include "deck/contact/view.hpp"
+#include "lint/checks/geometry/geometry.hpp"
+
+namespace deck::detail {
+namespace {
+
+std::string_view main_field(const Contact& c) {
+  return c.inter->type == 11 ? "line_IDm" : "surf_IDm";
+}
+
+/// Reports a rule about some main segments, naming the first.
+Diagnostic* about_segments(const GeometryRun& run, std::string_view rule, const Contact& c,
+                           const std::vector<std::uint32_t>& which, std::string_view what) {
+  if (which.empty()) return nullptr;
+  const MainSegment& m = c.main[which.front()];
+  const ElementName e = carrier_name(run.model(), m.carrier, m.element);
+  Diagnostic* d = run.report(rule, c, main_field(c),
+                             fmt::format("{}: {} of {} {}, for example {} ({})", name_of(run, c),
+                                         count_text(which.size(), "segment"), c.main.size(), what,
+                                         nodes_text(run.model(), m), element_text(e)));
+  if (d != nullptr)
+    d->notes.emplace_back(run.model().node_span(m.nodes[0]), "first node of that segment");
+  return d;
+}
+
+bool has_material(const Model& model, const MainSegment& m) {
+  const Elements* family = elements_of(model, m.carrier);
+  if (family == nullptr || m.element == no_index) return true;
+  const std::uint32_t part = family->part[m.element];
+  return part == no_index || model.parts[part].mat_id != 0;
+}
+
+void check_stiffness(const GeometryRun& run, const Contact& c) {
+  std::vector<std::uint32_t> weak, no_material;
+  for (std::uint32_t i = 0; i < c.main.size(); ++i) {
+    const MainSegment& m = c.main[i];
+    if (m.carrier == Carrier::none) continue;
+    if (!has_material(run.model(), m))
+      no_material.push_back(i);
+    else if (m.stiffness == 0)
+      weak.push_back(i);
+  }
+  about_segments(run, "DK320", c, weak, "have no stiffness and are left out");
+  about_segments(run, "DK321", c, no_material, "belong to elements without material");
+  about_segments(run, "DK322", c, c.no_carrier, "belong to no element");
+  for (const bool main : {true, false}) {
+    const auto& edges = main ? c.main_edges : c.secondary_edges;
+    std::size_t count = 0;
+    const ContactEdge* first = nullptr;
+    for (const ContactEdge& e : edges) {
+      if (e.carrier != Carrier::none) continue;
+      ++count;
+      if (first == nullptr) first = &e;
+    }
+    if (first == nullptr) continue;
+    Diagnostic* d = run.report(
+        "DK322", c,
+        main                  ? main_field(c)
+        : c.inter->type == 11 ? "line_IDs"
+                              : "surf_IDs",
+        fmt::format("{}: {} of {} on the {} side belong to no element, for example {} {}",
+                    name_of(run, c), count_text(count, "edge"), edges.size(),
+                    main ? "main" : "secondary", run.model().node_id(first->nodes[0]),
+                    run.model().node_id(first->nodes[1])));
+    // The texts of the two messages are swapped for lines.
+    if (d != nullptr && main) d->reference = ReferenceMessage{481, Severity::error};
+  }
+}
+
+void check_shape(const GeometryRun& run, const Contact& c) {
+  about_segments(run, "DK323", c, c.degenerate, "have no area or cross themselves");
+  if (c.repaired_segments > 0)
+    run.report("DK324", c, main_field(c),
+               fmt::format("{}: {} with a node given twice, taken for triangles", name_of(run, c),
+                           count_text(static_cast<std::size_t>(c.repaired_segments), "segment")));
+  if (c.reoriented_segments > 0)
+    run.report(
+        "DK325", c, main_field(c),
+        fmt::format("{}: {} of {} turned so that they look out of their solids", name_of(run, c),
+                    count_text(static_cast<std::size_t>(c.reoriented_segments), "segment"),
+                    c.main.size()));
+}
+
+void check_duplicates(const GeometryRun& run, const Contact& c) {
+  std::vector<std::pair<std::array<NodeIndex, 4>, std::uint32_t>> sorted;
+  for (std::uint32_t i = 0; i < c.main.size(); ++i) {
+    std::array<NodeIndex, 4> n = c.main[i].nodes;
+    // A triangle repeats one of its nodes, whichever comes last.
+    if (n[2] == n[3]) n[3] = no_index;
+    std::sort(n.begin(), n.end());
+    sorted.emplace_back(n, i);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::uint32_t> twice;
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    if (sorted[i].first == sorted[i - 1].first) twice.push_back(sorted[i].second);
+  std::sort(twice.begin(), twice.end());
+  about_segments(run, "DK326", c, twice, "repeat another one");
+}
+
+void check_dropped(const GeometryRun& run, const Contact& c) {
+  if (!c.dropped) return;
+  run.report("DK327", c, "Iedge",
+             fmt::format("{}: no edges on one of its sides; edges against edges are left out",
+                         name_of(run, c)));
+}
+
+void check_solids(const GeometryRun& run, const Contact& c) {
+  about_segments(run, "DK329", c, c.crowded, "belong to more than two solids");
+  about_segments(run, "DK330", c, c.inside_solids, "lie inside another solid");
+  const Deck& deck = run.context.deck;
+  const auto fill = std::find_if(deck.blocks.begin(), deck.blocks.end(), [](const Block& b) {
+    return b.header.starts_with("/INIBRI/FILL");
+  });
+  if (fill == deck.blocks.end() || c.factor < 0) return;
+  std::vector<std::uint32_t> solid;
+  for (std::uint32_t i = 0; i < c.main.size(); ++i)
+    if (c.main[i].carrier == Carrier::solid) solid.push_back(i);
+  if (Diagnostic* d = about_segments(run, "DK331", c, solid, "are on solids"); d != nullptr)
+    d->notes.emplace_back(fill->header_span, "the fill fractions");
+}
+
+/// One finding per two parts, in the first interface that contains both.
+void check_crossings(const GeometryRun& run) {
+  struct Group {
+    const Crossing* first = nullptr;
+    std::uint64_t places = 0;
+  };
+  const Model& model = run.model();
+  const std::vector<Crossing> all = find_crossings(run.scene, run.threads);
+  const auto part_of = [&](const Crossing& x) -> std::int64_t {
+    const std::uint32_t p = model.family(x.edge_kind).part[x.edge_element];
+    return p == no_index ? 0 : model.parts[p].id;
+  };
+  std::map<std::pair<std::int64_t, std::int64_t>, Group> groups;
+  for (const Crossing& x : all) {
+    const Contact& c = run.scene.contacts[x.contact];
+    const MainSegment& m = c.main[x.main];
+    const std::int64_t a = part_of(x), b = carrier_name(model, m.carrier, m.element).part;
+    Group& g = groups[{std::min(a, b), std::max(a, b)}];
+    if (g.first == nullptr) g.first = &x;
+    ++g.places;
+  }
+  for (const auto& [parts, g] : groups) {
+    const Crossing& x = *g.first;
+    const Contact& c = run.scene.contacts[x.contact];
+    std::string message = fmt::format(
+        "{}: elements of part {} and part {} pass through each other in {}; edge {} {} goes "
+        "through {}",
+        name_of(run, c), parts.first, parts.second, count_text(g.places, "place"),
+        model.node_id(x.edge[0]), model.node_id(x.edge[1]), nodes_text(model, c.main[x.main]));
+    Diagnostic* d = run.report("DK328", c, main_field(c), std::move(message));
+    if (d != nullptr) d->notes.emplace_back(model.node_span(x.edge[0]), "one end of the edge");
+  }
+}
+
+}  // namespace
+
+void check_segments(const GeometryRun& run) {
+  for (const Contact& c : run.scene.contacts) {
+    check_stiffness(run, c);
+    check_shape(run, c);
+    check_duplicates(run, c);
+    check_dropped(run, c);
+    check_solids(run, c);
+  }
+  check_crossings(run);
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,488 @@
+#include "model/bulk/bulk.hpp"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <string>
+
+#include "base/parallel.hpp"
+#include "model/bulk/bulk_read.hpp"
+
+namespace deck::detail {
+namespace {
+
+// A chunk's text and its values fit the second-level cache together.
+constexpr std::uint64_t chunk_bytes = 256 * 1024;
+
+struct Keyword {
+  std::string_view name;
+  ElementFormat format;
+};
+constexpr Keyword element_keywords[] = {
+    {"/SHELL", {ElementKind::shell4, SolidShape::brick8, 4}},
+    {"/SH3N", {ElementKind::shell3, SolidShape::brick8, 3}},
+    {"/BRICK", {ElementKind::solid8, SolidShape::brick8, 8}},
+    {"/TETRA4", {ElementKind::solid8, SolidShape::tetra4, 4}},
+    {"/PENTA6", {ElementKind::solid8, SolidShape::penta6, 6}},
+    {"/TETRA10", {ElementKind::solid8, SolidShape::tetra10, 4}},
+    {"/BRIC20", {ElementKind::solid8, SolidShape::brick20, 8}},
+    {"/SHEL16", {ElementKind::solid8, SolidShape::thick16, 8}},
+    {"/QUAD", {ElementKind::quad, SolidShape::brick8, 4}},
+    {"/TRIA", {ElementKind::tria, SolidShape::brick8, 3}},
+    {"/TRUSS", {ElementKind::truss, SolidShape::brick8, 2}},
+    {"/BEAM", {ElementKind::beam, SolidShape::brick8, 2}},
+    {"/SPRING", {ElementKind::spring, SolidShape::brick8, 2}},
+};
+
+bool is_node_block(const Block& block) {
+  return block.schema != nullptr &&
+         (block.schema->keyword == "/NODE" || block.schema->keyword == "/CNODE");
+}
+
+/// Which of the card's nodes go into the eight slots of a stored solid.
+const std::array<std::uint8_t, 8>& slots_of(SolidShape shape) {
+  static constexpr std::array<std::uint8_t, 8> brick{0, 1, 2, 3, 4, 5, 6, 7};
+  static constexpr std::array<std::uint8_t, 8> tetra{0, 0, 1, 1, 3, 2, 2, 3};
+  static constexpr std::array<std::uint8_t, 8> penta{0, 1, 2, 0, 3, 4, 5, 3};
+  switch (shape) {
+    case SolidShape::tetra4:
+    case SolidShape::tetra10:
+      return tetra;
+    case SolidShape::penta6:
+      return penta;
+    default:
+      return brick;
+  }
+}
+
+/// Forms messages in deck order, and only while their rule is below its limit.
+class ProblemReporter {
+ public:
+  ProblemReporter(const Deck& deck, const std::vector<BlockPlan>& plans, const Nodes* nodes,
+                  Diagnostics& diagnostics)
+      : deck_(deck), plans_(plans), nodes_(nodes), diagnostics_(diagnostics) {}
+
+  void report(const Chunk& chunk, const std::vector<Problem>& problems) {
+    if (problems.empty()) return;
+    std::array<bool, bulk_rules> full{};
+    std::array<std::uint64_t, bulk_rules> pending{};
+    const auto refresh = [&] {
+      for (std::size_t r = 0; r < bulk_rules; ++r)
+        full[r] = diagnostics_.saturated(bulk_rule_id(r));
+    };
+    refresh();
+    for (const Problem& problem : problems) {
+      bool wanted = problem.decoded;
+      for (std::size_t r = 0; r < bulk_rules; ++r)
+        wanted = wanted || (problem.counts[r] > 0 && !full[r]);
+      if (!wanted) {
+        for (std::size_t r = 0; r < bulk_rules; ++r) pending[r] += problem.counts[r];
+        continue;
+      }
+      const TextSegment& segment = chunk.segments[problem.segment];
+      report_problem(deck_, plans_[segment.plan], segment.file, problem, nodes_, diagnostics_);
+      refresh();
+    }
+    for (std::size_t r = 0; r < bulk_rules; ++r) diagnostics_.count(bulk_rule_id(r), pending[r]);
+  }
+
+ private:
+  const Deck& deck_;
+  const std::vector<BlockPlan>& plans_;
+  const Nodes* nodes_;
+  Diagnostics& diagnostics_;
+};
+
+/// Asks for large pages behind an array that is about to be filled: a page fault for every 4 KiB
+/// costs a tenth of the whole reading time. A hint; nothing depends on it.
+template <class T>
+void prefer_large_pages(const std::vector<T>& vector) {
+  constexpr std::uintptr_t large = 2 << 20;
+  const auto address = reinterpret_cast<std::uintptr_t>(vector.data());
+  const std::uintptr_t begin = (address + large - 1) / large * large;
+  const std::uintptr_t end = (address + vector.capacity() * sizeof(T)) / large * large;
+  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+}
+
+/// Room for everything, judged by the chunks read so far. Reserved memory that is not used costs
+/// nothing but address space; growing by doubling would cost a copy of everything.
+struct Room {
+  std::uint64_t total = 0, done = 0;
+  template <class... Vectors>
+  void make(std::uint64_t bytes, std::size_t items, Vectors&... vectors) {
+    done += bytes;
+    const auto grow = [&](auto& vector) {
+      const std::size_t after = vector.size() + items;
+      if (after <= vector.capacity()) return;
+      const double scale = done == 0 ? 1 : static_cast<double>(total) / static_cast<double>(done);
+      vector.reserve(static_cast<std::size_t>(static_cast<double>(after) * scale * 1.03) + 64);
+      prefer_large_pages(vector);
+    };
+    (grow(vectors), ...);
+  }
+};
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from, std::size_t count) {
+  to.insert(to.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count));
+}
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  append(to, from, from.size());
+}
+
+/// Gives the text of a chunk back.
+void release(const Deck& deck, const Chunk& chunk) {
+  for (const TextSegment& s : chunk.segments) deck.sources[s.file].release(s.begin, s.end);
+}
+
+/// True while 32-bit indices suffice; reports once otherwise.
+bool indices_left(std::size_t have, std::size_t more, const Block& block,
+                  Diagnostics& diagnostics) {
+  if (have + more < no_index) return true;
+  Diagnostic d;
+  d.rule = "DK006";
+  d.span = block.header_span;
+  d.message = "more than 4294967294 items of one kind; the rest is left out";
+  d.help = "split the deck";
+  diagnostics.report(std::move(d));
+  return false;
+}
+
+/// Index ranges of the blocks: `counts[s]` items of every segment follow `base`.
+void extend_ranges(const Chunk& chunk, const std::vector<std::uint32_t>& counts, std::size_t base,
+                   std::size_t first_range, std::vector<BulkBlock>& ranges) {
+  for (std::size_t s = 0; s < chunk.segments.size(); ++s) {
+    BulkBlock& range = ranges[first_range + chunk.segments[s].plan];
+    if (range.count == 0) range.first = static_cast<std::uint32_t>(base);
+    range.count += counts[s];
+    base += counts[s];
+  }
+}
+
+// ---- nodes --------------------------------------------------------------------------------------
+
+/// The nodes of a chunk. The arrays are longer than `size`: one check per node instead of four.
+struct NodeSink {
+  std::vector<std::int64_t> id;
+  std::vector<double> x, y, z;
+  std::size_t size = 0;
+  std::vector<std::uint32_t> counts;  // per segment
+  std::vector<Problem> problems;
+
+  void clear(const Chunk& chunk) {
+    size = 0;
+    problems.clear();
+    counts.assign(chunk.segments.size(), 0);
+  }
+  void item(const BlockPlan& plan, std::uint32_t segment, Item& item) {
+    if (size == id.size()) grow();
+    const ItemPlan& where = *plan.item;
+    const std::int64_t written = item.integer(where.id);
+    if (written <= 0) item.count(0, bad_id);
+    id[size] = written > 0 ? written + plan.id_offset : written;
+    x[size] = item.real(where.coordinate[0]) * plan.length;
+    y[size] = item.real(where.coordinate[1]) * plan.length;
+    z[size] = item.real(where.coordinate[2]) * plan.length;
+    ++size;
+    ++counts[segment];
+  }
+
+ private:
+  void grow() {
+    const std::size_t room = std::max<std::size_t>(2 * size, 4096);
+    id.resize(room);
+    x.resize(room);
+    y.resize(room);
+    z.resize(room);
+  }
+};
+
+void report_cnode(const Block& block, Diagnostics& diagnostics) {
+  if (block.schema->keyword != "/CNODE" || !diagnostics.wants("DK041")) return;
+  Diagnostic d;
+  d.rule = "DK041";
+  d.severity = Severity::warning;
+  d.span = block.header_span;
+  d.message = std::string(block.header) + ": nodes are read as they are and not merged";
+  d.reference_behaviour = "it merges nodes that lie within the tolerance of each other";
+  d.help = "merge the nodes in the deck and use /NODE";
+  d.keyword = "/CNODE";
+  diagnostics.add(std::move(d));
+}
+
+// ---- elements -----------------------------------------------------------------------------------
+
+struct ElementSink {
+  const Nodes* known = nullptr;
+  const Chunk* chunk = nullptr;
+  std::uint32_t first_range = 0;
+  std::vector<std::int64_t> id;
+  std::vector<std::uint32_t> part, block, extra;
+  std::vector<NodeIndex> nodes, extra_nodes;
+  std::vector<double> thickness;
+  std::vector<SolidShape> shape;
+  std::vector<std::uint32_t> counts;  // per segment
+  std::vector<bool> thick;            // per segment: an element has its own thickness
+  std::vector<Problem> problems;
+
+  void clear(const Chunk& next) {
+    chunk = &next;
+    id.clear();
+    part.clear();
+    block.clear();
+    extra.clear();
+    nodes.clear();
+    extra_nodes.clear();
+    thickness.clear();
+    shape.clear();
+    problems.clear();
+    counts.assign(next.segments.size(), 0);
+    thick.assign(next.segments.size(), false);
+  }
+
+  void item(const BlockPlan& plan, std::uint32_t segment, Item& item) {
+    const ItemPlan& where = *plan.item;
+    const std::int64_t written = item.integer(where.id);
+    if (written <= 0) item.count(0, bad_id);
+    id.push_back(written > 0 ? written + plan.id_offset : written);
+    part.push_back(plan.part);
+    block.push_back(first_range + chunk->segments[segment].plan);
+    ++counts[segment];
+    ElementFormat format = plan.format;
+    if (format.shape == SolidShape::brick8 && format.kind == ElementKind::solid8)
+      format = degenerate_brick(where, item, format);
+    find_nodes(plan, format, item);
+    if (format.kind == ElementKind::solid8)
+      store_solid(format);
+    else
+      nodes.insert(nodes.end(), found.begin(), found.begin() + element_width(format.kind));
+    if (where.thickness.present &&
+        (format.kind == ElementKind::shell4 || format.kind == ElementKind::shell3))
+      store_thickness(plan, segment, item);
+  }
+
+ private:
+  /// /BRICK with nodes 5-8 absent is a tetra, with nodes 7-8 absent a penta.
+  static ElementFormat degenerate_brick(const ItemPlan& where, const Item& item,
+                                        ElementFormat format) {
+    const auto absent = [&](std::size_t n) { return item.integer(where.nodes[n]) == 0; };
+    if (where.nodes.size() < 8 || !absent(6) || !absent(7)) return format;
+    if (absent(4) && absent(5)) return {format.kind, SolidShape::tetra4, 4};
+    return {format.kind, SolidShape::penta6, 6};
+  }
+
+  void find_nodes(const BlockPlan& plan, const ElementFormat& format, Item& item) {
+    const std::vector<CellAt>& cells = plan.item->nodes;
+    for (std::size_t n = 0; n < cells.size(); ++n) {
+      const CellAt at = cells[n];
+      const std::int64_t written = item.integer(at);
+      found[n] = no_index;
+      if (written == 0 && n >= static_cast<std::size_t>(format.required)) continue;
+      if (written != 0)
+        found[n] = known->map.find(written > 0 ? written + plan.node_offset : written);
+      if (found[n] == no_index) item.count(at.card, unknown_node);
+    }
+    for (std::size_t n = cells.size(); n < max_nodes; ++n) found[n] = no_index;
+    item.required = static_cast<std::uint8_t>(format.required);
+  }
+
+  void store_solid(const ElementFormat& format) {
+    for (const std::uint8_t slot : slots_of(format.shape)) nodes.push_back(found[slot]);
+    shape.push_back(format.shape);
+    const std::size_t corners = format.shape == SolidShape::tetra10 ? 4 : 8;
+    const std::size_t all = format.shape == SolidShape::tetra10   ? 10
+                            : format.shape == SolidShape::brick20 ? 20
+                            : format.shape == SolidShape::thick16 ? 16
+                                                                  : 0;
+    extra.push_back(all == 0 ? no_index : static_cast<std::uint32_t>(extra_nodes.size()));
+    for (std::size_t n = corners; n < all; ++n) extra_nodes.push_back(found[n]);
+  }
+
+  void store_thickness(const BlockPlan& plan, std::uint32_t segment, Item& item) {
+    const double written = item.real(plan.item->thickness);
+    thickness.push_back(written * plan.length);
+    if (written == 0) return;
+    thick[segment] = true;
+    if (plan.format.kind == ElementKind::shell3 && sh3n_left_columns(item.text[0]))
+      item.count(0, sh3n_columns);
+  }
+
+  std::array<NodeIndex, max_nodes> found{};
+};
+
+/// The reference solver converts an own thickness only in the first shell after a change of units.
+void report_thickness(const Block& block, Diagnostics& diagnostics) {
+  if (!diagnostics.wants("DK039")) return;
+  Diagnostic d;
+  d.rule = "DK039";
+  d.severity = Severity::warning;
+  d.span = block.header_span;
+  d.message = std::string(block.header) +
+              ": own thicknesses are converted to working units, which the reference solver does "
+              "only for the first element after a change of the unit system";
+  d.reference_behaviour = "it takes the other thicknesses as numbers in working units";
+  d.help = "give the thickness in the property or the part, or use one unit system";
+  d.keyword = std::string(block.keyword);
+  d.id = block.id.value;
+  diagnostics.add(std::move(d));
+}
+
+void append_elements(const ElementSink& from, Elements& to, Room& room, std::uint64_t bytes) {
+  const std::size_t have = to.size(), more = from.id.size();
+  room.make(bytes, more, to.id, to.part, to.block);
+  // Slots per element instead of elements.
+  if (to.nodes.size() + from.nodes.size() > to.nodes.capacity()) {
+    to.nodes.reserve(to.id.capacity() * static_cast<std::size_t>(to.width));
+    prefer_large_pages(to.nodes);
+  }
+  append(to.id, from.id);
+  append(to.part, from.part);
+  append(to.block, from.block);
+  append(to.nodes, from.nodes);
+  if (to.kind == ElementKind::solid8) {
+    if (have + more > to.shape.capacity()) {
+      to.shape.reserve(to.id.capacity());
+      to.extra.reserve(to.id.capacity());
+    }
+    append(to.shape, from.shape);
+    const auto base = static_cast<std::uint32_t>(to.extra_nodes.size());
+    for (const std::uint32_t e : from.extra) to.extra.push_back(e == no_index ? e : e + base);
+    append(to.extra_nodes, from.extra_nodes);
+  }
+  const bool thick = std::find(from.thick.begin(), from.thick.end(), true) != from.thick.end();
+  if (!thick && to.thickness.empty()) return;
+  to.thickness.reserve(to.id.capacity());
+  to.thickness.resize(have, 0.0);
+  append(to.thickness, from.thickness);
+  to.thickness.resize(have + more, 0.0);
+}
+
+constexpr ElementKind all_kinds[] = {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
+                                     ElementKind::quad,   ElementKind::tria,   ElementKind::truss,
+                                     ElementKind::beam,   ElementKind::spring};
+
+Elements& family_of(Model& model, ElementKind kind) {
+  Elements* const families[] = {&model.shell4, &model.shell3, &model.solid8, &model.quad,
+                                &model.tria,   &model.truss,  &model.beam,   &model.spring};
+  return *families[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace
+
+std::vector<const Block*> node_blocks(const Deck& deck) {
+  std::vector<const Block*> blocks;
+  for (const Block& b : deck.blocks)
+    if (is_node_block(b)) blocks.push_back(&b);
+  return blocks;
+}
+
+std::vector<const Block*> element_blocks(const Deck& deck) {
+  std::vector<const Block*> blocks;
+  for (const Block& b : deck.blocks)
+    if (element_format(b)) blocks.push_back(&b);
+  return blocks;
+}
+
+std::optional<ElementFormat> element_format(const Block& block) {
+  if (block.schema == nullptr) return std::nullopt;
+  for (const Keyword& k : element_keywords)
+    if (k.name == block.schema->keyword) return k.format;
+  return std::nullopt;
+}
+
+int element_width(ElementKind kind) {
+  constexpr int widths[] = {4, 3, 8, 4, 3, 2, 3, 6};
+  return widths[static_cast<std::size_t>(kind)];
+}
+
+void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes& nodes,
+                std::vector<BulkBlock>& ranges, Diagnostics& diagnostics, int threads) {
+  const std::vector<BlockPlan> plans = plan_blocks(deck, blocks, diagnostics);
+  const std::vector<Chunk> chunks = cut_chunks(deck, plans, chunk_bytes);
+  const std::size_t first_range = ranges.size();
+  for (const Block* block : blocks) {
+    ranges.push_back({block, static_cast<std::uint32_t>(nodes.size()), 0});
+    report_cnode(*block, diagnostics);
+  }
+  Room room;
+  for (const Chunk& chunk : chunks) room.total += chunk.bytes;
+  ProblemReporter reporter(deck, plans, nullptr, diagnostics);
+  run_in_order<NodeSink>(
+      chunks.size(), threads,
+      [&](std::size_t k, NodeSink& out) {
+        out.clear(chunks[k]);
+        read_chunk(deck, plans, chunks[k], out);
+      },
+      [&](std::size_t k, NodeSink& out) {
+        reporter.report(chunks[k], out.problems);
+        release(deck, chunks[k]);
+        const Block& block = *plans[chunks[k].segments.front().plan].block;
+        if (!indices_left(nodes.size(), out.size, block, diagnostics)) return;
+        extend_ranges(chunks[k], out.counts, nodes.size(), first_range, ranges);
+        room.make(chunks[k].bytes, out.size, nodes.id, nodes.x, nodes.y, nodes.z);
+        append(nodes.id, out.id, out.size);
+        append(nodes.x, out.x, out.size);
+        append(nodes.y, out.y, out.size);
+        append(nodes.z, out.z, out.size);
+      });
+  nodes.map.build(nodes.id);
+}
+
+void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Model& model,
+                   Diagnostics& diagnostics, int threads) {
+  for (const ElementKind kind : all_kinds) {
+    family_of(model, kind).kind = kind;
+    family_of(model, kind).width = element_width(kind);
+  }
+  std::vector<BlockPlan> plans = plan_blocks(deck, blocks, diagnostics);
+  for (BlockPlan& plan : plans) {
+    const auto format = element_format(*plan.block);
+    if (!format) {
+      plan.item = nullptr;
+      continue;
+    }
+    plan.format = *format;
+    const std::int64_t part = plan.block->id.value + deck.offset_of(*plan.block, "part");
+    if (const auto it = model.part_of_id.find(part); it != model.part_of_id.end())
+      plan.part = it->second;
+  }
+  const std::vector<Chunk> chunks = cut_chunks(deck, plans, chunk_bytes);
+  const auto first_range = static_cast<std::uint32_t>(model.element_blocks.size());
+  for (const Block* block : blocks) model.element_blocks.push_back({block, 0, 0});
+  std::array<Room, std::size(all_kinds)> rooms;
+  for (const Chunk& chunk : chunks)
+    rooms[static_cast<std::size_t>(chunk.kind)].total += chunk.bytes;
+  std::vector<bool> reported(plans.size(), false);
+  ProblemReporter reporter(deck, plans, &model.nodes, diagnostics);
+  run_in_order<ElementSink>(
+      chunks.size(), threads,
+      [&](std::size_t k, ElementSink& out) {
+        out.known = &model.nodes;
+        out.first_range = first_range;
+        out.clear(chunks[k]);
+        read_chunk(deck, plans, chunks[k], out);
+      },
+      [&](std::size_t k, ElementSink& out) {
+        const Chunk& chunk = chunks[k];
+        reporter.report(chunk, out.problems);
+        release(deck, chunk);
+        for (std::size_t s = 0; s < chunk.segments.size(); ++s) {
+          const std::uint32_t p = chunk.segments[s].plan;
+          if (!out.thick[s] || reported[p] || plans[p].length == 1 ||
+              chunk.kind != ElementKind::shell4)
+            continue;
+          reported[p] = true;
+          report_thickness(*plans[p].block, diagnostics);
+        }
+        Elements& family = family_of(model, chunk.kind);
+        const Block& block = *plans[chunk.segments.front().plan].block;
+        if (!indices_left(family.size(), out.id.size(), block, diagnostics)) return;
+        extend_ranges(chunk, out.counts, family.size(), first_range, model.element_blocks);
+        append_elements(out, family, rooms[static_cast<std::size_t>(chunk.kind)], chunk.bytes);
+      });
+  for (const ElementKind kind : all_kinds)
+    family_of(model, kind).map.build(family_of(model, kind).id);
+}
+
+}  // namespace deck::detail

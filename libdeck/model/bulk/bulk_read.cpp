@@ -1,0 +1,172 @@
+#include "model/bulk/bulk_read.hpp"
+
+#include "keyword/reader.hpp"
+
+namespace deck::detail {
+namespace {
+
+std::string place_of(const BlockPlan& plan, const Problem& problem) {
+  return std::string(plan.block->keyword) + " " + std::to_string(problem.item);
+}
+
+void report_problem(Diagnostics& diagnostics, const BlockPlan& plan, const Problem& problem,
+                    BulkRule rule, Severity severity, Span span, std::string message,
+                    std::string behaviour, std::string help, int number = 0) {
+  Diagnostic d;
+  d.rule = bulk_rule_id(rule);
+  d.severity = severity;
+  d.span = span;
+  d.message = std::move(message);
+  d.reference_behaviour = std::move(behaviour);
+  d.help = std::move(help);
+  if (number != 0) d.reference = ReferenceMessage{number, Severity::error};
+  d.keyword = std::string(plan.block->keyword);
+  d.id = problem.item;
+  diagnostics.add(std::move(d));
+}
+
+void report_unknown_nodes(const BlockPlan& plan, const Problem& problem, const DecodedCard& card,
+                          const Nodes& nodes, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < card.cells.size(); ++i) {
+    const int n = node_of_cell(*plan.item, problem.card, i);
+    if (n < 0) continue;
+    const Cell& cell = card.cells[i];
+    const std::int64_t written = cell.integer;
+    if (written == 0 && n >= problem.required) continue;
+    const std::int64_t id = written > 0 ? written + plan.node_offset : written;
+    if (written != 0 && nodes.map.find(id) != no_index) continue;
+    if (!diagnostics.wants(bulk_rule_id(unknown_node))) continue;
+    const bool last_of_shell = written == 0 && n == 3 && plan.format.kind == ElementKind::shell4;
+    report_problem(diagnostics, plan, problem, unknown_node, Severity::error,
+                   cell.span.length > 0 ? cell.span : card.line.whole(),
+                   place_of(plan, problem) + ": " + cell.field->name + " names node " +
+                       std::to_string(id) + ", which does not exist",
+                   "it stops with an error",
+                   last_of_shell ? "write N4 = N3 for a triangle, or use /SH3N"
+                                 : "correct the number or define the node",
+                   78);
+  }
+}
+
+/// True if a line of the block behind this place is neither blank nor a comment.
+bool data_follows(const Deck& deck, const Block& block, std::uint32_t file, std::uint64_t offset) {
+  bool behind = false;
+  for (Piece piece : block.body) {
+    if (!behind) {
+      if (piece.file != file || offset < piece.begin || offset >= piece.end) continue;
+      behind = true;
+      piece.begin = offset;
+    }
+    const std::string_view bytes = deck.sources[piece.file].bytes().substr(0, piece.end);
+    for (std::uint64_t at = piece.begin; at < piece.end;) {
+      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), piece.end);
+      const std::string_view line = bytes.substr(at, nl - at);
+      if (!trim(line).empty() && line[0] != '#' && line[0] != '$') return true;
+      at = nl + 1;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view bulk_rule_id(std::size_t rule) {
+  constexpr std::string_view own[] = {"DK036", "DK037", "DK038", "DK029", "DK101"};
+  return rule < blank_line ? line_rule_ids[rule] : own[rule - blank_line];
+}
+
+int node_of_cell(const ItemPlan& plan, std::size_t card, std::size_t cell) {
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n)
+    if (plan.nodes[n].present && plan.nodes[n].card == card && plan.nodes[n].cell == cell)
+      return static_cast<int>(n);
+  return -1;
+}
+
+void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std::uint32_t file,
+                  Unclean unclean, Item& item) {
+  const CardPlan& layout = plan.item->cards[card];
+  const std::string_view line = item.text[card];
+  const std::string_view text = line.substr(0, line_columns);
+  const auto holds = [&](char c) { return text.find(c) != std::string_view::npos; };
+  if (holds(',') || holds('&')) {
+    const char* const data = deck.sources[file].bytes().data();
+    const DecodedCard decoded =
+        decode_line(deck, *plan.block, *layout.card,
+                    {line, file, static_cast<std::uint64_t>(line.data() - data)}, nullptr);
+    for (std::size_t i = 0; i < decoded.cells.size(); ++i) {
+      item.line[card].integer[i] = decoded.cells[i].integer;
+      item.line[card].real[i] = decoded.cells[i].real;
+    }
+    item.problem_of(card).decoded = true;
+    return;
+  }
+  const auto count = [&](LineRule rule) {
+    if (rule != LineRule::none) item.count(card, static_cast<std::uint8_t>(rule));
+  };
+  if (holds('\t')) count(LineRule::tab);
+  if (holds('\0')) count(LineRule::nul);
+  if ((unclean & outside_cells) != 0) {
+    if (!tail_of(line).empty()) count(LineRule::tail);
+    for_each_gap_text(layout.map, line, [&](int, int, bool after, bool zero) {
+      if (!after || !zero) count(after ? LineRule::after : LineRule::gap);
+    });
+  }
+  for (std::size_t i = 0; i < layout.cells.size(); ++i) {
+    if ((unclean >> i & 1) == 0) continue;
+    const CellPlan& cell = layout.cells[i];
+    const std::string_view cell_text = trim(line.substr(cell.first, cell.last - cell.first));
+    if (cell.real) {
+      const RealCell r = read_real(cell_text);
+      item.line[card].real[i] = r.value;
+      count(number_rule(*cell.field, r.status, cell_text.size(), r.value));
+    } else {
+      const IntegerCell n = read_integer(cell_text);
+      item.line[card].integer[i] = saturated(n.value);
+      count(number_rule(*cell.field, narrowed(n), cell_text.size(), 0));
+    }
+  }
+}
+
+void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
+                    const Problem& problem, const Nodes* nodes, Diagnostics& diagnostics) {
+  const std::string_view bytes = deck.sources[file].bytes();
+  const auto nl = std::min(bytes.find('\n', problem.offset), bytes.size());
+  const Line line{trim_right(bytes.substr(problem.offset, nl - problem.offset)), file,
+                  problem.offset};
+  if (problem.counts[blank_line] > 0) {
+    const bool element =
+        !plan.item->nodes.empty() && data_follows(deck, *plan.block, file, problem.offset);
+    if (diagnostics.wants(bulk_rule_id(blank_line)))
+      report_problem(
+          diagnostics, plan, problem, blank_line, element ? Severity::error : Severity::warning,
+          {file, 0, problem.offset}, "a blank line in " + std::string(plan.block->header),
+          element ? "it takes the line for an element without nodes, and crashes or hangs"
+                  : "it takes the line for an item with id 0",
+          "delete the line", element ? 760 : 0);
+    return;
+  }
+  const DecodedCard card =
+      decode_line(deck, *plan.block, *plan.item->cards[problem.card].card, line, &diagnostics);
+  if (problem.counts[bad_id] > 0 && diagnostics.wants(bulk_rule_id(bad_id)))
+    report_problem(diagnostics, plan, problem, bad_id, Severity::warning, line.columns(1, 10),
+                   std::string(plan.block->keyword) + ": id " + std::to_string(problem.item) +
+                       " is not positive",
+                   "it goes on with an item of that id, which nothing can refer to",
+                   "give the item a positive id");
+  if (problem.counts[sh3n_columns] > 0 && diagnostics.wants(bulk_rule_id(sh3n_columns)))
+    report_problem(
+        diagnostics, plan, problem, sh3n_columns, Severity::warning, line.columns(81, 90),
+        place_of(plan, problem) + ": the thickness begins left of column 91",
+        "it reads the thickness from column 91 on and loses the digits before",
+        "write the thickness right-justified with at most 10 characters, columns 91-100");
+  if (problem.counts[unknown_node] > 0 && nodes != nullptr)
+    report_unknown_nodes(plan, problem, card, *nodes, diagnostics);
+  if (problem.counts[incomplete] > 0 && diagnostics.wants(bulk_rule_id(incomplete)))
+    report_problem(diagnostics, plan, problem, incomplete, Severity::warning, line.whole(),
+                   place_of(plan, problem) + " ends after " + std::to_string(problem.card + 1) +
+                       " of " + std::to_string(plan.item->cards.size()) +
+                       " lines; the element is left out",
+                   "it takes every cell of the missing lines for 0", "add the missing lines", 0);
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,179 @@
+// Reading one chunk of bulk lines: clean lines by columns, the others by decode_line(). Findings
+// are only counted here; messages are formed later, in deck order and only while they are wanted.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "model/bulk/bulk_plan.hpp"
+#include "text/number_scan.hpp"
+
+namespace deck::detail {
+
+/// Rules of a bulk line: those of every data line, then its own.
+enum BulkRule : std::uint8_t {
+  blank_line = static_cast<std::uint8_t>(LineRule::none),
+  bad_id,
+  sh3n_columns,
+  incomplete,
+  unknown_node,
+  bulk_rules,
+};
+std::string_view bulk_rule_id(std::size_t rule);
+
+/// A line that is not clean.
+struct Problem {
+  std::uint64_t offset = 0;   ///< of the line in its file
+  std::int64_t item = 0;      ///< id of the item, as written
+  std::uint32_t segment = 0;  ///< in the chunk
+  std::uint8_t card = 0;
+  std::uint8_t required = 0;  ///< leading nodes that must exist
+  bool decoded = false;       ///< read by decode_line(): the counts of its cells are not known
+  std::array<std::uint8_t, bulk_rules> counts{};
+};
+
+/// Values of one line, by cell.
+struct Cells {
+  std::int64_t integer[max_cells];
+  double real[max_cells];
+};
+
+/// The lines of one item.
+struct Item {
+  Cells line[max_cards];
+  std::string_view text[max_cards];
+  Problem problem[max_cards];
+  bool has_problem[max_cards] = {};
+  std::uint8_t required = 0;  ///< leading nodes that must exist
+
+  std::int64_t integer(CellAt at) const { return at.present ? line[at.card].integer[at.cell] : 0; }
+  double real(CellAt at) const { return at.present ? line[at.card].real[at.cell] : 0.0; }
+  /// The problem record of a line, begun when it is first needed: most lines have none.
+  Problem& problem_of(std::size_t card) {
+    if (!has_problem[card]) problem[card] = {};
+    has_problem[card] = true;
+    return problem[card];
+  }
+  void count(std::size_t card, std::uint8_t rule) {
+    problem_of(card);
+    auto& n = problem[card].counts[rule];
+    if (n < 255) ++n;
+  }
+};
+
+/// Bit i: cell i is not clean; the highest bit: there is something outside the cells.
+using Unclean = std::uint32_t;
+inline constexpr Unclean outside_cells = Unclean{1} << 31;
+
+/// Cells of a line that has no blanks at its end. Unclean cells are left to inspect_line().
+inline Unclean read_cells(const CardPlan& plan, const char* line, std::uint32_t size, Cells& out) {
+  Unclean unclean = 0;
+  for (std::size_t i = 0; i < plan.cells.size(); ++i) {
+    const CellPlan& cell = plan.cells[i];
+    if (cell.first >= size) {
+      out.integer[i] = 0;
+      out.real[i] = 0;
+      continue;
+    }
+    const char* const first = line + cell.first;
+    const char* const last = line + std::min(cell.last, size);
+    if (cell.real) {
+      const RealCell r = scan_real<Blanks::spaces>(first, last);
+      out.real[i] = r.value;
+      // Subnormal numbers have a finding of their own.
+      const bool tiny = r.value != 0 && std::fabs(r.value) < std::numeric_limits<double>::min();
+      unclean |= static_cast<Unclean>(r.status > NumberStatus::blank || tiny) << i;
+      continue;
+    }
+    std::uint64_t plain;
+    if (last - first >= 8 && scan_plain_integer(first, last, plain)) {
+      out.integer[i] = static_cast<std::int64_t>(plain);
+      continue;
+    }
+    const IntegerCell n = scan_integer<Blanks::spaces>(first, last);
+    out.integer[i] = saturated(n.value);
+    unclean |= static_cast<Unclean>(narrowed(n) > NumberStatus::blank) << i;
+  }
+  bool clean = true;
+  for (const auto& [first, last] : plan.gaps)
+    for (std::uint32_t c = first; c < std::min(last, size); ++c) clean = clean && line[c] == ' ';
+  for (std::uint32_t c = plan.last; c < size; ++c) clean = clean && line[c] == ' ';
+  return clean ? unclean : unclean | outside_cells;
+}
+
+/// Reads the unclean cells of a line and finds out what is wrong with it, both as decode_line()
+/// does; by decode_line() itself where the line has commas or parameters.
+void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std::uint32_t file,
+                  Unclean unclean, Item& item);
+
+/// Reports what a problem line has to say, with decode_line() for the cells.
+void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
+                    const Problem& problem, const Nodes* nodes, Diagnostics& diagnostics);
+
+/// Number of the node (0 = N1) in this cell; -1: another cell.
+int node_of_cell(const ItemPlan& plan, std::size_t card, std::size_t cell);
+
+/// Text in columns 81-90 of a /SH3N line with a thickness: official tables read 91-110.
+inline bool sh3n_left_columns(std::string_view line) {
+  for (std::size_t c = 80; c < std::min<std::size_t>(line.size(), 90); ++c)
+    if (static_cast<unsigned char>(line[c]) > ' ') return true;
+  return false;
+}
+
+/// Reads the lines of a chunk and calls sink.item(plan, segment, item) for every item;
+/// sink.problems takes the problem lines in deck order.
+template <class Sink>
+void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chunk& chunk,
+                Sink& sink) {
+  Item item;
+  std::size_t card = 0;
+  for (std::uint32_t s = 0; s < chunk.segments.size(); ++s) {
+    const TextSegment& segment = chunk.segments[s];
+    const BlockPlan& plan = plans[segment.plan];
+    const std::vector<CardPlan>& cards = plan.item->cards;
+    const char* const data = deck.sources[segment.file].bytes().data();
+    const char* p = data + segment.begin;
+    const char* const end = data + segment.end;
+    const auto flush = [&](std::size_t lines) {
+      for (std::size_t c = 0; c < lines; ++c) {
+        if (!item.has_problem[c]) continue;
+        Problem& problem = item.problem[c];
+        problem.offset = static_cast<std::uint64_t>(item.text[c].data() - data);
+        problem.segment = s;
+        problem.card = static_cast<std::uint8_t>(c);
+        problem.required = item.required;
+        problem.item = problem.counts[blank_line] > 0 ? 0 : item.integer(plan.item->id);
+        sink.problems.push_back(problem);
+        item.has_problem[c] = false;
+      }
+    };
+    while (p < end) {
+      const char* const start = p;
+      const void* const nl = std::memchr(p, '\n', static_cast<std::size_t>(end - p));
+      const char* stop = nl == nullptr ? end : static_cast<const char*>(nl);
+      p = stop + 1;
+      if (*start == '#' || *start == '$') continue;
+      while (stop != start && is_blank(stop[-1])) --stop;
+      const auto size = static_cast<std::uint32_t>(std::min<std::ptrdiff_t>(stop - start, 1 << 30));
+      item.text[card] = {start, size};
+      if (stop == start && card == 0) {
+        item.count(0, blank_line);
+        flush(1);
+        continue;
+      }
+      const Unclean unclean = read_cells(cards[card], start, size, item.line[card]);
+      if (unclean != 0) inspect_line(deck, plan, card, segment.file, unclean, item);
+      if (++card < cards.size()) continue;
+      card = 0;
+      sink.item(plan, s, item);
+      flush(cards.size());
+    }
+    if (segment.block_ends && card != 0) {
+      item.count(card - 1, incomplete);
+      flush(card);
+      card = 0;
+    }
+  }
+}
+
+}  // namespace deck::detail

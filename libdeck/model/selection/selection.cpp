@@ -1,0 +1,282 @@
+// Selections: the table of definitions, id lists, and the public functions; resolving is done per
+// kind in the other selection_*.cpp files.
+#include "deck/model/selection.hpp"
+
+#include <algorithm>
+
+#include "model/selection/selection_impl.hpp"
+
+namespace deck {
+
+using detail::Definition;
+using detail::IdList;
+using detail::IdRef;
+
+namespace detail {
+
+void normalise(Indices& v) {
+  if (!std::is_sorted(v.begin(), v.end())) std::sort(v.begin(), v.end());
+  v.erase(std::unique(v.begin(), v.end()), v.end());
+}
+
+const std::vector<FamilyName>& family_names() {
+  static const std::vector<FamilyName> names = {
+      {ElementKind::shell4, "grshel", "GRSHEL", "SHEL", "shell", Carrier::shell4},
+      {ElementKind::shell3, "grsh3n", "GRSH3N", "SH3N", "sh3n", Carrier::shell3},
+      {ElementKind::solid8, "grbric", "GRBRIC", "BRIC", "brick", Carrier::solid},
+      {ElementKind::quad, "grquad", "GRQUAD", "QUAD", "quad", Carrier::quad},
+      {ElementKind::tria, "grtria", "GRTRIA", "TRIA", "tria", Carrier::shell3},
+      {ElementKind::truss, "grtrus", "GRTRUS", "TRUS", "truss", Carrier::truss},
+      {ElementKind::beam, "grbeam", "GRBEAM", "BEAM", "beam", Carrier::beam},
+      {ElementKind::spring, "grspri", "GRSPRI", "SPRI", "spring", Carrier::spring},
+  };
+  return names;
+}
+
+const FamilyName& family_name(ElementKind kind) {
+  return family_names()[static_cast<std::size_t>(kind)];
+}
+
+int carrying_nodes(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::shell4:
+    case ElementKind::quad:
+      return 4;
+    case ElementKind::shell3:
+    case ElementKind::tria:
+      return 3;
+    case ElementKind::solid8:
+      return 8;
+    case ElementKind::truss:
+    case ElementKind::beam:
+    case ElementKind::spring:
+      return 2;
+  }
+  return 0;
+}
+
+}  // namespace detail
+
+Selections::Impl::Impl(const Model& m, const SchemaSet& s, const MemoryLimits& l)
+    : model(&m), schemas(&s), limits(l) {
+  std::uint64_t members = m.nodes.size();
+  for (const detail::FamilyName& name : detail::family_names())
+    members += 8 * m.family(name.kind).size();
+  most_members = 16 * members + m.deck->total_bytes;  // rows of the deck may be members, too
+  static constexpr std::string_view kinds[] = {"grnod",  "surf",   "line",   "set",    "box",
+                                               "skew",   "grshel", "grsh3n", "grbric", "grquad",
+                                               "grtria", "grtrus", "grbeam", "grspri", "grpart"};
+  for (const Block& block : m.deck->blocks) {
+    if (block.schema == nullptr) continue;
+    const std::string& kind = block.schema->kind;
+    if (std::find(std::begin(kinds), std::end(kinds), kind) == std::end(kinds)) continue;
+    const auto fields = detail::header_fields(block);
+    Definition def{&block, fields.size() > 1 ? fields[1] : std::string_view(),
+                   fields.size() > 2 ? fields[2] : std::string_view()};
+    const std::int64_t id = own_id(block, kind);
+    auto& table = tables[kind];
+    auto& list = table.by_id[id];
+    if (list.empty()) table.order.push_back(id);
+    if (!list.empty() && !(kind == "set" && def.type == "COLLECT")) {
+      Diagnostic d = detail::make_diagnostic(
+          {"DK167", Severity::error, block.header_span,
+           std::string(block.keyword) + " " + std::to_string(id) + " is defined twice",
+           "it stops with an error", "give one of them another id", 79, Severity::error,
+           std::string(block.keyword), id});
+      d.notes.emplace_back(list.front().block->header_span, "first defined here");
+      found.report(std::move(d));
+      continue;
+    }
+    list.push_back(def);
+  }
+  const auto& id = m.nodes.id;
+  if (!std::is_sorted(id.begin(), id.end())) {
+    std::vector<NodeIndex> by_id(id.size());
+    for (NodeIndex n = 0; n < by_id.size(); ++n) by_id[n] = n;
+    std::stable_sort(by_id.begin(), by_id.end(),
+                     [&](NodeIndex a, NodeIndex b) { return id[a] < id[b]; });
+    ranks.resize(id.size());
+    for (std::uint32_t r = 0; r < by_id.size(); ++r) ranks[by_id[r]] = r;
+  }
+}
+
+void Selections::Impl::sort_nodes(std::vector<NodeIndex>& nodes) const {
+  std::sort(nodes.begin(), nodes.end(),
+            [&](NodeIndex a, NodeIndex b) { return rank(a) < rank(b); });
+}
+
+const Definition* Selections::Impl::definition(std::string_view kind, std::int64_t id) const {
+  const auto table = tables.find(kind);
+  if (table == tables.end()) return nullptr;
+  const auto it = table->second.by_id.find(id);
+  return it == table->second.by_id.end() ? nullptr : &it->second.front();
+}
+
+std::int64_t Selections::Impl::own_id(const Block& block, std::string_view kind) const {
+  return shift(block, kind, block.id.value);
+}
+
+std::int64_t Selections::Impl::shift(const Block& block, std::string_view kind,
+                                     std::int64_t id) const {
+  return id > 0 ? id + deck().offset_of(block, kind) : id;
+}
+
+IdList Selections::Impl::id_list(const DecodedBlock& d) const {
+  IdList list;
+  for (const DecodedCard& card : d.cards)
+    for (const Cell& cell : card.cells) {
+      if (cell.field->type == FieldType::text || cell.integer == 0) continue;
+      const std::int64_t offset = deck().offset_of(*d.block, cell.field->ref);
+      if (cell.integer > 0)
+        list.positive.push_back({cell.integer + offset, cell.span});
+      else
+        list.negative.push_back({-cell.integer + offset, cell.span});
+    }
+  return list;
+}
+
+std::vector<std::int64_t> Selections::Impl::raw_values(const DecodedBlock& d) const {
+  std::vector<std::int64_t> values;
+  for (const DecodedCard& card : d.cards)
+    for (const Cell& cell : card.cells)
+      if (cell.integer != 0) values.push_back(cell.integer);
+  return values;
+}
+
+void Selections::Impl::report_missing(std::string_view rule, const Block& block,
+                                      const std::string& what, const std::vector<IdRef>& missing,
+                                      int number, Severity severity) {
+  if (missing.empty() || !found.wants(rule)) return;
+  std::string ids;
+  constexpr std::size_t shown = 5;
+  for (std::size_t i = 0; i < std::min(shown, missing.size()); ++i)
+    ids += (i > 0 ? ", " : "") + std::to_string(missing[i].id);
+  if (missing.size() > shown) ids += " and " + std::to_string(missing.size() - shown) + " more";
+  found.add(detail::make_diagnostic(
+      {rule, severity, missing.front().span,
+       std::string(block.keyword) + " " + std::to_string(block.id.value) + " lists " + what + " " +
+           ids + (missing.size() == 1 ? ", which does not exist" : ", which do not exist"),
+       severity == Severity::error ? "it stops with an error" : "it ignores the entry and warns",
+       "correct the id or remove it from the list", number, severity, std::string(block.keyword),
+       block.id.value}));
+}
+
+bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const Block& from,
+                                 int number) {
+  // Deeper nesting than any deck needs would only exhaust the stack.
+  constexpr std::size_t deepest = 250;
+  if (open.size() >= deepest) {
+    report({"DK152", Severity::error, from.header_span,
+            std::string(from.keyword) + " " + std::to_string(from.id.value) +
+                " is nested more than " + std::to_string(deepest) +
+                " levels deep; its members are left out",
+            "it resolves the references level by level", "flatten the references", number,
+            Severity::error, std::string(from.keyword), from.id.value});
+    return true;
+  }
+  if (open.count({std::string(kind), id}) == 0) return false;
+  report({"DK152", Severity::error, from.header_span,
+          std::string(from.keyword) + " " + std::to_string(from.id.value) +
+              " contains itself, directly or through others",
+          "it stops with an error", "break the circle of references", number, Severity::error,
+          std::string(from.keyword), from.id.value});
+  return true;
+}
+
+bool Selections::Impl::fits(std::size_t count, std::size_t size, const Block& block) {
+  const bool room = bytes_held <= limits.selection_bytes &&
+                    count <= (limits.selection_bytes - bytes_held) / size;
+  // Repetitions count, but no list needs every member of the model over and over.
+  const bool sensible = count <= most_members;
+  if (all_held && room && sensible) return true;
+  if (all_held)
+    report({"DK332", Severity::error, block.header_span,
+            std::string(block.keyword) + " " + std::to_string(block.id.value) +
+                (sensible ? ": the members of all groups, surfaces, lines and sets together would "
+                            "take more than " +
+                                std::to_string(limits.selection_bytes >> 20) + " MB"
+                          : " lists the members of the model over and over: more than " +
+                                std::to_string(most_members)) +
+                "; from here on members are left out, and so are contacts that use them",
+            "it allocates memory for all of them or stops",
+            "flatten groups that list one another over and over; --max-memory raises the bound", 0,
+            Severity::error, std::string(block.keyword), block.id.value});
+  all_held = false;
+  return false;
+}
+
+bool Selections::Impl::hold(std::size_t count, std::size_t size, const Block& block) {
+  if (!fits(count, size, block)) return false;
+  bytes_held += std::uint64_t{count} * size;
+  return true;
+}
+
+Selections::Selections(const Model& model, const SchemaSet& schemas, const MemoryLimits& limits)
+    : impl_(std::make_unique<Impl>(model, schemas, limits)) {}
+void Selections::set_limits(const MemoryLimits& limits) { impl_->limits = limits; }
+bool Selections::complete() const { return impl_->all_held; }
+Selections::~Selections() = default;
+
+const NodeSet* Selections::node_group(std::int64_t id) { return impl_->node_group(id); }
+const Surface* Selections::surface(std::int64_t id) { return impl_->surface(id); }
+const LineSet* Selections::line(std::int64_t id) { return impl_->line(id); }
+const SetGeneral* Selections::set(std::int64_t id) { return impl_->set(id); }
+
+const std::vector<std::uint32_t>* Selections::element_group(std::string_view kind,
+                                                            std::int64_t id) {
+  for (const detail::FamilyName& name : detail::family_names())
+    if (name.group == kind) return impl_->element_group(name, id);
+  return nullptr;
+}
+
+const std::vector<std::uint32_t>* Selections::part_group(std::int64_t id) {
+  return impl_->part_group(id);
+}
+
+bool Selections::is_plain(std::string_view kind, std::int64_t id) const {
+  return kind != "set" && impl_->definition(kind, id) != nullptr;
+}
+
+std::optional<Span> Selections::where(std::string_view kind, std::int64_t id) const {
+  const Definition* def = impl_->definition(kind, id);
+  if (def == nullptr) return std::nullopt;
+  return def->block->header_span;
+}
+
+std::vector<std::int64_t> Selections::ids(std::string_view kind) const {
+  const auto table = impl_->tables.find(kind);
+  return table == impl_->tables.end() ? std::vector<std::int64_t>() : table->second.order;
+}
+
+std::vector<Edge> Selections::edges_of(const std::vector<Segment>& segments, bool free_only) const {
+  return impl_->edges_of(segments, free_only);
+}
+
+std::vector<NodeIndex> Selections::nodes_of(const std::vector<Segment>& segments) const {
+  impl_->start_marks();
+  std::vector<NodeIndex> nodes;
+  for (const Segment& s : segments)
+    for (const NodeIndex n : s.nodes) impl_->mark(n, nodes);
+  impl_->sort_nodes(nodes);
+  return nodes;
+}
+
+void Selections::resolve_all() {
+  for (const detail::FamilyName& name : detail::family_names())
+    for (const std::int64_t id : ids(name.group)) impl_->element_group(name, id);
+  for (const std::int64_t id : ids("grpart")) impl_->part_group(id);
+  for (const std::int64_t id : ids("grnod")) impl_->node_group(id);
+  for (const std::int64_t id : ids("surf")) impl_->surface(id);
+  for (const std::int64_t id : ids("line")) impl_->line(id);
+  for (const std::int64_t id : ids("set")) impl_->set(id);
+  for (const std::int64_t id : ids("box")) {
+    const Definition* def = impl_->definition("box", id);
+    impl_->box(id, *def->block, 0);
+  }
+}
+
+Diagnostics& Selections::diagnostics() { return impl_->found; }
+
+void Selections::rebind(const Model& model) { impl_->model = &model; }
+
+}  // namespace deck

@@ -1,0 +1,332 @@
+// Parts and element groups: lists of parts, materials, properties, subsets and submodels as tags
+// per part, /GRSHEL … /GRSPRI and /GRPART.
+#include <algorithm>
+
+#include "model/selection/selection_impl.hpp"
+
+namespace deck {
+
+using detail::Definition;
+using detail::FamilyName;
+using detail::IdList;
+using detail::IdRef;
+using detail::Indices;
+
+namespace {
+
+/// Ids of a subset and of all subsets below it, each once: circles end there.
+void collect_subsets(const Model& model, std::int64_t id, std::set<std::int64_t>& seen) {
+  std::vector<std::int64_t> open{id};
+  while (!open.empty()) {
+    const std::int64_t next = open.back();
+    open.pop_back();
+    if (!seen.insert(next).second) continue;
+    const auto it = model.subset_children.find(next);
+    if (it != model.subset_children.end())
+      open.insert(open.end(), it->second.begin(), it->second.end());
+  }
+}
+
+bool in_submodel(const Deck& deck, std::int32_t submodel, std::int64_t id) {
+  for (; submodel >= 0; submodel = deck.submodels[static_cast<std::size_t>(submodel)].parent) {
+    const Submodel& s = deck.submodels[static_cast<std::size_t>(submodel)];
+    const std::int64_t above =
+        s.parent < 0 ? 0 : deck.submodels[static_cast<std::size_t>(s.parent)].submodels;
+    if (s.id + above == id) return true;
+  }
+  return false;
+}
+
+const char* lower_name(std::string_view type) {
+  if (type == "PART") return "part";
+  if (type == "MAT") return "material";
+  if (type == "PROP") return "property";
+  if (type == "SUBSET" || type == "SUBS") return "subset";
+  return "submodel";
+}
+
+}  // namespace
+
+const PartElements& Selections::Impl::elements_of_parts(ElementKind kind) {
+  const auto i = static_cast<std::size_t>(kind);
+  if (!part_elements_ready[i]) {
+    part_elements_cache[i] = connect_parts(model->family(kind), model->parts.size());
+    part_elements_ready[i] = true;
+  }
+  return part_elements_cache[i];
+}
+
+bool Selections::Impl::is_part_type(std::string_view type) {
+  return type == "PART" || type == "MAT" || type == "PROP" || type == "SUBSET" ||
+         type == "SUBMODEL";
+}
+
+Indices Selections::Impl::parts_of(std::string_view type, std::int64_t id, bool& known) const {
+  const Model& m = *model;
+  Indices out;
+  known = false;
+  const auto all_parts_where = [&](auto&& holds) {
+    for (std::uint32_t p = 0; p < m.parts.size(); ++p)
+      if (holds(m.parts[p])) out.push_back(p);
+  };
+  if (type == "PART") {
+    if (const auto it = m.part_of_id.find(id); it != m.part_of_id.end()) out = {it->second};
+    known = !out.empty();
+  } else if (type == "MAT") {
+    known = m.material_of_id.count(id) > 0;
+    all_parts_where([&](const Part& p) { return p.mat_id == id; });
+  } else if (type == "PROP") {
+    known = m.property_of_id.count(id) > 0;
+    all_parts_where([&](const Part& p) { return p.prop_id == id; });
+  } else if (type == "SUBSET" || type == "SUBS") {
+    known = m.subset_children.count(id) > 0;
+    std::set<std::int64_t> subsets;
+    collect_subsets(m, id, subsets);
+    if (known) all_parts_where([&](const Part& p) { return subsets.count(p.subset_id) > 0; });
+  } else {
+    known = m.submodels.count(id) > 0;
+    all_parts_where([&](const Part& p) { return in_submodel(deck(), p.submodel, id); });
+  }
+  return out;
+}
+
+std::vector<std::int8_t> Selections::Impl::part_tags(const Block& block, std::string_view type,
+                                                     const IdList& list) {
+  std::vector<std::int8_t> tags(model->parts.size(), 0);
+  std::vector<IdRef> missing, hollow;
+  const auto apply = [&](const std::vector<IdRef>& refs, std::int8_t tag) {
+    for (const IdRef& ref : refs) {
+      bool known = false;
+      const Indices parts = parts_of(type, ref.id, known);
+      if (!known)
+        missing.push_back(ref);
+      else if (parts.empty() && type == "SUBSET")
+        hollow.push_back(ref);
+      for (const std::uint32_t p : parts)
+        if (tags[p] == 0) tags[p] = tag;
+    }
+  };
+  apply(list.positive, 1);
+  apply(list.negative, -1);
+  report_missing("DK151", block, lower_name(type), missing, 194, Severity::warning);
+  if (!hollow.empty())
+    report({"DK166", Severity::warning, hollow.front().span,
+            std::string(block.keyword) + " " + std::to_string(block.id.value) + " lists subset " +
+                std::to_string(hollow.front().id) + ", which holds no part",
+            "it warns and goes on", "put parts into the subset or remove it from the list", 195,
+            Severity::warning, std::string(block.keyword), block.id.value});
+  return tags;
+}
+
+std::int64_t Selections::Impl::element_id(Carrier carrier, std::uint32_t e) const {
+  if (e == no_index) return 0;
+  switch (carrier) {
+    case Carrier::none:
+      return 0;
+    case Carrier::solid:
+      return model->solid8.id[e];
+    case Carrier::quad:
+      return model->quad.id[e];
+    case Carrier::shell4:
+      return model->shell4.id[e];
+    case Carrier::truss:
+      return model->truss.id[e];
+    case Carrier::beam:
+      return model->beam.id[e];
+    case Carrier::spring:
+      return model->spring.id[e];
+    case Carrier::shell3:
+      return model->shell3.id[e];
+  }
+  return 0;
+}
+
+const Indices* Selections::Impl::element_group(const FamilyName& name, std::int64_t id) {
+  const std::pair<std::string, std::int64_t> key(name.group, id);
+  if (const auto it = element_groups.find(key); it != element_groups.end()) return &it->second;
+  const Definition* def = definition(name.group, id);
+  if (def == nullptr) {
+    const detail::SetState* state = set_state(id);
+    if (state == nullptr) return nullptr;
+    Indices members;
+    const Block& block = *definition("set", id)->block;
+    state->each_group([&](const detail::SetGroup& group) {
+      const Indices& some = group.elements[static_cast<std::size_t>(name.kind)];
+      if (fits(members.size() + some.size(), sizeof some[0], block))
+        members.insert(members.end(), some.begin(), some.end());
+    });
+    detail::normalise(members);
+    keep(members, block);
+    return &element_groups.emplace(key, std::move(members)).first->second;
+  }
+  if (recursive(name.group, id, *def->block, 176)) return nullptr;
+  const auto guard = open.insert(key).first;
+  Indices members = resolve_elements(name, *def, decode(deck(), *def->block));
+  open.erase(guard);
+  keep(members, *def->block);
+  return &element_groups.emplace(key, std::move(members)).first->second;
+}
+
+Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definition& def,
+                                           const DecodedBlock& d) {
+  const Block& block = *def.block;
+  const Elements& family = model->family(name.kind);
+  Indices out;
+  std::vector<IdRef> missing;
+  if (def.type == name.member) {
+    // Elements keep the order of the list; the first mention counts.
+    std::vector<bool> seen(family.size());
+    for (const IdRef& ref : id_list(d).positive) {
+      const std::uint32_t e = family.map.find(ref.id);
+      if (e == no_index) {
+        missing.push_back(ref);
+      } else if (!seen[e]) {
+        seen[e] = true;
+        out.push_back(e);
+      }
+    }
+    report_missing("DK168", block, "element", missing, 0, Severity::warning);
+    return out;
+  }
+  if (is_part_type(def.type)) {
+    const auto tags = part_tags(block, def.type, id_list(d));
+    const PartElements& rows = elements_of_parts(name.kind);
+    for (std::size_t p = 0; p < tags.size(); ++p)
+      if (tags[p] > 0) out.insert(out.end(), rows.row(p).begin(), rows.row(p).end());
+  } else if (def.type == "BOX" || def.type == "BOX2") {
+    const IdList list = id_list(d);
+    out = elements_in_boxes(block, list.positive, name.kind, def.type == "BOX2", 798);
+    const Indices gone =
+        elements_in_boxes(block, list.negative, name.kind, def.type == "BOX2", 798);
+    std::erase_if(out,
+                  [&](std::uint32_t e) { return std::binary_search(gone.begin(), gone.end(), e); });
+  } else if (def.type == "GENE" || def.type == "GEN_INCR") {
+    const bool increments = def.type == "GEN_INCR";
+    const auto values = raw_values(d);
+    const std::int64_t offset = deck().offset_of(block, name.id_kind);
+    const std::size_t step = increments ? 3 : 2;
+    for (std::size_t i = 0; i + step <= values.size(); i += step) {
+      const std::int64_t first = values[i] + offset, last = values[i + 1] + offset;
+      const std::int64_t increment = increments ? values[i + 2] : 1;
+      // A pair counts only if it ascends.
+      if (increment <= 0 || last < first || (!increments && last == first)) continue;
+      for (std::uint32_t e = 0; e < family.size(); ++e)
+        if (family.id[e] >= first && family.id[e] <= last &&
+            (family.id[e] - first) % increment == 0)
+          out.push_back(e);
+      if (!fits(out.size(), sizeof out[0], block)) break;
+    }
+  } else if (def.type == name.keyword) {
+    Indices gone;
+    const auto collect = [&](const std::vector<IdRef>& refs, Indices& into) {
+      for (const IdRef& ref : refs) {
+        const Indices* group = element_group(name, ref.id);
+        if (group == nullptr)
+          missing.push_back(ref);
+        else if (fits(into.size() + group->size(), sizeof(*group)[0], block))
+          into.insert(into.end(), group->begin(), group->end());
+      }
+    };
+    const IdList list = id_list(d);
+    collect(list.positive, out);
+    collect(list.negative, gone);
+    report_missing("DK151", block, "element group", missing, 172, Severity::warning);
+    detail::normalise(gone);
+    std::erase_if(out,
+                  [&](std::uint32_t e) { return std::binary_search(gone.begin(), gone.end(), e); });
+  }
+  detail::normalise(out);
+  return out;
+}
+
+Indices Selections::Impl::elements_in_box(const detail::Box& b, ElementKind kind,
+                                          bool any_node) const {
+  const Elements& family = model->family(kind);
+  const int count = detail::carrying_nodes(kind);
+  Indices out;
+  for (std::uint32_t e = 0; e < family.size(); ++e) {
+    const NodeIndex* n = family.of(e);
+    int in = 0, present = 0;
+    for (int i = 0; i < count; ++i) {
+      if (n[i] == no_index) continue;
+      ++present;
+      const auto p = box_point(n[i]);
+      in += b.contains(p[0], p[1], p[2]);
+    }
+    if (present > 0 && (any_node ? in > 0 : in == present)) out.push_back(e);
+  }
+  return out;
+}
+
+Indices Selections::Impl::elements_in_boxes(const Block& block, const std::vector<IdRef>& ids,
+                                            ElementKind kind, bool any_node, int missing_number) {
+  Indices out;
+  for (const IdRef& ref : ids) {
+    const detail::Box* b = box(ref.id, block, missing_number);
+    if (b == nullptr) continue;
+    const Indices in = elements_in_box(*b, kind, any_node);
+    out.insert(out.end(), in.begin(), in.end());
+  }
+  detail::normalise(out);
+  return out;
+}
+
+const Indices* Selections::Impl::part_group(std::int64_t id) {
+  if (const auto it = part_groups.find(id); it != part_groups.end()) return &it->second;
+  const Definition* def = definition("grpart", id);
+  if (def == nullptr) {
+    const detail::SetState* state = set_state(id);
+    if (state == nullptr) return nullptr;
+    return &part_groups.emplace(id, state->parts).first->second;
+  }
+  if (recursive("grpart", id, *def->block, 176)) return nullptr;
+  const auto guard = open.emplace("grpart", id).first;
+  Indices parts = resolve_part_group(*def, decode(deck(), *def->block));
+  open.erase(guard);
+  keep(parts, *def->block);
+  return &part_groups.emplace(id, std::move(parts)).first->second;
+}
+
+Indices Selections::Impl::resolve_part_group(const Definition& def, const DecodedBlock& d) {
+  const Block& block = *def.block;
+  Indices out, gone;
+  if (is_part_type(def.type)) {
+    const auto tags = part_tags(block, def.type, id_list(d));
+    for (std::uint32_t p = 0; p < tags.size(); ++p)
+      if (tags[p] > 0) out.push_back(p);
+  } else if (def.type == "GENE" || def.type == "GEN_INCR") {
+    const auto values = raw_values(d);
+    const std::int64_t offset = deck().offset_of(block, "part");
+    const std::size_t step = def.type == "GENE" ? 2 : 3;
+    for (std::size_t i = 0; i + step <= values.size(); i += step) {
+      const std::int64_t increment = step == 3 ? values[i + 2] : 1;
+      for (std::uint32_t p = 0; p < model->parts.size() && increment > 0; ++p) {
+        const std::int64_t id = model->parts[p].id - offset;
+        if (id >= values[i] && id <= values[i + 1] && (id - values[i]) % increment == 0)
+          out.push_back(p);
+      }
+    }
+  } else if (def.type == "GRPART") {
+    std::vector<IdRef> missing;
+    const auto collect = [&](const std::vector<IdRef>& refs, Indices& into) {
+      for (const IdRef& ref : refs) {
+        const Indices* group = part_group(ref.id);
+        if (group == nullptr)
+          missing.push_back(ref);
+        else if (fits(into.size() + group->size(), sizeof(*group)[0], block))
+          into.insert(into.end(), group->begin(), group->end());
+      }
+    };
+    const IdList list = id_list(d);
+    collect(list.positive, out);
+    collect(list.negative, gone);
+    report_missing("DK151", block, "part group", missing, 172, Severity::warning);
+  }
+  detail::normalise(out);
+  detail::normalise(gone);
+  std::erase_if(out,
+                [&](std::uint32_t p) { return std::binary_search(gone.begin(), gone.end(), p); });
+  return out;
+}
+
+}  // namespace deck

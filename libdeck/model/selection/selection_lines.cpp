@@ -1,0 +1,170 @@
+// Lines: /LINE of every type, and the edges of surfaces.
+#include <algorithm>
+
+#include "model/selection/selection_impl.hpp"
+#include "model/selection/selection_sort.hpp"
+
+namespace deck {
+
+using detail::Definition;
+using detail::IdRef;
+using detail::Indices;
+
+const LineSet* Selections::Impl::line(std::int64_t id) {
+  if (const auto it = lines.find(id); it != lines.end()) return &it->second;
+  const Definition* def = definition("line", id);
+  if (def == nullptr) {
+    if (const auto it = set_lines.find(id); it != set_lines.end()) return &it->second;
+    const detail::SetState* state = set_state(id);
+    if (state == nullptr) return nullptr;
+    const auto [title, span] = set_heading(id);
+    const Block& block = *definition("set", id)->block;
+    LineSet view{id, title, set_edge_list(*state, block), span};
+    keep(view.edges, block);
+    return &set_lines.emplace(id, std::move(view)).first->second;
+  }
+  if (recursive("line", id, *def->block, 176)) return nullptr;
+  const auto guard = open.emplace("line", id).first;
+  const DecodedBlock d = decode(deck(), *def->block);
+  LineSet l{id, d.title, resolve_line(*def, d), def->block->header_span};
+  open.erase(guard);
+  keep(l.edges, *def->block);
+  if (l.edges.empty())
+    report({"DK154", Severity::warning, l.span,
+            std::string(def->block->keyword) + " " + std::to_string(id) + " has no edge",
+            "it warns and goes on with the empty line", "check the ids it lists", 691,
+            Severity::warning, std::string(def->block->keyword), id});
+  return &lines.emplace(id, std::move(l)).first->second;
+}
+
+void Selections::Impl::add_line_elements(ElementKind kind, const Indices& members,
+                                         std::vector<Edge>& out) const {
+  const Elements& family = model->family(kind);
+  const Carrier carrier = detail::family_name(kind).carrier;
+  for (const std::uint32_t e : members) {
+    const NodeIndex* n = family.of(e);
+    // Springs with one node are attached to the ground and have no length.
+    if (n[0] == no_index || n[1] == no_index || n[0] == n[1]) continue;
+    out.push_back({{n[0], n[1]}, carrier, e});
+  }
+}
+
+std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const DecodedBlock& d) {
+  const Block& block = *def.block;
+  const std::string_view type = def.type;
+  std::vector<Edge> out;
+  if (type == "SEG") {
+    std::vector<IdRef> missing;
+    for (const DecodedCard& card : d.cards) {
+      Edge edge;
+      std::size_t at = 0;
+      bool complete = true;
+      for (const Cell& cell : card.cells) {
+        if (cell.field->ref != "node" || at >= 2) continue;
+        const std::int64_t id = shift(block, "node", cell.integer);
+        edge.nodes[at] = node(id);
+        if (edge.nodes[at] == no_index) {
+          complete = false;
+          if (id != 0) missing.push_back({id, cell.span});
+        }
+        ++at;
+      }
+      if (complete && at == 2) out.push_back(edge);
+    }
+    report_missing("DK150", block, "node", missing, 78, Severity::error);
+    return out;
+  }
+  const detail::IdList list = id_list(d);
+  if (type == "LINE") {
+    for (const IdRef& ref : list.positive) {
+      if (recursive("line", ref.id, block, 176)) continue;
+      if (const LineSet* l = line(ref.id);
+          l != nullptr && fits(out.size() + l->edges.size(), sizeof(Edge), block))
+        out.insert(out.end(), l->edges.begin(), l->edges.end());
+    }
+    return out;
+  }
+  if (type == "SURF" || type == "EDGE") {
+    std::vector<Segment> segments;
+    for (const IdRef& ref : list.positive)
+      if (const Surface* s = surface(ref.id);
+          s != nullptr && fits(segments.size() + s->segments.size(), 4 * sizeof(Segment), block))
+        segments.insert(segments.end(), s->segments.begin(), s->segments.end());
+    return edges_of(segments, type == "EDGE");
+  }
+  if (is_part_type(type)) {
+    std::vector<std::int8_t> tags(model->parts.size(), 0);
+    for (const IdRef& ref : list.positive) {
+      bool known = false;
+      for (const std::uint32_t p : parts_of(type, ref.id, known)) tags[p] = 1;
+    }
+    const bool springs = type == "PART" || type == "PROP" || type == "SUBSET";
+    for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
+      if (kind == ElementKind::spring && !springs) continue;
+      const Elements& family = model->family(kind);
+      Indices members;
+      for (std::uint32_t e = 0; e < family.size(); ++e)
+        if (family.part[e] != no_index && tags[family.part[e]] != 0) members.push_back(e);
+      add_line_elements(kind, members, out);
+    }
+    return out;
+  }
+  if (type == "BOX" || type == "BOX2") {
+    for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring})
+      add_line_elements(kind, elements_in_boxes(block, list.positive, kind, type == "BOX2", 799),
+                        out);
+    return out;
+  }
+  for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
+    const detail::FamilyName& name = detail::family_name(kind);
+    if (type != name.keyword) continue;
+    for (const IdRef& ref : list.positive)
+      if (const Indices* group = element_group(name, ref.id);
+          group != nullptr && fits(out.size() + group->size(), sizeof(Edge), block))
+        add_line_elements(kind, *group, out);
+    return out;
+  }
+  report({"DK165", Severity::error, block.header_span,
+          std::string(block.header) + " is no combination that defines a line",
+          "it stops with an error", "correct the keyword", 688, Severity::error,
+          std::string(block.keyword), block.id.value});
+  return out;
+}
+
+std::vector<Edge> Selections::Impl::edges_of(const std::vector<Segment>& segments,
+                                             bool free_only) const {
+  struct Side {
+    std::uint32_t late = 0, early = 0;  // ranks
+    std::uint32_t segment = 0;
+    NodeIndex first = 0, second = 0;
+    bool same(const Side& o) const { return late == o.late && early == o.early; }
+  };
+  std::vector<Side> sides;
+  sides.reserve(segments.size() * 4);
+  for (std::uint32_t i = 0; i < segments.size(); ++i) {
+    const auto& n = segments[i].nodes;
+    for (std::size_t k = 0; k < 4; ++k) {
+      NodeIndex a = n[k], b = n[(k + 1) % 4];
+      if (a == b) continue;
+      if (rank(b) < rank(a)) std::swap(a, b);
+      sides.push_back({rank(b), rank(a), i, a, b});
+    }
+  }
+  // Stable, so that the first segment of an edge stays in front.
+  detail::sort_by_bucket(
+      sides, [](const Side& side) { return side.late; },
+      [](const Side& p, const Side& q) { return p.early < q.early; });
+  std::vector<Edge> out;
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && sides[end].same(sides[i])) ++end;
+    if (!free_only || end == i + 1) {
+      const Segment& s = segments[sides[i].segment];
+      out.push_back({{sides[i].first, sides[i].second}, s.carrier, s.element});
+    }
+    i = end;
+  }
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,294 @@
+// Node groups: /GRNOD of every type. The result is unique and in internal order, except for the
+// types whose order is the user's.
+#include <algorithm>
+
+#include "model/selection/selection_impl.hpp"
+
+namespace deck {
+
+using detail::Definition;
+using detail::IdList;
+using detail::IdRef;
+using detail::Indices;
+
+void Selections::Impl::start_marks() {
+  if (stamp.size() != model->nodes.size()) {
+    stamp.assign(model->nodes.size(), 0);
+    generation = 0;
+  }
+  if (++generation == 0) {  // wrapped around
+    std::fill(stamp.begin(), stamp.end(), 0);
+    generation = 1;
+  }
+}
+
+void Selections::Impl::mark(NodeIndex n, std::vector<NodeIndex>& out) {
+  if (n == no_index || stamp[n] == generation) return;
+  stamp[n] = generation;
+  out.push_back(n);
+}
+
+const NodeSet* Selections::Impl::node_group(std::int64_t id) {
+  if (const auto it = node_groups.find(id); it != node_groups.end()) return &it->second;
+  const Definition* def = definition("grnod", id);
+  if (def == nullptr) {
+    if (const auto it = set_nodes.find(id); it != set_nodes.end()) return &it->second;
+    const detail::SetState* state = set_state(id);
+    if (state == nullptr) return nullptr;
+    const auto [title, span] = set_heading(id);
+    const Block& block = *definition("set", id)->block;
+    NodeSet view{id, title, set_node_list(*state, block), span};
+    keep(view.nodes, block);
+    return &set_nodes.emplace(id, std::move(view)).first->second;
+  }
+  if (recursive("grnod", id, *def->block, 176)) return nullptr;
+  const auto key = open.emplace("grnod", id).first;
+  const DecodedBlock d = decode(deck(), *def->block);
+  NodeSet group{id, d.title, resolve_nodes(*def, d), def->block->header_span};
+  open.erase(key);
+  keep(group.nodes, *def->block);
+  if (group.nodes.empty())
+    report({"DK153", Severity::warning, group.span,
+            std::string(def->block->keyword) + " " + std::to_string(id) + " has no node",
+            "it warns and goes on with the empty group", "check the ids and boxes it lists", 690,
+            Severity::warning, std::string(def->block->keyword), id});
+  return &node_groups.emplace(id, std::move(group)).first->second;
+}
+
+std::vector<NodeIndex> Selections::Impl::resolve_nodes(const Definition& def,
+                                                       const DecodedBlock& d) {
+  const Block& block = *def.block;
+  const std::string_view type = def.type;
+  std::vector<NodeIndex> nodes;
+  if (type == "NODE" || type == "NODENS") {
+    nodes = nodes_by_id(def, d);
+  } else if (type == "GENE" || type == "GEN_INCR") {
+    nodes = nodes_of_ranges(block, d, type == "GEN_INCR");
+  } else if (is_part_type(type)) {
+    nodes = nodes_of_parts(block, type, d);
+  } else if (type == "BOX" || type == "BOX2") {
+    nodes = nodes_in_boxes(block, d);
+  } else if (type == "SURF") {
+    nodes = nodes_of_surfaces(block, d);
+  } else if (type == "LINE") {
+    nodes = nodes_of_lines(block, d);
+  } else if (type == "GRNOD" || type == "GRNODNS") {
+    nodes = nodes_of_groups(block, d, type == "GRNODNS");
+  } else {
+    for (const detail::FamilyName& name : detail::family_names())
+      if (name.keyword == type) nodes = nodes_of_elements(block, d, name.kind);
+  }
+  const bool keeps_order = type == "NODENS" || type == "GRNODNS";
+  if (!keeps_order) sort_nodes(nodes);
+  return nodes;
+}
+
+std::vector<NodeIndex> Selections::Impl::nodes_by_id(const Definition& def, const DecodedBlock& d) {
+  std::vector<NodeIndex> nodes;
+  std::vector<IdRef> missing;
+  start_marks();
+  for (const IdRef& ref : id_list(d).positive) {
+    const NodeIndex n = node(ref.id);
+    if (n == no_index)
+      missing.push_back(ref);
+    else
+      mark(n, nodes);
+  }
+  report_missing("DK150", *def.block, "node", missing, 78, Severity::error);
+  return nodes;
+}
+
+std::vector<NodeIndex> Selections::Impl::nodes_of_ranges(const Block& block, const DecodedBlock& d,
+                                                         bool increments) {
+  const std::vector<std::int64_t> values = raw_values(d);
+  const std::int64_t offset = deck().offset_of(block, "node");
+  const std::size_t step = increments ? 3 : 2;
+  std::vector<NodeIndex> nodes;
+  start_marks();
+  for (std::size_t i = 0; i + step <= values.size(); i += step) {
+    const std::int64_t first = values[i] + offset, last = values[i + 1] + offset;
+    const std::int64_t increment = increments ? values[i + 2] : 1;
+    if (increment <= 0 || last < first) continue;
+    // Ids or nodes are visited, whichever are fewer: a range may span millions of unused ids.
+    if ((last - first) / increment < static_cast<std::int64_t>(model->nodes.size())) {
+      for (std::int64_t id = first; id <= last; id += increment) mark(node(id), nodes);
+      continue;
+    }
+    for (NodeIndex n = 0; n < model->nodes.size(); ++n) {
+      const std::int64_t id = model->nodes.id[n];
+      if (id >= first && id <= last && (id - first) % increment == 0) mark(n, nodes);
+    }
+  }
+  return nodes;
+}
+
+void Selections::Impl::add_element_nodes(const Elements& family, std::uint32_t e,
+                                         std::vector<NodeIndex>& out) {
+  const NodeIndex* n = family.of(e);
+  const int count = detail::carrying_nodes(family.kind);
+  for (int i = 0; i < count; ++i) mark(n[i], out);
+  if (family.extra.empty() || family.extra[e] == no_index) return;
+  const NodeIndex* mid = family.extra_nodes.data() + family.extra[e];
+  for (int i = 0; i < extra_node_count(family.shape[e]); ++i) mark(mid[i], out);
+}
+
+std::vector<NodeIndex> Selections::Impl::nodes_of_parts(const Block& block, std::string_view type,
+                                                        const DecodedBlock& d) {
+  const std::vector<std::int8_t> tags = part_tags(block, type, id_list(d));
+  const bool removes = std::find(tags.begin(), tags.end(), -1) != tags.end();
+  std::vector<NodeIndex> nodes;
+  start_marks();
+  // Family by family: a node removed with an earlier family comes back with a later one.
+  for (const ElementKind kind :
+       {ElementKind::solid8, ElementKind::quad, ElementKind::shell4, ElementKind::shell3,
+        ElementKind::tria, ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
+    const Elements& family = model->family(kind);
+    if (family.size() == 0) continue;
+    const PartElements& rows = elements_of_parts(kind);
+    for (std::size_t p = 0; p < tags.size(); ++p)
+      if (tags[p] > 0)
+        for (const std::uint32_t e : rows.row(p)) add_element_nodes(family, e, nodes);
+    if (!removes) continue;
+    std::vector<NodeIndex> gone;
+    start_marks();
+    for (std::size_t p = 0; p < tags.size(); ++p)
+      if (tags[p] < 0)
+        for (const std::uint32_t e : rows.row(p)) add_element_nodes(family, e, gone);
+    std::erase_if(nodes, [&](NodeIndex n) { return stamp[n] == generation; });
+    // The marks of what is left were overwritten or outdated: set them anew.
+    start_marks();
+    for (const NodeIndex n : nodes) stamp[n] = generation;
+  }
+  return nodes;
+}
+
+std::vector<NodeIndex> Selections::Impl::nodes_in_boxes(const Block& block, const DecodedBlock& d) {
+  const IdList list = id_list(d);
+  std::vector<std::uint8_t> in(model->nodes.size(), 0);
+  const auto apply = [&](const std::vector<IdRef>& refs, std::uint8_t value) {
+    for (const IdRef& ref : refs) {
+      const detail::Box* b = box(ref.id, block, 794);
+      if (b == nullptr) continue;
+      for (NodeIndex n = 0; n < model->nodes.size(); ++n) {
+        const auto p = box_point(n);
+        if (b->contains(p[0], p[1], p[2])) in[n] = value;
+      }
+    }
+  };
+  apply(list.positive, 1);
+  apply(list.negative, 0);
+  std::vector<NodeIndex> nodes;
+  for (NodeIndex n = 0; n < in.size(); ++n)
+    if (in[n] != 0) nodes.push_back(n);
+  return nodes;
+}
+
+std::vector<NodeIndex> Selections::Impl::nodes_of_groups(const Block& block, const DecodedBlock& d,
+                                                         bool keep_order) {
+  const IdList list = id_list(d);
+  std::vector<IdRef> missing;
+  const auto collect = [&](const std::vector<IdRef>& refs) {
+    // Resolve first: the groups use the marks themselves.
+    std::vector<const NodeSet*> groups;
+    for (const IdRef& ref : refs) {
+      if (recursive("grnod", ref.id, block, 176)) continue;
+      const NodeSet* group = node_group(ref.id);
+      if (group == nullptr)
+        missing.push_back(ref);
+      else
+        groups.push_back(group);
+    }
+    return groups;
+  };
+  const auto added = collect(list.positive);
+  const auto removed = collect(list.negative);
+  report_missing("DK151", block, "node group", missing, 174, Severity::warning);
+  std::vector<NodeIndex> nodes;
+  start_marks();
+  for (const NodeSet* group : added)
+    for (const NodeIndex n : group->nodes) mark(n, nodes);
+  if (!removed.empty()) {
+    start_marks();
+    for (const NodeSet* group : removed)
+      for (const NodeIndex n : group->nodes) stamp[n] = generation;
+    std::erase_if(nodes, [&](NodeIndex n) { return stamp[n] == generation; });
+  }
+  if (!keep_order) sort_nodes(nodes);
+  return nodes;
+}
+
+std::vector<NodeIndex> Selections::Impl::nodes_of_surfaces(const Block& block,
+                                                           const DecodedBlock& d) {
+  std::vector<const Surface*> all;
+  std::vector<IdRef> missing;
+  for (const IdRef& ref : id_list(d).positive) {
+    const Surface* s = surface(ref.id);
+    if (s == nullptr)
+      missing.push_back(ref);
+    else
+      all.push_back(s);
+  }
+  report_missing("DK151", block, "surface", missing, 193, Severity::warning);
+  std::vector<NodeIndex> nodes;
+  start_marks();
+  for (const Surface* s : all)
+    for (const Segment& segment : s->segments)
+      for (const NodeIndex n : segment.nodes) mark(n, nodes);
+  return nodes;
+}
+
+std::vector<NodeIndex> Selections::Impl::nodes_of_lines(const Block& block, const DecodedBlock& d) {
+  std::vector<const LineSet*> all;
+  std::vector<IdRef> missing;
+  for (const IdRef& ref : id_list(d).positive) {
+    const LineSet* l = line(ref.id);
+    if (l == nullptr)
+      missing.push_back(ref);
+    else
+      all.push_back(l);
+  }
+  report_missing("DK151", block, "line", missing, 193, Severity::warning);
+  std::vector<NodeIndex> nodes;
+  start_marks();
+  for (const LineSet* l : all)
+    for (const Edge& edge : l->edges)
+      for (const NodeIndex n : edge.nodes) mark(n, nodes);
+  return nodes;
+}
+
+std::vector<NodeIndex> Selections::Impl::nodes_of_elements(const Block& block,
+                                                           const DecodedBlock& d,
+                                                           ElementKind kind) {
+  const detail::FamilyName& name = detail::family_name(kind);
+  const Elements& family = model->family(kind);
+  std::vector<const Indices*> added;
+  std::vector<const Indices*> removed;
+  std::vector<IdRef> missing;
+  const IdList list = id_list(d);
+  const auto collect = [&](const std::vector<IdRef>& refs, std::vector<const Indices*>& out) {
+    for (const IdRef& ref : refs) {
+      const Indices* group = element_group(name, ref.id);
+      if (group == nullptr)
+        missing.push_back(ref);
+      else
+        out.push_back(group);
+    }
+  };
+  collect(list.positive, added);
+  collect(list.negative, removed);
+  report_missing("DK151", block, "element group", missing, 172, Severity::warning);
+  std::vector<NodeIndex> nodes;
+  start_marks();
+  for (const Indices* group : added)
+    for (const std::uint32_t e : *group) add_element_nodes(family, e, nodes);
+  if (!removed.empty()) {
+    std::vector<NodeIndex> gone;
+    start_marks();
+    for (const Indices* group : removed)
+      for (const std::uint32_t e : *group) add_element_nodes(family, e, gone);
+    std::erase_if(nodes, [&](NodeIndex n) { return stamp[n] == generation; });
+  }
+  return nodes;
+}
+
+}  // namespace deck

@@ -1,0 +1,220 @@
+// The three projections of a set: nodes, surface, lines.
+#include <algorithm>
+#include <tuple>
+
+#include "model/selection/selection_impl.hpp"
+#include "model/selection/selection_sort.hpp"
+
+namespace deck {
+
+using detail::Indices;
+using detail::SetGroup;
+using detail::SetState;
+
+namespace {
+
+std::size_t at(ElementKind kind) { return static_cast<std::size_t>(kind); }
+
+Indices without(const Indices& all, const Indices& some) {
+  Indices out;
+  std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(out));
+  return out;
+}
+
+Indices common(const Indices& a, const Indices& b) {
+  Indices out;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
+  return out;
+}
+
+}  // namespace
+
+// In the order of carriers, so that the final sort has little left to do.
+std::vector<Segment> Selections::Impl::group_segments(const SetGroup& group) {
+  std::vector<Segment> out = group.rows;
+  const Indices& shells4 = group.elements[at(ElementKind::shell4)];
+  const Indices& shells3 = group.elements[at(ElementKind::shell3)];
+  detail::FaceQuery query;
+  query.solids = &group.elements[at(ElementKind::solid8)];
+  query.all_faces_of = &group.all_faces;
+  query.against_all = group.against_all;
+  if (!query.solids->empty()) {
+    if (!shells4.empty() || !shells3.empty()) {
+      cover().select(shells4, shells3);
+      query.cover = &cover();
+    }
+    const auto faces = solid_faces().segments(query);
+    out.insert(out.end(), faces.begin(), faces.end());
+  }
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
+    const Elements& shells = model->family(kind);
+    const bool four = kind == ElementKind::shell4;
+    const Indices& members = four ? shells4 : shells3;
+    const Indices turned = common(members, four ? group.reversed4 : group.reversed3);
+    const Carrier carrier = detail::family_name(kind).carrier;
+    if (turned.empty()) {
+      add_shells(shells, carrier, members, false, out);
+      continue;
+    }
+    add_shells(shells, carrier, without(members, turned), false, out);
+    add_shells(shells, carrier, turned, true, out);
+  }
+  return out;
+}
+
+std::vector<Edge> Selections::Impl::group_edges(const SetGroup& group) {
+  std::vector<Edge> out = edges_of(group_segments(group), group.external);
+  for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring})
+    add_line_elements(kind, group.elements[at(kind)], out);
+  out.insert(out.end(), group.row_edges.begin(), group.row_edges.end());
+  return out;
+}
+
+Indices Selections::Impl::group_nodes(const SetGroup& group) {
+  Indices nodes;
+  if (group.external) {
+    const auto segments = group_segments(group);
+    start_marks();
+    for (const Segment& s : segments)
+      for (const NodeIndex n : s.nodes) mark(n, nodes);
+  } else {
+    start_marks();
+    for (std::size_t k = 0; k < SetGroup::families; ++k) {
+      const Elements& family = model->family(static_cast<ElementKind>(k));
+      for (const std::uint32_t e : group.elements[k]) add_element_nodes(family, e, nodes);
+    }
+    for (const Segment& s : group.rows)
+      for (const NodeIndex n : s.nodes) mark(n, nodes);
+  }
+  for (const Edge& e : group.row_edges)
+    for (const NodeIndex n : e.nodes) mark(n, nodes);
+  for (const NodeIndex n : group.named) mark(n, nodes);
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+void Selections::Impl::merge_segments(std::vector<Segment>& segments) const {
+  // Plain segments are compared by their ascending nodes, a triangle starting with 0; others by
+  // their nodes as they stand.
+  const auto key = [&](const Segment& s) {
+    std::array<std::uint32_t, 4> k;
+    for (std::size_t n = 0; n < 4; ++n) k[n] = rank(s.nodes[n]) + 1;
+    if (s.carrier == Carrier::none) {
+      if (s.nodes[2] == s.nodes[3]) k[3] = 0;
+      std::sort(k.begin(), k.end());
+    }
+    return k;
+  };
+  const auto before = [&](const Segment& a, const Segment& b) {
+    if (a.carrier != b.carrier) return a.carrier < b.carrier;
+    if (a.element != b.element)
+      return element_id(a.carrier, a.element) < element_id(b.carrier, b.element);
+    return key(a) < key(b);
+  };
+  // Faces of one solid first: often everything else is in order already.
+  for (std::size_t i = 0; i < segments.size();) {
+    std::size_t end = i + 1;
+    while (end < segments.size() && segments[end].carrier == segments[i].carrier &&
+           segments[end].element == segments[i].element)
+      ++end;
+    const auto first = segments.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto last = segments.begin() + static_cast<std::ptrdiff_t>(end);
+    if (end - i > 1) std::stable_sort(first, last, before);
+    i = end;
+  }
+  if (!std::is_sorted(segments.begin(), segments.end(), before))
+    std::stable_sort(segments.begin(), segments.end(), before);
+  segments.erase(std::unique(segments.begin(), segments.end(),
+                             [&](const Segment& a, const Segment& b) {
+                               return a.carrier == b.carrier && a.element == b.element &&
+                                      key(a) == key(b);
+                             }),
+                 segments.end());
+}
+
+void Selections::Impl::merge_edges(std::vector<Edge>& edges) const {
+  const auto early = [&](const Edge& e) { return std::min(rank(e.nodes[0]), rank(e.nodes[1])); };
+  const auto late = [&](const Edge& e) { return std::max(rank(e.nodes[0]), rank(e.nodes[1])); };
+  detail::sort_by_bucket(edges, early, [&](const Edge& a, const Edge& b) {
+    if (late(a) != late(b)) return late(a) < late(b);
+    return a.carrier != b.carrier ? a.carrier < b.carrier : a.element < b.element;
+  });
+  edges.erase(std::unique(edges.begin(), edges.end(),
+                          [&](const Edge& a, const Edge& b) {
+                            return early(a) == early(b) && late(a) == late(b) &&
+                                   a.carrier == b.carrier && a.element == b.element;
+                          }),
+              edges.end());
+}
+
+namespace {
+
+// What looking at a group costs at least, members or not: bounds sets of very many groups.
+constexpr std::size_t bytes_of_a_group = 256;
+
+}  // namespace
+
+std::vector<NodeIndex> Selections::Impl::set_node_list(const SetState& state, const Block& block) {
+  Indices nodes;
+  if (!hold(state.others.size(), bytes_of_a_group, block)) return nodes;
+  state.each_group([&](const SetGroup& group) {
+    const Indices some = group_nodes(group);
+    if (fits(nodes.size() + some.size(), sizeof some[0], block))
+      nodes.insert(nodes.end(), some.begin(), some.end());
+  });
+  detail::normalise(nodes);
+  if (!state.removed.empty()) nodes = without(nodes, state.removed);
+  sort_nodes(nodes);
+  return nodes;
+}
+
+std::vector<Segment> Selections::Impl::set_segment_list(const SetState& state, const Block& block) {
+  std::vector<Segment> out;
+  if (!hold(state.others.size(), bytes_of_a_group, block)) return out;
+  state.each_group([&](const SetGroup& group) {
+    const auto some = group_segments(group);
+    if (fits(out.size() + some.size(), sizeof(Segment), block))
+      out.insert(out.end(), some.begin(), some.end());
+  });
+  merge_segments(out);
+  return out;
+}
+
+std::vector<Edge> Selections::Impl::set_edge_list(const SetState& state, const Block& block) {
+  std::vector<Edge> out;
+  if (!hold(state.others.size(), bytes_of_a_group, block)) return out;
+  state.each_group([&](const SetGroup& group) {
+    const auto some = group_edges(group);
+    if (fits(out.size() + some.size(), sizeof(Edge), block))
+      out.insert(out.end(), some.begin(), some.end());
+  });
+  merge_edges(out);
+  return out;
+}
+
+std::pair<std::string, Span> Selections::Impl::set_heading(std::int64_t id) const {
+  const Block& block = *definition("set", id)->block;
+  return {std::string(LineCursor(deck().sources, block).next().text.substr(0, 100)),
+          block.header_span};
+}
+
+const SetGeneral* Selections::Impl::set(std::int64_t id) {
+  if (const auto it = sets.find(id); it != sets.end()) return &it->second;
+  const SetState* state = set_state(id);
+  if (state == nullptr) return nullptr;
+  SetGeneral s;
+  s.id = id;
+  std::tie(s.title, s.span) = set_heading(id);
+  const Block& block = *definition("set", id)->block;
+  s.nodes = set_node_list(*state, block);
+  s.segments = set_segment_list(*state, block);
+  s.edges = set_edge_list(*state, block);
+  s.parts = state->parts;
+  keep(s.nodes, block);
+  keep(s.segments, block);
+  keep(s.edges, block);
+  keep(s.parts, block);
+  return &sets.emplace(id, std::move(s)).first->second;
+}
+
+}  // namespace deck

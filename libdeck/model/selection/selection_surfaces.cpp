@@ -1,0 +1,407 @@
+// Surfaces: /SURF of every type, in the creation order of the reference solver and with its final
+// sort by carrier and element id.
+#include <algorithm>
+
+#include "model/selection/selection_impl.hpp"
+
+namespace deck {
+
+using detail::Definition;
+using detail::IdList;
+using detail::IdRef;
+using detail::Indices;
+
+namespace {
+
+Segment turned(Segment s) {
+  if (s.nodes[2] == s.nodes[3])
+    s.nodes = {s.nodes[2], s.nodes[1], s.nodes[0], s.nodes[0]};
+  else
+    s.nodes = {s.nodes[3], s.nodes[2], s.nodes[1], s.nodes[0]};
+  return s;
+}
+
+/// Starts at the smallest node, keeping the sense; triangles repeat the last node again.
+template <class Rank>
+std::array<NodeIndex, 4> from_smallest(const std::array<NodeIndex, 4>& n, Rank rank) {
+  const std::size_t corners = n[2] == n[3] ? 3 : 4;
+  std::size_t least = 0;
+  for (std::size_t i = 1; i < corners; ++i)
+    if (rank(n[i]) < rank(n[least])) least = i;
+  std::array<NodeIndex, 4> out{};
+  for (std::size_t i = 0; i < corners; ++i) out[i] = n[(least + i) % corners];
+  if (corners == 3) out[3] = out[2];
+  return out;
+}
+
+}  // namespace
+
+const Surface* Selections::Impl::surface(std::int64_t id) {
+  if (const auto it = surfaces.find(id); it != surfaces.end()) return &it->second;
+  const Definition* def = definition("surf", id);
+  if (def == nullptr) {
+    if (const auto it = set_surfaces.find(id); it != set_surfaces.end()) return &it->second;
+    const detail::SetState* state = set_state(id);
+    if (state == nullptr) return nullptr;
+    const auto [title, span] = set_heading(id);
+    const Block& block = *definition("set", id)->block;
+    Surface view{id, title, set_segment_list(*state, block), false, span};
+    keep(view.segments, block);
+    return &set_surfaces.emplace(id, std::move(view)).first->second;
+  }
+  if (recursive("surf", id, *def->block, 189)) return nullptr;
+  const auto guard = open.emplace("surf", id).first;
+  const DecodedBlock d = decode(deck(), *def->block);
+  Surface s{id, d.title, {}, false, def->block->header_span};
+  s.segments = resolve_surface(*def, d, s.analytical);
+  open.erase(guard);
+  keep(s.segments, *def->block);
+  sort_segments(s.segments);
+  return &surfaces.emplace(id, std::move(s)).first->second;
+}
+
+std::vector<Segment> Selections::Impl::resolve_surface(const Definition& def, const DecodedBlock& d,
+                                                       bool& analytical) {
+  const Block& block = *def.block;
+  const std::string_view type = def.type;
+  if (type == "SEG") return segments_by_nodes(block, d);
+  if (is_part_type(type)) return segments_of_parts(def, d);
+  if (type == "BOX" || type == "BOX2") return segments_in_boxes(def, d);
+  if (type == "GRSHEL" || type == "GRSH3N" || type == "GRTRIA" || type == "GRBRIC")
+    return segments_of_groups(def, d);
+  if (type == "SURF") return segments_of_surfaces(block, d);
+  if (type == "DSURF") return difference_of_surfaces(block, d);
+  analytical = type == "PLANE" || type == "ELLIPS" || type == "MDELLIPS";
+  if (!analytical)
+    report({"DK165", Severity::error, block.header_span,
+            std::string(block.header) + " is no combination that defines a surface",
+            "it stops with an error", "correct the keyword", 686, Severity::error,
+            std::string(block.keyword), block.id.value});
+  return {};
+}
+
+void Selections::Impl::sort_segments(std::vector<Segment>& segments) const {
+  const auto before = [&](const Segment& a, const Segment& b) {
+    if (a.carrier != b.carrier) return a.carrier < b.carrier;
+    if (a.element == b.element) return false;
+    return element_id(a.carrier, a.element) < element_id(b.carrier, b.element);
+  };
+  if (!std::is_sorted(segments.begin(), segments.end(), before))
+    std::stable_sort(segments.begin(), segments.end(), before);
+}
+
+std::vector<Segment> Selections::Impl::segments_by_nodes(const Block& block,
+                                                         const DecodedBlock& d) {
+  std::vector<Segment> out;
+  std::vector<IdRef> missing;
+  const std::size_t fewest = model->two_dimensional ? 2 : 3;
+  for (const DecodedCard& card : d.cards) {
+    Segment s;
+    std::size_t have = 0;
+    bool complete = true;
+    std::size_t at = 0;
+    for (const Cell& cell : card.cells) {
+      if (cell.field->ref != "node") continue;
+      if (cell.integer == 0) {
+        // Only the fourth node may be left out; in two dimensions a segment has two nodes.
+        if (at < fewest) complete = false;
+      } else {
+        const std::int64_t id = shift(block, "node", cell.integer);
+        s.nodes[have] = node(id);
+        if (s.nodes[have] == no_index) {
+          missing.push_back({id, cell.span});
+          complete = false;
+        }
+        ++have;
+      }
+      if (++at == 4) break;
+    }
+    if (!complete || have < fewest) continue;
+    for (std::size_t k = have; k < 4; ++k) s.nodes[k] = s.nodes[k - 1];
+    if (have == 2)
+      out.push_back(s);
+    else
+      add_plain_segment(s, out);
+  }
+  report_missing("DK150", block, "node", missing, 78, Severity::error);
+  return out;
+}
+
+void Selections::Impl::add_plain_segment(const Segment& s, std::vector<Segment>& out) {
+  const Elements& solids = model->solid8;
+  if (!tetra_faces) {
+    tetra_faces = std::make_unique<detail::KeyTable>(0);
+    for (std::uint32_t e = 0; e < solids.size(); ++e) {
+      if (solids.shape[e] != SolidShape::tetra10 || solids.extra[e] == no_index) continue;
+      for (int f = 2; f < 6; ++f) {
+        const detail::Face face = detail::solid_face(solids.of(e), f);
+        if (face.corners != 3) continue;
+        if (tetra_faces->insert(detail::node_key(face.nodes.data(), 3)) == tetra_face_of.size())
+          tetra_face_of.emplace_back(e, f);
+      }
+    }
+  }
+  const bool triangle = s.nodes[2] == s.nodes[3];
+  const std::uint32_t at = triangle && tetra_faces->size() > 0
+                               ? tetra_faces->find(detail::node_key(s.nodes.data(), 3))
+                               : no_index;
+  if (at == no_index) {
+    out.push_back(s);
+    return;
+  }
+  const auto [e, f] = tetra_face_of[at];
+  const detail::Face face = detail::solid_face(solids.of(e), f);
+  const auto face_mids = detail::tetra10_mids(solids, e, f);
+  // The mid-side node of each side of the segment, whatever its sense.
+  std::array<NodeIndex, 3> mids{no_index, no_index, no_index};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const NodeIndex a = face.nodes[k], b = face.nodes[(k + 1) % 3];
+      const NodeIndex p = s.nodes[i], q = s.nodes[(i + 1) % 3];
+      if ((a == p && b == q) || (a == q && b == p)) mids[i] = face_mids[k];
+    }
+  std::array<std::array<NodeIndex, 4>, 4> pieces;
+  const int count = detail::cut_triangle({s.nodes[0], s.nodes[1], s.nodes[2]}, mids, pieces);
+  for (int i = 0; i < count; ++i)
+    out.push_back({pieces[static_cast<std::size_t>(i)], s.carrier, s.element});
+}
+
+void Selections::Impl::add_shells(const Elements& shells, Carrier carrier, const Indices& members,
+                                  bool reversed, std::vector<Segment>& out) const {
+  for (const std::uint32_t e : members) {
+    const NodeIndex* n = shells.of(e);
+    Segment s{{n[0], n[1], n[2], shells.width == 4 ? n[3] : n[2]}, carrier, e};
+    if (std::find(s.nodes.begin(), s.nodes.end(), no_index) != s.nodes.end()) continue;
+    if (reversed) {
+      // A quadrangle is turned as one even where its last two nodes coincide.
+      s.nodes = shells.width == 4 ? std::array<NodeIndex, 4>{n[3], n[2], n[1], n[0]}
+                                  : std::array<NodeIndex, 4>{n[2], n[1], n[0], n[0]};
+    }
+    out.push_back(s);
+  }
+}
+
+detail::ShellCover& Selections::Impl::cover() {
+  if (!shell_cover)
+    shell_cover = std::make_unique<detail::ShellCover>(model->shell4, model->shell3);
+  return *shell_cover;
+}
+
+detail::SolidFaces& Selections::Impl::solid_faces() {
+  if (!all_solid_faces)
+    all_solid_faces = std::make_unique<detail::SolidFaces>(model->solid8, ranks);
+  return *all_solid_faces;
+}
+
+void Selections::Impl::add_solids(const Block& block, std::string_view option, Indices members,
+                                  std::vector<Segment>& out) {
+  const Elements& solids = model->solid8;
+  if (members.empty()) return;
+  detail::normalise(members);
+  if (option.empty()) {
+    const std::uint32_t e = members.front();
+    const std::uint32_t p = solids.part[e];
+    Diagnostic d = detail::make_diagnostic(
+        {"DK155", Severity::error, block.header_span,
+         std::string(block.keyword) + " " + std::to_string(block.id.value) + " selects " +
+             std::to_string(members.size()) +
+             " solids but does not say which faces; first is "
+             "solid " +
+             std::to_string(solids.id[e]) +
+             (p == no_index ? std::string() : " of part " + std::to_string(model->parts[p].id)),
+         "it stops with an error",
+         "write " + std::string(block.keyword) + "/EXT for the exterior faces or /ALL for all",
+         1104, Severity::error, std::string(block.keyword), block.id.value});
+    d.notes.emplace_back(model->element_span(ElementKind::solid8, e), "the solid");
+    found.report(std::move(d));
+    return;
+  }
+  const auto quadratic = std::find_if(members.begin(), members.end(), [&](std::uint32_t e) {
+    return solids.shape[e] == SolidShape::brick20 || solids.shape[e] == SolidShape::thick16;
+  });
+  if (quadratic != members.end()) {
+    report({"DK156", Severity::error, block.header_span,
+            std::string(block.keyword) + " " + std::to_string(block.id.value) +
+                " selects solids with 20 or 16 nodes, whose faces have mid-side nodes; first is "
+                "solid " +
+                std::to_string(solids.id[*quadratic]),
+            "it stops with an error", "use 8-node solids or 10-node tetrahedra in contacts", 651,
+            Severity::error, std::string(block.keyword), block.id.value});
+    std::erase_if(members, [&](std::uint32_t e) {
+      return solids.shape[e] == SolidShape::brick20 || solids.shape[e] == SolidShape::thick16;
+    });
+  }
+  Indices shells4, shells3;
+  for (const Segment& s : out)
+    (s.carrier == Carrier::shell4 ? shells4 : shells3).push_back(s.element);
+  detail::FaceQuery query;
+  query.solids = &members;
+  query.exterior_only = option != "ALL";
+  if (!out.empty()) {
+    cover().select(shells4, shells3);
+    query.cover = &cover();
+  }
+  query.against_all = option == "FREE";
+  const auto faces = solid_faces().segments(query);
+  out.insert(out.end(), faces.begin(), faces.end());
+}
+
+std::vector<Segment> Selections::Impl::segments_of_parts(const Definition& def,
+                                                         const DecodedBlock& d) {
+  const auto tags = part_tags(*def.block, def.type, id_list(d));
+  std::vector<Segment> out;
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
+    const Elements& shells = model->family(kind);
+    if (shells.size() == 0) continue;
+    const PartElements& rows = elements_of_parts(kind);
+    for (std::size_t p = 0; p < tags.size(); ++p) {
+      if (tags[p] == 0) continue;
+      const Indices members(rows.row(p).begin(), rows.row(p).end());
+      add_shells(shells, detail::family_name(kind).carrier, members, tags[p] < 0, out);
+    }
+  }
+  Indices solids;
+  if (model->solid8.size() > 0) {
+    const PartElements& rows = elements_of_parts(ElementKind::solid8);
+    for (std::size_t p = 0; p < tags.size(); ++p)
+      if (tags[p] != 0) solids.insert(solids.end(), rows.row(p).begin(), rows.row(p).end());
+  }
+  add_solids(*def.block, def.option, std::move(solids), out);
+  return out;
+}
+
+std::vector<Segment> Selections::Impl::segments_in_boxes(const Definition& def,
+                                                         const DecodedBlock& d) {
+  const IdList list = id_list(d);
+  const bool any_node = def.type == "BOX2";
+  std::vector<Segment> out;
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
+    const Elements& shells = model->family(kind);
+    const Carrier carrier = detail::family_name(kind).carrier;
+    const Indices plain = elements_in_boxes(*def.block, list.positive, kind, any_node, 800);
+    Indices reversed = elements_in_boxes(*def.block, list.negative, kind, any_node, 800);
+    std::erase_if(reversed, [&](std::uint32_t e) {
+      return std::binary_search(plain.begin(), plain.end(), e);
+    });
+    add_shells(shells, carrier, plain, false, out);
+    add_shells(shells, carrier, reversed, true, out);
+  }
+  Indices solids = elements_in_boxes(*def.block, list.positive, ElementKind::solid8, any_node, 800);
+  const Indices more =
+      elements_in_boxes(*def.block, list.negative, ElementKind::solid8, any_node, 800);
+  solids.insert(solids.end(), more.begin(), more.end());
+  add_solids(*def.block, def.option, std::move(solids), out);
+  return out;
+}
+
+std::vector<Segment> Selections::Impl::segments_of_groups(const Definition& def,
+                                                          const DecodedBlock& d) {
+  const Block& block = *def.block;
+  const ElementKind kind = def.type == "GRSHEL"   ? ElementKind::shell4
+                           : def.type == "GRBRIC" ? ElementKind::solid8
+                                                  : ElementKind::shell3;
+  const detail::FamilyName& name = detail::family_name(kind);
+  const IdList list = id_list(d);
+  std::vector<Segment> out;
+  std::vector<IdRef> missing;
+  Indices solids;
+  const auto collect = [&](const std::vector<IdRef>& refs, bool reversed) {
+    for (const IdRef& ref : refs) {
+      const Indices* group = element_group(name, ref.id);
+      if (group == nullptr)
+        missing.push_back(ref);
+      else if (!fits(solids.size() + out.size() + group->size(), sizeof(Segment), block))
+        break;
+      else if (kind == ElementKind::solid8)
+        solids.insert(solids.end(), group->begin(), group->end());
+      else
+        add_shells(model->family(kind), name.carrier, *group, reversed, out);
+    }
+  };
+  collect(list.positive, false);
+  collect(list.negative, true);
+  report_missing("DK151", block, "element group", missing, 192, Severity::warning);
+  if (kind != ElementKind::solid8) return out;
+  if (def.option.empty()) {
+    report({"DK157", Severity::error, block.header_span,
+            "/SURF/GRBRIC " + std::to_string(block.id.value) + " does not say which faces",
+            "it stops with an error",
+            "write /SURF/GRBRIC/EXT (exterior of the group) or /SURF/GRBRIC/FREE (of the model)",
+            479, Severity::error, std::string(block.keyword), block.id.value});
+    return out;
+  }
+  add_solids(block, def.option, std::move(solids), out);
+  return out;
+}
+
+const std::vector<Segment>* Selections::Impl::listed_surface(const Block& block, const IdRef& ref,
+                                                             std::vector<IdRef>& missing) {
+  if (recursive("surf", ref.id, block, 189)) return nullptr;
+  const Surface* s = surface(ref.id);
+  if (s == nullptr) {
+    missing.push_back(ref);
+    return nullptr;
+  }
+  if (s->analytical) {
+    report({"DK158", Severity::error, ref.span,
+            std::string(block.keyword) + " " + std::to_string(block.id.value) + " lists surface " +
+                std::to_string(ref.id) + ", which is analytical",
+            "it stops with an error", "list surfaces made of segments only", 187, Severity::error,
+            std::string(block.keyword), block.id.value});
+    return nullptr;
+  }
+  return &s->segments;
+}
+
+std::vector<Segment> Selections::Impl::segments_of_surfaces(const Block& block,
+                                                            const DecodedBlock& d) {
+  const IdList list = id_list(d);
+  std::vector<Segment> out;
+  std::vector<IdRef> missing;
+  for (const IdRef& ref : list.positive)
+    if (const auto* segments = listed_surface(block, ref, missing);
+        segments != nullptr && fits(out.size() + segments->size(), sizeof(Segment), block))
+      out.insert(out.end(), segments->begin(), segments->end());
+  for (const IdRef& ref : list.negative)
+    if (const auto* segments = listed_surface(block, ref, missing);
+        segments != nullptr && fits(out.size() + segments->size(), sizeof(Segment), block))
+      std::transform(segments->begin(), segments->end(), std::back_inserter(out), turned);
+  report_missing("DK151", block, "surface", missing, 188, Severity::warning);
+  return out;
+}
+
+std::vector<Segment> Selections::Impl::difference_of_surfaces(const Block& block,
+                                                              const DecodedBlock& d) {
+  const IdList list = id_list(d);
+  std::vector<Segment> out;
+  std::vector<Segment> gone;
+  std::vector<IdRef> missing;
+  const auto collect = [&](const std::vector<IdRef>& refs, std::vector<Segment>& into) {
+    for (const IdRef& ref : refs)
+      if (const auto* segments = listed_surface(block, ref, missing);
+          segments != nullptr && fits(into.size() + segments->size(), sizeof(Segment), block))
+        for (Segment s : *segments) {
+          s.nodes = from_smallest(s.nodes, [&](NodeIndex n) { return rank(n); });
+          into.push_back(s);
+        }
+  };
+  const auto before = [&](const Segment& a, const Segment& b) {
+    return std::lexicographical_compare(
+        a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
+        [&](NodeIndex p, NodeIndex q) { return rank(p) < rank(q); });
+  };
+  collect(list.positive, out);
+  collect(list.negative, gone);
+  report_missing("DK151", block, "surface", missing, 188, Severity::warning);
+  std::stable_sort(out.begin(), out.end(), before);
+  std::sort(gone.begin(), gone.end(), before);
+  out.erase(std::unique(out.begin(), out.end(),
+                        [](const Segment& a, const Segment& b) { return a.nodes == b.nodes; }),
+            out.end());
+  std::erase_if(out, [&](const Segment& s) {
+    return std::binary_search(gone.begin(), gone.end(), s, before);
+  });
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,114 @@
+// The interfaces as the page shows them: effective values with their origin, and the lines of their
+// cards with the columns that a changed value goes to.
+#include <algorithm>
+
+#include "deck/keyword/decode.hpp"
+#include "report/html/parts.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr std::size_t most_lines = 200;
+
+/// Fields that can be changed in the page, by the names that --what-if takes.
+constexpr std::string_view editable[] = {"Gapmin",  "Fscalegap", "Gapmax",
+                                         "Fpenmax", "Igap",      "Inacti"};
+
+std::string_view name_on_card(const InterBase& inter, std::string_view field) {
+  return inter.type == 10 && field == "Gapmin" ? "Gap" : field;
+}
+
+void write_card_text(JsonWriter& j, const Deck& deck, const InterBase& inter) {
+  const Block& block = *inter.block;
+  std::vector<std::uint64_t> offsets;
+  j.key("card").begin_object();
+  const Position at = deck.sources.position(inter.span);
+  j.field("file", deck.sources[inter.span.file].path()).field("line", at.line);
+  j.key("lines").begin_array();
+  j.value(block.header);
+  offsets.push_back(block.header_span.offset);
+  LineCursor cursor(deck.sources, block);
+  for (Line line = cursor.next_physical(); line.valid() && offsets.size() < most_lines;
+       line = cursor.next_physical()) {
+    j.value(line.text);
+    offsets.push_back(line.offset);
+  }
+  j.end_array();
+  const DecodedBlock decoded = decode(deck, block);
+  const UnitSystem* units = deck.units_of(block);
+  j.key("cells").begin_array();
+  for (const std::string_view field : editable) {
+    const std::string_view name = name_on_card(inter, field);
+    for (const DecodedCard& card : decoded.cards) {
+      if (card.missing()) continue;
+      const auto line = std::find(offsets.begin(), offsets.end(), card.line.offset);
+      if (line == offsets.end()) continue;
+      for (const Cell& cell : card.cells) {
+        if (cell.field == nullptr || cell.field->name != name) continue;
+        double factor = 1;
+        if (cell.field->type == FieldType::real && units != nullptr)
+          factor =
+              conversion_factor(*units, deck.begin.working, dimension_of(*cell.field, decoded));
+        j.begin_object(true).field("field", field);
+        j.field("line", static_cast<std::int64_t>(line - offsets.begin()));
+        j.field("first", cell.field->first).field("last", cell.field->last);
+        j.field("real", cell.field->type == FieldType::real).field("factor", factor);
+        const auto& legal = cell.field->values;
+        const bool has_nothing = std::find(legal.begin(), legal.end(), 1000) != legal.end();
+        j.field("nothing", has_nothing ? 1000 : 0);
+        j.field("parameter", cell.parameter).field("free", card.free_format);
+        j.end_object();
+      }
+    }
+  }
+  j.end_array().end_object();
+}
+
+template <class T>
+void write_value(JsonWriter& j, std::string_view name, const Effective<T>& e) {
+  j.key(name).begin_object(true).field("value", e.value).field("origin", to_string(e.origin));
+  j.key("input");
+  e.has_input ? j.value(e.input) : j.null();
+  j.end_object();
+}
+
+}  // namespace
+
+void write_interfaces(JsonWriter& j, const HtmlInput& input) {
+  const Deck& deck = *input.deck;
+  j.key("interfaces").begin_array();
+  for (const InterBase* inter : input.scene->interfaces->ordered) {
+    j.begin_object();
+    j.field("id", inter->id).field("type", inter->type).field("title", inter->title);
+    write_card_text(j, deck, *inter);
+    j.key("values").begin_object();
+    visit_interface(*inter, [&](const auto& typed) {
+      typed.for_each(
+          [&](std::string_view name, const auto& field) { write_value(j, name, field); });
+    });
+    j.end_object().end_object();
+  }
+  j.end_array();
+}
+
+void write_what_if(JsonWriter& j, const std::vector<WhatIf>& all) {
+  j.key("what_if").begin_array();
+  for (const WhatIf& w : all) {
+    j.begin_object(true).field("interface", w.interface_id);
+    const auto field = [&](std::string_view name, const auto& value) {
+      if (value) j.field(name, *value);
+    };
+    field("Gapmin", w.Gapmin);
+    field("Fscalegap", w.Fscalegap);
+    field("Gapmax", w.Gapmax);
+    field("Fpenmax", w.Fpenmax);
+    field("%mesh_size", w.mesh_size);
+    field("Igap", w.Igap);
+    field("Inacti", w.Inacti);
+    field("Irem_gap", w.Irem_gap);
+    j.end_object();
+  }
+  j.end_array();
+}
+
+}  // namespace deck::detail

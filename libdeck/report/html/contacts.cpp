@@ -1,0 +1,586 @@
+// What evaluating other settings in the page needs: all pairs within a generous reach, exact
+// coordinates of their nodes, thickness and mesh-size limits before any factor. The page repeats
+// the geometry stage operation by operation, so its results are those of `deck gaps --what-if`.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "contact/scene/node_elements.hpp"
+#include "deck/contact/search.hpp"
+#include "report/gaps_names.hpp"
+#include "report/html/parts.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr std::size_t pairs_per_page = 2000000;
+constexpr std::size_t pairs_at_least = 60000;  // per contact
+constexpr std::size_t pairs_at_most = 3000000;
+constexpr std::size_t penetrations_kept = 200000;  // per contact where all pairs are too many
+constexpr double reach_factors[] = {3, 2, 1.5, 1.1};
+
+NodeArrays arrays(const Coordinates& c) { return {c.x, c.y, c.z}; }
+
+double length(const Coordinates& c, NodeIndex a, NodeIndex b) {
+  const double x = c.x[b] - c.x[a], y = c.y[b] - c.y[a], z = c.z[b] - c.z[a];
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+/// Runs the pair search of one contact for a constant gap.
+class WideSearch {
+ public:
+  WideSearch(const Contact& contact, const Coordinates& coordinates, int threads)
+      : contact_(contact), x_(coordinates), threads_(threads) {
+    if (contact.kind == ContactKind::node_segment) {
+      for (const SecondaryNode& s : contact.secondary) {
+        nodes_.push_back(s.node);
+        stiffness_s_.push_back(s.multiplier);
+      }
+      for (const MainSegment& m : contact.main) {
+        segments_.push_back(m.nodes);
+        stiffness_m_.push_back(m.stiffness);
+      }
+      return;
+    }
+    const auto side = [](const std::vector<ContactEdge>& list, auto& edges, auto& stiffness) {
+      for (const ContactEdge& e : list) {
+        edges.push_back(e.nodes);
+        stiffness.push_back(e.stiffness);
+      }
+    };
+    side(contact.secondary_edges, edges_s_, stiffness_s_);
+    side(contact.main_edges, edges_m_, stiffness_m_);
+  }
+
+  double margin() const {
+    return contact_.kind == ContactKind::node_segment ? candidate_margin(arrays(x_), segments_) : 0;
+  }
+
+  SearchResult run(double reach, std::size_t max_pairs) const {
+    SearchOptions options;
+    options.gap = PairGap::constant(reach);
+    options.threads = threads_;
+    options.max_pairs = max_pairs;
+    if (contact_.kind == ContactKind::edge_edge) {
+      EdgeEdgeInput in;
+      in.nodes = arrays(x_);
+      in.secondary = edges_s_;
+      in.main = edges_m_;
+      in.secondary_stiffness = stiffness_s_;
+      in.main_stiffness = stiffness_m_;
+      return find_edge_edge_pairs(in, options);
+    }
+    NodeSegmentInput in;
+    in.nodes = arrays(x_);
+    in.secondary = nodes_;
+    in.segments = segments_;
+    in.secondary_stiffness = stiffness_s_;
+    in.segment_stiffness = stiffness_m_;
+    return find_node_segment_pairs(in, options);
+  }
+
+ private:
+  const Contact& contact_;
+  const Coordinates& x_;
+  int threads_;
+  std::vector<std::uint32_t> nodes_;
+  std::vector<std::array<std::uint32_t, 4>> segments_;
+  std::vector<std::array<std::uint32_t, 2>> edges_s_, edges_m_;
+  std::vector<double> stiffness_s_, stiffness_m_;
+};
+
+/// Largest gap that the interface has, could have by thickness, or would have by default.
+double expected_gap(const Contact& contact, const Contact& plain) {
+  double s = 0, m = 0;
+  for (const SecondaryNode& n : plain.secondary) s = std::max(s, n.gap);
+  for (const MainSegment& n : plain.main) m = std::max(m, n.gap);
+  for (const ContactEdge& n : plain.secondary_edges) s = std::max(s, n.gap);
+  for (const ContactEdge& n : plain.main_edges) m = std::max(m, n.gap);
+  return std::max({contact.max_gap, contact.gapmin, s + m});
+}
+
+PageContact wide_pairs(const Contact& contact, const Contact& plain, const Coordinates& x,
+                       int threads, std::size_t limit) {
+  PageContact page;
+  const WideSearch search(plain, x, threads);
+  page.margin = search.margin();
+  if (!std::isfinite(page.margin)) page.margin = 0;
+  const double gap = expected_gap(contact, plain);
+  for (const double factor : reach_factors) {
+    page.reach = factor * gap + page.margin;
+    if (!(page.reach > 0) || !std::isfinite(page.reach)) break;
+    SearchResult found = search.run(page.reach, limit);
+    if (!found.complete) continue;
+    page.pairs = std::move(found.pairs);
+    return page;
+  }
+  // Too many: what penetrates, deepest first if even that is too much.
+  page.reach = 0;
+  page.complete = false;
+  std::vector<std::uint32_t> rows(contact.penetrations.size());
+  for (std::uint32_t i = 0; i < rows.size(); ++i) rows[i] = i;
+  const auto& all = contact.penetrations;
+  if (rows.size() > penetrations_kept) {
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return all[a].depth > all[b].depth; });
+    rows.resize(penetrations_kept);
+  }
+  for (const std::uint32_t r : rows) page.pairs.push_back({all[r].secondary, all[r].main});
+  std::sort(page.pairs.begin(), page.pairs.end());
+  return page;
+}
+
+/// Sorted distinct positions of one side of the pairs.
+std::vector<std::uint32_t> distinct(const std::vector<CandidatePair>& pairs,
+                                    std::uint32_t CandidatePair::*side) {
+  std::vector<std::uint32_t> out;
+  out.reserve(pairs.size());
+  for (const CandidatePair& p : pairs) out.push_back(p.*side);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+std::vector<std::uint32_t> everything(std::size_t count) {
+  std::vector<std::uint32_t> out(count);
+  for (std::uint32_t i = 0; i < count; ++i) out[i] = i;
+  return out;
+}
+
+struct Place {
+  std::uint32_t file = Span::no_file;
+  std::uint64_t line = 0;
+};
+
+/// Places of many nodes in one pass over their blocks.
+std::vector<Place> node_places(const Model& model, const Deck& deck,
+                               const std::vector<NodeIndex>& nodes) {
+  std::vector<Place> places(nodes.size());
+  std::unordered_map<NodeIndex, std::vector<std::size_t>> wanted;
+  for (std::size_t i = 0; i < nodes.size(); ++i) wanted[nodes[i]].push_back(i);
+  if (wanted.empty()) return places;
+  for (const BulkBlock& range : model.node_blocks) {
+    LineCursor cursor(deck.sources, *range.block);
+    std::uint32_t file = Span::no_file;
+    std::uint64_t at = 0, line_number = 1;
+    NodeIndex node = range.first;
+    for (Line line = cursor.next(); line.valid() && node < range.first + range.count;
+         line = cursor.next()) {
+      if (line.text.find_first_not_of(' ') == std::string_view::npos) continue;
+      const auto found = wanted.find(node++);
+      if (found == wanted.end()) continue;
+      if (line.file != file || line.offset < at) {
+        file = line.file;
+        line_number = deck.sources[file].position(line.offset).line;
+      } else {
+        const std::string_view between = deck.sources[file].bytes().substr(at, line.offset - at);
+        line_number += static_cast<std::uint64_t>(std::count(between.begin(), between.end(), '\n'));
+      }
+      at = line.offset;
+      for (const std::size_t i : found->second) places[i] = {file, line_number};
+    }
+  }
+  return places;
+}
+
+struct Owner {
+  int kind = 0;  ///< ElementKind + 1, 0: none
+  std::int64_t id = 0;
+  std::uint32_t part = no_index;
+};
+
+Owner owner(const Model& model, ElementKind kind, std::uint32_t e) {
+  const Elements& family = model.family(kind);
+  return {static_cast<int>(kind) + 1, family.id[e], family.part[e]};
+}
+
+Owner owner(const Model& model, Carrier carrier, std::uint32_t e) {
+  if (e == no_index) return {};
+  switch (carrier) {
+    case Carrier::solid:
+      return owner(model, ElementKind::solid8, e);
+    case Carrier::shell4:
+      return owner(model, ElementKind::shell4, e);
+    case Carrier::shell3:
+      return owner(model, ElementKind::shell3, e);
+    case Carrier::truss:
+      return owner(model, ElementKind::truss, e);
+    case Carrier::beam:
+      return owner(model, ElementKind::beam, e);
+    case Carrier::spring:
+      return owner(model, ElementKind::spring, e);
+    default:
+      return {};
+  }
+}
+
+/// Same rule as the views of a scene: the first family that has an element at the node.
+Owner owner_of_node(const Model& model, Connectivity& connectivity, NodeIndex node) {
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
+                                 ElementKind::beam, ElementKind::truss, ElementKind::spring}) {
+    const auto list = connectivity.elements(kind, node);
+    if (!list.empty()) return owner(model, kind, list[0]);
+  }
+  return {};
+}
+
+class Writer {
+ public:
+  Writer(const HtmlInput& input, const PageContacts& page, const PageNodes& nodes)
+      : input_(input),
+        page_(page),
+        nodes_(nodes),
+        model_(*input.scene->model),
+        connectivity_(model_) {}
+
+  std::string run() {
+    exact_coordinates();
+    for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
+      const Contact& plain = page_.scene.contacts[i];
+      const PageContact& wide = page_.contacts[i];
+      const bool edge_pairs = plain.kind == ContactKind::edge_edge;
+      if (input_.scene->contacts[i].irem_gap == 2) {  // removal along the mesh looks at all items
+        secondary_ = everything(edge_pairs ? plain.secondary_edges.size() : plain.secondary.size());
+        main_ = everything(edge_pairs ? plain.main_edges.size() : plain.main.size());
+      } else {
+        secondary_ = distinct(wide.pairs, &CandidatePair::secondary);
+        main_ = distinct(wide.pairs, &CandidatePair::main);
+      }
+      pairs(plain, wide);
+      if (!edge_pairs)
+        node_segment(plain);
+      else
+        edges(plain);
+    }
+    return packed_text(out_.bytes());
+  }
+
+ private:
+  /// Page nodes whose coordinates are given to the last bit: those of all pairs, and of all items
+  /// where removal along the mesh measures distances.
+  void exact_coordinates() {
+    std::vector<std::uint8_t> wanted(nodes_.list().size(), 0);
+    const auto use = [&](NodeIndex n) { wanted[nodes_[n]] = 1; };
+    for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
+      const Contact& c = page_.scene.contacts[i];
+      for (const CandidatePair& p : page_.contacts[i].pairs) {
+        if (c.kind == ContactKind::node_segment) {
+          use(c.secondary[p.secondary].node);
+          for (const NodeIndex n : c.main[p.main].nodes) use(n);
+        } else {
+          for (const NodeIndex n : c.secondary_edges[p.secondary].nodes) use(n);
+          for (const NodeIndex n : c.main_edges[p.main].nodes) use(n);
+        }
+      }
+      if (input_.scene->contacts[i].irem_gap != 2) continue;
+      for (const MainSegment& m : c.main)
+        for (const NodeIndex n : m.nodes) use(n);
+      for (const ContactEdge& e : c.main_edges)
+        for (const NodeIndex n : e.nodes) use(n);
+      for (const ContactEdge& e : c.secondary_edges)
+        for (const NodeIndex n : e.nodes) use(n);
+    }
+    std::vector<double> values;
+    out_.u(static_cast<std::uint64_t>(std::count(wanted.begin(), wanted.end(), 1)));
+    Delta d;
+    for (std::uint32_t n = 0; n < wanted.size(); ++n)
+      if (wanted[n]) out_.s(d(n));
+    for (const std::vector<double>* axis : {&model_.nodes.x, &model_.nodes.y, &model_.nodes.z}) {
+      values.clear();
+      for (std::uint32_t n = 0; n < wanted.size(); ++n)
+        if (wanted[n]) values.push_back((*axis)[nodes_.list()[n]]);
+      out_.f64(values);
+    }
+  }
+
+  /// Few distinct values, one index per item.
+  template <class Items, class Value>
+  void palette(const Items& items, Value value) {
+    std::unordered_map<double, std::uint32_t> number;
+    std::vector<double> values;
+    std::vector<std::uint32_t> index;
+    for (const auto& item : items) {
+      const double v = value(item);
+      const auto [it, fresh] = number.emplace(v, static_cast<std::uint32_t>(values.size()));
+      if (fresh) values.push_back(v);
+      index.push_back(it->second);
+    }
+    out_.u(values.size());
+    out_.f64(values);
+    if (values.size() > 1)
+      for (const std::uint32_t i : index) out_.u(i);
+  }
+
+  template <class Items, class Value>
+  void selected(const std::vector<std::uint32_t>& positions, const Items& items, Value value) {
+    std::vector<double> values;
+    for (const std::uint32_t p : positions) values.push_back(value(items[p]));
+    out_.f64(values);
+  }
+
+  void owners(const std::vector<Owner>& list) {
+    Delta part, id;
+    for (const Owner& o : list) {
+      out_.u(static_cast<std::uint64_t>(o.kind));
+      out_.s(id(o.id));
+      out_.s(part(o.part == no_index ? 0 : std::int64_t{o.part} + 1));
+    }
+  }
+
+  void places(const std::vector<NodeIndex>& nodes) {
+    Delta file, line;
+    for (const Place& p : node_places(model_, *input_.deck, nodes)) {
+      out_.s(file(p.file == Span::no_file ? -1 : std::int64_t{p.file}));
+      out_.s(line(static_cast<std::int64_t>(p.line)));
+    }
+  }
+
+  void node_segment(const Contact& c) {
+    Delta n;
+    out_.u(c.secondary.size());
+    for (const SecondaryNode& s : c.secondary) out_.s(n(nodes_[s.node]));
+    palette(c.secondary, [](const SecondaryNode& s) { return s.gap; });
+    Delta corner;
+    out_.u(c.main.size());
+    for (const MainSegment& m : c.main)
+      for (const NodeIndex i : m.nodes) out_.s(corner(nodes_[i]));
+    palette(c.main, [](const MainSegment& m) {
+      return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3 ? m.thickness : 0.0;
+    });
+    std::vector<Owner> main_owners, secondary_owners;
+    std::vector<NodeIndex> paired;
+    for (const MainSegment& m : c.main) main_owners.push_back(owner(model_, m.carrier, m.element));
+    owners(main_owners);
+    for (const std::uint32_t s : secondary_) {
+      paired.push_back(c.secondary[s].node);
+      secondary_owners.push_back(owner_of_node(model_, connectivity_, paired.back()));
+    }
+    owners(secondary_owners);
+    places(paired);
+    selected(secondary_, c.secondary, [](const SecondaryNode& s) { return s.length; });
+    selected(main_, c.main, [](const MainSegment& m) { return m.length; });
+  }
+
+  void edges(const Contact& c) {
+    const auto side = [&](const std::vector<ContactEdge>& edges) {
+      Delta n;
+      out_.u(edges.size());
+      for (const ContactEdge& e : edges)
+        for (const NodeIndex i : e.nodes) out_.s(n(nodes_[i]));
+      palette(edges, [](const ContactEdge& e) { return std::max(e.shell, e.section); });
+    };
+    side(c.secondary_edges);
+    side(c.main_edges);
+    std::vector<Owner> main_owners, secondary_owners;
+    for (const ContactEdge& e : c.main_edges)
+      main_owners.push_back(owner(model_, e.carrier, e.element));
+    std::vector<NodeIndex> first;
+    for (const std::uint32_t s : secondary_) {
+      const ContactEdge& e = c.secondary_edges[s];
+      secondary_owners.push_back(owner(model_, e.carrier, e.element));
+      first.push_back(e.nodes[0]);
+    }
+    owners(main_owners);
+    owners(secondary_owners);
+    places(first);
+    selected(secondary_, c.secondary_edges, [](const ContactEdge& e) { return e.length; });
+    selected(main_, c.main_edges, [](const ContactEdge& e) { return e.length; });
+  }
+
+  /// Pairs, and for each a byte: its distance in 255ths of the reach, rounded down, so that the
+  /// page need not look at pairs that are too far for a gap.
+  void pairs(const Contact& plain, const PageContact& wide) {
+    Delta s, m;
+    out_.u(wide.pairs.size());
+    for (const CandidatePair& p : wide.pairs) out_.s(s(p.secondary));
+    for (const CandidatePair& p : wide.pairs) out_.s(m(p.main));
+    for (const CandidatePair& p : wide.pairs) {
+      const double share = wide.reach > 0 ? 255 * (distance(plain, p) / wide.reach) : 0;
+      out_.byte(share >= 255 ? 255u : share > 0 ? static_cast<unsigned>(share) : 0u);
+    }
+  }
+
+  double distance(const Contact& c, const CandidatePair& pair) const {
+    const Coordinates& x = page_.scene.coordinates;
+    const auto at = [&](NodeIndex n) { return Point3<double>{x.x[n], x.y[n], x.z[n]}; };
+    if (c.kind == ContactKind::edge_edge) {
+      const auto& s = c.secondary_edges[pair.secondary].nodes;
+      const auto& m = c.main_edges[pair.main].nodes;
+      return closest_between_edges<Form::reference>(at(s[0]), at(s[1]), at(m[0]), at(m[1]))
+          .distance;
+    }
+    const auto& m = c.main[pair.main].nodes;
+    return closest_on_segment<Form::reference>(at(c.secondary[pair.secondary].node),
+                                               {at(m[0]), at(m[1]), at(m[2]), at(m[3])},
+                                               m[2] == m[3])
+        .distance();
+  }
+
+  const HtmlInput& input_;
+  const PageContacts& page_;
+  const PageNodes& nodes_;
+  const Model& model_;
+  Connectivity connectivity_;
+  ByteStream out_;
+  std::vector<std::uint32_t> secondary_, main_;
+};
+
+}  // namespace
+
+PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
+  PageContacts page;
+  const Scene& scene = *input.scene;
+  SceneOptions options;
+  options.threads = input.threads;
+  options.candidates = options.penetrations = false;
+  options.only = input.only;
+  // Igap 3 with factor 1 makes the sides' gaps their unscaled half thicknesses and fills the
+  // limits.
+  for (const InterBase* inter : scene.interfaces->ordered) {
+    if (inter->type == 10) continue;
+    WhatIf w;
+    w.interface_id = inter->id;
+    for (const WhatIf& given : input.what_if)
+      if (given.interface_id == inter->id && given.mesh_size) w.mesh_size = given.mesh_size;
+    w.Igap = 3;
+    w.Fscalegap = 1;
+    options.what_if.push_back(w);
+  }
+  Diagnostics unused;
+  page.scene = build_scene(*scene.model, *scene.interfaces, unused, options);
+  std::size_t left = pairs_per_page;
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const Contact& plain = page.scene.contacts[i];
+    const std::size_t share = left / (scene.contacts.size() - i);
+    page.contacts.push_back(wide_pairs(scene.contacts[i], plain, page.scene.coordinates,
+                                       input.threads,
+                                       std::clamp(4 * share, pairs_at_least, pairs_at_most)));
+    left -= std::min(left, page.contacts.back().pairs.size());
+    for (const SecondaryNode& s : plain.secondary) nodes.use(s.node);
+    for (const MainSegment& m : plain.main)
+      for (const NodeIndex n : m.nodes) nodes.use(n);
+    for (const auto* side : {&plain.secondary_edges, &plain.main_edges})
+      for (const ContactEdge& e : *side)
+        for (const NodeIndex n : e.nodes) nodes.use(n);
+  }
+  return page;
+}
+
+std::string contacts_block(const HtmlInput& input, const PageContacts& page,
+                           const PageNodes& nodes) {
+  return Writer(input, page, nodes).run();
+}
+
+namespace {
+
+void write_default_gap(JsonWriter& j, const Contact& plain, const Coordinates& x) {
+  j.key("default").begin_array(true);
+  if (plain.kind == ContactKind::node_segment) {
+    double sum = 0, smallest = std::numeric_limits<double>::infinity();
+    std::uint64_t count = 0;
+    for (const MainSegment& m : plain.main) {
+      if (m.carrier != Carrier::shell4 && m.carrier != Carrier::shell3) continue;
+      sum += m.thickness;
+      smallest = std::min(smallest, m.thickness);
+      ++count;
+    }
+    j.value(count).value(sum).value(smallest);
+  } else {
+    for (const auto* side : {&plain.main_edges, &plain.secondary_edges}) {
+      double sum = 0, smallest = std::numeric_limits<double>::infinity(),
+             shortest = std::numeric_limits<double>::infinity();
+      std::uint64_t samples = 0;
+      for (const ContactEdge& e : *side) {
+        const double l = length(x, e.nodes[0], e.nodes[1]);
+        if (l > 0) shortest = std::min(shortest, l);
+        for (const double t : {e.shell, e.section}) {
+          if (!(t > 0)) continue;
+          sum += t;
+          smallest = std::min(smallest, t);
+          ++samples;
+        }
+      }
+      j.value(samples).value(sum).value(smallest).value(std::isfinite(shortest) ? shortest : 0.0);
+    }
+  }
+  j.end_array();
+}
+
+/// What the card and the defaults say before the rules of the contact's kind apply.
+void write_card(JsonWriter& j, const InterBase& inter, const std::vector<WhatIf>& what_if) {
+  const auto flag = [](const EffectiveInt& f) { return f.value == 1000 ? 0 : f.value; };
+  j.key("card").begin_object(true);
+  visit_interface(inter, [&](const auto& i) {
+    if constexpr (requires { i.Gapmin; }) {
+      j.field("Gapmin",
+              i.Gapmin.value > 0 && i.Gapmin.origin != Origin::derived ? i.Gapmin.value : 0.0);
+      std::int64_t irem = flag(i.Irem_gap);
+      for (const WhatIf& w : what_if)
+        if (w.interface_id == inter.id && w.Irem_gap) irem = *w.Irem_gap;
+      j.field("Igap", flag(i.Igap)).field("Inacti", flag(i.Inacti)).field("Irem_gap", irem);
+      j.field("thermal", i.Ithe.value > 0).field("Drad", i.Drad.value);
+    } else {
+      j.field("Gapmin", i.Gap.value > 0 && i.Gap.origin != Origin::derived ? i.Gap.value : 0.0);
+      j.field("Igap", 0).field("Inacti", 0).field("Irem_gap", 1);
+      j.field("thermal", false).field("Drad", 0.0);
+    }
+    if constexpr (requires { i.Fscalegap; })
+      j.field("Fscalegap", i.Fscalegap.value).field("Gapmax", i.Gapmax.value);
+    else
+      j.field("Fscalegap", 1.0).field("Gapmax", 1e30);
+    if constexpr (requires { i.Fpenmax; })
+      j.field("Fpenmax", i.Fpenmax.value);
+    else
+      j.field("Fpenmax", 0.0);
+    if constexpr (requires { i.Edge_scale_gap; })
+      j.field("Edge_scale_gap", i.Edge_scale_gap.value);
+    else
+      j.field("Edge_scale_gap", 0.0);
+  });
+  j.end_object();
+}
+
+}  // namespace
+
+void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& page) {
+  const Scene& scene = *input.scene;
+  const auto& order = scene.interfaces->ordered;
+  j.key("contacts").begin_array();
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const Contact& c = scene.contacts[i];
+    const Contact& plain = page.scene.contacts[i];
+    const PageContact& wide = page.contacts[i];
+    const bool edges = c.kind == ContactKind::edge_edge;
+    double longest_main = 0, longest_node = 0;
+    for (const MainSegment& m : plain.main) longest_main = std::max(longest_main, m.length);
+    for (const SecondaryNode& s : plain.secondary) longest_node = std::max(longest_node, s.length);
+    j.begin_object();
+    j.field("interface", static_cast<std::int64_t>(std::find(order.begin(), order.end(), c.inter) -
+                                                   order.begin()));
+    j.field("kind", to_string(c.kind)).field("role", to_string(c.role)).field("type", c.type);
+    j.field("dropped", c.dropped).field("igap", c.igap).field("inacti", c.inacti);
+    j.field("istf", c.istf).field("irem_gap", c.irem_gap).field("itied", c.itied);
+    j.field("fpenmax", c.fpenmax).field("gap_scale", c.gap_scale);
+    j.field("gapmin", c.gapmin).field("gapmin_from", to_string(c.gapmin_origin));
+    j.field("gapmax", c.gapmax).field("drad", c.drad).field("max_gap", c.max_gap);
+    j.field("shortest_side", c.shortest_side).field("mesh_fraction", c.mesh_fraction);
+    j.field("longest_main", longest_main).field("longest_node", longest_node);
+    j.field("secondary", edges ? c.secondary_edges.size() : c.secondary.size());
+    j.field("main", edges ? c.main_edges.size() : c.main.size());
+    j.field("candidates", c.candidates).field("removed_pairs", c.removed_pairs);
+    j.field("repaired", c.repaired_segments).field("degenerate", c.degenerate_segments);
+    j.field("reoriented", c.reoriented_segments).field("no_carrier", c.no_carrier.size());
+    j.field("reach", wide.reach).field("margin", wide.margin).field("complete", wide.complete);
+    j.field("pairs", wide.pairs.size());
+    j.key("totals").begin_object(true);
+    write_totals(j, input.view->contacts[i]);
+    j.end_object();
+    write_card(j, *c.inter, input.what_if);
+    write_default_gap(j, plain, page.scene.coordinates);
+    j.end_object();
+  }
+  j.end_array();
+}
+
+}  // namespace deck::detail

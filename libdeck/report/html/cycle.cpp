@@ -1,0 +1,71 @@
+// The first cycle in the page: one entry per contact, one row per pair with a penetration or force.
+#include <algorithm>
+#include <cmath>
+
+#include "report/html/parts.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr std::size_t most_rows = 100000;  // per contact, largest force first
+
+const char* name_of(cycle::StepLimit::Source source) {
+  switch (source) {
+    case cycle::StepLimit::Source::kinematic:
+      return "closing speed";
+    case cycle::StepLimit::Source::nodal:
+      return "contact stiffness and nodal mass";
+    case cycle::StepLimit::Source::velocity:
+      return "speed of the interface";
+    default:
+      return "";
+  }
+}
+
+double size_of(const std::array<double, 3>& f) {
+  return std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
+}
+
+void write_step(JsonWriter& j, std::string_view name, double dt) {
+  j.key(name);
+  dt < 1e30 ? j.value(dt) : j.null();
+}
+
+void write_contact(JsonWriter& j, const cycle::ContactOutcome& c) {
+  j.begin_object(true).field("active", c.active).field("complete", c.complete);
+  write_step(j, "dt", c.step.dt);
+  j.field("because", name_of(c.step.source)).field("with_force", c.pairs_with_force);
+  j.field("force", c.totals.total_abs).field("largest", c.largest_force);
+  j.field("acceleration", c.largest_acceleration).field("elastic", c.totals.elastic_energy);
+  std::vector<const cycle::PairOutcome*> rows;
+  for (const cycle::PairOutcome& p : c.pairs) rows.push_back(&p);
+  if (rows.size() > most_rows) {
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const cycle::PairOutcome* a, const cycle::PairOutcome* b) {
+                       return size_of(a->force) > size_of(b->force);
+                     });
+    rows.resize(most_rows);
+  }
+  j.key("rows").begin_array(true);
+  for (const cycle::PairOutcome* p : rows) {
+    j.begin_array(true).value(p->at.secondary).value(p->at.main);
+    j.value(size_of(p->force)).value(p->k_nodal).end_array();
+  }
+  j.end_array().end_object();
+}
+
+}  // namespace
+
+std::string cycle_block(const cycle::SceneOutcome& outcome) {
+  std::string out;
+  JsonWriter j(out);
+  j.begin_object(true);
+  write_step(j, "structure_dt", outcome.structure.dt);
+  write_step(j, "contact_dt", outcome.contact_dt);
+  j.key("contacts").begin_array(true);
+  for (const cycle::ContactOutcome& c : outcome.contacts) write_contact(j, c);
+  j.end_array().end_object();
+  return packed_text(out);
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,164 @@
+// The page: a static head that is readable without scripts, data blocks, style and script. Text of
+// the deck reaches the page either escaped or as JSON whose '<' is written as an escape, so no
+// title can end an element or start one. A content security policy forbids every request.
+#include "deck/report/html.hpp"
+
+#include <algorithm>
+
+#include "deck/base/escape.hpp"
+#include "deck/report/gaps.hpp"
+#include "report/gaps_names.hpp"
+#include "report/html/parts.hpp"
+
+namespace deck {
+namespace {
+
+/// '<' occurs in JSON only inside strings.
+std::string script_safe(std::string_view json) {
+  std::string out;
+  out.reserve(json.size() + json.size() / 50);
+  for (const char c : json) {
+    if (c == '<')
+      out += "\\u003c";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string_view file_name(std::string_view path) {
+  const auto slash = path.find_last_of("/\\");
+  return slash == std::string_view::npos ? path : path.substr(slash + 1);
+}
+
+/// First id above all node groups and sets, for exported groups.
+std::int64_t free_group_id(const Deck& deck) {
+  std::int64_t highest = 0;
+  for (const Block& b : deck.blocks)
+    if (b.header.starts_with("/GRNOD") || b.header.starts_with("/SET"))
+      highest = std::max(highest, b.id.value + deck.offset_of(b, "grnod"));
+  return highest + 1;
+}
+
+std::string meta_json(const HtmlInput& in, const detail::PageContacts& page) {
+  const Model& model = *in.scene->model;
+  std::string out;
+  JsonWriter j(out);
+  j.begin_object();
+  write_json_head(j, "deck/gaps-html", 1);
+  write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
+  j.field("verdict", gaps_verdict(*in.deck, *in.scene, *in.view));
+  j.key("summary").begin_object(true);
+  write_totals(j, in.view->total);
+  j.end_object();
+  const Coverage coverage = coverage_of(*in.deck, *in.scene->interfaces);
+  write_json_coverage(j, coverage);
+  j.field("coverage_lead", coverage_lead(coverage)).field("coverage_tail", coverage_tail(coverage));
+  j.key("files").begin_array();
+  for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f) j.value(in.deck->sources[f].path());
+  j.end_array().key("parts").begin_array();
+  for (const Part& p : model.parts) {
+    j.begin_object(true).field("id", p.id).field("title", p.title);
+    j.field("prop", p.prop_id).field("mat", p.mat_id).end_object();
+  }
+  j.end_array();
+  j.field("free_group_id", free_group_id(*in.deck));
+  detail::write_what_if(j, in.what_if);
+  detail::write_interfaces(j, in);
+  detail::write_contacts(j, in, page);
+  j.end_object();
+  return out;
+}
+
+std::string earlier_json(const EarlierGaps& earlier) {
+  std::string out;
+  JsonWriter j(out);
+  j.begin_object(true).field("path", earlier.path).field("deck", earlier.deck_path);
+  j.key("rows").begin_array(true);
+  for (const EarlierGaps::Row& r : earlier.rows) {
+    j.begin_array(true).value(r.interface_id).value(r.role);
+    j.value(r.secondary[0]).value(r.secondary[1]).value(r.depth).value(r.gap).end_array();
+  }
+  j.end_array().end_object();
+  return out;
+}
+
+/// What a reader without scripts gets: the verdict and a table of the contacts.
+std::string static_body(const HtmlInput& in) {
+  std::string out = "<main id=\"static\"><h1>" + html_text(file_name(in.path)) + "</h1>\n<p>" +
+                    html_text(gaps_verdict(*in.deck, *in.scene, *in.view)) +
+                    "</p>\n<table><thead><tr><th>Interface</th><th>Title</th><th>Part of it</th>"
+                    "<th>Gapmin</th><th>Penetrations</th><th>Deepest</th></tr></thead><tbody>\n";
+  for (std::size_t i = 0; i < in.scene->contacts.size(); ++i) {
+    const Contact& c = in.scene->contacts[i];
+    const ContactTotals& t = in.view->contacts[i];
+    out += "<tr><td>" + std::to_string(c.inter->id) + "</td><td>" + html_text(c.inter->title) +
+           "</td><td>" + to_string(c.role) + "</td><td>" + shortest(c.gapmin) + "</td><td>" +
+           std::to_string(t.count.pairs) + "</td><td>" + shortest(t.max_depth) + "</td></tr>\n";
+  }
+  return out +
+         "</tbody></table>\n<noscript><p>This page needs JavaScript for its lists and the "
+         "picture.</p></noscript></main>\n";
+}
+
+void add_block(std::string& out, std::string_view id, std::string_view type,
+               std::string_view text) {
+  out += "<script type=\"";
+  out += type;
+  out += "\" id=\"";
+  out += id;
+  out += "\">";
+  out += text;
+  out += "</script>\n";
+}
+
+}  // namespace
+
+bool html_available(std::string* reason) {
+  const detail::ViewerBundle& bundle = detail::viewer_bundle();
+  if (reason != nullptr) *reason = bundle.missing;
+  return !bundle.script.empty();
+}
+
+Result<std::string> gaps_html(const HtmlInput& in) {
+  const detail::ViewerBundle& bundle = detail::viewer_bundle();
+  if (bundle.script.empty())
+    return Error{Error::Code::config, "this build has no viewer: " + std::string(bundle.missing)};
+  const Model& model = *in.scene->model;
+  detail::PageNodes nodes(model.nodes.size());
+  const std::vector<detail::MeshPart> mesh = detail::collect_mesh(model, nodes);
+  const detail::PageContacts page = detail::collect_contacts(in, nodes);
+  if (in.crossings != nullptr) detail::use_nodes(*in.crossings, nodes);
+  nodes.number();
+
+  std::string out =
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+      "script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"generator\" "
+      "content=\"deck " +
+      std::string(library_version()) + "\">\n<title>" + html_text(file_name(in.path)) +
+      " \xe2\x80\x93 initial penetrations</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>";
+  out += bundle.style;
+  out += "</style>\n</head>\n<body>\n";
+  out += static_body(in);
+  add_block(out, "deck-meta", "application/json", script_safe(meta_json(in, page)));
+  add_block(out, "deck-contacts", "application/octet-stream",
+            detail::contacts_block(in, page, nodes));
+  add_block(out, "deck-mesh", "application/octet-stream", detail::mesh_block(model, mesh, nodes));
+  if (in.earlier != nullptr)
+    add_block(out, "deck-earlier", "application/octet-stream",
+              detail::packed_text(earlier_json(*in.earlier)));
+  if (in.crossings != nullptr)
+    add_block(out, "deck-crossed", "application/octet-stream",
+              detail::crossings_block(model, *in.crossings, nodes));
+  if (in.cycle != nullptr)
+    add_block(out, "deck-cycle", "application/octet-stream", detail::cycle_block(*in.cycle));
+  out += "<script>";
+  out += bundle.script;
+  out += "</script>\n</body>\n</html>\n";
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,241 @@
+// The picture: outer faces of solids, shells and lines, part by part. Positions are whole numbers
+// on a grid of 2^20 (large parts 2^16) steps per part; nodes are numbered as they appear.
+#include <algorithm>
+#include <cmath>
+
+#include "report/html/parts.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// Faces of the eight stored slots.
+constexpr int slots_of_face[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                     {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+
+/// A face of a solid: distinct nodes in order, and sorted as a key.
+struct SolidFace {
+  std::array<NodeIndex, 4> key{no_index, no_index, no_index, no_index};
+  std::array<NodeIndex, 4> nodes{};
+  int corners = 0;
+  std::uint32_t element = 0;
+};
+
+/// Face 0..5; repeated nodes count once. Fewer than three corners: no face.
+SolidFace solid_face_of(const NodeIndex* slots, int face, std::uint32_t element) {
+  SolidFace f;
+  f.element = element;
+  for (const int slot : slots_of_face[face]) {
+    const NodeIndex n = slots[slot];
+    const auto end = f.nodes.begin() + f.corners;
+    if (std::find(f.nodes.begin(), end, n) == end) {
+      f.nodes[static_cast<std::size_t>(f.corners)] = n;
+      f.key[static_cast<std::size_t>(f.corners++)] = n;
+    }
+  }
+  std::sort(f.key.begin(), f.key.end());
+  return f;
+}
+
+/// Faces that only one of the solids has, in the order of the solids.
+std::vector<SolidFace> outer_faces(const Elements& family,
+                                   const std::vector<std::uint32_t>& solids) {
+  std::vector<SolidFace> all;
+  all.reserve(6 * solids.size());
+  for (const std::uint32_t e : solids) {
+    const NodeIndex* slots = family.of(e);
+    if (std::find(slots, slots + 8, no_index) != slots + 8) continue;
+    for (int k = 0; k < 6; ++k)
+      if (const SolidFace f = solid_face_of(slots, k, e); f.corners >= 3) all.push_back(f);
+  }
+  std::vector<std::uint32_t> order(all.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return all[a].key < all[b].key; });
+  std::vector<std::uint8_t> outer(all.size(), 1);
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (all[order[i]].key == all[order[i - 1]].key) outer[order[i]] = outer[order[i - 1]] = 0;
+  std::vector<SolidFace> out;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (outer[i]) out.push_back(all[i]);
+  return out;
+}
+
+constexpr std::size_t large_part = 100000;  // nodes from which the coarser grid is used
+
+bool complete(const NodeIndex* nodes, int n) {
+  return std::find(nodes, nodes + n, no_index) == nodes + n;
+}
+
+class Collector {
+ public:
+  Collector(const Model& model, PageNodes& nodes)
+      : model_(model), nodes_(nodes), parts_(model.parts.size() + 1) {}
+
+  std::vector<MeshPart> run() {
+    shells(model_.shell4);
+    shells(model_.shell3);
+    shells(model_.quad);
+    shells(model_.tria);
+    solids();
+    lines(model_.truss);
+    lines(model_.beam);
+    lines(model_.spring);
+    std::vector<MeshPart> out;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (parts_[p].empty()) continue;
+      out.push_back({p < model_.parts.size() ? static_cast<std::uint32_t>(p) : no_index,
+                     std::move(parts_[p])});
+    }
+    return out;
+  }
+
+ private:
+  void add(std::uint32_t part, ElementKind kind, int corners, const NodeIndex* n,
+           std::uint32_t element) {
+    auto& groups = parts_[std::min<std::size_t>(part, model_.parts.size())];
+    auto it = std::find_if(groups.begin(), groups.end(), [&](const MeshGroup& g) {
+      return g.kind == kind && g.corners == corners;
+    });
+    if (it == groups.end()) it = groups.insert(groups.end(), MeshGroup{kind, corners, {}});
+    MeshFace face;
+    face.element = element;
+    for (int k = 0; k < corners; ++k) {
+      face.nodes[static_cast<std::size_t>(k)] = n[k];
+      nodes_.use(n[k]);
+    }
+    it->faces.push_back(face);
+  }
+
+  void shells(const Elements& family) {
+    for (std::uint32_t e = 0; e < family.size(); ++e) {
+      const NodeIndex* n = family.of(e);
+      if (!complete(n, family.width)) continue;
+      const bool quad = family.width == 4 && n[2] != n[3];
+      add(family.part[e], family.kind, quad ? 4 : 3, n, e);
+    }
+  }
+
+  void solids() {
+    const Elements& family = model_.solid8;
+    std::vector<std::vector<std::uint32_t>> of_part(parts_.size());
+    for (std::uint32_t e = 0; e < family.size(); ++e)
+      of_part[std::min<std::size_t>(family.part[e], model_.parts.size())].push_back(e);
+    for (std::size_t p = 0; p < of_part.size(); ++p) {
+      if (of_part[p].empty()) continue;
+      for (const SolidFace& f : outer_faces(family, of_part[p]))
+        add(static_cast<std::uint32_t>(p), family.kind, f.corners, f.nodes.data(), f.element);
+    }
+  }
+
+  void lines(const Elements& family) {
+    for (std::uint32_t e = 0; e < family.size(); ++e) {
+      const NodeIndex* n = family.of(e);
+      if (n[0] != no_index && n[1] != no_index && n[0] != n[1])
+        add(family.part[e], family.kind, 2, n, e);
+    }
+  }
+
+  const Model& model_;
+  PageNodes& nodes_;
+  std::vector<std::vector<MeshGroup>> parts_;
+};
+
+/// One part: its nodes in order of appearance, then positions, then faces. A corner is written as
+/// its distance from the next new node, so that a well-numbered mesh is mostly zeros and small
+/// numbers.
+class PartWriter {
+ public:
+  PartWriter(const Model& model, const PageNodes& nodes, ByteStream& out)
+      : model_(model), nodes_(nodes), out_(out), local_(nodes.list().size(), no_index) {}
+
+  void write(const MeshPart& part) {
+    order_.clear();
+    for (const MeshGroup& g : part.groups)
+      for (const MeshFace& f : g.faces)
+        for (int k = 0; k < g.corners; ++k) local(f.nodes[static_cast<std::size_t>(k)]);
+    out_.u(part.part == no_index ? 0 : part.part + 1);
+    positions();
+    std::uint32_t next = 0;
+    out_.u(part.groups.size());
+    for (const MeshGroup& g : part.groups) {
+      out_.u(static_cast<std::uint64_t>(g.kind));
+      out_.u(static_cast<std::uint64_t>(g.corners));
+      out_.u(g.faces.size());
+      for (const MeshFace& f : g.faces)
+        for (int k = 0; k < g.corners; ++k) {
+          const std::uint32_t i = local_[nodes_[f.nodes[static_cast<std::size_t>(k)]]];
+          out_.u(next - i);
+          if (i == next) ++next;
+        }
+      Delta id;
+      for (const MeshFace& f : g.faces) out_.s(id(model_.family(g.kind).id[f.element]));
+    }
+    for (const std::uint32_t n : order_) local_[n] = no_index;
+  }
+
+ private:
+  void local(NodeIndex node) {
+    const std::uint32_t n = nodes_[node];
+    if (local_[n] != no_index) return;
+    local_[n] = static_cast<std::uint32_t>(order_.size());
+    order_.push_back(n);
+  }
+
+  void positions() {
+    out_.u(order_.size());
+    Delta number;
+    for (const std::uint32_t n : order_) out_.s(number(n));
+    const double steps = order_.size() >= large_part ? 65535 : 1048575;
+    for (const std::vector<double>* axis : {&model_.nodes.x, &model_.nodes.y, &model_.nodes.z}) {
+      double low = INFINITY, high = -INFINITY;
+      for (const std::uint32_t n : order_) {
+        const double v = (*axis)[nodes_.list()[n]];
+        low = std::min(low, v);
+        high = std::max(high, v);
+      }
+      const double step = high > low ? (high - low) / steps : 1;
+      const double frame[2] = {low, step};
+      out_.f64(frame);
+      Delta d;
+      for (const std::uint32_t n : order_) {
+        const double q = ((*axis)[nodes_.list()[n]] - low) / step;
+        out_.s(d(std::isfinite(q) ? std::llround(q) : 0));
+      }
+    }
+  }
+
+  const Model& model_;
+  const PageNodes& nodes_;
+  ByteStream& out_;
+  std::vector<std::uint32_t> local_;  // page node -> position in order_
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace
+
+void PageNodes::number() {
+  number_.assign(used_.size(), no_index);
+  for (NodeIndex n = 0; n < used_.size(); ++n) {
+    if (used_[n] == 0) continue;
+    number_[n] = static_cast<std::uint32_t>(list_.size());
+    list_.push_back(n);
+  }
+}
+
+std::vector<MeshPart> collect_mesh(const Model& model, PageNodes& nodes) {
+  return Collector(model, nodes).run();
+}
+
+std::string mesh_block(const Model& model, const std::vector<MeshPart>& mesh,
+                       const PageNodes& nodes) {
+  ByteStream out;
+  out.u(nodes.list().size());
+  Delta id;
+  for (const NodeIndex n : nodes.list()) out.s(id(model.nodes.id[n]));
+  out.u(mesh.size());
+  PartWriter writer(model, nodes, out);
+  for (const MeshPart& part : mesh) writer.write(part);
+  return packed_text(out.bytes());
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,86 @@
+// The steps that write the HTML report, one per file. Private to the stage.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/report/html.hpp"
+#include "deck/report/json.hpp"
+#include "report/html/stream.hpp"
+
+namespace deck::detail {
+
+/// The viewer as compiled in (generated at build): script and style sheet; empty script: none,
+/// and `missing` says why.
+struct ViewerBundle {
+  std::string_view script, style, missing;
+};
+const ViewerBundle& viewer_bundle();
+
+/// Numbers the nodes that occur in the page in the order of the model.
+class PageNodes {
+ public:
+  explicit PageNodes(std::size_t nodes) : used_(nodes, 0) {}
+  void use(NodeIndex n) {
+    if (n < used_.size()) used_[n] = 1;
+  }
+  void number();  ///< after the last use()
+  std::uint32_t operator[](NodeIndex n) const { return number_[n]; }
+  const std::vector<NodeIndex>& list() const { return list_; }
+
+ private:
+  std::vector<std::uint8_t> used_;
+  std::vector<std::uint32_t> number_;
+  std::vector<NodeIndex> list_;
+};
+
+// html_mesh.cpp — the picture
+struct MeshFace {
+  std::array<NodeIndex, 4> nodes{};  ///< `corners` of them
+  std::uint32_t element = no_index;  ///< in its family
+};
+struct MeshGroup {
+  ElementKind kind{};
+  int corners = 0;  ///< 2, 3 or 4
+  std::vector<MeshFace> faces;
+};
+struct MeshPart {
+  std::uint32_t part = no_index;  ///< index into Model::parts, no_index: none
+  std::vector<MeshGroup> groups;
+};
+/// Outer faces of solids part by part, shells, and one-dimensional elements.
+std::vector<MeshPart> collect_mesh(const Model& model, PageNodes& nodes);
+std::string mesh_block(const Model& model, const std::vector<MeshPart>& mesh,
+                       const PageNodes& nodes);
+
+// html_contacts.cpp — what evaluating other settings needs
+struct PageContact {
+  std::vector<CandidatePair> pairs;  ///< all pairs nearer than `reach`, sorted
+  double reach = 0;                  ///< largest gap for which the pairs are complete
+  double margin = 0;                 ///< of the solver's search beyond the gap
+  bool complete = true;  ///< false: too many pairs; only the deepest penetrations, reach 0
+};
+struct PageContacts {
+  Scene scene;  ///< the same contacts with unscaled half thicknesses as gaps, nothing acted upon
+  std::vector<PageContact> contacts;  ///< parallel to the scene's
+};
+PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes);
+std::string contacts_block(const HtmlInput& input, const PageContacts& page,
+                           const PageNodes& nodes);
+/// The member "contacts": options, totals, default gaps.
+void write_contacts(JsonWriter& json, const HtmlInput& input, const PageContacts& page);
+
+// html_cards.cpp — the members "interfaces" and "what_if"
+void write_interfaces(JsonWriter& json, const HtmlInput& input);
+void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);
+
+// html_cycle.cpp — forces, energies and time steps of the first cycle
+std::string cycle_block(const cycle::SceneOutcome& outcome);
+
+// html_crossings.cpp — crossed elements
+void use_nodes(const std::vector<Crossing>& crossings, PageNodes& nodes);
+std::string crossings_block(const Model& model, const std::vector<Crossing>& crossings,
+                            const PageNodes& nodes);
+
+}  // namespace deck::detail

@@ -1,0 +1,449 @@
+#include "deck/report/deck_json.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <unordered_map>
+
+#include "deck/keyword/decode.hpp"
+#include "deck/report/json.hpp"
+#include "report/json/deck_json_cells.hpp"
+#include "text/columns.hpp"
+
+namespace deck {
+namespace {
+
+namespace fs = std::filesystem;
+using detail::CellKind;
+
+// ---- where the files go ---------------------------------------------------------------------
+
+/// Relative place of every file, so that the directives lead to it; empty: absolute include.
+std::vector<std::string> places(const Deck& deck) {
+  std::vector<fs::path> place(deck.sources.size());
+  std::vector<bool> known(deck.sources.size(), false);
+  const fs::path main(deck.sources[0].path());
+  place[0] = main == "-" ? fs::path("deck_0000.rad") : main.filename();
+  known[0] = true;
+  for (const IncludeEdge& e : deck.includes) {
+    const fs::path written(e.written);
+    if (written.is_absolute() || !known[e.parent]) continue;
+    const std::string& opened = deck.sources[e.file].path();
+    const fs::path beside = fs::path(deck.sources[e.parent].path()).parent_path() / written;
+    const bool from_main = beside.lexically_normal().string() != opened &&
+                           (main.parent_path() / written).lexically_normal().string() == opened;
+    const fs::path base = from_main ? fs::path() : place[e.parent].parent_path();
+    place[e.file] = (base / written).lexically_normal();
+    known[e.file] = true;
+  }
+  // Files above the main file: it moves down into directories of the names it stands in.
+  std::ptrdiff_t up = 0;
+  for (const fs::path& p : place) up = std::max(up, std::count(p.begin(), p.end(), fs::path("..")));
+  fs::path prefix;
+  fs::path dir = fs::absolute(main).lexically_normal().parent_path();
+  for (std::ptrdiff_t i = 0; i < up; ++i, dir = dir.parent_path()) {
+    const fs::path name = dir.has_relative_path() ? dir.filename() : fs::path("up");
+    prefix = prefix.empty() ? name : name / prefix;
+  }
+  std::vector<std::string> out(place.size());
+  for (std::size_t f = 0; f < place.size(); ++f)
+    if (known[f]) out[f] = (prefix / place[f]).lexically_normal().generic_string();
+  return out;
+}
+
+// ---- one deck -------------------------------------------------------------------------------
+
+/// Bytes [begin, end) of a file that belong to a block; its header line starts the first one.
+struct Stretch {
+  std::uint64_t begin = 0, end = 0;
+  std::size_t block = 0;
+  bool header = false;
+};
+
+class DeckWriter {
+ public:
+  explicit DeckWriter(const DeckJsonInput& in) : in_(in), deck_(*in.deck), json_(out_) {}
+
+  Result<std::string> run() {
+    places_ = places(deck_);
+    std::map<std::string, std::uint32_t> first;
+    std::vector<std::uint32_t> carried;
+    for (std::uint32_t f = 0; f < deck_.sources.size(); ++f) {
+      if (places_[f].empty()) continue;
+      const auto [it, is_new] = first.emplace(places_[f], f);
+      if (is_new) carried.push_back(f);
+      if (!is_new && deck_.sources[it->second].bytes() != deck_.sources[f].bytes())
+        return Error{Error::Code::config, "two different files would stand at " + places_[f] +
+                                              ": " + deck_.sources[it->second].path() + " and " +
+                                              deck_.sources[f].path()};
+    }
+    if (in_.interfaces != nullptr)
+      for (const InterBase* i : in_.interfaces->ordered) inter_of_.emplace(i->block, i);
+    collect_stretches();
+    out_.reserve(3 * deck_.total_bytes + 10000);
+    json_.begin_object();
+    write_json_head(json_, detail::deck_json_id, detail::deck_json_version);
+    write_json_deck(json_, in_.path, deck_, in_.model, in_.interfaces);
+    json_.key("files").begin_array();
+    for (const std::uint32_t f : carried) write_file(f);
+    for (std::uint32_t f = 0; f < deck_.sources.size(); ++f)
+      if (places_[f].empty())
+        json_.begin_object(true)
+            .field("path", deck_.sources[f].path())
+            .field("external", true)
+            .end_object();
+    json_.end_array().end_object();
+    return std::move(out_);
+  }
+
+ private:
+  void collect_stretches() {
+    stretches_.resize(deck_.sources.size());
+    for (std::size_t b = 0; b < deck_.blocks.size(); ++b) {
+      const Block& block = deck_.blocks[b];
+      const Source& source = deck_.sources[block.header_span.file];
+      const std::string_view bytes = source.bytes();
+      const auto begin = static_cast<std::uint64_t>(
+          source.line_at(block.header_span.offset).data() - bytes.data());
+      const std::uint64_t nl = bytes.find('\n', block.header_span.offset);
+      auto& list = stretches_[block.header_span.file];
+      list.push_back({begin, std::min<std::uint64_t>(nl, bytes.size() - 1) + 1, b, true});
+      for (const Piece& p : block.body) {
+        auto& to = stretches_[p.file];
+        if (!to.empty() && to.back().block == b && to.back().end == p.begin)
+          to.back().end = p.end;
+        else
+          to.push_back({p.begin, p.end, b, false});
+      }
+    }
+    for (auto& list : stretches_)
+      std::sort(list.begin(), list.end(),
+                [](const Stretch& a, const Stretch& b) { return a.begin < b.begin; });
+  }
+
+  /// Text of a file as JSON takes it.
+  std::string shown(std::string_view bytes) const {
+    return latin1_ ? detail::latin1_to_utf8(bytes) : std::string(bytes);
+  }
+
+  void write_file(std::uint32_t file) {
+    const Source& source = deck_.sources[file];
+    const std::string_view bytes = source.bytes();
+    file_ = file;
+    latin1_ = !detail::is_utf8(bytes);
+    carriage_ = every_line_has_carriage(bytes);
+    line_ = 1;
+    json_.begin_object();
+    json_.field("path", places_[file]);
+    json_.field("encoding", latin1_ ? "latin-1" : "utf-8");
+    json_.field("line_end", carriage_ ? "\r\n" : "\n");
+    json_.field("final_newline", bytes.ends_with('\n'));
+    json_.key("items").begin_array();
+    std::uint64_t at = 0;
+    for (const Stretch& s : stretches_[file]) {
+      write_text(at, s.begin);
+      write_block(s);
+      at = s.end;
+    }
+    write_text(at, bytes.size());
+    json_.end_array().end_object();
+  }
+
+  static bool every_line_has_carriage(std::string_view bytes) {
+    bool any = false;
+    for (std::size_t nl = bytes.find('\n'); nl != std::string_view::npos;
+         nl = bytes.find('\n', nl + 1)) {
+      if (nl == 0 || bytes[nl - 1] != '\r') return false;
+      any = true;
+    }
+    // Without its line feed a last line must not end in a carriage return either way.
+    return any && !bytes.ends_with('\r');
+  }
+
+  /// Calls f(text, offset) for every physical line of [begin, end).
+  template <class F>
+  void each_line(std::uint64_t begin, std::uint64_t end, F&& f) {
+    const std::string_view bytes = deck_.sources[file_].bytes();
+    for (std::uint64_t at = begin; at < end;) {
+      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), bytes.size());
+      std::string_view text = bytes.substr(at, nl - at);
+      if (carriage_ && nl < bytes.size()) text.remove_suffix(1);
+      f(text, at);
+      ++line_;
+      at = nl + 1;
+    }
+  }
+
+  /// Lines that belong to no block.
+  void write_text(std::uint64_t begin, std::uint64_t end) {
+    if (begin >= end) return;
+    std::uint64_t from = begin;
+    for (const IncludeEdge& e : deck_.includes) {
+      if (e.parent != file_ || e.directive.offset < begin || e.directive.offset >= end) continue;
+      write_lines("text", from, e.directive.offset, nullptr);
+      const std::string_view bytes = deck_.sources[file_].bytes();
+      from = std::min<std::uint64_t>(bytes.find('\n', e.directive.offset), bytes.size() - 1) + 1;
+      write_lines("include", e.directive.offset, from, &e);
+    }
+    write_lines("text", from, end, nullptr);
+  }
+
+  void write_lines(std::string_view kind, std::uint64_t begin, std::uint64_t end,
+                   const IncludeEdge* edge) {
+    if (begin >= end) return;
+    json_.begin_object().field("kind", kind).field("line", line_);
+    if (edge != nullptr) {
+      json_.key("file");
+      if (places_[edge->file].empty())
+        json_.value(deck_.sources[edge->file].path());
+      else
+        json_.value(places_[edge->file]);
+    }
+    json_.key("lines").begin_array();
+    each_line(begin, end, [&](std::string_view text, std::uint64_t) { json_.value(shown(text)); });
+    json_.end_array().end_object();
+  }
+
+  // ---- blocks -------------------------------------------------------------------------------
+
+  void write_block(const Stretch& s) {
+    const Block& block = deck_.blocks[s.block];
+    const std::string_view bytes = deck_.sources[file_].bytes();
+    json_.begin_object();
+    json_.field("kind", s.header ? "block" : "continued");
+    json_.field("keyword",
+                shown(block.schema ? std::string_view(block.schema->keyword) : block.keyword));
+    std::uint64_t body = s.begin;
+    if (s.header) {
+      if (block.id.present) json_.field("id", block.id.value);
+      if (block.unit_id.present) json_.field("unit_id", block.unit_id.value);
+      std::string_view header;
+      json_.field("line", line_);
+      json_.field("column", block.header_span.offset - s.begin + 1);
+      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', s.begin), bytes.size());
+      header = bytes.substr(s.begin, nl - s.begin);
+      if (carriage_ && nl < bytes.size()) header.remove_suffix(1);
+      json_.field("header", shown(header));
+      body = std::min<std::uint64_t>(nl + 1, bytes.size());
+      ++line_;
+    } else {
+      json_.field("line", line_);
+    }
+    json_.field("version", block.version);
+    const CardSchema* list = block.schema != nullptr && !block.opaque
+                                 ? detail::list_card(*block.schema, block.version)
+                                 : nullptr;
+    if (list != nullptr)
+      write_list(block, *list, body, s.end, s.header);
+    else
+      write_cards(block, body, s.end);
+    if (s.header) write_effective(block);
+    json_.end_object();
+  }
+
+  static bool comment(std::string_view text) {
+    return text.starts_with('#') || text.starts_with('$');
+  }
+
+  /// Lines of a block whose cards are few: each with its values by name.
+  void write_cards(const Block& block, std::uint64_t begin, std::uint64_t end) {
+    DecodedBlock decoded;
+    if (block.schema != nullptr) decoded = decode(deck_, block);
+    std::unordered_map<std::uint64_t, const DecodedCard*> card_at;
+    for (const DecodedCard& card : decoded.cards)
+      if (!card.missing() && card.line.file == file_) card_at.emplace(card.line.offset, &card);
+    json_.key("lines").begin_array();
+    each_line(begin, end, [&](std::string_view text, std::uint64_t offset) {
+      const auto it = card_at.find(offset);
+      if (decoded.title_line.valid() && decoded.title_line.file == file_ &&
+          decoded.title_line.offset == offset)
+        write_title(text, decoded.title);
+      else if (it != card_at.end() && !it->second->cells.empty() && !only_text(text, *it->second))
+        write_card(text, *it->second);
+      else
+        json_.value(shown(text));
+    });
+    json_.end_array();
+  }
+
+  /// True for a line whose values alone do not say what it holds: something stands behind the cells
+  /// of a list that has a count, or other lines decide which cells its commas separate.
+  static bool only_text(std::string_view text, const DecodedCard& card) {
+    if (card.free_format && card.schema->repeat == Repeat::ids &&
+        card.cells.size() <= static_cast<std::size_t>(std::count(text.begin(), text.end(), ',')))
+      return true;
+    if (card.free_format)
+      return std::any_of(card.schema->fields.begin(), card.schema->fields.end(),
+                         [](const Field& f) { return !f.when.empty(); });
+    if (card.schema->repeat != Repeat::ids) return false;
+    const Field& ids = card.schema->fields.back();
+    std::size_t end = static_cast<std::size_t>(ids.first - 1);
+    for (const Cell& cell : card.cells)
+      if (cell.field == &ids) end += static_cast<std::size_t>(ids.last - ids.first + 1);
+    return detail::trim_right(text).size() > end;
+  }
+
+  void write_title(std::string_view text, std::string_view title) {
+    json_.begin_object(true).field("line", line_).field("title", shown(title));
+    json_.field("text", shown(text)).end_object();
+  }
+
+  void write_card(std::string_view text, const DecodedCard& card) {
+    json_.begin_object(true).field("line", line_).field("card", card.schema->name);
+    json_.field("text", shown(text));
+    // A list of ids is one value.
+    const bool list = card.schema->repeat == Repeat::ids;
+    const Field* ids = list ? &card.schema->fields.back() : nullptr;
+    json_.key("fields").begin_object();
+    for (const Cell& cell : card.cells) {
+      if (cell.field == ids) continue;
+      json_.key(cell.field->name);
+      write_value(cell);
+    }
+    if (list) {
+      json_.key(ids->name).begin_array();
+      for (const Cell& cell : card.cells)
+        if (cell.field == ids) write_value(cell);
+      json_.end_array();
+    }
+    json_.end_object();
+    json_.key("columns").begin_object();
+    for (const Cell& cell : card.cells) {
+      const auto begin = static_cast<std::int64_t>(cell.span.offset - card.line.offset);
+      if (cell.field == ids || (card.free_format && cell.span.length == 0)) continue;
+      const std::int64_t first = card.free_format ? begin + 1 : cell.field->first;
+      const std::int64_t last = card.free_format ? begin + cell.span.length : cell.field->last;
+      json_.key(cell.field->name).begin_array().value(first).value(last).end_array();
+    }
+    json_.end_object().end_object();
+  }
+
+  void write_value(const Cell& cell) {
+    switch (detail::kind_of(cell)) {
+      case CellKind::null:
+        json_.null();
+        return;
+      case CellKind::integer:
+        json_.value(cell.integer);
+        return;
+      case CellKind::real:
+        json_.value(cell.real);
+        return;
+      case CellKind::text:
+        json_.value(shown(cell.text));
+        return;
+    }
+  }
+
+  /// Nodes, elements, ids: rows of text and values.
+  void write_list(const Block& block, const CardSchema& card, std::uint64_t begin,
+                  std::uint64_t end, bool header) {
+    const bool title = header && block.schema->has_title && block.version >= 51;
+    const std::uint64_t rows = title ? end_of_title(begin, end) : begin;
+    json_.key("lines").begin_array();
+    if (title)
+      each_line(begin, rows, [&](std::string_view text, std::uint64_t) {
+        if (comment(text))
+          json_.value(shown(text));
+        else
+          write_title(text, trimmed_title(text));
+      });
+    json_.end_array();
+    json_.field("card", card.name);
+    json_.key("fields").begin_array(true);
+    for (const Field& f : card.fields)
+      if (f.in_version(block.version)) json_.value(f.name);
+    json_.end_array();
+    json_.key("rows").begin_array();
+    each_line(rows, end, [&](std::string_view text, std::uint64_t offset) {
+      if (comment(text)) {
+        json_.value(shown(text));
+        return;
+      }
+      json_.begin_array(true).value(shown(text));
+      const DecodedCard row =
+          decode_line(deck_, block, card, Line{detail::trim_right(text), file_, offset}, nullptr);
+      for (const Cell& cell : row.cells) write_value(cell);
+      json_.end_array();
+    });
+    json_.end_array();
+  }
+
+  static std::string_view trimmed_title(std::string_view text) {
+    return detail::trim_right(detail::trim_right(text).substr(0, 100));
+  }
+
+  /// Behind the first line that is no comment.
+  std::uint64_t end_of_title(std::uint64_t begin, std::uint64_t end) const {
+    const std::string_view bytes = deck_.sources[file_].bytes();
+    for (std::uint64_t at = begin; at < end;) {
+      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), bytes.size());
+      const std::uint64_t next = std::min<std::uint64_t>(nl + 1, bytes.size());
+      if (!comment(bytes.substr(at, nl - at))) return next;
+      at = next;
+    }
+    return end;
+  }
+
+  // ---- interfaces ---------------------------------------------------------------------------
+
+  void write_effective(const Block& block) {
+    const auto it = inter_of_.find(&block);
+    if (it == inter_of_.end()) return;
+    json_.key("effective").begin_object();
+    visit_interface(*it->second, [&](const auto& t) {
+      t.for_each([&](std::string_view name, const auto& e) {
+        json_.key(name).begin_object(true).key("input");
+        if (e.has_input)
+          json_.value(text_safe(e.input));
+        else
+          json_.null();
+        json_.key("value");
+        if (e.origin == Origin::derived && (name == "Gapmin" || name == "Gap" || name == "Drad"))
+          json_.null();  // only the geometry knows
+        else
+          json_.value(text_safe(e.value));
+        json_.field("origin", to_string(e.origin)).key("source");
+        write_source(e.span);
+        json_.end_object();
+      });
+    });
+    json_.end_object();
+  }
+
+  static std::int64_t text_safe(std::int64_t v) { return v; }
+  static double text_safe(double v) { return v; }
+  std::string text_safe(const std::string& v) const { return shown(v); }
+
+  void write_source(const Span& span) {
+    if (!span.valid()) {
+      json_.null();
+      return;
+    }
+    const Position p = deck_.sources.position(span);
+    const std::string& place = places_[span.file];
+    json_.begin_object(true);
+    json_.field("file", place.empty() ? deck_.sources[span.file].path() : place);
+    json_.field("line", p.line).field("column", p.column);
+    json_.field("end_column", p.column + span.length).end_object();
+  }
+
+  const DeckJsonInput& in_;
+  const Deck& deck_;
+  std::string out_;
+  JsonWriter json_;
+  std::vector<std::string> places_;
+  std::vector<std::vector<Stretch>> stretches_;
+  std::unordered_map<const Block*, const InterBase*> inter_of_;
+  // The file being written.
+  std::uint32_t file_ = 0;
+  bool latin1_ = false, carriage_ = false;
+  std::uint64_t line_ = 1;
+};
+
+}  // namespace
+
+Result<std::string> deck_to_json(const DeckJsonInput& input) { return DeckWriter(input).run(); }
+
+}  // namespace deck

@@ -1,0 +1,434 @@
+// `deck cycle` for people: what the first force evaluation does, contact by contact.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "deck/base/escape.hpp"
+#include "deck/model/coverage.hpp"
+#include "deck/report/cycle.hpp"
+#include "deck/report/text_table.hpp"
+#include "report/accuracy_decisions.hpp"
+#include "report/terminal/words.hpp"
+
+namespace deck {
+namespace {
+
+/// "X, Y" of fixed translations.
+std::string directions(int bits) {
+  std::string text;
+  const char* const names[] = {"X", "Y", "Z"};
+  for (int k = 0; k < 3; ++k)
+    if ((bits & (4 >> k)) != 0) text += (text.empty() ? "" : ", ") + std::string(names[k]);
+  return text.empty() ? "none" : text;
+}
+
+std::string node_text(const Model& model, NodeIndex n) {
+  return n == no_index ? "-" : fmt::format("{}", model.node_id(n));
+}
+
+std::string step_text(double dt) { return dt < 1e30 ? fmt::format("{:.4g}", dt) : "-"; }
+
+double size(const std::array<double, 3>& v) {
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/// "node" or "edge" of a pair.
+std::string secondary_text(const Model& model, const Contact& c, const cycle::PairOutcome& p) {
+  if (c.kind == ContactKind::node_segment)
+    return node_text(model, c.secondary[p.at.secondary].node);
+  const auto& n = c.secondary_edges[p.at.secondary].nodes;
+  return fmt::format("{}-{}", model.node_id(n[0]), model.node_id(n[1]));
+}
+
+std::string main_text(const Model& model, const Contact& c, const cycle::PairOutcome& p) {
+  std::string text;
+  const auto add = [&](NodeIndex n) {
+    text += fmt::format("{}{}", text.empty() ? "" : " ", model.node_id(n));
+  };
+  if (c.kind == ContactKind::edge_edge) {
+    for (const NodeIndex n : c.main_edges[p.at.main].nodes) add(n);
+  } else {
+    const auto& n = c.main[p.at.main].nodes;
+    for (std::size_t k = 0; k < (n[2] == n[3] ? 3u : 4u); ++k) add(n[k]);
+  }
+  return text;
+}
+
+std::size_t removed_by_step(const cycle::ContactOutcome& o) {
+  return static_cast<std::size_t>(
+      std::count_if(o.removed.begin(), o.removed.end(), [](const cycle::Removal& r) {
+        return r.because == cycle::Removal::Because::kinematic_step ||
+               r.because == cycle::Removal::Because::nodal_step;
+      }));
+}
+
+/// "node 1, node 2, … and 5 more" of those that leave an interface.
+std::string names_of(const Model& model, const Contact& c, const std::vector<cycle::Removal>& list,
+                     std::size_t most) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, list.size()); ++i)
+    text += (i == 0 ? "" : ", ") + secondary_name(model, c, list[i].secondary);
+  if (list.size() > most) text += fmt::format(" and {} more", list.size() - most);
+  return text;
+}
+
+/// Who leaves its interface for good, ties, or is released in this cycle.
+std::string lasting_lines(const CycleInput& input) {
+  const Model& model = *input.scene->model;
+  std::string out;
+  for (const cycle::ContactOutcome& o : input.outcome->contacts) {
+    const std::string head =
+        fmt::format("  interface {} {}: ", o.contact->inter->id, kind_name(*o.contact));
+    for (const auto because :
+         {cycle::Removal::Because::mid_surface, cycle::Removal::Because::kinematic_step,
+          cycle::Removal::Because::nodal_step, cycle::Removal::Because::no_element_left}) {
+      std::vector<cycle::Removal> list;
+      for (const cycle::Removal& r : o.removed)
+        if (r.because == because) list.push_back(r);
+      if (!list.empty())
+        out += fmt::format("{}removed for good, {}: {}\n", head, to_string(because),
+                           names_of(model, *o.contact, list, 10));
+    }
+    std::size_t tied = 0, let_go = 0;
+    for (const cycle::TieChange& t : o.ties) ++(t.tied ? tied : let_go);
+    if (tied > 0) out += fmt::format("{}{} pair{} tied\n", head, tied, tied == 1 ? " is" : "s are");
+    if (let_go > 0)
+      out += fmt::format("{}{} pair{} go\n", head, let_go, let_go == 1 ? " lets" : "s let");
+    if (!o.released.empty()) {
+      out += head + "boundary conditions released (IBC) at ";
+      for (std::size_t i = 0; i < std::min<std::size_t>(10, o.released.size()); ++i)
+        out += fmt::format("{}node {}: {} -> {}", i == 0 ? "" : ", ",
+                           model.node_id(o.released[i].node), directions(o.released[i].before),
+                           directions(o.released[i].after));
+      if (o.released.size() > 10) out += fmt::format(" and {} more", o.released.size() - 10);
+      out += "\n";
+    }
+  }
+  return out;
+}
+
+/// Iadm: the nodes with the sharpest radius.
+std::string criteria_table(const CycleInput& input, bool color) {
+  const Model& model = *input.scene->model;
+  TextTable table =
+      make_table({">interface", ">node", ">radius", ">penetration / (Padm gap)", ">angle"});
+  for (const cycle::ContactOutcome& o : input.outcome->contacts) {
+    std::vector<cycle::NodeCriteria> list = o.criteria;
+    std::stable_sort(list.begin(), list.end(),
+                     [](const auto& a, const auto& b) { return a.radius < b.radius; });
+    for (std::size_t i = 0; i < std::min<std::size_t>(10, list.size()); ++i)
+      table.row({fmt::format("{}", o.contact->inter->id), node_text(model, list[i].node),
+                 fmt::format("{:.6g}", list[i].radius), fmt::format("{:.4g}", list[i].penetration),
+                 list[i].angle < 1e30 ? fmt::format("{:.6g}", list[i].angle) : "-"});
+  }
+  return table.size() > 0 ? table.render(color, 2) : std::string();
+}
+
+std::string event_text(const CycleInput& input, const cycle::StepEvent& e) {
+  const Model& model = *input.scene->model;
+  const Contact& c = input.scene->contacts[e.contact];
+  std::string text = fmt::format("  step {} ({:.6g}): interface {} {}: ", e.step, e.time,
+                                 c.inter->id, kind_name(c));
+  switch (e.kind) {
+    case cycle::StepEvent::Kind::removed:
+      return text + fmt::format("{} removed, {}\n", secondary_name(model, c, e.at.secondary),
+                                to_string(e.because));
+    case cycle::StepEvent::Kind::released:
+      return text + fmt::format("node {} fixed in {} -> {}\n", model.node_id(e.release.node),
+                                directions(e.release.before), directions(e.release.after));
+    default: {
+      cycle::PairOutcome pair;
+      pair.at = e.at;
+      return text + fmt::format("{} {} {}\n", secondary_name(model, c, e.at.secondary),
+                                e.kind == cycle::StepEvent::Kind::tied ? "tied to" : "lets go of",
+                                main_text(model, c, pair));
+    }
+  }
+}
+
+/// The history in at most twenty lines, and the first events.
+std::string steps_text(const CycleInput& input, bool color) {
+  const cycle::StepsOutcome& s = *input.steps;
+  TextTable table = make_table({">step", ">time", ">pairs with force", ">sum of |F|",
+                                ">elastic energy", ">tied", ">removed so far"});
+  const std::size_t n = s.lines.size(), shown = std::min<std::size_t>(n, 20);
+  for (std::size_t r = 0; r < shown; ++r) {
+    const std::size_t k = shown < 2 ? 0 : r * (n - 1) / (shown - 1);
+    cycle::StepContact sum;
+    for (const cycle::StepContact& c : s.lines[k].contacts) {
+      sum.pairs_with_force += c.pairs_with_force;
+      sum.pairs_tied += c.pairs_tied;
+      sum.removed += c.removed;
+      sum.force_sum += c.force_sum;
+      sum.elastic_energy += c.elastic_energy;
+    }
+    table.row({fmt::format("{}", k), fmt::format("{:.6g}", s.lines[k].time),
+               fmt::format("{}", sum.pairs_with_force), fmt::format("{:.4g}", sum.force_sum),
+               fmt::format("{:.4g}", sum.elastic_energy), fmt::format("{}", sum.pairs_tied),
+               fmt::format("{}", sum.removed)});
+  }
+  std::string out =
+      "  prescribed motion only: nodes keep their given velocities, no structure answers and "
+      "contact "
+      "forces move nothing\n" +
+      table.render(color, 2);
+  for (std::size_t i = 0; i < std::min<std::size_t>(20, s.events.size()); ++i)
+    out += event_text(input, s.events[i]);
+  if (s.events.size() > 20)
+    out += fmt::format("  and {} more (--json has all)\n", s.events.size() - 20);
+  return out;
+}
+
+std::string state_words(const cycle::ContactOutcome& o) {
+  if (o.contact->dropped) return "no edges, dropped";
+  if (!o.active) return "not active yet";
+  if (!o.complete) return o.notes.empty() ? "too many pairs" : "not evaluated";
+  std::string text;
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+  };
+  add(o.gap_closed, "at the mid-surface");
+  add(removed_by_step(o), "removed by dtmin");
+  add(o.pairs_tied, "tied");
+  if (o.massless_nodes > 0)
+    text += fmt::format("{}{} without mass", text.empty() ? "" : ", ", o.massless_nodes);
+  return text;
+}
+
+std::string contact_table(const CycleInput& input, bool color) {
+  const Model& model = *input.scene->model;
+  const double structure = input.outcome->structure.dt;
+  TextTable table =
+      make_table({">interface", "kind", ">in reach", ">with force", ">sum of |F|", ">largest |F|",
+                  ">elastic energy", ">friction", ">damping", ">acceleration", "of node",
+                  ">contact dt", "of node", ">near singular", "note"});
+  std::size_t quiet = 0;
+  for (const cycle::ContactOutcome& o : input.outcome->contacts) {
+    if (o.pairs_in_reach == 0 && o.step.dt >= 1e30 && state_words(o).empty()) {
+      ++quiet;
+      continue;
+    }
+    const bool limits = o.step.dt < structure;
+    table.row({fmt::format("{}", o.contact->inter->id),
+               kind_name(*o.contact),
+               fmt::format("{}", o.pairs_in_reach),
+               fmt::format("{}", o.pairs_with_force),
+               fmt::format("{:.4g}", o.totals.total_abs),
+               fmt::format("{:.4g}", o.largest_force),
+               fmt::format("{:.4g}", o.totals.elastic_energy),
+               fmt::format("{:.4g}", o.totals.friction_energy),
+               fmt::format("{:.4g}", o.totals.damping_energy),
+               fmt::format("{:.4g}", o.largest_acceleration),
+               node_text(model, o.acceleration_node),
+               {step_text(o.step.dt), limits ? Tone::yellow : Tone::plain},
+               node_text(model, o.step_node),
+               fmt::format("{}", o.near_singular_count),
+               {state_words(o), o.gap_closed > 0 ? Tone::red : Tone::plain}});
+  }
+  std::string out = table.size() > 0 ? table.render(color, 2) : std::string();
+  if (quiet > 0)
+    out += fmt::format("  {} contact{} without a pair in reach\n", quiet, quiet == 1 ? "" : "s");
+  return out;
+}
+
+std::string singular_table(const CycleInput& input, bool color) {
+  const Model& model = *input.scene->model;
+  std::vector<std::pair<const cycle::ContactOutcome*, const cycle::PairOutcome*>> all;
+  for (const cycle::ContactOutcome& o : input.outcome->contacts)
+    for (const cycle::PairOutcome& p : o.near_singular) all.emplace_back(&o, &p);
+  if (all.empty()) return {};
+  const auto left = [](const cycle::PairOutcome& p) {
+    return p.gap > 0 ? (p.gap - p.penetration) / p.gap : 1.0;
+  };
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const auto& a, const auto& b) { return left(*a.second) < left(*b.second); });
+  TextTable table = make_table({">left of gap", ">gap", ">distance", ">|F|", ">stiffness",
+                                ">interface", "node/edge", "segment/edge"});
+  for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 10); ++i) {
+    const auto& [o, p] = all[i];
+    table.row({fmt::format("{:.3g} %", 100 * left(*p)), fmt::format("{:.6g}", p->gap),
+               fmt::format("{:.6g}", p->distance), fmt::format("{:.4g}", size(p->force)),
+               fmt::format("{:.4g}", p->k_nodal), fmt::format("{}", o->contact->inter->id),
+               secondary_text(model, *o->contact, *p), main_text(model, *o->contact, *p)});
+  }
+  return table.render(color, 2);
+}
+
+std::string joined(const std::vector<EffectLine>& lines, bool on) {
+  std::string text;
+  for (const EffectLine& e : lines) {
+    if (e.on != on) continue;
+    if (!text.empty()) text += "; ";
+    text += e.because == "always" ? e.name : fmt::format("{}: {}", e.name, e.because);
+  }
+  return text;
+}
+
+const char* element_name(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::shell4:
+      return "shell";
+    case ElementKind::shell3:
+      return "3-node shell";
+    case ElementKind::solid8:
+      return "solid";
+    case ElementKind::truss:
+      return "truss";
+    case ElementKind::beam:
+      return "beam";
+    case ElementKind::spring:
+      return "spring";
+    default:
+      return "element";
+  }
+}
+
+std::string step_lines(const CycleInput& input) {
+  const cycle::SceneOutcome& o = *input.outcome;
+  const Model& model = *input.scene->model;
+  std::string out = "  structure  ";
+  if (o.structure.element == no_index)
+    out += "no element limits the step\n";
+  else
+    out += fmt::format("{:.4g}, {} {} (estimate)\n", o.structure.dt, element_name(o.structure.kind),
+                       model.family(o.structure.kind).id[o.structure.element]);
+  out += "  contact    ";
+  if (o.contact_dt >= 1e30) return out + "no limit at this state\n";
+  const char* why = o.contact_dt_source == cycle::StepLimit::Source::nodal
+                        ? "contact stiffness against nodal mass"
+                    : o.contact_dt_source == cycle::StepLimit::Source::kinematic
+                        ? "half the time to the mid-surface"
+                        : "gap over the largest relative velocity";
+  out += fmt::format("{:.4g}, {}", o.contact_dt, why);
+  if (o.limiting_contact != SIZE_MAX)
+    out += fmt::format(", interface {}", o.contacts[o.limiting_contact].contact->inter->id);
+  if (o.limiting_node != no_index) out += fmt::format(", node {}", model.node_id(o.limiting_node));
+  return out + "\n";
+}
+
+}  // namespace
+
+std::string secondary_name(const Model& model, const Contact& contact, std::uint32_t secondary) {
+  cycle::PairOutcome pair;
+  pair.at.secondary = secondary;
+  return (contact.kind == ContactKind::edge_edge ? "edge " : "node ") +
+         secondary_text(model, contact, pair);
+}
+
+const char* to_string(cycle::Removal::Because because) {
+  switch (because) {
+    case cycle::Removal::Because::kinematic_step:
+      return "dtmin (time to the mid-surface)";
+    case cycle::Removal::Because::nodal_step:
+      return "dtmin (stiffness against mass)";
+    case cycle::Removal::Because::no_element_left:
+      return "no element left (Idel)";
+    default:
+      return "mid-surface reached";
+  }
+}
+
+std::string cycle_verdict(const CycleInput& input) {
+  const Coverage coverage = coverage_of(*input.deck, *input.scene->interfaces);
+  const std::string tail = coverage_tail(coverage);
+  if (const std::string lead = coverage_lead(coverage); !lead.empty()) return lead + tail;
+  const cycle::SceneOutcome& o = *input.outcome;
+  const Model& model = *input.scene->model;
+  std::size_t pairs = 0, closed = 0, by_step = 0, tied = 0;
+  std::string gone;
+  const cycle::ContactOutcome* worst = nullptr;
+  for (const cycle::ContactOutcome& c : o.contacts) {
+    pairs += c.pairs_with_force;
+    closed += c.gap_closed;
+    tied += c.pairs_tied;
+    by_step += removed_by_step(c);
+    if (gone.empty() && removed_by_step(c) > 0) gone = names_of(model, *c.contact, c.removed, 3);
+    if (worst == nullptr || c.largest_acceleration > worst->largest_acceleration) worst = &c;
+  }
+  const std::string when =
+      input.steps == nullptr
+          ? std::string("at the start")
+          : fmt::format("after {} step{} of prescribed motion", input.steps->lines.size() - 1,
+                        input.steps->lines.size() == 2 ? "" : "s");
+  std::string removal;  // and what else must not be missed
+  if (tied > 0) removal = fmt::format(" {} pair{} tied.", tied, tied == 1 ? " is" : "s are");
+  if (by_step > 0)
+    removal += fmt::format(
+        " dtmin is above the time step of {} node{} or edge{} in contact: the solver removes {} "
+        "from "
+        "the interface for good ({}).",
+        by_step, by_step == 1 ? "" : "s", by_step == 1 ? "" : "s", by_step == 1 ? "it" : "them",
+        gone);
+  const auto open = std::count_if(o.contacts.begin(), o.contacts.end(),
+                                  [](const cycle::ContactOutcome& c) { return !c.complete; });
+  if (open > 0)
+    removal += fmt::format(" Not evaluated: {} contact{}, see below.", open, open == 1 ? "" : "s");
+  if (pairs == 0 && closed == 0 && open == static_cast<std::ptrdiff_t>(o.contacts.size()))
+    return "Nothing was evaluated." + removal + tail;
+  if (pairs == 0 && closed == 0)
+    return fmt::format("No contact force {} in {} contact{}.{}{}", when, o.contacts.size(),
+                       o.contacts.size() == 1 ? "" : "s", removal, tail);
+  std::string text = fmt::format("{} pair{} push{} {}; largest nodal force {:.4g} at {}.", pairs,
+                                 pairs == 1 ? "" : "s", pairs == 1 ? "es" : "", when,
+                                 o.largest_nodal_force, node_text(model, o.force_node));
+  text += removal;
+  if (worst != nullptr && worst->acceleration_node != no_index)
+    text += fmt::format(" Largest acceleration {:.4g}: node {}, interface {}.",
+                        worst->largest_acceleration, model.node_id(worst->acceleration_node),
+                        worst->contact->inter->id);
+  if (closed > 0)
+    text +=
+        fmt::format(" {} pair{} at the mid-surface: the solver drops the {}.", closed,
+                    closed == 1 ? " is" : "s are", closed == 1 ? "node or edge" : "nodes or edges");
+  if (o.contact_dt < o.structure.dt && o.structure.dt < 1e30)
+    text += fmt::format(" Contact limits the time step: {:.4g} against {:.4g} of the elements.",
+                        o.contact_dt, o.structure.dt);
+  return text + tail;
+}
+
+std::string cycle_text(const CycleInput& input, const CycleTextOptions& options) {
+  const char* bold = options.color ? "\033[1m" : "";
+  const char* plain = options.color ? "\033[0m" : "";
+  std::string out = fmt::format("{}{}{}\n", bold, terminal_text(cycle_verdict(input)), plain);
+  if (input.scene->contacts.empty()) return out;
+  out += fmt::format("\n{}Contacts{}\n{}", bold, plain, contact_table(input, options.color));
+  if (const std::string text = lasting_lines(input); !text.empty() && input.steps == nullptr)
+    out += fmt::format("\n{}From now on{}\n{}", bold, plain, text);
+  if (input.steps != nullptr)
+    out += fmt::format("\n{}Steps{}\n{}", bold, plain, steps_text(input, options.color));
+  if (const std::string text = criteria_table(input, options.color); !text.empty())
+    out += fmt::format("\n{}Criteria of adaptive meshing, sharpest first{}\n{}", bold, plain, text);
+  out += fmt::format("\n{}Time step{}\n{}", bold, plain, step_lines(input));
+  for (const cycle::ContactOutcome& o : input.outcome->contacts)
+    if (o.heat_secondary != 0 || o.heat_main != 0)
+      out += fmt::format(
+          "  interface {} {}: heat in this cycle {:.4g} to the secondary side, {:.4g} "
+          "to the main side\n",
+          o.contact->inter->id, kind_name(*o.contact), o.heat_secondary, o.heat_main);
+  if (const std::string table = singular_table(input, options.color); !table.empty())
+    out += fmt::format("\n{}Nearest to the mid-surface{}\n{}", bold, plain, table);
+  if (const std::string text = decisions_text(*input.scene, 3, options.color); !text.empty())
+    out += "\n" + text;
+  out += fmt::format("\n{}Effects{}\n", bold, plain);
+  for (const InterBase* inter : input.scene->interfaces->ordered) {
+    const auto lines = effect_lines(*input.deck, *input.outcome, *inter);
+    if (lines.empty()) continue;
+    out += fmt::format("  {} TYPE{} on: {}\n", inter->id, inter->type,
+                       terminal_text(joined(lines, true)));
+    if (options.effects) out += fmt::format("    off: {}\n", terminal_text(joined(lines, false)));
+  }
+  if (!options.effects) out += "  (--effects lists what is off, and why)\n";
+  std::string left_out;
+  for (const std::string& text : input.state->not_evaluated)
+    left_out += "  " + terminal_text(text) + "\n";
+  for (const cycle::ContactOutcome& o : input.outcome->contacts)
+    for (const std::string& text : o.notes)
+      left_out += fmt::format("  interface {} {}: {}\n", o.contact->inter->id,
+                              kind_name(*o.contact), terminal_text(text));
+  if (!left_out.empty()) out += fmt::format("\n{}Not evaluated{}\n{}", bold, plain, left_out);
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,223 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "deck/base/escape.hpp"
+#include "deck/report/fix.hpp"
+#include "deck/report/text_table.hpp"
+#include "report/terminal/words.hpp"
+
+namespace deck {
+namespace {
+
+FixCount total(const PenetrationFix& fix, FixCount FixedInterface::*which) {
+  FixCount sum;
+  for (const FixedInterface& i : fix.interfaces) {
+    const FixCount& c = i.*which;
+    sum.pairs += c.pairs;
+    sum.nodes += c.nodes;
+    sum.untreated += c.untreated;
+    sum.on_surface += c.on_surface;
+    sum.deepest = std::max(sum.deepest, c.deepest);
+  }
+  return sum;
+}
+
+bool changes_flags(const PenetrationFix& fix) {
+  return fix.strategy == "inacti" || fix.strategy == "fpenmax";
+}
+
+std::string names(const std::vector<std::int64_t>& ids) {
+  std::string text;
+  for (const std::int64_t id : ids) text += fmt::format("{}{}", text.empty() ? "" : "-", id);
+  return text;
+}
+
+std::string interface_table(const PenetrationFix& fix, bool color) {
+  const bool flags = changes_flags(fix);
+  TextTable table({{"interface", Align::right},
+                   {"type"},
+                   {flags ? "pairs" : "pairs before", Align::right},
+                   {flags ? "untreated before" : "after", Align::right},
+                   {flags ? "after" : "deepest before", Align::right},
+                   {flags ? "deepest" : "after", Align::right},
+                   {"changed"},
+                   {"title"}});
+  for (const FixedInterface& i : fix.interfaces) {
+    std::string changed;
+    for (const FieldChange& c : i.changes)
+      changed += fmt::format("{}{} {} -> {}", changed.empty() ? "" : ", ", c.field,
+                             c.old_text.empty() ? fmt::format("({:.6g})", c.old_value) : c.old_text,
+                             c.new_text);
+    const std::uint64_t left = flags ? i.after.untreated : i.after.pairs;
+    const Tone tone = left == 0 ? Tone::green : Tone::yellow;
+    if (flags)
+      table.row({fmt::format("{}", i.id),
+                 fmt::format("TYPE{}", i.type),
+                 fmt::format("{}", i.after.pairs),
+                 fmt::format("{}", i.before.untreated),
+                 {fmt::format("{}", left), tone},
+                 fmt::format("{:.4g}", i.after.deepest),
+                 changed.empty() ? "-" : changed,
+                 i.title});
+    else
+      table.row({fmt::format("{}", i.id),
+                 fmt::format("TYPE{}", i.type),
+                 fmt::format("{}", i.before.pairs),
+                 {fmt::format("{}", left), tone},
+                 fmt::format("{:.4g}", i.before.deepest),
+                 fmt::format("{:.4g}", i.after.deepest),
+                 changed.empty() ? "-" : changed,
+                 i.title});
+  }
+  return table.render(color, 2);
+}
+
+std::string moved_text(const PenetrationFix& fix, const FixTextOptions& options) {
+  if (fix.moved.empty()) return {};
+  std::vector<const MovedNode*> order;
+  std::map<std::int64_t, std::size_t> parts;
+  for (const MovedNode& m : fix.moved) {
+    order.push_back(&m);
+    ++parts[m.part];
+  }
+  std::stable_sort(order.begin(), order.end(), [](const MovedNode* a, const MovedNode* b) {
+    return a->distance > b->distance;
+  });
+  std::string text = "\nmoved, by part:";
+  std::size_t shown = 0;
+  for (const auto& [part, n] : parts) {
+    if (shown++ == options.rows) {
+      text += fmt::format(" and {} more parts", parts.size() - options.rows);
+      break;
+    }
+    text += part == 0 ? fmt::format("{} {} of no part", shown > 1 ? "," : "", n)
+                      : fmt::format("{} {} of part {}", shown > 1 ? "," : "", n, part);
+  }
+  text += "\nfarthest moves:\n";
+  TextTable table({{"node", Align::right},
+                   {"part", Align::right},
+                   {"distance", Align::right},
+                   {"x", Align::right},
+                   {"y", Align::right},
+                   {"z", Align::right}});
+  for (std::size_t i = 0; i < order.size() && i < options.rows; ++i) {
+    const MovedNode& m = *order[i];
+    table.row({fmt::format("{}", m.id), m.part == 0 ? "-" : fmt::format("{}", m.part),
+               fmt::format("{:.4g}", m.distance), fmt::format("{:.4g}", m.by[0]),
+               fmt::format("{:.4g}", m.by[1]), fmt::format("{:.4g}", m.by[2])});
+  }
+  text += table.render(options.color, 2);
+  if (order.size() > options.rows)
+    text += fmt::format("  ... and {} more (--json lists all)\n", order.size() - options.rows);
+  return text;
+}
+
+std::string refused_text(const PenetrationFix& fix, const FixTextOptions& options) {
+  if (fix.refused.empty()) return {};
+  struct Group {
+    std::int64_t interface_id;
+    std::string reason;
+    std::size_t count = 0;
+    double deepest = 0;
+    std::vector<std::string> examples;
+  };
+  std::vector<Group> groups;
+  for (const FixRefusal& r : fix.refused) {
+    auto g = std::find_if(groups.begin(), groups.end(), [&](const Group& x) {
+      return x.interface_id == r.interface_id && x.reason == r.reason;
+    });
+    if (g == groups.end()) {
+      groups.push_back({r.interface_id, r.reason, 0, 0, {}});
+      g = groups.end() - 1;
+    }
+    g->deepest = std::max(g->deepest, r.depth);
+    if (r.nodes.empty()) continue;
+    ++g->count;
+    if (g->examples.size() < 5) g->examples.push_back(names(r.nodes));
+  }
+  std::string text = "\nnot treated:\n";
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (i == options.rows) {
+      text += fmt::format("  ... and {} more groups (--json lists all)\n", groups.size() - i);
+      break;
+    }
+    const Group& g = groups[i];
+    text += fmt::format("  interface {}", g.interface_id);
+    if (g.count > 0) text += fmt::format(", {}", count(g.count, "node or edge", "nodes or edges"));
+    if (g.deepest > 0) text += fmt::format(", up to {:.4g} deep", g.deepest);
+    text += ": " + terminal_text(g.reason);
+    if (g.count > 0) {
+      text += " (";
+      for (std::size_t k = 0; k < g.examples.size(); ++k)
+        text += (k == 0 ? "" : ", ") + g.examples[k];
+      text += g.count > g.examples.size() ? ", ...)" : ")";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string actions_text(const PenetrationFix& fix, const FixTextOptions& options) {
+  if (fix.actions.empty()) return {};
+  std::map<std::pair<std::int64_t, PenetrationAction>, std::size_t> counts;
+  for (const FixAction& a : fix.actions) ++counts[{a.interface_id, a.after}];
+  std::string text = "\nthe solver will then:\n";
+  std::size_t shown = 0;
+  for (const auto& [key, n] : counts) {
+    if (shown++ == options.rows) {
+      text += "  ... (--json lists every pair)\n";
+      break;
+    }
+    static constexpr const char* words[] = {"do nothing",
+                                            "switch the node off for the whole interface",
+                                            "switch the segment off",
+                                            "move the node",
+                                            "reduce the gap",
+                                            "switch the edge off"};
+    text += fmt::format("  interface {}: {} for {}\n", key.first,
+                        words[static_cast<std::size_t>(key.second)], count(n, "pair", "pairs"));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string fix_verdict(const PenetrationFix& fix) {
+  const FixCount before = total(fix, &FixedInterface::before),
+                 after = total(fix, &FixedInterface::after);
+  if (fix.interfaces.empty()) return "no initial penetrations: nothing to fix";
+  std::string text;
+  if (changes_flags(fix)) {
+    text = fmt::format("{}: {}, {} without treatment before, {} after", fix.strategy,
+                       count(before.pairs, "penetration", "penetrations"), before.untreated,
+                       after.untreated);
+  } else {
+    text = fmt::format("{}: {} before (deepest {:.4g}), {} after", fix.strategy,
+                       count(before.pairs, "penetration", "penetrations"), before.deepest,
+                       after.pairs);
+    if (after.pairs > 0) text += fmt::format(" (deepest {:.4g})", after.deepest);
+  }
+  if (!fix.moved.empty()) {
+    double far = 0;
+    for (const MovedNode& m : fix.moved) far = std::max(far, m.distance);
+    text += fmt::format(
+        "; {} moved by up to {:.4g} in {}", count(fix.moved.size(), "node", "nodes"), far,
+        count(static_cast<std::uint64_t>(fix.iterations), "iteration", "iterations"));
+  }
+  return text;
+}
+
+std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options) {
+  const Tone tone = fix.complete ? Tone::green : Tone::yellow;
+  std::string text = toned(fix_verdict(fix), tone, options.color) + "\n";
+  if (fix.interfaces.empty()) return text;
+  text += "\n" + interface_table(fix, options.color);
+  text += moved_text(fix, options);
+  text += actions_text(fix, options);
+  text += refused_text(fix, options);
+  return text;
+}
+
+}  // namespace deck

@@ -1,0 +1,155 @@
+#include "batch/list.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "deck/text/number.hpp"
+
+namespace deck::cli {
+namespace {
+namespace fs = std::filesystem;
+
+Result<std::string> read_manifest(const std::string& path) {
+  std::ostringstream text;
+  if (path == "-") {
+    text << std::cin.rdbuf();
+    return text.str();
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (in) text << in.rdbuf();
+  if (!in) return Error{Error::Code::config, "cannot read the manifest " + path};
+  return text.str();
+}
+
+/// Lines without blanks at their ends, without empty lines and comments.
+std::vector<std::string> manifest_lines(const std::string& text) {
+  std::vector<std::string> out;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    const auto first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') continue;
+    out.push_back(line.substr(first, line.find_last_not_of(" \t\r") + 1 - first));
+  }
+  return out;
+}
+
+/// All Starter decks below a directory.
+Result<std::vector<std::string>> decks_below(const std::string& directory) {
+  std::vector<std::string> found;
+  std::error_code ec;
+  for (auto it = fs::recursive_directory_iterator(directory, ec);
+       !ec && it != fs::recursive_directory_iterator(); it.increment(ec))
+    if (std::error_code status;
+        it->is_regular_file(status) && it->path().filename().string().ends_with("_0000.rad"))
+      found.push_back(it->path().string());
+  if (ec) return Error{Error::Code::io, "cannot read " + directory + ": " + ec.message()};
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Names that mean something else in the output directory.
+bool reserved(const std::string& stem) { return stem == "summary" || stem.starts_with("summary-"); }
+
+/// The last `parents` directory names and the stem, "a--b--car_0000".
+std::string name_with_parents(const fs::path& path, int parents) {
+  std::string name = path.stem().string();
+  fs::path dir = path.parent_path();
+  for (int i = 0; i < parents && dir.has_filename(); ++i, dir = dir.parent_path())
+    name = dir.filename().string() + "--" + name;
+  return name;
+}
+
+/// Result names of normalized absolute paths.
+std::vector<std::string> result_names(const std::vector<fs::path>& paths) {
+  std::vector<int> parents(paths.size(), 0);
+  std::vector<std::string> names(paths.size());
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::map<std::string, std::vector<std::size_t>> by_name;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      names[i] = name_with_parents(paths[i], parents[i]);
+      by_name[names[i]].push_back(i);
+    }
+    for (const auto& [name, same] : by_name) {
+      // Files of one directory are not told apart by its name.
+      const fs::path parent = paths[same.front()].parent_path();
+      if (!reserved(name) && std::all_of(same.begin(), same.end(), [&](std::size_t i) {
+            return paths[i].parent_path() == parent;
+          }))
+        continue;
+      for (const std::size_t i : same) {
+        if (name_with_parents(paths[i], parents[i] + 1) == name) continue;  // at the root
+        ++parents[i];
+        changed = true;
+      }
+    }
+  }
+  // What differs in the extension only.
+  std::set<std::string> used;
+  for (std::string& name : names) {
+    std::string candidate = name;
+    for (int n = 2; reserved(candidate) || !used.insert(candidate).second; ++n)
+      candidate = name + "--" + std::to_string(n);
+    name = candidate;
+  }
+  return names;
+}
+
+}  // namespace
+
+Result<std::vector<BatchDeck>> list_decks(const std::vector<std::string>& given,
+                                          const std::string& manifest) {
+  std::vector<std::string> named = given;
+  if (!manifest.empty()) {
+    const auto text = read_manifest(manifest);
+    if (!text) return text.error();
+    const auto lines = manifest_lines(*text);
+    named.insert(named.end(), lines.begin(), lines.end());
+  }
+  std::vector<BatchDeck> decks;
+  std::vector<fs::path> paths;
+  std::set<fs::path> seen;
+  std::error_code ec;
+  const auto add = [&](const std::string& path) {
+    const fs::path absolute = fs::absolute(path, ec).lexically_normal();
+    if (!seen.insert(absolute).second) return;
+    decks.push_back({path, {}});
+    paths.push_back(absolute);
+  };
+  for (const std::string& path : named) {
+    if (path == "-")
+      return Error{Error::Code::config,
+                   "standard input cannot be one of many decks; --manifest - reads the list there"};
+    if (!fs::is_directory(path, ec)) {
+      add(path);
+      continue;
+    }
+    const auto below = decks_below(path);
+    if (!below) return below.error();
+    for (const std::string& deck : *below) add(deck);
+  }
+  const auto names = result_names(paths);
+  for (std::size_t i = 0; i < decks.size(); ++i) decks[i].result = names[i] + ".json";
+  return decks;
+}
+
+Result<Shard> parse_shard(const std::string& text) {
+  const auto slash = text.find('/');
+  if (slash != std::string::npos) {
+    const IntegerCell index = read_integer(std::string_view(text).substr(0, slash));
+    const IntegerCell count = read_integer(std::string_view(text).substr(slash + 1));
+    if (index.status == NumberStatus::ok && count.status == NumberStatus::ok && count.value >= 1 &&
+        index.value >= 1 && index.value <= count.value)
+      return Shard{static_cast<std::size_t>(index.value), static_cast<std::size_t>(count.value)};
+  }
+  return Error{Error::Code::config,
+               "--shard " + text + ": expected i/n, part i of n, for example 1/8 ... 8/8"};
+}
+
+}  // namespace deck::cli

@@ -1,0 +1,256 @@
+#include "batch/record.hpp"
+
+#include <elf.h>
+#include <fmt/format.h>
+#include <link.h>
+#include <sys/stat.h>
+#include <ctime>
+
+#include <bit>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "batch/json.hpp"
+#include "deck/report/json.hpp"
+#include "deck/text/source.hpp"
+
+namespace deck::cli {
+
+// ---- hashing --------------------------------------------------------------------------------
+
+namespace {
+
+constexpr std::uint64_t p1 = 0x9E3779B185EBCA87u, p2 = 0xC2B2AE3D27D4EB4Fu,
+                        p3 = 0x165667B19E3779F9u, p4 = 0x85EBCA77C2B2AE63u,
+                        p5 = 0x27D4EB2F165667C5u;
+
+template <class T>
+std::uint64_t load_word(const char* at) {
+  static_assert(std::endian::native == std::endian::little);
+  T word;
+  std::memcpy(&word, at, sizeof word);
+  return word;
+}
+std::uint64_t round_of(std::uint64_t lane, std::uint64_t word) {
+  return std::rotl(lane + word * p2, 31) * p1;
+}
+
+}  // namespace
+
+std::uint64_t content_hash(std::string_view bytes) {
+  const char* at = bytes.data();
+  std::size_t left = bytes.size();
+  std::uint64_t h = p5;
+  if (left >= 32) {
+    std::uint64_t lane[4] = {p1 + p2, p2, 0, 0 - p1};
+    for (; left >= 32; left -= 32, at += 32)
+      for (std::size_t i = 0; i < 4; ++i)
+        lane[i] = round_of(lane[i], load_word<std::uint64_t>(at + 8 * i));
+    h = std::rotl(lane[0], 1) + std::rotl(lane[1], 7) + std::rotl(lane[2], 12) +
+        std::rotl(lane[3], 18);
+    for (const std::uint64_t l : lane) h = (h ^ round_of(0, l)) * p1 + p4;
+  }
+  h += bytes.size();
+  for (; left >= 8; left -= 8, at += 8)
+    h = std::rotl(h ^ round_of(0, load_word<std::uint64_t>(at)), 27) * p1 + p4;
+  if (left >= 4) {
+    h = std::rotl(h ^ (load_word<std::uint32_t>(at) * p1), 23) * p2 + p3;
+    left -= 4;
+    at += 4;
+  }
+  for (; left > 0; --left, ++at) h = std::rotl(h ^ (static_cast<unsigned char>(*at) * p5), 11) * p1;
+  h = (h ^ (h >> 33)) * p2;
+  h = (h ^ (h >> 29)) * p3;
+  return h ^ (h >> 32);
+}
+
+// ---- files ----------------------------------------------------------------------------------
+
+namespace {
+
+std::int64_t nanoseconds(const timespec& t) {
+  return static_cast<std::int64_t>(t.tv_sec) * 1000000000 + t.tv_nsec;
+}
+
+std::optional<std::string> contents(const std::string& path) {
+  const auto source = Source::open(path, Limits{});  // regular files only
+  if (!source) return std::nullopt;
+  return std::string((*source)->bytes());
+}
+
+}  // namespace
+
+std::int64_t file_clock_now() {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  return nanoseconds(now);
+}
+
+FileState file_state(const std::string& path, std::string_view bytes, std::int64_t since) {
+  FileState state{path, bytes.size(), 0, content_hash(bytes)};
+  struct stat status {};
+  // File times advance in steps of some milliseconds, and clocks of servers differ.
+  constexpr std::int64_t margin = 2000000000;
+  if (stat(path.c_str(), &status) == 0 &&
+      static_cast<std::uint64_t>(status.st_size) == bytes.size() &&
+      nanoseconds(status.st_mtim) < since - margin)
+    state.mtime = nanoseconds(status.st_mtim);
+  return state;
+}
+
+std::optional<FileState> file_state(const std::string& path) {
+  const std::int64_t since = file_clock_now();
+  const auto text = contents(path);
+  if (!text) return std::nullopt;
+  return file_state(path, *text, since);
+}
+
+bool Freshness::unchanged(const FileState& state) {
+  const auto [it, is_new] = seen_.try_emplace(state.path);
+  Seen& now = it->second;
+  if (is_new) {
+    struct stat status {};
+    if (stat(state.path.c_str(), &status) == 0 && S_ISREG(status.st_mode)) {
+      now.size = static_cast<std::uint64_t>(status.st_size);
+      now.mtime = nanoseconds(status.st_mtim);
+    }
+  }
+  if (now.size != state.size) return false;
+  if (state.mtime != 0 && now.mtime == state.mtime) return true;
+  if (!now.hash) {
+    const auto text = contents(state.path);
+    if (!text) return false;
+    now.hash = content_hash(*text);
+  }
+  return now.hash == state.hash;
+}
+
+bool Freshness::holds(const Record& record, const std::string& directory, std::uint64_t key,
+                      const std::string& result, const std::vector<std::string>& settings) {
+  if (record.key != key || record.result != as_utf8(result)) return false;
+  if (record.settings.size() != settings.size()) return false;
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    if (record.settings[i].path != as_utf8(settings[i]) || !unchanged(record.settings[i]))
+      return false;
+  for (const FileState& f : record.files)
+    if (!unchanged(f)) return false;
+  const auto text = contents(directory + "/" + result);
+  return text && text->size() == record.bytes && content_hash(*text) == record.hash;
+}
+
+// ---- records --------------------------------------------------------------------------------
+
+std::string as_utf8(std::string_view text) {
+  std::string json;
+  append_json_string(json, text);
+  return nlohmann::json::parse(json).get<std::string>();
+}
+
+namespace {
+
+std::string hex(std::uint64_t v) { return fmt::format("{:016x}", v); }
+
+std::uint64_t from_hex(const nlohmann::ordered_json& v) {
+  return std::stoull(v.get<std::string>(), nullptr, 16);
+}
+
+void write_states(JsonWriter& json, const std::vector<FileState>& states) {
+  json.begin_array(true);
+  for (const FileState& f : states)
+    json.begin_object(true)
+        .field("path", f.path)
+        .field("size", f.size)
+        .field("mtime", f.mtime)
+        .field("hash", hex(f.hash))
+        .end_object();
+  json.end_array();
+}
+
+std::vector<FileState> read_states(const nlohmann::ordered_json& list) {
+  std::vector<FileState> out;
+  for (const auto& f : list)
+    out.push_back({f.at("path").get<std::string>(), f.at("size").get<std::uint64_t>(),
+                   f.at("mtime").get<std::int64_t>(), from_hex(f.at("hash"))});
+  return out;
+}
+
+}  // namespace
+
+std::string record_line(const Record& r) {
+  std::string text;
+  JsonWriter json(text);
+  json.begin_object(true)
+      .field("deck", r.deck)
+      .field("result", r.result)
+      .field("key", hex(r.key))
+      .field("bytes", r.bytes)
+      .field("hash", hex(r.hash))
+      .field("code", r.code)
+      .field("seconds", r.seconds);
+  json.key("files");
+  write_states(json, r.files);
+  json.key("settings");
+  write_states(json, r.settings);
+  json.key("entry").raw(r.entry).end_object();
+  text.erase(text.find_last_not_of('\n') + 1);
+  return text;
+}
+
+std::optional<Record> parse_record(std::string_view line) {
+  try {
+    const auto json = nlohmann::ordered_json::parse(line);
+    Record r;
+    r.deck = json.at("deck").get<std::string>();
+    r.result = json.at("result").get<std::string>();
+    r.key = from_hex(json.at("key"));
+    r.bytes = json.at("bytes").get<std::uint64_t>();
+    r.hash = from_hex(json.at("hash"));
+    r.code = json.at("code").get<int>();
+    r.seconds = json.at("seconds").get<double>();
+    r.files = read_states(json.at("files"));
+    r.settings = read_states(json.at("settings"));
+    r.entry = json_line(json.at("entry"));
+    return r;
+  } catch (const std::exception&) {  // a line that was cut off, or not ours
+    return std::nullopt;
+  }
+}
+
+// ---- identity -------------------------------------------------------------------------------
+
+namespace {
+
+/// Appends the build id of the program and of a shared libdeck.
+int add_build_id(dl_phdr_info* info, std::size_t, void* data) {
+  auto& text = *static_cast<std::string*>(data);
+  const std::string_view name = info->dlpi_name == nullptr ? "" : info->dlpi_name;
+  if (!name.empty() && name.find("libdeck") == name.npos) return 0;
+  for (int i = 0; i < info->dlpi_phnum; ++i) {
+    const auto& header = info->dlpi_phdr[i];
+    if (header.p_type != PT_NOTE) continue;
+    const char* at = reinterpret_cast<const char*>(info->dlpi_addr + header.p_vaddr);
+    const char* const end = at + header.p_memsz;
+    while (end - at > static_cast<std::ptrdiff_t>(sizeof(ElfW(Nhdr)))) {
+      ElfW(Nhdr) note;
+      std::memcpy(&note, at, sizeof note);
+      const char* const owner = at + sizeof note;
+      const char* const id = owner + (note.n_namesz + 3) / 4 * 4;
+      if (id + note.n_descsz > end) break;
+      if (note.n_type == NT_GNU_BUILD_ID && note.n_namesz == 4 && std::memcmp(owner, "GNU", 4) == 0)
+        for (std::size_t b = 0; b < note.n_descsz; ++b)
+          text += fmt::format("{:02x}", static_cast<unsigned char>(id[b]));
+      at = id + (note.n_descsz + 3) / 4 * 4;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::string program_identity() {
+  std::string text = std::string(library_version()) + " ";
+  dl_iterate_phdr(add_build_id, &text);
+  return text;
+}
+
+}  // namespace deck::cli

@@ -1,0 +1,459 @@
+#include "batch/run.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <thread>
+#include <unordered_map>
+
+#include "batch/json.hpp"
+#include "deck/base/escape.hpp"
+#include "deck/lint/config.hpp"
+#include "deck/report/json.hpp"
+#include "deck/text/source.hpp"
+
+namespace deck::cli {
+namespace fs = std::filesystem;
+namespace {
+
+/// Runs a verb as `deck VERB ... DECK` would; its output goes where standard output goes.
+int run_verb(const BatchTask& task, const std::string& deck) {
+  CommandLine line("", "deck " + std::string(task.verb.name));
+  const Action action = task.verb.setup(line);
+  std::vector<std::string> arguments = task.options;
+  arguments.insert(arguments.end(), {"--", deck});
+  if (const auto parsed = line.parse(std::move(arguments)); !parsed)
+    throw std::runtime_error(parsed.error().message);
+  return action();
+}
+
+/// Everything but the deck that decides about a result. Files and directories among the options
+/// (a configuration, schemas) count with their contents.
+std::uint64_t key_of(const BatchTask& task) {
+  std::string text = program_identity() + "\n" + std::string(task.verb.name);
+  const auto add_file = [&](const fs::path& path) {
+    if (const auto state = file_state(path.string()))
+      text += "\n = " + path.string() + " " + std::to_string(state->hash);
+  };
+  std::error_code ec;
+  for (const std::string& word : task.options) {
+    text += "\n" + word;
+    if (fs::is_regular_file(word, ec)) add_file(word);
+    if (!fs::is_directory(word, ec)) continue;
+    std::set<fs::path> schemas;
+    for (auto it = fs::directory_iterator(word, ec); !ec && it != fs::directory_iterator();
+         it.increment(ec))
+      if (it->path().extension() == ".json") schemas.insert(it->path());
+    for (const fs::path& s : schemas) add_file(s);
+  }
+  return content_hash(text);
+}
+
+/// Settings that a verb finds by itself.
+std::vector<std::string> settings_of(const BatchTask& task, const std::string& deck) {
+  std::vector<std::string> paths;
+  if (task.verb.name != "lint") return paths;
+  const auto config = find_lint_config(deck);
+  if (!config) return paths;
+  for (const std::string& path : {config->path, config->baseline})
+    if (!path.empty()) paths.push_back(path);
+  return paths;
+}
+
+/// A deck is only clean if something was examined. Lint has rules for decks without any contact.
+std::string_view status_in(const BatchTask& task, int code,
+                           const std::optional<DocumentFacts>& facts) {
+  if (!facts || code > exit_findings || facts->examined.value_or(1) > 0) return status_of(code);
+  const bool lint = task.verb.name == "lint";
+  if (lint && (facts->errors || !facts->others)) return status_of(code);
+  const bool required = std::find(task.options.begin(), task.options.end(), "--require-examined") !=
+                        task.options.end();
+  return code == exit_clean || required || task.verb.name == "gaps" || task.verb.name == "cycle"
+             ? "not-examined"
+             : status_of(code);
+}
+
+std::string first_line(std::string_view text) {
+  constexpr std::string_view prefix = "deck: error: ";
+  if (text.starts_with(prefix)) text.remove_prefix(prefix.size());
+  return std::string(text.substr(0, text.find('\n')));
+}
+
+/// Bar, counts and time left, on a terminal.
+class Bar {
+ public:
+  Bar(bool enabled, std::size_t all) : enabled_(enabled && isatty(2) == 1), all_(all) {}
+  Bar(const Bar&) = delete;
+  Bar& operator=(const Bar&) = delete;
+  ~Bar() { clear(); }
+
+  void count(int code) {
+    ++done_;
+    if (code == exit_findings) ++findings_;
+    if (code > exit_findings) ++failed_;
+  }
+  void draw() {
+    if (!enabled_) return;
+    constexpr std::size_t width = 24;
+    const std::size_t full = all_ == 0 ? width : done_ * width / all_;
+    const double elapsed =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    std::string left = "-:--:--";
+    if (done_ > 0) {
+      const auto s = static_cast<long>(elapsed / static_cast<double>(done_) *
+                                       static_cast<double>(all_ - done_));
+      left = fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
+    }
+    fmt::print(stderr, "\r\x1b[K[{}{}] {}/{} decks, {} with findings, {} failed, {} left",
+               std::string(full, '#'), std::string(width - full, '.'), done_, all_, findings_,
+               failed_, left);
+    std::fflush(stderr);
+    drawn_ = true;
+  }
+  void clear() {
+    if (drawn_) std::fputs("\r\x1b[K", stderr);
+    drawn_ = false;
+  }
+
+ private:
+  bool enabled_, drawn_ = false;
+  std::size_t all_, done_ = 0, findings_ = 0, failed_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+Batch::Batch(const BatchOptions& o, BatchTask task, const std::vector<BatchDeck>& all, Shard shard,
+             Ranks ranks)
+    : o_(o), task_(std::move(task)), all_(all.size()), shard_(shard), ranks_(std::move(ranks)) {
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (shard_.has(i) && ranks_.shard().has(in_shard_++)) decks_.push_back(all[i]);
+}
+
+Batch::~Batch() {
+  for (const int fd : {journal_, lock_})
+    if (fd >= 0) close(fd);
+}
+
+/// What tells our files in .batch from those of other shards and ranks.
+std::string Batch::label() const {
+  std::string text = shard_.whole() ? "all"
+                                    : "shard-" + std::to_string(shard_.index) + "-of-" +
+                                          std::to_string(shard_.count);
+  if (!ranks_.single())
+    text += "-rank-" + std::to_string(ranks_.rank()) + "-of-" + std::to_string(ranks_.size());
+  return text;
+}
+
+Result<void> make_own_directory(const std::string& path) {
+  std::error_code ec;
+  fs::create_directories(path, ec);
+  if (ec) return Error{Error::Code::io, "cannot make " + path + ": " + ec.message()};
+  if (fs::symlink_status(path, ec).type() == fs::file_type::directory) return {};
+  return Error{Error::Code::config,
+               path + " is a link, not a directory: it would lead out of the results; remove it"};
+}
+
+Result<void> write_result(const std::string& path, std::string_view bytes, bool sync) {
+  OutputRules rules;
+  WriteOptions options;
+  rules.follow_links = options.follow_links = false;
+  options.sync = sync;
+  return write_outputs({{path, bytes}}, rules, options);
+}
+
+Result<void> Batch::prepare() {
+  if (auto made = make_own_directory(in_directory(".batch")); !made) return made;
+  const std::string lock = in_directory(".batch/" + label() + ".lock");
+  lock_ = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+  if (lock_ < 0)
+    return Error{Error::Code::io, "cannot create " + lock + ": " + std::strerror(errno)};
+  // Held until this process ends; its workers do not hold it. File systems without locks do
+  // without.
+  struct flock whole {};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  if (fcntl(lock_, F_SETLK, &whole) != 0 && (errno == EAGAIN || errno == EACCES))
+    return Error{Error::Code::config, "another deck batch is writing to " + o_.directory +
+                                          "; give it parts by --shard, or another directory"};
+  if (!ranks_.single())
+    if (auto opened = ranks_.open(in_directory(".batch")); !opened) return opened;
+  key_ = key_of(task_);
+  records_.resize(decks_.size());
+  for (Record& r : records_) r.code = -1;
+  std::set<std::string> ours = {label() + ".jsonl", summary_name(shard_)};
+  for (const BatchDeck& d : decks_) ours.insert(d.result);
+  remove_strays(ours);
+  if (!o_.force) read_journals();
+  // Our journal begins with what still holds: no line of it is broken, and it does not grow for
+  // ever.
+  std::string text;
+  for (const Record& r : records_)
+    if (r.code >= 0) text += record_line(r) + "\n";
+  const std::string path = in_directory(".batch/" + label() + ".jsonl");
+  if (auto written = write_result(path, text, false); !written) return written;
+  journal_ = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
+  if (journal_ < 0)
+    return Error{Error::Code::io, "cannot open " + path + ": " + std::strerror(errno)};
+  return {};
+}
+
+/// Temporary files of these results that a killed process left. Nobody else writes our results.
+void Batch::remove_strays(const std::set<std::string>& targets) const {
+  std::error_code ec;
+  for (const std::string& dir : {o_.directory, in_directory(".batch")})
+    for (auto it = fs::directory_iterator(dir, ec); !ec && it != fs::directory_iterator();
+         it.increment(ec)) {
+      const std::string name = it->path().filename().string();
+      if (name.size() < 6 || name[0] != '.' || !name.ends_with(".tmp")) continue;
+      const auto dot = name.rfind('.', name.size() - 5);
+      const std::string target = name.substr(1, dot == 0 ? 0 : dot - 1);
+      if (targets.contains(target) && is_temporary_of(name, target)) unlink(it->path().c_str());
+    }
+}
+
+void Batch::read_journals() {
+  std::unordered_map<std::string, std::vector<std::size_t>> wanted;
+  for (std::size_t i = 0; i < decks_.size(); ++i) wanted[as_utf8(decks_[i].path)].push_back(i);
+  Freshness freshness;
+  std::set<fs::path> journals;
+  std::error_code ec;
+  for (auto it = fs::directory_iterator(in_directory(".batch"), ec);
+       !ec && it != fs::directory_iterator(); it.increment(ec))
+    if (it->path().extension() == ".jsonl" &&
+        it->symlink_status(ec).type() == fs::file_type::regular)
+      journals.insert(it->path());
+  for (const fs::path& journal : journals) {
+    const auto source = Source::open(journal.string(), Limits{});
+    if (!source) continue;
+    std::istringstream in{std::string((*source)->bytes())};
+    for (std::string line; std::getline(in, line);) {
+      auto record = parse_record(line);
+      if (!record) continue;
+      const auto found = wanted.find(record->deck);
+      if (found == wanted.end()) continue;
+      for (const std::size_t i : found->second)
+        if (records_[i].code < 0 && freshness.holds(*record, o_.directory, key_, decks_[i].result,
+                                                    settings_of(task_, decks_[i].path)))
+          records_[i] = *record;
+    }
+  }
+  kept_ = static_cast<std::size_t>(
+      std::count_if(records_.begin(), records_.end(), [](const Record& r) { return r.code >= 0; }));
+}
+
+/// In a worker: runs the verb, writes the result, answers with the record.
+std::string Batch::work_on(std::size_t index, Captured& output) const {
+  const auto start = std::chrono::steady_clock::now();
+  const std::int64_t since = file_clock_now();
+  const BatchDeck& deck = decks_[index];
+  Record record;
+  record.deck = deck.path;
+  record.key = key_;
+  observe_loading([&](const Deck& loaded) {
+    record.files.clear();
+    for (std::uint32_t f = 0; f < loaded.sources.size(); ++f)
+      record.files.push_back(
+          file_state(loaded.sources[f].path(), loaded.sources[f].bytes(), since));
+  });
+  std::string error, document;
+  try {
+    record.code = run_verb(task_, deck.path);
+    document = output.out();
+  } catch (const std::bad_alloc&) {
+    record.code = exit_internal;
+    error = "out of memory";
+  } catch (const std::exception& e) {
+    record.code = exit_internal;
+    error = e.what();
+  }
+  for (const std::string& path : settings_of(task_, deck.path))
+    if (auto state = file_state(path)) record.settings.push_back(*state);
+  std::optional<DocumentFacts> facts;
+  if (error.empty() && record.code > exit_findings) error = first_line(output.err());
+  if (!document.empty() && record.code != exit_internal) {
+    facts = document_facts(document);
+    // Results are flushed together at the end.
+    if (!facts) {
+      record.code = exit_internal;
+      error = "the result is not JSON";
+    } else if (auto written = write_result(in_directory(deck.result), document, false); !written) {
+      record.code = exit_usage;
+      error = written.error().message;
+      facts.reset();
+    }
+  } else if (record.code <= exit_findings) {
+    record.code = exit_internal;
+    error = "there is no result";
+  }
+  if (facts) {
+    record.result = deck.result;
+    record.bytes = document.size();
+    record.hash = content_hash(document);
+  } else {
+    unlink(in_directory(deck.result).c_str());  // a result of earlier would be taken for this one
+  }
+  record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record.entry = summary_entry(
+      deck.path, status_in(task_, record.code, facts), record.result, record.code, error,
+      facts && facts->verdict ? &*facts->verdict : nullptr, facts ? facts->counts : "{}");
+  return record_line(record);
+}
+
+Record Batch::record_of(const JobReport& report) const {
+  if (report.answered)
+    if (auto record = parse_record(report.message)) return std::move(*record);
+  Record record;
+  const BatchDeck& deck = decks_[report.job];
+  record.deck = as_utf8(deck.path);
+  // A file that shrinks while it is read ends the worker in an orderly way.
+  record.code = report.exit_code == exit_input ? exit_input : exit_internal;
+  std::string why = report.why;
+  if (const std::string said = first_line(report.err); !said.empty())
+    why = report.exit_code == exit_input ? said : why + ": " + said;
+  record.entry =
+      summary_entry(deck.path, status_of(record.code), "", record.code, why, nullptr, "{}");
+  unlink(in_directory(deck.result).c_str());
+  return record;
+}
+
+/// Only what is finished goes into the journal: the rest is tried again next time.
+Result<void> Batch::keep(Record record, std::size_t index) {
+  if (record.code <= exit_findings) {
+    const std::string line = record_line(record) + "\n";
+    const ssize_t n = write(journal_, line.data(), line.size());
+    if (n != static_cast<ssize_t>(line.size()))
+      return Error{Error::Code::io, "cannot write to " + in_directory(".batch") + ": " +
+                                        std::strerror(n < 0 ? errno : ENOSPC)};
+  }
+  records_[index] = std::move(record);
+  return {};
+}
+
+/// Number of the signal that ended it, or 0.
+Result<int> Batch::work() {
+  std::vector<std::size_t> todo;
+  for (std::size_t i = 0; i < decks_.size(); ++i)
+    if (records_[i].code < 0) todo.push_back(i);
+  if (todo.empty()) return 0;
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  int jobs = o_.jobs;
+  // A launcher that binds its processes shows each of them its own processors only.
+  if (jobs == 0)
+    jobs = processors == static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN))
+               ? std::max(1, processors / static_cast<int>(ranks_.local_size()))
+               : processors;
+  jobs = static_cast<int>(std::min(static_cast<std::size_t>(jobs), todo.size()));
+  const int threads =
+      o_.common.threads > 0 ? o_.common.threads : std::max(1, processors / std::max(1, jobs));
+  task_.options.insert(task_.options.end(), {"--json", "-", "--quiet", "--color", "never",
+                                             "--threads", std::to_string(threads)});
+  (void)SchemaSet::built_in();  // once, and not in every worker
+  Bar bar(!o_.common.quiet, todo.size());
+  std::optional<Error> trouble;
+  WorkerPool pool(jobs, o_.timeout,
+                  [this](std::size_t index, Captured& out) { return work_on(index, out); });
+  const auto signal = pool.run(
+      todo,
+      [&](const JobReport& report) {
+        if (!report.answered) remove_strays({decks_[report.job].result});
+        Record record = record_of(report);
+        bar.count(record.code);
+        if (record.code > exit_findings && !o_.common.quiet) {
+          bar.clear();
+          const auto entry = nlohmann::json::parse(record.entry);
+          print_error(o_.common,
+                      decks_[report.job].path + ": " + entry.at("error").get<std::string>());
+        }
+        if (auto kept = keep(std::move(record), report.job); !kept) trouble = kept.error();
+        return !trouble.has_value();
+      },
+      [&] {
+        bar.draw();
+        ranks_.beat();
+      });
+  if (trouble) return *trouble;
+  return signal;
+}
+
+Summary Batch::summary() const {
+  Summary s;
+  s.tool = std::string(library_version());
+  s.verb = std::string(task_.verb.name);
+  s.arguments = task_.words;
+  s.shard = shard_;
+  s.all = all_;
+  for (const Record& r : records_) s.entries.push_back(entry_of(r.entry, r.code));
+  return s;
+}
+
+/// Puts the parts together and writes the summary.
+int Batch::finish() {
+  if (const int fd = open(o_.directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); fd >= 0) {
+    syncfs(fd);  // the results, before the summary says that they are there
+    close(fd);
+  }
+  Summary s = summary();
+  if (!ranks_.single()) {
+    s.shard = ranks_.shard();
+    s.all = in_shard_;
+    if (!ranks_.first()) {
+      if (auto done = ranks_.deliver(s); !done) return fail(done.error().message);
+      return exit_clean;  // the first rank gives the exit code; another code would end the job
+    }
+    auto merged = ranks_.collect(std::move(s));
+    if (!merged) return fail(merged.error().message);
+    s = std::move(*merged);
+    s.shard = shard_;
+    s.all = all_;
+  }
+  if (auto written = write_result(in_directory(summary_name(shard_)), summary_json(s), true);
+      !written)
+    return fail(written.error().message);
+  return report_batch(o_, s, kept_);
+}
+
+int report_batch(const BatchOptions& o, const Summary& s, std::size_t kept) {
+  if (!o.common.json.empty())
+    if (auto written = write_output(o.common.json, summary_json(s)); !written) {
+      print_error(o.common, written.error().message);
+      return exit_usage;
+    }
+  if (o.common.wants_text()) {
+    const std::size_t nothing = s.count("not-examined");
+    const std::string not_examined =
+        nothing > 0 ? fmt::format("{} with nothing examined, ", nothing) : std::string();
+    std::string text =
+        fmt::format("{} decks: {} clean, {} with findings, {}{} unreadable, {} failed",
+                    s.entries.size(), s.count("clean"), s.count("findings"), not_examined,
+                    s.count("unreadable"), s.count("failed"));
+    if (kept > 0) text += fmt::format("; {} were finished before", kept);
+    print_text(text + "; " + terminal_text(o.directory) + "/" + summary_name(s.shard) + "\n");
+  }
+  return s.worst();
+}
+
+int Batch::run() {
+  if (auto prepared = prepare(); !prepared) return fail(prepared.error().message);
+  const auto signal = work();
+  if (!signal) return fail(signal.error().message);
+  if (*signal != 0) {
+    print_error(o_.common, "stopped; finished decks are kept, run the same command to go on");
+    ::signal(*signal, SIG_DFL);
+    raise(*signal);
+  }
+  return finish();
+}
+
+}  // namespace deck::cli
