@@ -6,13 +6,13 @@
 
 #include "deck/text/number.hpp"
 #include "keyword/reader.hpp"
+#include "text/number_scan.hpp"
 
 namespace deck::detail {
 namespace {
 
 // The locale of the process must not decide what a name is.
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Recursive-descent evaluation of + - * / ^ ** ( ) numbers, &names and a few functions, with
 /// bounds on steps and depth so that a hostile deck neither keeps us busy nor exhausts the stack.

@@ -7,11 +7,10 @@
 
 #include "deck/text/number.hpp"
 #include "text/decimal.hpp"
+#include "text/number_scan.hpp"
 
 namespace deck::detail {
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// 0.d1d2d3... * 10^point; no leading and no trailing zeros; no digits: zero.
 struct Digits {
