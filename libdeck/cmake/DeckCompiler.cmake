@@ -24,8 +24,10 @@ if(DECK_SANITIZE)
 endif()
 
 add_library(deck_warnings INTERFACE)
-target_compile_options(deck_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+target_compile_options(deck_warnings INTERFACE -Wall -Wextra -Wpedantic -Wnon-virtual-dtor
                        -Woverloaded-virtual -Wcast-align -Wunused -Wformat=2
+                       # Files compiled as one: what is private to one may shadow the other's.
+                       $<$<NOT:$<BOOL:${LIBDECK_UNITY}>>:-Wshadow>
                        $<$<BOOL:${LIBDECK_WERROR}>:-Werror>
                        # g++ 12 sees copies that overlap or end outside in std::string + literal
                        # (GCC bug 105651).
