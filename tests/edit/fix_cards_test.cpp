@@ -282,6 +282,14 @@ SmallDeck touching(const std::string& card) {
   return d.add(card);
 }
 
+TEST(SetInacti, SaysWhereTheSolverStopsWhateverInactiIs) {
+  const Built before(touching("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0 Inacti=6"));
+  const PenetrationFix fix = with_inacti(before, 6);
+  ASSERT_FALSE(fix.refused.empty());
+  EXPECT_THAT(fix.refused.at(0).reason, HasSubstr("stops at 1 pair whose nodes lie exactly"));
+  EXPECT_THAT(fix.refused.at(0).reason, ::testing::Not(HasSubstr("Inacti is 0")));
+}
+
 TEST(SetInacti, RefusesWhatStopsTheSolver) {
   const Built before(touching("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0"));
   const PenetrationFix fix = with_inacti(before, 6);

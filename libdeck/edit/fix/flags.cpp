@@ -21,6 +21,26 @@ std::string count_of(std::uint64_t n, const char* what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
+/// What the new values leave untreated of an interface: pairs that nothing is done about, and pairs
+/// at which the solver stops.
+std::string left_over(const PenetrationFix& fix, std::int64_t interface_id) {
+  std::uint64_t nothing = 0, stops = 0;
+  for (const FixAction& a : fix.actions) {
+    if (a.interface_id != interface_id) continue;
+    stops += a.stops;
+    nothing += !a.stops && a.after == PenetrationAction::none;
+  }
+  std::string text;
+  if (nothing > 0)
+    text = "the solver still does nothing about " + count_of(nothing, "pair") + ": Inacti is 0";
+  if (stops > 0)
+    text += (text.empty() ? "the solver" : "; it") + std::string(" stops at ") +
+            count_of(stops, "pair") +
+            " whose nodes lie exactly on a segment (error 611/612), whatever Inacti is: move the "
+            "nodes, or switch them off with fpenmax";
+  return text;
+}
+
 /// Reads the deck again and fills in what became of every penetration.
 Result<void> evaluate(PenetrationFix& fix, const EditContext& context, const FixOptions& options,
                       const Scene& before) {
@@ -65,12 +85,7 @@ Result<void> evaluate(PenetrationFix& fix, const EditContext& context, const Fix
     fix.complete = false;
     const bool said = std::any_of(fix.refused.begin(), fix.refused.end(),
                                   [&](const FixRefusal& r) { return r.interface_id == i.id; });
-    if (!said)
-      fix.refused.push_back({i.id,
-                             {},
-                             i.after.deepest,
-                             "the solver still does nothing about " +
-                                 count_of(i.after.untreated, "pair") + ": Inacti is 0"});
+    if (!said) fix.refused.push_back({i.id, {}, i.after.deepest, left_over(fix, i.id)});
   }
   std::stable_sort(
       fix.refused.begin(), fix.refused.end(),
