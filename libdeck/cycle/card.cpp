@@ -1,3 +1,4 @@
+// Turns the effective values of an interface into the plain numbers of the force kernel.
 #include "deck/cycle/card.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Finds the pairs of neighbouring segments that meet the other side in one point, so that it pushes
+// once.
 #include "deck/cycle/sharing.hpp"
 
 #include <algorithm>

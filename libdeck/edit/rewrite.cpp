@@ -1,3 +1,4 @@
+// Applies the edits of a conversion to the files of a deck; entries of its loss report.
 #include "deck/edit/rewrite.hpp"
 
 #include "deck/text/edits.hpp"

@@ -1,3 +1,4 @@
+// Looks things up in a deck that was read: lines, headers, parameters, units, offsets of submodels.
 #include "deck/keyword/deck.hpp"
 
 #include <algorithm>

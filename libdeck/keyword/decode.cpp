@@ -1,3 +1,4 @@
+// Reads the cells of one line by the fields of its card.
 #include "deck/keyword/decode.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Unit codes of headers and of /UNIT as factors to kilogram, metre, second.
 #include <cstdlib>
 #include <string>
 

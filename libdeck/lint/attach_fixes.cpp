@@ -1,3 +1,4 @@
+// Adds the edits that mend findings of the reader.
 #include "lint/attach_fixes.hpp"
 
 #include "deck/lint/fix.hpp"

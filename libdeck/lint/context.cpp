@@ -1,3 +1,4 @@
+// Collects what the rules share: decoded cards, what is defined and what is referred to.
 #include "lint/context.hpp"
 
 #include <fmt/format.h>

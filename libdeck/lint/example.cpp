@@ -1,3 +1,4 @@
+// Turns the short examples of rule pages into whole decks.
 #include "deck/lint/example.hpp"
 
 #include <algorithm>

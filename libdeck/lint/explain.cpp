@@ -1,3 +1,4 @@
+// The pages of `deck explain`: rules, keywords and fields as text.
 #include <fmt/format.h>
 
 #include <algorithm>

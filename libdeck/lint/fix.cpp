@@ -1,3 +1,4 @@
+// Picks the repairs that may be applied together and applies them.
 #include "deck/lint/fix.hpp"
 
 #include <algorithm>

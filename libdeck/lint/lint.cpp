@@ -1,3 +1,4 @@
+// Runs the rules, then suppressions and baseline, then sorts.
 #include "deck/lint/lint.hpp"
 
 #include <fmt/format.h>

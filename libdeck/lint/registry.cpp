@@ -1,3 +1,4 @@
+// The list of all rules, ordered by id.
 #include <algorithm>
 
 #include "deck/lint/rule.hpp"

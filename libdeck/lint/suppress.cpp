@@ -1,3 +1,4 @@
+// Finds the comments that suppress findings and notes which were used.
 #include "lint/suppress.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reads /DEFAULT/INTER and /FRICTION blocks into tables.
 #include "model/defaults.hpp"
 
 #include <algorithm>

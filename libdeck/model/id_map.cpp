@@ -1,3 +1,4 @@
+// Finds the index of an id: in a table where ids lie close, else in a sorted list.
 #include <algorithm>
 
 #include "deck/model/model.hpp"

@@ -1,3 +1,4 @@
+// Builds the typed interfaces from their blocks, one function a type.
 #include "deck/model/interfaces.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Fills one field: from its cell, the default block, or the built-in value.
 #include "model/interfaces_card.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Walks a bulk block once more for the lines of single nodes or elements.
 #include "model/item_spans.hpp"
 
 #include <algorithm>

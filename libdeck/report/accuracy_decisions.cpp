@@ -1,3 +1,4 @@
+// Counts and lists the decisions of a scene by how exactly they were taken.
 #include "report/accuracy_decisions.hpp"
 
 #include <fmt/format.h>

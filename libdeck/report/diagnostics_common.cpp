@@ -1,3 +1,4 @@
+// Place, severity and details of a finding as all writers of lint results show them.
 #include "report/diagnostics_common.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The loss report as a JSON array.
 #include "deck/report/losses.hpp"
 
 #include "deck/report/json.hpp"

@@ -1,3 +1,4 @@
+// Counts findings by rule and drops those beyond the limit.
 #include "deck/text/diagnostic.hpp"
 
 namespace deck {

@@ -1,3 +1,4 @@
+// Applies edits to bytes and prints unified diffs.
 #include "deck/text/edits.hpp"
 
 #include <algorithm>

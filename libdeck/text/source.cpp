@@ -1,3 +1,4 @@
+// Maps files into memory and finds lines and columns in them.
 #include "deck/text/source.hpp"
 
 #include <fcntl.h>

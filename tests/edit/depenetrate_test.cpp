@@ -1,3 +1,4 @@
+// Tests of moving nodes out of gaps.
 #include "deck/edit/depenetrate.hpp"
 
 #include "edit/fix_support.hpp"

@@ -1,3 +1,4 @@
+// Tests of edits that are joined or refused.
 #include "deck/edit/rewrite.hpp"
 
 #include <gtest/gtest.h>

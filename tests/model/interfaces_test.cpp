@@ -1,3 +1,4 @@
+// Tests of effective values and where they come from.
 #include "deck/model/interfaces.hpp"
 
 #include <gtest/gtest.h>

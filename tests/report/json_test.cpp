@@ -1,3 +1,4 @@
+// Tests of the JSON writer.
 #include "deck/report/json.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of replaced spans and of diffs.
 #include "deck/text/edits.hpp"
 
 #include <gtest/gtest.h>

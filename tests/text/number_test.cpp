@@ -1,3 +1,4 @@
+// Tests of numbers in cells, read and written.
 #include "deck/text/number.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of files, lines and columns.
 #include "deck/text/source.hpp"
 
 #include <gtest/gtest.h>

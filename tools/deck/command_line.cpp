@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "common.hpp"
-#include "completion_table.hpp"
+#include "help/completion_table.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/text/number.hpp"
 

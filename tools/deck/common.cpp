@@ -1,3 +1,4 @@
+// The options and the loading of decks that verbs share.
 #include "common.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Adds the options of the conversions and turns them into steps.
 #include "convert_steps.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Draws the line of progress, and nothing where no one watches.
 #include "progress.hpp"
 
 #include <fmt/format.h>

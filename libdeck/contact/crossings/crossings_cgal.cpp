@@ -1,3 +1,4 @@
+// Whether an edge passes through a segment, decided by the exact predicates of CGAL.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include "contact/crossings/crossings_exact.hpp"

@@ -1,3 +1,5 @@
+// Decides pairs: first in double with error bounds, then by the exact rational path where those
+// leave a doubt.
 #include "contact/distance/filtered_decisions.hpp"
 
 #include <cmath>

@@ -1,3 +1,5 @@
+// Main segments from surface segments: repaired, oriented outward, with the elements that carry
+// them.
 #include <algorithm>
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// Contact stiffness of main segments, edges and secondary nodes from the elements behind them.
 #include <algorithm>
 #include <cmath>
 

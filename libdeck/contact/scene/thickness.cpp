@@ -1,3 +1,4 @@
+// Thickness, section area, moduli and volume of single elements, as gaps and stiffnesses need them.
 #include <algorithm>
 #include <cmath>
 

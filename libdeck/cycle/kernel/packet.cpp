@@ -1,3 +1,4 @@
+// Memory of a packet: its arrays, their sizes, and views of them.
 #include "deck/cycle/packet.hpp"
 
 #include <algorithm>

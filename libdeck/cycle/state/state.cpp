@@ -1,3 +1,5 @@
+// Masses, velocities and temperatures of all nodes, gathered from elements, added masses and
+// initial conditions.
 #include "deck/cycle/state.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Densities, areas, volumes, masses of springs and conductivities, for masses, time steps and heat.
 #include "cycle/state/state_parts.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Finds what the wanted interfaces need, from block to block, until nothing new is named.
 #include "deck/edit/extract.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Copies the include tree into one text, with the offsets and parameters of submodels worked in.
 #include "deck/edit/flatten.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Finds every use of a LOCAL parameter and renames those that would clash.
 #include "edit/convert/flatten_parameters.hpp"
 
 #include <map>

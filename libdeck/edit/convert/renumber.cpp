@@ -1,3 +1,4 @@
+// Walks all cells that hold ids and writes the new ones, or says what stands in the way.
 #include "deck/edit/renumber.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reads renumbering rules and computes the new id of every entity.
 #include "edit/convert/renumber_ids.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Compares effective values with the cells of the card and writes those that differ.
 #include "deck/edit/resolve.hpp"
 
 #include <algorithm>

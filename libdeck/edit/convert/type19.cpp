@@ -1,3 +1,4 @@
+// Builds the cards, groups and lines that replace a TYPE19, with ids that are free.
 #include "deck/edit/type19.hpp"
 
 #include <algorithm>

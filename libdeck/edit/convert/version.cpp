@@ -1,3 +1,5 @@
+// Rewrites the blocks whose layout differs between two input versions, with a report of every
+// value.
 #include "deck/edit/version.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Moves cells from the lines of one layout to those of another.
 #include "edit/convert/version_cards.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Evaluates the conditions of both layouts and pairs their lines.
 #include "edit/convert/version_layout.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Scenes for the strategies, counts of penetrations, and writing a number into its cell.
 #include "edit/fix/common.hpp"
 
 #include <algorithm>

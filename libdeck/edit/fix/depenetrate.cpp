@@ -1,3 +1,4 @@
+// The iteration: search, ask for displacements, smooth, print, search again.
 #include "deck/edit/depenetrate.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Finds the coordinate cells of moved nodes and rounds new values to what fits them.
 #include "edit/fix/depenetrate_cells.hpp"
 
 #include <algorithm>

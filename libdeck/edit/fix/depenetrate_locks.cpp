@@ -1,3 +1,4 @@
+// Reads boundary conditions, rigid bodies and options for the nodes that have to stay.
 #include "edit/fix/depenetrate_locks.hpp"
 
 #include <algorithm>

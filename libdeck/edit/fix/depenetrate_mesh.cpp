@@ -1,3 +1,4 @@
+// Neighbours of nodes, crossings and inverted elements around moved ones.
 #include "edit/fix/depenetrate_mesh.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Depth and direction of one penetration where the nodes are now, and which nodes may give way.
 #include "edit/fix/depenetrate_rows.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The strategy reduce-gap: the largest gap without a penetration, written with few digits.
 #include <algorithm>
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// Writes named values into the cells of Radioss cards.
 #include "edit/lsdyna/cards.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Decides for every LS-DYNA contact what interface it becomes and which value goes where.
 #include "deck/edit/lsdyna.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tables of LS-DYNA contact keywords, set types and the words for them.
 #include "edit/lsdyna/names.hpp"
 
 #include "keyword/reader.hpp"

@@ -1,3 +1,4 @@
+// Splits an LS-DYNA file into keywords, cards and cells, fixed or with commas.
 #include "edit/lsdyna/read.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Merges the edits of all decks file by file and refuses what contradicts.
 #include "deck/edit/edit_set.hpp"
 
 #include <algorithm>

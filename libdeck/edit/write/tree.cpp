@@ -1,3 +1,4 @@
+// Maps the files of an include tree to their places below another directory.
 #include "edit/write/tree.hpp"
 
 #include <algorithm>

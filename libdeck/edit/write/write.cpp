@@ -1,3 +1,4 @@
+// Temporaries, flushing, exchanging, taking back: one set of files, all or none.
 #include "deck/edit/write.hpp"
 
 #include <fcntl.h>

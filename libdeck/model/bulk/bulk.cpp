@@ -1,3 +1,4 @@
+// Cuts bulk blocks into chunks, reads them in parallel and joins the arrays.
 #include "model/bulk/bulk.hpp"
 
 #include <sys/mman.h>

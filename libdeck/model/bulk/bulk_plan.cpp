@@ -1,3 +1,4 @@
+// Works out once per block where its cells are.
 #include "model/bulk/bulk_plan.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reads the lines of one chunk and reports what is wrong with the others.
 #include "model/bulk/bulk_read.hpp"
 
 #include "keyword/reader.hpp"

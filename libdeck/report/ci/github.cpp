@@ -1,3 +1,4 @@
+// Findings as workflow commands of GitHub Actions.
 #include <algorithm>
 #include <vector>
 

@@ -1,3 +1,4 @@
+// Findings as a Code Quality report of GitLab.
 #include <map>
 
 #include "deck/report/json.hpp"

@@ -1,3 +1,4 @@
+// Findings as JUnit XML: a suite for each deck, a case for what was found or could not be read.
 #include "deck/base/escape.hpp"
 #include "report/diagnostics_common.hpp"
 

@@ -1,3 +1,4 @@
+// Findings as SARIF 2.1.0, with rules, fixes and suppressions.
 #include <algorithm>
 #include <map>
 

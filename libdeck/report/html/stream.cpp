@@ -1,3 +1,4 @@
+// Variable-length integers and base64 of the page's binary blocks.
 #include "report/html/stream.hpp"
 
 #include <zlib.h>

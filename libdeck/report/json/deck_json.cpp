@@ -1,3 +1,4 @@
+// Writes a deck as JSON, block by block.
 #include "deck/report/deck_json.hpp"
 
 #include <algorithm>

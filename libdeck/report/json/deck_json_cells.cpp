@@ -1,3 +1,4 @@
+// What the value of a cell is in JSON, for the writer and the reader.
 #include "report/json/deck_json_cells.hpp"
 
 namespace deck::detail {

@@ -1,3 +1,4 @@
+// Findings as the project's own JSON document.
 #include "deck/report/json.hpp"
 #include "report/diagnostics_common.hpp"
 

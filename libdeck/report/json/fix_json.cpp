@@ -1,3 +1,4 @@
+// The result of `deck fix` as a JSON document.
 #include "deck/report/fix.hpp"
 #include "deck/report/json.hpp"
 

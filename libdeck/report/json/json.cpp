@@ -1,3 +1,4 @@
+// Escapes strings, prints numbers and keeps the nesting right.
 #include "deck/report/json.hpp"
 
 #include <fmt/format.h>

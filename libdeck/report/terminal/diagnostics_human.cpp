@@ -1,3 +1,4 @@
+// Findings as frames of code with a caret, for people.
 #include <fmt/format.h>
 
 #include <algorithm>

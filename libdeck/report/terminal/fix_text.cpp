@@ -1,3 +1,4 @@
+// The result of `deck fix` as text: before, after, what moved, what was refused.
 #include <fmt/format.h>
 
 #include <algorithm>

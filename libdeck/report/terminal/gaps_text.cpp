@@ -1,3 +1,4 @@
+// Verdict and tables of `deck gaps`.
 #include <fmt/format.h>
 
 #include <algorithm>

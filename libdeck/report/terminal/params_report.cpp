@@ -1,3 +1,4 @@
+// Tables and JSON of `deck params`.
 #include "deck/report/params_report.hpp"
 #include "deck/base/escape.hpp"
 

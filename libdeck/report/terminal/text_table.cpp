@@ -1,3 +1,4 @@
+// Measures the columns of a table and prints it.
 #include "deck/report/text_table.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Writes surfaces, edges and penetrations of every contact.
 #include "deck/report/vtk.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Writes one VTK XML file of points, cells and arrays.
 #include "report/vtk/vtk_writer.hpp"
 
 #include <bit>

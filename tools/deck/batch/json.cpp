@@ -1,3 +1,4 @@
+// Reads the head of a verb's document without holding the rest.
 #include "batch/json.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// Walks directories and manifests and names the results.
 #include "batch/list.hpp"
 
 #include <algorithm>

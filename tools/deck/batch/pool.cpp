@@ -1,3 +1,4 @@
+// Forks workers, hands out jobs, notices those that die or take too long.
 #include "batch/pool.hpp"
 
 #include <fcntl.h>

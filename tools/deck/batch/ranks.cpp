@@ -1,3 +1,4 @@
+// Shares the decks among ranks through the directory of the results.
 #include "batch/ranks.hpp"
 
 #include <unistd.h>

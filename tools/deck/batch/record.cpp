@@ -1,3 +1,4 @@
+// Writes and checks the journal of finished decks.
 #include "batch/record.hpp"
 
 #include <elf.h>

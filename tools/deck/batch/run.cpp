@@ -1,3 +1,4 @@
+// Runs verbs in the workers and draws the bar.
 #include "batch/run.hpp"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// Builds summary.json and merges those of shards.
 #include "batch/summary.hpp"
 
 #include <algorithm>

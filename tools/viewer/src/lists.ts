@@ -1,5 +1,5 @@
 // Part pairs as table and matrix, distributions, and the list of penetrations.
-import { colorAt, cssColor } from "./colormap";
+import { colorAt, cssColor } from "./scene/colormap";
 import { button, fileName, group, h, num, percent, plural, replace, svg } from "./dom";
 import type { Look } from "./look";
 import type { Hit, Report } from "./report";

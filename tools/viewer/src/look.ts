@@ -1,5 +1,5 @@
 // How things look: theme, colour map, what the colours mean.
-import type { MapName } from "./colormap";
+import type { MapName } from "./scene/colormap";
 
 export type ContourKind = "depth" | "ratio" | "gap" | "edge" | "none";
 

@@ -1,5 +1,5 @@
 // The page: reads its data, builds the sections, wires keys and exports.
-import { crossedSection } from "./crossed";
+import { crossedSection } from "./scene/crossed";
 import { cycleSection } from "./cycle";
 import { loadContacts, loadCrossed, loadCycle, loadEarlier, loadMesh, loadMeta } from "./data";
 import { detail, notChecked } from "./detail";
@@ -10,7 +10,7 @@ import type { ContourKind, Look } from "./look";
 import type { FieldName, Overrides } from "./meta";
 import { interfaces, verdict } from "./overview";
 import { Report, type Hit } from "./report";
-import { Viewport } from "./viewport";
+import { Viewport } from "./scene/viewport";
 
 const started = performance.now();
 

@@ -1,3 +1,4 @@
+// Multiplies every cell of known dimension by its factor and lists what it could not decide.
 #include "deck/edit/unit_system.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Decimal digits times a factor without a detour over binary numbers.
 #include "edit/convert/units/unit_system_decimal.hpp"
 
 #include <algorithm>

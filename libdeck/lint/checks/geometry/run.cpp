@@ -1,3 +1,4 @@
+// Names of contacts, segments, elements and lists as the findings of the geometry checks say them.
 #include <algorithm>
 
 #include "deck/lint/geometry.hpp"

@@ -1,7 +1,7 @@
 // Values per page node for the coloured surface.
-import { pairGap, sideGaps } from "./evaluate";
-import type { ContourKind } from "./look";
-import type { Hit, Report } from "./report";
+import { pairGap, sideGaps } from "../evaluate";
+import type { ContourKind } from "../look";
+import type { Hit, Report } from "../report";
 
 export interface Contour {
   /** In [0, 1], NaN: no value; by page node. */

@@ -1,9 +1,9 @@
 // Crossed elements: edges that pass through main segments, however deep or shallow the gap.
-import { kindNames } from "./data";
-import { h, plural } from "./dom";
-import type { Crossed } from "./meta";
-import type { Report } from "./report";
-import { VirtualTable } from "./table";
+import { kindNames } from "../data";
+import { h, plural } from "../dom";
+import type { Crossed } from "../meta";
+import type { Report } from "../report";
+import { VirtualTable } from "../table";
 
 type Row = Crossed["rows"][0];
 

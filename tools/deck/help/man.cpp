@@ -2,7 +2,7 @@
 // not listed among the verbs.
 
 #include "common.hpp"
-#include "completion_table.hpp"
+#include "help/completion_table.hpp"
 #include "deck/report/json.hpp"
 
 namespace {

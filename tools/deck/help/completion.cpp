@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "common.hpp"
-#include "completion_table.hpp"
+#include "help/completion_table.hpp"
 
 namespace {
 

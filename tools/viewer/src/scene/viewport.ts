@@ -3,11 +3,11 @@ import { Vector3 } from "three";
 import { colorAt, cssColor, mapNames, type MapName } from "./colormap";
 import { contourOf, type Contour } from "./contour";
 import { segmentOf } from "./crossed";
-import { button, h, icon, num, replace, svg } from "./dom";
-import { saveDataUrl } from "./exports";
-import { contourNames, type ContourKind, type Look } from "./look";
+import { button, h, icon, num, replace, svg } from "../dom";
+import { saveDataUrl } from "../exports";
+import { contourNames, type ContourKind, type Look } from "../look";
 import type { Part3D } from "./parts3d";
-import type { Hit, Report } from "./report";
+import type { Hit, Report } from "../report";
 import { View3D } from "./view3d";
 
 export class Viewport {

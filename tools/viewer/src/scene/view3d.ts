@@ -10,9 +10,9 @@ import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { CameraControl } from "./camera";
-import { kindNames } from "./data";
+import { kindNames } from "../data";
 import { Parts3D, type Look, type Part3D } from "./parts3d";
-import type { Hit, Report } from "./report";
+import type { Hit, Report } from "../report";
 
 export interface Picked {
   hit: Hit | null;

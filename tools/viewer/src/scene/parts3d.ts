@@ -6,7 +6,7 @@ import {
   Mesh as Mesh3, MeshLambertMaterial, Object3D, type Plane, RGBAFormat, Sphere, SRGBColorSpace, Vector3,
 } from "three";
 import { acceleratedRaycast, MeshBVH } from "three-mesh-bvh";
-import type { Mesh, MeshPart } from "./data";
+import type { Mesh, MeshPart } from "../data";
 
 Mesh3.prototype.raycast = acceleratedRaycast;
 
