@@ -14,7 +14,6 @@ namespace deck::cycle::detail {
 namespace {
 
 constexpr std::size_t most_listed = 20;
-constexpr double step_factor = 0.9;
 
 /// The nodes of one contact's pairs, numbered on their own, so that the work of a small contact
 /// does not grow with the model.

@@ -46,6 +46,9 @@ struct ContactMemory {
   std::size_t searches = 0, deaths = 0;
 };
 
+/// Share of a node's stable step that the solver takes.
+inline constexpr double step_factor = 0.9;
+
 /// What all contacts of one evaluation share.
 struct RunContext {
   const Scene& scene;

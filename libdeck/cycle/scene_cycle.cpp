@@ -12,8 +12,7 @@ namespace deck::cycle {
 namespace {
 
 using detail::NodeStiffness;
-
-constexpr double step_factor = 0.9;
+using detail::step_factor;
 
 /// The step of all contacts together: nodes add up what every contact gives them.
 void limit_all(const State& state, const std::vector<NodeStiffness>& by_contact,

@@ -28,6 +28,28 @@ TEST_F(CommandLine, NumbersThatAreNoneOrWithoutBoundsAreTwo) {
     EXPECT_EQ(deck("cycle a_0000.rad --dt " + std::string(value)), 2) << value;
 }
 
+TEST_F(CommandLine, AContactThatPushedAtAnEarlierStepIsNoCleanVerdict) {
+  const std::string deck_with_forces =
+      "cycle '" + (deck::test::source_dir() / "samples" / "crash_box_0000.rad").string() + "'";
+  // Parts that fly apart: forces at the start, none any more at the end.
+  const std::string apart = deck_with_forces +
+                            " --velocity 1=0,0,1e6 --velocity 2=0,1e6,0 "
+                            "--velocity 4=1e6,0,0 --interface 1,2,3 --steps 2 --dt 1";
+  ASSERT_EQ(deck(apart), 0) << err();
+  EXPECT_NE(out().find("1 of the 1 evaluations before have forces, the first at step 0"),
+            std::string::npos)
+      << out();
+  EXPECT_EQ(deck(apart + " --fail-on-force"), 1);
+}
+
+TEST_F(CommandLine, StepsThatLeaveTheNumbersAreRefused) {
+  const std::string plates =
+      "cycle '" + (deck::test::source_dir() / "samples" / "clean_plates_0000.rad").string() + "'";
+  EXPECT_EQ(deck(plates + " --velocity 1=1e308,0,0 --steps 3 --dt 1e30"), 2);
+  EXPECT_NE(err().find("too far to compute with"), std::string::npos) << err();
+  EXPECT_EQ(deck(plates + " --velocity 1=1,0,0 --steps 3 --dt 1e-3"), 0) << err();
+}
+
 TEST_F(CommandLine, WhatIfTakesWholeNumbersForFlags) {
   write(dir_ / "a_0000.rad", std::string(begin) + contact + "/END\n");
   for (const char* value : {"Inacti=5.9", "Inacti=4294967302", "Igap=-1", "Irem_gap=1e0",

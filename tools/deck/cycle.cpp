@@ -2,6 +2,8 @@
 // prescribed motion.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "accuracy_option.hpp"
@@ -24,6 +26,14 @@ struct Options {
   std::string vtk;
   int steps = 1;
 };
+
+/// The largest component of any node's velocity.
+double fastest(const cycle::State& state) {
+  double most = 0;
+  for (const std::vector<double>& component : state.velocity)
+    for (const double v : component) most = std::max(most, std::abs(v));
+  return most;
+}
 
 /// "KIND:ID" or "KIND:ID@TIME": an element that is gone from a time on.
 Result<cycle::DeadElement> parse_gone(const Model& model, const std::string& text) {
@@ -156,6 +166,7 @@ int run(const Options& o) {
     cycle::State state;
     CycleInput input;
     Result<void> written;
+    bool found = false;  // at any step
     {
       Progress progress(!o.common.quiet);
       progress.step("contacts");
@@ -175,12 +186,24 @@ int run(const Options& o) {
       const bool series = o.steps > 1 && !o.vtk.empty();
       const auto watch = [&](std::size_t step, const cycle::SceneOutcome& now,
                              const Coordinates& x) {
+        for (const cycle::ContactOutcome& c : now.contacts)
+          found = found || (o.fail && c.pairs_with_force > 0) || !c.complete;
         if (!series || !written) return;
         CycleInput one = input;
         one.outcome = &now;
         one.coordinates = &x;
         written = write_vtk(o, loaded.path, cycle_vtk(one, suffix_of(step)));
       };
+      // Beyond this the squares of distances are no numbers any more.
+      constexpr double farthest = 1e150;
+      if (const double way = fastest(state) * o.dt * (o.steps - 1); !(way < farthest)) {
+        print_error(
+            o.common,
+            fmt::format("--steps {} --dt {}: nodes would move by {:.3g}, too far to compute "
+                        "with; give a shorter step or lower velocities",
+                        o.steps, o.dt, way));
+        return static_cast<int>(exit_usage);
+      }
       steps = cycle::run_steps(scene, state, options, static_cast<std::size_t>(o.steps), {}, watch);
       input.outcome = &steps.last;
       if (o.steps > 1) {
@@ -202,9 +225,6 @@ int run(const Options& o) {
       return static_cast<int>(exit_usage);
     }
     if (o.common.wants_text()) print_text(cycle_text(input, {o.common.color_on(1), o.effects}));
-    bool found = false;
-    for (const cycle::ContactOutcome& c : steps.last.contacts)
-      found = found || (o.fail && c.pairs_with_force > 0) || !c.complete;
     return static_cast<int>(found ? exit_findings : exit_clean);
   });
   return json.finish(code);
@@ -228,7 +248,8 @@ Action setup(CommandLine& line) {
       .number(0, 1e30)
       .value("DT");
   line.option("--steps", options->steps,
-              "Steps of --dt with the given velocities: no structure, prescribed motion only")
+              "Evaluations, --dt apart, while nodes keep their velocities: prescribed motion only, "
+              "no structure answers")
       .range(1, 1000)
       .value("N")
       .show_default();
@@ -244,7 +265,8 @@ Action setup(CommandLine& line) {
       .value("PART=VX,VY,VZ");
   line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
   add_require_examined(line, options->common);
-  line.flag("--fail-on-force", options->fail, "Exit 1 when any contact pushes at the start");
+  line.flag("--fail-on-force", options->fail,
+            "Exit 1 when any contact pushes, at the start or at any step");
   return [options] { return run(*options); };
 }
 

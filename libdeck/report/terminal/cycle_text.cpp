@@ -181,6 +181,16 @@ std::string steps_text(const CycleInput& input, bool color) {
   return out;
 }
 
+/// The steps at which any pair pushes.
+std::vector<std::size_t> pushing_steps(const cycle::StepsOutcome& s) {
+  std::vector<std::size_t> steps;
+  for (std::size_t k = 0; k < s.lines.size(); ++k)
+    if (std::any_of(s.lines[k].contacts.begin(), s.lines[k].contacts.end(),
+                    [](const cycle::StepContact& c) { return c.pairs_with_force > 0; }))
+      steps.push_back(k);
+  return steps;
+}
+
 std::string state_words(const cycle::ContactOutcome& o) {
   if (o.contact->dropped) return "no edges, dropped";
   if (!o.active) return "not active yet";
@@ -353,7 +363,11 @@ std::string cycle_verdict(const CycleInput& input) {
           : fmt::format("after {} step{} of prescribed motion", input.steps->lines.size() - 1,
                         input.steps->lines.size() == 2 ? "" : "s");
   std::string removal;  // and what else must not be missed
-  if (tied > 0) removal = fmt::format(" {} pair{} tied.", tied, tied == 1 ? " is" : "s are");
+  if (pairs == 0 && input.steps != nullptr)
+    if (const auto pushed = pushing_steps(*input.steps); !pushed.empty())
+      removal = fmt::format(" {} of the {} evaluations before have forces, the first at step {}.",
+                            pushed.size(), input.steps->lines.size() - 1, pushed.front());
+  if (tied > 0) removal += fmt::format(" {} pair{} tied.", tied, tied == 1 ? " is" : "s are");
   if (by_step > 0)
     removal += fmt::format(
         " dtmin is above the time step of {} node{} or edge{} in contact: the solver removes {} "
