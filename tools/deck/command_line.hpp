@@ -74,8 +74,8 @@ class CommandLine {
   CommandLine& operator=(CommandLine&&) = delete;
 
   /// `names` as "-o,--output"; without dashes it is an argument without a name. T: std::string,
-  /// int, std::size_t, std::int64_t, std::uint64_t, double, float, or a vector of the first five.
-  /// `target` has to outlive the parsing.
+  /// int, std::int64_t, std::size_t, double, or a vector of std::string or std::int64_t
+  /// (command_line.cpp lists them). `target` has to outlive the parsing.
   template <class T>
   Option option(const std::string& names, T& target, const std::string& help);
   /// A number of bytes, also as 500MB or 2GB (1000 and 1000^3 bytes).
