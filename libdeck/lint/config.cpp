@@ -19,7 +19,9 @@ struct ParserLost {};
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wold-style-cast"
+#ifndef __clang__
 #pragma GCC diagnostic ignored "-Wterminate"
+#endif
 #endif
 #include <toml++/toml.h>
 #pragma pop_macro("NDEBUG")
