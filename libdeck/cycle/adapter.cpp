@@ -99,7 +99,7 @@ void take_common_fields(const Scene& scene, const Inter& i, const Contact& conta
   c.tint = i.Tint.value;
   c.frad = i.Frad.value;
   // The default of a blank Drad is printed at start-up but never reaches the force stage.
-  c.drad = i.Drad.origin == Origin::derived ? 0.0 : contact.drad;
+  c.drad = i.Drad.origin == Origin::geometry ? 0.0 : contact.drad;
   c.tstart = i.Tstart.value;
   c.tstop = i.Tstop.value;
   c.sensor_time = sensor_time(*scene.model, i.sens_ID.value);

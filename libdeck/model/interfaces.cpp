@@ -36,7 +36,7 @@ void fallback(Effective<T>& e, T value) {
 /// Marks a field that the geometry has to fill.
 void leave_to_geometry(EffectiveReal& e) {
   e.value = 0;
-  e.origin = Origin::derived;
+  e.origin = Origin::geometry;
 }
 
 /// The rules of the reference solver for one interface, in its order of evaluation.

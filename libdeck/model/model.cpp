@@ -156,6 +156,7 @@ const char* to_string(Origin origin) {
     case Origin::built_in:
       return "built-in";
     case Origin::derived:
+    case Origin::geometry:
       return "derived";
   }
   return "built-in";

@@ -2,6 +2,7 @@
 // useful program on libdeck.
 #include <cstdio>
 
+#include <deck/contact/resolve.hpp>
 #include <deck/keyword/deck.hpp>
 #include <deck/model/interfaces.hpp>
 #include <deck/model/model.hpp>
@@ -16,7 +17,8 @@ int main(int argc, char** argv) {
   }
   deck::Diagnostics findings;
   const deck::Model model = deck::build_model(*deck, schemas, findings);
-  const deck::Interfaces interfaces = deck::read_interfaces(*deck, model, findings);
+  deck::Interfaces interfaces = deck::read_interfaces(*deck, model, findings);
+  deck::resolve(interfaces, deck::build_scene(model, interfaces, findings));
   for (const deck::InterType7& inter : interfaces.type7)
     std::printf("TYPE7 %lld Gapmin %g Inacti %lld\n", static_cast<long long>(inter.id),
                 inter.Gapmin.value, static_cast<long long>(inter.Inacti.value));

@@ -46,7 +46,7 @@ std::string params_of(const fs::path& path, int threads = 1) {
   options.threads = threads;
   const Model model = build_model(*deck, SchemaSet::built_in(), diagnostics, options);
   const Interfaces interfaces = read_interfaces(*deck, model, diagnostics);
-  return params_json({path.string(), &*deck, &model, &interfaces, {}});
+  return params_json({path.string(), &*deck, &model, &interfaces, nullptr});
 }
 
 fs::path deck_for(const fs::path& golden, const Scratch& scratch) {

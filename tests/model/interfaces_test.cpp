@@ -205,10 +205,10 @@ TEST(InterfaceGap, MeshFractionDefaultsForIgap3Only) {
 
 TEST(InterfaceGap, BlankOrNegativeGapminIsLeftToTheGeometry) {
   Type7Text text;
-  EXPECT_EQ(Read(text.str()).all.type7.at(0).Gapmin.origin, Origin::derived);
+  EXPECT_EQ(Read(text.str()).all.type7.at(0).Gapmin.origin, Origin::geometry);
   text.stfac = at(60, "-1.0");
   const InterType7 t = Read(text.str()).all.type7.at(0);
-  EXPECT_EQ(t.Gapmin.origin, Origin::derived);
+  EXPECT_EQ(t.Gapmin.origin, Origin::geometry);
   EXPECT_EQ(t.Gapmin.value, 0.0);
   EXPECT_EQ(t.Gapmin.input, -1.0);
 }
@@ -329,7 +329,7 @@ TEST(InterfaceHeat, ExchangeNeedsAThermalMaterial) {
   EXPECT_EQ(on.Ithe.value, 1);
   EXPECT_EQ(on.Kthe.value, 1e-30);
   EXPECT_EQ(on.AscaleK.value, 1.0);
-  EXPECT_EQ(on.Drad.origin, Origin::derived);
+  EXPECT_EQ(on.Drad.origin, Origin::geometry);
 }
 
 TEST(InterfaceHeat, CoefficientOfAFunctionDefaultsToOne) {
@@ -435,7 +435,7 @@ TEST(Type10, HasItsOwnDefaultsAndNoDefaultCard) {
   EXPECT_EQ(t.Bumult.value, 0.2);
   EXPECT_EQ(t.Tstop.value, 1e30);
   EXPECT_EQ(t.Idel.value, 0);
-  EXPECT_EQ(t.Gap.origin, Origin::derived);
+  EXPECT_EQ(t.Gap.origin, Origin::geometry);
 }
 
 TEST(Type11, MainSideDefaultsToTheSecondarySide) {

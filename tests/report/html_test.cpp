@@ -53,6 +53,17 @@ TEST_F(Page, DescribesEveryInterfaceInValidJson) {
   EXPECT_TRUE(meta["interfaces"][1]["values"].contains("Gapmin"));
 }
 
+TEST_F(Page, HasTheDefaultGapThatTheMeshGives) {
+  const Built b(plate().add("@/INTER/TYPE7/1"));
+  const auto meta = nlohmann::json::parse(block(page_of(b), "deck-meta"), nullptr, false);
+  ASSERT_FALSE(meta.is_discarded());
+  ASSERT_GT(b.contact().gapmin, 0);
+  const auto& gapmin = meta["interfaces"][0]["values"]["Gapmin"];
+  EXPECT_EQ(gapmin["value"], b.contact().gapmin);
+  EXPECT_EQ(gapmin["origin"], "derived");
+  EXPECT_EQ(meta["contacts"][0]["card"]["Gapmin"], 0);  // what the page starts from is the card
+}
+
 TEST_F(Page, ShowsTitlesByCharactersAndOtherBytesByTheirNumber) {
   const auto shown = [](const std::string& title) {
     SmallDeck d = plate();

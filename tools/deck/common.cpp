@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "deck/base/escape.hpp"
+#include "deck/contact/resolve.hpp"
 #include "deck/keyword/recognise.hpp"
 #include "deck/model/coverage.hpp"
 #include "deck/model/selection.hpp"
@@ -109,6 +110,20 @@ bool Loaded::incomplete() const {
   const auto& counts = deck.diagnostics.counts();
   // Included files that are missing, form a cycle or exceed the limits.
   return counts.contains("DK004") || counts.contains("DK005") || counts.contains("DK006");
+}
+
+Scene resolve_geometry(Loaded& loaded, const CommonOptions& options) {
+  if (!waits_for_geometry(loaded.interfaces)) return {};
+  Progress progress(!options.quiet);
+  progress.step("deriving gaps from the geometry");
+  SceneOptions scene_options;
+  scene_options.threads = options.thread_count();
+  scene_options.candidates = false;
+  scene_options.penetrations = false;
+  scene_options.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
+  Scene scene = build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
+  resolve(loaded.interfaces, scene);
+  return scene;
 }
 
 namespace {

@@ -19,6 +19,10 @@
 #include "progress.hpp"
 #include "verbs.hpp"
 
+namespace deck {
+struct Scene;
+}
+
 namespace deck::cli {
 
 enum ExitCode : int {
@@ -74,6 +78,10 @@ struct Loaded {
   /// True if a file of the include tree could not be read.
   bool incomplete() const;
 };
+
+/// Fills in the values of the interfaces that follow from the mesh. The scene holds the parts of the
+/// interfaces, without penetrations; it is empty where nothing waits for the mesh.
+Scene resolve_geometry(Loaded& loaded, const CommonOptions& options);
 
 /// Contents that files are taken to have, by path; see ReadOptions::overlay.
 using Overlay = std::map<std::string, std::string>;

@@ -11,6 +11,7 @@
 #include "common.hpp"
 #include "convert_steps.hpp"
 #include "deck/base/escape.hpp"
+#include "deck/contact/scene.hpp"
 #include "deck/edit/edit_set.hpp"
 #include "deck/edit/rewrite.hpp"
 #include "deck/edit/write.hpp"
@@ -207,6 +208,7 @@ int write_all(const Run& run) {
 
 /// The deck in JSON: printed, or kept until all decks of the call are ready.
 int add_document(Run& run, const Conversion& c) {
+  resolve_geometry(*c.now, run.options.common);
   const auto document =
       deck_to_json({c.now->path, &c.now->deck, &c.now->model, &c.now->interfaces});
   if (!document) return fail(run, document.error());

@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "common.hpp"
-#include "deck/contact/scene.hpp"
 #include "deck/report/params_report.hpp"
 
 namespace {
@@ -17,42 +16,16 @@ struct Options {
   bool no_geometry = false;
 };
 
-/// True if some value waits for the geometry: a gap or a radiation distance left open.
-bool needs_geometry(const Interfaces& interfaces) {
-  bool needed = false;
-  for (const InterBase* inter : interfaces.ordered)
-    visit_interface(*inter, [&](const auto& t) {
-      t.for_each([&](std::string_view name, const auto& e) {
-        needed = needed || (e.origin == Origin::derived &&
-                            (name == "Gapmin" || name == "Gap" || name == "Drad"));
-      });
-    });
-  return needed;
-}
-
-std::vector<DerivedGap> derived_gaps(Loaded& loaded, const CommonOptions& options) {
-  Progress progress(!options.quiet);
-  progress.step("deriving gaps from the geometry");
-  SceneOptions scene_options;
-  scene_options.threads = options.thread_count();
-  scene_options.candidates = false;
-  scene_options.penetrations = false;
-  scene_options.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
-  const Scene scene =
-      build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
-  std::vector<DerivedGap> out;
-  for (const Contact& c : scene.contacts)
-    if (!c.dropped) out.push_back({c.inter, to_string(c.role), c.gapmin, c.drad});
-  return out;
-}
-
 int run(const Options& options) {
   const CommonOptions& common = options.common;
   JsonOutput json(common, "deck/params", 1);
   const int code = for_each_deck(common, Stage::interfaces, [&](Loaded& loaded) {
-    ParamsInput input{loaded.path, &loaded.deck, &loaded.model, &loaded.interfaces, {}};
-    if (!options.no_geometry && needs_geometry(loaded.interfaces))
-      input.gaps = derived_gaps(loaded, common);
+    ParamsInput input{loaded.path, &loaded.deck, &loaded.model, &loaded.interfaces, nullptr};
+    Scene scene;
+    if (!options.no_geometry) {
+      scene = resolve_geometry(loaded, common);
+      input.scene = &scene;
+    }
     const auto errors = print_findings(loaded, common);
     if (json.wanted()) json.add(params_json(input));
     if (common.wants_text()) {

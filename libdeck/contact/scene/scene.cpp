@@ -31,12 +31,12 @@ Card common_card(const Inter& i) {
   c.inacti = flag(i.Inacti);
   c.irem_gap = flag(i.Irem_gap);
   c.stfac = i.Stfac.value;
-  c.gapmin = i.Gapmin.value > 0 && i.Gapmin.origin != Origin::derived ? i.Gapmin.value : 0;
+  c.gapmin = i.Gapmin.before_geometry();
   c.stmin = i.Stmin.value;
   c.stmax = i.Stmax.value;
   c.mesh_fraction = i.mesh_size.value > 0 ? i.mesh_size.value : 0.4;
   c.thermal = i.Ithe.value > 0;
-  c.drad = i.Drad.value;
+  c.drad = i.Drad.before_geometry();
   return c;
 }
 
@@ -59,7 +59,7 @@ Card card_of(const InterType10& i) {
   Card c;
   c.inter = &i;
   c.stfac = i.Stfac.value;
-  c.gapmin = i.Gap.value > 0 && i.Gap.origin != Origin::derived ? i.Gap.value : 0;
+  c.gapmin = i.Gap.before_geometry();
   c.itied = static_cast<int>(i.ITIED.value);
   return c;
 }

@@ -74,8 +74,8 @@ class Resolver {
 
   template <class T>
   void field(std::string_view name, const Effective<T>& e) {
-    if (e.origin == Origin::derived) {
-      if (!e.has_input) note_derived(name, e.span);
+    if (e.origin == Origin::derived || e.origin == Origin::geometry) {
+      if (!e.has_input) note_derived(name, e.span, e.origin == Origin::geometry);
       return;
     }
     if (e.origin == Origin::card || is_zero(e.value)) return;
@@ -99,9 +99,8 @@ class Resolver {
     set(*f, e.value, std::string(source_of(e.origin)));
   }
 
-  void note_derived(std::string_view name, Span span) {
+  void note_derived(std::string_view name, Span span, bool mesh) {
     if (field_of(name) == nullptr) return;
-    const bool mesh = name == "Gapmin" || name == "Gap" || name == "Drad";
     report(
         Loss::kept, span, name, "", "",
         mesh ? "left blank: it follows from the mesh" : "left blank: it follows from other values");

@@ -2,6 +2,7 @@
 // cards with the columns that a changed value goes to.
 #include <algorithm>
 
+#include "deck/contact/resolve.hpp"
 #include "deck/keyword/decode.hpp"
 #include "report/html/parts.hpp"
 
@@ -65,8 +66,16 @@ void write_card_text(JsonWriter& j, const Deck& deck, const InterBase& inter) {
 }
 
 template <class T>
-void write_value(JsonWriter& j, std::string_view name, const Effective<T>& e) {
-  j.key(name).begin_object(true).field("value", e.value).field("origin", to_string(e.origin));
+void write_value(JsonWriter& j, std::string_view name, const Effective<T>& e,
+                 const Contact* contact) {
+  j.key(name).begin_object(true).key("value");
+  if (e.origin != Origin::geometry)
+    j.value(e.value);
+  else if (contact != nullptr)
+    j.value(geometry_value(*contact, name));
+  else
+    j.null();
+  j.field("origin", to_string(e.origin));
   j.key("input");
   e.has_input ? j.value(e.input) : j.null();
   j.end_object();
@@ -81,10 +90,12 @@ void write_interfaces(JsonWriter& j, const HtmlInput& input) {
     j.begin_object();
     j.field("id", inter->id).field("type", inter->type).field("title", inter->title);
     write_card_text(j, deck, *inter);
+    const Contact* const contact = first_contact(*input.scene, *inter);
     j.key("values").begin_object();
     visit_interface(*inter, [&](const auto& typed) {
-      typed.for_each(
-          [&](std::string_view name, const auto& field) { write_value(j, name, field); });
+      typed.for_each([&](std::string_view name, const auto& field) {
+        write_value(j, name, field, contact);
+      });
     });
     j.end_object().end_object();
   }

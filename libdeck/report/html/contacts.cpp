@@ -513,15 +513,14 @@ void write_card(JsonWriter& j, const InterBase& inter, const std::vector<WhatIf>
   j.key("card").begin_object(true);
   visit_interface(inter, [&](const auto& i) {
     if constexpr (requires { i.Gapmin; }) {
-      j.field("Gapmin",
-              i.Gapmin.value > 0 && i.Gapmin.origin != Origin::derived ? i.Gapmin.value : 0.0);
+      j.field("Gapmin", i.Gapmin.before_geometry());
       std::int64_t irem = flag(i.Irem_gap);
       for (const WhatIf& w : what_if)
         if (w.interface_id == inter.id && w.Irem_gap) irem = *w.Irem_gap;
       j.field("Igap", flag(i.Igap)).field("Inacti", flag(i.Inacti)).field("Irem_gap", irem);
-      j.field("thermal", i.Ithe.value > 0).field("Drad", i.Drad.value);
+      j.field("thermal", i.Ithe.value > 0).field("Drad", i.Drad.before_geometry());
     } else {
-      j.field("Gapmin", i.Gap.value > 0 && i.Gap.origin != Origin::derived ? i.Gap.value : 0.0);
+      j.field("Gapmin", i.Gap.before_geometry());
       j.field("Igap", 0).field("Inacti", 0).field("Irem_gap", 1);
       j.field("thermal", false).field("Drad", 0.0);
     }

@@ -401,7 +401,7 @@ class DeckWriter {
         else
           json_.null();
         json_.key("value");
-        if (e.origin == Origin::derived && (name == "Gapmin" || name == "Gap" || name == "Drad"))
+        if (e.origin == Origin::geometry && !t.resolved)
           json_.null();  // only the geometry knows
         else
           json_.value(text_safe(e.value));

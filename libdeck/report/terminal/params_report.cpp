@@ -1,6 +1,7 @@
 // Tables and JSON of `deck params`.
 #include "deck/report/params_report.hpp"
 #include "deck/base/escape.hpp"
+#include "deck/contact/resolve.hpp"
 
 #include <fmt/format.h>
 
@@ -13,18 +14,15 @@
 namespace deck {
 namespace {
 
-/// Values that only the geometry knows.
-bool from_geometry(std::string_view name, Origin origin) {
-  return origin == Origin::derived && (name == "Gapmin" || name == "Gap" || name == "Drad");
-}
-
-/// The derived values of one interface, by role.
-std::vector<std::pair<std::string_view, double>> derived(const ParamsInput& in,
+/// What the geometry gives the parts of one interface.
+std::vector<std::pair<std::string_view, double>> by_role(const ParamsInput& in,
                                                          const InterBase& inter,
                                                          std::string_view name) {
   std::vector<std::pair<std::string_view, double>> out;
-  for (const DerivedGap& g : in.gaps)
-    if (g.inter == &inter) out.emplace_back(g.role, name == "Drad" ? g.drad : g.gapmin);
+  if (in.scene == nullptr) return out;
+  for (const Contact& c : in.scene->contacts)
+    if (c.inter == &inter && !c.dropped)
+      out.emplace_back(to_string(c.role), geometry_value(c, name));
   return out;
 }
 
@@ -41,6 +39,7 @@ Tone tone_of(Origin origin) {
     case Origin::built_in:
       return Tone::dim;
     case Origin::derived:
+    case Origin::geometry:
       break;
   }
   return Tone::yellow;
@@ -67,10 +66,9 @@ void text_row(const ParamsInput& in, const InterBase& inter, std::string_view na
               const Effective<T>& e, const ParamsTextOptions& options, TextTable& table) {
   if (options.changed_only && e.origin == Origin::card) return;
   std::string value = text_of(e.value);
-  if (from_geometry(name, e.origin)) {
-    value = "from geometry";
-    const auto values = derived(in, inter, name);
-    if (!values.empty()) value = text_of(values.front().second);
+  if (e.origin == Origin::geometry) {
+    if (!inter.resolved) value = "from geometry";
+    const auto values = by_role(in, inter, name);
     for (std::size_t i = 1; i < values.size(); ++i)
       value += fmt::format(", {} {}", values[i].first, text_of(values[i].second));
   }
@@ -94,17 +92,13 @@ void json_field(JsonWriter& json, const ParamsInput& in, const InterBase& inter,
   else
     json.null();
   json.key("value");
-  std::vector<std::pair<std::string_view, double>> values;
-  const bool geometric = from_geometry(name, e.origin);
-  if (geometric) values = derived(in, inter, name);
-  if (!geometric)
-    write_value(json, e.value);
-  else if (values.empty())
+  const bool geometric = e.origin == Origin::geometry;
+  if (geometric && !inter.resolved)
     json.null();
   else
-    json.value(values.front().second);
+    write_value(json, e.value);
   json.field("origin", to_string(e.origin));
-  if (values.size() > 1) {
+  if (const auto values = by_role(in, inter, name); geometric && values.size() > 1) {
     json.key("by_role").begin_object(true);
     for (const auto& [role, v] : values) json.field(role, v);
     json.end_object();

@@ -21,6 +21,7 @@ struct InterBase {
   std::string title;
   const Block* block = nullptr;
   Span span;     ///< header
+  bool resolved = false;  ///< values of Origin::geometry are filled in (deck/contact/resolve.hpp)
 };
 
 /// The fields common to types 7, 11 and 19. IBC is "xyz", one digit each.
@@ -141,7 +142,8 @@ struct Interfaces {
 
 /// Decodes the interface blocks and forms the effective values in the reference solver's order of
 /// evaluation. `model` supplies what some defaults depend on (thermal materials, adaptive meshing,
-/// monitored volumes, number of nodes). Reading-level findings go to `diagnostics`.
+/// monitored volumes, number of nodes). What follows from the mesh (Origin::geometry) is left at 0:
+/// `resolve` (deck/contact/resolve.hpp) fills it in. Reading-level findings go to `diagnostics`.
 Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 }  // namespace deck

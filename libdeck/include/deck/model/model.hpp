@@ -114,8 +114,15 @@ struct Material {
 };
 
 /// Where an effective value came from.
-enum class Origin : std::uint8_t { card, default_block, built_in, derived };
-const char* to_string(Origin origin);  ///< "card", "default-block", "built-in", "derived"
+enum class Origin : std::uint8_t {
+  card,
+  default_block,  ///< /DEFAULT/INTER
+  built_in,
+  derived,  ///< follows from other values or from /FRICTION
+  geometry  ///< follows from the mesh: 0 until `resolve` (deck/contact/resolve.hpp) fills it in
+};
+/// "card", "default-block", "built-in", "derived"; what follows from the mesh is "derived" too.
+const char* to_string(Origin origin);
 
 /// A field of an interface: what the card says, what the solver uses, and why.
 template <class T>
@@ -125,6 +132,9 @@ struct Effective {
   bool has_input = false;  ///< false: blank cell or no such cell in this version
   Origin origin = Origin::built_in;
   Span span;  ///< the columns on the card, or of the default card
+
+  /// What is known without the mesh; T{} where the geometry decides, resolved or not.
+  T before_geometry() const { return origin == Origin::geometry ? T{} : value; }
 };
 
 /// Kind of a segment's carrier; the reference solver's sort key.

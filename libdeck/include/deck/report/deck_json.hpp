@@ -13,7 +13,8 @@ struct DeckJsonInput {
   std::string_view path;  ///< as given
   const Deck* deck = nullptr;
   const Model* model = nullptr;            ///< may be missing: no counts of nodes and elements
-  const Interfaces* interfaces = nullptr;  ///< may be missing: no effective values
+  const Interfaces* interfaces = nullptr;  ///< may be missing: no effective values; values that
+                                           ///< wait for `resolve` are null
 };
 
 /// Schema id "deck/deck", version 1 (schemas/output/deck.schema.json). `files` holds the include

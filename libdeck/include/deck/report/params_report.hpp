@@ -3,28 +3,21 @@
 #pragma once
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "deck/contact/scene.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
 
 namespace deck {
 
-/// What the geometry says about one elementary contact of an interface. TYPE19 has up to three.
-struct DerivedGap {
-  const InterBase* inter = nullptr;
-  std::string_view role;  ///< "primary", "reversed", "edges"
-  double gapmin = 0;
-  double drad = 0;
-};
-
 struct ParamsInput {
   std::string_view path;  ///< of the deck, as given
   const Deck* deck = nullptr;
   const Model* model = nullptr;
+  /// Values of Origin::geometry are unknown where the interface is not resolved.
   const Interfaces* interfaces = nullptr;
-  /// In processing order; empty: the geometry was not evaluated, derived values are unknown.
-  std::vector<DerivedGap> gaps;
+  /// Says what the parts of a TYPE19 have where they differ from the interface; may be missing.
+  const Scene* scene = nullptr;
 };
 
 struct ParamsTextOptions {

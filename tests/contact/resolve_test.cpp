@@ -1,0 +1,77 @@
+// What the mesh decides is handed back to the interfaces.
+#include "deck/contact/resolve.hpp"
+
+#include <gtest/gtest.h>
+
+#include "contact/small_deck.hpp"
+
+namespace deck::test {
+namespace {
+
+/// A plate of 10 x 10 with thickness 2 and nodes above it, with some interface.
+SmallDeck plate(const std::string& card) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(101, 3, 4, 5).node(102, 6, 4, 5).shell_part(1, 2).shell(1, 1, 1, 2, 3, 4);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {101, 102}).group("/LINE/SURF/1", {1});
+  return d.add(card);
+}
+
+TEST(Resolve, GivesABlankGapminTheDefaultGapOfTheMesh) {
+  Built b(plate("@/INTER/TYPE7/1"));
+  const EffectiveReal& gapmin = b.interfaces.type7.at(0).Gapmin;
+  EXPECT_EQ(gapmin.origin, Origin::geometry);
+  EXPECT_EQ(gapmin.value, 0);
+  EXPECT_TRUE(waits_for_geometry(b.interfaces));
+  resolve(b.interfaces, b.scene);
+  EXPECT_EQ(gapmin.value, 2);
+  EXPECT_EQ(gapmin.before_geometry(), 0);
+  EXPECT_TRUE(b.interfaces.type7.at(0).resolved);
+  EXPECT_FALSE(waits_for_geometry(b.interfaces));
+}
+
+TEST(Resolve, GivesTheTiedGapItsDefault) {
+  Built b(plate("@/INTER/TYPE10/1"));
+  resolve(b.interfaces, b.scene);
+  EXPECT_EQ(b.interfaces.type10.at(0).Gap.value, 2);
+}
+
+TEST(Resolve, LeavesAGapOfTheCardAlone) {
+  Built b(plate("@/INTER/TYPE7/1 Gapmin=0.5"));
+  EXPECT_FALSE(waits_for_geometry(b.interfaces));
+  resolve(b.interfaces, b.scene);
+  EXPECT_EQ(b.interfaces.type7.at(0).Gapmin.value, 0.5);
+  EXPECT_EQ(b.interfaces.type7.at(0).Gapmin.origin, Origin::card);
+  EXPECT_EQ(b.interfaces.type7.at(0).Gapmin.before_geometry(), 0.5);
+}
+
+TEST(Resolve, TellsThePartsOfAType19Apart) {
+  Built b(plate("@/INTER/TYPE19/1 Edge_scale_gap=0.5"));
+  resolve(b.interfaces, b.scene);
+  const InterType19& inter = b.interfaces.type19.at(0);
+  EXPECT_EQ(inter.Gapmin.value, geometry_value(*first_contact(b.scene, inter), "Gapmin"));
+  EXPECT_EQ(first_contact(b.scene, inter)->role, ContactRole::primary);
+}
+
+TEST(Resolve, ASecondSceneOfResolvedInterfacesIsTheFirst) {
+  Built b(plate("@/INTER/TYPE7/1 Igap=2 Fscalegap=0.7"));
+  resolve(b.interfaces, b.scene);
+  Diagnostics findings;
+  const Scene again = build_scene(b.model, b.interfaces, findings);
+  EXPECT_EQ(again.contacts.at(0).gapmin, b.contact().gapmin);
+  EXPECT_EQ(again.contacts.at(0).gapmin_origin, GapminOrigin::scaled_thickness);
+}
+
+TEST(Resolve, InterfacesOutsideTheSceneStayOpen) {
+  Built b(plate("@/INTER/TYPE7/1\n@/INTER/TYPE7/2"));
+  SceneOptions options;
+  options.only = {2};
+  b.build(options);
+  resolve(b.interfaces, b.scene);
+  EXPECT_FALSE(b.interfaces.type7.at(0).resolved);
+  EXPECT_TRUE(b.interfaces.type7.at(1).resolved);
+  EXPECT_TRUE(waits_for_geometry(b.interfaces));
+}
+
+}  // namespace
+}  // namespace deck::test
