@@ -12,7 +12,7 @@ namespace deck::cycle::detail {
 namespace {
 
 /// What curvature may change of a pair.
-struct Contact {
+struct CurvedPair {
   double penetration;
   double distance;
   bool keep;
@@ -24,7 +24,7 @@ bool is_triangle(const PacketView& view, std::size_t i) {
 }
 
 void sphere(const Vec& centre, const Vec& node, const std::array<Vec, 4>& x, double gap,
-            Contact& c) {
+            CurvedPair& c) {
   double radius = norm(x[0] - centre);
   for (const Vec& corner : x) radius = std::min(radius, norm(corner - centre));
   const Vec r = node - centre;
@@ -39,7 +39,7 @@ void sphere(const Vec& centre, const Vec& node, const std::array<Vec, 4>& x, dou
 }
 
 void cylinder(const Vec& a, const Vec& b, const Vec& node, const std::array<Vec, 4>& x, double gap,
-              Contact& c) {
+              CurvedPair& c) {
   const Vec axis = unit(b - a);
   const auto radial = [&](const Vec& p) {
     const Vec q = p - a;
@@ -108,7 +108,7 @@ double weight_ratio(double num, double den, double other_num, double other_den) 
 }
 
 void bicubic(const std::array<Vec, 4>& nodal, const Vec& node, const std::array<Vec, 4>& x,
-             const std::array<double, 4>& h, double gap, Contact& c) {
+             const std::array<double, 4>& h, double gap, CurvedPair& c) {
   const double low_r = weight_ratio(h[1] - h[0], h[1] + h[0], h[2] - h[3], h[2] + h[3]);
   const double high_r = weight_ratio(h[2] - h[3], h[2] + h[3], h[1] - h[0], h[1] + h[0]);
   const double low_s = weight_ratio(h[3] - h[0], h[3] + h[0], h[2] - h[1], h[2] + h[1]);
@@ -185,10 +185,10 @@ void apply_curvature(const KernelPlan& plan, const PacketView& view, std::size_t
     // A curved surface leaves its facets: pairs are kept further out than the gap, and then damp
     // and rub there without penetration, as in the solver.
     const double reach = std::max(gap + curvature_allowance(card, view, i), drad);
-    Contact c{g.penetration[slot],
-              g.distance[slot],
-              g.distance[slot] < reach,
-              {g.normal[0][slot], g.normal[1][slot], g.normal[2][slot]}};
+    CurvedPair c{g.penetration[slot],
+                 g.distance[slot],
+                 g.distance[slot] < reach,
+                 {g.normal[0][slot], g.normal[1][slot], g.normal[2][slot]}};
     const std::array<double, 4> h{g.raw[0][slot], g.raw[1][slot], g.raw[2][slot], g.raw[3][slot]};
     if (card.icurv == 1) {
       sphere(of(card.curv_node1), node, x, gap, c);

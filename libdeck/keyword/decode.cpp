@@ -105,7 +105,7 @@ void apply_parameter(const Deck& deck, Findings& findings, Cell& cell) {
   const Parameter* p = deck.find_parameter(name, cell.span.file);
   if (p == nullptr || !p->valid || p->type == Parameter::Type::text) {
     findings.report(
-        "DK018", Severity::error, cell.span,
+        RuleId::DK018, Severity::error, cell.span,
         cell_name(*cell.field) + " refers to parameter " + quoted(name) +
             (p == nullptr || p->type == Parameter::Type::text ? ", which is not defined here"
                                                               : ", which has no usable value"),
@@ -115,7 +115,7 @@ void apply_parameter(const Deck& deck, Findings& findings, Cell& cell) {
   }
   cell.integer = detail::as_integer(*p);
   if (cell.field->type != FieldType::real && cell.integer != detail::saturated(cell.integer)) {
-    findings.report("DK023", Severity::error, cell.span,
+    findings.report(RuleId::DK023, Severity::error, cell.span,
                     cell_name(*cell.field) + " takes " + std::to_string(cell.integer) +
                         " from parameter " + quoted(name) + ", which 32 bits do not hold",
                     "it reads an undefined value", "write a smaller number", 100103,
@@ -188,20 +188,20 @@ void check_gaps(Findings& findings, const CardSchema& card, int version, const L
 
 void check_line(Findings& findings, const Line& line, bool fixed_columns) {
   if (const std::string_view tail = detail::tail_of(line.text); !tail.empty())
-    findings.report("DK012", Severity::warning,
+    findings.report(RuleId::DK012, Severity::warning,
                     line.columns(line_columns + 1, static_cast<int>(std::min<std::size_t>(
                                                        line.text.size(), 1 << 20))),
                     "text beyond column 100: " + quoted(tail), "it drops the text silently",
                     "shorten the line to 100 columns", 100213);
   const std::string_view text = line.text.substr(0, line_columns);
   if (const auto tab = text.find('\t'); fixed_columns && tab != std::string_view::npos)
-    findings.report("DK013", Severity::warning,
+    findings.report(RuleId::DK013, Severity::warning,
                     line.columns(static_cast<int>(tab) + 1, static_cast<int>(tab) + 1),
                     "a tab in fixed columns",
                     "a tab is one column for it, so the cells after it are shifted",
                     "replace tabs by blanks");
   if (const auto nul = text.find('\0'); nul != std::string_view::npos)
-    findings.report("DK014", Severity::error,
+    findings.report(RuleId::DK014, Severity::error,
                     line.columns(static_cast<int>(nul) + 1, static_cast<int>(nul) + 1),
                     "a NUL byte in a data line", "it ends the line there", "remove the byte");
 }
@@ -317,7 +317,7 @@ constexpr int shortest_blank_cell = 8;
 void drop_blank_cell(Findings& findings, const Block& block,
                      const std::pair<std::string_view, Span>* cell, int first, int last) {
   if (cell == nullptr || cell->first.empty()) return;
-  findings.report("DK028", Severity::warning, cell->second,
+  findings.report(RuleId::DK028, Severity::warning, cell->second,
                   "text " + quoted(cell->first) + " of this free-format line falls on columns " +
                       std::to_string(first) + "-" + std::to_string(last) + ", which version " +
                       std::to_string(block.version) + " leaves blank",
@@ -363,7 +363,7 @@ void read_free(const Deck& deck, const Block& block, Findings& findings, const L
            (context.cells == 0 || out.cells.size() < static_cast<std::size_t>(context.cells)))
       take(card.fields.back());
   if (next < cells.size() && !list)
-    findings.report("DK028", Severity::warning, cells[next].second,
+    findings.report(RuleId::DK028, Severity::warning, cells[next].second,
                     "text " + quoted(cells[next].first) +
                         " follows the last cell of this "
                         "free-format line (" +

@@ -163,7 +163,7 @@ class BlockDecoder {
   }
 
   void report_missing(const CardSchema& card) {
-    if (!findings_.wants("DK029")) return;
+    if (!findings_.wants(RuleId::DK029)) return;
     std::string why;
     for (const Condition& c : card.when) {
       const Cell* cause = out_.find(c.field);
@@ -171,7 +171,7 @@ class BlockDecoder {
           " (present because " + c.field + " = " + std::to_string(cause ? cause->integer : 0) + ")";
     }
     Diagnostic* d = findings_.keep(
-        "DK029", Severity::warning, block_.header_span,
+        RuleId::DK029, Severity::warning, block_.header_span,
         std::string(block_.keyword) + " ends before its line '" + card.name + "'" + why,
         "it takes every cell of the line for 0 and goes on",
         "add the line; blanks are enough where defaults are wanted", 100217);
@@ -212,10 +212,10 @@ class BlockDecoder {
     // One finding for all of them: a text that lost its comment mark has many lines.
     const auto blank = [](const Line& line) { return trim(line.text).empty(); };
     const auto first = std::find_if_not(out_.extra.begin(), out_.extra.end(), blank);
-    if (first == out_.extra.end() || !findings_.wants("DK030")) return;
+    if (first == out_.extra.end() || !findings_.wants(RuleId::DK030)) return;
     const auto more = out_.extra.end() - first - std::count_if(first, out_.extra.end(), blank) - 1;
     findings_.keep(
-        "DK030", Severity::warning, first->whole(),
+        RuleId::DK030, Severity::warning, first->whole(),
         std::string(block_.keyword) + " is complete; this line is one too many" +
             (more > 0 ? ", and " + std::to_string(more) + " more follow" : ""),
         "it ignores the line",

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "deck/keyword/decode.hpp"
+#include "deck/text/rule_id.hpp"
 
 namespace deck::detail {
 
@@ -16,9 +17,9 @@ class Findings {
   Findings(Diagnostics* sink, const Block& block) : sink_(sink), block_(block) {}
   bool on() const { return sink_ != nullptr; }
   /// Counts one finding; true if its message is wanted. Then keep() it.
-  bool wants(std::string_view rule) { return sink_ != nullptr && sink_->wants(rule); }
+  bool wants(RuleId rule) { return sink_ != nullptr && sink_->wants(rule); }
 
-  Diagnostic* report(std::string_view rule, Severity severity, Span span, std::string message,
+  Diagnostic* report(RuleId rule, Severity severity, Span span, std::string message,
                      std::string behaviour, std::string help, int number = 0,
                      Severity number_severity = Severity::warning) {
     return wants(rule) ? keep(rule, severity, span, std::move(message), std::move(behaviour),
@@ -26,7 +27,7 @@ class Findings {
                        : nullptr;
   }
 
-  Diagnostic* keep(std::string_view rule, Severity severity, Span span, std::string message,
+  Diagnostic* keep(RuleId rule, Severity severity, Span span, std::string message,
                    std::string behaviour, std::string help, int number = 0,
                    Severity number_severity = Severity::warning) {
     Diagnostic d;

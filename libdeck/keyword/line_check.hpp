@@ -9,6 +9,7 @@
 
 #include "deck/keyword/schema.hpp"
 #include "deck/text/number.hpp"
+#include "deck/text/rule_id.hpp"
 
 namespace deck::detail {
 
@@ -34,12 +35,10 @@ enum class LineRule : std::uint8_t {
   after,
   none,
 };
-inline constexpr std::string_view line_rule_ids[] = {"DK012", "DK013", "DK014", "DK020",
-                                                     "DK021", "DK022", "DK023", "DK024",
-                                                     "DK025", "DK026", "DK027", "DK028"};
-inline std::string_view id_of(LineRule rule) {
-  return line_rule_ids[static_cast<std::size_t>(rule)];
-}
+inline constexpr RuleId line_rule_ids[] = {
+    RuleId::DK012, RuleId::DK013, RuleId::DK014, RuleId::DK020, RuleId::DK021, RuleId::DK022,
+    RuleId::DK023, RuleId::DK024, RuleId::DK025, RuleId::DK026, RuleId::DK027, RuleId::DK028};
+inline RuleId id_of(LineRule rule) { return line_rule_ids[static_cast<std::size_t>(rule)]; }
 
 /// The finding about a number cell, if any. `text_size`: length of the trimmed cell.
 inline LineRule number_rule(const Field& field, NumberStatus status, std::size_t text_size,

@@ -218,7 +218,7 @@ bool evaluate(Deck& deck, const Limits& limits, Parameter& p, std::set<const Par
 }
 
 void report_parameter(Deck& deck, Span span, std::string message) {
-  detail::report(deck, "DK019", Severity::warning, span, std::move(message),
+  detail::report(deck, RuleId::DK019, Severity::warning, span, std::move(message),
                  "it reads 0 wherever the parameter is used",
                  "write the name in columns 1-10 and the value (or expression) from column 11 on");
 }
@@ -311,7 +311,7 @@ void read_parameters(Deck& deck, const Limits& limits) {
     if (!definition) continue;
     auto& [name, p] = *definition;
     if (!seen.emplace(name, p.local ? p.file : Span::no_file).second) {
-      detail::report(deck, "DK056", Severity::warning, p.span,
+      detail::report(deck, RuleId::DK056, Severity::warning, p.span,
                      "parameter '" + name + "' is defined twice in the same scope",
                      "it keeps one of the two", "remove one; the first one is used");
       continue;

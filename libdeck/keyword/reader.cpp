@@ -65,7 +65,7 @@ class Reader {
   }
 
  private:
-  void report(std::string_view rule, Severity severity, Span span, std::string message,
+  void report(RuleId rule, Severity severity, Span span, std::string message,
               std::string behaviour, std::string help, int number = 0) {
     detail::report(deck_, rule, severity, span, std::move(message), std::move(behaviour),
                    std::move(help), number);
@@ -98,17 +98,17 @@ class Reader {
     const auto end = std::min(start.find('\n'), start.size());
     const std::string_view first = bytes.substr(0, std::min<std::size_t>(end, header_columns));
     if (const auto cr = start.find('\r'); cr < end && end == start.size() && cr + 1 < end)
-      report("DK057", Severity::error, make_span(0, cr, cr + 1),
+      report(RuleId::DK057, Severity::error, make_span(0, cr, cr + 1),
              "the lines end with a carriage return alone", "it takes the whole file for one line",
              "save the file with line feeds");
     if (mark && trim(first.substr(3)).starts_with("#RADIOSS STARTER"))
-      report("DK001", Severity::warning, make_span(0, 0, end),
+      report(RuleId::DK001, Severity::warning, make_span(0, 0, end),
              "the first line is '#RADIOSS STARTER' behind a UTF-8 byte order mark (bytes EF BB BF, "
              "which editors do not show)",
              "official builds stop at once: the line does not begin with the banner",
              "remove the mark: save the file as UTF-8 without BOM", 100201);
     else if (!trim(first).starts_with("#RADIOSS STARTER"))
-      report("DK001", Severity::warning, make_span(0, 0, end),
+      report(RuleId::DK001, Severity::warning, make_span(0, 0, end),
              "the first line is not '#RADIOSS STARTER'",
              "official builds stop at once; open-reader builds take the line for a comment",
              "put '#RADIOSS STARTER' in the first line", 100201);
@@ -117,7 +117,7 @@ class Reader {
   /// True if the file starts with the mark, which hides what its first line is.
   bool check_byte_order_mark(std::uint32_t file) {
     if (!deck_.sources[file].bytes().starts_with(byte_order_mark)) return false;
-    report("DK033", Severity::warning, make_span(file, 0, byte_order_mark.size()),
+    report(RuleId::DK033, Severity::warning, make_span(file, 0, byte_order_mark.size()),
            "the file starts with a UTF-8 byte order mark",
            file == 0 ? "it takes the three bytes for the start of the first line, so the banner is "
                        "not found"
@@ -145,27 +145,27 @@ class Reader {
     const bool backslash = written.find('\\') != std::string::npos;
     std::replace(written.begin(), written.end(), '\\', '/');
     if (written.size() > longest_path) {
-      report("DK004", Severity::error, directive,
+      report(RuleId::DK004, Severity::error, directive,
              "#include with a file name of " + std::to_string(written.size()) +
                  " characters was not read",
              "it stops with an error", "shorten the path", 100002);
       return;
     }
     if (written.empty()) {
-      report("DK004", Severity::error, directive, "#include without a file name",
+      report(RuleId::DK004, Severity::error, directive, "#include without a file name",
              "it stops with an error", "name the file or remove the line", 100002);
       return;
     }
     const int depth = std::min(options_.limits.include_depth, deepest_include);
     if (static_cast<int>(stack_.size()) > depth) {
-      report("DK006", Severity::error, directive,
+      report(RuleId::DK006, Severity::error, directive,
              "includes are nested deeper than " + std::to_string(depth) + " levels; '" + written +
                  "' was not read",
              "it stops at about 10 levels", "flatten the include tree");
       return;
     }
     if (static_cast<int>(deck_.sources.size()) >= options_.limits.files) {
-      report("DK006", Severity::error, directive,
+      report(RuleId::DK006, Severity::error, directive,
              "more than " + std::to_string(options_.limits.files) + " files; '" + written +
                  "' was not read",
              "", "check the deck for an include that multiplies itself");
@@ -189,7 +189,7 @@ class Reader {
       if ((*source)->bytes().size() <= limits.map_threshold)
         memory_bytes_ += (*source)->bytes().size();
       if (backslash)
-        report("DK058", Severity::warning, directive,
+        report(RuleId::DK058, Severity::warning, directive,
                "the path holds '\\'; '" + written + "' was read",
                "only builds for Windows take '\\' for the separator; others stop: no such file",
                "write the path with '/'");
@@ -199,7 +199,7 @@ class Reader {
     constexpr int most_hints = 20;  // looking for one reads folders
     const std::string hint =
         ++hints_ > most_hints ? std::string() : detail::include_hint(written, backslash, places);
-    report("DK004", Severity::error, directive,
+    report(RuleId::DK004, Severity::error, directive,
            "included file '" + written + "' cannot be read; tried " + tried,
            "it stops with an error that does not name the file (\"error 760\" in some builds)",
            hint.empty() ? "correct the path, or name the folder that holds it with --include-path"
@@ -214,14 +214,14 @@ class Reader {
       const bool same_file =
           s.inode() != 0 && s.inode() == source->inode() && s.device() == source->device();
       if (!same_file && !(s.inode() == 0 && s.path() == source->path())) continue;
-      report("DK005", Severity::error, directive,
+      report(RuleId::DK005, Severity::error, directive,
              "include cycle: '" + written + "' is being read already (" + s.path() + ")",
              "it recurses until it fails", "remove the directive");
       return;
     }
     deck_.total_bytes += source->bytes().size();
     if (deck_.total_bytes > options_.limits.total_bytes) {
-      report("DK006", Severity::error, directive,
+      report(RuleId::DK006, Severity::error, directive,
              "all files together are larger than the limit of " +
                  std::to_string(options_.limits.total_bytes) + " bytes",
              "", "check the deck for an include that multiplies itself");
@@ -269,7 +269,7 @@ class Reader {
     if (!text.valid() || (begin == 0 && file == 0 && text.offset == 0 &&
                           deck_.sources[0].bytes().starts_with(byte_order_mark)))
       return;
-    report("DK055", Severity::warning, text, "text that belongs to no keyword",
+    report(RuleId::DK055, Severity::warning, text, "text that belongs to no keyword",
            "it skips everything up to the next keyword",
            "add the keyword line, or turn the text into a comment");
   }
@@ -384,7 +384,7 @@ class Reader {
     }
     std::uint64_t blank = at;
     while (blank > begin && is_blank(deck_.sources[file].bytes()[blank - 1])) --blank;
-    report("DK052", Severity::error, make_span(file, blank, at),
+    report(RuleId::DK052, Severity::error, make_span(file, blank, at),
            "a blank before a slash of " + std::string(header.substr(0, 60)),
            "it reads the header wrong and ends with 'error 760' or without a word",
            "remove the blank: the line begins with '/', and so does each of its fields", 760);
@@ -406,7 +406,7 @@ class Reader {
                  std::string(deck_.blocks[static_cast<std::size_t>(open_block_)].header) +
                  " of the including file";
     if (keyword_behind_mark) message += ": a byte order mark hides the keyword of the first line";
-    report("DK051", Severity::warning, text, std::move(message),
+    report(RuleId::DK051, Severity::warning, text, std::move(message),
            "it looks for the first keyword of every file and drops what stands before it",
            keyword_behind_mark
                ? "save the file without byte order mark"
@@ -417,7 +417,7 @@ class Reader {
     const std::uint64_t from = slash + header_columns;
     const std::string_view tail = deck_.sources[file].bytes().substr(from, end - from);
     if (std::all_of(tail.begin(), tail.end(), is_blank)) return;
-    report("DK012", Severity::warning, make_span(file, from, end),
+    report(RuleId::DK012, Severity::warning, make_span(file, from, end),
            "a keyword line of " + std::to_string(end - slash) + " characters; " +
                std::to_string(header_columns) + " are read",
            "it drops the text silently", "shorten the line", 100213);
@@ -431,7 +431,7 @@ class Reader {
   void check_tail(std::uint32_t file, std::uint64_t from) {
     const Span text = first_text(file, from, deck_.sources[file].bytes().size());
     if (!text.valid()) return;
-    report("DK011", Severity::warning, text,
+    report(RuleId::DK011, Severity::warning, text,
            file == 0 ? "text after /END in the main file" : "text after /END in an included file",
            file == 0 ? "it stops reading at /END: nothing below exists for it"
                      : "it skips the rest of this file",
@@ -445,7 +445,7 @@ class Reader {
             int& version) {
     if (deck_.blocks.size() >= most_blocks) {
       if (open_block_ >= 0)
-        report("DK006", Severity::error, make_span(file, offset, offset + header.size()),
+        report(RuleId::DK006, Severity::error, make_span(file, offset, offset + header.size()),
                "more than " + std::to_string(most_blocks) + " keywords; the rest is not read", "",
                "check the deck for an include that multiplies itself");
       open_block_ = -1;
@@ -485,7 +485,7 @@ class Reader {
 
   void close_submodel(Span header, int& version) {
     if (submodel_stack_.empty()) {
-      report("DK035", Severity::warning, header, "//ENDSUB without //SUBMODEL",
+      report(RuleId::DK035, Severity::warning, header, "//ENDSUB without //SUBMODEL",
              "the line is an unknown keyword for it", "remove the line");
       return;
     }
@@ -502,7 +502,7 @@ class Reader {
       if (const IntegerCell n = read_integer(text);
           n.status != NumberStatus::overflow && n.value <= detail::largest_id)
         continue;
-      report("DK054", Severity::error, id->span,
+      report(RuleId::DK054, Severity::error, id->span,
              "id " + std::string(text.substr(0, 30)) + " is larger than " +
                  std::to_string(detail::largest_id),
              "it goes on with another number, so nothing can refer to the entity",
@@ -531,7 +531,7 @@ class Reader {
     if (begin.has_working)
       detail::fill_blank_units(deck_, header, begin.working, begin.input, "working system");
     if (!begin.version_known)
-      report("DK003", Severity::error, begin.version_span,
+      report(RuleId::DK003, Severity::error, begin.version_span,
              "input version " + std::string(trim(cell).empty() ? "(blank)" : trim(cell)) +
                  " is unknown; the columns of version " + std::to_string(newest_version) +
                  " are assumed",
@@ -544,7 +544,7 @@ class Reader {
       if (begin.has_input)
         deck_.submodels[static_cast<std::size_t>(submodel_stack_.back())].units = begin.input;
     } else if (file == 0) {
-      report("DK043", Severity::warning, header, "a second /BEGIN in the main file",
+      report(RuleId::DK043, Severity::warning, header, "a second /BEGIN in the main file",
              "it takes the version of the last one for the lines that follow",
              "keep one /BEGIN; the first one's units are used");
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "deck/keyword/deck.hpp"
+#include "deck/text/rule_id.hpp"
 #include "text/columns.hpp"
 
 namespace deck::detail {
@@ -14,7 +15,7 @@ void parse_header(const SchemaSet& schemas, Block& block);
 
 /// Adds a finding of reading. `number`: the reference solver's message, as an error; warnings have
 /// `number_severity`.
-void report(Deck& deck, std::string_view rule, Severity severity, Span span, std::string message,
+void report(Deck& deck, RuleId rule, Severity severity, Span span, std::string message,
             std::string behaviour, std::string help, int number = 0,
             Severity number_severity = Severity::error);
 

@@ -9,8 +9,8 @@
 #include <mutex>
 #include <set>
 
+#include "base/embedded.hpp"
 #include "deck/text/source.hpp"
-#include "keyword/embedded.hpp"
 #include "keyword/schema_json.hpp"
 
 namespace deck {

@@ -67,24 +67,24 @@ Fix remove_line(const Deck& deck, const Span& span, bool safe, std::string title
 void attach_fix(const LintContext& context, Diagnostic& d) {
   if (d.fix) return;
   const Deck& deck = context.deck;
-  if (d.rule == "DK010") {
+  if (d.rule == RuleId::DK010) {
     d.fix = missing_end(deck);
   } else if (!d.span.valid()) {
     return;
-  } else if (d.rule == "DK033" || d.rule == "DK001") {
+  } else if (d.rule == RuleId::DK033 || d.rule == RuleId::DK001) {
     d.fix = first_line(deck, d.span.file);
-  } else if (d.rule == "DK052") {
+  } else if (d.rule == RuleId::DK052) {
     d.fix = Fix{"remove the blank", true, {{d.span, ""}}};
-  } else if (d.rule == "DK013") {
+  } else if (d.rule == RuleId::DK013) {
     d.fix = tabs_to_blanks(deck, d.span);
-  } else if (d.rule == "DK012" || d.rule == "DK027" || d.rule == "DK028") {
+  } else if (d.rule == RuleId::DK012 || d.rule == RuleId::DK027 || d.rule == RuleId::DK028) {
     // The reference solver drops this text, so blanking it changes nothing for it. Text that is not
     // just zeros may be a value in the wrong columns: that is for a person to decide.
     const bool zeros = context.text(d.span).find_first_not_of("0.+- ") == std::string_view::npos;
     d.fix = Fix{"blank the text that is not read", zeros, {blank_edit(d.span)}};
-  } else if (d.rule == "DK030") {
+  } else if (d.rule == RuleId::DK030) {
     d.fix = remove_line(deck, d.span, false, "delete the line that is one too many");
-  } else if (d.rule == "DK091") {
+  } else if (d.rule == RuleId::DK091) {
     // Another deck may include the file and need it.
     d.fix = remove_line(deck, d.span, d.span.file == 0, "delete the unused suppression");
   }

@@ -284,7 +284,7 @@ std::string write_baseline(const std::vector<BaselinedDeck>& decks, const std::s
       const std::uint32_t file = d.span.valid() ? d.span.file : 0;
       Baseline::Entry& e =
           entries[{relative(b.deck->sources[file].path()), b.result->fingerprints[i]}];
-      e.rule = d.rule;
+      e.rule = id_text(d.rule);
       e.entity = d.keyword.empty() ? std::string() : d.keyword + "/" + std::to_string(d.id);
       ++e.count;
     }

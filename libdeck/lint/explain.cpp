@@ -8,6 +8,7 @@
 #include "deck/lint/example.hpp"
 #include "deck/lint/rule.hpp"
 #include "lint/context.hpp"
+#include "text/rule_page.hpp"
 
 namespace deck {
 namespace {
@@ -156,8 +157,9 @@ std::string field_page(const Schema& schema, const CardSchema& card, const Field
 }  // namespace
 
 std::string explain_rule(const Rule& rule, const SchemaSet& schemas) {
-  std::string out = fmt::format("{}: {}\n{}, {}", rule.id, rule.title, severity_name(rule.severity),
-                                family_of(rule.id));
+  namespace heading = detail::heading;
+  std::string out = fmt::format("{}: {}\n{}, {}", id_text(rule.id), rule.title,
+                                severity_name(rule.severity()), family_of(rule.id));
   if (rule.fixable != Fixable::no)
     out += rule.fixable == Fixable::safe ? ", fixed by --fix" : ", fixed by --unsafe-fixes";
   if (!rule.types.empty()) {
@@ -165,17 +167,18 @@ std::string explain_rule(const Rule& rule, const SchemaSet& schemas) {
     for (std::size_t i = 0; i < rule.types.size(); ++i)
       out += fmt::format("{} TYPE{}", i == 0 ? "" : ",", rule.types[i]);
   }
-  out += "\n\n" + section("What is wrong", rule.problem) + section("Why it matters", rule.why);
-  std::string solver(rule.solver);
-  if (rule.message != 0)
-    solver += fmt::format(" ({} {})", severity_name(rule.message_severity), rule.message);
-  out += section("What the reference solver does", solver) + section("How to fix", rule.fix);
+  out += "\n\n" + section(heading::problem, rule.problem) + section(heading::why, rule.why);
+  std::string solver = rule.solver;
+  if (!rule.messages.empty())
+    solver += fmt::format(" ({} {})", severity_name(rule.messages.front().severity),
+                          rule.messages.front().number);
+  out += section(heading::solver, solver) + section(heading::fix, rule.fix);
   if (!rule.bad.empty())
-    out += "Fires on\n" + indented(example_text(rule.bad, schemas)) + "\nStays silent on\n" +
-           indented(example_text(rule.good, schemas)) + "\n";
-  out += section("When to ignore", rule.ignore);
+    out += fmt::format("{}\n{}\n{}\n{}\n", heading::bad, indented(example_text(rule.bad, schemas)),
+                       heading::good, indented(example_text(rule.good, schemas)));
+  out += section(heading::ignore, rule.ignore);
   out += "Suppress it for one block with a comment in or above the block:\n";
-  out += fmt::format("  # decklint: ignore[{}] reason=...\n", rule.id);
+  out += fmt::format("  # decklint: ignore[{}] reason=...\n", id_text(rule.id));
   return out;
 }
 
@@ -193,7 +196,8 @@ std::string explain_keyword(const Schema& schema, std::string_view field) {
   if (schema.from > 0) out += fmt::format("  from version {}\n", schema.from);
   out += std::string("  header: ") + schema.keyword + (schema.has_id ? "/id" : "") +
          (schema.has_id && schema.has_unit ? "/unit_ID" : "") +
-         (schema.has_title ? ", then a title line of at most 100 characters" : ", no title line") + "\n";
+         (schema.has_title ? ", then a title line of at most 100 characters" : ", no title line") +
+         "\n";
   for (const CardSchema& card : schema.cards) {
     out += fmt::format("\n{} ({}{}{})\n", card.name, versions(card.from, card.until),
                        card.when.empty() ? "" : "; only if " + conditions(card.when),

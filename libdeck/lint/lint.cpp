@@ -11,18 +11,19 @@
 #include "deck/lint/config.hpp"
 #include "deck/model/coverage.hpp"
 #include "lint/attach_fixes.hpp"
+#include "lint/check_tables.hpp"
 #include "lint/context.hpp"
 #include "lint/suppress.hpp"
 
 namespace deck {
 namespace {
 
-bool any_selects(const std::vector<std::string>& selectors, std::string_view rule) {
+bool any_selects(const std::vector<std::string>& selectors, RuleId rule) {
   return std::any_of(selectors.begin(), selectors.end(),
                      [&](const std::string& s) { return selects(s, rule); });
 }
 
-bool enabled(const LintOptions& options, std::string_view rule) {
+bool enabled(const LintOptions& options, RuleId rule) {
   if (!options.select.empty() && !any_selects(options.select, rule)) return false;
   return !any_selects(options.ignore, rule);
 }
@@ -50,7 +51,7 @@ class FileIgnores {
 
 /// Zeros behind column 100 are tolerated by the solver itself.
 void soften(const Deck& deck, Diagnostic& d) {
-  if (d.rule == "DK012" &&
+  if (d.rule == RuleId::DK012 &&
       deck.sources.text(d.span).find_first_not_of("0.+- ") == std::string_view::npos)
     d.severity = Severity::info;
 }
@@ -66,22 +67,23 @@ void override_severity(const LintOptions& options, Diagnostic& d) {
 }
 
 /// Where two findings stand at one place and one says more, the other is left out.
-constexpr std::pair<std::string_view, std::string_view> says_more[] = {
-    {"DK047", "DK027"},
-    {"DK047", "DK028"},
-    {"DK240", "DK029"},
-    {"DK241", "DK030"},
+constexpr std::pair<RuleId, RuleId> says_more[] = {
+    {RuleId::DK047, RuleId::DK027},
+    {RuleId::DK047, RuleId::DK028},
+    {RuleId::DK240, RuleId::DK029},
+    {RuleId::DK241, RuleId::DK030},
 };
 
 /// False for findings about columns that the schema of the keyword leaves open: properties and
 /// materials are described as far as contact needs them, other keywords by their name only.
 bool certain(const SchemaSet& schemas, const Diagnostic& d) {
-  const bool columns = d.rule == "DK027" || d.rule == "DK028" || d.rule == "DK029" ||
-                       d.rule == "DK030" || d.rule == "DK049" || d.rule == "DK109";
+  const bool columns = d.rule == RuleId::DK027 || d.rule == RuleId::DK028 ||
+                       d.rule == RuleId::DK029 || d.rule == RuleId::DK030 ||
+                       d.rule == RuleId::DK049 || d.rule == RuleId::DK109;
   if (!columns || d.keyword.empty()) return true;
   const Schema* s = schemas.match(d.keyword);
   if (s == nullptr) return true;
-  if (d.rule == "DK109" || d.rule == "DK049") return s->kind != "other";
+  if (d.rule == RuleId::DK109 || d.rule == RuleId::DK049) return s->kind != "other";
   return !s->opaque_tail && s->kind != "prop" && s->kind != "mat" && s->kind != "other";
 }
 
@@ -89,16 +91,13 @@ bool certain(const SchemaSet& schemas, const Diagnostic& d) {
 struct Pool {
   const SchemaSet& schemas;
   std::vector<Diagnostic> kept = {};
-  std::map<std::string_view, std::uint64_t> dropped = {};
+  std::map<RuleId, std::uint64_t> dropped = {};
 
   void take(const Diagnostics& from, const LintOptions& options) {
-    std::map<std::string_view, std::uint64_t> seen;
+    std::map<RuleId, std::uint64_t> seen;
     for (const Diagnostic& d : from.all()) {
       ++seen[d.rule];
-      const std::string_view id = d.rule;
-      if (!enabled(options, id) || !certain(schemas, d)) continue;
-      kept.push_back(d);
-      kept.back().rule = id;
+      if (enabled(options, d.rule) && certain(schemas, d)) kept.push_back(d);
     }
     for (const auto& [rule, count] : from.counts())
       if (enabled(options, rule) && count > seen[rule]) dropped[rule] += count - seen[rule];
@@ -122,7 +121,7 @@ struct Pool {
 
   /// `kept` is sorted by place.
   void drop_lesser() {
-    std::set<std::tuple<std::uint32_t, std::uint64_t, std::string_view>> lesser;
+    std::set<std::tuple<std::uint32_t, std::uint64_t, RuleId>> lesser;
     for (const Diagnostic& d : kept)
       for (const auto& [more, less] : says_more)
         if (d.rule == more) lesser.emplace(d.span.file, d.span.offset, less);
@@ -135,7 +134,7 @@ struct Pool {
   /// In a card whose lines are shifted every value is read from the wrong cell: what the values of
   /// that card would be accused of is left out until the lines are right.
   void drop_consequences(const detail::BlockIndex& index) {
-    constexpr std::string_view shifts[] = {"DK242", "DK243", "DK244"};
+    constexpr RuleId shifts[] = {RuleId::DK242, RuleId::DK243, RuleId::DK244};
     std::set<std::int64_t> shifted;
     for (const Diagnostic& d : kept)
       if (std::find(std::begin(shifts), std::end(shifts), d.rule) != std::end(shifts))
@@ -146,18 +145,17 @@ struct Pool {
       // What stops the solver stops it, whatever line the value was meant for.
       if (d.severity == Severity::error && d.reference && d.reference->severity == Severity::error)
         return false;
-      const bool value = d.rule.starts_with("DK2") || d.rule.starts_with("DK9") ||
-                         d.rule.starts_with("DK17") || d.rule.starts_with("DK18") ||
-                         d.rule.starts_with("DK02");
-      return value && !d.rule.starts_with("DK24") &&
-             shifted.count(index.find(d.span.file, d.span.offset)) > 0;
+      const int n = id_number(d.rule);
+      const bool value =
+          n / 100 == 2 || n / 100 == 9 || n / 10 == 17 || n / 10 == 18 || n / 10 == 2;
+      return value && n / 10 != 24 && shifted.count(index.find(d.span.file, d.span.offset)) > 0;
     });
   }
 };
 
 void report_unused(const std::vector<detail::Suppression>& suppressions, const LintOptions& options,
                    Reporter& reporter) {
-  const Rule& rule = *find_rule("DK091");
+  const Rule& rule = rule_of(RuleId::DK091);
   for (const detail::Suppression& s : suppressions) {
     if (s.used) continue;
     // A rule that is switched off cannot fire; its suppression is then not known to be useless.
@@ -206,7 +204,7 @@ std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& o
     out.push_back({"encrypted blocks: " + joined(opaque), "their cards cannot be read"});
   std::set<std::string> missing;
   for (const Diagnostic& d : found)
-    if (d.rule == "DK004" || d.rule == "DK005" || d.rule == "DK006")
+    if (d.rule == RuleId::DK004 || d.rule == RuleId::DK005 || d.rule == RuleId::DK006)
       missing.insert(std::string(detail::trim(input.deck.sources.text(d.span))));
   for (const std::string& m : missing)
     out.push_back({"the files behind '" + m + "'", "they could not be read"});
@@ -238,15 +236,7 @@ std::uint64_t fnv1a(std::uint64_t hash, std::string_view text) {
 
 Diagnostic* Reporter::report(const Rule& rule, Span span, std::string message) {
   if (!sink_->wants(rule.id)) return nullptr;
-  Diagnostic d;
-  d.rule = rule.id;
-  d.severity = rule.severity;
-  d.span = span;
-  d.message = std::move(message);
-  d.reference_behaviour = rule.solver;
-  d.help = rule.fix;
-  if (rule.message != 0) d.reference = ReferenceMessage{rule.message, rule.message_severity};
-  return &sink_->add(std::move(d));
+  return &sink_->add(finding_of(rule.id, span, std::move(message)));
 }
 
 Diagnostic* Reporter::report(const Rule& rule, const Block& block, Span span, std::string message) {
@@ -265,7 +255,7 @@ std::string finding_file(const std::string& path) {
 }
 
 std::string fingerprint(const Deck& deck, const Diagnostic& d) {
-  std::uint64_t hash = fnv1a(0xcbf29ce484222325ULL, d.rule);
+  std::uint64_t hash = fnv1a(0xcbf29ce484222325ULL, id_text(d.rule));
   hash = fnv1a(hash, "|" + d.keyword + "|" + std::to_string(d.id) + "|");
   if (d.span.valid()) {
     const std::string_view line = deck.sources[d.span.file].line_at(d.span.offset);
@@ -289,8 +279,8 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
   Diagnostics own(options.diagnostics_per_rule);
   Reporter reporter(own);
   const LintContext context = detail::build_context(input, own);
-  for (const Rule& rule : all_rules())
-    if (rule.check != nullptr && enabled(options, rule.id)) rule.check(context, rule, reporter);
+  for (const auto& [rule, check] : detail::all_checks())
+    if (enabled(options, rule)) check(context, rule_of(rule), reporter);
   for (const auto& check : input.extra_checks) check(context, reporter);
   // Groups that no contact uses have findings too.
   if (input.selections != nullptr) input.selections->resolve_all();

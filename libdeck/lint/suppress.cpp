@@ -109,9 +109,9 @@ bool parse(std::string_view text, Suppression& out) {
 std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& index,
                                            Reporter& reporter) {
   std::vector<Suppression> out;
-  const Rule& no_reason = *find_rule("DK090");
-  const Rule& unknown = *find_rule("DK092");
-  const Rule& malformed = *find_rule("DK093");
+  const Rule& no_reason = rule_of(RuleId::DK090);
+  const Rule& unknown = rule_of(RuleId::DK092);
+  const Rule& malformed = rule_of(RuleId::DK093);
   for (std::uint32_t file = 0; file < deck.sources.size(); ++file) {
     const std::string_view bytes = deck.sources[file].bytes();
     const char* at = bytes.data();
@@ -160,7 +160,7 @@ std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& i
 
 Suppression* covering(std::vector<Suppression>& suppressions, const BlockIndex& index,
                       const Diagnostic& d) {
-  if (suppressions.empty() || !d.span.valid() || d.rule.starts_with("DK09")) return nullptr;
+  if (suppressions.empty() || !d.span.valid() || id_number(d.rule) / 10 == 9) return nullptr;
   const std::int64_t block = index.find(d.span.file, d.span.offset);
   for (Suppression& s : suppressions) {
     const bool place = s.whole_file ? s.file == d.span.file : s.block >= 0 && s.block == block;

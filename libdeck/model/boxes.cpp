@@ -85,7 +85,7 @@ const Box* Selections::Impl::box(std::int64_t id, const Block& from, int missing
   if (def == nullptr) {
     // A node group of missing boxes is merely empty.
     const bool goes_on = from.schema != nullptr && from.schema->kind == "grnod";
-    report({"DK159", goes_on ? Severity::warning : Severity::error, from.header_span,
+    report({RuleId::DK159, goes_on ? Severity::warning : Severity::error, from.header_span,
             std::string(from.keyword) + " " + std::to_string(from.id.value) + " refers to box " +
                 std::to_string(id) + ", which does not exist",
             goes_on ? "it leaves the entry out, and warns if the group is empty then"
@@ -143,7 +143,7 @@ bool Selections::Impl::skew_axes(std::int64_t id, std::array<double, 9>& axes) {
 void Selections::Impl::fill_box(Box& b, const Definition& def, const DecodedBlock& d) {
   const Block& block = *def.block;
   const auto fail = [&](std::string what, std::string help, int number) {
-    report({"DK159", Severity::error, block.header_span,
+    report({RuleId::DK159, Severity::error, block.header_span,
             std::string(block.keyword) + " " + std::to_string(block.id.value) + ": " + what,
             "it stops with an error", std::move(help), number, Severity::error,
             std::string(block.keyword), block.id.value});

@@ -1,5 +1,6 @@
 // Interfaces that are examined and those that are not, and the words for it.
 #include "deck/model/coverage.hpp"
+#include "deck/text/rule_id.hpp"
 
 #include <algorithm>
 #include <map>
@@ -49,7 +50,7 @@ Coverage coverage_of(const Deck& deck, const Interfaces& interfaces) {
   for (auto& [keyword, ids] : left) out.not_examined.push_back({keyword, std::move(ids)});
   std::set<std::string> missing;
   for (const Diagnostic& d : deck.diagnostics.all())
-    if (d.rule == "DK004" || d.rule == "DK005" || d.rule == "DK006")
+    if (d.rule == RuleId::DK004 || d.rule == RuleId::DK005 || d.rule == RuleId::DK006)
       missing.emplace(deck.sources.text(d.span));
   out.missing.assign(missing.begin(), missing.end());
   return out;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "deck/text/rule_id.hpp"
 #include "model/interfaces_card.hpp"
 
 namespace deck {
@@ -25,8 +26,8 @@ namespace {
 
 constexpr std::string_view default_prefix = "/DEFAULT/INTER/TYPE";
 
-void report_default(Diagnostics& diagnostics, const Block& block, std::string_view rule,
-                    Severity severity, std::string message, std::string behaviour, std::string help,
+void report_default(Diagnostics& diagnostics, const Block& block, RuleId rule, Severity severity,
+                    std::string message, std::string behaviour, std::string help,
                     const Span* earlier) {
   if (!diagnostics.wants(rule)) return;
   Diagnostic d;
@@ -154,7 +155,7 @@ std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnosti
     int type = 0;
     std::from_chars(number.data(), number.data() + number.size(), type);
     if (block.submodel >= 0 || block.header_span.file != 0) {
-      report_default(diagnostics, block, "DK503", Severity::warning,
+      report_default(diagnostics, block, RuleId::DK503, Severity::warning,
                      keyword +
                          (block.submodel >= 0 ? " inside a submodel" : " in an included file") +
                          " has no effect",
@@ -165,7 +166,7 @@ std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnosti
     const auto earlier =
         std::find_if(out.begin(), out.end(), [&](const DefaultInter& d) { return d.type == type; });
     if (earlier != out.end()) {
-      report_default(diagnostics, block, "DK504", Severity::error, "a second " + keyword,
+      report_default(diagnostics, block, RuleId::DK504, Severity::error, "a second " + keyword,
                      "it stops with an error", "keep one of them", &earlier->span);
       continue;
     }

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "deck/text/rule_id.hpp"
 #include "model/defaults.hpp"
 #include "model/interfaces_card.hpp"
 
@@ -268,9 +269,9 @@ Inter read_one(const InterfaceCard& card, int type, const Rules& rules) {
 /// Version 2026 can turn grnd_IDs into a surface; nothing here can act on that.
 void check_smoothing(const InterfaceCard& card, const InterBase& inter, Diagnostics& diagnostics) {
   const Cell* cell = card.decoded().find("Ists");
-  if (cell == nullptr || cell->integer == 0 || !diagnostics.wants("DK299")) return;
+  if (cell == nullptr || cell->integer == 0 || !diagnostics.wants(RuleId::DK299)) return;
   Diagnostic d;
-  d.rule = "DK299";
+  d.rule = RuleId::DK299;
   d.severity = Severity::warning;
   d.span = cell->span;
   d.message = "Ists = " + std::to_string(cell->integer) +
@@ -286,9 +287,9 @@ void check_smoothing(const InterfaceCard& card, const InterBase& inter, Diagnost
 /// A default card behind interfaces of its type, which do not see it.
 void report_too_early(const DefaultInter& defaults, const std::vector<const Block*>& interfaces,
                       Diagnostics& diagnostics) {
-  if (interfaces.empty() || !diagnostics.wants("DK508")) return;
+  if (interfaces.empty() || !diagnostics.wants(RuleId::DK508)) return;
   Diagnostic d;
-  d.rule = "DK508";
+  d.rule = RuleId::DK508;
   d.severity = Severity::warning;
   d.span = defaults.span;
   const std::string keyword = "TYPE" + std::to_string(defaults.type);

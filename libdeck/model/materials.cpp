@@ -286,7 +286,7 @@ void apply_equations_of_state(BuildContext& c) {
     const auto it = c.model.material_of_id.find(id);
     if (it == c.model.material_of_id.end()) {
       report(c.diagnostics,
-             {"DK118", Severity::error, block.header_span,
+             {RuleId::DK118, Severity::error, block.header_span,
               std::string(block.keyword) + " belongs to material " + std::to_string(id) +
                   ", which does not exist",
               "it stops with an error", "give the equation of state the id of its material", 0,
@@ -309,7 +309,7 @@ void apply_heat(BuildContext& c) {
     const auto it = c.model.material_of_id.find(id);
     if (it == c.model.material_of_id.end()) {
       report(c.diagnostics,
-             {"DK118", Severity::error, block.header_span,
+             {RuleId::DK118, Severity::error, block.header_span,
               "/HEAT/MAT belongs to material " + std::to_string(id) + ", which does not exist",
               "it stops with an error", "give the heat data the id of their material", 0,
               Severity::error, "/HEAT/MAT", id});

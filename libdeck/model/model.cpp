@@ -56,15 +56,15 @@ void register_id(BuildContext& c, std::map<std::int64_t, std::uint32_t>& map, st
                  std::uint32_t index, const Block& block, Span first) {
   if (id > detail::largest_id)
     report(c.diagnostics,
-           {"DK114", Severity::error, block.header_span,
+           {RuleId::DK114, Severity::error, block.header_span,
             "id " + std::to_string(id) + " is above the largest id " +
                 std::to_string(detail::largest_id),
             "it stops with an error", "use a smaller id or a smaller submodel offset", 509,
             Severity::error, std::string(block.keyword), id});
   if (map.emplace(id, index).second) return;
-  if (!c.diagnostics.wants("DK100")) return;
+  if (!c.diagnostics.wants(RuleId::DK100)) return;
   Diagnostic d =
-      make_diagnostic({"DK100", Severity::error, block.header_span,
+      make_diagnostic({RuleId::DK100, Severity::error, block.header_span,
                        std::string(block.keyword) + " " + std::to_string(id) + " is defined twice",
                        "it stops with an error", "give one of them another id", 79, Severity::error,
                        std::string(block.keyword), id});
@@ -79,12 +79,12 @@ namespace {
 void check_duplicates(BuildContext& c) {
   const Model& m = c.model;
   for (const std::uint32_t n : m.nodes.map.duplicates()) {
-    if (!c.diagnostics.wants("DK105")) continue;
+    if (!c.diagnostics.wants(RuleId::DK105)) continue;
     const std::uint32_t first = m.nodes.map.find(m.nodes.id[n]);
     const bool same = m.nodes.x[n] == m.nodes.x[first] && m.nodes.y[n] == m.nodes.y[first] &&
                       m.nodes.z[n] == m.nodes.z[first];
     Diagnostic d =
-        make_diagnostic({"DK105", Severity::error, m.node_span(n),
+        make_diagnostic({RuleId::DK105, Severity::error, m.node_span(n),
                          "node " + std::to_string(m.nodes.id[n]) + " is defined twice" +
                              (same ? " with the same coordinates" : " with different coordinates"),
                          "it stops with an error", "remove one of the two lines", 79,
@@ -97,9 +97,9 @@ void check_duplicates(BuildContext& c) {
         ElementKind::tria, ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
     const Elements& family = m.family(kind);
     for (const std::uint32_t e : family.map.duplicates()) {
-      if (!c.diagnostics.wants("DK105")) continue;
+      if (!c.diagnostics.wants(RuleId::DK105)) continue;
       const Block* block = m.element_blocks[family.block[e]].block;
-      Diagnostic d = make_diagnostic({"DK105", Severity::error, m.element_span(kind, e),
+      Diagnostic d = make_diagnostic({RuleId::DK105, Severity::error, m.element_span(kind, e),
                                       "element " + std::to_string(family.id[e]) + " of " +
                                           std::string(block->keyword) + " is defined twice",
                                       "it stops with an error", "give one of them another id", 79,
@@ -130,17 +130,18 @@ void check_units(BuildContext& c) {
     if (c.deck.units_of(block) != nullptr) continue;
     const bool bulk = block.schema->bulk;
     const bool stops = bulk || has_dimensions(*block.schema);
-    report(c.diagnostics, {"DK109", stops ? Severity::error : Severity::warning, block.unit_id.span,
-                           std::string(block.keyword) + " names unit system " +
-                               std::to_string(block.unit_id.value) + ", which does not exist",
-                           stops ? "it stops with an error; here the values are taken in working "
-                                   "units"
-                                 : "it goes on: the block has no value with a unit",
-                           "define it with /UNIT or remove the id",
-                           !stops ? 0
-                           : bulk ? 643
-                                  : 659,
-                           Severity::error, std::string(block.keyword), block.id.value});
+    report(c.diagnostics,
+           {RuleId::DK109, stops ? Severity::error : Severity::warning, block.unit_id.span,
+            std::string(block.keyword) + " names unit system " +
+                std::to_string(block.unit_id.value) + ", which does not exist",
+            stops ? "it stops with an error; here the values are taken in working "
+                    "units"
+                  : "it goes on: the block has no value with a unit",
+            "define it with /UNIT or remove the id",
+            !stops ? 0
+            : bulk ? 643
+                   : 659,
+            Severity::error, std::string(block.keyword), block.id.value});
   }
 }
 

@@ -5,13 +5,14 @@
 #include <string_view>
 
 #include "deck/model/model.hpp"
+#include "deck/text/rule_id.hpp"
 
 namespace deck::detail {
 
 /// Everything a finding of the model stage says. `number` is the reference solver's message, 0:
 /// none.
 struct Finding {
-  std::string_view rule;
+  RuleId rule{};
   Severity severity = Severity::error;
   Span span{};
   std::string message{};

@@ -116,7 +116,7 @@ void check_coordinates(BuildContext& c) {
     if (fits(nodes.x[n]) && fits(nodes.y[n]) && fits(nodes.z[n])) continue;
     const bool finite =
         std::isfinite(nodes.x[n]) && std::isfinite(nodes.y[n]) && std::isfinite(nodes.z[n]);
-    if (c.diagnostics.wants(finite ? "DK334" : "DK333")) shown.push_back(n);
+    if (c.diagnostics.wants(finite ? RuleId::DK334 : RuleId::DK333)) shown.push_back(n);
   }
   if (shown.empty()) return;
   const std::vector<Span> spans = node_spans(c.model, shown);
@@ -129,7 +129,8 @@ void check_coordinates(BuildContext& c) {
     const bool finite = std::isfinite(at[0]) && std::isfinite(at[1]) && std::isfinite(at[2]);
     const char* const behaviour = finite ? "its distances become infinite" : "it computes with it";
     c.diagnostics.add(make_diagnostic(
-        {finite ? "DK334" : "DK333", finite ? Severity::warning : Severity::error, spans[i],
+        {finite ? RuleId::DK334 : RuleId::DK333, finite ? Severity::warning : Severity::error,
+         spans[i],
          fmt::format("node {}: {} is {:.6g} in working units, {}", nodes.id[n], "XYZ"[axis],
                      at[axis],
                      finite ? "too large for distances to be computed" : "not a finite number"),

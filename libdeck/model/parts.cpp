@@ -44,16 +44,16 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
     if (part.prop == no_index || own_thickness(shells, e) != 0) continue;
     const Property& prop = m.properties[part.prop];
     // Stacks add up their plies, void shells may do without, an encrypted property hides it.
-    const bool free = prop.number == 17 || prop.number == 51 || prop.number == 52 ||
-                      prop.number == 0;
+    const bool free =
+        prop.number == 17 || prop.number == 51 || prop.number == 52 || prop.number == 0;
     if (prop.thickness == 0 && !free && prop.block != nullptr && !prop.block->opaque)
       tally(thin, p, index);
   }
   for (std::size_t p = 0; p < m.parts.size(); ++p) {
     const Part& part = m.parts[p];
-    if (thin[p].count > 0 && c.diagnostics.wants("DK106")) {
+    if (thin[p].count > 0 && c.diagnostics.wants(RuleId::DK106)) {
       Diagnostic d = make_diagnostic(
-          {"DK106", Severity::error, m.element_span(shells.kind, thin[p].first),
+          {RuleId::DK106, Severity::error, m.element_span(shells.kind, thin[p].first),
            plural(thin[p].count, what) + " of part " + std::to_string(part.id) +
                " have no thickness: neither on the element nor in property " +
                std::to_string(part.prop_id) + "; first is element " +
@@ -65,7 +65,7 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
     }
     if (collapsed[p].count > 0)
       report(c.diagnostics,
-             {"DK107", Severity::warning, m.element_span(shells.kind, collapsed[p].first),
+             {RuleId::DK107, Severity::warning, m.element_span(shells.kind, collapsed[p].first),
               plural(collapsed[p].count, what) + " of part " + std::to_string(part.id) +
                   " have the same third and fourth node; first is element " +
                   std::to_string(shells.id[collapsed[p].first]),
@@ -85,7 +85,7 @@ void check_orphans(BuildContext& c, const Elements& family, const char* what) {
   }
   for (const auto& [id, entry] : missing)
     report(c.diagnostics,
-           {"DK104", Severity::error, entry.second->header_span,
+           {RuleId::DK104, Severity::error, entry.second->header_span,
             plural(entry.first, what) + " belong to part " + std::to_string(id) +
                 ", which does not exist",
             "it stops with an error", "define the part or correct the id in the header", 402,
@@ -125,7 +125,7 @@ void link_parts(BuildContext& c) {
       if (p != no_index) used[p] |= f->kind == ElementKind::spring ? 1 : 3;
   if (m.parts.empty() && !m.nodes.id.empty())
     report(c.diagnostics,
-           {"DK111", Severity::warning, c.deck.begin.span, "the deck has no part",
+           {RuleId::DK111, Severity::warning, c.deck.begin.span, "the deck has no part",
             "it warns and goes on with nodes only",
             "define parts with /PART if the deck should hold elements", 1114, Severity::warning});
   for (std::size_t i = 0; i < m.parts.size(); ++i) {
@@ -134,7 +134,7 @@ void link_parts(BuildContext& c) {
       part.prop = it->second;
     else
       report(c.diagnostics,
-             {"DK102", Severity::error, part.span,
+             {RuleId::DK102, Severity::error, part.span,
               "part " + std::to_string(part.id) + " refers to property " +
                   std::to_string(part.prop_id) + ", which does not exist",
               "it reports an error and goes on with the first property of the deck",
@@ -144,14 +144,14 @@ void link_parts(BuildContext& c) {
     const bool spring = part.prop != no_index && is_spring_property(m.properties[part.prop].number);
     if (part.mat == no_index && (used[i] & 2) != 0 && !(spring && part.mat_id == 0))
       report(c.diagnostics,
-             {"DK103", Severity::error, part.span,
+             {RuleId::DK103, Severity::error, part.span,
               "part " + std::to_string(part.id) + " has elements and refers to material " +
                   std::to_string(part.mat_id) + ", which does not exist",
               "it stops with an error", "define the material or correct mat_ID", 179,
               Severity::error, "/PART", part.id});
     if (part.subset_id > 0 && m.subset_children.count(part.subset_id) == 0)
       report(c.diagnostics,
-             {"DK108", Severity::warning, part.span,
+             {RuleId::DK108, Severity::warning, part.span,
               "part " + std::to_string(part.id) + " names subset " +
                   std::to_string(part.subset_id) + ", which does not exist",
               "it puts the part into the global subset",

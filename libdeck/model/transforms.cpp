@@ -107,7 +107,7 @@ class TransformReader {
   std::nullopt_t fail(std::string what, std::string help, Severity severity = Severity::error,
                       int number = 0) {
     report(c_.diagnostics,
-           {"DK110", severity, d_.span(),
+           {RuleId::DK110, severity, d_.span(),
             std::string(d_.block->keyword) + " " + std::to_string(d_.block->id.value) + ": " + what,
             severity == Severity::error ? "it stops with an error" : "it applies the transform",
             std::move(help), number, Severity::error, std::string(d_.block->keyword),
@@ -214,7 +214,7 @@ std::int32_t find_submodel(const Deck& deck, std::int64_t id) {
 
 void missing_target(BuildContext& c, const DecodedBlock& d, const std::string& what,
                     std::int64_t id) {
-  report(c.diagnostics, {"DK110", Severity::error, d.span(),
+  report(c.diagnostics, {RuleId::DK110, Severity::error, d.span(),
                          std::string(d.block->keyword) + " " + std::to_string(d.block->id.value) +
                              " moves " + what + " " + std::to_string(id) + ", which does not exist",
                          "it stops with an error", "correct the id", 1865, Severity::error,

@@ -7,6 +7,7 @@
 
 #include "contact/small_deck.hpp"
 #include "deck/report/cycle.hpp"
+#include "deck/text/rule_id.hpp"
 
 namespace deck::cycle {
 namespace {
@@ -167,7 +168,7 @@ TEST(FirstCycle, AContactThatCouldNotBeEvaluatedHasNoForces) {
   o.limits.pair_bytes = 64;
   const Built b(d, o);
   EXPECT_FALSE(b.contact().evaluated);
-  EXPECT_EQ(b.diagnostics.counts().at("DK390"), 1u);
+  EXPECT_EQ(b.diagnostics.counts().at(RuleId::DK390), 1u);
   const SceneOutcome r = run(b);
   EXPECT_FALSE(r.contacts[0].complete);
   EXPECT_EQ(r.largest_nodal_force, 0.0);

@@ -10,6 +10,7 @@
 #include "deck/keyword/decode.hpp"
 #include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
+#include "deck/text/rule_id.hpp"
 #include "keyword/reading.hpp"
 #include "where.hpp"
 
@@ -74,13 +75,13 @@ TEST(Overlay, IsReadInsteadOfTheFile) {
 }
 
 TEST(Overlay, ThatIncludesItselfIsReportedAsACycle) {
-  const std::map<std::string, std::string> overlay = {
-      {"a.inc", "#include a.inc\n"}, {"m_0000.rad", deck_of("#include a.inc\n")}};
+  const std::map<std::string, std::string> overlay = {{"a.inc", "#include a.inc\n"},
+                                                      {"m_0000.rad", deck_of("#include a.inc\n")}};
   ReadOptions options;
   options.overlay = &overlay;
   const auto deck = read_deck("m_0000.rad", SchemaSet::built_in(), options);
   ASSERT_TRUE(deck.ok());
-  EXPECT_EQ(count(deck->diagnostics, "DK005"), 1u);
+  EXPECT_EQ(count(deck->diagnostics, RuleId::DK005), 1u);
 }
 
 /// A random cell of a contact block and a random value for it that fits.

@@ -106,7 +106,8 @@ void examples(Seeds& seeds) {
     for (const std::string_view text : {rule.bad, rule.good}) {
       if (text.empty()) continue;
       const auto example = deck::example_deck(text, deck::SchemaSet::built_in());
-      const std::string name = std::string(rule.id) + (text == rule.bad ? "_bad" : "_good");
+      const std::string name =
+          std::string(id_text(rule.id)) + (text == rule.bad ? "_bad" : "_good");
       if (example.main.size() > 12000) continue;
       std::string tree = example.main;
       for (const auto& [file, content] : example.files) tree += "=== " + file + "\n" + content;

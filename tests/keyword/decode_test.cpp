@@ -181,7 +181,7 @@ TEST(Decode, AnImpossibleCountEndsWithTheBlock) {
   const Decoded d("/X/COUNTED/5\nt\n" + cells({{1, "2000000000"}, {11, "2000000000"}}) +
                   cells({{9, "11"}}));
   EXPECT_EQ(d.result.cards.size(), 2u);
-  EXPECT_EQ(count(d.findings, "DK029"), 2u);
+  EXPECT_EQ(count(d.findings, RuleId::DK029), 2u);
 }
 
 TEST(Decode, NamesAreReadAsLongAsLinesBeginWithAWord) {
@@ -206,7 +206,7 @@ TEST(Decode, TheNumberOfLinesTellsTwoFormsApart) {
 
 TEST(Decode, AMissingLineNamesTheFlagThatAsksForIt) {
   const Decoded d("/X/CARDS/5\nt\n" + cells({{50, "2"}}));
-  const Diagnostic* f = first(d.findings, "DK029");
+  const Diagnostic* f = first(d.findings, RuleId::DK029);
   ASSERT_NE(f, nullptr);
   EXPECT_THAT(f->message, HasSubstr("'extra'"));
   EXPECT_THAT(f->message, HasSubstr("mode = 2"));
@@ -223,10 +223,10 @@ TEST(Decode, OptionalLinesMayBeMissingAndExtraLinesAreNamed) {
   EXPECT_TRUE(none.findings.all().empty());
   const Decoded extra("/X/CARDS/5\nt\n" + cells({{50, "0"}}) + "free, text\n   \nmore\n");
   EXPECT_EQ(extra.result.find("t")->text, "free, text");  // text cards know no commas
-  EXPECT_EQ(count(extra.findings, "DK030"), 1u);          // the blank line is none
-  EXPECT_EQ(extra.at(first(extra.findings, "DK030")->span).line, 12u);
+  EXPECT_EQ(count(extra.findings, RuleId::DK030), 1u);    // the blank line is none
+  EXPECT_EQ(extra.at(first(extra.findings, RuleId::DK030)->span).line, 12u);
   EXPECT_EQ(extra.result.extra.size(), 2u);
-  EXPECT_EQ(count(Decoded("/X/TAIL/5\nt\n         1\nmore\n").findings, "DK030"), 0u);
+  EXPECT_EQ(count(Decoded("/X/TAIL/5\nt\n         1\nmore\n").findings, RuleId::DK030), 0u);
 }
 
 TEST(Decode, AVersionDecidesWhichCellsExist) {
@@ -236,25 +236,25 @@ TEST(Decode, AVersionDecidesWhichCellsExist) {
   EXPECT_TRUE(old.findings.all().empty());
   const Decoded now(body);
   EXPECT_EQ(now.result.find("old"), nullptr);
-  const Diagnostic* f = first(now.findings, "DK027");
+  const Diagnostic* f = first(now.findings, RuleId::DK027);
   ASSERT_NE(f, nullptr);
   EXPECT_EQ(now.at(f->span).column, 30u);
   EXPECT_EQ(f->severity, Severity::warning);
   const Decoded zero("/X/CARDS/5\nt\n" + cells({{30, "0"}}));
-  EXPECT_EQ(first(zero.findings, "DK027")->severity, Severity::info);
+  EXPECT_EQ(first(zero.findings, RuleId::DK027)->severity, Severity::info);
 }
 
 TEST(Decode, TextBehindTheCellsIsNamedUnlessItIsZero) {
   const Decoded d("/X/CARDS/5\nt\n" + cells({{50, "0"}, {60, "7"}, {70, "0.0"}, {80, "ab cd"}}));
-  EXPECT_EQ(count(d.findings, "DK028"), 3u);
-  EXPECT_EQ(d.at(first(d.findings, "DK028")->span).column, 60u);
+  EXPECT_EQ(count(d.findings, RuleId::DK028), 3u);
+  EXPECT_EQ(d.at(first(d.findings, RuleId::DK028)->span).column, 60u);
   const Decoded tail("/X/CARDS/5\nt\n" + std::string(100, ' ') + "   beyond\n");
   const Decoded zero("/X/CARDS/5\nt\n" + std::string(100, ' ') + "         0\n");
   EXPECT_TRUE(zero.findings.all().empty());
   // A schema that describes only some cells cannot know what the others hold.
   EXPECT_TRUE(Decoded("/X/TAIL/5\nt\n         1         2\n").findings.all().empty());
-  EXPECT_EQ(count(tail.findings, "DK012"), 1u);
-  EXPECT_EQ(count(tail.findings, "DK028"), 0u);
+  EXPECT_EQ(count(tail.findings, RuleId::DK012), 1u);
+  EXPECT_EQ(count(tail.findings, RuleId::DK028), 0u);
 }
 
 TEST(Decode, ACommaSwitchesTheLineToFreeFormat) {
@@ -267,8 +267,8 @@ TEST(Decode, ACommaSwitchesTheLineToFreeFormat) {
   EXPECT_EQ(d.result.integer("mode"), 1);
   EXPECT_EQ(d.at(d.result.find("mode")->span).column, 9u);
   EXPECT_EQ(d.result.real("v"), 3.5);
-  EXPECT_EQ(count(d.findings, "DK028"), 1u);  // the fifth value has no cell
-  EXPECT_EQ(count(d.findings, "DK013"), 0u);  // tabs separate as blanks do
+  EXPECT_EQ(count(d.findings, RuleId::DK028), 1u);  // the fifth value has no cell
+  EXPECT_EQ(count(d.findings, RuleId::DK013), 0u);  // tabs separate as blanks do
   const Decoded short_line("/X/CARDS/5\nt\n12,\n");
   EXPECT_EQ(short_line.result.integer("id1"), 12);
   EXPECT_TRUE(short_line.result.find("n")->blank());
@@ -288,34 +288,35 @@ TEST(Decode, BlankColumnsTakeACellOfAFreeFormatLine) {
   EXPECT_EQ(with_flag.integer("Istrain"), 1);
   EXPECT_EQ(with_flag.real("Thick"), 2.5);
   // Text that falls on blank columns is lost, which has to be said.
-  EXPECT_EQ(count(Decoded("/X/CARDS/5\nt\n12,7,9,0\n").findings, "DK028"), 1u);
+  EXPECT_EQ(count(Decoded("/X/CARDS/5\nt\n12,7,9,0\n").findings, RuleId::DK028), 1u);
 }
 
 TEST(Decode, TabsAndNulBytesInFixedColumnsAreNamed) {
   const Decoded tab("/X/CARDS/5\nt\n12\t7\n");
-  EXPECT_EQ(tab.at(first(tab.findings, "DK013")->span).column, 3u);
+  EXPECT_EQ(tab.at(first(tab.findings, RuleId::DK013)->span).column, 3u);
   EXPECT_EQ(tab.result.integer("id1"), 12);
-  EXPECT_EQ(count(tab.findings, "DK022"), 1u);
+  EXPECT_EQ(count(tab.findings, RuleId::DK022), 1u);
   const Decoded nul(std::string("/X/CARDS/5\nt\n12\0", 16) + "\n" + "\n");
-  EXPECT_EQ(count(nul.findings, "DK014"), 0u);  // at the end of a line it is trimmed like a blank
+  EXPECT_EQ(count(nul.findings, RuleId::DK014),
+            0u);  // at the end of a line it is trimmed like a blank
   const Decoded inner(std::string("/X/CARDS/5\nt\n1\0  5\n", 19));
-  EXPECT_EQ(count(inner.findings, "DK014"), 1u);
+  EXPECT_EQ(count(inner.findings, RuleId::DK014), 1u);
 }
 
 struct Fault {
   const char* text;
-  const char* rule;
+  RuleId rule;
   int number;
 };
 
 TEST(Decode, EveryUnreadableNumberHasItsRule) {
-  const Fault reals[] = {{"abc", "DK021", 100102},
-                         {"1.5.2", "DK022", 0},
-                         {"1e999", "DK023", 100104},
-                         {"1e-999", "DK024", 0},
-                         {"4e-320", "DK024", 0},
-                         {"nan", "DK025", 0},
-                         {"1.2345678901234567-3", "DK026", 0}};
+  const Fault reals[] = {{"abc", RuleId::DK021, 100102},
+                         {"1.5.2", RuleId::DK022, 0},
+                         {"1e999", RuleId::DK023, 100104},
+                         {"1e-999", RuleId::DK024, 0},
+                         {"4e-320", RuleId::DK024, 0},
+                         {"nan", RuleId::DK025, 0},
+                         {"1.2345678901234567-3", RuleId::DK026, 0}};
   for (const Fault& fault : reals) {
     const Decoded d("/X/CARDS/5\nt\n" + cells({{50, "1"}}) + fault.text + "\n");
     ASSERT_EQ(d.findings.all().size(), 1u) << fault.text;
@@ -325,10 +326,10 @@ TEST(Decode, EveryUnreadableNumberHasItsRule) {
         << fault.text;
     EXPECT_THAT(d.findings.all()[0].message, HasSubstr("v (columns 1-20)"));
   }
-  const Fault integers[] = {{"abc", "DK020", 100101},
-                            {"1.5", "DK022", 0},
-                            {"12x", "DK022", 0},
-                            {"3000000000", "DK023", 100103}};
+  const Fault integers[] = {{"abc", RuleId::DK020, 100101},
+                            {"1.5", RuleId::DK022, 0},
+                            {"12x", RuleId::DK022, 0},
+                            {"3000000000", RuleId::DK023, 100103}};
   for (const Fault& fault : integers) {
     const Decoded d("/X/CARDS/5\nt\n" + std::string(fault.text) + "\n");
     ASSERT_EQ(d.findings.all().size(), 1u) << fault.text;
@@ -380,9 +381,9 @@ TEST(Decode, GroupsLookAtTheCellsOfTheirOwnRound) {
   std::string order;
   for (const DecodedCard& card : d.result.cards) order += card.schema->name[0];
   EXPECT_EQ(order, "pvspvpvs");
-  EXPECT_EQ(count(d.findings, "DK029"), 0u);
+  EXPECT_EQ(count(d.findings, RuleId::DK029), 0u);
   const Decoded broken("/X/GROUP/5\nt\n" + cells({{10, "1"}, {20, "1"}}) + "1.\n");
-  EXPECT_EQ(count(broken.findings, "DK029"), 1u);
+  EXPECT_EQ(count(broken.findings, RuleId::DK029), 1u);
 }
 
 TEST(Decode, AGroupWithoutAMemberInThisVersionEnds) {
@@ -411,7 +412,7 @@ TEST(Decode, ParametersStandForWholeCells) {
   EXPECT_TRUE(findings.all().empty());
   const DecodedBlock none = decode(deck, *block(deck, "/X/CARDS/6"), &findings);
   EXPECT_EQ(none.integer("id1"), 0);
-  EXPECT_EQ(count(findings, "DK018"), 1u);
+  EXPECT_EQ(count(findings, RuleId::DK018), 1u);
 }
 
 TEST(Decode, DimensionsFollowTheirCondition) {

@@ -61,8 +61,8 @@ TEST_F(Hostile, NumbersBeyondThirtyTwoBitsKeepTheirSignAndAreReported) {
     for (const Cell& cell : card.cells)
       if (cell.field->type == FieldType::id) ids.push_back(cell.integer);
   EXPECT_EQ(ids, (std::vector<std::int64_t>{2147483647, -999999999, 2147483647, -2147483647}));
-  EXPECT_EQ(findings.counts().at("DK023"), 3u);
-  EXPECT_EQ(count(deck->diagnostics, "DK335"), 1u);
+  EXPECT_EQ(findings.counts().at(RuleId::DK023), 3u);
+  EXPECT_EQ(count(deck->diagnostics, RuleId::DK335), 1u);
 }
 
 TEST_F(Hostile, OffsetsOfSubmodelsDoNotAddUpBeyondThirtyTwoBits) {
@@ -76,7 +76,7 @@ TEST_F(Hostile, OffsetsOfSubmodelsDoNotAddUpBeyondThirtyTwoBits) {
   for (int i = 0; i < 300; ++i) text += "//ENDSUB\n";
   const auto deck = read_deck(file("d_0000.rad", text), SchemaSet::built_in());
   ASSERT_TRUE(deck.ok());
-  EXPECT_GE(count(deck->diagnostics, "DK335"), 1u);
+  EXPECT_GE(count(deck->diagnostics, RuleId::DK335), 1u);
   for (const Submodel& s : deck->submodels) {
     EXPECT_LE(s.definitions, 2147483647);
     EXPECT_GE(s.nodes, -2147483648LL);
@@ -140,11 +140,11 @@ TEST_F(Hostile, TenThousandNestedIncludesStopAtTheDepthLimit) {
   file("f10000", "/NODE\n");
   const std::string main = file("m_0000.rad", deck_of("#include f0\n"));
   const Deck d = read_file(main);
-  EXPECT_EQ(count(d.diagnostics, "DK006"), 1u);
-  EXPECT_THAT(first(d.diagnostics, "DK006")->message, HasSubstr("deeper than 100"));
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK006), 1u);
+  EXPECT_THAT(first(d.diagnostics, RuleId::DK006)->message, HasSubstr("deeper than 100"));
   ReadOptions options;
   options.limits.include_depth = 1000000;
-  EXPECT_THAT(first(read_file(main, options).diagnostics, "DK006")->message,
+  EXPECT_THAT(first(read_file(main, options).diagnostics, RuleId::DK006)->message,
               HasSubstr("deeper than 250 "));
 }
 
@@ -160,7 +160,7 @@ TEST_F(Hostile, AnIncludeBombStopsAtTheNumberOfFiles) {
   options.limits.files = 500;
   const Deck d = read_file(file("m_0000.rad", deck_of("#include f0\n")), options);
   EXPECT_EQ(d.sources.size(), 500u);
-  EXPECT_GT(count(d.diagnostics, "DK006"), 0u);
+  EXPECT_GT(count(d.diagnostics, RuleId::DK006), 0u);
 }
 
 /// RssAnon of this process.
@@ -194,7 +194,7 @@ TEST_F(Hostile, TheTotalSizeIsBounded) {
   const Deck d = read_file(
       file("m_0000.rad", deck_of("#include a.inc\n#include a.inc\n#include a.inc\n")), options);
   EXPECT_EQ(d.sources.size(), 3u);
-  EXPECT_EQ(count(d.diagnostics, "DK006"), 1u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK006), 1u);
 }
 
 TEST_F(Hostile, IncludesOfFifosDirectoriesAndBinariesAreNamed) {
@@ -203,7 +203,7 @@ TEST_F(Hostile, IncludesOfFifosDirectoriesAndBinariesAreNamed) {
   file("binary", std::string(5000, '\0'));
   const Deck d = read_file(file("m_0000.rad", deck_of("#include fifo\n#include folder\n"
                                                       "#include binary\n#include /dev/zero\n")));
-  ASSERT_EQ(count(d.diagnostics, "DK004"), 4u);
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK004), 4u);
   const auto& all = d.diagnostics.all();
   EXPECT_THAT(all[0].message, HasSubstr("not a regular file"));
   EXPECT_THAT(all[1].message, HasSubstr("directory"));
@@ -219,7 +219,7 @@ TEST_F(Hostile, NulBytesInADeckAreReportedAndLoseNoLine) {
   const DecodedBlock b = decode(d, d.blocks[1], &findings);
   ASSERT_EQ(b.cards.size(), 3u);
   EXPECT_EQ(b.cards[2].cells[0].integer, 3);
-  EXPECT_EQ(count(findings, "DK014"), 1u);
+  EXPECT_EQ(count(findings, RuleId::DK014), 1u);
 }
 
 TEST_F(Hostile, AMillionBrokenLinesAreCountedAndAFewKept) {
@@ -228,8 +228,8 @@ TEST_F(Hostile, AMillionBrokenLinesAreCountedAndAFewKept) {
   const Deck d = read(deck_of(body));
   Diagnostics findings(50);
   decode(d, d.blocks[1], &findings);
-  EXPECT_EQ(count(findings, "DK020"), 300000u);
-  EXPECT_EQ(count(findings, "DK022"), 300000u);
+  EXPECT_EQ(count(findings, RuleId::DK020), 300000u);
+  EXPECT_EQ(count(findings, RuleId::DK022), 300000u);
   EXPECT_EQ(findings.all().size(), 100u);
 }
 
@@ -239,7 +239,7 @@ TEST_F(Hostile, ManyParametersOfOneNameStayFast) {
     body += "/PARAMETER/GLOBAL/REAL/1\nt\nA                          1.\n/GRNOD/NODE/&A\n";
   const Deck d = read(deck_of(body));
   EXPECT_EQ(d.parameters.size(), 1u);
-  EXPECT_EQ(count(d.diagnostics, "DK056"), 19999u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK056), 19999u);
 }
 
 TEST_F(Hostile, DeeplyNestedExpressionsEndInAnError) {
@@ -248,7 +248,7 @@ TEST_F(Hostile, DeeplyNestedExpressionsEndInAnError) {
     while (text.size() < 85) text += unit;
     std::string lines = "/PARAMETER/GLOBAL/REAL_EXPR/1\nt\nA         " + text + "\n";
     const Deck d = read(deck_of(lines));
-    EXPECT_EQ(count(d.diagnostics, "DK019"), 1u) << unit;
+    EXPECT_EQ(count(d.diagnostics, RuleId::DK019), 1u) << unit;
   }
 }
 

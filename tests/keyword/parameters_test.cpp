@@ -65,7 +65,7 @@ TEST(Parameters, BadExpressionsSayWhatIsWrong) {
   for (const auto& [text, why] : cases) {
     const Deck d = read(deck_of(expression("E", text)));
     EXPECT_FALSE(parameter(d, "E").valid) << text;
-    const Diagnostic* f = first(d.diagnostics, "DK019");
+    const Diagnostic* f = first(d.diagnostics, RuleId::DK019);
     ASSERT_NE(f, nullptr) << text;
     EXPECT_THAT(f->message, HasSubstr(why)) << text;
   }
@@ -78,10 +78,10 @@ TEST(Parameters, DefinitionMayFollowUse) {
 
 TEST(Parameters, CyclesAreErrorsAndDoNotHang) {
   const Deck self = read(deck_of(expression("A", "A+1")));
-  EXPECT_THAT(first(self.diagnostics, "DK019")->message, HasSubstr("refers to itself"));
+  EXPECT_THAT(first(self.diagnostics, RuleId::DK019)->message, HasSubstr("refers to itself"));
   const Deck ring =
       read(deck_of(expression("A", "B") + expression("B", "C") + expression("C", "A")));
-  EXPECT_EQ(count(ring.diagnostics, "DK019"), 3u);
+  EXPECT_EQ(count(ring.diagnostics, RuleId::DK019), 3u);
   EXPECT_FALSE(parameter(ring, "C").valid);
 }
 
@@ -95,7 +95,7 @@ TEST(Parameters, LongChainsEndInAResultOrAnError) {
   EXPECT_EQ(parameter(d, "P1990").real, 11);
   // Far from the end the depth limit speaks, and says so.
   EXPECT_FALSE(parameter(d, "P0").valid);
-  EXPECT_THAT(first(d.diagnostics, "DK019")->message, HasSubstr("too deep"));
+  EXPECT_THAT(first(d.diagnostics, RuleId::DK019)->message, HasSubstr("too deep"));
 }
 
 TEST(Parameters, DoublingChainsAreEvaluatedOnce) {
@@ -131,7 +131,7 @@ TEST(Parameters, TheFirstOfTwoInOneScopeCounts) {
   const Deck d =
       read(deck_of(real("A", "                  1.") + real("A", "                  2.")));
   EXPECT_EQ(parameter(d, "A").real, 1);
-  EXPECT_EQ(count(d.diagnostics, "DK056"), 1u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK056), 1u);
 }
 
 TEST(Parameters, InHeadersGiveIdsAndUnits) {
@@ -139,13 +139,13 @@ TEST(Parameters, InHeadersGiveIdsAndUnits) {
                               "/GRNOD/NODE/&N\nt\n/GRNOD/PART/&NONE\nt\n"));
   EXPECT_EQ(block(d, "/GRNOD/NODE/&N")->id.value, 42);
   EXPECT_EQ(block(d, "/GRNOD/PART/&NONE")->id.value, 0);
-  EXPECT_EQ(count(d.diagnostics, "DK018"), 1u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK018), 1u);
 }
 
 TEST(Parameters, UnreadableDefinitionsAreNamed) {
-  EXPECT_EQ(count(read(deck_of(real("A", "                 abc"))).diagnostics, "DK019"), 1u);
-  EXPECT_EQ(count(read(deck_of(real("", "                  1."))).diagnostics, "DK019"), 1u);
-  EXPECT_EQ(count(read(deck_of("/PARAMETER/GLOBAL/REAL/1\nt\n")).diagnostics, "DK019"), 1u);
+  EXPECT_EQ(count(read(deck_of(real("A", "                 abc"))).diagnostics, RuleId::DK019), 1u);
+  EXPECT_EQ(count(read(deck_of(real("", "                  1."))).diagnostics, RuleId::DK019), 1u);
+  EXPECT_EQ(count(read(deck_of("/PARAMETER/GLOBAL/REAL/1\nt\n")).diagnostics, RuleId::DK019), 1u);
 }
 
 TEST(Parameters, HugeRealsInIntegerPlacesAreCut) {

@@ -65,7 +65,7 @@ TEST(ReaderBlocks, HeadersAreFoundOnBothSidesOfEveryWindow) {
 
 TEST(ReaderBlocks, TextThatBelongsToNoKeywordIsNamed) {
   const Deck d = read(banner + "\nlost\n" + begin() + "/END\n");
-  const Diagnostic* f = first(d.diagnostics, "DK055");
+  const Diagnostic* f = first(d.diagnostics, RuleId::DK055);
   ASSERT_NE(f, nullptr);
   EXPECT_EQ(d.sources.where(f->span), "test_0000.rad:3:1");
 }
@@ -76,7 +76,7 @@ TEST(ReaderBlocks, EverythingBeforeBeginButParametersIsDropped) {
   EXPECT_EQ(block(d, "/NODE"), nullptr);
   EXPECT_NE(block(d, "/GRNOD/NODE/7"), nullptr);
   EXPECT_EQ(d.parameters.count("A"), 1u);
-  EXPECT_EQ(count(d.diagnostics, "DK002"), 3u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK002), 3u);
   ASSERT_EQ(d.submodels.size(), 1u);
   EXPECT_EQ(d.submodels[0].nodes, 0);
 }
@@ -84,14 +84,14 @@ TEST(ReaderBlocks, EverythingBeforeBeginButParametersIsDropped) {
 TEST(ReaderBlocks, WithoutBeginAllBlocksStayAndOneErrorSaysSo) {
   const Deck d = read(banner + "/NODE\n         1\n/END\n");
   EXPECT_NE(block(d, "/NODE"), nullptr);
-  EXPECT_EQ(count(d.diagnostics, "DK002"), 1u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK002), 1u);
 }
 
 // ---- ends ---------------------------------------------------------------------------------------
 
 TEST(ReaderEnd, TextBehindEndIsReportedWithItsLine) {
   const Deck d = read(deck_of("") + "# fine\n\n  /NODE\n");
-  const Diagnostic* f = first(d.diagnostics, "DK011");
+  const Diagnostic* f = first(d.diagnostics, RuleId::DK011);
   ASSERT_NE(f, nullptr);
   EXPECT_EQ(d.sources.position(f->span).line, 10u);
   EXPECT_EQ(block(d, "/NODE"), nullptr);
@@ -106,7 +106,7 @@ TEST(ReaderEnd, OnlyTheExactHeaderEndsTheDeck) {
 
 TEST(ReaderEnd, AMissingEndIsReportedAtTheEndOfTheFile) {
   const Deck d = read(banner + begin());
-  const Diagnostic* f = first(d.diagnostics, "DK010");
+  const Diagnostic* f = first(d.diagnostics, RuleId::DK010);
   ASSERT_NE(f, nullptr);
   EXPECT_EQ(d.sources.position(f->span).line, 7u);
 }
@@ -114,20 +114,20 @@ TEST(ReaderEnd, AMissingEndIsReportedAtTheEndOfTheFile) {
 // ---- first line ---------------------------------------------------------------------------------
 
 TEST(ReaderBanner, MissingBannerAndByteOrderMarkAreNamed) {
-  EXPECT_EQ(count(read(begin() + "/END\n").diagnostics, "DK001"), 1u);
+  EXPECT_EQ(count(read(begin() + "/END\n").diagnostics, RuleId::DK001), 1u);
   const Deck bom = read("\xef\xbb\xbf" + deck_of(""));
-  EXPECT_EQ(count(bom.diagnostics, "DK033"), 1u);
-  ASSERT_EQ(count(bom.diagnostics, "DK001"), 1u);
-  EXPECT_THAT(first(bom.diagnostics, "DK001")->message, HasSubstr("byte order mark"));
-  EXPECT_EQ(count(bom.diagnostics, "DK055"), 0u);
-  EXPECT_EQ(count(read(deck_of("")).diagnostics, "DK001"), 0u);
+  EXPECT_EQ(count(bom.diagnostics, RuleId::DK033), 1u);
+  ASSERT_EQ(count(bom.diagnostics, RuleId::DK001), 1u);
+  EXPECT_THAT(first(bom.diagnostics, RuleId::DK001)->message, HasSubstr("byte order mark"));
+  EXPECT_EQ(count(bom.diagnostics, RuleId::DK055), 0u);
+  EXPECT_EQ(count(read(deck_of("")).diagnostics, RuleId::DK001), 0u);
 }
 
 TEST(ReaderBanner, LoneCarriageReturnsAreNamed) {
   std::string text = deck_of("/NODE\n");
   std::replace(text.begin(), text.end(), '\n', '\r');
-  EXPECT_EQ(count(read(text).diagnostics, "DK057"), 1u);
-  EXPECT_EQ(count(read(deck_of("/NODE\r\n")).diagnostics, "DK057"), 0u);
+  EXPECT_EQ(count(read(text).diagnostics, RuleId::DK057), 1u);
+  EXPECT_EQ(count(read(deck_of("/NODE\r\n")).diagnostics, RuleId::DK057), 0u);
 }
 
 // ---- /BEGIN -------------------------------------------------------------------------------------
@@ -142,8 +142,8 @@ TEST(ReaderBegin, GivesVersionRunNameAndUnits) {
   EXPECT_EQ(d.begin.input.mass, 1000);
   EXPECT_EQ(d.begin.input.length, 1e-3);
   EXPECT_EQ(d.begin.working.length, 1);
-  EXPECT_EQ(count(d.diagnostics, "DK017"), 1u);
-  EXPECT_EQ(first(d.diagnostics, "DK017")->reference->severity, Severity::warning);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK017), 1u);
+  EXPECT_EQ(first(d.diagnostics, RuleId::DK017)->reference->severity, Severity::warning);
 }
 
 TEST(ReaderBegin, UnknownVersionsTakeTheNewestLayout) {
@@ -151,7 +151,7 @@ TEST(ReaderBegin, UnknownVersionsTakeTheNewestLayout) {
     const Deck d = read(deck_of("", version));
     EXPECT_EQ(d.version, newest_version) << version;
     EXPECT_FALSE(d.begin.version_known);
-    EXPECT_EQ(count(d.diagnostics, "DK003"), 1u) << version;
+    EXPECT_EQ(count(d.diagnostics, RuleId::DK003), 1u) << version;
   }
   for (const int version : {41,   42,   44,   51,   90,   100,  110,  120,  130,  140,
                             2017, 2018, 2019, 2020, 2021, 2022, 2023, 2024, 2025, 2026}) {
@@ -167,15 +167,15 @@ TEST(ReaderBegin, AMissingUnitLineTakesTheOther) {
   EXPECT_EQ(no_input.begin.input.mass, 1000);
   const Deck no_working = read(head + units + "/END\n");
   EXPECT_EQ(no_working.begin.working.mass, 1000);
-  EXPECT_EQ(count(no_working.diagnostics, "DK016"), 0u);
-  EXPECT_EQ(count(read(head + "/END\n").diagnostics, "DK016"), 1u);
+  EXPECT_EQ(count(no_working.diagnostics, RuleId::DK016), 0u);
+  EXPECT_EQ(count(read(head + "/END\n").diagnostics, RuleId::DK016), 1u);
 }
 
 TEST(ReaderBegin, AnUnreadableUnitPointsAtItsCell) {
   const Deck d = read(banner +
                       "/BEGIN\nrun\n      2024\n                  kg                  mn"
                       "                  ms\n/END\n");
-  const Diagnostic* f = first(d.diagnostics, "DK015");
+  const Diagnostic* f = first(d.diagnostics, RuleId::DK015);
   ASSERT_NE(f, nullptr);
   EXPECT_EQ(d.sources.position(f->span).column, 21u);
   EXPECT_THAT(f->message, HasSubstr("'mn' is not a length unit"));
@@ -188,18 +188,18 @@ TEST(ReaderBegin, OldVersionsNameTheirUnitsInBlocks) {
   EXPECT_EQ(d.begin.input.length, 1e-3);
   EXPECT_EQ(d.begin.input.mass, 1000);
   EXPECT_EQ(d.begin.working.mass, 1000);
-  EXPECT_EQ(count(d.diagnostics, "DK016"), 0u);
-  EXPECT_EQ(
-      count(read(banner + "/BEGIN\nrun\n        90\n/UNIT/LENGTH/zz\n/END\n").diagnostics, "DK015"),
-      1u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK016), 0u);
+  EXPECT_EQ(count(read(banner + "/BEGIN\nrun\n        90\n/UNIT/LENGTH/zz\n/END\n").diagnostics,
+                  RuleId::DK015),
+            1u);
 }
 
 TEST(ReaderBegin, UnitsInBlocksDoNotCountInNewerVersions) {
   const std::string units = "/UNIT/LENGTH/mm\n/UNIT/MASS/Mg\n/UNIT/TIME/s\n/END\n";
   const Deck d = read(banner + "/BEGIN\nrun\n      2024\n" + units);
-  ASSERT_EQ(count(d.diagnostics, "DK016"), 1u);
-  EXPECT_THAT(first(d.diagnostics, "DK016")->message, HasSubstr("up to version 90 only"));
-  EXPECT_EQ(first(d.diagnostics, "DK016")->severity, Severity::error);
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK016), 1u);
+  EXPECT_THAT(first(d.diagnostics, RuleId::DK016)->message, HasSubstr("up to version 90 only"));
+  EXPECT_EQ(first(d.diagnostics, RuleId::DK016)->severity, Severity::error);
 }
 
 TEST(ReaderBegin, ABlankUnitIsThatOfTheOtherSystem) {
@@ -211,14 +211,14 @@ TEST(ReaderBegin, ABlankUnitIsThatOfTheOtherSystem) {
     EXPECT_EQ(d.begin.input.length, 1e-3);
     EXPECT_EQ(d.begin.working.length, 1e-3);
     EXPECT_EQ(d.begin.input.length_code, "mm");
-    ASSERT_EQ(count(d.diagnostics, "DK015"), 1u);
-    EXPECT_EQ(first(d.diagnostics, "DK015")->severity, Severity::warning);
-    EXPECT_THAT(first(d.diagnostics, "DK015")->message, HasSubstr("'mm'"));
+    ASSERT_EQ(count(d.diagnostics, RuleId::DK015), 1u);
+    EXPECT_EQ(first(d.diagnostics, RuleId::DK015)->severity, Severity::warning);
+    EXPECT_THAT(first(d.diagnostics, RuleId::DK015)->message, HasSubstr("'mm'"));
   }
   const Deck neither = read(head + part + part + "/END\n");
   EXPECT_EQ(neither.begin.input.length, 1);
-  EXPECT_EQ(count(neither.diagnostics, "DK015"), 2u);
-  EXPECT_THAT(first(neither.diagnostics, "DK015")->message, HasSubstr("taken for 1"));
+  EXPECT_EQ(count(neither.diagnostics, RuleId::DK015), 2u);
+  EXPECT_THAT(first(neither.diagnostics, RuleId::DK015)->message, HasSubstr("taken for 1"));
 }
 
 TEST(ReaderBegin, TextBehindANumberOfAUnitIsDropped) {
@@ -227,8 +227,8 @@ TEST(ReaderBegin, TextBehindANumberOfAUnitIsDropped) {
                       "         2         0                  mm                   s\n"
                       "                  Mg                  mm                   s\n/END\n");
   EXPECT_EQ(d.begin.input.mass, 2);
-  ASSERT_EQ(count(d.diagnostics, "DK015"), 1u);
-  EXPECT_EQ(first(d.diagnostics, "DK015")->severity, Severity::warning);
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK015), 1u);
+  EXPECT_EQ(first(d.diagnostics, RuleId::DK015)->severity, Severity::warning);
 }
 
 TEST(ReaderBegin, ASecondOneInTheMainFileKeepsTheFirstUnits) {
@@ -236,7 +236,7 @@ TEST(ReaderBegin, ASecondOneInTheMainFileKeepsTheFirstUnits) {
   EXPECT_EQ(d.version, 2024);
   EXPECT_EQ(block(d, "/NODE")->version, 2024);
   EXPECT_EQ(block(d, "/GRNOD/NODE/1")->version, 100);
-  EXPECT_EQ(count(d.diagnostics, "DK043"), 1u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK043), 1u);
 }
 
 // ---- headers ------------------------------------------------------------------------------------
@@ -283,7 +283,7 @@ TEST(ReaderHeader, IdsBeyondTheLimitAreErrors) {
   const Deck d =
       read(deck_of("/INTER/TYPE7/2147483648\nt\n/INTER/TYPE7/2147483647\nt\n"
                    "/INTER/TYPE7/99999999999999999999999\nt\n"));
-  EXPECT_EQ(count(d.diagnostics, "DK054"), 2u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK054), 2u);
 }
 
 TEST(ReaderHeader, AnInterfaceKeepsAWrittenZeroAndOtherObjectsBecomeNumberOne) {
@@ -314,7 +314,7 @@ TEST(ReaderHeader, AHashBehindABlankStartsAComment) {
 
 TEST(ReaderHeader, ABlankBeforeASlashIsAnErrorThatPointsAtTheBlank) {
   const Deck d = read(deck_of(" /GRNOD/NODE/7\nt\n/GRNOD /NODE/8\nt\n/GRNOD/NODE/9  \nt\n"));
-  ASSERT_EQ(count(d.diagnostics, "DK052"), 2u);
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK052), 2u);
   const auto& all = d.diagnostics.all();
   EXPECT_EQ(d.sources.where(all[0].span), "test_0000.rad:7:1");
   EXPECT_EQ(d.sources.where(all[1].span), "test_0000.rad:9:7");
@@ -358,7 +358,7 @@ TEST_F(ReaderInclude, AMissingFileNamesEveryPlaceThatWasTried) {
   ReadOptions options;
   options.include_paths = {dir_ / "lib"};
   const Deck d = read_file(file("m_0000.rad", deck_of("#include sub/a.inc\n/NODE\n")), options);
-  const Diagnostic* f = first(d.diagnostics, "DK004");
+  const Diagnostic* f = first(d.diagnostics, RuleId::DK004);
   ASSERT_NE(f, nullptr);
   for (const char* place : {"sub/none.inc", "/none.inc", "lib/none.inc"})
     EXPECT_THAT(f->message, HasSubstr((dir_ / place).string())) << place;
@@ -390,8 +390,8 @@ TEST_F(ReaderInclude, LinesBeforeItsFirstKeywordAreDroppedAndCounted) {
   ASSERT_NE(block(d, "/NODE"), nullptr);
   EXPECT_THAT(lines(d, *block(d, "/NODE")), ElementsAre("         1"));
   EXPECT_THAT(lines(d, *block(d, "/GRNOD/NODE/5")), ElementsAre("t", "         1"));
-  ASSERT_EQ(count(d.diagnostics, "DK051"), 1u);
-  const Diagnostic* f = first(d.diagnostics, "DK051");
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK051), 1u);
+  const Diagnostic* f = first(d.diagnostics, RuleId::DK051);
   EXPECT_EQ(d.sources.position(f->span).line, 2u);
   EXPECT_THAT(f->message, HasSubstr("2 lines"));
   EXPECT_THAT(f->message, HasSubstr("/NODE"));
@@ -403,7 +403,7 @@ TEST_F(ReaderInclude, WithoutAnyKeywordLeavesTheBlockOfTheIncludingFileOpen) {
   const Deck d = read_file(file("m_0000.rad", deck_of("/NODE\n         1\n#include a.inc\n"
                                                       "#include remarks.inc\n         4\n")));
   EXPECT_THAT(lines(d, *block(d, "/NODE")), ElementsAre("         1", "         4"));
-  EXPECT_EQ(count(d.diagnostics, "DK051"), 1u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK051), 1u);
 }
 
 TEST_F(ReaderInclude, LinesBehindAnIncludeThatBroughtAKeywordBelongToIt) {
@@ -412,7 +412,7 @@ TEST_F(ReaderInclude, LinesBehindAnIncludeThatBroughtAKeywordBelongToIt) {
   const Deck d = read_file(file("m_0000.rad", deck_of("/NODE\n#include outer.inc\n")));
   EXPECT_THAT(lines(d, *block(d, "/GRNOD/NODE/5")), ElementsAre("t", "         8"));
   EXPECT_TRUE(lines(d, *block(d, "/NODE")).empty());
-  EXPECT_EQ(count(d.diagnostics, "DK051"), 1u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK051), 1u);
 }
 
 TEST_F(ReaderInclude, AByteOrderMarkHidesItsFirstKeyword) {
@@ -420,16 +420,16 @@ TEST_F(ReaderInclude, AByteOrderMarkHidesItsFirstKeyword) {
   const Deck d = read_file(file("m_0000.rad", deck_of("#include a.inc\n")));
   EXPECT_EQ(block(d, "/GRNOD/NODE/5"), nullptr);
   EXPECT_NE(block(d, "/GRNOD/NODE/6"), nullptr);
-  EXPECT_EQ(count(d.diagnostics, "DK033"), 1u);
-  ASSERT_EQ(count(d.diagnostics, "DK051"), 1u);
-  EXPECT_THAT(first(d.diagnostics, "DK051")->message, HasSubstr("byte order mark"));
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK033), 1u);
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK051), 1u);
+  EXPECT_THAT(first(d.diagnostics, RuleId::DK051)->message, HasSubstr("byte order mark"));
 }
 
 TEST_F(ReaderInclude, AWrongPathComesWithAHint) {
   file("Sub/Mesh.inc", "/GRNOD/NODE/1\n");
   const auto help = [&](const std::string& directive) {
     const Deck d = read_file(file("m_0000.rad", deck_of(directive + "\n")));
-    const Diagnostic* f = first(d.diagnostics, "DK004");
+    const Diagnostic* f = first(d.diagnostics, RuleId::DK004);
     return f == nullptr ? std::string("(found)") : f->help;
   };
   EXPECT_THAT(help("#include sub/mesh.inc"), HasSubstr((dir_ / "Sub/Mesh.inc").string()));
@@ -439,7 +439,7 @@ TEST_F(ReaderInclude, AWrongPathComesWithAHint) {
   EXPECT_EQ(help("#include Sub/Mesh.inc"), "(found)");
   EXPECT_EQ(help("#include Sub\\Mesh.inc"), "(found)");
   const Deck d = read_file(file("m_0000.rad", deck_of("#include Sub\\Mesh.inc\n")));
-  EXPECT_EQ(count(d.diagnostics, "DK058"), 1u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK058), 1u);
 }
 
 TEST_F(ReaderInclude, EndAndEnddataSkipTheRestOfTheIncludeOnly) {
@@ -451,14 +451,14 @@ TEST_F(ReaderInclude, EndAndEnddataSkipTheRestOfTheIncludeOnly) {
     EXPECT_NE(block(d, here), nullptr) << here;
   for (const char* gone : {"/GRNOD/NODE/2", "/GRNOD/NODE/4"})
     EXPECT_EQ(block(d, gone), nullptr) << gone;
-  EXPECT_EQ(count(d.diagnostics, "DK011"), 1u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK011), 1u);
 }
 
 TEST_F(ReaderInclude, CyclesEndWithTheNameOfTheFile) {
   file("a.inc", "/GRNOD/NODE/1\n#include b.inc\n/GRNOD/NODE/2\n");
   file("b.inc", "#include ./a.inc\n#include m_0000.rad\n/GRNOD/NODE/3\n");
   const Deck d = read_file(file("m_0000.rad", deck_of("#include a.inc\n")));
-  EXPECT_EQ(count(d.diagnostics, "DK005"), 2u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK005), 2u);
   EXPECT_EQ(d.sources.size(), 3u);
   EXPECT_NE(block(d, "/GRNOD/NODE/2"), nullptr);
   EXPECT_NE(block(d, "/GRNOD/NODE/3"), nullptr);
@@ -467,7 +467,7 @@ TEST_F(ReaderInclude, CyclesEndWithTheNameOfTheFile) {
 TEST_F(ReaderInclude, TheSameFileTwiceInARowIsNoCycle) {
   file("a.inc", "/GRNOD/NODE/1\n");
   const Deck d = read_file(file("m_0000.rad", deck_of("#include a.inc\n#include a.inc\n")));
-  EXPECT_EQ(count(d.diagnostics, "DK005"), 0u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK005), 0u);
   EXPECT_EQ(d.sources.size(), 3u);
 }
 
@@ -487,9 +487,9 @@ TEST_F(ReaderInclude, InheritsTheVersionUnlessItHasItsOwnBegin) {
 
 TEST_F(ReaderInclude, IsOnlyADirectiveAtTheStartOfALine) {
   const Deck d = read(deck_of("/NODE\n #include x\n#includex\n#include_y\n"));
-  EXPECT_EQ(count(d.diagnostics, "DK004"), 0u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK004), 0u);
   for (const char* bare : {"#include   \n", "#include\n", "#INCLUDE\r\n"})
-    EXPECT_EQ(count(read(deck_of(bare)).diagnostics, "DK004"), 1u) << bare;
+    EXPECT_EQ(count(read(deck_of(bare)).diagnostics, RuleId::DK004), 1u) << bare;
 }
 
 // ---- submodels ----------------------------------------------------------------------------------
@@ -521,7 +521,7 @@ TEST(ReaderSubmodel, OffsetsFallBackAndAddUp) {
   EXPECT_EQ(offset("/NODE", "shell"), 1300);
   EXPECT_EQ(offset("/PART/1", "part"), 100);
   EXPECT_EQ(offset("/NODE/1", "node"), 0);
-  EXPECT_EQ(count(d.diagnostics, "DK035"), 0u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK035), 0u);
 }
 
 TEST(ReaderSubmodel, ItsOwnBeginGivesItsUnitsAndVersionOnlyInside) {
@@ -540,8 +540,8 @@ TEST(ReaderSubmodel, ItsOwnBeginGivesItsUnitsAndVersionOnlyInside) {
 }
 
 TEST(ReaderSubmodel, UnbalancedMarksAreErrors) {
-  EXPECT_EQ(count(read(deck_of("//ENDSUB\n")).diagnostics, "DK035"), 1u);
-  EXPECT_EQ(count(read(deck_of("//SUBMODEL/1\n\n\n")).diagnostics, "DK035"), 1u);
+  EXPECT_EQ(count(read(deck_of("//ENDSUB\n")).diagnostics, RuleId::DK035), 1u);
+  EXPECT_EQ(count(read(deck_of("//SUBMODEL/1\n\n\n")).diagnostics, RuleId::DK035), 1u);
 }
 
 // ---- units --------------------------------------------------------------------------------------
@@ -556,7 +556,7 @@ TEST(ReaderUnits, UnitBlocksAreFoundWithSubmodelOffsets) {
   EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/1/3"))->length, 1);
   EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/2/4")), nullptr);
   EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/5/4"))->mass, 1000);
-  EXPECT_EQ(count(d.diagnostics, "DK015"), 0u);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK015), 0u);
   EXPECT_EQ(d.units.count(14), 1u);
 }
 

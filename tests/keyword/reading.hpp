@@ -9,6 +9,7 @@
 
 #include "deck/keyword/deck.hpp"
 #include "deck/keyword/decode.hpp"
+#include "deck/text/rule_id.hpp"
 
 namespace deck::testing_support {
 
@@ -33,12 +34,12 @@ inline Deck read(const std::string& text, const ReadOptions& options = {},
   return deck.ok() ? std::move(*deck) : Deck();
 }
 
-inline std::uint64_t count(const Diagnostics& diagnostics, std::string_view rule) {
+inline std::uint64_t count(const Diagnostics& diagnostics, RuleId rule) {
   const auto it = diagnostics.counts().find(rule);
   return it == diagnostics.counts().end() ? 0 : it->second;
 }
 
-inline const Diagnostic* first(const Diagnostics& diagnostics, std::string_view rule) {
+inline const Diagnostic* first(const Diagnostics& diagnostics, RuleId rule) {
   for (const Diagnostic& d : diagnostics.all())
     if (d.rule == rule) return &d;
   return nullptr;

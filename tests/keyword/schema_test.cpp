@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "keyword/embedded.hpp"
+#include "base/embedded.hpp"
 #include "keyword/schema_json.hpp"
 
 namespace deck {

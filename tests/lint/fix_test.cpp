@@ -24,16 +24,16 @@ class EveryFix : public testing::TestWithParam<std::string> {};
 std::vector<std::string> fixable_ids() {
   std::vector<std::string> ids;
   for (const Rule& r : all_rules())
-    if (r.fixable != Fixable::no && !r.bad.empty()) ids.emplace_back(r.id);
+    if (r.fixable != Fixable::no && !r.bad.empty()) ids.emplace_back(id_text(r.id));
   return ids;
 }
 
 TEST_P(EveryFix, RemovesItsFinding) {
   const Rule& rule = *find_rule(GetParam());
   LintOptions only;
-  only.select = {std::string(rule.id)};
+  only.select = {std::string(id_text(rule.id))};
   // An unused suppression is one only where the suppressed rule runs as well.
-  if (rule.id == "DK091") only.select.emplace_back("DK223");
+  if (rule.id == RuleId::DK091) only.select.emplace_back("DK223");
   const Linted before = lint_example(rule.bad, only);
   ASSERT_TRUE(before.fires(rule.id));
   std::size_t with_fix = 0;
@@ -96,12 +96,12 @@ TEST(SafeFixes, WriteNoDefaultIntoABlockOfOtherUnits) {
   LintOptions only;
   only.select = {"DK219"};
   const Linted other = lint_text(deck, only);
-  ASSERT_EQ(other.count("DK219"), 1u) << other.list();
+  ASSERT_EQ(other.count(RuleId::DK219), 1u) << other.list();
   EXPECT_FALSE(other.result.diagnostics[0].fix.has_value());
   std::string same = deck;
   same.replace(same.find("   s\n"), 5, "  ms\n");
   const Linted own = lint_text(same, only);
-  ASSERT_EQ(own.count("DK219"), 1u) << own.list();
+  ASSERT_EQ(own.count(RuleId::DK219), 1u) << own.list();
   EXPECT_TRUE(own.result.diagnostics[0].fix.has_value());
 }
 
@@ -131,7 +131,7 @@ TEST(CellEdit, GrowsALineThatIsTooShort) {
 
 Diagnostic with_edit(Span span, std::string text, bool safe = true) {
   Diagnostic d;
-  d.rule = "DK010";
+  d.rule = RuleId::DK010;
   d.span = span;
   d.fix = Fix{"test", safe, {{span, std::move(text)}}};
   return d;
@@ -198,7 +198,7 @@ class FixedTogether : public testing::Test {
 TEST_F(FixedTogether, ASuppressionInAnIncludeIsNoSafeFix) {
   folder_.write("inter.inc", suppressed_);
   const Linted a = lint(folder_.write("a_0000.rad", main_deck("#include inter.inc\n")));
-  ASSERT_TRUE(a.fires("DK091"));
+  ASSERT_TRUE(a.fires(RuleId::DK091));
   EXPECT_TRUE(agree({&a}, false).wanted[0].empty());
   EXPECT_EQ(agree({&a}, true).wanted[0].size(), 1u);
   const Linted b = lint(folder_.write("b_0000.rad", main_deck(suppressed_)));

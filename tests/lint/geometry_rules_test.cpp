@@ -35,8 +35,8 @@ class EveryGeometryRule : public testing::TestWithParam<std::string> {
 std::vector<std::string> geometry_rules() {
   std::vector<std::string> ids;
   for (const Rule& r : all_rules())
-    if (r.stage == RuleStage::extra && r.id.starts_with("DK3") && !r.bad.empty())
-      ids.emplace_back(r.id);
+    if (r.stage == RuleStage::extra && id_number(r.id) / 100 == 3 && !r.bad.empty())
+      ids.emplace_back(id_text(r.id));
   return ids;
 }
 
@@ -58,7 +58,7 @@ TEST_P(EveryGeometryRule, ExamplesNameFieldsThatExistAndAreReadWithoutErrors) {
     EXPECT_EQ(deck.find("# no schema"), std::string::npos) << deck;
   }
   for (const Diagnostic& d : lint_geometry(rule().good).result.diagnostics)
-    EXPECT_NE(d.severity, Severity::error) << d.rule << " " << d.message;
+    EXPECT_NE(d.severity, Severity::error) << id_text(d.rule) << " " << d.message;
 }
 
 TEST_P(EveryGeometryRule, FindingHasPlaceMessageAndHelp) {
@@ -79,11 +79,11 @@ INSTANTIATE_TEST_SUITE_P(Rules, EveryGeometryRule, testing::ValuesIn(geometry_ru
                          [](const auto& test) { return test.param; });
 
 TEST(GeometryRules, ThereAreExamplesForAllButTheOverflow) {
-  std::vector<std::string_view> without;
+  std::vector<RuleId> without;
   for (const Rule& r : all_rules())
-    if (r.id.starts_with("DK3") && r.bad.empty()) without.push_back(r.id);
+    if (id_number(r.id) / 100 == 3 && r.bad.empty()) without.push_back(r.id);
   // What needs gigabytes, or coordinates that are no numbers, has tests of its own.
-  EXPECT_EQ(without, (std::vector<std::string_view>{"DK332", "DK380", "DK390"}));
+  EXPECT_EQ(without, (std::vector{RuleId::DK332, RuleId::DK380, RuleId::DK390}));
   EXPECT_GE(geometry_rules().size(), 20u);
 }
 
@@ -93,9 +93,9 @@ TEST(CoordinatesWithoutBounds, LeaveTheContactUnevaluatedWithAFinding) {
       "/NODE/3\n        21             1.e+305                 0.0                 0.0\n"
       "/NODE\n        22                 1.0                 1.0                 1.0\n"
       "/GRNOD/NODE/3\nboth\n        21        22\n@/INTER/TYPE7/1 grnd_IDs=3 Gapmin=4\n");
-  EXPECT_EQ(run.count("DK333"), 1u) << run.list();
-  EXPECT_EQ(run.count("DK380"), 1u) << run.list();
-  EXPECT_EQ(run.count("DK301"), 0u) << run.list();
+  EXPECT_EQ(run.count(RuleId::DK333), 1u) << run.list();
+  EXPECT_EQ(run.count(RuleId::DK380), 1u) << run.list();
+  EXPECT_EQ(run.count(RuleId::DK301), 0u) << run.list();
 }
 
 TEST(InitialPenetrations, OneFindingPerPairOfPartsWithTheDeepestNodes) {
@@ -106,10 +106,10 @@ TEST(InitialPenetrations, OneFindingPerPairOfPartsWithTheDeepestNodes) {
       "/PART/3\nsmall\n         1         1         0\n/SH3N/3\n         9        21        22     "
       "   23\n"
       "/GRNOD/PART/3\nboth\n         2         3\n@/INTER/TYPE7/1 grnd_IDs=3 Gapmin=4\n");
-  EXPECT_EQ(run.count("DK301"), 2u) << run.list();
+  EXPECT_EQ(run.count(RuleId::DK301), 2u) << run.list();
   std::vector<std::string> messages;
   for (const Diagnostic& d : run.result.diagnostics)
-    if (d.rule == "DK301") messages.push_back(d.message);
+    if (d.rule == RuleId::DK301) messages.push_back(d.message);
   std::sort(messages.begin(), messages.end());
   ASSERT_EQ(messages.size(), 2u);
   EXPECT_EQ(messages[0],
@@ -120,7 +120,7 @@ TEST(InitialPenetrations, OneFindingPerPairOfPartsWithTheDeepestNodes) {
             "/INTER/TYPE7 1: 4 nodes of part 2 within the gap of part 1 (4 pairs), deepest 1 of a "
             "gap of 4 between node 11 and segment 1 2 3 4; nothing is done about them: they start "
             "with contact forces");
-  const Diagnostic* d = run.find("DK301");
+  const Diagnostic* d = run.find(RuleId::DK301);
   ASSERT_EQ(d->notes.size(), 3u);
   for (const auto& note : d->notes) EXPECT_TRUE(note.first.valid());
   EXPECT_EQ(d->reference->number, 343);
@@ -128,7 +128,7 @@ TEST(InitialPenetrations, OneFindingPerPairOfPartsWithTheDeepestNodes) {
 
 TEST(InitialPenetrations, EdgesHaveTheirOwnMessage) {
   const Linted run = lint_geometry("@/INTER/TYPE11/1 Gapmin=4\n");
-  const Diagnostic* d = run.find("DK301");
+  const Diagnostic* d = run.find(RuleId::DK301);
   ASSERT_NE(d, nullptr);
   EXPECT_EQ(d->reference->number, 499);
 }
@@ -137,10 +137,10 @@ TEST(OnSurface, MessageFollowsInacti) {
   const std::string node =
       "/NODE\n        21                 5.0                 5.0                 0.0\n"
       "/GRNOD/NODE/3\non\n        21\n@/INTER/TYPE7/1 grnd_IDs=3 Gapmin=1 Inacti=";
-  EXPECT_EQ(lint_geometry(node + "6\n").find("DK302")->reference->number, 611);
-  EXPECT_EQ(lint_geometry(node + "0\n").find("DK302")->reference->number, 612);
-  EXPECT_FALSE(lint_geometry(node + "1\n").fires("DK302"));
-  EXPECT_TRUE(lint_geometry(node + "1\n").fires("DK303"));
+  EXPECT_EQ(lint_geometry(node + "6\n").find(RuleId::DK302)->reference->number, 611);
+  EXPECT_EQ(lint_geometry(node + "0\n").find(RuleId::DK302)->reference->number, 612);
+  EXPECT_FALSE(lint_geometry(node + "1\n").fires(RuleId::DK302));
+  EXPECT_TRUE(lint_geometry(node + "1\n").fires(RuleId::DK303));
 }
 
 TEST(ShortSides, NameTheSideAndCountSegments) {
@@ -149,7 +149,7 @@ TEST(ShortSides, NameTheSideAndCountSegments) {
       "/NODE\n        21                12.0                 0.0                 0.0\n"
       "        22                12.0                10.0                 0.0\n"
       "/SHELL/1\n         9         2        21        22         3\n@/INTER/TYPE7/1 Gapmin=1.5\n");
-  const Diagnostic* d = run.find("DK310");
+  const Diagnostic* d = run.find(RuleId::DK310);
   ASSERT_NE(d, nullptr) << run.list();
   EXPECT_EQ(d->message,
             "/INTER/TYPE7 1: Gapmin = 1.5 (from the card) is more than half of side 2 21 of "
@@ -165,11 +165,12 @@ TEST(ShortSides, OfLinesBothListsCount) {
       "/TRUSS/7\n         9        21        22\n/LINE/SEG/3\nbar\n         1        21        "
       "22\n";
   const Linted run = lint_geometry(lines + "@/INTER/TYPE11/1 line_IDs=3 Gapmin=1\n");
-  ASSERT_EQ(run.count("DK310"), 1u) << run.list();
-  EXPECT_EQ(run.find("DK310")->message,
+  ASSERT_EQ(run.count(RuleId::DK310), 1u) << run.list();
+  EXPECT_EQ(run.find(RuleId::DK310)->message,
             "/INTER/TYPE11 1: Gapmin = 1 (from the card) is more than half of edge 21 22 (element "
             "9 of part 7), which is 1 long; so it is at 1 secondary edge of 1");
-  EXPECT_EQ(lint_geometry(lines + "@/INTER/TYPE11/1 line_IDs=3 Gapmin=6\n").count("DK310"), 2u);
+  EXPECT_EQ(lint_geometry(lines + "@/INTER/TYPE11/1 line_IDs=3 Gapmin=6\n").count(RuleId::DK310),
+            2u);
 }
 
 TEST(ShortSides, AreMeasuredAgainstTheGapThere) {
@@ -187,9 +188,9 @@ TEST(ShortSides, AreMeasuredAgainstTheGapThere) {
       "/SURF/PART/9\nall\n         1         9\n/GRNOD/NODE/9\nfree\n        31\n";
   const Linted run =
       lint_geometry(mesh + "@/INTER/TYPE7/1 surf_IDm=9 grnd_IDs=9 Igap=1 Gapmin=0.1\n");
-  EXPECT_FALSE(run.fires("DK310")) << run.list();
+  EXPECT_FALSE(run.fires(RuleId::DK310)) << run.list();
   EXPECT_TRUE(lint_geometry(mesh + "@/INTER/TYPE7/1 surf_IDm=9 grnd_IDs=9 Igap=1 Gapmin=1.25\n")
-                  .fires("DK310"));
+                  .fires(RuleId::DK310));
 }
 
 TEST(CrossedElements, OneFindingPerTwoPartsHoweverManyInterfacesHaveThem) {
@@ -200,8 +201,8 @@ TEST(CrossedElements, OneFindingPerTwoPartsHoweverManyInterfacesHaveThem) {
       "/SH3N/2\n         9        21        22        23\n@/INTER/TYPE7/1 Gapmin=0.1\n"
       "@/INTER/TYPE7/2 Gapmin=0.2\n"
       "@/INTER/TYPE19/3 surf_IDs=2 surf_IDm=1 Gapmin=0.1\n");
-  ASSERT_EQ(run.count("DK328"), 1u) << run.list();
-  EXPECT_EQ(run.find("DK328")->message,
+  ASSERT_EQ(run.count(RuleId::DK328), 1u) << run.list();
+  EXPECT_EQ(run.find(RuleId::DK328)->message,
             "/INTER/TYPE7 1: elements of part 1 and part 2 pass through each other in 2 places; "
             "edge 21 23 goes through 1 2 3 4");
 }
@@ -214,7 +215,7 @@ TEST(GeometryRules, SameFindingsForAnyNumberOfThreads) {
 TEST(GeometryRules, CanBeSuppressedLikeAnyOther) {
   const Linted run =
       lint_geometry("# decklint: ignore[DK301] reason=known\n@/INTER/TYPE7/1 Gapmin=4 Inacti=6\n");
-  EXPECT_FALSE(run.fires("DK301"));
+  EXPECT_FALSE(run.fires(RuleId::DK301));
   EXPECT_GE(run.result.suppressed, 1u);
 }
 

@@ -13,9 +13,9 @@ constexpr const char* negative = "@/INTER/TYPE7/1 Stfac=-1.0\n";
 TEST(Suppression, InFrontOfTheHeaderCoversTheBlockBehindIt) {
   const Linted run =
       lint_example(std::string("# decklint: ignore[DK223] reason=a test\n") + negative);
-  EXPECT_FALSE(run.fires("DK223")) << run.list();
+  EXPECT_FALSE(run.fires(RuleId::DK223)) << run.list();
   EXPECT_EQ(run.result.suppressed, 1u);
-  EXPECT_FALSE(run.fires("DK091"));
+  EXPECT_FALSE(run.fires(RuleId::DK091));
 }
 
 TEST(Suppression, InsideABlockCoversTheWholeBlock) {
@@ -23,21 +23,21 @@ TEST(Suppression, InsideABlockCoversTheWholeBlock) {
   const auto at = text.find("example\n", text.find("/INTER/TYPE7/1"));
   const Linted run = lint_text(
       std::string(text).insert(at + 8, "# decklint: ignore[DK2] reason=a prefix works too\n"));
-  EXPECT_FALSE(run.fires("DK223")) << run.list();
+  EXPECT_FALSE(run.fires(RuleId::DK223)) << run.list();
   EXPECT_EQ(run.result.suppressed, 1u);
 }
 
 TEST(Suppression, DoesNotReachTheNextBlock) {
   const Linted run = lint_example(std::string("# decklint: ignore[DK223] reason=a test\n") +
                                   "@/INTER/TYPE7/2 Fric=0.1\n" + negative);
-  EXPECT_TRUE(run.fires("DK223"));
-  EXPECT_TRUE(run.fires("DK091")) << "the suppression covers nothing";
+  EXPECT_TRUE(run.fires(RuleId::DK223));
+  EXPECT_TRUE(run.fires(RuleId::DK091)) << "the suppression covers nothing";
 }
 
 TEST(Suppression, WithoutReasonHasNoEffectAndIsAFinding) {
   const Linted run = lint_example(std::string("# decklint: ignore[DK223]\n") + negative);
-  EXPECT_TRUE(run.fires("DK223"));
-  EXPECT_TRUE(run.fires("DK090"));
+  EXPECT_TRUE(run.fires(RuleId::DK223));
+  EXPECT_TRUE(run.fires(RuleId::DK090));
   EXPECT_EQ(run.result.suppressed, 0u);
 }
 
@@ -45,10 +45,10 @@ TEST(Suppression, OfAFileStandsAtItsTop) {
   std::string text = example_deck(negative, SchemaSet::built_in()).main;
   const std::string comment = "# decklint: ignore-file[DK223] reason=a test\n";
   const Linted top = lint_text(std::string(text).insert(text.find("/BEGIN"), comment));
-  EXPECT_FALSE(top.fires("DK223")) << top.list();
+  EXPECT_FALSE(top.fires(RuleId::DK223)) << top.list();
   const Linted late = lint_text(std::string(text).insert(text.find("/INTER"), comment));
-  EXPECT_TRUE(late.fires("DK223"));
-  EXPECT_TRUE(late.fires("DK093"));
+  EXPECT_TRUE(late.fires(RuleId::DK223));
+  EXPECT_TRUE(late.fires(RuleId::DK093));
 }
 
 TEST(Suppression, OfARuleThatIsSwitchedOffIsNotCalledUnused) {
@@ -56,7 +56,7 @@ TEST(Suppression, OfARuleThatIsSwitchedOffIsNotCalledUnused) {
   options.ignore = {"DK223"};
   const Linted run = lint_example(
       std::string("# decklint: ignore[DK223] reason=a test\n") + "@/INTER/TYPE7/1\n", options);
-  EXPECT_FALSE(run.fires("DK091")) << run.list();
+  EXPECT_FALSE(run.fires(RuleId::DK091)) << run.list();
 }
 
 TEST(Selection, SelectAndIgnoreTakeIdsAndPrefixes) {
@@ -64,26 +64,26 @@ TEST(Selection, SelectAndIgnoreTakeIdsAndPrefixes) {
   only.select = {"DK223"};
   const Linted a = lint_example(negative, only);
   ASSERT_EQ(a.result.diagnostics.size(), 1u) << a.list();
-  EXPECT_EQ(a.result.diagnostics[0].rule, "DK223");
+  EXPECT_EQ(a.result.diagnostics[0].rule, RuleId::DK223);
   LintOptions without;
   without.ignore = {"DK2"};
-  EXPECT_FALSE(lint_example(negative, without).fires("DK223"));
+  EXPECT_FALSE(lint_example(negative, without).fires(RuleId::DK223));
 }
 
 TEST(Selection, SeverityOverrideWithTheLongestSelectorWins) {
   LintOptions options;
   options.severity = {{"DK2", Severity::info}, {"DK223", Severity::warning}};
   const Linted run = lint_example(negative, options);
-  ASSERT_TRUE(run.fires("DK223"));
-  EXPECT_EQ(run.find("DK223")->severity, Severity::warning);
+  ASSERT_TRUE(run.fires(RuleId::DK223));
+  EXPECT_EQ(run.find(RuleId::DK223)->severity, Severity::warning);
 }
 
 TEST(Selection, PerFileIgnoresFollowTheGlob) {
   LintOptions options;
   options.per_file_ignores = {{"*_0000.rad", {"DK223"}}};
-  EXPECT_FALSE(lint_example(negative, options).fires("DK223"));
+  EXPECT_FALSE(lint_example(negative, options).fires(RuleId::DK223));
   options.per_file_ignores = {{"*.inc", {"DK223"}}};
-  EXPECT_TRUE(lint_example(negative, options).fires("DK223"));
+  EXPECT_TRUE(lint_example(negative, options).fires(RuleId::DK223));
 }
 
 /// A deck whose only finding is a negative Stfac, in a folder of its own.
@@ -126,24 +126,24 @@ TEST_F(Baselines, HideTheFindingsOfTheirDeckWhereverTheCardMoves) {
   EXPECT_TRUE(again.result.stale.empty());
   // Lines above move the card, but not its fingerprint; a changed value is a new finding.
   deck("old_0000.rad", std::string("# a comment\n/TITLE\nx\n") + negative);
-  EXPECT_FALSE(lint(path, baseline).fires("DK223"));
+  EXPECT_FALSE(lint(path, baseline).fires(RuleId::DK223));
   deck("old_0000.rad", "@/INTER/TYPE7/1 Stfac=-2.0\n");
-  EXPECT_TRUE(lint(path, baseline).fires("DK223"));
+  EXPECT_TRUE(lint(path, baseline).fires(RuleId::DK223));
 }
 
 TEST_F(Baselines, HideNothingInADeckThatWasNeverInThem) {
   const std::string baseline = baseline_of({deck("old_0000.rad", negative)});
-  EXPECT_TRUE(lint(deck("new_0000.rad", negative), baseline).fires("DK223"));
+  EXPECT_TRUE(lint(deck("new_0000.rad", negative), baseline).fires(RuleId::DK223));
 }
 
 TEST_F(Baselines, CountPerDeck) {
   const std::string a = deck("a_0000.rad", negative), b = deck("b_0000.rad", negative);
   const std::string baseline = baseline_of({a, b});
-  EXPECT_FALSE(lint(a, baseline).fires("DK223"));
-  EXPECT_FALSE(lint(b, baseline).fires("DK223"));
+  EXPECT_FALSE(lint(a, baseline).fires(RuleId::DK223));
+  EXPECT_FALSE(lint(b, baseline).fires(RuleId::DK223));
   // The same card once more: one finding more than this deck may have.
   deck("a_0000.rad", std::string(negative) + negative);
-  EXPECT_EQ(lint(a, baseline).count("DK223"), 1u);
+  EXPECT_EQ(lint(a, baseline).count(RuleId::DK223), 1u);
 }
 
 TEST_F(Baselines, ListWhatDoesNotOccurAnyMore) {
@@ -190,7 +190,7 @@ TEST(Order, FollowsFileLineColumnRule) {
 
 TEST(Order, NoFindingAppearsTwice) {
   const Linted run = lint_example("@/INTER/TYPE7/1 Istf=two\n");
-  EXPECT_EQ(run.count("DK020"), 1u) << run.list();
+  EXPECT_EQ(run.count(RuleId::DK020), 1u) << run.list();
 }
 
 TEST(Floods, AreCountedBeyondTheBound) {
@@ -199,9 +199,9 @@ TEST(Floods, AreCountedBeyondTheBound) {
   LintOptions options;
   options.diagnostics_per_rule = 5;
   const Linted run = lint_example(text, options);
-  EXPECT_EQ(run.count("DK223"), 5u);
-  EXPECT_EQ(run.result.counts.at("DK223"), 40u);
-  EXPECT_EQ(run.result.dropped.at("DK223"), 35u);
+  EXPECT_EQ(run.count(RuleId::DK223), 5u);
+  EXPECT_EQ(run.result.counts.at(RuleId::DK223), 40u);
+  EXPECT_EQ(run.result.dropped.at(RuleId::DK223), 35u);
   EXPECT_GE(run.result.warnings, 40u);
 }
 
@@ -230,10 +230,10 @@ TEST(NotChecked, CountsRulesOnlyWhereSomeAreOff) {
 
 TEST(UnusedEntities, NumbersInBlocksThatNobodyKnowsCountAsUse) {
   const std::string group = "@bare\n/GRNOD/NODE/5\nfive\n         1\n";
-  EXPECT_TRUE(lint_example(group).fires("DK188"));
-  EXPECT_FALSE(lint_example(group + "/NONSENSE/9\ntitle\n         5\n").fires("DK188"));
-  EXPECT_TRUE(
-      lint_example(group + "/NONSENSE/9\ntitle\n       5.0   7.8e-5        5x\n").fires("DK188"));
+  EXPECT_TRUE(lint_example(group).fires(RuleId::DK188));
+  EXPECT_FALSE(lint_example(group + "/NONSENSE/9\ntitle\n         5\n").fires(RuleId::DK188));
+  EXPECT_TRUE(lint_example(group + "/NONSENSE/9\ntitle\n       5.0   7.8e-5        5x\n")
+                  .fires(RuleId::DK188));
 }
 
 TEST(ExtraChecks, ReportThroughTheEngine) {
@@ -243,10 +243,11 @@ TEST(ExtraChecks, ReportThroughTheEngine) {
   LintInput input{*deck, SchemaSet::built_in()};
   input.extra_checks.push_back([](const LintContext& c, Reporter& r) {
     ASSERT_EQ(c.contacts.size(), 1u);
-    r.report(*find_rule("DK390"), *c.contacts[0].block, c.contacts[0].block->header_span, "many");
+    r.report(rule_of(RuleId::DK390), *c.contacts[0].block, c.contacts[0].block->header_span,
+             "many");
   });
   const LintResult result = run_lint(input);
-  ASSERT_EQ(result.counts.count("DK390"), 1u);
+  ASSERT_EQ(result.counts.count(RuleId::DK390), 1u);
   for (const NotChecked& n : result.not_checked)
     EXPECT_EQ(n.what.find("geometry"), std::string::npos);
 }
@@ -258,61 +259,62 @@ TEST(ShiftedCard, KeepsWhatStopsTheSolver) {
       "/INTER/TYPE7/1\nexample\n\n         2         1\n\n\n"
       "                 1.0                 0.2                 0.5\n"
       "       000                             6\n\n");
-  ASSERT_TRUE(run.fires("DK243")) << run.list();
-  EXPECT_EQ(run.find("DK243")->severity, Severity::warning);
-  ASSERT_TRUE(run.fires("DK181")) << run.list();
-  EXPECT_EQ(run.find("DK181")->severity, Severity::error);
+  ASSERT_TRUE(run.fires(RuleId::DK243)) << run.list();
+  EXPECT_EQ(run.find(RuleId::DK243)->severity, Severity::warning);
+  ASSERT_TRUE(run.fires(RuleId::DK181)) << run.list();
+  EXPECT_EQ(run.find(RuleId::DK181)->severity, Severity::error);
 }
 
 TEST(NegativeReference, IsAnErrorWhereTheSolverLooksForTheId) {
-  EXPECT_EQ(lint_example("@/INTER/TYPE7/1 grnd_IDs=-2\n").find("DK187")->severity, Severity::error);
+  EXPECT_EQ(lint_example("@/INTER/TYPE7/1 grnd_IDs=-2\n").find(RuleId::DK187)->severity,
+            Severity::error);
   const Linted sensor = lint_example("@/INTER/TYPE7/1 sens_ID=-3\n");
-  EXPECT_EQ(sensor.find("DK187")->severity, Severity::error);
-  EXPECT_EQ(sensor.find("DK187")->reference->number, 1010);
+  EXPECT_EQ(sensor.find(RuleId::DK187)->severity, Severity::error);
+  EXPECT_EQ(sensor.find(RuleId::DK187)->reference->number, 1010);
   for (const char* card : {"@/INTER/TYPE7/1 fric_ID=-5\n", "@/INTER/TYPE7/1 fct_IDF=-1\n"}) {
     const Linted run = lint_example(card);
-    ASSERT_TRUE(run.fires("DK187")) << card;
-    EXPECT_EQ(run.find("DK187")->severity, Severity::warning) << card;
-    EXPECT_FALSE(run.find("DK187")->reference) << card;
+    ASSERT_TRUE(run.fires(RuleId::DK187)) << card;
+    EXPECT_EQ(run.find(RuleId::DK187)->severity, Severity::warning) << card;
+    EXPECT_FALSE(run.find(RuleId::DK187)->reference) << card;
   }
 }
 
 TEST(InterfaceId, ZeroIsAnIdOfItsOwn) {
   const Linted run = lint_example("@/INTER/TYPE7/0\n@/INTER/TYPE7/1\n");
-  EXPECT_FALSE(run.fires("DK179")) << run.list();
-  EXPECT_TRUE(lint_example("@/INTER/TYPE7/0\n@/INTER/TYPE7/0\n").fires("DK179"));
+  EXPECT_FALSE(run.fires(RuleId::DK179)) << run.list();
+  EXPECT_TRUE(lint_example("@/INTER/TYPE7/0\n@/INTER/TYPE7/0\n").fires(RuleId::DK179));
 }
 
 TEST(InterfaceId, IsNotTheCommentBehindTheHeader) {
   const Linted run = lint_example(
       "/INTER/TYPE7/2   # note\nexample\n         2         1\n"
       "\n\n                 1.0\n\n\n@/INTER/TYPE7/1\n");
-  EXPECT_FALSE(run.fires("DK179")) << run.list();
+  EXPECT_FALSE(run.fires(RuleId::DK179)) << run.list();
 }
 
 TEST(BlankLine, StopsTheSolverAmongElementsAndNotAmongNodes) {
   const Linted shells = lint_example(
       "/SHELL/1\n         9         1         2         3         4\n\n"
       "        10         1         2         3         4\n");
-  ASSERT_TRUE(shells.fires("DK036")) << shells.list();
-  EXPECT_EQ(shells.find("DK036")->severity, Severity::error);
-  EXPECT_EQ(shells.find("DK036")->reference->number, 760);
+  ASSERT_TRUE(shells.fires(RuleId::DK036)) << shells.list();
+  EXPECT_EQ(shells.find(RuleId::DK036)->severity, Severity::error);
+  EXPECT_EQ(shells.find(RuleId::DK036)->reference->number, 760);
   const Linted end =
       lint_example("/SHELL/1\n         9         1         2         3         4\n\n# end\n\n");
-  ASSERT_TRUE(end.fires("DK036")) << end.list();
-  EXPECT_EQ(end.find("DK036")->severity, Severity::warning);
+  ASSERT_TRUE(end.fires(RuleId::DK036)) << end.list();
+  EXPECT_EQ(end.find(RuleId::DK036)->severity, Severity::warning);
   const Linted nodes = lint_example(
       "/NODE\n\n        21                 0.0                 0.0                 9.0\n");
-  ASSERT_TRUE(nodes.fires("DK036")) << nodes.list();
-  EXPECT_EQ(nodes.find("DK036")->severity, Severity::warning);
+  ASSERT_TRUE(nodes.fires(RuleId::DK036)) << nodes.list();
+  EXPECT_EQ(nodes.find(RuleId::DK036)->severity, Severity::warning);
 }
 
 TEST(ByteOrderMark, IsRemovedByASafeFix) {
-  const Linted run = lint_example(find_rule("DK033")->bad);
-  for (const char* rule : {"DK001", "DK033"}) {
+  const Linted run = lint_example(rule_of(RuleId::DK033).bad);
+  for (const RuleId rule : {RuleId::DK001, RuleId::DK033}) {
     ASSERT_TRUE(run.fires(rule)) << run.list();
     const Diagnostic* d = run.find(rule);
-    ASSERT_TRUE(d->fix) << rule;
+    ASSERT_TRUE(d->fix) << id_text(rule);
     EXPECT_TRUE(d->fix->safe);
     ASSERT_EQ(d->fix->edits.size(), 1u);
     EXPECT_EQ(run.deck->sources.text(d->fix->edits[0].span), "\xef\xbb\xbf");
@@ -322,36 +324,37 @@ TEST(ByteOrderMark, IsRemovedByASafeFix) {
 
 TEST(Memory, SecondNumberIsAReal) {
   const std::string card = "/MEMORY\n    400000                           .66\n";
-  EXPECT_FALSE(lint_example(card).fires("DK020")) << lint_example(card).list();
-  EXPECT_TRUE(lint_example("/MEMORY\n       .66                           .66\n").fires("DK020"));
+  EXPECT_FALSE(lint_example(card).fires(RuleId::DK020)) << lint_example(card).list();
+  EXPECT_TRUE(
+      lint_example("/MEMORY\n       .66                           .66\n").fires(RuleId::DK020));
 }
 
 TEST(KindOfEntity, SaysWhatTheIdBelongsTo) {
   const Linted run = lint_example("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1\n");
-  ASSERT_TRUE(run.fires("DK171")) << run.list();
-  EXPECT_NE(run.find("DK171")->message.find("/SURF"), std::string::npos);
-  EXPECT_NE(run.find("DK171")->help.find("/GRNOD/SURF"), std::string::npos);
-  EXPECT_FALSE(run.fires("DK170"));
+  ASSERT_TRUE(run.fires(RuleId::DK171)) << run.list();
+  EXPECT_NE(run.find(RuleId::DK171)->message.find("/SURF"), std::string::npos);
+  EXPECT_NE(run.find(RuleId::DK171)->help.find("/GRNOD/SURF"), std::string::npos);
+  EXPECT_FALSE(run.fires(RuleId::DK170));
 }
 
 TEST(MissingLine, NamesTheFlagThatAsksForIt) {
-  const Linted run = lint_example(find_rule("DK240")->bad);
-  ASSERT_TRUE(run.fires("DK240"));
-  EXPECT_NE(run.find("DK240")->message.find("Ifric = 1"), std::string::npos)
-      << run.find("DK240")->message;
+  const Linted run = lint_example(rule_of(RuleId::DK240).bad);
+  ASSERT_TRUE(run.fires(RuleId::DK240));
+  EXPECT_NE(run.find(RuleId::DK240)->message.find("Ifric = 1"), std::string::npos)
+      << run.find(RuleId::DK240)->message;
 }
 
 TEST(UnknownKeyword, HasASlashTooManyUnlessItIsASubmodel) {
   const Linted run = lint_example("//INTER/TYPE7/1\nexample\n         2         1\n");
-  ASSERT_TRUE(run.fires("DK040")) << run.list();
-  EXPECT_NE(run.find("DK040")->message.find("did you mean /INTER/TYPE7"), std::string::npos);
-  EXPECT_FALSE(lint_example("//SUBMODEL/1\nt\n\n/TITLE\nx\n//ENDSUB\n").fires("DK040"));
+  ASSERT_TRUE(run.fires(RuleId::DK040)) << run.list();
+  EXPECT_NE(run.find(RuleId::DK040)->message.find("did you mean /INTER/TYPE7"), std::string::npos);
+  EXPECT_FALSE(lint_example("//SUBMODEL/1\nt\n\n/TITLE\nx\n//ENDSUB\n").fires(RuleId::DK040));
 }
 
 TEST(UnknownKeyword, SuggestsTheClosestOne) {
   const Linted run = lint_example("/INTER/TYP7/1\nexample\n");
-  ASSERT_TRUE(run.fires("DK040"));
-  EXPECT_NE(run.find("DK040")->message.find("did you mean /INTER/TYPE7"), std::string::npos);
+  ASSERT_TRUE(run.fires(RuleId::DK040));
+  EXPECT_NE(run.find(RuleId::DK040)->message.find("did you mean /INTER/TYPE7"), std::string::npos);
 }
 
 TEST(Config, ReadsEveryKey) {

@@ -45,7 +45,7 @@ TEST(HumanReport, CutsLongLinesAroundTheCaretAndFloodsPerRule) {
   std::string text = "/SKEW/FIX/1\naxes\n";
   for (int i = 0; i < 3; ++i) text += std::string(99, ' ') + "0" + std::string(400, 'x') + "\n";
   const Linted run = lint_example(text, only("DK012"));
-  ASSERT_EQ(run.count("DK012"), 3u) << run.list();
+  ASSERT_EQ(run.count(RuleId::DK012), 3u) << run.list();
   HumanOptions options;
   options.per_rule = 1;
   const std::string out = lint_human(one(run), options);
@@ -59,7 +59,7 @@ TEST(HumanReport, CutsLongLinesAroundTheCaretAndFloodsPerRule) {
 
 TEST(HumanReport, ShowsBytesThatAreNoUtf8AsReplacementCharacters) {
   const Linted run = lint_example("/GRNOD/NODE/7\nnodes\n         1\xb5\n", only("DK020"));
-  ASSERT_TRUE(run.fires("DK020")) << run.list();
+  ASSERT_TRUE(run.fires(RuleId::DK020)) << run.list();
   EXPECT_NE(lint_human(one(run), {}).find("         1\xef\xbf\xbd\n"), std::string::npos);
 }
 

@@ -53,7 +53,7 @@ std::optional<std::string> asked_about(std::string_view example, int type) {
 
 /// Where the example of a rule cannot be asked: another one for that type.
 struct Example {
-  std::string_view rule;
+  RuleId rule;
   int type;
   std::string_view text;
 };
@@ -77,42 +77,43 @@ constexpr std::string_view corner =
     "         9        21        22        23\n/SURF/PART/9\ncorner\n         9\n";
 
 constexpr Example examples[] = {
-    {"DK047", 11,
+    {RuleId::DK047, 11,
      "@version 110\n/INTER/TYPE11/1\nexample\n         2         1\n"
      "                                                                             0.5\n"
      "                 1.0\n\n"},
-    {"DK170", 11, "@/INTER/TYPE11/1 line_IDs=2 line_IDm=55\n"},
-    {"DK170", 19, "@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=55\n"},
-    {"DK171", 11, "/SURF/PART/9\nmore\n         1\n@/INTER/TYPE11/1 line_IDs=2 line_IDm=9\n"},
-    {"DK171", 19, "/GRNOD/PART/9\nmore\n         1\n@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=9\n"},
-    {"DK181", 19, "@/INTER/TYPE19/1 surf_IDs=0 surf_IDm=0\n"},
-    {"DK240", 11,
+    {RuleId::DK170, 11, "@/INTER/TYPE11/1 line_IDs=2 line_IDm=55\n"},
+    {RuleId::DK170, 19, "@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=55\n"},
+    {RuleId::DK171, 11, "/SURF/PART/9\nmore\n         1\n@/INTER/TYPE11/1 line_IDs=2 line_IDm=9\n"},
+    {RuleId::DK171, 19,
+     "/GRNOD/PART/9\nmore\n         1\n@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=9\n"},
+    {RuleId::DK181, 19, "@/INTER/TYPE19/1 surf_IDs=0 surf_IDm=0\n"},
+    {RuleId::DK240, 11,
      "/INTER/TYPE11/1\nexample\n         2         1         0         1\n\n"
      "                 1.0                 0.0                 0.5\n       000\n\n"},
-    {"DK241", 11, "@/INTER/TYPE11/1\n\n                 0.1                 0.0\n"},
-    {"DK243", 11,
+    {RuleId::DK241, 11, "@/INTER/TYPE11/1\n\n                 0.1                 0.0\n"},
+    {RuleId::DK243, 11,
      "/INTER/TYPE11/1\nexample\n         2         1\n\n\n"
      "                 1.0                 0.2                 0.5\n"
      "       000                             6\n"},
-    {"DK267", 11, "@/INTER/TYPE11/1 Istf=1 Stfac=5.0 Stmax=5.0\n"},
-    {"DK276", 11, "@/INTER/TYPE11/1 Ithe=1 Kthe=1.0 AscaleK=2.0\n"},
-    {"DK276", 19, "@/INTER/TYPE19/1 Ithe=1 Kthe=1.0 AscaleK=2.0\n"},
-    {"DK280", 7, "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Irem_gap=2\n"},
-    {"DK280", 19, "@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=1 Irem_gap=2\n"},
-    {"DK297", 11, "@/INTER/TYPE11/1 IBCX=1\n"},
-    {"DK302", 19, "CORNER 0.00@/INTER/TYPE19/1 surf_IDs=9 Gapmin=1\n"},
-    {"DK303", 19, "CORNER 0.00@/INTER/TYPE19/1 surf_IDs=9 Gapmin=1 Inacti=1\n"},
-    {"DK306", 19, "UPRIGHT.001@/INTER/TYPE19/1 surf_IDs=9 Gapmin=1 Inacti=6\n"},
-    {"DK322", 11,
+    {RuleId::DK267, 11, "@/INTER/TYPE11/1 Istf=1 Stfac=5.0 Stmax=5.0\n"},
+    {RuleId::DK276, 11, "@/INTER/TYPE11/1 Ithe=1 Kthe=1.0 AscaleK=2.0\n"},
+    {RuleId::DK276, 19, "@/INTER/TYPE19/1 Ithe=1 Kthe=1.0 AscaleK=2.0\n"},
+    {RuleId::DK280, 7, "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Irem_gap=2\n"},
+    {RuleId::DK280, 19, "@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=1 Irem_gap=2\n"},
+    {RuleId::DK297, 11, "@/INTER/TYPE11/1 IBCX=1\n"},
+    {RuleId::DK302, 19, "CORNER 0.00@/INTER/TYPE19/1 surf_IDs=9 Gapmin=1\n"},
+    {RuleId::DK303, 19, "CORNER 0.00@/INTER/TYPE19/1 surf_IDs=9 Gapmin=1 Inacti=1\n"},
+    {RuleId::DK306, 19, "UPRIGHT.001@/INTER/TYPE19/1 surf_IDs=9 Gapmin=1 Inacti=6\n"},
+    {RuleId::DK322, 11,
      "/LINE/SEG/9\nbetween\n         1         1        13\n"
      "@/INTER/TYPE11/1 line_IDm=9\n"},
-    {"DK403", 11, "UPRIGHT0.13@/INTER/TYPE11/1 line_IDs=9 Gapmin=1\n"},
-    {"DK403", 19, "CORNER 0.02@/INTER/TYPE19/1 surf_IDs=9 Gapmin=1\n"},
-    {"DK905", 7, "@/INTER/TYPE7/1 Igap=3 Irem_gap=2\n"},
-    {"DK905", 19, "@/INTER/TYPE19/1 Irem_gap=2\n"},
+    {RuleId::DK403, 11, "UPRIGHT0.13@/INTER/TYPE11/1 line_IDs=9 Gapmin=1\n"},
+    {RuleId::DK403, 19, "CORNER 0.02@/INTER/TYPE19/1 surf_IDs=9 Gapmin=1\n"},
+    {RuleId::DK905, 7, "@/INTER/TYPE7/1 Igap=3 Irem_gap=2\n"},
+    {RuleId::DK905, 19, "@/INTER/TYPE19/1 Irem_gap=2\n"},
 };
 
-std::string own_example(std::string_view rule, int type) {
+std::string own_example(RuleId rule, int type) {
   for (const Example& e : examples) {
     if (e.rule != rule || e.type != type) continue;
     const bool stands = e.text.starts_with("UPRIGHT");
@@ -129,7 +130,7 @@ class RuleTypes : public testing::TestWithParam<std::string> {};
 std::vector<std::string> rules_with_types() {
   std::vector<std::string> ids;
   for (const Rule& r : all_rules())
-    if (!r.types.empty() && !r.bad.empty()) ids.emplace_back(r.id);
+    if (!r.types.empty() && !r.bad.empty()) ids.emplace_back(id_text(r.id));
   return ids;
 }
 
@@ -140,10 +141,12 @@ TEST_P(RuleTypes, FiresForExactlyTheTypesOfItsPage) {
     std::string example = own_example(rule.id, type);
     if (example.empty()) example = asked_about(rule.bad, type).value_or("");
     if (example.empty()) {
-      EXPECT_FALSE(listed) << rule.id << " names TYPE" << type << ", but no example asks it";
+      EXPECT_FALSE(listed) << id_text(rule.id) << " names TYPE" << type
+                           << ", but no example asks it";
       continue;
     }
-    EXPECT_EQ(fires(example, rule), listed) << rule.id << " TYPE" << type << "\n" << example;
+    EXPECT_EQ(fires(example, rule), listed) << id_text(rule.id) << " TYPE" << type << "\n"
+                                            << example;
   }
 }
 
@@ -152,32 +155,33 @@ INSTANTIATE_TEST_SUITE_P(Rules, RuleTypes, testing::ValuesIn(rules_with_types())
 
 TEST(RuleTypesTable, EveryRuleThatNamesAnInterfaceInItsExampleHasTypes) {
   for (const Rule& r : all_rules()) {
-    const bool about_options = r.id.starts_with("DK2") || r.id.starts_with("DK9");
-    const bool about_pairs = r.id == "DK218";  // of /FRICTION
+    const bool about_options = id_number(r.id) / 100 == 2 || id_number(r.id) / 100 == 9;
+    const bool about_pairs = r.id == RuleId::DK218;  // of /FRICTION
     if (about_options && !about_pairs && r.bad.find("/INTER/TYPE") != std::string_view::npos) {
-      EXPECT_FALSE(r.types.empty()) << r.id;
+      EXPECT_FALSE(r.types.empty()) << id_text(r.id);
     }
   }
 }
 
 TEST(RuleTypesTable, ThePageNamesTheTypes) {
-  const std::string page = explain_rule(*find_rule("DK289"), SchemaSet::built_in());
+  const std::string page = explain_rule(rule_of(RuleId::DK289), SchemaSet::built_in());
   EXPECT_NE(page.find("About TYPE11, TYPE19"), std::string::npos) << page;
 }
 
 /// A TYPE19 has its parts look at both surfaces: what is true of one side is found on the other.
 TEST(RuleTypesTable, PartsOfType19AreAskedBothWays) {
-  for (const char* id : {"DK301", "DK310", "DK401", "DK307", "DK318"}) {
-    const Rule& rule = *find_rule(id);
+  for (const RuleId id :
+       {RuleId::DK301, RuleId::DK310, RuleId::DK401, RuleId::DK307, RuleId::DK318}) {
+    const Rule& rule = rule_of(id);
     const auto example = asked_about(rule.bad, 19);
-    ASSERT_TRUE(example) << id;
+    ASSERT_TRUE(example) << id_text(id);
     std::string swapped = *example;
     const bool own_main = swapped.find("surf_IDm=9") != std::string::npos;
     replace_all(
         swapped, "@/INTER/TYPE19/1",
         own_main ? "@/INTER/TYPE19/1 surf_IDs=9" : "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=2");
     if (own_main) replace_all(swapped, " surf_IDm=9", " surf_IDm=2");
-    EXPECT_TRUE(fires(swapped, rule)) << id << "\n" << swapped;
+    EXPECT_TRUE(fires(swapped, rule)) << id_text(id) << "\n" << swapped;
   }
 }
 

@@ -8,12 +8,12 @@ namespace deck::test {
 namespace {
 
 /// Message number that a finding of the rule names; 0: the rule is silent, or names none.
-int message_of(const Linted& run, std::string_view rule) {
+int message_of(const Linted& run, RuleId rule) {
   const Diagnostic* d = run.find(rule);
   return d != nullptr && d->reference ? d->reference->number : 0;
 }
 
-bool is_error(const Linted& run, std::string_view rule) {
+bool is_error(const Linted& run, RuleId rule) {
   const Diagnostic* d = run.find(rule);
   return d != nullptr && d->severity == Severity::error;
 }
@@ -22,23 +22,23 @@ TEST(MissingTarget, GroupOfImposedMotionIsError53) {
   for (const char* keyword : {"IMPVEL", "IMPACC"}) {
     const std::string card = "@/" + std::string(keyword) + "/1 funct_IDT=1 Dir=X grnod_ID=";
     const Linted bad = lint_example(card + "77\n");
-    EXPECT_EQ(message_of(bad, "DK120"), 53) << bad.list();
-    EXPECT_FALSE(lint_example(card + "2\n").fires("DK120"));
+    EXPECT_EQ(message_of(bad, RuleId::DK120), 53) << bad.list();
+    EXPECT_FALSE(lint_example(card + "2\n").fires(RuleId::DK120));
   }
   const Linted bad = lint_example("@/IMPDISP/1 Ifunct=1 DIR=X Gnod_id=77\n");
-  EXPECT_EQ(message_of(bad, "DK120"), 53) << bad.list();
+  EXPECT_EQ(message_of(bad, RuleId::DK120), 53) << bad.list();
 }
 
 TEST(MissingTarget, GroupOfBoundaryConditionIsError678) {
   const Linted bad = lint_example("@/BCS/1 Tx=1 grnod_ID=77\n");
-  EXPECT_EQ(message_of(bad, "DK120"), 678) << bad.list();
-  EXPECT_NE(bad.find("DK120")->message.find("77"), std::string::npos);
+  EXPECT_EQ(message_of(bad, RuleId::DK120), 678) << bad.list();
+  EXPECT_NE(bad.find(RuleId::DK120)->message.find("77"), std::string::npos);
 }
 
 TEST(MissingTarget, SetStandsForGroup) {
   EXPECT_FALSE(lint_example("/SET/GENERAL/9\nplate\nPART               1\n"
                             "@/BCS/1 Tx=1 grnod_ID=9\n")
-                   .fires("DK120"));
+                   .fires(RuleId::DK120));
 }
 
 TEST(MissingTarget, FunctionSensorSkewAndNodeAreLookedFor) {
@@ -51,7 +51,7 @@ TEST(MissingTarget, FunctionSensorSkewAndNodeAreLookedFor) {
         "@/ACCEL/1 Node=99\n",
         "/SENSOR/DISP/3\napart\n                 0.0\n         1        99\n"}) {
     const Linted bad = lint_example(card);
-    EXPECT_TRUE(is_error(bad, "DK120")) << card << bad.list();
+    EXPECT_TRUE(is_error(bad, RuleId::DK120)) << card << bad.list();
   }
   for (const char* card :
        {"@/CLOAD/1 funct_IDT=1 Dir=X grnod_ID=2\n", "@/GRAV/1 funct_IDT=1 DIR=X\n",
@@ -59,16 +59,16 @@ TEST(MissingTarget, FunctionSensorSkewAndNodeAreLookedFor) {
         "@/SKEW/MOV/9 N1=1 N2=2 N3=4\n@/BCS/1 Tx=1 skew_ID=9 grnod_ID=2\n",
         "@/RWALL/PLANE/1 grnd_ID1=2 XM1=1.0\n", "@/INIVEL/TRA/1 Vx=1.0 grnod_ID=2\n"}) {
     const Linted good = lint_example(card);
-    EXPECT_FALSE(good.fires("DK120")) << card << good.list();
+    EXPECT_FALSE(good.fires(RuleId::DK120)) << card << good.list();
   }
 }
 
 TEST(MissingTarget, TableStandsForFunctionOfMaterial) {
   const std::string card = "@/MAT/LAW76/5 Rho_I=1.0 E=2.0 Nu=0.3 TAB_ID1=9\n";
   const Linted bad = lint_example(card);
-  EXPECT_TRUE(is_error(bad, "DK120")) << bad.list();
+  EXPECT_TRUE(is_error(bad, RuleId::DK120)) << bad.list();
   const Linted good = lint_example(card + "/TABLE/1/9\ntable\n         1\n         1\n");
-  EXPECT_FALSE(good.fires("DK120")) << good.list();
+  EXPECT_FALSE(good.fires(RuleId::DK120)) << good.list();
 }
 
 TEST(MissingTarget, IdsOfSubmodelAreShifted) {
@@ -76,53 +76,53 @@ TEST(MissingTarget, IdsOfSubmodelAreShifted) {
     return std::string("//SUBMODEL/7\nmoved\n") + offset + "\n/GRNOD/NODE/" + group +
            "\ncorner\n         1\n@/BCS/1 Tx=1 grnod_ID=5\n//ENDSUB\n";
   };
-  EXPECT_FALSE(lint_example(deck("", "5")).fires("DK120"));
-  EXPECT_TRUE(lint_example(deck("", "6")).fires("DK120"));
+  EXPECT_FALSE(lint_example(deck("", "5")).fires(RuleId::DK120));
+  EXPECT_TRUE(lint_example(deck("", "6")).fires(RuleId::DK120));
   // Group 5 outside is not group 5 of the submodel with offset 100.
   const Linted outside = lint_example(
       "/GRNOD/NODE/5\ncorner\n         1\n//SUBMODEL/7\nmoved\n       100\n"
       "@/BCS/1 Tx=1 grnod_ID=5\n//ENDSUB\n");
-  ASSERT_TRUE(outside.fires("DK120")) << outside.list();
-  EXPECT_NE(outside.find("DK120")->message.find("outside the submodel"), std::string::npos);
+  ASSERT_TRUE(outside.fires(RuleId::DK120)) << outside.list();
+  EXPECT_NE(outside.find(RuleId::DK120)->message.find("outside the submodel"), std::string::npos);
 }
 
 TEST(EmptyTarget, ForceOnEmptyGroupIsError3026) {
   const Linted bad = lint_example(
       "/GRNOD/NODE/7\nnothing\n\n"
       "@/CLOAD/1 funct_IDT=1 Dir=X grnod_ID=7\n");
-  EXPECT_EQ(message_of(bad, "DK121"), 3026) << bad.list();
+  EXPECT_EQ(message_of(bad, RuleId::DK121), 3026) << bad.list();
   // An initial velocity of nothing only warns (690).
   const Linted good = lint_example("/GRNOD/NODE/7\nnothing\n\n@/INIVEL/TRA/1 Vx=1.0 grnod_ID=7\n");
-  EXPECT_FALSE(good.fires("DK121")) << good.list();
+  EXPECT_FALSE(good.fires(RuleId::DK121)) << good.list();
 }
 
 TEST(RequiredTarget, SensorOfDisplacementNeedsBothNodes) {
   const Linted none = lint_example("/SENSOR/DISP/3\napart\n                0.01\n");
-  EXPECT_EQ(message_of(none, "DK122"), 43) << none.list();
+  EXPECT_EQ(message_of(none, RuleId::DK122), 43) << none.list();
   const Linted one = lint_example("/SENSOR/DISP/3\napart\n                0.01\n         1\n");
-  EXPECT_TRUE(one.fires("DK122")) << one.list();
+  EXPECT_TRUE(one.fires(RuleId::DK122)) << one.list();
 }
 
 TEST(TiedInterface, SidesThatAreMissingOrEmptyAreErrors) {
   const Linted missing = lint_example("@/INTER/TYPE2/1 grnd_IDs=2 surf_IDm=77\n");
-  EXPECT_EQ(message_of(missing, "DK170"), 2087) << missing.list();
+  EXPECT_EQ(message_of(missing, RuleId::DK170), 2087) << missing.list();
   const Linted nodes = lint_example("@/INTER/TYPE2/1 grnd_IDs=77 surf_IDm=1\n");
-  EXPECT_EQ(message_of(nodes, "DK170"), 2087) << nodes.list();
+  EXPECT_EQ(message_of(nodes, RuleId::DK170), 2087) << nodes.list();
   for (const char* type : {"TYPE2", "TYPE5"}) {
     const Linted empty = lint_example("/SURF/PART/3\nnothing\n        77\n@/INTER/" +
                                       std::string(type) + "/1 grnd_IDs=2 surf_IDm=3\n");
-    EXPECT_EQ(message_of(empty, "DK173"), 119) << empty.list();
+    EXPECT_EQ(message_of(empty, RuleId::DK173), 119) << empty.list();
     const Linted good = lint_example("@/INTER/" + std::string(type) + "/1 grnd_IDs=2 surf_IDm=1\n");
-    EXPECT_FALSE(good.fires("DK173") || good.fires("DK170")) << good.list();
+    EXPECT_FALSE(good.fires(RuleId::DK173) || good.fires(RuleId::DK170)) << good.list();
   }
 }
 
 TEST(SymmetricInterface, EmptySurfacesAreErrors118And119) {
   const std::string empty = "/SURF/PART/3\nnothing\n        77\n@/INTER/TYPE3/1 ";
   const Linted first = lint_example(empty + "surf_ID1=3 surf_ID2=1\n");
-  EXPECT_EQ(message_of(first, "DK172"), 118) << first.list();
+  EXPECT_EQ(message_of(first, RuleId::DK172), 118) << first.list();
   const Linted second = lint_example(empty + "surf_ID1=2 surf_ID2=3\n");
-  EXPECT_EQ(message_of(second, "DK173"), 119) << second.list();
+  EXPECT_EQ(message_of(second, RuleId::DK173), 119) << second.list();
 }
 
 std::string material(const char* keyword, const char* density, const char* modulus) {
@@ -135,20 +135,20 @@ TEST(MaterialWithoutDensity, ZeroNegativeBlankAndTextAreErrors683) {
   for (const char* law : {"ELAST", "PLAS_JOHNS", "PLAS_TAB", "LAW01"}) {
     for (const char* density : {"0.0", "-1", "", "abc"}) {
       const Linted bad = lint_example(material(law, density, "210.0"));
-      EXPECT_EQ(message_of(bad, "DK123"), 683) << law << " " << density << bad.list();
+      EXPECT_EQ(message_of(bad, RuleId::DK123), 683) << law << " " << density << bad.list();
     }
-    EXPECT_FALSE(lint_example(material(law, "1e-9", "210.0")).fires("DK123"));
+    EXPECT_FALSE(lint_example(material(law, "1e-9", "210.0")).fires(RuleId::DK123));
   }
-  EXPECT_FALSE(lint_example(material("VOID", "0.0", "")).fires("DK123"));
+  EXPECT_FALSE(lint_example(material("VOID", "0.0", "")).fires(RuleId::DK123));
 }
 
 TEST(MaterialWithoutStiffness, ZeroNegativeAndBlankAreErrors683) {
   for (const char* law : {"ELAST", "PLAS_JOHNS", "PLAS_TAB"}) {
     for (const char* modulus : {"0.0", "-210.0", ""}) {
       const Linted bad = lint_example(material(law, "1e-9", modulus));
-      EXPECT_EQ(message_of(bad, "DK124"), 683) << law << " " << modulus << bad.list();
+      EXPECT_EQ(message_of(bad, RuleId::DK124), 683) << law << " " << modulus << bad.list();
     }
-    EXPECT_FALSE(lint_example(material(law, "1e-9", "210.0")).fires("DK124"));
+    EXPECT_FALSE(lint_example(material(law, "1e-9", "210.0")).fires(RuleId::DK124));
   }
 }
 
@@ -165,23 +165,23 @@ TEST(NegativeThickness, IsAnErrorWhereContactLooksForTheShell) {
       "/SHELL/9\n        21        21        22        23        24\n"
       "/SURF/PART/9\nthin\n         9\n/LINE/SURF/9\nthin\n         9\n";
   const Linted lines = lint_example(thin + "@/INTER/TYPE11/1 line_IDs=2 line_IDm=9 Gapmin=1.0\n");
-  EXPECT_EQ(message_of(lines, "DK125"), 481) << lines.list();
-  EXPECT_TRUE(is_error(lines, "DK125"));
+  EXPECT_EQ(message_of(lines, RuleId::DK125), 481) << lines.list();
+  EXPECT_TRUE(is_error(lines, RuleId::DK125));
   const Linted segments = lint_example(thin + "@/INTER/TYPE7/1 surf_IDm=9 Gapmin=1.0\n");
-  ASSERT_TRUE(segments.fires("DK125")) << segments.list();
-  EXPECT_FALSE(is_error(segments, "DK125"));
+  ASSERT_TRUE(segments.fires(RuleId::DK125)) << segments.list();
+  EXPECT_FALSE(is_error(segments, RuleId::DK125));
   const Linted other = lint_example(thin + "@/INTER/TYPE11/1 line_IDs=2 line_IDm=1 Gapmin=1.0\n");
-  EXPECT_FALSE(is_error(other, "DK125")) << other.list();
+  EXPECT_FALSE(is_error(other, RuleId::DK125)) << other.list();
 }
 
 TEST(DeckWithoutNodes, EarlyEndCutsThemOff) {
   const std::string deck = example_deck("", SchemaSet::built_in()).main;
   std::string cut = deck;
   cut.insert(cut.find("/NODE"), "/END\n");
-  EXPECT_EQ(message_of(lint_text(cut), "DK126"), 3) << lint_text(cut).list();
+  EXPECT_EQ(message_of(lint_text(cut), RuleId::DK126), 3) << lint_text(cut).list();
   std::string later = deck;
   later.insert(later.find("/FUNCT"), "/END\n");
-  EXPECT_FALSE(lint_text(later).fires("DK126"));
+  EXPECT_FALSE(lint_text(later).fires(RuleId::DK126));
 }
 
 TEST(RigidBody, NeedsMassFromElementsOrCard) {
@@ -191,9 +191,10 @@ TEST(RigidBody, NeedsMassFromElementsOrCard) {
       "        22                 5.0                 6.0                 9.0\n"
       "/GRNOD/NODE/7\nloose\n        22\n";
   const Linted loose = lint_example(node + "@/RBODY/1 node_ID=21 grnd_ID=7\n");
-  EXPECT_EQ(message_of(loose, "DK127"), 274) << loose.list();
-  EXPECT_FALSE(lint_example(node + "@/RBODY/1 node_ID=21 grnd_ID=7 Mass=1.0\n").fires("DK127"));
-  EXPECT_FALSE(lint_example(node + "@/RBODY/1 node_ID=21 grnd_ID=2\n").fires("DK127"));
+  EXPECT_EQ(message_of(loose, RuleId::DK127), 274) << loose.list();
+  EXPECT_FALSE(
+      lint_example(node + "@/RBODY/1 node_ID=21 grnd_ID=7 Mass=1.0\n").fires(RuleId::DK127));
+  EXPECT_FALSE(lint_example(node + "@/RBODY/1 node_ID=21 grnd_ID=2\n").fires(RuleId::DK127));
 }
 
 TEST(TwoOfAKind, FunctionsSensorsAndSkewsNeedDifferentIds) {
@@ -201,7 +202,7 @@ TEST(TwoOfAKind, FunctionsSensorsAndSkewsNeedDifferentIds) {
        {"/SENSOR/TIME/1\nagain\n                 1.0\n", "/FUNCT/1\nagain\n                 0.0\n",
         "@/SKEW/MOV/3 N1=1 N2=2 N3=4\n@/SKEW/MOV/3 N1=1 N2=2 N3=4\n"}) {
     const Linted bad = lint_example(block);
-    EXPECT_EQ(message_of(bad, "DK128"), 79) << block << bad.list();
+    EXPECT_EQ(message_of(bad, RuleId::DK128), 79) << block << bad.list();
   }
 }
 

@@ -52,13 +52,13 @@ struct Linted {
   std::unique_ptr<Deck> deck;
   LintResult result;
 
-  bool fires(std::string_view rule) const { return find(rule) != nullptr; }
-  const Diagnostic* find(std::string_view rule) const {
+  bool fires(RuleId rule) const { return find(rule) != nullptr; }
+  const Diagnostic* find(RuleId rule) const {
     for (const Diagnostic& d : result.diagnostics)
       if (d.rule == rule) return &d;
     return nullptr;
   }
-  std::size_t count(std::string_view rule) const {
+  std::size_t count(RuleId rule) const {
     return static_cast<std::size_t>(
         std::count_if(result.diagnostics.begin(), result.diagnostics.end(),
                       [&](const Diagnostic& d) { return d.rule == rule; }));
@@ -67,7 +67,7 @@ struct Linted {
   std::string list() const {
     std::string out;
     for (const Diagnostic& d : result.diagnostics)
-      out += std::string(d.rule) + " " + d.message + "\n";
+      out += std::string(id_text(d.rule)) + " " + d.message + "\n";
     return out;
   }
 };

@@ -78,7 +78,7 @@ TEST(BoxOfBoxes, CircleIsMessage797AndEnds) {
   Built b(grid_nodes() + "/BOX/BOX/1\nb\n" + cells({2}) + "/BOX/BOX/2\nb\n" + cells({1}) +
           in_box(1, 1));
   b.group(1);
-  EXPECT_EQ(b.message("DK152"), 797);
+  EXPECT_EQ(b.message(RuleId::DK152), 797);
 }
 
 TEST(Box, ElementsNeedAllNodesOrOneOfThem) {
@@ -91,22 +91,22 @@ TEST(Box, ElementsNeedAllNodesOrOneOfThem) {
 TEST(Box, MissingBoxHasTheNumberOfItsUser) {
   Built nodes(grid_nodes() + in_box(1, 9));
   nodes.group(1);
-  EXPECT_EQ(nodes.message("DK159"), 690);
+  EXPECT_EQ(nodes.message(RuleId::DK159), 690);
   Built surface(shells() + "/SURF/BOX/1\ns\n" + cells({9}));
   surface.surface(1);
-  EXPECT_EQ(surface.message("DK159"), 800);
+  EXPECT_EQ(surface.message(RuleId::DK159), 800);
 }
 
 TEST(Box, MissingSkewIsMessage748) {
   Built b(grid_nodes() + rectangle(1, {0, 0, 0}, {1, 1, 1}, 9) + in_box(1, 1));
   b.group(1);
-  EXPECT_EQ(b.message("DK159"), 748);
+  EXPECT_EQ(b.message(RuleId::DK159), 748);
 }
 
 TEST(Box, MissingLimitsAreMessage752) {
   Built b(grid_nodes() + "/BOX/RECTA/1\nb\n" + cells({0}) + "\n\n" + in_box(1, 1));
   b.group(1);
-  EXPECT_EQ(b.message("DK159"), 752);
+  EXPECT_EQ(b.message(RuleId::DK159), 752);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "deck/text/rule_id.hpp"
 #include "keyword/reading.hpp"
 #include "model/bulk/bulk_plan.hpp"
 
@@ -88,8 +89,8 @@ TEST(BulkNodes, TakeUnitsAndSubmodelOffsets) {
   EXPECT_EQ(b.model.nodes.x[1], 1.5);
   EXPECT_EQ(b.model.nodes.y[1], -2);
   EXPECT_EQ(b.model.nodes.z[1], 3);
-  ASSERT_EQ(count(b.findings, "DK040"), 1u);
-  EXPECT_EQ(first(b.findings, "DK040")->reference->number, 643);
+  ASSERT_EQ(count(b.findings, RuleId::DK040), 1u);
+  EXPECT_EQ(first(b.findings, RuleId::DK040)->reference->number, 643);
 }
 
 TEST(BulkNodes, OldColumnsBelongToOldVersions) {
@@ -102,9 +103,9 @@ TEST(BulkNodes, OldColumnsBelongToOldVersions) {
 TEST(BulkNodes, BlankLinesAreNoNodesAndBadIdsAreNamed) {
   const Bulk b = bulk("/NODE\n" + ids({1}) + "\n   \n" + ids({-4}) + "                  1.0\n");
   EXPECT_THAT(b.model.nodes.id, ElementsAre(1, -4, 0));
-  EXPECT_EQ(count(b.findings, "DK036"), 2u);
-  EXPECT_EQ(count(b.findings, "DK037"), 2u);
-  EXPECT_EQ(b.deck.sources.position(first(b.findings, "DK036")->span).line, 9u);
+  EXPECT_EQ(count(b.findings, RuleId::DK036), 2u);
+  EXPECT_EQ(count(b.findings, RuleId::DK037), 2u);
+  EXPECT_EQ(b.deck.sources.position(first(b.findings, RuleId::DK036)->span).line, 9u);
 }
 
 TEST(BulkNodes, FreeFormatParametersTabsAndOddSpellingsAreReadAsDecodeReadsThem) {
@@ -117,14 +118,14 @@ TEST(BulkNodes, FreeFormatParametersTabsAndOddSpellingsAreReadAsDecodeReadsThem)
   EXPECT_THAT(b.model.nodes.x, ElementsAre(1.5, 2.5, 1));
   EXPECT_THAT(b.model.nodes.y, ElementsAre(0, -2.5, 100));
   EXPECT_THAT(b.model.nodes.z, ElementsAre(3, 1, 1.5e-3));
-  EXPECT_EQ(count(b.findings, "DK013"), 1u);
+  EXPECT_EQ(count(b.findings, RuleId::DK013), 1u);
   EXPECT_EQ(b.findings.all().size(), 1u);
 }
 
 TEST(BulkNodes, MergedNodesAreAnnounced) {
   const Bulk b = bulk("/CNODE/0.1\n" + ids({1}));
   EXPECT_THAT(b.model.nodes.id, ElementsAre(1));
-  EXPECT_EQ(count(b.findings, "DK041"), 1u);
+  EXPECT_EQ(count(b.findings, RuleId::DK041), 1u);
 }
 
 TEST(BulkNodes, TheLastLineNeedsNoNewline) {
@@ -210,8 +211,8 @@ TEST(BulkElements, UnknownNodesAreErrorsAtTheirColumns) {
       bulk(nodes(4) + "/SHELL/1\n" + ids({1, 1, 2, 99, 4}) + ids({2, 1, 2, 3}) + "/TETRA10/1\n" +
            ids({3}) + ids({1, 2, 3, 77, 88}) + "/BRICK/1\n" + ids({4, 1, 2, 3, 4, 0, 0, 0, 4}));
   EXPECT_EQ(b.model.shell4.nodes[2], no_index);
-  EXPECT_EQ(count(b.findings, "DK101"), 2u + 2u + 3u);
-  const Diagnostic& f = *first(b.findings, "DK101");
+  EXPECT_EQ(count(b.findings, RuleId::DK101), 2u + 2u + 3u);
+  const Diagnostic& f = *first(b.findings, RuleId::DK101);
   EXPECT_EQ(f.reference->number, 78);
   EXPECT_EQ(b.deck.sources.position(f.span).column, 31u);
   EXPECT_EQ(f.id, 1);
@@ -239,7 +240,7 @@ TEST(BulkElements, OwnThicknessIsKeptInWorkingUnits) {
   EXPECT_EQ(b.model.shell4.thickness[1], 2);
   EXPECT_DOUBLE_EQ(b.model.shell4.thickness[2], 2000);
   EXPECT_TRUE(b.model.shell3.thickness.empty());
-  EXPECT_EQ(count(b.findings, "DK039"), 1u);
+  EXPECT_EQ(count(b.findings, RuleId::DK039), 1u);
 }
 
 TEST(BulkElements, TriangleThicknessLeftOfColumn91IsNamed) {
@@ -247,15 +248,15 @@ TEST(BulkElements, TriangleThicknessLeftOfColumn91IsNamed) {
   const Bulk b =
       bulk(nodes(3) + "/SH3N/1\n" + head + "1.5\n" + head + std::string(17, ' ') + "1.5\n");
   EXPECT_THAT(b.model.shell3.thickness, ElementsAre(1.5, 1.5));
-  EXPECT_EQ(count(b.findings, "DK038"), 1u);
-  EXPECT_EQ(b.deck.sources.position(first(b.findings, "DK038")->span).column, 81u);
+  EXPECT_EQ(count(b.findings, RuleId::DK038), 1u);
+  EXPECT_EQ(b.deck.sources.position(first(b.findings, RuleId::DK038)->span).column, 81u);
 }
 
 TEST(BulkElements, AnUnfinishedElementAtTheEndOfABlockIsLeftOutAndNamed) {
   const Bulk b = bulk(nodes(4) + "/TETRA10/1\n" + ids({1}) + ids({1, 2, 3, 4}) + ids({2}) +
                       "/TETRA4/1\n" + ids({3, 1, 2, 3, 4}));
   EXPECT_THAT(b.model.solid8.id, ElementsAre(1, 3));
-  EXPECT_EQ(count(b.findings, "DK029"), 1u);
+  EXPECT_EQ(count(b.findings, RuleId::DK029), 1u);
 }
 
 TEST(BulkElements, ItemsMayCrossIncludesButNotBlocks) {
@@ -354,13 +355,13 @@ TEST(BulkAgainstDecode, ValuesAndFindingsAreTheSame) {
       elements += f->size();
     EXPECT_EQ(elements, slow.element_id.size());
     for (const auto& [rule, n] : slow.findings.counts())
-      EXPECT_EQ(count(fast.findings, rule), n) << rule << " seed " << seed;
+      EXPECT_EQ(count(fast.findings, rule), n) << id_text(rule) << " seed " << seed;
     // Messages of the shared rules, in the same order.
     std::vector<std::string> a, b;
     for (const Diagnostic& d : slow.findings.all())
-      if (d.rule < "DK029") a.push_back(deck.sources.where(d.span) + d.message);
+      if (d.rule < RuleId::DK029) a.push_back(deck.sources.where(d.span) + d.message);
     for (const Diagnostic& d : fast.findings.all())
-      if (d.rule < "DK029") b.push_back(fast.deck.sources.where(d.span) + d.message);
+      if (d.rule < RuleId::DK029) b.push_back(fast.deck.sources.where(d.span) + d.message);
     EXPECT_EQ(a, b);
   }
 }
@@ -369,12 +370,12 @@ TEST(BulkAgainstDecode, CountsDoNotDependOnHowManyMessagesAreKept) {
   for (std::uint64_t seed = 100; seed < 130; ++seed) {
     const std::string text = deck_of(random_deck(seed, 60, true));
     const Bulk all(read(text), 1, 1 << 30), few(read(text), 1, 3), none(read(text), 1, 0);
-    EXPECT_GT(count(all.findings, "DK101"), 10u);
+    EXPECT_GT(count(all.findings, RuleId::DK101), 10u);
     EXPECT_EQ(all.findings.counts(), few.findings.counts());
     EXPECT_EQ(all.findings.counts(), none.findings.counts());
     EXPECT_TRUE(none.findings.all().empty());
     // Kept are the first ones of every rule.
-    std::map<std::string_view, int> kept;
+    std::map<RuleId, int> kept;
     std::size_t next = 0;
     for (const Diagnostic& d : all.findings.all()) {
       if (kept[d.rule]++ >= 3) continue;

@@ -1,5 +1,6 @@
 // Tests of effective values and where they come from.
 #include "deck/model/interfaces.hpp"
+#include "deck/text/rule_id.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ struct Read {
     deck = std::move(*result);
     all = read_interfaces(deck, model, diagnostics);
   }
-  bool found(std::string_view rule) const { return diagnostics.counts().contains(rule); }
+  bool found(RuleId rule) const { return diagnostics.counts().contains(rule); }
   Deck deck;
   Model model;
   Diagnostics diagnostics;
@@ -115,14 +116,14 @@ TEST(InterfaceFlags, CardWinsOverDefaultCard) {
 TEST(InterfaceFlags, DefaultCardBehindTheInterfaceIsReportedAndDoesNothing) {
   const Read r(Type7Text{}.str() + default7);
   EXPECT_EQ(r.all.type7.at(0).Istf.value, 1000);
-  EXPECT_TRUE(r.found("DK508"));
+  EXPECT_TRUE(r.found(RuleId::DK508));
 }
 
 TEST(InterfaceFlags, SecondDefaultCardIsAnErrorAndTheFirstOneStands) {
   const Read r(std::string(default7) + "/DEFAULT/INTER/TYPE7\n" + at(30, "2") + "\n\n\n\n" +
                Type7Text{}.str());
   EXPECT_EQ(r.all.type7.at(0).Istf.value, 4);
-  ASSERT_TRUE(r.found("DK504"));
+  ASSERT_TRUE(r.found(RuleId::DK504));
   EXPECT_EQ(r.diagnostics.all().at(0).reference->number, 1073);
   EXPECT_EQ(r.all.defaults.size(), 1u);
 }
@@ -130,7 +131,7 @@ TEST(InterfaceFlags, SecondDefaultCardIsAnErrorAndTheFirstOneStands) {
 TEST(InterfaceFlags, DefaultCardInsideASubmodelIsIgnored) {
   const Read r("//SUBMODEL/1\nsub\n\n" + std::string(default7) + "//ENDSUB\n" + Type7Text{}.str());
   EXPECT_EQ(r.all.type7.at(0).Istf.value, 1000);
-  EXPECT_TRUE(r.found("DK503"));
+  EXPECT_TRUE(r.found(RuleId::DK503));
 }
 
 TEST(InterfaceFlags, DefaultOfOneTypeLeavesOthersAlone) {
@@ -421,8 +422,8 @@ TEST(InterfaceFields, MissingLinesReadAsBlank) {
 TEST(InterfaceFields, SmoothingOf2026IsNamedAsNotEvaluated) {
   Type7Text text;
   text.gap = at(100, "1");
-  EXPECT_TRUE(Read(text.str(), 2026).found("DK299"));
-  EXPECT_FALSE(Read(text.str(), 2025).found("DK299")) << "no such cell before";
+  EXPECT_TRUE(Read(text.str(), 2026).found(RuleId::DK299));
+  EXPECT_FALSE(Read(text.str(), 2025).found(RuleId::DK299)) << "no such cell before";
 }
 
 // ---- types 10, 11, 19 --------------------------------------------------------------------------

@@ -103,7 +103,7 @@ TEST(Material, EquationOfStateOverridesTheBulkModulus) {
 
 TEST(Material, EquationOfStateWithoutMaterialIsReported) {
   Built b("/EOS/POLYNOMIAL/3\ne\n" + reals({0, 150, 0}));
-  EXPECT_EQ(b.findings("DK118"), 1u);
+  EXPECT_EQ(b.findings(RuleId::DK118), 1u);
 }
 
 TEST(Material, HeatDataMakeItThermal) {

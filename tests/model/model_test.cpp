@@ -22,49 +22,49 @@ TEST(Part, KnowsPropertyAndMaterial) {
 
 TEST(Part, MissingPropertyIsMessage178) {
   Built b(quad() + "/PART/1\np\n" + cells({9, 9}));
-  EXPECT_EQ(b.message("DK102"), 178);
+  EXPECT_EQ(b.message(RuleId::DK102), 178);
 }
 
 TEST(Part, MissingMaterialIsMessage179OnlyIfThereAreElements) {
   const std::string prop = "/PROP/VOID/1\np\n" + reals({1});
   Built used(quad() + prop + "/PART/1\np\n" + cells({1, 9}));
-  EXPECT_EQ(used.message("DK103"), 179);
+  EXPECT_EQ(used.message(RuleId::DK103), 179);
   Built empty(grid_nodes() + prop + "/PART/1\np\n" + cells({1, 9}));
-  EXPECT_EQ(empty.findings("DK103"), 0u);
+  EXPECT_EQ(empty.findings(RuleId::DK103), 0u);
 }
 
 TEST(Part, SpringsNeedNoMaterial) {
   Built b(grid_nodes() + "/PROP/SPRING/1\np\n" + reals({1}) + reals({5}) + "/PART/1\np\n" +
           cells({1, 0}) + "/SPRING/1\n" + cells({1, 1, 2}));
-  EXPECT_EQ(b.findings("DK103"), 0u);
+  EXPECT_EQ(b.findings(RuleId::DK103), 0u);
 }
 
 TEST(Part, ElementsOfAMissingPartAreOneFindingPerPart) {
   Built b(parts() + grid_nodes() + "/SHELL/8\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5}) +
           "/SHELL/9\n" + cells({3, 4, 5, 8, 7}));
-  EXPECT_EQ(b.findings("DK104"), 2u);
-  EXPECT_EQ(b.message("DK104"), 402);
+  EXPECT_EQ(b.findings(RuleId::DK104), 2u);
+  EXPECT_EQ(b.message(RuleId::DK104), 402);
 }
 
 TEST(Part, SecondDefinitionIsReported) {
   Built b(parts() + "/PART/1\np\n" + cells({1, 1}));
-  EXPECT_EQ(b.findings("DK100"), 1u);
+  EXPECT_EQ(b.findings(RuleId::DK100), 1u);
 }
 
 TEST(ModelFindings, CarryKeywordAndIdOfTheirBlock) {
   Built b(parts() + quad() + "/PROP/SHELL/7/5\np\n\n\n" + reals({3, 1}));
   for (const Diagnostic& d : b.diagnostics().all())
-    if (d.rule == "DK109") {
+    if (d.rule == RuleId::DK109) {
       EXPECT_EQ(d.keyword, "/PROP/SHELL");
       EXPECT_EQ(d.id, 7);
     }
-  EXPECT_EQ(b.findings("DK109"), 1u);
+  EXPECT_EQ(b.findings(RuleId::DK109), 1u);
 }
 
 TEST(Shell, WithoutAnyThicknessIsMessage495) {
   Built b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
           "/PART/1\np\n" + cells({1, 1}) + quad());
-  EXPECT_EQ(b.message("DK106"), 495);
+  EXPECT_EQ(b.message(RuleId::DK106), 495);
 }
 
 TEST(Shell, OwnThicknessIsEnough) {
@@ -73,25 +73,25 @@ TEST(Shell, OwnThicknessIsEnough) {
   line.resize(80, ' ');
   Built b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
           "/PART/1\np\n" + cells({1, 1}) + grid_nodes() + "/SHELL/1\n" + line + reals({1.5}));
-  EXPECT_EQ(b.findings("DK106"), 0u);
+  EXPECT_EQ(b.findings(RuleId::DK106), 0u);
 }
 
 TEST(Shell, CollapsedQuadrangleIsWarning430) {
   Built b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 5}));
-  EXPECT_EQ(b.message("DK107"), 430);
+  EXPECT_EQ(b.message(RuleId::DK107), 430);
 }
 
 TEST(Element, SecondUseOfAnIdIsMessage79) {
   Built b(parts() + quad() + "/SHELL/2\n" + cells({7, 2, 3, 6, 5}));
-  EXPECT_EQ(b.message("DK105"), 79);
+  EXPECT_EQ(b.message(RuleId::DK105), 79);
 }
 
 TEST(Node, SecondUseOfAnIdTellsWhetherTheCoordinatesAgree) {
   Built b("/NODE\n" + node(1, 0, 0, 0) + node(1, 0, 0, 0));
-  ASSERT_EQ(b.findings("DK105"), 1u);
+  ASSERT_EQ(b.findings(RuleId::DK105), 1u);
   std::string message;
   for (const Diagnostic& d : b.diagnostics().all())
-    if (d.rule == "DK105") message = d.message;
+    if (d.rule == RuleId::DK105) message = d.message;
   EXPECT_NE(message.find("same coordinates"), std::string::npos);
 }
 
@@ -125,7 +125,7 @@ TEST(Run, OptionsOfTheWholeRun) {
 
 TEST(Run, SecondIntthickIsMessage725) {
   Built b("/INTTHICK/V5\n/INTTHICK/V5\n");
-  EXPECT_EQ(b.message("DK112"), 725);
+  EXPECT_EQ(b.message(RuleId::DK112), 725);
 }
 
 TEST(Curve, PointsAndScaling) {
@@ -146,16 +146,16 @@ TEST(ConnectionNode, WithinTheToleranceIsTheOtherNode) {
 
 TEST(Unit, UnknownUnitSystemIsMessage643ForNodesAnd659Elsewhere) {
   Built b("/NODE/5\n" + node(1, 0, 0, 0));
-  EXPECT_EQ(b.message("DK109"), 643);
+  EXPECT_EQ(b.message(RuleId::DK109), 643);
   Built g(grid_nodes() + "/SKEW/FIX/1/5\ns\n");
-  EXPECT_EQ(g.message("DK109"), 659);
+  EXPECT_EQ(g.message(RuleId::DK109), 659);
 }
 
 TEST(Unit, UnknownUnitSystemOfABlockWithoutDimensionsIsAWarning) {
   const auto severity = [](const std::string& deck) {
     Built b(grid_nodes() + deck);
     for (const Diagnostic& d : b.diagnostics().all())
-      if (d.rule == "DK109") return d.severity;
+      if (d.rule == RuleId::DK109) return d.severity;
     return Severity::info;
   };
   EXPECT_EQ(severity("/GRNOD/NODE/1/5\ng\n" + cells({1})), Severity::warning);

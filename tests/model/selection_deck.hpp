@@ -10,6 +10,7 @@
 
 #include "deck/model/model.hpp"
 #include "deck/model/selection.hpp"
+#include "deck/text/rule_id.hpp"
 
 namespace deck::test {
 
@@ -99,14 +100,14 @@ class Built {
     return out;
   }
   /// Findings of `rule` from building and from the selections.
-  std::size_t findings(std::string_view rule) {
+  std::size_t findings(RuleId rule) {
     std::size_t count = 0;
     for (const Diagnostics* d : {&diagnostics_, &selections().diagnostics()})
       if (const auto it = d->counts().find(rule); it != d->counts().end()) count += it->second;
     return count;
   }
   /// Reference message number of the first finding of `rule`; 0: none.
-  int message(std::string_view rule) {
+  int message(RuleId rule) {
     for (const Diagnostics* d : {&diagnostics_, &selections().diagnostics()})
       for (const Diagnostic& x : d->all())
         if (x.rule == rule) return x.reference ? x.reference->number : 0;

@@ -32,13 +32,13 @@ TEST(NodeGroup, NodensKeepsTheOrderOfTheList) {
 TEST(NodeGroup, MissingNodeIsMessage78) {
   Built b(quads() + "/GRNOD/NODE/5\ng\n" + cells({1, 77}));
   EXPECT_EQ(b.group(5), (Ids{1}));
-  EXPECT_EQ(b.message("DK150"), 78);
+  EXPECT_EQ(b.message(RuleId::DK150), 78);
 }
 
 TEST(NodeGroup, EmptyResultIsWarning690) {
   Built b(parts() + quads() + "/GRNOD/PART/5\ng\n" + cells({3}));
   EXPECT_TRUE(b.group(5).empty());
-  EXPECT_EQ(b.message("DK153"), 690);
+  EXPECT_EQ(b.message(RuleId::DK153), 690);
 }
 
 TEST(NodeGroup, RangesIncludeBothEnds) {
@@ -66,13 +66,13 @@ TEST(NodeGroup, NegativeGroupIsRemovedAfterAllPositiveOnes) {
 TEST(NodeGroup, MissingMemberGroupIsWarning174) {
   Built b(quads() + "/GRNOD/NODE/1\na\n" + cells({1}) + "/GRNOD/GRNOD/4\nd\n" + cells({1, 8}));
   EXPECT_EQ(b.group(4), (Ids{1}));
-  EXPECT_EQ(b.message("DK151"), 174);
+  EXPECT_EQ(b.message(RuleId::DK151), 174);
 }
 
 TEST(NodeGroup, CircleOfGroupsIsMessage176AndEnds) {
   Built b(quads() + "/GRNOD/GRNOD/1\na\n" + cells({2}) + "/GRNOD/GRNOD/2\nb\n" + cells({1}));
   b.group(1);
-  EXPECT_EQ(b.message("DK152"), 176);
+  EXPECT_EQ(b.message(RuleId::DK152), 176);
 }
 
 TEST(NodeGroup, PartsGiveTheNodesOfTheirElements) {
@@ -107,7 +107,7 @@ TEST(NodeGroup, MaterialAndPropertySelectTheirParts) {
 TEST(NodeGroup, MissingPartIsWarning194) {
   Built b(parts() + quads() + "/GRNOD/PART/5\ng\n" + cells({1, 99}));
   EXPECT_EQ(b.group(5).size(), 6u);
-  EXPECT_EQ(b.message("DK151"), 194);
+  EXPECT_EQ(b.message(RuleId::DK151), 194);
 }
 
 TEST(NodeGroup, SurfaceGroupIgnoresNegativeIds) {
@@ -125,7 +125,7 @@ TEST(NodeGroup, ElementGroupGivesItsNodes) {
 TEST(NodeGroup, SecondDefinitionOfAnIdIsReportedAndTheFirstKept) {
   Built b(quads() + "/GRNOD/NODE/5\na\n" + cells({1}) + "/GRNOD/NODE/5\nb\n" + cells({2}));
   EXPECT_EQ(b.group(5), (Ids{1}));
-  EXPECT_EQ(b.message("DK167"), 79);
+  EXPECT_EQ(b.message(RuleId::DK167), 79);
 }
 
 TEST(ElementGroup, NegativeGroupRemovesElements) {
@@ -195,7 +195,7 @@ TEST(Surface, DifferenceDropsDuplicatesAndRemovedSegments) {
 TEST(Surface, CircleOfSurfacesIsMessage189) {
   Built b(quads() + "/SURF/SURF/1\na\n" + cells({2}) + "/SURF/SURF/2\nb\n" + cells({1}));
   EXPECT_TRUE(b.surface(1).empty());
-  EXPECT_EQ(b.message("DK152"), 189);
+  EXPECT_EQ(b.message(RuleId::DK152), 189);
 }
 
 TEST(Surface, AnalyticalMemberIsMessage187) {
@@ -203,7 +203,7 @@ TEST(Surface, AnalyticalMemberIsMessage187) {
           "/SURF/SURF/2\nb\n" + cells({1}));
   EXPECT_TRUE(b.surface(2).empty());
   EXPECT_TRUE(b.selections().surface(1)->analytical);
-  EXPECT_EQ(b.message("DK158"), 187);
+  EXPECT_EQ(b.message(RuleId::DK158), 187);
 }
 
 TEST(Surface, GroupsOfShellsKeepTheirSign) {
@@ -215,7 +215,7 @@ TEST(Surface, GroupsOfShellsKeepTheirSign) {
 TEST(Surface, MissingElementGroupIsWarning192) {
   Built b(parts() + quads() + "/SURF/GRSHEL/3\ns\n" + cells({1}));
   b.surface(3);
-  EXPECT_EQ(b.message("DK151"), 192);
+  EXPECT_EQ(b.message(RuleId::DK151), 192);
 }
 
 TEST(SolidFaces, FacesOfABrickInTheirOrderAllOutward) {
@@ -245,14 +245,14 @@ TEST(SolidFaces, ExteriorOfAGroupOrOfTheWholeModel) {
 TEST(SolidFaces, SolidsWithoutExtOrAllAreMessage1104) {
   Built b(parts() + cube_nodes() + cubes() + "/SURF/PART/1\ns\n" + cells({4}));
   EXPECT_TRUE(b.surface(1).empty());
-  EXPECT_EQ(b.message("DK155"), 1104);
+  EXPECT_EQ(b.message(RuleId::DK155), 1104);
 }
 
 TEST(SolidFaces, GroupOfSolidsWithoutExtOrFreeIsMessage479) {
   Built b(parts() + cube_nodes() + cubes() + "/GRBRIC/PART/1\ne\n" + cells({4}) +
           "/SURF/GRBRIC/1\ns\n" + cells({1}));
   EXPECT_TRUE(b.surface(1).empty());
-  EXPECT_EQ(b.message("DK157"), 479);
+  EXPECT_EQ(b.message(RuleId::DK157), 479);
 }
 
 TEST(SolidFaces, PentaHasTwoTrianglesAndThreeQuads) {
@@ -326,7 +326,7 @@ TEST(SolidFaces, SolidsWithTwentyNodesAreMessage651) {
           cells({9, 10, 11, 12, 13, 14, 15, 16}) + cells({17, 18, 19, 20}) +
           "/SURF/PART/EXT/1\ns\n" + cells({4}));
   EXPECT_TRUE(b.surface(1).empty());
-  EXPECT_EQ(b.message("DK156"), 651);
+  EXPECT_EQ(b.message(RuleId::DK156), 651);
 }
 
 /// Two solids that overlap: both have the edges 1-5 and 2-6, and nodes 3 and 7 of the first are
@@ -499,7 +499,7 @@ TEST(Line, PartsGiveTheirTrusses) {
 TEST(Line, EmptyLineIsWarning691) {
   Built b(parts() + quads() + "/LINE/PART/1\nl\n" + cells({1}));
   EXPECT_TRUE(b.line(1).empty());
-  EXPECT_EQ(b.message("DK154"), 691);
+  EXPECT_EQ(b.message(RuleId::DK154), 691);
 }
 
 TEST(Selections, IdThatNamesNothingGivesNoResult) {

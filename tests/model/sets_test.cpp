@@ -130,7 +130,7 @@ TEST(Set, SetsOfSetsAndTheirCircles) {
           set(3, clause("SET", {4})) + set(4, clause("SET", {3})));
   EXPECT_EQ(b.group(1), (Ids{1, 9}));
   b.group(3);
-  EXPECT_GE(b.findings("DK152"), 1u);
+  EXPECT_GE(b.findings(RuleId::DK152), 1u);
 }
 
 // Each set lists the one before it twice, through two others: 2^40 ways from the last to the first.
@@ -144,7 +144,7 @@ TEST(Set, IsHeldOnceHoweverManyWaysLeadToIt) {
   Built b(text);
   EXPECT_EQ(b.group(121), (Ids{1, 2, 4, 5}));
   EXPECT_EQ(b.surface(121), (std::vector<Ids>{{1, 2, 5, 4}}));
-  EXPECT_EQ(b.findings("DK332"), 0u);
+  EXPECT_EQ(b.findings(RuleId::DK332), 0u);
 }
 
 TEST(Set, AChainOfSetsTakesRoomOnlyForWhatTheyHold) {
@@ -168,7 +168,7 @@ TEST(SelectionBounds, WhatExceedsTheMemoryIsLeftOutWithOneFinding) {
   Selections bounded(b.model(), SchemaSet::built_in(), limits);
   bounded.resolve_all();
   EXPECT_FALSE(bounded.complete());
-  EXPECT_EQ(bounded.diagnostics().counts().at("DK332"), 1u);
+  EXPECT_EQ(bounded.diagnostics().counts().at(RuleId::DK332), 1u);
   Selections small(b.model(), SchemaSet::built_in(), limits);
   EXPECT_EQ(small.surface(55)->segments.size(), 2u << 6);
   EXPECT_TRUE(small.complete());
@@ -178,37 +178,37 @@ TEST(Set, CollectGathersAllDefinitionsOfTheId) {
   Built b(model() + "/SET/COLLECT/1\na\n" + clause("NODE", {1}) + "/SET/COLLECT/1\nb\n" +
           clause("NODE", {2}));
   EXPECT_EQ(b.group(1), (Ids{1, 2}));
-  EXPECT_EQ(b.findings("DK167"), 0u);
+  EXPECT_EQ(b.findings(RuleId::DK167), 0u);
 }
 
 TEST(Set, MissingIdIsWarning1902AndIgnored) {
   Built b(model() + set(1, clause("NODE", {1, 77})));
   EXPECT_EQ(b.group(1), (Ids{1}));
-  EXPECT_EQ(b.message("DK161"), 1902);
+  EXPECT_EQ(b.message(RuleId::DK161), 1902);
 }
 
 TEST(Set, MissingNodeOfASegmentIsMessage1903) {
   Built b(model() + set(1, clause("SEG", {1, 9, 8, 77})));
   EXPECT_TRUE(b.surface(1).empty());
-  EXPECT_EQ(b.message("DK162"), 1903);
+  EXPECT_EQ(b.message(RuleId::DK162), 1903);
 }
 
 TEST(Set, UnknownClauseIsMessage1906) {
   Built b(model() + set(1, clause("NOODE", {1})));
   b.group(1);
-  EXPECT_EQ(b.message("DK160"), 1906);
+  EXPECT_EQ(b.message(RuleId::DK160), 1906);
 }
 
 TEST(Set, ClauseOfAKindTheModelLacksIsWarning2007) {
   Built b(model() + set(1, clause("BEAM", {1})));
   b.group(1);
-  EXPECT_EQ(b.message("DK163"), 2007);
+  EXPECT_EQ(b.message(RuleId::DK163), 2007);
 }
 
 TEST(Set, WhatIsNotEvaluatedIsSaid) {
   Built b(model() + set(1, clause("PART_B", {1}) + clause("RBODY", {1})));
   b.group(1);
-  EXPECT_EQ(b.findings("DK164"), 2u);
+  EXPECT_EQ(b.findings(RuleId::DK164), 2u);
 }
 
 }  // namespace

@@ -88,14 +88,14 @@ TEST(Transform, SubmodelMovesOnlyItsNodesAndBoxesFollow) {
 
 TEST(Transform, MissingGroupAndNodeAreReported) {
   Built group(grid_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(9, {1, 2, 3}, {}));
-  EXPECT_EQ(group.message("DK110"), 1865);
+  EXPECT_EQ(group.message(RuleId::DK110), 1865);
   Built missing(grid_nodes() + all_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(1, {1, 2, 3}, {1, 77}));
-  EXPECT_EQ(missing.message("DK110"), 694);
+  EXPECT_EQ(missing.message(RuleId::DK110), 694);
 }
 
 TEST(Transform, TypeThatIsNotEvaluatedSaysSo) {
   Built b(grid_nodes() + all_nodes() + "/TRANSFORM/POSITION/1\nt\n" + cells({1, 1, 2, 3, 4, 5, 6}));
-  EXPECT_EQ(b.findings("DK110"), 1u);
+  EXPECT_EQ(b.findings(RuleId::DK110), 1u);
   expect_at(b, 1, 0, 0, 0);
 }
 

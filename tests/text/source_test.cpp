@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "deck/text/diagnostic.hpp"
+#include "deck/text/rule_id.hpp"
 
 namespace deck {
 namespace {
@@ -160,7 +161,7 @@ TEST(SourceSet, NamesPlacesAndClipsForeignSpans) {
   EXPECT_EQ(set.where({}), "(no place)");
 }
 
-Diagnostic finding(std::string_view rule, std::string message) {
+Diagnostic finding(RuleId rule, std::string message) {
   Diagnostic d;
   d.rule = rule;
   d.message = std::move(message);
@@ -169,22 +170,22 @@ Diagnostic finding(std::string_view rule, std::string message) {
 
 TEST(Diagnostics, KeepTheFirstOnesOfEachRuleAndCountTheRest) {
   Diagnostics d(2);
-  for (int i = 0; i < 5; ++i) d.report(finding("DK001", std::to_string(i)));
-  d.report(finding("DK002", "x"));
-  d.count("DK001", 10);
+  for (int i = 0; i < 5; ++i) d.report(finding(RuleId::DK001, std::to_string(i)));
+  d.report(finding(RuleId::DK002, "x"));
+  d.count(RuleId::DK001, 10);
   EXPECT_EQ(d.all().size(), 3u);
   EXPECT_EQ(d.all()[1].message, "1");
-  EXPECT_EQ(d.counts().at("DK001"), 15u);
-  EXPECT_EQ(d.dropped("DK001"), 13u);
-  EXPECT_TRUE(d.saturated("DK001"));
-  EXPECT_FALSE(d.saturated("DK002"));
-  EXPECT_FALSE(d.saturated("DK003"));
+  EXPECT_EQ(d.counts().at(RuleId::DK001), 15u);
+  EXPECT_EQ(d.dropped(RuleId::DK001), 13u);
+  EXPECT_TRUE(d.saturated(RuleId::DK001));
+  EXPECT_FALSE(d.saturated(RuleId::DK002));
+  EXPECT_FALSE(d.saturated(RuleId::DK003));
 }
 
 TEST(Diagnostics, MergingInOrderEqualsCollectingInOrder) {
   Diagnostics one(3), first(3), second(3);
   for (int i = 0; i < 8; ++i) {
-    const Diagnostic d = finding(i % 2 ? "DK001" : "DK002", std::to_string(i));
+    const Diagnostic d = finding(i % 2 ? RuleId::DK001 : RuleId::DK002, std::to_string(i));
     one.report(d);
     (i < 5 ? first : second).report(d);
   }

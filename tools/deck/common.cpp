@@ -19,6 +19,7 @@
 #include "deck/model/selection.hpp"
 #include "deck/report/json.hpp"
 #include "deck/text/number.hpp"
+#include "deck/text/rule_id.hpp"
 
 namespace deck::cli {
 
@@ -109,7 +110,8 @@ Result<SchemaSet> load_schemas(const CommonOptions& options) {
 bool Loaded::incomplete() const {
   const auto& counts = deck.diagnostics.counts();
   // Included files that are missing, form a cycle or exceed the limits.
-  return counts.contains("DK004") || counts.contains("DK005") || counts.contains("DK006");
+  return counts.contains(RuleId::DK004) || counts.contains(RuleId::DK005) ||
+         counts.contains(RuleId::DK006);
 }
 
 Scene resolve_geometry(Loaded& loaded, const CommonOptions& options) {
@@ -386,7 +388,7 @@ std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options,
       const std::string where = d.span.valid() ? loaded.deck.sources.where(d.span) : loaded.path;
       fmt::print(stderr, "{}: {}{}:{} {} [{}]\n", terminal_text(where),
                  color ? color_of(d.severity) : "", name_of(d.severity), color ? "\x1b[0m" : "",
-                 terminal_text(d.message), d.rule);
+                 terminal_text(d.message), id_text(d.rule));
     }
   }
   if (hidden > 0)

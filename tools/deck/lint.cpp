@@ -30,7 +30,8 @@ struct Options {
   int per_rule = 10;
 };
 
-constexpr std::initializer_list<const char*> formats = {"human", "json", "sarif", "github", "junit", "gitlab"};
+constexpr std::initializer_list<const char*> formats = {"human",  "json",  "sarif",
+                                                        "github", "junit", "gitlab"};
 
 /// One deck of the run, kept until everything is written.
 struct Job {
@@ -226,7 +227,8 @@ class Run {
       std::fprintf(
           stderr, "%s: note: not fixed (%s): %s includes this file, too, and needs it as it is\n",
           terminal_text(jobs[w.deck]->loaded->deck.sources.where(w.diagnostic->span)).c_str(),
-          std::string(w.diagnostic->rule).c_str(), terminal_text(jobs[w.other]->path).c_str());
+          std::string(id_text(w.diagnostic->rule)).c_str(),
+          terminal_text(jobs[w.other]->path).c_str());
     }
     if (agreed.withheld.size() > most && !common_.quiet)
       std::fprintf(stderr, "deck: note: %zu more were not fixed for that reason\n",

@@ -7,6 +7,7 @@
 
 #include "contact/distance/filtered_decisions.hpp"
 #include "contact/scene/scene_parts.hpp"
+#include "deck/text/rule_id.hpp"
 
 namespace deck::detail {
 namespace {
@@ -48,11 +49,11 @@ void give_up(SceneContext& c, Contact& contact) {
   contact.evaluated = false;
   std::vector<PenetrationRow>().swap(contact.penetrations);
   contact.candidates = contact.removed_pairs = 0;
-  if (!c.diagnostics.wants("DK390")) return;
+  if (!c.diagnostics.wants(RuleId::DK390)) return;
   const double gap = std::max(contact.max_gap, contact.gapmin);
   const double edge = mean_main_edge(c, contact);
   Diagnostic d;
-  d.rule = "DK390";
+  d.rule = RuleId::DK390;
   d.span = contact.inter->span;
   d.message = fmt::format(
       "/INTER/TYPE{} {}: so many pairs are within the gap that their list would take more than {} "

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/scene/scene_parts.hpp"
+#include "deck/text/rule_id.hpp"
 
 namespace deck {
 namespace {
@@ -165,7 +166,7 @@ class Builder {
     // Why contacts were not evaluated is known to the selections alone.
     if (!selections_.complete())
       for (const Diagnostic& d : selections_.diagnostics().all())
-        if (d.rule == "DK332") c_.diagnostics.report(d);
+        if (d.rule == RuleId::DK332) c_.diagnostics.report(d);
   }
 
  private:
@@ -310,7 +311,7 @@ class Builder {
     contact.evaluated = lost == no_index && selections_.complete();
     if (contact.evaluated || lost == no_index) return contact.evaluated;
     Diagnostic d;
-    d.rule = "DK380";
+    d.rule = RuleId::DK380;
     d.span = contact.inter->span;
     d.keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
     d.id = contact.inter->id;

@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "lint/check.hpp"
-#include "lint/rule_tables.hpp"
+#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
-
-using Check = void (*)(const LintContext&, const Rule&, Reporter&);
 
 /// Calls f(node) for the nodes that the start-up may move: the secondary ones, of a TYPE19 those of
 /// both surfaces.
@@ -191,117 +189,19 @@ void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-constexpr std::string_view spring =
-    "/PROP/SPRING/9\nspring\n"
-    "               0.001                                                           0\n"
-    "                10.0                 0.0                 0.0                 0.0\n"
-    "         0         0         0         0         0\n\n"
-    "/PART/9\nspring\n         9         0\n/SPRING/9\n         9        11        12\n"
-    "@/INTER/TYPE7/1 Inacti=3\n";
-
-void add_penetration_advice(std::vector<Rule>& out) {
-  add(out, "DK901", Severity::warning, "Inacti 3 moves nodes of springs",
-      "Initial penetrations are removed by moving nodes, and secondary nodes belong to springs.",
-      "A spring whose node was moved starts with a force and energy.",
-      "it moves the node and does not correct the spring", "use Inacti 6",
-      "When the springs are known to be far from any penetration.", spring,
-      "@/INTER/TYPE7/1 Inacti=3\n", check_inacti3);
-  add(out, "DK902", Severity::info, "Inacti 5 where 6 is smoother",
-      "Initial penetrations reduce the gap exactly to the distance.",
-      "A node right at the border of the gap switches between contact and none, which excites high "
-      "frequencies. Inacti 6 leaves 5 per cent of the remaining gap.",
-      "it reduces the gap to the distance", "write 6", "Airbag unfolding, where 5 is recommended.",
-      "@/INTER/TYPE7/1 Inacti=5\n", "@/INTER/TYPE7/1 Inacti=6\n", check_inacti5);
-  add(out, "DK903", Severity::info, "dtmin removes nodes from the contact",
-      "A secondary node (of TYPE11 an edge) whose contact time step falls below dtmin leaves the "
-      "contact for good.",
-      "The run goes on quietly, with a hole in the contact. /DT/INTER/DEL of the Engine file does "
-      "the same for all interfaces without dtmin.",
-      "it removes the node and prints a warning in the listing",
-      "watch the listing for removed nodes", "When the removal is meant.",
-      "@/INTER/TYPE7/1 dtmin=1.e-5\n", "@/INTER/TYPE7/1\n", check_dtmin);
-  add(out, "DK904", Severity::info, "Idel 1 costs more than Idel 2",
-      "Segments are removed when all their elements are gone (Idel 1 or -1).",
-      "All neighbours have to be searched whenever an element dies, be it by rupture or by /DEL "
-      "of the Engine file.",
-      "it does more work than for Idel 2", "use 2 where a segment has one element",
-      "When segments between two elements must stay until both are gone.",
-      "@/INTER/TYPE7/1 Idel=1\n", "@/INTER/TYPE7/1 Idel=2\n", check_idel);
-  add(out, "DK905", Severity::info, "Irem_gap 2 depends on the build",
-      "Irem_gap 2 is used in an edge contact, or together with Igap 3.",
-      "Some builds of the reference solver lost contacts here, and some never ended for edges "
-      "that are not symmetric.",
-      "newer builds are corrected", "use a recent build, and watch the start-up time",
-      "When the build is known to be good.", "@/INTER/TYPE11/1 line_IDs=1 line_IDm=1 Irem_gap=2\n",
-      "@/INTER/TYPE11/1 line_IDs=1 line_IDm=1 Irem_gap=1\n", check_edge_removal);
-  add(out, "DK906", Severity::info, "bicubic gap can become unstable",
-      "Icurv 3 interpolates the main surface.",
-      "The surface swings where its curvature is large or changes quickly.",
-      "it computes the interpolation", "refine the mesh instead",
-      "Smooth surfaces of nearly constant curvature.", "@/INTER/TYPE7/1 Icurv=3\n",
-      "@/INTER/TYPE7/1\n", check_icurv3);
-  add(out, "DK907", Severity::info, "tied contact over a distance",
-      "A TYPE10 ties nodes that stand off the surface. Its gap is on the card, or comes from the "
-      "thickness and the mesh; it is never 0.",
-      "Force pairs at a distance make a moment that nothing balances.",
-      "it does not add the moment", "keep the gap as small as the geometry allows",
-      "When the distance is small against the parts.", "@/INTER/TYPE10/1\n", "@/INTER/TYPE7/1\n",
-      check_tied_lever);
-}
-
 }  // namespace
 
-void add_advice_rules(std::vector<Rule>& out) {
-  add_penetration_advice(out);
-  add(out, "DK908", Severity::warning, "combined stiffness with SPH",
-      "Istf 2 to 5 combine the stiffness of both sides, and the deck has SPH particles.",
-      "Particles have no nodal stiffness to combine.", "it computes with a stiffness of 0 for them",
-      "use Istf 1 or 1000 for interfaces with particles", "When no particle is in the interface.",
-      "/SPHCEL/1\n        11                 1.0\n@/INTER/TYPE7/1 Istf=4\n",
-      "/SPHCEL/1\n        11                 1.0\n@/INTER/TYPE7/1 Istf=1000\n", check_sph);
-  add(out, "DK909", Severity::warning, "stiffness factor that looks like a stiffness",
-      "Stfac is above 100 although Istf makes it a factor.",
-      "The contact time step falls with the root of the stiffness. Stfac is the stiffness itself "
-      "for Istf 1 only.",
-      "it multiplies the stiffness by Stfac", "set Istf 1, or write a factor",
-      "Stiff bodies on foam, where factors above 100 are used.", "@/INTER/TYPE7/1 Stfac=5000.0\n",
-      "@/INTER/TYPE7/1 Istf=1 Stfac=5000.0\n", check_large_factor);
-  add(out, "DK910", Severity::warning, "stiffness that looks like a factor",
-      "Stfac is exactly 1 and Istf makes it the stiffness.",
-      "1 is the usual factor, but an arbitrary stiffness: 1 N/m or 1 kN/mm, depending on the "
-      "units.",
-      "it uses a stiffness of 1 in the units of the deck",
-      "use Istf 4 or 1000, or write the "
-      "stiffness",
-      "When a stiffness of 1 is meant.", "@/INTER/TYPE7/1 Istf=1 Stfac=1.0\n",
-      "@/INTER/TYPE7/1 Istf=4 Stfac=1.0\n", check_small_stiffness);
-  add(out, "DK911", Severity::info, "large sorting margin", "Bumult is above 1.",
-      "The margin of the contact search grows with Bumult: fewer searches, but many more pairs in "
-      "each. The result does not change.",
-      "it computes with the value", "write 0.2 or leave the cell blank",
-      "When it was tuned for speed.", "@/INTER/TYPE7/1 Bumult=20.0\n",
-      "@/INTER/TYPE7/1 Bumult=0.2\n", check_bumult);
-  add(out, "DK912", Severity::warning, "two interfaces with the same sides",
-      "Two interfaces of one type act between the same two sides at the same time.",
-      "Every contact is counted twice: double stiffness, smaller time step.", "it computes both",
-      "delete one of them", "When the two have gaps for different stages.",
-      "@/INTER/TYPE7/1\n@/INTER/TYPE7/2\n", "@/INTER/TYPE7/1\n@/INTER/TYPE7/2 Tstart=5.0\n",
-      check_same_sides);
-  add(out, "DK913", Severity::warning, "void shells without stiffness",
-      "Shells of a main surface have a void material without Young's modulus.",
-      "Contact stiffness is E times thickness: the segments push back with nothing. Void shells on "
-      "solids take the stiffness of the solids away as well.",
-      "it computes a stiffness of 0", "give the void material the stiffness of what it covers",
-      "When the void shells are there for output only and not on the main side.",
-      "/MAT/VOID/9\nvoid\n                 0.0                 0.0                 0.0\n"
-      "/PART/9\nskin\n         1         9\n/SHELL/9\n"
-      "         9        11        12        13        14\n"
-      "/SURF/PART/9\nskin\n         9\n@/INTER/TYPE7/1 surf_IDm=9\n",
-      "/MAT/VOID/9\nvoid\n             7.8e-06               210.0                 0.3\n"
-      "/PART/9\nskin\n         1         9\n/SHELL/9\n"
-      "         9        11        12        13        14\n"
-      "/SURF/PART/9\nskin\n         9\n@/INTER/TYPE7/1 surf_IDm=9\n",
-      check_void);
+std::span<const Checked> advice_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK901, check_inacti3},      {RuleId::DK902, check_inacti5},
+      {RuleId::DK903, check_dtmin},        {RuleId::DK904, check_idel},
+      {RuleId::DK905, check_edge_removal}, {RuleId::DK906, check_icurv3},
+      {RuleId::DK907, check_tied_lever},   {RuleId::DK908, check_sph},
+      {RuleId::DK909, check_large_factor}, {RuleId::DK910, check_small_stiffness},
+      {RuleId::DK911, check_bumult},       {RuleId::DK912, check_same_sides},
+      {RuleId::DK913, check_void},
+  };
+  return all;
 }
 
 }  // namespace deck::detail

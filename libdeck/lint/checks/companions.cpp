@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lint/check.hpp"
-#include "lint/rule_tables.hpp"
+#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -264,83 +264,13 @@ void check_radiation_factor(const LintContext& c, const Rule& rule, Reporter& r)
 
 }  // namespace
 
-void add_companion_rules(std::vector<Rule>& out) {
-  out.push_back({.id = "DK916",
-                 .title = "free edges that no interface sees",
-                 .severity = Severity::info,
-                 .problem = "The deck has TYPE7 interfaces on surfaces with free edges, and no "
-                            "TYPE11 or TYPE19.",
-                 .why = "TYPE7 holds nodes off segments. Two edges that cross between their nodes "
-                        "are not seen: sheets cut into one another at their borders. TYPE11 "
-                        "beside TYPE7 sees edges; TYPE19 is both in one.",
-                 .solver = "it computes node-to-surface contact only",
-                 .fix = "add a TYPE11 for the borders, or use TYPE19",
-                 .ignore = "When borders cannot meet.",
-                 .bad = "@/INTER/TYPE7/1\n",
-                 .good = "@/INTER/TYPE7/1\n@/INTER/TYPE11/2\n",
-                 .check = check_edge_companion});
-  out.push_back(
-      {.id = "DK920",
-       .title = "contact against a tie",
-       .severity = Severity::info,
-       .problem = "Secondary nodes of an /INTER/TYPE2 are secondary in a contact with the surface "
-                  "that they are tied to, and Irem_i2 is not 1.",
-       .why = "The tie holds the nodes where they are. Inside the gap the contact pushes against "
-              "it from the start: a force that does nothing but cost time step. Irem_i2 1 drops "
-              "the pairs of a tied node with segments around its tie, and keeps all others.",
-       .solver = "it computes both; in implicit analyses it drops these pairs by itself",
-       .fix = "write Irem_i2 1, or set it in /DEFAULT/INTER",
-       .ignore = "When the tied nodes stand off by more than the gap, or Inacti 5 or 6 takes the "
-                 "penetration off.",
-       .bad = "/INTER/TYPE2/9\ntie\n         2         1\n@/INTER/TYPE7/1\n",
-       .good = "/INTER/TYPE2/9\ntie\n         2         1\n@/INTER/TYPE7/1 Irem_i2=1\n",
-       .check = check_tied_nodes});
-  out.push_back(
-      {.id = "DK917",
-       .title = "rigid body with a small gap",
-       .severity = Severity::info,
-       .problem = "Nodes of a rigid body take part in a contact with a constant gap below a "
-                  "fiftieth of the shortest main side.",
-       .why = "A rigid body does not yield: all its mass stands behind each node. In a small gap "
-              "the stiffness has no way to grow before the node is through, and the time step "
-              "falls with the gap over the speed. Manuals warn of rigid bodies at high speed or "
-              "with small gaps.",
-       .solver = "it computes with the gap, reduces the time step, and takes a node that reaches "
-                 "the mid-surface out of the contact",
-       .fix = "widen the gap (Gapmin, or Igap 1 to 3 for thickness), or let the body deform",
-       .ignore = "When the body is slow or already in contact.",
-       .bad = "/NODE\n        99                 5.0                 5.0                 9.0\n"
-              "@/RBODY/1 node_ID=99 grnd_ID=2\n@/INTER/TYPE7/1 Gapmin=0.01\n",
-       .good = "/NODE\n        99                 5.0                 5.0                 9.0\n"
-               "@/RBODY/1 node_ID=99 grnd_ID=2\n@/INTER/TYPE7/1 Gapmin=1.0\n",
-       .check = check_rigid_gap});
-  out.push_back({.id = "DK918",
-                 .title = "viscous friction where the incremental one is recommended",
-                 .severity = Severity::info,
-                 .problem = "Friction is computed with Iform 1.",
-                 .why = "Iform 1 is a damper with a limit: under a constant load things creep, and "
-                        "the force depends on the time step. Iform 2 sticks with a stiffness. "
-                        "Manuals recommend it for explicit and implicit runs.",
-                 .solver = "it computes with Iform 1, its default",
-                 .fix = "write Iform 2, or set it in /DEFAULT/INTER",
-                 .ignore = "When results must stay comparable with earlier runs.",
-                 .bad = "@/INTER/TYPE7/1 Fric=0.2\n",
-                 .good = "@/INTER/TYPE7/1 Fric=0.2 Iform=2\n",
-                 .check = check_formulation});
-  out.push_back({.id = "DK919",
-                 .title = "radiation factor that no pair of surfaces has",
-                 .severity = Severity::warning,
-                 .problem = "Frad is above the Stefan-Boltzmann constant, or below a thousandth of "
-                            "it.",
-                 .why = "Between two surfaces of emissivities e1 and e2 it is sigma / (1/e1 + 1/e2 "
-                        "- 1), with sigma = 5.670374e-8 W/(m2 K4) in the units of the deck "
-                        "(mass / time^3). A value outside is in other units.",
-                 .solver = "it computes with the value",
-                 .fix = "convert the value to the units of the deck",
-                 .ignore = "When more than two surfaces take part on purpose.",
-                 .bad = "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Tint=293.0 Frad=5.67e-8 Drad=5.0\n",
-                 .good = "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Tint=293.0 Frad=4.e-17 Drad=5.0\n",
-                 .check = check_radiation_factor});
+std::span<const Checked> companion_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK916, check_edge_companion}, {RuleId::DK917, check_rigid_gap},
+      {RuleId::DK918, check_formulation},    {RuleId::DK919, check_radiation_factor},
+      {RuleId::DK920, check_tied_nodes},
+  };
+  return all;
 }
 
 }  // namespace deck::detail

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "lint/check.hpp"
-#include "lint/rule_tables.hpp"
+#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -132,119 +132,13 @@ void check_ignored_field(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-void add_default_rules(std::vector<Rule>& out) {
-  constexpr std::string_view why =
-      "A 0 or blank flag of an interface takes the value of the default card, so the interface "
-      "card "
-      "alone does not say what it does.";
-  out.push_back({.id = "DK501",
-                 .title = "default card changes interfaces",
-                 .severity = Severity::info,
-                 .problem = "A flag of /DEFAULT/INTER is used by interfaces that leave it 0.",
-                 .why = why,
-                 .solver = "it takes the value for every 0 behind the card",
-                 .fix = "nothing to do; 'deck params' shows the result",
-                 .ignore = "When the default is meant.",
-                 .bad = "@/DEFAULT/INTER/TYPE7 Inacti=6\n@/INTER/TYPE7/1\n",
-                 .good = "@/DEFAULT/INTER/TYPE7 Inacti=6\n@/INTER/TYPE7/1 Inacti=5\n",
-                 .check = check_overrides});
-  out.push_back({.id = "DK502",
-                 .title = "default card that no interface uses",
-                 .severity = Severity::warning,
-                 .problem = "No interface takes a value from the card.",
-                 .why = "Either there is none of that type, or all flags are given on the cards.",
-                 .solver = "it stores the defaults and does not need them",
-                 .fix = "delete the card",
-                 .ignore = "When a library include brings it along.",
-                 .bad = "@/DEFAULT/INTER/TYPE7 Inacti=6\n@/INTER/TYPE7/1 Inacti=5\n",
-                 .good = "@/DEFAULT/INTER/TYPE7 Inacti=6\n@/INTER/TYPE7/1\n",
-                 .check = check_unused_defaults});
-  out.push_back({.id = "DK503",
-                 .title = "default card outside the main file",
-                 .severity = Severity::warning,
-                 .stage = RuleStage::model,
-                 .problem = "/DEFAULT/INTER stands in an include or a submodel.",
-                 .why = "Only the main file can set defaults.",
-                 .solver = "it ignores the card",
-                 .fix = "move the card to the main file, outside submodels",
-                 .ignore = "Never.",
-                 .bad = "//SUBMODEL/1\npart of it\n\n@/DEFAULT/INTER/TYPE7 Inacti=6\n//ENDSUB\n",
-                 .good = "@/DEFAULT/INTER/TYPE7 Inacti=6\n@/INTER/TYPE7/1\n"});
-  out.push_back({.id = "DK504",
-                 .title = "second default card of a type",
-                 .severity = Severity::error,
-                 .stage = RuleStage::model,
-                 .problem = "There are two /DEFAULT/INTER of one type.",
-                 .why = "Only one can hold.",
-                 .solver = "it stops with an error",
-                 .message = 1073,
-                 .message_severity = Severity::error,
-                 .fix = "keep one of them",
-                 .ignore = "Never.",
-                 .bad = "@/DEFAULT/INTER/TYPE7 Inacti=6\n@/DEFAULT/INTER/TYPE7 Inacti=5\n"
-                        "@/INTER/TYPE7/1\n",
-                 .good = "@/DEFAULT/INTER/TYPE7 Inacti=6\n@/DEFAULT/INTER/TYPE11 Inacti=5\n"
-                         "@/INTER/TYPE7/1\n"});
-  out.push_back(
-      {.id = "DK505",
-       .title = "default flag out of range",
-       .severity = Severity::warning,
-       .problem = "A flag of /DEFAULT/INTER has a value that the interface does not know.",
-       .why = "The mistake reaches every interface that leaves the flag 0.",
-       .solver = "it does not check the value",
-       .fix = "write one of the legal values",
-       .ignore = "A newer solver knows the value.",
-       .bad = "@/DEFAULT/INTER/TYPE7 Iform=3\n@/INTER/TYPE7/1\n",
-       .good = "@/DEFAULT/INTER/TYPE7 Iform=2\n@/INTER/TYPE7/1\n",
-       .check = check_range});
-  out.push_back({.id = "DK506",
-                 .title = "default card of a type that has none",
-                 .severity = Severity::error,
-                 .problem = "There is no /DEFAULT/INTER for that interface type.",
-                 .why = "Only types 2, 7, 11, 19, 24 and 25 have defaults.",
-                 .solver = "it skips the block as unknown",
-                 .message = 100210,
-                 .message_severity = Severity::error,
-                 .fix = "set the flags on the interface cards",
-                 .ignore = "Never.",
-                 .bad = "/DEFAULT/INTER/TYPE10\n\n",
-                 .good = "@/DEFAULT/INTER/TYPE7 Inacti=6\n@/INTER/TYPE7/1\n",
-                 .check = check_no_such_default});
-  out.push_back({.id = "DK507",
-                 .title = "default card with zeros only",
-                 .severity = Severity::info,
-                 .problem = "Every field of the default card is 0.",
-                 .why = "0 means 'use the built-in default'.",
-                 .solver = "it uses the built-in defaults",
-                 .fix = "delete the card",
-                 .ignore = "When it is a template.",
-                 .bad = "@/DEFAULT/INTER/TYPE7 Inacti=0\n@/INTER/TYPE7/1\n",
-                 .good = "@/DEFAULT/INTER/TYPE7 Inacti=6\n@/INTER/TYPE7/1\n",
-                 .check = check_all_zero});
-  out.push_back({.id = "DK508",
-                 .title = "default card behind its interfaces",
-                 .severity = Severity::warning,
-                 .stage = RuleStage::model,
-                 .problem = "/DEFAULT/INTER stands behind interfaces of its type.",
-                 .why = "It acts on the interfaces behind it only.",
-                 .solver = "it uses the built-in defaults for the interfaces in front of it",
-                 .fix = "put the card in front of the interfaces",
-                 .ignore = "Never.",
-                 .bad = "@/INTER/TYPE7/1\n@/DEFAULT/INTER/TYPE7 Inacti=6\n",
-                 .good = "@/DEFAULT/INTER/TYPE7 Inacti=6\n@/INTER/TYPE7/1\n"});
-  out.push_back({.id = "DK509",
-                 .title = "default that is not used",
-                 .severity = Severity::warning,
-                 .problem = "A field of the default card is read and never used.",
-                 .why = "Icurv of /DEFAULT/INTER/TYPE19 (versions 140 to 2019) looks like a "
-                        "default and is none.",
-                 .solver = "it ignores the field",
-                 .fix = "set the flag on the interface cards",
-                 .ignore = "Never.",
-                 .fixable = Fixable::safe,
-                 .bad = "@version 140\n@/DEFAULT/INTER/TYPE19 Icurv=3\n@/INTER/TYPE19/1\n",
-                 .good = "@version 140\n@/DEFAULT/INTER/TYPE19 Istf=4\n@/INTER/TYPE19/1\n",
-                 .check = check_ignored_field});
+std::span<const Checked> default_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK501, check_overrides}, {RuleId::DK502, check_unused_defaults},
+      {RuleId::DK505, check_range},     {RuleId::DK506, check_no_such_default},
+      {RuleId::DK507, check_all_zero},  {RuleId::DK509, check_ignored_field},
+  };
+  return all;
 }
 
 }  // namespace deck::detail

@@ -1,12 +1,10 @@
 // What the solver does with options of a contact otherwise than manuals say, without a word in its
 // listing. One check per rule; the table below holds their pages.
 #include "lint/check.hpp"
-#include "lint/rule_tables.hpp"
+#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
-
-using Check = void (*)(const LintContext&, const Rule&, Reporter&);
 
 /// Friction comes from the card: Fric or a law, and no /FRICTION instead.
 bool own_friction(const ContactCard& card) {
@@ -247,126 +245,20 @@ void check_default_ibag(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void add_heat(std::vector<Rule>& out) {
-  add(out, "DK247", Severity::warning, "heat exchange with a body of temperature 0",
-      "Ithe is 1, Ithe_form 0, and Tint is blank.",
-      "With Ithe_form 0 the secondary side exchanges heat with a body of the fixed temperature "
-      "Tint. Blank is 0, the absolute zero where the deck computes in kelvin.",
-      "it takes 0", "write Tint, or set Ithe_form 1", "When 0 is the temperature that is meant.",
-      "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0\n", "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Tint=293.0\n",
-      check_blank_temperature);
-  add(out, "DK248", Severity::warning, "radiation without a distance",
-      "Frad is given and Drad is blank.",
-      "The start-up prints a default distance, the larger of the gap and the shortest main side, "
-      "but the computation does not get it: it has 0 there and nothing radiates.",
-      "it prints a default distance and computes with 0", "write Drad",
-      "When nothing shall radiate.", "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Tint=293.0 Frad=1.e-14\n",
-      "@/INTER/TYPE7/1 Ithe=1 Kthe=1.0 Tint=293.0 Frad=1.e-14 Drad=5.0\n", check_blank_radiation);
-  add(out, "DK249", Severity::info, "friction heat that is lost",
-      "Fheatm is given with Ithe_form 0, or Fheats with Ithe_form 0 and fct_IDK.",
-      "The main side has no temperature of its own then. Its share of the friction heat is booked "
-      "in the energies, but delivered to nobody. With fct_IDK the share of the secondary side is "
-      "lost as well.",
-      "it books the share and heats nothing", "set Ithe_form 1, or blank Fheatm",
-      "When the share shall leave the model.",
-      "@/INTER/TYPE7/1 Fric=0.2 Ithe=1 Kthe=1.0 Tint=293.0 Fheats=0.5 Fheatm=0.5\n",
-      "@/INTER/TYPE7/1 Fric=0.2 Ithe=1 Kthe=1.0 Ithe_form=1 Fheats=0.5 Fheatm=0.5\n",
-      check_main_share);
-  add(out, "DK291", Severity::warning, "friction function without heat exchange",
-      "fct_IDF is given, but Ithe is 0.",
-      "The function is read at the temperature of the contact. Without heat exchange there is "
-      "none, and friction stays Fric.",
-      "it never evaluates the function", "set Ithe 1, or blank fct_IDF",
-      "When heat exchange is switched on in a variant of the deck.",
-      "@/INTER/TYPE7/1 Fric=1.0 fct_IDF=1\n",
-      "@/INTER/TYPE7/1 Fric=1.0 fct_IDF=1 Ithe=1 Kthe=1.0 Tint=293.0\n",
-      check_function_without_heat);
-  add(out, "DK914", Severity::warning, "friction function with Ithe_form 1",
-      "fct_IDF is given and both sides have temperatures.",
-      "The function should be read at the mean temperature of node and segment. The solver weights "
-      "the corners of the segment with the weights of a pair that it looked at before: in a "
-      "recorded run Fric 0.25 became 16. The models of deck cycle use the pair's own weights.",
-      "it uses the weights of another pair", "use Ithe_form 0, or Fric without a function",
-      "Never, unless the function is constant.",
-      "@/INTER/TYPE7/1 Fric=1.0 fct_IDF=1 Ithe=1 Kthe=1.0 Ithe_form=1\n",
-      "@/INTER/TYPE7/1 Fric=1.0 fct_IDF=1 Ithe=1 Kthe=1.0 Tint=293.0\n", check_function_form1);
-}
-
-void add_friction(std::vector<Rule>& out) {
-  add(out, "DK293", Severity::warning, "the cut-off filter does not filter",
-      "Ifiltr is 3 with a frequency in Xfreq (or in /FRICTION).",
-      "Manuals give the factor 2 pi Xfreq dt. The solver takes the larger of that and 1, so the "
-      "force is never smoothed, and is exaggerated where 2 pi Xfreq dt exceeds 1.",
-      "it uses a factor of at least 1", "use Ifiltr 1 with the factor itself in Xfreq",
-      "When no filter is meant.", "@/INTER/TYPE7/1 Fric=0.2 Ifiltr=3 Xfreq=100.0\n",
-      "@/INTER/TYPE7/1 Fric=0.2 Ifiltr=1 Xfreq=0.3\n", check_cutoff_filter);
-  add(out, "DK294", Severity::info, "filter with the incremental formulation",
-      "Ifiltr and Iform 2 stand together (or in /FRICTION).",
-      "With Iform 2 the factor multiplies the increment of the tangential force. That is a softer "
-      "stick stiffness, not a smoothed force.",
-      "it multiplies the increment", "set Ifiltr 0, or Iform 1", "When the softer stick is meant.",
-      "@/INTER/TYPE7/1 Fric=0.2 Iform=2 Ifiltr=1 Xfreq=0.3\n",
-      "@/INTER/TYPE7/1 Fric=0.2 Iform=1 Ifiltr=1 Xfreq=0.3\n", check_incremental_filter);
-  add(out, "DK295", Severity::info, "Iform 2 sticks with twice the normal stiffness",
-      "Friction with Iform 2 (or in /FRICTION).",
-      "The manual's increment is K Vt dt with the K of the normal force. That K is halved before "
-      "it acts on the normal force and is whole in the tangential increment: dFt = 2 K Vt dt.",
-      "it uses the stiffness before the half", "nothing: know it when slip is compared by hand",
-      "When the difference does not matter.", "@/INTER/TYPE7/1 Fric=0.2 Iform=2\n",
-      "@/INTER/TYPE7/1 Fric=0.2 Iform=1\n", check_incremental_stiffness);
-  add(out, "DK297", Severity::info, "edges: plain friction, no release",
-      "A friction law, a filter or fric_ID on a TYPE19; IBC on a TYPE19 or TYPE11.",
-      "The edge part of a TYPE19 is a TYPE11: it knows the constant Fric and nothing else. An edge "
-      "contact reads IBC and never releases a boundary condition.",
-      "it passes Fric on and drops the rest", "add a TYPE7 and a TYPE11 instead, or accept Fric",
-      "When edges matter little.", "@/INTER/TYPE19/1 Ifric=1 Fric=0.2 C2=0.01\n",
-      "@/INTER/TYPE19/1 Fric=0.2\n", check_edge_limits);
-}
-
 }  // namespace
 
-void add_difference_rules(std::vector<Rule>& out) {
-  add_heat(out);
-  add_friction(out);
-  add(out, "DK246", Severity::info, "title longer than 100 characters",
-      "The title line of an interface has more than 100 characters.",
-      "Titles have 100 columns; what stands behind is not in any listing or animation file.",
-      "it keeps the first 100", "shorten the title", "When the rest is a note for people.",
-      "/INTER/TYPE10/1\n"
-      "a title with one hundred and five characters in one line, which is five more than the "
-      "solver has place for.\n         2         1\n\n\n\n",
-      "@/INTER/TYPE10/1\n", check_title_length);
-  add(out, "DK268", Severity::info, "Tstart or Tstop beside a sensor",
-      "The card has a sensor and times of its own.",
-      "Manuals say that the times are not used with a sensor. They are: there is contact only "
-      "while Tstart <= t <= Tstop and the sensor is active.",
-      "it asks both", "blank the times if the sensor alone shall decide",
-      "When both conditions are meant.", "@/INTER/TYPE7/1 sens_ID=1 Tstop=50.0\n",
-      "@/INTER/TYPE7/1 sens_ID=1\n", check_sensor_times);
-  add(out, "DK296", Severity::info, "Stmin and Stmax act by half",
-      "Stmin or Stmax bounds the stiffness of Istf 2 to 5.",
-      "The bounds hold for the stiffness that is stored and printed. Half of that acts in the "
-      "force: the pair stiffness lies between Stmin / 2 and Stmax / 2.",
-      "it bounds first and halves afterwards", "write twice the bound that is wanted",
-      "When the factor is known.", "@/INTER/TYPE7/1 Istf=4 Stmax=5.0\n", "@/INTER/TYPE7/1 Istf=4\n",
-      check_half_bounds);
-  add(out, "DK298", Severity::info, "a single release flag in column 8",
-      "Of the three release flags only that in column 8 is set.",
-      "The flags of X, Y and Z stand in columns 8, 9 and 10. Manual pages print them as columns "
-      "6, 7 and 8, where column 8 is Z.",
-      "it releases X", "move the 1 to column 10 if Z is meant", "When X is meant.",
-      "@/INTER/TYPE7/1 IBCX=1\n", "@/INTER/TYPE7/1 IBCX=1 IBCY=1 IBCZ=1\n", check_release_column);
-  add(out, "DK915", Severity::warning, "ITIED without dtmin", "ITIED is set and dtmin is blank.",
-      "A node is tied when its contact time step falls below dtmin. Manuals name the limit of "
-      "/DT/INTER/DEL as well; it is not asked. Without dtmin the limit is 1e-30: nothing ties.",
-      "it never ties a node", "write dtmin", "When the tie is switched off on purpose.",
-      "@/INTER/TYPE7/1 ITIED=1\n", "@/INTER/TYPE7/1 ITIED=1 dtmin=1.e-4\n", check_tie_trigger);
-  add(out, "DK510", Severity::info, "default Ibag without airbag",
-      "Ibag of /DEFAULT/INTER/TYPE7 or TYPE19 is 1 or 2, and no /MONVOL, ALE or Sol2SPH is there.",
-      "The flag closes vent holes of airbags.", "it drops the flag from every interface",
-      "write 1000, or remove the cell", "When the file of defaults is shared with airbag decks.",
-      "@/DEFAULT/INTER/TYPE7 Ibag=1\n@/INTER/TYPE7/1\n",
-      "@/DEFAULT/INTER/TYPE7 Igap=1\n@/INTER/TYPE7/1\n", check_default_ibag);
+std::span<const Checked> difference_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK246, check_title_length},          {RuleId::DK247, check_blank_temperature},
+      {RuleId::DK248, check_blank_radiation},       {RuleId::DK249, check_main_share},
+      {RuleId::DK268, check_sensor_times},          {RuleId::DK291, check_function_without_heat},
+      {RuleId::DK293, check_cutoff_filter},         {RuleId::DK294, check_incremental_filter},
+      {RuleId::DK295, check_incremental_stiffness}, {RuleId::DK296, check_half_bounds},
+      {RuleId::DK297, check_edge_limits},           {RuleId::DK298, check_release_column},
+      {RuleId::DK510, check_default_ibag},          {RuleId::DK914, check_function_form1},
+      {RuleId::DK915, check_tie_trigger},
+  };
+  return all;
 }
 
 }  // namespace deck::detail

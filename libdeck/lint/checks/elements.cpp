@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lint/check.hpp"
-#include "lint/rule_tables.hpp"
+#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -179,86 +179,15 @@ void check_curves(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-void add_shape_rules(std::vector<Rule>& out) {
-  constexpr auto stop = Severity::error;
-  const auto add = [&](std::string_view id, std::string_view title, std::string_view problem,
-                       std::string_view why, std::string_view bad, std::string_view good,
-                       void (*check)(const LintContext&, const Rule&, Reporter&)) {
-    out.push_back({.id = id,
-                   .title = title,
-                   .severity = stop,
-                   .problem = problem,
-                   .why = why,
-                   .solver = "it stops with an error",
-                   .fix = "correct the nodes of the element or their coordinates, or delete it",
-                   .ignore = "Never.",
-                   .bad = bad,
-                   .good = good,
-                   .check = check});
-  };
-  add("DK130", "shell without area",
-      "The corners of a shell lie on one line, or its sides cross, so that the cross product of "
-      "its "
-      "diagonals vanishes.",
-      "Mass, stiffness and normal come from the area.",
-      "/SHELL/1\n         9         1         3         2         4\n"
-      "/SH3N/1\n        10         1         2         2\n",
-      "/SHELL/1\n         9         1         2         3         4\n", check_area);
-  add("DK131", "solid without volume", "The corners of a solid lie in one plane.",
-      "Mass and stiffness come from the volume; the time step becomes zero.",
-      "/PROP/SOLID/9\nblock\n        14\n/PART/9\nflat\n         9         1\n"
-      "/BRICK/9\n         9         1         2         3         4         1         2         3"
-      "         4\n",
-      "/PROP/SOLID/9\nblock\n        14\n/PART/9\nblock\n         9         1\n"
-      "/BRICK/9\n         9         1         2         3         4        11        12        13"
-      "        14\n",
-      check_volume);
-  add("DK132", "beam or truss without length", "Both ends of a beam or truss are at one place.",
-      "Stiffness is per length; the time step becomes zero.",
-      "/PROP/TRUSS/9\nrod\n                 1.0\n/PART/9\nrod\n         9         1\n"
-      "/TRUSS/9\n         9         1         1\n",
-      "/PROP/TRUSS/9\nrod\n                 1.0\n/PART/9\nrod\n         9         1\n"
-      "/TRUSS/9\n         9         1         2\n",
-      check_length);
-}
-
 }  // namespace
 
-void add_element_rules(std::vector<Rule>& out) {
-  constexpr auto stop = Severity::error;
-  add_shape_rules(out);
-  out.push_back({.id = "DK129",
-                 .title = "property of another kind of element",
-                 .severity = stop,
-                 .problem = "The elements of a part and the property of the part do not go "
-                            "together: shells with a solid property, beams with a shell property.",
-                 .why = "The property has no thickness or section for these elements.",
-                 .solver = "it stops with an error",
-                 .message = 60,
-                 .message_severity = stop,
-                 .fix = "give the part a property of the right type, or move the elements",
-                 .ignore = "Never.",
-                 .bad = "/PROP/SOLID/9\nblock\n        14\n/PART/9\nmixed\n         9         1\n"
-                        "/SHELL/9\n         9         1         2         3         4\n",
-                 .good = "/PART/9\nplate\n         1         1\n"
-                         "/SHELL/9\n         9         1         2         3         4\n",
-                 .check = check_property_kind});
-  out.push_back({.id = "DK133",
-                 .title = "function whose points are not in order",
-                 .severity = stop,
-                 .problem = "The abscissas of a function do not increase from point to point, or "
-                            "it has no point.",
-                 .why = "Between two points the function is a line; its value is then open.",
-                 .solver = "it stops with an error",
-                 .fix = "put the points in order and remove the double ones",
-                 .ignore = "Never.",
-                 .bad = "/FUNCT/9\nback\n                 0.0                 0.0\n"
-                        "                 2.0                 1.0\n"
-                        "                 1.0                 1.0\n",
-                 .good = "/FUNCT/9\nforth\n                 0.0                 0.0\n"
-                         "                 1.0                 1.0\n"
-                         "                 2.0                 1.0\n",
-                 .check = check_curves});
+std::span<const Checked> element_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK129, check_property_kind}, {RuleId::DK130, check_area},
+      {RuleId::DK131, check_volume},        {RuleId::DK132, check_length},
+      {RuleId::DK133, check_curves},
+  };
+  return all;
 }
 
 }  // namespace deck::detail

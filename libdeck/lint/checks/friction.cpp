@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "lint/check.hpp"
-#include "lint/rule_tables.hpp"
+#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -106,77 +106,13 @@ void check_unused_groups(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-void add_friction_pair_rules(std::vector<Rule>& out) {
-  out.push_back({.id = "DK183",
-                 .title = "friction pair of an unknown part",
-                 .severity = Severity::error,
-                 .problem = "A pair of /FRICTION names a part or part group that does not exist.",
-                 .why = "The pair would have no friction of its own.",
-                 .solver = "it stops with an error",
-                 .message = 1590,
-                 .message_severity = Severity::error,
-                 .fix = "correct the id",
-                 .ignore = "When the part is in an include that cannot be read.",
-                 .bad = "@/FRICTION/1 C1=0.0 Fric=0.1 part_ID1=1 part_ID2=77 C1_pair=0.0 "
-                        "Fric_pair=0.2\n@/INTER/TYPE7/1 fric_ID=1\n",
-                 .good = "@/FRICTION/1 C1=0.0 Fric=0.1 part_ID1=1 part_ID2=2 C1_pair=0.0 "
-                         "Fric_pair=0.2\n@/INTER/TYPE7/1 fric_ID=1\n",
-                 .check = check_parts});
-  out.push_back({.id = "DK184",
-                 .title = "friction pair given twice",
-                 .severity = Severity::warning,
-                 .problem = "The same two sides appear in two pairs of a /FRICTION.",
-                 .why = "Which of the two is used is not settled.",
-                 .solver = "it accepts both; which one wins is not documented",
-                 .fix = "delete one of the pairs",
-                 .ignore = "When both have the same values.",
-                 .bad = "@/FRICTION/1 C1=0.0 Fric=0.1 part_ID1=1 part_ID2=2 C1_pair=0.0 "
-                        "Fric_pair=0.2\n                             2         1\n"
-                        "                 0.0\n                 0.0                 0.3\n"
-                        "@/INTER/TYPE7/1 fric_ID=1\n",
-                 .good = "@/FRICTION/1 C1=0.0 Fric=0.1 part_ID1=1 part_ID2=2 C1_pair=0.0 "
-                         "Fric_pair=0.2\n@/INTER/TYPE7/1 fric_ID=1\n",
-                 .check = check_repeated});
-  out.push_back({.id = "DK185",
-                 .title = "friction that no interface uses",
-                 .severity = Severity::warning,
-                 .problem = "A /FRICTION is defined, and no fric_ID refers to it.",
-                 .why = "Its values have no effect.",
-                 .solver = "it warns if there is no interface at all, and is silent otherwise",
-                 .message = 1593,
-                 .fix = "refer to it with fric_ID, or delete it",
-                 .ignore = "When it is kept for later.",
-                 .bad = "@/FRICTION/6 C1=0.0 Fric=0.1\n@/INTER/TYPE7/1\n",
-                 .good = "@/FRICTION/6 C1=0.0 Fric=0.1\n@/INTER/TYPE7/1 fric_ID=6\n",
-                 .check = check_unused_friction});
-  out.push_back({.id = "DK186",
-                 .title = "friction pair with one side only",
-                 .severity = Severity::error,
-                 .problem = "A pair names no part and no part group on one side.",
-                 .why = "It is a pair of something with nothing, often a blank line too many.",
-                 .solver = "it finds no part of id 0",
-                 .message = 1590,
-                 .message_severity = Severity::error,
-                 .fix = "give both sides, or delete the pair",
-                 .ignore = "Never.",
-                 .bad = "@/FRICTION/1 C1=0.0 Fric=0.1 part_ID1=1 C1_pair=0.0 Fric_pair=0.2\n"
-                        "@/INTER/TYPE7/1 fric_ID=1\n",
-                 .good = "@/FRICTION/1 C1=0.0 Fric=0.1 part_ID1=1 part_ID2=2 C1_pair=0.0 "
-                         "Fric_pair=0.2\n@/INTER/TYPE7/1 fric_ID=1\n",
-                 .check = check_incomplete});
-  out.push_back({.id = "DK188",
-                 .title = "group, surface or line that nothing uses",
-                 .severity = Severity::info,
-                 .problem = "No card of the deck refers to this node group, surface or line.",
-                 .why = "Left-overs hide what matters, and a contact that was to use it may be "
-                        "missing.",
-                 .solver = "it builds the group all the same",
-                 .fix = "delete it, or refer to it",
-                 .ignore = "When a library include defines more than one deck needs.",
-                 .bad = "/SURF/PART/1234567\nspare\n         1\n",
-                 .good = "@bare\n/SURF/PART/1234567\nspare\n         1\n"
-                         "@/INTER/TYPE7/1 grnd_IDs=0 surf_IDm=1234567\n",
-                 .check = check_unused_groups});
+std::span<const Checked> friction_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK183, check_parts},           {RuleId::DK184, check_repeated},
+      {RuleId::DK185, check_unused_friction}, {RuleId::DK186, check_incomplete},
+      {RuleId::DK188, check_unused_groups},
+  };
+  return all;
 }
 
 }  // namespace deck::detail

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lint/check.hpp"
-#include "lint/rule_tables.hpp"
+#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -192,203 +192,20 @@ void check_old_layout(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-void add_header_rules(std::vector<Rule>& out) {
-  out.push_back({.id = "DK040",
-                 .title = "unknown keyword",
-                 .severity = Severity::warning,
-                 .problem = "The header names a keyword that does not exist.",
-                 .why = "The whole block is skipped, so what it defines is missing.",
-                 .solver = "it skips the block; open-reader builds do so without a word",
-                 .message = 100210,
-                 .message_severity = Severity::error,
-                 .fix = "correct the spelling, or remove the block",
-                 .ignore = "The keyword is newer than this program.",
-                 .fixable = Fixable::unsafe,
-                 .bad = "/INTER/TYP7/1\nexample\n         2         1\n",
-                 .good = "@/INTER/TYPE7/1\n",
-                 .check = check_unknown});
-  out.push_back({.id = "DK041",
-                 .title = "keyword not in upper case",
-                 .severity = Severity::error,
-                 .problem = "A known keyword is written with small letters.",
-                 .why = "Keywords are case-sensitive; the block does not exist.",
-                 .solver = "it skips the block as unknown",
-                 .message = 100210,
-                 .message_severity = Severity::error,
-                 .fix = "write the keyword in upper case",
-                 .ignore = "Never.",
-                 .fixable = Fixable::unsafe,
-                 .bad = "/inter/type7/1\nexample\n         2         1\n",
-                 .good = "@/INTER/TYPE7/1\n",
-                 .check = check_lower_case});
-  out.push_back({.id = "DK042",
-                 .title = "Engine keyword in a Starter deck",
-                 .severity = Severity::info,
-                 .problem = "A keyword of the Engine file stands in the Starter deck.",
-                 .why = "It has no effect here.",
-                 .solver = "it skips the block",
-                 .message = 100210,
-                 .message_severity = Severity::error,
-                 .fix = "move it to the Engine file or remove it",
-                 .ignore = "When the file is used for both on purpose.",
-                 .bad = "/ANIM/DT\n                 0.0                 1.0\n",
-                 .good = "/TITLE\nexample\n",
-                 .check = check_engine});
-  out.push_back({.id = "DK043",
-                 .title = "second /BEGIN",
-                 .severity = Severity::warning,
-                 .stage = RuleStage::reading,
-                 .problem = "The main file has more than one /BEGIN.",
-                 .why = "Lines behind the second one may follow another version, hence other "
-                        "columns.",
-                 .solver = "it takes the version of the last one for the lines that follow",
-                 .fix = "keep one /BEGIN",
-                 .ignore = "Never.",
-                 .bad = "/BEGIN\nagain\n      2024         0\n",
-                 .good = "/TITLE\nexample\n"});
-  out.push_back({.id = "DK044",
-                 .title = "obsolete interface type",
-                 .severity = Severity::error,
-                 .problem = "/INTER/TYPE4 was removed.",
-                 .why = "The run cannot start.",
-                 .solver = "it stops with an error",
-                 .message = 1615,
-                 .message_severity = Severity::error,
-                 .fix = "use TYPE7 and, for edges, TYPE11",
-                 .ignore = "Never.",
-                 .bad = "/INTER/TYPE4/1\nexample\n         1         2\n",
-                 .good = "@/INTER/TYPE7/1\n",
-                 .check = check_obsolete});
-  out.push_back({.id = "DK045",
-                 .title = "interface type not available in 2-D",
-                 .severity = Severity::error,
-                 .problem = "The analysis is two-dimensional; only types 1, 2, 3 and 5 work there.",
-                 .why = "Some builds crash on a TYPE11 in 2-D before they can say so.",
-                 .solver = "it stops at once",
-                 .message = 2097,
-                 .message_severity = Severity::error,
-                 .fix = "use type 3 or 5, or make the analysis three-dimensional",
-                 .ignore = "Never.",
-                 .bad = "/ANALY\n         1         0         0\n@/INTER/TYPE11/1\n",
-                 .good = "/ANALY\n         0         0         0\n@/INTER/TYPE11/1\n",
-                 .check = check_two_dimensional});
-  out.push_back({.id = "DK046",
-                 .title = "keyword newer than the deck",
-                 .severity = Severity::warning,
-                 .problem = "The keyword did not exist in the input version of the deck.",
-                 .why = "The columns of a later version are used, which may not be those meant.",
-                 .solver = "it takes the layout of the next version that has the keyword",
-                 .message = 100211,
-                 .fix = "raise the version in /BEGIN after checking the other cards",
-                 .ignore = "When the card is known to follow the later layout.",
-                 .bad = "@version 130\n@/FRICTION/1 Fric=0.2\n",
-                 .good = "@version 2022\n@/FRICTION/1 Fric=0.2\n",
-                 .check = check_newer_keyword});
-  out.push_back({.id = "DK047",
-                 .title = "value of another version's field",
-                 .severity = Severity::warning,
-                 .problem = "A value stands in columns that hold a field in another input version, "
-                            "but not in that of the deck.",
-                 .why = "The value is lost: the field does not exist for this deck.",
-                 .solver = "it drops the text",
-                 .message = 100214,
-                 .fix = "raise the version in /BEGIN, or remove the value",
-                 .ignore = "When losing the value is accepted.",
-                 .bad = "@version 110\n/INTER/TYPE7/1\nexample\n         2         1\n"
-                        "                                                 0.5\n\n"
-                        "                 1.0\n\n\n",
-                 .good = "@version 120\n@/INTER/TYPE7/1 Fpenmax=0.5\n",
-                 .check = check_next_version_field});
-  out.push_back({.id = "DK048",
-                 .title = "missing title line",
-                 .severity = Severity::warning,
-                 .problem = "The line behind the header, which is the title, holds numbers only.",
-                 .why = "If the title was left out, its place is taken by the first line of data "
-                        "and every line below is read as the one above it.",
-                 .solver = "it takes the line for the title",
-                 .fix = "insert a title line (it may be blank)",
-                 .ignore = "When the title really consists of numbers.",
-                 .bad = "/INTER/TYPE7/1\n         2         1\n\n\n                 1.0\n\n\n",
-                 .good = "@/INTER/TYPE7/1\n",
-                 .check = check_title});
-  out.push_back({.id = "DK049",
-                 .title = "no id in the header",
-                 .severity = Severity::info,
-                 .problem = "The header has no id.",
-                 .why = "The object gets id 1, which may collide with another or be referred to by "
-                        "accident.",
-                 .solver = "it takes 1",
-                 .fix = "write the id into the header",
-                 .ignore = "When 1 is meant.",
-                 .bad = "@/INTER/TYPE7\n",
-                 .good = "@/INTER/TYPE7/1\n",
-                 .check = check_missing_id});
-  out.push_back({.id = "DK050",
-                 .title = "very old input version",
-                 .severity = Severity::warning,
-                 .problem = "The deck follows a layout from before version 90.",
-                 .why = "Few decks of that kind are left, so neither the reference solver nor this "
-                        "program has been tried much on them.",
-                 .solver = "it reads the old columns",
-                 .fix = "convert the deck to a newer version",
-                 .ignore = "When the deck is read correctly.",
-                 .bad = "@bare\n@version 51\n",
-                 .good = "@bare\n@version 90\n",
-                 .check = check_old_layout});
-}
-
-void add_linter_rules(std::vector<Rule>& out) {
-  constexpr auto linter = RuleStage::linter;
-  out.push_back({.id = "DK090",
-                 .title = "suppression without a reason",
-                 .severity = Severity::warning,
-                 .stage = linter,
-                 .problem = "A '# decklint: ignore[...]' comment has no reason=.",
-                 .why = "In a year nobody knows whether the finding may still be ignored.",
-                 .solver = "nothing, the line is a comment",
-                 .fix = "add reason=... behind the bracket",
-                 .ignore = "Never; the suppression has no effect without a reason.",
-                 .bad = "# decklint: ignore[DK203]\n@/INTER/TYPE7/1\n",
-                 .good = "# decklint: ignore[DK223] reason=known and accepted\n"
-                         "@/INTER/TYPE7/1 Stfac=-1.0\n"});
-  out.push_back({.id = "DK091",
-                 .title = "unused suppression",
-                 .severity = Severity::warning,
-                 .stage = linter,
-                 .problem = "A suppression covers no finding.",
-                 .why = "It hides the next mistake of that kind.",
-                 .solver = "nothing, the line is a comment",
-                 .fix = "delete the comment",
-                 .ignore = "In an included file that another deck needs it for: --fix leaves "
-                           "included files alone, and --unsafe-fixes deletes a suppression only if "
-                           "no deck of the call needs it.",
-                 .fixable = Fixable::safe,
-                 .bad = "# decklint: ignore[DK223] reason=known\n@/INTER/TYPE7/1 Stfac=1.0\n",
-                 .good = "# decklint: ignore[DK223] reason=known\n@/INTER/TYPE7/1 Stfac=-1.0\n"});
-  out.push_back({.id = "DK092",
-                 .title = "suppression of an unknown rule",
-                 .severity = Severity::warning,
-                 .stage = linter,
-                 .problem = "A suppression names a rule that does not exist.",
-                 .why = "It has no effect; a typing error is likely.",
-                 .solver = "nothing, the line is a comment",
-                 .fix = "write an id that 'deck rules' lists, or a prefix of it",
-                 .ignore = "Never.",
-                 .bad = "# decklint: ignore[DK999] reason=known\n@/INTER/TYPE7/1\n",
-                 .good = "# decklint: ignore[DK223] reason=known\n@/INTER/TYPE7/1 Stfac=-1.0\n"});
-  out.push_back({.id = "DK093",
-                 .title = "suppression that cannot be read",
-                 .severity = Severity::warning,
-                 .stage = linter,
-                 .problem =
-                     "A comment starts with 'decklint:' but has another form, or ignore-file "
-                     "does not stand at the top of its file.",
-                 .why = "It has no effect.",
-                 .solver = "nothing, the line is a comment",
-                 .fix = "write '# decklint: ignore[DK203] reason=...' in or before the block",
-                 .ignore = "Never.",
-                 .bad = "# decklint: off\n@/INTER/TYPE7/1\n",
-                 .good = "# decklint: ignore[DK223] reason=known\n@/INTER/TYPE7/1 Stfac=-1.0\n"});
+std::span<const Checked> header_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK040, check_unknown},
+      {RuleId::DK041, check_lower_case},
+      {RuleId::DK042, check_engine},
+      {RuleId::DK044, check_obsolete},
+      {RuleId::DK045, check_two_dimensional},
+      {RuleId::DK046, check_newer_keyword},
+      {RuleId::DK047, check_next_version_field},
+      {RuleId::DK048, check_title},
+      {RuleId::DK049, check_missing_id},
+      {RuleId::DK050, check_old_layout},
+  };
+  return all;
 }
 
 }  // namespace deck::detail

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lint/check.hpp"
-#include "lint/rule_tables.hpp"
+#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -209,89 +209,13 @@ void check_order(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-void add_line_rules(std::vector<Rule>& out) {
-  constexpr std::string_view why =
-      "Whether an optional line is there depends on flags only, never on what the line holds. One "
-      "line more or less and every line behind it is read as another one.";
-  out.push_back({.id = "DK240",
-                 .title = "line missing that a flag asks for",
-                 .severity = Severity::warning,
-                 .problem = "The block is too short, and a flag asks for a line that may not be "
-                            "there.",
-                 .why = why,
-                 .solver = "it takes the next line for the one that is missing, and blanks at the "
-                           "end",
-                 .message = 100217,
-                 .fix = "add the line (blanks where defaults are wanted), or set the flag to 0",
-                 .ignore = "When only trailing lines are missing and blanks are meant.",
-                 .bad = "/INTER/TYPE7/1\nexample\n         2         1\n\n\n"
-                        "                 1.0                 0.0                 0.5\n"
-                        "       000\n         1\n",
-                 .good = "@/INTER/TYPE7/1 Ifric=1 C1=0.1\n",
-                 .check = check_missing});
-  out.push_back({.id = "DK241",
-                 .title = "line that no flag asks for",
-                 .severity = Severity::warning,
-                 .problem = "The block has more lines than its flags ask for.",
-                 .why = why,
-                 .solver = "it reads the first lines as they come and ignores those left over",
-                 .message = 100219,
-                 .fix = "set the flag of the line that is too many, or delete the line",
-                 .ignore = "When the line left over is the one that is meant to be ignored.",
-                 .bad = "@/INTER/TYPE7/1 Ifric=0\n                 0.1                 0.0\n",
-                 .good = "@/INTER/TYPE7/1 Ifric=1 C1=0.1\n",
-                 .check = check_extra});
-  out.push_back({.id = "DK242",
-                 .title = "TYPE11: second line missing or superfluous",
-                 .severity = Severity::error,
-                 .problem = "The line Stmin, Stmax, %mesh_size, dtmin, Iform, sens_ID of TYPE11 "
-                            "exists from version 110 on, and this card does not follow the version "
-                            "of its deck.",
-                 .why = "A card copied from an older or newer deck is read shifted by one line; "
-                        "the flags that must stand in columns 8-10 give it away.",
-                 .solver = "it goes on without a word and reads Stfac as Stmin, Fric as Stmax, and "
-                           "so on: an error here, because nobody can want that",
-                 .fix = "insert a blank second line",
-                 .ignore = "Never.",
-                 .fixable = Fixable::unsafe,
-                 .bad = "/INTER/TYPE11/1\nexample\n         2         1         5\n"
-                        "                 1.0                 0.1                 0.5\n"
-                        "       000                             6\n\n",
-                 .good = "@/INTER/TYPE11/1 Istf=5 Fric=0.1 Gapmin=0.5 IBCX=0 IBCY=0 IBCZ=0 "
-                         "Inacti=6\n",
-                 .check = check_second_line});
-  out.push_back({.id = "DK243",
-                 .title = "line of the release flags holds other data",
-                 .severity = Severity::warning,
-                 .problem = "The line with IBC and Inacti has data where it must be blank.",
-                 .why = "Only columns 8-10 may be used before column 31 of that line. Anything "
-                        "else means that the lines above are one too many or one too few.",
-                 .solver =
-                     "it goes on and reads the columns of that line as IBC, Inacti and damping "
-                     "all the same",
-                 .fix = "compare the lines of the card with 'deck explain KEYWORD'",
-                 .ignore = "Never without a look at the card.",
-                 .bad = "/INTER/TYPE7/1\nexample\n         2         1\n\n\n\n"
-                        "                 1.0                 0.2                 0.5\n"
-                        "       000                             6\n\n",
-                 .good = "@/INTER/TYPE7/1 Fric=0.2 Gapmin=0.5 IBCX=0 IBCY=0 IBCZ=0 Inacti=6\n",
-                 .check = check_shift});
-  out.push_back({.id = "DK244",
-                 .title = "heat exchange and adaptive meshing lines swapped",
-                 .severity = Severity::warning,
-                 .problem = "The two optional lines stand in the order of another version.",
-                 .why = "Versions 90 and 100 read heat exchange before adaptive meshing, later "
-                        "versions the other way round.",
-                 .solver = "it reads each line as the other",
-                 .fix = "exchange the lines",
-                 .ignore = "When the values happen to stand in those columns.",
-                 .bad = "@version 110\n/INTER/TYPE7/1\nexample\n"
-                        "         2         1                   1"
-                        "                                                           2\n"
-                        "\n\n                 1.0\n       000\n\n"
-                        "                 0.5\n         3                 1.0\n",
-                 .good = "@version 110\n@/INTER/TYPE7/1 Ithe=1 Iadm=2 NRadm=3 Padm=1.0 Rthe=0.5\n",
-                 .check = check_order});
+std::span<const Checked> line_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK240, check_missing},     {RuleId::DK241, check_extra},
+      {RuleId::DK242, check_second_line}, {RuleId::DK243, check_shift},
+      {RuleId::DK244, check_order},
+  };
+  return all;
 }
 
 }  // namespace deck::detail

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lint/check.hpp"
-#include "lint/rule_tables.hpp"
+#include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
@@ -227,123 +227,15 @@ void check_thickness(const LintContext& c, const Rule& rule, Reporter& r) {
                                     number_text(shells->thickness[e]))));
 }
 
-void add_material_rules(std::vector<Rule>& out) {
-  constexpr auto stop = Severity::error;
-  out.push_back({.id = "DK123",
-                 .title = "material without density",
-                 .severity = stop,
-                 .problem = "The density of a material is zero, negative or blank.",
-                 .why = "Masses of elements and nodes, and with them the time step, come from it.",
-                 .solver = "it stops with an error",
-                 .message = 683,
-                 .message_severity = stop,
-                 .fix = "write a density above 0; a line may be missing or out of order",
-                 .ignore = "Never.",
-                 .bad = "/MAT/ELAST/9\nsoft\n                 0.0\n"
-                        "                 1.0                 0.3\n",
-                 .good = "/MAT/ELAST/9\nsoft\n               1e-09\n"
-                         "                 1.0                 0.3\n",
-                 .check = check_density});
-  out.push_back({.id = "DK124",
-                 .title = "material without stiffness",
-                 .severity = stop,
-                 .problem = "The Young modulus of a material is zero, negative or blank.",
-                 .why = "Stresses and contact stiffness come from it.",
-                 .solver = "it stops with an error",
-                 .message = 683,
-                 .message_severity = stop,
-                 .fix = "write a modulus above 0; a line may be missing or out of order",
-                 .ignore = "Never.",
-                 .bad = "/MAT/ELAST/9\nsoft\n               1e-09\n"
-                        "                                     0.3\n",
-                 .good = "/MAT/ELAST/9\nsoft\n               1e-09\n"
-                         "                 1.0                 0.3\n",
-                 .check = check_modulus});
-  out.push_back({.id = "DK134",
-                 .title = "plastic law without yield stress",
-                 .severity = stop,
-                 .problem = "The yield stress a of /MAT/PLAS_JOHNS is zero, negative or blank.",
-                 .why = "The yield curve a + b eps^n begins there.",
-                 .solver = "it stops with an error",
-                 .message = 301,
-                 .message_severity = stop,
-                 .fix = "write a yield stress above 0; a line may be missing or out of order",
-                 .ignore = "Never.",
-                 .bad = "/MAT/PLAS_JOHNS/9\nsoft\n               1e-09\n"
-                        "                 1.0                 0.3\n"
-                        "                 0.0                 1.0                 0.5\n",
-                 .good = "/MAT/PLAS_JOHNS/9\nsoft\n               1e-09\n"
-                         "                 1.0                 0.3\n"
-                         "                 0.1                 1.0                 0.5\n",
-                 .check = check_yield});
-}
-
-void add_geometry_of_model_rules(std::vector<Rule>& out) {
-  constexpr auto stop = Severity::error;
-  out.push_back({.id = "DK125",
-                 .title = "negative shell thickness",
-                 .severity = stop,
-                 .problem = "The thickness of a shell or of its property is negative.",
-                 .why = "Gap, stiffness and mass come from it. For lines of TYPE11 and TYPE19, and "
-                        "for plain segments, the solver looks for the shell behind them and finds "
-                        "none; elsewhere it computes with the value, and lint warns.",
-                 .solver = "it does not check the sign; the contact then finds no element",
-                 .message = 481,
-                 .message_severity = stop,
-                 .fix = "write a thickness above 0",
-                 .ignore = "Never.",
-                 .bad = "/PROP/SHELL/9\nthin\n        24\n                 0.0\n"
-                        "         5                          -1.0\n"
-                        "/PART/9\nthin\n         9         1\n"
-                        "/SHELL/9\n        21         1         2         3         4\n"
-                        "/LINE/SURF/9\nthin\n         9\n/SURF/PART/9\nthin\n         9\n"
-                        "@/INTER/TYPE11/1 line_IDs=2 line_IDm=9 Gapmin=1.0\n",
-                 .good = "/PROP/SHELL/9\nthin\n        24\n                 0.0\n"
-                         "         5                           1.0\n"
-                         "/PART/9\nthin\n         9         1\n"
-                         "/SHELL/9\n        21         1         2         3         4\n"
-                         "/LINE/SURF/9\nthin\n         9\n/SURF/PART/9\nthin\n         9\n"
-                         "@/INTER/TYPE11/1 line_IDs=2 line_IDm=9 Gapmin=1.0\n",
-                 .check = check_thickness});
-  out.push_back({.id = "DK126",
-                 .title = "deck without nodes",
-                 .severity = stop,
-                 .problem = "No node was read.",
-                 .why = "There is no model. An early /END, or an include that ends the deck, cuts "
-                        "off what follows.",
-                 .solver = "it stops with an error",
-                 .message = 3,
-                 .message_severity = stop,
-                 .fix = "define the nodes before /END",
-                 .ignore = "When the file is an include of another deck.",
-                 .bad = "@bare\n/TITLE\nnothing\n",
-                 .good = "/TITLE\nplates\n",
-                 .check = check_no_nodes});
-  out.push_back({.id = "DK127",
-                 .title = "rigid body without mass",
-                 .severity = stop,
-                 .problem = "The rigid body has no mass of its own, and no element with a density "
-                            "touches one of its nodes.",
-                 .why = "Its motion follows from force and mass.",
-                 .solver = "it stops with an error",
-                 .message = 274,
-                 .message_severity = stop,
-                 .fix = "correct the secondary nodes, or give the body a mass and inertia",
-                 .ignore = "Never.",
-                 .bad = "/NODE\n"
-                        "        21                 5.0                 5.0                 9.0\n"
-                        "/GRNOD/NODE/7\nnothing\n\n@/RBODY/1 node_ID=21 grnd_ID=7\n",
-                 .good = "/NODE\n"
-                         "        21                 5.0                 5.0                 9.0\n"
-                         "@/RBODY/1 node_ID=21 grnd_ID=2\n",
-                 .check = check_rigid_mass});
-}
-
 }  // namespace
 
-void add_physics_rules(std::vector<Rule>& out) {
-  add_material_rules(out);
-  add_geometry_of_model_rules(out);
+std::span<const Checked> physics_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK123, check_density},    {RuleId::DK124, check_modulus},
+      {RuleId::DK125, check_thickness},  {RuleId::DK126, check_no_nodes},
+      {RuleId::DK127, check_rigid_mass}, {RuleId::DK134, check_yield},
+  };
+  return all;
 }
 
 }  // namespace deck::detail

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "lint/check.hpp"
-#include "lint/rule_tables.hpp"
+#include "lint/check_tables.hpp"
 #include "lint/targets.hpp"
 
 namespace deck::detail {
@@ -108,7 +108,7 @@ void note_definition(const LintContext& c, Diagnostic* d, const Side& side, std:
 }
 
 void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
-  const bool secondary = rule.id == "DK172";
+  const bool secondary = rule.id == RuleId::DK172;
   each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
     if (side.secondary != secondary || id < 0 || !selection_exists(c, side.kind, id)) return;
     if (selection_size(c, side.kind, id) != 0) return;
@@ -257,169 +257,27 @@ void check_side_without_nodes(const LintContext& c, const Rule& rule, Reporter& 
   });
 }
 
-void add_side_rules(std::vector<Rule>& out) {
-  constexpr auto stop = Severity::error;
-  out.push_back({.id = "DK170",
-                 .title = "group, surface or line does not exist",
-                 .severity = stop,
-                 .problem = "A side of the contact names an id that no group, surface, line or set "
-                            "has.",
-                 .why = "The contact has nothing to act on.",
-                 .solver = "it stops with an error",
-                 .message = 2087,
-                 .message_severity = stop,
-                 .fix = "define the entity or correct the id",
-                 .ignore = "When the definition is in an include that cannot be read.",
-                 .bad = "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=55\n",
-                 .good = "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1\n",
-                 .check = check_missing_entity});
-  out.push_back({.id = "DK171",
-                 .title = "id of another kind of entity",
-                 .severity = stop,
-                 .problem = "The id exists, but belongs to another kind: a surface where a node "
-                            "group is expected, for example.",
-                 .why = "Ids of node groups, surfaces and lines are counted apart; the number "
-                        "alone does not say which is meant.",
-                 .solver = "it stops with an error that only says the id is unknown",
-                 .message = 2087,
-                 .message_severity = stop,
-                 .fix = "refer to an entity of the right kind",
-                 .ignore = "Never.",
-                 .bad = "@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1\n",
-                 .good = "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1\n",
-                 .check = check_kind});
-  out.push_back({.id = "DK172",
-                 .title = "secondary side is empty",
-                 .severity = Severity::warning,
-                 .problem = "The group, surface or line of the secondary side has no member.",
-                 .why = "The interface is there and does nothing.",
-                 .solver = "it warns for a node group and goes on; for surfaces and lines it stops",
-                 .message = 552,
-                 .fix = "correct the definition of the group",
-                 .ignore = "When the part is left out of this variant on purpose.",
-                 .bad = "/GRNOD/PART/4\nnothing\n        77\n@/INTER/TYPE7/1 grnd_IDs=4\n",
-                 .good = "@/INTER/TYPE7/1 grnd_IDs=2\n",
-                 .check = check_empty});
-  out.push_back({.id = "DK173",
-                 .title = "main side is empty",
-                 .severity = stop,
-                 .problem = "The surface or line of the main side has no segment or edge.",
-                 .why = "There is nothing to touch.",
-                 .solver = "it stops",
-                 .message = 119,
-                 .message_severity = stop,
-                 .fix = "correct the definition of the surface",
-                 .ignore = "Never.",
-                 .bad = "/SURF/PART/3\nnothing\n        77\n@/INTER/TYPE7/1 surf_IDm=3\n",
-                 .good = "@/INTER/TYPE7/1 surf_IDm=1\n",
-                 .check = check_empty});
-  out.push_back({.id = "DK174",
-                 .title = "analytical surface in a segment contact",
-                 .severity = stop,
-                 .problem = "A side is a plane or an ellipsoid.",
-                 .why = "Types 7, 10, 11 and 19 need segments with elements behind them.",
-                 .solver = "it finds no segment and stops",
-                 .message = 3160,
-                 .message_severity = stop,
-                 .fix = "use /INTER/TYPE14 or a rigid wall, or mesh the surface",
-                 .ignore = "Never.",
-                 .bad = "/SURF/PLANE/9\nfloor\n"
-                        "                 0.0                 0.0                -5.0\n"
-                        "                 0.0                 0.0                -4.0\n"
-                        "@/INTER/TYPE7/1 surf_IDm=9\n",
-                 .good = "@/INTER/TYPE7/1 surf_IDm=1\n",
-                 .check = check_analytical});
-  out.push_back({.id = "DK187",
-                 .title = "negative reference",
-                 .severity = stop,
-                 .problem = "An id on the card is negative.",
-                 .why = "Ids are positive; a minus sign has a meaning in lists only.",
-                 .solver = "it finds nothing of that id; for a function or friction it goes on as "
-                           "if none were given",
-                 .message = 2087,
-                 .message_severity = stop,
-                 .fix = "write the id without the sign",
-                 .ignore = "Never.",
-                 .bad = "@/INTER/TYPE7/1 grnd_IDs=-2\n",
-                 .good = "@/INTER/TYPE7/1 grnd_IDs=2\n",
-                 .check = check_negative});
-  out.push_back({.id = "DK190",
-                 .title = "a group and a set of the same id",
-                 .severity = Severity::info,
-                 .problem = "The id names a group, surface or line and a /SET as well.",
-                 .why = "Only one of them is used.",
-                 .solver = "the plain group wins",
-                 .fix = "give one of them another id",
-                 .ignore = "When the plain group is meant.",
-                 .bad = "/SET/GENERAL/1\nlower\nPART               1\n"
-                        "@/INTER/TYPE7/1 surf_IDm=1\n",
-                 .good = "/SET/GENERAL/8\nlower\nPART               1\n"
-                         "@/INTER/TYPE7/1 surf_IDm=1\n",
-                 .check = check_ambiguous});
-}
-
-void add_target_rules(std::vector<Rule>& out) {
-  constexpr auto stop = Severity::error;
-  const auto add = [&](std::string_view id, std::string_view title, std::string_view problem,
-                       std::string_view why, int message, std::string_view fix,
-                       std::string_view bad, std::string_view good,
-                       void (*check)(const LintContext&, const Rule&, Reporter&)) {
-    out.push_back({.id = id,
-                   .title = title,
-                   .severity = stop,
-                   .problem = problem,
-                   .why = why,
-                   .solver = "it stops with an error",
-                   .message = message,
-                   .message_severity = stop,
-                   .fix = fix,
-                   .ignore = "When the definition is in an include that cannot be read.",
-                   .bad = bad,
-                   .good = good,
-                   .check = check});
-  };
-  add("DK175", "sensor does not exist", "sens_ID names no sensor.",
-      "The contact would never be switched.", 1010, "define the sensor or set sens_ID 0",
-      "@/INTER/TYPE7/1 sens_ID=9\n", "@/INTER/TYPE7/1 sens_ID=1\n", check_sensor);
-  add("DK176", "function does not exist", "fct_IDF or fct_IDK names no function.",
-      "Friction or heat exchange would have no curve.", 127, "define the function or set it to 0",
-      "@/INTER/TYPE7/1 Fric=0.2 fct_IDF=9\n", "@/INTER/TYPE7/1 Fric=0.2 fct_IDF=1\n",
-      check_function);
-  add("DK177", "friction does not exist", "fric_ID names no /FRICTION.",
-      "The contact would have no friction.", 1592, "define the /FRICTION or set fric_ID 0",
-      "@/INTER/TYPE7/1 fric_ID=9\n", "@/FRICTION/1 C1=0.0 Fric=0.1\n@/INTER/TYPE7/1 fric_ID=1\n",
-      check_friction_id);
-  add("DK178", "curvature node does not exist", "node_ID1 or node_ID2 names no node.",
-      "The curved gap has no centre or axis.", 78, "correct the node id",
-      "@/INTER/TYPE7/1 Icurv=1 node_ID1=999\n", "@/INTER/TYPE7/1 Icurv=1 node_ID1=1\n",
-      check_nodes);
-  add("DK179", "interface id used twice", "Two interfaces have the same id.",
-      "All interface types share one range of ids.", 117, "give one of them another id",
-      "@/INTER/TYPE7/1\n@/INTER/TYPE11/1\n", "@/INTER/TYPE7/1\n@/INTER/TYPE11/2\n",
-      check_duplicates);
-  add("DK180", "TYPE11 without secondary line", "line_IDs is 0.",
-      "line_IDm 0 means self contact of line_IDs; the other way round is not allowed.", 118,
-      "give the line id", "@/INTER/TYPE11/1 line_IDs=0\n", "@/INTER/TYPE11/1 line_IDm=0\n",
-      check_no_secondary_line);
-  add("DK181", "interface without main surface", "surf_IDm is 0.",
-      "Only the secondary side may be left out (self contact); TYPE19 takes the other side.", 3160,
-      "give the surface id", "@/INTER/TYPE7/1 surf_IDm=0\n", "@/INTER/TYPE7/1 grnd_IDs=0\n",
-      check_no_main);
-  add("DK182", "TYPE10 without secondary nodes", "grnd_IDs is 0.",
-      "Tied contact does not take the nodes of the main surface instead.", 552,
-      "give the node group", "@/INTER/TYPE10/1 grnd_IDs=0\n", "@/INTER/TYPE10/1 grnd_IDs=2\n",
-      check_side_without_nodes);
-  out.back().severity = Severity::warning;
-  out.back().solver = "it warns and goes on: the interface has no secondary node";
-  out.back().message_severity = Severity::warning;
-}
-
 }  // namespace
 
-void add_reference_rules(std::vector<Rule>& out) {
-  add_side_rules(out);
-  add_target_rules(out);
-  add_friction_pair_rules(out);
+std::span<const Checked> reference_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK170, check_missing_entity},
+      {RuleId::DK171, check_kind},
+      {RuleId::DK172, check_empty},
+      {RuleId::DK173, check_empty},
+      {RuleId::DK174, check_analytical},
+      {RuleId::DK175, check_sensor},
+      {RuleId::DK176, check_function},
+      {RuleId::DK177, check_friction_id},
+      {RuleId::DK178, check_nodes},
+      {RuleId::DK179, check_duplicates},
+      {RuleId::DK180, check_no_secondary_line},
+      {RuleId::DK181, check_no_main},
+      {RuleId::DK182, check_side_without_nodes},
+      {RuleId::DK187, check_negative},
+      {RuleId::DK190, check_ambiguous},
+  };
+  return all;
 }
 
 }  // namespace deck::detail

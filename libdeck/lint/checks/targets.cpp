@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lint/check.hpp"
-#include "lint/rule_tables.hpp"
+#include "lint/check_tables.hpp"
 #include "lint/targets.hpp"
 
 namespace deck::detail {
@@ -133,67 +133,14 @@ void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
 
 }  // namespace
 
-void add_target_demand_rules(std::vector<Rule>& out) {
-  constexpr auto stop = Severity::error;
-  out.push_back({.id = "DK120",
-                 .title = "load or constraint refers to something that does not exist",
-                 .severity = stop,
-                 .problem = "A boundary condition, load, initial velocity, rigid body, rigid wall "
-                            "or sensor names a node group, node, function, sensor, skew or surface "
-                            "that does not exist.",
-                 .why = "The load acts on nothing, or without its curve or axes.",
-                 .solver = "it stops with an error",
-                 .message = 53,
-                 .message_severity = stop,
-                 .fix = "correct the id or define what it names",
-                 .ignore = "When the definition is in an include that cannot be read.",
-                 .bad = "@/BCS/1 Tx=1 grnod_ID=77\n",
-                 .good = "@/BCS/1 Tx=1 grnod_ID=2\n",
-                 .check = check_missing_target});
-  out.push_back({.id = "DK121",
-                 .title = "load on an empty node group",
-                 .severity = stop,
-                 .problem = "A load names a node group without a node.",
-                 .why = "There is nothing that it could act on.",
-                 .solver = "it stops with an error",
-                 .message = 3026,
-                 .message_severity = stop,
-                 .fix = "correct the definition of the group, or remove the load",
-                 .ignore = "Never.",
-                 .bad = "/GRNOD/NODE/7\nnothing\n\n@/CLOAD/1 funct_IDT=1 Dir=X grnod_ID=7\n",
-                 .good = "/GRNOD/NODE/7\ncorner\n         1\n"
-                         "@/CLOAD/1 funct_IDT=1 Dir=X grnod_ID=7\n",
-                 .check = check_empty_target});
-  out.push_back({.id = "DK122",
-                 .title = "necessary reference left out",
-                 .severity = stop,
-                 .problem = "A cell is 0 or blank, or its line is missing, that has to name "
-                            "something: the nodes of a displacement sensor, the main node of a "
-                            "rigid body, the nodes of a force.",
-                 .why = "There is no default for it.",
-                 .solver = "it stops with an error; a sensor is then unknown to all its users",
-                 .message = 43,
-                 .message_severity = stop,
-                 .fix = "write the id",
-                 .ignore = "Never.",
-                 .bad = "/SENSOR/DISP/3\napart\n                0.01\n",
-                 .good = "/SENSOR/DISP/3\napart\n                0.01\n         1        11\n",
-                 .check = check_required_target});
-  out.push_back({.id = "DK128",
-                 .title = "function, sensor or axes defined twice",
-                 .severity = stop,
-                 .problem = "Two functions, sensors, skews or frames have the same id.",
-                 .why = "Only one of them can be meant by a reference.",
-                 .solver = "it stops with an error",
-                 .message = 79,
-                 .message_severity = stop,
-                 .fix = "give one of them another id",
-                 .ignore = "Never.",
-                 .bad = "/FUNCT/1\nagain\n                 0.0                 0.0\n"
-                        "                 1.0                 2.0\n",
-                 .good = "/FUNCT/2\nother\n                 0.0                 0.0\n"
-                         "                 1.0                 2.0\n",
-                 .check = check_twice});
+std::span<const Checked> target_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK120, check_missing_target},
+      {RuleId::DK121, check_empty_target},
+      {RuleId::DK122, check_required_target},
+      {RuleId::DK128, check_twice},
+  };
+  return all;
 }
 
 }  // namespace deck::detail

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/parallel.hpp"
+#include "deck/text/rule_id.hpp"
 #include "model/bulk/bulk_read.hpp"
 
 namespace deck::detail {
@@ -142,7 +143,7 @@ bool indices_left(std::size_t have, std::size_t more, const Block& block,
                   Diagnostics& diagnostics) {
   if (have + more < no_index) return true;
   Diagnostic d;
-  d.rule = "DK006";
+  d.rule = RuleId::DK006;
   d.span = block.header_span;
   d.message = "more than 4294967294 items of one kind; the rest is left out";
   d.help = "split the deck";
@@ -200,9 +201,9 @@ struct NodeSink {
 };
 
 void report_cnode(const Block& block, Diagnostics& diagnostics) {
-  if (block.schema->keyword != "/CNODE" || !diagnostics.wants("DK041")) return;
+  if (block.schema->keyword != "/CNODE" || !diagnostics.wants(RuleId::DK041)) return;
   Diagnostic d;
-  d.rule = "DK041";
+  d.rule = RuleId::DK041;
   d.severity = Severity::warning;
   d.span = block.header_span;
   d.message = std::string(block.header) + ": nodes are read as they are and not merged";
@@ -314,9 +315,9 @@ struct ElementSink {
 
 /// The reference solver converts an own thickness only in the first shell after a change of units.
 void report_thickness(const Block& block, Diagnostics& diagnostics) {
-  if (!diagnostics.wants("DK039")) return;
+  if (!diagnostics.wants(RuleId::DK039)) return;
   Diagnostic d;
-  d.rule = "DK039";
+  d.rule = RuleId::DK039;
   d.severity = Severity::warning;
   d.span = block.header_span;
   d.message = std::string(block.header) +

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 
+#include "deck/text/rule_id.hpp"
 #include "text/number_scan.hpp"
 
 namespace deck::detail {
@@ -154,9 +155,9 @@ std::vector<BlockPlan> plan_blocks(const Deck& deck, const std::vector<const Blo
       Dimension length;
       length.length = 1;
       plan.length = conversion_factor(*units, deck.begin.working, length);
-    } else if (diagnostics.wants("DK040")) {
+    } else if (diagnostics.wants(RuleId::DK040)) {
       Diagnostic d;
-      d.rule = "DK040";
+      d.rule = RuleId::DK040;
       d.severity = Severity::error;
       d.span = block->unit_id.span;
       d.message = std::string(block->header) + " refers to unit system " +

@@ -71,8 +71,9 @@ bool data_follows(const Deck& deck, const Block& block, std::uint32_t file, std:
 
 }  // namespace
 
-std::string_view bulk_rule_id(std::size_t rule) {
-  constexpr std::string_view own[] = {"DK036", "DK037", "DK038", "DK029", "DK101"};
+RuleId bulk_rule_id(std::size_t rule) {
+  constexpr RuleId own[] = {RuleId::DK036, RuleId::DK037, RuleId::DK038, RuleId::DK029,
+                            RuleId::DK101};
   return rule < blank_line ? line_rule_ids[rule] : own[rule - blank_line];
 }
 

@@ -19,7 +19,7 @@ enum BulkRule : std::uint8_t {
   unknown_node,
   bulk_rules,
 };
-std::string_view bulk_rule_id(std::size_t rule);
+RuleId bulk_rule_id(std::size_t rule);
 
 /// A line that is not clean.
 struct Problem {

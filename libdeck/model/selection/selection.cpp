@@ -79,7 +79,7 @@ Selections::Impl::Impl(const Model& m, const SchemaSet& s, const MemoryLimits& l
     if (list.empty()) table.order.push_back(id);
     if (!list.empty() && !(kind == "set" && def.type == "COLLECT")) {
       Diagnostic d = detail::make_diagnostic(
-          {"DK167", Severity::error, block.header_span,
+          {RuleId::DK167, Severity::error, block.header_span,
            std::string(block.keyword) + " " + std::to_string(id) + " is defined twice",
            "it stops with an error", "give one of them another id", 79, Severity::error,
            std::string(block.keyword), id});
@@ -143,9 +143,9 @@ std::vector<std::int64_t> Selections::Impl::raw_values(const DecodedBlock& d) co
   return values;
 }
 
-void Selections::Impl::report_missing(std::string_view rule, const Block& block,
-                                      const std::string& what, const std::vector<IdRef>& missing,
-                                      int number, Severity severity) {
+void Selections::Impl::report_missing(RuleId rule, const Block& block, const std::string& what,
+                                      const std::vector<IdRef>& missing, int number,
+                                      Severity severity) {
   if (missing.empty() || !found.wants(rule)) return;
   std::string ids;
   constexpr std::size_t shown = 5;
@@ -166,7 +166,7 @@ bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const B
   // Deeper nesting than any deck needs would only exhaust the stack.
   constexpr std::size_t deepest = 250;
   if (open.size() >= deepest) {
-    report({"DK152", Severity::error, from.header_span,
+    report({RuleId::DK152, Severity::error, from.header_span,
             std::string(from.keyword) + " " + std::to_string(from.id.value) +
                 " is nested more than " + std::to_string(deepest) +
                 " levels deep; its members are left out",
@@ -175,7 +175,7 @@ bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const B
     return true;
   }
   if (open.count({std::string(kind), id}) == 0) return false;
-  report({"DK152", Severity::error, from.header_span,
+  report({RuleId::DK152, Severity::error, from.header_span,
           std::string(from.keyword) + " " + std::to_string(from.id.value) +
               " contains itself, directly or through others",
           "it stops with an error", "break the circle of references", number, Severity::error,
@@ -184,13 +184,13 @@ bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const B
 }
 
 bool Selections::Impl::fits(std::size_t count, std::size_t size, const Block& block) {
-  const bool room = bytes_held <= limits.selection_bytes &&
-                    count <= (limits.selection_bytes - bytes_held) / size;
+  const bool room =
+      bytes_held <= limits.selection_bytes && count <= (limits.selection_bytes - bytes_held) / size;
   // Repetitions count, but no list needs every member of the model over and over.
   const bool sensible = count <= most_members;
   if (all_held && room && sensible) return true;
   if (all_held)
-    report({"DK332", Severity::error, block.header_span,
+    report({RuleId::DK332, Severity::error, block.header_span,
             std::string(block.keyword) + " " + std::to_string(block.id.value) +
                 (sensible ? ": the members of all groups, surfaces, lines and sets together would "
                             "take more than " +

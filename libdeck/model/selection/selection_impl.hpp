@@ -138,8 +138,8 @@ struct Selections::Impl {
 
   MemoryLimits limits;
   std::uint64_t most_members = 0;  ///< of one list, repetitions included
-  std::uint64_t bytes_held = 0;  ///< by all results together
-  bool all_held = true;  ///< false: something was left out for want of MemoryLimits
+  std::uint64_t bytes_held = 0;    ///< by all results together
+  bool all_held = true;            ///< false: something was left out for want of MemoryLimits
   /// True if `count` more items of `size` bytes may be held; otherwise that is reported once.
   bool fits(std::size_t count, std::size_t size, const Block& block);
   /// The same, and counts them as held.
@@ -164,7 +164,7 @@ struct Selections::Impl {
   std::vector<std::int64_t> raw_values(const DecodedBlock& d) const;
   void report(detail::Finding f) { detail::report(found, std::move(f)); }
   /// Members of a list that do not exist, in one finding per list.
-  void report_missing(std::string_view rule, const Block& block, const std::string& what,
+  void report_missing(RuleId rule, const Block& block, const std::string& what,
                       const std::vector<detail::IdRef>& missing, int number, Severity severity);
   /// True if (kind, id) is being resolved already, which is reported.
   bool recursive(std::string_view kind, std::int64_t id, const Block& from, int number);

@@ -73,7 +73,7 @@ std::vector<Segment> Selections::Impl::resolve_surface(const Definition& def, co
   if (type == "DSURF") return difference_of_surfaces(block, d);
   analytical = type == "PLANE" || type == "ELLIPS" || type == "MDELLIPS";
   if (!analytical)
-    report({"DK165", Severity::error, block.header_span,
+    report({RuleId::DK165, Severity::error, block.header_span,
             std::string(block.header) + " is no combination that defines a surface",
             "it stops with an error", "correct the keyword", 686, Severity::error,
             std::string(block.keyword), block.id.value});
@@ -123,7 +123,7 @@ std::vector<Segment> Selections::Impl::segments_by_nodes(const Block& block,
     else
       add_plain_segment(s, out);
   }
-  report_missing("DK150", block, "node", missing, 78, Severity::error);
+  report_missing(RuleId::DK150, block, "node", missing, 78, Severity::error);
   return out;
 }
 
@@ -202,7 +202,7 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
     const std::uint32_t e = members.front();
     const std::uint32_t p = solids.part[e];
     Diagnostic d = detail::make_diagnostic(
-        {"DK155", Severity::error, block.header_span,
+        {RuleId::DK155, Severity::error, block.header_span,
          std::string(block.keyword) + " " + std::to_string(block.id.value) + " selects " +
              std::to_string(members.size()) +
              " solids but does not say which faces; first is "
@@ -220,7 +220,7 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
     return solids.shape[e] == SolidShape::brick20 || solids.shape[e] == SolidShape::thick16;
   });
   if (quadratic != members.end()) {
-    report({"DK156", Severity::error, block.header_span,
+    report({RuleId::DK156, Severity::error, block.header_span,
             std::string(block.keyword) + " " + std::to_string(block.id.value) +
                 " selects solids with 20 or 16 nodes, whose faces have mid-side nodes; first is "
                 "solid " +
@@ -320,10 +320,10 @@ std::vector<Segment> Selections::Impl::segments_of_groups(const Definition& def,
   };
   collect(list.positive, false);
   collect(list.negative, true);
-  report_missing("DK151", block, "element group", missing, 192, Severity::warning);
+  report_missing(RuleId::DK151, block, "element group", missing, 192, Severity::warning);
   if (kind != ElementKind::solid8) return out;
   if (def.option.empty()) {
-    report({"DK157", Severity::error, block.header_span,
+    report({RuleId::DK157, Severity::error, block.header_span,
             "/SURF/GRBRIC " + std::to_string(block.id.value) + " does not say which faces",
             "it stops with an error",
             "write /SURF/GRBRIC/EXT (exterior of the group) or /SURF/GRBRIC/FREE (of the model)",
@@ -343,7 +343,7 @@ const std::vector<Segment>* Selections::Impl::listed_surface(const Block& block,
     return nullptr;
   }
   if (s->analytical) {
-    report({"DK158", Severity::error, ref.span,
+    report({RuleId::DK158, Severity::error, ref.span,
             std::string(block.keyword) + " " + std::to_string(block.id.value) + " lists surface " +
                 std::to_string(ref.id) + ", which is analytical",
             "it stops with an error", "list surfaces made of segments only", 187, Severity::error,
@@ -366,7 +366,7 @@ std::vector<Segment> Selections::Impl::segments_of_surfaces(const Block& block,
     if (const auto* segments = listed_surface(block, ref, missing);
         segments != nullptr && fits(out.size() + segments->size(), sizeof(Segment), block))
       std::transform(segments->begin(), segments->end(), std::back_inserter(out), turned);
-  report_missing("DK151", block, "surface", missing, 188, Severity::warning);
+  report_missing(RuleId::DK151, block, "surface", missing, 188, Severity::warning);
   return out;
 }
 
@@ -392,7 +392,7 @@ std::vector<Segment> Selections::Impl::difference_of_surfaces(const Block& block
   };
   collect(list.positive, out);
   collect(list.negative, gone);
-  report_missing("DK151", block, "surface", missing, 188, Severity::warning);
+  report_missing(RuleId::DK151, block, "surface", missing, 188, Severity::warning);
   std::stable_sort(out.begin(), out.end(), before);
   std::sort(gone.begin(), gone.end(), before);
   out.erase(std::unique(out.begin(), out.end(),

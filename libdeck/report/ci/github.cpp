@@ -44,7 +44,7 @@ std::string lint_github(const std::vector<LintedDeck>& decks) {
     (d.severity == Severity::info ? notices : out) +=
         std::string("::") + command + " file=" + workflow_property(detail::relative_path(at.file)) +
         ",line=" + std::to_string(at.line) + ",col=" + std::to_string(at.column) +
-        ",endColumn=" + std::to_string(at.end_column) + ",title=" + std::string(d.rule) +
+        ",endColumn=" + std::to_string(at.end_column) + ",title=" + std::string(id_text(d.rule)) +
         "::" + workflow_text(d.message + ". " + detail::details(d)) + "\n";
   }
   return out + leads + notices + tails;

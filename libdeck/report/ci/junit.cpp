@@ -42,7 +42,7 @@ std::string lint_junit(const std::vector<LintedDeck>& decks) {
       const detail::Place at = detail::place_of(deck, d.span);
       const std::string where =
           at.file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
-      out += "    <testcase" + attribute("name", std::string(d.rule) + " " + where) +
+      out += "    <testcase" + attribute("name", std::string(id_text(d.rule)) + " " + where) +
              attribute("classname", at.file) + attribute("file", at.file) + " line=\"" +
              std::to_string(at.line) + "\">";
       const std::string body = where + "\n" + detail::details(d);

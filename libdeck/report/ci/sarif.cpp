@@ -65,13 +65,13 @@ class Sarif {
     json_.key("rules").begin_array();
     for (const Rule& r : all_rules()) {
       json_.begin_object();
-      json_.field("id", r.id);
+      json_.field("id", id_text(r.id));
       text("shortDescription", r.title);
-      text("fullDescription", std::string(r.problem.empty() ? r.title : r.problem));
+      text("fullDescription", r.problem);
       text("help", explain_rule(r, schemas_));
       json_.key("defaultConfiguration")
           .begin_object(true)
-          .field("level", level_of(r.severity))
+          .field("level", level_of(r.severity()))
           .end_object();
       json_.key("properties").begin_object(true).key("tags").begin_array(true);
       json_.value(family_of(r.id)).end_array().end_object();
@@ -179,10 +179,8 @@ class Sarif {
 
   void result(const LintedDeck& deck, const Diagnostic& d, const std::string& print) {
     json_.begin_object();
-    json_.field("ruleId", d.rule);
-    const Rule* rule = find_rule(d.rule);
-    if (rule != nullptr)
-      json_.field("ruleIndex", static_cast<std::int64_t>(rule - all_rules().data()));
+    json_.field("ruleId", id_text(d.rule));
+    json_.field("ruleIndex", static_cast<std::int64_t>(&rule_of(d.rule) - all_rules().data()));
     json_.field("level", level_of(d.severity));
     const std::string more = detail::details(d);
     text("message", d.message + "." + (more.empty() ? "" : " " + more));

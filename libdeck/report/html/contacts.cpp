@@ -148,15 +148,15 @@ std::vector<std::uint32_t> everything(std::size_t count) {
   return out;
 }
 
-struct Place {
+struct NodeLine {
   std::uint32_t file = Span::no_file;
   std::uint64_t line = 0;
 };
 
 /// Places of many nodes in one pass over their blocks.
-std::vector<Place> node_places(const Model& model, const Deck& deck,
-                               const std::vector<NodeIndex>& nodes) {
-  std::vector<Place> places(nodes.size());
+std::vector<NodeLine> node_places(const Model& model, const Deck& deck,
+                                  const std::vector<NodeIndex>& nodes) {
+  std::vector<NodeLine> places(nodes.size());
   std::unordered_map<NodeIndex, std::vector<std::size_t>> wanted;
   for (std::size_t i = 0; i < nodes.size(); ++i) wanted[nodes[i]].push_back(i);
   if (wanted.empty()) return places;
@@ -330,7 +330,7 @@ class Writer {
 
   void places(const std::vector<NodeIndex>& nodes) {
     Delta file, line;
-    for (const Place& p : node_places(model_, *input_.deck, nodes)) {
+    for (const NodeLine& p : node_places(model_, *input_.deck, nodes)) {
       out_.s(file(p.file == Span::no_file ? -1 : std::int64_t{p.file}));
       out_.s(line(static_cast<std::int64_t>(p.line)));
     }

@@ -28,7 +28,7 @@ void write_diagnostic(JsonWriter& json, const LintedDeck& deck, const Diagnostic
                       const std::string& print) {
   const detail::Place at = detail::place_of(deck, d.span);
   json.begin_object();
-  json.field("rule", d.rule)
+  json.field("rule", id_text(d.rule))
       .field("severity", detail::severity_name(d.severity))
       .field("file", at.file)
       .field("line", at.line)
@@ -97,7 +97,7 @@ void write_document(JsonWriter& json, const LintedDeck& deck) {
         .end_object();
   json.end_array();
   json.key("counts").begin_object();
-  for (const auto& [rule, count] : r.counts) json.field(rule, count);
+  for (const auto& [rule, count] : r.counts) json.field(id_text(rule), count);
   json.end_object();
   json.key("not_checked").begin_array();
   for (const NotChecked& n : r.not_checked)
@@ -154,20 +154,20 @@ std::string rules_json() {
   json.key("rules").begin_array();
   for (const Rule& r : all_rules()) {
     json.begin_object();
-    json.field("id", r.id)
+    json.field("id", id_text(r.id))
         .field("title", r.title)
         .field("family", family_of(r.id))
-        .field("severity", detail::severity_name(r.severity))
+        .field("severity", detail::severity_name(r.severity()))
         .field("found_by", stage_name(r.stage))
         .field("fixable", fix_name(r.fixable))
         .field("problem", r.problem)
         .field("why", r.why)
         .field("reference_behaviour", r.solver);
     json.key("reference");
-    if (r.message != 0)
+    if (!r.messages.empty())
       json.begin_object(true)
-          .field("message", r.message)
-          .field("severity", detail::severity_name(r.message_severity))
+          .field("message", r.messages.front().number)
+          .field("severity", detail::severity_name(r.messages.front().severity))
           .end_object();
     else
       json.null();
@@ -187,17 +187,17 @@ std::string rules_table(bool color) {
   for (const Rule& r : all_rules()) {
     if (family_of(r.id) != family) {
       family = family_of(r.id);
-      out += (out.empty() ? "" : "\n") + std::string(bold) + std::string(r.id.substr(0, 3)) +
-             "xx  " + std::string(family) + off + "\n";
+      out += (out.empty() ? "" : "\n") + std::string(bold) +
+             std::string(id_text(r.id).substr(0, 3)) + "xx  " + std::string(family) + off + "\n";
     }
-    std::string line = "  " + std::string(r.id) + "  ";
-    std::string severity = detail::severity_name(r.severity);
+    std::string line = "  " + std::string(id_text(r.id)) + "  ";
+    std::string severity = detail::severity_name(r.severity());
     severity.resize(8, ' ');
     std::string fix = r.fixable == Fixable::no ? "" : fix_name(r.fixable);
     fix.resize(7, ' ');
-    std::string number = r.message != 0 ? std::to_string(r.message) : "";
+    std::string number = r.messages.empty() ? "" : std::to_string(r.messages.front().number);
     number.insert(0, 6 - std::min<std::size_t>(number.size(), 6), ' ');
-    out += line + severity + " " + fix + " " + number + "  " + std::string(r.title) + "\n";
+    out += line + severity + " " + fix + " " + number + "  " + r.title + "\n";
   }
   out += "\n" + std::to_string(all_rules().size()) +
          " rules. Columns: id, severity, fix, message of the reference solver, title. "

@@ -35,8 +35,8 @@ class Human {
 
   std::string findings() {
     std::string out;
-    std::map<std::string_view, int> shown;
-    std::map<std::string_view, std::uint64_t> hidden;
+    std::map<RuleId, int> shown;
+    std::map<RuleId, std::uint64_t> hidden;
     for (const Diagnostic& d : deck_.result->diagnostics) {
       if (options_.per_rule > 0 && shown[d.rule] >= options_.per_rule) {
         ++hidden[d.rule];
@@ -48,7 +48,7 @@ class Human {
     for (const auto& [rule, count] : deck_.result->dropped) hidden[rule] += count;
     for (const auto& [rule, count] : hidden)
       out += fmt::format("{}...{} {} more findings of {}{}{}: {}\n", c_.bold, c_.off, count,
-                         c_.bold, rule, c_.off, title(rule));
+                         c_.bold, id_text(rule), c_.off, rule_of(rule).title);
     if (!hidden.empty()) out += "\n";
     return out;
   }
@@ -79,10 +79,6 @@ class Human {
   static std::string count(std::uint64_t n, std::string_view what) {
     return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
   }
-  static std::string_view title(std::string_view rule) {
-    const Rule* r = find_rule(rule);
-    return r ? r->title : std::string_view();
-  }
   const char* color(Severity s) const {
     return s == Severity::error ? c_.error : s == Severity::warning ? c_.warning : c_.info;
   }
@@ -90,7 +86,7 @@ class Human {
   std::string one(const Diagnostic& d) {
     std::string out =
         fmt::format("{}{}[{}]{}{}: {}{}\n", color(d.severity), detail::severity_name(d.severity),
-                    d.rule, c_.off, c_.bold, terminal_text(d.message), c_.off);
+                    id_text(d.rule), c_.off, c_.bold, terminal_text(d.message), c_.off);
     const detail::Place at = detail::place_of(deck_, d.span);
     const std::string number = std::to_string(at.line);
     const std::string gutter(number.size(), ' ');

@@ -9,6 +9,7 @@
 
 #include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
+#include "deck/text/rule_id.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
 #include "edit/convert/version_cards.hpp"
 #include "keyword/line_check.hpp"
@@ -147,7 +148,7 @@ void UnitConversion::note_dimension(const Dimension& d, const UnitFactor& factor
 std::vector<std::string> unread_files(const Deck& deck) {
   std::vector<std::string> refusals;
   for (const Diagnostic& d : deck.diagnostics.all())
-    if (d.rule == "DK004" || d.rule == "DK005" || d.rule == "DK006")
+    if (d.rule == RuleId::DK004 || d.rule == RuleId::DK005 || d.rule == RuleId::DK006)
       refusals.push_back((d.span.valid() ? deck.sources.where(d.span) : deck.sources[0].path()) +
                          ": " + d.message);
   return refusals;

@@ -124,10 +124,10 @@ struct NotChecked {
 };
 
 struct LintResult {
-  std::vector<Diagnostic> diagnostics;                ///< sorted by file, line, column, rule
-  std::vector<std::string> fingerprints;              ///< one per diagnostic
-  std::map<std::string_view, std::uint64_t> counts;   ///< per rule, kept or not
-  std::map<std::string_view, std::uint64_t> dropped;  ///< per rule: found but not kept
+  std::vector<Diagnostic> diagnostics;      ///< sorted by file, line, column, rule
+  std::vector<std::string> fingerprints;    ///< one per diagnostic
+  std::map<RuleId, std::uint64_t> counts;   ///< per rule, kept or not
+  std::map<RuleId, std::uint64_t> dropped;  ///< per rule: found but not kept
   std::uint64_t errors = 0, warnings = 0, infos = 0;
   std::uint64_t suppressed = 0, baselined = 0;
   std::map<FindingKey, std::uint64_t> stale;  ///< of the baseline: what does not occur any more

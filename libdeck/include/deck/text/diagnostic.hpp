@@ -14,6 +14,13 @@ namespace deck {
 
 enum class Severity : std::uint8_t { error, warning, info };
 
+/// Id of a rule: RuleId::DK203 is defined in deck/text/rule_id.hpp, which grows with every rule.
+enum class RuleId : std::uint16_t;
+/// "DK203"; empty for RuleId::none.
+std::string_view id_text(RuleId id);
+/// 203: the leading digits say what a rule is about.
+constexpr int id_number(RuleId id) { return static_cast<int>(id); }
+
 /// Replace the bytes of `span` by `text`. An empty span inserts.
 struct TextEdit {
   Span span;
@@ -34,7 +41,7 @@ struct ReferenceMessage {
 };
 
 struct Diagnostic {
-  std::string_view rule;  ///< stable id, e.g. "DK104"; points to a string literal
+  RuleId rule{};  ///< stable
   Severity severity = Severity::error;
   Span span;
   std::string message;              ///< what was read and what was expected
@@ -54,28 +61,28 @@ class Diagnostics {
   explicit Diagnostics(int per_rule = Limits{}.diagnostics_per_rule) : per_rule_(per_rule) {}
 
   /// Counts one finding of `rule`; true while it is worth forming the message for add().
-  bool wants(std::string_view rule);
+  bool wants(RuleId rule);
   /// Keeps a diagnostic for which wants() said true.
   Diagnostic& add(Diagnostic d);
   /// wants() and add() in one step, for rare findings.
   void report(Diagnostic d);
   /// Counts `n` further findings of `rule` without messages.
-  void count(std::string_view rule, std::uint64_t n);
+  void count(RuleId rule, std::uint64_t n);
   /// True if wants() would say false.
-  bool saturated(std::string_view rule) const;
+  bool saturated(RuleId rule) const;
   /// Adds what another collector (of a parallel part) has found.
   void merge(Diagnostics&& other);
 
   const std::vector<Diagnostic>& all() const { return kept_; }
   std::vector<Diagnostic>& all() { return kept_; }
   /// Findings per rule, kept or not.
-  const std::map<std::string_view, std::uint64_t>& counts() const { return counts_; }
-  std::uint64_t dropped(std::string_view rule) const;
+  const std::map<RuleId, std::uint64_t>& counts() const { return counts_; }
+  std::uint64_t dropped(RuleId rule) const;
 
  private:
   int per_rule_;
   std::vector<Diagnostic> kept_;
-  std::map<std::string_view, std::uint64_t> counts_;
+  std::map<RuleId, std::uint64_t> counts_;
 };
 
 }  // namespace deck

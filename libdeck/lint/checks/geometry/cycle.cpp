@@ -44,7 +44,7 @@ void report_force(const GeometryRun& run, const Contact& contact, const Interfac
     message += fmt::format("; node {} starts with an acceleration of {:.4g}",
                            node_text(run.model(), s.acceleration_node), s.largest_acceleration);
   if (s.elastic_energy > 0) message += fmt::format("; stored energy {:.4g}", s.elastic_energy);
-  Diagnostic* d = run.report("DK401", contact, "Inacti", std::move(message));
+  Diagnostic* d = run.report(RuleId::DK401, contact, "Inacti", std::move(message));
   if (d != nullptr && s.acceleration_node != no_index)
     d->notes.emplace_back(run.model().node_span(s.acceleration_node), "the node pushed most");
 }
@@ -69,7 +69,7 @@ void report_step(const GeometryRun& run, const Contact& contact, const Interface
           ? std::string()
           : fmt::format(" at node {}", node_text(run.model(), s.contact_dt_node)),
       s.structure_dt, s.structure_dt / s.contact_dt);
-  Diagnostic* d = run.report("DK402", contact, "Stfac", std::move(message));
+  Diagnostic* d = run.report(RuleId::DK402, contact, "Stfac", std::move(message));
   if (d != nullptr && s.contact_dt_node != no_index)
     d->notes.emplace_back(run.model().node_span(s.contact_dt_node), "the node that limits it");
 }
@@ -109,7 +109,7 @@ void report_singular(const GeometryRun& run, const Contact& contact, const Inter
   if (s.gap_closed > 0)
     message += fmt::format("{} {} at the end of the gap already, without any force",
                            worst != nullptr ? ";" : "", count_text(s.gap_closed, "pair"));
-  run.report("DK403", contact, gap_field(contact), std::move(message));
+  run.report(RuleId::DK403, contact, gap_field(contact), std::move(message));
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ void check_cycle(const GeometryRun& run) {
       cycle::run_cycle(run.scene, cycle::make_state(run.scene), options);
   for (const cycle::ContactOutcome& c : outcome.contacts)
     if (!c.complete && c.contact->evaluated && !c.notes.empty())
-      run.report("DK381", *c.contact, gap_field(*c.contact),
+      run.report(RuleId::DK381, *c.contact, gap_field(*c.contact),
                  fmt::format("{}: {}", name_of(run, *c.contact), c.notes.back()));
   for (const InterfaceSummary& s : cycle::summarize(run.scene, outcome)) {
     const Contact* contact = contact_of(outcome, s);

@@ -50,7 +50,7 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
   if (worst.count == 0) return;
   const Model& model = run.model();
   Diagnostic* d = run.report(
-      "DK310", c, gap_field(c),
+      RuleId::DK310, c, gap_field(c),
       fmt::format("{}: {} is more than half of {} {} {}{} ({}), which is {:.6g} long; so it is at "
                   "{} of {}",
                   name_of(run, c), gap_text(c, worst.gap), where.empty() ? "edge" : "side",
@@ -102,7 +102,7 @@ void check_short_sides(const GeometryRun& run, const Contact& c) {
 
 void check_upper_bound(const GeometryRun& run, const Contact& c) {
   if (c.gapmin_origin == GapminOrigin::card || c.igap < 2 || !(c.gapmin > c.gapmax)) return;
-  run.report("DK311", c, "Gapmax",
+  run.report(RuleId::DK311, c, "Gapmax",
              fmt::format("{}: the default Gapmin {:.6g} ({}) is above Gapmax = {:.6g}",
                          name_of(run, c), c.gapmin, to_string(c.gapmin_origin), c.gapmax));
 }
@@ -113,14 +113,14 @@ void check_thickness(const GeometryRun& run, const Contact& c) {
   double thickest = 0;
   for (const MainSegment& m : c.main) thickest = std::max(thickest, m.thickness);
   if (thickest == 0 || !(c.gapmin > thickest)) return;
-  run.report("DK312", c, gap_field(c),
+  run.report(RuleId::DK312, c, gap_field(c),
              fmt::format("{}: {} is more than the thickest main shell ({:.6g})", name_of(run, c),
                          gap_text(c, c.gapmin), thickest));
 }
 
 void check_radiation(const GeometryRun& run, const Contact& c) {
   if (!(c.drad > c.shortest_side) || !(c.shortest_side > 0)) return;
-  run.report("DK313", c, "Drad",
+  run.report(RuleId::DK313, c, "Drad",
              fmt::format("{}: the radiation distance {:.6g} is longer than the shortest main side "
                          "({:.6g})",
                          name_of(run, c), c.drad, c.shortest_side));
@@ -129,7 +129,7 @@ void check_radiation(const GeometryRun& run, const Contact& c) {
 void check_no_gap(const GeometryRun& run, const Contact& c) {
   if (c.gapmin > 0 || c.dropped) return;
   if (c.kind == ContactKind::edge_edge ? c.main_edges.empty() : c.main.empty()) return;
-  Diagnostic* d = run.report("DK314", c, gap_field(c),
+  Diagnostic* d = run.report(RuleId::DK314, c, gap_field(c),
                              fmt::format("{}: the default gap is {:.6g} ({})", name_of(run, c),
                                          c.gapmin, to_string(c.gapmin_origin)));
   if (d != nullptr && c.igap != 0) d->reference = ReferenceMessage{786, Severity::error};
@@ -141,7 +141,7 @@ void check_line_removal(const GeometryRun& run, const Contact& c) {
   if (std::equal(c.main_edges.begin(), c.main_edges.end(), c.secondary_edges.begin(),
                  c.secondary_edges.end(), same))
     return;
-  run.report("DK315", c, "Irem_gap",
+  run.report(RuleId::DK315, c, "Irem_gap",
              fmt::format("{} has Irem_gap = 2 and two different lists of edges ({} secondary, {} "
                          "main)",
                          name_of(run, c), c.secondary_edges.size(), c.main_edges.size()));

@@ -20,7 +20,7 @@ struct GeometryRun {
   /// The card of a contact; nullptr never happens for contacts of this deck.
   const ContactCard* card(const Contact& contact) const;
   /// Reports at a field of the contact's card; nullptr: enough of the rule was kept already.
-  Diagnostic* report(std::string_view rule, const Contact& contact, std::string_view field,
+  Diagnostic* report(RuleId rule, const Contact& contact, std::string_view field,
                      std::string message) const;
 };
 
@@ -39,10 +39,10 @@ std::string count_text(std::size_t n, std::string_view one);
 /// `list` with at most five items, then how many more.
 std::string list_text(const std::vector<std::int64_t>& list);
 
-void check_penetrations(const GeometryRun& run);  // rules_geometry_penetrations.cpp
-void check_segments(const GeometryRun& run);      // rules_geometry_segments.cpp
-void check_gaps(const GeometryRun& run);          // rules_geometry_gaps.cpp
+void check_penetrations(const GeometryRun& run);     // rules_geometry_penetrations.cpp
+void check_segments(const GeometryRun& run);         // rules_geometry_segments.cpp
+void check_gaps(const GeometryRun& run);             // rules_geometry_gaps.cpp
 void check_manual_geometry(const GeometryRun& run);  // rules_geometry_manual.cpp
-void check_cycle(const GeometryRun& run);         // rules_cycle.cpp
+void check_cycle(const GeometryRun& run);            // rules_cycle.cpp
 
 }  // namespace deck::detail

@@ -82,7 +82,7 @@ void check_depths(const GeometryRun& run) {
     const PenetrationRow& r = row_of(run, worst);
     const bool edges = c.kind == ContactKind::edge_edge;
     Diagnostic* d = run.report(
-        "DK301", c, "Inacti",
+        RuleId::DK301, c, "Inacti",
         fmt::format("{}: {} of {} within the gap of {} ({}), deepest {:.6g} of a gap of {:.6g} "
                     "between {} and {}; {}",
                     name_of(run, c), count_text(group.distinct.size(), edges ? "edge" : "node"),
@@ -107,7 +107,7 @@ void check_on_surface(const GeometryRun& run, const Contact& c) {
   const auto nodes = nodes_where(run, c, [](const PenetrationRow& r) { return r.on_surface; });
   if (nodes.empty()) return;
   const int error = on_surface_error(c);
-  Diagnostic* d = run.report(error != 0 ? "DK302" : "DK303", c, "Inacti",
+  Diagnostic* d = run.report(error != 0 ? RuleId::DK302 : RuleId::DK303, c, "Inacti",
                              fmt::format("{}: {} exactly on a main segment: {}", name_of(run, c),
                                          count_text(nodes.size(), "node"), list_text(nodes)));
   if (d != nullptr && error != 0) d->reference = ReferenceMessage{error, Severity::error};
@@ -119,7 +119,7 @@ void check_switched_off(const GeometryRun& run, const Contact& c) {
     return r.action == PenetrationAction::node_stiffness_zero;
   });
   if (nodes.empty()) return;
-  run.report("DK304", c, "Fpenmax",
+  run.report(RuleId::DK304, c, "Fpenmax",
              fmt::format("{}: Fpenmax = {:.6g} takes {} out of the contact: {}", name_of(run, c),
                          c.fpenmax, count_text(nodes.size(), "node"), list_text(nodes)));
 }
@@ -133,7 +133,7 @@ void check_moved_springs(const GeometryRun& run, const Contact& c) {
     return r.moved_by != std::array<double, 3>{} && held.contains(c.secondary[r.secondary].node);
   });
   if (nodes.empty()) return;
-  run.report("DK305", c, "Inacti",
+  run.report(RuleId::DK305, c, "Inacti",
              fmt::format("{}: Inacti = 3 moves {} of springs: {}", name_of(run, c),
                          count_text(nodes.size(), "node"), list_text(nodes)));
 }
@@ -151,7 +151,7 @@ void check_deep_edges(const GeometryRun& run, const Contact& c) {
   if (worst == nullptr) return;
   const auto id = [&](NodeIndex n) { return run.model().node_id(n); };
   const auto &s = c.secondary_edges[worst->secondary].nodes, &m = c.main_edges[worst->main].nodes;
-  run.report("DK306", c, "Inacti",
+  run.report(RuleId::DK306, c, "Inacti",
              fmt::format("{}: {} out of the contact, more than 99.5 % of the gap used up; edge {} "
                          "{} is {:.6g} from edge {} {}, gap {:.6g}",
                          name_of(run, c), count_text(edges, "secondary edge"), id(s[0]), id(s[1]),

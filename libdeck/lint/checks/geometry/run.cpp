@@ -13,10 +13,10 @@ const ContactCard* GeometryRun::card(const Contact& contact) const {
   return nullptr;
 }
 
-Diagnostic* GeometryRun::report(std::string_view id, const Contact& contact, std::string_view field,
+Diagnostic* GeometryRun::report(RuleId id, const Contact& contact, std::string_view field,
                                 std::string message) const {
   const ContactCard* c = card(contact);
-  const Rule& rule = *find_rule(id);
+  const Rule& rule = rule_of(id);
   if (c == nullptr) return reporter.report(rule, contact.inter->span, std::move(message));
   return report_at(reporter, rule, *c, field, std::move(message));
 }
@@ -64,8 +64,7 @@ void check_geometry(const LintContext& context, Reporter& reporter, int threads,
   options.candidates = false;
   options.nodal_stiffness = true;  // the forces of Istf 2 to 5 need it
   const Scene scene = build_scene(*context.model, *context.interfaces, found, options);
-  for (const Diagnostic& d : found.all())
-    if (const Rule* rule = find_rule(d.rule)) reporter.report(*rule, d.span, d.message);
+  for (const Diagnostic& d : found.all()) reporter.report(rule_of(d.rule), d.span, d.message);
   const SceneView view = make_view(scene);
   const detail::GeometryRun run{context, reporter, scene, view, threads};
   detail::check_penetrations(run);

@@ -15,7 +15,7 @@ std::string_view main_field(const Contact& c) {
 }
 
 /// Reports a rule about some main segments, naming the first.
-Diagnostic* about_segments(const GeometryRun& run, std::string_view rule, const Contact& c,
+Diagnostic* about_segments(const GeometryRun& run, RuleId rule, const Contact& c,
                            const std::vector<std::uint32_t>& which, std::string_view what) {
   if (which.empty()) return nullptr;
   const MainSegment& m = c.main[which.front()];
@@ -46,9 +46,9 @@ void check_stiffness(const GeometryRun& run, const Contact& c) {
     else if (m.stiffness == 0)
       weak.push_back(i);
   }
-  about_segments(run, "DK320", c, weak, "have no stiffness and are left out");
-  about_segments(run, "DK321", c, no_material, "belong to elements without material");
-  about_segments(run, "DK322", c, c.no_carrier, "belong to no element");
+  about_segments(run, RuleId::DK320, c, weak, "have no stiffness and are left out");
+  about_segments(run, RuleId::DK321, c, no_material, "belong to elements without material");
+  about_segments(run, RuleId::DK322, c, c.no_carrier, "belong to no element");
   for (const bool main : {true, false}) {
     const auto& edges = main ? c.main_edges : c.secondary_edges;
     std::size_t count = 0;
@@ -60,7 +60,7 @@ void check_stiffness(const GeometryRun& run, const Contact& c) {
     }
     if (first == nullptr) continue;
     Diagnostic* d = run.report(
-        "DK322", c,
+        RuleId::DK322, c,
         main                  ? main_field(c)
         : c.inter->type == 11 ? "line_IDs"
                               : "surf_IDs",
@@ -74,14 +74,14 @@ void check_stiffness(const GeometryRun& run, const Contact& c) {
 }
 
 void check_shape(const GeometryRun& run, const Contact& c) {
-  about_segments(run, "DK323", c, c.degenerate, "have no area or cross themselves");
+  about_segments(run, RuleId::DK323, c, c.degenerate, "have no area or cross themselves");
   if (c.repaired_segments > 0)
-    run.report("DK324", c, main_field(c),
+    run.report(RuleId::DK324, c, main_field(c),
                fmt::format("{}: {} with a node given twice, taken for triangles", name_of(run, c),
                            count_text(static_cast<std::size_t>(c.repaired_segments), "segment")));
   if (c.reoriented_segments > 0)
     run.report(
-        "DK325", c, main_field(c),
+        RuleId::DK325, c, main_field(c),
         fmt::format("{}: {} of {} turned so that they look out of their solids", name_of(run, c),
                     count_text(static_cast<std::size_t>(c.reoriented_segments), "segment"),
                     c.main.size()));
@@ -101,19 +101,19 @@ void check_duplicates(const GeometryRun& run, const Contact& c) {
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i].first == sorted[i - 1].first) twice.push_back(sorted[i].second);
   std::sort(twice.begin(), twice.end());
-  about_segments(run, "DK326", c, twice, "repeat another one");
+  about_segments(run, RuleId::DK326, c, twice, "repeat another one");
 }
 
 void check_dropped(const GeometryRun& run, const Contact& c) {
   if (!c.dropped) return;
-  run.report("DK327", c, "Iedge",
+  run.report(RuleId::DK327, c, "Iedge",
              fmt::format("{}: no edges on one of its sides; edges against edges are left out",
                          name_of(run, c)));
 }
 
 void check_solids(const GeometryRun& run, const Contact& c) {
-  about_segments(run, "DK329", c, c.crowded, "belong to more than two solids");
-  about_segments(run, "DK330", c, c.inside_solids, "lie inside another solid");
+  about_segments(run, RuleId::DK329, c, c.crowded, "belong to more than two solids");
+  about_segments(run, RuleId::DK330, c, c.inside_solids, "lie inside another solid");
   const Deck& deck = run.context.deck;
   const auto fill = std::find_if(deck.blocks.begin(), deck.blocks.end(), [](const Block& b) {
     return b.header.starts_with("/INIBRI/FILL");
@@ -122,7 +122,7 @@ void check_solids(const GeometryRun& run, const Contact& c) {
   std::vector<std::uint32_t> solid;
   for (std::uint32_t i = 0; i < c.main.size(); ++i)
     if (c.main[i].carrier == Carrier::solid) solid.push_back(i);
-  if (Diagnostic* d = about_segments(run, "DK331", c, solid, "are on solids"); d != nullptr)
+  if (Diagnostic* d = about_segments(run, RuleId::DK331, c, solid, "are on solids"); d != nullptr)
     d->notes.emplace_back(fill->header_span, "the fill fractions");
 }
 
@@ -155,7 +155,7 @@ void check_crossings(const GeometryRun& run) {
         "through {}",
         name_of(run, c), parts.first, parts.second, count_text(g.places, "place"),
         model.node_id(x.edge[0]), model.node_id(x.edge[1]), nodes_text(model, c.main[x.main]));
-    Diagnostic* d = run.report("DK328", c, main_field(c), std::move(message));
+    Diagnostic* d = run.report(RuleId::DK328, c, main_field(c), std::move(message));
     if (d != nullptr) d->notes.emplace_back(model.node_span(x.edge[0]), "one end of the edge");
   }
 }

@@ -1,0 +1,16 @@
+// Files of the source tree that are compiled into the library (generated at build).
+#pragma once
+#include <string_view>
+#include <vector>
+
+namespace deck::detail {
+
+struct EmbeddedFile {
+  const char* name;  ///< without folder, e.g. "inter_type7.json"
+  std::string_view text;
+};
+
+const std::vector<EmbeddedFile>& embedded_schemas();  // schemas/keywords/*.json
+const std::vector<EmbeddedFile>& embedded_rules();    // schemas/rules/*.md
+
+}  // namespace deck::detail

@@ -1,0 +1,60 @@
+// Rule: one thing that can be said about a deck, under a stable id, with the page that explains it.
+// The pages are the files of schemas/rules; what a finding says beyond its own message comes from
+// its page.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/text/diagnostic.hpp"
+#include "deck/text/rule_id.hpp"
+
+namespace deck {
+
+/// Who finds the violations of a rule.
+enum class RuleStage : std::uint8_t {
+  reading,  ///< bytes to blocks, cells to values
+  model,    ///< nodes, elements, groups, interfaces
+  check,    ///< a check of the lint stage
+  extra,    ///< LintInput::extra_checks (geometry)
+  linter,   ///< the linter itself: suppressions, baseline
+};
+
+enum class Fixable : std::uint8_t { no, safe, unsafe };
+
+/// The page of a rule. All text is the project's own; `bad` and `good` are examples in the notation
+/// of deck/lint/example.hpp and are run by the tests.
+struct Rule {
+  RuleId id = RuleId::none;  ///< never reused
+  std::string title;         ///< one line
+  /// What its findings are; the first one is the rule, the others are cases that the page tells.
+  std::vector<Severity> severities;
+  RuleStage stage = RuleStage::check;
+  std::string problem;  ///< what is wrong
+  std::string why;      ///< why it matters, formula
+  std::string solver;   ///< what the reference solver does with it
+  /// The reference solver's messages for it; the first one is the rule. Empty: it has none.
+  std::vector<ReferenceMessage> messages;
+  std::string fix;     ///< how to repair it
+  std::string ignore;  ///< when the finding may be ignored
+  Fixable fixable = Fixable::no;
+  std::string bad, good;
+  /// Numbers of the interface types that it is true for ("19": for some part of a TYPE19); empty:
+  /// it is not about interfaces of these types.
+  std::vector<int> types;
+
+  Severity severity() const { return severities.front(); }
+};
+
+/// All rules, ordered by id. Parsed when first asked for; never changes.
+const std::vector<Rule>& all_rules();
+/// nullptr: no such rule.
+const Rule* find_rule(std::string_view id);
+/// The page of an id that is not RuleId::none.
+const Rule& rule_of(RuleId id);
+
+/// A finding with what the page of its rule says.
+Diagnostic finding_of(RuleId id, Span span, std::string message);
+
+}  // namespace deck

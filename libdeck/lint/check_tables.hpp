@@ -1,0 +1,36 @@
+// Which function looks for the violations of which rule: one table per file of checks. Private to
+// the lint stage.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "deck/lint/lint.hpp"
+
+namespace deck::detail {
+
+struct Checked {
+  RuleId id;
+  void (*check)(const LintContext&, const Rule&, Reporter&);
+};
+
+std::span<const Checked> header_checks();       // keywords, titles, versions
+std::span<const Checked> target_checks();       // ids of loads
+std::span<const Checked> physics_checks();      // density, stiffness, mass
+std::span<const Checked> element_checks();      // elements, functions
+std::span<const Checked> reference_checks();    // what interfaces refer to
+std::span<const Checked> friction_checks();     // pairs of parts of a /FRICTION
+std::span<const Checked> flag_checks();         // legal values of flags
+std::span<const Checked> value_checks();        // ranges of numbers
+std::span<const Checked> line_checks();         // optional lines
+std::span<const Checked> combination_checks();  // fields that contradict
+std::span<const Checked> ignored_checks();      // fields without effect
+std::span<const Checked> manual_checks();       // where manual and solver differ
+std::span<const Checked> difference_checks();   // what the solver does silently otherwise
+std::span<const Checked> companion_checks();    // what belongs beside a contact
+std::span<const Checked> default_checks();      // /DEFAULT/INTER
+std::span<const Checked> advice_checks();       // known traps
+
+/// All of them, ordered by id.
+const std::vector<Checked>& all_checks();
+
+}  // namespace deck::detail

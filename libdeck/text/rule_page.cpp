@@ -1,0 +1,258 @@
+// Reads a page of schemas/rules: front matter, sections of text, examples in fences.
+#include "text/rule_page.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+namespace deck::detail {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(' ');
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+std::optional<int> whole_number(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<Severity> severity_of(std::string_view text) {
+  if (text == "error") return Severity::error;
+  if (text == "warning") return Severity::warning;
+  if (text == "info") return Severity::info;
+  return std::nullopt;
+}
+
+std::optional<RuleStage> stage_of(std::string_view text) {
+  if (text == "reading") return RuleStage::reading;
+  if (text == "model") return RuleStage::model;
+  if (text == "check") return RuleStage::check;
+  if (text == "geometry") return RuleStage::extra;
+  if (text == "linter") return RuleStage::linter;
+  return std::nullopt;
+}
+
+/// "DK203" of "DK203.md"; none: not the name of a page.
+RuleId id_of(std::string_view name) {
+  if (name.size() != 8 || !name.starts_with("DK") || !name.ends_with(".md")) return RuleId::none;
+  return static_cast<RuleId>(whole_number(name.substr(2, 3)).value_or(0));
+}
+
+struct Section {
+  std::string_view heading;
+  std::string Rule::*text;
+  bool example = false;
+};
+constexpr Section sections[] = {
+    {heading::problem, &Rule::problem}, {heading::why, &Rule::why},
+    {heading::solver, &Rule::solver},   {heading::fix, &Rule::fix},
+    {heading::bad, &Rule::bad, true},   {heading::good, &Rule::good, true},
+    {heading::ignore, &Rule::ignore},
+};
+
+class PageReader {
+ public:
+  PageReader(std::string_view name, std::string_view text) : name_(name), rest_(text) {}
+
+  Result<Rule> read() {
+    rule_.id = id_of(name_);
+    if (rule_.id == RuleId::none) return error("a page of a rule is called DKnnn.md");
+    read_front_matter();
+    for (const Section& section : sections) {
+      if (section.example && next_heading() != section.heading) continue;
+      read_section(section);
+    }
+    skip_blank();
+    if (!done()) fail("text behind the last section");
+    if (rule_.bad.empty() != rule_.good.empty()) fail("one example without the other");
+    if (!problem_.empty()) return error(problem_);
+    return std::move(rule_);
+  }
+
+ private:
+  Error error(const std::string& what) const {
+    return {Error::Code::internal,
+            std::string(name_) + ":" + std::to_string(problem_line_) + ": " + what};
+  }
+  /// Keeps the first problem; reading goes on to the end of the page.
+  void fail(std::string what) {
+    if (!problem_.empty()) return;
+    problem_ = std::move(what);
+    problem_line_ = line_;
+  }
+
+  bool done() const { return rest_.empty(); }
+  std::string_view peek() const { return rest_.substr(0, rest_.find('\n')); }
+  std::string_view next() {
+    const std::string_view line = peek();
+    rest_.remove_prefix(std::min(line.size() + 1, rest_.size()));
+    ++line_;
+    return line;
+  }
+  void skip_blank() {
+    while (!done() && peek().empty()) next();
+  }
+  std::string_view next_heading() {
+    skip_blank();
+    return peek().starts_with("## ") ? peek().substr(3) : std::string_view();
+  }
+
+  void read_front_matter() {
+    if (next() != "---") fail("a page starts with '---'");
+    bool id = false;
+    while (!done() && peek() != "---") {
+      const std::string_view line = next();
+      const auto colon = line.find(": ");
+      if (colon == std::string_view::npos) {
+        fail("expected 'key: value', '---' behind the last one");
+        return;
+      }
+      const std::string_view key = line.substr(0, colon), value = trimmed(line.substr(colon + 2));
+      id = id || key == "id";
+      if (!read_key(key, value)) fail("'" + std::string(line) + "' is not understood");
+    }
+    next();
+    if (!id || rule_.title.empty() || rule_.severities.empty() || !stage_)
+      fail("a page has an id, a title, a severity and found_by");
+  }
+
+  /// Calls f(item) for the items between commas; false: one of them is none.
+  template <class F>
+  static bool each_item(std::string_view list, F&& f) {
+    while (true) {
+      const auto comma = std::min(list.find(','), list.size());
+      if (!f(trimmed(list.substr(0, comma)))) return false;
+      if (comma == list.size()) return true;
+      list.remove_prefix(comma + 1);
+    }
+  }
+
+  bool read_key(std::string_view key, std::string_view value) {
+    if (key == "id") return value == name_.substr(0, name_.size() - 3);
+    if (key == "title") {
+      if (value.size() < 3 || value.front() != '"' || value.back() != '"') return false;
+      rule_.title = value.substr(1, value.size() - 2);
+      return rule_.title.find_first_of("\"\\") == std::string::npos;
+    }
+    if (key == "severity")
+      return each_item(value, [&](std::string_view item) {
+        const auto severity = severity_of(item);
+        if (severity) rule_.severities.push_back(*severity);
+        return severity.has_value();
+      });
+    if (key == "found_by") {
+      stage_ = stage_of(value);
+      rule_.stage = stage_.value_or(RuleStage::check);
+      return stage_.has_value();
+    }
+    if (key == "message")
+      return each_item(value, [&](std::string_view item) {
+        const auto blank = std::min(item.find(' '), item.size());
+        const auto severity = severity_of(item.substr(0, blank));
+        const auto number = whole_number(trimmed(item.substr(blank)));
+        if (severity && number) rule_.messages.push_back({*number, *severity});
+        return severity && number;
+      });
+    if (key == "fixable") {
+      rule_.fixable = value == "safe" ? Fixable::safe : Fixable::unsafe;
+      return value == "safe" || value == "unsafe";
+    }
+    if (key == "types")
+      return each_item(value, [&](std::string_view item) {
+        const auto number = whole_number(item);
+        if (number) rule_.types.push_back(*number);
+        return number.has_value();
+      });
+    return false;
+  }
+
+  void read_section(const Section& section) {
+    if (next_heading() != section.heading) {
+      fail("expected the section '## " + std::string(section.heading) + "'");
+      return;
+    }
+    next();
+    skip_blank();
+    std::string& text = rule_.*section.text;
+    if (section.example) {
+      read_example(text);
+    } else {
+      for (; !done() && !peek().starts_with("## "); next())
+        if (!peek().empty()) text += (text.empty() ? "" : " ") + std::string(peek());
+    }
+    if (text.empty()) fail("the section '## " + std::string(section.heading) + "' is empty");
+  }
+
+  void read_example(std::string& text) {
+    const std::string_view fence = next();
+    if (fence != "```" && fence != "```escaped") {
+      fail("an example stands between lines ``` (or ```escaped and ```)");
+      return;
+    }
+    while (!done() && peek() != "```") {
+      std::string line = std::string(next()) + "\n";
+      if (fence != "```" && !unescape(line))
+        fail("\\r, \\t, \\xHH, \\\\ and \\ at the end of a line");
+      text += line;
+    }
+    if (done()) fail("an example does not end: ``` is missing");
+    next();
+  }
+
+  /// \r, \t, \xHH and \\; a backslash at the end of a line: the line goes on.
+  static bool unescape(std::string& line) {
+    std::string out;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      if (line[i] != '\\') {
+        out += line[i];
+        continue;
+      }
+      if (++i == line.size()) return false;
+      int code = 0;
+      switch (line[i]) {
+        case 'r':
+          out += '\r';
+          break;
+        case 't':
+          out += '\t';
+          break;
+        case '\\':
+          out += '\\';
+          break;
+        case '\n':
+          break;
+        case 'x':
+          if (i + 2 >= line.size() ||
+              std::from_chars(line.data() + i + 1, line.data() + i + 3, code, 16).ptr !=
+                  line.data() + i + 3)
+            return false;
+          out += static_cast<char>(code);
+          i += 2;
+          break;
+        default:
+          return false;
+      }
+    }
+    line = std::move(out);
+    return true;
+  }
+
+  std::string_view name_, rest_;
+  Rule rule_;
+  std::optional<RuleStage> stage_;
+  std::string problem_;
+  int line_ = 0, problem_line_ = 0;
+};
+
+}  // namespace
+
+Result<Rule> parse_rule_page(std::string_view name, std::string_view text) {
+  return PageReader(name, text).read();
+}
+
+}  // namespace deck::detail
