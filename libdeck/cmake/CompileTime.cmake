@@ -3,7 +3,8 @@
 # Code that runs once per deck or per finding is hardly optimised, loops over pairs fully.
 target_link_libraries(libdeck_seldom PRIVATE deck_lightly)
 file(GLOB loops CONFIGURE_DEPENDS contact/search/*.cpp contact/distance/filtered*.cpp
-     contact/rules/*.cpp cycle/kernel/kernels*.cpp)
+     contact/rules/*.cpp
+     contact/scene/penetrations.cpp cycle/kernel/kernels*.cpp)
 set_property(SOURCE ${loops} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
 
 # Headers of the standard library and of fmt are compiled once for each target.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "contact/rules/removal.hpp"
 #include "contact/scene/scene_parts.hpp"
 #include "cycle/adapter_parts.hpp"
 #include "deck/cycle/adapter.hpp"
@@ -17,8 +18,8 @@ using deck::detail::at;
 /// What a pair takes while forces are evaluated: its lists here, its packed state and its results.
 constexpr std::size_t bytes_of_a_pair = 512;
 
-/// Nodal normals of the main side: sums of facet normals, weighted with area (Icurv 3) or not (Iadm:
-/// the repeated corner of a triangle counts twice, as recorded).
+/// Nodal normals of the main side: sums of facet normals, weighted with area (Icurv 3) or not
+/// (Iadm: the repeated corner of a triangle counts twice, as recorded).
 std::map<NodeIndex, Vec> nodal_normals(const Coordinates& x, const Contact& contact,
                                        bool weighted) {
   std::map<NodeIndex, Vec> sum;
@@ -105,15 +106,17 @@ struct SearchLists {
     }
   }
 
+  NodeSegmentInput node_input(const Coordinates& x) const {
+    return {{x.x, x.y, x.z}, nodes,  gap[0],    length[0],   stiffness[0],
+            segments,        gap[1], length[1], stiffness[1]};
+  }
+  EdgeEdgeInput edge_input(const Coordinates& x) const {
+    return {{x.x, x.y, x.z}, edges[0], gap[0],    length[0],   stiffness[0],
+            edges[1],        gap[1],   length[1], stiffness[1]};
+  }
   SearchResult find(const Coordinates& x, const SearchOptions& options) const {
-    const NodeArrays arrays{x.x, x.y, x.z};
-    if (!edges[0].empty() || !edges[1].empty())
-      return find_edge_edge_pairs({arrays, edges[0], gap[0], length[0], stiffness[0], edges[1],
-                                   gap[1], length[1], stiffness[1]},
-                                  options);
-    return find_node_segment_pairs(
-        {arrays, nodes, gap[0], length[0], stiffness[0], segments, gap[1], length[1], stiffness[1]},
-        options);
+    if (!edges[0].empty() || !edges[1].empty()) return find_edge_edge_pairs(edge_input(x), options);
+    return find_node_segment_pairs(node_input(x), options);
   }
 
  private:
@@ -131,26 +134,20 @@ struct SearchLists {
 };
 
 /// Takes out what Irem_gap = 2 keeps apart; false if there is no room for that.
-bool remove_pairs(const Scene& scene, const Contact& contact, std::vector<CandidatePair>& pairs) {
+bool remove_pairs(const Scene& scene, const Contact& contact, const SearchLists& lists,
+                  std::vector<CandidatePair>& pairs) {
   if (contact.irem_gap != 2) return true;
-  Scene copy;
-  copy.model = scene.model;
-  copy.interfaces = scene.interfaces;
-  copy.coordinates = scene.coordinates;
-  copy.limits = scene.limits;
-  Diagnostics ignored;
-  const SceneOptions options;
-  Connectivity connectivity(*scene.model);
-  deck::detail::SceneContext context{*scene.model, connectivity, copy, ignored, options};
+  const deck::detail::RemovalGaps gaps{contact.gap_rule, contact.igap, contact.drad,
+                                       contact.max_gap, contact.shortest_side};
+  const std::uint64_t room = scene.limits.pair_bytes / sizeof(std::uint32_t);
   deck::detail::RemovalLists removed;
+  const Coordinates& x = scene.coordinates;
   if (!(contact.kind == deck::ContactKind::edge_edge
-            ? deck::detail::curvilinear_edge_removal(context, contact, removed)
-            : deck::detail::curvilinear_removal(context, contact, removed)))
+            ? deck::detail::remove_along_mesh(lists.edge_input(x), gaps, room, removed)
+            : deck::detail::remove_along_mesh(lists.node_input(x), gaps, room, removed)))
     return false;
-  if (removed.empty()) return true;
-  std::erase_if(pairs, [&](const CandidatePair& p) {
-    return std::binary_search(removed[p.main].begin(), removed[p.main].end(), p.secondary);
-  });
+  std::erase_if(pairs,
+                [&](const CandidatePair& p) { return deck::detail::is_removed(removed, p); });
   return true;
 }
 
@@ -210,10 +207,11 @@ ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const 
   search.margin = curvature_reach(x, contact, card) + where.margin;
   search.threads = threads;
   search.max_pairs = scene.limits.pair_bytes / bytes_of_a_pair;
-  SearchResult found = SearchLists(contact).find(x, search);
+  const SearchLists lists(contact);
+  SearchResult found = lists.find(x, search);
   out.complete = found.complete;
   out.at = std::move(found.pairs);
-  if (!remove_pairs(scene, contact, out.at)) {
+  if (!remove_pairs(scene, contact, lists, out.at)) {
     out.complete = false;
     out.at.clear();
   }

@@ -1,4 +1,5 @@
 // Settings under test: what the page computes is, to the last bit, what `deck gaps --what-if` prints.
+import { difference } from "./difference.mjs";
 import { check, gaps, open, random } from "./support.mjs";
 
 /** Rows of a contact in the JSON, as the page names them. */
@@ -16,19 +17,6 @@ function rowsOf(contact) {
     p0: p.p0,
     moved_by: p.moved_by,
   }));
-}
-
-/** First difference of two values compared bit for bit (0 and -0 print alike in JSON: as numbers). */
-function difference(a, b, path) {
-  if (typeof a === "number" && typeof b === "number") return a === b ? null : `${path}: ${a} is not ${b}`;
-  if (a === null || b === null || typeof a !== "object" || typeof b !== "object")
-    return a === b ? null : `${path}: ${JSON.stringify(a)} is not ${JSON.stringify(b)}`;
-  const keys = new Set([...Object.keys(a), ...Object.keys(b)]);
-  for (const k of keys) {
-    const d = difference(a[k], b[k], `${path}.${k}`);
-    if (d) return d;
-  }
-  return null;
 }
 
 export function compare(document, page) {

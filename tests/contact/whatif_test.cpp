@@ -111,5 +111,31 @@ TEST(WhatIf, FieldsThatATypeDoesNotHaveChangeNothing) {
   expect_same(asked.contact(2), plain.contact(2));
 }
 
+TEST(WhatIf, AnotherIgapFindsTheFactorThatTheCardHolds) {
+  Built asked(quad("@/INTER/TYPE7/1 Igap=1 Fscalegap=0.5 Gapmax=0.45 Gapmin=0.1"));
+  SceneOptions options;
+  WhatIf w;
+  w.interface_id = 1;
+  w.Igap = 2;
+  options.what_if = {w};
+  asked.build(options);
+  expect_same(asked.contact(),
+              Built(quad("@/INTER/TYPE7/1 Igap=2 Fscalegap=0.5 Gapmax=0.45 Gapmin=0.1")).contact());
+}
+
+TEST(WhatIf, AnotherIgapOfAType19FindsItsIremGap) {
+  Built asked(quad("@/INTER/TYPE19/1 Igap=4 Gapmin=0.1"));
+  EXPECT_EQ(asked.contact().irem_gap, 2);
+  EXPECT_EQ(asked.contact(1, ContactRole::edges).irem_gap, 2);
+  SceneOptions options;
+  WhatIf w;
+  w.interface_id = 1;
+  w.Igap = 1;
+  options.what_if = {w};
+  asked.build(options);
+  EXPECT_EQ(asked.contact().irem_gap, 1);
+  EXPECT_EQ(asked.contact(1, ContactRole::edges).irem_gap, 1);
+}
+
 }  // namespace
 }  // namespace deck::test

@@ -6,6 +6,7 @@ import { createRequire } from "node:module";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { bundle } from "./bundle.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const options = {};
@@ -14,18 +15,12 @@ for (let i = 2; i < process.argv.length; i += 2)
 const modules = resolve(options.modules ?? join(here, "node_modules"));
 const esbuild = createRequire(join(modules, "x.js"))("esbuild");
 
-const result = await esbuild.build({
+const result = await bundle(esbuild, modules, {
   entryPoints: { viewer: join(here, "src/main.ts"), style: join(here, "src/style.css") },
   outdir: join(here, "out"),
-  bundle: true,
   write: false,
   minify: options.minify !== "no",
   format: "iife",
-  target: ["es2022"],
-  charset: "ascii",
-  legalComments: "inline",
-  nodePaths: [modules],
-  logLevel: "warning",
 });
 const text = (end) => result.outputFiles.find((f) => f.path.endsWith(end)).text;
 const script = text("viewer.js");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/distance/exact.hpp"
+#include "contact/rules/actions.hpp"
 
 namespace deck {
 
@@ -34,37 +35,6 @@ std::array<double, 3> direction(const P& v) {
   return {v.x / n, v.y / n, v.z / n};
 }
 
-template <Form F>
-PenetrationRow plain_row(const P& p, const std::array<P, 4>& corners, bool triangle, double gap) {
-  const auto closest = closest_on_segment<F>(p, corners, triangle);
-  const auto pene = penetration(closest, gap);
-  PenetrationRow row;
-  row.depth = pene.value;
-  row.gap = gap;
-  row.distance = closest.sub[static_cast<std::size_t>(pene.sub)].distance;
-  row.normal = {pene.normal.x, pene.normal.y, pene.normal.z};
-  row.on_surface = pene.on_surface;
-  row.feature = closest.feature;
-  return row;
-}
-
-template <Form F>
-PenetrationRow plain_row(const std::array<P, 4>& x, double gap) {
-  const auto closest = closest_between_edges<F>(x[0], x[1], x[2], x[3]);
-  PenetrationRow row;
-  row.gap = gap;
-  row.distance = closest.distance;
-  row.depth = gap - closest.distance;
-  row.on_surface = !(closest.distance > 0);
-  if (!row.on_surface)
-    row.normal = {closest.vector.x / closest.distance, closest.vector.y / closest.distance,
-                  closest.vector.z / closest.distance};
-  row.feature = Feature::edge;
-  row.weight_s = closest.weight_s;
-  row.weight_m = closest.weight_m;
-  return row;
-}
-
 /// A pair in contact has a depth, also where the distance rounds to the gap.
 double depth_of(double gap, double distance) {
   const double depth = gap - distance;
@@ -86,7 +56,7 @@ PenetrationRow rounded_row(const P& p, const std::array<P, 4>& corners, bool tri
 }
 PenetrationRow rounded_row(const std::array<P, 4>& x, double gap) {
   const FilteredEdges c = filtered_closest_between_edges(x[0], x[1], x[2], x[3]);
-  PenetrationRow row = plain_row<Form::robust>(x, gap);
+  PenetrationRow row = measured_row<Form::robust>(x, gap);
   row.distance = c.distance;
   row.depth = depth_of(gap, c.distance);
   row.on_surface = !(c.distance > 0);
@@ -149,8 +119,8 @@ PairVerdict PairJudge::judge(const P& p, const std::array<P, 4>& corners, bool t
                              double gap) {
   ++report_.pairs;
   if (accuracy_ == Accuracy::fast)
-    return plain_verdict(plain_row<Form::robust>(p, corners, triangle, gap));
-  const PenetrationRow solver = plain_row<Form::reference>(p, corners, triangle, gap);
+    return plain_verdict(measured_row<Form::robust>(p, corners, triangle, gap));
+  const PenetrationRow solver = measured_row<Form::reference>(p, corners, triangle, gap);
   if (accuracy_ == Accuracy::reference) return plain_verdict(solver);
   bool closer = false, touching = false;
   if (accuracy_ == Accuracy::exact && all_finite(corners, p, gap)) {
@@ -167,8 +137,8 @@ PairVerdict PairJudge::judge(const P& p, const std::array<P, 4>& corners, bool t
 
 PairVerdict PairJudge::judge(const std::array<P, 4>& x, double gap) {
   ++report_.pairs;
-  if (accuracy_ == Accuracy::fast) return plain_verdict(plain_row<Form::robust>(x, gap));
-  const PenetrationRow solver = plain_row<Form::reference>(x, gap);
+  if (accuracy_ == Accuracy::fast) return plain_verdict(measured_row<Form::robust>(x, gap));
+  const PenetrationRow solver = measured_row<Form::reference>(x, gap);
   if (accuracy_ == Accuracy::reference) return plain_verdict(solver);
   bool closer = false, touching = false;
   if (accuracy_ == Accuracy::exact && all_finite(x, x[0], gap)) {

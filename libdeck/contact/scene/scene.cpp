@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/rules/gaps.hpp"
 #include "contact/scene/scene_parts.hpp"
 #include "deck/text/rule_id.hpp"
 
@@ -14,54 +15,31 @@ using detail::SceneContext;
 
 int flag(const EffectiveInt& f) { return f.value == 1000 ? 0 : static_cast<int>(f.value); }
 
+/// What the card says, also where other fields overrule it.
+template <class T>
+T written(const Effective<T>& e) {
+  return e.has_input ? e.input : T{};
+}
+
 /// What the card of any type has to say to a contact, before the rules of its kind apply.
-struct Card {
+struct Card : detail::CardSettings {
   const InterBase* inter = nullptr;
-  int istf = 0, igap = 0, inacti = 0, irem_gap = 1, itied = 0;
-  double stfac = 1, gapmin = 0, stmin = 0, stmax = 1e30;
-  double gap_scale = 1, gapmax = 1e30, fpenmax = 0, mesh_fraction = 0.4, drad = 0;
-  bool thermal = false;
+  int istf = 0, itied = 0;
+  double stfac = 1, stmin = 0, stmax = 1e30;
 };
 
-template <class Inter>
-Card common_card(const Inter& i) {
-  Card c;
-  c.inter = &i;
-  c.istf = flag(i.Istf);
-  c.igap = flag(i.Igap);
-  c.inacti = flag(i.Inacti);
-  c.irem_gap = flag(i.Irem_gap);
-  c.stfac = i.Stfac.value;
-  c.gapmin = i.Gapmin.before_geometry();
-  c.stmin = i.Stmin.value;
-  c.stmax = i.Stmax.value;
-  c.mesh_fraction = i.mesh_size.value > 0 ? i.mesh_size.value : 0.4;
-  c.thermal = i.Ithe.value > 0;
-  c.drad = i.Drad.before_geometry();
-  return c;
-}
-
-Card card_of(const InterType7& i) {
-  Card c = common_card(i);
-  c.gap_scale = i.Fscalegap.value;
-  c.gapmax = i.Gapmax.value;
-  c.fpenmax = i.Fpenmax.value;
-  c.itied = static_cast<int>(i.ITIED.value);
-  return c;
-}
-Card card_of(const InterType11& i) { return common_card(i); }
-Card card_of(const InterType19& i) {
-  Card c = common_card(i);
-  c.gap_scale = i.Fscalegap.value;
-  c.gapmax = i.Gapmax.value;
-  return c;
-}
-Card card_of(const InterType10& i) {
-  Card c;
-  c.inter = &i;
-  c.stfac = i.Stfac.value;
-  c.gapmin = i.Gap.before_geometry();
-  c.itied = static_cast<int>(i.ITIED.value);
+Card card_of(const InterBase& inter) {
+  Card c{detail::card_settings(inter)};
+  c.inter = &inter;
+  visit_interface(inter, [&](const auto& i) {
+    c.stfac = i.Stfac.value;
+    if constexpr (requires { i.Istf; }) {
+      c.istf = flag(i.Istf);
+      c.stmin = i.Stmin.value;
+      c.stmax = i.Stmax.value;
+    }
+    if constexpr (requires { i.ITIED; }) c.itied = static_cast<int>(i.ITIED.value);
+  });
   return c;
 }
 
@@ -80,37 +58,18 @@ Contact make_contact(const Card& card, int type, ContactRole role) {
   c.stmin = card.stmin;
   c.stmax = card.stmax;
   c.fpenmax = card.fpenmax;
-  c.gap_scale = card.igap >= 2 && card.gap_scale != 0 ? card.gap_scale : 1;
-  c.gapmax = card.igap >= 2 && card.gapmax > 0 ? card.gapmax : 1e30;
+  c.gap_scale = gap_scale_of(card, type == 11);
+  c.gapmax = gapmax_of(card, type == 11);
   c.mesh_fraction = card.mesh_fraction;
   if (type == 11) {
-    // Constant stiffness is Istf 1 for edges, and edges know no Fscalegap and no Gapmax.
+    // Constant stiffness is Istf 1 for edges.
     if (card.stfac < 0) {
       c.istf = 1;
       c.factor = card.stfac;
     }
     if (c.istf == 0) c.istf = 5;
-    c.gap_scale = 1;
-    c.gapmax = 1e30;
   }
   return c;
-}
-
-/// Sets what the card of that type hands on to its contacts; the rest has no effect there.
-void apply(const std::vector<WhatIf>& all, Card& card) {
-  const int type = card.inter->type;
-  for (const WhatIf& w : all) {
-    if (w.interface_id != card.inter->id) continue;
-    if (w.Gapmin) card.gapmin = *w.Gapmin;
-    if (type == 10) continue;
-    if (w.Fscalegap) card.gap_scale = *w.Fscalegap;
-    if (w.Gapmax) card.gapmax = *w.Gapmax;
-    if (w.Fpenmax && type == 7) card.fpenmax = *w.Fpenmax;
-    if (w.mesh_size) card.mesh_fraction = *w.mesh_size > 0 ? *w.mesh_size : 0.4;
-    if (w.Igap) card.igap = *w.Igap == 1000 ? 0 : *w.Igap;
-    if (w.Inacti) card.inacti = *w.Inacti == 1000 ? 0 : *w.Inacti;
-    if (w.Irem_gap) card.irem_gap = *w.Irem_gap == 0 ? 1 : *w.Irem_gap;
-  }
 }
 
 class Builder {
@@ -178,7 +137,8 @@ class Builder {
   template <class Inter>
   Card card_for(const Inter& i) const {
     Card card = card_of(i);
-    apply(c_.options.what_if, card);
+    for (const WhatIf& w : c_.options.what_if)
+      if (w.interface_id == i.id) detail::apply(w, i.type, card);
     return card;
   }
 
@@ -215,10 +175,7 @@ class Builder {
 
   void type19_nodes(const InterType19& i, ContactRole role) {
     Card card = card_for(i);
-    if (card.igap == 4) {  // undocumented: variable gap with curvilinear removal
-      card.igap = 2;
-      card.irem_gap = 2;
-    }
+    detail::adapt_to_type19_nodes(card);
     Contact contact = make_contact(card, 7, role);
     const auto [s, m] = sides(i);
     const std::int64_t from = role == ContactRole::primary ? s : m;
@@ -229,8 +186,7 @@ class Builder {
 
   void type19_edges(const InterType19& i) {
     Card card = card_for(i);
-    card.igap = card.igap == 2 ? 1 : card.igap == 4 ? 0 : card.igap;
-    if (i.Edge_scale_gap.value != 0) card.gapmin *= i.Edge_scale_gap.value;
+    detail::adapt_to_type19_edges(card, i.Edge_scale_gap.value);
     Contact contact = make_contact(card, 11, ContactRole::edges);
     const auto [s, m] = sides(i);
     const bool free_only = i.Iedge.value == 1;
@@ -289,7 +245,8 @@ class Builder {
     if (surface != nullptr) detail::make_main_segments(c_, surface->segments, contact);
     detail::set_main_stiffness(c_, contact);
     detail::set_gaps(c_, contact, card.gapmin);
-    detail::set_radiation_distance(contact, card.thermal, card.drad);
+    contact.drad =
+        detail::radiation_distance(card.thermal, card.drad, contact.max_gap, contact.shortest_side);
     if (c_.options.penetrations && computable(contact)) detail::find_penetrations(c_, contact);
     if (c_.options.nodal_stiffness && contact.istf >= 2) detail::set_nodal_stiffness(c_, contact);
     c_.scene.contacts.push_back(std::move(contact));
@@ -328,7 +285,8 @@ class Builder {
     detail::set_edge_stiffness(c_, contact.main_edges, contact);
     detail::set_edge_stiffness(c_, contact.secondary_edges, contact);
     detail::set_edge_gaps(c_, contact, card.gapmin);
-    detail::set_radiation_distance(contact, card.thermal, card.drad);
+    contact.drad =
+        detail::radiation_distance(card.thermal, card.drad, contact.max_gap, contact.shortest_side);
     if (c_.options.penetrations && computable(contact)) detail::find_edge_penetrations(c_, contact);
     c_.scene.contacts.push_back(std::move(contact));
   }
@@ -339,22 +297,32 @@ class Builder {
 
 }  // namespace
 
-const char* to_string(PenetrationAction action) {
-  switch (action) {
-    case PenetrationAction::none:
-      return "none";
-    case PenetrationAction::node_stiffness_zero:
-      return "node-stiffness-zero";
-    case PenetrationAction::segment_stiffness_zero:
-      return "segment-stiffness-zero";
-    case PenetrationAction::node_moved:
-      return "node-moved";
-    case PenetrationAction::gap_reduced:
-      return "gap-reduced";
-    case PenetrationAction::edge_stiffness_zero:
-      return "edge-stiffness-zero";
-  }
-  return "none";
+detail::CardSettings detail::card_settings(const InterBase& inter) {
+  CardSettings c;
+  visit_interface(inter, [&](const auto& i) {
+    if constexpr (requires { i.Gap; }) {
+      c.gapmin = i.Gap.before_geometry();
+    } else {
+      c.gapmin = i.Gapmin.before_geometry();
+      c.igap = flag(i.Igap);
+      c.inacti = flag(i.Inacti);
+      c.irem_gap = flag(i.Irem_gap);
+      // Igap 4 of a TYPE19 overrules the cell.
+      if (i.Irem_gap.origin == Origin::derived) {
+        const auto cell = static_cast<int>(written(i.Irem_gap));
+        c.irem_gap = cell == 0 ? 1 : cell;
+      }
+      c.mesh_fraction = mesh_fraction_of(i.mesh_size.value);
+      c.thermal = i.Ithe.value > 0;
+      c.drad = i.Drad.before_geometry();
+    }
+    if constexpr (requires { i.Fscalegap; }) {
+      if (const double scale = written(i.Fscalegap); scale != 0) c.gap_scale = scale;
+      if (const double most = written(i.Gapmax); most > 0) c.gapmax = most;
+    }
+    if constexpr (requires { i.Fpenmax; }) c.fpenmax = i.Fpenmax.value;
+  });
+  return c;
 }
 
 const char* to_string(ContactKind kind) {
@@ -365,26 +333,6 @@ const char* to_string(ContactRole role) {
   return role == ContactRole::primary    ? "primary"
          : role == ContactRole::reversed ? "reversed"
                                          : "edges";
-}
-
-const char* to_string(GapminOrigin origin) {
-  switch (origin) {
-    case GapminOrigin::card:
-      return "card";
-    case GapminOrigin::mean_thickness:
-      return "mean thickness of the main shells";
-    case GapminOrigin::minimum_thickness:
-      return "smallest thickness of the main shells";
-    case GapminOrigin::scaled_thickness:
-      return "Fscalegap times the smallest thickness of the main shells";
-    case GapminOrigin::half_edge:
-      return "half the shortest main side";
-    case GapminOrigin::solid_edge:
-      return "a tenth of the shortest main side";
-    case GapminOrigin::both_sides:
-      return "mean of the defaults of both sides";
-  }
-  return "card";
 }
 
 Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics& diagnostics,

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "base/vec.hpp"
+#include "contact/rules/gaps.hpp"
+#include "contact/rules/settings.hpp"
 #include "contact/scene/node_elements.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/model/selection.hpp"
@@ -24,6 +26,11 @@ inline Vec at(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n
 inline double distance(const Coordinates& c, NodeIndex a, NodeIndex b) {
   return norm(at(c, b) - at(c, a));
 }
+
+// scene.cpp
+/// What a card says before the rules of its parts apply: fields that Igap puts out of force keep
+/// what is written, so that another Igap finds it.
+CardSettings card_settings(const InterBase& inter);
 
 // segments.cpp — clean-up, orientation, carriers (reference solver: surface clean-up)
 /// Turns surface segments into main segments: repairs repeated nodes, finds carriers of plain
@@ -56,16 +63,9 @@ void set_nodal_stiffness(SceneContext& context, Contact& contact);
 // gaps.cpp
 void set_gaps(SceneContext& context, Contact& contact, double gapmin_input);
 void set_edge_gaps(SceneContext& context, Contact& contact, double gapmin_input);
-void set_radiation_distance(Contact& contact, bool thermal, double drad_input);
-
-// removal.cpp — Irem_gap = 2
-/// Per main segment: secondary positions not to be paired with it, sorted. Empty if nothing is
-/// removed.
-using RemovalLists = std::vector<std::vector<std::uint32_t>>;
-/// False: the lists would take more room than MemoryLimits::pair_bytes.
-bool curvilinear_removal(const SceneContext& context, const Contact& contact, RemovalLists& lists);
-bool curvilinear_edge_removal(const SceneContext& context, const Contact& contact,
-                              RemovalLists& lists);
+/// What default gaps are formed of: thickness of the main shells; of one side of a line contact.
+ThicknessSamples shell_thickness(const Contact& contact);
+EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges);
 
 // penetrations.cpp
 void find_penetrations(SceneContext& context, Contact& contact);

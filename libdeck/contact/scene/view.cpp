@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "contact/rules/actions.hpp"
 #include "contact/scene/node_elements.hpp"
 
 namespace deck {
@@ -69,11 +70,8 @@ double ratio(const PenetrationRow& row) { return row.gap > 0 ? row.depth / row.g
 }  // namespace
 
 int on_surface_error(const Contact& contact) {
-  if (contact.kind == ContactKind::edge_edge || contact.fpenmax != 0 || contact.inacti == 1 ||
-      contact.inacti == 2)
-    return 0;
-  if (contact.type == 10 && contact.itied != 0) return 0;
-  return contact.inacti == 0 ? 612 : 611;
+  if (contact.kind == ContactKind::edge_edge) return 0;
+  return detail::on_surface_error(contact.type, contact.itied, contact.fpenmax, contact.inacti);
 }
 
 namespace {

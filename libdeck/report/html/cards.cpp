@@ -93,9 +93,8 @@ void write_interfaces(JsonWriter& j, const HtmlInput& input) {
     const Contact* const contact = first_contact(*input.scene, *inter);
     j.key("values").begin_object();
     visit_interface(*inter, [&](const auto& typed) {
-      typed.for_each([&](std::string_view name, const auto& field) {
-        write_value(j, name, field, contact);
-      });
+      typed.for_each(
+          [&](std::string_view name, const auto& field) { write_value(j, name, field, contact); });
     });
     j.end_object().end_object();
   }

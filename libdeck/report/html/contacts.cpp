@@ -6,7 +6,7 @@
 #include <limits>
 #include <unordered_map>
 
-#include "contact/scene/node_elements.hpp"
+#include "contact/scene/scene_parts.hpp"
 #include "deck/contact/search.hpp"
 #include "report/gaps_names.hpp"
 #include "report/html/parts.hpp"
@@ -21,11 +21,6 @@ constexpr std::size_t penetrations_kept = 200000;  // per contact where all pair
 constexpr double reach_factors[] = {3, 2, 1.5, 1.1};
 
 NodeArrays arrays(const Coordinates& c) { return {c.x, c.y, c.z}; }
-
-double length(const Coordinates& c, NodeIndex a, NodeIndex b) {
-  const double x = c.x[b] - c.x[a], y = c.y[b] - c.y[a], z = c.z[b] - c.z[a];
-  return std::sqrt(x * x + y * y + z * z);
-}
 
 /// Runs the pair search of one contact for a constant gap.
 class WideSearch {
@@ -257,11 +252,23 @@ class Writer {
   }
 
  private:
+  /// True if Inacti 3 of a contact before can move a node whose place the gaps depend on.
+  static bool can_be_moved(const Contact& c, const std::vector<std::uint8_t>& movable) {
+    const auto any = [&](const auto& items) {
+      for (const auto& item : items)
+        for (const NodeIndex n : item.nodes)
+          if (movable[n]) return true;
+      return false;
+    };
+    return any(c.main) || any(c.secondary_edges) || any(c.main_edges);
+  }
+
   /// Page nodes whose coordinates are given to the last bit: those of all pairs, and of all items
-  /// where removal along the mesh measures distances.
+  /// whose sides are measured: for removal along the mesh, or again once nodes have moved.
   void exact_coordinates() {
     std::vector<std::uint8_t> wanted(nodes_.list().size(), 0);
     const auto use = [&](NodeIndex n) { wanted[nodes_[n]] = 1; };
+    std::vector<std::uint8_t> movable(model_.nodes.size(), 0);
     for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
       const Contact& c = page_.scene.contacts[i];
       for (const CandidatePair& p : page_.contacts[i].pairs) {
@@ -273,7 +280,9 @@ class Writer {
           for (const NodeIndex n : c.main_edges[p.main].nodes) use(n);
         }
       }
-      if (input_.scene->contacts[i].irem_gap != 2) continue;
+      const bool measured = input_.scene->contacts[i].irem_gap == 2 || can_be_moved(c, movable);
+      for (const SecondaryNode& n : c.secondary) movable[n.node] = 1;
+      if (!measured) continue;
       for (const MainSegment& m : c.main)
         for (const NodeIndex n : m.nodes) use(n);
       for (const ContactEdge& e : c.main_edges)
@@ -475,33 +484,17 @@ std::string contacts_block(const HtmlInput& input, const PageContacts& page,
 namespace {
 
 void write_default_gap(JsonWriter& j, const Contact& plain, const Coordinates& x) {
-  j.key("default").begin_array(true);
+  const auto side = [&](const ThicknessSamples& t, double shortest) {
+    j.begin_array(true).value(t.count).value(t.sum).value(t.smallest).value(t.largest);
+    j.value(shortest).end_array();
+  };
+  j.key("default").begin_array();
   if (plain.kind == ContactKind::node_segment) {
-    double sum = 0, smallest = std::numeric_limits<double>::infinity();
-    std::uint64_t count = 0;
-    for (const MainSegment& m : plain.main) {
-      if (m.carrier != Carrier::shell4 && m.carrier != Carrier::shell3) continue;
-      sum += m.thickness;
-      smallest = std::min(smallest, m.thickness);
-      ++count;
-    }
-    j.value(count).value(sum).value(smallest);
+    side(shell_thickness(plain), plain.shortest_side);
   } else {
-    for (const auto* side : {&plain.main_edges, &plain.secondary_edges}) {
-      double sum = 0, smallest = std::numeric_limits<double>::infinity(),
-             shortest = std::numeric_limits<double>::infinity();
-      std::uint64_t samples = 0;
-      for (const ContactEdge& e : *side) {
-        const double l = length(x, e.nodes[0], e.nodes[1]);
-        if (l > 0) shortest = std::min(shortest, l);
-        for (const double t : {e.shell, e.section}) {
-          if (!(t > 0)) continue;
-          sum += t;
-          smallest = std::min(smallest, t);
-          ++samples;
-        }
-      }
-      j.value(samples).value(sum).value(smallest).value(std::isfinite(shortest) ? shortest : 0.0);
+    for (const auto* edges : {&plain.main_edges, &plain.secondary_edges}) {
+      const EdgeSide s = edge_side(x, *edges);
+      side(s.thickness, s.shortest);
     }
   }
   j.end_array();
@@ -509,35 +502,18 @@ void write_default_gap(JsonWriter& j, const Contact& plain, const Coordinates& x
 
 /// What the card and the defaults say before the rules of the contact's kind apply.
 void write_card(JsonWriter& j, const InterBase& inter, const std::vector<WhatIf>& what_if) {
-  const auto flag = [](const EffectiveInt& f) { return f.value == 1000 ? 0 : f.value; };
-  j.key("card").begin_object(true);
+  CardSettings card = card_settings(inter);
+  for (const WhatIf& w : what_if)
+    if (w.interface_id == inter.id && w.Irem_gap) card.irem_gap = *w.Irem_gap;
+  double edge_scale_gap = 0;
   visit_interface(inter, [&](const auto& i) {
-    if constexpr (requires { i.Gapmin; }) {
-      j.field("Gapmin", i.Gapmin.before_geometry());
-      std::int64_t irem = flag(i.Irem_gap);
-      for (const WhatIf& w : what_if)
-        if (w.interface_id == inter.id && w.Irem_gap) irem = *w.Irem_gap;
-      j.field("Igap", flag(i.Igap)).field("Inacti", flag(i.Inacti)).field("Irem_gap", irem);
-      j.field("thermal", i.Ithe.value > 0).field("Drad", i.Drad.before_geometry());
-    } else {
-      j.field("Gapmin", i.Gap.before_geometry());
-      j.field("Igap", 0).field("Inacti", 0).field("Irem_gap", 1);
-      j.field("thermal", false).field("Drad", 0.0);
-    }
-    if constexpr (requires { i.Fscalegap; })
-      j.field("Fscalegap", i.Fscalegap.value).field("Gapmax", i.Gapmax.value);
-    else
-      j.field("Fscalegap", 1.0).field("Gapmax", 1e30);
-    if constexpr (requires { i.Fpenmax; })
-      j.field("Fpenmax", i.Fpenmax.value);
-    else
-      j.field("Fpenmax", 0.0);
-    if constexpr (requires { i.Edge_scale_gap; })
-      j.field("Edge_scale_gap", i.Edge_scale_gap.value);
-    else
-      j.field("Edge_scale_gap", 0.0);
+    if constexpr (requires { i.Edge_scale_gap; }) edge_scale_gap = i.Edge_scale_gap.value;
   });
-  j.end_object();
+  j.key("card").begin_object(true);
+  j.field("Gapmin", card.gapmin).field("Igap", card.igap).field("Inacti", card.inacti);
+  j.field("Irem_gap", card.irem_gap).field("thermal", card.thermal).field("Drad", card.drad);
+  j.field("Fscalegap", card.gap_scale).field("Gapmax", card.gapmax).field("Fpenmax", card.fpenmax);
+  j.field("Edge_scale_gap", edge_scale_gap).end_object();
 }
 
 }  // namespace
@@ -563,7 +539,7 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
     j.field("fpenmax", c.fpenmax).field("gap_scale", c.gap_scale);
     j.field("gapmin", c.gapmin).field("gapmin_from", to_string(c.gapmin_origin));
     j.field("gapmax", c.gapmax).field("drad", c.drad).field("max_gap", c.max_gap);
-    j.field("shortest_side", c.shortest_side).field("mesh_fraction", c.mesh_fraction);
+    j.field("shortest_side", plain.shortest_side).field("mesh_fraction", c.mesh_fraction);
     j.field("longest_main", longest_main).field("longest_node", longest_node);
     j.field("secondary", edges ? c.secondary_edges.size() : c.secondary.size());
     j.field("main", edges ? c.main_edges.size() : c.main.size());

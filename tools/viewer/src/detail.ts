@@ -1,6 +1,6 @@
 // What is known about the selected row, and what every Inacti would do to this node.
 import { button, fileName, group, h, num, percent, replace } from "./dom";
-import { on_surface_error, type Row } from "./evaluate";
+import { onSurfaceError, outcomeOf, type Row } from "./core";
 import type { Hit, Report } from "./report";
 import { actionLong, inactiWords } from "./words";
 
@@ -79,19 +79,17 @@ function fate(report: Report, r: Row): string {
 function alternatives(report: Report, x: Hit, current: number, fpenmax: number): HTMLElement {
   const r = x.row;
   const meta = report.meta.contacts[x.contact];
-  const setting = report.results[x.contact].setting;
-  const pene = r.onSurface ? r.depth : r.depth * (1 + 1e-8);
-  const off = fpenmax !== 0 && pene > fpenmax * r.gap;
   const text = (inacti: number): string => {
-    const error = r.onSurface ? on_surface_error(meta, { ...setting, inacti }) : 0;
+    const error = r.onSurface ? onSurfaceError(meta, fpenmax, inacti) : 0;
+    const then = outcomeOf(r, inacti, fpenmax);
     if (error) return `error ${error}`;
-    if (off) return "node off (Fpenmax)";
+    if (then.action === "node-stiffness-zero" && inacti !== 1) return "node off (Fpenmax)";
     switch (inacti) {
       case 1: return "node off for the whole run";
       case 2: return "segment off for the whole run";
-      case 3: return `moved by ${num(pene, 5)}`;
-      case 5: return `gap ${num(r.gap)} → ${num(r.gap - pene, 5)}`;
-      case 6: return `gap ${num(r.gap)} → ${num(r.gap - (pene + 0.05 * (r.gap - pene)), 5)}`;
+      case 3: return `moved by ${num(Math.hypot(...then.movedBy!), 5)}`;
+      case 5:
+      case 6: return `gap ${num(r.gap)} → ${num(then.gap0!, 5)}`;
       default: return "pushed out from the first cycle on";
     }
   };
@@ -108,7 +106,7 @@ export function notChecked(report: Report): HTMLElement {
     report.crossed
       ? "Crossed elements are searched for exactly, among the edges and main segments of each node-to-segment contact."
       : "Crossed elements were not searched for: an edge through a face shows as a penetration only within the gap.",
-    "Settings under test are evaluated in this page with the same double-precision operations as the command line. Inacti 3 moves nodes, and later interfaces see the moved nodes; default gaps and mesh-size limits stay those of the deck.",
+    "Settings under test are evaluated in this page with the same double-precision operations as the command line. Inacti 3 moves nodes, and later interfaces see the moved nodes, and default gaps of the moved mesh; where mesh-size limits (Igap 3) would change with it the page says that it cannot tell.",
     `Pairs are carried up to about three times the largest gap of each interface${beyond ? `; for ${beyond} of them only what penetrates, because there are too many` : ""}. Beyond that the page says so.`,
   ];
   const odd = meta.contacts.filter((c) => c.repaired + c.degenerate + c.reoriented + c.no_carrier > 0);

@@ -57,6 +57,9 @@ export interface CardValues {
   Drad: number;
 }
 
+/** Thicknesses of one side (count, sum, smallest, largest; null: there is none) and its shortest side. */
+export type Samples = [number, number, number | null, number | null, number];
+
 export interface ContactMeta {
   interface: number;
   kind: "node_segment" | "edge_edge";
@@ -93,7 +96,7 @@ export interface ContactMeta {
   pairs: number;
   totals: Totals;
   card: CardValues;
-  default: (number | null)[]; // see evaluate.ts
+  default: Samples[]; // what a default gap is formed of: of the main side; of edges also of the secondary
 }
 
 export interface Units {

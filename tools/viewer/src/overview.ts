@@ -1,7 +1,6 @@
 // The upper part of the report: verdict, interfaces, settings under test.
 import { cardText, changedCard } from "./card";
 import { button, group, h, num, percent, plural, replace } from "./dom";
-import { settingOf } from "./evaluate";
 import { copyText, whatIfCommand } from "./exports";
 import type { FieldName } from "./meta";
 import type { Report } from "./report";
@@ -315,7 +314,7 @@ function control(report: Report, inter: number, field: FieldName): { element: HT
     if (document.activeElement !== slider) slider.value = String(Math.min(v, top));
     number.value = v === 0 && meaning ? "0" : String(v);
     element.classList.toggle("on", v !== deck);
-    const s = settingOf(limits[0], report.data.contacts[contacts[0]], report.overrides[inter], report.meta.interfaces[inter].type === 19);
+    const s = report.evaluator.setting(contacts[0], report.overrides[inter]);
     const unused = (field === "Fscalegap" || field === "Gapmax") && s.igap < 2;
     element.classList.toggle("unused", unused);
     note.textContent = unused ? "no effect with this Igap"

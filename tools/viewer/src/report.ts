@@ -1,7 +1,8 @@
 // The state of the page: data, settings under test, results, filters, selection; and who is told
 // when one of them changes.
 import { kindNames, type Contacts, type Mesh } from "./data";
-import { Evaluator, on_surface_error, ratioOf, Tally, type Result, type Row } from "./evaluate";
+import { onSurfaceError, type Row } from "./core";
+import { Evaluator, ratioOf, Tally, type Result } from "./evaluate";
 import type { Crossed, Cycle, Earlier, FieldName, Meta, Overrides, Totals } from "./meta";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";
@@ -229,7 +230,8 @@ export class Report {
     return [w * d.x[a] + (1 - w) * d.x[b], w * d.y[a] + (1 - w) * d.y[b], w * d.z[a] + (1 - w) * d.z[b]];
   }
   solverError(row: Row): number {
-    return row.onSurface ? on_surface_error(this.meta.contacts[row.contact], this.results[row.contact].setting) : 0;
+    const { fpenmax, inacti } = this.results[row.contact].setting;
+    return row.onSurface ? onSurfaceError(this.meta.contacts[row.contact], fpenmax, inacti) : 0;
   }
 
   private positions: Float32Array | null = null;

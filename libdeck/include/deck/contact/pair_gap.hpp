@@ -3,9 +3,22 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace deck {
+
+/// Where the minimum gap of a contact came from.
+enum class GapminOrigin : std::uint8_t {
+  card,
+  mean_thickness,     ///< mean over shell-carried segments
+  minimum_thickness,  ///< minimum over shell-carried segments
+  scaled_thickness,   ///< the minimum, multiplied by Fscalegap
+  half_edge,          ///< half the shortest main side was smaller
+  solid_edge,         ///< no shells: a tenth of the shortest main side
+  both_sides,         ///< TYPE11: mean of the two sides' defaults
+};
+const char* to_string(GapminOrigin origin);
 
 // How the gap of a pair is formed (reference solver, TYPE7/10/11/19).
 enum class GapRule {

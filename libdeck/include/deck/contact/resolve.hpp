@@ -1,4 +1,5 @@
-// Effective values that only the mesh knows: the default gap of an interface, its radiation distance.
+// Effective values that only the mesh knows: the default gap of an interface, its radiation
+// distance.
 #pragma once
 #include <string_view>
 

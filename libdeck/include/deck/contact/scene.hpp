@@ -5,12 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "deck/contact/pair_gap.hpp"
+#include "deck/contact/penetration.hpp"
 #include "deck/contact/search.hpp"
+#include "deck/contact/what_if.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/memory_limits.hpp"
 #include "deck/model/model.hpp"
@@ -21,30 +22,8 @@ enum class ContactKind : std::uint8_t { node_segment, edge_edge };
 /// Which part of its interface a contact is. TYPE19 gives up to three.
 enum class ContactRole : std::uint8_t { primary, reversed, edges };
 
-/// What the solver does about one initial penetration.
-enum class PenetrationAction : std::uint8_t {
-  none,
-  node_stiffness_zero,     ///< Inacti 1, or Fpenmax exceeded
-  segment_stiffness_zero,  ///< Inacti 2
-  node_moved,              ///< Inacti 3
-  gap_reduced,             ///< Inacti 5, 6
-  edge_stiffness_zero,     ///< TYPE11: Inacti 1, 2, or deeper than 99.5 % of the gap with 5, 6
-};
-const char* to_string(PenetrationAction action);  ///< "none", "node-stiffness-zero", ...
 const char* to_string(ContactKind kind);          ///< "node_segment", "edge_edge"
 const char* to_string(ContactRole role);          ///< "primary", "reversed", "edges"
-
-/// Where the minimum gap of a contact came from.
-enum class GapminOrigin : std::uint8_t {
-  card,
-  mean_thickness,     ///< mean over shell-carried segments
-  minimum_thickness,  ///< minimum over shell-carried segments
-  scaled_thickness,   ///< the minimum, multiplied by Fscalegap
-  half_edge,          ///< half the shortest main side was smaller
-  solid_edge,         ///< no shells: a tenth of the shortest main side
-  both_sides,         ///< TYPE11: mean of the two sides' defaults
-};
-const char* to_string(GapminOrigin origin);
 
 /// One main segment. Arrays of a Contact are parallel to each other.
 struct MainSegment {
@@ -74,24 +53,6 @@ struct ContactEdge {
   double section = 0;  ///< sqrt(area) of the truss or beam that carries it, 0: none
   bool off = false;    ///< switched off by Inacti; `stiffness` stays what it was
   double stored_penetration = 0;  ///< Inacti 5, 6: what the solver takes off every pair gap
-};
-
-struct PenetrationRow {
-  std::uint32_t secondary = 0, main = 0;  ///< positions in the contact's lists
-  double depth = 0;      ///< gap - distance
-  double gap = 0;        ///< pair gap
-  double distance = 0;
-  std::array<double, 3> normal{};  ///< unit, main to secondary; zero when on_surface
-  bool on_surface = false;
-  /// Accuracy::robust: false where the pair is no nearer than its gap, and only the round-off of the
-  /// solver's formula makes a penetration of it. The solver acts on it all the same.
-  bool in_contact = true;
-  Feature feature = Feature::face;
-  PenetrationAction action = PenetrationAction::none;
-  bool has_gap0 = false;
-  double p0 = 0, gap0 = 0;  ///< Inacti 5, 6: stored penetration and gap left
-  std::array<double, 3> moved_by{};  ///< Inacti 3
-  double weight_s = 0, weight_m = 0; ///< edge pairs: weights of the first nodes
 };
 
 /// Which arithmetic decides that a pair is in contact, and gives its figures.
@@ -168,13 +129,6 @@ struct Scene {
   std::vector<Contact> contacts;     ///< in the solver's processing order
   DecisionReport decisions;          ///< of the penetrations
   MemoryLimits limits;               ///< of SceneOptions, for what is made of the scene
-};
-
-/// Other values for one interface, to see what they would do; the deck is not read again.
-struct WhatIf {
-  std::int64_t interface_id = 0;
-  std::optional<double> Gapmin, Fscalegap, Gapmax, Fpenmax, mesh_size;
-  std::optional<int> Igap, Inacti, Irem_gap;
 };
 
 struct SceneOptions {

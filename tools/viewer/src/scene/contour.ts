@@ -1,5 +1,5 @@
 // Values per page node for the coloured surface.
-import { pairGap, sideGaps } from "../evaluate";
+import { pairGap } from "../core";
 import type { ContourKind } from "../look";
 import type { Hit, Report } from "../report";
 
@@ -35,29 +35,25 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
     const data = report.data.contacts[i];
     const edges = meta.kind === "edge_edge";
     const s = report.results[i].setting;
-    const { gs, gm } = sideGaps(s, edges, data);
-    const thickest = (count: number, f: (k: number) => number) => {
-      let m = 0;
-      for (let k = 0; k < count; k++) m = Math.max(m, f(k));
-      return m;
-    };
+    const { gs, gm } = report.evaluator.core.sideGaps(i, report.overrides[meta.interface], data);
+    const thickest = (gaps: Float64Array) => gaps.reduce((m, g) => Math.max(m, g), 0);
     const width = edges ? 2 : 4;
     const mains = data.mainNode.length / width;
     const perSecondary = edges ? 2 : 1;
     const secondaries = data.secondaryNode.length / perSecondary;
-    const gsTop = thickest(secondaries, gs);
-    const gmTop = thickest(mains, gm);
+    const gsTop = thickest(gs);
+    const gmTop = thickest(gm);
     for (let m = 0; m < mains; m++) {
       const at = data.mainListed[m];
       const length = at >= 0 ? data.mainLength[at] : Infinity;
-      const gap = pairGap(s, edges, gsTop, gm(m), meta.longest_node || Infinity, length);
+      const gap = pairGap(s, gsTop, gm[m], meta.longest_node || Infinity, length);
       const nodes = data.mainNode.subarray(width * m, width * m + width);
       const v = kind === "gap" ? gap : gap / shortestSide(position, nodes);
       if (Number.isFinite(v)) for (const node of nodes) set(node, v);
     }
     if (kind === "gap")
       for (let k = 0; k < secondaries; k++) {
-        const gap = pairGap(s, edges, gs(k), gmTop, Infinity, Infinity);
+        const gap = pairGap(s, gs[k], gmTop, Infinity, Infinity);
         for (let j = 0; j < perSecondary; j++) set(data.secondaryNode[perSecondary * k + j], gap);
       }
   });

@@ -6,24 +6,16 @@
 #include <iterator>
 
 #include "contact/distance/filtered_decisions.hpp"
+#include "contact/rules/actions.hpp"
+#include "contact/rules/removal.hpp"
 #include "contact/scene/scene_parts.hpp"
 #include "deck/text/rule_id.hpp"
 
 namespace deck::detail {
 namespace {
 
-/// The solver evaluates candidates in groups of this size; nodes moved by one group are seen by the
-/// next (Inacti 3).
-constexpr std::size_t group_size = 128;
-constexpr double inflation = 1e-8;  // keeps a repaired pair just outside the gap
 /// While the search in both forms is merged, a pair is held this often.
 constexpr std::size_t copies_of_a_pair = 4;
-
-bool is_removed(const RemovalLists& removed, const CandidatePair& pair) {
-  if (removed.empty()) return false;
-  const auto& list = removed[pair.main];
-  return std::binary_search(list.begin(), list.end(), pair.secondary);
-}
 
 std::size_t most_pairs(const SceneContext& c) {
   return c.options.limits.pair_bytes / (copies_of_a_pair * sizeof(CandidatePair));
@@ -75,6 +67,16 @@ bool rows_fit(const SceneContext& c, const Contact& contact) {
 
 NodeArrays arrays(const Coordinates& c) { return {c.x, c.y, c.z}; }
 
+/// Irem_gap 2. False: there is no room for the lists.
+template <class Input>
+bool find_removed(const SceneContext& c, const Contact& contact, const Input& lists,
+                  RemovalLists& removed) {
+  if (contact.irem_gap != 2) return true;
+  return remove_along_mesh(
+      lists, {contact.gap_rule, contact.igap, contact.drad, contact.max_gap, contact.shortest_side},
+      c.scene.limits.pair_bytes / sizeof(std::uint32_t), removed);
+}
+
 Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
 
 struct NodeSegmentArrays {
@@ -118,98 +120,6 @@ struct EdgeArrays {
     }
   }
 };
-
-/// Where the secondary nodes of one group of candidates stood before anything in it moved.
-class GroupStart {
- public:
-  void clear() { seen_.clear(); }
-  /// The start of `node`, which is where it stands now unless the group has it already.
-  Vec of(const Coordinates& x, NodeIndex node) {
-    // Candidates are sorted by secondary node, so the group's last one is nearly always it.
-    for (auto it = seen_.rbegin(); it != seen_.rend(); ++it)
-      if (it->first == node) return it->second;
-    seen_.emplace_back(node, at(x, node));
-    return seen_.back().second;
-  }
-
- private:
-  std::vector<std::pair<NodeIndex, Vec>> seen_;
-};
-
-/// What Inacti and Fpenmax do about one node-segment penetration, in the solver's order.
-void act(SceneContext& c, Contact& contact, PenetrationRow& row, GroupStart& start) {
-  SecondaryNode& s = contact.secondary[row.secondary];
-  const double pene = row.on_surface ? row.depth : row.depth * (1 + inflation);
-  if (contact.fpenmax != 0 && pene > contact.fpenmax * row.gap) {
-    row.action = PenetrationAction::node_stiffness_zero;
-    s.off = true;
-    return;
-  }
-  switch (contact.inacti) {
-    case 1:
-      row.action = PenetrationAction::node_stiffness_zero;
-      s.off = true;
-      break;
-    case 2:
-      row.action = PenetrationAction::segment_stiffness_zero;
-      contact.main[row.main].off = true;
-      break;
-    case 3: {
-      row.action = PenetrationAction::node_moved;
-      Coordinates& x = c.scene.coordinates;
-      const Vec x0 = start.of(x, s.node);
-      const Vec moved = at(x, s.node) - x0;
-      if (pene > std::sqrt(dot(moved, moved))) {
-        row.moved_by = {pene * row.normal[0], pene * row.normal[1], pene * row.normal[2]};
-        x.x[s.node] = x0.x + row.moved_by[0];
-        x.y[s.node] = x0.y + row.moved_by[1];
-        x.z[s.node] = x0.z + row.moved_by[2];
-      }
-      break;
-    }
-    case 5:
-    case 6:
-      row.action = PenetrationAction::gap_reduced;
-      row.p0 = contact.inacti == 5 ? pene : pene + 0.05 * (row.gap - pene);
-      row.gap0 = row.gap - row.p0;
-      row.has_gap0 = true;
-      break;
-    default:
-      break;
-  }
-}
-
-/// What the solver does about one edge penetration.
-void act(const Contact& contact, PenetrationRow& row, ContactEdge& s, ContactEdge& m) {
-  // Only Inacti 6 keeps the penetration as it is.
-  const double pene = contact.inacti == 6 ? row.depth : row.depth * (1 + inflation);
-  const bool deep = pene >= 0.995 * row.gap;
-  switch (contact.inacti) {
-    case 1:
-      row.action = PenetrationAction::edge_stiffness_zero;
-      s.off = true;
-      break;
-    case 2:
-      row.action = PenetrationAction::edge_stiffness_zero;
-      m.off = true;
-      break;
-    case 5:
-    case 6: {
-      if (deep) {
-        row.action = PenetrationAction::edge_stiffness_zero;
-        s.off = true;
-        break;
-      }
-      row.action = PenetrationAction::gap_reduced;
-      const double p = contact.inacti == 5 ? pene : pene + 0.05 * (row.gap - pene);
-      s.stored_penetration = std::max(s.stored_penetration, 0.5 * p);
-      m.stored_penetration = std::max(m.stored_penetration, 0.5 * p);
-      break;
-    }
-    default:
-      break;
-  }
-}
 
 /// Candidates of a contact: what the solver's search gives, and what only an exact distance finds.
 struct Candidates {
@@ -269,6 +179,7 @@ void find_penetrations(SceneContext& c, Contact& contact) {
   search.threads = c.options.threads;
   search.max_pairs = most_pairs(c);
   Candidates found;
+  RemovalLists removed;
   {
     const NodeSegmentArrays lists(contact);
     const bool wide = c.options.candidates || contact.inacti == 3;
@@ -282,27 +193,29 @@ void find_penetrations(SceneContext& c, Contact& contact) {
       search.margin = 0;
       found = candidates(c.options.accuracy, margin, search, find);
     }
+    if (!found.complete || !find_removed(c, contact, lists.view(x), removed))
+      return give_up(c, contact);
   }
-  if (!found.complete) {
-    give_up(c, contact);
-    return;
-  }
-  RemovalLists removed;
-  if (!curvilinear_removal(c, contact, removed)) return give_up(c, contact);
   PairJudge judge(c.options.accuracy, c.scene.decisions);
   // The solver measures a whole group of candidates before it acts on any of them.
-  GroupStart start;
-  std::vector<PairVerdict> group;
-  std::size_t in_group = 0;
+  CandidateGroup group;
+  std::vector<PairVerdict> verdicts;
+  Coordinates& moved = c.scene.coordinates;
+  const MovableNodes movable{moved.x, moved.y, moved.z};
   const auto act_on_group = [&] {
-    start.clear();
-    for (PairVerdict& verdict : group) {
-      if (verdict.solver_acts) act(c, contact, verdict.row, start);
+    group.start();
+    for (PairVerdict& verdict : verdicts) {
+      if (verdict.solver_acts) {
+        SecondaryNode& s = contact.secondary[verdict.row.secondary];
+        act_on_node(contact.inacti, contact.fpenmax, verdict.row, movable, s.node, group);
+        s.off |= verdict.row.action == PenetrationAction::node_stiffness_zero;
+        contact.main[verdict.row.main].off |=
+            verdict.row.action == PenetrationAction::segment_stiffness_zero;
+      }
       if (verdict.differs) note(c, judge, verdict, verdict.row);
       if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
     }
-    group.clear();
-    in_group = 0;
+    verdicts.clear();
   };
   for (const CandidatePair& pair : found.pairs) {
     if (is_removed(removed, pair)) {
@@ -311,10 +224,9 @@ void find_penetrations(SceneContext& c, Contact& contact) {
     }
     if (found.is_counted(pair)) {
       ++contact.candidates;
-      if (in_group++ == group_size) {
+      if (group.begins_another()) {
         act_on_group();
         if (!rows_fit(c, contact)) return give_up(c, contact);
-        in_group = 1;
       }
     }
     const SecondaryNode& s = contact.secondary[pair.secondary];
@@ -326,7 +238,7 @@ void find_penetrations(SceneContext& c, Contact& contact) {
     if (!verdict.is_row() && !verdict.differs) continue;
     verdict.row.secondary = pair.secondary;
     verdict.row.main = pair.main;
-    group.push_back(verdict);
+    verdicts.push_back(verdict);
   }
   act_on_group();
 }
@@ -335,6 +247,7 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
   if (contact.main_edges.empty() || contact.secondary_edges.empty()) return;
   const Coordinates& x = c.scene.coordinates;
   Candidates found;
+  RemovalLists removed;
   {
     const EdgeArrays s(contact.secondary_edges), m(contact.main_edges);
     SearchOptions search;
@@ -343,18 +256,12 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     search.threads = c.options.threads;
     search.max_pairs = most_pairs(c);
     const double size = candidate_margin(arrays(x), s.edges, m.edges);
-    found = candidates(c.options.accuracy, size, search, [&](const SearchOptions& o) {
-      return find_edge_edge_pairs(
-          {arrays(x), s.edges, s.gap, s.length, s.stiffness, m.edges, m.gap, m.length, m.stiffness},
-          o);
-    });
+    const EdgeEdgeInput lists{arrays(x), s.edges, s.gap,    s.length,   s.stiffness,
+                              m.edges,   m.gap,   m.length, m.stiffness};
+    found = candidates(c.options.accuracy, size, search,
+                       [&](const SearchOptions& o) { return find_edge_edge_pairs(lists, o); });
+    if (!found.complete || !find_removed(c, contact, lists, removed)) return give_up(c, contact);
   }
-  if (!found.complete) {
-    give_up(c, contact);
-    return;
-  }
-  RemovalLists removed;
-  if (!curvilinear_edge_removal(c, contact, removed)) return give_up(c, contact);
   PairJudge judge(c.options.accuracy, c.scene.decisions);
   for (const CandidatePair& pair : found.pairs) {
     if (is_removed(removed, pair)) {
@@ -370,19 +277,19 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     if (!verdict.is_row() && !verdict.differs) continue;
     verdict.row.secondary = pair.secondary;
     verdict.row.main = pair.main;
-    if (verdict.solver_acts) act(contact, verdict.row, s, m);
+    if (verdict.solver_acts) {
+      act_on_edges(contact.inacti, verdict.row, s.stored_penetration, m.stored_penetration);
+      if (verdict.row.action == PenetrationAction::edge_stiffness_zero)
+        (contact.inacti == 2 ? m : s).off = true;
+    }
     if (verdict.differs) note(c, judge, verdict, verdict.row);
     if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
     if (!rows_fit(c, contact)) return give_up(c, contact);
   }
   // The store is per edge, so the gap left is known only now.
-  for (PenetrationRow& row : contact.penetrations) {
-    if (row.action != PenetrationAction::gap_reduced) continue;
-    row.p0 = contact.secondary_edges[row.secondary].stored_penetration +
-             contact.main_edges[row.main].stored_penetration;
-    row.gap0 = row.gap - row.p0;
-    row.has_gap0 = true;
-  }
+  for (PenetrationRow& row : contact.penetrations)
+    finish_edge_row(row, contact.secondary_edges[row.secondary].stored_penetration,
+                    contact.main_edges[row.main].stored_penetration);
 }
 
 }  // namespace deck::detail

@@ -1,0 +1,151 @@
+// Gaps of a contact from its elements: thicknesses, sides, limits of Igap 3; the rules are in
+// contact/rules.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/scene/scene_parts.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr double never = 1e30;  // as long as it gets
+
+/// Length of the shortest truss, beam or spring at a node; infinity if there is none.
+double shortest_line_element(SceneContext& c, NodeIndex node) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
+    const Elements& family = c.model.family(kind);
+    for (const std::uint32_t e : c.connectivity.elements(kind, node)) {
+      const NodeIndex* n = family.of(e);
+      if (n[0] != node && n[1] != node) continue;
+      if (n[0] == no_index || n[1] == no_index) continue;
+      const double l = distance(c.scene.coordinates, n[0], n[1]);
+      if (l > 0) shortest = std::min(shortest, l);
+    }
+  }
+  return shortest;
+}
+
+/// Half thickness of the thickest thing attached to a node, before Fscalegap.
+double node_half_thickness(SceneContext& c, NodeIndex node) {
+  double half = 0;
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3})
+    for (const std::uint32_t e : c.connectivity.elements(kind, node))
+      half = std::max(half, 0.5 * gap_thickness(c.model, kind, e));
+  for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
+    const Elements& family = c.model.family(kind);
+    for (const std::uint32_t e : c.connectivity.elements(kind, node)) {
+      const NodeIndex* n = family.of(e);
+      if (n[0] != node && n[1] != node) continue;  // a beam's third node only orients it
+      const double part = part_thickness(c.model, kind, e);
+      if (part > 0)
+        half = std::max(half, 0.5 * part);
+      else if (kind != ElementKind::spring)
+        half = std::max(half, 0.5 * section_thickness(c.model, kind, e));
+    }
+  }
+  return half;
+}
+
+}  // namespace
+
+ThicknessSamples shell_thickness(const Contact& contact) {
+  ThicknessSamples out;
+  for (const MainSegment& m : contact.main)
+    if (m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3) out.add(m.thickness);
+  return out;
+}
+
+EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges) {
+  EdgeSide out;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const ContactEdge& e : edges) {
+    shortest = std::min(shortest, shortest_side({x.x, x.y, x.z}, e.nodes));
+    // An edge that is both a shell side and a truss or beam counts twice.
+    if (e.shell > 0) out.thickness.add(e.shell);
+    if (e.section > 0) out.thickness.add(e.section);
+  }
+  if (std::isfinite(shortest)) out.shortest = shortest;
+  return out;
+}
+
+void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
+  const Coordinates& x = c.scene.coordinates;
+  const NodeArrays arrays{x.x, x.y, x.z};
+  const bool variable = contact.igap != 0;
+  const double scale = contact.gap_scale;
+  double shortest = std::numeric_limits<double>::infinity();
+  SideExtremes extremes;
+  for (MainSegment& m : contact.main) {
+    const double side = shortest_side(arrays, m.nodes);
+    shortest = std::min(shortest, side);
+    const bool shell = m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3;
+    if (shell && m.element != no_index)
+      m.thickness = gap_thickness(
+          c.model, m.carrier == Carrier::shell4 ? ElementKind::shell4 : ElementKind::shell3,
+          m.element);
+    if (variable && shell) m.gap = segment_gap(m.thickness, scale);
+    if (contact.igap == 3) {
+      double l = side;
+      for (const NodeIndex n : m.nodes) l = std::min(l, shortest_line_element(c, n));
+      m.length = contact.mesh_fraction * std::min(l, never);
+      extremes.longest_main = std::max(extremes.longest_main, m.length);
+    }
+    extremes.thickest_main = std::max(extremes.thickest_main, m.gap);
+  }
+  contact.shortest_side = std::isfinite(shortest) ? shortest : 0;
+  const DefaultGap gapmin = gapmin_input > 0
+                                ? DefaultGap{gapmin_input, GapminOrigin::card}
+                                : default_gap(shell_thickness(contact), contact.shortest_side,
+                                              variable && contact.type != 10, scale);
+  contact.gapmin = gapmin.value;
+  contact.gapmin_origin = gapmin.origin;
+  std::vector<double> node_length;
+  if (contact.igap == 3) {
+    node_length.assign(x.x.size(), never);
+    for (const MainSegment& m : contact.main)
+      for (const NodeIndex n : m.nodes) node_length[n] = std::min(node_length[n], m.length);
+  }
+  for (SecondaryNode& s : contact.secondary) {
+    if (variable) s.gap = node_gap(node_half_thickness(c, s.node), scale);
+    if (contact.igap == 3) {
+      s.length = node_length[s.node];
+      extremes.longest_secondary = std::max(extremes.longest_secondary, s.length);
+    }
+    extremes.thickest_secondary = std::max(extremes.thickest_secondary, s.gap);
+  }
+  contact.gap_rule = PairGap::from_igap(contact.igap, contact.gapmin, contact.gapmax);
+  contact.max_gap = largest_gap(contact.igap, contact.gapmin, contact.gapmax, extremes);
+}
+
+void set_edge_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
+  const Coordinates& x = c.scene.coordinates;
+  const bool variable = contact.igap != 0;
+  const auto set_side = [&](std::vector<ContactEdge>& edges, double& thickest) {
+    for (ContactEdge& e : edges) {
+      if (variable) e.gap = edge_gap(std::max(e.shell, e.section));
+      if (contact.igap == 3) {
+        double limit = distance(x, e.nodes[0], e.nodes[1]);
+        for (const NodeIndex n : e.nodes) limit = std::min(limit, shortest_line_element(c, n));
+        e.length = contact.mesh_fraction * limit;
+      }
+      thickest = std::max(thickest, e.gap);
+    }
+  };
+  SideExtremes extremes;
+  set_side(contact.main_edges, extremes.thickest_main);
+  set_side(contact.secondary_edges, extremes.thickest_secondary);
+  const EdgeSide main = edge_side(x, contact.main_edges);
+  const EdgeSide secondary = edge_side(x, contact.secondary_edges);
+  contact.shortest_side = shortest_of_both(main, secondary);
+  const DefaultGap gapmin = gapmin_input > 0 ? DefaultGap{gapmin_input, GapminOrigin::card}
+                                             : default_edge_gap(main, secondary, variable);
+  contact.gapmin = gapmin.value;
+  contact.gapmin_origin = gapmin.origin;
+  contact.gap_rule =
+      PairGap::from_igap(contact.igap, contact.gapmin, std::numeric_limits<double>::infinity());
+  contact.max_gap = largest_edge_gap(contact.gapmin, extremes);
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,39 @@
+// One initial penetration: its figures, and what the solver does about it.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "deck/contact/closest.hpp"
+
+namespace deck {
+
+/// What the solver does about one initial penetration.
+enum class PenetrationAction : std::uint8_t {
+  none,
+  node_stiffness_zero,     ///< Inacti 1, or Fpenmax exceeded
+  segment_stiffness_zero,  ///< Inacti 2
+  node_moved,              ///< Inacti 3
+  gap_reduced,             ///< Inacti 5, 6
+  edge_stiffness_zero,     ///< TYPE11: Inacti 1, 2, or deeper than 99.5 % of the gap with 5, 6
+};
+const char* to_string(PenetrationAction action);  ///< "none", "node-stiffness-zero", ...
+
+struct PenetrationRow {
+  std::uint32_t secondary = 0, main = 0;  ///< positions in the contact's lists
+  double depth = 0;      ///< gap - distance
+  double gap = 0;        ///< pair gap
+  double distance = 0;
+  std::array<double, 3> normal{};  ///< unit, main to secondary; zero when on_surface
+  bool on_surface = false;
+  /// Accuracy::robust: false where the pair is no nearer than its gap, and only the round-off of the
+  /// solver's formula makes a penetration of it. The solver acts on it all the same.
+  bool in_contact = true;
+  Feature feature = Feature::face;
+  PenetrationAction action = PenetrationAction::none;
+  bool has_gap0 = false;
+  double p0 = 0, gap0 = 0;  ///< Inacti 5, 6: stored penetration and gap left
+  std::array<double, 3> moved_by{};  ///< Inacti 3
+  double weight_s = 0, weight_m = 0; ///< edge pairs: weights of the first nodes
+};
+
+}  // namespace deck

@@ -1,0 +1,203 @@
+// The rules of gaps, penetrations, Inacti and removal: libdeck/contact/rules, compiled to WebAssembly
+// (../wasm). Numbers go in and out in the order of the structs of ../wasm/what_if.cpp.
+import { unzlibSync } from "fflate";
+import packed from "../wasm/rules.wasm";
+import type { ContactData, Contacts } from "./data";
+import type { ContactMeta, Meta, Overrides, Samples } from "./meta";
+
+interface Exports {
+  initialize(): void;
+  memory: WebAssembly.Memory;
+  room(bytes: number): number;
+  exchange(): number;
+  nodes(count: number, xyz: number): void;
+  contact(): void;
+  reset(): void;
+  evaluate(contact: number, moved: number, withPairs: number): void;
+  secondary_gaps(): number;
+  main_gaps(): number;
+  pair_gap(igap: number, gapmin: number, gapmax: number, gs: number, gm: number, ls: number, lm: number): number;
+  on_surface_error(type: number, itied: number, fpenmax: number, inacti: number): number;
+  act(inacti: number, fpenmax: number, depth: number, gap: number, onSurface: number): void;
+  action_text(action: number): number;
+  origin_text(origin: number): number;
+}
+
+const compiled = new WebAssembly.Module(unzlibSync(packed) as Uint8Array<ArrayBuffer>);
+function start(): Exports {
+  const wasm = new WebAssembly.Instance(compiled).exports as unknown as Exports;
+  wasm.initialize();
+  return wasm;
+}
+/** For rules that need no data. */
+const rules = start();
+
+export type Action =
+  | "none"
+  | "node-stiffness-zero"
+  | "segment-stiffness-zero"
+  | "node-moved"
+  | "gap-reduced"
+  | "edge-stiffness-zero";
+
+/** Effective options of one contact. */
+export interface Setting {
+  igap: number;
+  inacti: number;
+  irem: number;
+  fpenmax: number;
+  scale: number;
+  gapmin: number;
+  gapminFrom: string;
+  gapmax: number;
+  maxGap: number;
+  drad: number;
+}
+
+/** What is done about a penetration. */
+export interface Outcome {
+  action: Action;
+  gap0: number | null;
+  p0: number | null;
+  movedBy: [number, number, number] | null;
+}
+
+export interface Row extends Outcome {
+  contact: number;
+  secondary: number;
+  main: number;
+  depth: number;
+  gap: number;
+  distance: number;
+  normal: [number, number, number];
+  onSurface: boolean;
+  weight: number; // edges: weight of the first secondary node
+}
+
+const rowSize = 17;
+
+function text(address: number): string {
+  const bytes = new Uint8Array(rules.memory.buffer);
+  let out = "";
+  for (let i = address; bytes[i] !== 0; i++) out += String.fromCharCode(bytes[i]);
+  return out;
+}
+const actions = [0, 1, 2, 3, 4, 5].map((i) => text(rules.action_text(i)) as Action);
+
+function rowOf(contact: number, v: Float64Array, at: number): Row {
+  const action = actions[v[at + 9]];
+  const hasGap0 = v[at + 10] !== 0;
+  return {
+    contact,
+    secondary: v[at],
+    main: v[at + 1],
+    depth: v[at + 2],
+    gap: v[at + 3],
+    distance: v[at + 4],
+    normal: [v[at + 5], v[at + 6], v[at + 7]],
+    onSurface: v[at + 8] !== 0,
+    action,
+    gap0: hasGap0 ? v[at + 11] : null,
+    p0: hasGap0 ? v[at + 12] : null,
+    movedBy: action === "node-moved" ? [v[at + 13], v[at + 14], v[at + 15]] : null,
+    weight: v[at + 16],
+  };
+}
+
+/** What Inacti and Fpenmax would do about a penetration on its own. */
+export function outcomeOf(row: Row, inacti: number, fpenmax: number): Outcome {
+  rules.act(inacti, fpenmax, row.depth, row.gap, Number(row.onSurface));
+  return rowOf(row.contact, new Float64Array(rules.memory.buffer, rules.exchange(), rowSize), 0);
+}
+
+/** The solver's error for a node exactly on a segment; 0: none. */
+export function onSurfaceError(meta: ContactMeta, fpenmax: number, inacti: number): number {
+  return meta.kind === "edge_edge" ? 0 : rules.on_surface_error(meta.type, meta.itied, fpenmax, inacti);
+}
+
+/** Pair gap from what the two sides bring. */
+export function pairGap(s: Setting, gs: number, gm: number, ls: number, lm: number): number {
+  return rules.pair_gap(s.igap, s.gapmin, s.gapmax, gs, gm, ls, lm);
+}
+
+/** One contact at its settings. */
+export interface Evaluated {
+  setting: Setting;
+  rows: Row[];
+  /** Largest pair gap that occurs. */
+  reached: number;
+  /** Nodes have moved, and mesh-size limits of Igap 3 with them, which the page cannot measure. */
+  uncertain: boolean;
+}
+
+/** All contacts of the page, with their nodes. */
+export class Core {
+  private readonly wasm = start();
+
+  constructor(meta: Meta, data: Contacts) {
+    const n = data.exactNode.length;
+    // One more for nodes without exact coordinates, which no pair has: the solver's rules only ask
+    // whether they are there.
+    const xyz = new Float64Array(3 * (n + 1));
+    [data.x, data.y, data.z].forEach((axis, k) => xyz.set(axis, k * (n + 1)));
+    this.wasm.nodes(n + 1, this.put(xyz));
+    const position = (node: number) => (data.exactOf[node] < 0 ? n : data.exactOf[node]);
+    meta.contacts.forEach((c, i) => this.add(c, meta.interfaces[c.interface].type, data.contacts[i], position));
+  }
+
+  private add(c: ContactMeta, interfaceType: number, d: ContactData, position: (node: number) => number): void {
+    const edges = c.kind === "edge_edge";
+    const card = c.card;
+    const none: Samples = [0, 0, null, null, 0];
+    // JSON has no infinity.
+    const samples = ([count, sum, smallest, largest, shortest]: Samples) => [count, sum, smallest ?? Infinity, largest ?? -Infinity, shortest];
+    const lengths = (listed: Int32Array, length: Float64Array) => Float64Array.from(listed, (k) => (k < 0 ? Infinity : length[k]));
+    this.send([
+      Number(edges), c.type, interfaceType, c.shortest_side, c.longest_main, c.longest_node, c.reach, c.margin,
+      card.Gapmin, card.Igap, card.Inacti, card.Irem_gap, card.Fscalegap, card.Gapmax, card.Fpenmax,
+      Number(card.thermal), card.Drad, card.Edge_scale_gap,
+      ...samples(c.default[0]), ...samples(c.default[1] ?? none),
+      d.secondaryListed.length, d.mainListed.length, d.pairMain.length,
+      this.put(d.secondaryNode.map(position)), this.put(d.mainNode.map(position)),
+      this.put(d.secondaryThickness), this.put(d.mainThickness),
+      this.put(lengths(d.secondaryListed, d.secondaryLength)), this.put(lengths(d.mainListed, d.mainLength)),
+      this.put(d.pairSecondary), this.put(d.pairMain), this.put(d.pairClass),
+    ]);
+    this.wasm.contact();
+  }
+
+  private put(list: Uint8Array | Uint32Array | Float64Array): number {
+    const address = this.wasm.room(list.byteLength);
+    const bytes = new Uint8Array(list.buffer, list.byteOffset, list.byteLength);
+    new Uint8Array(this.wasm.memory.buffer).set(bytes, address);
+    return address;
+  }
+  private send(values: number[]): void {
+    new Float64Array(this.wasm.memory.buffer, this.wasm.exchange(), values.length).set(values);
+  }
+
+  /** Before the first contact of an evaluation: all nodes where the deck has them. */
+  reset(): void {
+    this.wasm.reset();
+  }
+
+  /** `moved`: how far the contacts before have moved a node; without pairs there are no rows. */
+  evaluate(contact: number, change: Overrides, moved: number, withPairs: boolean): Evaluated {
+    const { Gapmin, Fscalegap, Gapmax, Fpenmax, Igap, Inacti } = change;
+    this.send([Gapmin, Fscalegap, Gapmax, Fpenmax, Igap, Inacti].map((v) => v ?? NaN));
+    this.wasm.evaluate(contact, moved, Number(withPairs));
+    const [igap, inacti, irem, fpenmax, scale, gapmin, from, gapmax, maxGap, drad, reached, uncertain, count, address] =
+      new Float64Array(this.wasm.memory.buffer, this.wasm.exchange(), 14);
+    const out = new Float64Array(this.wasm.memory.buffer, address, count * rowSize);
+    const rows: Row[] = [];
+    for (let i = 0; i < count; i++) rows.push(rowOf(contact, out, i * rowSize));
+    return { setting: { igap, inacti, irem, fpenmax, scale, gapmin, gapminFrom: text(rules.origin_text(from)), gapmax, maxGap, drad }, rows, reached, uncertain: uncertain !== 0 };
+  }
+
+  /** Gaps that the items of both sides bring at these settings. */
+  sideGaps(contact: number, change: Overrides, data: ContactData): { gs: Float64Array; gm: Float64Array } {
+    this.evaluate(contact, change, 0, false);
+    const list = (address: number, count: number) => new Float64Array(this.wasm.memory.buffer, address, count).slice();
+    return { gs: list(this.wasm.secondary_gaps(), data.secondaryListed.length), gm: list(this.wasm.main_gaps(), data.mainListed.length) };
+  }
+}

@@ -1,0 +1,5 @@
+// A WebAssembly module as build.mjs bundles it: packed by zlib.
+declare module "*.wasm" {
+  const packed: Uint8Array;
+  export default packed;
+}
