@@ -39,8 +39,7 @@ def build(compiler, level, extra, directory, jobs):
     """The digest program of one configuration, or its error."""
     common = ["ccache"] if shutil.which("ccache") else []
     common += [compiler, "-std=c++20", "-" + level, "-ffp-contract=off", "-fno-math-errno", "-w", "-I",
-               os.path.join(LIB, "include"), "-I", LIB, "-I", os.path.join(ROOT, "tests"), "-isystem",
-               "/usr/include/eigen3"] + extra
+               os.path.join(LIB, "include"), "-I", LIB, "-I", os.path.join(ROOT, "tests")] + extra
 
     def one(source):
         stem = os.path.splitext(os.path.basename(source))[0]
