@@ -1,26 +1,21 @@
 // The elastic contact force of one pair in several arithmetics, and the kernel of the cycle stage
 // on the same pairs. The law is that of the robust model, F = K/2 g (g - d) / d with a linear
 // branch below d = 1e-8 g; the reference's own arithmetic subtracts twice and drops the node there.
-#include <gmpxx.h>
-
 #include <cmath>
 #include <limits>
 
 #include "accuracy/tiers.hpp"
 #include "contact/distance/dd.hpp"
-#include "contact/distance/exact_rational.hpp"
 #include "deck/cycle/kernel.hpp"
 
 namespace deck::accuracy {
 namespace {
 
-constexpr double kFloor = 1e-8;  // of the gap: the law is linear below
-
 // Force for K0 = 1, from the depth where it is known better than gap - distance. In ratios: small
 // numbers must not meet in a product.
 template <class T>
 T law(const T& gap, const T& distance, const T& depth) {
-  const T half(0.5), floor(kFloor), share = distance / gap;
+  const T half(0.5), floor(kLinearBelow), share = distance / gap;
   if (share >= floor) return half * depth / share;
   return half * gap * ((T(1) - floor) / floor + (floor - share) / (floor * floor));
 }
@@ -127,30 +122,8 @@ struct Packet {
 
 }  // namespace
 
-Outcome exact_force(const PairSample& s, FilterCounters&) {
-  const mpq_class squared = s.edges ? exact_distance_squared(s.x[0], s.x[1], s.x[2], s.x[3])
-                                    : exact_distance_squared(s.x[4], s.corners(), s.triangle);
-  Outcome out;
-  const mpq_class g(s.gap), difference = g * g - squared;
-  out.closer = s.gap > 0.0 && sgn(difference) > 0;
-  if (!out.closer) return out;
-  constexpr mp_bitcnt_t kBits = 256;
-  const mpf_class gap(g, kBits), d = sqrt(mpf_class(squared, kBits)),
-                                 depth(mpf_class(difference, kBits) / (gap + d));
-  const mpf_class floor(mpf_class(kFloor, kBits) * gap);
-  mpf_class f(0, kBits);
-  if (d >= floor) {
-    f = gap * depth / (2 * d);
-  } else {
-    f = (gap - floor) / (2 * mpf_class(kFloor, kBits)) +
-        (floor - d) / (2 * mpf_class(kFloor * kFloor, kBits));
-  }
-  out.value = f.get_d();
-  return out;
-}
-
 double force_slope(double distance, double gap) {
-  const double rho = std::max(distance / gap, kFloor);
+  const double rho = std::max(distance / gap, kLinearBelow);
   return 0.5 / (rho * rho);
 }
 

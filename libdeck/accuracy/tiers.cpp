@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "contact/distance/dd.hpp"
-#include "contact/distance/exact.hpp"
 
 namespace deck::accuracy {
 namespace {
@@ -102,26 +101,6 @@ const Tier kDistanceTiers[] = {
 bool decide(const PairSample& s, FilterCounters& counters) {
   return s.edges ? is_closer_than(s.x[0], s.x[1], s.x[2], s.x[3], s.gap, &counters)
                  : is_closer_than(s.x[4], s.corners(), s.triangle, s.gap, &counters);
-}
-
-Outcome exact(const PairSample& s, FilterCounters&) {
-  Outcome out;
-  if (s.edges) {
-    const auto c = exact_closest_between_edges(s.x[0], s.x[1], s.x[2], s.x[3]);
-    out.value = c.distance;
-    out.feature = number_of(c.feature_s, c.feature_m);
-  } else {
-    const auto c = exact_closest_on_segment(s.x[4], s.corners(), s.triangle);
-    out.value = c.distance;
-    out.feature = number_of(c.feature, c.feature_index);
-  }
-  out.closer = out.value < s.gap;
-  if (out.value == s.gap && s.gap > 0.0) {
-    const int side = s.edges ? exact_compare_distance(s.x[0], s.x[1], s.x[2], s.x[3], s.gap)
-                             : exact_compare_distance(s.x[4], s.corners(), s.triangle, s.gap);
-    out.closer = side < 0;
-  }
-  return out;
 }
 
 std::span<const Tier> distance_tiers() { return kDistanceTiers; }

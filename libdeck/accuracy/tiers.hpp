@@ -57,8 +57,10 @@ std::span<const Tier> force_tiers();
 Outcome lazy_exact(const PairSample& s, FilterCounters& counters);
 Outcome interval(const PairSample& s, FilterCounters& counters);
 
-// Exact distance rounded once, exact decision.
+// Rationals throughout: exact distance rounded once, exact decision.
 Outcome exact(const PairSample& s, FilterCounters& counters);
+// Below this share of the gap the robust force law is linear in the distance.
+constexpr double kLinearBelow = 1e-8;
 // Elastic normal force of the robust model for K0 = 1, rounded from more than 200 bits.
 Outcome exact_force(const PairSample& s, FilterCounters& counters);
 // dF/dd at the exact distance: what an error of the distance makes of itself in the force.

@@ -1,25 +1,13 @@
-// CGAL's number types in the same formulas: intervals that know when they do not know, and lazily
-// exact numbers.
-#include <CGAL/Gmpq.h>
+// CGAL's number types in the same formulas: intervals that know when they do not know, rationals, and
+// lazily exact numbers.
 #include <CGAL/Interval_nt.h>
-#include <CGAL/Lazy_exact_nt.h>
-#include <gmpxx.h>
 
 #include <cmath>
 
 #include "accuracy/tiers.hpp"
-#include "contact/distance/exact_rational.hpp"
+#include "contact/distance/exact_number.hpp"
 
-namespace deck {
-
-template <>
-struct NumberTraits<CGAL::Lazy_exact_nt<CGAL::Gmpq>> {
-  static constexpr bool has_sqrt = false;
-  static constexpr bool is_machine_float = false;
-  static CGAL::Lazy_exact_nt<CGAL::Gmpq> parallel_guard() { return 0; }
-};
-
-namespace accuracy {
+namespace deck::accuracy {
 namespace {
 
 template <class T, class F>
@@ -40,17 +28,23 @@ void run(const PairSample& s, Outcome& out, const F& take) {
   }
 }
 
-}  // namespace
+const Rational& exact_value(const Rational& number) { return number; }
+const Rational& exact_value(const LazyRational& number) { return number.exact(); }
 
-Outcome lazy_exact(const PairSample& s, FilterCounters&) {
-  using T = CGAL::Lazy_exact_nt<CGAL::Gmpq>;
+template <class T>
+Outcome in_exact_numbers(const PairSample& s) {
   Outcome out;
   run<T>(s, out, [&](const T& squared) {
-    out.value = rounded_square_root(mpq_class(squared.exact().mpq()));
-    out.closer = s.gap > 0.0 && squared < T(s.gap) * T(s.gap);
+    out.value = rounded_square_root(exact_value(squared));
+    out.closer = s.gap > 0.0 && squared < CGAL::square(T(s.gap));
   });
   return out;
 }
+
+}  // namespace
+
+Outcome lazy_exact(const PairSample& s, FilterCounters&) { return in_exact_numbers<LazyRational>(s); }
+Outcome exact(const PairSample& s, FilterCounters&) { return in_exact_numbers<Rational>(s); }
 
 Outcome interval(const PairSample& s, FilterCounters& counters) {
   using T = CGAL::Interval_nt<false>;
@@ -74,5 +68,4 @@ Outcome interval(const PairSample& s, FilterCounters& counters) {
   return exact(s, unused);
 }
 
-}  // namespace accuracy
-}  // namespace deck
+}  // namespace deck::accuracy

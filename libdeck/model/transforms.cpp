@@ -1,5 +1,6 @@
 // /TRANSFORM: every type is one affine map; submodel transforms move the nodes of their submodel
 // right after reading, the others move a node group after all groups are known.
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
 
@@ -8,67 +9,73 @@
 
 namespace deck {
 
+namespace {
+
+using Vector = Eigen::Vector3d;
+using Matrix = Eigen::Matrix3d;
+
+Vector of(const std::array<double, 3>& v) { return Vector::Map(v.data()); }
+Matrix matrix_of(const AffineMap& map) {
+  return Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(map.matrix.data());
+}
+/// Column by column: the sum of each component runs from x to z, whatever the processor.
+Vector product(const Matrix& m, const Vector& v) {
+  return m.col(0) * v[0] + m.col(1) * v[1] + m.col(2) * v[2];
+}
+
+std::array<double, 3> plain(const Vector& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
 std::array<double, 3> AffineMap::turn(const std::array<double, 3>& d) const {
-  return {matrix[0] * d[0] + matrix[1] * d[1] + matrix[2] * d[2],
-          matrix[3] * d[0] + matrix[4] * d[1] + matrix[5] * d[2],
-          matrix[6] * d[0] + matrix[7] * d[1] + matrix[8] * d[2]};
+  return plain(product(matrix_of(*this), of(d)));
 }
 
 std::array<double, 3> AffineMap::apply(const std::array<double, 3>& p) const {
-  const std::array<double, 3> r = turn(p);
-  return {r[0] + shift[0], r[1] + shift[1], r[2] + shift[2]};
+  return plain(product(matrix_of(*this), of(p)) + of(shift));
 }
 
 namespace detail {
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vector difference(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+AffineMap map_of(const Matrix& matrix, const Vector& shift) {
+  AffineMap map;
+  Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(map.matrix.data()) = matrix;
+  map.shift = plain(shift);
+  return map;
 }
-double length(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
 
 /// Map with the given matrix that leaves `centre` where it is.
-AffineMap about(const std::array<double, 9>& matrix, const Vector& centre) {
-  AffineMap map;
-  map.matrix = matrix;
-  const Vector moved = map.turn(centre);
-  map.shift = difference(centre, moved);
-  return map;
+AffineMap about(const Matrix& matrix, const Vector& centre) {
+  return map_of(matrix, centre - product(matrix, centre));
 }
 
 AffineMap then(const AffineMap& first, const AffineMap& second) {
-  AffineMap map;
-  for (std::size_t r = 0; r < 3; ++r)
-    for (std::size_t c = 0; c < 3; ++c) {
-      double sum = 0;
-      for (std::size_t k = 0; k < 3; ++k) sum += second.matrix[3 * r + k] * first.matrix[3 * k + c];
-      map.matrix[3 * r + c] = sum;
-    }
-  map.shift = second.apply(first.shift);
-  return map;
+  const Matrix a = matrix_of(first), b = matrix_of(second);
+  Matrix both;
+  for (int c = 0; c < 3; ++c) both.col(c) = product(b, a.col(c));
+  return map_of(both, product(b, of(first.shift)) + of(second.shift));
 }
+
+/// Squares cannot overflow.
+double length(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
+Vector unit(const Vector& v) { return v / length(v); }
+Matrix square(const Vector& n) { return n * n.transpose(); }
 
 /// Rotation by `angle` degrees about the axis through `p` along `direction`.
 AffineMap rotation(const Vector& p, const Vector& direction, double angle) {
-  const double n = length(direction);
-  const double x = direction[0] / n, y = direction[1] / n, z = direction[2] / n;
+  const Vector n = unit(direction);
   const double radians = angle * std::numbers::pi / 180;
-  const double s = std::sin(radians), c = std::cos(radians), v = 1 - c;
-  return about(
-      {c + x * x * v, x * y * v - z * s, x * z * v + y * s, y * x * v + z * s, c + y * y * v,
-       y * z * v - x * s, z * x * v - y * s, z * y * v + x * s, c + z * z * v},
-      p);
+  const double s = std::sin(radians), c = std::cos(radians);
+  Matrix across;  // n x v = across v
+  across << 0, -n[2], n[1], n[2], 0, -n[0], -n[1], n[0], 0;
+  return about(c * Matrix::Identity() + (1 - c) * square(n) + s * across, p);
 }
 
 /// Mirror image in the plane through `p` normal to `direction`.
 AffineMap reflection(const Vector& p, const Vector& direction) {
-  const double n = length(direction);
-  const double x = direction[0] / n, y = direction[1] / n, z = direction[2] / n;
-  return about({1 - 2 * x * x, -2 * x * y, -2 * x * z, -2 * y * x, 1 - 2 * y * y, -2 * y * z,
-                -2 * z * x, -2 * z * y, 1 - 2 * z * z},
-               p);
+  const Vector n = unit(direction);
+  return about(Matrix::Identity() - 2 * square(n), p);
 }
 
 class TransformReader {
@@ -136,12 +143,12 @@ class TransformReader {
   std::optional<std::pair<Vector, Vector>> two_points() {
     if (!has_nodes()) {
       const Vector p = point("X1", "Y1", "Z1");
-      return std::pair{p, difference(point("X2", "Y2", "Z2"), p)};
+      return std::pair<Vector, Vector>{p, point("X2", "Y2", "Z2") - p};
     }
     const auto p = node("node_ID1");
     const auto q = node("node_ID2");
     if (!p || !q) return std::nullopt;
-    return std::pair{*p, difference(*q, *p)};
+    return std::pair<Vector, Vector>{*p, *q - *p};
   }
 
   std::optional<AffineMap> translation() {
@@ -150,18 +157,18 @@ class TransformReader {
       const auto p = node("node_ID1");
       const auto q = node("node_ID2");
       if (!p || !q) return std::nullopt;
-      map.shift = difference(*q, *p);
+      map.shift = plain(*q - *p);
       return map;
     }
     if (d_.integer("skew_ID") != 0)
       return fail("translations in a skew are not evaluated here: the nodes keep their coordinates",
                   "give the translation in global axes", Severity::warning);
-    map.shift = point("TX", "TY", "TZ");
+    map.shift = plain(point("TX", "TY", "TZ"));
     return map;
   }
 
   std::optional<AffineMap> scaling() {
-    Vector centre{};
+    Vector centre = Vector::Zero();
     if (d_.integer("node_ID1") > 0) {
       const auto p = node("node_ID1");
       if (!p) return std::nullopt;
@@ -171,7 +178,7 @@ class TransformReader {
       const double f = d_.real(name);
       return f == 0 ? 1 : f;
     };
-    return about({factor("FX"), 0, 0, 0, factor("FY"), 0, 0, 0, factor("FZ")}, centre);
+    return about(Vector(factor("FX"), factor("FY"), factor("FZ")).asDiagonal(), centre);
   }
 
   std::optional<AffineMap> matrix() {
@@ -179,7 +186,7 @@ class TransformReader {
     constexpr const char* names[9] = {"M11", "M12", "M13", "M21", "M22",
                                       "M23", "M31", "M32", "M33"};
     for (std::size_t i = 0; i < 9; ++i) map.matrix[i] = d_.real(names[i]);
-    map.shift = point("TX", "TY", "TZ");
+    map.shift = plain(point("TX", "TY", "TZ"));
     return map;
   }
 
@@ -189,7 +196,7 @@ class TransformReader {
 };
 
 void move_node(Nodes& nodes, NodeIndex n, const AffineMap& map) {
-  const Vector p = map.apply({nodes.x[n], nodes.y[n], nodes.z[n]});
+  const std::array<double, 3> p = map.apply({nodes.x[n], nodes.y[n], nodes.z[n]});
   nodes.x[n] = p[0];
   nodes.y[n] = p[1];
   nodes.z[n] = p[2];

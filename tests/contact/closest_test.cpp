@@ -10,7 +10,6 @@
 
 #include "contact/distance/dd.hpp"
 #include "contact/distance/exact.hpp"
-#include "contact/distance/exact_rational.hpp"
 
 namespace deck {
 namespace {
@@ -435,17 +434,6 @@ TEST(DoubleDoubleNumber, KeepsAboutThirtyTwoDigits) {
   EXPECT_LT(std::abs((root * root - DoubleDouble(2.0)).hi()), 1e-31);
   EXPECT_NE(root.lo(), 0.0);
   EXPECT_EQ(sqrt(DoubleDouble(0.0)).hi(), 0.0);
-}
-
-TEST(ExactSquareRoot, IsCorrectlyRounded) {
-  Random random(9);
-  for (int i = 0; i < 2000; ++i) {
-    const double x = std::ldexp(random.uniform(1, 4), static_cast<int>(random.uniform(-900, 900)));
-    EXPECT_EQ(rounded_square_root(mpq_class(x)), std::sqrt(x));
-    const mpq_class exact(x);
-    EXPECT_EQ(rounded_square_root(exact * exact), x);
-  }
-  EXPECT_EQ(rounded_square_root(mpq_class(0)), 0.0);
 }
 
 TEST(ExactDecision, SeesOneUnitInTheLastPlace) {

@@ -1,18 +1,13 @@
-// CGAL as second opinion: boxes, trees and exact distances from another library give the same
-// pairs.
+// CGAL as second opinion: boxes and trees from another library give the same pairs.
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Gmpq.h>
-#include <CGAL/Interval_nt.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/box_intersection_d.h>
-#include <gmpxx.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "contact/distance/exact_rational.hpp"
 #include "contact/search_scenes.hpp"
 #include "deck/contact/search.hpp"
 
@@ -142,83 +137,6 @@ TEST(SearchAgainstCgal, NodeHasAPairExactlyIfTheTreeFindsATriangleWithinTheGap) 
     if (std::abs(d - 0.5) < 1e-12) continue;
     EXPECT_EQ(touched[i], d < 0.5) << i;
   }
-}
-
-TEST(ExactAgainstCgal, SquaredDistanceOfPointAndTriangle) {
-  using Exact = CGAL::Simple_cartesian<CGAL::Gmpq>;
-  Dice dice(13);
-  const auto coordinate = [&dice] { return mpq_class(dice.below(17) - 8, 1 + dice.below(5)); };
-  for (int k = 0; k < 300; ++k) {
-    std::array<Point3<mpq_class>, 4> p;
-    for (auto& q : p) {
-      q = {coordinate(), coordinate(), coordinate()};
-      q.x.canonicalize(), q.y.canonicalize(), q.z.canonicalize();
-    }
-    const auto cgal = [](const Point3<mpq_class>& q) {
-      return Exact::Point_3(CGAL::Gmpq(q.x.get_mpq_t()), CGAL::Gmpq(q.y.get_mpq_t()),
-                            CGAL::Gmpq(q.z.get_mpq_t()));
-    };
-    const Exact::Triangle_3 triangle(cgal(p[0]), cgal(p[1]), cgal(p[2]));
-    if (triangle.is_degenerate()) continue;
-    const mpq_class expected(CGAL::squared_distance(cgal(p[3]), triangle).mpq());
-    const auto ours = closest_on_segment<Form::robust>(
-        p[3], std::array<Point3<mpq_class>, 4>{p[0], p[1], p[2], p[2]}, true);
-    EXPECT_TRUE(ours.distance_squared() == expected);
-  }
-}
-
-TEST(ExactAgainstCgal, SquaredDistanceOfTwoEdges) {
-  using Exact = CGAL::Simple_cartesian<CGAL::Gmpq>;
-  Dice dice(14);
-  for (int k = 0; k < 500; ++k) {
-    std::array<Point3<mpq_class>, 4> p;
-    for (auto& q : p) q = {dice.below(7), dice.below(7), dice.below(3)};
-    const auto cgal = [](const Point3<mpq_class>& q) {
-      return Exact::Point_3(CGAL::Gmpq(q.x.get_mpq_t()), CGAL::Gmpq(q.y.get_mpq_t()),
-                            CGAL::Gmpq(q.z.get_mpq_t()));
-    };
-    const Exact::Segment_3 a(cgal(p[0]), cgal(p[1])), b(cgal(p[2]), cgal(p[3]));
-    if (a.is_degenerate() || b.is_degenerate()) continue;
-    const mpq_class expected(CGAL::squared_distance(a, b).mpq());
-    const auto ours = closest_between_edges<Form::robust>(p[0], p[1], p[2], p[3]);
-    EXPECT_TRUE(ours.distance_squared == expected);
-  }
-}
-
-TEST(IntervalKernel, EnclosesTheExactDistanceOrAdmitsItIsUncertain) {
-  using Interval = CGAL::Interval_nt<true>;
-  Dice dice(15);
-  int certain = 0;
-  for (int k = 0; k < 300; ++k) {
-    std::array<Point3<double>, 4> x{};
-    for (auto& q : x) q = {dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)};
-    const Point3<double> p{dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)};
-    const auto lift = [](const Point3<double>& q) {
-      return Point3<Interval>{Interval(q.x), Interval(q.y), Interval(q.z)};
-    };
-    const auto exact_lift = [](const Point3<double>& q) {
-      return Point3<mpq_class>{q.x, q.y, q.z};
-    };
-    const mpq_class exact =
-        closest_on_segment<Form::robust>(
-            exact_lift(p),
-            std::array<Point3<mpq_class>, 4>{exact_lift(x[0]), exact_lift(x[1]), exact_lift(x[2]),
-                                             exact_lift(x[3])},
-            false)
-            .distance_squared();
-    try {
-      const auto c = closest_on_segment<Form::robust>(
-          lift(p), std::array<Point3<Interval>, 4>{lift(x[0]), lift(x[1]), lift(x[2]), lift(x[3])},
-          false);
-      EXPECT_TRUE(mpq_class(c.distance_squared().inf()) <= exact);
-      EXPECT_TRUE(mpq_class(c.distance_squared().sup()) >= exact);
-      ++certain;
-    } catch (const CGAL::Uncertain_conversion_exception&) {
-      // Nodes beside a spoke have the same distance to two sub-triangles: a tie intervals cannot
-      // decide.
-    }
-  }
-  EXPECT_GT(certain, 30);
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "contact/distance/exact.hpp"
-#include "contact/distance/exact_rational.hpp"
 #include "accuracy/pair_rewriting.hpp"
 #include "deck/accuracy/accuracy.hpp"
 #include "deck/contact/filtered.hpp"
@@ -82,21 +81,22 @@ TEST_P(HardCases, RobustDecidesAsExactArithmeticAndRoundsOnce) {
 TEST_P(HardCases, DepthsAreCertifiedAndTouchesAreExact) {
   for (const PairSample& s : hard_cases(GetParam(), 400, 11)) {
     const auto& x = s.x;
-    const mpq_class squared = s.edges ? exact_distance_squared(x[0], x[1], x[2], x[3])
-                                      : exact_distance_squared(x[4], s.corners(), s.triangle);
+    const ExactDepth exact = s.edges ? exact_depth(x[0], x[1], x[2], x[3], s.gap)
+                                     : exact_depth(x[4], s.corners(), s.triangle, s.gap);
+    const int beyond = s.edges ? exact_compare_distance(x[0], x[1], x[2], x[3], 0.0)
+                               : exact_compare_distance(x[4], s.corners(), s.triangle, 0.0);
     const FilteredDepth depth = s.edges ? filtered_depth(x[0], x[1], x[2], x[3], s.gap)
                                         : filtered_depth(x[4], s.corners(), s.triangle, s.gap);
-    const double want = rounded_depth(s.gap, squared);
+    const double want = exact.depth;
     ASSERT_EQ(depth.depth > 0.0, want > 0.0) << place(s);
     // Subnormal depths have the digits that are left.
     if (std::isnormal(want)) {
       ASSERT_NEAR(depth.depth, want, 2e-12 * want) << place(s);
-      const double distance = rounded_square_root(squared);
-      ASSERT_NEAR(depth.distance, distance, 2e-12 * distance) << place(s);
+      ASSERT_NEAR(depth.distance, exact.distance, 2e-12 * exact.distance) << place(s);
     }
     const bool touching =
         s.edges ? is_touching(x[0], x[1], x[2], x[3]) : is_touching(x[4], s.corners(), s.triangle);
-    ASSERT_EQ(touching, sgn(squared) == 0) << place(s);
+    ASSERT_EQ(touching, beyond == 0) << place(s);
   }
 }
 

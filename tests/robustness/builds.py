@@ -25,27 +25,27 @@ WIDE = {"kernels_avx2": ["-mavx2"],
 
 def sources():
     """What the digest program is made of: kernels, no reading of decks."""
-    out = [os.path.join(ROOT, "tests", "hardcases", "digest.cpp")]
-    for pattern in ("exact.cpp", "filtered.cpp", "filtered_distance.cpp", "filtered_exact.cpp", "box_*.cpp",
-                    "search_*.cpp", "accuracy_families.cpp", "accuracy_force.cpp"):
-        out += sorted(glob.glob(os.path.join(LIB, "contact", pattern)))
-    for name in ("kernels_baseline", "kernels_avx2", "kernels_avx512", "evaluate", "plan", "packet", "card",
-                 "friction", "heat", "tie", "curvature"):
+    out = [os.path.join(ROOT, "tests", "hardcases", "digest.cpp"), os.path.join(LIB, "base", "parallel.cpp")]
+    for pattern in ("contact/distance/*.cpp", "contact/search/*.cpp", "accuracy/families.cpp",
+                    "accuracy/force*.cpp", "cycle/kernel/kernels_*.cpp",
+                    "cycle/kernel/packet.cpp"):
+        out += sorted(glob.glob(os.path.join(LIB, pattern)))
+    for name in ("evaluate", "plan", "card", "friction", "heat", "tie", "curvature"):
         out.append(os.path.join(LIB, "cycle", name + ".cpp"))
-    return [s for s in out if os.path.exists(s)]
+    return out
 
 
 def build(compiler, level, extra, directory, jobs):
     """The digest program of one configuration, or its error."""
     common = ["ccache"] if shutil.which("ccache") else []
     common += [compiler, "-std=c++20", "-" + level, "-ffp-contract=off", "-fno-math-errno", "-w", "-I",
-               os.path.join(LIB, "include"), "-I", LIB, "-I", os.path.join(ROOT, "tests"), "-isystem",
-               "/usr/include/eigen3"] + extra
+               os.path.join(LIB, "include"), "-I", LIB, "-I", os.path.join(ROOT, "tests")] + extra
 
     def one(source):
         stem = os.path.splitext(os.path.basename(source))[0]
         target = os.path.join(directory, stem + ".o")
-        run = subprocess.run(common + WIDE.get(stem, []) + ["-c", source, "-o", target],
+        special = WIDE.get(stem, ["-frounding-math"] if stem.endswith("_cgal") else [])
+        run = subprocess.run(common + special + ["-c", source, "-o", target],
                              capture_output=True, text=True)
         return target, run
 
@@ -55,7 +55,7 @@ def build(compiler, level, extra, directory, jobs):
         if run.returncode != 0:
             return None, "%s: %s" % (os.path.basename(target), run.stderr.strip().split("\n")[0])
     program = os.path.join(directory, "digest")
-    link = subprocess.run([compiler] + [m[0] for m in made] + ["-o", program, "-lgmpxx", "-lgmp", "-lpthread"],
+    link = subprocess.run([compiler] + [m[0] for m in made] + ["-o", program, "-lgmpxx", "-lgmp", "-lmpfr", "-lpthread"],
                           capture_output=True, text=True)
     if link.returncode != 0:
         found = [l for l in link.stderr.split("\n") if "undefined" in l] or [link.stderr.strip()]

@@ -1,5 +1,5 @@
-// Exact distances of nodes, segments and edges in rational arithmetic on the given doubles.
-// The oracle of tests and accuracy measurements: slow (about 20 microseconds a pair), never wrong.
+// Exact distances of nodes, segments and edges: CGAL's exact numbers on the given doubles. The oracle of
+// tests and accuracy measurements: slow (about 20 microseconds a pair), never wrong.
 #pragma once
 
 #include <array>
@@ -33,6 +33,16 @@ ExactSegment exact_closest_on_segment(const Point3<double>& p,
                                       const std::array<Point3<double>, 4>& corners, bool triangle);
 ExactEdges exact_closest_between_edges(const Point3<double>& s1, const Point3<double>& s2,
                                        const Point3<double>& m1, const Point3<double>& m2);
+
+// How far a pair is below its gap, and its distance; zeros if it is not.
+struct ExactDepth {
+  double depth = 0.0;  // rounded towards zero, but above 0
+  double distance = 0.0;
+};
+ExactDepth exact_depth(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
+                       bool triangle, double gap);
+ExactDepth exact_depth(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
+                       const Point3<double>& m2, double gap);
 
 // Sign of (exact distance - limit): the contact decision without any rounding.
 int exact_compare_distance(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,

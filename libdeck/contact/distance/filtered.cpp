@@ -1,4 +1,4 @@
-// Contact decisions: brackets of the exact distance in double and double-double, else integers.
+// Contact decisions: brackets of the exact distance in double and double-double, else exact numbers.
 #include "deck/contact/filtered.hpp"
 
 #include "contact/distance/exact.hpp"
@@ -27,7 +27,7 @@ bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, 
       stage = FilterStage::double_double;
       const auto v = wide_hull<DoubleDouble>(pair);
       const P largest = largest_magnitudes(v);
-      // What double took for the closest parts nearly always is that: first the proof in integers,
+      // What double took for the closest parts nearly always is that: first the exact proof,
       // then other parts.
       for (const bool guided : {true, false}) {
         const auto w = wide_closest(pair, c, v, guided);

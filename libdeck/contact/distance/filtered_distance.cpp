@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "contact/distance/exact.hpp"
-#include "contact/distance/exact_rational.hpp"
 #include "contact/distance/filtered_bounds.hpp"
 
 namespace deck {
@@ -33,13 +32,7 @@ std::optional<FilteredDepth> rescaled(FilteredDepth out, int shift, FilterStage 
   if (!std::isnormal(out.depth) || !std::isnormal(out.distance)) return std::nullopt;
   return out;
 }
-FilteredDepth exact_depth(const mpq_class& squared, double gap) {
-  FilteredDepth out;
-  out.stage = FilterStage::exact;
-  out.depth = rounded_depth(gap, squared);
-  if (out.depth > 0.0) out.distance = rounded_square_root(squared);
-  return out;
-}
+FilteredDepth in_exact_numbers(const ExactDepth& d) { return {d.depth, d.distance, FilterStage::exact}; }
 
 }  // namespace
 
@@ -74,7 +67,7 @@ FilteredDepth filtered_depth(const P& p, const std::array<P, 4>& corners, bool t
     }
   }
   if (!all_finite(points_of(p, corners, triangle)) || !std::isfinite(gap)) return give({});
-  return give(exact_depth(exact_distance_squared(p, corners, triangle), gap));
+  return give(in_exact_numbers(exact_depth(p, corners, triangle, gap)));
 }
 
 FilteredDepth filtered_depth(const P& s1, const P& s2, const P& m1, const P& m2, double gap,
@@ -105,7 +98,7 @@ FilteredDepth filtered_depth(const P& s1, const P& s2, const P& m1, const P& m2,
         return give(*out);
   }
   if (!all_finite(std::array<P, 4>{s1, s2, m1, m2}) || !std::isfinite(gap)) return give({});
-  return give(exact_depth(exact_distance_squared(s1, s2, m1, m2), gap));
+  return give(in_exact_numbers(exact_depth(s1, s2, m1, m2, gap)));
 }
 
 bool is_touching(const P& p, const std::array<P, 4>& corners, bool triangle) {

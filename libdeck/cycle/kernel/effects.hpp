@@ -162,20 +162,20 @@ struct Rates {
   template <ContactKind K, class V>
   static void gather(const PacketView& view, std::size_t i, PairState<V>& s) {
     if constexpr (K == ContactKind::edge_edge) {
-      s.v = (s.weight[0] * Vec3<V>::load(view.velocity[0], i) +
-             s.weight[1] * Vec3<V>::load(view.velocity[1], i)) -
-            (s.weight[2] * Vec3<V>::load(view.velocity[2], i) +
-             s.weight[3] * Vec3<V>::load(view.velocity[3], i));
+      s.v = (s.weight[0] * load3<V>(view.velocity[0], i) +
+             s.weight[1] * load3<V>(view.velocity[1], i)) -
+            (s.weight[2] * load3<V>(view.velocity[2], i) +
+             s.weight[3] * load3<V>(view.velocity[3], i));
       std::array<V, 4> m;
       four_times([&](auto c) DECK_INLINE { m[c] = V::load(view.mass[c] + i); });
       s.mass =
           min(s.weight[0] * m[0] + s.weight[1] * m[1], s.weight[2] * m[2] + s.weight[3] * m[3]);
     } else {
-      Vec3<V> main = s.raw[0] * Vec3<V>::load(view.velocity[1], i);
+      Vec3<V> main = s.raw[0] * load3<V>(view.velocity[1], i);
       four_times([&](auto c) DECK_INLINE {
-        if (c != 0) main = main + s.raw[c] * Vec3<V>::load(view.velocity[c + 1], i);
+        if (c != 0) main = main + s.raw[c] * load3<V>(view.velocity[c + 1], i);
       });
-      s.v = Vec3<V>::load(view.velocity[0], i) - main;
+      s.v = load3<V>(view.velocity[0], i) - main;
       s.mass = V::load(view.mass[0] + i);
     }
     s.vn = dot(s.n, s.v);
@@ -275,7 +275,7 @@ struct FrictionIncremental {
     const V cap = Friction::limit(s);
     const V spring = K == ContactKind::edge_edge ? s.k_nodal : s.k0;
     const V step = (K == ContactKind::edge_edge ? k.dt12 : k.alpha * k.dt12) * spring;
-    Vec3<V> trial = Vec3<V>::load(view.ft_old, i) + step * s.v;
+    Vec3<V> trial = load3<V>(view.ft_old, i) + step * s.v;
     trial = trial - dot(trial, s.n) * s.n;
     const V size2 = dot(trial, trial);
     V beta;
@@ -298,8 +298,8 @@ struct FrictionLaw {
   static constexpr Field writes = Field::none;
   template <class V>
   static V area(const PacketView& view, std::size_t i) {
-    const Vec3<V> d13 = Vec3<V>::load(view.position[3], i) - Vec3<V>::load(view.position[1], i);
-    const Vec3<V> d24 = Vec3<V>::load(view.position[4], i) - Vec3<V>::load(view.position[2], i);
+    const Vec3<V> d13 = load3<V>(view.position[3], i) - load3<V>(view.position[1], i);
+    const Vec3<V> d24 = load3<V>(view.position[4], i) - load3<V>(view.position[2], i);
     const Vec3<V> area2 = cross(d13, d24);
     return V::fill(0.5) * sqrt(dot(area2, area2));
   }
@@ -413,7 +413,7 @@ struct Filter {
   template <class V>
   static void apply(const Constants& k, const PacketView& view, std::size_t i, PairState<V>& s) {
     const V one = V::fill(1.0);
-    const Vec3<V> old = Vec3<V>::load(view.ft_old, i);
+    const Vec3<V> old = load3<V>(view.ft_old, i);
     s.ft = (k.alpha * one) * s.ft + ((1.0 - k.alpha) * one) * old;
     s.ft_keep = s.ft;
     s.slip_heat = k.dt1 * dot(s.ft, s.vt);

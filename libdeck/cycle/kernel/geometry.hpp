@@ -266,9 +266,9 @@ template <class V, Model M>
 void node_triangle_pack(const Constants& k, const PacketView& view, std::size_t i, std::size_t s,
                         GeometryBlock& g) {
   const V zero = V::fill(0.0);
-  const Vec3<V> node = Vec3<V>::load(view.position[0], i);
-  Vec3<V> apex = Vec3<V>::load(view.position[3], i);
-  Vec3<V> x1 = Vec3<V>::load(view.position[1], i), x2 = Vec3<V>::load(view.position[2], i);
+  const Vec3<V> node = load3<V>(view.position[0], i);
+  Vec3<V> apex = load3<V>(view.position[3], i);
+  Vec3<V> x1 = load3<V>(view.position[1], i), x2 = load3<V>(view.position[2], i);
   if constexpr (M == Model::robust) {  // the node is the origin
     apex = apex - node;
     x1 = x1 - node;
@@ -304,9 +304,9 @@ void node_segment_reference(const Constants& k, const PacketView& view, std::siz
                             std::size_t s, GeometryBlock& g) {
   const V zero = V::fill(0.0), one = V::fill(1.0);
   const auto triangle = triangle_mask<V>(view, i);
-  const Vec3<V> node = Vec3<V>::load(view.position[0], i);
+  const Vec3<V> node = load3<V>(view.position[0], i);
   std::array<Vec3<V>, 4> x;
-  four_times([&](auto c) DECK_INLINE { x[c] = Vec3<V>::load(view.position[c + 1], i); });
+  four_times([&](auto c) DECK_INLINE { x[c] = load3<V>(view.position[c + 1], i); });
   Vec3<V> apex = V::fill(0.25) * (x[0] + x[1] + x[2] + x[3]);
   apex = select(triangle, x[2], apex);
   const V gap = V::load(view.gap + i);
@@ -363,10 +363,10 @@ void node_segment_robust(const Constants& k, const PacketView& view, std::size_t
                          GeometryBlock& g) {
   const V zero = V::fill(0.0), one = V::fill(1.0);
   const auto triangle = triangle_mask<V>(view, i);
-  const Vec3<V> node = Vec3<V>::load(view.position[0], i);
+  const Vec3<V> node = load3<V>(view.position[0], i);
   // The node is the origin: differences first, so that far from the origin nothing is lost.
   std::array<Vec3<V>, 4> x;
-  four_times([&](auto c) DECK_INLINE { x[c] = Vec3<V>::load(view.position[c + 1], i) - node; });
+  four_times([&](auto c) DECK_INLINE { x[c] = load3<V>(view.position[c + 1], i) - node; });
   Vec3<V> apex = V::fill(0.25) * (x[0] + x[1] + x[2] + x[3]);
   apex = select(triangle, x[2], apex);
   const Vec3<V> w = {-apex.x, -apex.y, -apex.z};
@@ -412,8 +412,8 @@ void node_segment_robust(const Constants& k, const PacketView& view, std::size_t
 template <class V>
 void edge_edge_reference(const PacketView& view, std::size_t i, std::size_t s, GeometryBlock& g) {
   const V zero = V::fill(0.0), one = V::fill(1.0);
-  const Vec3<V> s1 = Vec3<V>::load(view.position[0], i), s2 = Vec3<V>::load(view.position[1], i);
-  const Vec3<V> m1 = Vec3<V>::load(view.position[2], i), m2 = Vec3<V>::load(view.position[3], i);
+  const Vec3<V> s1 = load3<V>(view.position[0], i), s2 = load3<V>(view.position[1], i);
+  const Vec3<V> m1 = load3<V>(view.position[2], i), m2 = load3<V>(view.position[3], i);
   const Vec3<V> es = s2 - s1, em = m2 - m1, r = m2 - s2;
   const V a = dot(es, es), b = dot(em, em), c = -dot(es, em), p = dot(es, r), q = -dot(em, r);
   V hm = clamp01((p * c - q * a) / max(a * b - c * c, V::fill(1e-20)));
@@ -433,10 +433,10 @@ void edge_edge_reference(const PacketView& view, std::size_t i, std::size_t s, G
 template <class V>
 void edge_edge_robust(const PacketView& view, std::size_t i, std::size_t s, GeometryBlock& g) {
   const V zero = V::fill(0.0), one = V::fill(1.0), half = V::fill(0.5);
-  const Vec3<V> s2 = Vec3<V>::load(view.position[1], i);
-  const Vec3<V> s1 = Vec3<V>::load(view.position[0], i) - s2;
-  const Vec3<V> m1 = Vec3<V>::load(view.position[2], i) - s2;
-  const Vec3<V> m2 = Vec3<V>::load(view.position[3], i) - s2;
+  const Vec3<V> s2 = load3<V>(view.position[1], i);
+  const Vec3<V> s1 = load3<V>(view.position[0], i) - s2;
+  const Vec3<V> m1 = load3<V>(view.position[2], i) - s2;
+  const Vec3<V> m2 = load3<V>(view.position[3], i) - s2;
   const Vec3<V> us = s1, um = m1 - m2;  // from the second node to the first
   const V a = dot(us, us), b = dot(um, um), c = dot(us, um);
   const V p = dot(us, m2), q = dot(um, m2);

@@ -10,6 +10,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "deck/base/point3.hpp"
+
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
@@ -203,22 +205,11 @@ Mask<W> bits_if(const Mask<W>& m, std::int64_t value) {
 }
 
 template <class V>
-struct Vec3 {
-  V x, y, z;
-  friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Vec3 operator*(const V& s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
-  static Vec3 load(const std::array<const double*, 3>& p, std::size_t i) {
-    return {V::load(p[0] + i), V::load(p[1] + i), V::load(p[2] + i)};
-  }
-};
+using Vec3 = Point3<V>;
+/// A lane of vectors from three arrays.
 template <class V>
-V dot(const Vec3<V>& a, const Vec3<V>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-template <class V>
-Vec3<V> cross(const Vec3<V>& a, const Vec3<V>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+Vec3<V> load3(const std::array<const double*, 3>& p, std::size_t i) {
+  return {V::load(p[0] + i), V::load(p[1] + i), V::load(p[2] + i)};
 }
 template <int W>
 Vec3<Pack<W>> select(const Mask<W>& m, const Vec3<Pack<W>>& a, const Vec3<Pack<W>>& b) {

@@ -26,7 +26,6 @@ constexpr double least_component = 1e-3;  // of a move along an axis, to be prin
 constexpr double noise = 1e-6;            // of the gap: a vector this short has no direction
 constexpr double deeper = 1 + 1e-9;       // a penetration that grew by less is the same one
 
-double length(Vec v) { return std::sqrt(dot(v, v)); }
 void put(Nodes& nodes, NodeIndex n, Vec p) {
   nodes.x[n] = p.x;
   nodes.y[n] = p.y;
@@ -180,7 +179,7 @@ class Depenetrator {
     for (auto& [n, move] : moves) {
       const auto it = cap.find(n);
       if (it == cap.end()) continue;
-      const double most = largest_step * it->second, l = length(move);
+      const double most = largest_step * it->second, l = norm(move);
       if (l > most) move = (most / l) * move;
     }
     admit(moves);
@@ -285,7 +284,7 @@ class Depenetrator {
   void admit(std::map<NodeIndex, Vec>& moves) {
     std::vector<std::pair<double, NodeIndex>> order;
     for (const auto& [n, move] : moves)
-      if (!moved_.contains(n)) order.emplace_back(-length(move), n);
+      if (!moved_.contains(n)) order.emplace_back(-norm(move), n);
     std::sort(order.begin(), order.end());
     for (const auto& [size, n] : order) {
       const std::uint32_t part = mesh_->part_of(n);
@@ -306,7 +305,7 @@ class Depenetrator {
   void keep_within_limit(std::map<NodeIndex, Vec>& moves) {
     for (auto& [n, move] : moves) {
       const Vec total = at(now_, n) + move - at(start_, n);
-      const double l = length(total);
+      const double l = norm(total);
       if (l <= limit_) continue;
       move = at(start_, n) + (limit_ / l) * total - at(now_, n);
       hold(n, Hold::displacement);
@@ -381,7 +380,7 @@ class Depenetrator {
     for (auto it = moved_.begin(); it != moved_.end();) {
       const NodeIndex n = *it;
       const Vec u = at(now_, n) - at(start_, n);
-      const double size = length(u);
+      const double size = norm(u);
       const double to[3] = {now_.x[n], now_.y[n], now_.z[n]};
       const double old[3] = {start_.x[n], start_.y[n], start_.z[n]};
       double printed[3] = {old[0], old[1], old[2]};
@@ -489,7 +488,7 @@ class Depenetrator {
       if (const std::uint32_t part = mesh_->part_of(n); part != no_index)
         m.part = model_.parts[part].id;
       m.by = {u.x, u.y, u.z};
-      m.distance = length(u);
+      m.distance = norm(u);
       fix_.moved.push_back(m);
     }
     std::sort(fix_.moved.begin(), fix_.moved.end(),

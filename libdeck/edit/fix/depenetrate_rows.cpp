@@ -12,27 +12,25 @@ namespace {
 
 constexpr double least_share = 0.1;  // of a pair's weights, squared, on nodes that may move
 
-Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
-double length(Vec v) { return std::sqrt(dot(v, v)); }
 
 Vec segment_normal(const Coordinates& x, const std::array<NodeIndex, 4>& n) {
   if (n[2] == n[3]) return cross(at(x, n[1]) - at(x, n[0]), at(x, n[2]) - at(x, n[0]));
   return cross(at(x, n[2]) - at(x, n[0]), at(x, n[3]) - at(x, n[1]));
 }
 
-PairState segment_state(const Contact& c, const Coordinates& x, const PairAt& at) {
-  const SecondaryNode& s = c.secondary[at.secondary];
-  const MainSegment& m = c.main[at.main];
+PairState segment_state(const Contact& c, const Coordinates& x, const PairAt& pair) {
+  const SecondaryNode& s = c.secondary[pair.secondary];
+  const MainSegment& m = c.main[pair.main];
   const bool triangle = m.nodes[2] == m.nodes[3];
-  const std::array<Point3<double>, 4> corners{point(x, m.nodes[0]), point(x, m.nodes[1]),
-                                              point(x, m.nodes[2]), point(x, m.nodes[3])};
-  const auto closest = closest_on_segment<Form::reference>(point(x, s.node), corners, triangle);
+  const std::array<Vec, 4> corners{at(x, m.nodes[0]), at(x, m.nodes[1]), at(x, m.nodes[2]),
+                                   at(x, m.nodes[3])};
+  const auto closest = closest_on_segment<Form::reference>(at(x, s.node), corners, triangle);
   PairState out;
   out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
   const auto& sub = closest.closest();
   out.distance = sub.distance;
   if (sub.distance > 0)
-    out.normal = (1 / sub.distance) * Vec{sub.vector.x, sub.vector.y, sub.vector.z};
+    out.normal = (1 / sub.distance) * sub.vector;
   out.nodes[0] = s.node;
   out.weights[0] = 1;
   out.count = 1;
@@ -43,16 +41,16 @@ PairState segment_state(const Contact& c, const Coordinates& x, const PairAt& at
   return out;
 }
 
-PairState edge_state(const Contact& c, const Coordinates& x, const PairAt& at) {
-  const ContactEdge& s = c.secondary_edges[at.secondary];
-  const ContactEdge& m = c.main_edges[at.main];
+PairState edge_state(const Contact& c, const Coordinates& x, const PairAt& pair) {
+  const ContactEdge& s = c.secondary_edges[pair.secondary];
+  const ContactEdge& m = c.main_edges[pair.main];
   const auto closest = closest_between_edges<Form::reference>(
-      point(x, s.nodes[0]), point(x, s.nodes[1]), point(x, m.nodes[0]), point(x, m.nodes[1]));
+      at(x, s.nodes[0]), at(x, s.nodes[1]), at(x, m.nodes[0]), at(x, m.nodes[1]));
   PairState out;
   out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
   out.distance = closest.distance;
   if (out.distance > 0)
-    out.normal = (1 / out.distance) * Vec{closest.vector.x, closest.vector.y, closest.vector.z};
+    out.normal = (1 / out.distance) * closest.vector;
   out.nodes = {s.nodes[0], s.nodes[1], m.nodes[0], m.nodes[1], 0, 0};
   out.weights = {
       closest.weight_s, 1 - closest.weight_s, -closest.weight_m, -(1 - closest.weight_m), 0, 0};
@@ -96,7 +94,7 @@ Vec direction_on_surface(const Scene& scene, const FixMesh& mesh, const Coordina
     const auto& m = c.main_edges[place.main].nodes;
     n = cross(at(x, s[1]) - at(x, s[0]), at(x, m[1]) - at(x, m[0]));
   }
-  const double l = length(n);
+  const double l = norm(n);
   if (!(l > 0)) return {};
   n = (1 / l) * n;
   if (c.kind == ContactKind::node_segment && c.main[place.main].carrier == Carrier::solid) return n;
@@ -108,7 +106,7 @@ Vec direction_on_surface(const Scene& scene, const FixMesh& mesh, const Coordina
     for (const NodeIndex next : mesh.neighbours(state.nodes[static_cast<std::size_t>(i)])) {
       const Vec off = at(x, next) - origin;
       side += dot(off, n);
-      reach += length(off);
+      reach += norm(off);
     }
   return side < -1e-6 * reach ? -1.0 * n : n;
 }
@@ -137,7 +135,7 @@ std::vector<bool> inside_solids(const Scene& scene, std::uint32_t contact) {
     const MainSegment& m = c.main[row.main];
     const Vec n = segment_normal(scene.coordinates, m.nodes);
     const double along = dot(n, {row.normal[0], row.normal[1], row.normal[2]});
-    inside[row.secondary] = m.carrier == Carrier::solid && along < -0.1 * length(n);
+    inside[row.secondary] = m.carrier == Carrier::solid && along < -0.1 * norm(n);
   }
   return inside;
 }

@@ -13,6 +13,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "deck/base/point3.hpp"
+
 namespace deck {
 
 // Which formulas are used.
@@ -36,36 +38,6 @@ struct NumberTraits {
     }
   }
 };
-
-template <class T>
-struct Point3 {
-  T x{}, y{}, z{};
-};
-
-template <class T>
-Point3<T> operator+(const Point3<T>& a, const Point3<T>& b) {
-  return {T(a.x + b.x), T(a.y + b.y), T(a.z + b.z)};
-}
-template <class T>
-Point3<T> operator-(const Point3<T>& a, const Point3<T>& b) {
-  return {T(a.x - b.x), T(a.y - b.y), T(a.z - b.z)};
-}
-template <class T>
-Point3<T> operator-(const Point3<T>& a) {
-  return {T(-a.x), T(-a.y), T(-a.z)};
-}
-template <class T>
-Point3<T> operator*(const T& f, const Point3<T>& a) {
-  return {T(f * a.x), T(f * a.y), T(f * a.z)};
-}
-template <class T>
-T dot(const Point3<T>& a, const Point3<T>& b) {
-  return T(a.x * b.x + a.y * b.y + a.z * b.z);
-}
-template <class T>
-Point3<T> cross(const Point3<T>& a, const Point3<T>& b) {
-  return {T(a.y * b.z - a.z * b.y), T(a.z * b.x - a.x * b.z), T(a.x * b.y - a.y * b.x)};
-}
 
 // The part of a segment that holds its closest point. Index (0-based):
 // face: sub-triangle; edge: i joins corner i and i+1; corner: i; spoke: joins the centre and

@@ -1,43 +1,19 @@
-// All coordinates become integers in units of the lowest bit among them. A guess is proved either
-// by a point nearer than the gap, or by a direction w in which every vertex lies at least the gap
-// away: min_k(w.(node - v_k))^2 >= gap^2 w.w. No division, so everything stays an integer.
+// A guess is proved either by a point nearer than the gap, or by a direction w in which every vertex
+// lies at least the gap away: min_k(w.(node - v_k))^2 >= gap^2 w.w. No division, so exact sums and
+// products of doubles suffice.
 #include "contact/distance/filtered_exact.hpp"
 
-#include <gmpxx.h>
+#include <CGAL/Mpzf.h>
 
-#include <bit>
 #include <cmath>
-#include <limits>
-#include <span>
+#include <initializer_list>
 
 namespace deck {
 namespace {
 
-using Z = mpz_class;
+// Integer times a power of two: every double, and what sums and products make of them.
+using Z = CGAL::Mpzf;
 using V = Point3<Z>;
-
-// Integer times 2^exponent, with the integer odd or 0.
-struct Binary {
-  std::int64_t integer = 0;
-  int exponent = 0;
-  explicit Binary(double value) {
-    if (value == 0.0) return;
-    int e = 0;
-    integer = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &e), 53));
-    const int zeros = std::countr_zero(static_cast<std::uint64_t>(integer));
-    integer /= std::int64_t{1} << zeros;
-    exponent = e - 53 + zeros;
-  }
-  void lowest(int& exponent_so_far) const {
-    if (integer != 0 && exponent < exponent_so_far) exponent_so_far = exponent;
-  }
-  Z at(int unit) const {
-    Z out(static_cast<long>(integer));
-    if (integer != 0)
-      mpz_mul_2exp(out.get_mpz_t(), out.get_mpz_t(), static_cast<mp_bitcnt_t>(exponent - unit));
-    return out;
-  }
-};
 
 template <std::size_t N>
 bool finite_points(const std::array<Point3<double>, N>& points) {
@@ -46,18 +22,7 @@ bool finite_points(const std::array<Point3<double>, N>& points) {
   return true;
 }
 
-template <std::size_t N>
-int common_unit(const std::array<Point3<double>, N>& points, double gap) {
-  int unit = std::numeric_limits<int>::max();
-  for (const Point3<double>& p : points)
-    for (const double c : {p.x, p.y, p.z}) Binary(c).lowest(unit);
-  Binary(gap).lowest(unit);
-  return unit;
-}
-
-V vector_of(const Point3<double>& p, int unit) {
-  return {Binary(p.x).at(unit), Binary(p.y).at(unit), Binary(p.z).at(unit)};
-}
+V vector_of(const Point3<double>& p) { return {Z(p.x), Z(p.y), Z(p.z)}; }
 
 // The distance is at least the gap in direction w for all these vertices (as seen from the node).
 bool apart(const V& w, std::initializer_list<const V*> vertices, const Z& gap) {
@@ -65,7 +30,7 @@ bool apart(const V& w, std::initializer_list<const V*> vertices, const Z& gap) {
   bool first = true;
   for (const V* v : vertices) {
     const Z value = -dot(w, *v);
-    if (sgn(value) <= 0) return false;
+    if (!CGAL::is_positive(value)) return false;
     if (first || value < least) least = value;
     first = false;
   }
@@ -80,7 +45,7 @@ struct Region {
 
 // value / scale < gap^2; with a gap of 0: value is 0.
 bool is_nearer(const Z& value, const Z& scale, const Z& gap) {
-  return sgn(gap) == 0 ? sgn(value) == 0 : value < gap * gap * scale;
+  return CGAL::is_zero(gap) ? CGAL::is_zero(value) : value < gap * gap * scale;
 }
 
 Region corner_part(const V& p, const Z& gap) { return {-p, is_nearer(dot(p, p), Z(1), gap)}; }
@@ -88,7 +53,7 @@ Region corner_part(const V& p, const Z& gap) { return {-p, is_nearer(dot(p, p), 
 Region edge_part(const V& p, const V& q, const Z& gap) {
   const V e = q - p, moment = cross(p, e);
   const Z along = -dot(e, p), ee = dot(e, e);
-  const bool inside = sgn(along) >= 0 && along <= ee;
+  const bool inside = !CGAL::is_negative(along) && along <= ee;
   return {cross(moment, e), inside && is_nearer(dot(moment, moment), ee, gap)};
 }
 
@@ -99,9 +64,9 @@ Region face_part(const V& o, const V& a, const V& b, bool whole, const Z& gap) {
   const V r = -o;
   const Z fp = dot(n, cross(r, q)), fq = dot(n, cross(p, r)), nn = dot(n, n);
   const bool inside =
-      sgn(nn) > 0 && sgn(fp) >= 0 && sgn(fq) >= 0 && (whole ? fp <= nn && fq <= nn : fp + fq <= nn);
+      CGAL::is_positive(nn) && !CGAL::is_negative(fp) && !CGAL::is_negative(fq) && (whole ? fp <= nn && fq <= nn : fp + fq <= nn);
   const Z height = -dot(n, o);
-  if (sgn(height) < 0) n = -n;
+  if (CGAL::is_negative(height)) n = -n;
   return {n, inside && is_nearer(height * height, nn, gap)};
 }
 
@@ -118,21 +83,17 @@ Region part_of(const PartGuess& guess, const V& o, const V& a, const V& b, const
 std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bool triangle,
                                  int best, const std::array<PartGuess, 4>& guess, double gap) {
   if (!finite_points(points) || !std::isfinite(gap)) return std::nullopt;
-  const int unit = common_unit(points, gap);
-  const V node = vector_of(points[4], unit);
+  const V node = vector_of(points[4]);
   std::array<V, 4> v;
-  for (std::size_t k = 0; k < 4; ++k) v[k] = vector_of(points[k], unit) - node;
-  Z limit = Binary(gap).at(unit);
+  for (std::size_t k = 0; k < 4; ++k) v[k] = vector_of(points[k]) - node;
+  const Z limit(gap);
   if (triangle) {
     const Region part = part_of(guess[0], v[2], v[0], v[1], limit);
     if (part.nearer) return true;
     if (apart(part.w, {&v[0], &v[1], &v[2]}, limit)) return false;
     return std::nullopt;
   }
-  // Four times as large, so that the mean of the corners is an integer too.
-  const V centre = (v[0] + v[1]) + (v[2] + v[3]);
-  for (V& corner : v) corner = Z(4) * corner;
-  limit *= 4;
+  const V centre = Z(0.25) * ((v[0] + v[1]) + (v[2] + v[3]));
   const auto k = static_cast<std::size_t>(best);
   const Region part = part_of(guess[k], centre, v[k], v[(k + 1) % 4], limit);
   if (part.nearer) return true;
@@ -151,10 +112,9 @@ std::optional<bool> prove_closer(const std::array<Point3<double>, 5>& points, bo
 std::optional<bool> prove_closer(const std::array<Point3<double>, 4>& x, EdgeFeature secondary,
                                  EdgeFeature main, bool parallel, double gap) {
   if (!finite_points(x) || !std::isfinite(gap)) return std::nullopt;
-  const int unit = common_unit(x, gap);
   std::array<V, 4> p;
-  for (std::size_t k = 0; k < 4; ++k) p[k] = vector_of(x[k], unit);
-  const Z limit = Binary(gap).at(unit);
+  for (std::size_t k = 0; k < 4; ++k) p[k] = vector_of(x[k]);
+  const Z limit(gap);
   // Corners of the parallelogram of differences, in order.
   const std::array<V, 4> v{p[0] - p[2], p[0] - p[3], p[1] - p[3], p[1] - p[2]};
   const bool first_s = secondary == EdgeFeature::first_node;

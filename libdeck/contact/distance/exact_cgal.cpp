@@ -1,0 +1,106 @@
+// Exact distances: the closest-point templates on CGAL's exact numbers. Regions are chosen by intervals
+// where these suffice.
+#include "contact/distance/exact.hpp"
+
+#include <CGAL/number_utils.h>
+
+#include "contact/distance/exact_number.hpp"
+
+namespace deck {
+namespace {
+
+using Q = LazyRational;
+
+Point3<Q> lift(const Point3<double>& p) { return {Q(p.x), Q(p.y), Q(p.z)}; }
+
+std::array<Point3<Q>, 4> lift(const std::array<Point3<double>, 4>& x) {
+  return {lift(x[0]), lift(x[1]), lift(x[2]), lift(x[3])};
+}
+
+// Rounded towards zero, from the exact value: that of a lazy number itself may be off by an interval.
+double to_double(const Q& value) { return CGAL::to_double(value.exact()); }
+
+Point3<double> lower(const Point3<Q>& p) { return {to_double(p.x), to_double(p.y), to_double(p.z)}; }
+
+SegmentClosest<Q> exact_segment(const Point3<double>& p, const std::array<Point3<double>, 4>& x,
+                                bool triangle) {
+  return closest_on_segment<Form::robust>(lift(p), lift(x), triangle);
+}
+
+EdgeClosest<Q> exact_edges(const Point3<double>& s1, const Point3<double>& s2,
+                           const Point3<double>& m1, const Point3<double>& m2) {
+  return closest_between_edges<Form::robust>(lift(s1), lift(s2), lift(m1), lift(m2));
+}
+
+int compare(const Q& distance_squared, double limit) {
+  if (limit < 0.0) return 1;
+  const Q l(limit);
+  return CGAL::compare(distance_squared, CGAL::square(l));
+}
+
+ExactDepth depth_of(double gap, const Rational& squared) {
+  ExactDepth out;
+  out.depth = rounded_depth(gap, squared);
+  if (out.depth > 0.0) out.distance = rounded_square_root(squared);
+  return out;
+}
+
+}  // namespace
+
+Rational exact_distance_squared(const Point3<double>& p,
+                                const std::array<Point3<double>, 4>& corners, bool triangle) {
+  return exact_segment(p, corners, triangle).distance_squared().exact();
+}
+Rational exact_distance_squared(const Point3<double>& s1, const Point3<double>& s2,
+                                const Point3<double>& m1, const Point3<double>& m2) {
+  return exact_edges(s1, s2, m1, m2).distance_squared.exact();
+}
+
+ExactSegment exact_closest_on_segment(const Point3<double>& p,
+                                      const std::array<Point3<double>, 4>& corners, bool triangle) {
+  const SegmentClosest<Q> c = exact_segment(p, corners, triangle);
+  ExactSegment out;
+  out.distance = rounded_square_root(c.distance_squared().exact());
+  out.distance_squared = to_double(c.distance_squared());
+  out.best = c.best;
+  out.feature = c.feature;
+  out.feature_index = c.feature_index;
+  for (std::size_t k = 0; k < 4; ++k) out.weights[k] = to_double(c.weights[k]);
+  out.vector = lower(c.closest().vector);
+  return out;
+}
+
+ExactEdges exact_closest_between_edges(const Point3<double>& s1, const Point3<double>& s2,
+                                       const Point3<double>& m1, const Point3<double>& m2) {
+  const EdgeClosest<Q> c = exact_edges(s1, s2, m1, m2);
+  return {rounded_square_root(c.distance_squared.exact()),
+          to_double(c.distance_squared),
+          to_double(c.weight_s),
+          to_double(c.weight_m),
+          c.feature_s,
+          c.feature_m,
+          c.parallel,
+          lower(c.vector)};
+}
+
+ExactDepth exact_depth(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
+                       bool triangle, double gap) {
+  return depth_of(gap, exact_distance_squared(p, corners, triangle));
+}
+
+ExactDepth exact_depth(const Point3<double>& s1, const Point3<double>& s2, const Point3<double>& m1,
+                       const Point3<double>& m2, double gap) {
+  return depth_of(gap, exact_distance_squared(s1, s2, m1, m2));
+}
+
+int exact_compare_distance(const Point3<double>& p, const std::array<Point3<double>, 4>& corners,
+                           bool triangle, double limit) {
+  return compare(exact_segment(p, corners, triangle).distance_squared(), limit);
+}
+
+int exact_compare_distance(const Point3<double>& s1, const Point3<double>& s2,
+                           const Point3<double>& m1, const Point3<double>& m2, double limit) {
+  return compare(exact_edges(s1, s2, m1, m2).distance_squared, limit);
+}
+
+}  // namespace deck

@@ -1,0 +1,46 @@
+// CGAL's exact numbers as number types of the closest-point templates. Only for files *_cgal.cpp:
+// CGAL costs seconds a file and wants its own compiler flags.
+#pragma once
+
+#include <CGAL/Exact_rational.h>
+#include <CGAL/Lazy_exact_nt.h>
+
+#include "deck/contact/closest.hpp"
+
+namespace deck {
+
+// Every double is one, and so are their sums, products and quotients.
+using Rational = CGAL::Exact_rational;
+// The same with an interval round it: rationals are formed only where intervals leave a doubt.
+using LazyRational = CGAL::Lazy_exact_nt<Rational>;
+
+// No square root: distances stay squared and are compared so.
+template <>
+struct NumberTraits<Rational> {
+  static constexpr bool has_sqrt = false;
+  static constexpr bool is_machine_float = false;
+  static Rational parallel_guard() { return Rational(0); }
+};
+template <>
+struct NumberTraits<LazyRational> {
+  static constexpr bool has_sqrt = false;
+  static constexpr bool is_machine_float = false;
+  static LazyRational parallel_guard() { return LazyRational(0); }
+};
+
+// Squares of the exact distances; finite coordinates only.
+Rational exact_distance_squared(const Point3<double>& p,
+                                const std::array<Point3<double>, 4>& corners, bool triangle);
+Rational exact_distance_squared(const Point3<double>& s1, const Point3<double>& s2,
+                                const Point3<double>& m1, const Point3<double>& m2);
+
+// gap - sqrt(squared) rounded towards zero, whatever cancels; 0 if not positive.
+double rounded_depth(double gap, const Rational& squared);
+
+// The double nearest to the square root of an exact non-negative number (ties to even).
+double rounded_square_root(const Rational& value);
+
+// That root cut off after at least 300 binary digits.
+Rational long_square_root(const Rational& value);
+
+}  // namespace deck

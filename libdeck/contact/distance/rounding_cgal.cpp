@@ -1,0 +1,103 @@
+// Square roots and depths of exact numbers rounded to doubles: a guess in double, mended by exact
+// comparisons of squares.
+#include <CGAL/Exact_integer.h>
+#include <CGAL/Fraction_traits.h>
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "contact/distance/exact_number.hpp"
+
+namespace deck {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Infinity counts as the first power of two that no double holds: so rounding does.
+Rational number_of(double value) {
+  return value == kInfinity ? Rational(2) * Rational(0x1p1023) : Rational(value);
+}
+
+// A number above 0 divided by an even power of two, 4^shift, so that doubles can hold it.
+struct Normalised {
+  Rational value;
+  int shift = 0;
+};
+constexpr int kStep = 450;
+Normalised normalised(Rational value) {
+  int shift = 0;
+  const Rational low(0x1p-600), high(0x1p600), up(0x1p900), down(0x1p-900);
+  for (; value < low; shift -= kStep) value *= up;
+  for (; value > high; shift += kStep) value *= down;
+  return {value, shift};
+}
+
+double guessed_square_root(const Rational& value) {
+  if (CGAL::is_zero(value)) return 0.0;
+  const Normalised s = normalised(value);
+  return std::ldexp(std::sqrt(CGAL::to_double(s.value)), s.shift);
+}
+
+// The largest double that is at most the number; `at_most(r)`: r is.
+template <class Test>
+double rounded_down(double guess, const Test& at_most) {
+  double r = guess < kInfinity ? guess : std::numeric_limits<double>::max();
+  while (!at_most(r)) r = std::nextafter(r, 0.0);
+  for (;;) {
+    const double next = std::nextafter(r, kInfinity);
+    if (next == kInfinity || !at_most(next)) return r;
+    r = next;
+  }
+}
+
+}  // namespace
+
+double rounded_square_root(const Rational& value) {
+  if (CGAL::sign(value) <= 0) return 0.0;
+  const double low = rounded_down(guessed_square_root(value), [&](double r) {
+    return CGAL::compare(CGAL::square(Rational(r)), value) != CGAL::LARGER;
+  });
+  const double high = std::nextafter(low, kInfinity);
+  const Rational twice_the_middle = number_of(low) + number_of(high);
+  switch (CGAL::compare(CGAL::square(twice_the_middle), Rational(4) * value)) {
+    case CGAL::LARGER:
+      return low;
+    case CGAL::SMALLER:
+      return high;
+    case CGAL::EQUAL:
+      break;
+  }
+  return std::bit_cast<std::uint64_t>(low) % 2 == 0 ? low : high;
+}
+
+Rational long_square_root(const Rational& value) {
+  if (!CGAL::is_positive(value)) return Rational(0);
+  const Normalised s = normalised(value);
+  const Rational places(0x1p600), step(std::ldexp(1.0, kStep));
+  CGAL::Exact_integer numerator, denominator;
+  CGAL::Fraction_traits<Rational>::Decompose()(s.value * CGAL::square(places), numerator, denominator);
+  const CGAL::Exact_integer whole = numerator / denominator;
+  Rational root = Rational(CGAL::sqrt(whole)) / places;
+  for (int left = s.shift; left > 0; left -= kStep) root *= step;
+  for (int left = s.shift; left < 0; left += kStep) root /= step;
+  return root;
+}
+
+double rounded_depth(double gap, const Rational& squared) {
+  if (!(gap > 0.0)) return 0.0;
+  const Rational g(gap), difference = CGAL::square(g) - squared;
+  if (CGAL::sign(difference) <= 0) return 0.0;
+  // g - d = (g^2 - d^2) / (g + d): nothing cancels that is not exact.
+  const Rational sum = g + Rational(guessed_square_root(squared));
+  const double depth = rounded_down(CGAL::to_double(Rational(difference / sum)), [&](double r) {
+    return r <= gap && CGAL::compare(CGAL::square(Rational(g - Rational(r))), squared) != CGAL::SMALLER;
+  });
+  // A depth below all numbers is still one.
+  return std::max(depth, std::numeric_limits<double>::denorm_min());
+}
+
+}  // namespace deck

@@ -1,0 +1,146 @@
+// The exact numbers against CGAL's own distances, their intervals, and how they are rounded.
+#include <CGAL/Interval_nt.h>
+#include <CGAL/Simple_cartesian.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "contact/distance/exact.hpp"
+#include "contact/distance/exact_number.hpp"
+#include "contact/search_scenes.hpp"
+
+namespace deck {
+namespace {
+
+using scenes::Dice;
+
+constexpr double kLeast = std::numeric_limits<double>::denorm_min(), kMost = std::numeric_limits<double>::max();
+
+TEST(ExactAgainstCgal, SquaredDistanceOfPointAndTriangle) {
+  using Exact = CGAL::Simple_cartesian<Rational>;
+  Dice dice(13);
+  const auto coordinate = [&dice] {
+    return Rational(Rational(dice.below(17) - 8) / Rational(1 + dice.below(5)));
+  };
+  for (int k = 0; k < 300; ++k) {
+    std::array<Point3<Rational>, 4> p;
+    for (auto& q : p) q = {coordinate(), coordinate(), coordinate()};
+    const auto cgal = [](const Point3<Rational>& q) { return Exact::Point_3(q.x, q.y, q.z); };
+    const Exact::Triangle_3 triangle(cgal(p[0]), cgal(p[1]), cgal(p[2]));
+    if (triangle.is_degenerate()) continue;
+    const Rational expected = CGAL::squared_distance(cgal(p[3]), triangle);
+    const auto ours = closest_on_segment<Form::robust>(
+        p[3], std::array<Point3<Rational>, 4>{p[0], p[1], p[2], p[2]}, true);
+    EXPECT_TRUE(ours.distance_squared() == expected);
+  }
+}
+
+TEST(ExactAgainstCgal, SquaredDistanceOfTwoEdges) {
+  using Exact = CGAL::Simple_cartesian<Rational>;
+  Dice dice(14);
+  for (int k = 0; k < 500; ++k) {
+    std::array<Point3<Rational>, 4> p;
+    for (auto& q : p) q = {dice.below(7), dice.below(7), dice.below(3)};
+    const auto cgal = [](const Point3<Rational>& q) { return Exact::Point_3(q.x, q.y, q.z); };
+    const Exact::Segment_3 a(cgal(p[0]), cgal(p[1])), b(cgal(p[2]), cgal(p[3]));
+    if (a.is_degenerate() || b.is_degenerate()) continue;
+    const Rational expected = CGAL::squared_distance(a, b);
+    const auto ours = closest_between_edges<Form::robust>(p[0], p[1], p[2], p[3]);
+    EXPECT_TRUE(ours.distance_squared == expected);
+  }
+}
+
+TEST(IntervalKernel, EnclosesTheExactDistanceOrAdmitsItIsUncertain) {
+  using Interval = CGAL::Interval_nt<true>;
+  Dice dice(15);
+  int certain = 0;
+  for (int k = 0; k < 300; ++k) {
+    std::array<Point3<double>, 4> x{};
+    for (auto& q : x) q = {dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)};
+    const Point3<double> p{dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)};
+    const auto lift = [](const Point3<double>& q) {
+      return Point3<Interval>{Interval(q.x), Interval(q.y), Interval(q.z)};
+    };
+    const auto exact_lift = [](const Point3<double>& q) {
+      return Point3<Rational>{q.x, q.y, q.z};
+    };
+    const Rational exact =
+        closest_on_segment<Form::robust>(
+            exact_lift(p),
+            std::array<Point3<Rational>, 4>{exact_lift(x[0]), exact_lift(x[1]), exact_lift(x[2]),
+                                             exact_lift(x[3])},
+            false)
+            .distance_squared();
+    try {
+      const auto c = closest_on_segment<Form::robust>(
+          lift(p), std::array<Point3<Interval>, 4>{lift(x[0]), lift(x[1]), lift(x[2]), lift(x[3])},
+          false);
+      EXPECT_TRUE(Rational(c.distance_squared().inf()) <= exact);
+      EXPECT_TRUE(Rational(c.distance_squared().sup()) >= exact);
+      ++certain;
+    } catch (const CGAL::Uncertain_conversion_exception&) {
+      // Nodes beside a spoke have the same distance to two sub-triangles: a tie intervals cannot
+      // decide.
+    }
+  }
+  EXPECT_GT(certain, 30);
+}
+
+TEST(ExactSquareRoot, IsCorrectlyRounded) {
+  Dice dice(9);
+  for (int i = 0; i < 2000; ++i) {
+    const double x = std::ldexp(dice.uniform(1, 4), static_cast<int>(dice.uniform(-900, 900)));
+    EXPECT_EQ(rounded_square_root(Rational(x)), std::sqrt(x));
+    EXPECT_EQ(rounded_square_root(CGAL::square(Rational(x))), x);
+  }
+  EXPECT_EQ(rounded_square_root(Rational(0)), 0.0);
+}
+
+TEST(ExactSquareRoot, OfTheMiddleOfTwoDoublesIsTheEvenOne) {
+  for (const double even : {1.0, 4 * kLeast, 0x1p-1022, 0x1.8p1000}) {
+    const double above = std::nextafter(even, kMost), below = std::nextafter(even, 0.0);
+    for (const double odd : {above, below}) {
+      const Rational middle = (Rational(even) + Rational(odd)) / Rational(2);
+      EXPECT_EQ(rounded_square_root(CGAL::square(middle)), even);
+      const Rational nearer = (middle + Rational(odd)) / Rational(2);
+      EXPECT_EQ(rounded_square_root(CGAL::square(nearer)), odd);
+    }
+  }
+}
+
+TEST(ExactSquareRoot, BeyondAllDoublesIsZeroOrInfinite) {
+  const Rational least(kLeast), most(kMost);
+  EXPECT_EQ(rounded_square_root(CGAL::square(least) / Rational(4)), 0.0);
+  EXPECT_EQ(rounded_square_root(CGAL::square(least) / Rational(3)), kLeast);
+  EXPECT_EQ(rounded_square_root(CGAL::square(most)), kMost);
+  EXPECT_EQ(rounded_square_root(CGAL::square(most) * Rational(2)), std::numeric_limits<double>::infinity());
+}
+
+TEST(ExactSquareRoot, HasThreeHundredDigitsWhereItIsCutOff) {
+  for (const double x : {2.0, 3e-300, 7e300, kLeast}) {
+    const Rational root = long_square_root(Rational(x)), step = root * Rational(0x1p-300);
+    EXPECT_TRUE(CGAL::square(root) <= Rational(x));
+    EXPECT_TRUE(CGAL::square(Rational(root + step)) > Rational(x));
+  }
+}
+
+TEST(ExactDepth, IsRoundedTowardsZeroWhateverCancels) {
+  Dice dice(10);
+  for (int i = 0; i < 500; ++i) {
+    const double gap = dice.uniform(0.5, 1), share = std::ldexp(1.0, static_cast<int>(dice.uniform(-120, 0)));
+    const Rational distance = Rational(gap) * (Rational(1) - Rational(share) / Rational(3));
+    const double depth = rounded_depth(gap, CGAL::square(distance));
+    const Rational exact = Rational(gap) - distance;
+    EXPECT_TRUE(Rational(depth) <= exact);
+    EXPECT_TRUE(Rational(std::nextafter(depth, kMost)) > exact);
+  }
+  EXPECT_EQ(rounded_depth(1.0, Rational(1)), 0.0);
+  EXPECT_EQ(rounded_depth(0.0, Rational(0)), 0.0);
+  EXPECT_EQ(rounded_depth(1.5, Rational(0)), 1.5);
+  const Rational just_below = Rational(1) - Rational(kLeast) * Rational(kLeast);
+  EXPECT_EQ(rounded_depth(1.0, just_below), kLeast);
+}
+
+}  // namespace
+}  // namespace deck
