@@ -207,8 +207,8 @@ TEST_F(EditSets, BelowARootEveryDeckKeepsItsPlace) {
 
 TEST_F(EditSets, AConflictOfUnitSystemsNamesThem) {
   const auto in_units = [](const std::string& mass) {
-    const std::string row = std::string(18, ' ') + mass + std::string(18, ' ') + "mm" +
-                            std::string(18, ' ') + "ms\n";
+    const std::string row =
+        std::string(18, ' ') + mass + std::string(18, ' ') + "mm" + std::string(18, ' ') + "ms\n";
     return "#RADIOSS STARTER\n/BEGIN\nx\n      2022         0\n" + row + row +
            "#include ../common/x.inc\n/END\n";
   };

@@ -98,7 +98,7 @@ TEST(Verification, WhatIsGivenUpForAnInterfaceIsAccepted) {
   const InterType7& inter = deck->interfaces.type7.at(0);
   const std::string cell(deck->deck.sources.text(inter.Gapmin.span));
   std::string other = cell;
-  other.replace(other.find_last_not_of(" 0") , 1, "7");
+  other.replace(other.find_last_not_of(" 0"), 1, "7");
   const auto line = deck->deck.sources[0].line_at(inter.Gapmin.span.offset);
   std::string now(line);
   now.replace(now.find(cell), cell.size(), other);
@@ -133,8 +133,7 @@ TEST(ChangedValues, EveryValueHasItsCell) {
 }
 
 TEST(ChangedValues, OfAValueWithSomeDigitsChangedAllAreTold) {
-  const auto deck = Whole::text(
-      "#RADIOSS STARTER\n/BEGIN\nx\n      2022         0\n/END\n");
+  const auto deck = Whole::text("#RADIOSS STARTER\n/BEGIN\nx\n      2022         0\n/END\n");
   Rewrite rewrite;
   const auto at = deck->main_text().find("2022");
   rewrite.edits.push_back({Span{0, 2, at + 2}, "18"});

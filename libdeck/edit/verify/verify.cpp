@@ -89,6 +89,24 @@ DeckComparison::Difference DeckComparison::number(const std::string& what, doubl
                      unit == 1 ? "" : fmt::format(" ({:.9g} in the units before)", was));
 }
 
+/// What springs count with in contacts. Of some, no conversion of the working units can keep it.
+DeckComparison::Difference DeckComparison::springs() const {
+  const auto &was = before.context.model.properties, &now = after.context.model.properties;
+  if (relation.extract) return {};
+  if (was.size() != now.size())
+    return fmt::format("the deck has {} properties, expected {}", now.size(), was.size());
+  const double unit = factor(1, 0, -2);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    for (std::size_t k = 0; k < now[i].stiffness.size(); ++k)
+      if (auto d = number(fmt::format("the stiffness with which springs of {}/{} count in contacts",
+                                      now[i].type, now[i].id),
+                          was[i].stiffness[k], now[i].stiffness[k], unit))
+        return *d +
+               "; the solver takes K / A for it, and A is a force here, so that it depends on "
+               "the unit of force (--keep-working-units keeps it)";
+  return {};
+}
+
 DeckComparison::Difference DeckComparison::masses() const {
   const auto &was = before.state.mass, &now = after.state.mass;
   if (relation.extract) return {};  // elements that no contact needs are left out
@@ -122,6 +140,7 @@ DeckComparison::Difference DeckComparison::time_steps() const {
         return d;
     }
   }
+  if (!relation.lossy.empty() || relation.lossy_defaults) return {};
   return number("the time step of the contacts", before.cycle.contact_dt, after.cycle.contact_dt,
                 unit);
 }
@@ -132,6 +151,7 @@ std::optional<std::string> first_difference(const Behaviour& before, const Behav
                                             const VerifyRelation& relation) {
   const detail::DeckComparison c(before.parts(), after.parts(), relation);
   if (auto d = c.values()) return d;
+  if (auto d = c.springs()) return d;
   if (auto d = c.contacts()) return d;
   if (auto d = c.masses()) return d;
   return c.time_steps();

@@ -47,6 +47,7 @@ struct DeckComparison {
                     double slack = 0) const;
 
   Difference values() const;
+  Difference springs() const;
   Difference contacts() const;
   Difference masses() const;
   Difference time_steps() const;
