@@ -21,6 +21,10 @@ std::string losses_json(const std::vector<LossEntry>& losses) {
       json.begin_object();
       json.key("file").value(e.file);
       json.key("line").value(e.line);
+      if (e.column > 0) {
+        json.key("column").value(e.column);
+        json.key("end_column").value(e.end_column);
+      }
       json.key("keyword").value(e.keyword);
       json.key("id").value(e.id);
       json.key("field").value(e.field);

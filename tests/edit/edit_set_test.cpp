@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 
 #include "lint/support.hpp"
 
@@ -131,6 +132,110 @@ TEST_F(EditSets, ThePatchHasEveryFileOnceRelativeToTheWorkTree) {
   EXPECT_EQ(*patch,
             "diff --git a/common/x.inc b/common/x.inc\n--- a/common/x.inc\n+++ b/common/x.inc\n"
             "@@ -1,2 +1,2 @@\n /TITLE\n-shared\n+new\n");
+}
+
+TEST_F(EditSets, AFileThatADeckOutsideIncludesIsNotChangedInPlace) {
+  const auto a = read("a/a_0000.rad");
+  EditSet set;
+  ASSERT_TRUE(add(set, *a, "common/x.inc", "/TITLE\nfor a\n"));
+  const Source& x = a->sources[1];
+  set.add_outsider({x.device(), x.inode()}, "b/b_0000.rad");
+  const auto plan = set.in_place();
+  ASSERT_FALSE(plan);
+  EXPECT_NE(plan.error().message.find("b/b_0000.rad"), std::string::npos);
+  EXPECT_TRUE(set.tree(at("out"))) << "another directory touches nobody's files";
+}
+
+TEST_F(EditSets, ASplitGivesTheDeckACopyAndLeavesTheFile) {
+  const auto a = read("a/a_0000.rad");
+  EditSet set;
+  ASSERT_TRUE(add(set, *a, "common/x.inc", "/TITLE\nfor a\n"));
+  const Source& x = a->sources[1];
+  set.add_outsider({x.device(), x.inode()}, "b/b_0000.rad");
+  ASSERT_TRUE(set.split_includes());
+  const auto plan = set.in_place();
+  ASSERT_TRUE(plan) << plan.error().message;
+  ASSERT_EQ(plan->files.size(), 2u);
+  std::map<std::string, std::string> written;
+  for (const OutputFile& f : plan->files)
+    written[fs::path(f.path).lexically_normal().string()] = std::string(f.bytes);
+  EXPECT_EQ(written.at(at("common/x_a.inc")), "/TITLE\nfor a\n");
+  EXPECT_EQ(written.at(at("a/a_0000.rad")), main_deck("#include ../common/x_a.inc\n"));
+}
+
+TEST_F(EditSets, ASplitOfANestedFileSplitsTheFilesAboveIt) {
+  folder_.write("common/y.inc", "#include x.inc\n");
+  for (const char* name : {"a", "b"})
+    folder_.write(std::string(name) + "/" + name + "_0000.rad",
+                  main_deck("#include ../common/y.inc\n"));
+  const auto a = read("a/a_0000.rad"), b = read("b/b_0000.rad");
+  EditSet set;
+  ASSERT_TRUE(add(set, *a, "common/x.inc", "/TITLE\nfor a\n"));
+  ASSERT_TRUE(add(set, *b, "common/x.inc", "/TITLE\nfor b\n"));
+  ASSERT_FALSE(set.tree(at("out")));
+  ASSERT_TRUE(set.split_includes());
+  const auto tree = set.tree(at("out"));
+  ASSERT_TRUE(tree) << tree.error().message;
+  // Each deck of the tree has its own text.
+  std::map<std::string, std::string> overlay;
+  for (const OutputFile& f : tree->files) overlay[f.path] = std::string(f.bytes);
+  ReadOptions options;
+  options.overlay = &overlay;
+  for (const char* name : {"a", "b"}) {
+    const std::string main = std::string(name) + "/" + name + "_0000.rad";
+    const auto deck = read_deck(at("out/" + main), SchemaSet::built_in(), options);
+    ASSERT_TRUE(deck) << deck.error().message;
+    ASSERT_EQ(deck->sources.size(), 3u);
+    EXPECT_EQ(deck->sources[2].bytes(), std::string("/TITLE\nfor ") + name + "\n");
+  }
+}
+
+TEST_F(EditSets, BelowARootEveryDeckKeepsItsPlace) {
+  const auto a = read("a/a_0000.rad");
+  EditSet set(fs::path(folder_.path()).parent_path().string());
+  ASSERT_TRUE(add(set, *a));
+  const auto tree = set.tree("out");
+  ASSERT_TRUE(tree) << tree.error().message;
+  const std::string top = "out/" + fs::path(folder_.path()).filename().string();
+  ASSERT_EQ(tree->files.size(), 2u);
+  EXPECT_EQ(tree->files[0].path, top + "/a/a_0000.rad");
+  EXPECT_EQ(tree->files[1].path, top + "/common/x.inc");
+  EditSet narrow(at("a"));
+  ASSERT_TRUE(add(narrow, *a));
+  EXPECT_FALSE(narrow.tree("out")) << "an include lies above the root";
+}
+
+TEST_F(EditSets, AConflictOfUnitSystemsNamesThem) {
+  const auto in_units = [](const std::string& mass) {
+    const std::string row =
+        std::string(18, ' ') + mass + std::string(18, ' ') + "mm" + std::string(18, ' ') + "ms\n";
+    return "#RADIOSS STARTER\n/BEGIN\nx\n      2022         0\n" + row + row +
+           "#include ../common/x.inc\n/END\n";
+  };
+  folder_.write("a/a_0000.rad", in_units("kg"));
+  folder_.write("b/b_0000.rad", in_units("Mg"));
+  const auto a = read("a/a_0000.rad"), b = read("b/b_0000.rad");
+  EditSet set;
+  ASSERT_TRUE(add(set, *a, "common/x.inc", "/TITLE\nfor a\n"));
+  ASSERT_TRUE(add(set, *b, "common/x.inc", "/TITLE\nfor b\n"));
+  const std::string why = set.in_place().error().message;
+  EXPECT_NE(why.find("a_0000.rad is in kg, mm, ms"), std::string::npos) << why;
+  EXPECT_NE(why.find("b_0000.rad in Mg, mm, ms"), std::string::npos) << why;
+}
+
+TEST_F(EditSets, DecksThatShareAFileAreOneGroup) {
+  folder_.write("c/c_0000.rad", main_deck("#include ../other/z.inc\n"));
+  folder_.write("d/d_0000.rad", main_deck("#INCLUDE '../common/../common/x.inc'\n"));
+  folder_.write("other/z.inc", "/TITLE\nz\n");
+  IncludeScan scan;
+  std::vector<std::vector<IncludeScan::File>> files;
+  for (const char* name : {"a/a_0000.rad", "c/c_0000.rad", "d/d_0000.rad", "b/b_0000.rad"})
+    files.push_back(scan.files(at(name)));
+  EXPECT_EQ(files[1].size(), 2u);
+  const auto groups = sharing_groups(files);
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_EQ(groups[0], (std::vector<std::size_t>{0, 2, 3}));
+  EXPECT_EQ(groups[1], (std::vector<std::size_t>{1}));
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ def divided(c, tmp):
     if not c.no_crash("one process", r, (0, 1)):
         return
     expected = visible(one)
-    c.check("a result per deck and the summary", len(expected) == len(decks) + 1)
+    c.check("a result per deck, the summary and the overview", len(expected) == len(decks) + 2)
 
     def same(name, directory):
         now = {k: v for k, v in visible(directory).items() if not k.startswith("summary-")}
@@ -276,7 +276,16 @@ def going_on(c, tmp):
     c.check("the same bytes as done anew", visible(out) == visible(anew), differing(visible(out), visible(anew)))
     after("other options", lambda: None, 0, ("--verb", "gaps --all"))
     after("the same options", lambda: None, 6, ("--verb", "gaps --all"))
-    after("another verb", lambda: None, 0, ("--verb", "lint"))
+    before = visible(out)
+    r = c.run(*args, "--verb", "lint")
+    c.check("another verb into the same directory is refused and changes nothing", r.code == 2 and b"gaps" in r.err and visible(out) == before, r.text[-200:])
+    after("another verb with --force", lambda: None, 0, ("--verb", "lint", "--force"))
+    os.rename(decks[5], decks[5] + ".away")
+    r = c.run(*args[:-1], "--verb", "lint")
+    c.check("the result of a deck that is gone goes", r.code == 0 and sorted(visible(out)) == sorted(
+        [os.path.basename(d)[:-4] + ".json" for d in decks[:5]] + ["summary.json", "index.html"]), str(sorted(visible(out))))
+    os.rename(decks[5] + ".away", decks[5])
+    after("a deck that came back", lambda: None, 5, ("--verb", "lint"))
     config = os.path.join(work, ".decklint.toml")
     after("a configuration that was not there", lambda: open(config, "w").write('ignore = ["DK904"]\n'), 0, ("--verb", "lint"))
     after("the same configuration", lambda: None, 6, ("--verb", "lint"))
@@ -365,7 +374,7 @@ def usage(c, tmp):
     for name, args in (("no decks", ()), ("standard input as a deck", ("-",)), ("a shard outside", (deck, "--shard", "3/2")),
                        ("a shard that is none", (deck, "--shard", "half")), ("an unknown verb", (deck, "--verb", "fix")),
                        ("an option the verb does not have", (deck, "--verb", "gaps --alll")), ("a file for all decks", (deck, "--verb", "gaps --csv x.csv")),
-                       ("fixing", (deck, "--verb", "lint --fix")), ("a deck in --verb", (deck, "--verb", "gaps other.rad")),
+                       ("a patch", (deck, "--verb", "lint --diff")), ("a deck in --verb", (deck, "--verb", "gaps other.rad")),
                        ("a manifest that is not there", ("--manifest", os.path.join(tmp, "none.txt"))), ("merging with decks", (deck, "--merge")),
                        ("schemas that are not there", (deck, "--schemas", os.path.join(tmp, "none")))):
         r = c.run("batch", "-o", out, *args)

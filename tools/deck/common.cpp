@@ -20,6 +20,7 @@
 #include "deck/report/json.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
+#include "writing/frame.hpp"
 
 namespace deck::cli {
 
@@ -270,16 +271,18 @@ int for_each_deck(const CommonOptions& options, Stage stage,
     return refused;
   int worst = exit_clean;
   for (const std::string& path : options.decks) {
-    auto loaded = load(path, *schemas, options, stage);
-    if (!loaded) {
+    if (BatchFrame* frame = batch_frame()) frame->begin(path);
+    int code = exit_clean;
+    if (auto loaded = load(path, *schemas, options, stage); !loaded) {
       print_error(options, loaded.error().message);
-      const bool wrong = loaded.error().code == Error::Code::config;
-      worst = std::max<int>(worst, wrong ? exit_usage : exit_input);
-      continue;
+      code = loaded.error().code == Error::Code::config ? exit_usage : exit_input;
+    } else {
+      code = body(**loaded);
+      if (stage == Stage::interfaces) code = std::max(code, examined_code(**loaded, options));
+      if ((*loaded)->incomplete()) code = std::max<int>(code, exit_input);
     }
-    worst = std::max(worst, body(**loaded));
-    if (stage == Stage::interfaces) worst = std::max(worst, examined_code(**loaded, options));
-    if ((*loaded)->incomplete()) worst = std::max<int>(worst, exit_input);
+    if (BatchFrame* frame = batch_frame()) frame->end(code);
+    worst = std::max(worst, code);
   }
   return worst;
 }
@@ -370,6 +373,7 @@ void print_error(const CommonOptions& options, std::string_view message) {
   const bool color = options.color_on(2);
   fmt::print(stderr, "deck: {}error:{} {}\n", color ? "\x1b[1;31m" : "", color ? "\x1b[0m" : "",
              terminal_text(message));
+  if (BatchFrame* frame = batch_frame()) frame->note_error(message);
 }
 
 std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options, bool errors_only,

@@ -139,6 +139,7 @@ struct OutputRules {
   bool overwrite = false;  ///< a file that looks like a deck or an include, too
   bool deck_tree = false;  ///< decks are written: --overwrite is the way out
   bool follow_links = true;
+  std::function<bool(const std::string&)> ours = {};  ///< files that may be replaced all the same
 };
 
 /// From now on no output is written over these files.
@@ -152,6 +153,8 @@ Result<void> check_output(const std::string& path, const OutputRules& rules = {}
 /// The same for the files named on a command line, before the work begins; "" and "-" are none.
 /// Says what is wrong and returns exit_usage, or exit_clean.
 int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths);
+/// The same for files with their contents.
+Result<void> check_outputs(const std::vector<OutputFile>& files, const OutputRules& rules);
 /// Writes bytes to standard output ("-") or atomically to a file.
 Result<void> write_output(const std::string& path, std::string_view bytes);
 /// Writes a set of files, all or none.

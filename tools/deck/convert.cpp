@@ -12,12 +12,15 @@
 #include "convert_steps.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/contact/scene.hpp"
-#include "deck/edit/edit_set.hpp"
+#include "deck/edit/changed_values.hpp"
+#include "deck/edit/from_json.hpp"
 #include "deck/edit/rewrite.hpp"
-#include "deck/edit/write.hpp"
+#include "deck/edit/verify.hpp"
 #include "deck/report/deck_json.hpp"
 #include "deck/report/losses.hpp"
 #include "deck/text/number.hpp"
+#include "writing/changes.hpp"
+#include "writing/library.hpp"
 
 namespace {
 
@@ -28,9 +31,12 @@ namespace fs = std::filesystem;
 struct Options {
   CommonOptions common;
   ConvertSteps steps;
+  WriteChoice write;
   std::string to = "rad", from = "rad";
-  std::string directory, report, backup_suffix;
-  bool in_place = false, backup = false, diff = false, overwrite = false;
+  std::string report;
+  bool verify = false, no_verify = false;
+  /// In a batch it is on unless it is switched off.
+  bool verifies() const { return !no_verify && (verify || batch_frame() != nullptr); }
 };
 
 /// A deck on its way through the conversions.
@@ -38,6 +44,7 @@ struct Conversion {
   std::unique_ptr<Loaded> now;
   Overlay changed;  ///< contents that differ from the files on disk
   std::vector<LossEntry> losses;
+  std::unique_ptr<Behaviour> behaviour;  ///< of `now`, if it is to be verified
 };
 
 void print_refusals(const CommonOptions& common, const std::vector<std::string>& refusals) {
@@ -80,12 +87,41 @@ LossEntry refused_entry(const std::string& refusal) {
   return entry;
 }
 
+std::unique_ptr<Behaviour> behaviour_of(const Loaded& loaded, const SchemaSet& schemas,
+                                        const CommonOptions& common) {
+  return std::make_unique<Behaviour>(
+      EditContext{loaded.deck, loaded.model, loaded.interfaces, schemas},
+      VerifyOptions{common.thread_count(), common.memory});
+}
+
+/// Compares the deck with what it was before a step. An exit code if it is another one.
+int verify(Conversion& c, const Loaded& again, const ConvertStep& step,
+           const std::vector<LossEntry>& losses, const SchemaSet& schemas,
+           const CommonOptions& common) {
+  auto after = behaviour_of(again, schemas, common);
+  VerifyRelation relation = relation_of(losses);
+  relation.new_ids = step.option == "--renumber";
+  relation.extract = step.option == "--extract-contacts";
+  relation.expanded = step.option == "--expand-type19";
+  const auto difference = first_difference(*c.behaviour, *after, relation);
+  c.behaviour = std::move(after);
+  if (!difference) return exit_clean;
+  print_error(common, c.now->path + ": " + step.option + ": the result is not the same model: " +
+                          *difference +
+                          "; nothing was written. --no-verify writes it all the same");
+  return exit_findings;
+}
+
 /// One conversion, and the deck read again as it is then. An exit code if that failed.
 int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
-          const CommonOptions& common) {
+          const Options& options) {
+  const CommonOptions& common = options.common;
   const EditContext context{c.now->deck, c.now->model, c.now->interfaces, schemas};
   Rewrite rewrite = step.run(context);
-  for (LossEntry& e : rewrite.losses) c.losses.push_back(std::move(e));
+  // With a batch the values that only changed are left out: its report holds all decks.
+  if (!options.report.empty()) add_changed_values(context, step.option, rewrite);
+  const std::vector<LossEntry> losses = std::move(rewrite.losses);
+  c.losses.insert(c.losses.end(), losses.begin(), losses.end());
   if (!rewrite.refusals.empty()) {
     print_refusals(common, rewrite.refusals);
     for (const std::string& r : rewrite.refusals) c.losses.push_back(refused_entry(r));
@@ -102,6 +138,7 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
     return exit_findings;
   }
   if (files->empty()) return exit_clean;
+  if (options.verifies() && !c.behaviour) c.behaviour = behaviour_of(*c.now, schemas, common);
   if (c.now->path == "-" && !c.changed.contains("-"))  // it cannot be read twice
     c.changed["-"] = std::string(c.now->deck.sources[0].bytes());
   for (auto& [path, text] : *files) c.changed[path] = std::move(text);
@@ -110,8 +147,10 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
     print_error(common, again.error().message);
     return exit_internal;
   }
+  const int code =
+      c.behaviour ? verify(c, **again, step, losses, schemas, common) : exit_clean;
   c.now = std::move(*again);
-  return exit_clean;
+  return code;
 }
 
 /// Counts for people; what was lost or waits for a decision line by line.
@@ -143,7 +182,7 @@ void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& com
 struct Run {
   const Options& options;
   const std::vector<ConvertStep> steps;
-  EditSet set = {};
+  Changes changes;
   std::map<fs::path, std::pair<std::string, std::string>> documents = {};  ///< JSON: deck, text
   std::vector<LossEntry> losses = {};
   bool refused = false;  ///< nothing may be written
@@ -156,69 +195,64 @@ int fail(const Run& run, const Error& error) {
   return exit_usage;
 }
 
-void list(const Run& run, const std::vector<OutputFile>& files) {
-  if (run.options.common.quiet) return;
-  for (const OutputFile& f : files) print_text(terminal_text(f.path) + "\n");
-}
-
-int write_in_place(const Run& run) {
-  const auto plan = run.set.in_place();
-  if (!plan) return fail(run, plan.error());
-  WriteOptions write;
-  write.backup_suffix = run.options.backup ? run.options.backup_suffix : "";
-  if (auto done = write_files_atomic(plan->files, write); !done) return fail(run, done.error());
-  list(run, plan->files);
-  return exit_clean;
-}
-
-int write_tree(const Run& run) {
-  const auto plan = run.set.tree(run.options.directory);
-  if (!plan) return fail(run, plan.error());
-  OutputRules rules;
-  rules.deck_tree = true;
-  rules.overwrite = run.options.overwrite;
-  if (auto done = write_outputs(plan->files, rules); !done) return fail(run, done.error());
-  for (const std::string& path : plan->outside)
-    print_note(path + " is included by its absolute path and was not copied");
-  list(run, plan->files);
-  return exit_clean;
-}
-
-int write_documents(const Run& run) {
-  std::vector<OutputFile> files;
-  for (const auto& [target, document] : run.documents)
-    files.push_back({target.string(), document.second});
-  if (auto done = write_outputs(files); !done) return fail(run, done.error());
-  list(run, files);
-  return exit_clean;
-}
-
-int write_all(const Run& run) {
+int write_all(Run& run) {
   const Options& options = run.options;
-  if (!run.documents.empty()) return write_documents(run);
-  if (options.to == "json" || options.from == "lsdyna") return exit_clean;
-  if (options.in_place) return write_in_place(run);
-  if (!options.directory.empty()) return write_tree(run);
-  if (!options.diff) return exit_clean;  // standard input, which went to standard output
-  const auto patch = run.set.diff();
-  if (!patch) return fail(run, patch.error());
-  print_contents(*patch);
-  return exit_clean;
+  Result<void> done;
+  if (!run.documents.empty()) {
+    std::vector<OutputFile> files;
+    for (const auto& [target, document] : run.documents)
+      files.push_back({target.string(), document.second});
+    done = run.changes.write_documents(files, true);
+  } else if (options.to == "json" || options.from == "lsdyna") {
+    return exit_clean;
+  } else if (options.write.in_place || !options.write.directory.empty()) {
+    done = run.changes.write(true);
+  } else if (options.write.diff) {
+    const auto patch = run.changes.diff();
+    if (!patch) return fail(run, patch.error());
+    print_contents(*patch);
+  }  // else standard input, which went to standard output
+  return done ? exit_clean : fail(run, done.error());
+}
+
+/// The document as a deck again: it must be the deck that it was made of.
+std::string document_difference(const std::string& document, const Deck& deck,
+                                const SchemaSet& schemas) {
+  const auto back = deck_from_json(document, schemas);
+  if (!back) return back.error().message;
+  std::map<std::string_view, int> texts;
+  for (const DeckFile& f : *back) ++texts[f.text];
+  for (std::uint32_t f = 0; f < deck.sources.size(); ++f)
+    if (!texts.contains(deck.sources[f].bytes()))
+      return deck.sources[f].path() + " does not come back byte for byte";
+  return {};
 }
 
 /// The deck in JSON: printed, or kept until all decks of the call are ready.
-int add_document(Run& run, const Conversion& c) {
+int add_document(Run& run, const Conversion& c, const SchemaSet& schemas) {
   resolve_geometry(*c.now, run.options.common);
   const auto document =
       deck_to_json({c.now->path, &c.now->deck, &c.now->model, &c.now->interfaces});
   if (!document) return fail(run, document.error());
-  if (run.options.directory.empty() || run.options.directory == "-") {
+  if (run.options.verifies())
+    if (const std::string why = document_difference(*document, c.now->deck, schemas); !why.empty())
+      return fail(run, {Error::Code::internal, c.now->path + ": the JSON is not the deck: " + why});
+  const std::string& directory = run.options.write.directory;
+  if (directory.empty() || directory == "-") {
     print_text(*document);
     return exit_clean;
   }
-  fs::path target(run.options.directory);
-  if (target.extension() != ".json")
-    target /= c.now->path == "-" ? "stdin.json" : fs::path(c.now->path).stem().string() + ".json";
+  fs::path target(directory);
+  if (target.extension() != ".json" || !run.changes.root().empty()) {
+    fs::path name = c.now->path == "-" ? "stdin.json" : fs::path(c.now->path).stem().string() + ".json";
+    if (!run.changes.root().empty())
+      name = fs::absolute(c.now->path).lexically_normal().parent_path().lexically_relative(
+                 run.changes.root()) /
+             name;
+    name = name.lexically_normal();
+    if (BatchFrame* frame = batch_frame()) frame->decks[c.now->path].target = name.string();
+    target /= name;
+  }
   const auto [it, is_new] =
       run.documents.emplace(target.lexically_normal(), std::pair(c.now->path, *document));
   if (is_new) return exit_clean;
@@ -228,11 +262,11 @@ int add_document(Run& run, const Conversion& c) {
 }
 
 /// What the deck has become goes into the set.
-int add_result(Run& run, std::size_t member, Conversion& c) {
+int add_result(Run& run, std::size_t member, Conversion& c, const SchemaSet& schemas) {
   const Options& options = run.options;
-  if (options.to == "json") return add_document(run, c);
-  if (c.now->path == "-" && options.from == "rad" && !options.diff) {
-    if (c.now->deck.sources.size() == 1 && options.directory.empty()) {
+  if (options.to == "json") return add_document(run, c, schemas);
+  if (c.now->path == "-" && options.from == "rad" && !options.write.diff) {
+    if (c.now->deck.sources.size() == 1 && options.write.directory.empty()) {
       print_contents(c.now->deck.sources[0].bytes());
       return exit_clean;
     }
@@ -241,7 +275,7 @@ int add_result(Run& run, std::size_t member, Conversion& c) {
                 "file goes to standard output");
     return exit_usage;
   }
-  run.set.propose(member, c.now->deck, c.changed);
+  run.changes.propose(member, c.now->deck, c.changed);
   return exit_clean;
 }
 
@@ -249,23 +283,33 @@ int convert(Run& run, const std::string& name, std::unique_ptr<Loaded> loaded, O
             const SchemaSet& schemas) {
   const Options& options = run.options;
   if (loaded->incomplete()) {
+    run.refused = true;
     print_findings(*loaded, options.common);
     print_error(options.common, loaded->path + ": not written, the include tree is not complete");
     return exit_input;
   }
-  const auto member = run.set.add(loaded->deck, name);
-  if (!member) return fail(run, member.error());
+  const auto member = run.changes.add(*loaded, name);
+  if (!member) {
+    run.refused = true;
+    return fail(run, member.error());
+  }
   Conversion c;
   c.now = std::move(loaded);
   c.changed = std::move(overlay);
   int code = exit_clean;
   for (const ConvertStep& step : run.steps) {
-    code = apply(c, step, schemas, options.common);
+    code = apply(c, step, schemas, options);
     if (code != exit_clean) break;
   }
   if (code == exit_clean) print_losses(c.losses, options.common);
+  if (BatchFrame* frame = batch_frame())
+    for (const LossEntry& e : c.losses) ++frame->decks[name].losses[static_cast<int>(e.loss)];
+  const bool open = std::any_of(c.losses.begin(), c.losses.end(),
+                                [](const LossEntry& e) { return e.loss == Loss::undecided; });
   for (LossEntry& e : c.losses) run.losses.push_back(std::move(e));
-  return code != exit_clean ? code : add_result(run, *member, c);
+  if (code == exit_clean) code = add_result(run, *member, c, schemas);
+  run.refused = run.refused || code != exit_clean;
+  return code == exit_clean && open ? exit_findings : code;
 }
 
 /// One report of all decks: what they share is in it once.
@@ -300,27 +344,40 @@ Result<std::pair<std::unique_ptr<Loaded>, Overlay>> open_input(const std::string
   return std::pair(std::move(*loaded), std::move(overlay));
 }
 
+/// Reads and converts one deck.
+int convert_one(Run& run, const std::string& path, const SchemaSet& schemas) {
+  const Options& options = run.options;
+  auto input = open_input(path, options, schemas, !run.steps.empty() || options.to == "json");
+  if (input)
+    return convert(run, path, std::move(input->first), std::move(input->second), schemas);
+  run.refused = true;
+  print_error(options.common, input.error().message);
+  const bool wrong = input.error().code == Error::Code::config && options.from == "rad";
+  return wrong ? exit_usage : exit_input;
+}
+
 int check(const Options& options) {
   const auto refuse = [&](std::string_view why) {
     print_error(options.common, why);
     return static_cast<int>(exit_usage);
   };
   const int places =
-      (options.directory.empty() ? 0 : 1) + (options.in_place ? 1 : 0) + (options.diff ? 1 : 0);
+      (options.write.directory.empty() ? 0 : 1) + (options.write.in_place ? 1 : 0) + (options.write.diff ? 1 : 0);
   if (places > 1) return refuse("-o, --in-place and --diff exclude one another");
   const bool only_standard_input = options.common.decks == std::vector<std::string>{"-"};
   if (places == 0 && options.to == "rad" && options.from != "lsdyna" && !only_standard_input)
     return refuse("say where to write: -o DIR, --in-place, or --diff to look at it first");
-  if (options.to == "json" && (options.in_place || options.diff))
+  if (options.to == "json" && (options.write.in_place || options.write.diff))
     return refuse("--to json writes a new file: use -o, or standard output");
-  if (options.from != "rad" && (options.in_place || options.diff))
+  if (options.from != "rad" && (options.write.in_place || options.write.diff))
     return refuse("--from " + options.from + " needs -o DIR");
   if (options.from == "lsdyna" && options.to == "json")
     return refuse("--from lsdyna makes an include file of contacts, not a deck; it has no JSON");
   if (options.steps.target != 0 && options.from != "lsdyna")
     return refuse("--target goes with --from lsdyna");
-  if (options.overwrite && options.directory.empty()) return refuse("--overwrite goes with -o");
-  if (options.backup && !options.in_place) return refuse("--backup goes with --in-place");
+  if (options.write.overwrite && options.write.directory.empty()) return refuse("--overwrite goes with -o");
+  if (!options.write.backup_suffix.empty() && !options.write.in_place) return refuse("--backup goes with --in-place");
+  if (const std::string wrong = usage_error(options.write); !wrong.empty()) return refuse(wrong);
   return exit_clean;
 }
 
@@ -338,45 +395,39 @@ int run(const Options& options) {
   }
   if (const int bad = check_outputs(options.common, {options.report}); bad != exit_clean)
     return bad;
-  Run work{options, std::move(*steps)};
+  const std::string_view ending = options.from == "json" ? document_ending : deck_ending;
+  Run work{options, std::move(*steps), Changes(options.common, options.write)};
+  auto decks = Result<std::vector<std::string>>(options.common.decks);
+  if (options.from != "lsdyna") decks = work.changes.decks(options.common.decks, ending);
+  if (!decks) return fail(work, decks.error());
   int worst = exit_clean;
-  for (const std::string& path : options.common.decks) {
+  for (const std::string& path : *decks) {
     if (options.from == "lsdyna") {
       std::vector<LossEntry> losses;
-      worst = std::max(worst, convert_lsdyna(path, options.steps, options.directory, options.common,
-                                             *schemas, losses));
+      worst = std::max(worst, convert_lsdyna(path, options.steps, options.write.directory,
+                                             options.common, *schemas, losses));
       print_losses(losses, options.common);
       for (LossEntry& e : losses) work.losses.push_back(std::move(e));
       continue;
     }
-    auto input = open_input(path, options, *schemas, !work.steps.empty() || options.to == "json");
-    if (!input) {
-      print_error(options.common, input.error().message);
-      const bool wrong = input.error().code == Error::Code::config && options.from == "rad";
-      worst = std::max<int>(worst, wrong ? exit_usage : exit_input);
-      work.refused = true;
-      continue;
-    }
-    const int code =
-        convert(work, path, std::move(input->first), std::move(input->second), *schemas);
-    work.refused = work.refused || code != exit_clean;
+    if (BatchFrame* frame = batch_frame()) frame->begin(path);
+    const int code = convert_one(work, path, *schemas);
+    if (BatchFrame* frame = batch_frame()) frame->end(code);
     worst = std::max(worst, code);
   }
+  unite(work.losses);
+  if (BatchFrame* frame = batch_frame()) frame->losses = work.losses;
   if (!work.refused)
     worst = std::max(worst, write_all(work));
-  else if (options.common.decks.size() > 1)
+  else if (decks->size() > 1)
     print_error(options.common, "nothing was written: the decks of a call are converted together");
-  unite(work.losses);
-  const bool open = std::any_of(work.losses.begin(), work.losses.end(), [](const LossEntry& e) {
-    return e.loss == Loss::undecided;
-  });
-  if (open) worst = std::max<int>(worst, exit_findings);
-  if (!options.report.empty()) {
-    if (auto done = write_output(options.report, losses_json(work.losses)); !done) {
-      print_error(options.common, done.error().message);
-      worst = std::max<int>(worst, exit_usage);
-    }
-  }
+  // Of --from lsdyna as well.
+  if (std::any_of(work.losses.begin(), work.losses.end(),
+                  [](const LossEntry& e) { return e.loss == Loss::undecided; }))
+    worst = std::max<int>(worst, exit_findings);
+  if (!options.report.empty())
+    if (auto done = write_output(options.report, losses_json(work.losses)); !done)
+      worst = std::max(worst, fail(work, done.error()));
   return worst;
 }
 
@@ -392,25 +443,32 @@ Action setup(CommandLine& line) {
               "only)")
       .one_of({"rad", "json", "lsdyna"})
       .value("FORMAT");
-  line.option("-o,--output", options->directory,
+  line.option("-o,--output", options->write.directory,
               "Directory to write to; made if missing. The include tree keeps its relative "
               "names. With --to json also FILE.json")
       .value("DIR");
-  line.flag("--overwrite", options->overwrite,
+  line.flag("--overwrite", options->write.overwrite,
             "With -o: replace decks and includes that lie in DIR already and differ");
-  line.flag("--in-place", options->in_place, "Change the files of the deck");
-  line.flag("--backup{.orig}", options->backup_suffix,
+  line.flag("--in-place", options->write.in_place, "Change the files of the deck");
+  line.flag("--backup{.orig}", options->write.backup_suffix,
             "With --in-place: keep the old file under its name plus .orig (--backup=SUFFIX); a "
             "backup is never replaced, the next one is .orig.2");
-  line.flag("--diff", options->diff,
+  line.flag("--diff", options->write.diff,
             "Write nothing; print the changes as a unified diff that git apply takes");
   line.option("--report", options->report,
-              "Loss report (JSON): what was kept, approximated, dropped, left undecided")
+              "Loss report (JSON): every value that changed with its place, and what was kept, "
+              "approximated, dropped, left undecided")
       .value("FILE");
+  line.flag("--verify", options->verify,
+            "Read the result back and compare: effective values, gaps, penetrations, actions, "
+            "forces of the first cycle, masses, time steps; what differs is not written");
+  line.flag("--no-verify", options->no_verify, "In a batch: leave that out");
+  add_dependent_options(line, options->write);
   add_step_options(line, options->steps);
+  line.existing("decks").describe("Starter decks, or directories: all *_0000.rad below them");
   return [options] {
-    options->backup = !options->backup_suffix.empty();
-    options->common.rewrites = options->in_place;
+    options->write.read_back = options->verifies();
+    options->common.rewrites = options->write.in_place;
     return run(*options);
   };
 }

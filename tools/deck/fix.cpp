@@ -7,11 +7,11 @@
 #include "common.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/edit/depenetrate.hpp"
-#include "deck/edit/edit_set.hpp"
-#include "deck/edit/write.hpp"
 #include "deck/model/coverage.hpp"
 #include "deck/report/fix.hpp"
 #include "deck/text/number.hpp"
+#include "writing/changes.hpp"
+#include "writing/library.hpp"
 
 namespace {
 
@@ -20,8 +20,9 @@ using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
-  std::string strategy, directory, backup_suffix = ".orig";
-  bool diff = false, in_place = false, backup = false, overwrite = false;
+  std::string strategy;
+  WriteChoice write;
+  bool backup = false;
   std::vector<std::int64_t> interfaces;
   std::size_t rows = 10;
   MoveNodesOptions move;
@@ -43,7 +44,10 @@ std::optional<double> share(std::string text) {
 class FixRun {
  public:
   FixRun(const Options& options, const SchemaSet& schemas, JsonOutput& json)
-      : o_(options), schemas_(schemas), json_(json) {}
+      : o_(options), schemas_(schemas), json_(json), changes_(options.common, options.write) {}
+
+  /// With directories expanded and, where asked for, the decks that include the same files.
+  Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks, deck_ending); }
 
   int one(Loaded& loaded) {
     print_findings(loaded, o_.common);
@@ -58,20 +62,20 @@ class FixRun {
     if (const std::string lead = coverage_lead(coverage_of(loaded.deck, loaded.interfaces));
         !lead.empty() && !o_.common.quiet)
       print_note(loaded.path + ": " + lead);
-    const auto member = set_.add(loaded.deck);
+    const auto member = changes_.add(loaded, loaded.path);
     if (!member) return fail(member.error());
     auto fix = make(loaded);
     if (!fix) return fail(fix.error());
     auto changed = apply_rewrite(loaded.deck.sources, fix->rewrite);
     if (!changed) return fail(changed.error());
-    if (loaded.path == "-" && (o_.in_place || !o_.directory.empty()))
+    if (loaded.path == "-" && (o_.write.in_place || !o_.write.directory.empty()))
       return fail({Error::Code::config,
-                   o_.in_place ? "standard input cannot be rewritten; use --diff"
+                   o_.write.in_place ? "standard input cannot be rewritten; use --diff"
                                : "a deck from standard input has no name to write it to"});
-    set_.propose(*member, loaded.deck, *changed);
-    const std::string written = o_.in_place             ? "in-place"
-                                : !o_.directory.empty() ? o_.directory
-                                : o_.diff               ? "diff"
+    changes_.propose(*member, loaded.deck, *changed);
+    const std::string written = o_.write.in_place             ? "in-place"
+                                : !o_.write.directory.empty() ? o_.write.directory
+                                : o_.write.diff               ? "diff"
                                                         : "no";
     if (json_.wanted()) documents_.push_back(fix_json(loaded.path, loaded.deck, *fix, written));
     texts_ += report(*fix, *changed, loaded.path);
@@ -80,23 +84,21 @@ class FixRun {
 
   /// Writes what the decks want together, and says what was done.
   int finish(int code) {
-    const bool writes = o_.diff || o_.in_place || !o_.directory.empty();
+    const bool writes = o_.write.diff || o_.write.in_place || !o_.write.directory.empty();
     if (code > exit_findings && writes) {
       if (o_.common.decks.size() > 1)
         print_error(o_.common, "nothing was written: the decks of a call are fixed together");
       return code;
     }
-    if (o_.diff) {
-      const auto patch = set_.diff();
+    if (o_.write.diff) {
+      const auto patch = changes_.diff();
       if (!patch) return fail(patch.error());
       print_contents(*patch);
     }
-    if (o_.in_place)
-      if (auto done = write_in_place(); !done) return std::max(code, usage(done.error()));
-    if (!o_.directory.empty())
-      if (auto done = write_tree(); !done) return std::max(code, usage(done.error()));
+    if (o_.write.in_place || !o_.write.directory.empty())
+      if (auto done = changes_.write(false); !done) return std::max(code, usage(done.error()));
     for (std::string& document : documents_) json_.add(std::move(document));
-    if (o_.diff || o_.common.json == "-")
+    if (o_.write.diff || o_.common.json == "-")
       fmt::print(stderr, "{}", texts_);
     else
       print_text(texts_);
@@ -160,39 +162,22 @@ class FixRun {
     return move_nodes(context, options);
   }
 
-  Result<void> write_in_place() const {
-    const auto plan = set_.in_place();
-    if (!plan) return plan.error();
-    WriteOptions write;
-    if (o_.backup) write.backup_suffix = o_.backup_suffix;
-    return write_files_atomic(plan->files, write);
-  }
-
-  Result<void> write_tree() const {
-    const auto plan = set_.tree(o_.directory);
-    if (!plan) return plan.error();
-    OutputRules rules;
-    rules.deck_tree = true;
-    rules.overwrite = o_.overwrite;
-    return write_outputs(plan->files, rules);
-  }
-
   std::string report(const PenetrationFix& fix, const ChangedFiles& changed,
                      const std::string& path) const {
     if (o_.common.quiet) return {};
     FixTextOptions text;
     text.rows = o_.rows;
-    const bool to_stderr = o_.diff || o_.common.json == "-";
+    const bool to_stderr = o_.write.diff || o_.common.json == "-";
     text.color = o_.common.color_on(to_stderr ? 2 : 1);
     std::string out;
     if (o_.common.decks.size() > 1) out += terminal_text(path) + "\n";
     out += fix_text(fix, text);
     if (!changed.empty()) {
-      const bool written = o_.in_place || !o_.directory.empty();
+      const bool written = o_.write.in_place || !o_.write.directory.empty();
       out += "\n";
       for (const auto& [file, bytes] : changed)
         out += fmt::format("{} {}\n", written ? "changed:" : "would change:", terminal_text(file));
-      if (!written && !o_.diff)
+      if (!written && !o_.write.diff)
         out += "nothing was written: --diff shows the patch, --in-place or -o DIR writes it\n";
     } else if (!fix.interfaces.empty()) {
       out += "\nno file changes\n";
@@ -203,28 +188,28 @@ class FixRun {
   const Options& o_;
   const SchemaSet& schemas_;
   JsonOutput& json_;
-  EditSet set_;
+  Changes changes_;
   std::vector<std::string> documents_;
   std::string texts_;
 };
 
 /// What is wrong with the combination of options; empty: nothing.
-std::string usage_error(const Options& o) {
-  if (o.in_place && !o.directory.empty()) return "--in-place and -o exclude each other";
-  if (o.backup && !o.in_place) return "--backup needs --in-place";
-  if (o.overwrite && o.directory.empty()) return "--overwrite needs -o";
+std::string wrong_usage(const Options& o) {
+  if (o.write.in_place && !o.write.directory.empty()) return "--in-place and -o exclude each other";
+  if (o.backup && !o.write.in_place) return "--backup needs --in-place";
+  if (o.write.overwrite && o.write.directory.empty()) return "--overwrite needs -o";
   if (!share(o.max_moved)) return "--max-moved needs a share like 10% or 0.1";
   if (!share(o.min_gap)) return "--min-gap needs a share like 50% or 0.5";
   if (!o.fpenmax.empty() && !share(o.fpenmax)) return "--fpenmax needs a share like 80% or 0.8";
-  if (o.diff && o.common.json == "-") return "--diff and --json - both want standard output";
+  if (o.write.diff && o.common.json == "-") return "--diff and --json - both want standard output";
   const RealCell limit = read_real(o.max_displacement);
   if (!o.max_displacement.empty() && !(limit.status == NumberStatus::ok && limit.value > 0))
     return "--max-displacement needs a length above 0";
-  return {};
+  return deck::cli::usage_error(o.write);
 }
 
 int run(const Options& o) {
-  if (const std::string wrong = usage_error(o); !wrong.empty()) {
+  if (const std::string wrong = wrong_usage(o); !wrong.empty()) {
     print_error(o.common, wrong);
     return exit_usage;
   }
@@ -235,8 +220,15 @@ int run(const Options& o) {
   }
   JsonOutput json(o.common, "deck/fix", 1);
   FixRun fix(o, *schemas, json);
+  const auto decks = fix.decks();
+  if (!decks) {
+    print_error(o.common, decks.error().message);
+    return exit_usage;
+  }
+  CommonOptions common = o.common;
+  common.decks = *decks;
   const int code =
-      for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) { return fix.one(loaded); });
+      for_each_deck(common, Stage::interfaces, [&](Loaded& loaded) { return fix.one(loaded); });
   return json.finish(fix.finish(code));
 }
 
@@ -272,15 +264,16 @@ Action setup(CommandLine& line) {
       .one_of({"move-nodes", "reduce-gap", "inacti", "fpenmax"})
       .value("STRATEGY");
   line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
-  line.flag("--diff", o.diff, "Print the patch (git apply takes it); the report goes to stderr");
-  line.option("-o,--output", o.directory, "Write the deck with all it includes below DIR")
+  line.flag("--diff", o.write.diff, "Print the patch (git apply takes it); the report goes to stderr");
+  line.option("-o,--output", o.write.directory, "Write the deck with all it includes below DIR")
       .value("DIR");
-  line.flag("--in-place", o.in_place, "Rewrite the files that change");
+  line.flag("--in-place", o.write.in_place, "Rewrite the files that change");
   line.flag("--backup", o.backup,
             "With --in-place: keep each old file as FILE.orig (a backup is never replaced: then "
             "FILE.orig.2)");
-  line.flag("--overwrite", o.overwrite,
+  line.flag("--overwrite", o.write.overwrite,
             "With -o: replace decks and includes that lie in DIR already and differ");
+  add_dependent_options(line, o.write);
   line.option("--rows", o.rows, "Rows of the lists in the report").show_default();
 
   CommandLine move = line.group("move-nodes");
@@ -319,7 +312,8 @@ Action setup(CommandLine& line) {
 
   add_card_options(line, o);
   return [options] {
-    options->common.rewrites = options->in_place;
+    options->common.rewrites = options->write.in_place;
+    if (options->backup) options->write.backup_suffix = ".orig";
     return run(*options);
   };
 }

@@ -6,13 +6,14 @@
 
 #include "common.hpp"
 #include "deck/base/escape.hpp"
-#include "deck/edit/edit_set.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/lint/fix.hpp"
 #include "deck/lint/geometry.hpp"
 #include "deck/lint/lint.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/report/diagnostics.hpp"
+#include "writing/changes.hpp"
+#include "writing/library.hpp"
 
 namespace {
 
@@ -27,6 +28,7 @@ struct Options {
   std::string fail_on, baseline, write_baseline, config;
   bool no_config = false, geometry = false, fix = false, unsafe_fixes = false, diff = false,
        ruler = false;
+  WriteChoice write;
   int per_rule = 10;
 };
 
@@ -108,13 +110,23 @@ bool at_or_above(const LintResult& r, std::string_view fail_on) {
 
 class Run {
  public:
-  explicit Run(const Options& options) : options_(options), common_(options.common) {}
+  explicit Run(const Options& options)
+      : options_(options), common_(options.common), changes_(options.common, options.write) {}
 
   int run() {
     if (const int code = prepare(); code != exit_clean) return code;
     int worst = exit_clean;
-    for (const std::string& path : common_.decks) worst = std::max(worst, lint_one(path));
-    if (options_.diff || options_.fix || options_.unsafe_fixes) {
+    const bool rewrites = options_.diff || options_.fix || options_.unsafe_fixes;
+    auto decks = Result<std::vector<std::string>>(common_.decks);
+    if (rewrites) decks = changes_.decks(common_.decks, deck_ending);
+    if (!decks) return usage(decks.error().message);
+    for (const std::string& path : *decks) {
+      if (BatchFrame* frame = batch_frame()) frame->begin(path);
+      const int code = lint_one(path);
+      if (BatchFrame* frame = batch_frame()) frame->end(code);
+      worst = std::max(worst, code);
+    }
+    if (rewrites) {
       const int code = std::any_of(common_.decks.begin(), common_.decks.end(),
                                    [](const std::string& d) { return d == "-"; }) &&
                                !options_.diff
@@ -193,7 +205,7 @@ class Run {
 
   /// What all decks together want fixed. A fix of a file that they share is made only if all of
   /// them want it.
-  Result<std::size_t> collect_fixes(EditSet& set, std::vector<FixResult>& results) {
+  Result<std::size_t> collect_fixes(Changes& set, std::vector<FixResult>& results) {
     std::vector<FixedDeck> decks;
     std::vector<const Job*> jobs;
     for (const auto& job : jobs_)
@@ -205,7 +217,7 @@ class Run {
     std::size_t changed = 0;
     for (std::size_t d = 0; d < decks.size(); ++d) {
       const Deck& deck = jobs[d]->loaded->deck;
-      const auto member = set.add(deck);
+      const auto member = set.add(*jobs[d]->loaded, jobs[d]->path);
       if (!member) return member.error();
       results.push_back(apply_fixes(deck.sources, agreed.wanted[d]));
       ChangedFiles files;
@@ -239,19 +251,15 @@ class Run {
   /// --diff prints what --fix would write; --fix writes, every file once, and lints again.
   int fixes() {
     int code = exit_clean;
-    EditSet set;
     std::vector<FixResult> results;
-    const auto changed = collect_fixes(set, results);
+    const auto changed = collect_fixes(changes_, results);
     if (!changed) return usage(changed.error().message);
     if (options_.diff) {
-      const auto patch = set.diff();
+      const auto patch = changes_.diff();
       if (!patch) return usage(patch.error().message);
       print_contents(*patch);
     } else if (*changed > 0) {
-      const auto plan = set.in_place();
-      if (!plan) return usage(plan.error().message);
-      if (auto written = write_files_atomic(plan->files); !written)
-        return usage(written.error().message);
+      if (auto written = changes_.write(false); !written) return usage(written.error().message);
       for (std::size_t d = 0, r = 0; d < jobs_.size(); ++d) {
         if (!jobs_[d]->loaded) continue;
         const FixResult& fixed = results[r++];
@@ -340,6 +348,7 @@ class Run {
  private:
   const Options& options_;
   const CommonOptions& common_;
+  Changes changes_;
   SchemaSet schemas_;
   LintConfig explicit_config_;
   std::vector<std::unique_ptr<Job>> jobs_;
@@ -388,12 +397,19 @@ Action setup(CommandLine& line) {
   line.flag("--unsafe-fixes", o.unsafe_fixes, "Apply the other fixes too");
   line.flag("--diff", o.diff,
             "Print the fixes as a patch (findings on standard error), write nothing");
+  add_dependent_options(line, o.write);
   line.flag("--ruler", o.ruler, "Show column numbers above each card line");
   line.option("--per-rule", o.per_rule, "Findings shown per rule; 0 shows all")
       .range(0, 1000000)
       .value("N");
   return [options] {
     options->common.rewrites = (options->fix || options->unsafe_fixes) && !options->diff;
+    options->write.in_place = options->common.rewrites;
+    options->write.diff = options->diff;
+    if (const std::string wrong = usage_error(options->write); !wrong.empty()) {
+      print_error(options->common, wrong);
+      return static_cast<int>(exit_usage);
+    }
     // What is fixed has to be kept, not only counted.
     constexpr int most_fixes_of_a_rule = 1'000'000;
     if (options->fix || options->unsafe_fixes || options->diff)

@@ -106,7 +106,8 @@ Result<void> check_output(const std::string& path, const OutputRules& rules,
     return refused(path, read->second == path ? "this call reads it"
                                               : "this call reads it, as " + read->second);
   }
-  if (rules.overwrite || !file_looks_like_deck(path)) return {};
+  if (rules.overwrite || (rules.ours && rules.ours(path))) return {};
+  if (!file_looks_like_deck(path)) return {};
   if (bytes && holds(path, static_cast<std::uint64_t>(status.st_size), *bytes)) return {};
   if (rules.deck_tree)
     return Error{Error::Code::config,
@@ -127,9 +128,14 @@ int check_outputs(const CommonOptions& options, const std::vector<std::string>& 
 
 Result<void> write_outputs(const std::vector<OutputFile>& files, const OutputRules& rules,
                            const WriteOptions& options) {
+  if (auto allowed = check_outputs(files, rules); !allowed) return allowed;
+  return write_files_atomic(files, options);
+}
+
+Result<void> check_outputs(const std::vector<OutputFile>& files, const OutputRules& rules) {
   for (const OutputFile& f : files)
     if (auto allowed = check_output(f.path, rules, f.bytes); !allowed) return allowed;
-  return write_files_atomic(files, options);
+  return {};
 }
 
 Result<void> write_output(const std::string& path, std::string_view bytes) {

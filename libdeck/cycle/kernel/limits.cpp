@@ -94,17 +94,27 @@ double line_step(const Scene& scene, ElementKind kind, std::uint32_t e) {
 
 }  // namespace
 
+double detail::element_step(const Scene& scene, ElementKind kind, std::uint32_t e) {
+  switch (kind) {
+    case ElementKind::shell4:
+    case ElementKind::shell3:
+      return shell_step(scene, kind, e);
+    case ElementKind::solid8:
+      return solid_step(scene, e);
+    case ElementKind::truss:
+    case ElementKind::beam:
+      return line_step(scene, kind, e);
+    default:
+      return 1e30;
+  }
+}
+
 StructureStep structure_step(const Scene& scene) {
   StructureStep best;
-  const auto scan = [&](ElementKind kind, auto&& step) {
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
+                                 ElementKind::truss, ElementKind::beam})
     for (std::uint32_t e = 0; e < scene.model->family(kind).size(); ++e)
-      if (const double dt = step(e); dt < best.dt) best = {dt, kind, e};
-  };
-  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3})
-    scan(kind, [&](std::uint32_t e) { return shell_step(scene, kind, e); });
-  scan(ElementKind::solid8, [&](std::uint32_t e) { return solid_step(scene, e); });
-  for (const ElementKind kind : {ElementKind::truss, ElementKind::beam})
-    scan(kind, [&](std::uint32_t e) { return line_step(scene, kind, e); });
+      if (const double dt = detail::element_step(scene, kind, e); dt < best.dt) best = {dt, kind, e};
   return best;
 }
 

@@ -28,6 +28,8 @@ std::vector<Conductivity> conductivities(const deck::Model& model);
 double shell_area(const Coordinates& x, ElementKind kind, const NodeIndex* n);
 /// Volume from the eight slots; the one-point rule makes tetrahedra 1.5 times larger than they are.
 double solid_volume(const Coordinates& x, SolidShape shape, const NodeIndex* slots);
+/// What one element allows as time step (see structure_step); 1e30: any.
+double element_step(const Scene& scene, ElementKind kind, std::uint32_t e);
 /// Mass of one spring by property index; 0 where the property gives none.
 std::vector<double> spring_masses(const deck::Model& model);
 /// Axes of a skew that is fixed in space, as a map from local to global components.

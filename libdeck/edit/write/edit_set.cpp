@@ -126,6 +126,9 @@ Result<std::size_t> EditSet::add(const Deck& deck, std::string name) {
     if (!member.file_of.emplace(source.path(), *file).second) continue;
     files_[*file].uses.push_back({decks_.size(), source.path(), directives[f], 0});
   }
+  const UnitSystem& units = deck.begin.input;
+  if (deck.begin.has_input)
+    member.units = units.mass_code + ", " + units.length_code + ", " + units.time_code;
   decks_.push_back(std::move(member));
   return decks_.size() - 1;
 }
@@ -142,7 +145,19 @@ void EditSet::propose(std::size_t deck, const Deck& now, const ChangedFiles& cha
       if (use.deck == deck && use.path == path)
         use.text = static_cast<std::size_t>(same - file.texts.begin());
   }
-  const auto layout = detail::lay_out(now);
+  member.order.clear();
+  for (std::uint32_t f = 0; f < now.sources.size(); ++f)
+    member.order.push_back(now.sources[f].path());
+  for (const IncludeEdge& e : now.includes)
+    member.edges.push_back({now.sources[e.parent].path(), e.written, now.sources[e.file].path()});
+  std::optional<fs::path> folder;
+  if (!root_.empty()) {
+    // A deck from memory stands where its document does.
+    const std::string& place =
+        now.sources[0].inode() != 0 || changed.empty() ? now.sources[0].path() : member.name;
+    folder = fs::absolute(place).lexically_normal().parent_path().lexically_relative(root_);
+  }
+  const auto layout = detail::lay_out(now, folder);
   if (!layout) {
     member.no_layout = layout.error().message;
     return;
@@ -150,6 +165,10 @@ void EditSet::propose(std::size_t deck, const Deck& now, const ChangedFiles& cha
   member.layout.clear();
   for (const auto& [target, file] : layout->files)
     member.layout.emplace_back(target.string(), now.sources[file].path());
+  const auto main =
+      std::find_if(member.layout.begin(), member.layout.end(),
+                   [&](const auto& entry) { return entry.second == now.sources[0].path(); });
+  if (main != member.layout.end()) std::iter_swap(main, member.layout.begin());
   member.outside = layout->outside;
 }
 
@@ -172,20 +191,38 @@ Error EditSet::conflict(const File& file, const Use& a, const Use& b,
   const auto wants = [&](const Use& use, const std::string& line) {
     return who(use) + (use.text == 0 ? " leaves it as it is: '" : " makes it '") + line + "'";
   };
+  const Member &of_a = decks_[a.deck], &of_b = decks_[b.deck];
+  std::string units;
+  if (of_a.units != of_b.units && !of_a.units.empty() && !of_b.units.empty())
+    units =
+        " (" + of_a.name + " is in " + of_a.units + ", " + of_b.name + " in " + of_b.units + ")";
   return refuse(where + ":" + std::to_string(d.line) +
                 ": the decks want different texts for this file: " + wants(a, d.a) + ", " +
-                wants(b, d.b) +
+                wants(b, d.b) + units +
                 "; nothing was written. Give each of the decks a file of its own, or convert them "
                 "one at a time into different directories");
+}
+
+/// A use that wants another text than the first; nullptr: all agree.
+const EditSet::Use* EditSet::odd_use(const File& file) const {
+  for (const Use& use : file.uses)
+    if (use.text != file.uses.front().text) return &use;
+  return nullptr;
 }
 
 Result<std::vector<std::pair<const EditSet::File*, std::size_t>>> EditSet::changes() const {
   std::vector<std::pair<const File*, std::size_t>> out;
   for (const File& file : files_) {
+    if (file.uses.empty()) continue;
     const Use& first = file.uses.front();
-    for (const Use& use : file.uses)
-      if (use.text != first.text) return conflict(file, first, use, first.path);
-    if (first.text != 0) out.emplace_back(&file, first.text);
+    if (const Use* odd = odd_use(file)) return conflict(file, first, *odd, first.path);
+    if (first.text == 0) continue;
+    if (!file.outsider.empty())
+      return refuse(first.path + " would change for " + decks_[first.deck].name + ", and " +
+                    file.outsider +
+                    " includes it as well; nothing was written. --with-dependents changes all "
+                    "decks that include it, --split-includes gives the deck a copy of its own");
+    out.emplace_back(&file, first.text);
   }
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
     return a.first->places.front().second < b.first->places.front().second;
@@ -198,6 +235,10 @@ Result<EditSet::Plan> EditSet::in_place() const {
   if (!changed) return changed.error();
   Plan plan;
   for (const auto& [file, text] : *changed) {
+    if (file->is_new) {
+      plan.files.push_back({file->uses.front().path, file->texts[text]});
+      continue;
+    }
     if (file->inode == 0)
       return refuse(file->uses.front().path + " was not read from a file and cannot be rewritten");
     for (const auto& [place, path] : file->places)
@@ -231,8 +272,9 @@ Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
       const auto& [other, other_use] = it->second;
       if (other == &file && other_use->text != use->text)
         return conflict(file, *other_use, *use, target);
-      const bool other_deck = other_use->deck != d;
-      if (other != &file && (other_deck || other->texts[other_use->text] != file.texts[use->text]))
+      const bool same_text = other->texts[other_use->text] == file.texts[use->text];
+      const bool from_memory = other->inode == 0 && file.inode == 0;
+      if (other != &file && (!same_text || (other_use->deck != d && !from_memory)))
         return refuse("both " + other_use->path + " (" + decks_[other_use->deck].name + ") and " +
                       path + " (" + member.name + ") would be written to " + target +
                       "; nothing was written. Write the decks to different directories");
@@ -261,9 +303,43 @@ Result<std::string> EditSet::diff() const {
       const std::string shown =
           place.empty() ? path : fs::path(place).lexically_relative(root).string();
       const std::string hunks = unified_diff(shown, file->texts.front(), file->texts[text]);
-      if (!hunks.empty() && elsewhere) out += "diff --git a/" + shown + " b/" + shown + "\n";
-      out += hunks;
+      if (!hunks.empty() && (elsewhere || file->is_new))
+        out += "diff --git a/" + shown + " b/" + shown + "\n";
+      if (file->is_new)
+        out += "new file mode 100644\n--- /dev/null\n" + hunks.substr(hunks.find('\n') + 1);
+      else
+        out += hunks;
     }
+  return out;
+}
+
+std::string EditSet::read_back_difference(std::size_t deck, const Deck& written) const {
+  const Member& member = decks_[deck];
+  if (written.sources.size() != member.order.size())
+    return "it has " + std::to_string(written.sources.size()) + " files, expected " +
+           std::to_string(member.order.size());
+  for (std::uint32_t f = 0; f < written.sources.size(); ++f) {
+    const Use* use = use_of(deck, member.order[f]);
+    const auto file = member.file_of.find(member.order[f]);
+    if (use == nullptr || file == member.file_of.end()) return member.order[f] + " was not read";
+    if (files_[file->second].texts[use->text] != written.sources[f].bytes())
+      return written.sources[f].path() + " is not the text for " + member.order[f];
+  }
+  return {};
+}
+
+void EditSet::add_outsider(const FileIdentity& file, const std::string& deck) {
+  const auto found = by_identity_.find(file);
+  if (found == by_identity_.end()) return;
+  std::string& known = files_[found->second].outsider;
+  if (known.empty()) known = deck;
+}
+
+std::set<FileIdentity> EditSet::changed_files() const {
+  std::set<FileIdentity> out;
+  for (const File& file : files_)
+    for (const Use& use : file.uses)
+      if (use.text != 0 && file.inode != 0) out.emplace(file.device, file.inode);
   return out;
 }
 

@@ -47,16 +47,16 @@ std::vector<fs::path> relative_places(const Deck& deck, Layout& layout) {
 
 }  // namespace
 
-Result<Layout> lay_out(const Deck& deck) {
+Result<Layout> lay_out(const Deck& deck, const std::optional<fs::path>& folder) {
   Layout layout;
   const std::vector<fs::path> places = relative_places(deck, layout);
   int up = 0;
   for (const fs::path& p : places) up = std::max(up, climbs(p));
   // Files above the main file's directory: the main file moves down into directories of the same
   // names, so that ".." leads where it should.
-  fs::path prefix;
+  fs::path prefix = folder.value_or(fs::path());
   fs::path dir = fs::absolute(deck.sources[0].path()).lexically_normal().parent_path();
-  for (int i = 0; i < up; ++i) {
+  for (int i = 0; i < up && !folder; ++i) {
     if (!dir.has_relative_path())
       return Error{Error::Code::config,
                    deck.sources[0].path() + ": an include leads above the root directory"};
@@ -66,6 +66,10 @@ Result<Layout> lay_out(const Deck& deck) {
   for (std::uint32_t f = 0; f < places.size(); ++f) {
     if (places[f].empty()) continue;
     const fs::path target = (prefix / places[f]).lexically_normal();
+    if (climbs(target) > 0)
+      return Error{Error::Code::config, deck.sources[f].path() +
+                                            " lies above the directory whose tree is written; " +
+                                            "name a directory that holds it as well"};
     const auto [it, is_new] = layout.files.emplace(target, f);
     if (!is_new && deck.sources[it->second].bytes() != deck.sources[f].bytes())
       return Error{Error::Code::config,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Layout {
 
 /// Relative names stay; where an include leads above the main file's directory, the main file moves
 /// down as many directories. Error: two files for one place, or an include from above the root.
-Result<Layout> lay_out(const Deck& deck);
+/// With `folder`, the place of the main file's directory is given, and no include may lead above
+/// what it is relative to.
+Result<Layout> lay_out(const Deck& deck, const std::optional<std::filesystem::path>& folder = {});
 
 }  // namespace deck::detail

@@ -3,22 +3,58 @@
 // stopped.
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 #include "batch/list.hpp"
 #include "batch/ranks.hpp"
 #include "batch/run.hpp"
 #include "batch/summary.hpp"
+#include "writing/library.hpp"
 
 namespace {
 
 using namespace deck;
 using namespace deck::cli;
 
-const std::vector<std::string> verbs_with_documents = {"lint", "params", "gaps", "cycle"};
-/// Options that write files of one name, change decks, or are the batch's own.
+const std::vector<std::string> verbs_of_a_batch = {"lint",  "params",  "gaps",
+                                                   "cycle", "convert", "fix"};
+/// Options that write files of one name, or are the batch's own.
 const std::vector<std::string> not_in_a_batch = {
-    "--json", "--csv", "--vtk",   "--html",  "--compare",      "--output",  "--format",
-    "--diff", "--fix", "--quiet", "--color", "--unsafe-fixes", "--threads", "--write-baseline"};
+    "--json", "--csv",   "--vtk",   "--html",    "--compare",        "--output", "--format",
+    "--diff", "--quiet", "--color", "--threads", "--write-baseline", "--report"};
+
+/// The value of an option among the words of a verb; empty: it is not there.
+std::string value_among(const std::vector<std::string>& words, const std::string& option) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == option && i + 1 < words.size()) return words[i + 1];
+    if (words[i].starts_with(option + "=")) return words[i].substr(option.size() + 1);
+  }
+  return {};
+}
+
+/// What a verb that writes decks does with them.
+Result<void> parse_writing(BatchTask& task, const CommandLine& line) {
+  const std::string& verb = std::string(task.verb.name);
+  const auto has = [&](const char* option) { return line.given(option); };
+  if (verb == "convert") {
+    const std::string from = value_among(task.words, "--from"),
+                      to = value_among(task.words, "--to");
+    if (from == "lsdyna")
+      return Error{Error::Code::config, "--from lsdyna is not for a batch: it makes no decks"};
+    if (from == "json") task.ending = document_ending;
+    task.from_json = from == "json";
+    task.to_json = to == "json";
+  }
+  task.writes = verb == "convert" || verb == "fix" || has("--fix") || has("--unsafe-fixes");
+  if (!task.writes) return {};
+  task.in_place = verb == "lint" || has("--in-place");
+  task.with_documents = verb != "convert";
+  task.with_dependents = has("--with-dependents");
+  task.split_includes = has("--split-includes");
+  task.root = value_among(task.words, "--root");
+  return {};
+}
 
 /// Error: no such verb, or options that it does not take.
 Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all) {
@@ -29,11 +65,11 @@ Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all
   const std::vector<std::string> words = split_words(o.verb);
   if (words.empty()) return refuse("name a verb");
   for (const Verb& v : all)
-    if (v.name == words.front() &&
-        std::find(verbs_with_documents.begin(), verbs_with_documents.end(), words.front()) !=
-            verbs_with_documents.end())
+    if (v.name == words.front() && std::find(verbs_of_a_batch.begin(), verbs_of_a_batch.end(),
+                                             words.front()) != verbs_of_a_batch.end())
       task.verb = v;
-  if (task.verb.setup == nullptr) return refuse("expected lint, params, gaps or cycle");
+  if (task.verb.setup == nullptr)
+    return refuse("expected lint, params, gaps, cycle, convert or fix");
   task.words.assign(words.begin() + 1, words.end());
   CommandLine line("", "");
   const Action action = task.verb.setup(line);  // holds what the options are stored in
@@ -43,13 +79,79 @@ Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all
   for (const std::string& name : not_in_a_batch)
     if (line.given(name)) return refuse(name + " is not for a batch");
   if (line.existing("decks").count() != 1) return refuse("decks are named behind the options");
+  if (const auto writing = parse_writing(task, line); !writing)
+    return refuse(writing.error().message);
   for (const std::string& dir : o.common.include_paths)
     task.options.insert(task.options.end(), {"--include-path", dir});
   for (const std::string& dir : o.common.schema_dirs)
     task.options.insert(task.options.end(), {"--schemas", dir});
-  if (o.common.require_examined) task.options.push_back("--require-examined");
+  if (o.common.require_examined && task.verb.name != "convert")
+    task.options.push_back("--require-examined");
   task.options.insert(task.options.end(), task.words.begin(), task.words.end());
   return task;
+}
+
+/// True for a document of several files, some of which others may hold as well.
+bool holds_includes(const std::string& document) {
+  std::ifstream in(document, std::ios::binary);
+  std::string head(std::size_t{1} << 14, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head.find("\"includes\": []") == head.npos;
+}
+
+/// The decks of the list that have to be done together, and where the batch writes them.
+Result<void> plan_groups(const BatchOptions& o, BatchTask& task, std::vector<BatchDeck>& decks,
+                         std::vector<std::vector<std::size_t>>& groups) {
+  if (!task.writes) {
+    for (std::size_t i = 0; i < decks.size(); ++i) groups.push_back({i});
+    return {};
+  }
+  const auto& given = o.common.decks;
+  std::vector<std::string> paths;
+  for (const BatchDeck& d : decks) paths.push_back(d.path);
+  if (task.in_place) {
+    auto dependents = find_dependents(paths, task.root, o.common.include_paths);
+    if (!dependents) return dependents.error();
+    if (task.with_dependents && !dependents->decks.empty()) {
+      paths.insert(paths.end(), dependents->decks.begin(), dependents->decks.end());
+      auto more = list_decks(paths, "", task.ending, o.directory);
+      if (!more) return more.error();
+      decks = std::move(*more);
+    } else {
+      task.outsiders = std::move(dependents->shared);
+    }
+  }
+  std::vector<std::string> directories, files;
+  std::error_code ec;
+  for (const std::string& path : given)
+    if (std::filesystem::is_directory(path, ec)) directories.push_back(path);
+  std::vector<std::vector<IncludeScan::File>> files_of_decks;
+  IncludeScan scan(o.common.include_paths);
+  std::size_t together = SIZE_MAX;
+  for (std::size_t i = 0; i < decks.size(); ++i) {
+    if (task.from_json) {
+      files.push_back(decks[i].path);
+      const bool several = holds_includes(decks[i].path);
+      if (several && together != SIZE_MAX) {
+        groups[together].push_back(i);
+        continue;
+      }
+      if (several) together = groups.size();
+      groups.push_back({i});
+      continue;
+    }
+    files_of_decks.push_back(scan.files(decks[i].path));
+    files.push_back(decks[i].path);
+    for (const IncludeScan::File& f : files_of_decks.back()) files.push_back(f.path);
+  }
+  task.frame_root = common_root(directories, files);
+  if (task.from_json) return {};
+  if (task.to_json)  // a document holds all files of its deck
+    for (std::size_t i = 0; i < decks.size(); ++i) groups.push_back({i});
+  else
+    groups = sharing_groups(files_of_decks);
+  return {};
 }
 
 int run(const BatchOptions& o) {
@@ -65,9 +167,7 @@ int run(const BatchOptions& o) {
     if (!parts) return usage(parts.error().message);
     const auto merged = merge_summaries(*parts);
     if (!merged) return usage(merged.error().message);
-    if (auto written =
-            write_result(o.directory + "/" + summary_name({}), summary_json(*merged), true);
-        !written)
+    if (auto written = write_overview(o.directory, *merged); !written)
       return usage(written.error().message);
     return report_batch(o, *merged, 0);
   }
@@ -75,12 +175,15 @@ int run(const BatchOptions& o) {
   if (!shard) return usage(shard.error().message);
   auto task = parse_task(o, verbs());
   if (!task) return usage(task.error().message);
-  const auto decks = list_decks(o.common.decks, o.manifest);
+  auto decks = list_decks(o.common.decks, o.manifest, task->ending, o.directory);
   if (!decks) return usage(decks.error().message);
   remember_read(o.manifest);
   if (decks->empty()) return usage("no decks: name some, or a directory, or a --manifest");
   if (const auto schemas = load_schemas(o.common); !schemas) return usage(schemas.error().message);
-  Batch batch(o, std::move(*task), *decks, *shard,
+  std::vector<std::vector<std::size_t>> groups;
+  if (auto planned = plan_groups(o, *task, *decks, groups); !planned)
+    return usage(planned.error().message);
+  Batch batch(o, std::move(*task), std::move(*decks), std::move(groups), *shard,
               o.no_mpi ? Ranks::alone() : Ranks::from_environment());
   return batch.run();
 }
@@ -90,7 +193,7 @@ Action setup(CommandLine& line) {
   BatchOptions& o = *options;
   add_common(line, o.common);
   line.existing("decks").required(false).describe(
-      "Starter decks, or directories: all *_0000.rad below them");
+      "Starter decks, directories (all *_0000.rad below them) or patterns ('models/*/a*.rad')");
   line.existing("--json").describe("Write the summary to FILE as well; '-' is standard output");
   line.existing("--threads").describe("Threads of each worker; 0 shares out the processors");
   line.option("-o,--output", o.directory, "Directory of the results; made if missing")
@@ -99,17 +202,23 @@ Action setup(CommandLine& line) {
   line.option("--manifest", o.manifest,
               "File with one deck per line, # begins a comment; '-' is standard input")
       .value("FILE");
-  line.option("--verb", o.verb,
-              "What to do with each deck: lint, params, gaps (default) or cycle, with options: "
-              "--verb 'lint --geometry'")
+  line.option(
+          "--verb", o.verb,
+          "What to do with each deck: lint, params, gaps (default), cycle, convert or fix, with "
+          "options: --verb 'lint --geometry', --verb 'convert --units kg,m,s'")
       .value("VERB");
   line.option("-j,--jobs", o.jobs, "Decks at the same time; 0 takes all processors")
       .range(0, 4096)
       .value("N");
-  line.option("--timeout", o.timeout, "Give a deck up after SECONDS (default 3600); 0: never")
+  line.option("--timeout", o.timeout,
+              "Give a deck (decks that are written together: all of them) up after SECONDS "
+              "(default 3600); 0: never")
       .number(0, 1e9)
       .value("SECONDS");
-  line.option("--shard", o.shard, "Only part i of n: every n-th deck of the list").value("i/n");
+  line.option("--shard", o.shard,
+              "Only part i of n: every n-th deck of the list; decks that are written together stay "
+              "together")
+      .value("i/n");
   add_require_examined(line, o.common);
   line.flag("--merge", o.merge, "Put the summaries of all shards in DIR together");
   line.flag("--force", o.force, "Do finished decks again");
@@ -121,12 +230,17 @@ const VerbRegistration registration{
     {"batch", 60, "One verb over many decks: a result for each, a summary, resumable",
      "  deck batch -o results models/ --jobs 8\n"
      "  deck batch -o results --manifest decks.txt --verb 'lint --geometry'\n"
+     "  deck batch -o metric models/ --verb 'convert --units kg,m,s'\n"
+     "  deck batch -o results models/ --verb 'lint --fix'\n"
      "  deck batch -o results models/ --shard 2/8    part of the decks, for another machine\n"
      "  deck batch -o results --merge                one summary of all shards\n"
      "  mpirun -n 16 deck batch -o results models/\n"
      "\n"
      "DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks.\n"
      "Decks of the same name get that of their directory before it: left--car_0000.json.\n"
+     "convert and fix write the decks below DIR as they lie below the directory that holds all of\n"
+     "them (or in place, with --in-place among the options of the verb); decks that share files\n"
+     "are written together or not at all, and every result is verified (--no-verify).\n"
      "Run the same command again to go on after a kill: decks are done again only if a file they\n"
      "read, the options or the program changed, or if they failed.\n",
      setup}};

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "deck/text/number.hpp"
+#include "writing/library.hpp"
 
 namespace deck::cli {
 namespace {
@@ -40,22 +41,10 @@ std::vector<std::string> manifest_lines(const std::string& text) {
   return out;
 }
 
-/// All Starter decks below a directory.
-Result<std::vector<std::string>> decks_below(const std::string& directory) {
-  std::vector<std::string> found;
-  std::error_code ec;
-  for (auto it = fs::recursive_directory_iterator(directory, ec);
-       !ec && it != fs::recursive_directory_iterator(); it.increment(ec))
-    if (std::error_code status;
-        it->is_regular_file(status) && it->path().filename().string().ends_with("_0000.rad"))
-      found.push_back(it->path().string());
-  if (ec) return Error{Error::Code::io, "cannot read " + directory + ": " + ec.message()};
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 /// Names that mean something else in the output directory.
-bool reserved(const std::string& stem) { return stem == "summary" || stem.starts_with("summary-"); }
+bool reserved(const std::string& stem) {
+  return stem == "summary" || stem.starts_with("summary-") || stem == "losses";
+}
 
 /// The last `parents` directory names and the stem, "a--b--car_0000".
 std::string name_with_parents(const fs::path& path, int parents) {
@@ -105,7 +94,8 @@ std::vector<std::string> result_names(const std::vector<fs::path>& paths) {
 }  // namespace
 
 Result<std::vector<BatchDeck>> list_decks(const std::vector<std::string>& given,
-                                          const std::string& manifest) {
+                                          const std::string& manifest, std::string_view ending,
+                                          const std::string& output) {
   std::vector<std::string> named = given;
   if (!manifest.empty()) {
     const auto text = read_manifest(manifest);
@@ -113,27 +103,17 @@ Result<std::vector<BatchDeck>> list_decks(const std::vector<std::string>& given,
     const auto lines = manifest_lines(*text);
     named.insert(named.end(), lines.begin(), lines.end());
   }
+  if (std::find(named.begin(), named.end(), "-") != named.end())
+    return Error{Error::Code::config,
+                 "standard input cannot be one of many decks; --manifest - reads the list there"};
+  const auto found = expand_decks(named, ending, output);
+  if (!found) return found.error();
   std::vector<BatchDeck> decks;
   std::vector<fs::path> paths;
-  std::set<fs::path> seen;
   std::error_code ec;
-  const auto add = [&](const std::string& path) {
-    const fs::path absolute = fs::absolute(path, ec).lexically_normal();
-    if (!seen.insert(absolute).second) return;
+  for (const std::string& path : *found) {
     decks.push_back({path, {}});
-    paths.push_back(absolute);
-  };
-  for (const std::string& path : named) {
-    if (path == "-")
-      return Error{Error::Code::config,
-                   "standard input cannot be one of many decks; --manifest - reads the list there"};
-    if (!fs::is_directory(path, ec)) {
-      add(path);
-      continue;
-    }
-    const auto below = decks_below(path);
-    if (!below) return below.error();
-    for (const std::string& deck : *below) add(deck);
+    paths.push_back(fs::absolute(path, ec).lexically_normal());
   }
   const auto names = result_names(paths);
   for (std::size_t i = 0; i < decks.size(); ++i) decks[i].result = names[i] + ".json";

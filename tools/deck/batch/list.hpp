@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "deck/text/result.hpp"
@@ -16,20 +17,22 @@ struct BatchDeck {
 };
 
 /// The decks in the order given: the arguments, then the lines of `manifest` (empty: none, "-":
-/// standard input). A directory stands for all *_0000.rad files below it, by name. A deck named
-/// twice is taken once. Error: a manifest or directory that cannot be read, "-" as a deck.
+/// standard input). A directory stands for all files below it with the ending, by name, a pattern
+/// for the files it matches; `output` is passed over. A deck named twice is taken once. Error: a
+/// manifest or directory that cannot be read, a pattern that matches nothing, "-" as a deck.
 ///
 /// A result is named after the deck's file name without extension. Where that is not unique, the
 /// name of the directory is put before it ("left--car_0000.json"), and of the one above as long as
 /// needed; what is still equal is numbered.
 Result<std::vector<BatchDeck>> list_decks(const std::vector<std::string>& given,
-                                          const std::string& manifest);
+                                          const std::string& manifest, std::string_view ending,
+                                          const std::string& output);
 
-/// Part `index` (1-based) of `count`: every count-th deck.
+/// Part `index` (1-based) of `count`: every count-th deck, or group of decks that share files.
 struct Shard {
   std::size_t index = 1, count = 1;
   bool whole() const { return count == 1; }
-  bool has(std::size_t deck) const { return deck % count == index - 1; }
+  bool has(std::size_t group) const { return group % count == index - 1; }
 };
 /// "2/8". Error: anything else.
 Result<Shard> parse_shard(const std::string& text);

@@ -133,8 +133,10 @@ bool Freshness::holds(const Record& record, const std::string& directory, std::u
   for (std::size_t i = 0; i < settings.size(); ++i)
     if (record.settings[i].path != as_utf8(settings[i]) || !unchanged(record.settings[i]))
       return false;
-  for (const FileState& f : record.files)
-    if (!unchanged(f)) return false;
+  for (const auto* states : {&record.files, &record.outputs})
+    for (const FileState& f : *states)
+      if (!unchanged(f)) return false;
+  if (result.empty()) return true;
   const auto text = contents(directory + "/" + result);
   return text && text->size() == record.bytes && content_hash(*text) == record.hash;
 }
@@ -192,6 +194,12 @@ std::string record_line(const Record& r) {
   write_states(json, r.files);
   json.key("settings");
   write_states(json, r.settings);
+  if (!r.outputs.empty()) {
+    json.key("outputs");
+    write_states(json, r.outputs);
+  }
+  if (r.written) json.field("written", true);
+  if (!r.losses.empty()) json.key("losses").raw(r.losses);
   json.key("entry").raw(r.entry).end_object();
   text.erase(text.find_last_not_of('\n') + 1);
   return text;
@@ -210,6 +218,9 @@ std::optional<Record> parse_record(std::string_view line) {
     r.seconds = json.at("seconds").get<double>();
     r.files = read_states(json.at("files"));
     r.settings = read_states(json.at("settings"));
+    if (json.contains("outputs")) r.outputs = read_states(json.at("outputs"));
+    r.written = json.value("written", false);
+    if (json.contains("losses")) r.losses = json_line(json.at("losses"));
     r.entry = json_line(json.at("entry"));
     return r;
   } catch (const std::exception&) {  // a line that was cut off, or not ours

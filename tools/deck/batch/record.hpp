@@ -40,7 +40,10 @@ struct Record {
   double seconds = 0;
   std::vector<FileState> files;     ///< the include tree
   std::vector<FileState> settings;  ///< other files the result depends on
-  std::string entry;                ///< its line of the summary, a JSON object
+  std::vector<FileState> outputs;   ///< decks and documents written below the output directory
+  bool written = false;             ///< decks were written, below that directory or in place
+  std::string losses;  ///< of the decks that were written together: the lists of a loss report
+  std::string entry;   ///< its line of the summary, a JSON object
   int code = 0;
 };
 
@@ -57,9 +60,9 @@ class Freshness {
   /// `settings` are the paths it would depend on now.
   bool holds(const Record& record, const std::string& directory, std::uint64_t key,
              const std::string& result, const std::vector<std::string>& settings);
+  bool unchanged(const FileState& state);
 
  private:
-  bool unchanged(const FileState& state);
   struct Seen {
     std::optional<std::uint64_t> size, hash;
     std::int64_t mtime = 0;

@@ -28,21 +28,11 @@ namespace deck::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// Runs a verb as `deck VERB ... DECK` would; its output goes where standard output goes.
-int run_verb(const BatchTask& task, const std::string& deck) {
-  CommandLine line("", "deck " + std::string(task.verb.name));
-  const Action action = task.verb.setup(line);
-  std::vector<std::string> arguments = task.options;
-  arguments.insert(arguments.end(), {"--", deck});
-  if (const auto parsed = line.parse(std::move(arguments)); !parsed)
-    throw std::runtime_error(parsed.error().message);
-  return action();
-}
-
 /// Everything but the deck that decides about a result. Files and directories among the options
 /// (a configuration, schemas) count with their contents.
 std::uint64_t key_of(const BatchTask& task) {
-  std::string text = program_identity() + "\n" + std::string(task.verb.name);
+  std::string text = program_identity() + "\n" + std::string(task.verb.name) + "\n" +
+                     (task.in_place ? "" : task.frame_root);
   const auto add_file = [&](const fs::path& path) {
     if (const auto state = file_state(path.string()))
       text += "\n = " + path.string() + " " + std::to_string(state->hash);
@@ -85,11 +75,27 @@ std::string_view status_in(const BatchTask& task, int code,
              : status_of(code);
 }
 
+}  // namespace
+
+/// Runs a verb as `deck VERB ... DECK...` would; its output goes where standard output goes.
+int run_verb(const BatchTask& task, const std::vector<std::string>& decks) {
+  CommandLine line("", "deck " + std::string(task.verb.name));
+  const Action action = task.verb.setup(line);
+  std::vector<std::string> arguments = task.options;
+  arguments.push_back("--");
+  arguments.insert(arguments.end(), decks.begin(), decks.end());
+  if (const auto parsed = line.parse(std::move(arguments)); !parsed)
+    throw std::runtime_error(parsed.error().message);
+  return action();
+}
+
 std::string first_line(std::string_view text) {
   constexpr std::string_view prefix = "deck: error: ";
   if (text.starts_with(prefix)) text.remove_prefix(prefix.size());
   return std::string(text.substr(0, text.find('\n')));
 }
+
+namespace {
 
 /// Bar, counts and time left, on a terminal.
 class Bar {
@@ -135,11 +141,30 @@ class Bar {
 
 }  // namespace
 
-Batch::Batch(const BatchOptions& o, BatchTask task, const std::vector<BatchDeck>& all, Shard shard,
-             Ranks ranks)
-    : o_(o), task_(std::move(task)), all_(all.size()), shard_(shard), ranks_(std::move(ranks)) {
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (shard_.has(i) && ranks_.shard().has(in_shard_++)) decks_.push_back(all[i]);
+Batch::Batch(const BatchOptions& o, BatchTask task, std::vector<BatchDeck> all,
+             std::vector<std::vector<std::size_t>> groups, Shard shard, Ranks ranks)
+    : o_(o), task_(std::move(task)), all_(std::move(all)), shard_(shard), ranks_(std::move(ranks)) {
+  std::vector<bool> ours(all_.size());
+  std::size_t group_in_shard = 0;
+  std::vector<const std::vector<std::size_t>*> mine;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (!shard_.has(g)) continue;
+    in_shard_ += groups[g].size();
+    if (!ranks_.shard().has(group_in_shard++)) continue;
+    mine.push_back(&groups[g]);
+    for (const std::size_t i : groups[g]) ours[i] = true;
+  }
+  std::vector<std::size_t> place(all_.size());
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    if (!ours[i]) continue;
+    place[i] = decks_.size();
+    decks_.push_back(all_[i]);
+    positions_.push_back(i);
+  }
+  for (const auto* group : mine) {
+    groups_.emplace_back();
+    for (const std::size_t i : *group) groups_.back().push_back(place[i]);
+  }
 }
 
 Batch::~Batch() {
@@ -166,12 +191,72 @@ Result<void> make_own_directory(const std::string& path) {
                path + " is a link, not a directory: it would lead out of the results; remove it"};
 }
 
+namespace {
+
+/// The loss reports of the decks of a summary as one, from the journals.
+std::optional<std::string> united_losses(const std::string& directory, const Summary& s) {
+  std::map<std::string, std::string> losses;  // entry -> lists
+  std::error_code ec;
+  for (auto it = fs::directory_iterator(directory + "/.batch", ec);
+       !ec && it != fs::directory_iterator(); it.increment(ec)) {
+    if (it->path().extension() != ".jsonl") continue;
+    const auto source = Source::open(it->path().string(), Limits{});
+    if (!source) continue;
+    std::istringstream in{std::string((*source)->bytes())};
+    for (std::string line; std::getline(in, line);)
+      if (auto record = parse_record(line); record && !record->losses.empty())
+        losses[record->entry] = std::move(record->losses);
+  }
+  std::string text;
+  JsonWriter json(text);
+  json.begin_object();
+  write_json_head(json, "deck/losses", 1);
+  std::vector<nlohmann::ordered_json> parts;
+  for (const SummaryEntry& e : s.entries)
+    if (const auto found = losses.find(e.json); found != losses.end())
+      parts.push_back(nlohmann::ordered_json::parse(found->second));
+  for (const char* kind : {"kept", "approximated", "dropped", "undecided"}) {
+    json.key(kind).begin_array();
+    for (const auto& part : parts)
+      for (const auto& entry : part.at(kind)) json.raw(json_line(entry));
+    json.end_array();
+  }
+  json.end_object();
+  return text;
+}
+
+}  // namespace
+
+Result<void> write_overview(const std::string& directory, const Summary& s) {
+  const std::string suffix = summary_name(s.shard).substr(std::string_view("summary").size());
+  if (s.verb == "convert")
+    if (const auto losses = united_losses(directory, s))
+      if (auto done = write_result(directory + "/losses" + suffix, *losses, true); !done)
+        return done;
+  if (s.shard.whole())
+    if (auto done = write_result(directory + "/index.html", summary_page(s), true); !done)
+      return done;
+  return write_result(directory + "/" + summary_name(s.shard), summary_json(s), true);
+}
+
 Result<void> write_result(const std::string& path, std::string_view bytes, bool sync) {
   OutputRules rules;
   WriteOptions options;
   rules.follow_links = options.follow_links = false;
   options.sync = sync;
   return write_outputs({{path, bytes}}, rules, options);
+}
+
+/// The results of two verbs in one directory could not be told apart.
+Result<void> Batch::claim_directory() const {
+  const std::string path = in_directory(".batch/verb");
+  const std::string verb(task_.verb.name);
+  if (const auto before = Source::open(path, Limits{}); before && !o_.force)
+    if (const std::string was((*before)->bytes()); was != verb)
+      return Error{Error::Code::config,
+                   o_.directory + " holds the results of 'deck " + was +
+                       "'; name another directory, or replace them with --force"};
+  return write_result(path, verb, false);
 }
 
 Result<void> Batch::prepare() {
@@ -190,13 +275,30 @@ Result<void> Batch::prepare() {
                                           "; give it parts by --shard, or another directory"};
   if (!ranks_.single())
     if (auto opened = ranks_.open(in_directory(".batch")); !opened) return opened;
+  if (auto claimed = claim_directory(); !claimed) return claimed;
   key_ = key_of(task_);
   records_.resize(decks_.size());
   for (Record& r : records_) r.code = -1;
   std::set<std::string> ours = {label() + ".jsonl", summary_name(shard_)};
   for (const BatchDeck& d : decks_) ours.insert(d.result);
+  for (std::size_t g = 0; g < groups_.size() && task_.writes; ++g)
+    ours.insert(fs::path(intent_path(g)).filename().string());
+  for (const char* name : {"index.html", "losses.json", "verb"}) ours.insert(name);
   remove_strays(ours);
-  if (!o_.force) read_journals();
+  read_journals();
+  settle_intents();
+  // Decks that are written together are finished together.
+  for (const std::vector<std::size_t>& group : groups_)
+    if (o_.force || std::any_of(group.begin(), group.end(),
+                                [&](std::size_t i) { return records_[i].code < 0; }))
+      for (const std::size_t i : group) {
+        // Written in place already: converting that again would count twice.
+        if (!o_.force && task_.in_place && records_[i].code >= 0 && records_[i].written)
+          overtaken_.insert(i);
+        records_[i].code = -1;
+      }
+  kept_ = static_cast<std::size_t>(
+      std::count_if(records_.begin(), records_.end(), [](const Record& r) { return r.code >= 0; }));
   // Our journal begins with what still holds: no line of it is broken, and it does not grow for
   // ever.
   std::string text;
@@ -243,19 +345,27 @@ void Batch::read_journals() {
       auto record = parse_record(line);
       if (!record) continue;
       const auto found = wanted.find(record->deck);
-      if (found == wanted.end()) continue;
-      for (const std::size_t i : found->second)
-        if (records_[i].code < 0 && freshness.holds(*record, o_.directory, key_, decks_[i].result,
-                                                    settings_of(task_, decks_[i].path)))
-          records_[i] = *record;
+      if (found != wanted.end())
+        for (const std::size_t i : found->second) {
+          const std::string& result = task_.writes ? record->result : decks_[i].result;
+          if (records_[i].code >= 0 || o_.force) continue;
+          if (freshness.holds(*record, o_.directory, key_, result,
+                              settings_of(task_, decks_[i].path)))
+            records_[i] = *record;
+          else if (task_.in_place && record->key == key_ && record->written)
+            overtaken_.insert(i);
+        }
+      known_.push_back(std::move(*record));
     }
   }
-  kept_ = static_cast<std::size_t>(
-      std::count_if(records_.begin(), records_.end(), [](const Record& r) { return r.code >= 0; }));
+  for (std::size_t i = 0; i < records_.size(); ++i)
+    if (records_[i].code >= 0) overtaken_.erase(i);
 }
 
 /// In a worker: runs the verb, writes the result, answers with the record.
-std::string Batch::work_on(std::size_t index, Captured& output) const {
+std::string Batch::work_on(std::size_t group, Captured& output) const {
+  if (task_.writes) return write_group(group, output);
+  const std::size_t index = groups_[group].front();
   const auto start = std::chrono::steady_clock::now();
   const std::int64_t since = file_clock_now();
   const BatchDeck& deck = decks_[index];
@@ -270,7 +380,7 @@ std::string Batch::work_on(std::size_t index, Captured& output) const {
   });
   std::string error, document;
   try {
-    record.code = run_verb(task_, deck.path);
+    record.code = run_verb(task_, {deck.path});
     document = output.out();
   } catch (const std::bad_alloc&) {
     record.code = exit_internal;
@@ -312,21 +422,32 @@ std::string Batch::work_on(std::size_t index, Captured& output) const {
   return record_line(record);
 }
 
-Record Batch::record_of(const JobReport& report) const {
-  if (report.answered)
-    if (auto record = parse_record(report.message)) return std::move(*record);
-  Record record;
-  const BatchDeck& deck = decks_[report.job];
-  record.deck = as_utf8(deck.path);
+/// Of the decks of a group, in their order.
+std::vector<Record> Batch::records_of(const JobReport& report) const {
+  const std::vector<std::size_t>& group = groups_[report.job];
+  std::vector<Record> records;
+  if (report.answered) {
+    std::istringstream lines(report.message);
+    for (std::string line; std::getline(lines, line);)
+      if (auto record = parse_record(line)) records.push_back(std::move(*record));
+    if (records.size() == group.size()) return records;
+    records.clear();
+  }
   // A file that shrinks while it is read ends the worker in an orderly way.
-  record.code = report.exit_code == exit_input ? exit_input : exit_internal;
+  const int code = report.exit_code == exit_input ? exit_input : exit_internal;
   std::string why = report.why;
   if (const std::string said = first_line(report.err); !said.empty())
     why = report.exit_code == exit_input ? said : why + ": " + said;
-  record.entry =
-      summary_entry(deck.path, status_of(record.code), "", record.code, why, nullptr, "{}");
-  unlink(in_directory(deck.result).c_str());
-  return record;
+  for (const std::size_t i : group) {
+    Record record;
+    record.deck = as_utf8(decks_[i].path);
+    record.code = code;
+    record.entry =
+        summary_entry(decks_[i].path, status_of(record.code), "", code, why, nullptr, "{}");
+    if (!task_.writes || task_.with_documents) unlink(in_directory(decks_[i].result).c_str());
+    records.push_back(std::move(record));
+  }
+  return records;
 }
 
 /// Only what is finished goes into the journal: the rest is tried again next time.
@@ -344,9 +465,13 @@ Result<void> Batch::keep(Record record, std::size_t index) {
 
 /// Number of the signal that ended it, or 0.
 Result<int> Batch::work() {
-  std::vector<std::size_t> todo;
-  for (std::size_t i = 0; i < decks_.size(); ++i)
-    if (records_[i].code < 0) todo.push_back(i);
+  std::vector<std::size_t> todo;  // groups
+  std::size_t decks_to_do = 0;
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    if (records_[groups_[g].front()].code < 0) {
+      todo.push_back(g);
+      decks_to_do += groups_[g].size();
+    }
   if (todo.empty()) return 0;
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   int jobs = o_.jobs;
@@ -358,26 +483,35 @@ Result<int> Batch::work() {
   jobs = static_cast<int>(std::min(static_cast<std::size_t>(jobs), todo.size()));
   const int threads =
       o_.common.threads > 0 ? o_.common.threads : std::max(1, processors / std::max(1, jobs));
-  task_.options.insert(task_.options.end(), {"--json", "-", "--quiet", "--color", "never",
-                                             "--threads", std::to_string(threads)});
+  task_.options.insert(task_.options.end(),
+                       {"--quiet", "--color", "never", "--threads", std::to_string(threads)});
+  if (!task_.writes || task_.with_documents)
+    task_.options.insert(task_.options.end(), {"--json", "-"});
+  if (task_.writes && !task_.in_place)
+    task_.options.insert(task_.options.end(), {"--output", o_.directory});
   (void)SchemaSet::built_in();  // once, and not in every worker
-  Bar bar(!o_.common.quiet, todo.size());
+  Bar bar(!o_.common.quiet, decks_to_do);
   std::optional<Error> trouble;
   WorkerPool pool(jobs, o_.timeout,
                   [this](std::size_t index, Captured& out) { return work_on(index, out); });
   const auto signal = pool.run(
       todo,
       [&](const JobReport& report) {
-        if (!report.answered) remove_strays({decks_[report.job].result});
-        Record record = record_of(report);
-        bar.count(record.code);
-        if (record.code > exit_findings && !o_.common.quiet) {
-          bar.clear();
-          const auto entry = nlohmann::json::parse(record.entry);
-          print_error(o_.common,
-                      decks_[report.job].path + ": " + entry.at("error").get<std::string>());
+        const std::vector<std::size_t>& group = groups_[report.job];
+        if (!report.answered) remove_strays({decks_[group.front()].result});
+        if (!report.answered && task_.writes) settle_intent(intent_path(report.job));
+        std::vector<Record> records = records_of(report);
+        for (std::size_t k = 0; k < group.size() && !trouble; ++k) {
+          bar.count(records[k].code);
+          if (records[k].code > exit_findings && !o_.common.quiet) {
+            bar.clear();
+            const auto entry = nlohmann::json::parse(records[k].entry);
+            print_error(o_.common,
+                        decks_[group[k]].path + ": " + entry.at("error").get<std::string>());
+          }
+          if (auto kept = keep(std::move(records[k]), group[k]); !kept) trouble = kept.error();
         }
-        if (auto kept = keep(std::move(record), report.job); !kept) trouble = kept.error();
+        if (task_.writes && !trouble) unlink(intent_path(report.job).c_str());
         return !trouble.has_value();
       },
       [&] {
@@ -394,13 +528,15 @@ Summary Batch::summary() const {
   s.verb = std::string(task_.verb.name);
   s.arguments = task_.words;
   s.shard = shard_;
-  s.all = all_;
+  s.all = all_.size();
+  s.positions = positions_;
   for (const Record& r : records_) s.entries.push_back(entry_of(r.entry, r.code));
   return s;
 }
 
 /// Puts the parts together and writes the summary.
 int Batch::finish() {
+  remove_leftovers();
   if (const int fd = open(o_.directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); fd >= 0) {
     syncfs(fd);  // the results, before the summary says that they are there
     close(fd);
@@ -417,10 +553,9 @@ int Batch::finish() {
     if (!merged) return fail(merged.error().message);
     s = std::move(*merged);
     s.shard = shard_;
-    s.all = all_;
+    s.all = all_.size();
   }
-  if (auto written = write_result(in_directory(summary_name(shard_)), summary_json(s), true);
-      !written)
+  if (auto written = write_overview(o_.directory, s); !written)
     return fail(written.error().message);
   return report_batch(o_, s, kept_);
 }
@@ -435,10 +570,12 @@ int report_batch(const BatchOptions& o, const Summary& s, std::size_t kept) {
     const std::size_t nothing = s.count("not-examined");
     const std::string not_examined =
         nothing > 0 ? fmt::format("{} with nothing examined, ", nothing) : std::string();
+    const std::size_t left_out = s.count("skipped");
+    const std::string skipped = left_out > 0 ? fmt::format("{} skipped, ", left_out) : "";
     std::string text =
-        fmt::format("{} decks: {} clean, {} with findings, {}{} unreadable, {} failed",
+        fmt::format("{} decks: {} clean, {} with findings, {}{} unreadable, {}{} failed",
                     s.entries.size(), s.count("clean"), s.count("findings"), not_examined,
-                    s.count("unreadable"), s.count("failed"));
+                    s.count("unreadable"), skipped, s.count("failed"));
     if (kept > 0) text += fmt::format("; {} were finished before", kept);
     print_text(text + "; " + terminal_text(o.directory) + "/" + summary_name(s.shard) + "\n");
   }

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "batch/record.hpp"
 #include "batch/summary.hpp"
 #include "common.hpp"
+#include "writing/frame.hpp"
+#include "writing/library.hpp"
 
 namespace deck::cli {
 
@@ -26,8 +29,19 @@ struct BatchOptions {
 /// The verb to run, as given in --verb.
 struct BatchTask {
   Verb verb;
-  std::vector<std::string> words;    ///< options of the verb
-  std::vector<std::string> options;  ///< with those of the batch that it passes on
+  std::vector<std::string> words;         ///< options of the verb
+  std::vector<std::string> options;       ///< with those of the batch that it passes on
+  std::string_view ending = deck_ending;  ///< of the files below a directory
+
+  // Verbs that write decks.
+  bool writes = false;
+  bool in_place = false;        ///< else below the output directory
+  bool with_documents = false;  ///< they have a document as well
+  bool from_json = false, to_json = false;
+  bool with_dependents = false, split_includes = false;
+  std::string root;        ///< where to look for decks that depend on the same files
+  std::string frame_root;  ///< decks are written where they lie below it
+  std::map<FileIdentity, std::string> outsiders;  ///< see BatchFrame
 };
 
 /// One process's part of a batch. Nothing is lost when it is killed: results are put in place
@@ -35,9 +49,10 @@ struct BatchTask {
 /// the journals say and what still holds.
 class Batch {
  public:
-  /// `all` are the decks of all shards and ranks; the process takes what is its own.
-  Batch(const BatchOptions& o, BatchTask task, const std::vector<BatchDeck>& all, Shard shard,
-        Ranks ranks);
+  /// `all` are the decks of all shards and ranks, `groups` those that are done together; the
+  /// process takes the groups that are its own.
+  Batch(const BatchOptions& o, BatchTask task, std::vector<BatchDeck> all,
+        std::vector<std::vector<std::size_t>> groups, Shard shard, Ranks ranks);
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
   ~Batch();
@@ -54,32 +69,60 @@ class Batch {
   std::string label() const;
 
   Result<void> prepare();
+  Result<void> claim_directory() const;
   void remove_strays(const std::set<std::string>& targets) const;
   void read_journals();
   Result<int> work();
   std::string work_on(std::size_t index, Captured& output) const;
-  Record record_of(const JobReport& report) const;
+  std::vector<Record> records_of(const JobReport& report) const;
   Result<void> keep(Record record, std::size_t index);
   Summary summary() const;
   int finish();
 
+  // ---- writing.cpp: groups of decks that are written together
+  std::string write_group(std::size_t group, Captured& output) const;
+  std::string intent_path(std::size_t group) const;
+  /// Cleans up behind a writing that was killed: finishes it, and removes what is half written.
+  std::vector<Record> settle_intent(const std::string& path) const;
+  void settle_intents();
+  /// True if the file is one that this batch wrote, as it wrote it.
+  bool is_ours(const std::string& path) const;
+  /// Removes what the journals know and the list does not.
+  void remove_leftovers() const;
+
   const BatchOptions& o_;
   BatchTask task_;
-  std::vector<BatchDeck> decks_;    ///< ours
-  std::size_t all_, in_shard_ = 0;  ///< decks of all shards; of our shard, all ranks together
+  std::vector<BatchDeck> all_;
+  std::vector<BatchDeck> decks_;                  ///< ours
+  std::vector<std::size_t> positions_;            ///< of ours among all
+  std::vector<std::vector<std::size_t>> groups_;  ///< of ours
+  std::size_t in_shard_ = 0;                      ///< decks of our shard, all ranks together
   Shard shard_;
   Ranks ranks_;
   std::uint64_t key_ = 0;
   std::vector<Record> records_;  ///< by deck; code -1: to do
+  std::vector<Record> known_;    ///< all that the journals and intents hold
+  /// What was written below the output directory, normal path and hash.
+  std::set<std::pair<std::string, std::uint64_t>> written_;
+  std::set<std::size_t> overtaken_;  ///< decks that were changed after they were written in place
   std::size_t kept_ = 0;
   int journal_ = -1, lock_ = -1;
 };
+
+/// Runs a verb as `deck VERB ... DECK...` would; its output goes where standard output goes.
+int run_verb(const BatchTask& task, const std::vector<std::string>& decks);
+/// The first line of what a program says on standard error.
+std::string first_line(std::string_view text);
 
 /// Makes a directory that belongs to the results. Error: there is a link of that name.
 Result<void> make_own_directory(const std::string& path);
 /// Puts a file of the results in place. A link or pipe of its name, which somebody who may write to
 /// the directory can lay there, is replaced, never followed.
 Result<void> write_result(const std::string& path, std::string_view bytes, bool sync);
+
+/// Writes the summary, the overview and, of decks that were converted, their loss report, which the
+/// journals hold.
+Result<void> write_overview(const std::string& directory, const Summary& summary);
 
 /// Prints the totals and writes the document for --json; the exit code.
 int report_batch(const BatchOptions& options, const Summary& summary, std::size_t kept);

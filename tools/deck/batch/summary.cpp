@@ -2,6 +2,7 @@
 #include "batch/summary.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -77,8 +78,12 @@ std::string summary_json(const Summary& s) {
     json.begin_object(true)
         .field("index", s.shard.index)
         .field("count", s.shard.count)
-        .field("decks_of_all", s.all)
-        .end_object();
+        .field("decks_of_all", s.all);
+  if (!s.shard.whole()) {
+    json.key("positions").begin_array(true);
+    for (const std::size_t p : s.positions) json.value(p);
+    json.end_array().end_object();
+  }
   json.key("totals")
       .begin_object(true)
       .field("decks", s.entries.size())
@@ -86,12 +91,84 @@ std::string summary_json(const Summary& s) {
       .field("findings", s.count("findings"))
       .field("not_examined", s.count("not-examined"))
       .field("unreadable", s.count("unreadable"))
+      .field("skipped", s.count("skipped"))
       .field("failed", s.count("failed"))
       .end_object();
   json.key("decks").begin_array();
   for (const SummaryEntry& e : s.entries) json.raw(e.json);
   json.end_array().end_object();
   return text;
+}
+
+namespace {
+
+std::string html_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '&')
+      out += "&amp;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+/// A path as the address of a file beside the page.
+std::string address_of(std::string_view path) {
+  constexpr std::string_view hex = "0123456789ABCDEF";
+  std::string out = "./";
+  for (const char c : path) {
+    const auto u = static_cast<unsigned char>(c);
+    if (std::isalnum(u) != 0 || std::string_view("/._-~").find(c) != std::string_view::npos) {
+      out += c;
+    } else {
+      out += '%';
+      out += hex[u >> 4];
+      out += hex[u & 15];
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string summary_page(const Summary& s) {
+  std::string what = s.verb;
+  for (const std::string& a : s.arguments) what += " " + a;
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>deck batch: " +
+      html_text(what) +
+      "</title>\n<style>body{font:14px sans-serif;margin:2em}table{border-collapse:collapse}"
+      "td,th{border-bottom:1px solid #ccc;padding:.2em .8em;text-align:left;vertical-align:top}"
+      ".clean{color:#060}.findings,.not-examined{color:#850}.failed,.unreadable,.skipped{color:#"
+      "a00}"
+      "</style></head><body>\n<h1>deck " +
+      html_text(what) + "</h1>\n<p>" + std::to_string(s.entries.size()) + " decks";
+  for (const char* status :
+       {"clean", "findings", "not-examined", "unreadable", "skipped", "failed"})
+    if (const std::size_t n = s.count(status); n > 0)
+      page += ", " + std::to_string(n) + " " + status;
+  page += "</p>\n<table><tr><th>deck</th><th>status</th><th>what</th></tr>\n";
+  for (const SummaryEntry& e : s.entries) {
+    const auto json = nlohmann::json::parse(e.json);
+    const auto text = [&](const char* name) {
+      const auto found = json.find(name);
+      return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+    };
+    const std::string deck = html_text(text("deck")), result = text("result");
+    const std::string error = text("error");
+    page += "<tr><td>";
+    page += result.empty() ? deck : "<a href=\"" + address_of(result) + "\">" + deck + "</a>";
+    page += "</td><td class=\"" + html_text(e.status) + "\">" + html_text(e.status) + "</td><td>" +
+            html_text(error.empty() ? text("verdict") : error) + "</td></tr>\n";
+  }
+  return page + "</table></body></html>\n";
 }
 
 Result<Summary> parse_summary(std::string_view text) {
@@ -109,6 +186,11 @@ Result<Summary> parse_summary(std::string_view text) {
     if (const auto& shard = json.at("shard"); shard.is_object()) {
       s.shard = {shard.at("index").get<std::size_t>(), shard.at("count").get<std::size_t>()};
       s.all = shard.at("decks_of_all").get<std::size_t>();
+      s.positions = shard.at("positions").get<std::vector<std::size_t>>();
+      if (s.positions.size() != s.entries.size())
+        return Error{Error::Code::syntax, "as many positions as decks were expected"};
+    } else {
+      for (std::size_t i = 0; i < s.entries.size(); ++i) s.positions.push_back(i);
     }
     return s;
   } catch (const std::exception& e) {
@@ -121,7 +203,9 @@ Result<Summary> merge_summaries(const std::vector<Summary>& parts) {
   if (parts.empty()) return refuse("there is nothing to merge");
   Summary merged = parts.front();
   merged.entries.clear();
+  merged.positions.clear();
   merged.shard = {};
+  std::map<std::size_t, SummaryEntry> whole;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Summary& p = parts[i];
     const std::string name = "shard " + std::to_string(i + 1);
@@ -130,11 +214,18 @@ Result<Summary> merge_summaries(const std::vector<Summary>& parts) {
     if (p.tool != merged.tool)
       return refuse(name + " was made by version " + p.tool + ", shard 1 by " + merged.tool);
     if (p.all != merged.all) return refuse(name + " had another list of decks than shard 1");
-    const std::size_t share = merged.all / parts.size() + (i < merged.all % parts.size() ? 1 : 0);
-    if (p.entries.size() != share) return refuse(name + " does not have its share of the decks");
+    for (std::size_t k = 0; k < p.entries.size(); ++k)
+      if (!whole.emplace(p.positions[k], p.entries[k]).second)
+        return refuse(name + " has a deck that another shard has as well");
   }
-  for (std::size_t k = 0; k < merged.all; ++k)
-    merged.entries.push_back(parts[k % parts.size()].entries[k / parts.size()]);
+  if (whole.size() != merged.all)
+    return refuse(
+        "the shards do not have all of the decks: something in the list or in the files "
+        "that the decks share has changed between them; run them again");
+  for (auto& [position, entry] : whole) {
+    merged.positions.push_back(position);
+    merged.entries.push_back(std::move(entry));
+  }
   return merged;
 }
 

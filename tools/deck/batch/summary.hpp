@@ -24,6 +24,7 @@ struct Summary {
   Shard shard;
   std::size_t all = 0;  ///< decks of all shards together
   std::vector<SummaryEntry> entries;
+  std::vector<std::size_t> positions;  ///< of the entries, in the list of all decks
 
   /// Worst exit code of the decks.
   int worst() const;
@@ -44,8 +45,11 @@ std::string summary_entry(std::string_view deck, std::string_view status, std::s
 std::string summary_json(const Summary& summary);
 Result<Summary> parse_summary(std::string_view text);
 
-/// Parts 1 ... n of one list, in this order, as the whole. Error: parts that do not belong together
-/// or do not make up the whole.
+/// The overview DIR/index.html.
+std::string summary_page(const Summary& summary);
+
+/// Parts of one list as the whole. Error: parts that do not belong together or do not make up the
+/// whole.
 Result<Summary> merge_summaries(const std::vector<Summary>& parts);
 
 /// "summary.json" or "summary-2-of-8.json".

@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "deck/edit/include_scan.hpp"
 #include "deck/edit/rewrite.hpp"
 #include "deck/edit/write.hpp"
 #include "deck/keyword/deck.hpp"
@@ -19,6 +20,10 @@ namespace deck {
 
 class EditSet {
  public:
+  EditSet() = default;
+  /// tree() writes every deck where it lies below `root`, an absolute path, instead of at the top.
+  explicit EditSet(std::string root) : root_(std::move(root)) {}
+
   /// What a call would write, once and for all of its decks. Points into the set.
   struct Plan {
     std::vector<OutputFile> files;     ///< by path
@@ -52,6 +57,23 @@ class EditSet {
   /// else to the directory that all of them share.
   Result<std::string> diff() const;
 
+  /// A deck that is not in the set and includes a file of it, too: the file cannot be changed in
+  /// place any more (an error that names the deck), only split.
+  void add_outsider(const FileIdentity& file, const std::string& deck);
+  /// Gives decks that want another text for a file than the others do, or than decks outside the
+  /// set need, a copy of their own beside it ("mesh_car.inc") and makes their #include lead there.
+  /// Error: an #include cannot be changed.
+  Result<void> split_includes();
+
+  /// The files that would change in place, by identity, also where that is refused.
+  std::set<FileIdentity> changed_files() const;
+  /// The main file of a deck as it was read, and as tree() names it below its directory.
+  const std::string& main_path(std::size_t deck) const { return decks_[deck].order.front(); }
+  const std::string& main_target(std::size_t deck) const {
+    return decks_[deck].layout.front().first;
+  }
+  /// `written` is a deck read from what was planned: what is not as it was proposed; empty: nothing.
+  std::string read_back_difference(std::size_t deck, const Deck& written) const;
   /// The paths of all files, as they were opened.
   std::vector<std::string> paths() const;
 
@@ -69,6 +91,12 @@ class EditSet {
     std::vector<std::pair<std::string, std::string>> places;
     std::deque<std::string> texts;  ///< as it was read, then what is wanted
     std::vector<Use> uses;
+    std::string outsider;  ///< a deck outside the set that includes it
+    bool is_new = false;   ///< a copy that is to be made
+  };
+  /// An #include of a deck as it shall be.
+  struct Edge {
+    std::string parent, written, child;  ///< paths as opened
   };
   struct Member {
     std::string name;
@@ -76,13 +104,20 @@ class EditSet {
     std::vector<std::pair<std::string, std::string>> layout;  ///< relative target, path as opened
     std::vector<std::string> outside;
     std::string no_layout;  ///< why there is none
+    std::vector<Edge> edges;
+    std::vector<std::string> order;  ///< the files as the reader opens them, repetitions included
+    std::string units;  ///< "kg, mm, ms", as /BEGIN says
   };
 
   Result<std::size_t> enter(const Source& source);
   Result<std::vector<std::pair<const File*, std::size_t>>> changes() const;
   Error conflict(const File& file, const Use& a, const Use& b, const std::string& where) const;
   const Use* use_of(std::size_t deck, const std::string& path) const;
+  const Use* odd_use(const File& file) const;
+  Result<void> give_copy(std::size_t deck, const std::string& path, const std::string& copy);
+  std::string free_name(const std::string& path, const std::string& deck) const;
 
+  std::string root_;
   std::deque<File> files_;
   std::vector<Member> decks_;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> by_identity_;

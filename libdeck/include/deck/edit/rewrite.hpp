@@ -33,6 +33,7 @@ struct LossEntry {
   Loss loss = Loss::kept;
   std::string file;  ///< as in the deck
   std::uint64_t line = 0;
+  std::uint64_t column = 0, end_column = 0;  ///< of a value that changed; 0: not told
   std::string keyword;  ///< "/INTER/TYPE7"
   std::int64_t id = 0;
   std::string field;  ///< "Irem_gap"; empty: the block as a whole

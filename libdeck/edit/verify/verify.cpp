@@ -1,0 +1,160 @@
+// Evaluates a deck, and compares masses and time steps of two.
+#include "deck/edit/verify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cycle/state/state_parts.hpp"
+#include "edit/verify/verify_parts.hpp"
+
+namespace deck {
+
+Behaviour::Behaviour(const EditContext& context, const VerifyOptions& options)
+    : parts_(new Parts{context, {}, {}, {}, {}, 0}) {
+  Parts& p = *parts_;
+  Diagnostics diagnostics;
+  SceneOptions scene;
+  scene.threads = options.threads;
+  scene.candidates = false;
+  scene.nodal_stiffness = true;
+  scene.limits = options.memory;
+  p.scene = build_scene(context.model, context.interfaces, diagnostics, scene);
+  p.state = cycle::make_state(p.scene);
+  cycle::CycleOptions cycle;
+  cycle.threads = options.threads;
+  p.cycle = cycle::run_cycle(p.scene, p.state, cycle);
+  for (std::size_t k = 0; k < detail::verified_kinds.size(); ++k) {
+    const ElementKind kind = detail::verified_kinds[k];
+    for (std::uint32_t e = 0; e < context.model.family(kind).size(); ++e)
+      p.steps[k].push_back(cycle::detail::element_step(p.scene, kind, e));
+  }
+  const Nodes& nodes = context.model.nodes;
+  for (const auto* axis : {&nodes.x, &nodes.y, &nodes.z})
+    for (const double x : *axis)
+      if (std::isfinite(x)) p.extent = std::max(p.extent, std::abs(x));
+}
+
+Behaviour::~Behaviour() = default;
+
+VerifyRelation relation_of(const std::vector<LossEntry>& losses) {
+  VerifyRelation r;
+  for (const LossEntry& e : losses) {
+    r.rounded = r.rounded || e.loss == Loss::approximated;
+    if (e.loss != Loss::dropped && e.loss != Loss::undecided) continue;
+    if (e.keyword.starts_with("/INTER/")) r.lossy.insert(e.id);
+    r.lossy_defaults = r.lossy_defaults || e.keyword.starts_with("/DEFAULT/INTER");
+  }
+  return r;
+}
+
+namespace detail {
+
+DeckComparison::DeckComparison(const Behaviour::Parts& a, const Behaviour::Parts& b,
+                               const VerifyRelation& r)
+    : before(a),
+      after(b),
+      relation(r),
+      from(a.context.deck.begin.working),
+      to(b.context.deck.begin.working),
+      // What a cell of ten columns holds, or one of twenty.
+      tolerance(r.rounded ? 1e-4 : 1e-7) {
+  const Nodes &was = before.context.model.nodes, &now = after.context.model.nodes;
+  if (!relation.extract || was.size() == now.size()) return;
+  for (const std::int64_t id : now.id) old_nodes_.push_back(was.map.find(id));
+}
+
+double DeckComparison::factor(int mass, int length, int time) const {
+  return conversion_factor(from, to,
+                           {static_cast<std::int8_t>(mass), static_cast<std::int8_t>(length),
+                            static_cast<std::int8_t>(time), 0});
+}
+
+NodeIndex DeckComparison::old_node(NodeIndex node) const {
+  return node == no_index || old_nodes_.empty() ? node : old_nodes_[node];
+}
+
+std::string DeckComparison::node_name(NodeIndex node) const {
+  return "node " + std::to_string(after.context.model.node_id(node));
+}
+
+DeckComparison::Difference DeckComparison::number(const std::string& what, double was, double now,
+                                                  double unit, double slack) const {
+  const auto endless = [](double x) { return !(std::abs(x) < 1e29); };
+  if (was == now || (endless(was) && endless(now))) return {};
+  const double expected = was * unit;
+  if (std::abs(now - expected) <= tolerance * std::abs(expected) + slack) return {};
+  return fmt::format("{} is {:.9g}, expected {:.9g}{}", what, now, expected,
+                     unit == 1 ? "" : fmt::format(" ({:.9g} in the units before)", was));
+}
+
+/// What springs count with in contacts. Of some, no conversion of the working units can keep it.
+DeckComparison::Difference DeckComparison::springs() const {
+  const auto &was = before.context.model.properties, &now = after.context.model.properties;
+  if (relation.extract) return {};
+  if (was.size() != now.size())
+    return fmt::format("the deck has {} properties, expected {}", now.size(), was.size());
+  const double unit = factor(1, 0, -2);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    for (std::size_t k = 0; k < now[i].stiffness.size(); ++k)
+      if (auto d = number(fmt::format("the stiffness with which springs of {}/{} count in contacts",
+                                      now[i].type, now[i].id),
+                          was[i].stiffness[k], now[i].stiffness[k], unit))
+        return *d +
+               "; the solver takes K / A for it, and A is a force here, so that it depends on "
+               "the unit of force (--keep-working-units keeps it)";
+  return {};
+}
+
+DeckComparison::Difference DeckComparison::masses() const {
+  const auto &was = before.state.mass, &now = after.state.mass;
+  if (relation.extract) return {};  // elements that no contact needs are left out
+  if (was.size() != now.size())
+    return fmt::format("the deck has {} nodes, expected {}", now.size(), was.size());
+  const double heaviest = was.empty() ? 0 : *std::max_element(was.begin(), was.end());
+  const double unit = factor(1, 0, 0);
+  for (NodeIndex n = 0; n < now.size(); ++n)
+    if (auto d = number("the mass of " + node_name(n), was[n], now[n], unit,
+                        tolerance * heaviest * unit))
+      return d;
+  const auto &parts = before.context.model.parts, &parts_now = after.context.model.parts;
+  if (parts.size() != parts_now.size())
+    return fmt::format("the deck has {} parts, expected {}", parts_now.size(), parts.size());
+  return {};
+}
+
+DeckComparison::Difference DeckComparison::time_steps() const {
+  if (relation.extract) return {};
+  const double unit = factor(0, 0, 1);
+  for (std::size_t k = 0; k < verified_kinds.size(); ++k) {
+    const auto &was = before.steps[k], &now = after.steps[k];
+    const Elements& family = after.context.model.family(verified_kinds[k]);
+    if (was.size() != now.size())
+      return fmt::format("the deck has {} elements of one kind, expected {}", now.size(),
+                         was.size());
+    for (std::size_t e = 0; e < now.size(); ++e) {
+      if (was[e] == now[e]) continue;
+      if (auto d = number(fmt::format("the time step of element {}", family.id[e]), was[e], now[e],
+                          unit))
+        return d;
+    }
+  }
+  if (!relation.lossy.empty() || relation.lossy_defaults) return {};
+  return number("the time step of the contacts", before.cycle.contact_dt, after.cycle.contact_dt,
+                unit);
+}
+
+}  // namespace detail
+
+std::optional<std::string> first_difference(const Behaviour& before, const Behaviour& after,
+                                            const VerifyRelation& relation) {
+  const detail::DeckComparison c(before.parts(), after.parts(), relation);
+  if (auto d = c.values()) return d;
+  if (auto d = c.springs()) return d;
+  if (auto d = c.contacts()) return d;
+  if (auto d = c.masses()) return d;
+  return c.time_steps();
+}
+
+}  // namespace deck

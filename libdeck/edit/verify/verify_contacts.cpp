@@ -1,0 +1,202 @@
+// Compares the contacts of two decks: sides, gaps, stiffness, penetrations, actions, forces.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "edit/verify/verify_parts.hpp"
+
+namespace deck::detail {
+namespace {
+
+std::string contact_name(const Contact& c) {
+  return fmt::format("interface {}{}", c.inter->id,
+                     c.inter->type == 19 ? fmt::format(" ({})", to_string(c.role)) : "");
+}
+
+/// The nodes of one side, flat.
+std::vector<NodeIndex> side_nodes(const Contact& c, bool main) {
+  std::vector<NodeIndex> out;
+  if (c.kind == ContactKind::edge_edge)
+    for (const ContactEdge& e : main ? c.main_edges : c.secondary_edges)
+      out.insert(out.end(), e.nodes.begin(), e.nodes.end());
+  else if (main)
+    for (const MainSegment& s : c.main) out.insert(out.end(), s.nodes.begin(), s.nodes.end());
+  else
+    for (const SecondaryNode& s : c.secondary) out.push_back(s.node);
+  return out;
+}
+
+/// For every contact of the second deck the position of the one it was, no_index: none.
+std::vector<std::uint32_t> partners(const DeckComparison& c) {
+  const auto &was = c.before.scene.contacts, &now = c.after.scene.contacts;
+  std::vector<std::uint32_t> out(now.size(), no_index);
+  const bool by_place = !c.relation.extract && !c.relation.expanded;
+  std::vector<bool> taken(was.size());
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (by_place) {
+      if (i < was.size()) out[i] = static_cast<std::uint32_t>(i);
+      continue;
+    }
+    for (std::uint32_t k = 0; k < was.size(); ++k) {
+      if (taken[k] || was[k].type != now[i].type || was[k].kind != now[i].kind) continue;
+      const bool same = was[k].inter->id == now[i].inter->id && was[k].role == now[i].role &&
+                        was[k].inter->type == now[i].inter->type;
+      const bool part = c.relation.expanded && was[k].inter->type == 19 &&
+                        side_nodes(was[k], true) == side_nodes(now[i], true) &&
+                        side_nodes(was[k], false) == side_nodes(now[i], false);
+      if (!same && !part) continue;
+      taken[k] = true;
+      out[i] = k;
+      break;
+    }
+  }
+  return out;
+}
+
+class ContactComparison {
+ public:
+  ContactComparison(const DeckComparison& c, const Contact& was, const Contact& now)
+      : c_(c),
+        was_(was),
+        now_(now),
+        length_(c.factor(0, 1, 0)),
+        stiffness_(c.factor(1, 0, -2)),
+        name_(contact_name(now)) {}
+
+  DeckComparison::Difference run() const {
+    if (was_.evaluated != now_.evaluated || was_.dropped != now_.dropped)
+      return name_ + " is examined in one of the decks only";
+    for (const bool main : {false, true})
+      if (auto d = side(main)) return d;
+    if (auto d = c_.number(name_ + " Gapmin in force", was_.gapmin, now_.gapmin, length_)) return d;
+    if (auto d = sizes()) return d;
+    return penetrations();
+  }
+
+ private:
+  DeckComparison::Difference side(bool main) const {
+    const auto a = side_nodes(was_, main), b = side_nodes(now_, main);
+    const char* which = main ? "main" : "secondary";
+    if (a.size() != b.size())
+      return fmt::format("the {} side of {} has {} entries, expected {}", which, name_, b.size(),
+                         a.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+      if (c_.old_node(b[i]) != a[i])
+        return fmt::format("the {} side of {}: {} stands where another was", which, name_,
+                           c_.node_name(b[i]));
+    return {};
+  }
+
+  DeckComparison::Difference sizes() const {
+    const std::string gap = "a gap of " + name_, stiffness = "a stiffness of " + name_;
+    const auto both = [&](double g0, double g1, double k0, double k1) {
+      auto d = c_.number(gap, g0, g1, length_);
+      return d ? d : c_.number(stiffness, k0, k1, stiffness_);
+    };
+    for (std::size_t i = 0; i < now_.main.size(); ++i)
+      if (auto d = both(was_.main[i].gap, now_.main[i].gap, was_.main[i].stiffness,
+                        now_.main[i].stiffness))
+        return d;
+    for (std::size_t i = 0; i < now_.secondary.size(); ++i)
+      if (auto d = both(was_.secondary[i].gap, now_.secondary[i].gap,
+                        was_.secondary[i].nodal_stiffness, now_.secondary[i].nodal_stiffness))
+        return d;
+    for (const auto& [a, b] : {std::pair{&was_.main_edges, &now_.main_edges},
+                               std::pair{&was_.secondary_edges, &now_.secondary_edges}})
+      for (std::size_t i = 0; i < b->size(); ++i)
+        if (auto d = both((*a)[i].gap, (*b)[i].gap, (*a)[i].stiffness, (*b)[i].stiffness)) return d;
+    return {};
+  }
+
+  std::string pair_name(const PenetrationRow& row) const {
+    const NodeIndex node = now_.kind == ContactKind::edge_edge
+                               ? now_.secondary_edges[row.secondary].nodes[0]
+                               : now_.secondary[row.secondary].node;
+    return fmt::format("{} at {}", name_, c_.node_name(node));
+  }
+
+  /// What rounding of coordinates and gaps can do to a distance, in the units of the second deck.
+  double slack(double gap) const {
+    constexpr double digits = 1e-12;
+    return c_.tolerance * gap + digits * c_.after.extent;
+  }
+
+  DeckComparison::Difference penetrations() const {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, const PenetrationRow*> was;
+    for (const PenetrationRow& row : was_.penetrations) was[{row.secondary, row.main}] = &row;
+    for (const PenetrationRow& row : now_.penetrations) {
+      const auto found = was.find({row.secondary, row.main});
+      if (found == was.end()) {
+        if (row.depth <= slack(row.gap)) continue;
+        return fmt::format("{} penetrates by {:.9g}; it did not before", pair_name(row), row.depth);
+      }
+      const PenetrationRow& old = *found->second;
+      was.erase(found);
+      const double margin = slack(row.gap);
+      const std::string at = " of " + pair_name(row);
+      if (auto d = c_.number("the gap" + at, old.gap, row.gap, length_, margin)) return d;
+      if (auto d = c_.number("the penetration" + at, old.depth, row.depth, length_, margin))
+        return d;
+      if (old.action != row.action && row.depth > margin && row.distance > margin)
+        return fmt::format("the action{} is {}, expected {}", at, to_string(row.action),
+                           to_string(old.action));
+      if (auto d = c_.number("the gap left" + at, old.gap0, row.gap0, length_, margin)) return d;
+    }
+    for (const auto& [pair, row] : was)
+      if (row->depth * length_ > slack(row->gap * length_))
+        return fmt::format("{}: a pair that penetrated by {:.9g} does not any more", name_,
+                           row->depth);
+    return {};
+  }
+
+  const DeckComparison& c_;
+  const Contact &was_, &now_;
+  double length_, stiffness_;
+  std::string name_;
+};
+
+}  // namespace
+
+DeckComparison::Difference DeckComparison::contacts() const {
+  const auto &was = before.scene.contacts, &now = after.scene.contacts;
+  if (!relation.extract && was.size() != now.size())
+    return fmt::format("the deck has {} contacts, expected {}", now.size(), was.size());
+  const auto partner = partners(*this);
+  const double force = factor(1, 1, -2);
+  double largest = 0;
+  for (const cycle::ContactOutcome& c : before.cycle.contacts)
+    largest = std::max(largest, c.totals.total_abs);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (relation.lossy.contains(now[i].inter->id) || relation.lossy_defaults) continue;
+    if (partner[i] == no_index) return contact_name(now[i]) + " has no counterpart before";
+    if (auto d = ContactComparison(*this, was[partner[i]], now[i]).run()) return d;
+    const cycle::ContactOutcome &a = before.cycle.contacts[partner[i]],
+                                &b = after.cycle.contacts[i];
+    const double slack = tolerance * largest * force;
+    if (auto d = number("the force of " + contact_name(now[i]) + " in the first cycle",
+                        a.totals.total_abs, b.totals.total_abs, force, slack))
+      return d;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (auto d = number("the normal force of " + contact_name(now[i]), a.totals.normal[k],
+                          b.totals.normal[k], force, slack))
+        return d;
+      if (auto d = number("the tangential force of " + contact_name(now[i]), a.totals.tangential[k],
+                          b.totals.tangential[k], force, slack))
+        return d;
+    }
+  }
+  if (relation.extract || !relation.lossy.empty() || relation.lossy_defaults) return {};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto &a = before.cycle.nodes.force[k], &b = after.cycle.nodes.force[k];
+    for (NodeIndex n = 0; n < std::min(a.size(), b.size()); ++n) {
+      if (a[n] == b[n]) continue;
+      if (auto d = number("the contact force at " + node_name(n), a[n], b[n], force,
+                          tolerance * before.cycle.largest_nodal_force * force))
+        return d;
+    }
+  }
+  return {};
+}
+
+}  // namespace deck::detail

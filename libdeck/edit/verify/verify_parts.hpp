@@ -1,0 +1,60 @@
+// What verification compares. Private to the stage.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deck/contact/scene.hpp"
+#include "deck/cycle/scene_cycle.hpp"
+#include "deck/edit/verify.hpp"
+
+namespace deck {
+
+struct Behaviour::Parts {
+  const EditContext context;
+  Scene scene;
+  cycle::State state;
+  cycle::SceneOutcome cycle;
+  std::array<std::vector<double>, 5> steps;  ///< of shell4, shell3, solid8, truss, beam
+  double extent = 0;                         ///< largest coordinate
+};
+
+namespace detail {
+
+inline constexpr std::array verified_kinds = {ElementKind::shell4, ElementKind::shell3,
+                                              ElementKind::solid8, ElementKind::truss,
+                                              ElementKind::beam};
+
+/// Two decks, and how values and nodes of the first are found in the second.
+struct DeckComparison {
+  DeckComparison(const Behaviour::Parts& a, const Behaviour::Parts& b, const VerifyRelation& r);
+
+  using Difference = std::optional<std::string>;
+  const Behaviour::Parts& before;
+  const Behaviour::Parts& after;
+  const VerifyRelation& relation;
+  UnitSystem from, to;
+  double tolerance = 0;
+
+  double factor(int mass, int length, int time) const;
+  /// Node of the first deck that `node` of the second is.
+  NodeIndex old_node(NodeIndex node) const;
+  std::string node_name(NodeIndex node) const;
+  /// Nothing if `now` is `was` in the other units, or within `slack` of it.
+  Difference number(const std::string& what, double was, double now, double unit,
+                    double slack = 0) const;
+
+  Difference values() const;
+  Difference springs() const;
+  Difference contacts() const;
+  Difference masses() const;
+  Difference time_steps() const;
+
+ private:
+  std::vector<NodeIndex> old_nodes_;  ///< empty: the same indices
+};
+
+}  // namespace detail
+}  // namespace deck

@@ -1,0 +1,149 @@
+// Verification: conversions that keep the model pass, changes of one value are named.
+#include "deck/edit/verify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "deck/edit/changed_values.hpp"
+#include "deck/edit/extract.hpp"
+#include "deck/edit/renumber.hpp"
+#include "deck/edit/type19.hpp"
+#include "deck/edit/unit_system.hpp"
+#include "edit/units_support.hpp"
+#include "lint/support.hpp"
+
+namespace deck::test {
+namespace {
+
+using edit_test::Whole;
+
+/// A deck with penetrations, shells, and interfaces.
+std::unique_ptr<Whole> sample(const std::string& name = "too_close_0000.rad") {
+  return Whole::read((source_dir() / "samples" / name).string());
+}
+
+std::optional<std::string> difference(const Whole& before, const Whole& after,
+                                      const VerifyRelation& relation = {}) {
+  const Behaviour a(before.context()), b(after.context());
+  return first_difference(a, b, relation);
+}
+
+/// The sample with one text replaced.
+std::unique_ptr<Whole> edited(const Whole& whole, const std::string& from, const std::string& to) {
+  std::string text = whole.main_text();
+  const auto at = text.find(from);
+  EXPECT_NE(at, text.npos) << from;
+  text.replace(at, from.size(), to);
+  return Whole::read(whole.deck.sources[0].path(), {{whole.deck.sources[0].path(), text}});
+}
+
+TEST(Verification, ADeckIsTheSameAsItself) {
+  const auto deck = sample("crash_box_0000.rad");
+  EXPECT_EQ(difference(*deck, *deck), std::nullopt);
+}
+
+TEST(Verification, OtherUnitsAreTheSameModel) {
+  for (const char* name : {"too_close_0000.rad", "crash_box_0000.rad", "hot_contact_0000.rad"}) {
+    const auto deck = sample(name);
+    const Rewrite rewrite = to_units(deck->context(), *parse_unit_system("Mg,m,s"), {true});
+    const auto after = deck->after(rewrite);
+    const auto why = difference(*deck, *after, relation_of(rewrite.losses));
+    EXPECT_EQ(why, std::nullopt) << name << ": " << *why;
+  }
+}
+
+TEST(Verification, NewIdsAreTheSameModel) {
+  const auto deck = sample();
+  RenumberOptions options;
+  options.rules = {*parse_renumber_rule("node+1000"), *parse_renumber_rule("inter+5")};
+  const auto after = deck->after(renumber(deck->context(), options));
+  VerifyRelation relation;
+  EXPECT_NE(difference(*deck, *after, relation), std::nullopt) << "the interface has another id";
+  relation.new_ids = true;
+  EXPECT_EQ(difference(*deck, *after, relation), std::nullopt);
+}
+
+TEST(Verification, AnExtractAndAnExpandedTYPE19AreTheSameContacts) {
+  const auto deck = sample("crash_box_0000.rad");
+  const std::int64_t wanted[] = {2};
+  VerifyRelation extract, expanded;
+  extract.extract = expanded.expanded = true;
+  const auto part = deck->after(extract_contacts(deck->context(), wanted));
+  EXPECT_EQ(difference(*deck, *part, extract), std::nullopt);
+  const auto apart = deck->after(expand_type19(deck->context()));
+  EXPECT_EQ(difference(*deck, *apart, expanded), std::nullopt);
+}
+
+TEST(Verification, OneChangedValueIsNamed) {
+  const auto deck = sample();
+  // A coordinate of the upper sheet: its penetration is another one.
+  const std::string text = deck->main_text();
+  const auto node = text.find("\n       101 ") + 1;
+  const std::string row = text.substr(node, text.find('\n', node) - node);
+  ASSERT_GE(row.size(), 70u) << row;
+  std::string higher = row;
+  higher.replace(50, 20, "               0.875");
+  ASSERT_NE(row, higher);
+  EXPECT_NE(difference(*deck, *edited(*deck, row, higher)), std::nullopt);
+  // A density: only masses and time steps.
+  const auto dense = edited(*deck, "7.8e-06", "7.9e-06");
+  const auto mass = difference(*deck, *dense);
+  ASSERT_NE(mass, std::nullopt);
+  EXPECT_NE(mass->find("the mass of node"), std::string::npos) << *mass;
+}
+
+TEST(Verification, WhatIsGivenUpForAnInterfaceIsAccepted) {
+  const auto deck = sample();
+  const InterType7& inter = deck->interfaces.type7.at(0);
+  const std::string cell(deck->deck.sources.text(inter.Gapmin.span));
+  std::string other = cell;
+  other.replace(other.find_last_not_of(" 0"), 1, "7");
+  const auto line = deck->deck.sources[0].line_at(inter.Gapmin.span.offset);
+  std::string now(line);
+  now.replace(now.find(cell), cell.size(), other);
+  const auto after = edited(*deck, std::string(line), now);
+  const auto why = difference(*deck, *after);
+  ASSERT_NE(why, std::nullopt);
+  EXPECT_NE(why->find("Gapmin"), std::string::npos) << *why;
+  LossEntry loss;
+  loss.loss = Loss::dropped;
+  loss.keyword = "/INTER/TYPE7";
+  loss.id = inter.id;
+  EXPECT_EQ(difference(*deck, *after, relation_of({loss})), std::nullopt);
+}
+
+TEST(ChangedValues, EveryValueHasItsCell) {
+  const auto deck = sample();
+  Rewrite rewrite = to_units(deck->context(), *parse_unit_system("kg,m,s"));
+  const std::size_t before = rewrite.losses.size();
+  add_changed_values(deck->context(), "--units", rewrite);
+  EXPECT_GE(rewrite.losses.size(), rewrite.edits.size()) << before << " before";
+  bool gapmin = false;
+  for (const LossEntry& e : rewrite.losses) {
+    if (e.field != "Gapmin") continue;
+    gapmin = true;
+    EXPECT_EQ(e.keyword, "/INTER/TYPE7");
+    EXPECT_EQ(e.column, 41u);
+    EXPECT_EQ(e.end_column, 60u);
+    EXPECT_EQ(e.note, "--units");
+    EXPECT_DOUBLE_EQ(std::stod(e.new_text) * 1000, std::stod(e.old_text));
+  }
+  EXPECT_TRUE(gapmin);
+}
+
+TEST(ChangedValues, OfAValueWithSomeDigitsChangedAllAreTold) {
+  const auto deck = Whole::text("#RADIOSS STARTER\n/BEGIN\nx\n      2022         0\n/END\n");
+  Rewrite rewrite;
+  const auto at = deck->main_text().find("2022");
+  rewrite.edits.push_back({Span{0, 2, at + 2}, "18"});
+  add_changed_values(deck->context(), "--version", rewrite);
+  ASSERT_EQ(rewrite.losses.size(), 1u);
+  EXPECT_EQ(rewrite.losses[0].old_text, "2022");
+  EXPECT_EQ(rewrite.losses[0].new_text, "2018");
+  EXPECT_EQ(rewrite.losses[0].line, 4u);
+  EXPECT_EQ(rewrite.losses[0].keyword, "/BEGIN");
+}
+
+}  // namespace
+}  // namespace deck::test

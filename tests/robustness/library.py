@@ -1,0 +1,302 @@
+#!/usr/bin/env python3
+"""deck batch with verbs that write: a library of decks that share includes is rewritten as one. Every group of
+decks that share files is written whole or not at all, every result is verified, the bytes are those of deck
+convert and do not depend on kills, jobs or shards, and what is gone or changed since is noticed. With --all the
+library has 1000 decks and is killed twenty times."""
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+
+from common import ROOT, Checks
+from together import pieces, put, tree
+
+
+def grid(first, height, side):
+    """A plate of side x side nodes: /NODE rows, and the ids of its shells' corners."""
+    rows, shells = "", ""
+    for i in range(side):
+        for j in range(side):
+            rows += "%10d%20.4f%20.4f%20.4f\n" % (first + i * side + j, 5.0 * i, 5.0 * j, height)
+    for i in range(side - 1):
+        for j in range(side - 1):
+            a = first + i * side + j
+            shells += "%10d%10d%10d%10d%10d\n" % (a, a, a + 1, a + side + 1, a + side)
+    return rows, shells
+
+
+def library(directory, families, each, side=4):
+    """families x each decks; the decks of a family share a mesh and a contact, all differ in a comment and a value."""
+    head, _, groups, contact = pieces()
+    at = head.index("/MAT")  # in an include of its own: its numbers depend on all units
+    head, material = head[:at], head[at:]
+    files = {}
+    for f in range(families):
+        low, low_shells = grid(1, 0.0, side)
+        high, high_shells = grid(10001, 1.0 + 0.01 * f, side)
+        common = "family%03d/common/" % f
+        files[common + "mesh.inc"] = "/NODE\n" + low + high + "/SHELL/1\n" + low_shells + "/SHELL/2\n" + high_shells
+        files[common + "inter.inc"] = contact
+        files[common + "mat.inc"] = material
+        for d in range(each):
+            name = "family%03d/deck%02d/car%02d_0000.rad" % (f, d, d)
+            own = "# deck %d of family %d\n" % (d, f)
+            files[name] = head + own + "#include ../common/mat.inc\n#include ../common/mesh.inc\n" + groups + "#include ../common/inter.inc\n/END\n"
+    put(directory, files)
+
+
+def results(directory):
+    return {k: v for k, v in tree(directory).items() if ".batch" not in k.split(os.sep)}
+
+
+def decks_of(directory):
+    """What of a tree is decks: no summaries."""
+    return {k: v for k, v in results(directory).items() if k not in ("summary.json", "index.html", "losses.json")}
+
+
+def entries(directory):
+    with open(os.path.join(directory, "summary.json")) as f:
+        return {os.path.basename(d["deck"]): d for d in reversed(json.load(f)["decks"])}
+
+
+def differing(a, b):
+    return ", ".join(sorted(k for k in set(a) | set(b) if a.get(k) != b.get(k))[:8])
+
+
+def as_by_hand(c, tmp):
+    """The batch writes what deck convert writes of the whole directory."""
+    lib = os.path.join(tmp, "lib")
+    library(lib, 3, 2)
+    for verb in (["convert", "--units", "kg,m,s"], ["convert", "--version", "2018"], ["convert", "--renumber", "node+1000"],
+                 ["convert", "--resolve-defaults"], ["convert", "--flatten"], ["convert", "--extract-contacts", "1"],
+                 ["fix", "--strategy", "inacti"]):
+        out, hand = os.path.join(tmp, "out"), os.path.join(tmp, "hand")
+        for path in (out, hand):
+            shutil.rmtree(path, ignore_errors=True)
+        r = c.run("batch", "-o", out, lib, "--verb", " ".join(verb))
+        h = c.run(verb[0], lib, *verb[1:], "-o", hand, "-q")
+        c.check("%s: as by hand" % " ".join(verb), r.code == h.code and results(hand) and
+                results(hand) == {k: v for k, v in decks_of(out).items() if k.endswith((".rad", ".inc"))},
+                "%s, %s; %s" % (r.code, h.code, r.text[-300:]))
+    both = [os.path.join(tmp, n) for n in ("json", "back")]
+    r = c.run("batch", "-o", both[0], lib, "--verb", "convert --to json")
+    b = c.run("batch", "-o", both[1], both[0], "--verb", "convert --from json")
+    c.check("to JSON and back: every byte", r.code == 0 and b.code == 0 and decks_of(both[1]) == tree(lib), r.text[-200:] + b.text[-200:])
+
+
+def divided(c, tmp):
+    """Shards keep decks that share files together, and merge into the same bytes."""
+    lib, one, out = (os.path.join(tmp, n) for n in ("dlib", "one", "parts"))
+    library(lib, 5, 3)
+    verb = ("--verb", "convert --units kg,m,s")
+    c.run("batch", "-o", one, lib, *verb)
+    for i in (1, 2, 3):
+        r = c.run("batch", "-o", out, lib, *verb, "--shard", "%d/3" % i)
+        with open(os.path.join(out, "summary-%d-of-3.json" % i)) as f:
+            part = [d["deck"].split(os.sep + "family")[1][:3] for d in json.load(f)["decks"]]
+        c.check("shard %d: whole families" % i, r.code == 0 and all(part.count(f) == 3 for f in part), str(part))
+    r = c.run("batch", "-o", out, "--merge")
+    merged = {k: v for k, v in results(out).items() if "-of-3" not in k}
+    c.check("shards merge into the bytes of one process", r.code == 0 and merged == results(one), differing(merged, results(one)))
+    for args in (("--jobs", "3"), ("--no-mpi", "--jobs", "1", "--threads", "3")):
+        other = os.path.join(tmp, "other")
+        shutil.rmtree(other, ignore_errors=True)
+        c.run("batch", "-o", other, lib, *verb, *args)
+        c.check("%s: same bytes" % " ".join(args), results(other) == results(one), differing(results(other), results(one)))
+    manifest = os.path.join(tmp, "list.txt")
+    with open(manifest, "w") as f:
+        f.write(os.path.join(lib, "family00[01]", "*", "*_0000.rad") + "\n")
+    r = c.run("batch", "-o", os.path.join(tmp, "pattern"), "--manifest", manifest, *verb)
+    c.check("a pattern in a manifest", b"6 decks: 6 clean" in r.out, r.text[-200:])
+
+
+def together_or_not(c, tmp):
+    """One deck that cannot be converted holds back those that share files with it, and no other."""
+    lib, out = os.path.join(tmp, "tlib"), os.path.join(tmp, "tout")
+    library(lib, 2, 3)
+    bad = os.path.join(lib, "family000", "deck01", "car01_0000.rad")
+    good = open(bad).read()
+    open(bad, "w").write(good.replace("/END", "/UNHEARD/OF/1\nx\n       1.0       2.0\n/END"))
+    verb = ("--verb", "convert --units kg,m,s")
+    r = c.run("batch", "-o", out, lib, *verb)
+    with open(os.path.join(out, "summary.json")) as f:
+        states = [d["status"] for d in json.load(f)["decks"]]
+    c.check("one refused, two skipped, the other family written", r.code == 1 and states == ["skipped", "findings", "skipped"] + 3 * ["clean"], str(states))
+    c.check("nothing of that family", not any(k.startswith("family000") for k in results(out)), str(list(results(out))))
+    with open(os.path.join(out, "losses.json")) as f:
+        open_ = json.load(f)["undecided"]
+    c.check("the loss report names the place", len(open_) == 1 and open_[0]["file"].endswith("car01_0000.rad"), str(open_))
+    # Two unit systems over one include.
+    other = good.replace("                  kg                  mm                  ms\n" * 2, "                  Mg                  mm                   s\n" * 2)
+    c.check("the sample has the units that this changes", other != good)
+    open(bad, "w").write(other)
+    r = c.run("batch", "-o", out, lib, "--verb", "convert --units kg,m,ms")
+    entry = entries(out)["car01_0000.rad"]
+    text = json.dumps(entry)
+    c.check("an include in two unit systems: both decks are named, with their units", r.code == 2 and "car00_0000.rad" in text and "car01_0000.rad" in text and
+            "Mg, mm, s" in text and "kg, mm, ms" in text and entry["status"] == "failed", text)
+    r = c.run("batch", "-o", out, lib, "--verb", "convert --units kg,m,ms --split-includes")
+    c.check("--split-includes gives it a copy of its own", r.code == 0 and any("mat_" in k for k in results(out)), r.text[-300:] + str(list(results(out))))
+    open(bad, "w").write(good)
+    r = c.run("batch", "-o", out, lib, *verb)
+    c.check("mended: converted, and the copy of before is gone", r.code == 0 and not any("mat_" in k for k in results(out)), r.text[-200:])
+    shutil.rmtree(os.path.join(lib, "family001"))
+    r = c.run("batch", "-o", out, lib, *verb)
+    c.check("decks that are gone take their results along", r.code == 0 and not any(k.startswith("family001") for k in results(out)), str(list(results(out))))
+
+
+def in_place(c, tmp):
+    """In place: done once whatever happens, with numbered backups, and other decks are looked after."""
+    lib, out = os.path.join(tmp, "plib"), os.path.join(tmp, "pout")
+    library(lib, 1, 3)
+    before = tree(lib)
+    verb = ("--verb", "convert --renumber node+1000 --in-place --backup")
+    deck = os.path.join(lib, "family000", "deck00", "car00_0000.rad")
+    r = c.run("batch", "-o", out, deck, "--verb", "convert --renumber node+1000 --in-place --root " + lib)
+    c.check("a deck whose includes others need is refused", r.code == 2 and "car01_0000.rad" in json.dumps(entries(out)) and tree(lib) == before, r.text[-200:])
+    shutil.rmtree(out)
+    r = c.run("batch", "-o", out, lib, *verb)
+    once = tree(lib)
+    c.check("in place", r.code == 0 and once != before, r.text[-200:])
+    c.check("backups hold what was there", all(once[k + ".orig"] == before[k] for k in before if once[k] != before[k]))
+    r = c.run("batch", "-o", out, lib, *verb)
+    c.check("again: nothing is done twice", r.code == 0 and b"3 were finished before" in r.out and tree(lib) == once, r.text[-200:])
+    with open(deck, "a") as f:
+        f.write("# edited\n")
+    edited = tree(lib)
+    r = c.run("batch", "-o", out, lib, *verb)
+    c.check("edited since: said, not converted twice", r.code == 2 and b"--force" in r.err and tree(lib) == edited, r.text[-200:])
+    r = c.run("batch", "-o", out, lib, *verb, "--force")
+    c.check("--force converts again and numbers the backups", r.code == 0 and any(k.endswith(".orig.2") for k in tree(lib)), r.text[-200:])
+
+
+def unverified(c, tmp):
+    """A conversion that does something else (here by a wrong schema) is not written, and the difference is named."""
+    lib, out, schemas = (os.path.join(tmp, n) for n in ("vlib", "vout", "schemas"))
+    library(lib, 2, 1)
+    os.makedirs(schemas)
+    with open(os.path.join(ROOT, "schemas", "keywords", "inter_type7.json")) as f:
+        text = f.read()
+    schema = json.loads(text)
+    changed = 0
+    for card in schema["cards"]:
+        for field in card.get("fields", []):
+            if field.get("name") == "Gapmin":
+                field["dim"] = [1, 0, 0]
+                changed += 1
+    with open(os.path.join(schemas, "inter_type7.json"), "w") as f:
+        json.dump(schema, f)
+    c.check("the sample schema has Gapmin", changed > 0)
+    r = c.run("batch", "-o", out, lib, "--schemas", schemas, "--verb", "convert --units kg,m,s")
+    text = json.dumps(entries(out)) if r.code in (0, 1) else ""
+    c.check("what does not verify is not written and named", r.code == 1 and not decks_of(out) and "not the same model" in text, "%s; %s" % (r.code, r.text[-300:] + text[:500]))
+    r = c.run("batch", "-o", out, lib, "--schemas", schemas, "--verb", "convert --units kg,m,s --no-verify")
+    c.check("--no-verify writes it", r.code == 0 and len(decks_of(out)) == 8, r.text[-300:])
+
+
+def killed(c, tmp, families, each, kills, command, target, name):
+    """Killed at random, resumed: the bytes of an undisturbed run. Returns its seconds."""
+    r = random.Random(7)
+    calm, lib = os.path.join(tmp, "calm"), os.path.join(tmp, "klib")
+    for path in (calm, lib):
+        shutil.rmtree(path, ignore_errors=True)
+    library(calm, families, each)
+    library(lib, families, each)
+    start = time.monotonic()
+    first = c.run(*command, cwd=calm, timeout=900)
+    took = time.monotonic() - start
+    if not c.check("%s: undisturbed" % name, first.code == 0, first.text[-300:]):
+        return took
+    struck = 0
+    for _ in range(kills):
+        process = subprocess.Popen([c.program, *command], cwd=lib, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        try:
+            process.wait(r.uniform(0.02, max(0.06, took / 4)))
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            struck += 1
+        process.wait()
+    last = c.run(*command, cwd=lib, timeout=900)
+    now, expected = (results(os.path.join(d, target)) for d in (lib, calm))
+    c.check("%s: killed %d times and resumed: the same bytes" % (name, struck), last.code == 0 and now == expected and struck >= kills // 3,
+            "%s; struck %d; %s" % (last.text[-200:], struck, differing(now, expected)))
+    again = c.run(*command, cwd=lib, timeout=900)
+    c.check("%s: then nothing is left to do" % name, b"%d were finished before" % (families * each) in again.out, again.text[-200:])
+    print("%s: %d decks in %.2f s, killed %d times" % (name, families * each, took, struck))
+    return took
+
+
+def times(c, tmp, families, each):
+    """Against copying the library and parsing it once."""
+    lib = os.path.join(tmp, "time")
+    library(lib, families, each, side=12)
+    names = sorted(os.path.join(lib, k) for k in tree(lib) if k.endswith("_0000.rad"))
+    best = {}
+    for _ in range(3):
+        for what in ("copy", "parse", 1, 2):
+            out = os.path.join(tmp, "t-out")
+            shutil.rmtree(out, ignore_errors=True)
+            start = time.monotonic()
+            if what == "copy":
+                shutil.copytree(lib, out)
+            elif what == "parse":
+                c.run("params", *names, "--json", os.devnull, "-q", "--threads", "1", timeout=600)
+            else:
+                c.run("batch", "-o", out, lib, "--verb", "convert --units kg,m,s", "--jobs", what, "--threads", "1", timeout=600)
+            best[what] = min(best.get(what, 1e9), time.monotonic() - start)
+    base = best["copy"] + best["parse"]
+    print("%d decks: copied and parsed once in %.2f s; converted and verified with one job %.2f s (%.2f x), two %.2f s (%.2f x)" % (
+        len(names), base, best[1], best[1] / base, best[2], best[2] / base))
+    if not c.sanitized:
+        c.check("one job takes at most 3 times what copying and parsing takes", best[1] <= 3 * base, "%.2f" % (best[1] / base))
+
+
+def corpus(c, tmp):
+    """The decks outside the project as one tree: up, units there and back, extract, JSON and back, all verified."""
+    top = os.path.join(c.options.corpus, "corpus")
+    if not os.path.isdir(top):
+        return c.skip("corpus", "no decks under %s (set DECK_CORPUS)" % c.options.corpus)
+    at, counts = top, {}
+    for number, verb in enumerate(("convert --version 2026", "convert --units g,mm,ms", "convert --units kg,mm,ms", "convert --to json", "convert --from json")):
+        out = os.path.join(tmp, "corpus%d" % number)
+        r = c.run("batch", "-o", out, at, "--verb", verb, timeout=3000, memory_mb=16000)
+        c.check("corpus: %s" % verb, r.code in (0, 1, 3) and os.path.exists(os.path.join(out, "summary.json")), r.text[-400:])
+        with open(os.path.join(out, "summary.json")) as f:
+            document = json.load(f)
+        # Springs whose stiffness in contact depends on the unit of force are told apart: no conversion can keep it.
+        failed = [d["deck"] + ": " + str(d["error"]) for d in document["decks"] if d["status"] == "failed" or "not the same model" in str(d["error"]) and "K / A" not in str(d["error"])]
+        c.check("corpus: %s: no deck fails to verify" % verb, not failed, "; ".join(failed)[:600])
+        print("corpus: %s: %s" % (verb, {k: v for k, v in document["totals"].items() if v}))
+        if verb.endswith("--from json"):
+            c.check("corpus: JSON and back: every byte", {k: v for k, v in decks_of(out).items()} ==
+                    {k: v for k, v in decks_of(os.path.join(tmp, "corpus%d" % (number - 2))).items()})
+        at = out
+
+
+def main():
+    c = Checks()
+    tmp = tempfile.mkdtemp(prefix="deck-library-")
+    try:
+        as_by_hand(c, tmp)
+        divided(c, tmp)
+        together_or_not(c, tmp)
+        in_place(c, tmp)
+        unverified(c, tmp)
+        big = c.options.all
+        families, each, kills = (250, 4, 20) if big else (12, 3, 6)
+        killed(c, tmp, families, each, kills, ["batch", "-o", "out", ".", "--verb", "convert --units kg,m,s", "--jobs", "2"], "out", "below another directory")
+        killed(c, tmp, families, each, kills, ["batch", "-o", "out", ".", "--verb", "convert --renumber node+1000 --in-place", "--jobs", "2"], ".", "in place")
+        if big:
+            times(c, tmp, 250, 4)
+            corpus(c, tmp)
+    finally:
+        shutil.rmtree(tmp, ignore_errors=True)
+    c.finish()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,63 @@
+// How verbs write decks: one set of files for all decks of the call, in place, below a directory or
+// as a patch, all of it or nothing. No verb writes decks by another way.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "common.hpp"
+#include "deck/edit/edit_set.hpp"
+#include "writing/frame.hpp"
+
+namespace deck::cli {
+
+/// Where to write.
+struct WriteChoice {
+  std::string directory, backup_suffix, root;
+  bool in_place = false, diff = false, overwrite = false;
+  bool with_dependents = false, split_includes = false;
+  bool read_back = false;  ///< what was planned is read as it will lie there before it is written
+};
+/// --root, --with-dependents, --split-includes.
+void add_dependent_options(CommandLine& line, WriteChoice& choice);
+/// What is wrong with the combination; empty: nothing.
+std::string usage_error(const WriteChoice& choice);
+
+class Changes {
+ public:
+  Changes(const CommonOptions& common, const WriteChoice& choice)
+      : common_(common), choice_(choice) {}
+
+  /// The decks to work on: `given` with directories and patterns expanded and, where they are asked
+  /// for, with those that depend on the same files. Call before anything else.
+  Result<std::vector<std::string>> decks(const std::vector<std::string>& given,
+                                         std::string_view ending);
+  /// The directory below which decks keep their place; empty: decks are written at the top.
+  const std::string& root() const { return root_; }
+
+  /// See EditSet.
+  Result<std::size_t> add(const Loaded& loaded, const std::string& name);
+  void propose(std::size_t deck, const Deck& now, const ChangedFiles& changed);
+
+  /// Writes all, or prints the patch, and lists the files if `list` says so. Error: nothing was
+  /// written, and why.
+  Result<void> write(bool list);
+  /// The patch.
+  Result<std::string> diff();
+  /// Writes results that are no decks the same way.
+  Result<void> write_documents(const std::vector<OutputFile>& files, bool list);
+
+ private:
+  Result<void> settle();
+  Result<void> read_back(const std::vector<OutputFile>& files) const;
+  Result<void> announce(const std::vector<OutputFile>& files);
+  void list_files(const std::vector<OutputFile>& files) const;
+
+  const CommonOptions& common_;
+  const WriteChoice& choice_;
+  std::string root_;
+  EditSet set_;
+  std::vector<std::string> names_;
+  std::map<FileIdentity, std::string> outsiders_;
+};
+
+}  // namespace deck::cli

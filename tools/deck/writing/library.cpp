@@ -1,0 +1,160 @@
+// Walks directories, matches patterns and looks for decks that share files.
+#include "writing/library.hpp"
+
+#include <glob.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace deck::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path absolute_of(const std::string& path) {
+  std::error_code ec;
+  fs::path out = fs::absolute(path, ec).lexically_normal();
+  return out.has_filename() ? out : out.parent_path();  // "models/" is models
+}
+
+fs::path shared_part(const fs::path& a, const fs::path& b) {
+  fs::path out;
+  for (auto i = a.begin(), k = b.begin(); i != a.end() && k != b.end() && *i == *k; ++i, ++k)
+    out /= *i;
+  return out;
+}
+
+bool is_pattern(const std::string& text) { return text.find_first_of("*?[") != text.npos; }
+
+std::vector<std::string> matches_of(const std::string& pattern) {
+  std::vector<std::string> out;
+  glob_t found{};
+  if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
+    for (std::size_t i = 0; i < found.gl_pathc; ++i) out.emplace_back(found.gl_pathv[i]);
+  globfree(&found);
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> files_below(const std::string& directory, std::string_view ending,
+                                             const std::string& output) {
+  std::vector<std::string> found;
+  const fs::path results = output.empty() ? fs::path() : absolute_of(output);
+  std::error_code ec;
+  for (auto it = fs::recursive_directory_iterator(directory, ec);
+       !ec && it != fs::recursive_directory_iterator(); it.increment(ec)) {
+    const std::string name = it->path().filename().string();
+    std::error_code status;
+    if (it->is_directory(status) &&
+        (name.starts_with('.') || (!output.empty() && absolute_of(it->path().string()) == results)))
+      it.disable_recursion_pending();
+    if (name.ends_with(ending) && it->is_regular_file(status)) found.push_back(it->path().string());
+  }
+  if (ec) return Error{Error::Code::io, "cannot read " + directory + ": " + ec.message()};
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool names_directory(const std::vector<std::string>& given) {
+  std::error_code ec;
+  return std::any_of(given.begin(), given.end(),
+                     [&](const std::string& path) { return fs::is_directory(path, ec); });
+}
+
+Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& given,
+                                              std::string_view ending, const std::string& output) {
+  std::vector<std::string> out;
+  std::set<fs::path> seen;
+  std::error_code ec;
+  const auto add = [&](const std::string& path) {
+    if (path == "-" || seen.insert(absolute_of(path)).second) out.push_back(path);
+  };
+  for (const std::string& path : given) {
+    if (fs::is_directory(path, ec)) {
+      const auto below = files_below(path, ending, output);
+      if (!below) return below.error();
+      for (const std::string& deck : *below) add(deck);
+    } else if (is_pattern(path) && !fs::exists(path, ec)) {
+      const auto matches = matches_of(path);
+      if (matches.empty())
+        return Error{Error::Code::config, path + ": no file has a name of this form"};
+      for (const std::string& deck : matches)
+        if (!fs::is_directory(deck, ec)) add(deck);
+    } else {
+      add(path);
+    }
+  }
+  return out;
+}
+
+std::string common_root(const std::vector<std::string>& directories,
+                        const std::vector<std::string>& files) {
+  std::optional<fs::path> root;
+  const auto take = [&](const fs::path& path) { root = root ? shared_part(*root, path) : path; };
+  for (const std::string& d : directories) take(absolute_of(d));
+  for (const std::string& f : files) take(absolute_of(f).parent_path());
+  return root ? root->string() : std::string();
+}
+
+std::string library_root(const std::string& deck) {
+  const fs::path folder = absolute_of(deck).parent_path();
+  std::error_code ec;
+  for (fs::path dir = folder; !dir.empty(); dir = dir.parent_path()) {
+    if (fs::exists(dir / ".git", ec)) return dir.string();
+    if (dir == dir.parent_path()) break;
+  }
+  return folder.string();
+}
+
+Result<Dependents> find_dependents(const std::vector<std::string>& decks, const std::string& root,
+                                   const std::vector<std::string>& include_paths) {
+  Dependents out;
+  IncludeScan scan(include_paths);
+  std::set<FileIdentity> files, mains;
+  const auto take = [&](const std::vector<IncludeScan::File>& tree) {
+    for (const IncludeScan::File& f : tree) files.insert(f.identity);
+  };
+  std::set<std::string> roots;
+  for (const std::string& deck : decks) {
+    const auto tree = scan.files(deck);
+    if (tree.empty()) continue;
+    mains.insert(tree.front().identity);
+    take(tree);
+    roots.insert(root.empty() ? library_root(deck) : root);
+  }
+  const std::set<FileIdentity> own = files;
+  std::vector<std::pair<std::string, std::vector<IncludeScan::File>>> others;
+  for (const std::string& directory : roots) {
+    const auto below = files_below(directory, deck_ending);
+    if (!below) return below.error();
+    for (const std::string& deck : *below) {
+      auto tree = scan.files(deck);
+      if (!tree.empty() && mains.insert(tree.front().identity).second)
+        others.emplace_back(deck, std::move(tree));
+    }
+  }
+  // A deck that shares a file with a dependent is one itself: they change together.
+  for (bool more = true; more;) {
+    more = false;
+    for (auto it = others.begin(); it != others.end();) {
+      const bool shares = std::any_of(it->second.begin(), it->second.end(),
+                                      [&](const auto& f) { return files.contains(f.identity); });
+      if (!shares) {
+        ++it;
+        continue;
+      }
+      for (const IncludeScan::File& f : it->second)
+        if (own.contains(f.identity)) out.shared.emplace(f.identity, it->first);
+      take(it->second);
+      out.decks.push_back(it->first);
+      it = others.erase(it);
+      more = true;
+    }
+  }
+  std::sort(out.decks.begin(), out.decks.end());
+  return out;
+}
+
+}  // namespace deck::cli
