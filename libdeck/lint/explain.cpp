@@ -129,28 +129,59 @@ std::string range_text(const Field& f) {
   return out;
 }
 
-std::string field_page(const Schema& schema, const CardSchema& card, const Field& f) {
-  std::string out =
-      fmt::format("{} of {}: {}\n", f.name, schema.keyword, f.doc.empty() ? card.name : f.doc);
-  const auto row = [&](std::string_view name, const std::string& text) {
-    if (!text.empty()) out += fmt::format("  {:<12}{}\n", name, text);
-  };
-  row("columns", fmt::format("{}-{} of the line '{}', {}", f.first, f.last, card.name,
-                             field_versions(card, f)));
+/// "name        text", the text broken behind its first column.
+std::string page_row(std::string_view name, const std::string& text) {
+  constexpr std::size_t margin = 14;
+  if (text.empty()) return {};
+  return fmt::format("  {:<12}", name) + wrapped(text, margin).substr(margin);
+}
+
+std::string field_head(const Schema& schema, const CardSchema& card, const Field& f) {
+  return wrapped(fmt::format("{} of {}: {}", f.name, schema.keyword, f.doc.empty() ? card.name : f.doc), 0);
+}
+
+/// Where the cell is.
+std::string field_place(const CardSchema& card, const Field& f) {
+  return page_row("columns", fmt::format("{}-{} of the line '{}', {}", f.first, f.last, card.name,
+                                         field_versions(card, f)));
+}
+
+/// Everything else about a cell.
+std::string field_rows(const CardSchema& card, const Field& f) {
   std::vector<Condition> present = card.when;
   present.insert(present.end(), f.when.begin(), f.when.end());
-  row("present if", conditions(present));
-  row("type", type_name(f));
-  row("legal", range_text(f));
-  row("default", f.default_text);
+  std::string out = page_row("present if", conditions(present)) + page_row("type", type_name(f)) +
+                    page_row("legal", range_text(f)) + page_row("default", f.default_text);
   if (f.type == FieldType::real) {
     std::string dimension = f.dimension_known ? dimension_text(f.dimension) : "not known";
     for (const auto& [when, d] : f.dimension_when)
       dimension += "; " + dimension_text(d) + " if " + conditions(when);
-    row("dimension", dimension);
+    out += page_row("dimension", dimension);
   }
-  if (f.ignored) row("effect", "none: the reference solver does not use it");
-  row("manual", f.from_manual);
+  if (f.ignored) out += page_row("effect", "none: the reference solver does not use it");
+  return out + page_row("manual", f.from_manual);
+}
+
+/// The newest layout first; layouts that differ in their columns alone share the rest.
+std::string field_page(const Schema& schema, std::string_view field) {
+  struct Layout {
+    std::string head, places, rows;
+  };
+  std::vector<Layout> layouts;
+  for (auto card = schema.cards.rbegin(); card != schema.cards.rend(); ++card)
+    for (auto f = card->fields.rbegin(); f != card->fields.rend(); ++f) {
+      if (f->name != field) continue;
+      Layout l{field_head(schema, *card, *f), field_place(*card, *f), field_rows(*card, *f)};
+      const auto same = std::find_if(layouts.begin(), layouts.end(), [&](const Layout& other) {
+        return other.head == l.head && other.rows == l.rows;
+      });
+      if (same != layouts.end())
+        same->places += l.places;
+      else
+        layouts.push_back(std::move(l));
+    }
+  std::string out;
+  for (const Layout& l : layouts) out += (out.empty() ? "" : "\n") + l.head + l.places + l.rows;
   return out;
 }
 
@@ -183,13 +214,7 @@ std::string explain_rule(const Rule& rule, const SchemaSet& schemas) {
 }
 
 std::string explain_keyword(const Schema& schema, std::string_view field) {
-  if (!field.empty()) {
-    std::string out;
-    for (const CardSchema& card : schema.cards)
-      for (const Field& f : card.fields)
-        if (f.name == field) out += (out.empty() ? "" : "\n") + field_page(schema, card, f);
-    return out;
-  }
+  if (!field.empty()) return field_page(schema, field);
   std::string out = schema.keyword;
   for (const std::string& alias : schema.aliases) out += ", " + alias;
   out += "\n" + wrapped(schema.doc, 2);

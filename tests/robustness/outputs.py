@@ -146,6 +146,35 @@ def edit_documents(c, tmp):
             check_document(c, "fix of " + stem, r.out.decode(), fixes)
 
 
+def looks(c, tmp):
+    """What `show` and `diff` say, and that a deck written anew with other ids is the same deck."""
+    shows, diffs = (validator_of(c, name) for name in ("show", "diff"))
+    for path in SAMPLES:
+        stem = os.path.basename(path)[:-9]
+        for what in ("1", "part:1", "mat:1", "node:2", "shell:1", "node:999999999"):
+            name = "show %s of %s" % (what, stem)
+            r = c.run("show", path, what, "--json", "-")
+            if c.no_crash(name, r, (0, 2)) and r.code == 0:
+                check_document(c, name, r.out.decode(), shows)
+        r = c.run("diff", SAMPLES[0], path, "--json", "-")
+        if c.no_crash("diff with " + stem, r, (0, 1)):
+            check_document(c, "diff with " + stem, r.out.decode(), diffs)
+            c.check("exit code of diff with " + stem, r.code == (0 if strict(r.out.decode())["equal"] else 1), r.code)
+        c.check("%s equals itself" % stem, c.run("diff", path, path, "--quiet").code == 0)
+        copy = os.path.join(tmp, stem)
+        if c.run("convert", path, "--renumber", "all=1001", "-o", copy).code == 0:
+            r = c.run("diff", path, os.path.join(copy, os.path.basename(path)), "--match", "position")
+            c.check("%s renumbered is the same deck" % stem, r.code == 0, r.out.decode()[:300])
+        if c.run("convert", path, "--units", "Mg,mm,s", "-o", copy + "-units").code == 0:
+            r = c.run("diff", path, os.path.join(copy + "-units", os.path.basename(path)))
+            c.check("%s in other units is the same deck" % stem, r.code == 0, r.out.decode()[:300])
+    for verb, args in (("show", ("1",)), ("diff", (SAMPLES[1],)), ("params", ("--matrix",))):
+        for width in ("80", "120", "200"):
+            r = c.run(verb, SAMPLES[0], *args, env={"COLUMNS": width})
+            wide = [x for x in r.out.decode().split("\n") if x.startswith("  ") and len(x) > int(width)]
+            c.check("%s in %s columns" % (verb, width), not wide, wide[:2])
+
+
 def same_bytes(c, tmp):
     decks = list(SAMPLES)
     runs = [(v, ["--json", "-", *extra]) for v, extra in verbs_with_json(c)]
@@ -173,6 +202,7 @@ def main():
                 if c.no_crash(name, r, (0, 1)):
                     check_document(c, name, r.out.decode(), validators)
         edit_documents(c, tmp)
+        looks(c, tmp)
         if c.has("lint"):
             lint_formats(c, tmp)
         for verb in ("rules",):

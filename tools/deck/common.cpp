@@ -2,6 +2,7 @@
 #include "common.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -58,6 +59,14 @@ bool CommonOptions::color_on(int fd) const {
   if (no_color != nullptr && *no_color != '\0') return false;
   const char* term = std::getenv("TERM");
   return isatty(fd) == 1 && (term == nullptr || std::strcmp(term, "dumb") != 0);
+}
+
+std::size_t text_width() {
+  winsize size{};
+  if (isatty(1) == 1 && ioctl(1, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  const char* columns = std::getenv("COLUMNS");
+  const IntegerCell n = read_integer(columns == nullptr ? "" : columns);
+  return n.status == NumberStatus::ok && n.value > 0 ? static_cast<std::size_t>(n.value) : 0;
 }
 
 void add_common_without_decks(CommandLine& line, CommonOptions& options) {

@@ -129,6 +129,9 @@ void print_text(std::string_view text);
 /// would obey spelled out.
 void print_contents(std::string_view text);
 
+/// Columns of the terminal that standard output is, else of $COLUMNS; 0: lines of any length.
+std::size_t text_width();
+
 /// "deck: note: ..." on standard error.
 void print_note(std::string_view note);
 

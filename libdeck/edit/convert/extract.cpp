@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "deck/keyword/references.hpp"
 #include "edit/convert/extract_state.hpp"
 #include "keyword/reader.hpp"
 
@@ -309,20 +310,12 @@ void Extraction::set_clauses(const Block& b, const DecodedBlock& d, bool touch) 
 
 void Extraction::clause_ids(const Block& b, std::string_view kind, std::string_view options,
                             const std::vector<std::int64_t>& ids, bool touch) {
-  constexpr std::pair<std::string_view, std::string_view> clauses[] = {
-      {"SET", "set"},     {"SETCOL", "set"},    {"BOX", "box"},     {"BOX2", "box"},
-      {"NODE", "node"},   {"NODENS", "node"},   {"SEG", "node"},    {"PART", "part"},
-      {"SUBS", "subset"}, {"SUBM", "submodel"}, {"SHELL", "shell"}, {"SH3N", "sh3n"},
-      {"SOLID", "brick"}, {"QUAD", "quad"},     {"TRIA", "tria"},   {"BEAM", "beam"},
-      {"TRUSS", "truss"}, {"SPRING", "spring"}};
   if (kind == "ALL" || kind == "BOX" || kind == "BOX2" || options.find('B') != options.npos)
     everything();
   if (kind == "RBODY")
     open_questions.push_back("/SET " + std::to_string(b.id.value) +
                              " selects rigid bodies, which were not carried");
-  std::string_view ref;
-  for (const auto& [clause, target] : clauses)
-    if (clause == kind) ref = target;
+  const std::string_view ref = kind_of_clause(kind);
   if (ref.empty()) return;
   const std::int64_t offset = deck_.offset_of(b, ref);
   if (options.find('G') == options.npos) {

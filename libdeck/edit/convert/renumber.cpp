@@ -5,6 +5,7 @@
 #include <bitset>
 #include <unordered_map>
 
+#include "deck/keyword/references.hpp"
 #include "deck/text/number.hpp"
 #include "edit/convert/renumber_ids.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
@@ -27,24 +28,11 @@ std::optional<std::vector<std::string_view>> possible_spaces(const Block& b) {
     if (detail::is_below(b.header, k)) return std::vector<std::string_view>{};
   if (b.schema != nullptr && (b.schema->kind == "engine" || b.schema->kind == "parameter"))
     return std::vector<std::string_view>{};
-  if (detail::is_below(b.header, "/MAT") || detail::header_reference(b) == "mat")
+  if (detail::is_below(b.header, "/MAT") || header_reference(b) == "mat")
     return std::vector<std::string_view>{"funct", "mat", "skew", "sensor"};
   if (detail::is_below(b.header, "/PROP"))
     return std::vector<std::string_view>{"funct", "mat", "prop", "skew", "frame", "sensor"};
   return std::nullopt;
-}
-
-/// Kind of the ids in a clause of /SET; empty: no ids.
-std::string_view kind_of_clause(std::string_view clause) {
-  constexpr std::pair<std::string_view, std::string_view> clauses[] = {
-      {"SET", "set"},     {"SETCOL", "set"},    {"BOX", "box"},     {"BOX2", "box"},
-      {"NODE", "node"},   {"NODENS", "node"},   {"SEG", "node"},    {"PART", "part"},
-      {"SUBS", "subset"}, {"SUBM", "submodel"}, {"SHELL", "shell"}, {"SH3N", "sh3n"},
-      {"SOLID", "brick"}, {"QUAD", "quad"},     {"TRIA", "tria"},   {"BEAM", "beam"},
-      {"TRUSS", "truss"}, {"SPRING", "spring"}};
-  for (const auto& [name, kind] : clauses)
-    if (name == clause) return kind;
-  return {};
 }
 
 class Renumbering {
@@ -183,7 +171,7 @@ class Renumbering {
   void block(const Block& b) {
     if (b.schema == nullptr) return tokens(b, {});
     const Schema& s = *b.schema;
-    if (const auto kind = detail::header_reference(b); !kind.empty())
+    if (const auto kind = header_reference(b); !kind.empty())
       header_id(b, kind, false);
     else if (!s.bulk && s.has_id && !detail::space_of(s.kind).empty())
       header_id(b, s.kind, true);

@@ -72,18 +72,6 @@ std::string_view space_of(std::string_view kind) {
                                                                              : std::string_view();
 }
 
-std::string_view header_reference(const Block& b) {
-  constexpr std::string_view materials[] = {"/HEAT/MAT", "/EOS",       "/THERM_STRESS/MAT",
-                                            "/VISC",     "/FAIL",      "/LEAK/MAT",
-                                            "/ALE/MAT",  "/EULER/MAT", "/NONLOCAL/MAT"};
-  for (const std::string_view k : materials)
-    if (detail::is_below(b.header, k)) return "mat";
-  if (detail::is_below(b.header, "/MOVE_FUNCT")) return "funct";
-  if (detail::is_below(b.header, "/XELEM") || detail::is_below(b.header, "/SPHCEL")) return "part";
-  const bool element = b.schema != nullptr && b.schema->bulk && b.schema->kind != "node";
-  return element ? "part" : std::string_view();
-}
-
 bool IdSpace::defined(std::int64_t id) const {
   return std::binary_search(ids.begin(), ids.end(), id);
 }

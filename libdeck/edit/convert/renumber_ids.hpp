@@ -14,9 +14,6 @@ namespace deck::detail {
 
 /// Name of the id space of an entity kind: all solids share one. Empty: not renumbered.
 std::string_view space_of(std::string_view kind);
-/// Entity kind that a header id or header number refers to besides the schema's kind: materials in
-/// /EOS/.../id, parts in /SHELL/id. Empty: none.
-std::string_view header_reference(const Block& block);
 
 /// Ids of one space, old and new.
 struct IdSpace {

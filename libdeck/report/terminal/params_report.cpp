@@ -10,6 +10,7 @@
 
 #include "deck/report/json.hpp"
 #include "deck/report/text_table.hpp"
+#include "deck/text/number.hpp"
 
 namespace deck {
 namespace {
@@ -61,22 +62,38 @@ std::string keyword_of(const Block& block) {
   return block.schema != nullptr ? block.schema->keyword : std::string(block.keyword);
 }
 
+/// The number that a schema's default is, where it says one: "0", "/DEFAULT/INTER/TYPE7, else 1000",
+/// "0 (not tested)", for an `ordinary` model also "3 (1 in implicit analyses)".
+std::optional<double> default_number(std::string_view text, bool ordinary) {
+  if (const auto at = text.rfind("else "); at != std::string_view::npos) text.remove_prefix(at + 5);
+  const std::string_view word = text.substr(0, text.find(' '));
+  const std::string_view rest = text.substr(word.size());
+  const bool remark = rest.starts_with(" (") && (ordinary || rest.find_first_of("0123456789") == rest.npos);
+  const RealCell n = read_real(word);
+  if ((!rest.empty() && !remark) || n.status != NumberStatus::ok) return std::nullopt;
+  return n.value;
+}
+
+/// True where defaults that depend on the model have their usual value: no implicit analysis, and
+/// not so many nodes that the sorting margin grows.
+bool ordinary(const Model* model) {
+  return model != nullptr && !model->implicit && model->nodes.size() <= 1500000;
+}
+
+double as_number(std::int64_t v) { return static_cast<double>(v); }
+double as_number(double v) { return v; }
+double as_number(const std::string& v) { return v == "000" ? 0 : 1; }
+
+bool wanted(const ParamsTextOptions& options, const InterBase& inter) {
+  return options.only.empty() ||
+         std::find(options.only.begin(), options.only.end(), inter.id) != options.only.end();
+}
+
 template <class T>
-void text_row(const ParamsInput& in, const InterBase& inter, std::string_view name,
-              const Effective<T>& e, const ParamsTextOptions& options, TextTable& table) {
-  if (options.changed_only && e.origin == Origin::card) return;
-  std::string value = text_of(e.value);
-  if (e.origin == Origin::geometry) {
-    if (!inter.resolved) value = "from geometry";
-    const auto values = by_role(in, inter, name);
-    for (std::size_t i = 1; i < values.size(); ++i)
-      value += fmt::format(", {} {}", values[i].first, text_of(values[i].second));
-  }
-  table.row({std::string(name),
-             e.has_input ? text_of(e.input) : std::string("-"),
-             {value, e.origin == Origin::card ? Tone::bold : Tone::plain},
-             {to_string(e.origin), tone_of(e.origin)},
-             {e.span.valid() ? in.deck->sources.where(e.span) : std::string(), Tone::dim}});
+bool wanted(const ParamsInput& in, const InterBase& inter, std::string_view name,
+            const Effective<T>& e, const ParamsTextOptions& options) {
+  if (options.filled_in_only && e.origin == Origin::card) return false;
+  return !options.changed_only || changed_on_card(in, inter, name, e);
 }
 
 void write_value(JsonWriter& json, std::int64_t v) { json.value(v); }
@@ -117,29 +134,228 @@ void json_field(JsonWriter& json, const ParamsInput& in, const InterBase& inter,
 
 }  // namespace
 
+template <class T>
+bool changed_on_card(const ParamsInput& in, const InterBase& inter, std::string_view name,
+                     const Effective<T>& e) {
+  if (!e.has_input || as_number(e.input) == 0) return false;
+  for (const DefaultInter& d : in.interfaces->defaults)
+    if (const auto* given = d.type == inter.type ? d.find(name) : nullptr)
+      return as_number(e.input) != static_cast<double>(given->value);
+  const Schema* schema = inter.block != nullptr ? inter.block->schema : nullptr;
+  const Field* field = schema != nullptr ? schema->find_field(name) : nullptr;
+  if (field == nullptr || field->type == FieldType::id) return true;
+  const auto number = default_number(field->default_text, ordinary(in.model));
+  return !number || *number != as_number(e.input);
+}
+template bool changed_on_card(const ParamsInput&, const InterBase&, std::string_view,
+                              const EffectiveInt&);
+template bool changed_on_card(const ParamsInput&, const InterBase&, std::string_view,
+                              const EffectiveReal&);
+template bool changed_on_card(const ParamsInput&, const InterBase&, std::string_view,
+                              const EffectiveText&);
+
+template <class T>
+std::string effective_text(const ParamsInput& in, const InterBase& inter, std::string_view name,
+                           const Effective<T>& e) {
+  if (e.origin != Origin::geometry) return text_of(e.value);
+  std::string value = inter.resolved ? text_of(e.value) : "from geometry";
+  const auto values = by_role(in, inter, name);
+  for (std::size_t i = 1; i < values.size(); ++i)
+    value += fmt::format(", {} {}", values[i].first, text_of(values[i].second));
+  return value;
+}
+template std::string effective_text(const ParamsInput&, const InterBase&, std::string_view,
+                                    const EffectiveInt&);
+template std::string effective_text(const ParamsInput&, const InterBase&, std::string_view,
+                                    const EffectiveReal&);
+template std::string effective_text(const ParamsInput&, const InterBase&, std::string_view,
+                                    const EffectiveText&);
+
+TextTable params_table(const ParamsInput& in, const InterBase& inter,
+                       const ParamsTextOptions& options) {
+  TextTable table({{"field", Align::left},
+                   {"card", Align::right},
+                   {"value", Align::right},
+                   {"origin", Align::left},
+                   {"place", Align::left}});
+  visit_interface(inter, [&](const auto& t) {
+    t.for_each([&](std::string_view name, const auto& e) {
+      if (!wanted(in, inter, name, e, options)) return;
+      table.row({std::string(name),
+                 e.has_input ? text_of(e.input) : std::string("-"),
+                 {effective_text(in, inter, name, e),
+                  e.origin == Origin::card ? Tone::bold : Tone::plain},
+                 {to_string(e.origin), tone_of(e.origin)},
+                 {e.span.valid() ? in.deck->sources.where(e.span) : std::string(), Tone::dim}});
+    });
+  });
+  return table;
+}
+
+namespace {
+
+/// Columns of the matrix, in this order; further ones where an interface has something of its own.
+constexpr std::string_view first_columns[] = {"Istf",  "Igap",     "Gapmin",    "Gap",   "Inacti",
+                                              "Stfac", "Fric",     "Idel",      "Iform", "Irem_gap",
+                                              "VISs",  "Fscalegap"};
+
+/// One cell of an interface; `present` is false where the type has no such field.
+struct MatrixCell {
+  bool present = false, on_card = false, changed = false;
+  std::string text;
+};
+using MatrixRow = std::vector<std::pair<std::string, MatrixCell>>;
+
+MatrixRow matrix_row(const ParamsInput& in, const InterBase& inter) {
+  MatrixRow row;
+  visit_interface(inter, [&](const auto& t) {
+    t.for_each([&](std::string_view name, const auto& e) {
+      MatrixCell cell;
+      cell.present = true;
+      cell.on_card = e.origin == Origin::card;
+      cell.changed = changed_on_card(in, inter, name, e) || e.origin == Origin::default_block;
+      cell.text = effective_text(in, inter, name, e);
+      row.emplace_back(name, std::move(cell));
+    });
+  });
+  return row;
+}
+
+const MatrixCell& cell_of(const MatrixRow& row, std::string_view name) {
+  static const MatrixCell none;
+  for (const auto& [field, cell] : row)
+    if (field == name) return cell;
+  return none;
+}
+
+struct Matrix {
+  std::vector<const InterBase*> interfaces;
+  std::vector<MatrixRow> rows;
+  std::vector<std::string> names;  ///< every field that some interface has, in the manual's order
+};
+
+Matrix matrix_of(const ParamsInput& in, const ParamsTextOptions& options) {
+  Matrix m;
+  for (const InterBase* inter : in.interfaces->ordered) {
+    if (!wanted(options, *inter)) continue;
+    m.interfaces.push_back(inter);
+    m.rows.push_back(matrix_row(in, *inter));
+    for (const auto& [name, cell] : m.rows.back())
+      if (std::find(m.names.begin(), m.names.end(), name) == m.names.end()) m.names.push_back(name);
+  }
+  return m;
+}
+
+/// Field of a CSV line.
+std::string csv_cell(std::string_view text) {
+  if (text.find_first_of("\",\n\r") == std::string_view::npos) return std::string(text);
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
+
+std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& options) {
+  const Matrix m = matrix_of(in, options);
+  std::vector<std::string> columns;
+  const auto show = [&](std::string_view name, bool always) {
+    const auto any = [&](auto&& test) {
+      return std::any_of(m.rows.begin(), m.rows.end(),
+                         [&](const MatrixRow& row) { return test(cell_of(row, name)); });
+    };
+    if (std::find(columns.begin(), columns.end(), name) != columns.end()) return;
+    if (always && !options.changed_only ? any([](const MatrixCell& c) { return c.present; })
+                                        : any([](const MatrixCell& c) { return c.changed; }))
+      columns.emplace_back(name);
+  };
+  for (const std::string_view name : first_columns) show(name, true);
+  for (const std::string& name : m.names) show(name, false);
+  std::vector<TextTable::Column> titles = {
+      {"interface", Align::right}, {"type", Align::left}, {"title", Align::left}};
+  for (const std::string& name : columns) titles.push_back({name, Align::right});
+  TextTable table(titles);
+  for (std::size_t i = 0; i < m.rows.size(); ++i) {
+    const InterBase& inter = *m.interfaces[i];
+    std::vector<TextTable::Cell> cells = {
+        {std::to_string(inter.id), Tone::bold}, fmt::format("TYPE{}", inter.type), inter.title};
+    for (const std::string& name : columns) {
+      const MatrixCell& c = cell_of(m.rows[i], name);
+      const bool hidden = options.changed_only && !c.changed;
+      if (!c.present || hidden)
+        cells.emplace_back(c.present ? "." : "-", Tone::dim);
+      else
+        cells.emplace_back(c.on_card ? c.text : "(" + c.text + ")", c.on_card ? Tone::plain : Tone::dim);
+    }
+    table.row(std::move(cells));
+  }
+  std::string out = table.fitted(options.width, options.color, 0, 1);
+  out += fmt::format("\n{}: {} interfaces; (value): not on the card; -: no such field{}\n",
+                     terminal_text(in.path), m.rows.size(),
+                     options.changed_only ? "; .: the default" : "");
+  return out;
+}
+
+std::string params_csv(const ParamsInput& in, const ParamsTextOptions& options) {
+  std::string out = "deck,interface,type,title,field,card,value,origin,file,line,column\r\n";
+  for (const InterBase* inter : in.interfaces->ordered) {
+    if (!wanted(options, *inter)) continue;
+    visit_interface(*inter, [&](const auto& t) {
+      t.for_each([&](std::string_view name, const auto& e) {
+        if (!wanted(in, *inter, name, e, options)) return;
+        const Position p = e.span.valid() ? in.deck->sources.position(e.span) : Position{};
+        out += fmt::format(
+            "{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(in.path), inter->id, inter->type,
+            csv_cell(inter->title), name, e.has_input ? csv_cell(text_of(e.input)) : "",
+            csv_cell(effective_text(in, *inter, name, e)), to_string(e.origin),
+            e.span.valid() ? csv_cell(in.deck->sources[e.span.file].path()) : "",
+            e.span.valid() ? std::to_string(p.line) : "",
+            e.span.valid() ? std::to_string(p.column) : "");
+      });
+    });
+  }
+  return out;
+}
+
+std::string params_matrix_csv(const ParamsInput& in, const ParamsTextOptions& options) {
+  const Matrix m = matrix_of(in, options);
+  std::string out = "deck,interface,type,title";
+  for (const std::string& name : m.names) out += "," + csv_cell(name);
+  out += "\r\n";
+  for (std::size_t i = 0; i < m.rows.size(); ++i) {
+    const InterBase& inter = *m.interfaces[i];
+    out += fmt::format("{},{},{},{}", csv_cell(in.path), inter.id, inter.type, csv_cell(inter.title));
+    for (const std::string& name : m.names) out += "," + csv_cell(cell_of(m.rows[i], name).text);
+    out += "\r\n";
+  }
+  return out;
+}
+
+void write_json_parameters(JsonWriter& json, const ParamsInput& in, const InterBase& inter) {
+  json.key("parameters").begin_object();
+  visit_interface(inter, [&](const auto& t) {
+    t.for_each(
+        [&](std::string_view name, const auto& e) { json_field(json, in, inter, name, e); });
+  });
+  // No such cell on the card; its node-to-surface parts have the field all the same.
+  if (inter.type == 19) json_field(json, in, inter, "Fpenmax", EffectiveReal{});
+  json.end_object();
+}
+
 std::string params_text(const ParamsInput& in, const ParamsTextOptions& options) {
   const Coverage coverage = coverage_of(*in.deck, *in.interfaces);
   std::string out;
   if (const std::string lead = coverage_lead(coverage); !lead.empty())
     out += toned(terminal_text(lead), Tone::bold, options.color) + "\n";
   for (const InterBase* inter : in.interfaces->ordered) {
+    if (!wanted(options, *inter)) continue;
     out +=
         toned(fmt::format("/INTER/TYPE{}/{}", inter->type, inter->id), Tone::bold, options.color);
     if (!inter->title.empty()) out += "  " + terminal_text(inter->title);
     out += "  " +
            toned(terminal_text(in.deck->sources.where(inter->span)), Tone::dim, options.color) +
            "\n";
-    TextTable table({{"field", Align::left},
-                     {"card", Align::right},
-                     {"value", Align::right},
-                     {"origin", Align::left},
-                     {"place", Align::left}});
-    visit_interface(*inter, [&](const auto& t) {
-      t.for_each([&](std::string_view name, const auto& e) {
-        text_row(in, *inter, name, e, options, table);
-      });
-    });
-    out += table.render(options.color, 2) + "\n";
+    out += params_table(in, *inter, options).fitted(options.width, options.color, 2) + "\n";
   }
   const auto& all = *in.interfaces;
   out += fmt::format("{}: {} interfaces (TYPE7 {}, TYPE10 {}, TYPE11 {}, TYPE19 {})",
@@ -150,7 +366,7 @@ std::string params_text(const ParamsInput& in, const ParamsTextOptions& options)
   return out + "\n";
 }
 
-std::string params_json(const ParamsInput& in) {
+std::string params_json(const ParamsInput& in, const std::vector<std::int64_t>& only) {
   std::string out;
   JsonWriter json(out);
   json.begin_object();
@@ -158,19 +374,16 @@ std::string params_json(const ParamsInput& in) {
   write_json_deck(json, in.path, *in.deck, in.model, in.interfaces);
   write_json_coverage(json, coverage_of(*in.deck, *in.interfaces));
   json.key("interfaces").begin_array();
+  ParamsTextOptions options;
+  options.only = only;
   for (const InterBase* inter : in.interfaces->ordered) {
+    if (!wanted(options, *inter)) continue;
     json.begin_object();
     json.field("id", inter->id).field("type", inter->type).field("title", inter->title);
     json.key("source");
     write_json_place(json, *in.deck, inter->span);
-    json.key("parameters").begin_object();
-    visit_interface(*inter, [&](const auto& t) {
-      t.for_each(
-          [&](std::string_view name, const auto& e) { json_field(json, in, *inter, name, e); });
-    });
-    // No such cell on the card; its node-to-surface parts have the field all the same.
-    if (inter->type == 19) json_field(json, in, *inter, "Fpenmax", EffectiveReal{});
-    json.end_object().end_object();
+    write_json_parameters(json, in, *inter);
+    json.end_object();
   }
   json.end_array();
   json.key("not_evaluated").begin_array();

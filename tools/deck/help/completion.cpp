@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common.hpp"
+#include "deck/lint/topics.hpp"
 #include "help/completion_table.hpp"
 
 namespace {
@@ -240,8 +241,23 @@ std::string fish_script(const std::vector<VerbInfo>& all) {
   return text;
 }
 
+/// Words for what the parser takes as free text: rules, and topics of explain.
+void offer_words(std::vector<VerbInfo>& all) {
+  const std::vector<std::string> topics = common_topics(SchemaSet::built_in());
+  std::vector<std::string> rules;
+  for (const std::string& t : topics)
+    if (t.starts_with("DK")) rules.push_back(t);
+  for (VerbInfo& v : all) {
+    for (OptionInfo& o : v.options)
+      if (o.value == "RULES") o.choices = rules;
+    for (OptionInfo& p : v.positionals)
+      if (p.value == "TOPIC") p.choices = topics;
+  }
+}
+
 int run(const Options& o) {
-  const auto all = describe_verbs();
+  auto all = describe_verbs();
+  offer_words(all);
   print_text(o.shell == "bash"  ? bash_script(all)
              : o.shell == "zsh" ? zsh_script(all)
                                 : fish_script(all));

@@ -1,10 +1,8 @@
-// deck explain: the page of a rule, of a keyword, or of one field of a keyword.
-
-#include <algorithm>
+// deck explain: the page of a rule, a keyword, a field or a solver message.
 
 #include "common.hpp"
 #include "deck/base/escape.hpp"
-#include "deck/lint/rule.hpp"
+#include "deck/lint/topics.hpp"
 
 namespace {
 
@@ -16,42 +14,6 @@ struct Options {
   std::vector<std::string> topics;
 };
 
-std::string upper(std::string text) {
-  for (char& c : text)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
-  return text;
-}
-
-/// A schema by its keyword, with or without the leading slash, in any case.
-const Schema* keyword_named(const SchemaSet& schemas, const std::string& name) {
-  const std::string wanted = upper(name.starts_with('/') ? name : "/" + name);
-  if (const Schema* s = schemas.find(wanted)) return s;
-  // "TYPE7" for "/INTER/TYPE7": of the keywords that end so the shortest, "/DEFAULT/INTER/TYPE7" is
-  // about it.
-  const Schema* best = nullptr;
-  for (const Schema* s : schemas.all())
-    if (upper(s->keyword).ends_with(wanted) &&
-        (best == nullptr || s->keyword.size() < best->keyword.size()))
-      best = s;
-  return best;
-}
-
-std::string page_of(const SchemaSet& schemas, const std::string& topic) {
-  if (const Rule* rule = find_rule(upper(topic))) return explain_rule(*rule, schemas);
-  const auto dot = topic.rfind('.');
-  if (const Schema* s = keyword_named(schemas, topic)) return explain_keyword(*s);
-  if (dot == std::string::npos) return {};
-  const Schema* s = keyword_named(schemas, topic.substr(0, dot));
-  if (s == nullptr) return {};
-  const std::string field = topic.substr(dot + 1);
-  std::string page = explain_keyword(*s, field);
-  if (!page.empty()) return page;
-  for (const CardSchema& card : s->cards)
-    for (const Field& f : card.fields)
-      if (upper(f.name) == upper(field)) return explain_keyword(*s, f.name);
-  return {};
-}
-
 int run(const Options& options) {
   const auto schemas = load_schemas(options.common);
   if (!schemas) {
@@ -60,11 +22,15 @@ int run(const Options& options) {
   }
   bool first = true;
   for (const std::string& topic : options.topics) {
-    const std::string page = page_of(*schemas, topic);
+    const std::string page = explain_topic(topic, *schemas, text_width());
     if (page.empty()) {
-      print_error(options.common, "nothing is known about '" + topic +
-                                      "'; expected a rule (DK203), a keyword (/INTER/TYPE7) or a "
-                                      "field (/INTER/TYPE7.Igap)");
+      std::string near;
+      for (const std::string& name : similar_topics(topic, *schemas))
+        near += (near.empty() ? "; did you mean " : ", ") + name;
+      print_error(options.common, "nothing is known about '" + topic + "'" + near +
+                                      "; expected a rule (DK203) or a family of them (DK2), a keyword "
+                                      "(TYPE7), a field (Igap, TYPE7.Igap) or the number of a solver "
+                                      "message (611)");
       return exit_usage;
     }
     print_text((first ? "" : "\n") + terminal_lines(page));
@@ -75,7 +41,7 @@ int run(const Options& options) {
 
 Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  line.option("topics", options->topics, "Rule id, keyword, or KEYWORD.FIELD")
+  line.option("topics", options->topics, "Rule, keyword, field, KEYWORD.FIELD or solver message")
       .required()
       .value("TOPIC");
   line.option("--schemas", options->common.schema_dirs, "Add the keyword schemas (*.json) of DIR")
@@ -85,8 +51,12 @@ Action setup(CommandLine& line) {
 }
 
 const VerbRegistration registration{
-    {"explain", 81, "The page of a rule, a keyword or a field",
-     "  deck explain DK254\n  deck explain /INTER/TYPE7\n  deck explain /INTER/TYPE7.Igap\n",
+    {"explain", 81, "The page of a rule, a keyword, a field or a solver message",
+     "  deck explain DK254\n"
+     "  deck explain DK1                  the rules of a family\n"
+     "  deck explain TYPE7\n"
+     "  deck explain Gapmin               also TYPE7.Gapmin, /INTER/TYPE19.Gapmin\n"
+     "  deck explain 611                  message of the solver\n",
      setup}};
 
 }  // namespace

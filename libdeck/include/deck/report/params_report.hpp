@@ -7,6 +7,8 @@
 #include "deck/contact/scene.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
+#include "deck/report/json.hpp"
+#include "deck/report/text_table.hpp"
 
 namespace deck {
 
@@ -22,12 +24,37 @@ struct ParamsInput {
 
 struct ParamsTextOptions {
   bool color = false;
-  bool changed_only = false;  ///< leave out fields whose value stands on the card
+  /// Only fields that somebody wrote on the card and that are not the default.
+  bool changed_only = false;
+  bool filled_in_only = false;  ///< only fields whose value does not stand on the card
+  std::vector<std::int64_t> only;  ///< interface ids; empty: all
+  std::size_t width = 0;           ///< columns of a line; 0: any
 };
 
 /// One table per interface.
 std::string params_text(const ParamsInput& input, const ParamsTextOptions& options = {});
+/// One row per interface, one column per field that has a value of interest in some of them; values
+/// that do not stand on the card are in parentheses. Folded to the width.
+std::string params_matrix(const ParamsInput& input, const ParamsTextOptions& options = {});
+/// One line per interface and field, RFC 4180.
+std::string params_csv(const ParamsInput& input, const ParamsTextOptions& options = {});
+/// One line per interface with every field as a column, RFC 4180.
+std::string params_matrix_csv(const ParamsInput& input, const ParamsTextOptions& options = {});
 /// The document of `deck params --json` (schemas/output/params.schema.json).
-std::string params_json(const ParamsInput& input);
+std::string params_json(const ParamsInput& input, const std::vector<std::int64_t>& only = {});
+
+/// Fields of one interface as a table of field, card, value, origin and place.
+TextTable params_table(const ParamsInput& input, const InterBase& inter,
+                       const ParamsTextOptions& options = {});
+/// The member "parameters" of one interface.
+void write_json_parameters(JsonWriter& json, const ParamsInput& input, const InterBase& inter);
+/// Value of a field for people: "0.5"; where the geometry decides, of every part of a TYPE19.
+template <class T>
+std::string effective_text(const ParamsInput& input, const InterBase& inter, std::string_view name,
+                           const Effective<T>& field);
+/// True if the field is written on the card with something else than what a blank would give.
+template <class T>
+bool changed_on_card(const ParamsInput& input, const InterBase& inter, std::string_view name,
+                     const Effective<T>& field);
 
 }  // namespace deck

@@ -34,8 +34,17 @@ class TextTable {
 
   /// Every line indented by `indent` blanks; no blanks at line ends.
   std::string render(bool color = false, std::size_t indent = 0) const;
+  /// The same with no line longer than `width` (0: any length), as far as single words allow: texts
+  /// are continued on further lines; columns that still do not fit stand in a table below, behind
+  /// the first `keys` columns once more.
+  std::string fitted(std::size_t width, bool color = false, std::size_t indent = 0,
+                     std::size_t keys = 1) const;
 
  private:
+  /// Some columns, with texts broken at the width of their column.
+  std::string part(const std::vector<std::size_t>& columns, const std::vector<std::size_t>& width,
+                   bool color, std::size_t indent) const;
+
   std::vector<Column> columns_;
   std::vector<std::vector<Cell>> rows_;
 };

@@ -1,0 +1,24 @@
+// What `deck explain` can be asked: rules and families of rules, keywords, fields with or without
+// their keyword, and messages of the reference solver by number.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "deck/keyword/schema.hpp"
+
+namespace deck {
+
+/// The page about what a person typed, in any case: "DK254", "DK1", "/INTER/TYPE7", "TYPE7",
+/// "TYPE7.Gapmin", "Gapmin", "611". Lines of tables are no longer than `width` (0: 92). Empty:
+/// nothing is known.
+std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std::size_t width = 0);
+
+/// Topics that are spelled nearly so, the nearest first; at most three.
+std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet& schemas);
+
+/// What completion offers: rules, and contact keywords with their fields.
+std::vector<std::string> common_topics(const SchemaSet& schemas);
+
+}  // namespace deck

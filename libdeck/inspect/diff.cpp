@@ -1,0 +1,740 @@
+// Compares two decks entity by entity, after every id of the first was translated.
+#include "deck/inspect/diff.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "deck/keyword/decode.hpp"
+#include "deck/keyword/references.hpp"
+#include "deck/model/selection.hpp"
+#include "deck/text/number.hpp"
+#include "inspect/match.hpp"
+
+namespace deck {
+
+const char* to_string(ChangeKind kind) {
+  switch (kind) {
+    case ChangeKind::added:
+      return "added";
+    case ChangeKind::removed:
+      return "removed";
+    case ChangeKind::changed:
+      return "changed";
+    case ChangeKind::moved:
+      break;
+  }
+  return "moved";
+}
+
+namespace {
+
+using detail::Counterparts;
+using detail::Item;
+
+/// Products of unit factors are equal up to their rounding.
+bool same_number(double x, double y, bool rounded) {
+  return x == y || (rounded && std::abs(x - y) <= 1e-12 * std::max(std::abs(x), std::abs(y)));
+}
+
+constexpr std::string_view selections[] = {"grnod",  "surf",   "line",   "set",    "grpart", "grshel",
+                                           "grsh3n", "grbric", "grquad", "grtria", "grtrus", "grbeam",
+                                           "grspri"};
+bool is_selection_kind(std::string_view kind) {
+  return std::find(std::begin(selections), std::end(selections), kind) != std::end(selections);
+}
+
+std::string group_of_kind(std::string_view kind) {
+  if (kind == "inter" || kind == "default_inter" || kind == "friction") return "interface";
+  if (is_selection_kind(kind) || kind == "box" || kind == "subset") return "group";
+  if (kind == "part") return "part";
+  if (kind == "prop") return "property";
+  if (kind == "mat") return "material";
+  return "other";
+}
+
+class Differ {
+ public:
+  Differ(const DiffSide& a, const DiffSide& b, MatchBy match)
+      : a_(a),
+        b_(b),
+        units_a_(a.deck->begin.working),
+        units_b_(b.deck->begin.working),
+        other_units_(!(units_a_ == units_b_)),
+        length_(conversion_factor(units_a_, units_b_, length_dimension)),
+        pairs_(detail::find_counterparts(a, b, match, length_)) {}
+
+  DeckDiff run() {
+    if (other_units_)
+      out_.notes.push_back("the working units differ: values of the second deck are shown in those of "
+                           "the first");
+    if (a_.deck->version != b_.deck->version)
+      out_.notes.push_back(fmt::format("input version {} here, {} there: no difference in itself",
+                                       a_.deck->version, b_.deck->version));
+    came_and_went();
+    for (std::size_t i = 0; i < pairs_.items_a.size(); ++i)
+      if (pairs_.block_to_b[i] != no_index) item(pairs_.items_a[i], pairs_.items_b[pairs_.block_to_b[i]]);
+    nodes();
+    elements();
+    if (a_.scene != nullptr && b_.scene != nullptr) penetrations();
+    hint();
+    return std::move(out_);
+  }
+
+ private:
+  static constexpr Dimension length_dimension{0, 1, 0, 0};
+
+  Change& add(ChangeKind kind, const Item& a, const Item* b, std::string field) {
+    Change c;
+    c.kind = kind;
+    c.group = a.block->schema != nullptr ? group_of_kind(a.block->schema->kind) : "other";
+    c.keyword = a.block->schema != nullptr ? a.block->schema->keyword : std::string(a.block->keyword);
+    c.id = a.id;
+    if (b != nullptr && b->id != a.id) c.id_b = b->id;
+    c.title = a.title;
+    c.field = std::move(field);
+    out_.changes.push_back(std::move(c));
+    return out_.changes.back();
+  }
+
+  void came_and_went() {
+    std::vector<std::uint8_t> used(pairs_.items_b.size(), 0);
+    for (std::size_t i = 0; i < pairs_.items_a.size(); ++i) {
+      if (pairs_.block_to_b[i] != no_index)
+        used[pairs_.block_to_b[i]] = 1;
+      else
+        add(ChangeKind::removed, pairs_.items_a[i], nullptr, "").a = pairs_.items_a[i].block->header_span;
+    }
+    for (std::size_t i = 0; i < pairs_.items_b.size(); ++i)
+      if (used[i] == 0)
+        add(ChangeKind::added, pairs_.items_b[i], nullptr, "").b = pairs_.items_b[i].block->header_span;
+  }
+
+  // ---- one entity -----------------------------------------------------------------------------
+
+  void item(const Item& a, const Item& b) {
+    if (a.title != b.title) {
+      Change& c = add(ChangeKind::changed, a, &b, "title");
+      c.old_value = a.title;
+      c.new_value = b.title;
+      c.a = a.block->header_span;
+      c.b = b.block->header_span;
+    }
+    const std::string kind = a.block->schema != nullptr ? a.block->schema->kind : "";
+    if (is_selection_kind(kind)) return members(a, b, kind);
+    if (a.block->schema != b.block->schema) {
+      Change& c = add(ChangeKind::changed, a, &b, "keyword");
+      c.old_value = a.block->schema != nullptr ? a.block->schema->keyword : std::string(a.block->keyword);
+      c.new_value = b.block->schema != nullptr ? b.block->schema->keyword : std::string(b.block->keyword);
+      c.a = a.block->header_span;
+      c.b = b.block->header_span;
+      return;
+    }
+    const InterBase* ia = inter_of(a_, *a.block);
+    const InterBase* ib = inter_of(b_, *b.block);
+    if (ia != nullptr && ib != nullptr && ia->type == ib->type) return contact(a, b, *ia, *ib);
+    cells(a, b);
+  }
+
+  static const InterBase* inter_of(const DiffSide& side, const Block& block) {
+    for (const InterBase* i : side.interfaces->ordered)
+      if (i->block == &block) return i;
+    return nullptr;
+  }
+
+  // ---- contacts -------------------------------------------------------------------------------
+
+  struct FieldValue {
+    std::string name;
+    DiffValue input, effective;
+    bool has_input = false;
+    std::string why;
+    Span span;
+    Dimension dimension;
+    std::string ref;
+  };
+
+  static DiffValue value_of(std::int64_t v) { return v; }
+  static DiffValue value_of(double v) { return v; }
+  static DiffValue value_of(const std::string& v) { return v; }
+
+  std::vector<FieldValue> fields_of(const DiffSide& side, const InterBase& inter) const {
+    std::vector<FieldValue> out;
+    const DecodedBlock d = decode(*side.deck, *inter.block);
+    visit_interface(inter, [&](const auto& t) {
+      t.for_each([&](std::string_view name, const auto& e) {
+        FieldValue f;
+        f.name = name;
+        f.has_input = e.has_input;
+        if (e.has_input) f.input = value_of(e.input);
+        // Nothing, where the mesh decides and was not asked.
+        const bool geometric = e.origin == Origin::geometry;
+        f.effective = geometric && !inter.resolved ? DiffValue() : value_of(e.value);
+        f.why = geometric ? "geometry" : to_string(e.origin);
+        f.span = e.span;
+        if (const Field* field = inter.block->schema->find_field(name)) {
+          f.ref = field->type == FieldType::id ? field->ref : "";
+          if (field->type == FieldType::real) f.dimension = dimension_of(*field, d);
+        }
+        out.push_back(std::move(f));
+      });
+    });
+    return out;
+  }
+
+  /// A value of the second deck in the working units of the first.
+  DiffValue in_first_units(DiffValue v, const Dimension& d) const {
+    double* x = std::get_if<double>(&v);
+    if (x != nullptr && other_units_) *x *= conversion_factor(units_b_, units_a_, d);
+    return v;
+  }
+
+  bool same_value(const DiffValue& x, const DiffValue& y, std::string_view ref, bool rounded) const {
+    if (!ref.empty()) {
+      const auto* i = std::get_if<std::int64_t>(&x);
+      const auto* j = std::get_if<std::int64_t>(&y);
+      if (i != nullptr && j != nullptr) return same_id(ref, *i, *j);
+    }
+    const double* u = std::get_if<double>(&x);
+    const double* v = std::get_if<double>(&y);
+    return u != nullptr && v != nullptr ? same_number(*u, *v, rounded) : x == y;
+  }
+
+  bool same_id(std::string_view kind, std::int64_t x, std::int64_t y) const {
+    if (x == 0 || y == 0) return x == y;
+    if ((x < 0) != (y < 0)) return false;
+    const std::int64_t to = pairs_.mapped(a_, b_, kind, std::abs(x));
+    // What exists nowhere is compared as it is written.
+    return to != 0 ? to == std::abs(y) : x == y;
+  }
+
+  void contact(const Item& a, const Item& b, const InterBase& ia, const InterBase& ib) {
+    const std::vector<FieldValue> fa = fields_of(a_, ia), fb = fields_of(b_, ib);
+    for (std::size_t i = 0; i < fa.size() && i < fb.size(); ++i) {
+      const DiffValue input = in_first_units(fb[i].input, fb[i].dimension);
+      const DiffValue effective = in_first_units(fb[i].effective, fb[i].dimension);
+      // Values from the mesh are sums that may have another order.
+      if (same_value(fa[i].effective, effective, fa[i].ref, true)) continue;
+      // A built-in bound such as 1e30 is that in every unit system.
+      const bool on_card = fa[i].why == "card" || fb[i].why == "card";
+      if (!on_card && fa[i].effective == fb[i].effective) continue;
+      Change& c = add(ChangeKind::changed, a, &b, fa[i].name);
+      if (fa[i].has_input) c.old_value = fa[i].input;
+      if (fb[i].has_input) c.new_value = input;
+      c.evaluated = true;
+      c.effective_old = fa[i].effective;
+      c.effective_new = effective;
+      c.why = fb[i].why;
+      if (fa[i].effective == fb[i].effective && !fa[i].ref.empty()) c.why += ", another entity";
+      c.a = fa[i].span.valid() ? fa[i].span : ia.span;
+      c.b = fb[i].span.valid() ? fb[i].span : ib.span;
+    }
+  }
+
+  // ---- cells ----------------------------------------------------------------------------------
+
+  struct CellValue {
+    DiffValue value;
+    std::string ref;
+    Span span;
+    bool rounded = false;
+  };
+  using CellKey = std::tuple<std::string, int, std::string, int>;  // card, round, field, which
+  struct Contents {
+    std::map<CellKey, CellValue> cells;
+    std::vector<CellKey> order;
+    std::map<std::string, std::vector<std::pair<std::int64_t, std::string>>> lists;  // id, kind
+    std::vector<std::pair<std::string, Span>> words;  ///< of lines that nothing describes
+  };
+
+  void words_of(const Line& line, Contents& out) const {
+    const std::string_view text = line.text;
+    for (std::size_t at = 0; at < text.size();) {
+      const auto begin = text.find_first_not_of(" \t,", at);
+      if (begin == text.npos) break;
+      const auto end = std::min(text.find_first_of(" \t,", begin), text.size());
+      out.words.emplace_back(text.substr(begin, end - begin),
+                             line.columns(static_cast<int>(begin) + 1, static_cast<int>(end)));
+      at = end;
+    }
+  }
+
+  Contents contents_of(const DiffSide& side, const Block& block) const {
+    Contents out;
+    const Deck& deck = *side.deck;
+    if (block.opaque || block.schema == nullptr) {
+      LineCursor cursor(deck.sources, block);
+      for (Line line = cursor.next(); line.valid(); line = cursor.next()) words_of(line, out);
+      return out;
+    }
+    const DecodedBlock d = decode(deck, block);
+    const UnitSystem* units = deck.units_of(block);
+    const bool rounded = other_units_ || (units != nullptr && !(*units == deck.begin.working));
+    for (const DecodedCard& card : d.cards) {
+      const bool list = card.schema->repeat == Repeat::ids;
+      std::map<std::string, int> which;
+      for (const Cell& cell : card.cells) {
+        const Field& f = *cell.field;
+        if (list && &f == &card.schema->fields.back()) {
+          const std::int64_t sign = cell.integer < 0 ? -1 : 1;
+          if (cell.integer != 0)
+            out.lists[f.name].emplace_back(
+                cell.integer + (f.type == FieldType::id ? sign * deck.offset_of(block, f.ref) : 0), f.ref);
+          continue;
+        }
+        CellValue v;
+        v.span = cell.span;
+        if (f.type == FieldType::real) {
+          const double x = working_value(deck, d, cell);
+          if (x == 0) continue;  // the same as blank
+          v.rounded = rounded;
+          v.value = &side == &b_ ? in_first_units(x, dimension_of(f, d, &card)) : DiffValue(x);
+        } else if (f.type == FieldType::text) {
+          if (cell.text.empty()) continue;
+          v.value = std::string(cell.text);
+        } else {
+          if (cell.integer == 0) continue;
+          const std::int64_t sign = cell.integer < 0 ? -1 : 1;
+          v.ref = f.type == FieldType::id ? f.ref : "";
+          v.value = cell.integer + (v.ref.empty() ? 0 : sign * deck.offset_of(block, f.ref));
+        }
+        CellKey key{card.schema->name, card.round, f.name, which[f.name]++};
+        out.order.push_back(key);
+        out.cells.emplace(std::move(key), std::move(v));
+      }
+      if (!block.schema->layout_known() && card.cells.empty() && !card.missing()) words_of(card.line, out);
+    }
+    for (const Line& line : d.extra) words_of(line, out);
+    return out;
+  }
+
+  static std::string field_name(const CellKey& key) {
+    const auto& [card, round, field, which] = key;
+    std::string out = field;
+    if (round > 1) out += fmt::format(" [{}]", round);
+    if (which > 0) out += fmt::format(" ({})", which + 1);
+    return out;
+  }
+
+  void cells(const Item& a, const Item& b) {
+    const Contents ca = contents_of(a_, *a.block), cb = contents_of(b_, *b.block);
+    const auto place = [](const Contents& c, const CellKey& key, const Item& item) {
+      const auto it = c.cells.find(key);
+      return it == c.cells.end() ? item.block->header_span : it->second.span;
+    };
+    const auto report = [&](const CellKey& key) {
+      const auto x = ca.cells.find(key), y = cb.cells.find(key);
+      const CellValue none;
+      const CellValue& va = x == ca.cells.end() ? none : x->second;
+      const CellValue& vb = y == cb.cells.end() ? none : y->second;
+      const std::string& ref = va.ref.empty() ? vb.ref : va.ref;
+      if (same_value(va.value, vb.value, ref, va.rounded || vb.rounded)) return;
+      Change& c = add(ChangeKind::changed, a, &b, field_name(key));
+      c.old_value = va.value;
+      c.new_value = vb.value;
+      c.a = place(ca, key, a);
+      c.b = place(cb, key, b);
+    };
+    for (const CellKey& key : ca.order) report(key);
+    for (const CellKey& key : cb.order)
+      if (!ca.cells.contains(key)) report(key);
+    std::set<std::string> names;
+    for (const auto& [name, list] : ca.lists) names.insert(name);
+    for (const auto& [name, list] : cb.lists) names.insert(name);
+    for (const std::string& name : names) id_lists(a, b, name, ca, cb);
+    const bool same = std::equal(ca.words.begin(), ca.words.end(), cb.words.begin(), cb.words.end(),
+                                 [](const auto& x, const auto& y) { return same_word(x.first, y.first); });
+    if (same) return;
+    std::size_t at = 0;
+    while (at < ca.words.size() && at < cb.words.size() && same_word(ca.words[at].first, cb.words[at].first))
+      ++at;
+    Change& c = add(ChangeKind::changed, a, &b, "(undescribed text)");
+    c.a = at < ca.words.size() ? ca.words[at].second : a.block->header_span;
+    c.b = at < cb.words.size() ? cb.words[at].second : b.block->header_span;
+    if (at < ca.words.size()) c.old_value = ca.words[at].first;
+    if (at < cb.words.size()) c.new_value = cb.words[at].first;
+  }
+
+  static bool same_word(const std::string& x, const std::string& y) {
+    if (x == y) return true;
+    const RealCell u = read_real(x), v = read_real(y);
+    const auto number = [](const RealCell& n) {
+      return n.status == NumberStatus::ok || n.status == NumberStatus::implicit_exponent;
+    };
+    return number(u) && number(v) && u.value == v.value;
+  }
+
+  void id_lists(const Item& a, const Item& b, const std::string& name, const Contents& ca,
+                const Contents& cb) {
+    std::set<std::int64_t> now;
+    if (const auto it = cb.lists.find(name); it != cb.lists.end())
+      for (const auto& [id, kind] : it->second) now.insert(id);
+    std::vector<std::int64_t> lost;
+    if (const auto it = ca.lists.find(name); it != ca.lists.end())
+      for (const auto& [id, kind] : it->second) {
+        const std::int64_t to = kind.empty() ? std::abs(id) : pairs_.mapped(a_, b_, kind, std::abs(id));
+        const std::int64_t there = (to == 0 ? std::abs(id) : to) * (id < 0 ? -1 : 1);
+        if (now.erase(there) == 0) lost.push_back(id);
+      }
+    if (lost.empty() && now.empty()) return;
+    Change& c = add(ChangeKind::changed, a, &b, name);
+    c.lost = std::move(lost);
+    c.gained.assign(now.begin(), now.end());
+    c.a = a.block->header_span;
+    c.b = b.block->header_span;
+  }
+
+  // ---- members --------------------------------------------------------------------------------
+
+  using Tuple = std::vector<NodeIndex>;  ///< nodes of a member, in the second deck's indices
+
+  NodeIndex to_b(NodeIndex n) const { return n == no_index ? no_index : pairs_.node_to_b[n]; }
+
+  /// A segment with its sense of rotation, whatever node it begins with.
+  static Tuple turned(Tuple t) {
+    if (t.size() == 4 && t[3] == t[2]) t.pop_back();
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    return t;
+  }
+
+  struct Member {
+    Tuple nodes;
+    std::int64_t id = 0;  ///< for people: of the node or of the element behind it
+    friend bool operator<(const Member& x, const Member& y) { return x.nodes < y.nodes; }
+  };
+
+  std::int64_t element_id(const Model& m, Carrier carrier, std::uint32_t e) const {
+    const Elements* elements = elements_of(m, carrier);
+    return elements == nullptr || e >= elements->size() ? 0 : elements->id[e];
+  }
+
+  std::vector<Member> segments(const DiffSide& side, const std::vector<Segment>& list) const {
+    std::vector<Member> out;
+    for (const Segment& s : list) {
+      Tuple t(s.nodes.begin(), s.nodes.end());
+      if (&side == &a_) std::transform(t.begin(), t.end(), t.begin(), [&](NodeIndex n) { return to_b(n); });
+      out.push_back({turned(std::move(t)), element_id(*side.model, s.carrier, s.element)});
+    }
+    return out;
+  }
+  std::vector<Member> edges(const DiffSide& side, const std::vector<Edge>& list) const {
+    std::vector<Member> out;
+    for (const Edge& s : list) {
+      Tuple t(s.nodes.begin(), s.nodes.end());
+      if (&side == &a_) std::transform(t.begin(), t.end(), t.begin(), [&](NodeIndex n) { return to_b(n); });
+      std::sort(t.begin(), t.end());
+      out.push_back({std::move(t), element_id(*side.model, s.carrier, s.element)});
+    }
+    return out;
+  }
+  std::vector<Member> nodes(const DiffSide& side, const std::vector<NodeIndex>& list) const {
+    std::vector<Member> out;
+    for (const NodeIndex n : list)
+      out.push_back({{&side == &a_ ? to_b(n) : n}, side.model->node_id(n)});
+    return out;
+  }
+  std::vector<Member> items(const DiffSide& side, ElementKind kind, const std::vector<std::uint32_t>& list) const {
+    std::vector<Member> out;
+    for (const std::uint32_t e : list)
+      out.push_back({{&side == &a_ ? pairs_.element_to_b[static_cast<std::size_t>(kind)][e] : e},
+                     side.model->family(kind).id[e]});
+    return out;
+  }
+  std::vector<Member> parts(const DiffSide& side, const std::vector<std::uint32_t>& list) const {
+    std::vector<Member> out;
+    for (const std::uint32_t p : list) {
+      const std::int64_t id = side.model->parts[p].id;
+      const std::int64_t to = &side == &a_ ? pairs_.mapped(a_, b_, "part", id) : id;
+      const auto it = b_.model->part_of_id.find(to);
+      out.push_back({{it == b_.model->part_of_id.end() ? no_index : it->second}, id});
+    }
+    return out;
+  }
+
+  /// What the group comes to, by name of the list.
+  std::vector<std::pair<std::string, std::vector<Member>>> lists_of(const DiffSide& side, const Item& item,
+                                                                    std::string_view kind) const {
+    Selections& s = *side.model->selections;
+    if (kind == "grnod") {
+      const NodeSet* g = s.node_group(item.id);
+      return {{"nodes", g == nullptr ? std::vector<Member>() : nodes(side, g->nodes)}};
+    }
+    if (kind == "surf") {
+      const Surface* g = s.surface(item.id);
+      return {{"segments", g == nullptr ? std::vector<Member>() : segments(side, g->segments)}};
+    }
+    if (kind == "line") {
+      const LineSet* g = s.line(item.id);
+      return {{"edges", g == nullptr ? std::vector<Member>() : edges(side, g->edges)}};
+    }
+    if (kind == "grpart") {
+      const auto* g = s.part_group(item.id);
+      return {{"parts", g == nullptr ? std::vector<Member>() : parts(side, *g)}};
+    }
+    if (kind == "set") {
+      const SetGeneral* g = s.set(item.id);
+      if (g == nullptr) return {};
+      return {{"nodes", nodes(side, g->nodes)},
+              {"segments", segments(side, g->segments)},
+              {"edges", edges(side, g->edges)},
+              {"parts", parts(side, g->parts)}};
+    }
+    constexpr std::pair<std::string_view, ElementKind> families[] = {
+        {"grshel", ElementKind::shell4}, {"grsh3n", ElementKind::shell3}, {"grbric", ElementKind::solid8},
+        {"grquad", ElementKind::quad},   {"grtria", ElementKind::tria},   {"grtrus", ElementKind::truss},
+        {"grbeam", ElementKind::beam},   {"grspri", ElementKind::spring}};
+    for (const auto& [name, family] : families)
+      if (name == kind) {
+        const auto* g = s.element_group(kind, item.id);
+        return {{"elements", g == nullptr ? std::vector<Member>() : items(side, family, *g)}};
+      }
+    return {};
+  }
+
+  void members(const Item& a, const Item& b, std::string_view kind) {
+    auto la = lists_of(a_, a, kind), lb = lists_of(b_, b, kind);
+    for (std::size_t i = 0; i < std::max(la.size(), lb.size()); ++i) {
+      const std::string name = i < la.size() ? la[i].first : lb[i].first;
+      std::vector<Member> none;
+      auto& x = i < la.size() ? la[i].second : none;
+      auto& y = i < lb.size() ? lb[i].second : none;
+      const auto nx = static_cast<std::int64_t>(x.size()), ny = static_cast<std::int64_t>(y.size());
+      std::sort(x.begin(), x.end());
+      std::sort(y.begin(), y.end());
+      std::vector<Member> lost, gained;
+      std::set_difference(x.begin(), x.end(), y.begin(), y.end(), std::back_inserter(lost));
+      std::set_difference(y.begin(), y.end(), x.begin(), x.end(), std::back_inserter(gained));
+      if (lost.empty() && gained.empty()) continue;
+      Change& c = add(ChangeKind::changed, a, &b, name);
+      c.old_value = nx;
+      c.new_value = ny;
+      const auto ids = [](const std::vector<Member>& list) {
+        std::vector<std::int64_t> out;
+        for (const Member& m : list) out.push_back(m.id);
+        std::sort(out.begin(), out.end());
+        return out;
+      };
+      c.lost = ids(lost);
+      c.gained = ids(gained);
+      c.a = a.block->header_span;
+      c.b = b.block->header_span;
+    }
+  }
+
+  // ---- nodes and elements ---------------------------------------------------------------------
+
+  Change& loose(ChangeKind kind, std::string group, std::string keyword, std::int64_t id) {
+    Change c;
+    c.kind = kind;
+    c.group = std::move(group);
+    c.keyword = std::move(keyword);
+    c.id = id;
+    out_.changes.push_back(std::move(c));
+    return out_.changes.back();
+  }
+
+  void nodes() {
+    const Nodes& na = a_.model->nodes;
+    const Nodes& nb = b_.model->nodes;
+    std::vector<std::uint8_t> used(nb.size(), 0);
+    std::vector<std::int64_t> lost, gained;
+    for (NodeIndex n = 0; n < na.size(); ++n) {
+      const NodeIndex m = pairs_.node_to_b[n];
+      if (m == no_index) {
+        lost.push_back(na.id[n]);
+        continue;
+      }
+      used[m] = 1;
+      const bool same = same_number(na.x[n] * length_, nb.x[m], other_units_) &&
+                        same_number(na.y[n] * length_, nb.y[m], other_units_) &&
+                        same_number(na.z[n] * length_, nb.z[m], other_units_);
+      if (same) continue;
+      Change& c = loose(ChangeKind::moved, "node", "/NODE", na.id[n]);
+      if (nb.id[m] != na.id[n]) c.id_b = nb.id[m];
+      c.field = "position";
+      c.old_value = std::array{na.x[n], na.y[n], na.z[n]};
+      c.new_value = std::array{nb.x[m] / length_, nb.y[m] / length_, nb.z[m] / length_};
+      if (placed_++ < most_places) {
+        c.a = a_.model->node_span(n);
+        c.b = b_.model->node_span(m);
+      }
+    }
+    for (NodeIndex m = 0; m < nb.size(); ++m)
+      if (used[m] == 0) gained.push_back(nb.id[m]);
+    if (lost.empty() && gained.empty()) return;
+    Change& c = loose(ChangeKind::changed, "node", "/NODE", 0);
+    c.field = "nodes";
+    c.old_value = static_cast<std::int64_t>(na.size());
+    c.new_value = static_cast<std::int64_t>(nb.size());
+    c.lost = std::move(lost);
+    c.gained = std::move(gained);
+  }
+
+  struct PartElements {
+    std::vector<std::int64_t> lost, gained, altered;
+    std::int64_t before = 0, after = 0;
+  };
+
+  /// Elements by the part that has them, in the first deck where it is there.
+  void elements() {
+    std::map<std::pair<std::int64_t, const char*>, PartElements> parts;
+    std::map<std::int64_t, std::int64_t> part_to_a;
+    for (const Part& p : a_.model->parts)
+      if (const std::int64_t to = pairs_.mapped(a_, b_, "part", p.id); to != 0) part_to_a.emplace(to, p.id);
+    const auto part_a = [&](const Elements& f, std::uint32_t e) {
+      return f.part[e] == no_index ? 0 : a_.model->parts[f.part[e]].id;
+    };
+    const auto part_b = [&](const Elements& f, std::uint32_t e) {
+      if (f.part[e] == no_index) return std::int64_t{0};
+      const std::int64_t id = b_.model->parts[f.part[e]].id;
+      const auto it = part_to_a.find(id);
+      return it == part_to_a.end() ? id : it->second;
+    };
+    for (const ElementKind kind : detail::all_families) {
+      const char* keyword = detail::keyword_of_family(kind);
+      const Elements& fa = a_.model->family(kind);
+      const Elements& fb = b_.model->family(kind);
+      const auto& to = pairs_.element_to_b[static_cast<std::size_t>(kind)];
+      std::vector<std::uint8_t> used(fb.size(), 0);
+      for (std::uint32_t e = 0; e < fa.size(); ++e) {
+        PartElements& p = parts[{part_a(fa, e), keyword}];
+        ++p.before;
+        const std::uint32_t f = to[e];
+        if (f != no_index) used[f] = 1;
+        if (f == no_index || part_a(fa, e) != part_b(fb, f)) {
+          p.lost.push_back(fa.id[e]);
+          if (f != no_index) parts[{part_b(fb, f), keyword}].gained.push_back(fb.id[f]);
+        } else if (!same_element(fa, e, fb, f)) {
+          p.altered.push_back(fa.id[e]);
+        }
+      }
+      for (std::uint32_t f = 0; f < fb.size(); ++f) {
+        PartElements& p = parts[{part_b(fb, f), keyword}];
+        ++p.after;
+        if (used[f] == 0) p.gained.push_back(fb.id[f]);
+      }
+    }
+    for (auto& [key, p] : parts) {
+      if (p.lost.empty() && p.gained.empty() && p.altered.empty()) continue;
+      Change& c = loose(ChangeKind::changed, "part", "/PART", key.first);
+      const auto title = [&](const Model& m) {
+        const auto it = m.part_of_id.find(key.first);
+        return it == m.part_of_id.end() ? std::string() : m.parts[it->second].title;
+      };
+      c.title = title(*a_.model);
+      if (c.title.empty()) c.title = title(*b_.model);
+      c.field = std::string(key.second) + " elements";
+      c.old_value = p.before;
+      c.new_value = p.after;
+      c.lost = std::move(p.lost);
+      c.gained = std::move(p.gained);
+      c.altered = std::move(p.altered);
+    }
+  }
+
+  bool same_element(const Elements& fa, std::uint32_t e, const Elements& fb, std::uint32_t f) const {
+    for (int i = 0; i < fa.width; ++i)
+      if (to_b(fa.of(e)[i]) != fb.of(f)[i]) return false;
+    const auto thickness = [](const Elements& x, std::uint32_t i) {
+      return i < x.thickness.size() ? x.thickness[i] : 0;
+    };
+    return same_number(thickness(fa, e) * length_, thickness(fb, f), other_units_);
+  }
+
+  // ---- penetrations ---------------------------------------------------------------------------
+
+  struct Depth {
+    std::int64_t interface_id = 0;
+    std::array<std::int64_t, 2> secondary{};
+    double depth = 0, gap = 0;
+  };
+  using PenetrationKey = std::tuple<std::int64_t, std::string, std::array<std::int64_t, 2>>;
+
+  std::map<PenetrationKey, Depth> deepest(const DiffSide& side) const {
+    std::map<PenetrationKey, Depth> out;
+    for (const std::uint32_t i : side.view->deepest_per_node) {
+      const NamedPenetration& p = side.view->penetrations[i];
+      const Contact& c = side.scene->contacts[p.contact];
+      const PenetrationRow& row = c.penetrations[p.row];
+      Depth d{c.inter->id, p.secondary, row.depth, row.gap};
+      std::int64_t id = c.inter->id;
+      std::array<std::int64_t, 2> nodes = p.secondary;
+      if (&side == &a_) {
+        id = pairs_.mapped(a_, b_, "inter", id);
+        for (std::int64_t& n : nodes)
+          if (n != 0) n = pairs_.mapped(a_, b_, "node", n);
+        // Nothing there that could penetrate: keys that the other side cannot have.
+        if (id == 0) id = -c.inter->id;
+        if (nodes[0] == 0 || (nodes[1] == 0 && p.secondary[1] != 0)) nodes = {-p.secondary[0], -p.secondary[1]};
+      }
+      if (nodes[1] != 0 && nodes[0] > nodes[1]) std::swap(nodes[0], nodes[1]);
+      out.try_emplace({id, to_string(c.role), nodes}, d);
+    }
+    return out;
+  }
+
+  void penetrations() {
+    const auto before = deepest(a_), now = deepest(b_);
+    for (const auto& [key, d] : before) {
+      const auto it = now.find(key);
+      if (it == now.end()) {
+        out_.gone.push_back({d.interface_id, std::get<1>(key), d.secondary, d.depth, 0, d.gap, 0});
+        continue;
+      }
+      const Depth& n = it->second;
+      const double was = d.depth * length_;
+      PenetrationChange p{n.interface_id, std::get<1>(key), n.secondary, d.depth, n.depth, d.gap, n.gap};
+      const double noise = 1e-9 * std::max(d.gap * length_, n.gap);
+      if (n.depth > was + noise)
+        out_.worse.push_back(p);
+      else if (n.depth < was - noise)
+        out_.better.push_back(p);
+      else
+        ++out_.same_penetrations;
+    }
+    for (const auto& [key, n] : now)
+      if (!before.contains(key))
+        out_.appeared.push_back({n.interface_id, std::get<1>(key), n.secondary, 0, n.depth, 0, n.gap});
+    const auto sort = [](std::vector<PenetrationChange>& list, auto&& depth) {
+      std::stable_sort(list.begin(), list.end(),
+                       [&](const auto& x, const auto& y) { return depth(x) > depth(y); });
+    };
+    sort(out_.appeared, [](const PenetrationChange& p) { return p.depth_new; });
+    sort(out_.gone, [](const PenetrationChange& p) { return p.depth_old; });
+    sort(out_.worse, [](const PenetrationChange& p) { return p.depth_new - p.depth_old; });
+    sort(out_.better, [](const PenetrationChange& p) { return p.depth_old - p.depth_new; });
+  }
+
+  /// A deck that was renumbered is compared in vain by ids.
+  void hint() {
+    std::size_t lost = 0;
+    for (const std::uint32_t n : pairs_.node_to_b) lost += n == no_index ? 1 : 0;
+    if (2 * lost > pairs_.node_to_b.size())
+      out_.notes.push_back(fmt::format("{} of {} nodes have no counterpart; decks with other ids are "
+                                       "compared with --match position",
+                                       lost, pairs_.node_to_b.size()));
+  }
+
+  static constexpr std::size_t most_places = 1000;  ///< lines of moved nodes: found by reading again
+
+  const DiffSide& a_;
+  const DiffSide& b_;
+  const UnitSystem& units_a_;
+  const UnitSystem& units_b_;
+  bool other_units_;
+  double length_;
+  Counterparts pairs_;
+  std::size_t placed_ = 0;
+  DeckDiff out_;
+};
+
+}  // namespace
+
+DeckDiff diff_decks(const DiffSide& a, const DiffSide& b, MatchBy match) {
+  return Differ(a, b, match).run();
+}
+
+}  // namespace deck

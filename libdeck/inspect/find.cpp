@@ -1,0 +1,198 @@
+// Finds the entity that a person names: an interface by its id, anything by keyword or kind and id.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "deck/inspect/show.hpp"
+#include "deck/text/number.hpp"
+#include "inspect/families.hpp"
+#include "text/columns.hpp"
+
+namespace deck {
+
+namespace detail {
+
+std::optional<ElementKind> family_of_kind(std::string_view kind) {
+  constexpr std::pair<std::string_view, ElementKind> kinds[] = {
+      {"shell", ElementKind::shell4},   {"sh3n", ElementKind::shell3},
+      {"brick", ElementKind::solid8},   {"solid", ElementKind::solid8},
+      {"tetra4", ElementKind::solid8},  {"penta6", ElementKind::solid8},
+      {"tetra10", ElementKind::solid8}, {"bric20", ElementKind::solid8},
+      {"shel16", ElementKind::solid8},  {"quad", ElementKind::quad},
+      {"tria", ElementKind::tria},      {"truss", ElementKind::truss},
+      {"beam", ElementKind::beam},      {"spring", ElementKind::spring}};
+  for (const auto& [name, family] : kinds)
+    if (name == kind) return family;
+  return std::nullopt;
+}
+
+const Block* bulk_block(const std::vector<BulkBlock>& blocks, std::uint32_t block) {
+  return block < blocks.size() ? blocks[block].block : nullptr;
+}
+
+}  // namespace detail
+
+namespace {
+
+std::string in_lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  return out;
+}
+
+std::string in_upper_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+  return out;
+}
+
+/// Kinds under the names that people use.
+std::string kind_named(std::string_view name) {
+  constexpr std::pair<std::string_view, std::string_view> names[] = {
+      {"interface", "inter"}, {"material", "mat"},    {"property", "prop"}, {"function", "funct"},
+      {"surface", "surf"},    {"group", "grnod"},     {"contact", "inter"}, {"sh4n", "shell"},
+      {"box", "box"},         {"element", "element"}, {"elem", "element"}};
+  const std::string wanted = in_lower_case(name);
+  for (const auto& [word, kind] : names)
+    if (word == wanted) return std::string(kind);
+  return wanted;
+}
+
+class Finder {
+ public:
+  Finder(const Deck& deck, const Model& model) : deck_(deck), model_(model) {}
+
+  Result<Entity> find(std::string_view what) {
+    const auto mark = what.find_last_of(":/");
+    const std::string_view number = mark == what.npos ? what : what.substr(mark + 1);
+    const IntegerCell id = read_integer(number);
+    if (id.status != NumberStatus::ok || id.value <= 0)
+      return bad(what, "'" + std::string(number) + "' is no id");
+    if (mark == what.npos) return by_kind(what, "inter", id.value);
+    if (what[mark] == ':') return by_kind(what, kind_named(what.substr(0, mark)), id.value);
+    return by_keyword(what, what.substr(0, mark), id.value);
+  }
+
+ private:
+  static Error bad(std::string_view what, const std::string& why) {
+    return {Error::Code::config,
+            "'" + std::string(what) + "': " + why +
+                "; expected an interface id (3), KEYWORD/ID (/INTER/TYPE7/3) or KIND:ID (node:57, "
+                "part:4, shell:12, mat:1, grnod:5, surf:2, set:9)"};
+  }
+
+  Entity of_block(const Block& b) const {
+    Entity e;
+    e.kind = b.schema->kind;
+    e.keyword = b.schema->keyword;
+    e.id = id_of(deck_, b);
+    e.block = &b;
+    e.span = b.header_span;
+    e.title = b.schema->has_title ? decode(deck_, b).title : std::string();
+    const auto at = [&](const std::map<std::int64_t, std::uint32_t>& map) {
+      const auto it = map.find(e.id);
+      return it == map.end() ? no_index : it->second;
+    };
+    if (e.kind == "part") e.index = at(model_.part_of_id);
+    if (e.kind == "prop") e.index = at(model_.property_of_id);
+    if (e.kind == "mat") e.index = at(model_.material_of_id);
+    return e;
+  }
+
+  bool item(std::string_view kind, std::int64_t id, Entity& e) const {
+    if (kind == "node") {
+      const NodeIndex n = model_.nodes.map.find(id);
+      if (n == no_index) return false;
+      e.kind = "node";
+      e.index = n;
+      for (const BulkBlock& b : model_.node_blocks)
+        if (n >= b.first && n - b.first < b.count) e.block = b.block;
+      e.span = model_.node_span(n);
+    } else if (const auto family = detail::family_of_kind(kind)) {
+      const Elements& elements = model_.family(*family);
+      const std::uint32_t i = elements.map.find(id);
+      if (i == no_index) return false;
+      e.index = i;
+      e.block = detail::bulk_block(model_.element_blocks, i < elements.block.size() ? elements.block[i] : no_index);
+      e.kind = e.block != nullptr && e.block->schema != nullptr ? e.block->schema->kind
+                                                                : std::string(kind);
+      e.span = model_.element_span(*family, i);
+    } else {
+      return false;
+    }
+    e.id = id;
+    e.keyword = e.block != nullptr && e.block->schema != nullptr ? e.block->schema->keyword : "";
+    return true;
+  }
+
+  Result<Entity> by_kind(std::string_view what, const std::string& kind, std::int64_t id) const {
+    Entity e;
+    if (item(kind, id, e)) return e;
+    constexpr std::string_view elements[] = {"shell", "sh3n",  "brick", "quad",
+                                             "tria",  "truss", "beam",  "spring"};
+    if (kind == "element")
+      for (const std::string_view k : elements)
+        if (item(k, id, e)) return e;
+    bool known = kind == "node" || kind == "element" || detail::family_of_kind(kind).has_value();
+    for (const Block& b : deck_.blocks) {
+      if (b.schema == nullptr || b.schema->bulk || b.schema->kind != kind) continue;
+      known = true;
+      if (id_of(deck_, b) == id) return of_block(b);
+    }
+    std::string why = kind == "inter" ? fmt::format("there is no interface {}", id)
+                      : known         ? fmt::format("there is no {} {}", kind, id)
+                                      : fmt::format("the deck has nothing of kind '{}'", kind);
+    if (const std::string others = with_id(id); !others.empty())
+      why += fmt::format("; {} is the id of {}", id, others);
+    return bad(what, why);
+  }
+
+  Result<Entity> by_keyword(std::string_view what, std::string_view keyword, std::int64_t id) const {
+    std::string wanted = in_upper_case(keyword);
+    if (!wanted.starts_with('/')) wanted.insert(0, "/");
+    const auto named = [&](const Schema& s) {
+      const auto fits = [&](std::string_view k) {
+        return detail::is_below(k, wanted) || in_upper_case(k).ends_with(wanted);
+      };
+      return fits(s.keyword) || std::any_of(s.aliases.begin(), s.aliases.end(), fits);
+    };
+    for (const Block& b : deck_.blocks) {
+      if (b.schema == nullptr || b.schema->bulk || !named(*b.schema)) continue;
+      if (id_of(deck_, b) == id) return of_block(b);
+    }
+    for (const Block& b : deck_.blocks) {
+      Entity e;
+      if (b.schema != nullptr && b.schema->bulk && named(*b.schema) && item(b.schema->kind, id, e))
+        return e;
+    }
+    std::string why = fmt::format("there is no {}/{}", wanted, id);
+    if (const std::string others = with_id(id); !others.empty())
+      why += fmt::format("; {} is the id of {}", id, others);
+    return bad(what, why);
+  }
+
+  /// Everything with that id, as it can be asked for.
+  std::string with_id(std::int64_t id) const {
+    std::string out;
+    for (const auto& [kind, block] : Definitions(deck_).with_id(id))
+      if (kind != "other") out += fmt::format("{}{}:{}", out.empty() ? "" : ", ", kind, id);
+    constexpr std::string_view items[] = {"node", "shell", "sh3n",  "brick", "quad",
+                                          "tria", "truss", "beam", "spring"};
+    for (const std::string_view kind : items)
+      if (Entity e; item(kind, id, e)) out += fmt::format("{}{}:{}", out.empty() ? "" : ", ", kind, id);
+    return out;
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+};
+
+}  // namespace
+
+Result<Entity> find_entity(const Deck& deck, const Model& model, std::string_view what) {
+  return Finder(deck, model).find(what);
+}
+
+}  // namespace deck

@@ -1,0 +1,251 @@
+// Finds the pages of `deck explain` from what people type.
+#include "deck/lint/topics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "deck/lint/rule.hpp"
+#include "deck/text/number.hpp"
+
+namespace deck {
+namespace {
+
+constexpr std::size_t usual_width = 92;
+constexpr const char* contact_keywords[] = {"/INTER/TYPE7", "/INTER/TYPE10", "/INTER/TYPE11",
+                                            "/INTER/TYPE19"};
+
+std::string in_capitals(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+  return out;
+}
+
+/// Text broken at blanks; every line behind `indent` blanks.
+std::string paragraph(std::string_view text, std::size_t indent, std::size_t width) {
+  std::string out, line;
+  while (!text.empty()) {
+    const auto end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    if (!line.empty() && indent + line.size() + 1 + word.size() > width) {
+      out += std::string(indent, ' ') + line + "\n";
+      line.clear();
+    }
+    if (!word.empty()) line += (line.empty() ? "" : " ") + std::string(word);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return line.empty() ? out : out + std::string(indent, ' ') + line + "\n";
+}
+
+/// Keywords with the four contacts that are evaluated first.
+std::vector<const Schema*> contacts_first(const SchemaSet& schemas) {
+  std::vector<const Schema*> out;
+  for (const char* name : contact_keywords)
+    if (const Schema* s = schemas.find(name)) out.push_back(s);
+  const std::size_t first = out.size();
+  for (const Schema* s : schemas.all())
+    if (std::find(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(first), s) ==
+        out.begin() + static_cast<std::ptrdiff_t>(first))
+      out.push_back(s);
+  return out;
+}
+
+/// A schema by its keyword, with or without the leading slash, in any case.
+const Schema* keyword_named(const SchemaSet& schemas, std::string_view name) {
+  const std::string wanted = in_capitals(name.starts_with('/') ? std::string(name) : "/" + std::string(name));
+  if (const Schema* s = schemas.find(wanted)) return s;
+  // "TYPE7" is the contact, "/DEFAULT/INTER/TYPE7" is about it.
+  if (const Schema* s = schemas.find("/INTER" + wanted)) return s;
+  const Schema* best = nullptr;
+  for (const Schema* s : schemas.all())
+    if (in_capitals(s->keyword).ends_with(wanted) &&
+        (best == nullptr || s->keyword.size() < best->keyword.size()))
+      best = s;
+  return best;
+}
+
+/// Name of a field as the schema spells it; empty: there is none.
+std::string field_named(const Schema& schema, std::string_view name) {
+  const std::string wanted = in_capitals(name);
+  for (const CardSchema& card : schema.cards)
+    for (const Field& f : card.fields)
+      if (in_capitals(f.name) == wanted) return f.name;
+  return {};
+}
+
+/// A field wherever it is: the page of one contact, and how the others differ.
+std::string field_everywhere(std::string_view name, const SchemaSet& schemas, std::size_t width) {
+  std::string page, others;
+  for (const Schema* s : contacts_first(schemas)) {
+    const std::string field = field_named(*s, name);
+    if (field.empty()) continue;
+    if (page.empty())
+      page = explain_keyword(*s, field);
+    else
+      others += (others.empty() ? "" : ", ") + s->keyword + "." + field;
+  }
+  if (others.empty()) return page;
+  return page + "\nAlso a field of\n" + paragraph(others, 2, width);
+}
+
+std::string rule_line(const Rule& r, std::size_t width) {
+  const char* severity = r.severity() == Severity::error     ? "error"
+                         : r.severity() == Severity::warning ? "warning"
+                                                           : "info";
+  std::string text = paragraph(r.title, 17, width);
+  const std::string head = fmt::format("  {:<7}{:<8}", id_text(r.id), severity);
+  return text.size() < 17 ? head + "\n" : head + text.substr(17);
+}
+
+/// "DK1": a family of rules.
+std::string rule_family(const std::string& topic, std::size_t width) {
+  if (!topic.starts_with("DK") || topic.size() > 4) return {};
+  std::string list;
+  std::size_t count = 0;
+  RuleId first = RuleId::none;
+  for (const Rule& r : all_rules()) {
+    const std::string_view id = id_text(r.id);
+    if (!id.starts_with(topic)) continue;
+    if (count == 0) first = r.id;
+    list += rule_line(r, width);
+    ++count;
+  }
+  if (count == 0) return {};
+  return fmt::format("{}: {} {} ({})\n\n{}\nThe page of one: deck explain {}\n", topic, count,
+                     count == 1 ? "rule" : "rules",
+                     topic == "DK" ? "all" : family_of(first), list, id_text(first));
+}
+
+bool names_message(std::string_view text, const std::string& number) {
+  for (std::size_t at = text.find(number); at != text.npos; at = text.find(number, at + 1)) {
+    const auto part_of_number = [&](std::size_t i) {
+      return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '.');
+    };
+    const std::size_t end = at + number.size();
+    const bool stands_alone = (at == 0 || !part_of_number(at - 1)) &&
+                              (!part_of_number(end) || (text[end] == '.' && !part_of_number(end + 1)));
+    if (stands_alone) return true;
+  }
+  return false;
+}
+
+/// A message of the reference solver by its number.
+std::string solver_message(const std::string& digits, const SchemaSet& schemas, std::size_t width) {
+  const int number = static_cast<int>(read_integer(digits).value);
+  std::string rules, cells;
+  for (const Rule& r : all_rules()) {
+    const auto own = std::find_if(r.messages.begin(), r.messages.end(),
+                                  [&](const ReferenceMessage& m) { return m.number == number; });
+    const bool is_own = own != r.messages.end();
+    if (!is_own && !names_message(r.solver, digits) && !names_message(r.title, digits)) continue;
+    rules += fmt::format("\n{}: {}\n", id_text(r.id), r.title);
+    if (is_own)
+      rules += fmt::format("  as {} of the solver\n",
+                           own->severity == Severity::error ? "an error" : "a warning");
+    if (!r.problem.empty()) rules += paragraph(r.problem, 2, width);
+    if (!r.solver.empty()) rules += paragraph("Solver: " + r.solver, 2, width);
+    if (!r.fix.empty()) rules += paragraph("Fix: " + r.fix, 2, width);
+  }
+  for (const Schema* s : contacts_first(schemas))
+    for (const CardSchema& card : s->cards)
+      for (const Field& f : card.fields) {
+        const auto says = [&](const std::optional<int>& n, const char* why) {
+          if (n && *n == number && number != 0)
+            cells += paragraph(fmt::format("{}.{}: {}", s->keyword, f.name, why), 2, width);
+        };
+        says(f.missing, "what the id names does not exist");
+        says(f.empty, "what the id names has no member");
+        says(f.required, "the cell is 0 or blank");
+      }
+  if (rules.empty() && cells.empty()) return {};
+  std::string out = fmt::format("Message {} of the reference solver\n", digits) + rules;
+  if (!cells.empty()) out += "\nCells for which it stops with this message\n" + cells;
+  return out;
+}
+
+std::size_t spelling_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std::size_t width) {
+  if (width == 0) width = usual_width;
+  const std::string capitals = in_capitals(topic);
+  if (capitals.empty()) return {};
+  if (const Rule* rule = find_rule(capitals)) return explain_rule(*rule, schemas);
+  if (std::string page = rule_family(capitals, width); !page.empty()) return page;
+  if (capitals.find_first_not_of("0123456789") == std::string::npos && capitals.size() < 6)
+    return solver_message(capitals, schemas, width);
+  if (const auto dot = topic.rfind('.'); dot != topic.npos)
+    if (const Schema* s = keyword_named(schemas, topic.substr(0, dot)))
+      if (const std::string field = field_named(*s, topic.substr(dot + 1)); !field.empty())
+        return explain_keyword(*s, field);
+  // A field of a contact first, then a keyword of that name, then any field.
+  const Schema* keyword = keyword_named(schemas, topic);
+  const bool of_contact = std::any_of(std::begin(contact_keywords), std::end(contact_keywords),
+                                      [&](const char* name) {
+                                        const Schema* s = schemas.find(name);
+                                        return s != nullptr && !field_named(*s, topic).empty();
+                                      });
+  if (of_contact) return field_everywhere(topic, schemas, width);
+  if (keyword != nullptr && (topic.starts_with('/') || schemas.find("/" + capitals) != nullptr))
+    return explain_keyword(*keyword);
+  if (std::string page = field_everywhere(topic, schemas, width); !page.empty()) return page;
+  return keyword != nullptr ? explain_keyword(*keyword) : std::string();
+}
+
+std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet& schemas) {
+  const std::string wanted = in_capitals(topic.substr(topic.find('.') == topic.npos ? 0 : topic.rfind('.') + 1));
+  std::map<std::string, std::size_t> found;
+  const auto consider = [&](const std::string& name) {
+    const std::size_t d = spelling_distance(wanted, in_capitals(name));
+    if (d <= std::max<std::size_t>(1, wanted.size() / 3)) found.try_emplace(name, d);
+  };
+  for (const Schema* s : contacts_first(schemas)) {
+    if (!s->keyword.starts_with("/INTER/")) continue;
+    consider(s->keyword.substr(s->keyword.rfind('/') + 1));
+    for (const CardSchema& card : s->cards)
+      for (const Field& f : card.fields) consider(f.name);
+  }
+  for (const Schema* s : schemas.all()) consider(s->keyword);
+  std::vector<std::pair<std::size_t, std::string>> sorted;
+  for (const auto& [name, d] : found) sorted.emplace_back(d, name);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 3); ++i) out.push_back(sorted[i].second);
+  return out;
+}
+
+std::vector<std::string> common_topics(const SchemaSet& schemas) {
+  std::vector<std::string> out;
+  for (const Rule& r : all_rules()) out.emplace_back(id_text(r.id));
+  std::vector<std::string> fields;
+  for (const int type : {7, 10, 11, 19}) {
+    const std::string name = fmt::format("TYPE{}", type);
+    const Schema* s = schemas.find("/INTER/" + name);
+    if (s == nullptr) continue;
+    out.push_back(name);
+    for (const CardSchema& card : s->cards)
+      for (const Field& f : card.fields) fields.push_back(f.name);
+  }
+  std::sort(fields.begin(), fields.end());
+  fields.erase(std::unique(fields.begin(), fields.end()), fields.end());
+  out.insert(out.end(), fields.begin(), fields.end());
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,228 @@
+// `deck show` for people: field names over the columns of the card, then what the solver uses, what
+// the entity names and what names it.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "deck/base/escape.hpp"
+#include "deck/report/json.hpp"
+#include "deck/report/show.hpp"
+#include "deck/report/text_table.hpp"
+#include "text/columns.hpp"
+
+namespace deck {
+namespace {
+
+constexpr std::size_t most_card_lines = 30, most_links = 20;
+
+std::string shown_name(const std::string& keyword, const std::string& kind, std::int64_t id) {
+  return keyword.empty() ? fmt::format("{} {}", kind, id) : fmt::format("{}/{}", keyword, id);
+}
+
+std::string fact_text(const FactValue& value) {
+  if (const auto* n = std::get_if<std::int64_t>(&value)) return std::to_string(*n);
+  if (const auto* x = std::get_if<double>(&value)) return shortest(*x);
+  return std::get<std::string>(value);
+}
+
+class ShowText {
+ public:
+  ShowText(const ParamsInput& in, const EntityView& view, const ShowTextOptions& options)
+      : deck_(*in.deck), in_(in), view_(view), options_(options) {}
+
+  std::string run() {
+    head();
+    cards();
+    facts();
+    if (view_.inter != nullptr) {
+      heading("Effective values");
+      ParamsTextOptions table;
+      out_ += params_table(in_, *view_.inter, table).fitted(options_.width, options_.color, 2);
+    }
+    links("Refers to", "field", view_.refers_to, true);
+    links("Used by", "as", view_.used_by, false);
+    links("Reached from contacts", "as", view_.interfaces, false);
+    if (view_.used_by.empty() && view_.interfaces.empty() && view_.entity.kind != "inter")
+      out_ += "\nNothing uses it.\n";
+    return std::move(out_);
+  }
+
+ private:
+  std::string bold(std::string_view text) const { return toned(text, Tone::bold, options_.color); }
+  std::string dim(std::string_view text) const { return toned(text, Tone::dim, options_.color); }
+  void heading(const char* text) { out_ += "\n" + bold(text) + "\n"; }
+
+  void head() {
+    const Entity& e = view_.entity;
+    out_ += bold(shown_name(e.keyword, e.kind, e.id));
+    if (!e.title.empty()) out_ += "  " + terminal_text(e.title);
+    out_ += "\n";
+    if (e.span.valid()) out_ += "  " + dim(terminal_text(deck_.sources.where(e.span))) + "\n";
+    for (const Span& s : view_.includes)
+      out_ += "  included by " + dim(terminal_text(deck_.sources.where(s))) + "\n";
+    if (e.block == nullptr) return;
+    out_ += fmt::format("  columns of version {}", e.block->version);
+    if (const UnitSystem* u = deck_.units_of(*e.block); u != nullptr && !u->mass_code.empty())
+      out_ += fmt::format(", units {} {} {}", terminal_text(u->mass_code),
+                          terminal_text(u->length_code), terminal_text(u->time_code));
+    if (e.block->submodel >= 0) {
+      const Submodel& s = deck_.submodels[static_cast<std::size_t>(e.block->submodel)];
+      out_ += fmt::format(", submodel {} {}", s.id, terminal_text(s.title));
+    }
+    out_ += e.block->opaque ? ", encrypted\n" : "\n";
+  }
+
+  // ---- the card -------------------------------------------------------------------------------
+
+  static constexpr std::size_t margin = 8;  ///< line numbers
+
+  void cards() {
+    if (view_.cards.empty()) return;
+    out_ += "\n";
+    const CardSchema* last = nullptr;
+    std::size_t shown = 0;
+    for (const ShownCard& card : view_.cards) {
+      if (!options_.all && shown++ == most_card_lines) {
+        out_ += fmt::format("{:>{}}… {} more lines (--all)\n", "", margin,
+                            view_.cards.size() - most_card_lines);
+        break;
+      }
+      const std::string number =
+          fmt::format("{:>6}  ", deck_.sources.position(card.line.whole()).line);
+      if (card.free_format || (card.schema == nullptr && card.cells.empty())) {
+        out_ += dim(number) + plain(card.line.text) + "\n";
+        if (card.free_format) free_cells(card);
+      } else {
+        fixed(card, number, card.schema != last || card.schema->repeat != Repeat::ids);
+      }
+      last = card.schema;
+    }
+  }
+
+  /// A line as it stands; longer than the terminal, it is continued.
+  std::string plain(std::string_view text) const {
+    std::string shown = terminal_columns(text), out;
+    if (options_.width <= margin + 20) return shown;
+    const std::size_t room = options_.width - margin;
+    while (display_width(shown) > room) {
+      std::size_t at = 0;
+      for (std::size_t k = 0; k < room; ++k) at += std::max<std::size_t>(text_unit_at(shown, at).length, 1);
+      out += shown.substr(0, at) + "\n" + std::string(margin, ' ');
+      shown.erase(0, at);
+    }
+    return out + shown;
+  }
+
+  void free_cells(const ShownCard& card) {
+    std::string line;
+    for (const Cell& c : card.cells) {
+      const std::string item =
+          fmt::format("{} = {}", c.field->name, c.blank() ? "(blank)" : terminal_text(c.text));
+      if (options_.width > 0 && margin + line.size() + item.size() + 2 > options_.width) {
+        out_ += std::string(margin, ' ') + dim(line) + "\n";
+        line.clear();
+      }
+      line += (line.empty() ? "" : ", ") + item;
+    }
+    if (!line.empty()) out_ += std::string(margin, ' ') + dim(line) + "\n";
+  }
+
+  struct Column {
+    int first = 0, last = 0;
+    std::string name;
+  };
+
+  void fixed(const ShownCard& card, const std::string& number, bool names) {
+    std::vector<Column> columns;
+    for (const Cell& c : card.cells) {
+      const int first = static_cast<int>(c.span.offset - card.line.offset) + 1;
+      const bool list = card.schema->repeat == Repeat::ids && c.field == &card.schema->fields.back();
+      const int start = list ? first : c.field->first;
+      columns.push_back({start, start + c.field->last - c.field->first, c.field->name});
+    }
+    // Cells behind what fits go to lines of their own.
+    const int room = options_.width > margin + 20 ? static_cast<int>(options_.width - margin) : 1000;
+    for (std::size_t at = 0, begin = 1; at < columns.size() || begin == 1;) {
+      const int from = static_cast<int>(begin);
+      std::size_t end = at;
+      int last = from;
+      while (end < columns.size() && (end == at || columns[end].last - from < room)) last = columns[end++].last;
+      if (end == columns.size())
+        last = std::max<int>(last, std::min<int>(static_cast<int>(card.line.text.size()), from + room - 1));
+      const std::vector<Column> part(columns.begin() + static_cast<std::ptrdiff_t>(at),
+                                     columns.begin() + static_cast<std::ptrdiff_t>(end));
+      if (names) name_lines(part, from);
+      out_ += at == 0 ? dim(number) : dim(fmt::format("{:>6}  ", "…"));
+      std::string text = terminal_columns(detail::columns(card.line.text, from, last));
+      while (text.ends_with(' ')) text.pop_back();
+      out_ += text + "\n";
+      if (end == columns.size()) break;
+      at = end;
+      begin = static_cast<std::size_t>(last) + 1;
+    }
+  }
+
+  /// Names end where their columns end; one that would run into its neighbour goes a line up.
+  void name_lines(const std::vector<Column>& columns, int from) {
+    std::vector<std::string> lines(1);
+    for (const Column& c : columns) {
+      const auto end = static_cast<std::size_t>(c.last - from + 1);
+      const std::size_t begin = end > c.name.size() ? end - c.name.size() : 0;
+      std::size_t row = 0;
+      while (row < lines.size() && !lines[row].empty() && lines[row].size() + 1 > begin) ++row;
+      if (row == lines.size()) lines.emplace_back();
+      lines[row].resize(begin, ' ');
+      lines[row] += c.name;
+    }
+    for (auto it = lines.rbegin(); it != lines.rend(); ++it)
+      if (!it->empty()) out_ += std::string(margin, ' ') + toned(*it, Tone::cyan, options_.color) + "\n";
+  }
+
+  // ---- figures and references -----------------------------------------------------------------
+
+  void facts() {
+    if (view_.facts.empty()) return;
+    heading("In the model");
+    TextTable table({{"figure", Align::left}, {"value", Align::left}});
+    for (const auto& [name, value] : view_.facts) table.row({name, fact_text(value)});
+    out_ += table.fitted(options_.width, options_.color, 2);
+  }
+
+  void links(const char* title, const char* field, const std::vector<Link>& list, bool target) {
+    if (list.empty()) return;
+    heading(title);
+    TextTable table({{field, Align::left},
+                     {"what", Align::left},
+                     {"title", Align::left},
+                     {target ? "defined at" : "place", Align::left}});
+    const std::size_t shown = options_.all ? list.size() : std::min(list.size(), most_links);
+    for (std::size_t i = 0; i < shown; ++i) {
+      const Link& l = list[i];
+      std::string what = l.count > 1 || l.id == 0 ? fmt::format("{} {}", l.count, l.keyword)
+                                                  : shown_name(l.keyword, l.kind, l.id);
+      if (l.last > 0) what = fmt::format("{} {} to {}", l.kind, l.id, l.last);
+      const bool missing = target && l.last == 0 && !l.span.valid();
+      table.row({l.field,
+                 {missing ? what + " (does not exist)" : what, missing ? Tone::red : Tone::plain},
+                 l.title,
+                 {l.span.valid() ? deck_.sources.where(l.span) : std::string(), Tone::dim}});
+    }
+    out_ += table.fitted(options_.width, options_.color, 2);
+    if (shown < list.size()) out_ += fmt::format("  … and {} more (--all, --json)\n", list.size() - shown);
+  }
+
+  const Deck& deck_;
+  const ParamsInput& in_;
+  const EntityView& view_;
+  const ShowTextOptions& options_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string show_text(const ParamsInput& params, const EntityView& view,
+                      const ShowTextOptions& options) {
+  return ShowText(params, view, options).run();
+}
+
+}  // namespace deck

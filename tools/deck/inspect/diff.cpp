@@ -1,0 +1,134 @@
+// deck diff: what two decks mean differently.
+
+#include "common.hpp"
+#include "deck/contact/resolve.hpp"
+#include "deck/contact/view.hpp"
+#include "deck/model/coverage.hpp"
+#include "deck/report/diff.hpp"
+
+namespace {
+
+using namespace deck;
+using namespace deck::cli;
+
+struct Options {
+  CommonOptions common;
+  std::string match = "id", format = "human";
+  bool markdown = false, no_geometry = false;
+  std::size_t rows = 20;
+};
+
+/// A deck with its contacts.
+struct Side {
+  std::unique_ptr<Loaded> loaded;
+  Scene scene;
+  SceneView view;
+
+  DiffSide described(bool geometry) const {
+    DiffSide s{loaded->path, &loaded->deck, &loaded->model, &loaded->interfaces, nullptr, nullptr};
+    if (geometry) {
+      s.scene = &scene;
+      s.view = &view;
+    }
+    return s;
+  }
+};
+
+Result<Side> read_side(const Options& o, const std::string& path, const SchemaSet& schemas) {
+  auto loaded = load(path, schemas, o.common);
+  if (!loaded) return loaded.error();
+  Side side{std::move(*loaded), {}, {}};
+  if (side.loaded->incomplete())
+    return Error{Error::Code::io, coverage_lead(coverage_of(side.loaded->deck, side.loaded->interfaces))};
+  if (o.no_geometry) return side;
+  Progress progress(!o.common.quiet);
+  progress.step("contacts of " + path);
+  SceneOptions scene;
+  scene.threads = o.common.thread_count();
+  scene.candidates = false;
+  scene.limits = o.common.memory;
+  scene.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
+  side.scene = build_scene(side.loaded->model, side.loaded->interfaces, side.loaded->diagnostics, scene);
+  resolve(side.loaded->interfaces, side.scene);
+  side.view = make_view(side.scene);
+  return side;
+}
+
+int run(const Options& o) {
+  if (const int bad = check_outputs(o.common, {}); bad != exit_clean) return bad;
+  const auto schemas = load_schemas(o.common);
+  if (!schemas) {
+    print_error(o.common, schemas.error().message);
+    return exit_usage;
+  }
+  auto a = read_side(o, o.common.decks[0], *schemas);
+  auto b = a ? read_side(o, o.common.decks[1], *schemas) : Result<Side>(a.error());
+  if (!a || !b) {
+    print_error(o.common, a ? b.error().message : a.error().message);
+    return exit_input;
+  }
+  for (const Side* side : {&*a, &*b}) {
+    print_findings(*side->loaded, o.common);
+    for (const Contact& c : side->scene.contacts)
+      if (!c.evaluated)
+        print_note("penetrations of interface " + std::to_string(c.inter->id) + " of " +
+                   side->loaded->path + " were not evaluated and are not compared");
+  }
+  const DiffSide sa = a->described(!o.no_geometry), sb = b->described(!o.no_geometry);
+  const DeckDiff diff = diff_decks(sa, sb,
+                                   o.match == "title"      ? MatchBy::title
+                                   : o.match == "position" ? MatchBy::position
+                                                           : MatchBy::id);
+  const int code = diff.equal() ? exit_clean : exit_findings;
+  if (!o.common.json.empty())
+    if (auto written = write_output(o.common.json, diff_json(sa, sb, diff)); !written) {
+      print_error(o.common, written.error().message);
+      return exit_usage;
+    }
+  if (o.common.wants_text()) {
+    DiffTextOptions text;
+    text.rows = o.rows;
+    if (o.markdown || o.format == "markdown") {
+      print_text(diff_markdown(sa, sb, diff, text));
+    } else if (o.format == "json") {
+      print_text(diff_json(sa, sb, diff));
+    } else {
+      text.color = o.common.color_on(1);
+      text.width = text_width();
+      print_text(diff_text(sa, sb, diff, text));
+    }
+  }
+  return code;
+}
+
+Action setup(CommandLine& line) {
+  auto options = std::make_shared<Options>();
+  add_common(line, options->common);
+  line.existing("decks").takes(2, "DECK DECK").describe("The old and the new Starter deck");
+  line.option("--match", options->match,
+              "Counterparts: id; title (nodes and elements by id); position (for renumbered decks: "
+              "nodes by coordinates, elements by nodes, the rest by title, then by rank)")
+      .one_of({"id", "title", "position"})
+      .value("HOW")
+      .show_default();
+  line.option("--format", options->format, "human, json or markdown")
+      .one_of({"human", "json", "markdown"})
+      .value("FORMAT")
+      .show_default();
+  line.flag("--markdown", options->markdown, "Short for --format markdown: for a review comment");
+  line.option("--rows", options->rows, "Rows of a table; 0: all").value("N").show_default();
+  line.flag("--no-geometry", options->no_geometry,
+            "Do not evaluate contacts: no penetrations, no default gaps");
+  return [options] { return run(*options); };
+}
+
+const VerbRegistration registration{
+    {"diff", 24, "What two decks mean differently, whatever their comments, order and format",
+     "  deck diff old_0000.rad new_0000.rad\n"
+     "  deck diff old_0000.rad new_0000.rad --markdown > comment.md\n"
+     "  deck diff old_0000.rad renumbered_0000.rad --match position\n"
+     "\n"
+     "Exit code 0: equal in meaning, 1: different.\n",
+     setup}};
+
+}  // namespace
