@@ -90,6 +90,103 @@ Result<void> read_severity(const toml::node& node, LintConfig& config) {
   return {};
 }
 
+/// A bound of the gate; false: `key` is none.
+Result<bool> read_bound(std::string_view key, const toml::node& node, const std::string& path,
+                        GateLimits& limits) {
+  if (key == "max-count") {
+    const auto count = node.value<std::int64_t>();
+    if (!node.is_integer() || *count < 0)
+      return config_error(path, line_of(node), "'max-count' is a whole number, 0 or more");
+    limits.max_count = static_cast<std::uint64_t>(*count);
+    return true;
+  }
+  std::optional<double>* bound = key == "max-depth"     ? &limits.max_depth
+                                 : key == "max-ratio"   ? &limits.max_ratio
+                                 : key == "max-dt-loss" ? &limits.max_dt_loss
+                                                        : nullptr;
+  if (bound == nullptr) return false;
+  const auto number = node.value<double>();
+  if (!node.is_number() || !(*number >= 0))
+    return config_error(path, line_of(node), "'" + std::string(key) + "' is a number, 0 or more");
+  *bound = *number;
+  return true;
+}
+
+/// One table of [[gate.interface]] (`patterns` 1) or [[gate.part-pair]] (2).
+Result<GateScope> read_scope(const toml::node& node, const std::string& path,
+                             std::size_t patterns) {
+  const toml::table* table = node.as_table();
+  const std::string form = patterns == 1 ? "a pattern of the id or title of an interface"
+                                         : "a list of two patterns of ids or titles of parts";
+  if (table == nullptr)
+    return config_error(path, line_of(node), "this is not a table with 'match' and bounds");
+  GateScope scope;
+  for (const auto& [key, value] : *table) {
+    if (key.str() == "match") {
+      if (const auto text = value.value<std::string>()) {
+        scope.match = {*text};
+      } else if (const toml::array* list = value.as_array()) {
+        for (const toml::node& item : *list)
+          if (const auto text_of = item.value<std::string>()) scope.match.push_back(*text_of);
+      }
+      if (scope.match.size() != patterns)
+        return config_error(path, line_of(value), "'match' is " + form);
+      continue;
+    }
+    const auto known = read_bound(key.str(), value, path, scope.limits);
+    if (!known) return known.error();
+    if (!*known || (patterns == 2 && key.str() == "max-dt-loss"))
+      return config_error(path, line_of(value),
+                          "unknown key '" + std::string(key.str()) + "'; known: match, max-depth, "
+                          "max-ratio, max-count" + (patterns == 1 ? ", max-dt-loss" : ""));
+  }
+  if (scope.match.empty())
+    return config_error(path, line_of(node), "'match' is missing: " + form);
+  return scope;
+}
+
+Result<void> read_gate(const toml::node& node, LintConfig& config) {
+  const toml::table* table = node.as_table();
+  if (table == nullptr) return config_error(config.path, line_of(node), "'gate' is not a table");
+  for (const auto& [key, value] : *table) {
+    const bool of_interface = key.str() == "interface";
+    if (of_interface || key.str() == "part-pair") {
+      const toml::array* list = value.as_array();
+      if (list == nullptr)
+        return config_error(config.path, line_of(value),
+                            "expected [[gate." + std::string(key.str()) + "]], a list of tables");
+      for (const toml::node& item : *list) {
+        auto scope = read_scope(item, config.path, of_interface ? 1 : 2);
+        if (!scope) return scope.error();
+        (of_interface ? config.gate.interfaces : config.gate.part_pairs)
+            .push_back(std::move(*scope));
+      }
+      continue;
+    }
+    if (key.str() == "fail-on") {
+      const toml::array* list = value.as_array();
+      bool legal = list != nullptr;
+      for (std::size_t i = 0; legal && i < list->size(); ++i) {
+        const auto word = list->get(i)->value<std::string>();
+        legal = word == "new" || word == "worse";
+        (word == "new" ? config.gate.on_fresh : config.gate.on_worse) = true;
+      }
+      if (!legal)
+        return config_error(config.path, line_of(value),
+                            "'fail-on' of the gate is a list of \"new\" and \"worse\"");
+      continue;
+    }
+    const auto known = read_bound(key.str(), value, config.path, config.gate.general);
+    if (!known) return known.error();
+    if (!*known)
+      return config_error(config.path, line_of(value),
+                          "unknown key '" + std::string(key.str()) +
+                              "'; known: max-depth, max-ratio, max-count, max-dt-loss, fail-on, "
+                              "interface, part-pair");
+  }
+  return {};
+}
+
 Result<void> read_key(std::string_view key, const toml::node& node, LintConfig& config) {
   if (key == "select" || key == "ignore") {
     auto list = string_list(node, config.path, key);
@@ -112,6 +209,7 @@ Result<void> read_key(std::string_view key, const toml::node& node, LintConfig& 
     return {};
   }
   if (key == "severity") return read_severity(node, config);
+  if (key == "gate") return read_gate(node, config);
   if (key == "per-file-ignores") {
     const toml::table* table = node.as_table();
     if (table == nullptr)
@@ -126,7 +224,7 @@ Result<void> read_key(std::string_view key, const toml::node& node, LintConfig& 
   return config_error(config.path, line_of(node),
                       "unknown key '" + std::string(key) +
                           "'; known: select, ignore, fail-on, baseline, severity, "
-                          "per-file-ignores");
+                          "per-file-ignores, gate");
 }
 
 }  // namespace

@@ -70,12 +70,20 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page) {
   return out;
 }
 
-std::string earlier_json(const EarlierGaps& earlier) {
+/// The earlier rows under the names that they have now, so that the page finds them by ids.
+std::string earlier_json(const HtmlInput& in) {
+  std::vector<EarlierGaps::Row> rows = in.earlier->rows;
+  for (const GapsComparison::Row& r : compare_gaps(*in.earlier, *in.scene, *in.view).rows) {
+    if (r.earlier == no_index) continue;
+    const NamedPenetration& p = in.view->penetrations[r.penetration];
+    rows[r.earlier].interface_id = in.scene->contacts[p.contact].inter->id;
+    rows[r.earlier].secondary = p.secondary;
+  }
   std::string out;
   JsonWriter j(out);
-  j.begin_object(true).field("path", earlier.path).field("deck", earlier.deck_path);
-  j.key("rows").begin_array(true);
-  for (const EarlierGaps::Row& r : earlier.rows) {
+  j.begin_object(true).field("path", in.earlier->path).field("deck", in.earlier->deck_path);
+  j.field("same_depth", same_depth).key("rows").begin_array(true);
+  for (const EarlierGaps::Row& r : rows) {
     j.begin_array(true).value(r.interface_id).value(r.role);
     j.value(r.secondary[0]).value(r.secondary[1]).value(r.depth).value(r.gap).end_array();
   }
@@ -150,7 +158,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   add_block(out, "deck-mesh", "application/octet-stream", detail::mesh_block(model, mesh, nodes));
   if (in.earlier != nullptr)
     add_block(out, "deck-earlier", "application/octet-stream",
-              detail::packed_text(earlier_json(*in.earlier)));
+              detail::packed_text(earlier_json(in)));
   if (in.crossings != nullptr)
     add_block(out, "deck-crossed", "application/octet-stream",
               detail::crossings_block(model, *in.crossings, nodes));

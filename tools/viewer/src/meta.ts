@@ -130,6 +130,7 @@ export interface Meta {
 export interface Earlier {
   path: string;
   deck: string;
+  same_depth: number; // share of a depth below which a difference is none
   rows: [number, string, number, number, number, number][]; // interface, role, s1, s2, depth, gap
 }
 

@@ -41,9 +41,6 @@ export interface Filter {
 
 export type Topic = "results" | "filter" | "selection" | "look";
 
-/** Depths that differ by less are called the same: text of another tool may have fewer digits. */
-const sameDepth = 1e-6;
-
 export class Report {
   readonly evaluator: Evaluator;
   readonly base: Result[];
@@ -283,7 +280,8 @@ export class Report {
           status: null,
           earlier: null,
         };
-        if (this.earlierRows) {
+        if (this.earlier && this.earlierRows) {
+          const sameDepth = this.earlier.same_depth;
           const key = `${id}|${meta.role}|${pair[0]}|${pair[1]}`;
           const old = this.earlierRows.get(key);
           seen.add(key);

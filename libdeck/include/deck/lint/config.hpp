@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "deck/lint/gate.hpp"
 #include "deck/lint/lint.hpp"
 #include "deck/text/result.hpp"
 
@@ -13,7 +14,9 @@ namespace deck {
 
 /// .decklint.toml. Keys: select, ignore (lists of ids or prefixes), fail-on ("error", "warning",
 /// "never"), baseline (path, relative to the file), [severity] id = "error"|"warning"|"info",
-/// [per-file-ignores] glob = list.
+/// [per-file-ignores] glob = list, [gate] max-depth, max-ratio,
+/// max-count, max-dt-loss, fail-on (list of "new", "worse"), [[gate.interface]] match = pattern of
+/// id or title, [[gate.part-pair]] match = two of them, each with bounds of its own.
 struct LintConfig {
   std::string path;  ///< file it came from; empty: none
   std::vector<std::string> select, ignore;
@@ -21,6 +24,7 @@ struct LintConfig {
   std::string baseline;
   std::map<std::string, Severity> severity;
   std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;
+  Gate gate;
 };
 
 /// Parses the text of a configuration; unknown keys and unknown rules are errors.

@@ -6,8 +6,10 @@
 #include <string_view>
 
 #include "deck/contact/crossings.hpp"
+#include "deck/contact/earlier.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/keyword/deck.hpp"
+#include "deck/text/result.hpp"
 
 namespace deck {
 
@@ -33,6 +35,11 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
 /// Crossed elements by part pair.
 std::string crossings_text(const Scene& scene, const std::vector<Crossing>& crossings,
                            const GapsTextOptions& options = {});
+
+/// Reads the document that `deck gaps --json` wrote; of a list of decks the one called `deck_path`,
+/// else the first. Error: no such document, with what was expected.
+Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
+                                      std::string_view deck_path);
 
 /// One line per penetration, deepest first, RFC 4180.
 std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view);

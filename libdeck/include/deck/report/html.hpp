@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "deck/contact/crossings.hpp"
+#include "deck/contact/earlier.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 #include "deck/keyword/deck.hpp"
@@ -14,24 +15,6 @@
 #include "deck/text/result.hpp"
 
 namespace deck {
-
-/// What an earlier report found, for "new, solved, worse".
-struct EarlierGaps {
-  struct Row {
-    std::int64_t interface_id = 0;
-    std::string role;                         ///< "primary", "reversed", "edges"
-    std::array<std::int64_t, 2> secondary{};  ///< node (second 0) or the two nodes of an edge
-    double depth = 0, gap = 0;                ///< lengths, also for edges
-  };
-  std::string path;       ///< of the JSON file, as given
-  std::string deck_path;  ///< of the deck it describes
-  std::vector<Row> rows;  ///< deepest row of every secondary node or edge
-};
-
-/// Reads the document that `deck gaps --json` wrote; of a list of decks the one called `deck_path`,
-/// else the first. Error: no such document, with what was expected.
-Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
-                                      std::string_view deck_path);
 
 struct HtmlInput {
   std::string_view path;  ///< of the deck, as given

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "deck/report/html.hpp"
+#include "deck/report/gaps.hpp"
 
 namespace deck {
 namespace {
@@ -46,6 +46,12 @@ EarlierGaps::Row row_of(const Json& p) {
     row.secondary = {p.contains("node") ? whole(p["node"]) : 0, 0};
     row.depth = number(p, "penetration");
     row.gap = number(p, "gap");
+  }
+  const auto at = p.find("at");
+  if (at != p.end() && at->is_array() && at->size() == 3) {
+    row.at.emplace();
+    for (std::size_t k = 0; k < 3; ++k)
+      (*row.at)[k] = (*at)[k].is_number() ? (*at)[k].get<double>() : 0;
   }
   return row;
 }

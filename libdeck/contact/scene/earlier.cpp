@@ -1,0 +1,145 @@
+// Finds for every penetration of a scene the one that an earlier run had there.
+#include "deck/contact/earlier.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+namespace deck {
+namespace {
+
+/// A millionth of the gap: positions of the same node are equal, closest points of the same edges
+/// agree to roundings.
+constexpr double same_place = 1e-6;
+
+class Matcher {
+ public:
+  Matcher(const EarlierGaps& earlier, const Scene& scene, const SceneView& view)
+      : earlier_(earlier.rows), scene_(scene), view_(view), taken_(earlier.rows.size(), false) {
+    double widest = 0;
+    for (const EarlierGaps::Row& row : earlier_) widest = std::max(widest, row.gap);
+    if (widest > 0) width_ = 2 * same_place * widest;
+    for (std::uint32_t i = 0; i < earlier_.size(); ++i) {
+      by_ids_.emplace(key(earlier_[i].interface_id, earlier_[i].role, earlier_[i].secondary), i);
+      if (earlier_[i].at) by_place_[cell_of(*earlier_[i].at)].push_back(i);
+    }
+  }
+
+  /// Earlier row of each of the deepest penetrations; no_index: none.
+  std::vector<std::uint32_t> match() {
+    std::vector<std::uint32_t> found(view_.deepest_per_node.size(), no_index);
+    const auto pass = [&](auto&& find) {
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i] != no_index) continue;
+        found[i] = find(view_.penetrations[view_.deepest_per_node[i]]);
+        if (found[i] != no_index) taken_[found[i]] = true;
+      }
+    };
+    pass([&](const NamedPenetration& p) {
+      const std::uint32_t i = with_ids(p);
+      return i != no_index && (!earlier_[i].at || is_at(p, i)) ? i : no_index;
+    });
+    pass([&](const NamedPenetration& p) { return at_place(p); });
+    pass([&](const NamedPenetration& p) { return with_ids(p); });
+    return found;
+  }
+
+  const std::vector<bool>& taken() const { return taken_; }
+
+ private:
+  using Key = std::tuple<std::int64_t, std::string, std::array<std::int64_t, 2>>;
+  static Key key(std::int64_t interface_id, const std::string& role,
+                 std::array<std::int64_t, 2> secondary) {
+    if (secondary[1] != 0 && secondary[1] < secondary[0]) std::swap(secondary[0], secondary[1]);
+    return {interface_id, role, secondary};
+  }
+
+  std::uint32_t with_ids(const NamedPenetration& p) const {
+    const Contact& c = scene_.contacts[p.contact];
+    const auto it = by_ids_.find(key(c.inter->id, to_string(c.role), p.secondary));
+    return it == by_ids_.end() || taken_[it->second] ? no_index : it->second;
+  }
+
+  bool is_at(const NamedPenetration& p, std::uint32_t i) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!(std::abs((*earlier_[i].at)[k] - p.at[k]) <= same_place * earlier_[i].gap)) return false;
+    return true;
+  }
+
+  using Cell = std::array<double, 3>;  // whole numbers, of any size
+  struct CellHash {
+    std::size_t operator()(const Cell& c) const {
+      const std::hash<double> hash;
+      return (hash(c[0]) * 31 + hash(c[1])) * 31 + hash(c[2]);
+    }
+  };
+  Cell cell_of(const std::array<double, 3>& at) const {
+    return {std::floor(at[0] / width_), std::floor(at[1] / width_), std::floor(at[2] / width_)};
+  }
+
+  /// Of the free rows there with the same role, one of the same interface before one of another.
+  std::uint32_t at_place(const NamedPenetration& p) const {
+    const Contact& c = scene_.contacts[p.contact];
+    const Cell centre = cell_of(p.at);
+    std::uint32_t other = no_index;
+    for (int k = 0; k < 27; ++k) {
+      const Cell cell = {centre[0] + k % 3 - 1, centre[1] + k / 3 % 3 - 1, centre[2] + k / 9 - 1};
+      const auto found = by_place_.find(cell);
+      if (found == by_place_.end()) continue;
+      for (const std::uint32_t i : found->second) {
+        const EarlierGaps::Row& row = earlier_[i];
+        if (taken_[i] || row.role != to_string(c.role) || !is_at(p, i)) continue;
+        if (row.interface_id == c.inter->id) return i;
+        if (other == no_index) other = i;
+      }
+    }
+    return other;
+  }
+
+  const std::vector<EarlierGaps::Row>& earlier_;
+  const Scene& scene_;
+  const SceneView& view_;
+  std::vector<bool> taken_;
+  std::map<Key, std::uint32_t> by_ids_;
+  std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> by_place_;
+  double width_ = 1;  // of a cell: what is at the same place lies in it or in one beside it
+};
+
+}  // namespace
+
+const char* to_string(Trend trend) {
+  static constexpr const char* words[] = {"new", "worse", "same", "better"};
+  return words[static_cast<std::size_t>(trend)];
+}
+
+std::uint64_t GapsComparison::count(Trend trend) const {
+  return static_cast<std::uint64_t>(
+      std::count_if(rows.begin(), rows.end(), [&](const Row& r) { return r.trend == trend; }));
+}
+
+GapsComparison compare_gaps(const EarlierGaps& earlier, const Scene& scene, const SceneView& view) {
+  Matcher matcher(earlier, scene, view);
+  const std::vector<std::uint32_t> found = matcher.match();
+  GapsComparison out;
+  out.rows.reserve(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::uint32_t at = view.deepest_per_node[i];
+    GapsComparison::Row row{at, Trend::fresh, found[i]};
+    if (found[i] != no_index) {
+      const NamedPenetration& p = view.penetrations[at];
+      const double depth = scene.contacts[p.contact].penetrations[p.row].depth;
+      const double was = earlier.rows[found[i]].depth;
+      row.trend = depth > was * (1 + same_depth)   ? Trend::worse
+                  : depth < was * (1 - same_depth) ? Trend::better
+                                                   : Trend::same;
+    }
+    out.rows.push_back(row);
+  }
+  for (std::uint32_t i = 0; i < earlier.rows.size(); ++i)
+    if (!matcher.taken()[i]) out.solved.push_back(i);
+  return out;
+}
+
+}  // namespace deck

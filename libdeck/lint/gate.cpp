@@ -1,0 +1,250 @@
+// Holds the contacts of a scene against the bounds of a gate, and against an earlier run.
+#include "deck/lint/gate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "deck/lint/config.hpp"
+#include "deck/text/number.hpp"
+
+namespace deck {
+namespace {
+
+/// `pattern` against an id or a title; here a slash is a character like any other.
+bool matches(std::string_view pattern, std::int64_t id, std::string_view title) {
+  const auto plain = [](std::string_view text) {
+    std::string out(text);
+    std::replace(out.begin(), out.end(), '/', '|');
+    return out;
+  };
+  return glob_match(plain(pattern), std::to_string(id)) ||
+         glob_match(plain(pattern), plain(title));
+}
+
+template <class T>
+void override_by(std::optional<T>& value, const std::optional<T>& other) {
+  if (other) value = other;
+}
+
+void override_by(GateLimits& limits, const GateLimits& other) {
+  override_by(limits.max_depth, other.max_depth);
+  override_by(limits.max_ratio, other.max_ratio);
+  override_by(limits.max_dt_loss, other.max_dt_loss);
+}
+
+/// Nodes and edges, each once.
+struct Items {
+  std::set<std::array<std::int64_t, 2>> all = {};
+  std::uint32_t deepest = no_index;  ///< SceneView::penetrations, which is sorted by depth
+
+  void add(const NamedPenetration& p, std::uint32_t at) {
+    all.insert(p.secondary);
+    if (deepest == no_index) deepest = at;
+  }
+  std::string text() const {
+    const auto edges = static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [](const auto& s) { return s[1] != 0; }));
+    const std::size_t nodes = all.size() - edges;
+    const auto count = [](std::size_t n, const char* one) {
+      return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
+    };
+    if (edges == 0) return count(nodes, "node");
+    if (nodes == 0) return count(edges, "edge");
+    return count(nodes, "node") + " and " + count(edges, "edge");
+  }
+};
+
+class Check {
+ public:
+  Check(const Gate& gate, const Scene& scene, const SceneView& view)
+      : gate_(gate), scene_(scene), view_(view) {
+    for (const InterBase* inter : scene.interfaces->ordered) {
+      GateLimits limits = gate.general;
+      limits.max_count.reset();  // that of the deck is another bound than that of an interface
+      const GateScope* scope = nullptr;
+      for (const GateScope& s : gate.interfaces)
+        if (matches(s.match[0], inter->id, inter->title)) scope = &s;
+      if (scope != nullptr) {
+        override_by(limits, scope->limits);
+        limits.max_count = scope->limits.max_count;
+      }
+      limits_.emplace(inter, limits);
+    }
+  }
+
+  void penetrations() {
+    std::map<const InterBase*, std::map<double, Items>> deep, large;
+    std::map<const InterBase*, Items> of_interface;
+    std::vector<Items> of_pair(gate_.part_pairs.size());
+    Items of_deck;
+    for (std::uint32_t i = 0; i < view_.penetrations.size(); ++i) {
+      const NamedPenetration& p = view_.penetrations[i];
+      const Contact& c = scene_.contacts[p.contact];
+      const PenetrationRow& row = c.penetrations[p.row];
+      of_deck.add(p, i);
+      of_interface[c.inter].add(p, i);
+      GateLimits limits = limits_.at(c.inter);
+      if (const std::size_t pair = pair_of(p); pair < of_pair.size()) {
+        of_pair[pair].add(p, i);
+        override_by(limits, gate_.part_pairs[pair].limits);
+      }
+      if (limits.max_depth && row.depth > *limits.max_depth)
+        deep[c.inter][*limits.max_depth].add(p, i);
+      if (limits.max_ratio && row.gap > 0 && row.depth > *limits.max_ratio * row.gap)
+        large[c.inter][*limits.max_ratio].add(p, i);
+    }
+    for (const InterBase* inter : scene_.interfaces->ordered) {
+      for (const auto& [bound, items] : deep[inter])
+        report("DK404", inter,
+               fmt::format("{}: {} deeper than the {} of the gate; deepest {}", name_of(inter),
+                           items.text(), shortest(bound), pair_text(items.deepest)));
+      for (const auto& [bound, items] : large[inter])
+        report("DK405", inter,
+               fmt::format("{}: {} deeper than the {} of the gap that the gate allows; deepest {}",
+                           name_of(inter), items.text(), shortest(bound),
+                           pair_text(items.deepest)));
+      if (const auto most = limits_.at(inter).max_count; most && of_interface[inter].all.size() > *most)
+        report("DK406", inter,
+               fmt::format("{}: {} penetrate, the gate allows {}", name_of(inter),
+                           of_interface[inter].text(), *most));
+    }
+    for (std::size_t k = 0; k < of_pair.size(); ++k)
+      if (const auto most = gate_.part_pairs[k].limits.max_count; most && of_pair[k].all.size() > *most)
+        report("DK406", nullptr,
+               fmt::format("parts '{}' and '{}': {} penetrate, the gate allows {}",
+                           gate_.part_pairs[k].match[0], gate_.part_pairs[k].match[1],
+                           of_pair[k].text(), *most));
+    if (const auto most = gate_.general.max_count; most && of_deck.all.size() > *most)
+      report("DK406", nullptr,
+             fmt::format("the deck: {} penetrate, the gate allows {}", of_deck.text(), *most));
+  }
+
+  void time_steps(const cycle::SceneOutcome& forces) {
+    for (const cycle::InterfaceSummary& s : cycle::summarize(scene_, forces)) {
+      const auto most = limits_.at(s.inter).max_dt_loss;
+      if (!most || !(s.contact_dt < s.structure_dt) || s.structure_dt >= 1e30) continue;
+      const double loss = 1 - s.contact_dt / s.structure_dt;
+      if (loss > *most)
+        report("DK407", s.inter,
+               fmt::format("{}: time step {:.4g}, the mesh allows {:.4g}: a loss of {:.4g}, the gate "
+                           "allows {}",
+                           name_of(s.inter), s.contact_dt, s.structure_dt, loss, shortest(*most)));
+    }
+  }
+
+  void trends(const EarlierGaps& earlier) {
+    std::map<const InterBase*, Items> fresh;
+    std::map<const InterBase*, std::pair<Items, double>> worse;
+    for (const GapsComparison::Row& r : compare_gaps(earlier, scene_, view_).rows) {
+      const NamedPenetration& p = view_.penetrations[r.penetration];
+      const InterBase* inter = scene_.contacts[p.contact].inter;
+      if (r.trend == Trend::fresh) fresh[inter].add(p, r.penetration);
+      if (r.trend != Trend::worse) continue;
+      auto& [items, was] = worse[inter];
+      if (items.deepest == no_index) was = earlier.rows[r.earlier].depth;
+      items.add(p, r.penetration);
+    }
+    for (const InterBase* inter : scene_.interfaces->ordered) {
+      if (const auto it = fresh.find(inter); gate_.on_fresh && it != fresh.end())
+        report("DK408", inter,
+               fmt::format("{}: {} penetrate that did not in {}; deepest {}", name_of(inter),
+                           it->second.text(), earlier.path, pair_text(it->second.deepest)));
+      if (const auto it = worse.find(inter); gate_.on_worse && it != worse.end())
+        report("DK409", inter,
+               fmt::format("{}: {} penetrate deeper than in {}; deepest {}, which was {:.6g}",
+                           name_of(inter), it->second.first.text(), earlier.path,
+                           pair_text(it->second.first.deepest), it->second.second));
+    }
+  }
+
+  std::vector<Diagnostic> found;
+
+ private:
+  static std::string name_of(const InterBase* inter) {
+    return fmt::format("/INTER/TYPE{} {}", inter->type, inter->id);
+  }
+
+  /// "node 57 by 0.4 of a gap of 1.2"
+  std::string pair_text(std::uint32_t at) const {
+    const NamedPenetration& p = view_.penetrations[at];
+    const PenetrationRow& row = scene_.contacts[p.contact].penetrations[p.row];
+    return fmt::format("{} by {:.6g} of a gap of {:.6g}",
+                       p.secondary[1] == 0 ? fmt::format("node {}", p.secondary[0])
+                                           : fmt::format("edge {}-{}", p.secondary[0], p.secondary[1]),
+                       row.depth, row.gap);
+  }
+
+  /// The last scope of Gate::part_pairs that the parts of the pair match; one past the end: none.
+  std::size_t pair_of(const NamedPenetration& p) {
+    const std::size_t none = gate_.part_pairs.size();
+    if (none == 0) return none;
+    const std::pair parts(p.secondary_element.part, p.main_element.part);
+    const auto [it, is_new] = pair_scopes_.emplace(parts, none);
+    if (!is_new) return it->second;
+    const auto fits = [&](const std::string& pattern, std::int64_t id) {
+      const auto part = scene_.model->part_of_id.find(id);
+      return part != scene_.model->part_of_id.end() &&
+             matches(pattern, id, scene_.model->parts[part->second].title);
+    };
+    for (std::size_t k = 0; k < none; ++k) {
+      const auto& m = gate_.part_pairs[k].match;
+      if ((fits(m[0], parts.first) && fits(m[1], parts.second)) ||
+          (fits(m[1], parts.first) && fits(m[0], parts.second)))
+        it->second = k;
+    }
+    return it->second;
+  }
+
+  void report(std::string_view rule, const InterBase* inter, std::string message) {
+    Diagnostic d;
+    d.rule = rule;
+    d.severity = Severity::error;
+    d.message = std::move(message);
+    d.span = inter != nullptr ? inter->span : Span{0, 0, 0};
+    if (inter != nullptr) {
+      d.keyword = "/INTER/TYPE" + std::to_string(inter->type);
+      d.id = inter->id;
+    }
+    found.push_back(std::move(d));
+  }
+
+  const Gate& gate_;
+  const Scene& scene_;
+  const SceneView& view_;
+  std::map<const InterBase*, GateLimits> limits_;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> pair_scopes_;
+};
+
+bool any_limit(const GateLimits& l) {
+  return l.max_depth || l.max_ratio || l.max_dt_loss || l.max_count;
+}
+
+template <class F>
+bool some(const Gate& gate, F&& of) {
+  const auto in = [&](const std::vector<GateScope>& scopes) {
+    return std::any_of(scopes.begin(), scopes.end(), [&](const GateScope& s) { return of(s.limits); });
+  };
+  return of(gate.general) || in(gate.interfaces) || in(gate.part_pairs);
+}
+
+}  // namespace
+
+bool Gate::any() const { return on_fresh || on_worse || some(*this, any_limit); }
+bool Gate::needs_forces() const {
+  return some(*this, [](const GateLimits& l) { return l.max_dt_loss.has_value(); });
+}
+
+std::vector<Diagnostic> check_gate(const Gate& gate, const Scene& scene, const SceneView& view,
+                                   const cycle::SceneOutcome* forces, const EarlierGaps* earlier) {
+  Check check(gate, scene, view);
+  check.penetrations();
+  if (forces != nullptr && gate.needs_forces()) check.time_steps(*forces);
+  if (earlier != nullptr) check.trends(*earlier);
+  return std::move(check.found);
+}
+
+}  // namespace deck
