@@ -176,13 +176,19 @@ Result<void> read_gate(const toml::node& node, LintConfig& config) {
                             "'fail-on' of the gate is a list of \"new\" and \"worse\"");
       continue;
     }
+    if (key.str() == "compare") {
+      const auto text = value.value<std::string>();
+      if (!text) return config_error(config.path, line_of(value), "'compare' is not a path");
+      config.compare = (fs::path(config.path).parent_path() / *text).string();
+      continue;
+    }
     const auto known = read_bound(key.str(), value, config.path, config.gate.general);
     if (!known) return known.error();
     if (!*known)
       return config_error(config.path, line_of(value),
                           "unknown key '" + std::string(key.str()) +
                               "'; known: max-depth, max-ratio, max-count, max-dt-loss, fail-on, "
-                              "interface, part-pair");
+                              "compare, interface, part-pair");
   }
   return {};
 }

@@ -99,27 +99,27 @@ class Check {
     }
     for (const InterBase* inter : scene_.interfaces->ordered) {
       for (const auto& [bound, items] : deep[inter])
-        report("DK404", inter,
+        report(RuleId::DK370, inter,
                fmt::format("{}: {} deeper than the {} of the gate; deepest {}", name_of(inter),
-                           items.text(), shortest(bound), pair_text(items.deepest)));
+                           items.text(), bound, pair_text(items.deepest)));
       for (const auto& [bound, items] : large[inter])
-        report("DK405", inter,
+        report(RuleId::DK371, inter,
                fmt::format("{}: {} deeper than the {} of the gap that the gate allows; deepest {}",
-                           name_of(inter), items.text(), shortest(bound),
+                           name_of(inter), items.text(), bound,
                            pair_text(items.deepest)));
       if (const auto most = limits_.at(inter).max_count; most && of_interface[inter].all.size() > *most)
-        report("DK406", inter,
+        report(RuleId::DK372, inter,
                fmt::format("{}: {} penetrate, the gate allows {}", name_of(inter),
                            of_interface[inter].text(), *most));
     }
     for (std::size_t k = 0; k < of_pair.size(); ++k)
       if (const auto most = gate_.part_pairs[k].limits.max_count; most && of_pair[k].all.size() > *most)
-        report("DK406", nullptr,
+        report(RuleId::DK372, nullptr,
                fmt::format("parts '{}' and '{}': {} penetrate, the gate allows {}",
                            gate_.part_pairs[k].match[0], gate_.part_pairs[k].match[1],
                            of_pair[k].text(), *most));
     if (const auto most = gate_.general.max_count; most && of_deck.all.size() > *most)
-      report("DK406", nullptr,
+      report(RuleId::DK372, nullptr,
              fmt::format("the deck: {} penetrate, the gate allows {}", of_deck.text(), *most));
   }
 
@@ -129,10 +129,10 @@ class Check {
       if (!most || !(s.contact_dt < s.structure_dt) || s.structure_dt >= 1e30) continue;
       const double loss = 1 - s.contact_dt / s.structure_dt;
       if (loss > *most)
-        report("DK407", s.inter,
+        report(RuleId::DK373, s.inter,
                fmt::format("{}: time step {:.4g}, the mesh allows {:.4g}: a loss of {:.4g}, the gate "
                            "allows {}",
-                           name_of(s.inter), s.contact_dt, s.structure_dt, loss, shortest(*most)));
+                           name_of(s.inter), s.contact_dt, s.structure_dt, loss, *most));
     }
   }
 
@@ -150,11 +150,11 @@ class Check {
     }
     for (const InterBase* inter : scene_.interfaces->ordered) {
       if (const auto it = fresh.find(inter); gate_.on_fresh && it != fresh.end())
-        report("DK408", inter,
+        report(RuleId::DK374, inter,
                fmt::format("{}: {} penetrate that did not in {}; deepest {}", name_of(inter),
                            it->second.text(), earlier.path, pair_text(it->second.deepest)));
       if (const auto it = worse.find(inter); gate_.on_worse && it != worse.end())
-        report("DK409", inter,
+        report(RuleId::DK375, inter,
                fmt::format("{}: {} penetrate deeper than in {}; deepest {}, which was {:.6g}",
                            name_of(inter), it->second.first.text(), earlier.path,
                            pair_text(it->second.first.deepest), it->second.second));
@@ -199,12 +199,8 @@ class Check {
     return it->second;
   }
 
-  void report(std::string_view rule, const InterBase* inter, std::string message) {
-    Diagnostic d;
-    d.rule = rule;
-    d.severity = Severity::error;
-    d.message = std::move(message);
-    d.span = inter != nullptr ? inter->span : Span{0, 0, 0};
+  void report(RuleId rule, const InterBase* inter, std::string message) {
+    Diagnostic d = finding_of(rule, inter != nullptr ? inter->span : Span{0, 0, 0}, std::move(message));
     if (inter != nullptr) {
       d.keyword = "/INTER/TYPE" + std::to_string(inter->type);
       d.id = inter->id;

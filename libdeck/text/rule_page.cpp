@@ -33,6 +33,7 @@ std::optional<RuleStage> stage_of(std::string_view text) {
   if (text == "model") return RuleStage::model;
   if (text == "check") return RuleStage::check;
   if (text == "geometry") return RuleStage::extra;
+  if (text == "gate") return RuleStage::gate;
   if (text == "linter") return RuleStage::linter;
   return std::nullopt;
 }

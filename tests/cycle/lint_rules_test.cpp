@@ -21,7 +21,7 @@ Linted lint_cycle(std::string_view example, int threads = 1) {
       *out.deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces},
       {}};
   input.extra_checks.push_back(
-      [&](const LintContext& c, Reporter& r) { check_geometry(c, r, threads); });
+      [&](const LintContext& c, Reporter& r) { check_geometry(c, r, {.threads = threads}); });
   out.result = run_lint(input);
   return out;
 }

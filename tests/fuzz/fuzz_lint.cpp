@@ -22,7 +22,7 @@ LintResult lint(fuzz::Whole& whole, bool geometry) {
   input.earlier = {&whole.diagnostics, &selections.diagnostics()};
   if (geometry)
     input.extra_checks.push_back(
-        [](const LintContext& c, Reporter& r) { check_geometry(c, r, 1); });
+        [](const LintContext& c, Reporter& r) { check_geometry(c, r); });
   return run_lint(input, {});
 }
 

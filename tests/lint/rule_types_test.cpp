@@ -23,7 +23,7 @@ bool fires(std::string_view example, const Rule& rule) {
   const Interfaces interfaces = read_interfaces(*deck, model, of_interfaces);
   LintInput input{
       *deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces}, {}};
-  input.extra_checks.push_back([](const LintContext& c, Reporter& r) { check_geometry(c, r, 1); });
+  input.extra_checks.push_back([](const LintContext& c, Reporter& r) { check_geometry(c, r); });
   const LintResult result = run_lint(input);
   return std::any_of(result.diagnostics.begin(), result.diagnostics.end(),
                      [&](const Diagnostic& d) { return d.rule == rule.id; });

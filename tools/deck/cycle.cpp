@@ -10,6 +10,7 @@
 #include "common.hpp"
 #include "deck/report/cycle.hpp"
 #include "deck/text/number.hpp"
+#include "gate.hpp"
 
 namespace {
 
@@ -25,6 +26,7 @@ struct Options {
   std::vector<std::string> velocities, gone;
   std::string vtk;
   int steps = 1;
+  GateOptions gate;
 };
 
 /// The largest component of any node's velocity.
@@ -134,6 +136,10 @@ int run(const Options& o) {
     print_error(o.common, "--steps needs --dt: how long is a step?");
     return exit_usage;
   }
+  if (auto legal = check_fail_on(o.gate); !legal) {
+    print_error(o.common, legal.error().message);
+    return exit_usage;
+  }
   JsonOutput json(o.common, "deck/cycle", 1);
   options.keep_pairs = (o.all && json.wanted()) || !o.vtk.empty();
   std::vector<std::int64_t> parts;
@@ -145,6 +151,12 @@ int run(const Options& o) {
         print_error(o.common, known.error().message);
         return static_cast<int>(exit_usage);
       }
+    auto config = config_of(o.gate, loaded.path);
+    auto gate = config ? gate_of(o.gate, *config, loaded.path) : Result<DeckGate>(config.error());
+    if (!gate) {
+      print_error(o.common, gate.error().message);
+      return static_cast<int>(exit_usage);
+    }
     options.dead.clear();
     for (const std::string& text : o.gone) {
       auto dead = parse_gone(loaded.model, text);
@@ -167,6 +179,7 @@ int run(const Options& o) {
     CycleInput input;
     Result<void> written;
     bool found = false;  // at any step
+    const bool fails = o.fail || o.gate.fails_on("warning");
     {
       Progress progress(!o.common.quiet);
       progress.step("contacts");
@@ -187,7 +200,7 @@ int run(const Options& o) {
       const auto watch = [&](std::size_t step, const cycle::SceneOutcome& now,
                              const Coordinates& x) {
         for (const cycle::ContactOutcome& c : now.contacts)
-          found = found || (o.fail && c.pairs_with_force > 0) || !c.complete;
+          found = found || (fails && c.pairs_with_force > 0) || !c.complete;
         if (!series || !written) return;
         CycleInput one = input;
         one.outcome = &now;
@@ -218,13 +231,22 @@ int run(const Options& o) {
         written = write_vtk(o, loaded.path, cycle_vtk(input));
       }
     }
+    const SceneView view = make_view(scene);
+    const GateReport passed = gate->look(loaded, scene, view, &steps.last);
+    input.view = &view;
+    input.gate = &passed;
+    if (o.gate.fails_on("never")) found = false;
+    found = found || !passed.findings.empty();
     print_findings(loaded, o.common);
     if (json.wanted()) json.add(cycle_json(input, o.all));
     if (!written) {
       print_error(o.common, written.error().message);
       return static_cast<int>(exit_usage);
     }
-    if (o.common.wants_text()) print_text(cycle_text(input, {o.common.color_on(1), o.effects}));
+    if (o.common.wants_text()) {
+      print_text(cycle_text(input, {o.common.color_on(1), o.effects}));
+      if (const std::string lines = gate_text(passed); !lines.empty()) print_text("\n" + lines);
+    }
     return static_cast<int>(found ? exit_findings : exit_clean);
   });
   return json.finish(code);
@@ -266,7 +288,8 @@ Action setup(CommandLine& line) {
   line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
   add_require_examined(line, options->common);
   line.flag("--fail-on-force", options->fail,
-            "Exit 1 when any contact pushes, at the start or at any step");
+            "Exit 1 when any contact pushes, at the start or at any step, as --fail-on warning");
+  add_gate_with_config(line, options->gate, "a contact could not be evaluated", "any contact pushes");
   return [options] { return run(*options); };
 }
 

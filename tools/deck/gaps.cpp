@@ -14,6 +14,7 @@
 #include "deck/report/json.hpp"
 #include "deck/report/vtk.hpp"
 #include "deck/text/number.hpp"
+#include "gate.hpp"
 
 namespace {
 
@@ -26,7 +27,8 @@ struct Options {
   bool fail = false;
   bool crossings = false;
   std::size_t worst = 20;
-  std::string csv, html, compare, vtk, accuracy = "robust";
+  std::string csv, html, vtk, accuracy = "robust";
+  GateOptions gate;
   std::vector<std::int64_t> only;
   std::vector<std::string> what_if;
 };
@@ -151,16 +153,7 @@ Result<void> write_vtk(const Options& o, const Loaded& loaded, const Scene& scen
 /// Writes the HTML report; what can be wrong is wrong usage or a file.
 Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& scene,
                         const SceneView& view, const std::vector<Crossing>& crossings,
-                        const SceneOptions& scene_options) {
-  EarlierGaps earlier;
-  if (!o.compare.empty()) {
-    const auto source = Source::open(o.compare, Limits{});
-    if (!source) return source.error();
-    remember_read(**source);
-    auto read = read_earlier_gaps(o.compare, (*source)->bytes(), loaded.path);
-    if (!read) return read.error();
-    earlier = std::move(*read);
-  }
+                        const SceneOptions& scene_options, const GateReport& gate) {
   cycle::CycleOptions cycle_options;
   cycle_options.threads = scene_options.threads;
   cycle_options.keep_pairs = true;
@@ -176,7 +169,7 @@ Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& sce
   input.what_if = scene_options.what_if;
   input.only = scene_options.only;
   input.threads = scene_options.threads;
-  if (!o.compare.empty()) input.earlier = &earlier;
+  input.earlier = gate.earlier;
   auto page = gaps_html(input);
   if (!page) return page.error();
   return write_output(o.html, *page);
@@ -187,8 +180,8 @@ int run(const Options& o) {
     print_error(o.common, "--html: this build has no viewer: " + why);
     return exit_usage;
   }
-  if (!o.compare.empty() && o.html.empty()) {
-    print_error(o.common, "--compare needs --html");
+  if (auto legal = check_fail_on(o.gate); !legal) {
+    print_error(o.common, legal.error().message);
     return exit_usage;
   }
   if (!o.html.empty() && o.common.decks.size() > 1) {
@@ -215,22 +208,36 @@ int run(const Options& o) {
       print_error(o.common, fits.error().message);
       return static_cast<int>(exit_usage);
     }
+    auto config = config_of(o.gate, loaded.path);
+    auto gate = config ? gate_of(o.gate, *config, loaded.path) : Result<DeckGate>(config.error());
+    if (!gate) {
+      print_error(o.common, gate.error().message);
+      return static_cast<int>(exit_usage);
+    }
     Scene scene;
     {
       Progress progress(!o.common.quiet);
       progress.step("contacts");
-      scene_options.nodal_stiffness = (o.all && json.wanted()) || !o.html.empty();
+      const bool forces = !o.html.empty() || gate->gate.needs_forces();
+      scene_options.nodal_stiffness = (o.all && json.wanted()) || forces;
       scene_options.progress = [&](std::size_t done, std::size_t total) {
         progress.update(done, total);
       };
       scene = build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
     }
-    print_findings(loaded, o.common);
     const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
     const SceneView view = make_view(scene, &crossings);
+    std::optional<cycle::SceneOutcome> forces;
+    if (gate->gate.needs_forces()) {
+      cycle::CycleOptions cycle_options;
+      cycle_options.threads = scene_options.threads;
+      forces = cycle::run_cycle(scene, cycle::make_state(scene), cycle_options);
+    }
+    const GateReport passed = gate->look(loaded, scene, view, forces ? &*forces : nullptr);
+    print_findings(loaded, o.common);
     if (json.wanted())
       json.add(gaps_json(loaded.path, loaded.deck, scene, view, o.all,
-                         o.crossings ? &crossings : nullptr));
+                         o.crossings ? &crossings : nullptr, &passed));
     if (!o.csv.empty())
       if (auto r = write_output(o.csv, gaps_csv(loaded.deck, scene, view)); !r) {
         print_error(o.common, r.error().message);
@@ -242,7 +249,7 @@ int run(const Options& o) {
         return static_cast<int>(exit_usage);
       }
     if (!o.html.empty())
-      if (auto r = write_html(o, loaded, scene, view, crossings, scene_options); !r) {
+      if (auto r = write_html(o, loaded, scene, view, crossings, scene_options, passed); !r) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }
@@ -252,9 +259,13 @@ int run(const Options& o) {
       text.color = o.common.color_on(1);
       print_text(gaps_text(loaded.deck, scene, view, text));
       if (o.crossings) print_text(crossings_text(scene, crossings, text));
+      if (const std::string lines = gate_text(passed); !lines.empty()) print_text("\n" + lines);
     }
-    bool found = o.fail ? view.total.count.pairs > 0 : view.total.solver_errors > 0;
+    bool found = o.fail || o.gate.fails_on("warning") ? view.total.count.pairs > 0
+                                                       : view.total.solver_errors > 0;
     for (const Contact& c : scene.contacts) found = found || !c.evaluated;
+    if (o.gate.fails_on("never")) found = false;
+    found = found || !passed.findings.empty();
     return static_cast<int>(found ? exit_findings : exit_clean);
   });
   return json.finish(code);
@@ -276,9 +287,6 @@ Action setup(CommandLine& line) {
   line.option("--html", options->html,
               "Write the interactive report to FILE: one page, no network needed")
       .value("FILE");
-  line.option("--compare", options->compare,
-              "With --html: an earlier 'deck gaps --json' FILE to compare with")
-      .value("FILE");
   add_accuracy(line, options->accuracy);
   line.option("--worst", options->worst, "Rows of the list of deepest penetrations").show_default();
   line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
@@ -288,7 +296,8 @@ Action setup(CommandLine& line) {
               "the deck is not changed")
       .value("ID:FIELD=VALUE,...");
   line.flag("--fail-on-penetration", options->fail,
-            "Exit 1 for any initial penetration (default: only where the solver stops)");
+            "Exit 1 for any initial penetration, as --fail-on warning");
+  add_gate_with_config(line, options->gate, "the solver stops", "any initial penetration");
   return [options] { return run(*options); };
 }
 
@@ -297,7 +306,9 @@ const VerbRegistration registration{{"gaps", 30,
                                      "  deck gaps car_0000.rad\n"
                                      "  deck gaps car_0000.rad --html gaps.html\n"
                                      "  deck gaps car_0000.rad --json gaps.json --all\n"
-                                     "  deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6\n",
+                                     "  deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6\n"
+                                     "  deck gaps car_0000.rad --max-depth 0.5 --max-count 20\n"
+                                     "  deck gaps car_0000.rad --compare main.json --fail-on new,worse\n",
                                      setup}};
 
 }  // namespace

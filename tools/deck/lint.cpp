@@ -12,6 +12,7 @@
 #include "deck/lint/lint.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/report/diagnostics.hpp"
+#include "gate.hpp"
 #include "writing/changes.hpp"
 #include "writing/library.hpp"
 
@@ -25,8 +26,9 @@ struct Options {
   std::string format = "human";
   std::vector<std::string> outputs;  ///< format=file
   std::vector<std::string> select, ignore;
-  std::string fail_on, baseline, write_baseline, config;
-  bool no_config = false, geometry = false, fix = false, unsafe_fixes = false, diff = false,
+  std::string baseline, write_baseline;
+  GateOptions gate;
+  bool geometry = false, fix = false, unsafe_fixes = false, diff = false,
        ruler = false;
   WriteChoice write;
   int per_rule = 10;
@@ -88,7 +90,7 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
 }
 
 LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptions& options,
-                       const Options& command) {
+                       const Options& command, const DeckGate& gate) {
   LintInput input{loaded.deck,
                   schemas,
                   &loaded.model,
@@ -98,12 +100,16 @@ LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptio
                   {}};
   if (command.geometry)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
-      check_geometry(context, reporter, command.common.thread_count(), command.common.memory);
+      check_geometry(context, reporter,
+                     {command.common.thread_count(), command.common.memory, &gate.gate,
+                      gate.earlier ? &*gate.earlier : nullptr});
     });
   return run_lint(input, options);
 }
 
 bool at_or_above(const LintResult& r, std::string_view fail_on) {
+  for (const RuleId rule : gate_rules)
+    if (r.counts.contains(rule)) return true;
   if (fail_on == "never") return false;
   return r.errors > 0 || (fail_on == "warning" && r.warnings > 0);
 }
@@ -156,31 +162,23 @@ class Run {
     std::vector<std::string> files = {common_.json, options_.write_baseline};
     for (const std::string& o : options_.outputs) files.push_back(o.substr(o.find('=') + 1));
     if (const int bad = check_outputs(common_, files); bad != exit_clean) return bad;
+    if (auto legal = check_fail_on(options_.gate); !legal) return usage(legal.error().message);
+    if (options_.gate.given() && !options_.geometry)
+      return usage("the bounds of the gate need --geometry");
     auto schemas = load_schemas(common_);
     if (!schemas) return usage(schemas.error().message);
     schemas_ = std::move(*schemas);
-    if (!options_.config.empty()) {
-      const auto text = read_config_file(options_.config, most_config_bytes);
-      if (!text) return usage(text.error().message);
-      auto config = parse_lint_config(*text, options_.config);
-      if (!config) return usage(config.error().message);
-      explicit_config_ = std::move(*config);
-    }
     return exit_clean;
-  }
-
-  Result<LintConfig> config_for(const std::string& path) const {
-    if (options_.no_config) return LintConfig{};
-    if (!options_.config.empty()) return explicit_config_;
-    return find_lint_config(path);
   }
 
   int lint_one(const std::string& path) {
     auto job = std::make_unique<Job>();
     job->path = path;
-    const auto config = config_for(path);
+    const auto config = config_of(options_.gate, path);
     if (!config) return usage(config.error().message);
-    remember_read(config->path);
+    // Without --geometry nothing is held against the gate.
+    auto gate = options_.geometry ? gate_of(options_.gate, *config, path) : DeckGate{};
+    if (!gate) return usage(gate.error().message);
     const auto lint = lint_options(options_, *config, *job);
     if (!lint) return usage(lint.error().message);
     auto loaded = load(path, schemas_, common_, Stage::interfaces);
@@ -191,8 +189,9 @@ class Run {
       code = loaded.error().code == Error::Code::config ? exit_usage : exit_input;
     } else {
       job->loaded = std::move(*loaded);
-      job->result = lint_loaded(*job->loaded, schemas_, *lint, options_);
-      const std::string fail_on = !options_.fail_on.empty()  ? options_.fail_on
+      job->result = lint_loaded(*job->loaded, schemas_, *lint, options_, *gate);
+      const std::string given = options_.gate.level();
+      const std::string fail_on = !given.empty()             ? given
                                   : !config->fail_on.empty() ? config->fail_on
                                                              : "error";
       if (at_or_above(job->result, fail_on)) code = exit_findings;
@@ -350,7 +349,6 @@ class Run {
   const CommonOptions& common_;
   Changes changes_;
   SchemaSet schemas_;
-  LintConfig explicit_config_;
   std::vector<std::unique_ptr<Job>> jobs_;
   bool relint_ = false;
   int after_fix_ = exit_clean;
@@ -377,17 +375,13 @@ Action setup(CommandLine& line) {
       .by_commas()
       .value("RULES");
   line.option("--ignore", o.ignore, "Not these rules").by_commas().value("RULES");
-  line.option("--fail-on", o.fail_on, "Exit with 1 at or above: error (default), warning, never")
-      .one_of({"error", "warning", "never"})
-      .value("LEVEL");
   line.option("--baseline", o.baseline,
               "Leave out the findings listed in FILE, of the decks listed there")
       .value("FILE");
   line.option("--write-baseline", o.write_baseline, "Write all findings to FILE as a baseline")
       .value("FILE");
-  line.option("--config", o.config, "Use FILE instead of looking for .decklint.toml").value("FILE");
   add_require_examined(line, o.common);
-  line.flag("--no-config", o.no_config, "Use no configuration file");
+  add_gate_with_config(line, o.gate, "an error", "an error or a warning");
   line.flag("--geometry", o.geometry,
             "Also check geometry and first cycle (rules DK3, DK4): penetrations, gaps against the "
             "mesh, segments, contact forces and time step at the start");

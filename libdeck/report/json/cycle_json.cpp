@@ -1,5 +1,6 @@
 // The JSON of `deck cycle`.
 #include "deck/report/cycle.hpp"
+#include "deck/report/gate.hpp"
 #include "deck/report/json.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
@@ -241,6 +242,8 @@ std::string cycle_json(const CycleInput& input, bool all) {
   write_json_head(j, "deck/cycle", 1);
   write_json_deck(j, input.path, *input.deck, &model, input.scene->interfaces);
   j.field("verdict", cycle_verdict(input));
+  if (input.gate != nullptr)
+    write_gate(j, *input.deck, *input.scene, *input.view, *input.gate);
   write_json_coverage(j, coverage_of(*input.deck, *input.scene->interfaces));
   j.field("dt1", input.options.dt1).field("dt12", input.options.dt12);
   j.field("time", input.options.time);

@@ -117,6 +117,8 @@ const char* stage_name(RuleStage stage) {
       return "check";
     case RuleStage::extra:
       return "geometry";
+    case RuleStage::gate:
+      return "gate";
     case RuleStage::linter:
       return "linter";
   }

@@ -2,6 +2,7 @@
 // reference solver stores there — it keeps the square of the pair gap — and "depth" and "pair_gap"
 // give the lengths.
 #include "deck/report/gaps.hpp"
+#include "deck/report/gate.hpp"
 #include "deck/report/json.hpp"
 #include "model/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
@@ -146,7 +147,8 @@ void write_totals(JsonWriter& j, const ContactTotals& t) {
 }
 
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
-                      const SceneView& view, bool all, const std::vector<Crossing>* crossings) {
+                      const SceneView& view, bool all, const std::vector<Crossing>* crossings,
+                      const GateReport* gate) {
   std::string out;
   JsonWriter j(out);
   j.begin_object();
@@ -156,6 +158,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
   j.key("summary").begin_object(true);
   write_totals(j, view.total);
   j.end_object();
+  if (gate != nullptr) write_gate(j, deck, scene, view, *gate);
   write_json_coverage(j, coverage_of(deck, *scene.interfaces));
   write_decisions(j, scene);
   j.key("part_pairs").begin_array();

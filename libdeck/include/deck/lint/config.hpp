@@ -15,7 +15,7 @@ namespace deck {
 /// .decklint.toml. Keys: select, ignore (lists of ids or prefixes), fail-on ("error", "warning",
 /// "never"), baseline (path, relative to the file), [severity] id = "error"|"warning"|"info",
 /// [per-file-ignores] glob = list, [gate] max-depth, max-ratio,
-/// max-count, max-dt-loss, fail-on (list of "new", "worse"), [[gate.interface]] match = pattern of
+/// max-count, max-dt-loss, fail-on (list of "new", "worse"), compare (path), [[gate.interface]] match = pattern of
 /// id or title, [[gate.part-pair]] match = two of them, each with bounds of its own.
 struct LintConfig {
   std::string path;  ///< file it came from; empty: none
@@ -25,6 +25,7 @@ struct LintConfig {
   std::map<std::string, Severity> severity;
   std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;
   Gate gate;
+  std::string compare;  ///< [gate] compare: an earlier `deck gaps --json`
 };
 
 /// Parses the text of a configuration; unknown keys and unknown rules are errors.

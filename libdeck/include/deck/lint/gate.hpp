@@ -1,5 +1,5 @@
 // The gate: bounds that a team sets for its contacts. What passes over one is a finding of the
-// rules DK404 to DK409, whichever verb looks.
+// rules DK370 to DK375, whichever verb looks.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,9 +9,13 @@
 #include "deck/contact/earlier.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/cycle/scene_cycle.hpp"
-#include "deck/text/diagnostic.hpp"
+#include "deck/text/rule.hpp"
 
 namespace deck {
+
+/// Whatever --fail-on says, a finding of these ends with 1: the bound was asked for.
+inline constexpr RuleId gate_rules[] = {RuleId::DK370, RuleId::DK371, RuleId::DK372,
+                                        RuleId::DK373, RuleId::DK374, RuleId::DK375};
 
 /// Bounds; what is not set does not bound.
 struct GateLimits {

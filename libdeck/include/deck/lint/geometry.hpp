@@ -4,6 +4,7 @@
 // runs only where it is asked for.
 #pragma once
 #include "deck/contact/scene.hpp"
+#include "deck/lint/gate.hpp"
 #include "deck/lint/lint.hpp"
 
 namespace deck {
@@ -12,8 +13,15 @@ namespace deck {
 ///
 ///   input.extra_checks.push_back([](const LintContext& c, Reporter& r) { check_geometry(c, r); });
 ///
-/// Does nothing where the context has no model or interfaces. `threads` changes no finding.
-void check_geometry(const LintContext& context, Reporter& reporter, int threads = 1,
-                    const MemoryLimits& limits = {});
+struct GeometryOptions {
+  int threads = 1;  ///< changes no finding
+  MemoryLimits limits = {};
+  const Gate* gate = nullptr;  ///< what passes over it is reported, too
+  const EarlierGaps* earlier = nullptr;
+};
+
+/// Does nothing where the context has no model or interfaces.
+void check_geometry(const LintContext& context, Reporter& reporter,
+                    const GeometryOptions& options = {});
 
 }  // namespace deck

@@ -13,6 +13,9 @@
 
 namespace deck {
 
+struct GateReport;  // deck/report/gate.hpp
+struct SceneView;
+
 /// One force evaluation and what it was about.
 struct CycleInput {
   std::string_view path;  ///< of the deck, as given
@@ -23,6 +26,8 @@ struct CycleInput {
   cycle::CycleOptions options;
   const cycle::StepsOutcome* steps = nullptr;  ///< of several steps; `outcome` is then the last
   const Coordinates* coordinates = nullptr;  ///< where the outcome was computed; null: the scene's
+  const SceneView* view = nullptr;           ///< of the scene, where there is a gate
+  const GateReport* gate = nullptr;
 };
 
 /// An effect of an interface: on where any of its parts has it on; `because` names the deciding

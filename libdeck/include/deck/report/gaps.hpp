@@ -13,6 +13,8 @@
 
 namespace deck {
 
+struct GateReport;  // deck/report/gate.hpp
+
 struct GapsTextOptions {
   std::size_t worst = 20;       ///< rows of the worst list
   std::size_t part_pairs = 15;  ///< rows of the part-pair table
@@ -30,7 +32,8 @@ std::string gaps_verdict(const Deck& deck, const Scene& scene, const SceneView& 
 /// `crossings`, what find_crossings gave for the scene.
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
                       const SceneView& view, bool all,
-                      const std::vector<Crossing>* crossings = nullptr);
+                      const std::vector<Crossing>* crossings = nullptr,
+                      const GateReport* gate = nullptr);
 
 /// Crossed elements by part pair.
 std::string crossings_text(const Scene& scene, const std::vector<Crossing>& crossings,

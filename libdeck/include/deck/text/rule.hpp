@@ -18,6 +18,7 @@ enum class RuleStage : std::uint8_t {
   model,    ///< nodes, elements, groups, interfaces
   check,    ///< a check of the lint stage
   extra,    ///< LintInput::extra_checks (geometry)
+  gate,     ///< bounds that a team has set (deck/lint/gate.hpp)
   linter,   ///< the linter itself: suppressions, baseline
 };
 

@@ -114,11 +114,11 @@ void report_singular(const GeometryRun& run, const Contact& contact, const Inter
 
 }  // namespace
 
-void check_cycle(const GeometryRun& run) {
+cycle::SceneOutcome check_cycle(const GeometryRun& run) {
   cycle::CycleOptions options;
   options.model = cycle::Model::reference;  // what the solver will do, its double counting included
   options.threads = run.threads;
-  const cycle::SceneOutcome outcome =
+  cycle::SceneOutcome outcome =
       cycle::run_cycle(run.scene, cycle::make_state(run.scene), options);
   for (const cycle::ContactOutcome& c : outcome.contacts)
     if (!c.complete && c.contact->evaluated && !c.notes.empty())
@@ -133,6 +133,7 @@ void check_cycle(const GeometryRun& run) {
     }
     report_step(run, *contact, s);
   }
+  return outcome;
 }
 
 }  // namespace deck::detail

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "deck/contact/view.hpp"
+#include "deck/cycle/scene_cycle.hpp"
 #include "lint/check.hpp"
 
 namespace deck::detail {
@@ -43,6 +44,7 @@ void check_penetrations(const GeometryRun& run);     // rules_geometry_penetrati
 void check_segments(const GeometryRun& run);         // rules_geometry_segments.cpp
 void check_gaps(const GeometryRun& run);             // rules_geometry_gaps.cpp
 void check_manual_geometry(const GeometryRun& run);  // rules_geometry_manual.cpp
-void check_cycle(const GeometryRun& run);            // rules_cycle.cpp
+/// Also gives the forces that it evaluated.
+cycle::SceneOutcome check_cycle(const GeometryRun& run);
 
 }  // namespace deck::detail

@@ -54,24 +54,30 @@ std::string list_text(const std::vector<std::int64_t>& list) {
 
 }  // namespace detail
 
-void check_geometry(const LintContext& context, Reporter& reporter, int threads,
-                    const MemoryLimits& limits) {
+void check_geometry(const LintContext& context, Reporter& reporter,
+                    const GeometryOptions& chosen) {
   if (context.model == nullptr || context.interfaces == nullptr) return;
   Diagnostics found;
   SceneOptions options;
-  options.threads = threads;
-  options.limits = limits;
+  options.threads = chosen.threads;
+  options.limits = chosen.limits;
   options.candidates = false;
   options.nodal_stiffness = true;  // the forces of Istf 2 to 5 need it
   const Scene scene = build_scene(*context.model, *context.interfaces, found, options);
   for (const Diagnostic& d : found.all()) reporter.report(rule_of(d.rule), d.span, d.message);
   const SceneView view = make_view(scene);
-  const detail::GeometryRun run{context, reporter, scene, view, threads};
+  const detail::GeometryRun run{context, reporter, scene, view, chosen.threads};
   detail::check_penetrations(run);
   detail::check_gaps(run);
   detail::check_segments(run);
   detail::check_manual_geometry(run);
-  detail::check_cycle(run);
+  const cycle::SceneOutcome forces = detail::check_cycle(run);
+  if (chosen.gate == nullptr) return;
+  for (const Diagnostic& d : check_gate(*chosen.gate, scene, view, &forces, chosen.earlier))
+    if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message)) {
+      out->keyword = d.keyword;
+      out->id = d.id;
+    }
 }
 
 }  // namespace deck

@@ -1,0 +1,28 @@
+// What a gate said about a deck, and how its penetrations differ from an earlier run: for the
+// documents and texts of every verb that has a gate.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "deck/contact/earlier.hpp"
+#include "deck/keyword/deck.hpp"
+#include "deck/lint/gate.hpp"
+#include "deck/report/json.hpp"
+
+namespace deck {
+
+struct GateReport {
+  bool asked = false;                 ///< some bound was set, or new and worse were asked for
+  std::vector<Diagnostic> findings;   ///< what check_gate gave
+  const EarlierGaps* earlier = nullptr;
+  GapsComparison comparison;  ///< with `earlier`
+};
+
+/// Members "gate" {passed, findings} and "compared" {with, new, worse, better, same, solved, rows},
+/// null where they were not asked for.
+void write_gate(JsonWriter& json, const Deck& deck, const Scene& scene, const SceneView& view,
+                const GateReport& gate);
+/// Both in a line each; "" if neither was asked for.
+std::string gate_text(const GateReport& gate);
+
+}  // namespace deck

@@ -1,0 +1,73 @@
+// The gate and the comparison with an earlier run as members of a JSON document.
+#include "deck/report/gate.hpp"
+#include "report/diagnostics_common.hpp"
+
+namespace deck {
+namespace {
+
+void write_finding(JsonWriter& j, const Deck& deck, const Diagnostic& d) {
+  j.begin_object().field("rule", id_text(d.rule)).field("severity", detail::severity_name(d.severity));
+  j.field("message", d.message).key("source");
+  write_json_place(j, deck, d.span);
+  j.key("entity");
+  if (d.keyword.empty())
+    j.null();
+  else
+    j.begin_object(true).field("keyword", d.keyword).field("id", d.id).end_object();
+  j.end_object();
+}
+
+void write_ids(JsonWriter& j, const std::array<std::int64_t, 2>& secondary) {
+  if (secondary[1] == 0) {
+    j.field("node", secondary[0]);
+    return;
+  }
+  j.key("edge").begin_array(true).value(secondary[0]).value(secondary[1]).end_array();
+}
+
+void write_comparison(JsonWriter& j, const Scene& scene, const SceneView& view,
+                      const GateReport& gate) {
+  const EarlierGaps& earlier = *gate.earlier;
+  const GapsComparison& c = gate.comparison;
+  j.begin_object().field("with", earlier.path).field("deck", earlier.deck_path);
+  for (const Trend t : {Trend::fresh, Trend::worse, Trend::better, Trend::same})
+    j.field(to_string(t), c.count(t));
+  j.field("solved", std::uint64_t{c.solved.size()}).key("rows").begin_array();
+  for (const GapsComparison::Row& r : c.rows) {
+    if (r.trend == Trend::same) continue;
+    const NamedPenetration& p = view.penetrations[r.penetration];
+    const Contact& contact = scene.contacts[p.contact];
+    j.begin_object(true).field("change", to_string(r.trend)).field("interface", contact.inter->id);
+    j.field("role", to_string(contact.role));
+    write_ids(j, p.secondary);
+    j.field("depth", contact.penetrations[p.row].depth).key("was");
+    r.earlier == no_index ? j.null() : j.value(earlier.rows[r.earlier].depth);
+    j.end_object();
+  }
+  for (const std::uint32_t i : c.solved) {
+    const EarlierGaps::Row& row = earlier.rows[i];
+    j.begin_object(true).field("change", "solved").field("interface", row.interface_id);
+    j.field("role", row.role);
+    write_ids(j, row.secondary);
+    j.key("depth").null().field("was", row.depth).end_object();
+  }
+  j.end_array().end_object();
+}
+
+}  // namespace
+
+void write_gate(JsonWriter& j, const Deck& deck, const Scene& scene, const SceneView& view,
+                const GateReport& gate) {
+  j.key("gate");
+  if (!gate.asked) {
+    j.null();
+  } else {
+    j.begin_object().field("passed", gate.findings.empty()).key("findings").begin_array();
+    for (const Diagnostic& d : gate.findings) write_finding(j, deck, d);
+    j.end_array().end_object();
+  }
+  j.key("compared");
+  gate.earlier != nullptr ? write_comparison(j, scene, view, gate) : void(j.null());
+}
+
+}  // namespace deck

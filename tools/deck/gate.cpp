@@ -1,0 +1,138 @@
+// Bounds for contacts from options and configuration, and the earlier run to compare with.
+#include "gate.hpp"
+
+#include <algorithm>
+#include <climits>
+
+#include "deck/report/gaps.hpp"
+
+namespace deck::cli {
+namespace {
+
+void set(std::optional<double>& bound, double given) {
+  if (given >= 0) bound = given;
+}
+
+Result<EarlierGaps> read_earlier(const std::string& path, const std::string& deck_path) {
+  const auto source = Source::open(path, Limits{});
+  if (!source) return source.error();
+  remember_read(**source);
+  return read_earlier_gaps(path, (*source)->bytes(), deck_path);
+}
+
+}  // namespace
+
+bool GateOptions::fails_on(std::string_view word) const {
+  return std::find(fail_on.begin(), fail_on.end(), word) != fail_on.end();
+}
+
+std::string GateOptions::level() const {
+  for (const char* word : {"error", "warning", "never"})
+    if (fails_on(word)) return word;
+  return "";
+}
+
+bool GateOptions::given() const {
+  return max_depth >= 0 || max_ratio >= 0 || max_dt_loss >= 0 || max_count >= 0 ||
+         !compare.empty() || fails_on("new") || fails_on("worse");
+}
+
+void add_gate(CommandLine& line, GateOptions& o) {
+  CommandLine gate = line.group("Gate (exit 1 beyond it; also [gate] in .decklint.toml)");
+  gate.option("--max-depth", o.max_depth, "Deepest penetration, in the deck's units")
+      .number(0, 1e300)
+      .value("X");
+  gate.option("--max-ratio", o.max_ratio, "Largest share of the gap that is penetrated")
+      .number(0, 1e300)
+      .value("R");
+  gate.option("--max-count", o.max_count, "Penetrating nodes and edges of the deck, each once")
+      .range(0, INT_MAX)
+      .value("N");
+  gate.option("--max-dt-loss", o.max_dt_loss,
+              "Share of the mesh's time step that a contact may take away")
+      .number(0, 1)
+      .value("R");
+  gate.option("--compare", o.compare,
+              "An earlier 'deck gaps --json' FILE: what is new, worse, better, solved; --fail-on "
+              "new,worse stops at it")
+      .value("FILE");
+}
+
+void add_gate_with_config(CommandLine& line, GateOptions& o, const std::string& error,
+                          const std::string& warning) {
+  add_gate(line, o);
+  line.option("--fail-on", o.fail_on,
+              "When to exit with 1, by commas: error (" + error + "; default), warning (" +
+                  warning + "), never, and new, worse (with --compare)")
+      .comma_list()
+      .value("WORDS");
+  line.option("--config", o.config, "Use FILE instead of looking for .decklint.toml; its [gate]")
+      .value("FILE");
+  line.flag("--no-config", o.no_config, "Use no configuration file");
+}
+
+Result<void> check_fail_on(const GateOptions& o) {
+  std::size_t levels = 0;
+  for (const std::string& word : o.fail_on) {
+    const bool level = word == "error" || word == "warning" || word == "never";
+    levels += level;
+    if (!level && word != "new" && word != "worse")
+      return Error{Error::Code::config, "--fail-on: '" + word +
+                                            "' is none of new, worse, error, warning, never"};
+  }
+  if (levels > 1)
+    return Error{Error::Code::config, "--fail-on takes one of error, warning and never"};
+  return {};
+}
+
+Result<LintConfig> config_of(const GateOptions& o, const std::string& deck_path) {
+  if (o.no_config) return LintConfig{};
+  if (o.config.empty()) {
+    auto found = find_lint_config(deck_path);
+    if (found && !found->path.empty()) remember_read(found->path);
+    return found;
+  }
+  const auto text = read_config_file(o.config, most_config_bytes);
+  if (!text) return text.error();
+  remember_read(o.config);
+  return parse_lint_config(*text, o.config);
+}
+
+Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
+                         const std::string& deck_path) {
+  DeckGate out;
+  out.gate = config.gate;
+  set(out.gate.general.max_depth, o.max_depth);
+  set(out.gate.general.max_ratio, o.max_ratio);
+  set(out.gate.general.max_dt_loss, o.max_dt_loss);
+  if (o.max_count >= 0) out.gate.general.max_count = static_cast<std::uint64_t>(o.max_count);
+  out.gate.on_fresh |= o.fails_on("new");
+  out.gate.on_worse |= o.fails_on("worse");
+  const std::string& compare = o.compare.empty() ? config.compare : o.compare;
+  if (!compare.empty()) {
+    auto read = read_earlier(compare, deck_path);
+    if (!read) return read.error();
+    out.earlier = std::move(*read);
+  } else if (out.gate.on_fresh || out.gate.on_worse) {
+    return Error{Error::Code::config,
+                 "what is new or worse needs something to compare with: --compare FILE, or "
+                 "'compare' in [gate], with an earlier 'deck gaps --json'"};
+  }
+  return out;
+}
+
+GateReport DeckGate::look(Loaded& loaded, const Scene& scene, const SceneView& view,
+                          const cycle::SceneOutcome* forces) const {
+  GateReport report;
+  report.asked = gate.any();
+  if (earlier) {
+    report.earlier = &*earlier;
+    report.comparison = compare_gaps(*earlier, scene, view);
+  }
+  if (!report.asked) return report;
+  report.findings = check_gate(gate, scene, view, forces, report.earlier);
+  for (const Diagnostic& d : report.findings) loaded.diagnostics.report(d);
+  return report;
+}
+
+}  // namespace deck::cli

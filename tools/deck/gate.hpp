@@ -1,0 +1,57 @@
+// The gate on the command line: bounds for contacts, from options and from [gate] of the
+// configuration, and the earlier run to compare with.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common.hpp"
+#include "deck/contact/scene.hpp"
+#include "deck/contact/view.hpp"
+#include "deck/lint/config.hpp"
+#include "deck/lint/gate.hpp"
+#include "deck/report/gate.hpp"
+
+namespace deck::cli {
+
+struct GateOptions {
+  // Below zero: not given.
+  double max_depth = -1, max_ratio = -1, max_dt_loss = -1;
+  int max_count = -1;
+  std::vector<std::string> fail_on;  ///< words: new, worse, error, warning, never
+  std::string compare;               ///< an earlier `deck gaps --json`
+  std::string config;
+  bool no_config = false;
+
+  bool fails_on(std::string_view word) const;
+  /// error, warning or never; "" if none was given.
+  std::string level() const;
+  /// True if a bound or a comparison is on the command line.
+  bool given() const;
+};
+
+/// Adds --max-depth, --max-ratio, --max-count, --max-dt-loss and --compare under a heading.
+void add_gate(CommandLine& line, GateOptions& options);
+/// Adds --fail-on, --config and --no-config as well, for verbs that do not have them for
+/// themselves. `error` and `warning` say in the help what these words stop at.
+void add_gate_with_config(CommandLine& line, GateOptions& options, const std::string& error,
+                          const std::string& warning);
+/// Error: --fail-on has another word, or words that contradict one another.
+Result<void> check_fail_on(const GateOptions& options);
+
+/// The configuration that holds for a deck: --config, or the nearest .decklint.toml.
+Result<LintConfig> config_of(const GateOptions& options, const std::string& deck_path);
+
+/// What holds for one deck: the bounds, and what the deck is compared with.
+struct DeckGate {
+  Gate gate;
+  std::optional<EarlierGaps> earlier;
+
+  /// Looks, and adds what it finds to the deck's findings. `forces` may be nullptr.
+  GateReport look(Loaded& loaded, const Scene& scene, const SceneView& view,
+                  const cycle::SceneOutcome* forces) const;
+};
+Result<DeckGate> gate_of(const GateOptions& options, const LintConfig& config,
+                         const std::string& deck_path);
+
+}  // namespace deck::cli
