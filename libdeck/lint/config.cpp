@@ -90,24 +90,24 @@ Result<void> read_severity(const toml::node& node, LintConfig& config) {
   return {};
 }
 
-/// A bound of the gate; false: `key` is none.
-Result<bool> read_bound(std::string_view key, const toml::node& node, const std::string& path,
+/// A bound of the gate; false: `name` is none.
+Result<bool> read_bound(std::string_view name, const toml::node& node, const std::string& path,
                         GateLimits& limits) {
-  if (key == "max-count") {
+  if (name == "max-count") {
     const auto count = node.value<std::int64_t>();
     if (!node.is_integer() || *count < 0)
       return config_error(path, line_of(node), "'max-count' is a whole number, 0 or more");
     limits.max_count = static_cast<std::uint64_t>(*count);
     return true;
   }
-  std::optional<double>* bound = key == "max-depth"     ? &limits.max_depth
-                                 : key == "max-ratio"   ? &limits.max_ratio
-                                 : key == "max-dt-loss" ? &limits.max_dt_loss
+  std::optional<double>* bound = name == "max-depth"     ? &limits.max_depth
+                                 : name == "max-ratio"   ? &limits.max_ratio
+                                 : name == "max-dt-loss" ? &limits.max_dt_loss
                                                         : nullptr;
   if (bound == nullptr) return false;
   const auto number = node.value<double>();
   if (!node.is_number() || !(*number >= 0))
-    return config_error(path, line_of(node), "'" + std::string(key) + "' is a number, 0 or more");
+    return config_error(path, line_of(node), "'" + std::string(name) + "' is a number, 0 or more");
   *bound = *number;
   return true;
 }

@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+"""The gate from end to end: bounds on the command line and in .decklint.toml, the comparison with an earlier run, every
+format, and a repository in which a change that makes a gap worse is stopped and one that makes it better passes."""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "robustness"))
+from common import ROOT, Checks  # noqa: E402
+
+DECK = "too_close_0000.rad"  # nine nodes, 0.35 of a gap of 1.25
+
+
+def write(path, text):
+    with open(path, "w") as f:
+        f.write(text)
+
+
+def lifted(text, node, z):
+    """The deck with another height of a node."""
+    out, n = re.subn(r"(?m)^(%10d.{40})(.{20})$" % node, lambda m: m.group(1) + "%20s" % z, text)
+    assert n == 1, "no line of node %d" % node
+    return out
+
+
+class Gate:
+    def __init__(self, c, folder):
+        self.c, self.folder = c, folder
+        with open(os.path.join(ROOT, "samples", DECK)) as f:
+            self.text = f.read()
+        self.deck = os.path.join(folder, DECK)
+        write(self.deck, self.text)
+
+    def run(self, *args):
+        return self.c.run(*args, cwd=self.folder)
+
+    def expect(self, name, code, *args, rules=()):
+        r = self.run(*args)
+        said = set(re.findall(r"\[(DK4\d\d)\]", r.err.decode() + r.out.decode()))
+        self.c.check(name, r.code == code and set(rules) <= said, "exit %s, expected %d; said %s; %s" % (r.code, code, said, r.err.decode()[-400:]))
+        return r
+
+    def bounds(self):
+        e = self.expect
+        e("a depth above the bound is stopped", 1, "gaps", DECK, "--max-depth", "0.3499", rules=["DK404"])
+        e("a depth below the bound passes", 0, "gaps", DECK, "--max-depth", "0.3501")
+        e("a ratio above the bound is stopped", 1, "gaps", DECK, "--max-ratio", "0.279", rules=["DK405"])
+        e("a ratio below the bound passes", 0, "gaps", DECK, "--max-ratio", "0.281")
+        e("more nodes than the bound are stopped, though there are 16 pairs", 1, "gaps", DECK, "--max-count", "8", rules=["DK406"])
+        e("as many nodes as the bound pass, though there are 16 pairs", 0, "gaps", DECK, "--max-count", "9")
+        e("a bound of no penetration at all is one", 1, "gaps", DECK, "--max-count", "0", rules=["DK406"])
+        e("--fail-on never leaves the bounds that were asked for", 1, "gaps", DECK, "--fail-on", "never", "--max-depth", "0.1", rules=["DK404"])
+        e("--fail-on warning stops at any penetration", 1, "gaps", DECK, "--fail-on", "warning")
+        e("--fail-on never stops at none", 0, "gaps", os.path.join(ROOT, "samples", "crash_box_0000.rad"), "--fail-on", "never")
+        r = self.run("cycle", DECK, "--json", "-")
+        d = json.loads(r.out)["dt"]
+        loss = 1 - d["contact"] / d["structure"] if d["contact"] and d["contact"] < d["structure"] else 0
+        self.c.check("the sample's contact costs time step", loss > 0, "loss %s" % loss)
+        for verb in ("cycle", "gaps"):
+            e("%s: a loss of time step above the bound is stopped" % verb, 1, verb, DECK, "--max-dt-loss", loss * 0.999, rules=["DK407"])
+            e("%s: a loss of time step below the bound passes" % verb, 0, verb, DECK, "--max-dt-loss", min(1, loss * 1.001))
+        e("cycle takes bounds of penetrations, too", 1, "cycle", DECK, "--max-depth", "0.1", rules=["DK404"])
+
+    def documents(self):
+        r = self.run("gaps", DECK, "--max-depth", "0.1", "--json", "-")
+        gate = json.loads(r.out)["gate"]
+        self.c.check("JSON tells what was not passed", not gate["passed"] and [f["rule"] for f in gate["findings"]] == ["DK404"] and
+                     gate["findings"][0]["entity"] == {"keyword": "/INTER/TYPE7", "id": 1}, str(gate))
+        r = self.run("gaps", DECK, "--max-depth", "1", "--json", "-")
+        self.c.check("JSON tells what was passed", json.loads(r.out)["gate"] == {"passed": True, "findings": []})
+        r = self.run("gaps", DECK, "--json", "-")
+        self.c.check("without a gate JSON has none", json.loads(r.out)["gate"] is None and json.loads(r.out)["compared"] is None)
+        r = self.run("lint", DECK, "--geometry", "--max-depth", "0.1", "--fail-on", "never", "--format", "json",
+                     *[a for f in ("sarif", "junit", "gitlab", "github") for a in ("-o", "%s=out.%s" % (f, f))])
+        self.c.check("lint --geometry ends with 1 beyond a bound", r.code == 1)
+        self.c.check("lint: json has the finding", any(d["rule"] == "DK404" for d in json.loads(r.out)["diagnostics"]))
+        for f in ("sarif", "junit", "gitlab", "github"):
+            with open(os.path.join(self.folder, "out." + f)) as g:
+                self.c.check("lint: %s has the finding" % f, "DK404" in g.read())
+
+    def usage(self):
+        for name, args in (("an unknown word", ("gaps", DECK, "--fail-on", "sometimes")),
+                           ("two levels", ("gaps", DECK, "--fail-on", "error,never")),
+                           ("new without anything to compare with", ("gaps", DECK, "--fail-on", "new")),
+                           ("a negative bound", ("gaps", DECK, "--max-depth", "-1")),
+                           ("bounds for lint without --geometry", ("lint", DECK, "--max-depth", "1")),
+                           ("a file to compare with that is no such document", ("gaps", DECK, "--compare", DECK))):
+            r = self.run(*args)
+            self.c.check("%s is wrong usage" % name, r.code == 2 and r.err.strip(), "exit %s" % r.code)
+        for text in ("[gate]\nmax-depth = \"deep\"\n", "[gate]\nmax-count = -1\n", "[gate]\nmaxdepth = 1\n", "[gate]\nfail-on = [\"old\"]\n",
+                     "[[gate.interface]]\nmax-depth = 1\n", "[[gate.part-pair]]\nmatch = \"1\"\nmax-depth = 1\n", "gate = 1\n"):
+            write(os.path.join(self.folder, "bad.toml"), text)
+            r = self.run("gaps", DECK, "--config", "bad.toml")
+            self.c.check("%r is refused with its line" % text, r.code == 2 and re.search(rb"bad.toml:\d+", r.err), r.err.decode())
+
+    def configuration(self):
+        path = os.path.join(self.folder, ".decklint.toml")
+        cases = (("[gate] holds", "[gate]\nmax-depth = 0.1\n", 1), ("an option goes before [gate]", "[gate]\nmax-depth = 0.1\n", 0, "--max-depth", "1"),
+                 ("--no-config leaves it out", "[gate]\nmax-depth = 0.1\n", 0, "--no-config"),
+                 ("a bound of the interface goes before the general one", "[gate]\nmax-depth = 0.1\n[[gate.interface]]\nmatch = \"1\"\nmax-depth = 0.5\n", 0),
+                 ("a bound of another interface does not", "[gate]\nmax-depth = 0.1\n[[gate.interface]]\nmatch = \"2\"\nmax-depth = 0.5\n", 1),
+                 ("an interface is known by its title", "[[gate.interface]]\nmatch = \"*on lower\"\nmax-depth = 0.1\n", 1),
+                 ("a bound of the parts goes before that of the interface",
+                  "[[gate.interface]]\nmatch = \"*\"\nmax-depth = 0.1\n[[gate.part-pair]]\nmatch = [\"lower*\", \"2\"]\nmax-depth = 0.5\n", 0),
+                 ("the parts count either way round", "[[gate.part-pair]]\nmatch = [\"upper plate\", \"lower plate\"]\nmax-count = 8\n", 1),
+                 ("other parts do not count", "[[gate.part-pair]]\nmatch = [\"upper plate\", \"upper plate\"]\nmax-count = 0\n", 0))
+        for name, text, code, *args in cases:
+            write(path, text)
+            self.expect(name, code, "gaps", DECK, *args)
+        os.remove(path)
+
+    def compared(self, *args, **changes):
+        r = self.run("gaps", DECK, "--compare", "old.json", "--json", "-", *args)
+        document = json.loads(r.out)["compared"]
+        now = {k: document[k] for k in ("new", "worse", "better", "same", "solved")}
+        return r.code, now
+
+    def trends(self):
+        self.run("gaps", DECK, "--json", "old.json")
+        strict = ("--fail-on", "new,worse")
+        cases = (("nothing changed", self.text, 0, dict(new=0, worse=0, better=0, same=9, solved=0)),
+                 ("a node is deeper", lifted(self.text, 105, "0.8"), 1, dict(new=0, worse=1, better=0, same=8, solved=0)),
+                 ("a node is less deep", lifted(self.text, 105, "1.0"), 0, dict(new=0, worse=0, better=1, same=8, solved=0)),
+                 ("a node is out", lifted(self.text, 105, "1.5"), 0, dict(new=0, worse=0, better=0, same=8, solved=1)))
+        for name, text, code, expected in cases:
+            write(self.deck, text)
+            got = self.compared(*strict)
+            self.c.check(name, got == (code, expected), str(got))
+        self.run("gaps", DECK, "--json", "old.json")
+        write(self.deck, self.text)
+        got = self.compared(*strict)
+        self.c.check("a node that is in again is new", got == (1, dict(new=1, worse=0, better=0, same=8, solved=0)), str(got))
+        self.run("gaps", DECK, "--json", "old.json")
+        r = self.run("convert", DECK, "-o", "renumbered", "--renumber", "node+5000", "--renumber", "inter+70")
+        self.c.check("the sample can be renumbered", r.code == 0, r.err.decode())
+        shutil.copyfile(os.path.join(self.folder, "renumbered", DECK), self.deck)
+        got = self.compared(*strict)
+        self.c.check("other ids make nothing new", got == (0, dict(new=0, worse=0, better=0, same=9, solved=0)), str(got))
+        write(self.deck, self.text)
+
+    def repository(self):
+        """What the gate is for: main is as it is, a change is held against it."""
+        git = lambda *a: subprocess.run(["git", "-C", self.folder, "-c", "user.name=a", "-c", "user.email=a@b.c", *a], check=True, capture_output=True)
+        write(os.path.join(self.folder, ".decklint.toml"), "[gate]\ncompare = \"gaps.json\"\nfail-on = [\"new\", \"worse\"]\n")
+        self.run("gaps", DECK, "--json", "gaps.json", "--no-config")
+        git("init", "-q", "-b", "main")
+        git("add", "-A")
+        git("commit", "-qm", "main")
+        for branch, z, code in (("worse", "0.7", 1), ("better", "1.1", 0)):
+            git("checkout", "-q", "-b", branch, "main")
+            write(self.deck, lifted(self.text, 101, z))
+            git("commit", "-qam", branch)
+            for command in (("gaps", DECK), ("lint", DECK, "--geometry", "--fail-on", "never")):
+                r = self.run(*command)
+                self.c.check("a change that makes a gap %s: deck %s ends with %d" % (branch, command[0], code), r.code == code,
+                             "exit %s: %s" % (r.code, r.err.decode()))
+
+
+def main():
+    c = Checks()
+    with tempfile.TemporaryDirectory(prefix="deck-gate-") as folder:
+        gate = Gate(c, folder)
+        gate.bounds()
+        gate.documents()
+        gate.usage()
+        gate.configuration()
+        gate.trends()
+        gate.repository()
+    c.finish()
+
+
+if __name__ == "__main__":
+    main()
