@@ -130,6 +130,19 @@ TEST(Escape, NoTextBecomesACommandOfARunner) {
   EXPECT_EQ(workflow_property("a:b,c\x1b"), "a%3Ab%2Cc\\x1b");
 }
 
+TEST(Escape, ACharacterThatIsCutIsNotCompletedByWhatLiesBehind) {
+  const std::string_view whole = "\xC3\xA9";  // é
+  EXPECT_TRUE(text_unit_at(whole, 0).character);
+  EXPECT_FALSE(text_unit_at(whole.substr(0, 1), 0).character);
+  EXPECT_EQ(text_unit_at(whole.substr(0, 1), 0).length, 1U);
+}
+
+TEST(Escape, EveryControlOfDirectionIsSpelled) {
+  for (const char* mark : {"\xD8\x9C", "\xE2\x80\x8E", "\xE2\x80\x8F", "\xE2\x80\xAA", "\xE2\x80\xAE",
+                           "\xE2\x81\xA6", "\xE2\x81\xA9"})
+    EXPECT_EQ(terminal_text(mark).find(mark), std::string::npos) << terminal_text(mark);
+}
+
 TEST(Escape, MarkupIsEscaped) {
   EXPECT_EQ(xml_text("<a b=\"c\">'&\n\t\x01"), "&lt;a b=&quot;c&quot;&gt;&#39;&amp;&#10;&#9;\\x01");
   EXPECT_EQ(html_text("<\n>"), "&lt;\n&gt;");

@@ -95,5 +95,10 @@ TEST(CellEdits, ChangeNothingButTheirColumns) {
   }
 }
 
+TEST(UnifiedDiff, ANameThatCannotBeShownIsQuotedInOctalAsGitDoes) {
+  const std::string diff = unified_diff("parts/\x1b[1m\"a\\.inc", "1\n", "2\n");
+  EXPECT_EQ(diff.substr(0, diff.find('\n')), R"(--- "a/parts/\033[1m\042a\134.inc")");
+}
+
 }  // namespace
 }  // namespace deck
