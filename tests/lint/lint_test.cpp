@@ -392,6 +392,16 @@ TEST(Config, RefusesKeysThatStartWithWhatNoKeyCanStartWith) {
   }
 }
 
+TEST(Config, OtherLettersStandInQuotesAndCommentsOnly) {
+  const auto config = parse_lint_config("\n\xCF\x9C*[\n", "c.toml");
+  ASSERT_FALSE(config.ok());
+  EXPECT_EQ(config.error().message.find("c.toml:2: a character that is not ASCII"), 0u)
+      << config.error().message;
+  EXPECT_TRUE(parse_lint_config("\xEF\xBB\xBF# Stra\xC3\x9F"
+                                "e\n[per-file-ignores]\n\"Tr\xC3\xA4ger/*\" = []  # \xC3\xA9\n",
+                                "c.toml"));
+}
+
 TEST(Config, IsFoundAboveTheDeck) {
   const Folder folder;
   folder.write(".decklint.toml", "ignore = [\"DK2\"]\n");
