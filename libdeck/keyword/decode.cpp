@@ -47,45 +47,36 @@ void report_number(Findings& findings, const Cell& cell) {
   if (rule == LineRule::none || !findings.wants(detail::id_of(rule))) return;
   const bool real = f.type == FieldType::real;
   const std::string what = cell_name(f) + " holds " + quoted(cell.text);
-  const auto keep = [&](Severity severity, std::string message, std::string behaviour,
-                        std::string help, int number = 0) {
-    findings.keep(detail::id_of(rule), severity, cell.span, what + std::move(message),
-                  std::move(behaviour), std::move(help), number, Severity::error);
+  const auto keep = [&](std::string message, Case particular = {}) {
+    findings.keep(detail::id_of(rule), cell.span, what + std::move(message), std::move(particular));
   };
   switch (rule) {
     case LineRule::integer:
     case LineRule::real:
-      keep(Severity::error, std::string(", expected ") + (real ? "a real number" : "an integer"),
-           "it reports an error and reads 0", "write a number or leave the cell blank",
-           real ? 100102 : 100101);
+      keep(std::string(", expected ") + (real ? "a real number" : "an integer"));
       break;
     case LineRule::trailing:
-      keep(Severity::warning,
-           (is_hexadecimal(cell) ? ", a hexadecimal number; it is read as "
+      keep((is_hexadecimal(cell) ? ", a hexadecimal number; it is read as "
                                  : ": text follows the number; it is read as ") +
                (real ? shown(cell.real) : std::to_string(cell.integer)),
-           "it reads the same without a word", "check that the value stands in its columns");
+           {.solver = "it reads the same without a word"});
       break;
     case LineRule::range:
-      keep(Severity::error, ": the number is out of range", "it reads an undefined value",
-           "write a smaller number", real ? 100104 : 100103);
+      keep(": the number is out of range", {.message = real ? 100104 : 100103});
       break;
     case LineRule::tiny:
       if (cell.status == NumberStatus::underflow)
-        keep(Severity::warning, ": the number is too small and becomes 0", "it reads 0",
-             "write 0 if that is meant");
+        keep(": the number is too small and becomes 0", {.solver = "it reads 0"});
       else
-        keep(Severity::warning, ": the number is subnormal and slows every operation on it",
-             "it computes with it", "write 0 if that is meant");
+        keep(": the number is subnormal and slows every operation on it",
+             {.solver = "it computes with it"});
       break;
     case LineRule::not_finite:
-      keep(Severity::error, ": infinity and not-a-number are no input",
-           "it accepts the text and computes with it", "write a finite number");
+      keep(": infinity and not-a-number are no input",
+           {.solver = "it accepts the text and computes with it", .fix = "write a finite number"});
       break;
     case LineRule::letterless:
-      keep(Severity::warning, ": an exponent without letter fills the whole cell",
-           "open-reader builds lose the last character of such a cell",
-           "write the exponent with E or drop a digit");
+      keep(": an exponent without letter fills the whole cell");
       break;
     default:
       break;
@@ -105,21 +96,18 @@ void apply_parameter(const Deck& deck, Findings& findings, Cell& cell) {
   const Parameter* p = deck.find_parameter(name, cell.span.file);
   if (p == nullptr || !p->valid || p->type == Parameter::Type::text) {
     findings.report(
-        RuleId::DK018, Severity::error, cell.span,
+        RuleId::DK018, cell.span,
         cell_name(*cell.field) + " refers to parameter " + quoted(name) +
             (p == nullptr || p->type == Parameter::Type::text ? ", which is not defined here"
-                                                              : ", which has no usable value"),
-        "it reports an error and reads 0", "define it with /PARAMETER in this file or globally",
-        100105, Severity::error);
+                                                              : ", which has no usable value"));
     return;
   }
   cell.integer = detail::as_integer(*p);
   if (cell.field->type != FieldType::real && cell.integer != detail::saturated(cell.integer)) {
-    findings.report(RuleId::DK023, Severity::error, cell.span,
+    findings.report(RuleId::DK023, cell.span,
                     cell_name(*cell.field) + " takes " + std::to_string(cell.integer) +
                         " from parameter " + quoted(name) + ", which 32 bits do not hold",
-                    "it reads an undefined value", "write a smaller number", 100103,
-                    Severity::error);
+                    {.message = 100103});
     cell.status = NumberStatus::overflow;
   }
   cell.integer = detail::saturated(cell.integer);
@@ -173,37 +161,35 @@ void check_gaps(Findings& findings, const CardSchema& card, int version, const L
         "text " + quoted(line.text.substr(static_cast<std::size_t>(first - 1),
                                           static_cast<std::size_t>(last - first + 1)));
     if (after)
-      findings.keep(detail::id_of(rule), Severity::warning, line.columns(first, last),
+      findings.keep(detail::id_of(rule), line.columns(first, last),
                     text + " stands after the last cell of this line (column " +
-                        std::to_string(map.last) + ")",
-                    "it drops the text", "move the value into its columns or delete it", 100213);
+                        std::to_string(map.last) + ")");
     else
       findings.keep(
-          detail::id_of(rule), zero ? Severity::info : Severity::warning, line.columns(first, last),
+          detail::id_of(rule), line.columns(first, last),
           text + " stands in columns that version " + std::to_string(version) + " leaves blank",
-          "it drops the text",
-          "delete it, or check whether the card was written for another input version", 100214);
+          {.severity = zero ? Severity::info : Severity::warning,
+           .solver = "it drops the text",
+           .fix = "delete it, or check whether the card was written for another input version"});
   });
 }
 
 void check_line(Findings& findings, const Line& line, bool fixed_columns) {
   if (const std::string_view tail = detail::tail_of(line.text); !tail.empty())
-    findings.report(RuleId::DK012, Severity::warning,
-                    line.columns(line_columns + 1, static_cast<int>(std::min<std::size_t>(
-                                                       line.text.size(), 1 << 20))),
-                    "text beyond column 100: " + quoted(tail), "it drops the text silently",
-                    "shorten the line to 100 columns", 100213);
+    findings.report(
+        RuleId::DK012,
+        line.columns(line_columns + 1,
+                     static_cast<int>(std::min<std::size_t>(line.text.size(), 1 << 20))),
+        "text beyond column 100: " + quoted(tail), {.solver = "it drops the text silently"});
   const std::string_view text = line.text.substr(0, line_columns);
   if (const auto tab = text.find('\t'); fixed_columns && tab != std::string_view::npos)
-    findings.report(RuleId::DK013, Severity::warning,
+    findings.report(RuleId::DK013,
                     line.columns(static_cast<int>(tab) + 1, static_cast<int>(tab) + 1),
-                    "a tab in fixed columns",
-                    "a tab is one column for it, so the cells after it are shifted",
-                    "replace tabs by blanks");
+                    "a tab in fixed columns");
   if (const auto nul = text.find('\0'); nul != std::string_view::npos)
-    findings.report(RuleId::DK014, Severity::error,
+    findings.report(RuleId::DK014,
                     line.columns(static_cast<int>(nul) + 1, static_cast<int>(nul) + 1),
-                    "a NUL byte in a data line", "it ends the line there", "remove the byte");
+                    "a NUL byte in a data line");
 }
 
 /// Free-format cells: commas and blanks separate, two commas make an empty cell.
@@ -317,12 +303,12 @@ constexpr int shortest_blank_cell = 8;
 void drop_blank_cell(Findings& findings, const Block& block,
                      const std::pair<std::string_view, Span>* cell, int first, int last) {
   if (cell == nullptr || cell->first.empty()) return;
-  findings.report(RuleId::DK028, Severity::warning, cell->second,
+  findings.report(RuleId::DK028, cell->second,
                   "text " + quoted(cell->first) + " of this free-format line falls on columns " +
                       std::to_string(first) + "-" + std::to_string(last) + ", which version " +
                       std::to_string(block.version) + " leaves blank",
-                  "it drops the text; the next one goes to the next cell",
-                  "write two commas for the blank columns, or fixed columns", 100213);
+                  {.solver = "it drops the text; the next one goes to the next cell",
+                   .fix = "write two commas for the blank columns, or fixed columns"});
 }
 
 void read_free(const Deck& deck, const Block& block, Findings& findings, const LineContext& context,
@@ -363,12 +349,12 @@ void read_free(const Deck& deck, const Block& block, Findings& findings, const L
            (context.cells == 0 || out.cells.size() < static_cast<std::size_t>(context.cells)))
       take(card.fields.back());
   if (next < cells.size() && !list)
-    findings.report(RuleId::DK028, Severity::warning, cells[next].second,
+    findings.report(RuleId::DK028, cells[next].second,
                     "text " + quoted(cells[next].first) +
                         " follows the last cell of this "
                         "free-format line (" +
                         std::to_string(next) + " cells)",
-                    "it drops the text", "delete it, or check the commas of the line", 100213);
+                    {.fix = "delete it, or check the commas of the line"});
 }
 
 }  // namespace

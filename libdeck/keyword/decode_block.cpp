@@ -171,10 +171,8 @@ class BlockDecoder {
           " (present because " + c.field + " = " + std::to_string(cause ? cause->integer : 0) + ")";
     }
     Diagnostic* d = findings_.keep(
-        RuleId::DK029, Severity::warning, block_.header_span,
-        std::string(block_.keyword) + " ends before its line '" + card.name + "'" + why,
-        "it takes every cell of the line for 0 and goes on",
-        "add the line; blanks are enough where defaults are wanted", 100217);
+        RuleId::DK029, block_.header_span,
+        std::string(block_.keyword) + " ends before its line '" + card.name + "'" + why);
     for (const Condition& c : card.when)
       if (const Cell* cause = out_.find(c.field))
         d->notes.emplace_back(cause->span, c.field + " asks for the line");
@@ -215,12 +213,11 @@ class BlockDecoder {
     if (first == out_.extra.end() || !findings_.wants(RuleId::DK030)) return;
     const auto more = out_.extra.end() - first - std::count_if(first, out_.extra.end(), blank) - 1;
     findings_.keep(
-        RuleId::DK030, Severity::warning, first->whole(),
+        RuleId::DK030, first->whole(),
         std::string(block_.keyword) + " is complete; this line is one too many" +
             (more > 0 ? ", and " + std::to_string(more) + " more follow" : ""),
-        "it ignores the line",
-        "check the flags that ask for optional lines, then delete the line or set the flag",
-        100219);
+        {.fix =
+             "check the flags that ask for optional lines, then delete the line or set the flag"});
   }
 
   const Deck& deck_;

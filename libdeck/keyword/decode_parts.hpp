@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "deck/keyword/decode.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/text/rule.hpp"
 
 namespace deck::detail {
 
@@ -19,25 +19,12 @@ class Findings {
   /// Counts one finding; true if its message is wanted. Then keep() it.
   bool wants(RuleId rule) { return sink_ != nullptr && sink_->wants(rule); }
 
-  Diagnostic* report(RuleId rule, Severity severity, Span span, std::string message,
-                     std::string behaviour, std::string help, int number = 0,
-                     Severity number_severity = Severity::warning) {
-    return wants(rule) ? keep(rule, severity, span, std::move(message), std::move(behaviour),
-                              std::move(help), number, number_severity)
-                       : nullptr;
+  Diagnostic* report(RuleId rule, Span span, std::string message, Case particular = {}) {
+    return wants(rule) ? keep(rule, span, std::move(message), std::move(particular)) : nullptr;
   }
 
-  Diagnostic* keep(RuleId rule, Severity severity, Span span, std::string message,
-                   std::string behaviour, std::string help, int number = 0,
-                   Severity number_severity = Severity::warning) {
-    Diagnostic d;
-    d.rule = rule;
-    d.severity = severity;
-    d.span = span;
-    d.message = std::move(message);
-    d.reference_behaviour = std::move(behaviour);
-    d.help = std::move(help);
-    if (number != 0) d.reference = ReferenceMessage{number, number_severity};
+  Diagnostic* keep(RuleId rule, Span span, std::string message, Case particular = {}) {
+    Diagnostic d = finding_of(rule, span, std::move(message), std::move(particular));
     d.keyword = std::string(block_.keyword);
     d.id = block_.id.value;
     return &sink_->add(std::move(d));

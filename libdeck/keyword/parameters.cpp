@@ -218,9 +218,7 @@ bool evaluate(Deck& deck, const Limits& limits, Parameter& p, std::set<const Par
 }
 
 void report_parameter(Deck& deck, Span span, std::string message) {
-  detail::report(deck, RuleId::DK019, Severity::warning, span, std::move(message),
-                 "it reads 0 wherever the parameter is used",
-                 "write the name in columns 1-10 and the value (or expression) from column 11 on");
+  detail::report(deck, RuleId::DK019, span, std::move(message));
 }
 
 /// The parameter of one block without its evaluation; nullopt: reported.
@@ -311,9 +309,8 @@ void read_parameters(Deck& deck, const Limits& limits) {
     if (!definition) continue;
     auto& [name, p] = *definition;
     if (!seen.emplace(name, p.local ? p.file : Span::no_file).second) {
-      detail::report(deck, RuleId::DK056, Severity::warning, p.span,
-                     "parameter '" + name + "' is defined twice in the same scope",
-                     "it keeps one of the two", "remove one; the first one is used");
+      detail::report(deck, RuleId::DK056, p.span,
+                     "parameter '" + name + "' is defined twice in the same scope");
       continue;
     }
     Parameter& kept = deck.parameters.emplace(std::move(name), std::move(p))->second;

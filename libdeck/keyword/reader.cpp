@@ -65,10 +65,8 @@ class Reader {
   }
 
  private:
-  void report(RuleId rule, Severity severity, Span span, std::string message,
-              std::string behaviour, std::string help, int number = 0) {
-    detail::report(deck_, rule, severity, span, std::move(message), std::move(behaviour),
-                   std::move(help), number);
+  void report(RuleId rule, Span span, std::string message, Case particular = {}) {
+    detail::report(deck_, rule, span, std::move(message), std::move(particular));
   }
 
   // ---- what is no deck ----------------------------------------------------------------------
@@ -98,32 +96,31 @@ class Reader {
     const auto end = std::min(start.find('\n'), start.size());
     const std::string_view first = bytes.substr(0, std::min<std::size_t>(end, header_columns));
     if (const auto cr = start.find('\r'); cr < end && end == start.size() && cr + 1 < end)
-      report(RuleId::DK057, Severity::error, make_span(0, cr, cr + 1),
-             "the lines end with a carriage return alone", "it takes the whole file for one line",
-             "save the file with line feeds");
+      report(RuleId::DK057, make_span(0, cr, cr + 1), "the lines end with a carriage return alone");
     if (mark && trim(first.substr(3)).starts_with("#RADIOSS STARTER"))
-      report(RuleId::DK001, Severity::warning, make_span(0, 0, end),
+      report(RuleId::DK001, make_span(0, 0, end),
              "the first line is '#RADIOSS STARTER' behind a UTF-8 byte order mark (bytes EF BB BF, "
              "which editors do not show)",
-             "official builds stop at once: the line does not begin with the banner",
-             "remove the mark: save the file as UTF-8 without BOM", 100201);
+             {.solver = "official builds stop at once: the line does not begin with the banner",
+              .fix = "remove the mark: save the file as UTF-8 without BOM"});
     else if (!trim(first).starts_with("#RADIOSS STARTER"))
-      report(RuleId::DK001, Severity::warning, make_span(0, 0, end),
-             "the first line is not '#RADIOSS STARTER'",
-             "official builds stop at once; open-reader builds take the line for a comment",
-             "put '#RADIOSS STARTER' in the first line", 100201);
+      report(
+          RuleId::DK001, make_span(0, 0, end), "the first line is not '#RADIOSS STARTER'",
+          {.solver = "official builds stop at once; open-reader builds take the line for a comment",
+           .fix = "put '#RADIOSS STARTER' in the first line"});
   }
 
   /// True if the file starts with the mark, which hides what its first line is.
   bool check_byte_order_mark(std::uint32_t file) {
     if (!deck_.sources[file].bytes().starts_with(byte_order_mark)) return false;
-    report(RuleId::DK033, Severity::warning, make_span(file, 0, byte_order_mark.size()),
+    report(RuleId::DK033, make_span(file, 0, byte_order_mark.size()),
            "the file starts with a UTF-8 byte order mark",
-           file == 0 ? "it takes the three bytes for the start of the first line, so the banner is "
-                       "not found"
-                     : "it takes the three bytes for the start of the first line: a keyword there "
-                       "is none, and its block is dropped",
-           "save the file without byte order mark");
+           {.solver =
+                file == 0
+                    ? "it takes the three bytes for the start of the first line, so the banner is "
+                      "not found"
+                    : "it takes the three bytes for the start of the first line: a keyword there "
+                      "is none, and its block is dropped"});
     return true;
   }
 
@@ -145,30 +142,30 @@ class Reader {
     const bool backslash = written.find('\\') != std::string::npos;
     std::replace(written.begin(), written.end(), '\\', '/');
     if (written.size() > longest_path) {
-      report(RuleId::DK004, Severity::error, directive,
+      report(RuleId::DK004, directive,
              "#include with a file name of " + std::to_string(written.size()) +
                  " characters was not read",
-             "it stops with an error", "shorten the path", 100002);
+             {.solver = "it stops with an error", .fix = "shorten the path"});
       return;
     }
     if (written.empty()) {
-      report(RuleId::DK004, Severity::error, directive, "#include without a file name",
-             "it stops with an error", "name the file or remove the line", 100002);
+      report(RuleId::DK004, directive, "#include without a file name",
+             {.solver = "it stops with an error", .fix = "name the file or remove the line"});
       return;
     }
     const int depth = std::min(options_.limits.include_depth, deepest_include);
     if (static_cast<int>(stack_.size()) > depth) {
-      report(RuleId::DK006, Severity::error, directive,
+      report(RuleId::DK006, directive,
              "includes are nested deeper than " + std::to_string(depth) + " levels; '" + written +
                  "' was not read",
-             "it stops at about 10 levels", "flatten the include tree");
+             {.solver = "it stops at about 10 levels"});
       return;
     }
     if (static_cast<int>(deck_.sources.size()) >= options_.limits.files) {
-      report(RuleId::DK006, Severity::error, directive,
+      report(RuleId::DK006, directive,
              "more than " + std::to_string(options_.limits.files) + " files; '" + written +
                  "' was not read",
-             "", "check the deck for an include that multiplies itself");
+             {.fix = "check the deck for an include that multiplies itself"});
       return;
     }
     std::string tried;
@@ -189,22 +186,20 @@ class Reader {
       if ((*source)->bytes().size() <= limits.map_threshold)
         memory_bytes_ += (*source)->bytes().size();
       if (backslash)
-        report(RuleId::DK058, Severity::warning, directive,
-               "the path holds '\\'; '" + written + "' was read",
-               "only builds for Windows take '\\' for the separator; others stop: no such file",
-               "write the path with '/'");
+        report(RuleId::DK058, directive, "the path holds '\\'; '" + written + "' was read");
       enter(std::move(*source), std::move(written), directive, parent, version);
       return;
     }
     constexpr int most_hints = 20;  // looking for one reads folders
     const std::string hint =
         ++hints_ > most_hints ? std::string() : detail::include_hint(written, backslash, places);
-    report(RuleId::DK004, Severity::error, directive,
+    report(RuleId::DK004, directive,
            "included file '" + written + "' cannot be read; tried " + tried,
-           "it stops with an error that does not name the file (\"error 760\" in some builds)",
-           hint.empty() ? "correct the path, or name the folder that holds it with --include-path"
-                        : hint,
-           100002);
+           {.solver =
+                "it stops with an error that does not name the file (\"error 760\" in some builds)",
+            .fix = hint.empty()
+                       ? "correct the path, or name the folder that holds it with --include-path"
+                       : hint});
   }
 
   void enter(std::unique_ptr<Source> source, std::string written, Span directive,
@@ -214,17 +209,16 @@ class Reader {
       const bool same_file =
           s.inode() != 0 && s.inode() == source->inode() && s.device() == source->device();
       if (!same_file && !(s.inode() == 0 && s.path() == source->path())) continue;
-      report(RuleId::DK005, Severity::error, directive,
-             "include cycle: '" + written + "' is being read already (" + s.path() + ")",
-             "it recurses until it fails", "remove the directive");
+      report(RuleId::DK005, directive,
+             "include cycle: '" + written + "' is being read already (" + s.path() + ")");
       return;
     }
     deck_.total_bytes += source->bytes().size();
     if (deck_.total_bytes > options_.limits.total_bytes) {
-      report(RuleId::DK006, Severity::error, directive,
+      report(RuleId::DK006, directive,
              "all files together are larger than the limit of " +
                  std::to_string(options_.limits.total_bytes) + " bytes",
-             "", "check the deck for an include that multiplies itself");
+             {.fix = "check the deck for an include that multiplies itself"});
       return;
     }
     const std::uint32_t file = deck_.sources.add(std::move(source));
@@ -269,9 +263,7 @@ class Reader {
     if (!text.valid() || (begin == 0 && file == 0 && text.offset == 0 &&
                           deck_.sources[0].bytes().starts_with(byte_order_mark)))
       return;
-    report(RuleId::DK055, Severity::warning, text, "text that belongs to no keyword",
-           "it skips everything up to the next keyword",
-           "add the keyword line, or turn the text into a comment");
+    report(RuleId::DK055, text, "text that belongs to no keyword");
   }
 
   /// Position of the next line of [pos, size) that is a header or begins with '#'; `size` if there
@@ -384,10 +376,8 @@ class Reader {
     }
     std::uint64_t blank = at;
     while (blank > begin && is_blank(deck_.sources[file].bytes()[blank - 1])) --blank;
-    report(RuleId::DK052, Severity::error, make_span(file, blank, at),
-           "a blank before a slash of " + std::string(header.substr(0, 60)),
-           "it reads the header wrong and ends with 'error 760' or without a word",
-           "remove the blank: the line begins with '/', and so does each of its fields", 760);
+    report(RuleId::DK052, make_span(file, blank, at),
+           "a blank before a slash of " + std::string(header.substr(0, 60)));
   }
 
   /// Lines of an included file that stand before its first keyword.
@@ -406,21 +396,20 @@ class Reader {
                  std::string(deck_.blocks[static_cast<std::size_t>(open_block_)].header) +
                  " of the including file";
     if (keyword_behind_mark) message += ": a byte order mark hides the keyword of the first line";
-    report(RuleId::DK051, Severity::warning, text, std::move(message),
-           "it looks for the first keyword of every file and drops what stands before it",
-           keyword_behind_mark
-               ? "save the file without byte order mark"
-               : "repeat the keyword line (and title) at the top of the included file");
+    report(RuleId::DK051, text, std::move(message),
+           {.fix = keyword_behind_mark
+                       ? "save the file without byte order mark"
+                       : "repeat the keyword line (and title) at the top of the included file"});
   }
 
   void check_header_tail(std::uint32_t file, std::uint64_t slash, std::uint64_t end) {
     const std::uint64_t from = slash + header_columns;
     const std::string_view tail = deck_.sources[file].bytes().substr(from, end - from);
     if (std::all_of(tail.begin(), tail.end(), is_blank)) return;
-    report(RuleId::DK012, Severity::warning, make_span(file, from, end),
+    report(RuleId::DK012, make_span(file, from, end),
            "a keyword line of " + std::to_string(end - slash) + " characters; " +
                std::to_string(header_columns) + " are read",
-           "it drops the text silently", "shorten the line", 100213);
+           {.solver = "it drops the text silently", .fix = "shorten the line"});
   }
 
   bool in_submodel_without_begin() const {
@@ -431,11 +420,10 @@ class Reader {
   void check_tail(std::uint32_t file, std::uint64_t from) {
     const Span text = first_text(file, from, deck_.sources[file].bytes().size());
     if (!text.valid()) return;
-    report(RuleId::DK011, Severity::warning, text,
+    report(RuleId::DK011, text,
            file == 0 ? "text after /END in the main file" : "text after /END in an included file",
-           file == 0 ? "it stops reading at /END: nothing below exists for it"
-                     : "it skips the rest of this file",
-           "move the lines above /END or delete them");
+           {.solver = file == 0 ? "it stops reading at /END: nothing below exists for it"
+                                : "it skips the rest of this file"});
   }
 
   // ---- headers ------------------------------------------------------------------------------
@@ -445,9 +433,9 @@ class Reader {
             int& version) {
     if (deck_.blocks.size() >= most_blocks) {
       if (open_block_ >= 0)
-        report(RuleId::DK006, Severity::error, make_span(file, offset, offset + header.size()),
-               "more than " + std::to_string(most_blocks) + " keywords; the rest is not read", "",
-               "check the deck for an include that multiplies itself");
+        report(RuleId::DK006, make_span(file, offset, offset + header.size()),
+               "more than " + std::to_string(most_blocks) + " keywords; the rest is not read",
+               {.fix = "check the deck for an include that multiplies itself"});
       open_block_ = -1;
       return false;
     }
@@ -485,8 +473,8 @@ class Reader {
 
   void close_submodel(Span header, int& version) {
     if (submodel_stack_.empty()) {
-      report(RuleId::DK035, Severity::warning, header, "//ENDSUB without //SUBMODEL",
-             "the line is an unknown keyword for it", "remove the line");
+      report(RuleId::DK035, header, "//ENDSUB without //SUBMODEL",
+             {.solver = "the line is an unknown keyword for it", .fix = "remove the line"});
       return;
     }
     // A /BEGIN inside the submodel has set the version of its lines only.
@@ -502,11 +490,9 @@ class Reader {
       if (const IntegerCell n = read_integer(text);
           n.status != NumberStatus::overflow && n.value <= detail::largest_id)
         continue;
-      report(RuleId::DK054, Severity::error, id->span,
+      report(RuleId::DK054, id->span,
              "id " + std::string(text.substr(0, 30)) + " is larger than " +
-                 std::to_string(detail::largest_id),
-             "it goes on with another number, so nothing can refer to the entity",
-             "give the entity an id of at most 9 digits");
+                 std::to_string(detail::largest_id));
     }
   }
 
@@ -531,12 +517,10 @@ class Reader {
     if (begin.has_working)
       detail::fill_blank_units(deck_, header, begin.working, begin.input, "working system");
     if (!begin.version_known)
-      report(RuleId::DK003, Severity::error, begin.version_span,
+      report(RuleId::DK003, begin.version_span,
              "input version " + std::string(trim(cell).empty() ? "(blank)" : trim(cell)) +
                  " is unknown; the columns of version " + std::to_string(newest_version) +
-                 " are assumed",
-             "open-reader builds take the newest layout, official builds may refuse the deck",
-             "write the version the deck was made for (90 … 2026) in columns 1-10", 100202);
+                 " are assumed");
     if (notes_.begin_count == 1) {
       deck_.begin = std::move(begin);
       deck_.version = version;
@@ -544,9 +528,7 @@ class Reader {
       if (begin.has_input)
         deck_.submodels[static_cast<std::size_t>(submodel_stack_.back())].units = begin.input;
     } else if (file == 0) {
-      report(RuleId::DK043, Severity::warning, header, "a second /BEGIN in the main file",
-             "it takes the version of the last one for the lines that follow",
-             "keep one /BEGIN; the first one's units are used");
+      report(RuleId::DK043, header, "a second /BEGIN in the main file");
     }
   }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "deck/keyword/deck.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/text/rule.hpp"
 #include "text/columns.hpp"
 
 namespace deck::detail {
@@ -13,11 +13,8 @@ namespace deck::detail {
 /// Splits a header line into keyword, ids and schema. `header` is trimmed and starts with '/'.
 void parse_header(const SchemaSet& schemas, Block& block);
 
-/// Adds a finding of reading. `number`: the reference solver's message, as an error; warnings have
-/// `number_severity`.
-void report(Deck& deck, RuleId rule, Severity severity, Span span, std::string message,
-            std::string behaviour, std::string help, int number = 0,
-            Severity number_severity = Severity::error);
+/// Adds a finding of reading.
+void report(Deck& deck, RuleId rule, Span span, std::string message, Case particular = {});
 
 /// Bytes [begin, end) of a file, cut to a length that a message can show.
 inline Span make_span(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {

@@ -20,10 +20,11 @@ void drop_before_begin(Deck& deck, ReaderNotes& notes) {
   for (std::size_t i = 0; i < deck.blocks.size(); ++i) {
     if (k < notes.before_begin.size() && notes.before_begin[k] == i) {
       ++k;
-      report(deck, RuleId::DK002, Severity::warning, deck.blocks[i].header_span,
+      report(deck, RuleId::DK002, deck.blocks[i].header_span,
              std::string(deck.blocks[i].header) + " stands before /BEGIN",
-             "it ignores everything before /BEGIN except /PARAMETER",
-             "move the block behind /BEGIN");
+             {.severity = Severity::warning,
+              .solver = "it ignores everything before /BEGIN except /PARAMETER",
+              .fix = "move the block behind /BEGIN"});
       continue;
     }
     place[i] = kept.size();
@@ -34,9 +35,8 @@ void drop_before_begin(Deck& deck, ReaderNotes& notes) {
 }
 
 void report_wide(Deck& deck, const Span& span, const std::string& what) {
-  report(deck, RuleId::DK335, Severity::error, span,
-         what + " does not fit into 32 bits; " + "the nearest number that does is taken",
-         "it reads an undefined value", "use smaller numbers", 100103);
+  report(deck, RuleId::DK335, span,
+         what + " does not fit into 32 bits; " + "the nearest number that does is taken");
 }
 
 void resolve_header_parameters(Deck& deck) {
@@ -62,9 +62,9 @@ void resolve_header_parameters(Deck& deck) {
                           std::to_string(as_integer(*p)) + " of parameter '" + std::string(text) +
                           "'");
       } else {
-        report(deck, RuleId::DK018, Severity::error, id->span,
-               "parameter '" + std::string(text) + "' is not defined here", "it reads 0",
-               "define it with /PARAMETER before its first use", 100105);
+        report(deck, RuleId::DK018, id->span,
+               "parameter '" + std::string(text) + "' is not defined here",
+               {.solver = "it reads 0", .fix = "define it with /PARAMETER before its first use"});
       }
     }
   }
@@ -115,10 +115,10 @@ void fill_submodels(Deck& deck, const ReaderNotes& notes) {
     if (!s.units && p.units) s.units = p.units;
   }
   if (notes.unclosed_submodel >= 0)
-    report(deck, RuleId::DK035, Severity::warning,
+    report(deck, RuleId::DK035,
            deck.submodels[static_cast<std::size_t>(notes.unclosed_submodel)].span,
-           "//SUBMODEL is not closed by //ENDSUB", "everything below belongs to the submodel",
-           "close it with //ENDSUB");
+           "//SUBMODEL is not closed by //ENDSUB",
+           {.solver = "everything below belongs to the submodel", .fix = "close it with //ENDSUB"});
 }
 
 /// /UNIT/LENGTH|MASS|TIME/code: how versions up to 90 name the global units.
@@ -132,9 +132,9 @@ void read_global_unit(Deck& deck, const Block& b) {
     (kind == 'L' ? u.length_code : kind == 'M' ? u.mass_code : u.time_code) = code;
     deck.begin.has_input = true;
   } else {
-    report(deck, RuleId::DK015, Severity::error, b.header_span,
+    report(deck, RuleId::DK015, b.header_span,
            "'" + std::string(code) + "' in " + std::string(b.header) + " is not a unit",
-           "it stops with an error", "write for example /UNIT/LENGTH/mm", 573);
+           {.solver = "it stops with an error", .fix = "write for example /UNIT/LENGTH/mm"});
   }
 }
 
@@ -158,17 +158,16 @@ void fill_begin_units(Deck& deck, const ReaderNotes& notes) {
   if (notes.begin_count == 0) return;
   // /UNIT/LENGTH, MASS and TIME count up to version 90 only.
   if (!units_in_begin && (global == nullptr || deck.version > 90))
-    report(deck, RuleId::DK016, Severity::error, begin.span,
+    report(deck, RuleId::DK016, begin.span,
            global == nullptr ? "/BEGIN names neither input nor working units"
                              : "/BEGIN of version " + std::to_string(deck.version) +
                                    " names no units; those of " + std::string(global->header) +
                                    " count up to version 90 only",
-           global == nullptr ? "it stops with an error" : "it stops with an error, or hangs",
-           "add the unit lines, for example 'kg mm ms' twice", 574);
+           {.solver =
+                global == nullptr ? "it stops with an error" : "it stops with an error, or hangs"});
   else if (!(begin.input == begin.working))
-    report(deck, RuleId::DK017, Severity::info, begin.span,
-           "input units differ from working units: every value is converted",
-           "it converts and warns", "nothing to do if this is meant", 754, Severity::warning);
+    report(deck, RuleId::DK017, begin.span,
+           "input units differ from working units: every value is converted");
 }
 
 void fill_units(Deck& deck, const ReaderNotes& notes) {
@@ -191,10 +190,9 @@ void check_begin(Deck& deck) {
     int have = 0;
     for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
       if (++have <= 4 || line.text.empty()) continue;
-      report(deck, RuleId::DK030, Severity::warning, line.whole(),
+      report(deck, RuleId::DK030, line.whole(),
              "/BEGIN is complete after four lines; this line is one too many",
-             "it ignores the line", "delete the line, or add the keyword it belongs to", 100219,
-             Severity::warning);
+             {.fix = "delete the line, or add the keyword it belongs to"});
     }
   }
 }
@@ -215,18 +213,9 @@ void mark_opaque(Deck& deck) {
 
 }  // namespace
 
-void report(Deck& deck, RuleId rule, Severity severity, Span span, std::string message,
-            std::string behaviour, std::string help, int number, Severity number_severity) {
-  if (!deck.diagnostics.wants(rule)) return;
-  Diagnostic d;
-  d.rule = rule;
-  d.severity = severity;
-  d.span = span;
-  d.message = std::move(message);
-  d.reference_behaviour = std::move(behaviour);
-  d.help = std::move(help);
-  if (number != 0) d.reference = ReferenceMessage{number, number_severity};
-  deck.diagnostics.add(std::move(d));
+void report(Deck& deck, RuleId rule, Span span, std::string message, Case particular) {
+  if (deck.diagnostics.wants(rule))
+    deck.diagnostics.add(finding_of(rule, span, std::move(message), std::move(particular)));
 }
 
 void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSystem& other,
@@ -244,16 +233,21 @@ void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSyste
     const std::string what = std::string("the ") + cell.name + " unit of the " + which;
     if ((other.*cell.code).empty()) {
       report(
-          deck, RuleId::DK015, Severity::warning, begin,
+          deck, RuleId::DK015, begin,
           what + " is blank, and so is that of the other one; here it is taken for 1 in kg, m, s",
-          "it goes on; with which unit is open", "write for example Mg, mm, s or kg, mm, ms");
+          {.severity = Severity::warning,
+           .message = 0,
+           .solver = "it goes on; with which unit is open"});
       continue;
     }
     units.*cell.code = other.*cell.code;
     units.*cell.factor = other.*cell.factor;
-    report(deck, RuleId::DK015, Severity::warning, begin,
+    report(deck, RuleId::DK015, begin,
            what + " is blank; '" + units.*cell.code + "' of the other one is taken",
-           "it goes on with the unit of the other system", "write all three units of both lines");
+           {.severity = Severity::warning,
+            .message = 0,
+            .solver = "it goes on with the unit of the other system",
+            .fix = "write all three units of both lines"});
   }
 }
 
@@ -279,17 +273,18 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
     if (const RealCell number = read_real(word);
         word.size() < cells[i].size() && number.status == NumberStatus::ok && number.value > 0) {
       *factors[i] = number.value;
-      report(deck, RuleId::DK015, Severity::warning, line.columns(20 * i + 1, 20 * i + 20),
+      report(deck, RuleId::DK015, line.columns(20 * i + 1, 20 * i + 20),
              "'" + std::string(cells[i]) + "' is not a " + names[i] + " unit; it is read as " +
                  std::string(word),
-             "it reads the number and drops the rest without a word",
-             "write for example Mg, mm, s or kg, mm, ms");
+             {.severity = Severity::warning,
+              .message = 0,
+              .solver = "it reads the number and drops the rest without a word"});
       continue;
     }
-    report(deck, RuleId::DK015, Severity::error, line.columns(20 * i + 1, 20 * i + 20),
+    report(deck, RuleId::DK015, line.columns(20 * i + 1, 20 * i + 20),
            "'" + std::string(cells[i]) + "' is not a " + names[i] +
                " unit; expected a prefix and '" + bases[i] + "', or a positive number",
-           "it stops with an error", "write for example Mg, mm, s or kg, mm, ms", 573);
+           {.solver = "it stops with an error"});
   }
   return true;
 }
@@ -297,17 +292,15 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
 void finish_deck(Deck& deck, ReaderNotes& notes, const ReadOptions& options) {
   const std::uint64_t main_size = deck.sources[0].bytes().size();
   if (notes.begin_count == 0)
-    report(deck, RuleId::DK002, Severity::error, make_span(0, 0, 0),
+    report(deck, RuleId::DK002, make_span(0, 0, 0),
            "no /BEGIN: version and units are unknown; version " + std::to_string(newest_version) +
                " is assumed",
-           "it ignores everything before /BEGIN, that is the whole deck",
-           "start the deck with /BEGIN, run name, version and units");
+           {.solver = "it ignores everything before /BEGIN, that is the whole deck",
+            .fix = "start the deck with /BEGIN, run name, version and units"});
   else
     drop_before_begin(deck, notes);
   if (!deck.end_seen)
-    report(deck, RuleId::DK010, Severity::warning, make_span(0, main_size, main_size),
-           "the main file has no /END", "it reads to the end of the file",
-           "close the deck with /END", 100215);
+    report(deck, RuleId::DK010, make_span(0, main_size, main_size), "the main file has no /END");
   read_parameters(deck, options.limits);
   resolve_header_parameters(deck);
   fill_submodels(deck, notes);

@@ -189,8 +189,11 @@ std::string field_page(const Schema& schema, std::string_view field) {
 
 std::string explain_rule(const Rule& rule, const SchemaSet& schemas) {
   namespace heading = detail::heading;
-  std::string out = fmt::format("{}: {}\n{}, {}", id_text(rule.id), rule.title,
-                                severity_name(rule.severity()), family_of(rule.id));
+  std::string severities;
+  for (const Severity s : rule.severities)
+    severities += (severities.empty() ? "" : " or ") + std::string(severity_name(s));
+  std::string out = fmt::format("{}: {}\n{}, {}", id_text(rule.id), rule.title, severities,
+                                family_of(rule.id));
   if (rule.fixable != Fixable::no)
     out += rule.fixable == Fixable::safe ? ", fixed by --fix" : ", fixed by --unsafe-fixes";
   if (!rule.types.empty()) {

@@ -85,14 +85,16 @@ const Box* Selections::Impl::box(std::int64_t id, const Block& from, int missing
   if (def == nullptr) {
     // A node group of missing boxes is merely empty.
     const bool goes_on = from.schema != nullptr && from.schema->kind == "grnod";
-    report({RuleId::DK159, goes_on ? Severity::warning : Severity::error, from.header_span,
+    report({RuleId::DK159,
+            from.header_span,
             std::string(from.keyword) + " " + std::to_string(from.id.value) + " refers to box " +
                 std::to_string(id) + ", which does not exist",
-            goes_on ? "it leaves the entry out, and warns if the group is empty then"
-                    : "it stops with an error",
-            "define the box or correct the id", goes_on ? 690 : missing_number,
-            goes_on ? Severity::warning : Severity::error, std::string(from.keyword),
-            from.id.value});
+            std::string(from.keyword),
+            from.id.value,
+            {.severity = goes_on ? Severity::warning : Severity::error,
+             .message = goes_on ? 690 : missing_number,
+             .solver = goes_on ? "it leaves the entry out, and warns if the group is empty then"
+                               : "it stops with an error"}});
     return nullptr;
   }
   if (recursive("box", id, *def->block, 797)) return nullptr;
@@ -143,10 +145,12 @@ bool Selections::Impl::skew_axes(std::int64_t id, std::array<double, 9>& axes) {
 void Selections::Impl::fill_box(Box& b, const Definition& def, const DecodedBlock& d) {
   const Block& block = *def.block;
   const auto fail = [&](std::string what, std::string help, int number) {
-    report({RuleId::DK159, Severity::error, block.header_span,
+    report({RuleId::DK159,
+            block.header_span,
             std::string(block.keyword) + " " + std::to_string(block.id.value) + ": " + what,
-            "it stops with an error", std::move(help), number, Severity::error,
-            std::string(block.keyword), block.id.value});
+            std::string(block.keyword),
+            block.id.value,
+            {.message = number, .solver = "it stops with an error", .fix = std::move(help)}});
   };
   if (def.type == "BOX") {
     const detail::IdList list = id_list(d);

@@ -53,12 +53,14 @@ void check_subset_children(BuildContext& c) {
     if (it == c.model.subset_children.end()) continue;
     for (const std::int64_t child : it->second)
       if (c.model.subset_children.count(child) == 0)
-        report(c.diagnostics,
-               {RuleId::DK108, Severity::warning, block.header_span,
-                "subset " + std::to_string(id) + " lists subset " + std::to_string(child) +
-                    ", which does not exist",
-                "it ignores the entry", "define the subset or remove it from the list", 0,
-                Severity::warning, std::string(block.keyword), id});
+        report(c.diagnostics, {RuleId::DK108,
+                               block.header_span,
+                               "subset " + std::to_string(id) + " lists subset " +
+                                   std::to_string(child) + ", which does not exist",
+                               std::string(block.keyword),
+                               id,
+                               {.solver = "it ignores the entry",
+                                .fix = "define the subset or remove it from the list"}});
   }
 }
 
@@ -101,9 +103,8 @@ void read_run_options(BuildContext& c) {
       m.two_dimensional = decode(c.deck, block).integer("N2D3D") != 0;
     } else if (header_starts(block, "/INTTHICK/V5")) {
       if (thickness != nullptr)
-        report(c.diagnostics, {RuleId::DK112, Severity::error, block.header_span,
-                               "a second /INTTHICK/V5", "it stops with an error",
-                               "keep one of them", 725, Severity::error, "/INTTHICK/V5"});
+        report(c.diagnostics,
+               {RuleId::DK112, block.header_span, "a second /INTTHICK/V5", "/INTTHICK/V5"});
       thickness = &block;
       m.intthick_v5 = true;
     } else if (header_starts(block, "/RANDOM")) {
@@ -113,13 +114,10 @@ void read_run_options(BuildContext& c) {
       const Cell* seed = d.find("Seed");
       const bool other_seed = seed != nullptr && seed->real != 0;
       if (other_seed || block.header.starts_with("/RANDOM/GRNOD"))
-        report(
-            c.diagnostics,
-            {RuleId::DK119, Severity::warning, block.header_span,
-             other_seed ? "/RANDOM with a seed: the noise is not reproduced"
-                        : "/RANDOM of a node group: the noise is not reproduced",
-             "it moves the coordinates by up to the noise before it looks at contact",
-             "check penetrations with seed 0, or without noise", 0, Severity::warning, "/RANDOM"});
+        report(c.diagnostics, {RuleId::DK119, block.header_span,
+                               other_seed ? "/RANDOM with a seed: the noise is not reproduced"
+                                          : "/RANDOM of a node group: the noise is not reproduced",
+                               "/RANDOM"});
       else {
         m.has_random = true;
         m.random_noise = noise;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "deck/text/rule_id.hpp"
+#include "deck/text/rule.hpp"
 #include "model/interfaces_card.hpp"
 
 namespace deck {
@@ -26,22 +26,12 @@ namespace {
 
 constexpr std::string_view default_prefix = "/DEFAULT/INTER/TYPE";
 
-void report_default(Diagnostics& diagnostics, const Block& block, RuleId rule, Severity severity,
-                    std::string message, std::string behaviour, std::string help,
-                    const Span* earlier) {
+void report_default(Diagnostics& diagnostics, const Block& block, RuleId rule, std::string message,
+                    const Span* earlier = nullptr) {
   if (!diagnostics.wants(rule)) return;
-  Diagnostic d;
-  d.rule = rule;
-  d.severity = severity;
-  d.span = block.header_span;
-  d.message = std::move(message);
-  d.reference_behaviour = std::move(behaviour);
-  d.help = std::move(help);
+  Diagnostic d = finding_of(rule, block.header_span, std::move(message));
   d.keyword = block.schema->keyword;
-  if (earlier != nullptr) {
-    d.reference = ReferenceMessage{1073, Severity::error};
-    d.notes.emplace_back(*earlier, "the first one is here");
-  }
+  if (earlier != nullptr) d.notes.emplace_back(*earlier, "the first one is here");
   diagnostics.add(std::move(d));
 }
 
@@ -155,19 +145,16 @@ std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnosti
     int type = 0;
     std::from_chars(number.data(), number.data() + number.size(), type);
     if (block.submodel >= 0 || block.header_span.file != 0) {
-      report_default(diagnostics, block, RuleId::DK503, Severity::warning,
+      report_default(diagnostics, block, RuleId::DK503,
                      keyword +
                          (block.submodel >= 0 ? " inside a submodel" : " in an included file") +
-                         " has no effect",
-                     "it honours defaults of the main file only",
-                     "move the block to the main file, outside submodels", nullptr);
+                         " has no effect");
       continue;
     }
     const auto earlier =
         std::find_if(out.begin(), out.end(), [&](const DefaultInter& d) { return d.type == type; });
     if (earlier != out.end()) {
-      report_default(diagnostics, block, RuleId::DK504, Severity::error, "a second " + keyword,
-                     "it stops with an error", "keep one of them", &earlier->span);
+      report_default(diagnostics, block, RuleId::DK504, "a second " + keyword, &earlier->span);
       continue;
     }
     out.push_back(read_default(deck, block, type));

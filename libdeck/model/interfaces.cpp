@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "deck/text/rule_id.hpp"
+#include "deck/text/rule.hpp"
 #include "model/defaults.hpp"
 #include "model/interfaces_card.hpp"
 
@@ -270,15 +270,11 @@ Inter read_one(const InterfaceCard& card, int type, const Rules& rules) {
 void check_smoothing(const InterfaceCard& card, const InterBase& inter, Diagnostics& diagnostics) {
   const Cell* cell = card.decoded().find("Ists");
   if (cell == nullptr || cell->integer == 0 || !diagnostics.wants(RuleId::DK299)) return;
-  Diagnostic d;
-  d.rule = RuleId::DK299;
-  d.severity = Severity::warning;
-  d.span = cell->span;
-  d.message = "Ists = " + std::to_string(cell->integer) +
-              " (surface-to-surface smoothing) is not evaluated; the interface is treated as if "
-              "Ists were 0";
-  d.reference_behaviour = "it takes grnd_IDs for a surface";
-  d.help = "expect differences for this interface";
+  Diagnostic d = finding_of(
+      RuleId::DK299, cell->span,
+      "Ists = " + std::to_string(cell->integer) +
+          " (surface-to-surface smoothing) is not evaluated; the interface is treated as if "
+          "Ists were 0");
   d.keyword = "/INTER/TYPE7";
   d.id = inter.id;
   diagnostics.add(std::move(d));
@@ -288,16 +284,12 @@ void check_smoothing(const InterfaceCard& card, const InterBase& inter, Diagnost
 void report_too_early(const DefaultInter& defaults, const std::vector<const Block*>& interfaces,
                       Diagnostics& diagnostics) {
   if (interfaces.empty() || !diagnostics.wants(RuleId::DK508)) return;
-  Diagnostic d;
-  d.rule = RuleId::DK508;
-  d.severity = Severity::warning;
-  d.span = defaults.span;
   const std::string keyword = "TYPE" + std::to_string(defaults.type);
-  d.message = "this default card stands after " + std::to_string(interfaces.size()) + " " +
-              keyword + " interface" + (interfaces.size() == 1 ? "" : "s") +
-              ", which it does not change";
-  d.reference_behaviour = "it uses its built-in defaults for interfaces in front of the card";
-  d.help = "put /DEFAULT/INTER/" + keyword + " in front of the interfaces, or delete it";
+  Diagnostic d = finding_of(
+      RuleId::DK508, defaults.span,
+      "this default card stands after " + std::to_string(interfaces.size()) + " " + keyword +
+          " interface" + (interfaces.size() == 1 ? "" : "s") + ", which it does not change",
+      {.fix = "put /DEFAULT/INTER/" + keyword + " in front of the interfaces, or delete it"});
   d.keyword = "/DEFAULT/INTER/" + keyword;
   d.notes.emplace_back(interfaces.front()->header_span, "the first of these interfaces");
   diagnostics.add(std::move(d));

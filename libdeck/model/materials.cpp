@@ -285,12 +285,13 @@ void apply_equations_of_state(BuildContext& c) {
     const std::int64_t id = c.own_id(block, "mat");
     const auto it = c.model.material_of_id.find(id);
     if (it == c.model.material_of_id.end()) {
-      report(c.diagnostics,
-             {RuleId::DK118, Severity::error, block.header_span,
-              std::string(block.keyword) + " belongs to material " + std::to_string(id) +
-                  ", which does not exist",
-              "it stops with an error", "give the equation of state the id of its material", 0,
-              Severity::error, std::string(block.keyword), id});
+      report(c.diagnostics, {RuleId::DK118,
+                             block.header_span,
+                             std::string(block.keyword) + " belongs to material " +
+                                 std::to_string(id) + ", which does not exist",
+                             std::string(block.keyword),
+                             id,
+                             {.fix = "give the equation of state the id of its material"}});
       continue;
     }
     Material& m = c.model.materials[it->second];
@@ -309,10 +310,12 @@ void apply_heat(BuildContext& c) {
     const auto it = c.model.material_of_id.find(id);
     if (it == c.model.material_of_id.end()) {
       report(c.diagnostics,
-             {RuleId::DK118, Severity::error, block.header_span,
+             {RuleId::DK118,
+              block.header_span,
               "/HEAT/MAT belongs to material " + std::to_string(id) + ", which does not exist",
-              "it stops with an error", "give the heat data the id of their material", 0,
-              Severity::error, "/HEAT/MAT", id});
+              "/HEAT/MAT",
+              id,
+              {.fix = "give the heat data the id of their material"}});
       continue;
     }
     c.model.materials[it->second].thermal = true;

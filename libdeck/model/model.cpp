@@ -15,14 +15,7 @@ namespace deck {
 namespace detail {
 
 Diagnostic make_diagnostic(Finding f) {
-  Diagnostic d;
-  d.rule = f.rule;
-  d.severity = f.severity;
-  d.span = f.span;
-  d.message = std::move(f.message);
-  d.reference_behaviour = std::move(f.behaviour);
-  d.help = std::move(f.help);
-  if (f.number != 0) d.reference = ReferenceMessage{f.number, f.number_severity};
+  Diagnostic d = finding_of(f.rule, f.span, std::move(f.message), std::move(f.particular));
   d.keyword = std::move(f.keyword);
   d.id = f.id;
   return d;
@@ -55,18 +48,15 @@ std::vector<std::string_view> header_fields(const Block& block) {
 void register_id(BuildContext& c, std::map<std::int64_t, std::uint32_t>& map, std::int64_t id,
                  std::uint32_t index, const Block& block, Span first) {
   if (id > detail::largest_id)
-    report(c.diagnostics,
-           {RuleId::DK114, Severity::error, block.header_span,
-            "id " + std::to_string(id) + " is above the largest id " +
-                std::to_string(detail::largest_id),
-            "it stops with an error", "use a smaller id or a smaller submodel offset", 509,
-            Severity::error, std::string(block.keyword), id});
+    report(c.diagnostics, {RuleId::DK114, block.header_span,
+                           "id " + std::to_string(id) + " is above the largest id " +
+                               std::to_string(detail::largest_id),
+                           std::string(block.keyword), id});
   if (map.emplace(id, index).second) return;
   if (!c.diagnostics.wants(RuleId::DK100)) return;
   Diagnostic d =
-      make_diagnostic({RuleId::DK100, Severity::error, block.header_span,
+      make_diagnostic({RuleId::DK100, block.header_span,
                        std::string(block.keyword) + " " + std::to_string(id) + " is defined twice",
-                       "it stops with an error", "give one of them another id", 79, Severity::error,
                        std::string(block.keyword), id});
   d.notes.emplace_back(first, "first defined here");
   c.diagnostics.add(std::move(d));
@@ -84,11 +74,13 @@ void check_duplicates(BuildContext& c) {
     const bool same = m.nodes.x[n] == m.nodes.x[first] && m.nodes.y[n] == m.nodes.y[first] &&
                       m.nodes.z[n] == m.nodes.z[first];
     Diagnostic d =
-        make_diagnostic({RuleId::DK105, Severity::error, m.node_span(n),
+        make_diagnostic({RuleId::DK105,
+                         m.node_span(n),
                          "node " + std::to_string(m.nodes.id[n]) + " is defined twice" +
                              (same ? " with the same coordinates" : " with different coordinates"),
-                         "it stops with an error", "remove one of the two lines", 79,
-                         Severity::error, "/NODE", m.nodes.id[n]});
+                         "/NODE",
+                         m.nodes.id[n],
+                         {.fix = "remove one of the two lines"}});
     d.notes.emplace_back(m.node_span(first), "first defined here");
     c.diagnostics.add(std::move(d));
   }
@@ -99,11 +91,13 @@ void check_duplicates(BuildContext& c) {
     for (const std::uint32_t e : family.map.duplicates()) {
       if (!c.diagnostics.wants(RuleId::DK105)) continue;
       const Block* block = m.element_blocks[family.block[e]].block;
-      Diagnostic d = make_diagnostic({RuleId::DK105, Severity::error, m.element_span(kind, e),
+      Diagnostic d = make_diagnostic({RuleId::DK105,
+                                      m.element_span(kind, e),
                                       "element " + std::to_string(family.id[e]) + " of " +
                                           std::string(block->keyword) + " is defined twice",
-                                      "it stops with an error", "give one of them another id", 79,
-                                      Severity::error, std::string(block->keyword), family.id[e]});
+                                      std::string(block->keyword),
+                                      family.id[e],
+                                      {.fix = "give one of them another id"}});
       d.notes.emplace_back(m.element_span(kind, family.map.find(family.id[e])),
                            "first defined here");
       c.diagnostics.add(std::move(d));
@@ -131,17 +125,18 @@ void check_units(BuildContext& c) {
     const bool bulk = block.schema->bulk;
     const bool stops = bulk || has_dimensions(*block.schema);
     report(c.diagnostics,
-           {RuleId::DK109, stops ? Severity::error : Severity::warning, block.unit_id.span,
+           {RuleId::DK109,
+            block.unit_id.span,
             std::string(block.keyword) + " names unit system " +
                 std::to_string(block.unit_id.value) + ", which does not exist",
-            stops ? "it stops with an error; here the values are taken in working "
-                    "units"
-                  : "it goes on: the block has no value with a unit",
-            "define it with /UNIT or remove the id",
-            !stops ? 0
-            : bulk ? 643
-                   : 659,
-            Severity::error, std::string(block.keyword), block.id.value});
+            std::string(block.keyword),
+            block.id.value,
+            {.severity = stops ? Severity::error : Severity::warning,
+             .message = !stops ? 0
+                        : bulk ? 643
+                               : 659,
+             .solver = stops ? "it stops with an error; here the values are taken in working units"
+                             : "it goes on: the block has no value with a unit"}});
   }
 }
 

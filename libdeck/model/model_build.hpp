@@ -5,23 +5,18 @@
 #include <string_view>
 
 #include "deck/model/model.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/text/rule.hpp"
 
 namespace deck::detail {
 
-/// Everything a finding of the model stage says. `number` is the reference solver's message, 0:
-/// none.
+/// What a finding of the model stage says beyond the page of its rule.
 struct Finding {
   RuleId rule{};
-  Severity severity = Severity::error;
   Span span{};
   std::string message{};
-  std::string behaviour{};
-  std::string help{};
-  int number = 0;
-  Severity number_severity = Severity::error;
   std::string keyword{};
   std::int64_t id = 0;
+  Case particular{};
 };
 Diagnostic make_diagnostic(Finding f);
 void report(Diagnostics& diagnostics, Finding f);

@@ -127,15 +127,12 @@ void check_coordinates(BuildContext& c) {
     for (std::size_t k = 1; k < 3; ++k)
       if (!(std::abs(at[k]) <= std::abs(at[axis]))) axis = k;
     const bool finite = std::isfinite(at[0]) && std::isfinite(at[1]) && std::isfinite(at[2]);
-    const char* const behaviour = finite ? "its distances become infinite" : "it computes with it";
     c.diagnostics.add(make_diagnostic(
-        {finite ? RuleId::DK334 : RuleId::DK333, finite ? Severity::warning : Severity::error,
-         spans[i],
+        {finite ? RuleId::DK334 : RuleId::DK333, spans[i],
          fmt::format("node {}: {} is {:.6g} in working units, {}", nodes.id[n], "XYZ"[axis],
                      at[axis],
                      finite ? "too large for distances to be computed" : "not a finite number"),
-         behaviour, "correct the coordinate, its unit system or its transformation", 0,
-         Severity::error, "/NODE", nodes.id[n]}));
+         "/NODE", nodes.id[n]}));
   }
 }
 

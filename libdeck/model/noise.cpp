@@ -1,7 +1,7 @@
 // /RANDOM: the noise that the reference solver adds to all coordinates before contact is looked at.
 // The generator was recovered from recorded coordinates: r' = (25173 r + 13849) mod 65536, r = 0 at
-// the start, one number per coordinate in the order x y z of each node as read; the coordinate moves
-// by noise * (2 r / 65536 - 1).
+// the start, one number per coordinate in the order x y z of each node as read; the coordinate
+// moves by noise * (2 r / 65536 - 1).
 #include "model/model_build.hpp"
 
 namespace deck::detail {

@@ -52,25 +52,23 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
   for (std::size_t p = 0; p < m.parts.size(); ++p) {
     const Part& part = m.parts[p];
     if (thin[p].count > 0 && c.diagnostics.wants(RuleId::DK106)) {
-      Diagnostic d = make_diagnostic(
-          {RuleId::DK106, Severity::error, m.element_span(shells.kind, thin[p].first),
-           plural(thin[p].count, what) + " of part " + std::to_string(part.id) +
-               " have no thickness: neither on the element nor in property " +
-               std::to_string(part.prop_id) + "; first is element " +
-               std::to_string(shells.id[thin[p].first]),
-           "it stops with an error", "give the property or the elements a thickness above 0", 495,
-           Severity::error, "/PART", part.id});
+      Diagnostic d =
+          make_diagnostic({RuleId::DK106, m.element_span(shells.kind, thin[p].first),
+                           plural(thin[p].count, what) + " of part " + std::to_string(part.id) +
+                               " have no thickness: neither on the element nor in property " +
+                               std::to_string(part.prop_id) + "; first is element " +
+                               std::to_string(shells.id[thin[p].first]),
+                           "/PART", part.id});
       d.notes.emplace_back(m.properties[part.prop].span, "the property");
       c.diagnostics.add(std::move(d));
     }
     if (collapsed[p].count > 0)
       report(c.diagnostics,
-             {RuleId::DK107, Severity::warning, m.element_span(shells.kind, collapsed[p].first),
+             {RuleId::DK107, m.element_span(shells.kind, collapsed[p].first),
               plural(collapsed[p].count, what) + " of part " + std::to_string(part.id) +
                   " have the same third and fourth node; first is element " +
                   std::to_string(shells.id[collapsed[p].first]),
-              "it keeps them as degenerate quadrangles and warns", "write them as /SH3N", 430,
-              Severity::warning, "/PART", part.id});
+              "/PART", part.id});
   }
 }
 
@@ -84,12 +82,10 @@ void check_orphans(BuildContext& c, const Elements& family, const char* what) {
     if (entry.first++ == 0) entry.second = block;
   }
   for (const auto& [id, entry] : missing)
-    report(c.diagnostics,
-           {RuleId::DK104, Severity::error, entry.second->header_span,
-            plural(entry.first, what) + " belong to part " + std::to_string(id) +
-                ", which does not exist",
-            "it stops with an error", "define the part or correct the id in the header", 402,
-            Severity::error, std::string(entry.second->keyword), id});
+    report(c.diagnostics, {RuleId::DK104, entry.second->header_span,
+                           plural(entry.first, what) + " belong to part " + std::to_string(id) +
+                               ", which does not exist",
+                           std::string(entry.second->keyword), id});
 }
 
 }  // namespace
@@ -124,38 +120,33 @@ void link_parts(BuildContext& c) {
     for (const std::uint32_t p : f->part)
       if (p != no_index) used[p] |= f->kind == ElementKind::spring ? 1 : 3;
   if (m.parts.empty() && !m.nodes.id.empty())
-    report(c.diagnostics,
-           {RuleId::DK111, Severity::warning, c.deck.begin.span, "the deck has no part",
-            "it warns and goes on with nodes only",
-            "define parts with /PART if the deck should hold elements", 1114, Severity::warning});
+    report(c.diagnostics, {RuleId::DK111, c.deck.begin.span, "the deck has no part"});
   for (std::size_t i = 0; i < m.parts.size(); ++i) {
     Part& part = m.parts[i];
     if (const auto it = m.property_of_id.find(part.prop_id); it != m.property_of_id.end())
       part.prop = it->second;
     else
-      report(c.diagnostics,
-             {RuleId::DK102, Severity::error, part.span,
-              "part " + std::to_string(part.id) + " refers to property " +
-                  std::to_string(part.prop_id) + ", which does not exist",
-              "it reports an error and goes on with the first property of the deck",
-              "define the property or correct prop_ID", 178, Severity::error, "/PART", part.id});
+      report(c.diagnostics, {RuleId::DK102, part.span,
+                             "part " + std::to_string(part.id) + " refers to property " +
+                                 std::to_string(part.prop_id) + ", which does not exist",
+                             "/PART", part.id});
     if (const auto it = m.material_of_id.find(part.mat_id); it != m.material_of_id.end())
       part.mat = it->second;
     const bool spring = part.prop != no_index && is_spring_property(m.properties[part.prop].number);
     if (part.mat == no_index && (used[i] & 2) != 0 && !(spring && part.mat_id == 0))
       report(c.diagnostics,
-             {RuleId::DK103, Severity::error, part.span,
+             {RuleId::DK103, part.span,
               "part " + std::to_string(part.id) + " has elements and refers to material " +
                   std::to_string(part.mat_id) + ", which does not exist",
-              "it stops with an error", "define the material or correct mat_ID", 179,
-              Severity::error, "/PART", part.id});
+              "/PART", part.id});
     if (part.subset_id > 0 && m.subset_children.count(part.subset_id) == 0)
-      report(c.diagnostics,
-             {RuleId::DK108, Severity::warning, part.span,
-              "part " + std::to_string(part.id) + " names subset " +
-                  std::to_string(part.subset_id) + ", which does not exist",
-              "it puts the part into the global subset",
-              "define the subset or leave the cell blank", 0, Severity::warning, "/PART", part.id});
+      report(c.diagnostics, {RuleId::DK108,
+                             part.span,
+                             "part " + std::to_string(part.id) + " names subset " +
+                                 std::to_string(part.subset_id) + ", which does not exist",
+                             "/PART",
+                             part.id,
+                             {.fix = "define the subset or leave the cell blank"}});
   }
 }
 

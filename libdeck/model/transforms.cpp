@@ -96,13 +96,13 @@ class TransformReader {
       const auto axis = two_points();
       if (!axis) return std::nullopt;
       if (!(length(axis->second) > 0))
-        return fail("its two points coincide", "give two different points");
+        return fail("its two points coincide", {.message = 0, .fix = "give two different points"});
       return type_ == "ROT" ? rotation(axis->first, axis->second, d_.real("Angle"))
                             : reflection(axis->first, axis->second);
     }
-    return fail("transforms of this type are not evaluated here: the nodes keep their coordinates",
-                "write it as /TRANSFORM/MATRIX if the contacts of these nodes are to be checked",
-                Severity::warning);
+    return not_evaluated(
+        "transforms of this type are not evaluated",
+        "write it as /TRANSFORM/MATRIX if the contacts of these nodes are to be checked");
   }
 
  private:
@@ -111,15 +111,20 @@ class TransformReader {
     return fields.size() > 1 ? fields[1] : std::string_view();
   }
 
-  std::nullopt_t fail(std::string what, std::string help, Severity severity = Severity::error,
-                      int number = 0) {
+  std::nullopt_t fail(const std::string& what, Case particular) {
     report(c_.diagnostics,
-           {RuleId::DK110, severity, d_.span(),
+           {RuleId::DK110, d_.span(),
             std::string(d_.block->keyword) + " " + std::to_string(d_.block->id.value) + ": " + what,
-            severity == Severity::error ? "it stops with an error" : "it applies the transform",
-            std::move(help), number, Severity::error, std::string(d_.block->keyword),
-            d_.block->id.value});
+            std::string(d_.block->keyword), d_.block->id.value, std::move(particular)});
     return std::nullopt;
+  }
+  /// What this program does not evaluate, and the reference solver does.
+  std::nullopt_t not_evaluated(const std::string& what, std::string help) {
+    return fail(what + " here: the nodes keep their coordinates",
+                {.severity = Severity::warning,
+                 .message = 0,
+                 .solver = "it applies the transform",
+                 .fix = std::move(help)});
   }
 
   /// Coordinates of the node in field `name`; nullopt with a finding where it does not exist.
@@ -127,8 +132,8 @@ class TransformReader {
     const std::int64_t id = c_.reference(d_, name, "node");
     const NodeIndex n = c_.model.nodes.map.find(id);
     if (n == no_index)
-      return fail("node " + std::to_string(id) + " does not exist", "correct the node id",
-                  Severity::error, 694);
+      return fail("node " + std::to_string(id) + " does not exist",
+                  {.message = 694, .fix = "correct the node id"});
     const Nodes& nodes = c_.model.nodes;
     return Vector{nodes.x[n], nodes.y[n], nodes.z[n]};
   }
@@ -161,8 +166,8 @@ class TransformReader {
       return map;
     }
     if (d_.integer("skew_ID") != 0)
-      return fail("translations in a skew are not evaluated here: the nodes keep their coordinates",
-                  "give the translation in global axes", Severity::warning);
+      return not_evaluated("translations in a skew are not evaluated",
+                           "give the translation in global axes");
     map.shift = plain(point("TX", "TY", "TZ"));
     return map;
   }
@@ -221,11 +226,13 @@ std::int32_t find_submodel(const Deck& deck, std::int64_t id) {
 
 void missing_target(BuildContext& c, const DecodedBlock& d, const std::string& what,
                     std::int64_t id) {
-  report(c.diagnostics, {RuleId::DK110, Severity::error, d.span(),
+  report(c.diagnostics, {RuleId::DK110,
+                         d.span(),
                          std::string(d.block->keyword) + " " + std::to_string(d.block->id.value) +
                              " moves " + what + " " + std::to_string(id) + ", which does not exist",
-                         "it stops with an error", "correct the id", 1865, Severity::error,
-                         std::string(d.block->keyword), d.block->id.value});
+                         std::string(d.block->keyword),
+                         d.block->id.value,
+                         {.fix = "correct the id"}});
 }
 
 }  // namespace

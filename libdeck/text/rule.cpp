@@ -2,7 +2,7 @@
 #include "deck/text/rule.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <stdexcept>
 
 #include "base/embedded.hpp"
@@ -41,16 +41,30 @@ const Rule& rule_of(RuleId id) {
   return *it;
 }
 
-Diagnostic finding_of(RuleId id, Span span, std::string message) {
+ReferenceMessage Rule::message(int number) const {
+  const auto it = std::find_if(messages.begin(), messages.end(),
+                               [&](const ReferenceMessage& m) { return m.number == number; });
+  assert(it != messages.end() && "a message that the page does not name");
+  return it != messages.end() ? *it : ReferenceMessage{number, severity()};
+}
+
+Diagnostic finding_of(RuleId id, Span span, std::string message, Case particular) {
   const Rule& rule = rule_of(id);
   Diagnostic d;
   d.rule = id;
-  d.severity = rule.severity();
+  d.severity = particular.severity.value_or(rule.severity());
+  assert(std::find(rule.severities.begin(), rule.severities.end(), d.severity) !=
+             rule.severities.end() &&
+         "a severity that the page does not name");
   d.span = span;
   d.message = std::move(message);
-  d.reference_behaviour = rule.solver;
-  d.help = rule.fix;
-  if (!rule.messages.empty()) d.reference = rule.messages.front();
+  d.reference_behaviour = particular.solver.empty() ? rule.solver : std::move(particular.solver);
+  d.help = particular.fix.empty() ? rule.fix : std::move(particular.fix);
+  if (particular.message) {
+    if (*particular.message != 0) d.reference = rule.message(*particular.message);
+  } else if (!rule.messages.empty()) {
+    d.reference = rule.messages.front();
+  }
   return d;
 }
 

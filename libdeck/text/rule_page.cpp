@@ -173,11 +173,12 @@ class PageReader {
   }
 
   void read_section(const Section& section) {
-    if (next_heading() != section.heading) {
+    const bool expected = next_heading() == section.heading;
+    next();
+    if (!expected) {
       fail("expected the section '## " + std::string(section.heading) + "'");
       return;
     }
-    next();
     skip_blank();
     std::string& text = rule_.*section.text;
     if (section.example) {

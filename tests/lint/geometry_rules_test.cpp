@@ -2,30 +2,10 @@
 // where and what.
 #include <gtest/gtest.h>
 
-#include "deck/lint/geometry.hpp"
 #include "lint/support.hpp"
 
 namespace deck::test {
 namespace {
-
-/// Lints an example with the geometry checks.
-Linted lint_geometry(std::string_view example, int threads = 1) {
-  const SchemaSet& schemas = SchemaSet::built_in();
-  auto deck = read_deck_text("deck_0000.rad", example_deck(example, schemas).main, schemas);
-  if (!deck) throw std::runtime_error(deck.error().message);
-  Linted out;
-  out.deck = std::make_unique<Deck>(std::move(*deck));
-  Diagnostics of_model, of_interfaces;
-  const Model model = build_model(*out.deck, schemas, of_model);
-  const Interfaces interfaces = read_interfaces(*out.deck, model, of_interfaces);
-  LintInput input{
-      *out.deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces},
-      {}};
-  input.extra_checks.push_back(
-      [&](const LintContext& c, Reporter& r) { check_geometry(c, r, {.threads = threads}); });
-  out.result = run_lint(input);
-  return out;
-}
 
 class EveryGeometryRule : public testing::TestWithParam<std::string> {
  protected:

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "deck/lint/geometry.hpp"
 #include "lint/support.hpp"
 
 namespace deck::test {
@@ -15,18 +14,7 @@ constexpr std::array all_types = {7, 10, 11, 19};
 
 bool fires(std::string_view example, const Rule& rule) {
   if (rule.stage != RuleStage::extra) return lint_example(example).fires(rule.id);
-  const SchemaSet& schemas = SchemaSet::built_in();
-  auto deck = read_deck_text("deck_0000.rad", example_deck(example, schemas).main, schemas);
-  if (!deck) return false;
-  Diagnostics of_model, of_interfaces;
-  const Model model = build_model(*deck, schemas, of_model);
-  const Interfaces interfaces = read_interfaces(*deck, model, of_interfaces);
-  LintInput input{
-      *deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces}, {}};
-  input.extra_checks.push_back([](const LintContext& c, Reporter& r) { check_geometry(c, r); });
-  const LintResult result = run_lint(input);
-  return std::any_of(result.diagnostics.begin(), result.diagnostics.end(),
-                     [&](const Diagnostic& d) { return d.rule == rule.id; });
+  return lint_geometry(example).fires(rule.id);
 }
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {

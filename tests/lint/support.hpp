@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "deck/lint/example.hpp"
+#include "deck/lint/geometry.hpp"
 #include "deck/lint/lint.hpp"
 
 namespace deck::test {
@@ -103,6 +104,31 @@ inline Linted lint_example(std::string_view example, const LintOptions& options 
   for (const auto& [name, value] : deck.limits)
     if (name == "include_depth") read.limits.include_depth = value;
   return lint_file(folder.write("deck_0000.rad", deck.main), options, read);
+}
+
+/// Lints a deck with the geometry checks.
+inline Linted lint_geometry_of(Deck deck, int threads = 1) {
+  const SchemaSet& schemas = SchemaSet::built_in();
+  Linted out;
+  out.deck = std::make_unique<Deck>(std::move(deck));
+  Diagnostics of_model, of_interfaces;
+  const Model model = build_model(*out.deck, schemas, of_model);
+  const Interfaces interfaces = read_interfaces(*out.deck, model, of_interfaces);
+  LintInput input{
+      *out.deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces},
+      {}};
+  input.extra_checks.push_back(
+      [&](const LintContext& c, Reporter& r) { check_geometry(c, r, {.threads = threads}); });
+  out.result = run_lint(input);
+  return out;
+}
+
+/// Lints an example of one file with the geometry checks.
+inline Linted lint_geometry(std::string_view example, int threads = 1) {
+  const SchemaSet& schemas = SchemaSet::built_in();
+  auto deck = read_deck_text("deck_0000.rad", example_deck(example, schemas).main, schemas);
+  if (!deck) throw std::runtime_error(deck.error().message);
+  return lint_geometry_of(std::move(*deck), threads);
 }
 
 }  // namespace deck::test

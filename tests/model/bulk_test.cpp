@@ -89,8 +89,8 @@ TEST(BulkNodes, TakeUnitsAndSubmodelOffsets) {
   EXPECT_EQ(b.model.nodes.x[1], 1.5);
   EXPECT_EQ(b.model.nodes.y[1], -2);
   EXPECT_EQ(b.model.nodes.z[1], 3);
-  ASSERT_EQ(count(b.findings, RuleId::DK040), 1u);
-  EXPECT_EQ(first(b.findings, RuleId::DK040)->reference->number, 643);
+  EXPECT_TRUE(b.findings.all().empty())
+      << "the unit system 6 that is missing is the model's finding";
 }
 
 TEST(BulkNodes, OldColumnsBelongToOldVersions) {
@@ -120,12 +120,6 @@ TEST(BulkNodes, FreeFormatParametersTabsAndOddSpellingsAreReadAsDecodeReadsThem)
   EXPECT_THAT(b.model.nodes.z, ElementsAre(3, 1, 1.5e-3));
   EXPECT_EQ(count(b.findings, RuleId::DK013), 1u);
   EXPECT_EQ(b.findings.all().size(), 1u);
-}
-
-TEST(BulkNodes, MergedNodesAreAnnounced) {
-  const Bulk b = bulk("/CNODE/0.1\n" + ids({1}));
-  EXPECT_THAT(b.model.nodes.id, ElementsAre(1));
-  EXPECT_EQ(count(b.findings, RuleId::DK041), 1u);
 }
 
 TEST(BulkNodes, TheLastLineNeedsNoNewline) {
@@ -416,8 +410,7 @@ TEST(BulkThreads, GiveTheSameArraysAndFindings) {
 TEST(BulkChunks, CutsNeverSplitALineOrAnItem) {
   const Deck deck = read(deck_of(random_deck(9, 300, false)));
   const auto blocks = element_blocks(deck);
-  Diagnostics none;
-  auto plans = detail::plan_blocks(deck, blocks, none);
+  auto plans = detail::plan_blocks(deck, blocks);
   for (auto& plan : plans) plan.format = *detail::element_format(*plan.block);
   for (const std::uint64_t target : {1u, 100u, 1000u, 7777u, 1000000u}) {
     std::uint64_t bytes = 0, expected = 0;

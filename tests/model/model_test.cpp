@@ -142,11 +142,13 @@ TEST(ConnectionNode, WithinTheToleranceIsTheOtherNode) {
   const Model& m = b.model();
   EXPECT_EQ(m.node_id(m.shell4.of(0)[2]), 5);
   EXPECT_EQ(b.group(1), (Ids{5, 51}));
+  EXPECT_EQ(b.findings(RuleId::DK041), 0u) << "they are merged, and the keyword is in upper case";
 }
 
-TEST(Unit, UnknownUnitSystemIsMessage643ForNodesAnd659Elsewhere) {
+TEST(Unit, UnknownUnitSystemIsOneFindingMessage643ForNodesAnd659Elsewhere) {
   Built b("/NODE/5\n" + node(1, 0, 0, 0));
   EXPECT_EQ(b.message(RuleId::DK109), 643);
+  EXPECT_EQ(b.findings(RuleId::DK040), 0u) << "the keyword is known";
   Built g(grid_nodes() + "/SKEW/FIX/1/5\ns\n");
   EXPECT_EQ(g.message(RuleId::DK109), 659);
 }

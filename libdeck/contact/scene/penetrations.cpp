@@ -9,7 +9,7 @@
 #include "contact/rules/actions.hpp"
 #include "contact/rules/removal.hpp"
 #include "contact/scene/scene_parts.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/text/rule.hpp"
 
 namespace deck::detail {
 namespace {
@@ -44,17 +44,15 @@ void give_up(SceneContext& c, Contact& contact) {
   if (!c.diagnostics.wants(RuleId::DK390)) return;
   const double gap = std::max(contact.max_gap, contact.gapmin);
   const double edge = mean_main_edge(c, contact);
-  Diagnostic d;
-  d.rule = RuleId::DK390;
-  d.span = contact.inter->span;
-  d.message = fmt::format(
-      "/INTER/TYPE{} {}: so many pairs are within the gap that their list would take more than {} "
-      "MB; penetrations of this interface were not evaluated. Its largest gap is {:.6g}, {:.3g} "
-      "times the mean edge of its main side ({:.6g})",
-      contact.inter->type, contact.inter->id, c.options.limits.pair_bytes >> 20, gap,
-      edge > 0 ? gap / edge : 0.0, edge);
-  d.reference_behaviour = "it allocates memory for all of them or stops";
-  d.help = "check the gap against the size of the mesh (units?); --max-memory raises the bound";
+  Diagnostic d = finding_of(
+      RuleId::DK390, contact.inter->span,
+      fmt::format("/INTER/TYPE{} {}: so many pairs are within the gap that their list would take "
+                  "more than {} "
+                  "MB; penetrations of this interface were not evaluated. Its largest gap is "
+                  "{:.6g}, {:.3g} "
+                  "times the mean edge of its main side ({:.6g})",
+                  contact.inter->type, contact.inter->id, c.options.limits.pair_bytes >> 20, gap,
+                  edge > 0 ? gap / edge : 0.0, edge));
   d.keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
   d.id = contact.inter->id;
   c.diagnostics.add(std::move(d));

@@ -6,7 +6,7 @@
 
 #include "contact/rules/gaps.hpp"
 #include "contact/scene/scene_parts.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/text/rule.hpp"
 
 namespace deck {
 namespace {
@@ -267,16 +267,14 @@ class Builder {
         for (const NodeIndex n : e.nodes) look(n);
     contact.evaluated = lost == no_index && selections_.complete();
     if (contact.evaluated || lost == no_index) return contact.evaluated;
-    Diagnostic d;
-    d.rule = RuleId::DK380;
-    d.span = contact.inter->span;
-    d.keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
+    const std::string keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
+    Diagnostic d =
+        finding_of(RuleId::DK380, contact.inter->span,
+                   keyword + " " + std::to_string(contact.inter->id) + ": node " +
+                       std::to_string(c_.model.nodes.id[lost]) +
+                       " has a coordinate that is no finite number; the contact was not evaluated");
+    d.keyword = keyword;
     d.id = contact.inter->id;
-    d.message = d.keyword + " " + std::to_string(d.id) + ": node " +
-                std::to_string(c_.model.nodes.id[lost]) +
-                " has a coordinate that is no finite number; the contact was not evaluated";
-    d.reference_behaviour = "it computes with the infinite number";
-    d.help = "correct the coordinate";
     c_.diagnostics.report(std::move(d));
     return false;
   }

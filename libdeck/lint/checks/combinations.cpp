@@ -95,7 +95,7 @@ void check_curvature_nodes(const LintContext& c, const Rule& rule, Reporter& r) 
         icurv == 1 ? name_of(card) + ": Icurv = 1 needs node_ID1, the centre of the sphere"
                    : name_of(card) + ": Icurv = 2 needs node_ID1 and node_ID2 on the axis");
     if (d != nullptr) {
-      d->reference = ReferenceMessage{icurv == 1 ? 1727 : 1728, Severity::error};
+      d->reference = rule.message(icurv == 1 ? 1727 : 1728);
       note_field(d, card, "Icurv");
     }
   });
@@ -193,7 +193,7 @@ void check_filter(const LintContext& c, const Rule& rule, Reporter& r) {
     if (problem.empty()) continue;
     Diagnostic* d = r.report(rule, *block.block, cell->span,
                              "/FRICTION " + std::to_string(block.block->id.value) + ": " + problem);
-    if (d != nullptr) d->reference = ReferenceMessage{1591, Severity::error};
+    if (d != nullptr) d->reference = rule.message(1591);
   }
 }
 

@@ -120,10 +120,9 @@ void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
     if (d == nullptr) return;
     if (secondary && side.kind != "grnod") {
       d->severity = Severity::error;
-      d->reference = ReferenceMessage{118, Severity::error};
+      d->reference = rule.message(118);
     }
-    if (!secondary && (card.type == 7 || card.type == 19))
-      d->reference = ReferenceMessage{3160, Severity::error};
+    if (!secondary && (card.type == 7 || card.type == 19)) d->reference = rule.message(3160);
   });
 }
 
@@ -147,8 +146,8 @@ void negative_reference(Reporter& r, const Rule& rule, const ContactCard& card,
   Diagnostic* d = report_at(r, rule, card, f.name,
                             fmt::format("{} of {} is negative: {}", f.name, name_of(card), f.text));
   if (d == nullptr) return;
-  if (f.field->ref == "sensor") d->reference = ReferenceMessage{1010, Severity::error};
-  if (f.field->ref == "node") d->reference = ReferenceMessage{78, Severity::error};
+  if (f.field->ref == "sensor") d->reference = rule.message(1010);
+  if (f.field->ref == "node") d->reference = rule.message(78);
   if (f.field->ref != "funct" && f.field->ref != "friction") return;
   d->severity = Severity::warning;
   d->reference.reset();
@@ -246,7 +245,7 @@ void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::string_view main = sides.back().field;
     if (card.given(main) || (card.type == 19 && card.given("surf_IDs"))) continue;
     Diagnostic* d = report_at(r, rule, card, main, name_of(card) + " has no main surface");
-    if (d != nullptr && card.type == 0) d->reference = ReferenceMessage{119, Severity::error};
+    if (d != nullptr && card.type == 0) d->reference = rule.message(119);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/parallel.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/text/rule.hpp"
 #include "model/bulk/bulk_read.hpp"
 
 namespace deck::detail {
@@ -142,12 +142,9 @@ void release(const Deck& deck, const Chunk& chunk) {
 bool indices_left(std::size_t have, std::size_t more, const Block& block,
                   Diagnostics& diagnostics) {
   if (have + more < no_index) return true;
-  Diagnostic d;
-  d.rule = RuleId::DK006;
-  d.span = block.header_span;
-  d.message = "more than 4294967294 items of one kind; the rest is left out";
-  d.help = "split the deck";
-  diagnostics.report(std::move(d));
+  diagnostics.report(finding_of(RuleId::DK006, block.header_span,
+                                "more than 4294967294 items of one kind; the rest is left out",
+                                {.fix = "split the deck"}));
   return false;
 }
 
@@ -199,19 +196,6 @@ struct NodeSink {
     z.resize(room);
   }
 };
-
-void report_cnode(const Block& block, Diagnostics& diagnostics) {
-  if (block.schema->keyword != "/CNODE" || !diagnostics.wants(RuleId::DK041)) return;
-  Diagnostic d;
-  d.rule = RuleId::DK041;
-  d.severity = Severity::warning;
-  d.span = block.header_span;
-  d.message = std::string(block.header) + ": nodes are read as they are and not merged";
-  d.reference_behaviour = "it merges nodes that lie within the tolerance of each other";
-  d.help = "merge the nodes in the deck and use /NODE";
-  d.keyword = "/CNODE";
-  diagnostics.add(std::move(d));
-}
 
 // ---- elements -----------------------------------------------------------------------------------
 
@@ -316,15 +300,11 @@ struct ElementSink {
 /// The reference solver converts an own thickness only in the first shell after a change of units.
 void report_thickness(const Block& block, Diagnostics& diagnostics) {
   if (!diagnostics.wants(RuleId::DK039)) return;
-  Diagnostic d;
-  d.rule = RuleId::DK039;
-  d.severity = Severity::warning;
-  d.span = block.header_span;
-  d.message = std::string(block.header) +
-              ": own thicknesses are converted to working units, which the reference solver does "
-              "only for the first element after a change of the unit system";
-  d.reference_behaviour = "it takes the other thicknesses as numbers in working units";
-  d.help = "give the thickness in the property or the part, or use one unit system";
+  Diagnostic d = finding_of(
+      RuleId::DK039, block.header_span,
+      std::string(block.header) +
+          ": own thicknesses are converted to working units, which the reference solver does "
+          "only for the first element after a change of the unit system");
   d.keyword = std::string(block.keyword);
   d.id = block.id.value;
   diagnostics.add(std::move(d));
@@ -400,12 +380,11 @@ int element_width(ElementKind kind) {
 
 void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes& nodes,
                 std::vector<BulkBlock>& ranges, Diagnostics& diagnostics, int threads) {
-  const std::vector<BlockPlan> plans = plan_blocks(deck, blocks, diagnostics);
+  const std::vector<BlockPlan> plans = plan_blocks(deck, blocks);
   const std::vector<Chunk> chunks = cut_chunks(deck, plans, chunk_bytes);
   const std::size_t first_range = ranges.size();
   for (const Block* block : blocks) {
     ranges.push_back({block, static_cast<std::uint32_t>(nodes.size()), 0});
-    report_cnode(*block, diagnostics);
   }
   Room room;
   for (const Chunk& chunk : chunks) room.total += chunk.bytes;
@@ -437,7 +416,7 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
     family_of(model, kind).kind = kind;
     family_of(model, kind).width = element_width(kind);
   }
-  std::vector<BlockPlan> plans = plan_blocks(deck, blocks, diagnostics);
+  std::vector<BlockPlan> plans = plan_blocks(deck, blocks);
   for (BlockPlan& plan : plans) {
     const auto format = element_format(*plan.block);
     if (!format) {

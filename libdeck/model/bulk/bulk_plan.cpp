@@ -5,7 +5,6 @@
 #include <cstring>
 #include <map>
 
-#include "deck/text/rule_id.hpp"
 #include "text/number_scan.hpp"
 
 namespace deck::detail {
@@ -137,8 +136,7 @@ std::shared_ptr<const ItemPlan> make_item_plan(const Schema& schema, int version
   return plan;
 }
 
-std::vector<BlockPlan> plan_blocks(const Deck& deck, const std::vector<const Block*>& blocks,
-                                   Diagnostics& diagnostics) {
+std::vector<BlockPlan> plan_blocks(const Deck& deck, const std::vector<const Block*>& blocks) {
   std::map<std::pair<const Schema*, int>, std::shared_ptr<const ItemPlan>> items;
   std::vector<BlockPlan> plans;
   plans.reserve(blocks.size());
@@ -155,21 +153,7 @@ std::vector<BlockPlan> plan_blocks(const Deck& deck, const std::vector<const Blo
       Dimension length;
       length.length = 1;
       plan.length = conversion_factor(*units, deck.begin.working, length);
-    } else if (diagnostics.wants(RuleId::DK040)) {
-      Diagnostic d;
-      d.rule = RuleId::DK040;
-      d.severity = Severity::error;
-      d.span = block->unit_id.span;
-      d.message = std::string(block->header) + " refers to unit system " +
-                  std::to_string(block->unit_id.value) + ", which does not exist";
-      d.reference_behaviour = "it stops with an error";
-      d.help = "define it with /UNIT/" + std::to_string(block->unit_id.value) +
-               " or remove the id; the input units are assumed";
-      d.reference = ReferenceMessage{643, Severity::error};
-      d.keyword = std::string(block->keyword);
-      d.id = block->id.value;
-      diagnostics.add(std::move(d));
-    }
+    }  // else: DK109 says so
   }
   return plans;
 }

@@ -56,9 +56,8 @@ struct BlockPlan {
   std::uint32_t part = no_index;
 };
 
-/// Plans of `blocks`, one each, without part and format. Reports unknown unit ids (DK040).
-std::vector<BlockPlan> plan_blocks(const Deck& deck, const std::vector<const Block*>& blocks,
-                                   Diagnostics& diagnostics);
+/// Plans of `blocks`, one each, without part and format. A unit id that is unknown counts as none.
+std::vector<BlockPlan> plan_blocks(const Deck& deck, const std::vector<const Block*>& blocks);
 
 /// Whole lines of one block in one file.
 struct TextSegment {

@@ -11,16 +11,8 @@ std::string place_of(const BlockPlan& plan, const Problem& problem) {
 }
 
 void report_problem(Diagnostics& diagnostics, const BlockPlan& plan, const Problem& problem,
-                    BulkRule rule, Severity severity, Span span, std::string message,
-                    std::string behaviour, std::string help, int number = 0) {
-  Diagnostic d;
-  d.rule = bulk_rule_id(rule);
-  d.severity = severity;
-  d.span = span;
-  d.message = std::move(message);
-  d.reference_behaviour = std::move(behaviour);
-  d.help = std::move(help);
-  if (number != 0) d.reference = ReferenceMessage{number, Severity::error};
+                    BulkRule rule, Span span, std::string message, Case particular = {}) {
+  Diagnostic d = finding_of(bulk_rule_id(rule), span, std::move(message), std::move(particular));
   d.keyword = std::string(plan.block->keyword);
   d.id = problem.item;
   diagnostics.add(std::move(d));
@@ -38,14 +30,11 @@ void report_unknown_nodes(const BlockPlan& plan, const Problem& problem, const D
     if (written != 0 && nodes.map.find(id) != no_index) continue;
     if (!diagnostics.wants(bulk_rule_id(unknown_node))) continue;
     const bool last_of_shell = written == 0 && n == 3 && plan.format.kind == ElementKind::shell4;
-    report_problem(diagnostics, plan, problem, unknown_node, Severity::error,
+    report_problem(diagnostics, plan, problem, unknown_node,
                    cell.span.length > 0 ? cell.span : card.line.whole(),
                    place_of(plan, problem) + ": " + cell.field->name + " names node " +
                        std::to_string(id) + ", which does not exist",
-                   "it stops with an error",
-                   last_of_shell ? "write N4 = N3 for a triangle, or use /SH3N"
-                                 : "correct the number or define the node",
-                   78);
+                   {.fix = last_of_shell ? "write N4 = N3 for a triangle, or use /SH3N" : ""});
   }
 }
 
@@ -140,35 +129,32 @@ void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
         !plan.item->nodes.empty() && data_follows(deck, *plan.block, file, problem.offset);
     if (diagnostics.wants(bulk_rule_id(blank_line)))
       report_problem(
-          diagnostics, plan, problem, blank_line, element ? Severity::error : Severity::warning,
-          {file, 0, problem.offset}, "a blank line in " + std::string(plan.block->header),
-          element ? "it takes the line for an element without nodes, and crashes or hangs"
-                  : "it takes the line for an item with id 0",
-          "delete the line", element ? 760 : 0);
+          diagnostics, plan, problem, blank_line, {file, 0, problem.offset},
+          "a blank line in " + std::string(plan.block->header),
+          {.severity = element ? Severity::error : Severity::warning,
+           .message = element ? 760 : 0,
+           .solver = element
+                         ? "it takes the line for an element without nodes, and crashes or hangs"
+                         : "it takes the line for an item with id 0"});
     return;
   }
   const DecodedCard card =
       decode_line(deck, *plan.block, *plan.item->cards[problem.card].card, line, &diagnostics);
   if (problem.counts[bad_id] > 0 && diagnostics.wants(bulk_rule_id(bad_id)))
-    report_problem(diagnostics, plan, problem, bad_id, Severity::warning, line.columns(1, 10),
+    report_problem(diagnostics, plan, problem, bad_id, line.columns(1, 10),
                    std::string(plan.block->keyword) + ": id " + std::to_string(problem.item) +
-                       " is not positive",
-                   "it goes on with an item of that id, which nothing can refer to",
-                   "give the item a positive id");
+                       " is not positive");
   if (problem.counts[sh3n_columns] > 0 && diagnostics.wants(bulk_rule_id(sh3n_columns)))
-    report_problem(
-        diagnostics, plan, problem, sh3n_columns, Severity::warning, line.columns(81, 90),
-        place_of(plan, problem) + ": the thickness begins left of column 91",
-        "it reads the thickness from column 91 on and loses the digits before",
-        "write the thickness right-justified with at most 10 characters, columns 91-100");
+    report_problem(diagnostics, plan, problem, sh3n_columns, line.columns(81, 90),
+                   place_of(plan, problem) + ": the thickness begins left of column 91");
   if (problem.counts[unknown_node] > 0 && nodes != nullptr)
     report_unknown_nodes(plan, problem, card, *nodes, diagnostics);
   if (problem.counts[incomplete] > 0 && diagnostics.wants(bulk_rule_id(incomplete)))
-    report_problem(diagnostics, plan, problem, incomplete, Severity::warning, line.whole(),
+    report_problem(diagnostics, plan, problem, incomplete, line.whole(),
                    place_of(plan, problem) + " ends after " + std::to_string(problem.card + 1) +
                        " of " + std::to_string(plan.item->cards.size()) +
                        " lines; the element is left out",
-                   "it takes every cell of the missing lines for 0", "add the missing lines", 0);
+                   {.message = 0});
 }
 
 }  // namespace deck::detail

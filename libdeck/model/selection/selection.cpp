@@ -79,9 +79,8 @@ Selections::Impl::Impl(const Model& m, const SchemaSet& s, const MemoryLimits& l
     if (list.empty()) table.order.push_back(id);
     if (!list.empty() && !(kind == "set" && def.type == "COLLECT")) {
       Diagnostic d = detail::make_diagnostic(
-          {RuleId::DK167, Severity::error, block.header_span,
+          {RuleId::DK167, block.header_span,
            std::string(block.keyword) + " " + std::to_string(id) + " is defined twice",
-           "it stops with an error", "give one of them another id", 79, Severity::error,
            std::string(block.keyword), id});
       d.notes.emplace_back(list.front().block->header_span, "first defined here");
       found.report(std::move(d));
@@ -144,8 +143,7 @@ std::vector<std::int64_t> Selections::Impl::raw_values(const DecodedBlock& d) co
 }
 
 void Selections::Impl::report_missing(RuleId rule, const Block& block, const std::string& what,
-                                      const std::vector<IdRef>& missing, int number,
-                                      Severity severity) {
+                                      const std::vector<IdRef>& missing, int number) {
   if (missing.empty() || !found.wants(rule)) return;
   std::string ids;
   constexpr std::size_t shown = 5;
@@ -153,12 +151,13 @@ void Selections::Impl::report_missing(RuleId rule, const Block& block, const std
     ids += (i > 0 ? ", " : "") + std::to_string(missing[i].id);
   if (missing.size() > shown) ids += " and " + std::to_string(missing.size() - shown) + " more";
   found.add(detail::make_diagnostic(
-      {rule, severity, missing.front().span,
+      {rule,
+       missing.front().span,
        std::string(block.keyword) + " " + std::to_string(block.id.value) + " lists " + what + " " +
            ids + (missing.size() == 1 ? ", which does not exist" : ", which do not exist"),
-       severity == Severity::error ? "it stops with an error" : "it ignores the entry and warns",
-       "correct the id or remove it from the list", number, severity, std::string(block.keyword),
-       block.id.value}));
+       std::string(block.keyword),
+       block.id.value,
+       {.message = number}}));
 }
 
 bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const Block& from,
@@ -166,20 +165,26 @@ bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const B
   // Deeper nesting than any deck needs would only exhaust the stack.
   constexpr std::size_t deepest = 250;
   if (open.size() >= deepest) {
-    report({RuleId::DK152, Severity::error, from.header_span,
+    report({RuleId::DK152,
+            from.header_span,
             std::string(from.keyword) + " " + std::to_string(from.id.value) +
                 " is nested more than " + std::to_string(deepest) +
                 " levels deep; its members are left out",
-            "it resolves the references level by level", "flatten the references", number,
-            Severity::error, std::string(from.keyword), from.id.value});
+            std::string(from.keyword),
+            from.id.value,
+            {.message = number,
+             .solver = "it resolves the references level by level",
+             .fix = "flatten the references"}});
     return true;
   }
   if (open.count({std::string(kind), id}) == 0) return false;
-  report({RuleId::DK152, Severity::error, from.header_span,
+  report({RuleId::DK152,
+          from.header_span,
           std::string(from.keyword) + " " + std::to_string(from.id.value) +
               " contains itself, directly or through others",
-          "it stops with an error", "break the circle of references", number, Severity::error,
-          std::string(from.keyword), from.id.value});
+          std::string(from.keyword),
+          from.id.value,
+          {.message = number, .fix = "break the circle of references"}});
   return true;
 }
 
@@ -190,7 +195,7 @@ bool Selections::Impl::fits(std::size_t count, std::size_t size, const Block& bl
   const bool sensible = count <= most_members;
   if (all_held && room && sensible) return true;
   if (all_held)
-    report({RuleId::DK332, Severity::error, block.header_span,
+    report({RuleId::DK332, block.header_span,
             std::string(block.keyword) + " " + std::to_string(block.id.value) +
                 (sensible ? ": the members of all groups, surfaces, lines and sets together would "
                             "take more than " +
@@ -198,9 +203,7 @@ bool Selections::Impl::fits(std::size_t count, std::size_t size, const Block& bl
                           : " lists the members of the model over and over: more than " +
                                 std::to_string(most_members)) +
                 "; from here on members are left out, and so are contacts that use them",
-            "it allocates memory for all of them or stops",
-            "flatten groups that list one another over and over; --max-memory raises the bound", 0,
-            Severity::error, std::string(block.keyword), block.id.value});
+            std::string(block.keyword), block.id.value});
   all_held = false;
   return false;
 }

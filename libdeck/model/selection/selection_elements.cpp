@@ -108,13 +108,12 @@ std::vector<std::int8_t> Selections::Impl::part_tags(const Block& block, std::st
   };
   apply(list.positive, 1);
   apply(list.negative, -1);
-  report_missing(RuleId::DK151, block, lower_name(type), missing, 194, Severity::warning);
+  report_missing(RuleId::DK151, block, lower_name(type), missing, 194);
   if (!hollow.empty())
-    report({RuleId::DK166, Severity::warning, hollow.front().span,
+    report({RuleId::DK166, hollow.front().span,
             std::string(block.keyword) + " " + std::to_string(block.id.value) + " lists subset " +
                 std::to_string(hollow.front().id) + ", which holds no part",
-            "it warns and goes on", "put parts into the subset or remove it from the list", 195,
-            Severity::warning, std::string(block.keyword), block.id.value});
+            std::string(block.keyword), block.id.value});
   return tags;
 }
 
@@ -185,7 +184,7 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
         out.push_back(e);
       }
     }
-    report_missing(RuleId::DK168, block, "element", missing, 0, Severity::warning);
+    report_missing(RuleId::DK168, block, "element", missing, 0);
     return out;
   }
   if (is_part_type(def.type)) {
@@ -230,7 +229,7 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
     const IdList list = id_list(d);
     collect(list.positive, out);
     collect(list.negative, gone);
-    report_missing(RuleId::DK151, block, "element group", missing, 172, Severity::warning);
+    report_missing(RuleId::DK151, block, "element group", missing, 172);
     detail::normalise(gone);
     std::erase_if(out,
                   [&](std::uint32_t e) { return std::binary_search(gone.begin(), gone.end(), e); });
@@ -320,7 +319,7 @@ Indices Selections::Impl::resolve_part_group(const Definition& def, const Decode
     const IdList list = id_list(d);
     collect(list.positive, out);
     collect(list.negative, gone);
-    report_missing(RuleId::DK151, block, "part group", missing, 172, Severity::warning);
+    report_missing(RuleId::DK151, block, "part group", missing, 172);
   }
   detail::normalise(out);
   detail::normalise(gone);

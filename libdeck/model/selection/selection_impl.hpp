@@ -165,7 +165,7 @@ struct Selections::Impl {
   void report(detail::Finding f) { detail::report(found, std::move(f)); }
   /// Members of a list that do not exist, in one finding per list.
   void report_missing(RuleId rule, const Block& block, const std::string& what,
-                      const std::vector<detail::IdRef>& missing, int number, Severity severity);
+                      const std::vector<detail::IdRef>& missing, int number);
   /// True if (kind, id) is being resolved already, which is reported.
   bool recursive(std::string_view kind, std::int64_t id, const Block& from, int number);
 

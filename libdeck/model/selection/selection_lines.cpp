@@ -30,10 +30,9 @@ const LineSet* Selections::Impl::line(std::int64_t id) {
   open.erase(guard);
   keep(l.edges, *def->block);
   if (l.edges.empty())
-    report({RuleId::DK154, Severity::warning, l.span,
+    report({RuleId::DK154, l.span,
             std::string(def->block->keyword) + " " + std::to_string(id) + " has no edge",
-            "it warns and goes on with the empty line", "check the ids it lists", 691,
-            Severity::warning, std::string(def->block->keyword), id});
+            std::string(def->block->keyword), id});
   return &lines.emplace(id, std::move(l)).first->second;
 }
 
@@ -71,7 +70,7 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
       }
       if (complete && at == 2) out.push_back(edge);
     }
-    report_missing(RuleId::DK150, block, "node", missing, 78, Severity::error);
+    report_missing(RuleId::DK150, block, "node", missing, 78);
     return out;
   }
   const detail::IdList list = id_list(d);
@@ -124,10 +123,12 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
         add_line_elements(kind, *group, out);
     return out;
   }
-  report({RuleId::DK165, Severity::error, block.header_span,
+  report({RuleId::DK165,
+          block.header_span,
           std::string(block.header) + " is no combination that defines a line",
-          "it stops with an error", "correct the keyword", 688, Severity::error,
-          std::string(block.keyword), block.id.value});
+          std::string(block.keyword),
+          block.id.value,
+          {.message = 688}});
   return out;
 }
 

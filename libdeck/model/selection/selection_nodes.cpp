@@ -48,10 +48,9 @@ const NodeSet* Selections::Impl::node_group(std::int64_t id) {
   open.erase(key);
   keep(group.nodes, *def->block);
   if (group.nodes.empty())
-    report({RuleId::DK153, Severity::warning, group.span,
+    report({RuleId::DK153, group.span,
             std::string(def->block->keyword) + " " + std::to_string(id) + " has no node",
-            "it warns and goes on with the empty group", "check the ids and boxes it lists", 690,
-            Severity::warning, std::string(def->block->keyword), id});
+            std::string(def->block->keyword), id});
   return &node_groups.emplace(id, std::move(group)).first->second;
 }
 
@@ -94,7 +93,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_by_id(const Definition& def, cons
     else
       mark(n, nodes);
   }
-  report_missing(RuleId::DK150, *def.block, "node", missing, 78, Severity::error);
+  report_missing(RuleId::DK150, *def.block, "node", missing, 78);
   return nodes;
 }
 
@@ -202,7 +201,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_groups(const Block& block, con
   };
   const auto added = collect(list.positive);
   const auto removed = collect(list.negative);
-  report_missing(RuleId::DK151, block, "node group", missing, 174, Severity::warning);
+  report_missing(RuleId::DK151, block, "node group", missing, 174);
   std::vector<NodeIndex> nodes;
   start_marks();
   for (const NodeSet* group : added)
@@ -228,7 +227,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_surfaces(const Block& block,
     else
       all.push_back(s);
   }
-  report_missing(RuleId::DK151, block, "surface", missing, 193, Severity::warning);
+  report_missing(RuleId::DK151, block, "surface", missing, 193);
   std::vector<NodeIndex> nodes;
   start_marks();
   for (const Surface* s : all)
@@ -247,7 +246,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_lines(const Block& block, cons
     else
       all.push_back(l);
   }
-  report_missing(RuleId::DK151, block, "line", missing, 193, Severity::warning);
+  report_missing(RuleId::DK151, block, "line", missing, 193);
   std::vector<NodeIndex> nodes;
   start_marks();
   for (const LineSet* l : all)
@@ -276,7 +275,7 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_elements(const Block& block,
   };
   collect(list.positive, added);
   collect(list.negative, removed);
-  report_missing(RuleId::DK151, block, "element group", missing, 172, Severity::warning);
+  report_missing(RuleId::DK151, block, "element group", missing, 172);
   std::vector<NodeIndex> nodes;
   start_marks();
   for (const Indices* group : added)

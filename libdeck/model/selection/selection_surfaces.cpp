@@ -73,9 +73,8 @@ std::vector<Segment> Selections::Impl::resolve_surface(const Definition& def, co
   if (type == "DSURF") return difference_of_surfaces(block, d);
   analytical = type == "PLANE" || type == "ELLIPS" || type == "MDELLIPS";
   if (!analytical)
-    report({RuleId::DK165, Severity::error, block.header_span,
+    report({RuleId::DK165, block.header_span,
             std::string(block.header) + " is no combination that defines a surface",
-            "it stops with an error", "correct the keyword", 686, Severity::error,
             std::string(block.keyword), block.id.value});
   return {};
 }
@@ -123,7 +122,7 @@ std::vector<Segment> Selections::Impl::segments_by_nodes(const Block& block,
     else
       add_plain_segment(s, out);
   }
-  report_missing(RuleId::DK150, block, "node", missing, 78, Severity::error);
+  report_missing(RuleId::DK150, block, "node", missing, 78);
   return out;
 }
 
@@ -202,16 +201,18 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
     const std::uint32_t e = members.front();
     const std::uint32_t p = solids.part[e];
     Diagnostic d = detail::make_diagnostic(
-        {RuleId::DK155, Severity::error, block.header_span,
+        {RuleId::DK155,
+         block.header_span,
          std::string(block.keyword) + " " + std::to_string(block.id.value) + " selects " +
              std::to_string(members.size()) +
              " solids but does not say which faces; first is "
              "solid " +
              std::to_string(solids.id[e]) +
              (p == no_index ? std::string() : " of part " + std::to_string(model->parts[p].id)),
-         "it stops with an error",
-         "write " + std::string(block.keyword) + "/EXT for the exterior faces or /ALL for all",
-         1104, Severity::error, std::string(block.keyword), block.id.value});
+         std::string(block.keyword),
+         block.id.value,
+         {.fix = "write " + std::string(block.keyword) +
+                 "/EXT for the exterior faces or /ALL for all"}});
     d.notes.emplace_back(model->element_span(ElementKind::solid8, e), "the solid");
     found.report(std::move(d));
     return;
@@ -220,13 +221,12 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
     return solids.shape[e] == SolidShape::brick20 || solids.shape[e] == SolidShape::thick16;
   });
   if (quadratic != members.end()) {
-    report({RuleId::DK156, Severity::error, block.header_span,
+    report({RuleId::DK156, block.header_span,
             std::string(block.keyword) + " " + std::to_string(block.id.value) +
                 " selects solids with 20 or 16 nodes, whose faces have mid-side nodes; first is "
                 "solid " +
                 std::to_string(solids.id[*quadratic]),
-            "it stops with an error", "use 8-node solids or 10-node tetrahedra in contacts", 651,
-            Severity::error, std::string(block.keyword), block.id.value});
+            std::string(block.keyword), block.id.value});
     std::erase_if(members, [&](std::uint32_t e) {
       return solids.shape[e] == SolidShape::brick20 || solids.shape[e] == SolidShape::thick16;
     });
@@ -320,14 +320,12 @@ std::vector<Segment> Selections::Impl::segments_of_groups(const Definition& def,
   };
   collect(list.positive, false);
   collect(list.negative, true);
-  report_missing(RuleId::DK151, block, "element group", missing, 192, Severity::warning);
+  report_missing(RuleId::DK151, block, "element group", missing, 192);
   if (kind != ElementKind::solid8) return out;
   if (def.option.empty()) {
-    report({RuleId::DK157, Severity::error, block.header_span,
+    report({RuleId::DK157, block.header_span,
             "/SURF/GRBRIC " + std::to_string(block.id.value) + " does not say which faces",
-            "it stops with an error",
-            "write /SURF/GRBRIC/EXT (exterior of the group) or /SURF/GRBRIC/FREE (of the model)",
-            479, Severity::error, std::string(block.keyword), block.id.value});
+            std::string(block.keyword), block.id.value});
     return out;
   }
   add_solids(block, def.option, std::move(solids), out);
@@ -343,10 +341,9 @@ const std::vector<Segment>* Selections::Impl::listed_surface(const Block& block,
     return nullptr;
   }
   if (s->analytical) {
-    report({RuleId::DK158, Severity::error, ref.span,
+    report({RuleId::DK158, ref.span,
             std::string(block.keyword) + " " + std::to_string(block.id.value) + " lists surface " +
                 std::to_string(ref.id) + ", which is analytical",
-            "it stops with an error", "list surfaces made of segments only", 187, Severity::error,
             std::string(block.keyword), block.id.value});
     return nullptr;
   }
@@ -366,7 +363,7 @@ std::vector<Segment> Selections::Impl::segments_of_surfaces(const Block& block,
     if (const auto* segments = listed_surface(block, ref, missing);
         segments != nullptr && fits(out.size() + segments->size(), sizeof(Segment), block))
       std::transform(segments->begin(), segments->end(), std::back_inserter(out), turned);
-  report_missing(RuleId::DK151, block, "surface", missing, 188, Severity::warning);
+  report_missing(RuleId::DK151, block, "surface", missing, 188);
   return out;
 }
 
@@ -392,7 +389,7 @@ std::vector<Segment> Selections::Impl::difference_of_surfaces(const Block& block
   };
   collect(list.positive, out);
   collect(list.negative, gone);
-  report_missing(RuleId::DK151, block, "surface", missing, 188, Severity::warning);
+  report_missing(RuleId::DK151, block, "surface", missing, 188);
   std::stable_sort(out.begin(), out.end(), before);
   std::sort(gone.begin(), gone.end(), before);
   out.erase(std::unique(out.begin(), out.end(),

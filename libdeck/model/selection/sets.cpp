@@ -180,10 +180,8 @@ class ClauseReader {
     } else if (kind == "RBODY") {
       unsupported("clauses of rigid bodies are not evaluated here");
     } else {
-      all_.report({RuleId::DK160, Severity::error, clause_.span,
-                   "'" + std::string(kind) + "' is no clause of a set", "it stops with an error",
-                   "correct the clause keyword", 1906, Severity::error, std::string(block_.keyword),
-                   block_.id.value});
+      all_.report({RuleId::DK160, clause_.span, "'" + std::string(kind) + "' is no clause of a set",
+                   std::string(block_.keyword), block_.id.value});
     }
     finish();
     return std::move(state_);
@@ -197,10 +195,9 @@ class ClauseReader {
   }
 
   void unsupported(const std::string& what) {
-    all_.report({RuleId::DK164, Severity::warning, clause_.span,
+    all_.report({RuleId::DK164, clause_.span,
                  std::string(block_.keyword) + " " + std::to_string(block_.id.value) + ": " + what,
-                 "it evaluates the clause", "use other clauses if the contacts of this set matter",
-                 0, Severity::warning, std::string(block_.keyword), block_.id.value});
+                 std::string(block_.keyword), block_.id.value});
   }
 
   /// What the options change after the members are known.
@@ -243,7 +240,7 @@ class ClauseReader {
   }
 
   void missing(const std::string& what, const std::vector<IdRef>& refs) {
-    all_.report_missing(RuleId::DK161, block_, what, refs, 1902, Severity::warning);
+    all_.report_missing(RuleId::DK161, block_, what, refs, 1902);
   }
 
   void nodes() {
@@ -312,11 +309,10 @@ class ClauseReader {
   void elements(ElementKind kind) {
     const Elements& family = all_.model->family(kind);
     if (family.size() == 0) {
-      all_.report({RuleId::DK163, Severity::warning, clause_.span,
+      all_.report({RuleId::DK163, clause_.span,
                    std::string(block_.keyword) + " " + std::to_string(block_.id.value) +
                        " has a clause " + std::string(clause_.kind) +
                        ", but the model has no such element",
-                   "it warns and ignores the clause", "remove the clause", 2007, Severity::warning,
                    std::string(block_.keyword), block_.id.value});
       return;
     }
@@ -401,7 +397,7 @@ class ClauseReader {
       else
         all_.add_plain_segment({{n[0], n[1], n[2], have == 4 ? n[3] : n[2]}}, group().rows);
     }
-    all_.report_missing(RuleId::DK162, block_, "node", absent, 1903, Severity::error);
+    all_.report_missing(RuleId::DK162, block_, "node", absent, 1903);
   }
 
   Selections::Impl& all_;

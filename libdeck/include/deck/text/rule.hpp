@@ -3,6 +3,7 @@
 // its page.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,8 @@ struct Rule {
   std::vector<int> types;
 
   Severity severity() const { return severities.front(); }
+  /// The solver's message of that number; it is on the page.
+  ReferenceMessage message(int number) const;
 };
 
 /// All rules, ordered by id. Parsed when first asked for; never changes.
@@ -55,7 +58,16 @@ const Rule* find_rule(std::string_view id);
 /// The page of an id that is not RuleId::none.
 const Rule& rule_of(RuleId id);
 
+/// What a finding says otherwise than its page, which tells the case: one of the page's severities
+/// and messages (0: the solver says nothing), and what holds in this case only.
+struct Case {
+  std::optional<Severity> severity = {};
+  std::optional<int> message = {};
+  std::string solver = {};  ///< empty: as on the page
+  std::string fix = {};     ///< likewise
+};
+
 /// A finding with what the page of its rule says.
-Diagnostic finding_of(RuleId id, Span span, std::string message);
+Diagnostic finding_of(RuleId id, Span span, std::string message, Case particular = {});
 
 }  // namespace deck

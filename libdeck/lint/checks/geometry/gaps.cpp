@@ -57,7 +57,7 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
                   model.node_id(worst.a), model.node_id(worst.b), where, element_text(element),
                   worst.length, count_text(worst.count, item), items));
   if (d == nullptr) return;
-  if (c.igap != 0 && where.size() > 0) d->reference = ReferenceMessage{477, Severity::warning};
+  if (c.igap != 0 && where.size() > 0) d->reference = rule_of(RuleId::DK310).message(477);
   d->notes.emplace_back(model.node_span(worst.a), "one end of it");
 }
 
@@ -132,7 +132,7 @@ void check_no_gap(const GeometryRun& run, const Contact& c) {
   Diagnostic* d = run.report(RuleId::DK314, c, gap_field(c),
                              fmt::format("{}: the default gap is {:.6g} ({})", name_of(run, c),
                                          c.gapmin, to_string(c.gapmin_origin)));
-  if (d != nullptr && c.igap != 0) d->reference = ReferenceMessage{786, Severity::error};
+  if (d != nullptr && c.igap != 0) d->reference = rule_of(RuleId::DK314).message(786);
 }
 
 void check_line_removal(const GeometryRun& run, const Contact& c) {

@@ -89,7 +89,7 @@ void check_depths(const GeometryRun& run) {
                     part_text(from), part_text(to), count_text(group.rows.size(), "pair"), r.depth,
                     r.gap, secondary_text(worst), main_text(worst), treatment(c)));
     if (d == nullptr) continue;
-    if (edges) d->reference = ReferenceMessage{499, Severity::warning};
+    if (edges) d->reference = rule_of(RuleId::DK301).message(499);
     std::set<std::uint32_t> named;
     for (const std::uint32_t i : group.rows) {
       const PenetrationRow& row = row_of(run, run.view.penetrations[i]);
@@ -110,7 +110,7 @@ void check_on_surface(const GeometryRun& run, const Contact& c) {
   Diagnostic* d = run.report(error != 0 ? RuleId::DK302 : RuleId::DK303, c, "Inacti",
                              fmt::format("{}: {} exactly on a main segment: {}", name_of(run, c),
                                          count_text(nodes.size(), "node"), list_text(nodes)));
-  if (d != nullptr && error != 0) d->reference = ReferenceMessage{error, Severity::error};
+  if (d != nullptr && error != 0) d->reference = rule_of(RuleId::DK302).message(error);
 }
 
 void check_switched_off(const GeometryRun& run, const Contact& c) {

@@ -69,7 +69,7 @@ void check_stiffness(const GeometryRun& run, const Contact& c) {
                     main ? "main" : "secondary", run.model().node_id(first->nodes[0]),
                     run.model().node_id(first->nodes[1])));
     // The texts of the two messages are swapped for lines.
-    if (d != nullptr && main) d->reference = ReferenceMessage{481, Severity::error};
+    if (d != nullptr && main) d->reference = rule_of(RuleId::DK322).message(481);
   }
 }
 
