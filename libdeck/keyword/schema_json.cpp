@@ -323,7 +323,7 @@ Field field_of(const Json& json, const Path& path) {
                 {"name",    "cols",    "type",        "ref",      "versions",   "when",  "values",
                  "min",     "max",     "min_open",    "max_open", "missing",    "empty", "required",
                  "default", "dim",     "dim_unknown", "dim_when", "solver_dim", "axes",  "unit_for",
-                 "over",    "ignored", "doc",         "manual"});
+                 "over",    "ignored", "doc",         "manual",   "help",  "help_of"});
   Field field;
   require(json, path, "name");
   read(json, path, "name", field.name);
@@ -347,6 +347,13 @@ Field field_of(const Json& json, const Path& path) {
   read(json, path, "ignored", field.ignored);
   read(json, path, "doc", field.doc);
   read(json, path, "manual", field.from_manual);
+  if (json.contains("help")) {
+    const auto here = at(path, "help");
+    for (const auto& item : expect_array(json["help"], here))
+      field.help.push_back(text_of(item, at(here, field.help.size())));
+    if (field.help.empty()) fail(here, "the list is empty");
+  }
+  read(json, path, "help_of", field.help_of);
   return field;
 }
 

@@ -75,6 +75,17 @@ std::string field_named(const Schema& schema, std::string_view name) {
   return {};
 }
 
+std::string field_with_help(const Schema& schema, const std::string& name, const SchemaSet& schemas,
+                            std::size_t width) {
+  std::string page = explain_keyword(schema, name);
+  for (const CardSchema& card : schema.cards)
+    for (const Field& f : card.fields)
+      if (f.name == name)
+        if (const std::string help = field_help(f, schemas, width); !help.empty())
+          return page + "\n" + help;
+  return page;
+}
+
 /// A field wherever it is: the page of one contact, and how the others differ.
 std::string field_everywhere(std::string_view name, const SchemaSet& schemas, std::size_t width) {
   std::string page, others;
@@ -82,7 +93,7 @@ std::string field_everywhere(std::string_view name, const SchemaSet& schemas, st
     const std::string field = field_named(*s, name);
     if (field.empty()) continue;
     if (page.empty())
-      page = explain_keyword(*s, field);
+      page = field_with_help(*s, field, schemas, width);
     else
       others += (others.empty() ? "" : ", ") + s->keyword + "." + field;
   }
@@ -182,6 +193,26 @@ std::size_t spelling_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+std::string field_help(const Field& field, const SchemaSet& schemas, std::size_t width) {
+  if (width == 0) width = usual_width;
+  std::string out;
+  bool figure = false;
+  for (const std::string& text : field.help) {
+    const bool line = text.starts_with('|');
+    if (!out.empty() && !(line && figure)) out += "\n";
+    out += line ? "    " + text.substr(1) + "\n" : paragraph(text, 2, width);
+    figure = line;
+  }
+  if (field.help_of.empty()) return out;
+  const Schema* other = schemas.find(field.help_of);
+  if (other == nullptr) return out;
+  for (const CardSchema& card : other->cards)
+    for (const Field& f : card.fields)
+      if (f.name == field.name && !f.help.empty())
+        return out + (out.empty() ? "" : "\n") + field_help(f, schemas, width);
+  return out;
+}
+
 std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std::size_t width) {
   if (width == 0) width = usual_width;
   const std::string capitals = in_capitals(topic);
@@ -193,7 +224,7 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
   if (const auto dot = topic.rfind('.'); dot != topic.npos)
     if (const Schema* s = keyword_named(schemas, topic.substr(0, dot)))
       if (const std::string field = field_named(*s, topic.substr(dot + 1)); !field.empty())
-        return explain_keyword(*s, field);
+        return field_with_help(*s, field, schemas, width);
   // A field of a contact first, then a keyword of that name, then any field.
   const Schema* keyword = keyword_named(schemas, topic);
   const bool of_contact = std::any_of(std::begin(contact_keywords), std::end(contact_keywords),

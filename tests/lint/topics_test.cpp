@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "deck/report/text_table.hpp"
+
 namespace deck {
 namespace {
 
@@ -47,6 +49,49 @@ TEST(ExplainTopic, CompletionOffersRulesKeywordsAndFields) {
   const auto all = common_topics(schemas());
   for (const char* topic : {"DK254", "TYPE7", "Gapmin", "Edge_scale_gap"})
     EXPECT_NE(std::find(all.begin(), all.end(), topic), all.end()) << topic;
+}
+
+TEST(FieldHelp, EveryFieldOfTheContactsHasOne) {
+  for (const char* keyword : {"/INTER/TYPE7", "/INTER/TYPE10", "/INTER/TYPE11", "/INTER/TYPE19"}) {
+    const Schema* s = schemas().find(keyword);
+    const auto has_help = [&](const std::string& name) {
+      for (const CardSchema& card : s->cards)
+        for (const Field& f : card.fields)
+          if (f.name == name && !field_help(f, schemas()).empty()) return true;
+      return false;
+    };
+    for (const CardSchema& card : s->cards)
+      for (const Field& f : card.fields) EXPECT_TRUE(has_help(f.name)) << keyword << "." << f.name;
+  }
+}
+
+TEST(FieldHelp, FiguresStandAsTheyAreAndParagraphsAreBroken) {
+  const Field* f = schemas().find("/INTER/TYPE7")->find_field("Gapmin");
+  Field own = *f;
+  own.help = {"one two three four five six seven", "|  o--o", "|   \\/"};
+  own.help_of.clear();
+  EXPECT_EQ(field_help(own, schemas(), 20), "  one two three four\n  five six seven\n\n      o--o\n       \\/\n");
+}
+
+TEST(FieldHelp, LinesFitANarrowTerminal) {
+  for (const Schema* s : schemas().all())
+    for (const CardSchema& card : s->cards)
+      for (const Field& f : card.fields) {
+        const std::string text = field_help(f, schemas(), 80);
+        for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)
+          EXPECT_LE(text.find('\n', at) - at, 80u) << s->keyword << "." << f.name << text;
+      }
+}
+
+TEST(FieldHelp, HelpOfAnotherKeywordExists) {
+  for (const Schema* s : schemas().all())
+    for (const CardSchema& card : s->cards)
+      for (const Field& f : card.fields)
+        if (!f.help_of.empty()) {
+          const Schema* other = schemas().find(f.help_of);
+          ASSERT_NE(other, nullptr) << f.help_of;
+          EXPECT_NE(other->find_field(f.name), nullptr) << f.help_of << "." << f.name;
+        }
 }
 
 }  // namespace

@@ -85,6 +85,10 @@ struct Field {
   bool ignored = false;     ///< the reference solver reads it and does nothing with it
   std::string doc;          ///< one line
   std::string from_manual;  ///< where manual and reference solver differ, one line
+  /// What it is for and what the solver really does, for `explain`: paragraphs, and lines that begin
+  /// with '|' and stand as they are (figures, without the '|').
+  std::vector<std::string> help;
+  std::string help_of;  ///< keyword whose field of the same name has the rest of the help
   bool in_version(int version) const { return version >= from && version <= until; }
 };
 

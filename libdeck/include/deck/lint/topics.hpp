@@ -21,4 +21,8 @@ std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet&
 /// What completion offers: rules, and contact keywords with their fields.
 std::vector<std::string> common_topics(const SchemaSet& schemas);
 
+/// What a field is for and what the solver does with it, with figures; empty where no schema has a
+/// text about it.
+std::string field_help(const Field& field, const SchemaSet& schemas, std::size_t width = 0);
+
 }  // namespace deck
