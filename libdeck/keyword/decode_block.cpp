@@ -3,6 +3,7 @@
 #include <cctype>
 #include <span>
 
+#include "keyword/deck_json_cells.hpp"
 #include "keyword/decode_parts.hpp"
 #include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
@@ -50,6 +51,9 @@ class BlockDecoder {
     read_extra(*schema);
     return std::move(out_);
   }
+
+  /// Behind run(): the cards that the block ends before although it should have them.
+  std::vector<const CardSchema*> missing() { return std::move(missing_); }
 
  private:
   void read_title(const Schema& schema) {
@@ -163,6 +167,7 @@ class BlockDecoder {
   }
 
   void report_missing(const CardSchema& card) {
+    missing_.push_back(&card);
     if (!findings_.wants(RuleId::DK029)) return;
     std::string why;
     for (const Condition& c : card.when) {
@@ -226,6 +231,7 @@ class BlockDecoder {
   Findings findings_;
   LineCursor cursor_;
   DecodedBlock out_;
+  std::vector<const CardSchema*> missing_;
   std::int64_t lines_ = -1;  ///< data lines of the block, once they are counted
 };
 
@@ -233,6 +239,12 @@ class BlockDecoder {
 
 DecodedBlock decode(const Deck& deck, const Block& block, Diagnostics* diagnostics) {
   return BlockDecoder(deck, block, diagnostics).run();
+}
+
+std::vector<const CardSchema*> detail::missing_cards(const Deck& deck, const Block& block) {
+  BlockDecoder decoder(deck, block, nullptr);
+  decoder.run();
+  return decoder.missing();
 }
 
 namespace {

@@ -20,27 +20,6 @@ std::vector<std::string_view> words(std::string_view line) {
   return out;
 }
 
-const std::string* value_of(const Values& values, std::string_view name) {
-  for (const auto& [key, value] : values)
-    if (key == name) return &value;
-  return nullptr;
-}
-
-std::int64_t integer_of(const Values& values, std::string_view name) {
-  const std::string* text = value_of(values, name);
-  std::int64_t v = 0;
-  if (text != nullptr) std::from_chars(text->data(), text->data() + text->size(), v);
-  return v;
-}
-
-void put(std::string& line, int last, std::string_view text) {
-  const auto begin = static_cast<std::size_t>(std::max<std::int64_t>(
-      0, static_cast<std::int64_t>(last) - static_cast<std::int64_t>(text.size())));
-  if (line.size() < begin) line.resize(begin, ' ');
-  line.resize(begin);
-  line += text;
-}
-
 /// Two plates of shells with everything an interface needs; four nodes apart by a gap.
 constexpr std::string_view model_text = R"(/MAT/ELAST/1
 steel
@@ -106,8 +85,9 @@ std::string render_at_line(std::string_view line, int version, const SchemaSet& 
   const Schema* schema = schemas.match(header);
   if (schema == nullptr) return "# no schema for " + std::string(header) + "\n";
   const auto fallback = [&](const char* name, const char* value) {
-    if (schema->find_field(name) != nullptr && value_of(values, name) == nullptr)
-      values.emplace_back(name, value);
+    const auto given =
+        std::any_of(values.begin(), values.end(), [&](const auto& v) { return v.first == name; });
+    if (schema->find_field(name) != nullptr && !given) values.emplace_back(name, value);
   };
   if (schema->kind == "inter") {
     fallback("grnd_IDs", "2");
@@ -161,45 +141,6 @@ Parsed parse(std::string_view example, const SchemaSet& schemas) {
 }
 
 }  // namespace
-
-std::string render_card(const Schema& schema, std::string_view header, int version,
-                        const Values& values) {
-  std::string out = std::string(header) + "\n";
-  if (schema.has_title && version >= 51) out += "example\n";
-  std::vector<std::string> used;
-  std::string pending;  // blank optional lines, which are needed only in front of others
-  const auto holds = [&](const Condition& c) {
-    return c.holds(c.field.empty() ? 0 : integer_of(values, c.field));
-  };
-  for (const CardSchema& card : schema.cards) {
-    if (!card.in_version(version)) continue;
-    if (!std::all_of(card.when.begin(), card.when.end(), holds)) continue;
-    std::string head = "#", line;
-    bool any = false;
-    for (const Field& f : card.fields) {
-      if (!f.in_version(version)) continue;
-      const auto width = static_cast<std::size_t>(f.last - f.first + 1);
-      if (width > 3 && static_cast<std::size_t>(f.last) > head.size() + 1) {
-        const std::string name = f.name.substr(0, std::max<std::size_t>(width - 1, 3));
-        put(head, f.last, name);
-      }
-      if (const std::string* value = value_of(values, f.name)) {
-        put(line, f.last, *value);
-        used.push_back(f.name);
-        any = true;
-      }
-    }
-    if (card.repeat != Repeat::once && !any) continue;
-    pending += head + "\n" + line + "\n";
-    if (card.optional && !any) continue;
-    out += pending;
-    pending.clear();
-  }
-  for (const auto& [name, value] : values)
-    if (std::find(used.begin(), used.end(), name) == used.end())
-      out += "# unused: " + name + "=" + value + "\n";
-  return out;
-}
 
 ExampleDeck example_deck(std::string_view example, const SchemaSet& schemas) {
   const Parsed p = parse(example, schemas);

@@ -107,7 +107,7 @@ TEST_F(EditSets, AFileThatChangedBetweenTwoDecksIsRefused) {
   EXPECT_FALSE(set.add(*read("b/b_0000.rad")));
 }
 
-TEST_F(EditSets, TwoFilesForOnePlaceAreRefused) {
+TEST_F(EditSets, DecksOfOneNameKeepTheirFolders) {
   folder_.write("x/car_0000.rad", main_deck(""));
   folder_.write("y/car_0000.rad", main_deck("/TITLE\nanother\n"));
   const auto x = read("x/car_0000.rad"), y = read("y/car_0000.rad");
@@ -116,9 +116,32 @@ TEST_F(EditSets, TwoFilesForOnePlaceAreRefused) {
   ASSERT_TRUE(add(set, *y));
   EXPECT_TRUE(set.in_place());
   const auto tree = set.tree(at("out"));
+  ASSERT_TRUE(tree) << tree.error().message;
+  ASSERT_EQ(tree->files.size(), 2u);
+  EXPECT_EQ(tree->files[0].path, at("out/x/car_0000.rad"));
+  EXPECT_EQ(tree->files[1].path, at("out/y/car_0000.rad"));
+  EXPECT_EQ(tree->files[1].bytes, main_deck("/TITLE\nanother\n"));
+}
+
+TEST_F(EditSets, TwoTextsForOnePlaceFromMemoryAreRefused) {
+  std::map<std::string, std::string> one{{"car_0000.rad", main_deck("")}},
+      other{{"car_0000.rad", main_deck("/TITLE\nanother\n")}};
+  ReadOptions options;
+  EditSet set;
+  std::vector<Deck> decks;
+  for (const auto* overlay : {&one, &other}) {
+    options.overlay = overlay;
+    decks.push_back(std::move(*read_deck("car_0000.rad", SchemaSet::built_in(), options)));
+  }
+  for (std::size_t d = 0; d < 2; ++d) {
+    const auto member = set.add(decks[d], "deck " + std::to_string(d));
+    ASSERT_TRUE(member);
+    set.propose(*member, decks[d], {});
+  }
+  const auto tree = set.tree(at("out"));
   ASSERT_FALSE(tree);
-  EXPECT_NE(tree.error().message.find("x/car_0000.rad"), std::string::npos);
-  EXPECT_NE(tree.error().message.find("y/car_0000.rad"), std::string::npos);
+  EXPECT_NE(tree.error().message.find("deck 0"), std::string::npos);
+  EXPECT_NE(tree.error().message.find("deck 1"), std::string::npos);
 }
 
 TEST_F(EditSets, ThePatchHasEveryFileOnceRelativeToTheWorkTree) {

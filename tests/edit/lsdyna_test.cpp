@@ -157,6 +157,29 @@ TEST(LsDyna, TiedBecomesType10WithoutRebound) {
   EXPECT_EQ(loss_of(r, "option"), Loss::approximated);
 }
 
+TEST(LsDyna, ATiedContactWithoutADistanceSaysThatTheDistancesDiffer) {
+  const Rewrite r = converted("*CONTACT_TIED_NODES_TO_SURFACE\n" + card({"11", "12", "4", "2"}) +
+                              card({}) + card({}));
+  const auto about_gap = std::count_if(r.losses.begin(), r.losses.end(), [](const LossEntry& e) {
+    return e.loss == Loss::approximated && e.new_text == "Gap = 0";
+  });
+  EXPECT_EQ(about_gap, 1);
+}
+
+TEST(LsDyna, NoIdIsUsedTwiceInTheFilesOfOneCall) {
+  const std::string one = "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n" + card({"13", "0", "3"}) +
+                          card({"0.2"}) + card({"1.0", "1.0"});
+  // The second file gives an id that the first would take for a contact without one.
+  const std::string other = "*CONTACT_AUTOMATIC_SINGLE_SURFACE_ID\n" + card({"1", "one"}) +
+                            card({"14", "0", "3"}) + card({"0.2"}) + card({"1.0", "1.0"});
+  const auto both = contacts_from_lsdyna({{"a.k", one}, {"b.k", other}}, SchemaSet::built_in());
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_NE(both[0].new_text->find("/INTER/TYPE7/2\n"), std::string::npos) << *both[0].new_text;
+  EXPECT_NE(both[0].new_text->find("/SURF/PART/EXT/90000001\n"), std::string::npos);
+  EXPECT_NE(both[1].new_text->find("/INTER/TYPE7/1\n"), std::string::npos) << *both[1].new_text;
+  EXPECT_NE(both[1].new_text->find("/SURF/PART/EXT/90000002\n"), std::string::npos);
+}
+
 TEST(LsDyna, DecayingFrictionIsTheSameLaw) {
   const Rewrite r =
       converted("*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n" + card({"11", "12", "2", "2"}) +

@@ -163,6 +163,50 @@ TEST_F(ConvertTwoFiles, JsonTakesAChangedValue) {
   EXPECT_NE(back.find("                 2.5"), std::string::npos) << back;
 }
 
+TEST_F(ConvertTwoFiles, JsonRoundsOnRequestAndReportsIt) {
+  ASSERT_EQ(deck("convert m_0000.rad --flatten --to json -o -"), 0) << err();
+  EXPECT_FALSE(fs::exists(dir_ / "-")) << "standard output is no directory";
+  std::string text = out();
+  text.replace(text.find("\"Gap\": 1.0"), 10, "\"Gap\": 3.3333333333333335e-06");
+  write(dir_ / "changed.json", text);
+  EXPECT_EQ(deck("convert changed.json --from json -o back"), 3);
+  EXPECT_NE(err().find("m_0000.rad, /INTER/TYPE10/2, card"), std::string::npos) << err();
+  EXPECT_NE(err().find("--round"), std::string::npos) << err();
+  EXPECT_EQ(deck("convert changed.json --from json -o back --round --report losses.json"), 0);
+  const auto report = nlohmann::json::parse(read(dir_ / "losses.json"));
+  ASSERT_EQ(report["approximated"].size(), 1u);
+  EXPECT_EQ(report["approximated"][0]["field"], "Gap");
+  EXPECT_EQ(report["approximated"][0]["old"], "3.3333333333333333e-06");
+  EXPECT_EQ(deck("convert m_0000.rad --round -o x"), 2);
+}
+
+TEST_F(ConvertTwoFiles, DecksOfOneNameKeepTheirFolders) {
+  for (const char* folder : {"x", "y"}) {
+    write(dir_ / folder / "m_0000.rad", main_);
+    write(dir_ / folder / "sub/a.inc", contact);
+  }
+  ASSERT_EQ(deck("convert x/m_0000.rad y/m_0000.rad --to json -o j"), 0) << err();
+  EXPECT_TRUE(fs::exists(dir_ / "j/x/m_0000.json"));
+  EXPECT_TRUE(fs::exists(dir_ / "j/y/m_0000.json"));
+  ASSERT_EQ(deck("convert x/m_0000.rad y/m_0000.rad --version 2024 -o out"), 0) << err();
+  EXPECT_EQ(read(dir_ / "out/x/sub/a.inc"), read(dir_ / "out/y/sub/a.inc"));
+  EXPECT_NE(read(dir_ / "out/y/m_0000.rad").find("2024"), std::string::npos);
+  // With names of their own they lie side by side, as one deck alone.
+  fs::rename(dir_ / "y/m_0000.rad", dir_ / "y/n_0000.rad");
+  fs::remove_all(dir_ / "j");
+  ASSERT_EQ(deck("convert x/m_0000.rad y/n_0000.rad --to json -o j"), 0) << err();
+  EXPECT_TRUE(fs::exists(dir_ / "j/n_0000.json"));
+  EXPECT_EQ(deck("convert x/m_0000.rad x/m_0000.rad --to json -o j"), 2);
+}
+
+TEST_F(ConvertTwoFiles, SeveralDecksInJsonAreOneDocument) {
+  write(dir_ / "n_0000.rad", main_);
+  ASSERT_EQ(deck("convert m_0000.rad n_0000.rad --to json"), 0) << err();
+  const auto document = nlohmann::json::parse(out());
+  ASSERT_EQ(document["decks"].size(), 2u);
+  EXPECT_EQ(document["decks"][1]["deck"]["path"], "n_0000.rad");
+}
+
 TEST_F(ConvertTwoFiles, BrokenJsonIsUnreadableInput) {
   write(dir_ / "broken.json", "{\"schema\": ");
   EXPECT_EQ(deck("convert broken.json --from json -o back"), 3);
@@ -185,6 +229,36 @@ TEST_F(Convert, LsDynaContactsBecomeAnIncludeFile) {
   EXPECT_NE(out().find("/INTER/TYPE10/3"), std::string::npos) << out();
   write(dir_ / "none.k", "*KEYWORD\n*NODE\n*END\n");
   EXPECT_EQ(deck("convert none.k --from lsdyna -o contacts"), 1);
+}
+
+TEST_F(Convert, ADroppedContactOfLsDynaEndsWithOne) {
+  write(dir_ / "car.k",
+        "*KEYWORD\n*CONTACT_AUTOMATIC_SINGLE_SURFACE\n        13         0         3\n"
+        "       0.2\n       1.0\n*CONTACT_GUIDED_CABLE\n         1         2\n*END\n");
+  EXPECT_EQ(deck("convert car.k --from lsdyna -o contacts"), 1);
+  EXPECT_NE(err().find("dropped: *CONTACT_GUIDED_CABLE"), std::string::npos) << err();
+  EXPECT_TRUE(fs::exists(dir_ / "contacts/car_contacts.inc"));
+}
+
+TEST_F(Convert, IdsOfAllLsDynaFilesOfACallAreDifferent) {
+  for (const char* part : {"13", "14"})
+    write(dir_ / ("p" + std::string(part) + ".k"),
+          "*KEYWORD\n*CONTACT_AUTOMATIC_SINGLE_SURFACE\n        " + std::string(part) +
+              "         0         3\n       0.2\n       1.0\n*END\n");
+  ASSERT_EQ(deck("convert p13.k p14.k --from lsdyna -o c"), 0) << err();
+  EXPECT_NE(read(dir_ / "c/p13_contacts.inc").find("/SURF/PART/EXT/90000001\n"), std::string::npos);
+  const std::string second = read(dir_ / "c/p14_contacts.inc");
+  EXPECT_NE(second.find("/SURF/PART/EXT/90000002\npart 14\n        14\n/INTER/TYPE7/2\n"),
+            std::string::npos)
+      << second;
+  ASSERT_EQ(deck("convert p13.k p14.k --from lsdyna --first-id 500"), 0) << err();
+  for (const char* header : {"EXT/500\n", "TYPE7/500\n", "EXT/501\n", "TYPE7/501\n"})
+    EXPECT_NE(out().find(header), std::string::npos) << out();
+  EXPECT_EQ(deck("convert p13.k --from lsdyna --first-id -3"), 2);
+  EXPECT_EQ(deck("convert p13.k --first-id 5 -o c"), 2);
+  write(dir_ / "other/p13.k", read(dir_ / "p13.k"));
+  EXPECT_EQ(deck("convert p13.k other/p13.k --from lsdyna -o twice"), 2);
+  EXPECT_NE(err().find("both p13.k and other/p13.k"), std::string::npos) << err();
 }
 
 TEST_F(ConvertTwoFiles, ExtractionRefusesAnIdThatIsNoInterface) {

@@ -40,6 +40,30 @@ TEST_F(FixCommand, PenetrationsThatRemainAreOne) {
   EXPECT_NE(out().find("--min-gap"), std::string::npos);
 }
 
+TEST_F(FixCommand, ASecondRunCountsWhatTheReportSaysWasMovedBefore) {
+  const std::string command =
+      "fix too_close_0000.rad --strategy move-nodes --in-place --json fix.json";
+  ASSERT_EQ(deck(command), 1) << err();
+  const std::string once = read(dir_ / "too_close_0000.rad");
+  EXPECT_NE(once, too_close_);
+  const auto moved = nlohmann::json::parse(read(dir_ / "fix.json"))["moved"];
+  ASSERT_EQ(moved.size(), 2u) << "one of the nine nodes of each plate: a tenth, at least one";
+  for (int run = 2; run <= 3; ++run) {
+    ASSERT_EQ(deck(command), 1) << err();
+    EXPECT_NE(err().find("2 nodes that were moved before"), std::string::npos) << err();
+    EXPECT_EQ(read(dir_ / "too_close_0000.rad"), once) << "run " << run;
+    const auto report = nlohmann::json::parse(read(dir_ / "fix.json"));
+    EXPECT_TRUE(report["moved"].empty());
+    ASSERT_EQ(report["moved_before"].size(), 2u);
+    EXPECT_EQ(report["moved_before"][0]["from"], moved[0]["from"]);
+  }
+  // A larger share goes on from there; a deck that was put back starts anew.
+  ASSERT_EQ(deck(command + " --max-moved 100%"), 0) << out();
+  write(dir_ / "too_close_0000.rad", too_close_);
+  ASSERT_EQ(deck(command), 1);
+  EXPECT_EQ(read(dir_ / "too_close_0000.rad"), once);
+}
+
 TEST_F(FixCommand, WrongUsageIsTwoAndMissingInputThree) {
   EXPECT_EQ(deck("fix too_close_0000.rad"), 2);
   EXPECT_EQ(deck("fix too_close_0000.rad --strategy pray"), 2);

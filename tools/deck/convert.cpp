@@ -178,12 +178,18 @@ void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& com
              count[1], count[2], count[3]);
 }
 
+/// A deck in JSON; `below_root` is its place where the call mirrors a tree.
+struct Document {
+  std::string deck, text;
+  fs::path below_root;
+};
+
 /// All decks of the call: converted one after the other, written together or not at all.
 struct Run {
   const Options& options;
   const std::vector<ConvertStep> steps;
   Changes changes;
-  std::map<fs::path, std::pair<std::string, std::string>> documents = {};  ///< JSON: deck, text
+  std::vector<Document> documents = {};
   std::vector<LossEntry> losses = {};
   bool refused = false;  ///< nothing may be written
 };
@@ -195,15 +201,63 @@ int fail(const Run& run, const Error& error) {
   return exit_usage;
 }
 
+/// Where the documents of the decks go below a directory: by the names of the decks, and where two
+/// have one name by their places below the directory that all of them share.
+std::vector<fs::path> document_names(const Run& run) {
+  std::vector<fs::path> names, places;
+  fs::path shared;
+  const auto below = [](const fs::path& place, const fs::path& directory) {
+    const fs::path relative = place.lexically_relative(directory);
+    return !relative.empty() && *relative.begin() != "..";
+  };
+  for (const auto& [deck, text, below_root] : run.documents) {
+    places.push_back(fs::absolute(deck == "-" ? "stdin" : deck).lexically_normal());
+    places.back().replace_extension(".json");
+    names.push_back(places.back().filename());
+    if (places.size() == 1) shared = places.back().parent_path();
+    while (!below(places.back(), shared)) shared = shared.parent_path();
+  }
+  if (std::set<fs::path>(names.begin(), names.end()).size() == names.size()) return names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = places[i].lexically_relative(shared);
+  return names;
+}
+
+int write_documents(Run& run) {
+  const std::string& place = run.options.write.directory;
+  std::string all;  // which the files may point to
+  std::vector<OutputFile> files;
+  const bool rooted = !run.documents.front().below_root.empty();
+  if (place.empty() || place == "-" || (fs::path(place).extension() == ".json" && !rooted)) {
+    std::vector<std::string> texts;
+    for (const Document& d : run.documents) texts.push_back(d.text);
+    all = decks_to_json(texts);
+    if (place.empty() || place == "-") {
+      print_text(all);
+      return exit_clean;
+    }
+    files.push_back({place, all});
+  } else {
+    const std::vector<fs::path> names = document_names(run);
+    std::map<std::string, std::string> from;  // target, its deck
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const Document& d = run.documents[i];
+      const std::string target = (fs::path(place) / (rooted ? d.below_root : names[i])).string();
+      const auto [it, is_new] = from.emplace(target, d.deck);
+      if (!is_new)
+        return fail(run, {Error::Code::config, "both " + it->second + " and " + d.deck +
+                                                   " would be written to " + target});
+      files.push_back({target, d.text});
+    }
+  }
+  const auto done = run.changes.write_documents(files, true);
+  return done ? exit_clean : fail(run, done.error());
+}
+
 int write_all(Run& run) {
   const Options& options = run.options;
   Result<void> done;
-  if (!run.documents.empty()) {
-    std::vector<OutputFile> files;
-    for (const auto& [target, document] : run.documents)
-      files.push_back({target.string(), document.second});
-    done = run.changes.write_documents(files, true);
-  } else if (options.to == "json" || options.from == "lsdyna") {
+  if (!run.documents.empty()) return write_documents(run);
+  if (options.to == "json" || options.from == "lsdyna") {
     return exit_clean;
   } else if (options.write.in_place || !options.write.directory.empty()) {
     done = run.changes.write(true);
@@ -228,37 +282,24 @@ std::string document_difference(const std::string& document, const Deck& deck,
   return {};
 }
 
-/// The deck in JSON: printed, or kept until all decks of the call are ready.
+/// The deck in JSON, kept until all decks of the call are ready.
 int add_document(Run& run, const Conversion& c, const SchemaSet& schemas) {
   resolve_geometry(*c.now, run.options.common);
-  const auto document =
-      deck_to_json({c.now->path, &c.now->deck, &c.now->model, &c.now->interfaces});
+  auto document = deck_to_json({c.now->path, &c.now->deck, &c.now->model, &c.now->interfaces});
   if (!document) return fail(run, document.error());
   if (run.options.verifies())
     if (const std::string why = document_difference(*document, c.now->deck, schemas); !why.empty())
       return fail(run, {Error::Code::internal, c.now->path + ": the JSON is not the deck: " + why});
-  const std::string& directory = run.options.write.directory;
-  if (directory.empty() || directory == "-") {
-    print_text(*document);
-    return exit_clean;
-  }
-  fs::path target(directory);
-  if (target.extension() != ".json" || !run.changes.root().empty()) {
-    fs::path name = c.now->path == "-" ? "stdin.json" : fs::path(c.now->path).stem().string() + ".json";
-    if (!run.changes.root().empty())
-      name = fs::absolute(c.now->path).lexically_normal().parent_path().lexically_relative(
-                 run.changes.root()) /
-             name;
-    name = name.lexically_normal();
-    if (BatchFrame* frame = batch_frame()) frame->decks[c.now->path].target = name.string();
-    target /= name;
-  }
-  const auto [it, is_new] =
-      run.documents.emplace(target.lexically_normal(), std::pair(c.now->path, *document));
-  if (is_new) return exit_clean;
-  print_error(run.options.common, "both " + it->second.first + " and " + c.now->path +
-                                      " would be written to " + target.string());
-  return exit_usage;
+  Document made{c.now->path, std::move(*document), {}};
+  fs::path name = made.deck == "-" ? "stdin.json" : fs::path(made.deck).stem().string() + ".json";
+  if (!run.changes.root().empty())
+    made.below_root = name = (fs::absolute(made.deck).lexically_normal().parent_path()
+                                  .lexically_relative(run.changes.root()) /
+                              name)
+                                 .lexically_normal();
+  if (BatchFrame* frame = batch_frame()) frame->decks[made.deck].target = name.string();
+  run.documents.push_back(std::move(made));
+  return exit_clean;
 }
 
 /// What the deck has become goes into the set.
@@ -280,7 +321,7 @@ int add_result(Run& run, std::size_t member, Conversion& c, const SchemaSet& sch
 }
 
 int convert(Run& run, const std::string& name, std::unique_ptr<Loaded> loaded, Overlay overlay,
-            const SchemaSet& schemas) {
+            const std::vector<LossEntry>& losses, const SchemaSet& schemas) {
   const Options& options = run.options;
   if (loaded->incomplete()) {
     run.refused = true;
@@ -296,6 +337,7 @@ int convert(Run& run, const std::string& name, std::unique_ptr<Loaded> loaded, O
   Conversion c;
   c.now = std::move(loaded);
   c.changed = std::move(overlay);
+  c.losses = losses;
   int code = exit_clean;
   for (const ConvertStep& step : run.steps) {
     code = apply(c, step, schemas, options);
@@ -328,12 +370,12 @@ void unite(std::vector<LossEntry>& losses) {
 /// The deck of one command line argument, whatever it is written in.
 Result<std::pair<std::unique_ptr<Loaded>, Overlay>> open_input(const std::string& path,
                                                                const Options& options,
-                                                               const SchemaSet& schemas,
-                                                               bool whole) {
+                                                               const SchemaSet& schemas, bool whole,
+                                                               std::vector<LossEntry>& losses) {
   Overlay overlay;
   std::string main = path;
   if (options.from == "json") {
-    auto files = files_of_json(path, schemas);
+    auto files = files_of_json(path, schemas, options.steps, losses);
     if (!files) return files.error();
     main = files->main;
     overlay = std::move(files->contents);
@@ -347,9 +389,10 @@ Result<std::pair<std::unique_ptr<Loaded>, Overlay>> open_input(const std::string
 /// Reads and converts one deck.
 int convert_one(Run& run, const std::string& path, const SchemaSet& schemas) {
   const Options& options = run.options;
-  auto input = open_input(path, options, schemas, !run.steps.empty() || options.to == "json");
+  std::vector<LossEntry> losses;
+  auto input = open_input(path, options, schemas, !run.steps.empty() || options.to == "json", losses);
   if (input)
-    return convert(run, path, std::move(input->first), std::move(input->second), schemas);
+    return convert(run, path, std::move(input->first), std::move(input->second), losses, schemas);
   run.refused = true;
   print_error(options.common, input.error().message);
   const bool wrong = input.error().code == Error::Code::config && options.from == "rad";
@@ -373,6 +416,9 @@ int check(const Options& options) {
     return refuse("--from " + options.from + " needs -o DIR");
   if (options.from == "lsdyna" && options.to == "json")
     return refuse("--from lsdyna makes an include file of contacts, not a deck; it has no JSON");
+  if (options.steps.round && options.from != "json") return refuse("--round goes with --from json");
+  if (options.steps.first_id != 0 && options.from != "lsdyna")
+    return refuse("--first-id goes with --from lsdyna");
   if (options.steps.target != 0 && options.from != "lsdyna")
     return refuse("--target goes with --from lsdyna");
   if (options.write.overwrite && options.write.directory.empty()) return refuse("--overwrite goes with -o");
@@ -401,15 +447,13 @@ int run(const Options& options) {
   if (options.from != "lsdyna") decks = work.changes.decks(options.common.decks, ending);
   if (!decks) return fail(work, decks.error());
   int worst = exit_clean;
-  for (const std::string& path : *decks) {
-    if (options.from == "lsdyna") {
-      std::vector<LossEntry> losses;
-      worst = std::max(worst, convert_lsdyna(path, options.steps, options.write.directory,
-                                             options.common, *schemas, losses));
-      print_losses(losses, options.common);
-      for (LossEntry& e : losses) work.losses.push_back(std::move(e));
-      continue;
-    }
+  const bool lsdyna = options.from == "lsdyna";
+  if (lsdyna) {
+    worst = convert_lsdyna(options.steps, options.write.directory, options.common, *schemas,
+                           work.losses);
+    print_losses(work.losses, options.common);
+  }
+  for (const std::string& path : lsdyna ? std::vector<std::string>() : *decks) {
     if (BatchFrame* frame = batch_frame()) frame->begin(path);
     const int code = convert_one(work, path, *schemas);
     if (BatchFrame* frame = batch_frame()) frame->end(code);
@@ -421,9 +465,10 @@ int run(const Options& options) {
     worst = std::max(worst, write_all(work));
   else if (decks->size() > 1)
     print_error(options.common, "nothing was written: the decks of a call are converted together");
-  // Of --from lsdyna as well.
-  if (std::any_of(work.losses.begin(), work.losses.end(),
-                  [](const LossEntry& e) { return e.loss == Loss::undecided; }))
+  // What somebody has to decide, and a contact of LS-DYNA that is not there any more.
+  if (std::any_of(work.losses.begin(), work.losses.end(), [&](const LossEntry& e) {
+        return e.loss == Loss::undecided || (lsdyna && e.loss == Loss::dropped && e.field.empty());
+      }))
     worst = std::max<int>(worst, exit_findings);
   if (!options.report.empty())
     if (auto done = write_output(options.report, losses_json(work.losses)); !done)

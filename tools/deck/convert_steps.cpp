@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 
 #include "deck/base/escape.hpp"
 #include "deck/edit/extract.hpp"
@@ -24,6 +25,14 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
               "With --from lsdyna: interface type of every contact; 0: by its keyword")
       .one_of({0, 7, 10, 11, 19})
       .value("TYPE");
+  line.option("--first-id", steps.first_id,
+              "With --from lsdyna: contacts without an id and the sets made for contacts get ids "
+              "from here on (default: contacts from 1, sets from 90000001)")
+      .range(1, 2147000000)
+      .value("N");
+  line.flag("--round", steps.round,
+            "With --from json: a number that does not fit its columns keeps the digits that fit "
+            "and is reported");
   const std::string group = "Conversions, in this order";
   line.option("--extract-contacts", steps.extract,
               "A small deck of one file with these interfaces and all that they need")
@@ -116,11 +125,12 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
   return all;
 }
 
-Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schemas) {
+Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schemas,
+                                const ConvertSteps& steps, std::vector<LossEntry>& losses) {
   const auto source = Source::open(path, Limits{});
   if (!source) return source.error();
   remember_read(**source);
-  auto files = deck_from_json((*source)->bytes(), schemas);
+  auto files = deck_from_json((*source)->bytes(), schemas, {steps.round}, &losses);
   if (!files) return Error{files.error().code, path + ": " + files.error().message};
   JsonFiles result;
   for (DeckFile& f : *files) {
@@ -130,42 +140,63 @@ Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schema
   return result;
 }
 
-int convert_lsdyna(const std::string& path, const ConvertSteps& steps, const std::string& directory,
+int convert_lsdyna(const ConvertSteps& steps, const std::string& directory,
                    const CommonOptions& common, const SchemaSet& schemas,
                    std::vector<LossEntry>& losses) {
-  const auto source = Source::open(path, Limits{});
-  if (!source) {
-    print_error(common, source.error().message);
-    return exit_input;
+  namespace fs = std::filesystem;
+  int worst = exit_clean;
+  std::vector<std::unique_ptr<Source>> sources;
+  std::vector<LsDynaFile> files;
+  for (const std::string& path : common.decks) {
+    auto source = Source::open(path, Limits{});
+    if (!source) {
+      print_error(common, source.error().message);
+      worst = exit_input;
+      continue;
+    }
+    remember_read(**source);
+    files.push_back({path, (*source)->bytes()});
+    sources.push_back(std::move(*source));
   }
   LsDynaOptions options;
   options.target = steps.target;
   if (steps.version != 0) options.version = steps.version;
-  Rewrite made = contacts_from_lsdyna(path, (*source)->bytes(), schemas, options);
-  for (LossEntry& e : made.losses) losses.push_back(std::move(e));
-  if (!made.refusals.empty()) {
-    for (const std::string& refusal : made.refusals) print_error(common, refusal);
-    return exit_findings;
+  if (steps.first_id != 0) options.first_id = steps.first_id;
+  std::vector<OutputFile> outputs;
+  std::map<std::string, std::string_view> from;  // target, its file
+  const std::vector<Rewrite> all = contacts_from_lsdyna(files, schemas, options);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const LossEntry& e : all[i].losses) losses.push_back(e);
+    for (const std::string& refusal : all[i].refusals) print_error(common, refusal);
+    if (!all[i].refusals.empty()) {
+      worst = std::max<int>(worst, exit_findings);
+      continue;
+    }
+    if (!common.quiet)
+      for (const std::string& note : all[i].notes) print_note(note);
+    const std::string& text = *all[i].new_text;  // which the outputs point to
+    if (directory.empty()) {
+      print_contents(text);
+      continue;
+    }
+    const std::string stem =
+        files[i].path == "-" ? "stdin" : fs::path(files[i].path).stem().string();
+    outputs.push_back({(fs::path(directory) / (stem + "_contacts.inc")).string(), text});
+    const auto [it, is_new] = from.emplace(outputs.back().path, files[i].path);
+    if (is_new) continue;
+    print_error(common, fmt::format("both {} and {} would be written to {}; nothing was written",
+                                    it->second, files[i].path, it->first));
+    return exit_usage;
   }
-  if (!common.quiet)
-    for (const std::string& note : made.notes) print_note(note);
-  const std::string text = made.new_text.value_or("");
-  if (directory.empty()) {
-    print_contents(text);
-    return exit_clean;
-  }
-  namespace fs = std::filesystem;
-  const std::string stem = path == "-" ? "stdin" : fs::path(path).stem().string();
-  const std::string target = (fs::path(directory) / (stem + "_contacts.inc")).string();
-  remember_read(**source);
   OutputRules rules;
   rules.overwrite = true;
-  if (auto done = write_outputs({{target, text}}, rules); !done) {
+  if (auto done = write_outputs(outputs, rules); !done) {
     print_error(common, done.error().message);
     return exit_usage;
   }
-  if (!common.quiet) print_text(terminal_text(target) + "\n");
-  return exit_clean;
+  if (!common.quiet)
+    for (const OutputFile& f : outputs) print_text(terminal_text(f.path) + "\n");
+  return worst;
 }
 
 }  // namespace deck::cli

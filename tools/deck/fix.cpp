@@ -44,7 +44,12 @@ std::optional<double> share(std::string text) {
 class FixRun {
  public:
   FixRun(const Options& options, const SchemaSet& schemas, JsonOutput& json)
-      : o_(options), schemas_(schemas), json_(json), changes_(options.common, options.write) {}
+      : o_(options), schemas_(schemas), json_(json), changes_(options.common, options.write) {
+    // The report of the run before, which this one replaces.
+    if (o_.strategy != "move-nodes" || o_.common.json.empty() || o_.common.json == "-") return;
+    if (const auto report = Source::open(o_.common.json, Limits{}))
+      earlier_report_ = (*report)->bytes();
+  }
 
   /// With directories expanded and, where asked for, the decks that include the same files.
   Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks, deck_ending); }
@@ -155,6 +160,10 @@ class FixRun {
       return set_fpenmax(context, options);
     }
     MoveNodesOptions options = o_.move;
+    options.earlier = earlier_moves(earlier_report_, loaded.path);
+    if (!options.earlier.empty() && !o_.common.quiet)
+      print_note(fmt::format("{}: {} nodes that were moved before, by {}, count for --max-moved",
+                             loaded.path, options.earlier.size(), o_.common.json));
     static_cast<FixOptions&>(options) = base;
     options.most_moved = *share(o_.max_moved);
     if (!o_.max_displacement.empty())
@@ -188,6 +197,7 @@ class FixRun {
   const Options& o_;
   const SchemaSet& schemas_;
   JsonOutput& json_;
+  std::string earlier_report_;
   Changes changes_;
   std::vector<std::string> documents_;
   std::string texts_;
@@ -286,7 +296,9 @@ Action setup(CommandLine& line) {
   move.flag("--lock-rigid-bodies", o.move.lock_rigid_bodies, "Nodes of /RBODY stay");
   move.flag("--lock-boundary-conditions", o.move.lock_boundary_conditions, "Nodes of /BCS stay");
   move.flag("--secondary-only", o.move.secondary_only, "Main sides do not give way");
-  move.option("--max-moved", o.max_moved, "Share of the nodes of a part that may move")
+  move.option("--max-moved", o.max_moved,
+              "Share of the nodes of a part that may move. With --json FILE, those that an earlier "
+              "run moved by the report in FILE count too")
       .show_default()
       .value("SHARE");
   move.option("--max-displacement", o.max_displacement,

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "deck/keyword/decode.hpp"
-#include "deck/lint/example.hpp"
+#include "deck/keyword/render.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
 #include "edit/convert/version_cards.hpp"

@@ -6,11 +6,11 @@
 #include <set>
 
 #include "deck/contact/crossings.hpp"
+#include "edit/fix/common.hpp"
 #include "edit/fix/depenetrate_cells.hpp"
 #include "edit/fix/depenetrate_locks.hpp"
 #include "edit/fix/depenetrate_mesh.hpp"
 #include "edit/fix/depenetrate_rows.hpp"
-#include "edit/fix/common.hpp"
 
 namespace deck {
 namespace {
@@ -99,6 +99,37 @@ class Depenetrator {
       }
     }
     limit_ = options_.most_displacement.value_or(10 * reach);
+    count_earlier();
+  }
+
+  /// Nodes that earlier runs moved and that are where those put them.
+  void count_earlier() {
+    constexpr double same_place = 1e-6;  // of the move: what printing may cost
+    for (const MovedNode& m : options_.earlier) {
+      const NodeIndex n = model_.find_node(m.id);
+      if (n == no_index) continue;
+      const Vec from{m.from[0], m.from[1], m.from[2]}, to{m.to[0], m.to[1], m.to[2]};
+      if (norm(at(start_, n) - to) > same_place * norm(to - from)) continue;
+      if (!first_.emplace(n, from).second) continue;
+      if (const std::uint32_t part = mesh_->part_of(n); part != no_index) ++moved_in_part_[part];
+    }
+    // Where no other node may move any more, those that did stay: their run has done what it could.
+    for (const auto& [n, from] : first_)
+      if (const std::uint32_t part = mesh_->part_of(n);
+          part != no_index && moved_in_part_[part] >= may_move(part))
+        hold(n, Hold::share);
+  }
+
+  /// How many nodes of a part may move.
+  double may_move(std::uint32_t part) const {
+    return std::max(1.0,
+                    std::floor(options_.most_moved * mesh_->nodes_of_part(part) * (1 + 1e-12)));
+  }
+
+  /// Where a node was before the first run that moved it.
+  Vec first(NodeIndex n) const {
+    const auto it = first_.find(n);
+    return it == first_.end() ? at(start_, n) : it->second;
   }
 
   void hold(NodeIndex n, Hold why) {
@@ -288,10 +319,8 @@ class Depenetrator {
     std::sort(order.begin(), order.end());
     for (const auto& [size, n] : order) {
       const std::uint32_t part = mesh_->part_of(n);
-      if (part != no_index) {
-        const double may = std::max(
-            1.0, std::floor(options_.most_moved * mesh_->nodes_of_part(part) * (1 + 1e-12)));
-        if (moved_in_part_[part] + 1 > may) {
+      if (part != no_index && !first_.contains(n)) {
+        if (moved_in_part_[part] + 1 > may_move(part)) {
           moves.erase(n);
           hold(n, Hold::share);
           continue;
@@ -304,10 +333,10 @@ class Depenetrator {
 
   void keep_within_limit(std::map<NodeIndex, Vec>& moves) {
     for (auto& [n, move] : moves) {
-      const Vec total = at(now_, n) + move - at(start_, n);
+      const Vec total = at(now_, n) + move - first(n);
       const double l = norm(total);
       if (l <= limit_) continue;
-      move = at(start_, n) + (limit_ / l) * total - at(now_, n);
+      move = first(n) + (limit_ / l) * total - at(now_, n);
       hold(n, Hold::displacement);
     }
   }
@@ -403,6 +432,7 @@ class Depenetrator {
   }
 
   void forget(NodeIndex n) {
+    if (first_.contains(n)) return;
     if (const std::uint32_t part = mesh_->part_of(n); part != no_index) --moved_in_part_[part];
   }
 
@@ -489,10 +519,25 @@ class Depenetrator {
         m.part = model_.parts[part].id;
       m.by = {u.x, u.y, u.z};
       m.distance = norm(u);
+      set_ends(m, n);
       fix_.moved.push_back(m);
     }
-    std::sort(fix_.moved.begin(), fix_.moved.end(),
-              [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
+    for (const auto& [n, from] : first_) {
+      if (moved_.contains(n)) continue;
+      MovedNode m;
+      m.id = model_.node_id(n);
+      set_ends(m, n);
+      fix_.moved_before.push_back(m);
+    }
+    for (auto* list : {&fix_.moved, &fix_.moved_before})
+      std::sort(list->begin(), list->end(),
+                [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
+  }
+
+  void set_ends(MovedNode& m, NodeIndex n) const {
+    const Vec from = first(n), to = at(now_, n);
+    m.from = {from.x, from.y, from.z};
+    m.to = {to.x, to.y, to.z};
   }
 
   /// One line per secondary node or edge that still penetrates: the deepest pair and what held it.
@@ -557,12 +602,13 @@ class Depenetrator {
   std::vector<std::uint8_t> holds_;
   std::vector<bool> looked_up_;  ///< by cells_
   std::set<NodeIndex> moved_;
-  std::vector<std::uint32_t> moved_in_part_;
-  std::map<NodeIndex, int> strikes_;        ///< how often a move was dropped
-  std::map<NodeIndex, Hold> blocked_;       ///< and why, the last time
-  std::set<PairAt> active_;                 ///< every pair that was ever too close
-  std::map<PairKey, double> baseline_;      ///< depths before
-  std::map<PairKey, std::string> skipped_;  ///< pairs that moving cannot solve, and why
+  std::vector<std::uint32_t> moved_in_part_;  ///< by earlier runs too
+  std::map<NodeIndex, Vec> first_;            ///< of nodes that earlier runs moved
+  std::map<NodeIndex, int> strikes_;          ///< how often a move was dropped
+  std::map<NodeIndex, Hold> blocked_;         ///< and why, the last time
+  std::set<PairAt> active_;                   ///< every pair that was ever too close
+  std::map<PairKey, double> baseline_;        ///< depths before
+  std::map<PairKey, std::string> skipped_;    ///< pairs that moving cannot solve, and why
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_;  ///< before
   std::map<std::pair<NodeIndex, int>, std::string> texts_;
   PenetrationFix fix_;

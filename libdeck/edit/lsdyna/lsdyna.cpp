@@ -31,16 +31,19 @@ struct Side {
   const DynaCell* cell = nullptr;
 };
 
+/// Ids that the files of a call share.
+struct Ids {
+  std::set<std::int64_t> given, written;  ///< of contacts
+  std::int64_t free = 1;                  ///< for the next contact without an id
+  std::int64_t helper = 90000001;         ///< for the next group, surface, line or set
+};
+
 class Converter {
  public:
-  Converter(std::string_view path, const SchemaSet& schemas, const LsDynaOptions& options)
-      : path_(path), schemas_(schemas), options_(options), helpers_(options.first_helper_id) {}
+  Converter(std::string_view path, const SchemaSet& schemas, const LsDynaOptions& options, Ids& ids)
+      : path_(path), schemas_(schemas), options_(options), ids_(ids), helpers_(ids.helper) {}
 
   Rewrite run(const detail::DynaFile& file) {
-    for (const DynaContact& c : file.contacts)
-      if (const DynaCell* cid = c.find("CID"))
-        if (const auto n = read_integer(cid->text); n.status == NumberStatus::ok)
-          given_ids_.insert(n.value);
     for (const DynaContact& c : file.contacts) contact(c);
     check_sets();
     out_.notes = file.notes;
@@ -48,9 +51,10 @@ class Converter {
         "sets of LS-DYNA are named by their ids: they must be sets, surfaces or "
         "groups of the same ids in the Radioss deck");
     if (!helpers_.text().empty())
-      out_.notes.push_back("ids " + std::to_string(options_.first_helper_id) + " to " +
+      out_.notes.push_back("ids " + std::to_string(ids_.helper) + " to " +
                            std::to_string(helpers_.next_id() - 1) +
                            " are used for surfaces, groups, lines and sets made here");
+    ids_.helper = helpers_.next_id();
     if (count_ == 0)
       out_.refusals.push_back(path_ + ":1:1: no *CONTACT keyword that can be converted");
     out_.new_text = "# contact interfaces of " + detail::title_of(path_) +
@@ -390,6 +394,11 @@ class Converter {
         if (real(name))
           cell(a + b > 0 ? Loss::approximated : Loss::kept, name, "",
                a + b > 0 ? "in Gap" : "none");
+    } else {
+      add(Loss::approximated, "SST", "", "Gap = 0",
+          "blank: nodes are tied within the gap that the solver takes for 0, LS-DYNA has a "
+          "distance "
+          "of its own; compare the tied nodes or write a Gap");
     }
     for (const char* name : {"SFST", "SFMT"})
       if (const auto value = real(name))
@@ -491,9 +500,9 @@ class Converter {
               "assumed");
     ++count_;
     const std::int64_t wanted = id_;
-    if (wanted <= 0 || !written_ids_.insert(wanted).second) {
-      while (given_ids_.contains(free_id_) || !written_ids_.insert(free_id_).second) ++free_id_;
-      id_ = free_id_;
+    if (wanted <= 0 || !ids_.written.insert(wanted).second) {
+      while (ids_.given.contains(ids_.free) || !ids_.written.insert(ids_.free).second) ++ids_.free;
+      id_ = ids_.free;
       add(wanted > 0 ? Loss::undecided : Loss::kept, "CID",
           wanted > 0 ? std::to_string(wanted) : "", std::to_string(id_),
           wanted > 0 ? "another contact has this id" : "no id was given");
@@ -561,12 +570,11 @@ class Converter {
   std::string path_;
   const SchemaSet& schemas_;
   const LsDynaOptions& options_;
+  Ids& ids_;
   Rewrite out_;
   detail::DynaHelpers helpers_;
   std::string text_;
   std::set<std::pair<std::int64_t, std::int64_t>> used_sets_;  ///< (id, type)
-  std::set<std::int64_t> given_ids_, written_ids_;
-  std::int64_t free_id_ = 1;
   std::size_t count_ = 0;
   // The contact at hand.
   const DynaContact* contact_ = nullptr;
@@ -578,22 +586,45 @@ class Converter {
 
 }  // namespace
 
-Rewrite contacts_from_lsdyna(std::string_view path, std::string_view text, const SchemaSet& schemas,
-                             const LsDynaOptions& options) {
-  Rewrite refused;
-  const std::string place = std::string(path) + ":1:1: ";
+std::vector<Rewrite> contacts_from_lsdyna(const std::vector<LsDynaFile>& files,
+                                          const SchemaSet& schemas, const LsDynaOptions& options) {
+  std::vector<std::string> refusals;
   const bool known_target = options.target == 0 || options.target == 7 || options.target == 10 ||
                             options.target == 11 || options.target == 19;
   if (!known_target)
-    refused.refusals.push_back(place + "interfaces of type " + std::to_string(options.target) +
-                               " are not made; choose 7, 10, 11 or 19");
+    refusals.push_back("interfaces of type " + std::to_string(options.target) +
+                       " are not made; choose 7, 10, 11 or 19");
   if (!is_known_version(options.version) || options.version < 110)
-    refused.refusals.push_back(place + "input version " + std::to_string(options.version) +
-                               " is not written; choose 110 to 2026");
-  if (options.first_helper_id < 1 || options.first_helper_id > 2147000000)
-    refused.refusals.push_back(place + "the ids of new groups must lie between 1 and 2147000000");
-  if (!refused.refusals.empty()) return refused;
-  return Converter(path, schemas, options).run(detail::read_dyna(text));
+    refusals.push_back("input version " + std::to_string(options.version) +
+                       " is not written; choose 110 to 2026");
+  const std::int64_t first = options.first_id.value_or(1);
+  if (first < 1 || first > 2147000000)
+    refusals.emplace_back("new ids must lie between 1 and 2147000000");
+  std::vector<Rewrite> all(files.size());
+  if (!refusals.empty()) {
+    for (std::size_t i = 0; i < files.size(); ++i)
+      for (const std::string& why : refusals)
+        all[i].refusals.push_back(std::string(files[i].path) + ":1:1: " + why);
+    return all;
+  }
+  std::vector<detail::DynaFile> read;
+  Ids ids;
+  if (options.first_id) ids.free = ids.helper = *options.first_id;
+  for (const LsDynaFile& file : files) {
+    read.push_back(detail::read_dyna(file.text));
+    for (const DynaContact& c : read.back().contacts)
+      if (const DynaCell* cid = c.find("CID"))
+        if (const auto n = read_integer(cid->text); n.status == NumberStatus::ok)
+          ids.given.insert(n.value);
+  }
+  for (std::size_t i = 0; i < files.size(); ++i)
+    all[i] = Converter(files[i].path, schemas, options, ids).run(read[i]);
+  return all;
+}
+
+Rewrite contacts_from_lsdyna(std::string_view path, std::string_view text, const SchemaSet& schemas,
+                             const LsDynaOptions& options) {
+  return contacts_from_lsdyna({{path, text}}, schemas, options).front();
 }
 
 }  // namespace deck

@@ -113,6 +113,7 @@ Result<std::size_t> EditSet::enter(const Source& source) {
 Result<std::size_t> EditSet::add(const Deck& deck, std::string name) {
   Member member;
   member.name = name.empty() ? deck.sources[0].path() : std::move(name);
+  member.main = deck.sources[0].path();
   std::vector<std::string> directives(deck.sources.size());
   for (const IncludeEdge& e : deck.includes)
     directives[e.file] = deck.sources[e.parent].path() + ":" +
@@ -248,10 +249,38 @@ Result<EditSet::Plan> EditSet::in_place() const {
   return plan;
 }
 
+/// Where the tree of each deck goes below the directory of all: nowhere further down, unless files
+/// of two decks would be in one place there.
+std::vector<std::string> EditSet::folders() const {
+  std::map<std::string, std::size_t> files;  // by place
+  std::vector<fs::path> above;               // what each tree is relative to
+  fs::path shared;
+  bool one_place = false;
+  for (const Member& member : decks_) {
+    fs::path target;
+    for (const auto& [relative, path] : member.layout) {
+      if (path == member.main) target = relative;
+      const auto file = member.file_of.find(path);
+      if (file == member.file_of.end()) continue;
+      one_place = one_place || files.emplace(relative, file->second).first->second != file->second;
+    }
+    above.push_back(fs::absolute(member.main).lexically_normal().parent_path());
+    for (fs::path p = target.parent_path(); !p.empty(); p = p.parent_path())
+      above.back() = above.back().parent_path();
+    if (above.size() == 1) shared = above.back();
+    while (above.back() != shared && !is_below(above.back(), shared)) shared = shared.parent_path();
+  }
+  std::vector<std::string> out;
+  for (const fs::path& p : above)
+    out.push_back(one_place ? p.lexically_relative(shared).string() : std::string());
+  return out;
+}
+
 Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
   Plan plan;
   std::map<std::string, std::pair<const File*, const Use*>> targets;
   std::set<std::string> outside;
+  const std::vector<std::string> folder = folders();
   for (std::size_t d = 0; d < decks_.size(); ++d) {
     const Member& member = decks_[d];
     if (!member.no_layout.empty()) return refuse(member.no_layout);
@@ -266,7 +295,8 @@ Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
       const Use* use = use_of(d, path);
       if (use == nullptr) return Error{Error::Code::internal, path + " was not read before"};
       const File& file = files_[member.file_of.at(path)];
-      const std::string target = (fs::path(directory) / relative).lexically_normal().string();
+      const std::string target =
+          (fs::path(directory) / folder[d] / relative).lexically_normal().string();
       const auto [it, is_new] = targets.try_emplace(target, &file, use);
       if (is_new) continue;
       const auto& [other, other_use] = it->second;

@@ -9,7 +9,7 @@
 
 #include "deck/keyword/decode.hpp"
 #include "deck/report/json.hpp"
-#include "report/json/deck_json_cells.hpp"
+#include "keyword/deck_json_cells.hpp"
 #include "text/columns.hpp"
 
 namespace deck {
@@ -85,7 +85,9 @@ class DeckWriter {
     out_.reserve(3 * deck_.total_bytes + 10000);
     json_.begin_object();
     write_json_head(json_, detail::deck_json_id, detail::deck_json_version);
+    const std::size_t head = out_.size();
     write_json_deck(json_, in_.path, deck_, in_.model, in_.interfaces);
+    write_sum("deck_sum", out_.find('{', head));
     json_.key("files").begin_array();
     for (const std::uint32_t f : carried) write_file(f);
     for (std::uint32_t f = 0; f < deck_.sources.size(); ++f)
@@ -225,7 +227,7 @@ class DeckWriter {
       const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', s.begin), bytes.size());
       header = bytes.substr(s.begin, nl - s.begin);
       if (carriage_ && nl < bytes.size()) header.remove_suffix(1);
-      json_.field("header", shown(header));
+      json_.field("header", shown(header)).field("header_sum", detail::sum_of_text(shown(header)));
       body = std::min<std::uint64_t>(nl + 1, bytes.size());
       ++line_;
     } else {
@@ -238,9 +240,14 @@ class DeckWriter {
     if (list != nullptr)
       write_list(block, *list, body, s.end, s.header);
     else
-      write_cards(block, body, s.end);
+      write_cards(block, body, s);
     if (s.header) write_effective(block);
     json_.end_object();
+  }
+
+  /// The sum of the value that the text has from `begin` on.
+  void write_sum(std::string_view name, std::size_t begin) {
+    json_.field(name, detail::sum_of_json(std::string_view(out_).substr(begin)));
   }
 
   static bool comment(std::string_view text) {
@@ -248,14 +255,14 @@ class DeckWriter {
   }
 
   /// Lines of a block whose cards are few: each with its values by name.
-  void write_cards(const Block& block, std::uint64_t begin, std::uint64_t end) {
+  void write_cards(const Block& block, std::uint64_t begin, const Stretch& stretch) {
     DecodedBlock decoded;
     if (block.schema != nullptr) decoded = decode(deck_, block);
     std::unordered_map<std::uint64_t, const DecodedCard*> card_at;
     for (const DecodedCard& card : decoded.cards)
       if (!card.missing() && card.line.file == file_) card_at.emplace(card.line.offset, &card);
     json_.key("lines").begin_array();
-    each_line(begin, end, [&](std::string_view text, std::uint64_t offset) {
+    each_line(begin, stretch.end, [&](std::string_view text, std::uint64_t offset) {
       const auto it = card_at.find(offset);
       if (decoded.title_line.valid() && decoded.title_line.file == file_ &&
           decoded.title_line.offset == offset)
@@ -265,6 +272,12 @@ class DeckWriter {
       else
         json_.value(shown(text));
     });
+    json_.end_array();
+    if (!stretch.header || block.schema == nullptr) return;
+    const std::vector<const CardSchema*> missing = detail::missing_cards(deck_, block);
+    if (missing.empty()) return;
+    json_.key("missing").begin_array(true);
+    for (const CardSchema* card : missing) json_.value(card->name);
     json_.end_array();
   }
 
@@ -287,12 +300,17 @@ class DeckWriter {
 
   void write_title(std::string_view text, std::string_view title) {
     json_.begin_object(true).field("line", line_).field("title", shown(title));
-    json_.field("text", shown(text)).end_object();
+    write_text_of_line(text);
+    json_.end_object();
+  }
+
+  void write_text_of_line(std::string_view text) {
+    json_.field("text", shown(text)).field("text_sum", detail::sum_of_text(shown(text)));
   }
 
   void write_card(std::string_view text, const DecodedCard& card) {
     json_.begin_object(true).field("line", line_).field("card", card.schema->name);
-    json_.field("text", shown(text));
+    write_text_of_line(text);
     // A list of ids is one value.
     const bool list = card.schema->repeat == Repeat::ids;
     const Field* ids = list ? &card.schema->fields.back() : nullptr;
@@ -356,19 +374,23 @@ class DeckWriter {
     for (const Field& f : card.fields)
       if (f.in_version(block.version)) json_.value(f.name);
     json_.end_array();
+    detail::TextSum sum;
     json_.key("rows").begin_array();
     each_line(rows, end, [&](std::string_view text, std::uint64_t offset) {
       if (comment(text)) {
         json_.value(shown(text));
         return;
       }
-      json_.begin_array(true).value(shown(text));
+      const std::string line = shown(text);
+      sum.add(line);
+      json_.begin_array(true).value(line);
       const DecodedCard row =
           decode_line(deck_, block, card, Line{detail::trim_right(text), file_, offset}, nullptr);
       for (const Cell& cell : row.cells) write_value(cell);
       json_.end_array();
     });
     json_.end_array();
+    json_.field("rows_sum", sum.text());
   }
 
   static std::string_view trimmed_title(std::string_view text) {
@@ -392,7 +414,9 @@ class DeckWriter {
   void write_effective(const Block& block) {
     const auto it = inter_of_.find(&block);
     if (it == inter_of_.end()) return;
-    json_.key("effective").begin_object();
+    json_.key("effective");
+    const std::size_t begin = out_.size();
+    json_.begin_object();
     visit_interface(*it->second, [&](const auto& t) {
       t.for_each([&](std::string_view name, const auto& e) {
         json_.key(name).begin_object(true).key("input");
@@ -411,6 +435,7 @@ class DeckWriter {
       });
     });
     json_.end_object();
+    write_sum("effective_sum", begin);
   }
 
   static std::int64_t text_safe(std::int64_t v) { return v; }
@@ -446,5 +471,17 @@ class DeckWriter {
 }  // namespace
 
 Result<std::string> deck_to_json(const DeckJsonInput& input) { return DeckWriter(input).run(); }
+
+std::string decks_to_json(const std::vector<std::string>& documents) {
+  if (documents.size() == 1) return documents.front();
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object();
+  write_json_head(json, detail::deck_json_id, detail::deck_json_version);
+  json.key("decks").begin_array();
+  for (const std::string& document : documents) json.raw(detail::trim_right(document));
+  json.end_array().end_object();
+  return out;
+}
 
 }  // namespace deck

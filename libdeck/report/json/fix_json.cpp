@@ -11,6 +11,12 @@ void write_ids(JsonWriter& j, std::string_view name, const std::vector<std::int6
   j.end_array();
 }
 
+void write_vector(JsonWriter& j, std::string_view name, const std::array<double, 3>& v) {
+  j.key(name).begin_array(true);
+  for (const double d : v) j.value(d);
+  j.end_array();
+}
+
 void write_count(JsonWriter& j, std::string_view name, const FixCount& c) {
   j.key(name).begin_object(true);
   j.field("pairs", c.pairs).field("nodes", c.nodes).field("untreated", c.untreated);
@@ -51,9 +57,19 @@ std::string fix_json(std::string_view path, const Deck& deck, const PenetrationF
   for (const MovedNode& m : fix.moved) {
     j.begin_object(true).field("node", m.id).key("part");
     m.part == 0 ? j.null() : j.value(m.part);
-    j.key("by").begin_array(true);
-    for (const double d : m.by) j.value(d);
-    j.end_array().field("distance", m.distance).end_object();
+    write_vector(j, "by", m.by);
+    j.field("distance", m.distance);
+    write_vector(j, "from", m.from);
+    write_vector(j, "to", m.to);
+    j.end_object();
+  }
+  j.end_array();
+  j.key("moved_before").begin_array();
+  for (const MovedNode& m : fix.moved_before) {
+    j.begin_object(true).field("node", m.id);
+    write_vector(j, "from", m.from);
+    write_vector(j, "to", m.to);
+    j.end_object();
   }
   j.end_array();
   j.key("actions").begin_array();

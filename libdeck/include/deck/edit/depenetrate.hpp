@@ -15,6 +15,9 @@ struct MoveNodesOptions : FixOptions {
   bool lock_boundary_conditions = false;  ///< nodes of /BCS stay
   bool secondary_only = false;            ///< main sides do not give way
   double most_moved = 0.1;                ///< share of the nodes of a part that may move
+  /// What earlier runs moved (earlier_moves()). Those nodes that are still where they were put
+  /// count for `most_moved` and are measured from where they were at first.
+  std::vector<MovedNode> earlier;
   /// No node moves farther than this, working units. Absent: ten times the deepest
   /// penetration.
   std::optional<double> most_displacement;
@@ -23,6 +26,10 @@ struct MoveNodesOptions : FixOptions {
   int smooth = 0;           ///< rings of neighbours that follow the moved nodes
   int iterations = 60;
 };
+
+/// The nodes that earlier runs moved in the deck of that path, by a report of the last one
+/// ("deck/fix" as JSON). Empty where the text is no such report.
+std::vector<MovedNode> earlier_moves(std::string_view report, std::string_view path);
 
 /// Moves nodes of /NODE lines. Verified with the coordinates as printed: the deck is read again
 /// with them. Moves that would make a new penetration, deepen another one, cross elements, turn one

@@ -49,8 +49,10 @@ class EditSet {
   /// The files that change, where they are; each of them is only to be replaced if it still is what
   /// was read. Error: two decks want different texts for one file, both places named.
   Result<Plan> in_place() const;
-  /// All files of all decks below another directory. Error: two files, or two texts of one file,
-  /// for one place; a file that stays where it is would have to change.
+  /// All files of all decks below another directory, each deck with its relative names; where
+  /// files of two decks would be in one place, below the directories that they lie in. Error: two
+  /// files, or two texts of one file, for one place; a file that stays where it is would have to
+  /// change.
   Result<Plan> tree(const std::string& directory) const;
   /// The changes of in_place() as one patch that git apply takes, every file once. Paths are
   /// relative to the top of the git work tree that holds the files, else to the current directory,
@@ -100,6 +102,7 @@ class EditSet {
   };
   struct Member {
     std::string name;
+    std::string main;                                         ///< as opened
     std::map<std::string, std::size_t> file_of;               ///< by path as opened
     std::vector<std::pair<std::string, std::string>> layout;  ///< relative target, path as opened
     std::vector<std::string> outside;
@@ -112,6 +115,7 @@ class EditSet {
   Result<std::size_t> enter(const Source& source);
   Result<std::vector<std::pair<const File*, std::size_t>>> changes() const;
   Error conflict(const File& file, const Use& a, const Use& b, const std::string& where) const;
+  std::vector<std::string> folders() const;
   const Use* use_of(std::size_t deck, const std::string& path) const;
   const Use* odd_use(const File& file) const;
   Result<void> give_copy(std::size_t deck, const std::string& path, const std::string& copy);

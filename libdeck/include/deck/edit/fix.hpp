@@ -55,6 +55,8 @@ struct MovedNode {
   std::int64_t part = 0;       ///< 0: no part
   std::array<double, 3> by{};  ///< working units
   double distance = 0;
+  /// Where it was before the first of all runs that moved it, and where it is now; working units.
+  std::array<double, 3> from{}, to{};
 };
 
 /// A penetration, or a whole interface (no nodes), that was not treated, and why.
@@ -80,6 +82,7 @@ struct PenetrationFix {
   Rewrite rewrite;
   std::vector<FixedInterface> interfaces;  ///< those with penetrations, before or after; by id
   std::vector<MovedNode> moved;            ///< by node id
+  std::vector<MovedNode> moved_before;     ///< by earlier runs and not by this one; by node id
   std::vector<FixRefusal> refused;         ///< by interface, deepest first
   std::vector<FixAction> actions;          ///< Inacti, Fpenmax: by interface, deepest first
   std::uint64_t crossings_before = 0, crossings_after = 0;  ///< move-nodes: crossed elements

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "deck/edit/rewrite.hpp"
 #include "deck/keyword/schema.hpp"
 #include "deck/text/result.hpp"
 
@@ -15,13 +16,27 @@ struct DeckFile {
   std::string text;
 };
 
-/// Files of the deck in a document of schema "deck/deck", version 1. What is read: `path`,
-/// `encoding`, `line_end` and `final_newline` of a file; per item `header` (or `keyword` and `id`),
-/// `version`, and its lines. `text` of a line may be left out: then the line is made of its values.
-/// `columns`, `line`, `effective` and all other members are for readers and are ignored.
-/// Error, with line and column of the JSON text or the path inside it ("/files/0/items/3"): no
-/// JSON, another schema, a value of the wrong type, an unknown field or card, a value that does not
-/// fit its columns without rounding, a path that leads out of the directory.
-Result<std::vector<DeckFile>> deck_from_json(std::string_view json, const SchemaSet& schemas);
+struct FromJsonOptions {
+  /// A number that does not fit its columns is written with the digits that fit, and is an
+  /// `approximated` loss. Without it that is an error.
+  bool round = false;
+};
+
+/// Files of the deck in a document of schema "deck/deck", version 1. They are made of `path`,
+/// `encoding`, `line_end` and `final_newline` of a file; per item of `header` (or `keyword` and
+/// `id`), and its lines; a value that differs from an untouched `text` (its `text_sum` tells) wins,
+/// and where there is no text the line is made of its values. What was written is then read back,
+/// and everything that the document says must be true of it: keyword, ids and version of a block,
+/// the card that a line is, the cards that are `missing`, every value, columns, the file an include
+/// leads to. `deck` and `effective` may be what they were when the document was written (their sums
+/// tell) or what they have become. `line`, `column` and `tool` are for readers.
+///
+/// Error, with line and column of the JSON text, or the path inside it and file, block, card and
+/// field: no JSON, another schema, a value of the wrong type, an unknown member, field or card,
+/// members that contradict each other or the deck, a value that does not fit its columns without
+/// rounding, a path that leads out of the directory.
+Result<std::vector<DeckFile>> deck_from_json(std::string_view json, const SchemaSet& schemas,
+                                             const FromJsonOptions& options = {},
+                                             std::vector<LossEntry>* losses = nullptr);
 
 }  // namespace deck

@@ -1,7 +1,9 @@
 // LS-DYNA contact keywords as Radioss interfaces: the contact cards only; sets and parts by id.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/keyword/schema.hpp"
@@ -14,8 +16,13 @@ struct LsDynaOptions {
   /// type.
   int target = 0;
   int version = 2022;  ///< input version whose columns are written
-  /// Groups, surfaces, lines and sets that the interfaces need get ids from here on.
-  std::int64_t first_helper_id = 90000001;
+  /// Contacts without an id, and the groups, surfaces, lines and sets that they need, get ids from
+  /// here on. Not given: contacts from 1, the others from 90000001.
+  std::optional<std::int64_t> first_id;
+};
+
+struct LsDynaFile {
+  std::string_view path, text;
 };
 
 /// Reads *CONTACT_AUTOMATIC_SINGLE_SURFACE, _SURFACE_TO_SURFACE, _ONE_WAY_SURFACE_TO_SURFACE,
@@ -30,5 +37,9 @@ struct LsDynaOptions {
 /// keyword at all, an unknown target or version.
 Rewrite contacts_from_lsdyna(std::string_view path, std::string_view text, const SchemaSet& schemas,
                              const LsDynaOptions& options = {});
+/// The same for the files of one deck, one result each: no id is used twice in all of them.
+std::vector<Rewrite> contacts_from_lsdyna(const std::vector<LsDynaFile>& files,
+                                          const SchemaSet& schemas,
+                                          const LsDynaOptions& options = {});
 
 }  // namespace deck

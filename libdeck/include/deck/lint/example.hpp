@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "deck/keyword/render.hpp"
 #include "deck/keyword/schema.hpp"
 
 namespace deck {
@@ -29,11 +30,5 @@ struct ExampleDeck {
 ExampleDeck example_deck(std::string_view example, const SchemaSet& schemas);
 /// The example as people see it: cards laid out, no surrounding model.
 std::string example_text(std::string_view example, const SchemaSet& schemas);
-
-/// A card block of `schema` at `version`: header, title, one line per card whose conditions hold.
-/// Fields that are not given stay blank. Unknown names are put out as a comment so that a typing
-/// error in an example shows.
-std::string render_card(const Schema& schema, std::string_view header, int version,
-                        const std::vector<std::pair<std::string, std::string>>& values);
 
 }  // namespace deck

@@ -3,6 +3,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "deck/model/interfaces.hpp"
 #include "deck/text/result.hpp"
@@ -25,5 +26,8 @@ struct DeckJsonInput {
 /// A file included by an absolute path is named, but not carried; one that is included twice is
 /// carried once. Error: two different files would have to stand in one place.
 Result<std::string> deck_to_json(const DeckJsonInput& input);
+
+/// One document of several: an object with the list "decks". One alone stays as it is.
+std::string decks_to_json(const std::vector<std::string>& documents);
 
 }  // namespace deck

@@ -1,111 +1,41 @@
-// The JSON text is parsed as a whole; every line is then made on its own, from its text and from
-// the values that differ from what the text says.
-#include "deck/edit/from_json.hpp"
+// Makes the lines of a file: every line on its own, from its text and from the values that differ
+// from what the text says.
+#include "edit/convert/json/file_writer.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <set>
 
-#include "deck/keyword/decode.hpp"
 #include "edit/convert/version_cards.hpp"
+#include "keyword/deck_json_cells.hpp"
 #include "keyword/header_line.hpp"
 #include "keyword/reader.hpp"
-#include "report/json/deck_json_cells.hpp"
 
-namespace deck {
+namespace deck::detail {
 namespace {
 
-using Json = nlohmann::json;
-using detail::CellKind;
-
-/// Thrown inside this file only: the first thing that is wrong, with its JSON path.
-struct Wrong {
-  std::string what;
-};
-
-/// Where we are in the document. Turned into text only when something is wrong.
-struct Path {
-  const Path* parent = nullptr;
-  std::string_view key;
-  std::size_t index = 0;
-  std::string text() const {
-    if (parent == nullptr) return {};
-    return parent->text() + (key.empty() ? fmt::format("/{}", index) : fmt::format("/{}", key));
-  }
-};
-
-[[noreturn]] void fail(const Path& path, const std::string& what) {
-  const std::string text = path.text();
-  throw Wrong{(text.empty() ? "/" : text) + ": " + what};
-}
-
-const Json& member(const Json& object, const char* key, const Path& path) {
-  if (!object.is_object())
-    fail(path, std::string("expected an object, found ") + object.type_name());
-  const auto it = object.find(key);
-  if (it == object.end()) fail(path, fmt::format("\"{}\" is missing", key));
-  return *it;
-}
-
-/// nullptr if there is no such member.
-const Json* optional_member(const Json& object, const char* key, const Path& path) {
-  if (!object.is_object())
-    fail(path, std::string("expected an object, found ") + object.type_name());
-  const auto it = object.find(key);
-  return it == object.end() || it->is_null() ? nullptr : &*it;
-}
-
-const Json& array_of(const Json& json, const Path& path) {
-  if (!json.is_array()) fail(path, std::string("expected a list, found ") + json.type_name());
-  return json;
-}
-
-const std::string& string_of(const Json& json, const Path& path) {
-  if (!json.is_string()) fail(path, std::string("expected a string, found ") + json.type_name());
-  return json.get_ref<const std::string&>();
-}
-
-bool bool_of(const Json& json, const Path& path) {
-  if (!json.is_boolean())
-    fail(path, std::string("expected true or false, found ") + json.type_name());
-  return json.get<bool>();
-}
-
-/// Integer of a JSON number; numbers beyond 64 bits are refused.
-std::int64_t integer_of(const Json& json, const Path& path) {
-  if (!json.is_number_integer())
-    fail(path, std::string("expected an integer, found ") + json.type_name());
-  if (json.is_number_unsigned() &&
-      json.get<std::uint64_t>() >
-          static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
-    fail(path, "the number is too large");
-  return json.get<std::int64_t>();
-}
-
-using detail::trim_right;
-
 bool is_reference(std::string_view text) { return text.starts_with('&') || text.starts_with("-&"); }
+
+constexpr const char* take_one_out =
+    "; the text was changed by hand, so that nobody knows which of the two is meant: make them "
+    "agree, or take one of them out";
 
 /// One file of the document.
 class FileWriter {
  public:
-  FileWriter(const SchemaSet& schemas, const Deck& nothing)
-      : schemas_(schemas), nothing_(nothing) {}
+  FileWriter(const SchemaSet& schemas, const FromJsonOptions& options,
+             std::vector<LossEntry>& losses)
+      : schemas_(schemas), options_(options), losses_(losses) {}
 
   DeckFile write(const Json& file, const Path& path) {
+    only(file, {"path", "encoding", "line_end", "final_newline", "items", "external"}, path);
     DeckFile out;
     out.path = string_of(member(file, "path", path), {&path, "path"});
     check_path(out.path, {&path, "path"});
-    if (const Json* e = optional_member(file, "encoding", path)) {
-      const std::string& name = string_of(*e, {&path, "encoding"});
-      if (name != "utf-8" && name != "latin-1")
-        fail({&path, "encoding"}, "expected \"utf-8\" or \"latin-1\"");
-      latin1_ = name == "latin-1";
-    }
+    file_ = out.path;
+    latin1_ = is_latin1(file, path);
     std::string line_end = "\n";
     if (const Json* e = optional_member(file, "line_end", path)) {
       line_end = string_of(*e, {&path, "line_end"});
@@ -136,23 +66,21 @@ class FileWriter {
       fail(path, "the file would not be written under the output directory");
   }
 
-  /// Bytes that a JSON text stands for in this file.
-  std::string bytes_of(const Json& json, const Path& path) const {
-    const std::string& text = string_of(json, path);
-    if (text.find('\n') != std::string::npos) fail(path, "a line cannot hold a line feed");
-    if (!latin1_) return text;
-    auto bytes = detail::utf8_to_latin1(text);
-    if (!bytes) fail(path, "a character that Latin-1, the encoding of this file, does not have");
-    return std::move(*bytes);
+  std::string bytes(const Json& json, const Path& path) const {
+    return bytes_of(json, latin1_, path);
   }
 
   void item(const Json& json, const Path& path) {
     const std::string& kind = string_of(member(json, "kind", path), {&path, "kind"});
     if (kind == "text" || kind == "include") {
+      if (kind == "text")
+        only(json, {"kind", "line", "lines"}, path);
+      else
+        only(json, {"kind", "line", "file", "lines"}, path);
       const Path lines{&path, "lines"};
       const Json& list = array_of(member(json, "lines", path), lines);
       for (std::size_t i = 0; i < list.size(); ++i)
-        lines_.push_back(bytes_of(list[i], {&lines, {}, i}));
+        lines_.push_back(bytes(list[i], {&lines, {}, i}));
     } else if (kind == "block" || kind == "continued") {
       block(json, path, kind == "block");
     } else {
@@ -163,6 +91,15 @@ class FileWriter {
   // ---- blocks -------------------------------------------------------------------------------
 
   void block(const Json& json, const Path& path, bool with_header) {
+    if (with_header)
+      only(json,
+           {"kind", "keyword", "id", "unit_id", "line", "column", "header", "header_sum", "version",
+            "lines", "missing", "card", "fields", "rows", "rows_sum", "effective", "effective_sum"},
+           path);
+    else
+      only(json,
+           {"kind", "keyword", "line", "version", "lines", "card", "fields", "rows", "rows_sum"},
+           path);
     Block block;
     const Path version{&path, "version"};
     if (const Json* v = optional_member(json, "version", path)) {
@@ -171,31 +108,48 @@ class FileWriter {
         fail(version, "no input version");
       block.version = static_cast<int>(n);
     }
+    loss_ = {};
+    loss_.file = file_;
+    loss_.keyword = string_of(member(json, "keyword", path), {&path, "keyword"});
+    if (const Json* id = optional_member(json, "id", path))
+      loss_.id = integer_of(*id, {&path, "id"});
     if (with_header) {
       lines_.push_back(header_of(json, path, block.version));
       const std::string_view line = lines_.back();
-      block.schema = schemas_.match(trim_right(detail::without_comment(line, block.version)));
+      block.schema = schemas_.match(trim_right(without_comment(line, block.version)));
     } else {
-      block.schema = schemas_.find(string_of(member(json, "keyword", path), {&path, "keyword"}));
+      block.schema = schemas_.find(loss_.keyword);
     }
     const Path lines{&path, "lines"};
     if (const Json* list = optional_member(json, "lines", path))
       for (std::size_t i = 0; i < array_of(*list, lines).size(); ++i) {
         const Json& line = (*list)[i];
         const Path place{&lines, {}, i};
-        lines_.push_back(line.is_string() ? bytes_of(line, place) : card_line(block, line, place));
+        lines_.push_back(line.is_string() ? bytes(line, place) : card_line(block, line, place));
       }
-    const Path rows{&path, "rows"};
-    if (const Json* list = optional_member(json, "rows", path)) {
-      const CardSchema* card =
-          block.schema ? detail::list_card(*block.schema, block.version) : nullptr;
-      if (card == nullptr) fail(rows, "this keyword is no list of equal lines");
-      for (std::size_t i = 0; i < array_of(*list, rows).size(); ++i) {
-        const Json& row = (*list)[i];
-        const Path place{&rows, {}, i};
-        lines_.push_back(row.is_string() ? bytes_of(row, place)
-                                         : list_row(block, *card, row, place));
-      }
+    if (const Json* list = optional_member(json, "rows", path))
+      rows(block, *list, rows_untouched(json, *list, path), {&path, "rows"});
+  }
+
+  /// True if the texts of all rows are what they were when the document was written.
+  static bool rows_untouched(const Json& json, const Json& list, const Path& path) {
+    const Json* stated = optional_member(json, "rows_sum", path);
+    if (stated == nullptr) return false;
+    TextSum sum;
+    for (const Json& row : array_of(list, {&path, "rows"}))
+      if (row.is_array() && !row.empty() && row[0].is_string())
+        sum.add(row[0].get_ref<const std::string&>());
+    return string_of(*stated, {&path, "rows_sum"}) == sum.text();
+  }
+
+  void rows(const Block& block, const Json& list, bool text_untouched, const Path& path) {
+    const CardSchema* card = block.schema ? list_card(*block.schema, block.version) : nullptr;
+    if (card == nullptr) fail(path, "this keyword is no list of equal lines");
+    for (std::size_t i = 0; i < array_of(list, path).size(); ++i) {
+      const Json& row = list[i];
+      const Path place{&path, {}, i};
+      lines_.push_back(row.is_string() ? bytes(row, place)
+                                       : list_row(block, *card, row, text_untouched, place));
     }
   }
 
@@ -205,21 +159,24 @@ class FileWriter {
     const Json* id = optional_member(json, "id", path);
     const Path id_path{&path, "id"};
     if (header == nullptr) {
-      std::string text = bytes_of(member(json, "keyword", path), {&path, "keyword"});
+      std::string text = bytes(member(json, "keyword", path), {&path, "keyword"});
       if (!text.starts_with('/')) fail({&path, "keyword"}, "a keyword starts with '/'");
       if (id != nullptr) text += fmt::format("/{}", integer_of(*id, id_path));
       return text;
     }
-    std::string text = bytes_of(*header, {&path, "header"});
-    if (!detail::trim(text).starts_with('/'))
-      fail({&path, "header"}, "a keyword line starts with '/'");
+    std::string text = bytes(*header, {&path, "header"});
+    if (!trim(text).starts_with('/')) fail({&path, "header"}, "a keyword line starts with '/'");
     if (id == nullptr) return text;
     Block block;
     const std::size_t slash = text.find('/');
-    block.header = trim_right(detail::without_comment(text, version).substr(slash));
+    block.header = trim_right(without_comment(text, version).substr(slash));
     block.header_span = {0, static_cast<std::uint32_t>(block.header.size()), slash};
-    detail::parse_header(schemas_, block);
+    parse_header(schemas_, block);
     const std::int64_t wanted = integer_of(*id, id_path);
+    if (block.id.present && block.id.value != wanted &&
+        !untouched(json, "header_sum", header->get_ref<const std::string&>(), path))
+      fail(id_path,
+           fmt::format("{}, but the header says {}{}", wanted, block.id.value, take_one_out));
     if (!block.id.present) fail(id_path, "the keyword line has no id; write it there");
     if (block.id.value == wanted || text[block.id.span.offset] == '&') return text;
     return text.replace(block.id.span.offset, block.id.span.length, std::to_string(wanted));
@@ -249,11 +206,17 @@ class FileWriter {
     fail(path, fmt::format("this keyword has no card \"{}\" in version {}", name, block.version));
   }
 
-  std::string card_line(const Block& block, const Json& json, const Path& path) const {
+  std::string card_line(const Block& block, const Json& json, const Path& path) {
     const Json* text = optional_member(json, "text", path);
-    std::string line = text != nullptr ? bytes_of(*text, {&path, "text"}) : std::string();
-    if (const Json* title = optional_member(json, "title", path))
-      return title_line(std::move(line), bytes_of(*title, {&path, "title"}), {&path, "title"});
+    std::string line = text != nullptr ? bytes(*text, {&path, "text"}) : std::string();
+    const bool free_to_change =
+        text == nullptr || untouched(json, "text_sum", text->get_ref<const std::string&>(), path);
+    if (const Json* title = optional_member(json, "title", path)) {
+      only(json, {"line", "title", "text", "text_sum"}, path);
+      return title_line(std::move(line), bytes(*title, {&path, "title"}), free_to_change,
+                        {&path, "title"});
+    }
+    only(json, {"line", "card", "text", "text_sum", "fields", "columns"}, path);
     const std::string& name = string_of(member(json, "card", path), {&path, "card"});
     const Json* fields = optional_member(json, "fields", path);
     const Path fields_path{&path, "fields"};
@@ -262,7 +225,7 @@ class FileWriter {
     const CardSchema& card = card_named(block, name, fields, fields_path);
     if (fields == nullptr) return line;
     const DecodedCard old = decoded(block, card, line);
-    LineMaker maker{line, old.free_format};
+    LineMaker maker{line, old.free_format, free_to_change};
     for (const auto& f : fields->items()) {
       const Path place{&fields_path, f.key()};
       if (card.repeat == Repeat::ids && f.key() == card.fields.back().name) {
@@ -281,28 +244,38 @@ class FileWriter {
     return maker.finish();
   }
 
-  static std::string title_line(std::string line, const std::string& title, const Path& path) {
-    if (trim_right(trim_right(line).substr(0, detail::title_columns)) == title) return line;
-    if (title.size() > detail::title_columns) fail(path, "longer than 100 columns");
-    const std::string_view start = detail::trim(title);
+  static std::string title_line(std::string line, const std::string& title, bool free_to_change,
+                                const Path& path) {
+    const std::string_view now = trim_right(trim_right(line).substr(0, title_columns));
+    if (now == title) return line;
+    if (!free_to_change)
+      fail(path, fmt::format("'{}', but the text says '{}'{}", title, now, take_one_out));
+    if (title.size() > title_columns) fail(path, "longer than 100 columns");
+    const std::string_view start = trim(title);
     if (title.starts_with('#') || title.starts_with('$') || start.starts_with('/'))
       fail(path, "would be read as a comment or as a keyword");
     return title;
   }
 
   std::string list_row(const Block& block, const CardSchema& card, const Json& row,
-                       const Path& path) const {
+                       bool text_untouched, const Path& path) {
     if (array_of(row, path).empty()) fail(path, "a row starts with its text, or null");
-    std::string line = row[0].is_null() ? std::string() : bytes_of(row[0], {&path, {}, 0});
+    std::string line = row[0].is_null() ? std::string() : bytes(row[0], {&path, {}, 0});
     if (row.size() == 1) return line;
     const DecodedCard old = decoded(block, card, line);
-    LineMaker maker{line, old.free_format};
+    LineMaker maker{line, old.free_format, text_untouched || row[0].is_null()};
     const bool ids = card.repeat == Repeat::ids;
     const std::size_t leads = ids ? card.fields.size() - 1 : old.cells.size();
     if (!ids && row.size() - 1 > leads)
       fail(path, fmt::format("{} values, but a line has {} cells", row.size() - 1, leads));
     for (std::size_t i = 0; i < std::min(leads, row.size() - 1); ++i)
       change(old.cells[i], row[i + 1], {&path, {}, i + 1}, maker);
+    for (std::size_t i = row.size() - 1; i < old.cells.size(); ++i)
+      if (!old.cells[i].blank())
+        fail(path,
+             fmt::format("the text says {} = {}, which is not among the values; write null to "
+                         "blank it",
+                         old.cells[i].field->name, old.cells[i].text));
     if (ids && row.size() - 1 >= leads) change_ids(card, old, row, leads + 1, path, maker);
     return maker.finish();
   }
@@ -313,6 +286,7 @@ class FileWriter {
   struct LineMaker {
     std::string text;
     bool free_format = false;
+    bool free_to_change = true;  ///< its text is no other witness of its values
     std::vector<std::pair<Span, std::string>> replaced = {};
     std::string finish() {
       std::sort(replaced.begin(), replaced.end(),
@@ -323,33 +297,26 @@ class FileWriter {
   };
 
   DecodedCard decoded(const Block& block, const CardSchema& card, const std::string& line) const {
-    return decode_line(nothing_, block, card, Line{trim_right(line), 0, 0}, nullptr);
+    static const Deck nothing;  // lines are decoded without the deck's parameters
+    return decode_line(nothing, block, card, Line{trim_right(line), 0, 0}, nullptr);
   }
 
-  /// True if the JSON value is what the cell holds.
   bool same(const Cell& cell, const Json& json, const Path& path) const {
-    switch (detail::kind_of(cell)) {
-      case CellKind::null:
-        return json.is_null();
-      case CellKind::integer:
-        return json.is_number_integer() && integer_of(json, path) == cell.integer;
-      case CellKind::real:
-        return json.is_number() && json.get<double>() == cell.real;
-      case CellKind::text:
-        return json.is_string() && bytes_of(json, path) == cell.text;
-    }
-    return false;
+    return same_value(cell, json, latin1_, path);
   }
 
-  void change(const Cell& cell, const Json& json, const Path& path, LineMaker& line) const {
+  void change(const Cell& cell, const Json& json, const Path& path, LineMaker& line) {
     if (same(cell, json, path)) return;
     const Field& field = *cell.field;
-    const int width = line.free_format ? 20 : field.last - field.first + 1;
+    if (!line.free_to_change)
+      fail(path, fmt::format("{}, but the text says {}{}", shown(json),
+                             cell.blank() ? "nothing" : std::string(cell.text), take_one_out));
+    const int width = line.free_format ? free_cell_width : field.last - field.first + 1;
     std::string fresh = format(field, json, width, path);
     if (!line.free_format) {
       if (field.type == FieldType::text && !fresh.empty())
         fresh.resize(static_cast<std::size_t>(width), ' ');
-      detail::put_cell(line.text, field.first, field.last, fresh);
+      put_cell(line.text, field.first, field.last, fresh);
       return;
     }
     if (fresh.find_first_of(", ") != std::string::npos)
@@ -362,7 +329,7 @@ class FileWriter {
   /// The ids row[first...] against those of the line: the same number is changed in place, another
   /// number makes a new list.
   void change_ids(const CardSchema& card, const DecodedCard& old, const Json& row,
-                  std::size_t first, const Path& path, LineMaker& line) const {
+                  std::size_t first, const Path& path, LineMaker& line) {
     const Field& field = card.fields.back();
     std::vector<const Cell*> have;
     for (const Cell& cell : old.cells)
@@ -374,34 +341,40 @@ class FileWriter {
     for (std::size_t i = 0; equal && i < have.size(); ++i)
       equal = same(*have[i], row[first + i], {&path, {}, first + i});
     if (equal) return;
+    if (!line.free_to_change)
+      fail(path, fmt::format("the text lists other values of {}{}", field.name, take_one_out));
     const int width = field.last - field.first + 1;
     const auto start = static_cast<std::size_t>(field.first - 1);
     if (line.free_format) fail(path, "ids of a line with commas cannot be changed; edit its text");
     if (line.text.size() > start) line.text.resize(start);
     int column = field.first;
     for (std::size_t i = first; i < row.size(); ++i, column += width) {
-      if (column + width - 1 > static_cast<int>(detail::title_columns))
+      if (column + width - 1 > static_cast<int>(title_columns))
         fail({&path, {}, i}, "more ids than the line has cells");
-      detail::put_cell(line.text, column, column + width - 1,
-                       format(field, row[i], width, {&path, {}, i}));
+      put_cell(line.text, column, column + width - 1, format(field, row[i], width, {&path, {}, i}));
     }
   }
 
-  std::string format(const Field& field, const Json& json, int width, const Path& path) const {
+  std::string format(const Field& field, const Json& json, int width, const Path& path) {
     if (json.is_null()) return {};
     std::string text;
     if (field.type == FieldType::text) {
-      text = bytes_of(json, path);
+      text = bytes(json, path);
     } else if (json.is_string()) {
-      text = bytes_of(json, path);
+      text = bytes(json, path);
       if (!is_reference(text) || field.type == FieldType::flag)
         fail(path, "expected a number or a parameter reference (&name)");
     } else if (field.type == FieldType::real) {
       if (!json.is_number())
         fail(path, std::string("expected a number, found ") + json.type_name());
       const auto real = format_real(json.get<double>(), width);
-      if (!real || !real->exact)
-        fail(path, fmt::format("the number does not fit {} columns without rounding", width));
+      if (!real) fail(path, fmt::format("{} does not fit {} columns", shown(json), width));
+      if (!real->exact && !options_.round)
+        fail(path,
+             fmt::format("the number does not fit {} columns without rounding: {} would become "
+                         "{}; --round accepts that",
+                         width, shown(json), real->text));
+      if (!real->exact) rounded(field, json, real->text, width);
       text = real->text;
     } else {
       const std::int64_t n = integer_of(json, path);
@@ -415,63 +388,63 @@ class FileWriter {
     return text;
   }
 
+  void rounded(const Field& field, const Json& json, const std::string& text, int width) {
+    LossEntry entry = loss_;
+    entry.loss = Loss::approximated;
+    entry.line = lines_.size() + 1;
+    entry.field = field.name;
+    entry.old_text = shown(json);
+    entry.new_text = text;
+    entry.note = fmt::format("rounded to {} columns", width);
+    losses_.push_back(std::move(entry));
+  }
+
   const SchemaSet& schemas_;
-  const Deck& nothing_;  ///< lines are decoded without the deck's parameters
+  const FromJsonOptions& options_;
+  std::vector<LossEntry>& losses_;
+  LossEntry loss_;  ///< file, keyword and id of the block that is written
+  std::string file_;
   bool latin1_ = false;
   std::vector<std::string> lines_;
 };
 
-std::vector<DeckFile> read_document(const Json& root, const SchemaSet& schemas) {
-  const Path top;
-  if (root.is_object() && root.contains("decks"))
-    fail(top, "a document of several decks; give one of them");
-  const Path schema{&top, "schema"};
-  const Json& head = member(root, "schema", top);
-  if (string_of(member(head, "id", schema), {&schema, "id"}) != detail::deck_json_id)
-    fail({&schema, "id"}, fmt::format("expected \"{}\"", detail::deck_json_id));
-  if (integer_of(member(head, "version", schema), {&schema, "version"}) !=
-      detail::deck_json_version)
-    fail({&schema, "version"}, fmt::format("expected {}", detail::deck_json_version));
-  const Path files{&top, "files"};
-  const Json& list = array_of(member(root, "files", top), files);
-  const Deck nothing;
-  std::vector<DeckFile> out;
-  std::set<std::string> names;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const Path path{&files, {}, i};
-    const Json* external = optional_member(list[i], "external", path);
-    if (external != nullptr && bool_of(*external, {&path, "external"})) continue;
-    out.push_back(FileWriter(schemas, nothing).write(list[i], path));
-    const std::filesystem::path name(out.back().path);
-    if (!names.insert(name.lexically_normal().string()).second)
-      fail({&path, "path"}, "a second file of that name");
-  }
-  if (out.empty()) fail(files, "no file with content");
-  return out;
-}
-
-/// Line and column of a byte, 1-based.
-std::string place_of(std::string_view text, std::size_t byte) {
-  const std::string_view before = text.substr(0, byte == 0 ? 0 : byte - 1);
-  const auto lines = std::count(before.begin(), before.end(), '\n');
-  const auto nl = before.rfind('\n');
-  const std::size_t column = nl == std::string_view::npos ? before.size() : before.size() - nl - 1;
-  return fmt::format("line {}, column {}", lines + 1, column + 1);
-}
-
 }  // namespace
 
-Result<std::vector<DeckFile>> deck_from_json(std::string_view json, const SchemaSet& schemas) {
-  try {
-    return read_document(Json::parse(json), schemas);
-  } catch (const nlohmann::json::parse_error& e) {
-    return Error{Error::Code::syntax,
-                 fmt::format("{}: no JSON: {}", place_of(json, e.byte), e.what())};
-  } catch (const Wrong& wrong) {
-    return Error{Error::Code::syntax, wrong.what};
-  } catch (const nlohmann::json::exception& e) {
-    return Error{Error::Code::syntax, e.what()};
-  }
+std::string bytes_of(const Json& json, bool latin1, const Path& path) {
+  const std::string& text = string_of(json, path);
+  if (text.find('\n') != std::string::npos) fail(path, "a line cannot hold a line feed");
+  if (!latin1) return text;
+  auto bytes = utf8_to_latin1(text);
+  if (!bytes) fail(path, "a character that Latin-1, the encoding of this file, does not have");
+  return std::move(*bytes);
 }
 
-}  // namespace deck
+bool is_latin1(const Json& file, const Path& path) {
+  const Json* encoding = optional_member(file, "encoding", path);
+  if (encoding == nullptr) return false;
+  const std::string& name = string_of(*encoding, {&path, "encoding"});
+  if (name != "utf-8" && name != "latin-1")
+    fail({&path, "encoding"}, "expected \"utf-8\" or \"latin-1\"");
+  return name == "latin-1";
+}
+
+bool same_value(const Cell& cell, const Json& json, bool latin1, const Path& path) {
+  switch (kind_of(cell)) {
+    case CellKind::null:
+      return json.is_null();
+    case CellKind::integer:
+      return json.is_number_integer() && integer_of(json, path) == cell.integer;
+    case CellKind::real:
+      return json.is_number() && json.get<double>() == cell.real;
+    case CellKind::text:
+      return json.is_string() && bytes_of(json, latin1, path) == cell.text;
+  }
+  return false;
+}
+
+DeckFile write_file(const Json& file, const Path& path, const SchemaSet& schemas,
+                    const FromJsonOptions& options, std::vector<LossEntry>& losses) {
+  return FileWriter(schemas, options, losses).write(file, path);
+}
+
+}  // namespace deck::detail

@@ -1,5 +1,9 @@
 // What the value of a cell is in JSON, for the writer and the reader.
-#include "report/json/deck_json_cells.hpp"
+#include "keyword/deck_json_cells.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
 
 namespace deck::detail {
 
@@ -86,6 +90,48 @@ std::string latin1_to_utf8(std::string_view bytes) {
     out += static_cast<char>(0x80 | (b & 0x3f));
   }
   return out;
+}
+
+TextSum& TextSum::add(std::string_view text) {
+  constexpr std::uint64_t prime = 1099511628211u;
+  for (const char c : text) hash_ = (hash_ ^ static_cast<unsigned char>(c)) * prime;
+  hash_ = (hash_ ^ 0x100u) * prime;  // the end of a text is no byte of it
+  return *this;
+}
+
+std::string TextSum::text() const {
+  return fmt::format("{:08x}", static_cast<std::uint32_t>(hash_ ^ (hash_ >> 32)));
+}
+
+namespace {
+
+void add_value(TextSum& sum, const nlohmann::json& value) {
+  if (value.is_object()) {
+    sum.add("{");
+    for (const auto& [key, inner] : value.items()) {  // in the order of the keys
+      sum.add(key);
+      add_value(sum, inner);
+    }
+    sum.add("}");
+  } else if (value.is_array()) {
+    sum.add("[");
+    for (const auto& inner : value) add_value(sum, inner);
+    sum.add("]");
+  } else if (value.is_number()) {
+    sum.add(fmt::format("{}", value.get<double>()));
+  } else if (value.is_string()) {
+    sum.add("\"").add(value.get_ref<const std::string&>());
+  } else {
+    sum.add(value.dump());
+  }
+}
+
+}  // namespace
+
+std::string sum_of_json(std::string_view json) {
+  TextSum sum;
+  add_value(sum, nlohmann::json::parse(json, nullptr, false));
+  return sum.text();
 }
 
 std::optional<std::string> utf8_to_latin1(std::string_view text) {

@@ -1,0 +1,74 @@
+// Lays out a card from its schema.
+#include "deck/keyword/render.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace deck {
+namespace {
+
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+const std::string* given(const Values& values, std::string_view name) {
+  for (const auto& [key, value] : values)
+    if (key == name) return &value;
+  return nullptr;
+}
+
+std::int64_t given_integer(const Values& values, std::string_view name) {
+  const std::string* text = given(values, name);
+  std::int64_t v = 0;
+  if (text != nullptr) std::from_chars(text->data(), text->data() + text->size(), v);
+  return v;
+}
+
+void put_ending_at(std::string& line, int last, std::string_view text) {
+  const auto begin = static_cast<std::size_t>(std::max<std::int64_t>(
+      0, static_cast<std::int64_t>(last) - static_cast<std::int64_t>(text.size())));
+  if (line.size() < begin) line.resize(begin, ' ');
+  line.resize(begin);
+  line += text;
+}
+
+}  // namespace
+
+std::string render_card(const Schema& schema, std::string_view header, int version,
+                        const Values& values) {
+  std::string out = std::string(header) + "\n";
+  if (schema.has_title && version >= 51) out += "example\n";
+  std::vector<std::string> used;
+  std::string pending;  // blank optional lines, which are needed only in front of others
+  const auto holds = [&](const Condition& c) {
+    return c.holds(c.field.empty() ? 0 : given_integer(values, c.field));
+  };
+  for (const CardSchema& card : schema.cards) {
+    if (!card.in_version(version)) continue;
+    if (!std::all_of(card.when.begin(), card.when.end(), holds)) continue;
+    std::string head = "#", line;
+    bool any = false;
+    for (const Field& f : card.fields) {
+      if (!f.in_version(version)) continue;
+      const auto width = static_cast<std::size_t>(f.last - f.first + 1);
+      if (width > 3 && static_cast<std::size_t>(f.last) > head.size() + 1) {
+        const std::string name = f.name.substr(0, std::max<std::size_t>(width - 1, 3));
+        put_ending_at(head, f.last, name);
+      }
+      if (const std::string* value = given(values, f.name)) {
+        put_ending_at(line, f.last, *value);
+        used.push_back(f.name);
+        any = true;
+      }
+    }
+    if (card.repeat != Repeat::once && !any) continue;
+    pending += head + "\n" + line + "\n";
+    if (card.optional && !any) continue;
+    out += pending;
+    pending.clear();
+  }
+  for (const auto& [name, value] : values)
+    if (std::find(used.begin(), used.end(), name) == used.end())
+      out += "# unused: " + name + "=" + value + "\n";
+  return out;
+}
+
+}  // namespace deck
