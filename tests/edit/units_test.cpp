@@ -492,5 +492,24 @@ TEST(ToUnits, DummyOfFourMegabytesInWellUnderASecond) {
   EXPECT_EQ(lost, 0u);
 }
 
+TEST(Units, EveryCellOfAListIsConverted) {
+  const auto deck = Whole::text(
+      "#RADIOSS STARTER\n/BEGIN\nx\n      2022         0\n"
+      "                  kg                  mm                  ms\n"
+      "                  kg                  mm                  ms\n"
+      "/MAT/LAW62/1\nfoam\n              5.0e-8\n"
+      "                 0.3         3         0\n"
+      "              1.5e-2              2.5e-3              3.5e-4\n"
+      "                 2.0                -2.0                 4.0\n/END\n");
+  const auto after = deck->after(to_units(deck->context(), *parse_unit_system("g,mm,ms")));
+  std::vector<double> was, now;
+  for (const auto& [whole, out] : {std::pair{deck.get(), &was}, std::pair{after.get(), &now}})
+    for (const edit_test::RealValue& v : edit_test::real_values(whole->deck))
+      if (std::get<2>(v) == "mu_i") out->push_back(std::get<3>(v));
+  ASSERT_EQ(was.size(), 3u);
+  ASSERT_EQ(now.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(now[i], 1000 * was[i]);
+}
+
 }  // namespace
 }  // namespace deck

@@ -212,7 +212,7 @@ def batch(c, s, tmp):
     if not c.check("batch: runs", code in (0, 1), text[-300:]):
         return
     new = visible(out)
-    c.check("batch: a result per deck and the summary", len(new) == len(decks) + 1, ", ".join(sorted(new)))
+    c.check("batch: a result per deck, the summary and the overview", len(new) == len(decks) + 2, ", ".join(sorted(new)))
 
     def prepare():
         shutil.rmtree(out, ignore_errors=True)
@@ -222,6 +222,9 @@ def batch(c, s, tmp):
             if not struck:
                 return "" if now == new and code in (0, 1) else "undisturbed, but the result differs"
             summary = json.loads(now.pop("summary.json", "{}"))
+            page = now.pop("index.html", b"")  # of a run in which a worker was killed: it tells so
+            if page and not page.endswith(b"</html>\n"):
+                return "index.html is not whole"
             why = whole_or_old(now, {}, new, True)
             if why:
                 return why

@@ -556,7 +556,11 @@ class BlockConverter {
     } else if (card.free_format) {
       c_.convert_free(b, card.line, cell.span, f.name, factor);
     } else {
-      c_.convert_fixed(b, card.line, f.first, f.last, f.name, factor);
+      // The cells of a list stand side by side; the field has the columns of the first.
+      const bool list = card.schema->repeat == Repeat::ids;
+      const int shift =
+          list ? static_cast<int>(cell.span.offset - card.line.offset) + 1 - f.first : 0;
+      c_.convert_fixed(b, card.line, f.first + shift, f.last + shift, f.name, factor);
     }
   }
 
