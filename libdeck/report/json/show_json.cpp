@@ -1,7 +1,7 @@
 // The document of `deck show --json`.
 #include "deck/report/json.hpp"
 #include "deck/report/show.hpp"
-#include "report/json/deck_json_cells.hpp"
+#include "keyword/deck_json_cells.hpp"
 
 namespace deck {
 namespace {
