@@ -215,7 +215,7 @@ def killed(c, tmp, families, each, kills, command, target, name):
     for _ in range(kills):
         process = subprocess.Popen([c.program, *command], cwd=lib, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
         try:
-            process.wait(r.uniform(0.02, max(0.06, took / 4)))
+            process.wait(r.uniform(0.005, max(0.02, took * 0.6)))
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             struck += 1

@@ -299,13 +299,15 @@ Result<void> Batch::prepare() {
       }
   kept_ = static_cast<std::size_t>(
       std::count_if(records_.begin(), records_.end(), [](const Record& r) { return r.code >= 0; }));
-  // Our journal begins with what still holds: no line of it is broken, and it does not grow for
-  // ever.
+  // Our journal begins with all that is known, without broken lines: also what does not hold any
+  // more was written by this batch, should this run be killed as well. finish() shortens it.
+  std::set<std::string> lines;
   std::string text;
-  for (const Record& r : records_)
-    if (r.code >= 0) text += record_line(r) + "\n";
+  for (const Record& r : known_)
+    if (std::string line = record_line(r) + "\n"; lines.insert(line).second) text += line;
   const std::string path = in_directory(".batch/" + label() + ".jsonl");
-  if (auto written = write_result(path, text, false); !written) return written;
+  if (auto written = write_result(path, text, task_.in_place); !written) return written;
+  for (const std::string& intent : settled_) unlink(intent.c_str());  // the journal has it now
   journal_ = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW);
   if (journal_ < 0)
     return Error{Error::Code::io, "cannot open " + path + ": " + std::strerror(errno)};
@@ -534,9 +536,26 @@ Summary Batch::summary() const {
   return s;
 }
 
+/// Leaves what holds, and what was written in place and cannot be done again.
+Result<void> Batch::shorten_journal() const {
+  std::string text;
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    if (records_[i].code <= exit_findings) {
+      text += record_line(records_[i]) + "\n";
+      continue;
+    }
+    const auto last = std::find_if(known_.rbegin(), known_.rend(), [&](const Record& r) {
+      return r.written && r.key == key_ && r.deck == as_utf8(decks_[i].path);
+    });
+    if (overtaken_.contains(i) && last != known_.rend()) text += record_line(*last) + "\n";
+  }
+  return write_result(in_directory(".batch/" + label() + ".jsonl"), text, task_.in_place);
+}
+
 /// Puts the parts together and writes the summary.
 int Batch::finish() {
   remove_leftovers();
+  if (auto shortened = shorten_journal(); !shortened) return fail(shortened.error().message);
   if (const int fd = open(o_.directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); fd >= 0) {
     syncfs(fd);  // the results, before the summary says that they are there
     close(fd);

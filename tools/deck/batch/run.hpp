@@ -77,6 +77,7 @@ class Batch {
   std::vector<Record> records_of(const JobReport& report) const;
   Result<void> keep(Record record, std::size_t index);
   Summary summary() const;
+  Result<void> shorten_journal() const;
   int finish();
 
   // ---- writing.cpp: groups of decks that are written together
@@ -104,7 +105,8 @@ class Batch {
   std::vector<Record> known_;    ///< all that the journals and intents hold
   /// What was written below the output directory, normal path and hash.
   std::set<std::pair<std::string, std::uint64_t>> written_;
-  std::set<std::size_t> overtaken_;  ///< decks that were changed after they were written in place
+  std::vector<std::string> settled_;  ///< intents that the journal has still to take over
+  std::set<std::size_t> overtaken_;   ///< decks that were changed after they were written in place
   std::size_t kept_ = 0;
   int journal_ = -1, lock_ = -1;
 };
