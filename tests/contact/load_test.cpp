@@ -9,19 +9,12 @@ namespace {
 
 std::string sample(const char* name) { return (source_dir() / "samples" / name).string(); }
 
-TEST(Load, FillsInWhatFollowsFromTheMesh) {
-  const auto loaded = load(sample("crash_box_0000.rad"));
+TEST(Load, GivesEffectiveValues) {
+  const auto loaded = load(sample("too_close_0000.rad"));
   ASSERT_TRUE(loaded) << loaded.error().message;
-  ASSERT_FALSE(loaded->interfaces().ordered.empty());
-  for (const InterBase* inter : loaded->interfaces().ordered) EXPECT_TRUE(inter->resolved) << inter->id;
-}
-
-TEST(Load, LeavesGeometryOutIfAskedTo) {
-  LoadOptions options;
-  options.geometry = false;
-  const auto loaded = load(sample("crash_box_0000.rad"), options);
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_TRUE(waits_for_geometry(loaded->interfaces()));
+  ASSERT_EQ(loaded->interfaces().type7.size(), 1u);
+  EXPECT_EQ(loaded->interfaces().type7.front().Gapmin.value, 1.25);
+  EXPECT_FALSE(waits_for_geometry(loaded->interfaces()));
 }
 
 TEST(Load, MovingMovesNoneOfTheParts) {
