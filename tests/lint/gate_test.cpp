@@ -52,7 +52,7 @@ struct Measured {
 /// A gate that asks for everything: bounds that the bad examples pass over and the good ones keep.
 Gate strict() {
   Gate gate;
-  gate.general = {1.0, 0.3, 0.5, 3};
+  gate.general = {0.9, 0.2, 0.5, 3};
   gate.on_fresh = gate.on_worse = true;
   return gate;
 }

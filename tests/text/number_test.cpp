@@ -341,14 +341,6 @@ TEST(FormatReal, WritesReadableNumbersReadably) {
   for (const auto& [value, text] : cases) EXPECT_EQ(format_real(value, 20)->text, text);
 }
 
-TEST(FormatReal, AnInvalidWidthIsNoWidthAndOneColumnHoldsADigit) {
-  EXPECT_FALSE(format_real(5, 0));
-  EXPECT_FALSE(format_real(5, -3));
-  const auto one = format_real(5, 1);
-  ASSERT_TRUE(one);
-  EXPECT_EQ(one->text, "5");
-}
-
 TEST(FormatReal, GivesUpOnlyWhereNothingFits) {
   EXPECT_FALSE(format_real(std::nan(""), 20));
   EXPECT_FALSE(format_real(largest * 10, 20));

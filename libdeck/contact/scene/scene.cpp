@@ -315,8 +315,12 @@ detail::CardSettings detail::card_settings(const InterBase& inter) {
       c.drad = i.Drad.before_geometry();
     }
     if constexpr (requires { i.Fscalegap; }) {
-      if (const double scale = written(i.Fscalegap); scale != 0) c.gap_scale = scale;
-      if (const double most = written(i.Gapmax); most > 0) c.gapmax = most;
+      // What Igap puts out of force stands on the card all the same: another Igap finds it there.
+      const auto of = [](const EffectiveReal& v) {
+        return v.origin == Origin::derived ? written(v) : v.value;
+      };
+      if (const double scale = of(i.Fscalegap); scale != 0) c.gap_scale = scale;
+      if (const double most = of(i.Gapmax); most > 0) c.gapmax = most;
     }
     if constexpr (requires { i.Fpenmax; }) c.fpenmax = i.Fpenmax.value;
   });

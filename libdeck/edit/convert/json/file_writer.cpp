@@ -314,9 +314,12 @@ class FileWriter {
     const int width = line.free_format ? free_cell_width : field.last - field.first + 1;
     std::string fresh = format(field, json, width, path);
     if (!line.free_format) {
+      const std::size_t had = line.text.size();
       if (field.type == FieldType::text && !fresh.empty())
         fresh.resize(static_cast<std::size_t>(width), ' ');
       put_cell(line.text, field.first, field.last, fresh);
+      // Text begins at the left of its columns: what fills them up makes no line longer.
+      while (line.text.size() > had && line.text.back() == ' ') line.text.pop_back();
       return;
     }
     if (fresh.find_first_of(", ") != std::string::npos)
