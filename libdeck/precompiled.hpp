@@ -1,7 +1,7 @@
 // Standard headers that most files include, compiled once for each target (CMake option
 // LIBDECK_PRECOMPILE).
-// None of the project itself: a change to one of those would compile everything again. A file includes
-// what it uses all the same.
+// None of the project itself: a change to one of those would compile everything again. A file
+// includes what it uses all the same.
 #pragma once
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// Where the tests find the project, its build and the decks of the corpus. One file alone is compiled
-// with these paths, so that the tests of two clones are the same to a compiler cache.
+// Where the tests find the project, its build and the decks of the corpus. One file alone is
+// compiled with these paths, so that the tests of two clones are the same to a compiler cache.
 #pragma once
 
 #include <filesystem>

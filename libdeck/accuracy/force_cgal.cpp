@@ -1,5 +1,5 @@
-// The elastic contact force of one pair from its exact distance: what the other arithmetics are held
-// against.
+// The elastic contact force of one pair from its exact distance: what the other arithmetics are
+// held against.
 #include <CGAL/number_utils.h>
 
 #include "accuracy/tiers.hpp"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "accuracy/tiers.hpp"
 #include "accuracy/pair_rewriting.hpp"
+#include "accuracy/tiers.hpp"
 
 namespace deck::accuracy {
 namespace {

@@ -1,5 +1,5 @@
-// CGAL's number types in the same formulas: intervals that know when they do not know, rationals, and
-// lazily exact numbers.
+// CGAL's number types in the same formulas: intervals that know when they do not know, rationals,
+// and lazily exact numbers.
 #include <CGAL/Interval_nt.h>
 
 #include <cmath>
@@ -43,7 +43,9 @@ Outcome in_exact_numbers(const PairSample& s) {
 
 }  // namespace
 
-Outcome lazy_exact(const PairSample& s, FilterCounters&) { return in_exact_numbers<LazyRational>(s); }
+Outcome lazy_exact(const PairSample& s, FilterCounters&) {
+  return in_exact_numbers<LazyRational>(s);
+}
 Outcome exact(const PairSample& s, FilterCounters&) { return in_exact_numbers<Rational>(s); }
 
 Outcome interval(const PairSample& s, FilterCounters& counters) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "cycle/kernel/block.hpp"
 #include "cycle/curvature.hpp"
+#include "cycle/kernel/block.hpp"
 #include "cycle/kernel/vector.hpp"
 #include "deck/cycle/kernel.hpp"
 

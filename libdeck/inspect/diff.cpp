@@ -40,9 +40,9 @@ bool same_number(double x, double y, bool rounded) {
   return x == y || (rounded && std::abs(x - y) <= 1e-12 * std::max(std::abs(x), std::abs(y)));
 }
 
-constexpr std::string_view selections[] = {"grnod",  "surf",   "line",   "set",    "grpart", "grshel",
-                                           "grsh3n", "grbric", "grquad", "grtria", "grtrus", "grbeam",
-                                           "grspri"};
+constexpr std::string_view selections[] = {"grnod",  "surf",   "line",   "set",    "grpart",
+                                           "grshel", "grsh3n", "grbric", "grquad", "grtria",
+                                           "grtrus", "grbeam", "grspri"};
 bool is_selection_kind(std::string_view kind) {
   return std::find(std::begin(selections), std::end(selections), kind) != std::end(selections);
 }
@@ -69,14 +69,16 @@ class Differ {
 
   DeckDiff run() {
     if (other_units_)
-      out_.notes.push_back("the working units differ: values of the second deck are shown in those of "
-                           "the first");
+      out_.notes.push_back(
+          "the working units differ: values of the second deck are shown in those of "
+          "the first");
     if (a_.deck->version != b_.deck->version)
       out_.notes.push_back(fmt::format("input version {} here, {} there: no difference in itself",
                                        a_.deck->version, b_.deck->version));
     came_and_went();
     for (std::size_t i = 0; i < pairs_.items_a.size(); ++i)
-      if (pairs_.block_to_b[i] != no_index) item(pairs_.items_a[i], pairs_.items_b[pairs_.block_to_b[i]]);
+      if (pairs_.block_to_b[i] != no_index)
+        item(pairs_.items_a[i], pairs_.items_b[pairs_.block_to_b[i]]);
     nodes();
     elements();
     if (a_.scene != nullptr && b_.scene != nullptr) penetrations();
@@ -91,7 +93,8 @@ class Differ {
     Change c;
     c.kind = kind;
     c.group = a.block->schema != nullptr ? group_of_kind(a.block->schema->kind) : "other";
-    c.keyword = a.block->schema != nullptr ? a.block->schema->keyword : std::string(a.block->keyword);
+    c.keyword =
+        a.block->schema != nullptr ? a.block->schema->keyword : std::string(a.block->keyword);
     c.id = a.id;
     if (b != nullptr && b->id != a.id) c.id_b = b->id;
     c.title = a.title;
@@ -106,11 +109,13 @@ class Differ {
       if (pairs_.block_to_b[i] != no_index)
         used[pairs_.block_to_b[i]] = 1;
       else
-        add(ChangeKind::removed, pairs_.items_a[i], nullptr, "").a = pairs_.items_a[i].block->header_span;
+        add(ChangeKind::removed, pairs_.items_a[i], nullptr, "").a =
+            pairs_.items_a[i].block->header_span;
     }
     for (std::size_t i = 0; i < pairs_.items_b.size(); ++i)
       if (used[i] == 0)
-        add(ChangeKind::added, pairs_.items_b[i], nullptr, "").b = pairs_.items_b[i].block->header_span;
+        add(ChangeKind::added, pairs_.items_b[i], nullptr, "").b =
+            pairs_.items_b[i].block->header_span;
   }
 
   // ---- one entity -----------------------------------------------------------------------------
@@ -127,8 +132,10 @@ class Differ {
     if (is_selection_kind(kind)) return members(a, b, kind);
     if (a.block->schema != b.block->schema) {
       Change& c = add(ChangeKind::changed, a, &b, "keyword");
-      c.old_value = a.block->schema != nullptr ? a.block->schema->keyword : std::string(a.block->keyword);
-      c.new_value = b.block->schema != nullptr ? b.block->schema->keyword : std::string(b.block->keyword);
+      c.old_value =
+          a.block->schema != nullptr ? a.block->schema->keyword : std::string(a.block->keyword);
+      c.new_value =
+          b.block->schema != nullptr ? b.block->schema->keyword : std::string(b.block->keyword);
       c.a = a.block->header_span;
       c.b = b.block->header_span;
       return;
@@ -192,7 +199,8 @@ class Differ {
     return v;
   }
 
-  bool same_value(const DiffValue& x, const DiffValue& y, std::string_view ref, bool rounded) const {
+  bool same_value(const DiffValue& x, const DiffValue& y, std::string_view ref,
+                  bool rounded) const {
     if (!ref.empty()) {
       const auto* i = std::get_if<std::int64_t>(&x);
       const auto* j = std::get_if<std::int64_t>(&y);
@@ -282,7 +290,8 @@ class Differ {
           const std::int64_t sign = cell.integer < 0 ? -1 : 1;
           if (cell.integer != 0)
             out.lists[f.name].emplace_back(
-                cell.integer + (f.type == FieldType::id ? sign * deck.offset_of(block, f.ref) : 0), f.ref);
+                cell.integer + (f.type == FieldType::id ? sign * deck.offset_of(block, f.ref) : 0),
+                f.ref);
           continue;
         }
         CellValue v;
@@ -305,7 +314,8 @@ class Differ {
         out.order.push_back(key);
         out.cells.emplace(std::move(key), std::move(v));
       }
-      if (!block.schema->layout_known() && card.cells.empty() && !card.missing()) words_of(card.line, out);
+      if (!block.schema->layout_known() && card.cells.empty() && !card.missing())
+        words_of(card.line, out);
     }
     for (const Line& line : d.extra) words_of(line, out);
     return out;
@@ -345,11 +355,13 @@ class Differ {
     for (const auto& [name, list] : ca.lists) names.insert(name);
     for (const auto& [name, list] : cb.lists) names.insert(name);
     for (const std::string& name : names) id_lists(a, b, name, ca, cb);
-    const bool same = std::equal(ca.words.begin(), ca.words.end(), cb.words.begin(), cb.words.end(),
-                                 [](const auto& x, const auto& y) { return same_word(x.first, y.first); });
+    const bool same =
+        std::equal(ca.words.begin(), ca.words.end(), cb.words.begin(), cb.words.end(),
+                   [](const auto& x, const auto& y) { return same_word(x.first, y.first); });
     if (same) return;
     std::size_t at = 0;
-    while (at < ca.words.size() && at < cb.words.size() && same_word(ca.words[at].first, cb.words[at].first))
+    while (at < ca.words.size() && at < cb.words.size() &&
+           same_word(ca.words[at].first, cb.words[at].first))
       ++at;
     Change& c = add(ChangeKind::changed, a, &b, "(undescribed text)");
     c.a = at < ca.words.size() ? ca.words[at].second : a.block->header_span;
@@ -375,7 +387,8 @@ class Differ {
     std::vector<std::int64_t> lost;
     if (const auto it = ca.lists.find(name); it != ca.lists.end())
       for (const auto& [id, kind] : it->second) {
-        const std::int64_t to = kind.empty() ? std::abs(id) : pairs_.mapped(a_, b_, kind, std::abs(id));
+        const std::int64_t to =
+            kind.empty() ? std::abs(id) : pairs_.mapped(a_, b_, kind, std::abs(id));
         const std::int64_t there = (to == 0 ? std::abs(id) : to) * (id < 0 ? -1 : 1);
         if (now.erase(there) == 0) lost.push_back(id);
       }
@@ -415,7 +428,8 @@ class Differ {
     std::vector<Member> out;
     for (const Segment& s : list) {
       Tuple t(s.nodes.begin(), s.nodes.end());
-      if (&side == &a_) std::transform(t.begin(), t.end(), t.begin(), [&](NodeIndex n) { return to_b(n); });
+      if (&side == &a_)
+        std::transform(t.begin(), t.end(), t.begin(), [&](NodeIndex n) { return to_b(n); });
       out.push_back({turned(std::move(t)), element_id(*side.model, s.carrier, s.element)});
     }
     return out;
@@ -424,7 +438,8 @@ class Differ {
     std::vector<Member> out;
     for (const Edge& s : list) {
       Tuple t(s.nodes.begin(), s.nodes.end());
-      if (&side == &a_) std::transform(t.begin(), t.end(), t.begin(), [&](NodeIndex n) { return to_b(n); });
+      if (&side == &a_)
+        std::transform(t.begin(), t.end(), t.begin(), [&](NodeIndex n) { return to_b(n); });
       std::sort(t.begin(), t.end());
       out.push_back({std::move(t), element_id(*side.model, s.carrier, s.element)});
     }
@@ -436,7 +451,8 @@ class Differ {
       out.push_back({{&side == &a_ ? to_b(n) : n}, side.model->node_id(n)});
     return out;
   }
-  std::vector<Member> items(const DiffSide& side, ElementKind kind, const std::vector<std::uint32_t>& list) const {
+  std::vector<Member> items(const DiffSide& side, ElementKind kind,
+                            const std::vector<std::uint32_t>& list) const {
     std::vector<Member> out;
     for (const std::uint32_t e : list)
       out.push_back({{&side == &a_ ? pairs_.element_to_b[static_cast<std::size_t>(kind)][e] : e},
@@ -455,7 +471,8 @@ class Differ {
   }
 
   /// What the group comes to, by name of the list.
-  std::vector<std::pair<std::string, std::vector<Member>>> lists_of(const DiffSide& side, const Item& item,
+  std::vector<std::pair<std::string, std::vector<Member>>> lists_of(const DiffSide& side,
+                                                                    const Item& item,
                                                                     std::string_view kind) const {
     Selections& s = *side.model->selections;
     if (kind == "grnod") {
@@ -483,8 +500,9 @@ class Differ {
               {"parts", parts(side, g->parts)}};
     }
     constexpr std::pair<std::string_view, ElementKind> families[] = {
-        {"grshel", ElementKind::shell4}, {"grsh3n", ElementKind::shell3}, {"grbric", ElementKind::solid8},
-        {"grquad", ElementKind::quad},   {"grtria", ElementKind::tria},   {"grtrus", ElementKind::truss},
+        {"grshel", ElementKind::shell4}, {"grsh3n", ElementKind::shell3},
+        {"grbric", ElementKind::solid8}, {"grquad", ElementKind::quad},
+        {"grtria", ElementKind::tria},   {"grtrus", ElementKind::truss},
         {"grbeam", ElementKind::beam},   {"grspri", ElementKind::spring}};
     for (const auto& [name, family] : families)
       if (name == kind) {
@@ -583,7 +601,8 @@ class Differ {
     std::map<std::pair<std::int64_t, const char*>, PartElements> parts;
     std::map<std::int64_t, std::int64_t> part_to_a;
     for (const Part& p : a_.model->parts)
-      if (const std::int64_t to = pairs_.mapped(a_, b_, "part", p.id); to != 0) part_to_a.emplace(to, p.id);
+      if (const std::int64_t to = pairs_.mapped(a_, b_, "part", p.id); to != 0)
+        part_to_a.emplace(to, p.id);
     const auto part_a = [&](const Elements& f, std::uint32_t e) {
       return f.part[e] == no_index ? 0 : a_.model->parts[f.part[e]].id;
     };
@@ -635,7 +654,8 @@ class Differ {
     }
   }
 
-  bool same_element(const Elements& fa, std::uint32_t e, const Elements& fb, std::uint32_t f) const {
+  bool same_element(const Elements& fa, std::uint32_t e, const Elements& fb,
+                    std::uint32_t f) const {
     for (int i = 0; i < fa.width; ++i)
       if (to_b(fa.of(e)[i]) != fb.of(f)[i]) return false;
     const auto thickness = [](const Elements& x, std::uint32_t i) {
@@ -668,7 +688,8 @@ class Differ {
           if (n != 0) n = pairs_.mapped(a_, b_, "node", n);
         // Nothing there that could penetrate: keys that the other side cannot have.
         if (id == 0) id = -c.inter->id;
-        if (nodes[0] == 0 || (nodes[1] == 0 && p.secondary[1] != 0)) nodes = {-p.secondary[0], -p.secondary[1]};
+        if (nodes[0] == 0 || (nodes[1] == 0 && p.secondary[1] != 0))
+          nodes = {-p.secondary[0], -p.secondary[1]};
       }
       if (nodes[1] != 0 && nodes[0] > nodes[1]) std::swap(nodes[0], nodes[1]);
       out.try_emplace({id, to_string(c.role), nodes}, d);
@@ -686,7 +707,8 @@ class Differ {
       }
       const Depth& n = it->second;
       const double was = d.depth * length_;
-      PenetrationChange p{n.interface_id, std::get<1>(key), n.secondary, d.depth, n.depth, d.gap, n.gap};
+      PenetrationChange p{n.interface_id, std::get<1>(key), n.secondary, d.depth, n.depth, d.gap,
+                          n.gap};
       const double noise = 1e-9 * std::max(d.gap * length_, n.gap);
       if (n.depth > was + noise)
         out_.worse.push_back(p);
@@ -697,7 +719,8 @@ class Differ {
     }
     for (const auto& [key, n] : now)
       if (!before.contains(key))
-        out_.appeared.push_back({n.interface_id, std::get<1>(key), n.secondary, 0, n.depth, 0, n.gap});
+        out_.appeared.push_back(
+            {n.interface_id, std::get<1>(key), n.secondary, 0, n.depth, 0, n.gap});
     const auto sort = [](std::vector<PenetrationChange>& list, auto&& depth) {
       std::stable_sort(list.begin(), list.end(),
                        [&](const auto& x, const auto& y) { return depth(x) > depth(y); });
@@ -713,12 +736,14 @@ class Differ {
     std::size_t lost = 0;
     for (const std::uint32_t n : pairs_.node_to_b) lost += n == no_index ? 1 : 0;
     if (2 * lost > pairs_.node_to_b.size())
-      out_.notes.push_back(fmt::format("{} of {} nodes have no counterpart; decks with other ids are "
-                                       "compared with --match position",
-                                       lost, pairs_.node_to_b.size()));
+      out_.notes.push_back(
+          fmt::format("{} of {} nodes have no counterpart; decks with other ids are "
+                      "compared with --match position",
+                      lost, pairs_.node_to_b.size()));
   }
 
-  static constexpr std::size_t most_places = 1000;  ///< lines of moved nodes: found by reading again
+  static constexpr std::size_t most_places =
+      1000;  ///< lines of moved nodes: found by reading again
 
   const DiffSide& a_;
   const DiffSide& b_;

@@ -115,7 +115,8 @@ class Finder {
       const std::uint32_t i = elements.map.find(id);
       if (i == no_index) return false;
       e.index = i;
-      e.block = detail::bulk_block(model_.element_blocks, i < elements.block.size() ? elements.block[i] : no_index);
+      e.block = detail::bulk_block(model_.element_blocks,
+                                   i < elements.block.size() ? elements.block[i] : no_index);
       e.kind = e.block != nullptr && e.block->schema != nullptr ? e.block->schema->kind
                                                                 : std::string(kind);
       e.span = model_.element_span(*family, i);
@@ -149,7 +150,8 @@ class Finder {
     return bad(what, why);
   }
 
-  Result<Entity> by_keyword(std::string_view what, std::string_view keyword, std::int64_t id) const {
+  Result<Entity> by_keyword(std::string_view what, std::string_view keyword,
+                            std::int64_t id) const {
     std::string wanted = in_upper_case(keyword);
     if (!wanted.starts_with('/')) wanted.insert(0, "/");
     const auto named = [&](const Schema& s) {
@@ -178,10 +180,11 @@ class Finder {
     std::string out;
     for (const auto& [kind, block] : Definitions(deck_).with_id(id))
       if (kind != "other") out += fmt::format("{}{}:{}", out.empty() ? "" : ", ", kind, id);
-    constexpr std::string_view items[] = {"node", "shell", "sh3n",  "brick", "quad",
+    constexpr std::string_view items[] = {"node", "shell", "sh3n", "brick", "quad",
                                           "tria", "truss", "beam", "spring"};
     for (const std::string_view kind : items)
-      if (Entity e; item(kind, id, e)) out += fmt::format("{}{}:{}", out.empty() ? "" : ", ", kind, id);
+      if (Entity e; item(kind, id, e))
+        out += fmt::format("{}{}:{}", out.empty() ? "" : ", ", kind, id);
     return out;
   }
 

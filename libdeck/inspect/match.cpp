@@ -14,8 +14,8 @@ namespace {
 
 /// Blocks that say how the rest is read, or nothing at all: what they do is seen in the rest.
 bool compared(const Block& b) {
-  constexpr std::string_view list[] = {"/BEGIN",  "/END",       "/TITLE",    "/UNIT", "/PARAMETER",
-                                       "//SUBMODEL", "//ENDSUB"};
+  constexpr std::string_view list[] = {"/BEGIN",     "/END",       "/TITLE",  "/UNIT",
+                                       "/PARAMETER", "//SUBMODEL", "//ENDSUB"};
   for (const std::string_view k : list)
     if (is_below(b.header, k)) return false;
   return b.schema == nullptr ||
@@ -150,7 +150,8 @@ class Matcher {
 
   /// Calls pair(index, index) for equal ids; of several with one id the first with the first.
   template <class F>
-  static void by_id(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b, F&& pair) {
+  static void by_id(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b,
+                    F&& pair) {
     const auto sorted = [](const std::vector<std::int64_t>& ids) {
       std::vector<std::uint32_t> order(ids.size());
       for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -291,7 +292,8 @@ std::int64_t Counterparts::mapped(const DiffSide& a, const DiffSide& b, std::str
     return e == no_index || map[e] == no_index ? 0 : b.model->family(*family).id[map[e]];
   }
   auto it = id_to_b.find({std::string(kind), id});
-  if (it == id_to_b.end() && (kind == "grnod" || kind == "surf" || kind == "line" || kind == "grpart"))
+  if (it == id_to_b.end() &&
+      (kind == "grnod" || kind == "surf" || kind == "line" || kind == "grpart"))
     it = id_to_b.find({"set", id});
   return it == id_to_b.end() ? 0 : it->second;
 }

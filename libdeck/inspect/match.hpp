@@ -22,8 +22,8 @@ struct Item {
 
 struct Counterparts {
   std::vector<Item> items_a, items_b;
-  std::vector<std::uint32_t> block_to_b;  ///< by items_a; no_index: none
-  std::vector<std::uint32_t> node_to_b;   ///< by NodeIndex of the first deck
+  std::vector<std::uint32_t> block_to_b;                   ///< by items_a; no_index: none
+  std::vector<std::uint32_t> node_to_b;                    ///< by NodeIndex of the first deck
   std::array<std::vector<std::uint32_t>, 8> element_to_b;  ///< by ElementKind
   std::map<std::pair<std::string, std::int64_t>, std::int64_t> id_to_b;  ///< blocks, by space
 

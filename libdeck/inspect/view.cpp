@@ -45,7 +45,9 @@ class Viewer {
   void fact(std::string name, FactValue value) {
     view_.facts.emplace_back(std::move(name), std::move(value));
   }
-  void count(std::string name, std::size_t n) { fact(std::move(name), static_cast<std::int64_t>(n)); }
+  void count(std::string name, std::size_t n) {
+    fact(std::move(name), static_cast<std::int64_t>(n));
+  }
 
   void includes() {
     if (!entity().span.valid()) return;
@@ -67,8 +69,9 @@ class Viewer {
     if (b->schema == nullptr || !b->schema->bulk) return block_cards(*b);
     LineCursor cursor(deck_.sources, *b);
     Line line = cursor.next();
-    while (line.valid() && !(line.file == entity().span.file && line.offset <= entity().span.offset &&
-                             entity().span.offset <= line.offset + line.text.size()))
+    while (line.valid() &&
+           !(line.file == entity().span.file && line.offset <= entity().span.offset &&
+             entity().span.offset <= line.offset + line.text.size()))
       line = cursor.next();
     for (const CardSchema& card : b->schema->cards) {
       if (!card.in_version(b->version) || !line.valid()) continue;
@@ -99,7 +102,8 @@ class Viewer {
     const Block* b = entity().block;
     if (b == nullptr) return;
     if (b->schema == nullptr || !b->schema->bulk) {
-      for (const Reference& r : references_of(deck_, *b)) link_to(r.field, r.kind, r.id, r.step == 0 ? 0 : r.last);
+      for (const Reference& r : references_of(deck_, *b))
+        link_to(r.field, r.kind, r.id, r.step == 0 ? 0 : r.last);
       return;
     }
     bool own = true;  // the first cell is its own id
@@ -141,7 +145,7 @@ class Viewer {
 
   std::string title_of(const Block& b) const {
     return b.schema != nullptr && b.schema->has_title && !b.schema->bulk ? decode(deck_, b).title
-                                                                        : std::string();
+                                                                         : std::string();
   }
 
   // ---- what names it --------------------------------------------------------------------------
@@ -229,12 +233,14 @@ class Viewer {
             in = std::any_of(s->nodes.begin(), s->nodes.end(), has_node);
         } else if (r.kind == "surf") {
           if (const Surface* s = selections_.surface(r.id))
-            in = std::any_of(s->segments.begin(), s->segments.end(),
-                             [&](const Segment& x) { return has_carrier(x.carrier, x.element, x.nodes); });
+            in = std::any_of(s->segments.begin(), s->segments.end(), [&](const Segment& x) {
+              return has_carrier(x.carrier, x.element, x.nodes);
+            });
         } else if (r.kind == "line") {
           if (const LineSet* s = selections_.line(r.id))
-            in = std::any_of(s->edges.begin(), s->edges.end(),
-                             [&](const Edge& x) { return has_carrier(x.carrier, x.element, x.nodes); });
+            in = std::any_of(s->edges.begin(), s->edges.end(), [&](const Edge& x) {
+              return has_carrier(x.carrier, x.element, x.nodes);
+            });
         }
         if (in) view_.interfaces.push_back(user(b, r.field, r.span));
       }
@@ -269,8 +275,9 @@ class Viewer {
     fact("Y", model_.nodes.y[n]);
     fact("Z", model_.nodes.z[n]);
     if (const auto& before = model_.before_transforms;
-        before != nullptr && (before->x[n] != model_.nodes.x[n] || before->y[n] != model_.nodes.y[n] ||
-                              before->z[n] != model_.nodes.z[n])) {
+        before != nullptr &&
+        (before->x[n] != model_.nodes.x[n] || before->y[n] != model_.nodes.y[n] ||
+         before->z[n] != model_.nodes.z[n])) {
       fact("X before /TRANSFORM", before->x[n]);
       fact("Y before /TRANSFORM", before->y[n]);
       fact("Z before /TRANSFORM", before->z[n]);
@@ -313,7 +320,8 @@ class Viewer {
     const Elements& family = model_.family(kind);
     const std::uint32_t e = entity().index;
     if (family.part[e] != no_index) fact("part", part_name(family.part[e]));
-    if (e < family.thickness.size() && family.thickness[e] > 0) fact("own thickness", family.thickness[e]);
+    if (e < family.thickness.size() && family.thickness[e] > 0)
+      fact("own thickness", family.thickness[e]);
     named_by();
     const auto mine = [&](NodeIndex n) {
       return std::find(family.of(e), family.of(e) + family.width, n) != family.of(e) + family.width;
@@ -391,9 +399,11 @@ class Viewer {
       fact("density", m.density);
       if (m.young > 0) fact("E for the contact stiffness", m.young);
       if (m.bulk > 0) fact("bulk modulus for the contact stiffness", m.bulk);
-      if (!m.stiffness_known) fact("contact stiffness", std::string("not established for this law"));
+      if (!m.stiffness_known)
+        fact("contact stiffness", std::string("not established for this law"));
     } else if (kind == "funct") {
-      if (const auto it = model_.curves.find(id); it != model_.curves.end() && !it->second.x.empty()) {
+      if (const auto it = model_.curves.find(id);
+          it != model_.curves.end() && !it->second.x.empty()) {
         const auto [x0, x1] = std::minmax_element(it->second.x.begin(), it->second.x.end());
         const auto [y0, y1] = std::minmax_element(it->second.y.begin(), it->second.y.end());
         count("points", it->second.x.size());

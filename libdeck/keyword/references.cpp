@@ -56,7 +56,9 @@ class References {
   void cells(const DecodedBlock& d) {
     const std::string& keyword = block_.schema->keyword;
     if (block_.schema->kind == "set") return clauses(d);
-    const std::size_t range = keyword.ends_with("/GENE") ? 2 : keyword.ends_with("/GEN_INCR") ? 3 : 1;
+    const std::size_t range = keyword.ends_with("/GENE")       ? 2
+                              : keyword.ends_with("/GEN_INCR") ? 3
+                                                               : 1;
     std::vector<const Cell*> list;
     for (const DecodedCard& card : d.cards)
       for (const Cell& c : card.cells)
@@ -65,7 +67,8 @@ class References {
     for (const Cell* c : list) {
       std::string_view kind = c->field->ref;
       // From 2026 on a smoothed surface may stand in the place of the node group.
-      if (block_.schema->kind == "inter" && kind == "grnod" && d.integer("Ists") != 0) kind = "surf";
+      if (block_.schema->kind == "inter" && kind == "grnod" && d.integer("Ists") != 0)
+        kind = "surf";
       add(kind, c->integer, c->field->name, c->span);
     }
   }

@@ -319,11 +319,12 @@ void read_target(const Json& json, const Path& path, Field& field) {
 }
 
 Field field_of(const Json& json, const Path& path) {
-  expect_object(json, path,
-                {"name",    "cols",    "type",        "ref",      "versions",   "when",  "values",
-                 "min",     "max",     "min_open",    "max_open", "missing",    "empty", "required",
-                 "default", "dim",     "dim_unknown", "dim_when", "solver_dim", "axes",  "unit_for",
-                 "over",    "ignored", "doc",         "manual",   "help",  "help_of"});
+  expect_object(
+      json, path,
+      {"name",    "cols",    "type",        "ref",      "versions",   "when",   "values",
+       "min",     "max",     "min_open",    "max_open", "missing",    "empty",  "required",
+       "default", "dim",     "dim_unknown", "dim_when", "solver_dim", "axes",   "unit_for",
+       "over",    "ignored", "doc",         "manual",   "help",       "help_of"});
   Field field;
   require(json, path, "name");
   read(json, path, "name", field.name);

@@ -103,7 +103,7 @@ Result<bool> read_bound(std::string_view name, const toml::node& node, const std
   std::optional<double>* bound = name == "max-depth"     ? &limits.max_depth
                                  : name == "max-ratio"   ? &limits.max_ratio
                                  : name == "max-dt-loss" ? &limits.max_dt_loss
-                                                        : nullptr;
+                                                         : nullptr;
   if (bound == nullptr) return false;
   const auto number = node.value<double>();
   if (!node.is_number() || !(*number >= 0))
@@ -137,11 +137,12 @@ Result<GateScope> read_scope(const toml::node& node, const std::string& path,
     if (!known) return known.error();
     if (!*known || (patterns == 2 && key.str() == "max-dt-loss"))
       return config_error(path, line_of(value),
-                          "unknown key '" + std::string(key.str()) + "'; known: match, max-depth, "
-                          "max-ratio, max-count" + (patterns == 1 ? ", max-dt-loss" : ""));
+                          "unknown key '" + std::string(key.str()) +
+                              "'; known: match, max-depth, "
+                              "max-ratio, max-count" +
+                              (patterns == 1 ? ", max-dt-loss" : ""));
   }
-  if (scope.match.empty())
-    return config_error(path, line_of(node), "'match' is missing: " + form);
+  if (scope.match.empty()) return config_error(path, line_of(node), "'match' is missing: " + form);
   return scope;
 }
 

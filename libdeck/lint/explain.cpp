@@ -137,7 +137,8 @@ std::string page_row(std::string_view name, const std::string& text) {
 }
 
 std::string field_head(const Schema& schema, const CardSchema& card, const Field& f) {
-  return wrapped(fmt::format("{} of {}: {}", f.name, schema.keyword, f.doc.empty() ? card.name : f.doc), 0);
+  return wrapped(
+      fmt::format("{} of {}: {}", f.name, schema.keyword, f.doc.empty() ? card.name : f.doc), 0);
 }
 
 /// Where the cell is.
@@ -192,8 +193,8 @@ std::string explain_rule(const Rule& rule, const SchemaSet& schemas) {
   std::string severities;
   for (const Severity s : rule.severities)
     severities += (severities.empty() ? "" : " or ") + std::string(severity_name(s));
-  std::string out = fmt::format("{}: {}\n{}, {}", id_text(rule.id), rule.title, severities,
-                                family_of(rule.id));
+  std::string out =
+      fmt::format("{}: {}\n{}, {}", id_text(rule.id), rule.title, severities, family_of(rule.id));
   if (rule.fixable != Fixable::no)
     out += rule.fixable == Fixable::safe ? ", fixed by --fix" : ", fixed by --unsafe-fixes";
   if (!rule.types.empty()) {

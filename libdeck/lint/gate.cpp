@@ -21,8 +21,7 @@ bool matches(std::string_view pattern, std::int64_t id, std::string_view title) 
     std::replace(out.begin(), out.end(), '/', '|');
     return out;
   };
-  return glob_match(plain(pattern), std::to_string(id)) ||
-         glob_match(plain(pattern), plain(title));
+  return glob_match(plain(pattern), std::to_string(id)) || glob_match(plain(pattern), plain(title));
 }
 
 template <class T>
@@ -105,15 +104,16 @@ class Check {
       for (const auto& [bound, items] : large[inter])
         report(RuleId::DK371, inter,
                fmt::format("{}: {} deeper than the {} of the gap that the gate allows; deepest {}",
-                           name_of(inter), items.text(), bound,
-                           pair_text(items.deepest)));
-      if (const auto most = limits_.at(inter).max_count; most && of_interface[inter].all.size() > *most)
+                           name_of(inter), items.text(), bound, pair_text(items.deepest)));
+      if (const auto most = limits_.at(inter).max_count;
+          most && of_interface[inter].all.size() > *most)
         report(RuleId::DK372, inter,
                fmt::format("{}: {} penetrate, the gate allows {}", name_of(inter),
                            of_interface[inter].text(), *most));
     }
     for (std::size_t k = 0; k < of_pair.size(); ++k)
-      if (const auto most = gate_.part_pairs[k].limits.max_count; most && of_pair[k].all.size() > *most)
+      if (const auto most = gate_.part_pairs[k].limits.max_count;
+          most && of_pair[k].all.size() > *most)
         report(RuleId::DK372, nullptr,
                fmt::format("parts '{}' and '{}': {} penetrate, the gate allows {}",
                            gate_.part_pairs[k].match[0], gate_.part_pairs[k].match[1],
@@ -129,10 +129,11 @@ class Check {
       if (!most || !(s.contact_dt < s.structure_dt) || s.structure_dt >= 1e30) continue;
       const double loss = 1 - s.contact_dt / s.structure_dt;
       if (loss > *most)
-        report(RuleId::DK373, s.inter,
-               fmt::format("{}: time step {:.4g}, the mesh allows {:.4g}: a loss of {:.4g}, the gate "
-                           "allows {}",
-                           name_of(s.inter), s.contact_dt, s.structure_dt, loss, *most));
+        report(
+            RuleId::DK373, s.inter,
+            fmt::format("{}: time step {:.4g}, the mesh allows {:.4g}: a loss of {:.4g}, the gate "
+                        "allows {}",
+                        name_of(s.inter), s.contact_dt, s.structure_dt, loss, *most));
     }
   }
 
@@ -173,8 +174,9 @@ class Check {
     const NamedPenetration& p = view_.penetrations[at];
     const PenetrationRow& row = scene_.contacts[p.contact].penetrations[p.row];
     return fmt::format("{} by {:.6g} of a gap of {:.6g}",
-                       p.secondary[1] == 0 ? fmt::format("node {}", p.secondary[0])
-                                           : fmt::format("edge {}-{}", p.secondary[0], p.secondary[1]),
+                       p.secondary[1] == 0
+                           ? fmt::format("node {}", p.secondary[0])
+                           : fmt::format("edge {}-{}", p.secondary[0], p.secondary[1]),
                        row.depth, row.gap);
   }
 
@@ -200,7 +202,8 @@ class Check {
   }
 
   void report(RuleId rule, const InterBase* inter, std::string message) {
-    Diagnostic d = finding_of(rule, inter != nullptr ? inter->span : Span{0, 0, 0}, std::move(message));
+    Diagnostic d =
+        finding_of(rule, inter != nullptr ? inter->span : Span{0, 0, 0}, std::move(message));
     if (inter != nullptr) {
       d.keyword = "/INTER/TYPE" + std::to_string(inter->type);
       d.id = inter->id;
@@ -222,7 +225,8 @@ bool any_limit(const GateLimits& l) {
 template <class F>
 bool some(const Gate& gate, F&& of) {
   const auto in = [&](const std::vector<GateScope>& scopes) {
-    return std::any_of(scopes.begin(), scopes.end(), [&](const GateScope& s) { return of(s.limits); });
+    return std::any_of(scopes.begin(), scopes.end(),
+                       [&](const GateScope& s) { return of(s.limits); });
   };
   return of(gate.general) || in(gate.interfaces) || in(gate.part_pairs);
 }

@@ -54,7 +54,8 @@ std::vector<const Schema*> contacts_first(const SchemaSet& schemas) {
 
 /// A schema by its keyword, with or without the leading slash, in any case.
 const Schema* keyword_named(const SchemaSet& schemas, std::string_view name) {
-  const std::string wanted = in_capitals(name.starts_with('/') ? std::string(name) : "/" + std::string(name));
+  const std::string wanted =
+      in_capitals(name.starts_with('/') ? std::string(name) : "/" + std::string(name));
   if (const Schema* s = schemas.find(wanted)) return s;
   // "TYPE7" is the contact, "/DEFAULT/INTER/TYPE7" is about it.
   if (const Schema* s = schemas.find("/INTER" + wanted)) return s;
@@ -104,7 +105,7 @@ std::string field_everywhere(std::string_view name, const SchemaSet& schemas, st
 std::string rule_line(const Rule& r, std::size_t width) {
   const char* severity = r.severity() == Severity::error     ? "error"
                          : r.severity() == Severity::warning ? "warning"
-                                                           : "info";
+                                                             : "info";
   std::string text = paragraph(r.title, 17, width);
   const std::string head = fmt::format("  {:<7}{:<8}", id_text(r.id), severity);
   return text.size() < 17 ? head + "\n" : head + text.substr(17);
@@ -125,18 +126,20 @@ std::string rule_family(const std::string& topic, std::size_t width) {
   }
   if (count == 0) return {};
   return fmt::format("{}: {} {} ({})\n\n{}\nThe page of one: deck explain {}\n", topic, count,
-                     count == 1 ? "rule" : "rules",
-                     topic == "DK" ? "all" : family_of(first), list, id_text(first));
+                     count == 1 ? "rule" : "rules", topic == "DK" ? "all" : family_of(first), list,
+                     id_text(first));
 }
 
 bool names_message(std::string_view text, const std::string& number) {
   for (std::size_t at = text.find(number); at != text.npos; at = text.find(number, at + 1)) {
     const auto part_of_number = [&](std::size_t i) {
-      return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '.');
+      return i < text.size() &&
+             (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '.');
     };
     const std::size_t end = at + number.size();
-    const bool stands_alone = (at == 0 || !part_of_number(at - 1)) &&
-                              (!part_of_number(end) || (text[end] == '.' && !part_of_number(end + 1)));
+    const bool stands_alone =
+        (at == 0 || !part_of_number(at - 1)) &&
+        (!part_of_number(end) || (text[end] == '.' && !part_of_number(end + 1)));
     if (stands_alone) return true;
   }
   return false;
@@ -227,11 +230,11 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
         return field_with_help(*s, field, schemas, width);
   // A field of a contact first, then a keyword of that name, then any field.
   const Schema* keyword = keyword_named(schemas, topic);
-  const bool of_contact = std::any_of(std::begin(contact_keywords), std::end(contact_keywords),
-                                      [&](const char* name) {
-                                        const Schema* s = schemas.find(name);
-                                        return s != nullptr && !field_named(*s, topic).empty();
-                                      });
+  const bool of_contact =
+      std::any_of(std::begin(contact_keywords), std::end(contact_keywords), [&](const char* name) {
+        const Schema* s = schemas.find(name);
+        return s != nullptr && !field_named(*s, topic).empty();
+      });
   if (of_contact) return field_everywhere(topic, schemas, width);
   if (keyword != nullptr && (topic.starts_with('/') || schemas.find("/" + capitals) != nullptr))
     return explain_keyword(*keyword);
@@ -240,7 +243,8 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
 }
 
 std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet& schemas) {
-  const std::string wanted = in_capitals(topic.substr(topic.find('.') == topic.npos ? 0 : topic.rfind('.') + 1));
+  const std::string wanted =
+      in_capitals(topic.substr(topic.find('.') == topic.npos ? 0 : topic.rfind('.') + 1));
   std::map<std::string, std::size_t> found;
   const auto consider = [&](const std::string& name) {
     const std::size_t d = spelling_distance(wanted, in_capitals(name));
@@ -257,7 +261,8 @@ std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet&
   for (const auto& [name, d] : found) sorted.emplace_back(d, name);
   std::sort(sorted.begin(), sorted.end());
   std::vector<std::string> out;
-  for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 3); ++i) out.push_back(sorted[i].second);
+  for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 3); ++i)
+    out.push_back(sorted[i].second);
   return out;
 }
 

@@ -56,13 +56,13 @@ struct Group {
   const char* title;
 };
 constexpr Group diff_groups[] = {{"deck", "Deck"},
-                            {"interface", "Interfaces"},
-                            {"group", "Groups, surfaces, sets"},
-                            {"part", "Parts"},
-                            {"property", "Properties"},
-                            {"material", "Materials"},
-                            {"other", "Other keywords"},
-                            {"node", "Nodes"}};
+                                 {"interface", "Interfaces"},
+                                 {"group", "Groups, surfaces, sets"},
+                                 {"part", "Parts"},
+                                 {"property", "Properties"},
+                                 {"material", "Materials"},
+                                 {"other", "Other keywords"},
+                                 {"node", "Nodes"}};
 
 }  // namespace
 
@@ -84,7 +84,8 @@ std::vector<DiffTable> diff_tables(const DiffSide& a, const DiffSide& b, const D
                         {"interface", "field", "card", "now", "effective", "now", "why", "place"},
                         {},
                         0};
-    DiffTable members{"Members", {"what", "list", "old", "new", "gained", "lost", "altered"}, {}, 0};
+    DiffTable members{
+        "Members", {"what", "list", "old", "new", "gained", "lost", "altered"}, {}, 0};
     DiffTable moved{"Nodes moved", {"node", "from", "to", "by", "place"}, {}, 0};
     for (const Change& c : diff.changes) {
       if (c.group != group.name) continue;
@@ -94,21 +95,23 @@ std::vector<DiffTable> diff_tables(const DiffSide& a, const DiffSide& b, const D
         const double by = p == nullptr || q == nullptr
                               ? 0
                               : std::hypot((*q)[0] - (*p)[0], (*q)[1] - (*p)[1], (*q)[2] - (*p)[2]);
-        moved.rows.push_back({c.id_b == 0 ? std::to_string(c.id) : fmt::format("{} -> {}", c.id, c.id_b),
-                              diff_value(c.old_value), diff_value(c.new_value), length_text(by),
-                              place_text(a, b, c)});
+        moved.rows.push_back(
+            {c.id_b == 0 ? std::to_string(c.id) : fmt::format("{} -> {}", c.id, c.id_b),
+             diff_value(c.old_value), diff_value(c.new_value), length_text(by),
+             place_text(a, b, c)});
       } else if (c.field.empty()) {
         whole.rows.push_back({to_string(c.kind), entity_text(c), place_text(a, b, c)});
       } else if (c.evaluated) {
-        effective.rows.push_back({entity_text(c), c.field, diff_value(c.old_value), diff_value(c.new_value),
-                                  diff_value(c.effective_old), diff_value(c.effective_new), c.why,
-                                  place_text(a, b, c)});
+        effective.rows.push_back({entity_text(c), c.field, diff_value(c.old_value),
+                                  diff_value(c.new_value), diff_value(c.effective_old),
+                                  diff_value(c.effective_new), c.why, place_text(a, b, c)});
       } else if (has_members(c)) {
-        members.rows.push_back({entity_text(c), c.field, diff_value(c.old_value), diff_value(c.new_value),
-                                members_text(c.gained, "+", 8), members_text(c.lost, "-", 8), members_text(c.altered, "", 8)});
+        members.rows.push_back({entity_text(c), c.field, diff_value(c.old_value),
+                                diff_value(c.new_value), members_text(c.gained, "+", 8),
+                                members_text(c.lost, "-", 8), members_text(c.altered, "", 8)});
       } else {
-        fields.rows.push_back({entity_text(c), c.field, diff_value(c.old_value), diff_value(c.new_value),
-                               place_text(a, b, c)});
+        fields.rows.push_back({entity_text(c), c.field, diff_value(c.old_value),
+                               diff_value(c.new_value), place_text(a, b, c)});
       }
     }
     keep(std::move(whole));
@@ -127,12 +130,13 @@ std::vector<DiffTable> diff_tables(const DiffSide& a, const DiffSide& b, const D
     for (const PenetrationChange& p : *list) {
       if (rows > 0 && table.rows.size() == rows) break;
       const bool was = list != &diff.appeared, is = list != &diff.gone;
-      table.rows.push_back({p.role == "primary" ? std::to_string(p.interface_id)
-                                                : fmt::format("{} {}", p.interface_id, p.role),
-                            p.secondary[1] == 0 ? std::to_string(p.secondary[0])
-                                                : fmt::format("{}-{}", p.secondary[0], p.secondary[1]),
-                            was ? length_text(p.depth_old) : "-", is ? length_text(p.depth_new) : "-",
-                            was ? length_text(p.gap_old) : "-", is ? length_text(p.gap_new) : "-"});
+      table.rows.push_back(
+          {p.role == "primary" ? std::to_string(p.interface_id)
+                               : fmt::format("{} {}", p.interface_id, p.role),
+           p.secondary[1] == 0 ? std::to_string(p.secondary[0])
+                               : fmt::format("{}-{}", p.secondary[0], p.secondary[1]),
+           was ? length_text(p.depth_old) : "-", is ? length_text(p.depth_new) : "-",
+           was ? length_text(p.gap_old) : "-", is ? length_text(p.gap_new) : "-"});
     }
     table.left_out = list->size() - table.rows.size();
     keep(std::move(table));
@@ -153,18 +157,22 @@ std::string diff_verdict(const DeckDiff& diff) {
   const auto count = [&](auto&& test) {
     return static_cast<std::size_t>(std::count_if(diff.changes.begin(), diff.changes.end(), test));
   };
-  say(count([](const Change& c) { return c.kind == ChangeKind::added; }), "keyword added", "keywords added");
+  say(count([](const Change& c) { return c.kind == ChangeKind::added; }), "keyword added",
+      "keywords added");
   say(count([](const Change& c) { return c.kind == ChangeKind::removed; }), "keyword removed",
       "keywords removed");
   say(count([](const Change& c) { return c.kind == ChangeKind::changed && c.evaluated; }),
       "effective value of a contact changed", "effective values of contacts changed");
-  say(count([](const Change& c) { return c.kind == ChangeKind::changed && !c.evaluated && has_members(c); }),
+  say(count([](const Change& c) {
+        return c.kind == ChangeKind::changed && !c.evaluated && has_members(c);
+      }),
       "list of members changed", "lists of members changed");
   say(count([](const Change& c) {
         return c.kind == ChangeKind::changed && !c.evaluated && !has_members(c);
       }),
       "other field changed", "other fields changed");
-  say(count([](const Change& c) { return c.kind == ChangeKind::moved; }), "node moved", "nodes moved");
+  say(count([](const Change& c) { return c.kind == ChangeKind::moved; }), "node moved",
+      "nodes moved");
   say(diff.appeared.size(), "new penetration", "new penetrations");
   say(diff.worse.size(), "deeper", "deeper");
   say(diff.better.size(), "shallower", "shallower");

@@ -138,8 +138,8 @@ TEST(Escape, ACharacterThatIsCutIsNotCompletedByWhatLiesBehind) {
 }
 
 TEST(Escape, EveryControlOfDirectionIsSpelled) {
-  for (const char* mark : {"\xD8\x9C", "\xE2\x80\x8E", "\xE2\x80\x8F", "\xE2\x80\xAA", "\xE2\x80\xAE",
-                           "\xE2\x81\xA6", "\xE2\x81\xA9"})
+  for (const char* mark : {"\xD8\x9C", "\xE2\x80\x8E", "\xE2\x80\x8F", "\xE2\x80\xAA",
+                           "\xE2\x80\xAE", "\xE2\x81\xA6", "\xE2\x81\xA9"})
     EXPECT_EQ(terminal_text(mark).find(mark), std::string::npos) << terminal_text(mark);
 }
 

@@ -15,7 +15,8 @@ namespace {
 
 using scenes::Dice;
 
-constexpr double kLeast = std::numeric_limits<double>::denorm_min(), kMost = std::numeric_limits<double>::max();
+constexpr double kLeast = std::numeric_limits<double>::denorm_min(),
+                 kMost = std::numeric_limits<double>::max();
 
 TEST(ExactAgainstCgal, SquaredDistanceOfPointAndTriangle) {
   using Exact = CGAL::Simple_cartesian<Rational>;
@@ -62,16 +63,13 @@ TEST(IntervalKernel, EnclosesTheExactDistanceOrAdmitsItIsUncertain) {
     const auto lift = [](const Point3<double>& q) {
       return Point3<Interval>{Interval(q.x), Interval(q.y), Interval(q.z)};
     };
-    const auto exact_lift = [](const Point3<double>& q) {
-      return Point3<Rational>{q.x, q.y, q.z};
-    };
-    const Rational exact =
-        closest_on_segment<Form::robust>(
-            exact_lift(p),
-            std::array<Point3<Rational>, 4>{exact_lift(x[0]), exact_lift(x[1]), exact_lift(x[2]),
-                                             exact_lift(x[3])},
-            false)
-            .distance_squared();
+    const auto exact_lift = [](const Point3<double>& q) { return Point3<Rational>{q.x, q.y, q.z}; };
+    const Rational exact = closest_on_segment<Form::robust>(
+                               exact_lift(p),
+                               std::array<Point3<Rational>, 4>{exact_lift(x[0]), exact_lift(x[1]),
+                                                               exact_lift(x[2]), exact_lift(x[3])},
+                               false)
+                               .distance_squared();
     try {
       const auto c = closest_on_segment<Form::robust>(
           lift(p), std::array<Point3<Interval>, 4>{lift(x[0]), lift(x[1]), lift(x[2]), lift(x[3])},
@@ -114,7 +112,8 @@ TEST(ExactSquareRoot, BeyondAllDoublesIsZeroOrInfinite) {
   EXPECT_EQ(rounded_square_root(CGAL::square(least) / Rational(4)), 0.0);
   EXPECT_EQ(rounded_square_root(CGAL::square(least) / Rational(3)), kLeast);
   EXPECT_EQ(rounded_square_root(CGAL::square(most)), kMost);
-  EXPECT_EQ(rounded_square_root(CGAL::square(most) * Rational(2)), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(rounded_square_root(CGAL::square(most) * Rational(2)),
+            std::numeric_limits<double>::infinity());
 }
 
 TEST(ExactSquareRoot, HasThreeHundredDigitsWhereItIsCutOff) {
@@ -128,7 +127,8 @@ TEST(ExactSquareRoot, HasThreeHundredDigitsWhereItIsCutOff) {
 TEST(ExactDepth, IsRoundedTowardsZeroWhateverCancels) {
   Dice dice(10);
   for (int i = 0; i < 500; ++i) {
-    const double gap = dice.uniform(0.5, 1), share = std::ldexp(1.0, static_cast<int>(dice.uniform(-120, 0)));
+    const double gap = dice.uniform(0.5, 1),
+                 share = std::ldexp(1.0, static_cast<int>(dice.uniform(-120, 0)));
     const Rational distance = Rational(gap) * (Rational(1) - Rational(share) / Rational(3));
     const double depth = rounded_depth(gap, CGAL::square(distance));
     const Rational exact = Rational(gap) - distance;

@@ -26,8 +26,9 @@ TEST(Load, MovingMovesNoneOfTheParts) {
   EXPECT_EQ(moved.interfaces().ordered.front(), inter);
   EXPECT_EQ(&moved.model(), model);
   EXPECT_EQ(moved.model().deck, &moved.deck());
-  EXPECT_EQ(&moved.deck().blocks[static_cast<std::size_t>(inter->block - moved.deck().blocks.data())],
-            inter->block);
+  EXPECT_EQ(
+      &moved.deck().blocks[static_cast<std::size_t>(inter->block - moved.deck().blocks.data())],
+      inter->block);
   auto second = load(sample("clean_plates_0000.rad"));
   ASSERT_TRUE(second) << second.error().message;
   moved = std::move(*second);

@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "contact/search/box_order.hpp"
-#include "contact/search_scenes.hpp"
 #include "contact/search/sweep.hpp"
+#include "contact/search_scenes.hpp"
 
 namespace deck {
 namespace {

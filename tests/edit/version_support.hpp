@@ -114,8 +114,7 @@ inline std::vector<LossEntry> losses_of(const Rewrite& r, Loss kind) {
 
 inline std::vector<std::string> sample_decks() {
   std::vector<std::string> out;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(test::source_dir() / "samples"))
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "samples"))
     if (entry.path().string().ends_with("_0000.rad")) out.push_back(entry.path().string());
   std::sort(out.begin(), out.end());
   EXPECT_GE(out.size(), 10u);

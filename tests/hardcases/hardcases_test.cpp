@@ -8,8 +8,8 @@
 #include <limits>
 #include <set>
 
-#include "contact/distance/exact.hpp"
 #include "accuracy/pair_rewriting.hpp"
+#include "contact/distance/exact.hpp"
 #include "deck/accuracy/accuracy.hpp"
 #include "deck/contact/filtered.hpp"
 

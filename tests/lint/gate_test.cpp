@@ -138,7 +138,8 @@ TEST(CompareGaps, AMillionthIsNoDifferenceAndTwoAre) {
     for (EarlierGaps::Row& row : earlier.rows) row.depth *= share;
     EXPECT_EQ(compare_gaps(earlier, run->scene, run->view).count(Trend::same), earlier.rows.size());
   }
-  for (const auto& [share, trend] : {std::pair(1 + 2e-6, Trend::better), std::pair(1 - 2e-6, Trend::worse)}) {
+  for (const auto& [share, trend] :
+       {std::pair(1 + 2e-6, Trend::better), std::pair(1 - 2e-6, Trend::worse)}) {
     EarlierGaps earlier = run->kept();
     for (EarlierGaps::Row& row : earlier.rows) row.depth *= share;
     EXPECT_EQ(compare_gaps(earlier, run->scene, run->view).count(trend), earlier.rows.size());

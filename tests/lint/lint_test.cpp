@@ -397,9 +397,10 @@ TEST(Config, OtherLettersStandInQuotesAndCommentsOnly) {
   ASSERT_FALSE(config.ok());
   EXPECT_EQ(config.error().message.find("c.toml:2: a character that is not ASCII"), 0u)
       << config.error().message;
-  EXPECT_TRUE(parse_lint_config("\xEF\xBB\xBF# Stra\xC3\x9F"
-                                "e\n[per-file-ignores]\n\"Tr\xC3\xA4ger/*\" = []  # \xC3\xA9\n",
-                                "c.toml"));
+  EXPECT_TRUE(
+      parse_lint_config("\xEF\xBB\xBF# Stra\xC3\x9F"
+                        "e\n[per-file-ignores]\n\"Tr\xC3\xA4ger/*\" = []  # \xC3\xA9\n",
+                        "c.toml"));
 }
 
 TEST(Config, IsFoundAboveTheDeck) {

@@ -70,7 +70,8 @@ TEST(FieldHelp, FiguresStandAsTheyAreAndParagraphsAreBroken) {
   Field own = *f;
   own.help = {"one two three four five six seven", "|  o--o", "|   \\/"};
   own.help_of.clear();
-  EXPECT_EQ(field_help(own, schemas(), 20), "  one two three four\n  five six seven\n\n      o--o\n       \\/\n");
+  EXPECT_EQ(field_help(own, schemas(), 20),
+            "  one two three four\n  five six seven\n\n      o--o\n       \\/\n");
 }
 
 TEST(FieldHelp, LinesFitANarrowTerminal) {

@@ -71,8 +71,7 @@ TEST(DeckDiff, AChangedGapIsNamedWithWhatHoldsNow) {
 }
 
 TEST(DeckDiff, ADefaultBlockIsTheReasonOfAnEffectiveValue) {
-  const DeckDiff diff =
-      compared(plates(), plates({.before = "@/DEFAULT/INTER/TYPE7 Inacti=6"}));
+  const DeckDiff diff = compared(plates(), plates({.before = "@/DEFAULT/INTER/TYPE7 Inacti=6"}));
   const Change* c = change_of(diff, "Inacti");
   ASSERT_NE(c, nullptr) << diff_verdict(diff);
   EXPECT_EQ(c->why, "default-block");

@@ -45,7 +45,7 @@ struct Inspected {
 
 /// What the plates differ in.
 struct Plates {
-  double height = 0.4;           ///< of the upper one
+  double height = 0.4;  ///< of the upper one
   std::string card = "Gapmin=0.5";
   std::string before = {};       ///< blocks in front of the others
   int first = 0;                 ///< added to all ids

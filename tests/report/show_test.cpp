@@ -121,8 +121,8 @@ TEST(Params, ChangedListsWhatWasWrittenAndIsNotTheDefault) {
 }
 
 TEST(Params, ChangedMeasuresByTheDefaultBlock) {
-  const Inspected d(plates({.card = "Inacti=6 Idel=1000",
-                            .before = "@/DEFAULT/INTER/TYPE7 Inacti=6 Idel=2"}));
+  const Inspected d(
+      plates({.card = "Inacti=6 Idel=1000", .before = "@/DEFAULT/INTER/TYPE7 Inacti=6 Idel=2"}));
   ParamsTextOptions options;
   options.changed_only = true;
   const std::string text = params_text(d.params(), options);
@@ -138,7 +138,8 @@ TEST(Params, MatrixHasARowPerInterfaceAndFoldsToTheWidth) {
   EXPECT_NE(text.find("0.5"), std::string::npos) << text;
   EXPECT_NE(text.find("(1000)"), std::string::npos) << "not on the card";
   std::size_t heads = 0;
-  for (std::size_t at = text.find("interface"); at < text.size(); at = text.find("interface", at + 1))
+  for (std::size_t at = text.find("interface"); at < text.size();
+       at = text.find("interface", at + 1))
     heads += at == 0 || text[at - 1] == '\n' ? 1 : 0;
   EXPECT_GE(heads, 2u) << text;
 }
@@ -154,7 +155,8 @@ TEST(Params, OneInterfaceOnRequest) {
 TEST(Params, CsvHasALineForEveryField) {
   const Inspected d(plates());
   const std::string text = params_csv(d.params());
-  EXPECT_TRUE(text.starts_with("deck,interface,type,title,field,card,value,origin,file,line,column\r\n"));
+  EXPECT_TRUE(
+      text.starts_with("deck,interface,type,title,field,card,value,origin,file,line,column\r\n"));
   EXPECT_NE(text.find(",Gapmin,0.5,0.5,card,test_0000.rad,"), std::string::npos) << text;
 }
 

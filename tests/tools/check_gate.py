@@ -40,20 +40,20 @@ class Gate:
 
     def expect(self, name, code, *args, rules=()):
         r = self.run(*args)
-        said = set(re.findall(r"\[(DK4\d\d)\]", r.err.decode() + r.out.decode()))
+        said = set(re.findall(r"\[(DK37\d)\]", r.err.decode() + r.out.decode()))
         self.c.check(name, r.code == code and set(rules) <= said, "exit %s, expected %d; said %s; %s" % (r.code, code, said, r.err.decode()[-400:]))
         return r
 
     def bounds(self):
         e = self.expect
-        e("a depth above the bound is stopped", 1, "gaps", DECK, "--max-depth", "0.3499", rules=["DK404"])
+        e("a depth above the bound is stopped", 1, "gaps", DECK, "--max-depth", "0.3499", rules=["DK370"])
         e("a depth below the bound passes", 0, "gaps", DECK, "--max-depth", "0.3501")
-        e("a ratio above the bound is stopped", 1, "gaps", DECK, "--max-ratio", "0.279", rules=["DK405"])
+        e("a ratio above the bound is stopped", 1, "gaps", DECK, "--max-ratio", "0.279", rules=["DK371"])
         e("a ratio below the bound passes", 0, "gaps", DECK, "--max-ratio", "0.281")
-        e("more nodes than the bound are stopped, though there are 16 pairs", 1, "gaps", DECK, "--max-count", "8", rules=["DK406"])
+        e("more nodes than the bound are stopped, though there are 16 pairs", 1, "gaps", DECK, "--max-count", "8", rules=["DK372"])
         e("as many nodes as the bound pass, though there are 16 pairs", 0, "gaps", DECK, "--max-count", "9")
-        e("a bound of no penetration at all is one", 1, "gaps", DECK, "--max-count", "0", rules=["DK406"])
-        e("--fail-on never leaves the bounds that were asked for", 1, "gaps", DECK, "--fail-on", "never", "--max-depth", "0.1", rules=["DK404"])
+        e("a bound of no penetration at all is one", 1, "gaps", DECK, "--max-count", "0", rules=["DK372"])
+        e("--fail-on never leaves the bounds that were asked for", 1, "gaps", DECK, "--fail-on", "never", "--max-depth", "0.1", rules=["DK370"])
         e("--fail-on warning stops at any penetration", 1, "gaps", DECK, "--fail-on", "warning")
         e("--fail-on never stops at none", 0, "gaps", os.path.join(ROOT, "samples", "crash_box_0000.rad"), "--fail-on", "never")
         r = self.run("cycle", DECK, "--json", "-")
@@ -61,14 +61,14 @@ class Gate:
         loss = 1 - d["contact"] / d["structure"] if d["contact"] and d["contact"] < d["structure"] else 0
         self.c.check("the sample's contact costs time step", loss > 0, "loss %s" % loss)
         for verb in ("cycle", "gaps"):
-            e("%s: a loss of time step above the bound is stopped" % verb, 1, verb, DECK, "--max-dt-loss", loss * 0.999, rules=["DK407"])
+            e("%s: a loss of time step above the bound is stopped" % verb, 1, verb, DECK, "--max-dt-loss", loss * 0.999, rules=["DK373"])
             e("%s: a loss of time step below the bound passes" % verb, 0, verb, DECK, "--max-dt-loss", min(1, loss * 1.001))
-        e("cycle takes bounds of penetrations, too", 1, "cycle", DECK, "--max-depth", "0.1", rules=["DK404"])
+        e("cycle takes bounds of penetrations, too", 1, "cycle", DECK, "--max-depth", "0.1", rules=["DK370"])
 
     def documents(self):
         r = self.run("gaps", DECK, "--max-depth", "0.1", "--json", "-")
         gate = json.loads(r.out)["gate"]
-        self.c.check("JSON tells what was not passed", not gate["passed"] and [f["rule"] for f in gate["findings"]] == ["DK404"] and
+        self.c.check("JSON tells what was not passed", not gate["passed"] and [f["rule"] for f in gate["findings"]] == ["DK370"] and
                      gate["findings"][0]["entity"] == {"keyword": "/INTER/TYPE7", "id": 1}, str(gate))
         r = self.run("gaps", DECK, "--max-depth", "1", "--json", "-")
         self.c.check("JSON tells what was passed", json.loads(r.out)["gate"] == {"passed": True, "findings": []})
@@ -77,10 +77,10 @@ class Gate:
         r = self.run("lint", DECK, "--geometry", "--max-depth", "0.1", "--fail-on", "never", "--format", "json",
                      *[a for f in ("sarif", "junit", "gitlab", "github") for a in ("-o", "%s=out.%s" % (f, f))])
         self.c.check("lint --geometry ends with 1 beyond a bound", r.code == 1)
-        self.c.check("lint: json has the finding", any(d["rule"] == "DK404" for d in json.loads(r.out)["diagnostics"]))
+        self.c.check("lint: json has the finding", any(d["rule"] == "DK370" for d in json.loads(r.out)["diagnostics"]))
         for f in ("sarif", "junit", "gitlab", "github"):
             with open(os.path.join(self.folder, "out." + f)) as g:
-                self.c.check("lint: %s has the finding" % f, "DK404" in g.read())
+                self.c.check("lint: %s has the finding" % f, "DK370" in g.read())
 
     def usage(self):
         for name, args in (("an unknown word", ("gaps", DECK, "--fail-on", "sometimes")),

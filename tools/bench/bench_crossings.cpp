@@ -1,5 +1,6 @@
-// Crossed elements against CGAL's self-intersections (Polygon_mesh_processing, GPL: only here): two wavy
-// sheets of triangles through each other; pairs of triangles that cut are compared before a time is shown.
+// Crossed elements against CGAL's self-intersections (Polygon_mesh_processing, GPL: only here): two
+// wavy sheets of triangles through each other; pairs of triangles that cut are compared before a
+// time is shown.
 //
 //   bench_crossings [triangles of each sheet]
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -32,7 +33,8 @@ void add_sheet(Sheets& s, std::uint32_t n, double slope, double phase) {
   for (std::uint32_t i = 0; i <= n; ++i)
     for (std::uint32_t j = 0; j <= n; ++j) {
       const double u = i + phase, v = j + 0.7 * phase;
-      s.x.push_back(u), s.y.push_back(v), s.z.push_back(slope * (u - 0.5 * n) + std::sin(0.31 * u + v + phase));
+      s.x.push_back(u), s.y.push_back(v),
+          s.z.push_back(slope * (u - 0.5 * n) + std::sin(0.31 * u + v + phase));
     }
   for (std::uint32_t i = 0; i < n; ++i)
     for (std::uint32_t j = 0; j < n; ++j) {
@@ -61,12 +63,14 @@ Pairs deck_pairs(const Sheets& s) {
   Pairs out;
   for (const bool swapped : {false, true}) {
     const auto middle = s.triangles.begin() + static_cast<std::ptrdiff_t>(s.first);
-    const std::span<const Triangle> front(s.triangles.begin(), middle), back(middle, s.triangles.end());
+    const std::span<const Triangle> front(s.triangles.begin(), middle),
+        back(middle, s.triangles.end());
     const auto through = swapped ? back : front, main = swapped ? front : back;
     std::vector<std::array<std::uint32_t, 2>> edges;
     for (const Triangle& t : through)
       for (std::size_t k = 0; k < 3; ++k) edges.push_back({t[k], t[(k + 1) % 3]});
-    for (const deck::CandidatePair& p : deck::find_crossing_pairs({s.x, s.y, s.z}, edges, main, 1)) {
+    for (const deck::CandidatePair& p :
+         deck::find_crossing_pairs({s.x, s.y, s.z}, edges, main, 1)) {
       const std::size_t face = p.secondary / 3;
       out.emplace(swapped ? p.main : face, (swapped ? face : p.main) + s.first);
     }
@@ -80,7 +84,8 @@ double best_of_three(const F& f, Pairs& result) {
   for (int k = 0; k < 3; ++k) {
     const auto start = std::chrono::steady_clock::now();
     result = f();
-    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    best = std::min(
+        best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   return best;
 }
@@ -101,7 +106,9 @@ int main(int argc, char** argv) {
     fmt::print("answers differ: {} pairs and {}\n", ours.size(), theirs.size());
     return 1;
   }
-  fmt::print("{} triangles, {} pairs cut: deck {:.1f} ms, CGAL self_intersections {:.1f} ms ({:.1f} times)\n",
-             s.triangles.size(), ours.size(), 1e3 * deck, 1e3 * cgal, cgal / deck);
+  fmt::print(
+      "{} triangles, {} pairs cut: deck {:.1f} ms, CGAL self_intersections {:.1f} ms ({:.1f} "
+      "times)\n",
+      s.triangles.size(), ours.size(), 1e3 * deck, 1e3 * cgal, cgal / deck);
   return 0;
 }

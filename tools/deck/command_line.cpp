@@ -11,9 +11,9 @@
 #include <sstream>
 
 #include "common.hpp"
-#include "help/completion_table.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/text/number.hpp"
+#include "help/completion_table.hpp"
 
 namespace deck::cli {
 

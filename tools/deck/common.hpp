@@ -79,8 +79,8 @@ struct Loaded {
   bool incomplete() const;
 };
 
-/// Fills in the values of the interfaces that follow from the mesh. The scene holds the parts of the
-/// interfaces, without penetrations; it is empty where nothing waits for the mesh.
+/// Fills in the values of the interfaces that follow from the mesh. The scene holds the parts of
+/// the interfaces, without penetrations; it is empty where nothing waits for the mesh.
 Scene resolve_geometry(Loaded& loaded, const CommonOptions& options);
 
 /// Contents that files are taken to have, by path; see ReadOptions::overlay.

@@ -106,8 +106,8 @@ int verify(Conversion& c, const Loaded& again, const ConvertStep& step,
   const auto difference = first_difference(*c.behaviour, *after, relation);
   c.behaviour = std::move(after);
   if (!difference) return exit_clean;
-  print_error(common, c.now->path + ": " + step.option + ": the result is not the same model: " +
-                          *difference +
+  print_error(common, c.now->path + ": " + step.option +
+                          ": the result is not the same model: " + *difference +
                           "; nothing was written. --no-verify writes it all the same");
   return exit_findings;
 }
@@ -147,8 +147,7 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
     print_error(common, again.error().message);
     return exit_internal;
   }
-  const int code =
-      c.behaviour ? verify(c, **again, step, losses, schemas, common) : exit_clean;
+  const int code = c.behaviour ? verify(c, **again, step, losses, schemas, common) : exit_clean;
   c.now = std::move(*again);
   return code;
 }
@@ -293,10 +292,11 @@ int add_document(Run& run, const Conversion& c, const SchemaSet& schemas) {
   Document made{c.now->path, std::move(*document), {}};
   fs::path name = made.deck == "-" ? "stdin.json" : fs::path(made.deck).stem().string() + ".json";
   if (!run.changes.root().empty())
-    made.below_root = name = (fs::absolute(made.deck).lexically_normal().parent_path()
-                                  .lexically_relative(run.changes.root()) /
-                              name)
-                                 .lexically_normal();
+    made.below_root = name =
+        (fs::absolute(made.deck).lexically_normal().parent_path().lexically_relative(
+             run.changes.root()) /
+         name)
+            .lexically_normal();
   if (BatchFrame* frame = batch_frame()) frame->decks[made.deck].target = name.string();
   run.documents.push_back(std::move(made));
   return exit_clean;
@@ -390,7 +390,8 @@ Result<std::pair<std::unique_ptr<Loaded>, Overlay>> open_input(const std::string
 int convert_one(Run& run, const std::string& path, const SchemaSet& schemas) {
   const Options& options = run.options;
   std::vector<LossEntry> losses;
-  auto input = open_input(path, options, schemas, !run.steps.empty() || options.to == "json", losses);
+  auto input =
+      open_input(path, options, schemas, !run.steps.empty() || options.to == "json", losses);
   if (input)
     return convert(run, path, std::move(input->first), std::move(input->second), losses, schemas);
   run.refused = true;
@@ -404,8 +405,8 @@ int check(const Options& options) {
     print_error(options.common, why);
     return static_cast<int>(exit_usage);
   };
-  const int places =
-      (options.write.directory.empty() ? 0 : 1) + (options.write.in_place ? 1 : 0) + (options.write.diff ? 1 : 0);
+  const int places = (options.write.directory.empty() ? 0 : 1) + (options.write.in_place ? 1 : 0) +
+                     (options.write.diff ? 1 : 0);
   if (places > 1) return refuse("-o, --in-place and --diff exclude one another");
   const bool only_standard_input = options.common.decks == std::vector<std::string>{"-"};
   if (places == 0 && options.to == "rad" && options.from != "lsdyna" && !only_standard_input)
@@ -421,8 +422,10 @@ int check(const Options& options) {
     return refuse("--first-id goes with --from lsdyna");
   if (options.steps.target != 0 && options.from != "lsdyna")
     return refuse("--target goes with --from lsdyna");
-  if (options.write.overwrite && options.write.directory.empty()) return refuse("--overwrite goes with -o");
-  if (!options.write.backup_suffix.empty() && !options.write.in_place) return refuse("--backup goes with --in-place");
+  if (options.write.overwrite && options.write.directory.empty())
+    return refuse("--overwrite goes with -o");
+  if (!options.write.backup_suffix.empty() && !options.write.in_place)
+    return refuse("--backup goes with --in-place");
   if (const std::string wrong = usage_error(options.write); !wrong.empty()) return refuse(wrong);
   return exit_clean;
 }

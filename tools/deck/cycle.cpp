@@ -289,7 +289,8 @@ Action setup(CommandLine& line) {
   add_require_examined(line, options->common);
   line.flag("--fail-on-force", options->fail,
             "Exit 1 when any contact pushes, at the start or at any step, as --fail-on warning");
-  add_gate_with_config(line, options->gate, "a contact could not be evaluated", "any contact pushes");
+  add_gate_with_config(line, options->gate, "a contact could not be evaluated",
+                       "any contact pushes");
   return [options] { return run(*options); };
 }
 

@@ -76,12 +76,12 @@ class FixRun {
     if (loaded.path == "-" && (o_.write.in_place || !o_.write.directory.empty()))
       return fail({Error::Code::config,
                    o_.write.in_place ? "standard input cannot be rewritten; use --diff"
-                               : "a deck from standard input has no name to write it to"});
+                                     : "a deck from standard input has no name to write it to"});
     changes_.propose(*member, loaded.deck, *changed);
     const std::string written = o_.write.in_place             ? "in-place"
                                 : !o_.write.directory.empty() ? o_.write.directory
                                 : o_.write.diff               ? "diff"
-                                                        : "no";
+                                                              : "no";
     if (json_.wanted()) documents_.push_back(fix_json(loaded.path, loaded.deck, *fix, written));
     texts_ += report(*fix, *changed, loaded.path);
     return fix->complete ? exit_clean : exit_findings;
@@ -274,7 +274,8 @@ Action setup(CommandLine& line) {
       .one_of({"move-nodes", "reduce-gap", "inacti", "fpenmax"})
       .value("STRATEGY");
   line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
-  line.flag("--diff", o.write.diff, "Print the patch (git apply takes it); the report goes to stderr");
+  line.flag("--diff", o.write.diff,
+            "Print the patch (git apply takes it); the report goes to stderr");
   line.option("-o,--output", o.write.directory, "Write the deck with all it includes below DIR")
       .value("DIR");
   line.flag("--in-place", o.write.in_place, "Rewrite the files that change");

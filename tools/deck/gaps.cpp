@@ -262,7 +262,7 @@ int run(const Options& o) {
       if (const std::string lines = gate_text(passed); !lines.empty()) print_text("\n" + lines);
     }
     bool found = o.fail || o.gate.fails_on("warning") ? view.total.count.pairs > 0
-                                                       : view.total.solver_errors > 0;
+                                                      : view.total.solver_errors > 0;
     for (const Contact& c : scene.contacts) found = found || !c.evaluated;
     if (o.gate.fails_on("never")) found = false;
     found = found || !passed.findings.empty();
@@ -301,14 +301,14 @@ Action setup(CommandLine& line) {
   return [options] { return run(*options); };
 }
 
-const VerbRegistration registration{{"gaps", 30,
-                                     "Gaps, stiffness and initial penetrations of every contact",
-                                     "  deck gaps car_0000.rad\n"
-                                     "  deck gaps car_0000.rad --html gaps.html\n"
-                                     "  deck gaps car_0000.rad --json gaps.json --all\n"
-                                     "  deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6\n"
-                                     "  deck gaps car_0000.rad --max-depth 0.5 --max-count 20\n"
-                                     "  deck gaps car_0000.rad --compare main.json --fail-on new,worse\n",
-                                     setup}};
+const VerbRegistration registration{
+    {"gaps", 30, "Gaps, stiffness and initial penetrations of every contact",
+     "  deck gaps car_0000.rad\n"
+     "  deck gaps car_0000.rad --html gaps.html\n"
+     "  deck gaps car_0000.rad --json gaps.json --all\n"
+     "  deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6\n"
+     "  deck gaps car_0000.rad --max-depth 0.5 --max-count 20\n"
+     "  deck gaps car_0000.rad --compare main.json --fail-on new,worse\n",
+     setup}};
 
 }  // namespace

@@ -77,8 +77,8 @@ Result<void> check_fail_on(const GateOptions& o) {
     const bool level = word == "error" || word == "warning" || word == "never";
     levels += level;
     if (!level && word != "new" && word != "worse")
-      return Error{Error::Code::config, "--fail-on: '" + word +
-                                            "' is none of new, worse, error, warning, never"};
+      return Error{Error::Code::config,
+                   "--fail-on: '" + word + "' is none of new, worse, error, warning, never"};
   }
   if (levels > 1)
     return Error{Error::Code::config, "--fail-on takes one of error, warning and never"};

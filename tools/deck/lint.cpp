@@ -28,8 +28,7 @@ struct Options {
   std::vector<std::string> select, ignore;
   std::string baseline, write_baseline;
   GateOptions gate;
-  bool geometry = false, fix = false, unsafe_fixes = false, diff = false,
-       ruler = false;
+  bool geometry = false, fix = false, unsafe_fixes = false, diff = false, ruler = false;
   WriteChoice write;
   int per_rule = 10;
 };

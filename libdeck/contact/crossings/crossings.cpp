@@ -9,8 +9,8 @@
 #include <set>
 
 #include "base/parallel.hpp"
-#include "contact/search/box_tree.hpp"
 #include "contact/crossings/crossings_exact.hpp"
+#include "contact/search/box_tree.hpp"
 #include "contact/search/sweep.hpp"
 
 namespace deck {

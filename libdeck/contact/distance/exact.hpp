@@ -1,5 +1,5 @@
-// Exact distances of nodes, segments and edges: CGAL's exact numbers on the given doubles. The oracle of
-// tests and accuracy measurements: slow (about 20 microseconds a pair), never wrong.
+// Exact distances of nodes, segments and edges: CGAL's exact numbers on the given doubles. The
+// oracle of tests and accuracy measurements: slow (about 20 microseconds a pair), never wrong.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Exact distances: the closest-point templates on CGAL's exact numbers. Regions are chosen by intervals
-// where these suffice.
+// Exact distances: the closest-point templates on CGAL's exact numbers. Regions are chosen by
+// intervals where these suffice.
 #include "contact/distance/exact.hpp"
 
 #include <CGAL/number_utils.h>
@@ -17,10 +17,13 @@ std::array<Point3<Q>, 4> lift(const std::array<Point3<double>, 4>& x) {
   return {lift(x[0]), lift(x[1]), lift(x[2]), lift(x[3])};
 }
 
-// Rounded towards zero, from the exact value: that of a lazy number itself may be off by an interval.
+// Rounded towards zero, from the exact value: that of a lazy number itself may be off by an
+// interval.
 double to_double(const Q& value) { return CGAL::to_double(value.exact()); }
 
-Point3<double> lower(const Point3<Q>& p) { return {to_double(p.x), to_double(p.y), to_double(p.z)}; }
+Point3<double> lower(const Point3<Q>& p) {
+  return {to_double(p.x), to_double(p.y), to_double(p.z)};
+}
 
 SegmentClosest<Q> exact_segment(const Point3<double>& p, const std::array<Point3<double>, 4>& x,
                                 bool triangle) {

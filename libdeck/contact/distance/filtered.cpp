@@ -1,4 +1,5 @@
-// Contact decisions: brackets of the exact distance in double and double-double, else exact numbers.
+// Contact decisions: brackets of the exact distance in double and double-double, else exact
+// numbers.
 #include "deck/contact/filtered.hpp"
 
 #include "contact/distance/exact.hpp"

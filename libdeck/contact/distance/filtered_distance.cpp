@@ -32,7 +32,9 @@ std::optional<FilteredDepth> rescaled(FilteredDepth out, int shift, FilterStage 
   if (!std::isnormal(out.depth) || !std::isnormal(out.distance)) return std::nullopt;
   return out;
 }
-FilteredDepth in_exact_numbers(const ExactDepth& d) { return {d.depth, d.distance, FilterStage::exact}; }
+FilteredDepth in_exact_numbers(const ExactDepth& d) {
+  return {d.depth, d.distance, FilterStage::exact};
+}
 
 }  // namespace
 

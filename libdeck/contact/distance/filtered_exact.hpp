@@ -1,5 +1,5 @@
-// Contact decisions in CGAL's exact sums and products, given a guess of the parts that are closest: the
-// usual exact ties (node on the plane, distance equal to the gap) without rationals.
+// Contact decisions in CGAL's exact sums and products, given a guess of the parts that are closest:
+// the usual exact ties (node on the plane, distance equal to the gap) without rationals.
 #pragma once
 
 #include <array>

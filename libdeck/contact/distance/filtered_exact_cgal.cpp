@@ -1,6 +1,6 @@
-// A guess is proved either by a point nearer than the gap, or by a direction w in which every vertex
-// lies at least the gap away: min_k(w.(node - v_k))^2 >= gap^2 w.w. No division, so exact sums and
-// products of doubles suffice.
+// A guess is proved either by a point nearer than the gap, or by a direction w in which every
+// vertex lies at least the gap away: min_k(w.(node - v_k))^2 >= gap^2 w.w. No division, so exact
+// sums and products of doubles suffice.
 #include "contact/distance/filtered_exact.hpp"
 
 #include <CGAL/Mpzf.h>
@@ -63,8 +63,8 @@ Region face_part(const V& o, const V& a, const V& b, bool whole, const Z& gap) {
   V n = cross(p, q);
   const V r = -o;
   const Z fp = dot(n, cross(r, q)), fq = dot(n, cross(p, r)), nn = dot(n, n);
-  const bool inside =
-      CGAL::is_positive(nn) && !CGAL::is_negative(fp) && !CGAL::is_negative(fq) && (whole ? fp <= nn && fq <= nn : fp + fq <= nn);
+  const bool inside = CGAL::is_positive(nn) && !CGAL::is_negative(fp) && !CGAL::is_negative(fq) &&
+                      (whole ? fp <= nn && fq <= nn : fp + fq <= nn);
   const Z height = -dot(n, o);
   if (CGAL::is_negative(height)) n = -n;
   return {n, inside && is_nearer(height * height, nn, gap)};

@@ -79,7 +79,8 @@ Rational long_square_root(const Rational& value) {
   const Normalised s = normalised(value);
   const Rational places(0x1p600), step(std::ldexp(1.0, kStep));
   CGAL::Exact_integer numerator, denominator;
-  CGAL::Fraction_traits<Rational>::Decompose()(s.value * CGAL::square(places), numerator, denominator);
+  CGAL::Fraction_traits<Rational>::Decompose()(s.value * CGAL::square(places), numerator,
+                                               denominator);
   const CGAL::Exact_integer whole = numerator / denominator;
   Rational root = Rational(CGAL::sqrt(whole)) / places;
   for (int left = s.shift; left > 0; left -= kStep) root *= step;
@@ -94,7 +95,8 @@ double rounded_depth(double gap, const Rational& squared) {
   // g - d = (g^2 - d^2) / (g + d): nothing cancels that is not exact.
   const Rational sum = g + Rational(guessed_square_root(squared));
   const double depth = rounded_down(CGAL::to_double(Rational(difference / sum)), [&](double r) {
-    return r <= gap && CGAL::compare(CGAL::square(Rational(g - Rational(r))), squared) != CGAL::SMALLER;
+    return r <= gap &&
+           CGAL::compare(CGAL::square(Rational(g - Rational(r))), squared) != CGAL::SMALLER;
   });
   // A depth below all numbers is still one.
   return std::max(depth, std::numeric_limits<double>::denorm_min());

@@ -34,7 +34,8 @@ Result<LoadedDeck> load(const std::string& path, const LoadOptions& options) {
   if (!deck) return deck.error();
   auto parts = std::make_unique<LoadedDeck::Parts>(std::move(*deck));
   parts->findings = Diagnostics(options.read.limits.diagnostics_per_rule);
-  parts->model = build_model(parts->deck, schemas, parts->findings, {options.threads, options.read.limits});
+  parts->model =
+      build_model(parts->deck, schemas, parts->findings, {options.threads, options.read.limits});
   if (parts->model.selections != nullptr) parts->model.selections->set_limits(options.memory);
   parts->interfaces = read_interfaces(parts->deck, parts->model, parts->findings);
   if (options.geometry && waits_for_geometry(parts->interfaces)) {
@@ -42,7 +43,8 @@ Result<LoadedDeck> load(const std::string& path, const LoadOptions& options) {
     scene.threads = options.threads;
     scene.limits = options.memory;
     scene.candidates = scene.penetrations = false;
-    resolve(parts->interfaces, build_scene(parts->model, parts->interfaces, parts->findings, scene));
+    resolve(parts->interfaces,
+            build_scene(parts->model, parts->interfaces, parts->findings, scene));
   }
   return LoadedDeck(std::move(parts));
 }

@@ -114,7 +114,8 @@ StructureStep structure_step(const Scene& scene) {
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
                                  ElementKind::truss, ElementKind::beam})
     for (std::uint32_t e = 0; e < scene.model->family(kind).size(); ++e)
-      if (const double dt = detail::element_step(scene, kind, e); dt < best.dt) best = {dt, kind, e};
+      if (const double dt = detail::element_step(scene, kind, e); dt < best.dt)
+        best = {dt, kind, e};
   return best;
 }
 

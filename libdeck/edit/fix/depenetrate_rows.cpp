@@ -12,7 +12,6 @@ namespace {
 
 constexpr double least_share = 0.1;  // of a pair's weights, squared, on nodes that may move
 
-
 Vec segment_normal(const Coordinates& x, const std::array<NodeIndex, 4>& n) {
   if (n[2] == n[3]) return cross(at(x, n[1]) - at(x, n[0]), at(x, n[2]) - at(x, n[0]));
   return cross(at(x, n[2]) - at(x, n[0]), at(x, n[3]) - at(x, n[1]));
@@ -29,8 +28,7 @@ PairState segment_state(const Contact& c, const Coordinates& x, const PairAt& pa
   out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
   const auto& sub = closest.closest();
   out.distance = sub.distance;
-  if (sub.distance > 0)
-    out.normal = (1 / sub.distance) * sub.vector;
+  if (sub.distance > 0) out.normal = (1 / sub.distance) * sub.vector;
   out.nodes[0] = s.node;
   out.weights[0] = 1;
   out.count = 1;
@@ -44,13 +42,12 @@ PairState segment_state(const Contact& c, const Coordinates& x, const PairAt& pa
 PairState edge_state(const Contact& c, const Coordinates& x, const PairAt& pair) {
   const ContactEdge& s = c.secondary_edges[pair.secondary];
   const ContactEdge& m = c.main_edges[pair.main];
-  const auto closest = closest_between_edges<Form::reference>(
-      at(x, s.nodes[0]), at(x, s.nodes[1]), at(x, m.nodes[0]), at(x, m.nodes[1]));
+  const auto closest = closest_between_edges<Form::reference>(at(x, s.nodes[0]), at(x, s.nodes[1]),
+                                                              at(x, m.nodes[0]), at(x, m.nodes[1]));
   PairState out;
   out.gap = c.gap_rule(s.gap, m.gap, s.length, m.length);
   out.distance = closest.distance;
-  if (out.distance > 0)
-    out.normal = (1 / out.distance) * closest.vector;
+  if (out.distance > 0) out.normal = (1 / out.distance) * closest.vector;
   out.nodes = {s.nodes[0], s.nodes[1], m.nodes[0], m.nodes[1], 0, 0};
   out.weights = {
       closest.weight_s, 1 - closest.weight_s, -closest.weight_m, -(1 - closest.weight_m), 0, 0};

@@ -1,5 +1,5 @@
-// All that most programs need: a deck read from a path, with its model and the effective values of its
-// contact interfaces, owned in one place.
+// All that most programs need: a deck read from a path, with its model and the effective values of
+// its contact interfaces, owned in one place.
 //
 //   const auto loaded = deck::load("car_0000.rad");
 //   if (!loaded) ...loaded.error().message
@@ -20,12 +20,12 @@ struct LoadOptions {
   ReadOptions read;     ///< with the bounds of what is read
   MemoryLimits memory;  ///< of what is made of it
   int threads = 1;
-  bool geometry = true; ///< fill in the values that follow from the mesh; builds the contacts once
+  bool geometry = true;  ///< fill in the values that follow from the mesh; builds the contacts once
   const SchemaSet* schemas = nullptr;  ///< nullptr: the built-in ones; must outlive what is loaded
 };
 
-/// A deck and what was made of it. Each part refers to the one before it; they live and end together, and
-/// moving this moves none of them, so references to them stay good.
+/// A deck and what was made of it. Each part refers to the one before it; they live and end
+/// together, and moving this moves none of them, so references to them stay good.
 class LoadedDeck {
  public:
   LoadedDeck(LoadedDeck&&) noexcept;
@@ -48,8 +48,8 @@ class LoadedDeck {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Reads a deck with everything it includes. Only a main file that cannot be read is an error; all else
-/// is a finding.
+/// Reads a deck with everything it includes. Only a main file that cannot be read is an error; all
+/// else is a finding.
 Result<LoadedDeck> load(const std::string& path, const LoadOptions& options = {});
 
 }  // namespace deck

@@ -242,8 +242,7 @@ std::string cycle_json(const CycleInput& input, bool all) {
   write_json_head(j, "deck/cycle", 1);
   write_json_deck(j, input.path, *input.deck, &model, input.scene->interfaces);
   j.field("verdict", cycle_verdict(input));
-  if (input.gate != nullptr)
-    write_gate(j, *input.deck, *input.scene, *input.view, *input.gate);
+  if (input.gate != nullptr) write_gate(j, *input.deck, *input.scene, *input.view, *input.gate);
   write_json_coverage(j, coverage_of(*input.deck, *input.scene->interfaces));
   j.field("dt1", input.options.dt1).field("dt12", input.options.dt12);
   j.field("time", input.options.time);

@@ -55,7 +55,9 @@ class ShowJson {
       const auto begin = static_cast<std::int64_t>(c.span.offset - card.line.offset) + 1;
       const std::int64_t width = c.field->last - c.field->first;
       json_.begin_object(true).field("field", c.field->name).key("columns").begin_array();
-      json_.value(begin).value(card.free_format ? begin + c.span.length : begin + width).end_array();
+      json_.value(begin)
+          .value(card.free_format ? begin + c.span.length : begin + width)
+          .end_array();
       json_.field("text", c.text).key("value");
       switch (detail::kind_of(c)) {
         case CellKind::null:

@@ -45,8 +45,8 @@ std::string diff_text(const DiffSide& a, const DiffSide& b, const DeckDiff& diff
 
 std::string diff_markdown(const DiffSide& a, const DiffSide& b, const DeckDiff& diff,
                           const DiffTextOptions& options) {
-  std::string out = fmt::format("### {} → {}\n\n**{}**\n", markdown_cell(a.path), markdown_cell(b.path),
-                                markdown_cell(diff_verdict(diff)));
+  std::string out = fmt::format("### {} → {}\n\n**{}**\n", markdown_cell(a.path),
+                                markdown_cell(b.path), markdown_cell(diff_verdict(diff)));
   for (const std::string& note : diff.notes) out += fmt::format("\n> {}\n", markdown_cell(note));
   for (const DiffTable& t : diff_tables(a, b, diff, options.rows)) {
     out += fmt::format("\n#### {}\n\n|", t.title);

@@ -18,8 +18,8 @@ std::string gate_text(const GateReport& gate) {
   }
   if (!gate.asked) return out;
   if (gate.findings.empty()) return out + "Gate: passed.\n";
-  return out + fmt::format("Gate: not passed, {}.\n",
-                           count(gate.findings.size(), "finding", "findings"));
+  return out +
+         fmt::format("Gate: not passed, {}.\n", count(gate.findings.size(), "finding", "findings"));
 }
 
 }  // namespace deck

@@ -62,13 +62,14 @@ std::string keyword_of(const Block& block) {
   return block.schema != nullptr ? block.schema->keyword : std::string(block.keyword);
 }
 
-/// The number that a schema's default is, where it says one: "0", "/DEFAULT/INTER/TYPE7, else 1000",
-/// "0 (not tested)", for an `ordinary` model also "3 (1 in implicit analyses)".
+/// The number that a schema's default is, where it says one: "0", "/DEFAULT/INTER/TYPE7, else
+/// 1000", "0 (not tested)", for an `ordinary` model also "3 (1 in implicit analyses)".
 std::optional<double> default_number(std::string_view text, bool ordinary) {
   if (const auto at = text.rfind("else "); at != std::string_view::npos) text.remove_prefix(at + 5);
   const std::string_view word = text.substr(0, text.find(' '));
   const std::string_view rest = text.substr(word.size());
-  const bool remark = rest.starts_with(" (") && (ordinary || rest.find_first_of("0123456789") == rest.npos);
+  const bool remark =
+      rest.starts_with(" (") && (ordinary || rest.find_first_of("0123456789") == rest.npos);
   const RealCell n = read_real(word);
   if ((!rest.empty() && !remark) || n.status != NumberStatus::ok) return std::nullopt;
   return n.value;
@@ -195,9 +196,9 @@ TextTable params_table(const ParamsInput& in, const InterBase& inter,
 namespace {
 
 /// Columns of the matrix, in this order; further ones where an interface has something of its own.
-constexpr std::string_view first_columns[] = {"Istf",  "Igap",     "Gapmin",    "Gap",   "Inacti",
-                                              "Stfac", "Fric",     "Idel",      "Iform", "Irem_gap",
-                                              "VISs",  "Fscalegap"};
+constexpr std::string_view first_columns[] = {"Istf",   "Igap",     "Gapmin", "Gap",
+                                              "Inacti", "Stfac",    "Fric",   "Idel",
+                                              "Iform",  "Irem_gap", "VISs",   "Fscalegap"};
 
 /// One cell of an interface; `present` is false where the type has no such field.
 struct MatrixCell {
@@ -285,7 +286,8 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
       if (!c.present || hidden)
         cells.emplace_back(c.present ? "." : "-", Tone::dim);
       else
-        cells.emplace_back(c.on_card ? c.text : "(" + c.text + ")", c.on_card ? Tone::plain : Tone::dim);
+        cells.emplace_back(c.on_card ? c.text : "(" + c.text + ")",
+                           c.on_card ? Tone::plain : Tone::dim);
     }
     table.row(std::move(cells));
   }
@@ -304,13 +306,13 @@ std::string params_csv(const ParamsInput& in, const ParamsTextOptions& options) 
       t.for_each([&](std::string_view name, const auto& e) {
         if (!wanted(in, *inter, name, e, options)) return;
         const Position p = e.span.valid() ? in.deck->sources.position(e.span) : Position{};
-        out += fmt::format(
-            "{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(in.path), inter->id, inter->type,
-            csv_cell(inter->title), name, e.has_input ? csv_cell(text_of(e.input)) : "",
-            csv_cell(effective_text(in, *inter, name, e)), to_string(e.origin),
-            e.span.valid() ? csv_cell(in.deck->sources[e.span.file].path()) : "",
-            e.span.valid() ? std::to_string(p.line) : "",
-            e.span.valid() ? std::to_string(p.column) : "");
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(in.path), inter->id,
+                           inter->type, csv_cell(inter->title), name,
+                           e.has_input ? csv_cell(text_of(e.input)) : "",
+                           csv_cell(effective_text(in, *inter, name, e)), to_string(e.origin),
+                           e.span.valid() ? csv_cell(in.deck->sources[e.span.file].path()) : "",
+                           e.span.valid() ? std::to_string(p.line) : "",
+                           e.span.valid() ? std::to_string(p.column) : "");
       });
     });
   }
@@ -324,7 +326,8 @@ std::string params_matrix_csv(const ParamsInput& in, const ParamsTextOptions& op
   out += "\r\n";
   for (std::size_t i = 0; i < m.rows.size(); ++i) {
     const InterBase& inter = *m.interfaces[i];
-    out += fmt::format("{},{},{},{}", csv_cell(in.path), inter.id, inter.type, csv_cell(inter.title));
+    out +=
+        fmt::format("{},{},{},{}", csv_cell(in.path), inter.id, inter.type, csv_cell(inter.title));
     for (const std::string& name : m.names) out += "," + csv_cell(cell_of(m.rows[i], name).text);
     out += "\r\n";
   }
@@ -334,8 +337,7 @@ std::string params_matrix_csv(const ParamsInput& in, const ParamsTextOptions& op
 void write_json_parameters(JsonWriter& json, const ParamsInput& in, const InterBase& inter) {
   json.key("parameters").begin_object();
   visit_interface(inter, [&](const auto& t) {
-    t.for_each(
-        [&](std::string_view name, const auto& e) { json_field(json, in, inter, name, e); });
+    t.for_each([&](std::string_view name, const auto& e) { json_field(json, in, inter, name, e); });
   });
   // No such cell on the card; its node-to-surface parts have the field all the same.
   if (inter.type == 19) json_field(json, in, inter, "Fpenmax", EffectiveReal{});

@@ -106,7 +106,8 @@ class ShowText {
     const std::size_t room = options_.width - margin;
     while (display_width(shown) > room) {
       std::size_t at = 0;
-      for (std::size_t k = 0; k < room; ++k) at += std::max<std::size_t>(text_unit_at(shown, at).length, 1);
+      for (std::size_t k = 0; k < room; ++k)
+        at += std::max<std::size_t>(text_unit_at(shown, at).length, 1);
       out += shown.substr(0, at) + "\n" + std::string(margin, ' ');
       shown.erase(0, at);
     }
@@ -136,19 +137,23 @@ class ShowText {
     std::vector<Column> columns;
     for (const Cell& c : card.cells) {
       const int first = static_cast<int>(c.span.offset - card.line.offset) + 1;
-      const bool list = card.schema->repeat == Repeat::ids && c.field == &card.schema->fields.back();
+      const bool list =
+          card.schema->repeat == Repeat::ids && c.field == &card.schema->fields.back();
       const int start = list ? first : c.field->first;
       columns.push_back({start, start + c.field->last - c.field->first, c.field->name});
     }
     // Cells behind what fits go to lines of their own.
-    const int room = options_.width > margin + 20 ? static_cast<int>(options_.width - margin) : 1000;
+    const int room =
+        options_.width > margin + 20 ? static_cast<int>(options_.width - margin) : 1000;
     for (std::size_t at = 0, begin = 1; at < columns.size() || begin == 1;) {
       const int from = static_cast<int>(begin);
       std::size_t end = at;
       int last = from;
-      while (end < columns.size() && (end == at || columns[end].last - from < room)) last = columns[end++].last;
+      while (end < columns.size() && (end == at || columns[end].last - from < room))
+        last = columns[end++].last;
       if (end == columns.size())
-        last = std::max<int>(last, std::min<int>(static_cast<int>(card.line.text.size()), from + room - 1));
+        last = std::max<int>(
+            last, std::min<int>(static_cast<int>(card.line.text.size()), from + room - 1));
       const std::vector<Column> part(columns.begin() + static_cast<std::ptrdiff_t>(at),
                                      columns.begin() + static_cast<std::ptrdiff_t>(end));
       if (names) name_lines(part, from);
@@ -175,7 +180,8 @@ class ShowText {
       lines[row] += c.name;
     }
     for (auto it = lines.rbegin(); it != lines.rend(); ++it)
-      if (!it->empty()) out_ += std::string(margin, ' ') + toned(*it, Tone::cyan, options_.color) + "\n";
+      if (!it->empty())
+        out_ += std::string(margin, ' ') + toned(*it, Tone::cyan, options_.color) + "\n";
   }
 
   // ---- figures and references -----------------------------------------------------------------
@@ -208,7 +214,8 @@ class ShowText {
                  {l.span.valid() ? deck_.sources.where(l.span) : std::string(), Tone::dim}});
     }
     out_ += table.fitted(options_.width, options_.color, 2);
-    if (shown < list.size()) out_ += fmt::format("  … and {} more (--all, --json)\n", list.size() - shown);
+    if (shown < list.size())
+      out_ += fmt::format("  … and {} more (--all, --json)\n", list.size() - shown);
   }
 
   const Deck& deck_;

@@ -92,7 +92,8 @@ std::string TextTable::part(const std::vector<std::size_t>& columns,
       bool any = false;
       for (std::size_t k = 0; k < columns.size(); ++k) {
         const std::string piece = row < pieces[k].size() ? pieces[k][row] : std::string();
-        const std::size_t pad = width[columns[k]] - std::min(width[columns[k]], display_width(piece));
+        const std::size_t pad =
+            width[columns[k]] - std::min(width[columns[k]], display_width(piece));
         const Align align = columns_[columns[k]].align;
         if (align == Align::right) pending += pad;
         if (!piece.empty()) {

@@ -298,8 +298,8 @@ void Batch::settle_intents() {
     if (owner != label() && is_at_work(in_directory(".batch/" + owner + ".lock"))) continue;
     for (Record& r : settle_intent(intent.string())) {
       for (const FileState& f : r.outputs) written_.emplace(normal(f.path), f.hash);
-      // In place, a conversion that came to its end must not be done twice, and one that did not was
-      // none. Fixes find nothing to do.
+      // In place, a conversion that came to its end must not be done twice, and one that did not
+      // was none. Fixes find nothing to do.
       bool done = !task_.in_place;
       if (task_.in_place && !task_.with_documents && !o_.force && r.key == key_)
         for (std::size_t i = 0; i < decks_.size(); ++i)

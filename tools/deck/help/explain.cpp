@@ -27,10 +27,11 @@ int run(const Options& options) {
       std::string near;
       for (const std::string& name : similar_topics(topic, *schemas))
         near += (near.empty() ? "; did you mean " : ", ") + name;
-      print_error(options.common, "nothing is known about '" + topic + "'" + near +
-                                      "; expected a rule (DK203) or a family of them (DK2), a keyword "
-                                      "(TYPE7), a field (Igap, TYPE7.Igap) or the number of a solver "
-                                      "message (611)");
+      print_error(options.common,
+                  "nothing is known about '" + topic + "'" + near +
+                      "; expected a rule (DK203) or a family of them (DK2), a keyword "
+                      "(TYPE7), a field (Igap, TYPE7.Igap) or the number of a solver "
+                      "message (611)");
       return exit_usage;
     }
     print_text((first ? "" : "\n") + terminal_lines(page));

@@ -2,8 +2,8 @@
 // not listed among the verbs.
 
 #include "common.hpp"
-#include "help/completion_table.hpp"
 #include "deck/report/json.hpp"
+#include "help/completion_table.hpp"
 
 namespace {
 

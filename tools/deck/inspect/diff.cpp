@@ -1,10 +1,10 @@
 // deck diff: what two decks mean differently.
 
+#include "deck/report/diff.hpp"
 #include "common.hpp"
 #include "deck/contact/resolve.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/model/coverage.hpp"
-#include "deck/report/diff.hpp"
 
 namespace {
 
@@ -39,7 +39,8 @@ Result<Side> read_side(const Options& o, const std::string& path, const SchemaSe
   if (!loaded) return loaded.error();
   Side side{std::move(*loaded), {}, {}};
   if (side.loaded->incomplete())
-    return Error{Error::Code::io, coverage_lead(coverage_of(side.loaded->deck, side.loaded->interfaces))};
+    return Error{Error::Code::io,
+                 coverage_lead(coverage_of(side.loaded->deck, side.loaded->interfaces))};
   if (o.no_geometry) return side;
   Progress progress(!o.common.quiet);
   progress.step("contacts of " + path);
@@ -48,7 +49,8 @@ Result<Side> read_side(const Options& o, const std::string& path, const SchemaSe
   scene.candidates = false;
   scene.limits = o.common.memory;
   scene.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
-  side.scene = build_scene(side.loaded->model, side.loaded->interfaces, side.loaded->diagnostics, scene);
+  side.scene =
+      build_scene(side.loaded->model, side.loaded->interfaces, side.loaded->diagnostics, scene);
   resolve(side.loaded->interfaces, side.scene);
   side.view = make_view(side.scene);
   return side;

@@ -52,8 +52,8 @@ int run(const Options& options) {
     text.filled_in_only = options.filled_in;
     text.only = options.only;
     if (!options.csv.empty())
-      if (const int bad = write(options, options.matrix ? params_matrix_csv(input, text)
-                                                        : params_csv(input, text));
+      if (const int bad = write(
+              options, options.matrix ? params_matrix_csv(input, text) : params_csv(input, text));
           bad != exit_clean)
         return bad;
     if (common.wants_text() && options.csv != "-") {
@@ -89,7 +89,8 @@ const VerbRegistration registration{
     {"params", 20, "Effective values of every interface, and where each came from",
      "  deck params car_0000.rad\n"
      "  deck params car_0000.rad --matrix          one row per interface\n"
-     "  deck params car_0000.rad --changed         only what somebody wrote that is not the default\n"
+     "  deck params car_0000.rad --changed         only what somebody wrote that is not the "
+     "default\n"
      "  deck params car_0000.rad --filled-in       only what the solver fills in or overrules\n"
      "  deck params car_0000.rad --interface 3,4 --csv params.csv\n"
      "  deck params car_0000.rad --json params.json\n"

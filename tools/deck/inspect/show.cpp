@@ -1,7 +1,7 @@
 // deck show: one entity of a deck, with its card, what the solver uses, and who uses it.
 
-#include "common.hpp"
 #include "deck/inspect/show.hpp"
+#include "common.hpp"
 #include "deck/report/show.hpp"
 
 namespace {
@@ -25,8 +25,7 @@ int run(Options& o) {
       print_error(o.common, loaded.path + ": " + entity.error().message);
       return static_cast<int>(exit_usage);
     }
-    const EntityView view =
-        view_entity(loaded.deck, loaded.model, loaded.interfaces, *entity);
+    const EntityView view = view_entity(loaded.deck, loaded.model, loaded.interfaces, *entity);
     ParamsInput params{loaded.path, &loaded.deck, &loaded.model, &loaded.interfaces, nullptr};
     Scene scene;
     if (!o.no_geometry && view.inter != nullptr) {
@@ -51,8 +50,9 @@ Action setup(CommandLine& line) {
   add_common(line, options->common);
   line.existing("decks")
       .takes(2, "DECK WHAT")
-      .describe("Starter deck (*_0000.rad), and what to show of it: the id of an interface, "
-                "KEYWORD/ID or KIND:ID");
+      .describe(
+          "Starter deck (*_0000.rad), and what to show of it: the id of an interface, "
+          "KEYWORD/ID or KIND:ID");
   line.flag("--all", options->all, "Every line and every user, however many");
   line.flag("--no-geometry", options->no_geometry,
             "Do not derive default gaps from the mesh; such values are left open");

@@ -1,5 +1,6 @@
-// Three numbers of any kind with the arithmetic of vectors: coordinates, differences, forces; as double,
-// double-double, interval, exact number or a pack of lanes. Sums run from x to z, everywhere.
+// Three numbers of any kind with the arithmetic of vectors: coordinates, differences, forces; as
+// double, double-double, interval, exact number or a pack of lanes. Sums run from x to z,
+// everywhere.
 #pragma once
 
 #include <type_traits>

@@ -20,20 +20,20 @@ const char* to_string(PenetrationAction action);  ///< "none", "node-stiffness-z
 
 struct PenetrationRow {
   std::uint32_t secondary = 0, main = 0;  ///< positions in the contact's lists
-  double depth = 0;      ///< gap - distance
-  double gap = 0;        ///< pair gap
+  double depth = 0;                       ///< gap - distance
+  double gap = 0;                         ///< pair gap
   double distance = 0;
   std::array<double, 3> normal{};  ///< unit, main to secondary; zero when on_surface
   bool on_surface = false;
-  /// Accuracy::robust: false where the pair is no nearer than its gap, and only the round-off of the
-  /// solver's formula makes a penetration of it. The solver acts on it all the same.
+  /// Accuracy::robust: false where the pair is no nearer than its gap, and only the round-off of
+  /// the solver's formula makes a penetration of it. The solver acts on it all the same.
   bool in_contact = true;
   Feature feature = Feature::face;
   PenetrationAction action = PenetrationAction::none;
   bool has_gap0 = false;
-  double p0 = 0, gap0 = 0;  ///< Inacti 5, 6: stored penetration and gap left
-  std::array<double, 3> moved_by{};  ///< Inacti 3
-  double weight_s = 0, weight_m = 0; ///< edge pairs: weights of the first nodes
+  double p0 = 0, gap0 = 0;            ///< Inacti 5, 6: stored penetration and gap left
+  std::array<double, 3> moved_by{};   ///< Inacti 3
+  double weight_s = 0, weight_m = 0;  ///< edge pairs: weights of the first nodes
 };
 
 }  // namespace deck

@@ -22,26 +22,26 @@ enum class ContactKind : std::uint8_t { node_segment, edge_edge };
 /// Which part of its interface a contact is. TYPE19 gives up to three.
 enum class ContactRole : std::uint8_t { primary, reversed, edges };
 
-const char* to_string(ContactKind kind);          ///< "node_segment", "edge_edge"
-const char* to_string(ContactRole role);          ///< "primary", "reversed", "edges"
+const char* to_string(ContactKind kind);  ///< "node_segment", "edge_edge"
+const char* to_string(ContactRole role);  ///< "primary", "reversed", "edges"
 
 /// One main segment. Arrays of a Contact are parallel to each other.
 struct MainSegment {
   std::array<NodeIndex, 4> nodes{};  ///< after repair and re-orientation; triangle: last two equal
   Carrier carrier = Carrier::none;   ///< the element that decides gap and stiffness
   std::uint32_t element = no_index;
-  double stiffness = 0;   ///< as stored at start-up: no 1/2; constant stiffness stores |Stfac|
-  double gap = 0;         ///< half thickness times Fscalegap; 0 for solids
-  double thickness = 0;   ///< contact thickness of the carrying shell, 0 for solids
-  double length = 0;      ///< Igap 3: mesh-size limit of this segment
-  bool off = false;       ///< switched off by Inacti = 2; `stiffness` stays what it was
+  double stiffness = 0;  ///< as stored at start-up: no 1/2; constant stiffness stores |Stfac|
+  double gap = 0;        ///< half thickness times Fscalegap; 0 for solids
+  double thickness = 0;  ///< contact thickness of the carrying shell, 0 for solids
+  double length = 0;     ///< Igap 3: mesh-size limit of this segment
+  bool off = false;      ///< switched off by Inacti = 2; `stiffness` stays what it was
 };
 struct SecondaryNode {
   NodeIndex node = no_index;
   double multiplier = 1;  ///< of the stiffness, as stored at start-up
   bool off = false;       ///< switched off by Inacti = 1 or Fpenmax
   double gap = 0;
-  double length = 0;      ///< Igap 3 limit; 1e30 for nodes on no main segment
+  double length = 0;           ///< Igap 3 limit; 1e30 for nodes on no main segment
   double nodal_stiffness = 0;  ///< filled where Istf 2..5 needs it
 };
 struct ContactEdge {
@@ -49,9 +49,9 @@ struct ContactEdge {
   Carrier carrier = Carrier::none;
   std::uint32_t element = no_index;
   double stiffness = 0, gap = 0, length = 0;
-  double shell = 0;    ///< contact thickness of the shell that carries it, 0: none
-  double section = 0;  ///< sqrt(area) of the truss or beam that carries it, 0: none
-  bool off = false;    ///< switched off by Inacti; `stiffness` stays what it was
+  double shell = 0;               ///< contact thickness of the shell that carries it, 0: none
+  double section = 0;             ///< sqrt(area) of the truss or beam that carries it, 0: none
+  bool off = false;               ///< switched off by Inacti; `stiffness` stays what it was
   double stored_penetration = 0;  ///< Inacti 5, 6: what the solver takes off every pair gap
 };
 
@@ -76,9 +76,9 @@ struct DecisionDifference {
 /// How the contact decisions of a scene were taken.
 struct DecisionReport {
   Accuracy mode = Accuracy::robust;
-  std::uint64_t pairs = 0;     ///< decided
-  std::uint64_t fallback = 0;  ///< needed more than double
-  std::uint64_t exact = 0;     ///< needed integers or rationals
+  std::uint64_t pairs = 0;                                 ///< decided
+  std::uint64_t fallback = 0;                              ///< needed more than double
+  std::uint64_t exact = 0;                                 ///< needed integers or rationals
   std::uint64_t contact_differs = 0, surface_differs = 0;  ///< counted with robust and exact only
   std::vector<DecisionDifference> differences;             ///< the first of them
 };
@@ -88,34 +88,34 @@ struct Contact {
   const InterBase* inter = nullptr;
   ContactKind kind = ContactKind::node_segment;
   ContactRole role = ContactRole::primary;
-  int type = 7;            ///< 7, 10 or 11: whose rules it follows
-  bool dropped = false;    ///< TYPE19 edges: no edges, the solver drops the part
-  bool evaluated = true;   ///< false: too many pairs, or coordinates that are no numbers; whether
-                           ///< anything penetrates is not known then
+  int type = 7;           ///< 7, 10 or 11: whose rules it follows
+  bool dropped = false;   ///< TYPE19 edges: no edges, the solver drops the part
+  bool evaluated = true;  ///< false: too many pairs, or coordinates that are no numbers; whether
+                          ///< anything penetrates is not known then
 
   // Effective options, 1000 already turned into 0.
   int istf = 0, igap = 0, inacti = 0, irem_gap = 1, itied = 0;
-  double factor = 1;       ///< < 0: constant stiffness |factor|
+  double factor = 1;  ///< < 0: constant stiffness |factor|
   double stmin = 0, stmax = 1e30, fpenmax = 0, gap_scale = 1, mesh_fraction = 0;
 
   PairGap gap_rule;
   double gapmin = 0, gapmax = 1e30, drad = 0;
   GapminOrigin gapmin_origin = GapminOrigin::card;
-  double max_gap = 0;      ///< largest pair gap that the solver's search expects
-  double shortest_side = 0;///< of all main segments (or of both line sets)
+  double max_gap = 0;        ///< largest pair gap that the solver's search expects
+  double shortest_side = 0;  ///< of all main segments (or of both line sets)
 
-  std::vector<SecondaryNode> secondary;      ///< node_segment
+  std::vector<SecondaryNode> secondary;  ///< node_segment
   std::vector<MainSegment> main;
   std::vector<ContactEdge> secondary_edges;  ///< edge_edge
   std::vector<ContactEdge> main_edges;
 
-  std::uint64_t candidates = 0;  ///< pairs within gap + margin; edge pairs: within gap
+  std::uint64_t candidates = 0;     ///< pairs within gap + margin; edge pairs: within gap
   std::uint64_t removed_pairs = 0;  ///< candidates taken out by Irem_gap = 2
   std::vector<PenetrationRow> penetrations;
 
-  int repaired_segments = 0;   ///< solver warning 106
-  int degenerate_segments = 0; ///< solver error 558
-  int reoriented_segments = 0; ///< solver warning 3025
+  int repaired_segments = 0;                          ///< solver warning 106
+  int degenerate_segments = 0;                        ///< solver error 558
+  int reoriented_segments = 0;                        ///< solver warning 3025
   std::vector<std::uint32_t> degenerate, no_carrier;  ///< positions in `main`
   /// Positions in `main` of plain segments in more than two solids (solver warning 3062), and of
   /// quadrangular faces of solids whose nodes all belong to a solid without that face.
@@ -125,10 +125,10 @@ struct Contact {
 struct Scene {
   const Model* model = nullptr;
   const Interfaces* interfaces = nullptr;
-  Coordinates coordinates;           ///< after Inacti 3 moved nodes
-  std::vector<Contact> contacts;     ///< in the solver's processing order
-  DecisionReport decisions;          ///< of the penetrations
-  MemoryLimits limits;               ///< of SceneOptions, for what is made of the scene
+  Coordinates coordinates;        ///< after Inacti 3 moved nodes
+  std::vector<Contact> contacts;  ///< in the solver's processing order
+  DecisionReport decisions;       ///< of the penetrations
+  MemoryLimits limits;            ///< of SceneOptions, for what is made of the scene
 };
 
 struct SceneOptions {
@@ -136,16 +136,16 @@ struct SceneOptions {
   bool candidates = true;  ///< also count candidates (needs the wider search)
   bool penetrations = true;
   Accuracy accuracy = Accuracy::robust;  ///< of the contact decisions
-  bool nodal_stiffness = false;  ///< fill SecondaryNode::nodal_stiffness (needed for forces)
+  bool nodal_stiffness = false;    ///< fill SecondaryNode::nodal_stiffness (needed for forces)
   std::vector<std::int64_t> only;  ///< interface ids to build; empty: all
   std::vector<WhatIf> what_if;
-  MemoryLimits limits;             ///< pair_bytes: what lies beyond is not evaluated, with a finding
+  MemoryLimits limits;  ///< pair_bytes: what lies beyond is not evaluated, with a finding
   /// Called with (contacts done, contacts in all); may be empty.
   std::function<void(std::size_t, std::size_t)> progress;
 };
 
-/// Builds all contacts of the model: expansion of TYPE19, segments, gaps, stiffness, penetrations and
-/// Inacti, in the reference solver's order (Inacti 3 moves nodes that later contacts see).
+/// Builds all contacts of the model: expansion of TYPE19, segments, gaps, stiffness, penetrations
+/// and Inacti, in the reference solver's order (Inacti 3 moves nodes that later contacts see).
 Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics& diagnostics,
                   const SceneOptions& options = {});
 

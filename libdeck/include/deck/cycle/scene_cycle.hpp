@@ -134,8 +134,8 @@ class CycleRun {
   ~CycleRun();
   CycleRun(const CycleRun&) = delete;
   CycleRun& operator=(const CycleRun&) = delete;
-  /// With the nodes at `x`; areas and widths for heat stay those of the scene. The model must be the
-  /// same in every call.
+  /// With the nodes at `x`; areas and widths for heat stay those of the scene. The model must be
+  /// the same in every call.
   [[nodiscard]] SceneOutcome evaluate(const Coordinates& x, const State& state,
                                       const CycleOptions& options);
   /// How often the pairs of a contact were searched.

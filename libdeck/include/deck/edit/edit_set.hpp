@@ -74,7 +74,8 @@ class EditSet {
   const std::string& main_target(std::size_t deck) const {
     return decks_[deck].layout.front().first;
   }
-  /// `written` is a deck read from what was planned: what is not as it was proposed; empty: nothing.
+  /// `written` is a deck read from what was planned: what is not as it was proposed; empty:
+  /// nothing.
   std::string read_back_difference(std::size_t deck, const Deck& written) const;
   /// The paths of all files, as they were opened.
   std::vector<std::string> paths() const;
@@ -109,7 +110,7 @@ class EditSet {
     std::string no_layout;  ///< why there is none
     std::vector<Edge> edges;
     std::vector<std::string> order;  ///< the files as the reader opens them, repetitions included
-    std::string units;  ///< "kg, mm, ms", as /BEGIN says
+    std::string units;               ///< "kg, mm, ms", as /BEGIN says
   };
 
   Result<std::size_t> enter(const Source& source);

@@ -32,8 +32,8 @@ class IncludeScan {
   std::map<FileIdentity, std::vector<std::string>> written_;
 };
 
-/// Decks that share a file, directly or by way of others, in one group. Groups in the order of their
-/// first decks, decks in the order given.
+/// Decks that share a file, directly or by way of others, in one group. Groups in the order of
+/// their first decks, decks in the order given.
 std::vector<std::vector<std::size_t>> sharing_groups(
     const std::vector<std::vector<IncludeScan::File>>& files_of_decks);
 

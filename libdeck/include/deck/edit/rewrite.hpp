@@ -34,7 +34,7 @@ struct LossEntry {
   std::string file;  ///< as in the deck
   std::uint64_t line = 0;
   std::uint64_t column = 0, end_column = 0;  ///< of a value that changed; 0: not told
-  std::string keyword;  ///< "/INTER/TYPE7"
+  std::string keyword;                       ///< "/INTER/TYPE7"
   std::int64_t id = 0;
   std::string field;  ///< "Irem_gap"; empty: the block as a whole
   std::string old_text, new_text;

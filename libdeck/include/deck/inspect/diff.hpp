@@ -18,7 +18,8 @@ namespace deck {
 enum class MatchBy : std::uint8_t {
   id,        ///< the same kind and id
   title,     ///< the same kind and title; without one, and nodes and elements, the same id
-  position,  ///< nodes by coordinates, elements by their nodes, all else as with `title`, then by rank
+  position,  ///< nodes by coordinates, elements by their nodes, all else as with `title`, then by
+             ///< rank
 };
 
 /// One side of a comparison; scene and view of the same deck.
@@ -40,18 +41,19 @@ using DiffValue =
 
 struct Change {
   ChangeKind kind = ChangeKind::changed;
-  std::string group;    ///< "deck", "interface", "group", "part", "property", "material", "node", "other"
-  std::string keyword;  ///< of the entity: "/INTER/TYPE7"; "" for "deck"
+  std::string
+      group;  ///< "deck", "interface", "group", "part", "property", "material", "node", "other"
+  std::string keyword;    ///< of the entity: "/INTER/TYPE7"; "" for "deck"
   std::int64_t id = 0;    ///< in the first deck, of what is added in the second
   std::int64_t id_b = 0;  ///< in the second deck, where it is another; else 0
   std::string title;
-  std::string field;                ///< "" where the entity as a whole came or went
-  DiffValue old_value, new_value;   ///< as the cards say, in working units of the first deck
-  bool evaluated = false;           ///< the next three are filled: a field of a contact
+  std::string field;               ///< "" where the entity as a whole came or went
+  DiffValue old_value, new_value;  ///< as the cards say, in working units of the first deck
+  bool evaluated = false;          ///< the next three are filled: a field of a contact
   DiffValue effective_old, effective_new;
-  std::string why;                  ///< where the new effective value comes from: "card" ...
+  std::string why;  ///< where the new effective value comes from: "card" ...
   std::vector<std::int64_t> gained, lost, altered;  ///< ids of members; gained: of the second deck
-  Span a, b;                        ///< place in either deck
+  Span a, b;                                        ///< place in either deck
 };
 
 struct PenetrationChange {

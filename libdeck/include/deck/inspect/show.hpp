@@ -15,12 +15,12 @@ namespace deck {
 
 /// What a person names with "3", "/INTER/TYPE7/3", "part:4" or "node:57".
 struct Entity {
-  std::string kind;              ///< "inter", "part", "node", "shell" ...
-  std::string keyword;           ///< "/INTER/TYPE7"
+  std::string kind;     ///< "inter", "part", "node", "shell" ...
+  std::string keyword;  ///< "/INTER/TYPE7"
   std::int64_t id = 0;
   std::string title;
-  const Block* block = nullptr;  ///< holds it; of a node or element the list that it stands in
-  Span span;                     ///< its header or, of a node or element, its line
+  const Block* block = nullptr;    ///< holds it; of a node or element the list that it stands in
+  Span span;                       ///< its header or, of a node or element, its line
   std::uint32_t index = no_index;  ///< of a node, element, part, property or material in the model
 };
 
@@ -44,7 +44,7 @@ struct Link {
   std::int64_t id = 0;
   std::int64_t last = 0;  ///< a range of ids
   std::string title;
-  Span span;              ///< where the naming cell stands (used_by), or the target's header
+  Span span;                ///< where the naming cell stands (used_by), or the target's header
   std::uint64_t count = 1;  ///< of equal ones: elements of a part
 };
 
@@ -52,13 +52,13 @@ using FactValue = std::variant<std::int64_t, double, std::string>;
 
 struct EntityView {
   Entity entity;
-  std::vector<Span> includes;      ///< include directives from the main file down to its file
-  std::vector<ShownCard> cards;    ///< data lines in order
+  std::vector<Span> includes;    ///< include directives from the main file down to its file
+  std::vector<ShownCard> cards;  ///< data lines in order
   std::vector<std::pair<std::string, FactValue>> facts;  ///< what the model makes of it
-  const InterBase* inter = nullptr;  ///< one whose fields are evaluated
+  const InterBase* inter = nullptr;                      ///< one whose fields are evaluated
   std::vector<Link> refers_to;
-  std::vector<Link> used_by;       ///< blocks that name it, and elements
-  std::vector<Link> interfaces;    ///< contacts that reach it through others; field: "secondary" ...
+  std::vector<Link> used_by;     ///< blocks that name it, and elements
+  std::vector<Link> interfaces;  ///< contacts that reach it through others; field: "secondary" ...
 };
 
 /// Resolves groups, surfaces and sets where that is needed to answer.

@@ -1,5 +1,5 @@
-// Deck: the include tree of a Starter deck cut into blocks, losslessly. A block keeps where its lines
-// are; nothing is interpreted before somebody decodes it against its schema.
+// Deck: the include tree of a Starter deck cut into blocks, losslessly. A block keeps where its
+// lines are; nothing is interpreted before somebody decodes it against its schema.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -26,22 +26,22 @@ struct Piece {
 /// An id in a header: a number, a parameter reference that was resolved, or absent.
 struct HeaderId {
   std::int64_t value = 0;
-  Span span;              ///< empty span where absent
+  Span span;  ///< empty span where absent
   bool present = false;
 };
 
 /// One keyword with its lines.
 struct Block {
-  const Schema* schema = nullptr;    ///< nullptr: unknown keyword
-  std::string_view header;           ///< the header line, trimmed; points into the source
+  const Schema* schema = nullptr;  ///< nullptr: unknown keyword
+  std::string_view header;         ///< the header line, trimmed; points into the source
   Span header_span;
-  std::string_view keyword;          ///< the part of the header that names the keyword
-  HeaderId id, unit_id;              ///< without submodel offset
-  std::vector<Piece> body;           ///< all lines up to the next header, comments included
-  int version = newest_version;      ///< input version that its columns follow
-  std::int32_t submodel = -1;        ///< index into Deck::submodels
-  bool opaque = false;               ///< encrypted: kept, never interpreted
-  std::string_view inline_title;     ///< formats before 51 carry the title in the header
+  std::string_view keyword;       ///< the part of the header that names the keyword
+  HeaderId id, unit_id;           ///< without submodel offset
+  std::vector<Piece> body;        ///< all lines up to the next header, comments included
+  int version = newest_version;   ///< input version that its columns follow
+  std::int32_t submodel = -1;     ///< index into Deck::submodels
+  bool opaque = false;            ///< encrypted: kept, never interpreted
+  std::string_view inline_title;  ///< formats before 51 carry the title in the header
 };
 
 /// One physical line of a block, trailing control characters and blanks removed.
@@ -113,17 +113,17 @@ struct IncludeEdge {
   std::uint32_t file = 0;    ///< the included file
   std::uint32_t parent = 0;  ///< the file holding the directive
   Span directive;
-  std::string written;       ///< path as written in the deck
+  std::string written;  ///< path as written in the deck
 };
 
 /// /BEGIN of the main file.
 struct Begin {
   std::string run_name;
-  int version_written = 0;   ///< the number in the deck, 0 if blank
+  int version_written = 0;  ///< the number in the deck, 0 if blank
   bool version_known = true;
   UnitSystem input, working;
   bool has_input = false, has_working = false;
-  Span span;                 ///< header line; invalid: no /BEGIN
+  Span span;  ///< header line; invalid: no /BEGIN
   Span version_span;
 };
 
@@ -138,15 +138,15 @@ struct ReadOptions {
 struct Deck {
   SourceSet sources;
   std::vector<IncludeEdge> includes;
-  std::vector<Block> blocks;          ///< in reading order, main deck only up to /END
+  std::vector<Block> blocks;  ///< in reading order, main deck only up to /END
   std::vector<Submodel> submodels;
   std::multimap<std::string, Parameter, std::less<>> parameters;
   std::map<std::int64_t, UnitSystem> units;  ///< /UNIT/id, submodel offsets applied
   Begin begin;
-  int version = newest_version;       ///< of the main file
-  bool end_seen = false;              ///< /END in the main file
+  int version = newest_version;  ///< of the main file
+  bool end_seen = false;         ///< /END in the main file
   std::uint64_t total_bytes = 0;
-  Diagnostics diagnostics;            ///< what reading had to say (rules DK0xx)
+  Diagnostics diagnostics;  ///< what reading had to say (rules DK0xx)
 
   /// Parameter visible from `file`: local there, local in its parents, global.
   const Parameter* find_parameter(std::string_view name, std::uint32_t file) const;

@@ -1,5 +1,5 @@
-// References: which ids a block names, of what kind, and where — the one place that knows clauses of
-// sets, ranges and ids in headers. Also the way back, from an id to the block that defines it.
+// References: which ids a block names, of what kind, and where — the one place that knows clauses
+// of sets, ranges and ids in headers. Also the way back, from an id to the block that defines it.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -14,20 +14,20 @@ namespace deck {
 
 /// An id, or a range of ids, that a block names. Submodel offsets are added.
 struct Reference {
-  std::string_view kind;       ///< of the target: "grnod", "node", "part" ... ("" is never given)
-  std::int64_t id = 0;         ///< without sign
-  std::int64_t last = 0;       ///< a range: its last id
-  std::int64_t step = 0;       ///< of the range; 0: one id
-  bool minus = false;          ///< a group takes it away
-  std::string_view field;      ///< name of the cell, clause of the set, "" for the header
+  std::string_view kind;   ///< of the target: "grnod", "node", "part" ... ("" is never given)
+  std::int64_t id = 0;     ///< without sign
+  std::int64_t last = 0;   ///< a range: its last id
+  std::int64_t step = 0;   ///< of the range; 0: one id
+  bool minus = false;      ///< a group takes it away
+  std::string_view field;  ///< name of the cell, clause of the set, "" for the header
   Span span;
   bool covers(std::int64_t other) const {
     return step == 0 ? other == id : other >= id && other <= last && (other - id) % step == 0;
   }
 };
 
-/// All ids that a block names, in line order; of nodes and elements (Schema::bulk) only the header's.
-/// Lines that no schema describes are not looked at.
+/// All ids that a block names, in line order; of nodes and elements (Schema::bulk) only the
+/// header's. Lines that no schema describes are not looked at.
 std::vector<Reference> references_of(const Deck& deck, const Block& block);
 /// The same for a block that was decoded already.
 std::vector<Reference> references_of(const Deck& deck, const DecodedBlock& decoded);

@@ -57,7 +57,7 @@ struct Field {
   std::string name;         ///< the manual's name, e.g. "Fscalegap"
   int first = 0, last = 0;  ///< columns
   FieldType type = FieldType::integer;
-  std::string ref;                   ///< for ids: kind of the target ("grnod", "surf", "node", ...)
+  std::string ref;  ///< for ids: kind of the target ("grnod", "surf", "node", ...)
   /// For ids: the solver stops with this message (0: number not known) where the target does not
   /// exist, has no member, or is not named at all. Without a value that is legal or not known.
   std::optional<int> missing, empty, required;
@@ -85,8 +85,8 @@ struct Field {
   bool ignored = false;     ///< the reference solver reads it and does nothing with it
   std::string doc;          ///< one line
   std::string from_manual;  ///< where manual and reference solver differ, one line
-  /// What it is for and what the solver really does, for `explain`: paragraphs, and lines that begin
-  /// with '|' and stand as they are (figures, without the '|').
+  /// What it is for and what the solver really does, for `explain`: paragraphs, and lines that
+  /// begin with '|' and stand as they are (figures, without the '|').
   std::vector<std::string> help;
   std::string help_of;  ///< keyword whose field of the same name has the rest of the help
   bool in_version(int version) const { return version >= from && version <= until; }

@@ -15,8 +15,9 @@ namespace deck {
 /// .decklint.toml. Keys: select, ignore (lists of ids or prefixes), fail-on ("error", "warning",
 /// "never"), baseline (path, relative to the file), [severity] id = "error"|"warning"|"info",
 /// [per-file-ignores] glob = list, [gate] max-depth, max-ratio,
-/// max-count, max-dt-loss, fail-on (list of "new", "worse"), compare (path), [[gate.interface]] match = pattern of
-/// id or title, [[gate.part-pair]] match = two of them, each with bounds of its own.
+/// max-count, max-dt-loss, fail-on (list of "new", "worse"), compare (path), [[gate.interface]]
+/// match = pattern of id or title, [[gate.part-pair]] match = two of them, each with bounds of its
+/// own.
 struct LintConfig {
   std::string path;  ///< file it came from; empty: none
   std::vector<std::string> select, ignore;

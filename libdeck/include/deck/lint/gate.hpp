@@ -19,9 +19,9 @@ inline constexpr RuleId gate_rules[] = {RuleId::DK370, RuleId::DK371, RuleId::DK
 
 /// Bounds; what is not set does not bound.
 struct GateLimits {
-  std::optional<double> max_depth;    ///< of a penetration, working units
-  std::optional<double> max_ratio;    ///< penetration over gap
-  std::optional<double> max_dt_loss;  ///< 1 - contact step / step of the mesh
+  std::optional<double> max_depth;         ///< of a penetration, working units
+  std::optional<double> max_ratio;         ///< penetration over gap
+  std::optional<double> max_dt_loss;       ///< 1 - contact step / step of the mesh
   std::optional<std::uint64_t> max_count;  ///< penetrating nodes and edges, each once
 };
 
@@ -32,9 +32,9 @@ struct GateScope {
 };
 
 struct Gate {
-  GateLimits general;                  ///< max_count: of the whole deck
-  std::vector<GateScope> interfaces;   ///< [[gate.interface]]; the last that matches holds
-  std::vector<GateScope> part_pairs;   ///< [[gate.part-pair]], either way round; before interfaces
+  GateLimits general;                 ///< max_count: of the whole deck
+  std::vector<GateScope> interfaces;  ///< [[gate.interface]]; the last that matches holds
+  std::vector<GateScope> part_pairs;  ///< [[gate.part-pair]], either way round; before interfaces
   bool on_fresh = false, on_worse = false;  ///< --fail-on new, worse: against an earlier run
 
   /// True if some bound or comparison was asked for.

@@ -20,7 +20,7 @@ struct InterBase {
   int type = 0;  ///< 7, 10, 11, 19
   std::string title;
   const Block* block = nullptr;
-  Span span;     ///< header
+  Span span;              ///< header
   bool resolved = false;  ///< values of Origin::geometry are filled in (deck/contact/resolve.hpp)
 };
 
@@ -48,8 +48,10 @@ struct InterType7 : InterBase {
   EffectiveInt Ithe_form;
   EffectiveReal AscaleK, Frad, Drad, Fheats, Fheatm;
   /// Calls f(name, field) for every field in the order of the manual.
-  template <class F> void for_each(F&& f);
-  template <class F> void for_each(F&& f) const;
+  template <class F>
+  void for_each(F&& f);
+  template <class F>
+  void for_each(F&& f) const;
 };
 
 struct InterType10 : InterBase {
@@ -57,8 +59,10 @@ struct InterType10 : InterBase {
   EffectiveReal Stfac, Gap, Tstart, Tstop;
   EffectiveInt ITIED, Inacti;
   EffectiveReal VISs, Bumult;
-  template <class F> void for_each(F&& f);
-  template <class F> void for_each(F&& f) const;
+  template <class F>
+  void for_each(F&& f);
+  template <class F>
+  void for_each(F&& f) const;
 };
 
 struct InterType11 : InterBase {
@@ -75,8 +79,10 @@ struct InterType11 : InterBase {
   EffectiveReal AscaleK, Tint;
   EffectiveInt Ithe_form;
   EffectiveReal Frad, Drad;
-  template <class F> void for_each(F&& f);
-  template <class F> void for_each(F&& f) const;
+  template <class F>
+  void for_each(F&& f);
+  template <class F>
+  void for_each(F&& f) const;
 };
 
 struct InterType19 : InterBase {
@@ -95,8 +101,10 @@ struct InterType19 : InterBase {
   EffectiveReal Tint;
   EffectiveInt Ithe_form;
   EffectiveReal AscaleK, Frad, Drad, Fheats, Fheatm;
-  template <class F> void for_each(F&& f);
-  template <class F> void for_each(F&& f) const;
+  template <class F>
+  void for_each(F&& f);
+  template <class F>
+  void for_each(F&& f) const;
 };
 
 /// /DEFAULT/INTER/TYPEn: the non-zero fields.

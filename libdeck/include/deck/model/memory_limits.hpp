@@ -5,8 +5,9 @@
 namespace deck {
 
 struct MemoryLimits {
-  std::uint64_t selection_bytes = std::uint64_t{4} << 30;  ///< members of all groups, surfaces, sets
-  std::uint64_t pair_bytes = std::uint64_t{2} << 30;       ///< the list of pairs of one contact
+  std::uint64_t selection_bytes = std::uint64_t{4}
+                                  << 30;              ///< members of all groups, surfaces, sets
+  std::uint64_t pair_bytes = std::uint64_t{2} << 30;  ///< the list of pairs of one contact
 };
 
 }  // namespace deck

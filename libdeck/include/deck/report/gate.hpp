@@ -12,8 +12,8 @@
 namespace deck {
 
 struct GateReport {
-  bool asked = false;                 ///< some bound was set, or new and worse were asked for
-  std::vector<Diagnostic> findings;   ///< what check_gate gave
+  bool asked = false;                ///< some bound was set, or new and worse were asked for
+  std::vector<Diagnostic> findings;  ///< what check_gate gave
   const EarlierGaps* earlier = nullptr;
   GapsComparison comparison;  ///< with `earlier`
 };

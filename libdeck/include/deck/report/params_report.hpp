@@ -26,7 +26,7 @@ struct ParamsTextOptions {
   bool color = false;
   /// Only fields that somebody wrote on the card and that are not the default.
   bool changed_only = false;
-  bool filled_in_only = false;  ///< only fields whose value does not stand on the card
+  bool filled_in_only = false;     ///< only fields whose value does not stand on the card
   std::vector<std::int64_t> only;  ///< interface ids; empty: all
   std::size_t width = 0;           ///< columns of a line; 0: any
 };

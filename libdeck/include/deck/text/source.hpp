@@ -16,13 +16,13 @@ namespace deck {
 
 /// What a hostile or broken deck may cost at most. An argument everywhere, with safe defaults.
 struct Limits {
-  std::uint64_t total_bytes = std::uint64_t{64} << 30;  ///< all files of the include tree
-  std::uint64_t map_threshold = std::uint64_t{32} << 20;///< larger files are mapped, not read
-  std::uint64_t stdin_bytes = std::uint64_t{4} << 30;   ///< standard input has no size to check
-  int include_depth = 100;                              ///< the reference solver stops at about 10
+  std::uint64_t total_bytes = std::uint64_t{64} << 30;    ///< all files of the include tree
+  std::uint64_t map_threshold = std::uint64_t{32} << 20;  ///< larger files are mapped, not read
+  std::uint64_t stdin_bytes = std::uint64_t{4} << 30;     ///< standard input has no size to check
+  int include_depth = 100;  ///< the reference solver stops at about 10
   int files = 10000;
-  int diagnostics_per_rule = 1000;                      ///< further ones are counted, not kept
-  int expression_steps = 10000;                         ///< parameter expressions
+  int diagnostics_per_rule = 1000;  ///< further ones are counted, not kept
+  int expression_steps = 10000;     ///< parameter expressions
 };
 
 /// A stretch of bytes of one file. Line and column are computed when a person wants to see them.
@@ -72,7 +72,8 @@ class Source {
   std::size_t map_size_ = 0;
   std::uint64_t device_ = 0, inode_ = 0;
   mutable std::mutex mutex_;
-  mutable std::vector<std::uint64_t> checkpoints_;  // lines before every 64 KiB boundary seen so far
+  mutable std::vector<std::uint64_t>
+      checkpoints_;  // lines before every 64 KiB boundary seen so far
 };
 
 /// All files of a deck. Index 0 is the main file.

@@ -118,8 +118,7 @@ cycle::SceneOutcome check_cycle(const GeometryRun& run) {
   cycle::CycleOptions options;
   options.model = cycle::Model::reference;  // what the solver will do, its double counting included
   options.threads = run.threads;
-  cycle::SceneOutcome outcome =
-      cycle::run_cycle(run.scene, cycle::make_state(run.scene), options);
+  cycle::SceneOutcome outcome = cycle::run_cycle(run.scene, cycle::make_state(run.scene), options);
   for (const cycle::ContactOutcome& c : outcome.contacts)
     if (!c.complete && c.contact->evaluated && !c.notes.empty())
       run.report(RuleId::DK381, *c.contact, gap_field(*c.contact),

@@ -54,8 +54,7 @@ std::string list_text(const std::vector<std::int64_t>& list) {
 
 }  // namespace detail
 
-void check_geometry(const LintContext& context, Reporter& reporter,
-                    const GeometryOptions& chosen) {
+void check_geometry(const LintContext& context, Reporter& reporter, const GeometryOptions& chosen) {
   if (context.model == nullptr || context.interfaces == nullptr) return;
   Diagnostics found;
   SceneOptions options;
