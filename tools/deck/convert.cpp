@@ -448,7 +448,10 @@ int run(const Options& options) {
   Run work{options, std::move(*steps), Changes(options.common, options.write)};
   auto decks = Result<std::vector<std::string>>(options.common.decks);
   if (options.from != "lsdyna") decks = work.changes.decks(options.common.decks, ending);
-  if (!decks) return fail(work, decks.error());
+  if (!decks) {
+    print_error(options.common, decks.error().message);
+    return decks.error().code == Error::Code::config ? exit_usage : exit_input;
+  }
   int worst = exit_clean;
   const bool lsdyna = options.from == "lsdyna";
   if (lsdyna) {

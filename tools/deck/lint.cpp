@@ -124,7 +124,10 @@ class Run {
     const bool rewrites = options_.diff || options_.fix || options_.unsafe_fixes;
     auto decks = Result<std::vector<std::string>>(common_.decks);
     if (rewrites) decks = changes_.decks(common_.decks, deck_ending);
-    if (!decks) return usage(decks.error().message);
+    if (!decks) {
+      print_error(common_, decks.error().message);
+      return decks.error().code == Error::Code::config ? exit_usage : exit_input;
+    }
     for (const std::string& path : *decks) {
       if (BatchFrame* frame = batch_frame()) frame->begin(path);
       const int code = lint_one(path);

@@ -50,7 +50,9 @@ Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& 
                                                 std::string_view ending) {
   auto all = expand_decks(given, ending, choice_.directory);
   if (!all) return all;
-  if (all->empty()) return Error{Error::Code::config, "no deck is named *" + std::string(ending)};
+  if (all->empty())
+    return Error{Error::Code::io, (given.empty() ? std::string() : given.front() + ": ") +
+                                      "no file there is named *" + std::string(ending)};
   if (const BatchFrame* frame = batch_frame()) {
     root_ = frame->root;
     outsiders_ = frame->outsiders;

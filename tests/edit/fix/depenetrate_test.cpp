@@ -1,7 +1,7 @@
 // Tests of moving nodes out of gaps.
 #include "deck/edit/depenetrate.hpp"
 
-#include "edit/fix_support.hpp"
+#include "edit/fix/support.hpp"
 
 namespace deck::test {
 namespace {

@@ -1,5 +1,5 @@
 // Fixes that change interface cards: reduce-gap, inacti, fpenmax.
-#include "edit/fix_support.hpp"
+#include "edit/fix/support.hpp"
 
 namespace deck::test {
 namespace {
