@@ -233,7 +233,7 @@ int run(const Options& o) {
   const auto decks = fix.decks();
   if (!decks) {
     print_error(o.common, decks.error().message);
-    return exit_usage;
+    return decks.error().code == Error::Code::config ? exit_usage : exit_input;
   }
   CommonOptions common = o.common;
   common.decks = *decks;

@@ -51,8 +51,9 @@ Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& 
   auto all = expand_decks(given, ending, choice_.directory);
   if (!all) return all;
   if (all->empty())
-    return Error{Error::Code::io, (given.empty() ? std::string() : given.front() + ": ") +
-                                      "no file there is named *" + std::string(ending)};
+    return Error{Error::Code::io, (given.empty() ? "the directory" : given.front()) +
+                                      std::string(": this is a directory without any file *") +
+                                      std::string(ending)};
   if (const BatchFrame* frame = batch_frame()) {
     root_ = frame->root;
     outsiders_ = frame->outsiders;
