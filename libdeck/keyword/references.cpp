@@ -9,6 +9,11 @@
 
 namespace deck {
 
+SetClause set_clause(std::string_view cell) {
+  const std::size_t cut = std::min(cell.find('_'), cell.size());
+  return {cell.substr(0, cut), cell.substr(cut)};
+}
+
 std::string_view kind_of_clause(std::string_view clause) {
   constexpr std::pair<std::string_view, std::string_view> clauses[] = {
       {"SET", "set"},     {"SETCOL", "set"},    {"BOX", "box"},     {"BOX2", "box"},
@@ -111,10 +116,9 @@ class References {
       if (card.cells.empty()) continue;
       if (!card.cells[0].blank()) {
         flush();
-        const std::string_view text = card.cells[0].text;
-        const std::size_t cut = std::min(text.find('_'), text.size());
-        clause = text.substr(0, cut);
-        triplets = text.find('G', cut) != std::string_view::npos;
+        const SetClause word = set_clause(card.cells[0].text);
+        clause = word.name;
+        triplets = word.ranges();
         rows = 0;
       }
       ++rows;

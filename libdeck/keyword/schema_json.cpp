@@ -1,5 +1,7 @@
 // Strict reader of keyword schemas. It is strict because a mistyped key would otherwise become a
 // column that is silently never read.
+// Over 600 lines: one short function a key of the format, and the checks of what the keys say
+// together.
 #include "keyword/schema_json.hpp"
 
 #include <fmt/format.h>

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "deck/base/spelling.hpp"
 #include "deck/lint/rule.hpp"
 #include "deck/text/number.hpp"
 
@@ -15,13 +16,6 @@ namespace {
 constexpr std::size_t usual_width = 92;
 constexpr const char* contact_keywords[] = {"/INTER/TYPE7", "/INTER/TYPE10", "/INTER/TYPE11",
                                             "/INTER/TYPE19"};
-
-std::string in_capitals(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
-  return out;
-}
 
 /// Text broken at blanks; every line behind `indent` blanks.
 std::string paragraph(std::string_view text, std::size_t indent, std::size_t width) {
@@ -179,21 +173,6 @@ std::string solver_message(const std::string& digits, const SchemaSet& schemas, 
   return out;
 }
 
-std::size_t spelling_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
 }  // namespace
 
 std::string field_help(const Field& field, const SchemaSet& schemas, std::size_t width) {
@@ -247,7 +226,7 @@ std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet&
       in_capitals(topic.substr(topic.find('.') == topic.npos ? 0 : topic.rfind('.') + 1));
   std::map<std::string, std::size_t> found;
   const auto consider = [&](const std::string& name) {
-    const std::size_t d = spelling_distance(wanted, in_capitals(name));
+    const std::size_t d = edit_distance(wanted, in_capitals(name));
     if (d <= std::max<std::size_t>(1, wanted.size() / 3)) found.try_emplace(name, d);
   };
   for (const Schema* s : contacts_first(schemas)) {

@@ -8,24 +8,6 @@
 namespace deck::test {
 namespace {
 
-Linted lint_cycle(std::string_view example, int threads = 1) {
-  const SchemaSet& schemas = SchemaSet::built_in();
-  auto deck = read_deck_text("deck_0000.rad", example_deck(example, schemas).main, schemas);
-  if (!deck) throw std::runtime_error(deck.error().message);
-  Linted out;
-  out.deck = std::make_unique<Deck>(std::move(*deck));
-  Diagnostics of_model, of_interfaces;
-  const Model model = build_model(*out.deck, schemas, of_model);
-  const Interfaces interfaces = read_interfaces(*out.deck, model, of_interfaces);
-  LintInput input{
-      *out.deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces},
-      {}};
-  input.extra_checks.push_back(
-      [&](const LintContext& c, Reporter& r) { check_geometry(c, r, {.threads = threads}); });
-  out.result = run_lint(input);
-  return out;
-}
-
 class EveryCycleRule : public testing::TestWithParam<std::string> {
  protected:
   const Rule& rule() const { return *find_rule(GetParam()); }
@@ -39,7 +21,7 @@ std::vector<std::string> cycle_rules() {
 }
 
 TEST_P(EveryCycleRule, FiresOnItsBadExampleAndNamesTheInterface) {
-  const Linted run = lint_cycle(rule().bad);
+  const Linted run = lint_geometry(rule().bad);
   const Diagnostic* d = run.find(rule().id);
   ASSERT_NE(d, nullptr) << run.list();
   EXPECT_TRUE(d->span.valid());
@@ -48,7 +30,7 @@ TEST_P(EveryCycleRule, FiresOnItsBadExampleAndNamesTheInterface) {
 }
 
 TEST_P(EveryCycleRule, StaysSilentOnItsGoodExampleWhichHasNoErrors) {
-  const Linted run = lint_cycle(rule().good);
+  const Linted run = lint_geometry(rule().good);
   EXPECT_FALSE(run.fires(rule().id)) << run.list();
   for (const Diagnostic& d : run.result.diagnostics)
     EXPECT_NE(d.severity, Severity::error) << id_text(d.rule) << " " << d.message;
@@ -62,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(Rules, EveryCycleRule, testing::ValuesIn(cycle_rules())
                          [](const auto& test) { return test.param; });
 
 TEST(CycleRules, ForceNamesSumEnergyAndTheNodePushedMost) {
-  const Linted run = lint_cycle("@/INTER/TYPE7/1 Gapmin=4\n");
+  const Linted run = lint_geometry("@/INTER/TYPE7/1 Gapmin=4\n");
   const Diagnostic* d = run.find(RuleId::DK401);
   ASSERT_NE(d, nullptr);
   // Four nodes over the corners: kappa = 210 / 2, gap 4, penetration 1, so 140 each.
@@ -74,7 +56,7 @@ TEST(CycleRules, ForceNamesSumEnergyAndTheNodePushedMost) {
 }
 
 TEST(CycleRules, StepNamesBothSteps) {
-  const Linted run = lint_cycle("@/INTER/TYPE7/1 Gapmin=4\n");
+  const Linted run = lint_geometry("@/INTER/TYPE7/1 Gapmin=4\n");
   const Diagnostic* d = run.find(RuleId::DK402);
   ASSERT_NE(d, nullptr);
   // Contact: 105 (4/3)^2 against a quarter of 7.8e-6 100. Mesh: 10 mm at 5439 mm/ms.
@@ -86,7 +68,7 @@ TEST(CycleRules, StepNamesBothSteps) {
 }
 
 TEST(CycleRules, NearPairIsNamed) {
-  const Linted run = lint_cycle(rule_of(RuleId::DK403).bad);
+  const Linted run = lint_geometry(rule_of(RuleId::DK403).bad);
   const Diagnostic* d = run.find(RuleId::DK403);
   ASSERT_NE(d, nullptr);
   EXPECT_NE(d->message.find("node 21 over segment 1 2 3 4 has 0.02 of 1 (2 %)"), std::string::npos)
@@ -96,9 +78,9 @@ TEST(CycleRules, NearPairIsNamed) {
 TEST(CycleRules, RoundingsAreNoForce) {
   const auto fires = [&](std::string z) {
     z.insert(0, 20 - z.size(), ' ');
-    return lint_cycle("/NODE\n        21                 5.0                 5.0" + z +
-                      "\n/GRNOD/NODE/3\nover\n        21\n"
-                      "@/INTER/TYPE7/1 grnd_IDs=3 Gapmin=1\n")
+    return lint_geometry("/NODE\n        21                 5.0                 5.0" + z +
+                         "\n/GRNOD/NODE/3\nover\n        21\n"
+                         "@/INTER/TYPE7/1 grnd_IDs=3 Gapmin=1\n")
         .fires(RuleId::DK401);
   };
   EXPECT_FALSE(fires("0.99999999"));
@@ -106,18 +88,18 @@ TEST(CycleRules, RoundingsAreNoForce) {
 }
 
 TEST(CycleRules, FindingsDoNotDependOnThreads) {
-  EXPECT_EQ(lint_cycle("@/INTER/TYPE7/1 Gapmin=4\n", 1).list(),
-            lint_cycle("@/INTER/TYPE7/1 Gapmin=4\n", 3).list());
+  EXPECT_EQ(lint_geometry("@/INTER/TYPE7/1 Gapmin=4\n", 1).list(),
+            lint_geometry("@/INTER/TYPE7/1 Gapmin=4\n", 3).list());
 }
 
 TEST(CycleRules, TiedContactsMayTouch) {
-  const Linted run = lint_cycle("@/INTER/TYPE10/1 Gap=4\n");
+  const Linted run = lint_geometry("@/INTER/TYPE10/1 Gap=4\n");
   EXPECT_FALSE(run.fires(RuleId::DK401));
   EXPECT_FALSE(run.fires(RuleId::DK403));
 }
 
 TEST(CycleRules, ALaterStartIsNoForceAtTheStart) {
-  EXPECT_FALSE(lint_cycle("@/INTER/TYPE7/1 Gapmin=4 Tstart=1.0\n").fires(RuleId::DK401));
+  EXPECT_FALSE(lint_geometry("@/INTER/TYPE7/1 Gapmin=4 Tstart=1.0\n").fires(RuleId::DK401));
 }
 
 }  // namespace

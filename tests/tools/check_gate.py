@@ -65,13 +65,21 @@ class Gate:
             e("%s: a loss of time step below the bound passes" % verb, 0, verb, DECK, "--max-dt-loss", min(1, loss * 1.001))
         e("cycle takes bounds of penetrations, too", 1, "cycle", DECK, "--max-depth", "0.1", rules=["DK370"])
 
+    def undecided(self):
+        """What could not be evaluated has not passed, whatever else is asked for."""
+        for verb in ("gaps", "cycle"):
+            r = self.run(verb, DECK, "--max-memory", "1b", "--max-depth", "100", "--fail-on", "never", "--json", "-")
+            gate = json.loads(r.out)["gate"]
+            self.c.check("%s: a contact that could not be evaluated has not passed" % verb,
+                         r.code == 1 and not gate["passed"] and gate["undecided"] == 1, "exit %s, %s" % (r.code, gate))
+
     def documents(self):
         r = self.run("gaps", DECK, "--max-depth", "0.1", "--json", "-")
         gate = json.loads(r.out)["gate"]
         self.c.check("JSON tells what was not passed", not gate["passed"] and [f["rule"] for f in gate["findings"]] == ["DK370"] and
                      gate["findings"][0]["entity"] == {"keyword": "/INTER/TYPE7", "id": 1}, str(gate))
         r = self.run("gaps", DECK, "--max-depth", "1", "--json", "-")
-        self.c.check("JSON tells what was passed", json.loads(r.out)["gate"] == {"passed": True, "findings": []})
+        self.c.check("JSON tells what was passed", json.loads(r.out)["gate"] == {"passed": True, "undecided": 0, "findings": []})
         r = self.run("gaps", DECK, "--json", "-")
         self.c.check("without a gate JSON has none", json.loads(r.out)["gate"] is None and json.loads(r.out)["compared"] is None)
         r = self.run("lint", DECK, "--geometry", "--max-depth", "0.1", "--fail-on", "never", "--format", "json",
@@ -165,6 +173,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="deck-gate-") as folder:
         gate = Gate(c, folder)
         gate.bounds()
+        gate.undecided()
         gate.documents()
         gate.usage()
         gate.configuration()

@@ -12,6 +12,7 @@
 
 #include "common.hpp"
 #include "deck/base/escape.hpp"
+#include "deck/base/spelling.hpp"
 #include "deck/text/number.hpp"
 #include "help/completion_table.hpp"
 
@@ -204,22 +205,6 @@ void collect(const CLI::App& app, const std::string& group, VerbInfo& verb) {
   // Option groups are subcommands without a name.
   for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
     if (sub->get_name().empty() && !sub->get_group().empty()) collect(*sub, sub->get_group(), verb);
-}
-
-/// Number of single-character edits between two words.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
 }
 
 /// Refuses an unknown verb with the closest known one; 0: the verb is known or there is none.

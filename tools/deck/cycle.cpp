@@ -232,11 +232,11 @@ int run(const Options& o) {
       }
     }
     const SceneView view = make_view(scene);
-    const GateReport passed = gate->look(loaded, scene, view, &steps.last);
+    const GateReport report = gate->look(loaded, scene, view, &steps.last);
     input.view = &view;
-    input.gate = &passed;
+    input.gate = &report;
     if (o.gate.fails_on("never")) found = false;
-    found = found || !passed.findings.empty();
+    found = found || !report.passed();
     print_findings(loaded, o.common);
     if (json.wanted()) json.add(cycle_json(input, o.all));
     if (!written) {
@@ -245,7 +245,7 @@ int run(const Options& o) {
     }
     if (o.common.wants_text()) {
       print_text(cycle_text(input, {o.common.color_on(1), o.effects}));
-      if (const std::string lines = gate_text(passed); !lines.empty()) print_text("\n" + lines);
+      if (const std::string lines = gate_text(report); !lines.empty()) print_text("\n" + lines);
     }
     return static_cast<int>(found ? exit_findings : exit_clean);
   });

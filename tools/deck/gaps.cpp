@@ -233,11 +233,11 @@ int run(const Options& o) {
       cycle_options.threads = scene_options.threads;
       forces = cycle::run_cycle(scene, cycle::make_state(scene), cycle_options);
     }
-    const GateReport passed = gate->look(loaded, scene, view, forces ? &*forces : nullptr);
+    const GateReport report = gate->look(loaded, scene, view, forces ? &*forces : nullptr);
     print_findings(loaded, o.common);
     if (json.wanted())
       json.add(gaps_json(loaded.path, loaded.deck, scene, view, o.all,
-                         o.crossings ? &crossings : nullptr, &passed));
+                         o.crossings ? &crossings : nullptr, &report));
     if (!o.csv.empty())
       if (auto r = write_output(o.csv, gaps_csv(loaded.deck, scene, view)); !r) {
         print_error(o.common, r.error().message);
@@ -249,7 +249,7 @@ int run(const Options& o) {
         return static_cast<int>(exit_usage);
       }
     if (!o.html.empty())
-      if (auto r = write_html(o, loaded, scene, view, crossings, scene_options, passed); !r) {
+      if (auto r = write_html(o, loaded, scene, view, crossings, scene_options, report); !r) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }
@@ -259,13 +259,13 @@ int run(const Options& o) {
       text.color = o.common.color_on(1);
       print_text(gaps_text(loaded.deck, scene, view, text));
       if (o.crossings) print_text(crossings_text(scene, crossings, text));
-      if (const std::string lines = gate_text(passed); !lines.empty()) print_text("\n" + lines);
+      if (const std::string lines = gate_text(report); !lines.empty()) print_text("\n" + lines);
     }
     bool found = o.fail || o.gate.fails_on("warning") ? view.total.count.pairs > 0
                                                       : view.total.solver_errors > 0;
     for (const Contact& c : scene.contacts) found = found || !c.evaluated;
     if (o.gate.fails_on("never")) found = false;
-    found = found || !passed.findings.empty();
+    found = found || !report.passed();
     return static_cast<int>(found ? exit_findings : exit_clean);
   });
   return json.finish(code);

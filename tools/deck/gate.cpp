@@ -14,10 +14,10 @@ void set(std::optional<double>& bound, double given) {
 }
 
 Result<EarlierGaps> read_earlier(const std::string& path, const std::string& deck_path) {
-  const auto source = Source::open(path, Limits{});
-  if (!source) return source.error();
-  remember_read(**source);
-  return read_earlier_gaps(path, (*source)->bytes(), deck_path);
+  const auto text = read_config_file(path, most_baseline_bytes);
+  if (!text) return text.error();
+  remember_read(path);
+  return read_earlier_gaps(path, *text, deck_path);
 }
 
 }  // namespace
@@ -130,6 +130,8 @@ GateReport DeckGate::look(Loaded& loaded, const Scene& scene, const SceneView& v
     report.comparison = compare_gaps(*earlier, scene, view);
   }
   if (!report.asked) return report;
+  report.undecided = static_cast<std::size_t>(std::count_if(
+      scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) { return !c.evaluated; }));
   report.findings = check_gate(gate, scene, view, forces, report.earlier);
   for (const Diagnostic& d : report.findings) loaded.diagnostics.report(d);
   return report;

@@ -296,10 +296,9 @@ void Extraction::set_clauses(const Block& b, const DecodedBlock& d, bool touch) 
     if (card.cells.empty()) continue;
     if (!card.cells[0].blank()) {
       flush();
-      const std::string_view text = card.cells[0].text;
-      const std::size_t cut = std::min(text.find('_'), text.size());
-      kind = text.substr(0, cut);
-      options = text.substr(cut);
+      const SetClause word = set_clause(card.cells[0].text);
+      kind = word.name;
+      options = word.options;
     }
     // The first number of a segment row is its own id.
     for (std::size_t i = kind == "SEG" ? 2 : 1; i < card.cells.size(); ++i)

@@ -324,10 +324,9 @@ class Renumbering {
       if (card.cells.empty()) continue;
       if (!card.cells[0].blank()) {
         flush();
-        const std::string_view text = card.cells[0].text;
-        const std::size_t cut = std::min(text.find('_'), text.size());
-        clause = text.substr(0, cut);
-        triplets = text.find('G', cut) != std::string_view::npos;
+        const SetClause word = set_clause(card.cells[0].text);
+        clause = word.name;
+        triplets = word.ranges();
         rows = 0;
       }
       ++rows;

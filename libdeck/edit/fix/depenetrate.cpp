@@ -1,4 +1,5 @@
 // The iteration: search, ask for displacements, smooth, print, search again.
+// Over 600 lines: the steps of an iteration share its state (places, limits, what holds a node).
 #include "deck/edit/depenetrate.hpp"
 
 #include <algorithm>

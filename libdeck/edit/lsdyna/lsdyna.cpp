@@ -1,4 +1,5 @@
 // Decides for every LS-DYNA contact what interface it becomes and which value goes where.
+// Over 600 lines: one table of cards and fields, read from top to bottom as the format is.
 #include "deck/edit/lsdyna.hpp"
 
 #include <algorithm>

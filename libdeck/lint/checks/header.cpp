@@ -5,35 +5,12 @@
 #include <map>
 #include <vector>
 
+#include "deck/base/spelling.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
-
-std::string upper(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
-  return out;
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t limit) {
-  if (a.size() > b.size() + limit || b.size() > a.size() + limit) return limit + 1;
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min(
-          {above + 1, row[j - 1] + 1, diagonal + static_cast<std::size_t>(a[i - 1] != b[j - 1])});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
 
 /// The known keyword closest to an unknown one, if it is close.
 std::string_view closest_keyword(const LintContext& c, std::string_view keyword) {
@@ -58,8 +35,8 @@ void check_unknown(const LintContext& c, const Rule& rule, Reporter& r) {
     if (b.schema != nullptr || b.header.starts_with("//SUBMODEL") ||
         b.header.starts_with("//ENDSUB"))
       continue;
-    const std::string big = upper(b.keyword);
-    if (big != b.keyword && c.schemas.match(upper(b.header)) != nullptr) continue;  // DK041
+    const std::string big = in_capitals(b.keyword);
+    if (big != b.keyword && c.schemas.match(in_capitals(b.header)) != nullptr) continue;  // DK041
     auto [it, fresh] = seen.emplace(b.keyword, std::string_view());
     // A binary file that passed for a deck has no end of them.
     constexpr std::size_t most_suggestions = 200;
@@ -83,8 +60,8 @@ void check_unknown(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_lower_case(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& b : c.deck.blocks) {
     if (b.schema != nullptr) continue;
-    const std::string big = upper(b.keyword);
-    if (big == b.keyword || c.schemas.match(upper(b.header)) == nullptr) continue;
+    const std::string big = in_capitals(b.keyword);
+    if (big == b.keyword || c.schemas.match(in_capitals(b.header)) == nullptr) continue;
     const Span span{b.header_span.file, static_cast<std::uint32_t>(b.keyword.size()),
                     b.header_span.offset};
     if (Diagnostic* d =

@@ -64,7 +64,8 @@ void write_gate(JsonWriter& j, const Deck& deck, const Scene& scene, const Scene
   if (!gate.asked) {
     j.null();
   } else {
-    j.begin_object().field("passed", gate.findings.empty()).key("findings").begin_array();
+    j.begin_object().field("passed", gate.passed());
+    j.field("undecided", std::uint64_t{gate.undecided}).key("findings").begin_array();
     for (const Diagnostic& d : gate.findings) write_finding(j, deck, d);
     j.end_array().end_object();
   }

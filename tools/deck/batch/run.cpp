@@ -1,4 +1,5 @@
 // Runs verbs in the workers and draws the bar.
+// Over 600 lines: the stages of one run, from claiming the directory to the summary, on its state.
 #include "batch/run.hpp"
 
 #include <fcntl.h>
@@ -54,10 +55,11 @@ std::uint64_t key_of(const BatchTask& task) {
 /// Settings that a verb finds by itself.
 std::vector<std::string> settings_of(const BatchTask& task, const std::string& deck) {
   std::vector<std::string> paths;
-  if (task.verb.name != "lint") return paths;
+  if (task.verb.name != "lint" && task.verb.name != "gaps" && task.verb.name != "cycle")
+    return paths;
   const auto config = find_lint_config(deck);
   if (!config) return paths;
-  for (const std::string& path : {config->path, config->baseline})
+  for (const std::string& path : {config->path, config->baseline, config->compare})
     if (!path.empty()) paths.push_back(path);
   return paths;
 }

@@ -1,4 +1,6 @@
 // Multiplies every cell of known dimension by its factor and lists what it could not decide.
+// One class over 600 lines: what a block needs — its cells, counts, functions, notes — is decided
+// cell by cell with the state of the block, which all its steps share.
 #include "deck/edit/unit_system.hpp"
 
 #include <algorithm>

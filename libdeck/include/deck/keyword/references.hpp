@@ -32,6 +32,13 @@ std::vector<Reference> references_of(const Deck& deck, const Block& block);
 /// The same for a block that was decoded already.
 std::vector<Reference> references_of(const Deck& deck, const DecodedBlock& decoded);
 
+/// First cell of a clause of /SET: "SHELL_G" is the clause SHELL with the options "_G".
+struct SetClause {
+  std::string_view name, options;
+  /// Its numbers are ranges: first, last, step.
+  bool ranges() const { return options.find('G') != options.npos; }
+};
+SetClause set_clause(std::string_view cell);
 /// Kind of the ids in a clause of /SET ("PART" -> "part"); empty: no ids.
 std::string_view kind_of_clause(std::string_view clause);
 /// Entity kind that a header id or header number refers to besides the schema's kind: materials in

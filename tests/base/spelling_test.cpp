@@ -1,0 +1,36 @@
+// Distance of words against its definition.
+#include "deck/base/spelling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace deck {
+namespace {
+
+/// The definition, without a table.
+std::size_t by_definition(std::string_view a, std::string_view b) {
+  if (a.empty() || b.empty()) return a.size() + b.size();
+  const std::size_t kept = by_definition(a.substr(1), b.substr(1)) + (a[0] != b[0]);
+  return std::min({kept, by_definition(a.substr(1), b) + 1, by_definition(a, b.substr(1)) + 1});
+}
+
+TEST(EditDistance, IsThatOfTheDefinitionForAllShortWords) {
+  std::vector<std::string> words = {""};
+  for (std::size_t i = 0; words[i].size() < 4; ++i)
+    for (const char c : {'a', 'b'}) words.push_back(words[i] + c);
+  for (const std::string& a : words)
+    for (const std::string& b : words)
+      EXPECT_EQ(edit_distance(a, b), by_definition(a, b)) << a << " " << b;
+}
+
+TEST(EditDistance, GivesUpWhereTheLengthsAloneAreTooFarApart) {
+  EXPECT_EQ(edit_distance("Gapmin", "Gapm", 1), 2u);
+  EXPECT_EQ(edit_distance("Gapmin", "G", 1), 2u) << "one more than the limit, whatever it is";
+  EXPECT_EQ(edit_distance("Gapmin", "Gapmax", 1), 2u);
+}
+
+}  // namespace
+}  // namespace deck
