@@ -124,6 +124,7 @@ def divided(c, tmp):
     r = c.run("batch", "-o", out, "--manifest", manifest)
     c.check("a whole run after shards redoes nothing", ("%d were finished before" % len(decks)).encode() in r.out, r.text[-200:])
     same("a whole run after shards", out)
+    at_work(c, fresh("at-work"), decks[:2])
     mpi(c, fresh("mpi"), decks, same)
     slurm(c, tmp, fresh("slurm"), manifest, same)
     parallel(c, fresh("parallel"), manifest, same)
@@ -132,6 +133,17 @@ def divided(c, tmp):
 def launched(c, command, env=None, timeout=300):
     full = dict(os.environ, NO_COLOR="1", PATH=os.path.dirname(c.program) + os.pathsep + os.environ["PATH"], **(env or {}))
     return subprocess.run(command, env=full, stdin=subprocess.DEVNULL, capture_output=True, timeout=timeout)
+
+
+def at_work(c, out, decks):
+    """A file that another shard is about to put in place is left alone; a whole run takes it for one that was left behind."""
+    os.makedirs(os.path.join(out, ".batch"))
+    temporary = os.path.join(out, ".batch", ".verb.12345-1.tmp")
+    for name, args, stays in (("a shard leaves the temporary files of others", ("--shard", "1/2"), True), ("a whole run clears up", (), False)):
+        with open(temporary, "w") as f:
+            f.write("lint")
+        c.run("batch", "-o", out, *args, *decks)
+        c.check(name, os.path.exists(temporary) == stays)
 
 
 def mpi(c, out, decks, same):
@@ -150,9 +162,11 @@ def mpi(c, out, decks, same):
                 len(shares) == ranks and sum(shares) == len(decks) and max(shares) - min(shares) <= 1, str(shares))
         c.check("mpirun -n %d: nothing of the meeting is left" % ranks, not glob.glob(os.path.join(out, ".batch", "job-*")))
     r = launched(c, ["mpirun", "--oversubscribe", "-n", "2", c.program, "batch", "-o", out, "--shard", "1/2", "--quiet", *decks], root)
+    c.check("ranks inside a shard: exit code", r.returncode in (0, 1), "%d; %s" % (r.returncode, r.stderr[-300:]))
     c.run("batch", "-o", out, "--shard", "2/2", *decks)
     os.remove(os.path.join(out, "summary.json"))
-    c.run("batch", "-o", out, "--merge")
+    merged = c.run("batch", "-o", out, "--merge")
+    c.check("ranks inside a shard: merged", merged.code == 1, "%d; %s" % (merged.code, merged.text[-300:]))
     same("ranks inside a shard", out)
 
 

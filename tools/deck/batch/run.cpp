@@ -253,11 +253,14 @@ Result<void> write_result(const std::string& path, std::string_view bytes, bool 
 Result<void> Batch::claim_directory() const {
   const std::string path = in_directory(".batch/verb");
   const std::string verb(task_.verb.name);
-  if (const auto before = Source::open(path, Limits{}); before && !o_.force)
-    if (const std::string was((*before)->bytes()); was != verb)
+  if (const auto before = Source::open(path, Limits{}); before) {
+    const std::string was((*before)->bytes());
+    if (was == verb) return {};  // another shard or rank may stand there
+    if (!o_.force)
       return Error{Error::Code::config,
                    o_.directory + " holds the results of 'deck " + was +
                        "'; name another directory, or replace them with --force"};
+  }
   return write_result(path, verb, false);
 }
 
@@ -285,7 +288,9 @@ Result<void> Batch::prepare() {
   for (const BatchDeck& d : decks_) ours.insert(d.result);
   for (std::size_t g = 0; g < groups_.size() && task_.writes; ++g)
     ours.insert(fs::path(intent_path(g)).filename().string());
-  for (const char* name : {"index.html", "losses.json", "verb"}) ours.insert(name);
+  // What all shards and ranks write is only ours where there are no others: they may be at it.
+  if (shard_.whole() && ranks_.single())
+    for (const char* name : {"index.html", "losses.json", "verb"}) ours.insert(name);
   remove_strays(ours);
   read_journals();
   settle_intents();
@@ -316,7 +321,7 @@ Result<void> Batch::prepare() {
   return {};
 }
 
-/// Temporary files of these results that a killed process left. Nobody else writes our results.
+/// Temporary files of these results that a killed process left. Nobody else writes these.
 void Batch::remove_strays(const std::set<std::string>& targets) const {
   std::error_code ec;
   for (const std::string& dir : {o_.directory, in_directory(".batch")})
