@@ -123,8 +123,8 @@ std::string Batch::write_group(std::size_t group, Captured& output) const {
       const BatchFrame::Deck& deck = frame.decks[paths[k]];
       r.written = true;
       r.code = deck.code;
-      r.entry =
-          summary_entry(paths[k], status_of(r.code), "", r.code, "", nullptr, counts_of(deck));
+      r.entry = summary_entry(paths[k], status_of(r.code), deck.target, r.code, "", nullptr,
+                              counts_of(deck));
       if (k == 0 && task_.verb.name == "convert") r.losses = loss_lists(frame.losses);
       text += record_line(r) + "\n";
     }

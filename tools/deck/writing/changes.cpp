@@ -165,17 +165,15 @@ Result<void> Changes::write(bool list) {
     rules.overwrite = choice_.overwrite;
     if (frame != nullptr) rules.ours = frame->ours;
     if (auto allowed = check_outputs(plan->files, rules); !allowed) return allowed;
+    for (std::size_t d = 0; frame != nullptr && d < names_.size(); ++d)
+      frame->decks[names_[d]].target = set_.main_target(d);
     if (auto announced = announce(plan->files); !announced) return announced;
     WriteOptions options{"", true, true, frame == nullptr};
     if (auto done = write_outputs(plan->files, rules, options); !done) return done;
     for (const std::string& path : plan->outside)
       print_note(path + " is included by its absolute path and was not copied");
   }
-  if (frame != nullptr) {
-    frame->written = true;
-    for (std::size_t d = 0; d < names_.size() && !choice_.in_place; ++d)
-      frame->decks[names_[d]].target = set_.main_target(d);
-  }
+  if (frame != nullptr) frame->written = true;
   if (list) list_files(plan->files);
   return {};
 }
