@@ -5,6 +5,8 @@ import { existsSync } from "node:fs";
 import { join } from "node:path";
 
 export const { ROOT, WORK, DECK, DECK_CORPUS, DECK_ARTEFACTS, CHROMIUM } = process.env;
+/** Every deck at every width, which takes minutes. */
+export const ALL = process.env.ALL === "yes";
 export const { chromium } = createRequire(join(WORK, "x.js"))("playwright-core");
 
 let passed = Number(process.env.PASSED ?? 0);

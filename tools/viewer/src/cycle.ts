@@ -19,14 +19,14 @@ export function cycleSection(report: Report): HTMLElement {
   };
   const table = new VirtualTable<number>(
     [
-      { key: "id", title: "Id", width: "78px", right: true, value: (i) => report.meta.interfaces[report.meta.contacts[i].interface].id, cell: (i) => String(report.meta.interfaces[report.meta.contacts[i].interface].id) },
-      { key: "kind", title: "Kind", width: "minmax(88px,.8fr)", value: (i) => report.roleText(i), cell: (i) => report.roleText(i) },
-      { key: "pairs", title: "With force", hint: "Pairs that carry a force", width: "76px", right: true, value: (i) => of(i)?.with_force ?? 0, cell: (i) => dash(i, (c) => group(c.with_force)) },
-      { key: "force", title: "Sum", hint: "Sum of the sizes of the pair forces", width: "80px", right: true, value: (i) => of(i)?.force ?? 0, cell: (i) => dash(i, (c) => num(c.force)) },
-      { key: "largest", title: "Largest", hint: "Largest force of one pair", width: "80px", right: true, value: (i) => of(i)?.largest ?? 0, cell: (i) => dash(i, (c) => num(c.largest)) },
-      { key: "elastic", title: "Energy", hint: "Elastic energy of the contact", width: "80px", right: true, value: (i) => of(i)?.elastic ?? 0, cell: (i) => dash(i, (c) => num(c.elastic)) },
-      { key: "dt", title: "Time step", hint: "Smallest step that this contact allows", width: "84px", right: true, value: (i) => of(i)?.dt ?? Infinity, cell: (i) => dash(i, (c) => (c.complete ? step(c.dt) : "too many pairs")) },
-      { key: "because", title: "Because of", width: "minmax(110px,1.2fr)", value: (i) => of(i)?.because ?? "", cell: (i) => dash(i, (c) => c.because || "–") },
+      { key: "id", title: "Id", kind: "id", value: (i) => report.meta.interfaces[report.meta.contacts[i].interface].id, text: (i) => String(report.meta.interfaces[report.meta.contacts[i].interface].id) },
+      { key: "kind", title: "Kind", kind: "text", rank: 2, value: (i) => report.roleText(i), text: (i) => report.roleText(i) },
+      { key: "pairs", title: "With force", hint: "Pairs that carry a force", kind: "number", rank: 5, value: (i) => of(i)?.with_force ?? 0, text: (i) => dash(i, (c) => group(c.with_force)) },
+      { key: "force", title: "Sum", hint: "Sum of the sizes of the pair forces", kind: "number", rank: 4, value: (i) => of(i)?.force ?? 0, text: (i) => dash(i, (c) => num(c.force)) },
+      { key: "largest", title: "Largest", hint: "Largest force of one pair", kind: "number", value: (i) => of(i)?.largest ?? 0, text: (i) => dash(i, (c) => num(c.largest)) },
+      { key: "elastic", title: "Energy", hint: "Elastic energy of the contact", kind: "number", rank: 3, value: (i) => of(i)?.elastic ?? 0, text: (i) => dash(i, (c) => num(c.elastic)) },
+      { key: "dt", title: "Time step", hint: "Smallest step that this contact allows", kind: "number", value: (i) => of(i)?.dt ?? Infinity, text: (i) => dash(i, (c) => (c.complete ? step(c.dt) : "too many pairs")) },
+      { key: "because", title: "Because of", kind: "text", rank: 1, value: (i) => of(i)?.because ?? "", text: (i) => dash(i, (c) => c.because || "–") },
     ],
     { label: "First cycle", sort: "dt", descending: false, select: (i) => i !== null && report.setFilter({ interface: report.meta.contacts[i].interface, pair: null }) },
   );

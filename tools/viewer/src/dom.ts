@@ -68,6 +68,11 @@ export function replace(e: Element, ...children: Child[]): void {
   fill(e, null, children);
 }
 
+/** Title of a section with its tools. */
+export function sectionHead(title: Node, ...tools: Child[]): HTMLElement {
+  return h("div", { class: "section-head" }, title, h("div", { class: "tools" }, ...tools));
+}
+
 /** Four significant digits as an engineer writes them; the full value belongs into a title. */
 export function num(v: number, digits = 4): string {
   if (v === 0) return "0";

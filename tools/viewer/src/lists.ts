@@ -1,8 +1,9 @@
 // Part pairs as table and matrix, distributions, and the list of penetrations.
 import { colorAt, cssColor } from "./scene/colormap";
-import { button, fileName, group, h, num, percent, plural, replace, svg } from "./dom";
+import { button, fileName, group, h, num, percent, plural, replace, sectionHead, svg } from "./dom";
 import type { Look } from "./look";
 import type { Hit, Report } from "./report";
+import { named } from "./names";
 import { VirtualTable, type Column } from "./table";
 import { actionWords } from "./words";
 
@@ -41,22 +42,24 @@ export function partPairs(report: Report, hits: Hit[]): PairRow[] {
     .sort((a, b) => b.max - a.max || report.partId(a.secondary) - report.partId(b.secondary));
 }
 
-function partName(report: Report, part: number): HTMLElement {
-  return h("span", { title: report.partText(part) }, report.partShort(part));
+function partName(report: Report, part: number): HTMLElement | string {
+  if (part < 0) return "(no part)";
+  const p = report.meta.parts[part];
+  return named(p.id, p.title, report.commonPrefix);
 }
 
 export function pairsSection(report: Report, look: Look): HTMLElement {
   const table = new VirtualTable<PairRow>(
     [
-      { key: "s", title: "Secondary part", width: "minmax(110px,1.4fr)", value: (r) => report.partText(r.secondary), cell: (r) => partName(report, r.secondary) },
-      { key: "m", title: "Main part", width: "minmax(110px,1.4fr)", value: (r) => report.partText(r.main), cell: (r) => partName(report, r.main) },
-      { key: "pairs", title: "Pairs", width: "64px", right: true, value: (r) => r.pairs, cell: (r) => group(r.pairs) },
-      { key: "nodes", title: "Nodes", width: "62px", right: true, value: (r) => r.nodes, cell: (r) => group(r.nodes) },
-      { key: "edges", title: "Edges", width: "58px", right: true, value: (r) => r.edges, cell: (r) => group(r.edges) },
-      { key: "max", title: "Deepest", width: "78px", right: true, value: (r) => r.max, cell: (r) => num(r.max) },
-      { key: "mean", title: "Mean", width: "70px", right: true, value: (r) => r.mean, cell: (r) => num(r.mean) },
-      { key: "p95", title: "p95", hint: "95 % of the pairs are not deeper", width: "70px", right: true, value: (r) => r.p95, cell: (r) => num(r.p95) },
-      { key: "ratio", title: "Of gap", width: "62px", right: true, value: (r) => r.ratio, cell: (r) => percent(r.ratio) },
+      { key: "s", title: "Secondary part", kind: "text", least: 150, value: (r) => report.partText(r.secondary), text: (r) => report.partText(r.secondary), cell: (r) => partName(report, r.secondary) },
+      { key: "m", title: "Main part", kind: "text", least: 150, value: (r) => report.partText(r.main), text: (r) => report.partText(r.main), cell: (r) => partName(report, r.main) },
+      { key: "pairs", title: "Pairs", kind: "number", value: (r) => r.pairs, text: (r) => group(r.pairs) },
+      { key: "nodes", title: "Nodes", kind: "number", rank: 3, value: (r) => r.nodes, text: (r) => group(r.nodes) },
+      { key: "edges", title: "Edges", kind: "number", rank: 4, value: (r) => r.edges, text: (r) => group(r.edges) },
+      { key: "max", title: "Deepest", kind: "number", value: (r) => r.max, text: (r) => num(r.max) },
+      { key: "mean", title: "Mean", kind: "number", rank: 5, value: (r) => r.mean, text: (r) => num(r.mean) },
+      { key: "p95", title: "p95", hint: "95 % of the pairs are not deeper", kind: "number", rank: 6, value: (r) => r.p95, text: (r) => num(r.p95) },
+      { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => r.ratio, text: (r) => percent(r.ratio) },
     ],
     {
       label: "Part pairs", sort: "max", descending: true,
@@ -70,7 +73,7 @@ export function pairsSection(report: Report, look: Look): HTMLElement {
   const matrix = h("div", { class: "matrix-wrap" });
   const count = h("span", { class: "muted count" });
   const empty = h("p", { class: "note" }, "No part penetrates another.");
-  const section = h("section", { id: "pairs" }, h("h2", null, "Part pairs", count), table.element, matrix, empty);
+  const section = h("section", { id: "pairs" }, sectionHead(h("h2", null, "Part pairs", count), table.chooser()), table.element, matrix, empty);
   const draw = () => {
     const rows = partPairs(report, report.passing("pair").length ? rowsWithout(report) : []);
     table.setRows(rows);
@@ -164,7 +167,7 @@ function ticks(top: number): number[] {
   const p = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 2.5, 5, 10].map((k) => k * p).find((s) => s >= raw) ?? raw;
   const out = [];
-  for (let i = 0; i < 12 && i * step <= top * 1.0001; i++) out.push(i * step);
+  for (let i = 0; i < 12 && (i * step) / top <= 1.0001; i++) out.push(i * step);
   return out;
 }
 
@@ -177,7 +180,7 @@ function histogram(report: Report, look: Look, field: "depth" | "ratio", title: 
   for (const v of values) count[Math.min(bins - 1, Math.floor((v / top) * bins))]++;
   const most = Math.max(...count, 1);
   const [w, hgt, x0, y0, x1, y1] = [360, 176, 38, 10, 350, 142];
-  const x = (v: number) => x0 + ((x1 - x0) * v) / top;
+  const x = (v: number) => x0 + (x1 - x0) * (v / top);
   const y = (n: number) => y1 - ((y1 - y0) * n) / most;
   const g: SVGElement[] = [];
   for (const t of most > 1 ? [0, most / 2, most] : [0, 1])
@@ -188,8 +191,8 @@ function histogram(report: Report, look: Look, field: "depth" | "ratio", title: 
   let sum = 0;
   let path = `M${x0} ${y1}`;
   count.forEach((n, i) => {
-    const low = (i * top) / bins;
-    const high = ((i + 1) * top) / bins;
+    const low = (i / bins) * top;
+    const high = ((i + 1) / bins) * top;
     const inside = !range || (low >= range[0] - 1e-12 * top && high <= range[1] * (1 + 1e-9));
     sum += n;
     path += ` L${x(high)} ${y1 - ((y1 - y0) * sum) / Math.max(values.length, 1)}`;
@@ -212,44 +215,39 @@ function histogram(report: Report, look: Look, field: "depth" | "ratio", title: 
 // ---- list -------------------------------------------------------------------------------------
 
 export function listSection(report: Report, open: (hit: Hit) => void, exportsMenu: HTMLElement): { element: HTMLElement; table: VirtualTable<Hit> } {
-  // Widths by the ids that occur.
-  const digits = report.mesh.nodeId.reduce((m, id) => Math.max(m, id), 1).toFixed(0).length;
-  const chars = (n: number) => Math.round(7.7 * n + 14);
-  const inters = String(Math.max(...report.meta.interfaces.map((i) => i.id), 1)).length;
+  const interfaceId = (x: Hit) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id;
+  const action = (x: Hit) => {
+    const error = report.solverError(x.row);
+    return error ? `error ${error}` : x.row.gap0 !== null ? `gap to ${num(x.row.gap0)}` : actionWords[x.row.action];
+  };
+  const place = (x: Hit) => report.place(x.row);
   const columns: Column<Hit>[] = [
-    { key: "depth", title: "Depth", width: "78px", right: true, value: (x) => x.depth, cell: (x) => num(x.depth, 5) },
-    { key: "gap", title: "Gap", width: "64px", right: true, value: (x) => x.row.gap, cell: (x) => num(x.row.gap) },
-    { key: "ratio", title: "Of gap", width: "58px", right: true, value: (x) => x.ratio, cell: (x) => percent(x.ratio) },
-    { key: "distance", title: "Distance", hint: "Residual distance of node and segment, or of the two edges", width: "78px", right: true, value: (x) => x.row.distance, cell: (x) => num(x.row.distance) },
-    { key: "inter", title: "Int.", hint: "Interface id", width: `${Math.max(50, chars(inters))}px`, right: true, value: (x) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id, cell: (x) => String(report.meta.interfaces[report.meta.contacts[x.contact].interface].id) },
-    { key: "node", title: "Node / edge", width: `${Math.max(92, chars(2 * digits + 1))}px`, value: (x) => x.nodes[0], cell: (x) => report.secondaryText(x.row) },
-    { key: "segment", title: "Segment / edge", width: `${Math.max(120, chars(4 * digits + 3))}px`, value: (x) => report.nodeId(report.mainNodes(x.row)[0]), cell: (x) => report.mainText(x.row) },
-    { key: "action", title: "Action", hint: "What the solver does about it at start-up", width: "108px", value: (x) => x.row.action,
-      cell: (x) => {
-        const error = report.solverError(x.row);
-        if (error) return h("span", { class: "bad" }, `error ${error}`);
-        return x.row.gap0 !== null ? `gap to ${num(x.row.gap0)}` : actionWords[x.row.action];
-      } },
-    { key: "sp", title: "Part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.secondaryPart), cell: (x) => partName(report, x.secondaryPart) },
-    { key: "mp", title: "Main part", width: "minmax(70px,1fr)", value: (x) => report.partText(x.mainPart), cell: (x) => partName(report, x.mainPart) },
-    { key: "place", title: "Defined at", width: "minmax(80px,.9fr)", value: (x) => report.place(x.row)?.line ?? 0,
-      cell: (x) => {
-        const p = report.place(x.row);
-        return p ? h("span", { title: `${p.file}:${p.line}` }, `${fileName(p.file)}:${p.line}`) : "";
-      } },
+    { key: "depth", title: "Depth", kind: "number", value: (x) => x.depth, text: (x) => num(x.depth, 5) },
+    { key: "gap", title: "Gap", kind: "number", rank: 3, value: (x) => x.row.gap, text: (x) => num(x.row.gap) },
+    { key: "ratio", title: "Of gap", kind: "number", rank: 4, value: (x) => x.ratio, text: (x) => percent(x.ratio) },
+    { key: "distance", title: "Distance", hint: "Residual distance of node and segment, or of the two edges", kind: "number", rank: 8, value: (x) => x.row.distance, text: (x) => num(x.row.distance) },
+    { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: interfaceId, text: (x) => String(interfaceId(x)) },
+    { key: "node", title: "Node / edge", kind: "id", value: (x) => x.nodes[0], text: (x) => report.secondaryText(x.row) },
+    { key: "segment", title: "Segment / edge", kind: "id", rank: 5, value: (x) => report.nodeId(report.mainNodes(x.row)[0]), text: (x) => report.mainText(x.row) },
+    { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 2, value: (x) => x.row.action, text: action,
+      cell: (x) => (report.solverError(x.row) ? h("span", { class: "bad" }, action(x)) : action(x)) },
+    { key: "sp", title: "Part", kind: "text", least: 130, rank: 1, value: (x) => report.partText(x.secondaryPart), text: (x) => report.partText(x.secondaryPart), cell: (x) => partName(report, x.secondaryPart) },
+    { key: "mp", title: "Main part", kind: "text", least: 130, rank: 1, value: (x) => report.partText(x.mainPart), text: (x) => report.partText(x.mainPart), cell: (x) => partName(report, x.mainPart) },
+    { key: "place", title: "Defined at", kind: "text", rank: 7, value: (x) => place(x)?.line ?? 0, text: (x) => (place(x) ? `${place(x)!.file}:${place(x)!.line}` : ""),
+      cell: (x) => (place(x) ? `${fileName(place(x)!.file)}:${place(x)!.line}` : "") },
   ];
   if (report.cycle)
     columns.splice(columns.findIndex((c) => c.key === "action") + 1, 0, {
-      key: "force", title: "Force", hint: "Of the pair in the first cycle, with the deck's settings", width: "76px", right: true,
+      key: "force", title: "Force", hint: "Of the pair in the first cycle, with the deck's settings", kind: "number", rank: 6,
       value: (x) => report.forceOf(x.row)?.force ?? -1,
-      cell: (x) => {
+      text: (x) => {
         const f = report.forceOf(x.row);
         return f ? num(f.force) : "–";
       },
     });
   if (report.earlier)
     columns.unshift({
-      key: "status", title: "Change", hint: `Against ${report.earlier.path}`, width: "84px", value: (x) => x.status ?? "",
+      key: "status", title: "Change", hint: `Against ${report.earlier.path}`, kind: "id", value: (x) => x.status ?? "", text: (x) => (x.status ? `${x.status}   ` : ""),
       cell: (x) => (x.status ? h("span", { class: `chip tiny ${x.status}`, title: x.earlier !== null ? `was ${num(x.earlier)}` : "" }, x.status) : ""),
     });
   const table = new VirtualTable<Hit>(columns, {
@@ -259,7 +257,6 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     same: (a, b) => a.key === b.key,
   });
   table.element.classList.add("list-table");
-  table.element.style.setProperty("--least", `${(report.cycle ? 900 : 820) + chars(6 * digits + 4) + chars(inters)}px`);
   const chips = h("div", { class: "filters" });
   const count = h("span", { class: "muted count" });
   const search = h("input", { type: "search", placeholder: "Node, element or part", "aria-label": "Filter the list", id: "search", oninput: () => report.setFilter({ text: search.value }) });
@@ -267,7 +264,7 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
   const solved = h("div", { class: "solved" });
   const empty = h("p", { class: "note" }, "Nothing to list.");
   const element = h("section", { id: "worst" },
-    h("div", { class: "section-head" }, h("h2", null, "Worst first", count), h("div", { class: "tools" }, h("label", { class: "check" }, perNode, "deepest per node"), search, exportsMenu)),
+    sectionHead(h("h2", null, "Worst first", count), h("label", { class: "check" }, perNode, "deepest per node"), table.chooser(), search, exportsMenu),
     chips, table.element, empty, solved);
   const draw = () => {
     const f = report.filter;

@@ -79,7 +79,8 @@ function build(): void {
   times.tables = performance.now() - started;
   requestAnimationFrame(() => {
     setTimeout(() => {
-      viewport.start();
+      if (matchMedia("(max-width: 600px)").matches) viewport.offer();
+      else viewport.start();
       times.picture = performance.now() - started;
       times.pictureSinceNavigation = performance.now();
       document.documentElement.dataset.ready = "true";

@@ -1,9 +1,11 @@
 // The upper part of the report: verdict, interfaces, settings under test.
 import { cardText, changedCard } from "./card";
-import { button, group, h, num, percent, plural, replace } from "./dom";
+import { button, group, h, num, percent, plural, replace, sectionHead } from "./dom";
 import { copyText, whatIfCommand } from "./exports";
 import type { FieldName } from "./meta";
+import type { Result } from "./evaluate";
 import type { Report } from "./report";
+import { commonStart, named } from "./names";
 import { VirtualTable } from "./table";
 import { actionWords, flagText } from "./words";
 
@@ -95,35 +97,36 @@ export function interfaces(report: Report): HTMLElement {
   const inter = (r: ContactRow) => report.meta.interfaces[r.inter];
   const changedCell = (text: string, was: string) =>
     text === was ? text : h("span", { class: "changed", title: `deck: ${was}` }, text);
+  const deepest = (r: Result) => (r.totals.pairs ? num(r.totals.max_depth) : "–");
+  const prefix = commonStart(report.meta.interfaces.map((i) => i.title));
   const table = new VirtualTable<ContactRow>(
     [
-      { key: "id", title: "Id", width: `${Math.round(7.7 * String(Math.max(...report.meta.interfaces.map((i) => i.id), 1)).length + 26)}px`, right: true, value: (r) => inter(r).id, cell: (r) => String(inter(r).id) },
-      { key: "title", title: "Interface", width: "minmax(104px,1.5fr)", value: (r) => inter(r).title.toLowerCase(),
-        cell: (r) => inter(r).title || "(no title)" },
-      { key: "kind", title: "Kind", width: "116px", value: (r) => report.roleText(r.contact), cell: (r) => report.roleText(r.contact) },
-      { key: "igap", title: "Igap", width: "46px", right: true, value: (r) => now(r).setting.igap,
+      { key: "id", title: "Id", kind: "id", value: (r) => inter(r).id, text: (r) => String(inter(r).id) },
+      { key: "title", title: "Interface", kind: "text", least: 170, value: (r) => inter(r).title.toLowerCase(), text: (r) => inter(r).title || "(no title)",
+        cell: (r) => (inter(r).title ? named("", inter(r).title, prefix) : "(no title)") },
+      { key: "kind", title: "Kind", kind: "text", rank: 6, value: (r) => report.roleText(r.contact), text: (r) => report.roleText(r.contact) },
+      { key: "igap", title: "Igap", kind: "number", rank: 7, value: (r) => now(r).setting.igap, text: (r) => String(now(r).setting.igap),
         cell: (r) => changedCell(String(now(r).setting.igap), String(report.base[r.contact].setting.igap)) },
-      { key: "gapmin", title: "Gapmin", hint: "Smallest pair gap, and where it comes from", width: "72px", right: true, value: (r) => now(r).setting.gapmin,
+      { key: "gapmin", title: "Gapmin", hint: "Smallest pair gap, and where it comes from", kind: "number", rank: 5, value: (r) => now(r).setting.gapmin, text: (r) => `${num(now(r).setting.gapmin)} *`,
         cell: (r) => {
           const s = now(r).setting;
           const was = report.base[r.contact].setting.gapmin;
           return h("span", { class: s.gapmin !== was ? "changed" : "", title: `${s.gapmin} (${s.gapminFrom})` },
             num(s.gapmin), s.gapminFrom === "card" ? null : h("i", { class: "derived" }, " *"));
         } },
-      { key: "pairs", title: "Pairs", hint: "Penetrating pairs", width: "62px", right: true, value: (r) => now(r).totals.pairs,
+      { key: "pairs", title: "Pairs", hint: "Penetrating pairs", kind: "number", value: (r) => now(r).totals.pairs, text: (r) => group(now(r).totals.pairs),
         cell: (r) => changedCell(group(now(r).totals.pairs), group(report.base[r.contact].totals.pairs)) },
-      { key: "nodes", title: "Nodes", hint: "Distinct secondary nodes", width: "56px", right: true, value: (r) => now(r).totals.nodes,
+      { key: "nodes", title: "Nodes", hint: "Distinct secondary nodes", kind: "number", rank: 3, value: (r) => now(r).totals.nodes, text: (r) => group(now(r).totals.nodes),
         cell: (r) => changedCell(group(now(r).totals.nodes), group(report.base[r.contact].totals.nodes)) },
-      { key: "edges", title: "Edges", hint: "Distinct secondary edges", width: "56px", right: true, value: (r) => now(r).totals.edges,
+      { key: "edges", title: "Edges", hint: "Distinct secondary edges", kind: "number", rank: 4, value: (r) => now(r).totals.edges, text: (r) => group(now(r).totals.edges),
         cell: (r) => changedCell(group(now(r).totals.edges), group(report.base[r.contact].totals.edges)) },
-      { key: "depth", title: "Deepest", width: "82px", right: true, value: (r) => now(r).totals.max_depth,
-        cell: (r) => changedCell(now(r).totals.pairs ? num(now(r).totals.max_depth) : "–", report.base[r.contact].totals.pairs ? num(report.base[r.contact].totals.max_depth) : "–") },
-      { key: "ratio", title: "Of gap", width: "58px", right: true, value: (r) => now(r).totals.max_ratio,
-        cell: (r) => (now(r).totals.pairs ? percent(now(r).totals.max_ratio) : "–") },
-      { key: "action", title: "Action", hint: "What the solver does about it at start-up", width: "minmax(88px,1fr)", value: (r) => actionsText(report, r.contact),
+      { key: "depth", title: "Deepest", kind: "number", value: (r) => now(r).totals.max_depth, text: (r) => deepest(now(r)),
+        cell: (r) => changedCell(deepest(now(r)), deepest(report.base[r.contact])) },
+      { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => now(r).totals.max_ratio, text: (r) => (now(r).totals.pairs ? percent(now(r).totals.max_ratio) : "–") },
+      { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 1, value: (r) => actionsText(report, r.contact), text: (r) => actionsText(report, r.contact),
         cell: (r) => {
           const e = now(r).totals.solver_errors;
-          return e > 0 ? h("span", { class: "bad", title: "A node lies exactly on a segment and the options do not avoid the error" }, `stops (${e})`) : actionsText(report, r.contact);
+          return e > 0 ? h("span", { class: "bad", title: "A node lies exactly on a segment and the options do not avoid the error" }, actionsText(report, r.contact)) : actionsText(report, r.contact);
         } },
     ],
     {
@@ -133,7 +136,6 @@ export function interfaces(report: Report): HTMLElement {
     },
   );
   table.element.classList.add("interfaces-table");
-  table.element.style.setProperty("--least", "700px");
   const fit = () => table.element.style.setProperty("--rows", String(Math.min(rows.length, 11)));
   fit();
   table.setRows(rows);
@@ -144,7 +146,7 @@ export function interfaces(report: Report): HTMLElement {
   });
   return h(
     "section", { id: "interfaces" },
-    h("h2", null, "Interfaces", h("span", { class: "muted count" }, plural(report.meta.interfaces.length, "interface", "interfaces"))),
+    sectionHead(h("h2", null, "Interfaces", h("span", { class: "muted count" }, plural(report.meta.interfaces.length, "interface", "interfaces"))), table.chooser()),
     table.element,
     h("p", { class: "note" }, h("i", { class: "derived" }, "*"), " Gapmin derived from the mesh. Choose a row to filter everything below and to try other settings."),
     whatIf(report),
@@ -152,7 +154,8 @@ export function interfaces(report: Report): HTMLElement {
 }
 
 function actionsText(report: Report, contact: number): string {
-  const rows = report.results[contact].rows;
+  const { rows, totals } = report.results[contact];
+  if (totals.solver_errors > 0) return `stops (${totals.solver_errors})`;
   if (rows.length === 0) return "–";
   const count = new Map<string, number>();
   for (const r of rows) count.set(r.action, (count.get(r.action) ?? 0) + 1);

@@ -3,6 +3,7 @@
 import { kindNames, type Contacts, type Mesh } from "./data";
 import { onSurfaceError, type Row } from "./core";
 import { Evaluator, ratioOf, Tally, type Result } from "./evaluate";
+import { commonStart } from "./names";
 import type { Crossed, Cycle, Earlier, FieldName, Meta, Overrides, Totals } from "./meta";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";
@@ -186,19 +187,16 @@ export class Report {
     const p = this.meta.parts[part];
     return p.title ? `${p.id} ${p.title}` : String(p.id);
   }
-  /** Name without what the names of all penetrating parts have in common at the start. */
+  /** Name without what the titles of most penetrating parts have in common at the start. */
   partShort(part: number): string {
     if (part < 0) return "(no part)";
     const p = this.meta.parts[part];
     return p.title ? `${p.id} ${p.title.slice(p.title.startsWith(this.commonPrefix) ? this.commonPrefix.length : 0)}` : String(p.id);
   }
-  private commonPrefix = "";
+  commonPrefix = "";
   private findPrefix(): void {
-    const titles = [...new Set(this.hits.flatMap((x) => [x.secondaryPart, x.mainPart]))].filter((p) => p >= 0).map((p) => this.meta.parts[p].title);
-    let prefix = titles.length > 2 ? titles[0] : "";
-    for (const t of titles) while (!t.startsWith(prefix)) prefix = prefix.slice(0, -1);
-    const end = Math.max(prefix.lastIndexOf("_"), prefix.lastIndexOf(" ")) + 1;
-    this.commonPrefix = end >= 4 && titles.every((t) => t.length > end) ? prefix.slice(0, end) : "";
+    const parts = new Set(this.hits.flatMap((x) => [x.secondaryPart, x.mainPart]));
+    this.commonPrefix = commonStart([...parts].filter((p) => p >= 0).map((p) => this.meta.parts[p].title));
   }
   partId(part: number): number {
     return part < 0 ? 0 : this.meta.parts[part].id;

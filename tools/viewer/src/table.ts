@@ -1,74 +1,114 @@
-// A table that draws only the rows in sight: hundreds of thousands of rows scroll like twenty.
-// Sorting by column, selection with the keyboard, roles for screen readers.
+// A table that draws only the rows in sight and gives every column the width of what stands in it: ids and numbers are
+// never cut, text gives way, and what does not fit at all is left out by rank and offered in the chooser.
 import { h, replace } from "./dom";
+import { fullText } from "./tooltip";
 
 export interface Column<T> {
   key: string;
   title: string;
   hint?: string;
-  width: string; // a track of a CSS grid
-  right?: boolean;
+  /** Ids and numbers keep their width; text is cut with dots where there is no room. */
+  kind: "id" | "number" | "text";
+  least?: number; // width below which a text is not cut while other columns can go
+  /** Left out where there is no room, highest rank first; none: always there. */
+  rank?: number;
   value(row: T): number | string; // for sorting
-  cell(row: T): Node | string;
+  text(row: T): string; // in full: for widths, the tooltip and exports
+  cell?(row: T): Node | string; // as drawn, if not the text
+}
+
+const padding = 16;
+const leastText = 104;
+const mostMeasured = 20000;
+let tables = 0;
+let pen: CanvasRenderingContext2D | null = null;
+
+function widthOf(text: string, bold: boolean): number {
+  pen ??= document.createElement("canvas").getContext("2d");
+  if (!pen) return 8 * text.length;
+  pen.font = `${bold ? 600 : 400} ${bold ? 12 : 13}px ${getComputedStyle(document.body).fontFamily}`;
+  return pen.measureText(text).width;
 }
 
 export class VirtualTable<T> {
   readonly element: HTMLElement;
-  private readonly head: HTMLElement;
-  private readonly titles: HTMLElement;
+  private readonly head = h("div", { class: "vt-head", role: "rowgroup" });
   private readonly body: HTMLElement;
   private readonly spacer: HTMLElement;
-  private readonly window: HTMLElement;
+  private readonly window = h("div", { class: "vt-window" });
+  private readonly id = `vt${tables++}`;
   private rows: T[] = [];
   private shown: T[] = [];
   private sortKey: string;
   private descending: boolean;
   private selected: T | null = null;
   private drawn = "";
+  private columns: Column<T>[] = [];
+  private natural = new Map<string, number>();
+  /** Widths set by hand. */
+  private readonly dragged = new Map<string, number>();
+  /** Columns chosen by hand; null: as many as fit. */
+  private chosen: string[] | null = null;
+  private active = 0; // column of the keyboard
+  private choosers: (() => void)[] = [];
 
   constructor(
-    private columns: Column<T>[],
+    private readonly all: Column<T>[],
     private readonly options: {
       label: string;
       sort: string;
       descending: boolean;
-      rowHeight?: number;
       select(row: T | null): void;
       open?(row: T): void;
+      context?(row: T, x: number, y: number): void;
+      changed?(): void;
       classOf?(row: T): string;
       same?(a: T, b: T): boolean;
     },
   ) {
     this.sortKey = options.sort;
     this.descending = options.descending;
-    this.titles = h("div", { class: "vt-titles", role: "row" });
-    this.head = h("div", { class: "vt-head" }, this.titles);
-    this.window = h("div", { class: "vt-window" });
-    this.spacer = h("div", { class: "vt-spacer" }, this.window);
-    this.body = h("div", { class: "vt-body", tabindex: 0, role: "rowgroup", "aria-label": options.label }, this.spacer);
-    this.element = h("div", { class: "vt", role: "grid", "aria-label": options.label }, this.head, this.body);
+    this.spacer = h("div", { class: "vt-spacer", role: "rowgroup" }, this.window);
+    this.body = h("div", { class: "vt-body", tabindex: 0, role: "grid", "aria-label": options.label }, this.head, this.spacer);
+    this.element = h("div", { class: "vt" }, this.body);
     this.body.addEventListener("scroll", () => {
-      this.head.scrollLeft = this.body.scrollLeft;
+      fullText(null);
       this.draw();
     });
     this.body.addEventListener("keydown", (e) => this.key(e));
-    this.window.addEventListener("click", (e) => {
+    this.body.addEventListener("blur", () => fullText(null));
+    this.window.addEventListener("mouseover", (e) => this.tell((e.target as Element).closest<HTMLElement>("[data-key]")));
+    this.window.addEventListener("mouseleave", () => fullText(null));
+    const rowAt = (e: Event) => {
       const row = (e.target as Element).closest<HTMLElement>("[data-index]");
-      if (row) this.choose(this.shown[Number(row.dataset.index)]);
+      return row ? this.shown[Number(row.dataset.index)] : null;
+    };
+    this.window.addEventListener("click", (e) => {
+      const row = rowAt(e);
+      if (row === null) return;
+      this.choose(row);
+      const cell = (e.target as Element).closest<HTMLElement>("[data-key]");
+      if (cell) this.active = this.columns.findIndex((c) => c.key === cell.dataset.key);
     });
     this.window.addEventListener("dblclick", () => this.selected && options.open?.(this.selected));
-    new ResizeObserver(() => this.draw()).observe(this.body);
-    this.drawHead();
-  }
-
-  setColumns(columns: Column<T>[]): void {
-    this.columns = columns;
-    this.drawHead();
-    this.sort();
+    this.body.addEventListener("contextmenu", (e) => {
+      const row = rowAt(e) ?? this.selected;
+      if (row === null || !options.context) return;
+      e.preventDefault();
+      const at = this.window.querySelector(".selected")?.getBoundingClientRect();
+      options.context(row, e.clientX || (at?.left ?? 0) + 40, e.clientY || (at?.bottom ?? 0));
+    });
+    new ResizeObserver(() => {
+      this.layOut();
+      this.draw();
+    }).observe(this.body);
+    this.columns = all;
   }
 
   setRows(rows: T[]): void {
     this.rows = rows;
+    this.measure();
+    this.layOut();
     this.sort();
   }
 
@@ -84,51 +124,193 @@ export class VirtualTable<T> {
     this.draw(true);
   }
 
-  focus(): void {
-    this.body.focus();
+  /** The columns in sight as text with commas, RFC 4180. */
+  csv(): string {
+    const quote = (t: string) => (/[",\r\n]/.test(t) ? `"${t.replace(/"/g, '""')}"` : t);
+    const line = (cells: string[]) => `${cells.map(quote).join(",")}\r\n`;
+    const plain = (c: Column<T>, row: T) => {
+      const v = c.value(row);
+      return c.kind === "number" && typeof v === "number" ? (Number.isFinite(v) ? String(v) : "") : c.text(row);
+    };
+    return line(this.columns.map((c) => c.title)) + this.shown.map((row) => line(this.columns.map((c) => plain(c, row)))).join("");
   }
 
-  private get height(): number {
-    return this.options.rowHeight ?? 30;
+  // ---- columns ------------------------------------------------------------------------------
+
+  /** Columns, order of rows and widths as set by hand; empty: nothing was. */
+  get state(): string {
+    const sorted = this.sortKey === this.options.sort && this.descending === this.options.descending;
+    const widths = [...this.dragged].map(([k, w]) => `${k}*${Math.round(w)}`).join(" ");
+    const text = [this.chosen?.join(" ") ?? "", sorted ? "" : `${this.descending ? "-" : ""}${this.sortKey}`, widths].join(";");
+    return text === ";;" ? "" : text;
   }
+  set state(text: string) {
+    const [columns = "", sort = "", widths = ""] = text.split(";");
+    const known = (key: string) => this.all.some((c) => c.key === key);
+    this.chosen = columns ? columns.split(" ").filter(known) : null;
+    if (this.chosen?.length === 0) this.chosen = null;
+    const key = sort.replace(/^-/, "");
+    this.sortKey = known(key) ? key : this.options.sort;
+    this.descending = known(key) ? sort.startsWith("-") : this.options.descending;
+    this.dragged.clear();
+    for (const item of widths.split(" ")) {
+      const [k, w] = item.split("*");
+      if (known(k) && Number(w) > 0) this.dragged.set(k, Number(w));
+    }
+    this.layOut();
+    this.sort();
+  }
+
+  /** A menu with a box per column. */
+  chooser(): HTMLElement {
+    const summary = h("summary", { class: "button small" });
+    const list = h("div", { class: "menu-list columns" });
+    const menu = h("details", { class: "menu" }, summary, list);
+    const draw = () => {
+      summary.textContent = this.columns.length === this.all.length ? "Columns" : `Columns ${this.columns.length} of ${this.all.length}`;
+      if (list.childElementCount === 0) return;
+      for (const box of list.querySelectorAll("input")) box.checked = this.columns.some((c) => c.key === box.value);
+    };
+    menu.addEventListener("toggle", () => {
+      if (!menu.open) return;
+      replace(list, ...this.all.map((c) => {
+        const box = h("input", { type: "checkbox", value: c.key, checked: this.columns.includes(c), onchange: () => {
+          const keys = new Set(this.columns.map((x) => x.key));
+          box.checked ? keys.add(c.key) : keys.delete(c.key);
+          if (keys.size === 0) keys.add(c.key);
+          this.chosen = this.all.map((x) => x.key).filter((k) => keys.has(k));
+          this.changed();
+        } });
+        return h("label", { class: "check" }, box, c.title);
+      }), h("button", { type: "button", class: "small", onclick: () => {
+        this.chosen = null;
+        this.dragged.clear();
+        this.changed();
+      } }, "as many as fit"));
+    });
+    document.addEventListener("click", (e) => {
+      if (!menu.contains(e.target as Node)) menu.open = false;
+    });
+    this.choosers.push(draw);
+    draw();
+    return menu;
+  }
+
+  private changed(): void {
+    this.layOut();
+    this.draw(true);
+    this.options.changed?.();
+  }
+
+  private measure(): void {
+    const step = Math.max(1, Math.ceil(this.rows.length / mostMeasured));
+    for (const c of this.all) {
+      // The widest text is among the longest ones.
+      const longest: string[] = [];
+      for (let i = 0; i < this.rows.length; i += step) {
+        const t = c.text(this.rows[i]);
+        if (longest.length < 6) longest.push(t);
+        else if (t.length > longest[5].length) longest[5] = t;
+        else continue;
+        longest.sort((a, b) => b.length - a.length);
+      }
+      const title = widthOf(`${c.title} ↓`, true) + 6;
+      this.natural.set(c.key, Math.ceil(Math.max(title, ...longest.map((t) => widthOf(t, false) * 1.02)) + padding));
+    }
+  }
+
+  private layOut(): void {
+    const room = this.body.clientWidth - 18;
+    if (room <= 0 || this.natural.size === 0) return;
+    const natural = (c: Column<T>) => this.natural.get(c.key)!;
+    const title = (c: Column<T>) => widthOf(`${c.title} ↓`, true) + 6 + padding;
+    const least = (c: Column<T>) => this.dragged.get(c.key) ?? (c.kind === "text" ? Math.max(title(c), Math.min(natural(c), c.least ?? leastText)) : natural(c));
+    let columns = this.chosen ? this.all.filter((c) => this.chosen!.includes(c.key)) : this.all;
+    const sum = () => columns.reduce((n, c) => n + least(c), 0);
+    while (!this.chosen && sum() > room) {
+      const ranked = columns.filter((c) => c.rank !== undefined);
+      if (ranked.length === 0) break;
+      const last = ranked.reduce((a, b) => (b.rank! > a.rank! ? b : a));
+      columns = columns.filter((c) => c !== last);
+    }
+    // What is left over goes to the texts, each up to its own width, then evenly.
+    const width = new Map(columns.map((c) => [c, least(c)]));
+    let left = room - sum();
+    const texts = columns.filter((c) => c.kind === "text" && !this.dragged.has(c.key));
+    for (const wanted of [natural, () => Infinity])
+      for (let open = texts.filter((c) => width.get(c)! < wanted(c)); left > 1 && open.length > 0; open = open.filter((c) => width.get(c)! < wanted(c))) {
+        const share = left / open.length;
+        for (const c of open) {
+          const more = Math.min(share, wanted(c) - width.get(c)!);
+          width.set(c, width.get(c)! + more);
+          left -= more;
+        }
+      }
+    const tracks = columns.map((c) => `${Math.floor(width.get(c)!)}px`).join(" ");
+    const same = columns.length === this.columns.length && columns.every((c, i) => c === this.columns[i]);
+    this.columns = columns;
+    this.body.style.setProperty("--tracks", tracks);
+    this.body.style.setProperty("--least", `${Math.ceil(sum()) + 16}px`);
+    this.body.setAttribute("aria-colcount", String(this.all.length));
+    this.drawHead();
+    if (!same) this.draw(true);
+    for (const f of this.choosers) f();
+  }
+
+  private grip(c: Column<T>): HTMLElement {
+    const grip = h("span", { class: "vt-grip", title: "Drag: width · double click: as wide as its content" });
+    const set = (w: number) => {
+      this.dragged.set(c.key, Math.max(c.kind === "text" ? 48 : this.natural.get(c.key)!, w));
+      this.changed();
+    };
+    grip.addEventListener("pointerdown", (e) => {
+      e.preventDefault();
+      const from = e.clientX;
+      const was = grip.parentElement!.getBoundingClientRect().width;
+      // The head is drawn anew with each step, so the pointer is followed on the page.
+      const move = (m: PointerEvent) => set(was + m.clientX - from);
+      window.addEventListener("pointermove", move);
+      window.addEventListener("pointerup", () => window.removeEventListener("pointermove", move), { once: true });
+    });
+    grip.addEventListener("dblclick", () => set(this.natural.get(c.key)!));
+    return grip;
+  }
+
+  // ---- rows ---------------------------------------------------------------------------------
 
   private sort(): void {
-    const column = this.columns.find((c) => c.key === this.sortKey) ?? this.columns[0];
+    const column = this.all.find((c) => c.key === this.sortKey) ?? this.all[0];
     const sign = this.descending ? -1 : 1;
     const keyed = this.rows.map((row, i) => ({ row, i, v: column.value(row) }));
     keyed.sort((a, b) => (a.v < b.v ? -sign : a.v > b.v ? sign : a.i - b.i));
     this.shown = keyed.map((k) => k.row);
     this.spacer.style.height = `${this.shown.length * this.height}px`;
-    this.element.setAttribute("aria-rowcount", String(this.shown.length));
+    this.body.setAttribute("aria-rowcount", String(this.shown.length + 1));
+    this.drawHead();
     this.draw(true);
   }
 
+  private get height(): number {
+    return 30;
+  }
+
   private drawHead(): void {
-    this.element.style.setProperty("--tracks", this.columns.map((c) => c.width).join(" "));
-    replace(
-      this.titles,
-      ...this.columns.map((c) => {
-        const active = c.key === this.sortKey;
-        return h(
-          "button",
-          {
-            type: "button",
-            role: "columnheader",
-            class: `vt-title${c.right ? " right" : ""}${active ? " active" : ""}`,
-            title: c.hint,
-            "aria-sort": active ? (this.descending ? "descending" : "ascending") : "none",
-            onclick: () => {
-              this.descending = active ? !this.descending : typeof (this.rows[0] && c.value(this.rows[0])) === "number";
-              this.sortKey = c.key;
-              this.drawHead();
-              this.sort();
-            },
+    const focused = this.head.contains(document.activeElement) ? (document.activeElement as HTMLElement).dataset.sort : null;
+    replace(this.head, h("div", { class: "vt-titles", role: "row", "aria-rowindex": 1 }, ...this.columns.map((c) => {
+      const active = c.key === this.sortKey;
+      return h("div", { class: `vt-title ${c.kind}${active ? " active" : ""}`, role: "columnheader", "aria-sort": active ? (this.descending ? "descending" : "ascending") : "none" },
+        h("button", {
+          type: "button", title: c.hint, "data-sort": c.key,
+          onclick: () => {
+            this.descending = active ? !this.descending : typeof (this.rows[0] && c.value(this.rows[0])) === "number";
+            this.sortKey = c.key;
+            this.sort();
+            this.options.changed?.();
           },
-          c.title,
-          active && h("span", { class: "vt-arrow", "aria-hidden": "true" }, this.descending ? "↓" : "↑"),
-        );
-      }),
-    );
+        }, c.title, active && h("span", { "aria-hidden": "true" }, this.descending ? " ↓" : " ↑")),
+        this.grip(c));
+    })));
+    if (focused) this.head.querySelector<HTMLElement>(`[data-sort="${focused}"]`)?.focus();
   }
 
   private draw(force = false): void {
@@ -143,23 +325,26 @@ export class VirtualTable<T> {
       const row = this.shown[i];
       const on = row === this.selected;
       items.push(
-        h(
-          "div",
-          {
-            class: `vt-row${on ? " selected" : ""} ${this.options.classOf?.(row) ?? ""}`,
-            role: "row",
-            "data-index": i,
-            "aria-rowindex": i + 1,
-            "aria-selected": on ? "true" : "false",
-          },
-          ...this.columns.map((c) => {
-            const content = c.cell(row);
-            return h("div", { class: c.right ? "right" : "", role: "gridcell", title: typeof content === "string" ? content : null }, content);
-          }),
-        ),
+        h("div", {
+          class: `vt-row${on ? " selected" : ""} ${this.options.classOf?.(row) ?? ""}`, role: "row", id: `${this.id}-${i}`,
+          "data-index": i, "aria-rowindex": i + 2, "aria-selected": on ? "true" : "false",
+        }, ...this.columns.map((c) => h("div", { class: c.kind, role: "gridcell", "data-key": c.key }, c.cell ? c.cell(row) : c.text(row)))),
       );
     }
     replace(this.window, ...items);
+    const at = this.selected === null ? -1 : this.shown.indexOf(this.selected);
+    if (at >= first && at < last) this.body.setAttribute("aria-activedescendant", `${this.id}-${at}`);
+    else this.body.removeAttribute("aria-activedescendant");
+  }
+
+  /** Says a cell in full where it is cut or folded. */
+  private tell(cell: HTMLElement | null): void {
+    const row = cell?.closest<HTMLElement>("[data-index]");
+    const column = this.columns.find((c) => c.key === cell?.dataset.key);
+    if (!cell || !row || !column) return fullText(null);
+    const cut = [cell, ...cell.querySelectorAll("*")].some((e) => e.scrollWidth > e.clientWidth && e.clientWidth > 0);
+    const text = column.text(this.shown[Number(row.dataset.index)]);
+    fullText(cut || cell.querySelector(".fold") ? text : null, cell.getBoundingClientRect());
   }
 
   private choose(row: T): void {
@@ -170,23 +355,28 @@ export class VirtualTable<T> {
 
   private reveal(index: number): void {
     const top = index * this.height;
+    const room = this.body.clientHeight - this.head.offsetHeight;
     if (top < this.body.scrollTop) this.body.scrollTop = top;
-    else if (top + this.height > this.body.scrollTop + this.body.clientHeight)
-      this.body.scrollTop = top + this.height - this.body.clientHeight;
+    else if (top + this.height > this.body.scrollTop + room) this.body.scrollTop = top + this.height - room;
   }
 
   private key(e: KeyboardEvent): void {
-    const page = Math.max(1, Math.floor(this.body.clientHeight / this.height) - 1);
+    if (e.target !== this.body) return;
+    const page = Math.max(1, Math.floor(this.body.clientHeight / this.height) - 2);
     const step: Record<string, number> = {
       ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -Infinity, End: Infinity,
     };
-    if (e.key === "Enter" && this.selected) {
-      this.options.open?.(this.selected);
-      e.preventDefault();
-    } else if (e.key in step && this.shown.length > 0) {
-      this.move(step[e.key]);
-      e.preventDefault();
-    }
+    const side = { ArrowLeft: -1, ArrowRight: 1 }[e.key];
+    if (e.key === "Enter" && this.selected) this.options.open?.(this.selected);
+    else if (e.key in step && this.shown.length > 0) this.move(step[e.key]);
+    else if (side) this.active = Math.min(Math.max(this.active + side, 0), this.columns.length - 1);
+    else return;
+    e.preventDefault();
+    const cell = this.window.querySelector<HTMLElement>(`.selected > :nth-child(${this.active + 1})`);
+    if (side) cell?.scrollIntoView({ block: "nearest", inline: "nearest" });
+    for (const other of this.window.querySelectorAll(".at")) other.classList.remove("at");
+    cell?.classList.add("at");
+    this.tell(cell);
   }
 
   /** Moves the selection. */

@@ -3,6 +3,7 @@ import { kindNames } from "../data";
 import { h, plural } from "../dom";
 import type { Crossed } from "../meta";
 import type { Report } from "../report";
+import { named } from "../names";
 import { VirtualTable } from "../table";
 
 type Row = Crossed["rows"][0];
@@ -25,18 +26,19 @@ export function crossedSection(report: Report, open: (points: number[][]) => voi
     section.append(h("p", { class: "note" }, "No edge of the secondary side passes through a main segment. The search is exact."));
     return section;
   }
-  const owner = (r: Row) => report.data.contacts[r[0]].mainOwner;
+  const part = (r: Row) => report.data.contacts[r[0]].mainOwner.part[r[5]];
   const inter = (r: Row) => report.meta.interfaces[report.meta.contacts[r[0]].interface];
   const edge = (r: Row) => `${report.nodeId(r[1])}–${report.nodeId(r[2])}`;
   const at = (n: number) => Array.from(report.nodePositions.subarray(3 * n, 3 * n + 3));
   const table = new VirtualTable<Row>(
     [
-      { key: "inter", title: "Int.", hint: "Interface id", width: "78px", right: true, value: (r) => inter(r).id, cell: (r) => String(inter(r).id) },
-      { key: "kind", title: "Kind", width: "minmax(88px,.7fr)", value: (r) => report.roleText(r[0]), cell: (r) => report.roleText(r[0]) },
-      { key: "edge", title: "Edge", width: "minmax(110px,1.1fr)", value: (r) => report.nodeId(r[1]), cell: edge },
-      { key: "element", title: "of element", width: "minmax(100px,1fr)", value: (r) => r[4], cell: (r) => `${kindNames[r[3]]} ${r[4]}` },
-      { key: "segment", title: "Segment", width: "minmax(150px,1.5fr)", value: (r) => report.nodeId(segmentOf(report, r)[0]), cell: (r) => segmentOf(report, r).map((n) => report.nodeId(n)).join(" ") },
-      { key: "part", title: "Main part", width: "minmax(80px,1fr)", value: (r) => report.partText(owner(r).part[r[5]]), cell: (r) => report.partText(owner(r).part[r[5]]) },
+      { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: (r) => inter(r).id, text: (r) => String(inter(r).id) },
+      { key: "kind", title: "Kind", kind: "text", rank: 2, value: (r) => report.roleText(r[0]), text: (r) => report.roleText(r[0]) },
+      { key: "edge", title: "Edge", kind: "id", value: (r) => report.nodeId(r[1]), text: edge },
+      { key: "element", title: "of element", kind: "id", rank: 1, value: (r) => r[4], text: (r) => `${kindNames[r[3]]} ${r[4]}` },
+      { key: "segment", title: "Segment", kind: "id", rank: 4, value: (r) => report.nodeId(segmentOf(report, r)[0]), text: (r) => segmentOf(report, r).map((n) => report.nodeId(n)).join(" ") },
+      { key: "part", title: "Main part", kind: "text", rank: 3, value: (r) => report.partText(part(r)), text: (r) => report.partText(part(r)),
+        cell: (r) => (part(r) < 0 ? "(no part)" : named(report.meta.parts[part(r)].id, report.meta.parts[part(r)].title, report.commonPrefix)) },
     ],
     { label: "Crossed elements", sort: "inter", descending: false, select: (r) => r && open([at(r[1]), at(r[2]), ...segmentOf(report, r).map(at)]) },
   );

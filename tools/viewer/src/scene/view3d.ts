@@ -348,7 +348,9 @@ export class View3D {
   }
 
   private addLines(points: Vector3[], color: string, width: number): void {
-    const lines = this.lines(Float32Array.from(points.flatMap((p) => p.toArray())), color, width);
+    const positions = Float32Array.from(points.flatMap((p) => p.toArray()));
+    if (!positions.every(Number.isFinite)) return; // beyond what a picture can hold
+    const lines = this.lines(positions, color, width);
     this.scene.add(lines);
     this.selection.push(lines);
   }

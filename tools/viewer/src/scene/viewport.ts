@@ -37,6 +37,19 @@ export class Viewport {
     this.element.append(this.legend, this.tip, this.label, this.partList, this.clipPanel, this.axes);
   }
 
+  /** A button in place of the picture: small screens show the list first. */
+  offer(): void {
+    const show = button("Show the picture", "camera", () => {
+      show.remove();
+      this.element.classList.remove("waiting");
+      this.start();
+    });
+    this.element.classList.add("waiting");
+    this.legend.hidden = true;
+    this.axes.toggleAttribute("hidden", true);
+    this.element.append(show);
+  }
+
   /** Makes the 3D view; without WebGL a note takes its place. */
   start(): void {
     try {
@@ -47,6 +60,7 @@ export class Viewport {
       return;
     }
     const view = this.view;
+    this.axes.toggleAttribute("hidden", false);
     this.element.append(this.toolbar());
     this.buildParts();
     this.buildClip();

@@ -1,0 +1,21 @@
+// Names of parts and interfaces: ids are never cut, and what many titles start with is folded.
+import { h } from "./dom";
+
+/** Id and title of a part or interface: the id is never cut, and what the titles have in common is folded. */
+export function named(id: number | string, title: string, prefix: string): HTMLElement {
+  const folded = prefix !== "" && title.startsWith(prefix) && title.length > prefix.length;
+  return h("span", { class: "named" },
+    id === "" ? null : h("span", { class: "id" }, String(id)),
+    title ? h("span", { class: `rest${folded ? " fold" : ""}` }, folded && h("i", null, "…"), folded ? title.slice(prefix.length) : title) : null);
+}
+
+/** The longest beginning, up to a separator, that most titles share; empty: none worth folding. */
+export function commonStart(titles: string[]): string {
+  const count = new Map<string, number>();
+  for (const t of new Set(titles))
+    for (let i = 8; i < t.length; i++) if (/[\s_\-.:/]/.test(t[i - 1])) count.set(t.slice(0, i), (count.get(t.slice(0, i)) ?? 0) + 1);
+  const need = Math.max(3, 0.6 * new Set(titles).size);
+  let best = "";
+  for (const [prefix, n] of count) if (n >= need && prefix.length > best.length) best = prefix;
+  return best;
+}
