@@ -2,18 +2,22 @@
 """deck batch: the results are those of the verbs, the bytes do not depend on how the work was divided
 (jobs, shards, ranks of mpirun, Slurm arrays, GNU parallel), a batch that was stopped goes on where it
 was, and one bad deck costs nothing but itself."""
+import fcntl
 import glob
+import html.parser
 import json
 import os
 import pty
 import shutil
 import signal
+import struct
 import subprocess
 import tempfile
+import termios
 import time
 
 from common import ROOT, SAMPLES, Checks
-from kill import build_shim, read, tree
+from kill import build_shim, read, stable, tree
 
 try:
     import jsonschema
@@ -23,7 +27,8 @@ except ImportError:
 
 def visible(directory):
     """Everything but the notes that batch keeps for itself."""
-    return {k: v for k, v in tree(directory).items() if not k.startswith(".batch")} if os.path.isdir(directory) else {}
+    found = tree(directory) if os.path.isdir(directory) else {}
+    return {k: stable(v) if k == "index.html" else v for k, v in found.items() if not k.startswith(".batch")}
 
 
 def differing(a, b):
@@ -308,6 +313,151 @@ def going_on(c, tmp):
     after("a line of the journal cut off", lambda: os.truncate(journal, os.path.getsize(journal) - 40), 5, ("--verb", "lint"))
 
 
+def screen(c, columns, args, cwd):
+    """What a terminal of so many columns shows of a call, lines apart."""
+    main, side = pty.openpty()
+    fcntl.ioctl(side, termios.TIOCSWINSZ, struct.pack("HHHH", 40, columns, 0, 0))
+    p = subprocess.Popen([c.program, *args], stdin=subprocess.DEVNULL, stdout=side, stderr=subprocess.PIPE, cwd=cwd,
+                         env=dict(os.environ, NO_COLOR="1"))
+    os.close(side)
+    shown = b""
+    while True:
+        try:
+            chunk = os.read(main, 65536)
+        except OSError:
+            break
+        shown += chunk
+    p.communicate(timeout=60)
+    os.close(main)
+    return shown.decode().replace("\r\n", "\n").split("\n")
+
+
+class Overview(html.parser.HTMLParser):
+    """The tables of a page: their rows, each cell as (text, class, link)."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.rows, self.inside, self.addresses = [], False, []
+        self.feed(page.decode())
+
+    def handle_starttag(self, tag, attributes):
+        a = dict(attributes)
+        self.addresses += [a[k] for k in ("src", "href") if k in a]
+        if tag == "tr":
+            self.rows.append([])
+        if tag in ("td", "th"):
+            self.rows[-1].append(["", a.get("class", ""), ""])
+            self.inside = True
+        if tag == "a" and self.inside:
+            self.rows[-1][-1][2] = a["href"]
+
+    def handle_endtag(self, tag):
+        if tag in ("td", "th"):
+            self.inside = False
+
+    def handle_data(self, data):
+        if self.inside:
+            self.rows[-1][-1][0] += data
+
+    def cell(self, deck, title):
+        column = [t[0] for t in self.rows[0]].index(title)
+        return next(r[column] for r in self.rows if r[0][0].endswith(deck))
+
+
+def overview(c, tmp):
+    """What a person sees at the end: the decks that penetrate, in the terminal and on the page."""
+    work = os.path.join(tmp, "over")
+    os.makedirs(work)
+    for name in ("clean_plates", "too_close", "crash_box", "hot_contact"):
+        shutil.copy(os.path.join(ROOT, "samples", name + "_0000.rad"), work)
+    long_name = os.path.join(work, "a_project_with_a_long_name", "and_a_variant_of_it_as_well")
+    os.makedirs(long_name)
+    shutil.copy(os.path.join(work, "too_close_0000.rad"), os.path.join(long_name, "front_crash_64_kmh_0000.rad"))
+    with open(os.path.join(work, "empty_0000.rad"), "w"):
+        pass
+    out, page = os.path.join(work, "out"), os.path.join(work, "out", "index.html")
+    lines = screen(c, 80, ("batch", "-o", "out", "."), work)
+    c.check("the table fits 80 columns", max(map(len, lines)) <= 80, max(lines, key=len))
+    text = "\n".join(lines)
+    c.check("penetrating decks are in the table, clean ones are counted", all(n in text for n in ("too_close", "crash_box", "hot_contact", "empty_0000"))
+            and "clean_plates" not in text and "1 clean deck is not listed" in text, text)
+    c.check("what cannot be read comes first, then the worst", text.index("empty_0000") < text.index("crash_box") < text.index("too_close"), text)
+    states = {os.path.basename(d["deck"]): d["status"] for d in summary(out)["decks"]}
+    c.check("only clean means clean", states == {"clean_plates_0000.rad": "clean", "too_close_0000.rad": "findings", "crash_box_0000.rad": "findings",
+                                                 "hot_contact_0000.rad": "findings", "front_crash_64_kmh_0000.rad": "findings", "empty_0000.rad": "unreadable"}, str(states))
+    shown = Overview(read(page))
+    c.check("the page needs nothing from elsewhere", all(a.startswith("./") and os.path.exists(os.path.join(out, a)) for a in shown.addresses)
+            and b"prefers-color-scheme:dark" in read(page), str(shown.addresses))
+    c.check("the page has the numbers", [shown.cell("too_close_0000.rad", t)[0] for t in ("status", "penetrating", "deepest", "of gap")] ==
+            ["findings", "9", "0.35", "28.0 %"] and shown.cell("too_close_0000.rad", "deck")[2] == "./too_close_0000.json", str(shown.rows))
+    c.check("without results of before there is no trend", "trend" not in [t[0] for t in shown.rows[0]])
+    # A gap that gets worse, one that gets better, a deck that is new, and one as it was.
+    def edit(name, old, new):
+        data = read(os.path.join(work, name))
+        assert old in data
+        with open(os.path.join(work, name), "wb") as f:
+            f.write(data.replace(old, new))
+    edit("too_close_0000.rad", b"                1.25", b"                1.35")
+    edit(os.path.join(long_name, "front_crash_64_kmh_0000.rad"), b"                1.25", b"                1.15")
+    shutil.copy(os.path.join(work, "clean_plates_0000.rad"), os.path.join(work, "fresh_0000.rad"))
+    for name in ("", " (again, nothing changed)"):
+        c.run("batch", "-o", "out", ".", cwd=work)
+        shown = Overview(read(page))
+        trends = [shown.cell(n, "trend")[1] for n in ("too_close_0000.rad", "kmh_0000.rad", "fresh_0000.rad", "crash_box_0000.rad")]
+        c.check("trend against the results of before" + name, trends == ["worse", "better", "first", "same"], str(trends))
+    c.check("the trend says what it was", "deepest 0.35 before" in shown.cell("too_close_0000.rad", "trend")[0], str(shown.rows))
+    c.check("a time for every deck that was read", float(shown.cell("too_close_0000.rad", "seconds")[0]) >= 0)
+    c.run("batch", "-o", "gated", ".", "--verb", "gaps --max-ratio 0.3", cwd=work)
+    shown = Overview(read(os.path.join(work, "gated", "index.html")))
+    gates = [shown.cell(n, "gate")[0] for n in ("crash_box_0000.rad", "kmh_0000.rad", "empty_0000.rad")]
+    c.check("the page says what the gate said", gates == ["failed", "passed", "-"], str(gates))
+    c.run("batch", "-o", "linted", ".", "--verb", "lint --no-config", cwd=work)
+    states = {os.path.basename(d["deck"]): (d["status"], d["counts"]) for d in summary(os.path.join(work, "linted"))["decks"] if d["counts"]}
+    c.check("a deck with warnings only is not clean", all((s == "clean") == (n["errors"] + n["warnings"] == 0) for s, n in states.values()), str(states))
+
+
+def includes(c, tmp):
+    """Files of other decks are no decks, when a directory or a pattern finds them."""
+    work = os.path.join(tmp, "includes")
+    os.makedirs(os.path.join(work, "lib"))
+    text = read(os.path.join(ROOT, "samples", "clean_plates_0000.rad"))
+    at = text.index(b"/NODE")
+    files = {"car_0000.rad": text[:at] + b"#include mesh_0000.rad\n", "mesh_0000.rad": text[at:], "whole_0000.rad": text,
+             "lost_0000.rad": b"/NODE\n         1                 0.0                 0.0                 0.0\n", "blank_0000.rad": b"",
+             "binary_0000.rad": bytes(range(256)) * 20, "engine_0000.rad": b"# engine\n/RUN/x/1\n1.0\n/TFILE\n0.1\n",
+             "old_0000.rad": text.replace(b"#RADIOSS STARTER", b"# no head")}
+    for name, data in files.items():
+        with open(os.path.join(work, "lib", name), "wb") as f:
+            f.write(data)
+
+    def run(name, *given):
+        out = os.path.join(work, "out-" + name)
+        r = c.run("batch", "-o", out, *given, cwd=work)
+        s = summary(out)
+        return r, {os.path.basename(d["deck"]).split("_")[0]: d["status"] for d in s["decks"]}, {os.path.basename(i["file"]).split("_")[0]: i["why"] for i in s["includes"]}
+    unread = {"blank": "unreadable", "binary": "unreadable", "engine": "unreadable"}
+    wanted = dict(unread, car="clean", whole="clean", old="clean")
+    for name, given in (("directory", ["lib"]), ("pattern", ["lib/*.rad"])):
+        r, decks, found = run(name, *given)
+        c.check("a %s: includes are listed, not run" % name, decks == wanted and sorted(found) == ["lost", "mesh"] and "car_0000.rad" in found["mesh"], "%s %s" % (decks, found))
+        c.check("a %s: they are named at the end" % name, b"include, not run: lib/mesh_0000.rad" in r.out and r.code == 3, r.text[-600:])
+    _, decks, found = run("named", *sorted("lib/" + n for n in files))
+    c.check("files named one by one are run, all of them", decks == dict(wanted, lost="unreadable", mesh="unreadable") and not found, "%s %s" % (decks, found))
+    r = c.run("batch", "-o", "none", "lib/los*", cwd=work)
+    c.check("includes only: no decks", r.code == 2 and b"lost_0000.rad" in r.err, r.text[-200:])
+    # Decks that include each other stay decks: reading them says so.
+    for a, b in (("a", "b"), ("b", "a")):
+        with open(os.path.join(work, "lib", "x%s_0000.rad" % a), "wb") as f:
+            f.write(text.replace(b"/END", b"#include x%s_0000.rad\n/END" % b.encode()))
+    _, decks, found = run("circle", "lib/x*")
+    c.check("decks that include each other are run", sorted(decks) == ["xa", "xb"] and not found, "%s %s" % (decks, found))
+    for i in (1, 2):
+        c.run("batch", "-o", "shards", "lib", "--shard", "%d/2" % i, cwd=work)
+    c.run("batch", "-o", "shards", "--merge", cwd=work)
+    c.run("batch", "-o", "whole", "lib", cwd=work)
+    c.check("shards know the includes as well", visible(os.path.join(work, "whole")) == {k: v for k, v in visible(os.path.join(work, "shards")).items() if "-of-" not in k})
+
+
 def alive(pid):
     try:
         with open("/proc/%d/stat" % pid) as f:
@@ -454,6 +604,8 @@ def main():
         names(c, tmp)
         bad_decks(c, tmp, shim)
         going_on(c, tmp)
+        overview(c, tmp)
+        includes(c, tmp)
         usage(c, tmp)
         terminal(c, tmp)
         two_at_once(c, tmp, shim)

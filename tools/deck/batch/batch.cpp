@@ -101,8 +101,9 @@ bool holds_includes(const std::string& document) {
 }
 
 /// The decks of the list that have to be done together, and where the batch writes them.
-Result<void> plan_groups(const BatchOptions& o, BatchTask& task, std::vector<BatchDeck>& decks,
+Result<void> plan_groups(const BatchOptions& o, BatchTask& task, BatchList& list,
                          std::vector<std::vector<std::size_t>>& groups) {
+  std::vector<BatchDeck>& decks = list.decks;
   if (!task.writes) {
     for (std::size_t i = 0; i < decks.size(); ++i) groups.push_back({i});
     return {};
@@ -115,9 +116,9 @@ Result<void> plan_groups(const BatchOptions& o, BatchTask& task, std::vector<Bat
     if (!dependents) return dependents.error();
     if (task.with_dependents && !dependents->decks.empty()) {
       paths.insert(paths.end(), dependents->decks.begin(), dependents->decks.end());
-      auto more = list_decks(paths, "", task.ending, o.directory);
+      auto more = list_decks(paths, "", task.ending, o.directory, o.common.include_paths);
       if (!more) return more.error();
-      decks = std::move(*more);
+      decks = std::move(more->decks);
     } else {
       task.outsiders = std::move(dependents->shared);
     }
@@ -175,15 +176,20 @@ int run(const BatchOptions& o) {
   if (!shard) return usage(shard.error().message);
   auto task = parse_task(o, verbs());
   if (!task) return usage(task.error().message);
-  auto decks = list_decks(o.common.decks, o.manifest, task->ending, o.directory);
-  if (!decks) return usage(decks.error().message);
+  auto list =
+      list_decks(o.common.decks, o.manifest, task->ending, o.directory, o.common.include_paths);
+  if (!list) return usage(list.error().message);
   remember_read(o.manifest);
-  if (decks->empty()) return usage("no decks: name some, or a directory, or a --manifest");
+  if (list->decks.empty())
+    return usage(list->includes.empty()
+                     ? "no decks: name some, or a directory, or a --manifest"
+                     : "no decks among what was found: " + list->includes.front().path + " " +
+                           list->includes.front().why);
   if (const auto schemas = load_schemas(o.common); !schemas) return usage(schemas.error().message);
   std::vector<std::vector<std::size_t>> groups;
-  if (auto planned = plan_groups(o, *task, *decks, groups); !planned)
+  if (auto planned = plan_groups(o, *task, *list, groups); !planned)
     return usage(planned.error().message);
-  Batch batch(o, std::move(*task), std::move(*decks), std::move(groups), *shard,
+  Batch batch(o, std::move(*task), std::move(*list), std::move(groups), *shard,
               o.no_mpi ? Ranks::alone() : Ranks::from_environment());
   return batch.run();
 }

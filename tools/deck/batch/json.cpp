@@ -42,6 +42,7 @@ class Facts : public nlohmann::json_sax<Json> {
   Json counts = Json::object();
   std::optional<std::string> verdict;
   std::optional<std::uint64_t> examined;
+  std::optional<bool> gate;
   bool others = false;
 
  private:
@@ -62,6 +63,8 @@ class Facts : public nlohmann::json_sax<Json> {
     if (depth_ == 2 && section_ == "summary") counts[member_] = value;
     if (depth_ == 3 && section_ == "summary" && counts[member_].is_object())
       counts[member_][inner_] = value;
+    if constexpr (std::is_same_v<T, bool>)
+      if (depth_ == 2 && section_ == "gate" && member_ == "passed") gate = value;
     if constexpr (std::is_same_v<T, number_unsigned_t>)
       if (depth_ == 1 && section_ == "examined") examined = value;
     if constexpr (std::is_same_v<T, string_t>)
@@ -116,8 +119,13 @@ std::optional<DocumentFacts> document_facts(std::string_view document) {
     const auto found = facts.counts.find(name);
     return found != facts.counts.end() && found->is_number() && *found > 0;
   };
-  return DocumentFacts{json_line(facts.counts), facts.verdict, facts.examined, facts.others,
-                       some("errors") || some("warnings")};
+  return DocumentFacts{json_line(facts.counts),
+                       facts.verdict,
+                       facts.examined,
+                       facts.others,
+                       some("errors") || some("warnings"),
+                       some("pairs"),
+                       facts.gate};
 }
 
 }  // namespace deck::cli

@@ -16,6 +16,8 @@ struct DocumentFacts {
   std::optional<std::uint64_t> examined;  ///< member "examined"; nullopt: there is none
   bool others = false;                    ///< "not_examined" lists something
   bool errors = false;                    ///< "summary" counts errors or warnings
+  bool penetrations = false;              ///< "summary" counts penetrating pairs
+  std::optional<bool> gate;               ///< "passed" of member "gate"; nullopt: none was set
 };
 /// nullopt: not JSON.
 std::optional<DocumentFacts> document_facts(std::string_view document);

@@ -10,7 +10,9 @@
 #include <set>
 #include <sstream>
 
+#include "deck/edit/include_scan.hpp"
 #include "deck/text/number.hpp"
+#include "deck/text/source.hpp"
 #include "writing/library.hpp"
 
 namespace deck::cli {
@@ -91,11 +93,74 @@ std::vector<std::string> result_names(const std::vector<fs::path>& paths) {
   return names;
 }
 
+/// True for a text with keywords that no deck can be: without head and /BEGIN. An Engine file, a
+/// page, binary data or nothing at all are decks that cannot be read.
+bool is_part_of_a_deck(const std::string& path) {
+  const auto source = Source::open(path, Limits{});
+  if (!source) return false;
+  const std::string_view text = (*source)->bytes();
+  constexpr std::size_t head = 4096;  // as far as the banner is looked for
+  if (text.substr(0, head).find("#RADIOSS STARTER") != text.npos) return false;
+  bool keyword = false;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view line = text.substr(at);
+    if (line.starts_with("/BEGIN") || line.starts_with("/RUN/")) return false;
+    if (!keyword && !line.starts_with('#') && line[0] != '$' && line[0] != '\n' &&
+        line[0] != '\r') {
+      if (line[0] != '/' || line.size() < 2 || line[1] < 'A' || line[1] > 'Z') return false;
+      keyword = true;
+    }
+    if (line.starts_with("#include ")) keyword = true;
+    const auto end = text.find('\n', at);
+    if (end == text.npos) break;
+    at = end + 1;
+  }
+  return keyword;
+}
+
+/// Takes the files out of `found` that are includes; see list_decks.
+std::vector<IncludeFile> take_includes(std::vector<std::string>& found,
+                                       const std::vector<std::string>& named,
+                                       const std::vector<std::string>& include_paths) {
+  const std::set<std::string> by_name(named.begin(), named.end());
+  if (std::all_of(found.begin(), found.end(),
+                  [&](const std::string& path) { return by_name.contains(path); }))
+    return {};
+  IncludeScan scan(include_paths);
+  std::vector<std::vector<IncludeScan::File>> trees;
+  std::set<FileIdentity> below;  // files that some deck includes
+  for (const std::string& path : found) {
+    trees.push_back(scan.files(path));
+    for (const IncludeScan::File& f : trees.back())
+      if (f.identity != trees.back().front().identity) below.insert(f.identity);
+  }
+  // Decks that include each other are decks: reading them says what is wrong.
+  std::map<FileIdentity, std::string> includer;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (const IncludeScan::File& f : trees[i])
+      if (!below.contains(trees[i].front().identity)) includer.emplace(f.identity, found[i]);
+  std::vector<IncludeFile> includes;
+  std::vector<std::string> decks;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const bool needed = !trees[i].empty() && below.contains(trees[i].front().identity) &&
+                        includer.contains(trees[i].front().identity);
+    const bool include = !by_name.contains(found[i]) && (needed || is_part_of_a_deck(found[i]));
+    if (!include)
+      decks.push_back(found[i]);
+    else if (needed)
+      includes.push_back({found[i], "included by " + includer.at(trees[i].front().identity)});
+    else
+      includes.push_back({found[i], "has neither the head of a deck nor /BEGIN"});
+  }
+  found = std::move(decks);
+  return includes;
+}
+
 }  // namespace
 
-Result<std::vector<BatchDeck>> list_decks(const std::vector<std::string>& given,
-                                          const std::string& manifest, std::string_view ending,
-                                          const std::string& output) {
+Result<BatchList> list_decks(const std::vector<std::string>& given, const std::string& manifest,
+                             std::string_view ending, const std::string& output,
+                             const std::vector<std::string>& include_paths) {
   std::vector<std::string> named = given;
   if (!manifest.empty()) {
     const auto text = read_manifest(manifest);
@@ -106,9 +171,11 @@ Result<std::vector<BatchDeck>> list_decks(const std::vector<std::string>& given,
   if (std::find(named.begin(), named.end(), "-") != named.end())
     return Error{Error::Code::config,
                  "standard input cannot be one of many decks; --manifest - reads the list there"};
-  const auto found = expand_decks(named, ending, output);
+  auto found = expand_decks(named, ending, output);
   if (!found) return found.error();
-  std::vector<BatchDeck> decks;
+  BatchList list;
+  if (ending == deck_ending) list.includes = take_includes(*found, named, include_paths);
+  std::vector<BatchDeck>& decks = list.decks;
   std::vector<fs::path> paths;
   std::error_code ec;
   for (const std::string& path : *found) {
@@ -117,7 +184,7 @@ Result<std::vector<BatchDeck>> list_decks(const std::vector<std::string>& given,
   }
   const auto names = result_names(paths);
   for (std::size_t i = 0; i < decks.size(); ++i) decks[i].result = names[i] + ".json";
-  return decks;
+  return list;
 }
 
 Result<Shard> parse_shard(const std::string& text) {

@@ -64,10 +64,14 @@ std::vector<std::string> settings_of(const BatchTask& task, const std::string& d
   return paths;
 }
 
-/// A deck is only clean if something was examined. Lint has rules for decks without any contact.
+/// A deck is only clean if something was examined and nothing was found, whatever the exit code
+/// lets pass. Lint has rules for decks without any contact.
 std::string_view status_in(const BatchTask& task, int code,
                            const std::optional<DocumentFacts>& facts) {
-  if (!facts || code > exit_findings || facts->examined.value_or(1) > 0) return status_of(code);
+  if (!facts || code > exit_findings || facts->examined.value_or(1) > 0)
+    return code == exit_clean && facts && (facts->errors || facts->penetrations)
+               ? status_of(exit_findings)
+               : status_of(code);
   const bool lint = task.verb.name == "lint";
   if (lint && (facts->errors || !facts->others)) return status_of(code);
   const bool required = std::find(task.options.begin(), task.options.end(), "--require-examined") !=
@@ -143,9 +147,14 @@ class Bar {
 
 }  // namespace
 
-Batch::Batch(const BatchOptions& o, BatchTask task, std::vector<BatchDeck> all,
+Batch::Batch(const BatchOptions& o, BatchTask task, BatchList list,
              std::vector<std::vector<std::size_t>> groups, Shard shard, Ranks ranks)
-    : o_(o), task_(std::move(task)), all_(std::move(all)), shard_(shard), ranks_(std::move(ranks)) {
+    : o_(o),
+      task_(std::move(task)),
+      all_(std::move(list.decks)),
+      includes_(std::move(list.includes)),
+      shard_(shard),
+      ranks_(std::move(ranks)) {
   std::vector<bool> ours(all_.size());
   std::size_t group_in_shard = 0;
   std::vector<const std::vector<std::size_t>*> mine;
@@ -195,9 +204,14 @@ Result<void> make_own_directory(const std::string& path) {
 
 namespace {
 
-/// The loss reports of the decks of a summary as one, from the journals.
-std::optional<std::string> united_losses(const std::string& directory, const Summary& s) {
-  std::map<std::string, std::string> losses;  // entry -> lists
+/// What the journals know beside the entries of the summary, by entry.
+struct Journals {
+  std::map<std::string, std::string> losses;  ///< lists of a loss report
+  std::map<std::string, double> seconds;
+};
+
+Journals read_journals_of(const std::string& directory) {
+  Journals out;
   std::error_code ec;
   for (auto it = fs::directory_iterator(directory + "/.batch", ec);
        !ec && it != fs::directory_iterator(); it.increment(ec)) {
@@ -206,9 +220,16 @@ std::optional<std::string> united_losses(const std::string& directory, const Sum
     if (!source) continue;
     std::istringstream in{std::string((*source)->bytes())};
     for (std::string line; std::getline(in, line);)
-      if (auto record = parse_record(line); record && !record->losses.empty())
-        losses[record->entry] = std::move(record->losses);
+      if (auto record = parse_record(line)) {
+        out.seconds[record->entry] = record->seconds;
+        if (!record->losses.empty()) out.losses[record->entry] = std::move(record->losses);
+      }
   }
+  return out;
+}
+
+/// The loss reports of the decks of a summary as one.
+std::string united_losses(const std::map<std::string, std::string>& losses, const Summary& s) {
   std::string text;
   JsonWriter json(text);
   json.begin_object();
@@ -227,18 +248,37 @@ std::optional<std::string> united_losses(const std::string& directory, const Sum
   return text;
 }
 
+/// The results that those of `text` are compared with: the last that were not the same. The summary
+/// that is about to be replaced is kept for that. nullopt: there are none.
+Result<std::optional<Summary>> keep_previous(const std::string& directory, const std::string& path,
+                                             const std::string& text) {
+  const std::string kept = directory + "/.batch/previous.json";
+  if (const auto now = Source::open(path, Limits{}); now && (*now)->bytes() != text)
+    if (auto done = write_result(kept, (*now)->bytes(), true); !done) return done.error();
+  const auto before = Source::open(kept, Limits{});
+  if (!before) return std::optional<Summary>();
+  auto summary = parse_summary((*before)->bytes());
+  return summary ? std::optional<Summary>(std::move(*summary)) : std::nullopt;
+}
+
 }  // namespace
 
 Result<void> write_overview(const std::string& directory, const Summary& s) {
   const std::string suffix = summary_name(s.shard).substr(std::string_view("summary").size());
+  const std::string path = directory + "/" + summary_name(s.shard), text = summary_json(s);
+  const Journals journals = read_journals_of(directory);
   if (s.verb == "convert")
-    if (const auto losses = united_losses(directory, s))
-      if (auto done = write_result(directory + "/losses" + suffix, *losses, true); !done)
-        return done;
-  if (s.shard.whole())
-    if (auto done = write_result(directory + "/index.html", summary_page(s), true); !done)
+    if (auto done =
+            write_result(directory + "/losses" + suffix, united_losses(journals.losses, s), true);
+        !done)
       return done;
-  return write_result(directory + "/" + summary_name(s.shard), summary_json(s), true);
+  if (s.shard.whole()) {
+    const auto previous = keep_previous(directory, path, text);
+    if (!previous) return previous.error();
+    const std::string page = summary_page(s, *previous ? &**previous : nullptr, journals.seconds);
+    if (auto done = write_result(directory + "/index.html", page, true); !done) return done;
+  }
+  return write_result(path, text, true);
 }
 
 Result<void> write_result(const std::string& path, std::string_view bytes, bool sync) {
@@ -290,7 +330,8 @@ Result<void> Batch::prepare() {
     ours.insert(fs::path(intent_path(g)).filename().string());
   // What all shards and ranks write is only ours where there are no others: they may be at it.
   if (shard_.whole() && ranks_.single())
-    for (const char* name : {"index.html", "losses.json", "verb"}) ours.insert(name);
+    for (const char* name : {"index.html", "losses.json", "verb", "previous.json"})
+      ours.insert(name);
   remove_strays(ours);
   read_journals();
   settle_intents();
@@ -425,9 +466,10 @@ std::string Batch::work_on(std::size_t group, Captured& output) const {
     unlink(in_directory(deck.result).c_str());  // a result of earlier would be taken for this one
   }
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  record.entry = summary_entry(
-      deck.path, status_in(task_, record.code, facts), record.result, record.code, error,
-      facts && facts->verdict ? &*facts->verdict : nullptr, facts ? facts->counts : "{}");
+  record.entry =
+      summary_entry(deck.path, status_in(task_, record.code, facts), record.result, record.code,
+                    error, facts && facts->verdict ? &*facts->verdict : nullptr,
+                    facts ? facts->counts : "{}", facts ? facts->gate : std::nullopt);
   return record_line(record);
 }
 
@@ -538,6 +580,7 @@ Summary Batch::summary() const {
   s.arguments = task_.words;
   s.shard = shard_;
   s.all = all_.size();
+  s.includes = includes_;
   s.positions = positions_;
   for (const Record& r : records_) s.entries.push_back(entry_of(r.entry, r.code));
   return s;
@@ -598,10 +641,11 @@ int report_batch(const BatchOptions& o, const Summary& s, std::size_t kept) {
         nothing > 0 ? fmt::format("{} with nothing examined, ", nothing) : std::string();
     const std::size_t left_out = s.count("skipped");
     const std::string skipped = left_out > 0 ? fmt::format("{} skipped, ", left_out) : "";
-    std::string text =
-        fmt::format("{} decks: {} clean, {} with findings, {}{} unreadable, {}{} failed",
-                    s.entries.size(), s.count("clean"), s.count("findings"), not_examined,
-                    s.count("unreadable"), skipped, s.count("failed"));
+    std::string text = summary_table(s, text_width(), o.common.color_on(1));
+    if (!text.empty()) text += "\n";
+    text += fmt::format("{} decks: {} clean, {} with findings, {}{} unreadable, {}{} failed",
+                        s.entries.size(), s.count("clean"), s.count("findings"), not_examined,
+                        s.count("unreadable"), skipped, s.count("failed"));
     if (kept > 0) text += fmt::format("; {} were finished before", kept);
     print_text(text + "; " + terminal_text(o.directory) + "/" + summary_name(s.shard) + "\n");
   }

@@ -49,9 +49,9 @@ struct BatchTask {
 /// the journals say and what still holds.
 class Batch {
  public:
-  /// `all` are the decks of all shards and ranks, `groups` those that are done together; the
+  /// `list` has the decks of all shards and ranks, `groups` those that are done together; the
   /// process takes the groups that are its own.
-  Batch(const BatchOptions& o, BatchTask task, std::vector<BatchDeck> all,
+  Batch(const BatchOptions& o, BatchTask task, BatchList list,
         std::vector<std::vector<std::size_t>> groups, Shard shard, Ranks ranks);
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
@@ -94,6 +94,7 @@ class Batch {
   const BatchOptions& o_;
   BatchTask task_;
   std::vector<BatchDeck> all_;
+  std::vector<IncludeFile> includes_;             ///< of all shards
   std::vector<BatchDeck> decks_;                  ///< ours
   std::vector<std::size_t> positions_;            ///< of ours among all
   std::vector<std::vector<std::size_t>> groups_;  ///< of ours

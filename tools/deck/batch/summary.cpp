@@ -2,7 +2,6 @@
 #include "batch/summary.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -42,7 +41,7 @@ SummaryEntry entry_of(std::string json, int code) {
 
 std::string summary_entry(std::string_view deck, std::string_view status, std::string_view result,
                           int code, std::string_view error, const std::string* verdict,
-                          std::string_view counts) {
+                          std::string_view counts, std::optional<bool> gate) {
   std::string text;
   JsonWriter json(text);
   const auto text_or_null = [&](const char* name, std::string_view value) {
@@ -57,6 +56,7 @@ std::string summary_entry(std::string_view deck, std::string_view status, std::s
   json.field("exit_code", code);
   text_or_null("error", error);
   text_or_null("verdict", verdict == nullptr ? std::string_view() : std::string_view(*verdict));
+  text_or_null("gate", !gate ? "" : *gate ? "passed" : "failed");
   json.key("counts").raw(counts.empty() ? "{}" : counts).end_object();
   text.erase(text.find_last_not_of('\n') + 1);
   return text;
@@ -96,79 +96,11 @@ std::string summary_json(const Summary& s) {
       .end_object();
   json.key("decks").begin_array();
   for (const SummaryEntry& e : s.entries) json.raw(e.json);
+  json.end_array().key("includes").begin_array();
+  for (const IncludeFile& f : s.includes)
+    json.begin_object(true).field("file", f.path).field("why", f.why).end_object();
   json.end_array().end_object();
   return text;
-}
-
-namespace {
-
-std::string html_text(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-/// A path as the address of a file beside the page.
-std::string address_of(std::string_view path) {
-  constexpr std::string_view hex = "0123456789ABCDEF";
-  std::string out = "./";
-  for (const char c : path) {
-    const auto u = static_cast<unsigned char>(c);
-    if (std::isalnum(u) != 0 || std::string_view("/._-~").find(c) != std::string_view::npos) {
-      out += c;
-    } else {
-      out += '%';
-      out += hex[u >> 4];
-      out += hex[u & 15];
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
-std::string summary_page(const Summary& s) {
-  std::string what = s.verb;
-  for (const std::string& a : s.arguments) what += " " + a;
-  std::string page =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>deck batch: " +
-      html_text(what) +
-      "</title>\n<style>body{font:14px sans-serif;margin:2em}table{border-collapse:collapse}"
-      "td,th{border-bottom:1px solid #ccc;padding:.2em .8em;text-align:left;vertical-align:top}"
-      ".clean{color:#060}.findings,.not-examined{color:#850}.failed,.unreadable,.skipped{color:#"
-      "a00}"
-      "</style></head><body>\n<h1>deck " +
-      html_text(what) + "</h1>\n<p>" + std::to_string(s.entries.size()) + " decks";
-  for (const char* status :
-       {"clean", "findings", "not-examined", "unreadable", "skipped", "failed"})
-    if (const std::size_t n = s.count(status); n > 0)
-      page += ", " + std::to_string(n) + " " + status;
-  page += "</p>\n<table><tr><th>deck</th><th>status</th><th>what</th></tr>\n";
-  for (const SummaryEntry& e : s.entries) {
-    const auto json = nlohmann::json::parse(e.json);
-    const auto text = [&](const char* name) {
-      const auto found = json.find(name);
-      return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
-    };
-    const std::string deck = html_text(text("deck")), result = text("result");
-    const std::string error = text("error");
-    page += "<tr><td>";
-    page += result.empty() ? deck : "<a href=\"" + address_of(result) + "\">" + deck + "</a>";
-    page += "</td><td class=\"" + html_text(e.status) + "\">" + html_text(e.status) + "</td><td>" +
-            html_text(error.empty() ? text("verdict") : error) + "</td></tr>\n";
-  }
-  return page + "</table></body></html>\n";
 }
 
 Result<Summary> parse_summary(std::string_view text) {
@@ -182,6 +114,9 @@ Result<Summary> parse_summary(std::string_view text) {
     s.arguments = json.at("arguments").get<std::vector<std::string>>();
     for (const auto& e : json.at("decks"))
       s.entries.push_back(entry_of(json_line(e), e.at("exit_code").get<int>()));
+    if (json.contains("includes"))
+      for (const auto& f : json.at("includes"))
+        s.includes.push_back({f.at("file").get<std::string>(), f.at("why").get<std::string>()});
     s.all = s.entries.size();
     if (const auto& shard = json.at("shard"); shard.is_object()) {
       s.shard = {shard.at("index").get<std::size_t>(), shard.at("count").get<std::size_t>()};
