@@ -303,24 +303,6 @@ class Writer {
     }
   }
 
-  /// Few distinct values, one index per item.
-  template <class Items, class Value>
-  void palette(const Items& items, Value value) {
-    std::unordered_map<double, std::uint32_t> number;
-    std::vector<double> values;
-    std::vector<std::uint32_t> index;
-    for (const auto& item : items) {
-      const double v = value(item);
-      const auto [it, fresh] = number.emplace(v, static_cast<std::uint32_t>(values.size()));
-      if (fresh) values.push_back(v);
-      index.push_back(it->second);
-    }
-    out_.u(values.size());
-    out_.f64(values);
-    if (values.size() > 1)
-      for (const std::uint32_t i : index) out_.u(i);
-  }
-
   template <class Items, class Value>
   void selected(const std::vector<std::uint32_t>& positions, const Items& items, Value value) {
     std::vector<double> values;
@@ -349,12 +331,12 @@ class Writer {
     Delta n;
     out_.u(c.secondary.size());
     for (const SecondaryNode& s : c.secondary) out_.s(n(nodes_[s.node]));
-    palette(c.secondary, [](const SecondaryNode& s) { return s.gap; });
+    out_.palette(c.secondary, [](const SecondaryNode& s) { return s.gap; });
     Delta corner;
     out_.u(c.main.size());
     for (const MainSegment& m : c.main)
       for (const NodeIndex i : m.nodes) out_.s(corner(nodes_[i]));
-    palette(c.main, [](const MainSegment& m) {
+    out_.palette(c.main, [](const MainSegment& m) {
       return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3 ? m.thickness : 0.0;
     });
     std::vector<Owner> main_owners, secondary_owners;
@@ -377,7 +359,7 @@ class Writer {
       out_.u(edges.size());
       for (const ContactEdge& e : edges)
         for (const NodeIndex i : e.nodes) out_.s(n(nodes_[i]));
-      palette(edges, [](const ContactEdge& e) { return std::max(e.shell, e.section); });
+      out_.palette(edges, [](const ContactEdge& e) { return std::max(e.shell, e.section); });
     };
     side(c.secondary_edges);
     side(c.main_edges);

@@ -59,7 +59,12 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page) {
   j.end_array().key("parts").begin_array();
   for (const Part& p : model.parts) {
     j.begin_object(true).field("id", p.id).field("title", p.title);
-    j.field("prop", p.prop_id).field("mat", p.mat_id).end_object();
+    j.field("prop", p.prop_id).field("mat", p.mat_id);
+    if (p.prop != no_index) {
+      const Property& property = model.properties[p.prop];
+      j.field("prop_type", property.type).field("thickness", property.thickness);
+    }
+    j.end_object();
   }
   j.end_array();
   j.field("free_group_id", free_group_id(*in.deck));
@@ -156,6 +161,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   add_block(out, "deck-contacts", "application/octet-stream",
             detail::contacts_block(in, page, nodes));
   add_block(out, "deck-mesh", "application/octet-stream", detail::mesh_block(model, mesh, nodes));
+  add_block(out, "deck-elements", "application/octet-stream", detail::elements_block(model, mesh));
   if (in.earlier != nullptr)
     add_block(out, "deck-earlier", "application/octet-stream",
               detail::packed_text(earlier_json(in)));

@@ -54,6 +54,9 @@ std::vector<MeshPart> collect_mesh(const Model& model, PageNodes& nodes);
 std::string mesh_block(const Model& model, const std::vector<MeshPart>& mesh,
                        const PageNodes& nodes);
 
+// elements.cpp — what is said about an element that is picked
+std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh);
+
 // html_contacts.cpp — what evaluating other settings needs
 struct PageContact {
   std::vector<CandidatePair> pairs;  ///< all pairs nearer than `reach`, sorted

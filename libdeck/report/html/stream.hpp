@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <vector>
 
 namespace deck::detail {
 
@@ -28,6 +30,23 @@ class ByteStream {
   /// Doubles as eight planes of bytes: first all lowest bytes, last all highest ones.
   void f64(std::span<const double> values);
   void f64(double value) { f64(std::span(&value, 1)); }
+  /// Few distinct values, one index per item.
+  template <class Items, class Value>
+  void palette(const Items& items, Value value) {
+    std::unordered_map<double, std::uint32_t> number;
+    std::vector<double> values;
+    std::vector<std::uint32_t> index;
+    for (const auto& item : items) {
+      const double v = value(item);
+      const auto [it, fresh] = number.emplace(v, static_cast<std::uint32_t>(values.size()));
+      if (fresh) values.push_back(v);
+      index.push_back(it->second);
+    }
+    u(values.size());
+    f64(values);
+    if (values.size() > 1)
+      for (const std::uint32_t i : index) u(i);
+  }
   const std::string& bytes() const { return bytes_; }
 
  private:

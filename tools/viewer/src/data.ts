@@ -183,6 +183,28 @@ function readMesh(bytes: Uint8Array): Mesh {
   return { nodeId, parts, low, high };
 }
 
+/** Where an element of a part is defined, and its own thickness (0: that of its property). */
+export interface ElementOrigin {
+  file: number; // index into Meta.files
+  line: number;
+  thickness: number;
+}
+
+/** By part and element, in the order of the mesh; read when something is picked. */
+export function loadElements(mesh: Mesh): (part: number, item: number) => ElementOrigin {
+  const bytes = inflate("deck-elements");
+  if (!bytes) return () => ({ file: 0, line: 0, thickness: 0 });
+  const r = new Reader(bytes);
+  const parts = mesh.parts.map((p) => p.groups.map((g) => ({ file: r.deltas(g.count), line: r.deltas(g.count), thickness: r.palette(g.count) })));
+  return (part, item) => {
+    let i = item;
+    let g = 0;
+    while (i >= mesh.parts[part].groups[g].count) i -= mesh.parts[part].groups[g++].count;
+    const { file, line, thickness } = parts[part][g];
+    return { file: file[i], line: line[i], thickness: thickness[i] };
+  };
+}
+
 function listPositions(pairs: Uint32Array, items: number, all: boolean): [Int32Array, number] {
   const out = new Int32Array(items).fill(all ? 0 : -1);
   for (const i of pairs) out[i] = 0;

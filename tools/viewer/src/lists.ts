@@ -130,7 +130,7 @@ function drawMatrix(report: Report, rows: PairRow[], look: Look): HTMLElement {
         continue;
       }
       const t = top > 0 ? r.max / top : 0;
-      const [red, green, blue] = colorAt(look.map, t, look.flip);
+      const [red, green, blue] = colorAt(look.map, t);
       const light = 0.299 * red + 0.587 * green + 0.114 * blue > 150;
       const on = pair?.[0] === s && pair[1] === m;
       grid.append(h("button", {
@@ -198,7 +198,7 @@ function histogram(report: Report, look: Look, field: "depth" | "ratio", title: 
     path += ` L${x(high)} ${y1 - ((y1 - y0) * sum) / Math.max(values.length, 1)}`;
     const bar = svg("rect", {
       x: x(low) + 1, width: Math.max(1, x(high) - x(low) - 2), y: n ? Math.min(y(n), y1 - 2) : y1, height: n ? Math.max(2, y1 - y(n)) : 0,
-      rx: 1.5, fill: cssColor(look.map, (i + 0.5) / bins, look.flip), opacity: inside ? 1 : 0.25,
+      rx: 1.5, fill: cssColor(look.map, (i + 0.5) / bins), opacity: inside ? 1 : 0.25,
     });
     const hit = svg("rect", {
       x: x(low), width: x(high) - x(low), y: y0, height: y1 - y0, fill: "transparent", class: "bin",

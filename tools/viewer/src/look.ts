@@ -5,8 +5,6 @@ export type ContourKind = "depth" | "ratio" | "gap" | "edge" | "none";
 
 export interface Look {
   map: MapName;
-  /** Dark is deep: on light ground. */
-  flip: boolean;
   dark: boolean;
   contour: ContourKind;
   /** Colours in steps instead of a smooth change. */

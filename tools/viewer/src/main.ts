@@ -21,15 +21,13 @@ function build(): void {
   const times: Record<string, number> = { decoded: performance.now() - started };
   const report = new Report(meta, mesh, contacts, loadEarlier(), loadCycle(), loadCrossed());
   times.evaluated = performance.now() - started;
-  const look: Look = { map: "viridis", flip: true, dark: false, contour: "depth", bands: 0 };
+  const look: Look = { map: "heat", dark: false, contour: "depth", bands: 0 };
   const changeLook = (change: Partial<Look>) => {
     Object.assign(look, change);
-    look.flip = !look.dark;
     document.documentElement.dataset.theme = look.dark ? "dark" : "light";
     report.emit("look");
   };
   look.dark = matchMedia("(prefers-color-scheme: dark)").matches;
-  look.flip = !look.dark;
   document.documentElement.dataset.theme = look.dark ? "dark" : "light";
 
   const viewport = new Viewport(report, look, changeLook);
@@ -136,11 +134,13 @@ const keyList: [string, string][] = [
   ["/", "find in the list"],
   ["f", "fit the visible parts"],
   ["i", "isolate the chosen pair, or not"],
-  ["h", "rest see-through or hidden"],
+  ["h", "only what penetrates; or the rest see-through"],
+  ["o", "all parts solid"],
+  ["m", "measure between two nodes"],
   ["s", "show everything again"],
   ["a", "arrows"],
   ["w", "element sides"],
-  ["x", "clip plane"],
+  ["x", "section planes"],
   ["p", "list of parts"],
   ["c", "edges of crossed elements"],
   ["1 … 5", "colours: depth, depth ÷ gap, gap, gap ÷ side, parts"],
@@ -165,6 +165,8 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
     f: () => viewport.fit(),
     i: () => viewport.toggleFollow(),
     h: () => viewport.toggleRest(),
+    o: () => viewport.toggleSolid(),
+    m: () => viewport.toggleMeasure(),
     s: () => viewport.showAll(),
     a: () => viewport.toggleArrows(),
     w: () => viewport.toggleEdges(),

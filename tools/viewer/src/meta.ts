@@ -120,7 +120,7 @@ export interface Meta {
   coverage_lead: string; // in place of a verdict: nothing examined, or files missing
   coverage_tail: string; // behind a verdict: what was not examined
   files: string[];
-  parts: { id: number; title: string; prop: number; mat: number }[];
+  parts: { id: number; title: string; prop: number; mat: number; prop_type?: string; thickness?: number }[];
   free_group_id: number;
   what_if: (Overrides & { interface: number; "%mesh_size"?: number; Irem_gap?: number })[];
   interfaces: InterfaceMeta[];

@@ -206,6 +206,22 @@ export class Report {
     const i = c.secondaryListed[row.secondary];
     return c.file[i] < 0 ? null : { file: this.meta.files[c.file[i]], line: c.line[i] };
   }
+  private readonly sides = new Map<number, { secondary: Set<number>; main: Set<number> }>();
+  /** Parts of both sides of an interface. */
+  sidesOf(inter: number): { secondary: Set<number>; main: Set<number> } {
+    let found = this.sides.get(inter);
+    if (found) return found;
+    found = { secondary: new Set(), main: new Set() };
+    const marked = new Uint8Array(this.mesh.nodeId.length);
+    for (const i of this.contactsOf(inter)) {
+      const c = this.data.contacts[i];
+      for (const p of c.mainOwner.part) if (p >= 0) found.main.add(p);
+      for (const n of c.secondaryNode) marked[n] = 1;
+    }
+    for (const p of this.mesh.parts) if (p.part >= 0 && p.node.some((n) => marked[n] === 1)) found.secondary.add(p.part);
+    this.sides.set(inter, found);
+    return found;
+  }
   interfaceName(inter: number): string {
     const i = this.meta.interfaces[inter];
     return `${i.id}${i.title ? ` ${i.title}` : ""}`;

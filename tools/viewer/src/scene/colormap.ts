@@ -1,9 +1,10 @@
-// Colour maps that people with colour vision deficiencies can read, and that get darker or lighter
-// in one direction so that they survive a black-and-white print.
+// Colour maps that people with colour vision deficiencies can read. Deeper is darker and hotter, on light ground and on dark
+// ground alike, and lightness falls all the way, so that they survive a black-and-white print.
 
-export type MapName = "viridis" | "cividis" | "magma";
+export type MapName = "heat" | "viridis" | "cividis" | "magma";
 
 const stops: Record<MapName, string> = {
+  heat: "6e0024 980026 bd0026 d7191c e8432d f26b38 fa8f48 fdb15f fecb7c fee19d fff0c0",
   viridis: "440154 482475 414487 355f8d 2a788e 21918c 22a884 44bf70 7ad151 bddf26 fde725",
   cividis: "00224e 123570 3b496c 575d6d 707173 8a8678 a59c74 c3b369 e1cc55 f6dd4a fee838",
   magma: "000004 140e36 3b0f70 641a80 8c2981 b73779 de4968 f7705c fe9f6d fecf92 fcfdbf",
@@ -15,19 +16,17 @@ function parse(name: MapName): number[][] {
 }
 const tables = new Map(mapNames.map((n) => [n, parse(n)]));
 
-/** Colour at t in [0, 1]: red, green, blue in 0..255. Deep is dark on light ground and bright on
- * dark ground, so `flip` turns the map round. */
-export function colorAt(name: MapName, t: number, flip: boolean): [number, number, number] {
+/** Colour at t in [0, 1]: red, green, blue in 0..255. */
+export function colorAt(name: MapName, t: number): [number, number, number] {
   const table = tables.get(name)!;
   // The ends of the maps are too near to white or black to stand out from the ground.
-  const u = flip ? 0.94 - 0.9 * t : 0.08 + 0.92 * t;
-  const x = Math.min(Math.max(u, 0), 1) * (table.length - 1);
+  const x = Math.min(Math.max(0.94 - 0.9 * t, 0), 1) * (table.length - 1);
   const i = Math.min(Math.floor(x), table.length - 2);
   const f = x - i;
   return [0, 1, 2].map((k) => Math.round(table[i][k] + f * (table[i + 1][k] - table[i][k]))) as [number, number, number];
 }
 
-export function cssColor(name: MapName, t: number, flip: boolean): string {
-  const [r, g, b] = colorAt(name, t, flip);
+export function cssColor(name: MapName, t: number): string {
+  const [r, g, b] = colorAt(name, t);
   return `rgb(${r} ${g} ${b})`;
 }

@@ -10,7 +10,9 @@ import type { Mesh, MeshPart } from "../data";
 
 Mesh3.prototype.raycast = acceleratedRaycast;
 
-export type Look = "solid" | "ghost" | "hidden";
+/** hot: what penetrates solid, the rest see-through; only: nothing but what penetrates. */
+export type Look = "solid" | "hot" | "only" | "ghost" | "hidden";
+export type Side = "none" | "secondary" | "main";
 
 export interface Part3D {
   index: number; // into Mesh.parts
@@ -20,6 +22,10 @@ export interface Part3D {
   wires: LineSegments | null; // one-dimensional elements
   color: Color;
   look: Look;
+  side: Side;
+  /** Penetrating elements and their sides. */
+  hot: Mesh3 | null;
+  hotLines: LineSegments | null;
   sphere: Sphere;
   /** Triangle -> position of the element in `element`, and its kind. */
   triangleElement: Uint32Array;
@@ -30,11 +36,18 @@ export interface Part3D {
 // Muted colours that leave room for the contour.
 const palette = ["#8fa3b8", "#b3a58f", "#94ad9b", "#b79a9c", "#a49bb8", "#8fb0b5", "#b8ac84", "#9aa7a0", "#a88f86", "#8c99c0"];
 
+export const elementKey = (kind: number, id: number): number => 16 * id + kind;
+
+const sideColor = (side: Side, dark: boolean): string =>
+  side === "secondary" ? (dark ? "#5aa9ff" : "#2468c8") : side === "main" ? (dark ? "#f0a860" : "#b8741a") : dark ? "#9db0c4" : "#7d8a99";
+const solidColor = (side: Side, dark: boolean): string =>
+  side === "secondary" ? (dark ? "#6d8db8" : "#a9c3e6") : dark ? "#a88d6f" : "#dfc7a4";
+
 export class Parts3D {
   readonly group = new Object3D();
   readonly parts: Part3D[] = [];
   readonly texture: DataTexture;
-  private readonly ghost: MeshLambertMaterial;
+  private readonly ghosts: Record<Side, MeshLambertMaterial>;
   private readonly line: LineBasicMaterial;
   private readonly ghostLine: LineBasicMaterial;
   private readonly wire: LineBasicMaterial;
@@ -46,9 +59,8 @@ export class Parts3D {
     this.texture.magFilter = this.texture.minFilter = LinearFilter;
     this.texture.colorSpace = SRGBColorSpace;
     this.uniforms.contourMap.value = this.texture;
-    this.ghost = new MeshLambertMaterial({
-      color: "#8794a3", transparent: true, opacity: 0.09, depthWrite: false, side: DoubleSide, flatShading: true,
-    });
+    const ghost = () => new MeshLambertMaterial({ transparent: true, depthWrite: false, side: DoubleSide, flatShading: true });
+    this.ghosts = { none: ghost(), secondary: ghost(), main: ghost() };
     this.line = new LineBasicMaterial({ color: "#1c2733", transparent: true, opacity: 0.28 });
     this.ghostLine = new LineBasicMaterial({ color: "#7b8896", transparent: true, opacity: 0.05, depthWrite: false });
     this.wire = new LineBasicMaterial({ color: "#5b6b7d" });
@@ -85,7 +97,7 @@ export class Parts3D {
     const position = new BufferAttribute(data.position, 3);
     const contour = new BufferAttribute(new Float32Array(2 * data.node.length), 2).setUsage(DynamicDrawUsage);
     const part: Part3D = {
-      index, data, faces: null, lines: null, wires: null, color, look: "solid",
+      index, data, faces: null, lines: null, wires: null, color, look: "solid", side: "none", hot: null, hotLines: null,
       sphere: new Sphere(), triangleElement, element, elementKind,
     };
     if (triangles > 0) {
@@ -100,7 +112,7 @@ export class Parts3D {
       });
       this.addContour(material);
       part.faces = new Mesh3(geometry, material);
-      part.faces.userData.part = part;
+      part.faces.userData = { part, triangleElement };
       this.group.add(part.faces);
     }
     if (wires.length > 0) {
@@ -190,6 +202,52 @@ export class Parts3D {
     }
   }
 
+  /** Penetrating elements: those with a marked node, and those named by kind and id. */
+  setHot(node: Uint8Array, elements: Set<number>): void {
+    for (const part of this.parts) {
+      for (const old of [part.hot, part.hotLines]) {
+        if (!old) continue;
+        this.group.remove(old);
+        old.geometry.dispose();
+      }
+      part.hot = part.hotLines = null;
+      if (!part.faces) continue;
+      const marked = part.data.node.some((n) => node[n] === 1);
+      const triangles: number[] = [];
+      const lines: number[] = [];
+      const owner: number[] = [];
+      let e = 0;
+      for (const g of part.data.groups)
+        for (let i = 0; i < g.count; i++, e++) {
+          if (g.corners === 2) continue;
+          let hot = elements.has(elementKey(g.kind, g.element[i]));
+          for (let k = 0; marked && !hot && k < g.corners; k++) hot = node[part.data.node[g.vertex[g.corners * i + k]]] === 1;
+          if (!hot) continue;
+          const v = g.vertex.subarray(g.corners * i, g.corners * (i + 1));
+          for (let k = 2; k < g.corners; k++) {
+            triangles.push(v[0], v[k - 1], v[k]);
+            owner.push(e);
+          }
+          for (let k = 0; k < g.corners; k++) lines.push(v[k], v[(k + 1) % g.corners]);
+        }
+      if (triangles.length === 0) continue;
+      const from = part.faces.geometry;
+      const share = (index: number[]) => {
+        const geometry = new BufferGeometry();
+        geometry.setAttribute("position", from.getAttribute("position"));
+        geometry.setAttribute("contour", from.getAttribute("contour"));
+        geometry.setIndex(index);
+        geometry.boundingSphere = part.sphere.clone();
+        return geometry;
+      };
+      part.hot = new Mesh3(share(triangles), this.materialOf(part));
+      part.hot.userData = { part, triangleElement: Uint32Array.from(owner) };
+      part.hotLines = new LineSegments(share(lines), this.line);
+      this.group.add(part.hot, part.hotLines);
+      this.setLook(part, part.look);
+    }
+  }
+
   /** 256 colours. */
   setColors(colorAt: (t: number) => [number, number, number]): void {
     const out = this.texture.image.data as Uint8Array;
@@ -200,13 +258,15 @@ export class Parts3D {
   setGround(dark: boolean, neutral: boolean): void {
     this.line.color.set(dark ? "#0b0f14" : "#1c2733");
     this.line.opacity = dark ? 0.5 : 0.25;
-    this.ghost.color.set(dark ? "#9db0c4" : "#7d8a99");
     // Many layers add up.
-    this.ghost.opacity = this.parts.length > 60 ? 0.045 : 0.1;
+    for (const side of ["none", "secondary", "main"] as const) {
+      this.ghosts[side].color.set(sideColor(side, dark));
+      this.ghosts[side].opacity = (this.parts.length > 60 ? 0.045 : 0.1) * (side === "none" ? 1 : 1.8);
+    }
     this.wire.color.set(dark ? "#7f90a3" : "#5b6b7d");
     for (const p of this.parts)
-      if (p.faces && p.look !== "ghost")
-        (this.materialOf(p) as MeshLambertMaterial).color.copy(neutral ? new Color(dark ? "#7b8794" : "#c3cad2") : p.color);
+      if (p.faces)
+        this.materialOf(p).color.copy(!neutral ? p.color : p.side === "none" ? new Color(dark ? "#7b8794" : "#c3cad2") : new Color(solidColor(p.side, dark)));
   }
 
   private readonly materials = new Map<Part3D, MeshLambertMaterial>();
@@ -219,9 +279,13 @@ export class Parts3D {
   setLook(part: Part3D, look: Look): void {
     if (part.faces) {
       const solid = this.materialOf(part);
-      part.faces.visible = look !== "hidden";
-      part.faces.material = look === "ghost" ? this.ghost : solid;
-      part.faces.renderOrder = look === "ghost" ? 1 : 0;
+      const ghost = look === "ghost" || look === "hot";
+      part.faces.visible = look === "solid" || ghost;
+      part.faces.material = ghost ? this.ghosts[part.side] : solid;
+      part.faces.renderOrder = ghost ? 1 : 0;
+      const hot = look === "hot" || look === "only";
+      if (part.hot) part.hot.visible = hot;
+      if (part.hotLines) part.hotLines.visible = hot && this.edgesOn;
       const lines = look === "solid" && this.edgesOn ? this.sides(part) : part.lines;
       if (lines) {
         lines.visible = this.edgesOn && look === "solid";
@@ -229,8 +293,8 @@ export class Parts3D {
       }
     }
     if (part.wires) {
-      part.wires.visible = look !== "hidden";
-      part.wires.material = look === "ghost" ? this.ghostLine : this.wire;
+      part.wires.visible = look !== "hidden" && look !== "only";
+      part.wires.material = look === "ghost" || look === "hot" ? this.ghostLine : this.wire;
     }
     part.look = look;
   }
@@ -247,14 +311,21 @@ export class Parts3D {
 
   setClip(planes: Plane[]): void {
     for (const p of this.parts) if (p.faces) this.materialOf(p).clippingPlanes = planes;
-    for (const m of [this.ghost, this.line, this.ghostLine, this.wire]) m.clippingPlanes = planes;
+    for (const m of [...Object.values(this.ghosts), this.line, this.ghostLine, this.wire]) m.clippingPlanes = planes;
   }
 
   /** Meshes that can be picked; their search trees are made when first needed. */
   pickable(): Mesh3[] {
     const out: Mesh3[] = [];
-    for (const p of this.parts) if (p.faces && p.look === "solid") out.push(p.faces);
+    for (const p of this.parts) {
+      if (p.faces && p.look === "solid") out.push(p.faces);
+      if (p.hot?.visible) out.push(p.hot);
+    }
     return out;
+  }
+  /** See-through faces: picked where nothing solid is. */
+  pickableGhosts(): Mesh3[] {
+    return this.parts.flatMap((p) => (p.faces?.visible && p.look !== "solid" ? [p.faces] : []));
   }
   prepare(mesh: Mesh3): void {
     const geometry = mesh.geometry;

@@ -2,7 +2,7 @@
 // Frames are drawn on demand only.
 import {
   BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, CylinderGeometry, DirectionalLight, HemisphereLight,
-  InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, MeshLambertMaterial, Plane, Points, PointsMaterial, Quaternion, Raycaster, Scene,
+  InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Points, PointsMaterial, Quaternion, Raycaster, Scene,
   Sphere, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
@@ -10,14 +10,16 @@ import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { CameraControl } from "./camera";
-import { kindNames } from "../data";
 import { Parts3D, type Look, type Part3D } from "./parts3d";
+import { Section, type Cut } from "./section";
 import type { Hit, Report } from "../report";
 
 export interface Picked {
   hit: Hit | null;
   part: Part3D | null;
-  text: string;
+  item: number; // element of the part, -1: none
+  /** Corner of the face nearest to the cursor, as page node; -1: none. */
+  node: number;
 }
 
 const mostArrows = 10000;
@@ -48,10 +50,9 @@ export class View3D {
   private dotHits: Hit[] = [];
   private arrows: InstancedMesh | null = null;
   private arrowsOn = true;
-  private readonly selection: (LineSegments2 | Points)[] = [];
+  private readonly selection: (LineSegments2 | Points | Mesh)[] = [];
   private readonly disc: CanvasTexture;
-  private readonly clip = new Plane(new Vector3(1, 0, 0), 0);
-  private clipOn = false;
+  readonly section: Section;
   private dark = false;
   private readonly partOf = new Map<number, Part3D>();
 
@@ -60,7 +61,7 @@ export class View3D {
     private readonly report: Report,
     private readonly container: HTMLElement,
   ) {
-    this.renderer = new WebGLRenderer({ antialias: !drawsInSoftware(), preserveDrawingBuffer: false, powerPreference: "high-performance" });
+    this.renderer = new WebGLRenderer({ antialias: !drawsInSoftware(), stencil: true, preserveDrawingBuffer: false, powerPreference: "high-performance" });
     this.renderer.localClippingEnabled = true;
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
@@ -69,7 +70,8 @@ export class View3D {
     this.disc = discTexture();
     this.parts = new Parts3D(report.mesh);
     for (const p of this.parts.parts) this.partOf.set(p.data.part, p);
-    this.scene.add(this.parts.group, this.sky);
+    this.section = new Section(this.parts);
+    this.scene.add(this.parts.group, this.section.group, this.sky);
     this.control = new CameraControl(
       this.canvas,
       () => this.request(),
@@ -316,6 +318,7 @@ export class View3D {
       if (!hit.row.onSurface) {
         this.addLines([foot, point], this.dark ? "#ffffff" : "#111827", 2.5);
         this.addLines([point, out], this.dark ? "#7cc7ff" : "#1d4ed8", 2.5);
+        this.addTip(point, out, this.dark ? "#7cc7ff" : "#1d4ed8");
       }
       const dot = new BufferGeometry().setFromPoints([point]);
       for (const [size, color] of [[17, this.dark ? "#0b0f14" : "#ffffff"], [12, this.dark ? "#7cc7ff" : "#1d4ed8"]] as const) {
@@ -353,6 +356,34 @@ export class View3D {
     const lines = this.lines(positions, color, width);
     this.scene.add(lines);
     this.selection.push(lines);
+  }
+
+  /** Head of the depth arrow. */
+  private addTip(from: Vector3, to: Vector3, color: string): void {
+    const length = from.distanceTo(to);
+    if (!(length > 0) || !Number.isFinite(length)) return;
+    const cone = new Mesh(new ConeGeometry(0.12 * length, 0.32 * length, 12).translate(0, -0.16 * length, 0), new MeshBasicMaterial({ color, depthTest: false, transparent: true }));
+    cone.position.copy(to);
+    cone.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), to.clone().sub(from).divideScalar(length));
+    cone.renderOrder = 8;
+    this.scene.add(cone);
+    this.selection.push(cone);
+  }
+
+  private readonly rule: (LineSegments2 | Points)[] = [];
+  /** Line between measured points. */
+  setRule(points: Vector3[]): void {
+    for (const old of this.rule.splice(0)) {
+      this.scene.remove(old);
+      old.geometry.dispose();
+    }
+    const dots = new Points(new BufferGeometry().setFromPoints(points), new PointsMaterial({ size: 11, color: this.dark ? "#f7f" : "#a0a", sizeAttenuation: false, map: this.disc, alphaTest: 0.3, depthTest: false, transparent: true }));
+    dots.frustumCulled = false;
+    dots.renderOrder = 9;
+    this.rule.push(dots);
+    if (points.length === 2) this.rule.push(this.lines(Float32Array.from(points.flatMap((p) => p.toArray())), this.dark ? "#ff77ff" : "#aa00aa", 2.5));
+    this.scene.add(...this.rule);
+    this.request();
   }
 
   /** Sphere around the main side and the node of a row. */
@@ -422,17 +453,9 @@ export class View3D {
     if (s) this.control.fly(s.center, s.radius, direction, up);
   }
 
-  /** Cuts away what lies beyond `offset` (0..1 of the extent) along `normal`. */
-  setClip(normal: Vector3 | null, at: number): void {
-    this.clipOn = normal !== null;
-    if (normal) {
-      const n = normal.clone().normalize();
-      const { center, radius } = this.control;
-      const middle = center.dot(n);
-      this.clip.normal.copy(n).negate();
-      this.clip.constant = middle + (2 * at - 1) * radius;
-    }
-    this.parts.setClip(this.clipOn ? [this.clip] : []);
+  /** Cuts away what lies beyond each plane. */
+  setSection(cuts: Cut[]): void {
+    this.section.set(cuts, this.control.center, this.control.radius);
     this.request();
   }
 
@@ -452,24 +475,22 @@ export class View3D {
     return caster;
   }
 
-  private surface(x: number, y: number) {
+  private surface(x: number, y: number, ghosts = false) {
     const caster = this.ray(x, y);
-    if (this.clipOn) {
-      // Start behind the clip plane where the ray crosses it from the removed side.
-      const d = this.clip.distanceToPoint(caster.ray.origin);
-      const t = caster.ray.distanceToPlane(this.clip);
-      if (d < 0) {
-        if (t === null) return null;
-        caster.ray.origin.addScaledVector(caster.ray.direction, t + this.control.radius * 1e-6);
-      }
+    for (const plane of this.section.planes) {
+      // Start behind the plane where the ray crosses it from the removed side.
+      const t = caster.ray.distanceToPlane(plane);
+      if (plane.distanceToPoint(caster.ray.origin) >= 0) continue;
+      if (t === null) return null;
+      caster.ray.origin.addScaledVector(caster.ray.direction, t + this.control.radius * 1e-6);
     }
-    const meshes = this.parts.pickable().filter((m) => {
-      const s = m.geometry.boundingSphere!;
-      return caster.ray.intersectsSphere(s);
-    });
-    for (const m of meshes) this.parts.prepare(m);
-    const found = caster.intersectObjects(meshes, false)[0];
-    return found && this.clipOn && this.clip.distanceToPoint(found.point) < 0 ? null : (found ?? null);
+    for (const all of [this.parts.pickable(), ghosts ? this.parts.pickableGhosts() : []]) {
+      const meshes = all.filter((m) => caster.ray.intersectsSphere(m.geometry.boundingSphere!));
+      for (const m of meshes) this.parts.prepare(m);
+      const found = caster.intersectObjects(meshes, false)[0];
+      if (found) return this.section.hides(found.point) ? null : found;
+    }
+    return null;
   }
 
   private surfacePoint(x: number, y: number): Vector3 | null {
@@ -480,14 +501,15 @@ export class View3D {
   pick(x: number, y: number): Picked {
     const r = this.canvas.getBoundingClientRect();
     const camera = this.control.camera;
-    const surface = this.surface(x, y);
-    const depthLimit = surface ? surface.point.clone().project(camera).z : 1;
+    const surface = this.surface(x, y, true);
+    const ghost = surface !== null && (surface.object as Mesh).renderOrder > 0;
+    const depthLimit = surface && !ghost ? surface.point.clone().project(camera).z : 1;
     let best: Hit | null = null;
     let near = 13;
     const v = new Vector3();
     for (const hit of this.dotHits) {
       v.set(...this.report.point(hit.row));
-      const shown = this.clipOn && this.clip.distanceToPoint(v) < 0 ? false : true;
+      const shown = !this.section.hides(v);
       const world = v.clone();
       v.project(camera);
       if (!shown || v.z < -1 || v.z > 1) continue;
@@ -499,30 +521,31 @@ export class View3D {
         best = hit;
       }
     }
-    if (!surface) return { hit: best, part: null, text: best ? this.hitText(best) : "" };
-    const part = surface.object.userData.part as Part3D;
-    const item = part.triangleElement[surface.faceIndex!];
-    const element = `${kindNames[part.elementKind[item]]} ${part.element[item]}`;
-    if (!best) {
+    if (!surface) return { hit: best, part: null, item: -1, node: -1 };
+    const { part, triangleElement } = surface.object.userData as { part: Part3D; triangleElement: Uint32Array };
+    const corners = [surface.face!.a, surface.face!.b, surface.face!.c];
+    const at = (i: number) => new Vector3().fromArray(part.data.position, 3 * i).distanceTo(surface.point);
+    const nearest = corners.reduce((a, b) => (at(b) < at(a) ? b : a));
+    if (!best && !ghost) {
       // The corners of the face may be penetrating nodes of the list.
-      const corners = new Set([surface.face!.a, surface.face!.b, surface.face!.c].map((i) => part.data.node[i]));
-      best = this.dotHits.find((x) => this.report.secondaryNodes(x.row).some((n) => corners.has(n))) ?? null;
+      const nodes = new Set(corners.map((i) => part.data.node[i]));
+      best = this.dotHits.find((x) => this.report.secondaryNodes(x.row).some((n) => nodes.has(n))) ?? null;
     }
-    const text = `${element} · ${this.report.partText(part.data.part)}`;
-    return { hit: best, part, text: best && near < 13 ? this.hitText(best) : text };
+    return { hit: best, part, item: triangleElement[surface.faceIndex!], node: part.data.node[nearest] };
   }
 
-  private hitText(hit: Hit): string {
-    return `${this.report.isEdge(hit.row) ? "edge" : "node"} ${this.report.secondaryText(hit.row)} · depth ${hit.depth.toPrecision(4)}`;
+  /** Position on the page of a point in space; null behind the camera. */
+  place(at: Vector3): { x: number; y: number } | null {
+    const v = at.clone().project(this.control.camera);
+    if (v.z < -1 || v.z > 1) return null;
+    const r = this.canvas.getBoundingClientRect();
+    return { x: r.left + ((v.x + 1) / 2) * r.width, y: r.top + ((1 - v.y) / 2) * r.height };
   }
 
   /** Position on the page of a row's point; null if it is behind the camera. */
   screen(hit: Hit): { x: number; y: number } | null {
     this.control.update(performance.now());
-    const v = new Vector3(...this.report.point(hit.row)).project(this.control.camera);
-    if (v.z < -1 || v.z > 1) return null;
-    const r = this.canvas.getBoundingClientRect();
-    return { x: r.left + ((v.x + 1) / 2) * r.width, y: r.top + ((1 - v.y) / 2) * r.height };
+    return this.place(new Vector3(...this.report.point(hit.row)));
   }
 }
 

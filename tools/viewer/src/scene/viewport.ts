@@ -3,12 +3,16 @@ import { Vector3 } from "three";
 import { colorAt, cssColor, mapNames, type MapName } from "./colormap";
 import { contourOf, type Contour } from "./contour";
 import { segmentOf } from "./crossed";
-import { button, h, icon, num, replace, svg } from "../dom";
+import { button, fileName, h, icon, num, replace, svg } from "../dom";
 import { saveDataUrl } from "../exports";
 import { contourNames, type ContourKind, type Look } from "../look";
-import type { Part3D } from "./parts3d";
+import { loadElements, kindNames, type ElementOrigin } from "../data";
+import { elementKey, type Look as PartLook, type Part3D } from "./parts3d";
+import type { Cut } from "./section";
 import type { Hit, Report } from "../report";
-import { View3D } from "./view3d";
+import { View3D, type Picked } from "./view3d";
+
+const mostArrowsAtFirst = 400;
 
 export class Viewport {
   readonly element = h("div", { class: "viewport", id: "view" });
@@ -22,10 +26,16 @@ export class Viewport {
   private readonly hidden = new Set<Part3D>();
   private isolated: Set<Part3D> | null = null;
   private rest: "ghost" | "hidden" = "ghost";
+  private allSolid = false;
+  private readonly ruler = h("div", { class: "tip ruler", hidden: true, "aria-live": "polite" });
+  private readonly segmentTag = h("div", { class: "label small", hidden: true });
+  private measuring = false;
+  private measured: number[] = []; // page nodes
+  private origins: ((part: number, item: number) => ElementOrigin) | null = null;
   private follow = true;
   private arrows = true;
   private edges = true;
-  private clip: { normal: Vector3 | null; at: number } = { normal: null, at: 0.5 };
+  private cuts: (Cut | null)[] = [null, null];
   private contour: Contour | null = null;
   private readonly toggles = new Map<string, HTMLButtonElement>();
 
@@ -34,7 +44,7 @@ export class Viewport {
     private readonly look: Look,
     private readonly changeLook: (change: Partial<Look>) => void,
   ) {
-    this.element.append(this.legend, this.tip, this.label, this.partList, this.clipPanel, this.axes);
+    this.element.append(this.legend, this.tip, this.label, this.segmentTag, this.ruler, this.partList, this.clipPanel, this.axes);
   }
 
   /** A button in place of the picture: small screens show the list first. */
@@ -60,20 +70,34 @@ export class Viewport {
       return;
     }
     const view = this.view;
+    // So many arrows hide what they point at.
+    this.arrows = this.report.filtered.length <= mostArrowsAtFirst;
+    view.setArrows(this.arrows);
     this.axes.toggleAttribute("hidden", false);
     this.element.append(this.toolbar());
     this.buildParts();
     this.buildClip();
     view.onPick = (p) => {
+      if (this.measuring) return this.measure(p);
       if (p.hit) this.report.select(p.hit);
-      this.showTip(p.text);
-      if (!p.hit && !p.text) this.report.select(null);
+      else if (!p.part) this.report.select(null);
+      this.showTip(p.part ? this.elementText(p.part, p.item, p.node) : "");
     };
     view.onFrame = () => {
       this.drawAxes();
       this.placeLabel();
     };
-    this.report.on("filter", () => this.refresh());
+    let zoomed = "";
+    this.report.on("filter", () => {
+      this.refresh();
+      // An interface or part pair that is chosen is zoomed to, once.
+      const { interface: inter, pair } = this.report.filter;
+      const key = `${inter}/${pair}`;
+      if (key === zoomed || this.report.selected) return;
+      const all = inter === null && pair === null;
+      if (!all || zoomed) view.fit(all ? null : this.report.filtered);
+      zoomed = all ? "" : key;
+    });
     this.report.on("selection", () => this.selection());
     this.report.on("look", () => this.refresh());
     this.refresh();
@@ -98,10 +122,12 @@ export class Viewport {
       h("span", { class: "bar" },
         toggle("arrows", "Arrows: the way out (a)", "arrows", this.arrows, () => this.toggleArrows()),
         toggle("edges", "Element sides (w)", "mesh", this.edges, () => this.toggleEdges()),
-        toggle("rest", "Rest see-through or hidden (h)", "ghost", true, () => this.toggleRest()),
+        toggle("rest", "Only what penetrates (h)", "ghost", false, () => this.toggleRest()),
+        toggle("solid", "All parts solid (o)", "parts3d", false, () => this.toggleSolid()),
         toggle("follow", "Isolate the chosen pair (i)", "isolate", this.follow, () => this.toggleFollow()),
-        this.report.crossed?.total ? toggle("crossed", "Edges of crossed elements (c)", "cross", true, () => this.toggleCrossed()) : null,
-        toggle("clip", "Clip plane (x)", "clip", false, () => this.toggleClip()),
+        this.report.crossed?.total ? toggle("crossed", "Edges of crossed elements (c)", "cross", false, () => this.toggleCrossed()) : null,
+        toggle("clip", "Section planes (x)", "clip", false, () => this.toggleClip()),
+        toggle("measure", "Measure between two nodes (m)", "ruler", false, () => this.toggleMeasure()),
         toggle("parts", "Parts (p)", "parts", false, () => this.toggleParts())),
       h("span", { class: "bar" },
         axis("X", [1, 0, 0], [0, 0, 1]), axis("Y", [0, -1, 0], [0, 0, 1]), axis("Z", [0, 0, 1], [0, 1, 0]),
@@ -125,8 +151,54 @@ export class Viewport {
   }
   toggleRest(): void {
     this.rest = this.rest === "ghost" ? "hidden" : "ghost";
-    this.press("rest", this.rest === "ghost");
+    this.press("rest", this.rest === "hidden");
     this.applyLooks();
+  }
+  toggleSolid(): void {
+    this.allSolid = !this.allSolid;
+    this.press("solid", this.allSolid);
+    this.applyLooks();
+  }
+  toggleMeasure(): void {
+    this.measuring = !this.measuring;
+    this.measured = [];
+    this.press("measure", this.measuring);
+    this.view?.setRule([]);
+    this.ruler.hidden = !this.measuring;
+    replace(this.ruler, icon("ruler"), "Click a node, then another one.");
+  }
+  /** Takes the node under the cursor as one end of the distance. */
+  private measure(p: Picked): void {
+    if (p.node < 0) return;
+    if (this.measured.length === 2) this.measured = [];
+    this.measured.push(p.node);
+    this.showMeasure();
+  }
+  private showMeasure(): void {
+    const x = this.report.nodePositions;
+    const points = this.measured.map((n) => new Vector3(x[3 * n], x[3 * n + 1], x[3 * n + 2]));
+    this.view?.setRule(points);
+    const ids = this.measured.map((n) => `node ${this.report.nodeId(n)}`);
+    if (points.length < 2) return replace(this.ruler, icon("ruler"), `${ids[0]} – click another node`);
+    const d = points[1].clone().sub(points[0]);
+    const unit = this.report.meta.deck.units.working?.length ?? "";
+    replace(this.ruler, icon("ruler"), h("b", null, `${num(d.length(), 6)} ${unit}`), ` ${ids.join(" – ")} · ${d.toArray().map((v) => num(v, 5)).join("  ")}`);
+  }
+  /** Id, part, property, thickness, and where the element is defined. */
+  private elementText(part: Part3D, item: number, node: number): string {
+    this.origins ??= loadElements(this.report.mesh);
+    const o = this.origins(part.index, item);
+    const meta = part.data.part < 0 ? null : this.report.meta.parts[part.data.part];
+    const thickness = o.thickness || meta?.thickness || 0;
+    const file = this.report.meta.files[o.file];
+    return [
+      `${kindNames[part.elementKind[item]]} ${part.element[item]}`,
+      `part ${this.report.partText(part.data.part)}`,
+      meta && `property ${meta.prop}${meta.prop_type ? ` ${meta.prop_type.replace("/PROP/", "")}` : ""}`,
+      thickness > 0 && `thickness ${num(thickness)}`,
+      node >= 0 && `node ${this.report.nodeId(node)}`,
+      o.line > 0 && file && `${fileName(file)}:${o.line}`,
+    ].filter(Boolean).join(" · ");
   }
   toggleFollow(): void {
     this.follow = !this.follow;
@@ -134,7 +206,8 @@ export class Viewport {
     this.isolate();
     this.applyLooks();
   }
-  private crossedOn = true;
+  private crossedOn = false;
+  crossedShown: readonly (readonly number[])[] = [];
   toggleCrossed(): void {
     this.crossedOn = !this.crossedOn;
     this.press("crossed", this.crossedOn);
@@ -142,8 +215,10 @@ export class Viewport {
   }
   private drawCrossed(): void {
     const parts = this.isolated && new Set([...this.isolated].map((p) => p.data.part));
-    const own = (r: readonly number[]) => !parts || parts.has(this.report.data.contacts[r[0]].mainOwner.part[r[5]]);
-    const rows = this.crossedOn ? (this.report.crossed?.rows ?? []).filter(own) : [];
+    const inter = this.report.filter.interface;
+    const own = (r: readonly number[]) =>
+      (inter === null || this.report.meta.contacts[r[0]].interface === inter) && (!parts || parts.has(this.report.data.contacts[r[0]].mainOwner.part[r[5]]));
+    const rows = (this.crossedShown = this.crossedOn ? (this.report.crossed?.rows ?? []).filter(own) : []);
     const x = this.report.nodePositions;
     const edges = new Float32Array(6 * rows.length);
     const outlines: number[] = [];
@@ -161,6 +236,7 @@ export class Viewport {
   /** Flies to some points. */
   openPoints(points: number[][]): void {
     this.report.select(null);
+    if (!this.crossedOn) this.toggleCrossed();
     this.view?.flyToPoints(points.map((p) => new Vector3(...p)));
   }
   toggleParts(): void {
@@ -169,15 +245,19 @@ export class Viewport {
   }
   toggleClip(): void {
     if (!this.view) return;
-    const on = this.clip.normal === null;
+    const on = this.clipPanel.hasAttribute("hidden");
     this.clipPanel.hidden = !on;
     this.press("clip", on);
-    this.setClip(on ? new Vector3(1, 0, 0) : null, 0.5);
+    this.cuts = [on ? { normal: new Vector3(1, 0, 0), at: 0.5 } : null, null];
+    this.buildClip();
+    this.setClip();
   }
   /** Shows everything again. */
   showAll(): void {
     this.hidden.clear();
     this.isolated = null;
+    this.allSolid = true;
+    this.press("solid", true);
     this.applyLooks();
     this.buildParts();
   }
@@ -226,20 +306,30 @@ export class Viewport {
     fill();
   }
 
-  /** Isolates the parts of the selected row, else of the chosen part pair. */
+  /** Isolates the parts of the selected row, else of the chosen part pair, else those of the chosen interface. */
   private isolate(): void {
-    const pair = this.report.selected
-      ? [this.report.selected.secondaryPart, this.report.selected.mainPart]
-      : this.report.filter.pair;
-    const parts = (pair ?? []).map((p) => this.view?.partByIndex(p)).filter((p) => p !== undefined);
+    const { selected, filter } = this.report;
+    const pair = selected ? [selected.secondaryPart, selected.mainPart] : filter.pair;
+    const sides = pair ? { secondary: new Set([pair[0]]), main: new Set([pair[1]]) } : filter.interface !== null ? this.report.sidesOf(filter.interface) : null;
+    for (const p of this.view?.parts.parts ?? []) {
+      const [a, b] = [sides?.secondary.has(p.data.part), sides?.main.has(p.data.part)];
+      p.side = a === b ? "none" : a ? "secondary" : "main";
+    }
+    const parts = (this.view?.parts.parts ?? []).filter((p) => sides?.secondary.has(p.data.part) || sides?.main.has(p.data.part));
     this.isolated = this.follow && parts.length > 0 ? new Set(parts) : null;
   }
 
+  /** Chosen pairs are solid; of everything else only what penetrates is. */
+  private lookOf(p: Part3D): PartLook {
+    if (this.hidden.has(p)) return "hidden";
+    if (this.isolated && !this.isolated.has(p)) return this.rest;
+    const chosen = this.isolated !== null && (this.report.selected !== null || this.report.filter.pair !== null || this.report.filter.interface === null);
+    if (this.allSolid || chosen || (this.report.filtered.length === 0 && !this.isolated)) return "solid";
+    return this.rest === "ghost" ? "hot" : "only";
+  }
+
   private applyLooks(): void {
-    this.view?.setLooks((p) => {
-      if (this.hidden.has(p)) return "hidden";
-      return this.isolated && !this.isolated.has(p) ? this.rest : "solid";
-    });
+    this.view?.setLooks((p) => this.lookOf(p));
     this.ground();
     if (this.contour && this.hitsShownFor !== null && this.hitsShownFor !== this.isolationKey()) this.showHits();
   }
@@ -248,38 +338,43 @@ export class Viewport {
     this.view?.setGround(this.look.dark, this.look.contour !== "none");
   }
 
-  // ---- clip plane ---------------------------------------------------------------------------
+  // ---- section planes -----------------------------------------------------------------------
 
   private buildClip(): void {
-    const slider = h("input", { type: "range", min: 0, max: 1, step: 0.001, value: 0.5, "aria-label": "Position of the clip plane", oninput: () => this.setClip(this.clip.normal, Number(slider.value)) });
-    const along = (name: string, n: () => Vector3 | null) =>
-      button(name, null, () => {
-        const v = n();
-        if (v) this.setClip(v, this.clip.at);
-      }, { class: "tool text" });
-    replace(this.clipPanel,
-      along("X", () => new Vector3(1, 0, 0)), along("Y", () => new Vector3(0, 1, 0)), along("Z", () => new Vector3(0, 0, 1)),
-      button("selection", null, () => {
-        const x = this.report.selected;
-        if (!x || !this.view) return;
-        const n = new Vector3(...x.row.normal);
-        const side = new Vector3().crossVectors(n, Math.abs(n.z) < 0.8 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0));
-        if (side.lengthSq() === 0) return;
-        const at = this.view.clipThrough(new Vector3(...this.report.point(x.row)), side);
-        slider.value = String(at);
-        this.setClip(side, at);
-      }, { class: "tool text", title: "Cut through the selected node, across the surface" }),
-      slider,
-      button("flip", null, () => {
-        if (!this.clip.normal) return;
-        slider.value = String(1 - this.clip.at);
-        this.setClip(this.clip.normal.clone().negate(), 1 - this.clip.at);
-      }, { class: "tool text" }));
+    replace(this.clipPanel, ...this.cuts.map((cut, i) => {
+      const name = i === 0 ? "First" : "Second";
+      const box = h("input", { type: "checkbox", checked: cut !== null, "aria-label": `${name} section plane`, onchange: () => {
+        this.cuts[i] = box.checked ? { normal: new Vector3(i === 0 ? 1 : 0, i, 0), at: 0.5 } : null;
+        this.buildClip();
+        this.setClip();
+      } });
+      if (!cut) return h("div", { class: "clip-row" }, h("label", { class: "check" }, box, `${name} plane`));
+      const slider = h("input", { type: "range", min: 0, max: 1, step: 0.001, value: cut.at, "aria-label": `Position of the ${name.toLowerCase()} section plane`, oninput: () => {
+        cut.at = Number(slider.value);
+        this.setClip();
+      } });
+      const set = (normal: Vector3, at: number) => {
+        this.cuts[i] = { normal, at };
+        this.buildClip();
+        this.setClip();
+      };
+      const along = (label: string, n: Vector3) => button(label, null, () => set(n, cut.at), { class: "tool text" });
+      return h("div", { class: "clip-row" }, box,
+        along("X", new Vector3(1, 0, 0)), along("Y", new Vector3(0, 1, 0)), along("Z", new Vector3(0, 0, 1)),
+        button("row", null, () => {
+          const x = this.report.selected;
+          if (!x || !this.view) return;
+          const n = new Vector3(...x.row.normal);
+          const side = new Vector3().crossVectors(n, Math.abs(n.z) < 0.8 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0));
+          if (side.lengthSq() > 0) set(side, this.view.clipThrough(new Vector3(...this.report.point(x.row)), side));
+        }, { class: "tool text", title: "Cut through the chosen node, across the surface" }),
+        slider,
+        button("flip", null, () => set(cut.normal.clone().negate(), 1 - cut.at), { class: "tool text" }));
+    }));
   }
 
-  private setClip(normal: Vector3 | null, at: number): void {
-    this.clip = { normal, at };
-    this.view?.setClip(normal, at);
+  private setClip(): void {
+    this.view?.setSection(this.cuts.filter((c) => c !== null));
   }
 
   // ---- what is shown ------------------------------------------------------------------------
@@ -287,7 +382,7 @@ export class Viewport {
   private color(t: number): [number, number, number] {
     const steps = this.look.bands;
     const u = steps > 0 ? (Math.min(steps - 1, Math.floor(t * steps)) + 0.5) / steps : t;
-    return colorAt(this.look.map, u, this.look.flip);
+    return colorAt(this.look.map, u);
   }
 
   private refresh(): void {
@@ -296,11 +391,27 @@ export class Viewport {
     this.contour = contourOf(this.report, this.look.contour, this.report.filtered);
     view.parts.setColors((t) => this.color(t));
     view.parts.setContour(this.contour.values);
+    this.markHot();
     this.isolate();
     this.applyLooks();
     this.showHits();
     this.drawLegend();
     view.setSelected(this.report.selected);
+  }
+
+  /** Penetrating elements: around penetrating nodes, and the elements of main sides and edges. */
+  private markHot(): void {
+    const node = new Uint8Array(this.report.mesh.nodeId.length);
+    const elements = new Set<number>();
+    for (const x of this.report.filtered) {
+      const data = this.report.data.contacts[x.contact];
+      if (this.report.isEdge(x.row)) {
+        const at = data.secondaryListed[x.row.secondary];
+        elements.add(elementKey(data.secondaryOwner.kind[at] - 1, data.secondaryOwner.id[at]));
+      } else for (const n of this.report.secondaryNodes(x.row)) node[n] = 1;
+      elements.add(elementKey(data.mainOwner.kind[x.row.main] - 1, data.mainOwner.id[x.row.main]));
+    }
+    this.view?.parts.setHot(node, elements);
   }
 
   private hitsShownFor: unknown = null;
@@ -329,6 +440,9 @@ export class Viewport {
 
   /** Flies to a row. */
   open(hit: Hit): void {
+    // What is solid is looked around.
+    this.isolate();
+    this.applyLooks();
     this.view?.flyTo(hit);
   }
 
@@ -351,7 +465,7 @@ export class Viewport {
       h("div", { class: "legend-scale" }, h("div", { class: "legend-bar", style: `background:linear-gradient(to top, ${stops.join(",")})` }),
         h("div", { class: "legend-ticks" }, ...[1, 0.75, 0.5, 0.25, 0].map((t) => h("span", null, num(t * c.top, 3))))),
       h("div", { class: "legend-options" }, maps, h("label", { class: "check" }, bands, "steps")));
-    this.legend.style.setProperty("--low", cssColor(this.look.map, 0, this.look.flip));
+    this.legend.style.setProperty("--low", cssColor(this.look.map, 0));
   }
 
   private drawAxes(): void {
@@ -369,7 +483,7 @@ export class Viewport {
   private placeLabel(): void {
     const x = this.report.selected;
     const at = x && this.view?.screen(x);
-    this.label.hidden = !at;
+    this.label.hidden = this.segmentTag.hidden = !at;
     if (!x || !at) return;
     const r = this.element.getBoundingClientRect();
     if (this.label.dataset.key !== x.key + x.depth) {
@@ -381,6 +495,17 @@ export class Viewport {
     const left = Math.min(Math.max(at.x - r.left + 28, 8), r.width - this.label.offsetWidth - 8);
     const top = Math.min(Math.max(at.y - r.top - 74, 52), r.height - this.label.offsetHeight - 8);
     this.label.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
+    // The main side is named at its middle.
+    const d = this.report.data;
+    const corners = this.report.mainNodes(x.row).map((n) => new Vector3(d.x[d.exactOf[n]], d.y[d.exactOf[n]], d.z[d.exactOf[n]]));
+    const middle = corners.reduce((a, b) => a.add(b), new Vector3()).divideScalar(corners.length);
+    const tag = this.view!.place(middle);
+    this.segmentTag.hidden = !tag;
+    if (!tag) return;
+    this.segmentTag.textContent = `${this.report.isEdge(x.row) ? "edge" : "segment"} ${this.report.mainText(x.row)}`;
+    const across = Math.min(Math.max(tag.x - r.left - this.segmentTag.offsetWidth / 2, 8), r.width - this.segmentTag.offsetWidth - 8);
+    const down = Math.min(Math.max(tag.y - r.top + 26, 52), r.height - this.segmentTag.offsetHeight - 8);
+    this.segmentTag.style.transform = `translate(${Math.round(across)}px, ${Math.round(down)}px)`;
   }
 
   private tipTimer = 0;
@@ -388,6 +513,6 @@ export class Viewport {
     this.tip.hidden = !text;
     replace(this.tip, icon("node"), text);
     clearTimeout(this.tipTimer);
-    this.tipTimer = window.setTimeout(() => (this.tip.hidden = true), 4000);
+    this.tipTimer = window.setTimeout(() => (this.tip.hidden = true), 20000);
   }
 }
