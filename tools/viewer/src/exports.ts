@@ -58,6 +58,14 @@ export function grnodBlock(hits: Hit[], id: number, title: string): string {
   return lines.join("\n") + "\n";
 }
 
+export function setBlock(hits: Hit[], id: number, title: string): string {
+  const lines = [`/SET/GENERAL/${id}`, title.slice(0, 100)];
+  const ids = nodeIds(hits);
+  for (let i = 0; i < ids.length; i += 9)
+    lines.push("NODE      " + ids.slice(i, i + 9).map((n) => String(n).padStart(10)).join(""));
+  return lines.join("\n") + "\n";
+}
+
 /** The table of `deck gaps --csv`. */
 export function csv(report: Report, hits: Hit[]): string {
   const head =

@@ -3,6 +3,7 @@ import { colorAt, cssColor } from "./scene/colormap";
 import { button, fileName, group, h, num, percent, plural, replace, sectionHead, svg } from "./dom";
 import type { Look } from "./look";
 import type { Hit, Report } from "./report";
+import { openMenu, rowItems } from "./menu";
 import { named } from "./names";
 import { VirtualTable, type Column } from "./table";
 import { actionWords } from "./words";
@@ -214,7 +215,7 @@ function histogram(report: Report, look: Look, field: "depth" | "ratio", title: 
 
 // ---- list -------------------------------------------------------------------------------------
 
-export function listSection(report: Report, open: (hit: Hit) => void, exportsMenu: HTMLElement): { element: HTMLElement; table: VirtualTable<Hit> } {
+export function listSection(report: Report, open: (hit: Hit) => void, exportsMenu: HTMLElement, changed: () => void): { element: HTMLElement; table: VirtualTable<Hit> } {
   const interfaceId = (x: Hit) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id;
   const action = (x: Hit) => {
     const error = report.solverError(x.row);
@@ -254,17 +255,18 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
     label: "Penetrations", sort: "depth", descending: true,
     select: (x) => report.select(x),
     open,
+    context: (x, left, top) => openMenu(rowItems(report, x), left, top),
+    changed,
     same: (a, b) => a.key === b.key,
   });
   table.element.classList.add("list-table");
   const chips = h("div", { class: "filters" });
   const count = h("span", { class: "muted count" });
-  const search = h("input", { type: "search", placeholder: "Node, element or part", "aria-label": "Filter the list", id: "search", oninput: () => report.setFilter({ text: search.value }) });
   const perNode = h("input", { type: "checkbox", checked: true, onchange: () => report.setFilter({ perNode: perNode.checked }) });
   const solved = h("div", { class: "solved" });
   const empty = h("p", { class: "note" }, "Nothing to list.");
   const element = h("section", { id: "worst" },
-    sectionHead(h("h2", null, "Worst first", count), h("label", { class: "check" }, perNode, "deepest per node"), table.chooser(), search, exportsMenu),
+    sectionHead(h("h2", null, "Worst first", count), h("label", { class: "check" }, perNode, "deepest per node"), table.chooser(), exportsMenu),
     chips, table.element, empty, solved);
   const draw = () => {
     const f = report.filter;
@@ -284,7 +286,8 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
       f.pair && chip(`${report.partText(f.pair[0])} × ${report.partText(f.pair[1])}`, { pair: null }),
       f.depth && chip(`depth ${span(f.depth)}`, { depth: null }),
       f.ratio && chip(`depth ÷ gap ${span(f.ratio)}`, { ratio: null }),
-      f.status && chip(f.status, { status: null }));
+      f.status && chip(f.status, { status: null }),
+      f.text && chip(`“${f.text}”`, { text: "" }));
     const gone = report.solved;
     replace(solved, f.status === "solved" && gone.length > 0
       ? h("table", { class: "plain" }, h("thead", null, h("tr", null, ...["Interface", "Part of it", "Node / edge", "Depth before", "Gap before"].map((t) => h("th", null, t)))),

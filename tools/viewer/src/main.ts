@@ -9,6 +9,9 @@ import { distribution, exportMenu, listSection, pairsSection, partPairs } from "
 import type { ContourKind, Look } from "./look";
 import type { FieldName, Overrides } from "./meta";
 import { interfaces, verdict } from "./overview";
+import { findBox } from "./find";
+import { openMenu, rowItems } from "./menu";
+import { ViewState } from "./state";
 import { Report, type Hit } from "./report";
 import { Viewport } from "./scene/viewport";
 
@@ -37,15 +40,18 @@ function build(): void {
     { label: "Node ids, one per line", run: () => save(`${stem}_nodes.txt`, plainNodes(report.filtered)) },
     { label: "Node ids to the clipboard", run: () => void copyText(plainNodes(report.filtered)) },
     { label: "/GRNOD/NODE block", hint: "A node group for the deck, with an id that is free", run: () => save(`${stem}_grnod.inc`, grnodBlock(report.filtered, meta.free_group_id, "initial penetrations")) },
-    { label: "Table (CSV)", run: () => save(`${stem}_penetrations.csv`, csv(report, report.filtered)) },
+    { label: "List (CSV), the columns in sight", run: () => save(`${stem}_list.csv`, list.table.csv()) },
+    { label: "Table (CSV), all columns", run: () => save(`${stem}_penetrations.csv`, csv(report, report.filtered)) },
     { label: "Changed cards", hint: "Cards of all interfaces with settings under test", run: () => save(`${stem}_cards.inc`, allChangedCards(report)) },
     { label: "Picture (PNG)", run: () => viewport.savePicture() },
   ], "export");
-  const list = listSection(report, fly, exports);
+  let state: ViewState | null = null;
+  const list = listSection(report, fly, exports, () => state?.note());
   // Choosing a row flies there: the picture follows the list.
   report.on("selection", () => report.selected && fly(report.selected));
 
   const help = helpDialog();
+  const undo = button("", "undo", () => state?.undo(), { "aria-label": "Undo (u)", title: "Undo (u)", class: "tool", disabled: true });
   const units = meta.deck.units.working;
   const header = h("header", { class: "top" },
     h("div", { class: "brand" }, h("span", { class: "mark", "aria-hidden": "true" }), h("b", null, "deck gaps")),
@@ -54,7 +60,8 @@ function build(): void {
       h("span", null, `version ${meta.deck.version}`),
       units ? h("span", null, `${units.mass} · ${units.length} · ${units.time}`) : null,
       h("span", null, `${group(meta.deck.counts.nodes ?? 0)} nodes`)),
-    h("div", { class: "buttons" },
+    findBox(report, viewport),
+    h("div", { class: "buttons" }, undo,
       button("", "sun", () => changeLook({ dark: !look.dark }), { "aria-label": "Dark or light (t)", title: "Dark or light (t)", class: "tool" }),
       button("", "print", () => window.print(), { "aria-label": "Print", title: "Print", class: "tool" }),
       button("", "help", () => help.showModal(), { "aria-label": "Keys (?)", title: "Keys (?)", class: "tool" })));
@@ -70,14 +77,25 @@ function build(): void {
   document.getElementById("static")?.remove();
   document.body.append(app);
   dragDivider(divider, split);
-  keys(report, viewport, list.table, help, look, changeLook);
+  // Sections are scrolled to; the address belongs to the state of the page.
+  nav.addEventListener("click", (e) => {
+    const link = (e.target as Element).closest("a");
+    if (!link) return;
+    e.preventDefault();
+    document.querySelector(link.hash)?.scrollIntoView();
+  });
+  state = new ViewState(report, viewport, look, changeLook, { list: list.table }, (can) => (undo.disabled = !can));
+  const linked = state.open();
+  viewport.onRest = () => state!.note();
+  viewport.onMenu = (p, x, y) => openMenu(p.hit ? rowItems(report, p.hit) : viewport.itemsOf(p), x, y);
+  keys(report, viewport, list.table, help, look, changeLook, () => state!.undo());
   printing(report, viewport, right);
 
   // Tables first; the picture comes with the next frame.
   times.tables = performance.now() - started;
   requestAnimationFrame(() => {
     setTimeout(() => {
-      if (matchMedia("(max-width: 600px)").matches) viewport.offer();
+      if (matchMedia("(max-width: 600px)").matches && !linked) viewport.offer();
       else viewport.start();
       times.picture = performance.now() - started;
       times.pictureSinceNavigation = performance.now();
@@ -131,7 +149,9 @@ const keyList: [string, string][] = [
   ["j  k", "next and previous row"],
   ["Enter", "fly to the chosen row"],
   ["Esc", "clear the selection, then the filters"],
-  ["/", "find in the list"],
+  ["/", "find a node, element, part or interface"],
+  ["u", "undo"],
+  ["Menu", "copy ids and cards of the row"],
   ["f", "fit the visible parts"],
   ["i", "isolate the chosen pair, or not"],
   ["h", "only what penetrates; or the rest see-through"],
@@ -156,7 +176,7 @@ function helpDialog(): HTMLDialogElement {
   return dialog;
 }
 
-function keys(report: Report, viewport: Viewport, list: { move(by: number): void }, help: HTMLDialogElement, look: Look, changeLook: (l: Partial<Look>) => void): void {
+function keys(report: Report, viewport: Viewport, list: { move(by: number): void }, help: HTMLDialogElement, look: Look, changeLook: (l: Partial<Look>) => void, undo: () => void): void {
   const contours: ContourKind[] = ["depth", "ratio", "gap", "edge", "none"];
   const run: Record<string, () => void> = {
     j: () => list.move(1),
@@ -175,7 +195,8 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
     c: () => viewport.toggleCrossed(),
     t: () => changeLook({ dark: !look.dark }),
     "?": () => help.showModal(),
-    "/": () => document.getElementById("search")?.focus(),
+    "/": () => document.getElementById("find")?.focus(),
+    u: undo,
     Escape: () => {
       if (report.selected) report.select(null);
       else report.setFilter({ interface: null, pair: null, depth: null, ratio: null, status: null, text: "" });

@@ -114,6 +114,9 @@ export class Report {
     else next[inter][field] = value;
     this.apply(next);
   }
+  setOverrides(next: Overrides[]): void {
+    if (JSON.stringify(next) !== JSON.stringify(this.overrides)) this.apply(next);
+  }
   clearOverrides(inter: number | null): void {
     this.apply(this.overrides.map((o, i) => (inter === null || i === inter ? {} : o)));
   }
@@ -355,7 +358,7 @@ export class Report {
     });
   }
 
-  private matches(x: Hit, text: string): boolean {
+  matches(x: Hit, text: string): boolean {
     return (
       this.secondaryText(x.row).includes(text) ||
       this.mainText(x.row).split(/[ –]/).includes(text) ||

@@ -84,6 +84,21 @@ export class CameraControl {
     this.request();
   }
 
+  /** Where the camera stands, as text; a flight counts as flown. */
+  get pose(): string {
+    const { target, distance, turn } = this.flight?.to ?? { target: this.target, distance: this.distance, turn: this.camera.quaternion };
+    return [...target.toArray(), distance, ...turn.toArray()].map((v) => Number(v.toPrecision(6))).join(",");
+  }
+  set pose(text: string) {
+    const v = text.split(",").map(Number);
+    if (v.length !== 8 || !v.every(Number.isFinite) || !(v[3] > 0)) return;
+    this.target.fromArray(v);
+    this.distance = v[3];
+    this.camera.quaternion.fromArray(v, 4).normalize();
+    this.flight = null;
+    this.request();
+  }
+
   /** World length of one pixel at a point. */
   pixel(at: Vector3): number {
     const depth = at.clone().sub(this.camera.position).dot(new Vector3(0, 0, -1).applyQuaternion(this.camera.quaternion));
@@ -175,7 +190,7 @@ export class CameraControl {
     const drag = this.drag;
     if (!drag || drag.id !== e.pointerId) return;
     this.drag = null;
-    if (drag.moved < 4 && e.type === "pointerup" && e.button === 0) this.click(e.clientX, e.clientY, e);
+    if (drag.moved < 4 && e.type === "pointerup" && (e.button === 0 || e.button === 2)) this.click(e.clientX, e.clientY, e);
     this.request();
   }
 

@@ -39,7 +39,10 @@ export class View3D {
   readonly control: CameraControl;
   readonly canvas: HTMLCanvasElement;
   onPick: (p: Picked) => void = () => {};
+  onMenu: (p: Picked, x: number, y: number) => void = () => {};
   onFrame: () => void = () => {};
+  /** Drawn, and nothing moves. */
+  onRest: () => void = () => {};
   frames = 0;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
@@ -76,7 +79,7 @@ export class View3D {
       this.canvas,
       () => this.request(),
       (x, y) => this.surfacePoint(x, y),
-      (x, y) => this.onPick(this.pick(x, y)),
+      (x, y, e) => (e.button === 2 ? this.onMenu(this.pick(x, y), x, y) : this.onPick(this.pick(x, y))),
     );
     this.scene.add(this.control.camera);
     this.control.camera.add(this.head);
@@ -131,6 +134,7 @@ export class View3D {
     this.frames++;
     this.onFrame();
     if (again) this.request();
+    else this.onRest();
   }
 
   /** Mean time of a frame over a turn of the camera, waiting for the picture each time; `coarse`: as

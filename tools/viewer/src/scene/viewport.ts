@@ -5,6 +5,7 @@ import { contourOf, type Contour } from "./contour";
 import { segmentOf } from "./crossed";
 import { button, fileName, h, icon, num, replace, svg } from "../dom";
 import { saveDataUrl } from "../exports";
+import { frameOf } from "../find";
 import { contourNames, type ContourKind, type Look } from "../look";
 import { loadElements, kindNames, type ElementOrigin } from "../data";
 import { elementKey, type Look as PartLook, type Part3D } from "./parts3d";
@@ -17,6 +18,8 @@ const mostArrowsAtFirst = 400;
 export class Viewport {
   readonly element = h("div", { class: "viewport", id: "view" });
   view: View3D | null = null;
+  onRest: () => void = () => {};
+  onMenu: (p: Picked, x: number, y: number) => void = () => {};
   private readonly legend = h("div", { class: "legend" });
   private readonly tip = h("div", { class: "tip", hidden: true });
   private readonly label = h("div", { class: "label", hidden: true });
@@ -100,7 +103,10 @@ export class Viewport {
     });
     this.report.on("selection", () => this.selection());
     this.report.on("look", () => this.refresh());
+    view.onRest = () => this.onRest();
+    view.onMenu = (p, x, y) => this.onMenu(p, x, y);
     this.refresh();
+    if (this.later) this.state = this.later;
   }
 
   // ---- tool bar -----------------------------------------------------------------------------
@@ -267,6 +273,97 @@ export class Viewport {
   savePicture(): void {
     if (this.view) saveDataUrl("penetrations.png", this.view.picture(2));
   }
+
+  // ---- found and linked ---------------------------------------------------------------------
+
+  /** Flies to a node and says what is known about it. */
+  showNode(node: number): void {
+    const x = this.report.nodePositions;
+    const at = new Vector3(x[3 * node], x[3 * node + 1], x[3 * node + 2]);
+    const hit = this.report.hits.find((h) => this.report.secondaryNodes(h.row).includes(node));
+    if (hit) this.report.select(hit);
+    else if (Number.isFinite(at.x)) this.mark(at, this.view ? this.view.control.radius * 0.02 : 1);
+    this.showTip(`node ${this.report.nodeId(node)} · ${at.toArray().map((v) => num(v, 6)).join("  ")}${hit ? "" : " · penetrates nothing"}`);
+  }
+  /** Flies to an element of a part of the mesh. */
+  showElement(part: number, item: number, vertices: number[]): void {
+    const { center, radius } = frameOf(this.report.mesh.parts[part].position, vertices);
+    this.mark(center, radius * 3);
+    const p = this.view?.parts.parts[part];
+    if (p) this.showTip(this.elementText(p, item, -1));
+  }
+  /** What can be copied of what is under the cursor. */
+  itemsOf(p: Picked): { label: string; text: string }[] {
+    if (!p.part) return [];
+    const element = p.part.element[p.item];
+    const id = this.report.partId(p.part.data.part);
+    const items = [{ label: `Copy ${kindNames[p.part.elementKind[p.item]]} ${element}`, text: String(element) }, { label: `Copy part ${id}`, text: String(id) }];
+    return p.node < 0 ? items : [...items, { label: `Copy node ${this.report.nodeId(p.node)}`, text: String(this.report.nodeId(p.node)) }];
+  }
+  /** Shows a part alone. */
+  showPart(part: number): void {
+    this.report.select(null);
+    const p = this.view?.partByIndex(part);
+    if (p) {
+      this.isolated = new Set([p]);
+      this.hidden.delete(p);
+      this.applyLooks();
+      this.view!.fit();
+    }
+    this.showTip(`part ${this.report.partText(part)}`);
+  }
+  private mark(at: Vector3, radius: number): void {
+    this.report.select(null);
+    this.view?.setRule([at]);
+    this.view?.control.fly(at, radius);
+  }
+
+  /** What the address of the page keeps of the picture. */
+  get state(): Record<string, string> {
+    const out: Record<string, string> = {};
+    if (this.allSolid) out.all = "solid";
+    if (this.rest === "hidden") out.rest = "hidden";
+    if (!this.follow) out.isolate = "no";
+    if (this.crossedOn) out.crossed = "yes";
+    if (this.hidden.size > 0) out.hidden = [...this.hidden].map((p) => this.report.partId(p.data.part)).join(",");
+    const cuts = this.cuts.map((c) => (c ? [...c.normal.toArray(), c.at].map((v) => Number(v.toPrecision(5))).join(",") : ""));
+    if (cuts.some((c) => c)) out.section = cuts.join("/");
+    if (this.measured.length === 2) out.ruler = this.measured.map((n) => this.report.nodeId(n)).join(",");
+    if (this.view) out.camera = this.view.control.pose;
+    return out;
+  }
+  set state(s: Record<string, string>) {
+    this.allSolid = s.all === "solid";
+    this.rest = s.rest === "hidden" ? "hidden" : "ghost";
+    this.follow = s.isolate !== "no";
+    this.crossedOn = s.crossed === "yes";
+    if (!this.view) {
+      this.later = s;
+      return;
+    }
+    for (const [key, on] of [["solid", this.allSolid], ["rest", this.rest === "hidden"], ["follow", this.follow], ["crossed", this.crossedOn]] as const) this.press(key, on);
+    const hidden = new Set((s.hidden ?? "").split(",").filter(Boolean).map(Number));
+    this.hidden.clear();
+    for (const p of this.view.parts.parts) if (hidden.has(this.report.partId(p.data.part))) this.hidden.add(p);
+    this.cuts = [0, 1].map((i) => {
+      const v = (s.section ?? "").split("/")[i]?.split(",").map(Number) ?? [];
+      return v.length === 4 && v.every(Number.isFinite) ? { normal: new Vector3(v[0], v[1], v[2]), at: v[3] } : null;
+    });
+    const cut = this.cuts.some((c) => c !== null);
+    this.clipPanel.hidden = !cut;
+    this.press("clip", cut);
+    this.buildClip();
+    this.setClip();
+    this.measured = (s.ruler ?? "").split(",").filter(Boolean).map((id) => this.report.mesh.nodeId.indexOf(Number(id))).filter((n) => n >= 0);
+    this.measuring = this.measured.length === 2;
+    this.press("measure", this.measuring);
+    this.ruler.hidden = !this.measuring;
+    if (this.measuring) this.showMeasure();
+    else this.view.setRule([]);
+    this.refresh();
+    if (s.camera) this.view.control.pose = s.camera;
+  }
+  private later: Record<string, string> | null = null;
 
   // ---- parts --------------------------------------------------------------------------------
 

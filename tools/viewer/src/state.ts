@@ -1,0 +1,137 @@
+// The view as text: what stands behind the '#' of the address, so that a link opens the same view; and undo, which is the
+// same texts in order.
+import { fieldNames, type Overrides } from "./meta";
+import type { ContourKind, Look } from "./look";
+import type { Filter, Report, Status } from "./report";
+import type { MapName } from "./scene/colormap";
+import type { Viewport } from "./scene/viewport";
+
+interface Table {
+  state: string;
+}
+
+export class ViewState {
+  private past: string[] = [];
+  private now = "";
+  private timer = 0;
+
+  constructor(
+    private readonly report: Report,
+    private readonly viewport: Viewport,
+    private readonly look: Look,
+    private readonly changeLook: (change: Partial<Look>) => void,
+    private readonly tables: Record<string, Table>,
+    private readonly changed: (canUndo: boolean) => void,
+  ) {
+    for (const topic of ["filter", "selection", "results", "look"] as const) report.on(topic, () => this.note());
+    window.addEventListener("hashchange", () => {
+      const text = location.hash.slice(1);
+      if (text.includes("=") && text !== this.now) this.apply(text);
+    });
+  }
+
+  /** Something may have changed: writes the address when things have come to rest. */
+  note(): void {
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => this.write(), 250);
+  }
+
+  /** What the address of the page asks for; false: nothing. */
+  open(): boolean {
+    const text = location.hash.slice(1);
+    if (text.includes("=")) this.apply(text);
+    this.now = this.text();
+    return text.includes("=");
+  }
+
+  undo(): void {
+    clearTimeout(this.timer);
+    this.write();
+    const before = this.past.pop();
+    if (before === undefined) return;
+    this.apply(before);
+    this.now = this.text();
+    this.address();
+    this.changed(this.past.length > 0);
+  }
+
+  private write(): void {
+    const text = this.text();
+    if (text === this.now) return;
+    // Turning the picture alone is nothing to undo.
+    if (withoutCamera(text) !== withoutCamera(this.now)) this.past.push(this.now);
+    if (this.past.length > 200) this.past.shift();
+    this.now = text;
+    this.address();
+    this.changed(this.past.length > 0);
+  }
+  private address(): void {
+    try {
+      history.replaceState(null, "", `#${this.now}`);
+    } catch {
+      // A page inside another one may not change its address.
+    }
+  }
+
+  private text(): string {
+    const { report } = this;
+    const f = report.filter;
+    const out = new URLSearchParams();
+    const set = (key: string, value: string | null | false | undefined) => value && out.set(key, value);
+    set("interface", f.interface !== null && String(report.meta.interfaces[f.interface].id));
+    set("pair", f.pair?.map((p) => String(report.partId(p))).join("-"));
+    set("depth", f.depth?.join("-to-"));
+    set("ratio", f.ratio?.join("-to-"));
+    set("status", f.status);
+    set("find", f.text);
+    set("rows", !f.perNode && "all");
+    set("row", report.selected?.key);
+    report.overrides.forEach((o, i) => set(`card.${report.meta.interfaces[i].id}`, Object.entries(o).map(([k, v]) => `${k}:${v}`).join(",")));
+    set("colours", this.look.contour !== "depth" && this.look.contour);
+    set("map", this.look.map !== "heat" && this.look.map);
+    set("steps", this.look.bands > 0 && String(this.look.bands));
+    set("theme", this.look.dark ? "dark" : "light");
+    for (const [name, table] of Object.entries(this.tables)) set(`table.${name}`, table.state);
+    for (const [key, value] of Object.entries(this.viewport.state)) set(`view.${key}`, value);
+    return out.toString();
+  }
+
+  private apply(text: string): void {
+    const { report } = this;
+    const given = new URLSearchParams(text);
+    const range = (key: string): [number, number] | null => {
+      const [a, b] = (given.get(key) ?? "").split("-to-").map(Number);
+      return b > a ? [a, b] : null;
+    };
+    const at = report.meta.interfaces.findIndex((i) => String(i.id) === given.get("interface"));
+    const part = (id: string) => (id === "0" ? -1 : report.meta.parts.findIndex((p) => String(p.id) === id));
+    const pair = given.get("pair")?.split("-").map(part) ?? [];
+    const overrides = report.meta.interfaces.map((inter) => {
+      const out: Overrides = {};
+      for (const item of (given.get(`card.${inter.id}`) ?? "").split(",")) {
+        const [k, v] = item.split(":");
+        const field = fieldNames.find((n) => n === k);
+        if (field && Number.isFinite(Number(v))) out[field] = Number(v);
+      }
+      return out;
+    });
+    report.setOverrides(overrides);
+    const filter: Filter = {
+      interface: at < 0 ? null : at, pair: pair.length === 2 ? [pair[0], pair[1]] : null, depth: range("depth"), ratio: range("ratio"),
+      status: (given.get("status") as Status | null) ?? null, text: given.get("find") ?? "", perNode: given.get("rows") !== "all",
+    };
+    report.setFilter(filter);
+    report.select(report.hits.find((x) => x.key === given.get("row")) ?? null);
+    this.changeLook({
+      contour: (given.get("colours") as ContourKind | null) ?? "depth", map: (given.get("map") as MapName | null) ?? "heat",
+      bands: Number(given.get("steps") ?? 0), dark: given.get("theme") === "dark",
+    });
+    for (const [name, table] of Object.entries(this.tables)) table.state = given.get(`table.${name}`) ?? "";
+    const view: Record<string, string> = {};
+    for (const [k, v] of given) if (k.startsWith("view.")) view[k.slice(5)] = v;
+    this.viewport.state = view;
+    this.now = this.text();
+  }
+}
+
+const withoutCamera = (text: string): string => text.replace(/&?view\.camera=[^&]*/, "");
