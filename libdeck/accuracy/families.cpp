@@ -42,7 +42,7 @@ class Random {
   P direction() {
     for (;;) {
       const P v = point();
-      const double n = closest_detail::length(v);
+      const double n = deck::length(v);
       if (n > 0.1 && n < 1.0) return (1.0 / n) * v;
     }
   }
@@ -57,7 +57,7 @@ class Random {
 };
 
 P unit_of(const P& v) {
-  const double n = closest_detail::length(v);
+  const double n = deck::length(v);
   return n > 0.0 ? (1.0 / n) * v : P{0, 0, 1};
 }
 P normal_to(const P& v, Random& r) { return unit_of(cross(v, r.direction())); }
@@ -73,7 +73,7 @@ double distance_of(const Sample& s) {
 void choose_gap(Sample& s, Random& r) {
   const double d = distance_of(s);
   const P size = s.x[1] - s.x[0];
-  const double length = closest_detail::length(size);
+  const double length = deck::length(size);
   switch (d > 0.0 && std::isfinite(d) ? r.below(6) : 5) {
     case 0:
       s.gap = d;
@@ -176,7 +176,7 @@ Sample flat_quad(Random& r, double z) {
 
 Sample thin_triangle(Random& r, double t, double epsilon) {
   const P a = r.point(), b = r.point(), n = normal_to(b - a, r);
-  const P c = a + t * (b - a) + (epsilon * closest_detail::length(b - a)) * n;
+  const P c = a + t * (b - a) + (epsilon * deck::length(b - a)) * n;
   const double u = r.range(-0.2, 1.2), v = r.range(-0.2, 1.2);
   const P node = a + u * (b - a) + v * (c - a) + r.step(-9, 0);
   return r.below(4) == 0 ? segment(a, b, c, a + 0.5 * (c - a), node) : triangle(a, b, c, node);

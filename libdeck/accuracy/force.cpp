@@ -29,7 +29,7 @@ Outcome force(const PairSample& s, FilterCounters&) {
   for (std::size_t k = 0; k < 5; ++k) {
     x[k] = cast<T>(way == Way::local ? s.x[k] - s.x[0] : s.x[k]);
     if constexpr (std::is_same_v<T, float>) {
-      if (std::isfinite(closest_detail::largest_component(x[k]))) continue;
+      if (std::isfinite(deck::largest_component(x[k]))) continue;
       Outcome none;
       none.value = std::numeric_limits<double>::quiet_NaN();
       return none;
@@ -40,8 +40,8 @@ Outcome force(const PairSample& s, FilterCounters&) {
     const auto c = closest_between_edges<F>(x[0], x[1], x[2], x[3]);
     d = c.distance;
     if constexpr (way == Way::textbook) {
-      d = closest_detail::length(c.weight_s * x[0] + (T(1) - c.weight_s) * x[1] -
-                                 c.weight_m * x[2] - (T(1) - c.weight_m) * x[3]);
+      d = deck::length(c.weight_s * x[0] + (T(1) - c.weight_s) * x[1] - c.weight_m * x[2] -
+                       (T(1) - c.weight_m) * x[3]);
     }
   } else {
     const auto c = closest_on_segment<F>(x[4], {x[0], x[1], x[2], x[3]}, s.triangle);
@@ -49,7 +49,7 @@ Outcome force(const PairSample& s, FilterCounters&) {
     if constexpr (way == Way::textbook) {
       Point3<T> q = c.weights[0] * x[0];
       for (std::size_t k = 1; k < 4; ++k) q = q + c.weights[k] * x[k];
-      d = closest_detail::length(x[4] - q);
+      d = deck::length(x[4] - q);
     }
   }
   const T gap(s.gap), depth = gap - d;

@@ -42,7 +42,7 @@ bool is_continuous(const Tier& tier, const PairSample& s) {
   P& p = t.x[s.edges ? 0 : 4];
   const P from = p;
   p = {std::nextafter(p.x, 1e308), std::nextafter(p.y, -1e308), std::nextafter(p.z, 1e308)};
-  const double after = tier.run(t, unused).value, step = closest_detail::length(p - from);
+  const double after = tier.run(t, unused).value, step = deck::length(p - from);
   const double larger = std::max(std::abs(before), std::abs(after));
   const double ulp = std::nextafter(larger, std::numeric_limits<double>::infinity()) - larger;
   return std::abs(after - before) <= 1.001 * step + 4.0 * ulp;

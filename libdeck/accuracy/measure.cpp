@@ -38,14 +38,14 @@ double distance_of_weights(const PairSample& s, const Outcome& o) {
   } else {
     for (std::size_t k = 0; k < 4; ++k) v = v + D(o.weights[k]) * (x(k) - x(4));
   }
-  return closest_detail::length(v).hi();
+  return deck::length(v).hi();
 }
 
 // Largest difference of coordinates.
 double size_of(const PairSample& s) {
   double out = 0.0;
   for (std::size_t k = 1; k < (s.edges ? 4u : 5u); ++k)
-    out = std::max(out, closest_detail::largest_component(s.x[k] - s.x[0]));
+    out = std::max(out, deck::largest_component(s.x[k] - s.x[0]));
   return out;
 }
 

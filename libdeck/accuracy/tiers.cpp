@@ -19,7 +19,7 @@ Outcome evaluate(const PairSample& s, FilterCounters&) {
   // Coordinates that the number type cannot hold: the tier has no answer.
   if constexpr (std::is_same_v<T, float>) {
     for (const Point3<T>& q : x) {
-      if (std::isfinite(closest_detail::largest_component(q))) continue;
+      if (std::isfinite(deck::largest_component(q))) continue;
       out.value = std::numeric_limits<double>::quiet_NaN();
       return out;
     }
@@ -31,7 +31,7 @@ Outcome evaluate(const PairSample& s, FilterCounters&) {
     if constexpr (textbook) {
       const Point3<T> a = c.weight_s * x[0] + (T(1) - c.weight_s) * x[1];
       const Point3<T> b = c.weight_m * x[2] + (T(1) - c.weight_m) * x[3];
-      distance = closest_detail::length(a - b);
+      distance = deck::length(a - b);
     }
     out.feature = number_of(c.feature_s, c.feature_m);
     out.weights = {static_cast<double>(c.weight_s), static_cast<double>(c.weight_m), 0.0, 0.0};
@@ -41,7 +41,7 @@ Outcome evaluate(const PairSample& s, FilterCounters&) {
     if constexpr (textbook) {
       Point3<T> q = c.weights[0] * x[0];
       for (std::size_t k = 1; k < 4; ++k) q = q + c.weights[k] * x[k];
-      distance = closest_detail::length(x[4] - q);
+      distance = deck::length(x[4] - q);
     }
     out.feature = number_of(c.feature, c.feature_index);
     for (std::size_t k = 0; k < 4; ++k) out.weights[k] = static_cast<double>(c.weights[k]);

@@ -26,7 +26,6 @@ bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20; }
 
 constexpr std::size_t header_columns = 202;  // the line buffer of the reference solver
 constexpr int deepest_include = 250;         // the walk is recursive; more would endanger the stack
-constexpr std::size_t most_blocks = 20'000'000;
 constexpr std::uint64_t release_step = 8 << 20;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
@@ -431,10 +430,11 @@ class Reader {
   /// False: the limit on blocks is reached and reading stops.
   bool open(std::uint32_t file, std::string_view header, std::uint64_t offset, std::uint64_t next,
             int& version) {
-    if (deck_.blocks.size() >= most_blocks) {
+    if (deck_.blocks.size() >= options_.limits.blocks) {
       if (open_block_ >= 0)
         report(RuleId::DK006, make_span(file, offset, offset + header.size()),
-               "more than " + std::to_string(most_blocks) + " keywords; the rest is not read",
+               "more than " + std::to_string(options_.limits.blocks) +
+                   " keywords; the rest is not read",
                {.fix = "check the deck for an include that multiplies itself"});
       open_block_ = -1;
       return false;

@@ -70,22 +70,7 @@ void add_plain_fields(ContactCard& card) {
 void bind(const Deck& deck, const InterBase& inter, ContactCard& card) {
   card.inter = &inter;
   card.type = inter.type;
-  switch (inter.type) {
-    case 7:
-      add_fields(deck, static_cast<const InterType7&>(inter), card);
-      break;
-    case 10:
-      add_fields(deck, static_cast<const InterType10&>(inter), card);
-      break;
-    case 11:
-      add_fields(deck, static_cast<const InterType11&>(inter), card);
-      break;
-    case 19:
-      add_fields(deck, static_cast<const InterType19&>(inter), card);
-      break;
-    default:
-      break;
-  }
+  visit_interface(inter, [&](const auto& typed) { add_fields(deck, typed, card); });
   add_plain_fields(card);
 }
 

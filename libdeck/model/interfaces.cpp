@@ -249,11 +249,8 @@ class Rules {
 
 int type_of(const Block& block) {
   if (block.schema == nullptr) return 0;
-  for (const auto& [keyword, type] : {std::pair<std::string_view, int>{"/INTER/TYPE7", 7},
-                                      {"/INTER/TYPE10", 10},
-                                      {"/INTER/TYPE11", 11},
-                                      {"/INTER/TYPE19", 19}})
-    if (block.schema->keyword == keyword) return type;
+  for (const InterfaceTraits* t : interface_types)
+    if (block.schema->keyword == t->keyword) return t->type;
   return 0;
 }
 
@@ -314,42 +311,19 @@ Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& di
     const auto given = in_force.find(type);
     if (given == in_force.end()) too_early[type].push_back(&block);
     const Rules rules(model, out, given == in_force.end() ? nullptr : given->second);
-    const auto keep = [&](auto& list, auto inter) {
+    out.each_list([&]<class Inter>(std::vector<Inter>& list) {
+      if (Inter::traits.type != type) return;
       order.emplace_back(type, list.size());
-      list.push_back(std::move(inter));
-    };
-    switch (type) {
-      case 7:
-        keep(out.type7, read_one<InterType7>(card, type, rules));
-        check_smoothing(card, out.type7.back(), diagnostics);
-        break;
-      case 10:
-        keep(out.type10, read_one<InterType10>(card, type, rules));
-        break;
-      case 11:
-        keep(out.type11, read_one<InterType11>(card, type, rules));
-        break;
-      default:
-        keep(out.type19, read_one<InterType19>(card, type, rules));
-        break;
-    }
+      list.push_back(read_one<Inter>(card, type, rules));
+    });
+    if (type == 7) check_smoothing(card, out.type7.back(), diagnostics);
   }
   for (const DefaultInter& d : out.defaults) report_too_early(d, too_early[d.type], diagnostics);
   // Only now do the lists stay where they are.
-  for (const auto& [type, i] : order) switch (type) {
-      case 7:
-        out.ordered.push_back(&out.type7[i]);
-        break;
-      case 10:
-        out.ordered.push_back(&out.type10[i]);
-        break;
-      case 11:
-        out.ordered.push_back(&out.type11[i]);
-        break;
-      default:
-        out.ordered.push_back(&out.type19[i]);
-        break;
-    }
+  for (const auto& [type, i] : order)
+    out.each_list([&, type = type, i = i]<class Inter>(std::vector<Inter>& list) {
+      if (Inter::traits.type == type) out.ordered.push_back(&list[i]);
+    });
   return out;
 }
 

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace deck {
 namespace {
@@ -551,6 +553,39 @@ TEST(InterfaceFields, DefaultCardsNameFieldsOfTheirType) {
         std::pair{"/DEFAULT/INTER/TYPE19", struct_fields<InterType19>()}})
     for (const std::string& name : schema_fields(keyword))
       EXPECT_TRUE(fields.contains(name)) << keyword << " " << name;
+}
+
+static_assert(!std::is_copy_constructible_v<Interfaces> && !std::is_copy_assignable_v<Interfaces>);
+
+TEST(InterfaceTypes, AreVisitedAsTheirOwnTypeAndNothingElseIs) {
+  InterType11 edges;
+  edges.type = 11;
+  EXPECT_TRUE(
+      visit_interface(edges, []<class T>(const T&) { return std::is_same_v<T, InterType11>; }));
+  InterBase unknown;
+  unknown.type = 24;
+  EXPECT_THROW(visit_interface(unknown, [](const auto&) {}), std::logic_error);
+  EXPECT_EQ(traits_of(24), nullptr);
+}
+
+TEST(InterfaceTypes, NameFieldsOfTheirSchemas) {
+  for (const InterfaceTraits* t : interface_types) {
+    const Schema* const schema = SchemaSet::built_in().find(t->keyword);
+    ASSERT_NE(schema, nullptr) << t->keyword;
+    for (const InterfaceTraits::Side& side : {t->secondary, t->main}) {
+      const Field* const field = schema->find_field(side.field);
+      ASSERT_NE(field, nullptr) << t->keyword << ' ' << side.field;
+      EXPECT_EQ(field->ref, side.refers_to) << t->keyword << ' ' << side.field;
+    }
+    EXPECT_NE(schema->find_field(t->gap), nullptr) << t->keyword;
+  }
+}
+
+TEST(InterfaceTypes, OfMovedInterfacesStayInPlace) {
+  Read r(Type7Text{}.str());
+  const Interfaces moved = std::move(r.all);
+  ASSERT_EQ(moved.ordered.size(), 1U);
+  EXPECT_EQ(moved.ordered[0], &moved.type7[0]);
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ TEST(SelectionBounds, WhatExceedsTheMemoryIsLeftOutWithOneFinding) {
     text += "/SURF/SURF/" + std::to_string(k + 100) + "\ns\n" + cells({k + 1});
   text += "/SURF/PART/61\ns\n" + cells({1});
   Built b(text);
-  MemoryLimits limits;
+  Limits limits;
   limits.selection_bytes = 1 << 20;
   Selections bounded(b.model(), SchemaSet::built_in(), limits);
   bounded.resolve_all();

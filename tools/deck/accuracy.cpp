@@ -105,7 +105,7 @@ int run(const Options& o) {
     print_findings(loaded, o.common);
     SceneOptions scene_options;
     scene_options.threads = o.common.thread_count();
-    scene_options.limits = o.common.memory;
+    scene_options.limits = o.common.limits;
     scene_options.penetrations = scene_options.candidates = false;
     const Scene scene =
         build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);

@@ -92,7 +92,7 @@ void add_common(CommandLine& line, CommonOptions& options, bool with_json) {
   line.bytes(
           "--max-memory",
           [&options](std::uint64_t bytes) {
-            options.memory.pair_bytes = options.memory.selection_bytes = bytes;
+            options.limits.pair_bytes = options.limits.selection_bytes = bytes;
           },
           "Memory for the pairs of one contact (default 2GB), and for the members of all groups "
           "(default 4GB); a contact that needs more is not evaluated, with a finding")
@@ -263,7 +263,7 @@ Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& s
   build.threads = options.thread_count();
   build.limits = read.limits;
   loaded->model = build_model(loaded->deck, schemas, loaded->diagnostics, build);
-  loaded->model.selections->set_limits(options.memory);
+  loaded->model.selections->set_limits(options.limits);
   if (stage == Stage::model) return loaded;
   loaded->interfaces = read_interfaces(loaded->deck, loaded->model, loaded->diagnostics);
   return loaded;

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "deck/base/limits.hpp"
 #include "deck/edit/write.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
-#include "deck/model/memory_limits.hpp"
 #include "deck/model/model.hpp"
 #include "progress.hpp"
 #include "verbs.hpp"
@@ -44,7 +44,6 @@ struct CommonOptions {
   /// The verb will change files of the decks in place. Set by the verb, not by an option.
   bool rewrites = false;
   Limits limits;
-  MemoryLimits memory;
 
   int thread_count() const;
   /// True if text to this descriptor (1, 2) is to be coloured.

@@ -91,7 +91,7 @@ std::unique_ptr<Behaviour> behaviour_of(const Loaded& loaded, const SchemaSet& s
                                         const CommonOptions& common) {
   return std::make_unique<Behaviour>(
       EditContext{loaded.deck, loaded.model, loaded.interfaces, schemas},
-      VerifyOptions{common.thread_count(), common.memory});
+      VerifyOptions{common.thread_count(), common.limits});
 }
 
 /// Compares the deck with what it was before a step. An exit code if it is another one.

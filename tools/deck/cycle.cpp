@@ -172,7 +172,7 @@ int run(const Options& o) {
     scene_options.nodal_stiffness = true;
     scene_options.only = o.only;
     scene_options.accuracy = accuracy_of(o.accuracy);
-    scene_options.limits = o.common.memory;
+    scene_options.limits = o.common.limits;
     Scene scene;
     cycle::StepsOutcome steps;
     cycle::State state;

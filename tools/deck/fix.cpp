@@ -135,7 +135,7 @@ class FixRun {
     base.threads = o_.common.thread_count();
     base.interfaces = o_.interfaces;
     base.read.include_paths = o_.common.include_paths;
-    base.memory = o_.common.memory;
+    base.limits = o_.common.limits;
     base.progress = [&](std::string_view what, std::size_t done, std::size_t total) {
       if (step != what) progress.step(step = what);
       progress.update(done, total);

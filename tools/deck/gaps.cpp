@@ -95,8 +95,7 @@ Result<void> check_what_if(const WhatIf& w, const InterBase& inter) {
       return Error{Error::Code::config, "--what-if " + std::to_string(w.interface_id) + ":" +
                                             std::string(name) + "=" + shortest(value) + ": " + why};
     };
-    const bool tied = inter.type == 10 && name == "Gapmin";
-    const Field* field = schema->find_field(tied ? "Gap" : name);
+    const Field* field = schema->find_field(name == "Gapmin" ? traits_of(inter).gap : name);
     // The node parts of a TYPE19 have it, though its card does not.
     if (field == nullptr && inter.type == 19 && name == "Fpenmax") return {};
     if (field == nullptr)
@@ -193,7 +192,7 @@ int run(const Options& o) {
   scene_options.threads = o.common.thread_count();
   scene_options.only = o.only;
   scene_options.accuracy = accuracy_of(o.accuracy);
-  scene_options.limits = o.common.memory;
+  scene_options.limits = o.common.limits;
   for (const std::string& text : o.what_if) {
     auto w = parse_what_if(text);
     if (!w) {

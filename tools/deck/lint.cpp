@@ -100,7 +100,7 @@ LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptio
   if (command.geometry)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
       check_geometry(context, reporter,
-                     {command.common.thread_count(), command.common.memory, &gate.gate,
+                     {command.common.thread_count(), command.common.limits, &gate.gate,
                       gate.earlier ? &*gate.earlier : nullptr});
     });
   return run_lint(input, options);

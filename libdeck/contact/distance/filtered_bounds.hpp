@@ -20,8 +20,8 @@
 
 namespace deck::filter {
 
-using closest_detail::larger;
-using closest_detail::smaller;
+using scalar::larger;
+using scalar::smaller;
 using P = Point3<double>;
 template <class T>
 using Hull = std::array<Point3<T>, 4>;
@@ -288,7 +288,7 @@ inline SubTriangleClosest<DoubleDouble> guided_sub_triangle(
   } else {
     (has_a ? out.weight_a : has_b ? out.weight_b : out.weight_o) = T(1);
     out.vector = -(has_a ? va : has_b ? vb : vo);
-    out.distance = closest_detail::length(out.vector);
+    out.distance = deck::length(out.vector);
   }
   return out;
 }

@@ -30,7 +30,7 @@ using P = Point3<double>;
 constexpr std::size_t most_listed = 1000;
 
 std::array<double, 3> direction(const P& v) {
-  const double n = closest_detail::length(v);
+  const double n = deck::length(v);
   if (!(n > 0)) return {};
   return {v.x / n, v.y / n, v.z / n};
 }

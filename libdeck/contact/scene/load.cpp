@@ -36,12 +36,12 @@ Result<LoadedDeck> load(const std::string& path, const LoadOptions& options) {
   parts->findings = Diagnostics(options.read.limits.diagnostics_per_rule);
   parts->model =
       build_model(parts->deck, schemas, parts->findings, {options.threads, options.read.limits});
-  if (parts->model.selections != nullptr) parts->model.selections->set_limits(options.memory);
+  if (parts->model.selections != nullptr) parts->model.selections->set_limits(options.read.limits);
   parts->interfaces = read_interfaces(parts->deck, parts->model, parts->findings);
   if (options.geometry && waits_for_geometry(parts->interfaces)) {
     SceneOptions scene;
     scene.threads = options.threads;
-    scene.limits = options.memory;
+    scene.limits = options.read.limits;
     scene.candidates = scene.penetrations = false;
     resolve(parts->interfaces,
             build_scene(parts->model, parts->interfaces, parts->findings, scene));

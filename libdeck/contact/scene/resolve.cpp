@@ -28,7 +28,7 @@ bool waits_for_geometry(const Interfaces& interfaces) {
 }
 
 void resolve(Interfaces& interfaces, const Scene& scene) {
-  const auto fill = [&](auto& list) {
+  interfaces.each_list([&](auto& list) {
     for (auto& inter : list) {
       const Contact* const contact = first_contact(scene, inter);
       if (contact == nullptr) continue;
@@ -38,11 +38,7 @@ void resolve(Interfaces& interfaces, const Scene& scene) {
       });
       inter.resolved = true;
     }
-  };
-  fill(interfaces.type7);
-  fill(interfaces.type10);
-  fill(interfaces.type11);
-  fill(interfaces.type19);
+  });
 }
 
 }  // namespace deck

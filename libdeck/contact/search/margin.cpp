@@ -11,7 +11,7 @@ Point3<double> point(const NodeArrays& nodes, std::uint32_t i) {
 }
 
 double edge_length(const NodeArrays& nodes, std::uint32_t a, std::uint32_t b) {
-  return closest_detail::length(point(nodes, b) - point(nodes, a));  // squares may overflow
+  return deck::length(point(nodes, b) - point(nodes, a));  // squares may overflow
 }
 
 constexpr double kMarginFactor = static_cast<double>(0.2F);

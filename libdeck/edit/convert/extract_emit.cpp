@@ -121,17 +121,13 @@ std::string text_of(const std::string& v) { return v; }
 /// Names and effective values of an interface.
 std::vector<std::pair<std::string, std::string>> values_of(const Interfaces& all, std::int64_t id) {
   std::vector<std::pair<std::string, std::string>> out;
-  const auto add = [&](const auto& list) {
+  all.each_list([&](const auto& list) {
     for (const auto& inter : list)
       if (inter.id == id)
         inter.for_each([&](std::string_view name, const auto& field) {
           out.emplace_back(name, text_of(field.value));
         });
-  };
-  add(all.type7);
-  add(all.type10);
-  add(all.type11);
-  add(all.type19);
+  });
   return out;
 }
 

@@ -40,7 +40,7 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const FixOptio
   SceneOptions scene;
   scene.threads = options.threads;
   scene.candidates = false;
-  scene.limits = options.memory;
+  scene.limits = options.limits;
   scene.only = std::move(only);
   if (!as_written) {
     for (const InterBase* inter : interfaces.ordered) {

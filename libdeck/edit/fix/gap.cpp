@@ -44,7 +44,7 @@ class GapReduction {
  public:
   GapReduction(const EditContext& context, const ReduceGapOptions& options, const InterBase& inter)
       : context_(&context), options_(&options), inter_(&inter) {
-    gapmin_ = knob(inter.type == 10 ? "Gap" : "Gapmin");
+    gapmin_ = knob(traits_of(inter).gap);
     scale_ = knob("Fscalegap");
     cap_ = knob("Gapmax");
     igap_ = visit_interface(inter, [](const auto& i) {
@@ -114,7 +114,7 @@ class GapReduction {
   std::string why;
 
  private:
-  Knob knob(const char* name) const {
+  Knob knob(std::string_view name) const {
     Knob k;
     k.name = name;
     auto place = find_field(context_->deck, *inter_->block, name);

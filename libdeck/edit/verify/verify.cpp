@@ -19,7 +19,7 @@ Behaviour::Behaviour(const EditContext& context, const VerifyOptions& options)
   scene.threads = options.threads;
   scene.candidates = false;
   scene.nodal_stiffness = true;
-  scene.limits = options.memory;
+  scene.limits = options.limits;
   p.scene = build_scene(context.model, context.interfaces, diagnostics, scene);
   p.state = cycle::make_state(p.scene);
   cycle::CycleOptions cycle;

@@ -26,21 +26,12 @@ NamedValue named_value(std::string_view name, const Effective<T>& field) {
     return {std::string(name), std::to_string(field.value), 0, false};
 }
 
-template <class List>
-bool add_values(const List& list, const InterBase* wanted, std::vector<NamedValue>& out) {
-  for (const auto& inter : list) {
-    if (&inter != wanted) continue;
-    inter.for_each(
-        [&](std::string_view name, const auto& field) { out.push_back(named_value(name, field)); });
-    return true;
-  }
-  return false;
-}
-
-std::vector<NamedValue> values_of(const Interfaces& all, const InterBase* inter) {
+std::vector<NamedValue> values_of(const InterBase* inter) {
   std::vector<NamedValue> out;
-  (void)(add_values(all.type7, inter, out) || add_values(all.type10, inter, out) ||
-         add_values(all.type11, inter, out) || add_values(all.type19, inter, out));
+  visit_interface(*inter, [&](const auto& typed) {
+    typed.for_each(
+        [&](std::string_view name, const auto& field) { out.push_back(named_value(name, field)); });
+  });
   return out;
 }
 
@@ -86,8 +77,7 @@ DeckComparison::Difference DeckComparison::values() const {
       return fmt::format("{} is a TYPE{}, expected TYPE{} and id {}", name, now[i]->type, old->type,
                          old->id);
     const auto fields = cells_of(*old);
-    const auto a = values_of(before.context.interfaces, old),
-               b = values_of(after.context.interfaces, now[i]);
+    const auto a = values_of(old), b = values_of(now[i]);
     for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) {
       const auto found = fields.find(a[k].name);
       const Field* field = found == fields.end() ? nullptr : found->second;

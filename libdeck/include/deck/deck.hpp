@@ -17,8 +17,7 @@
 namespace deck {
 
 struct LoadOptions {
-  ReadOptions read;     ///< with the bounds of what is read
-  MemoryLimits memory;  ///< of what is made of it
+  ReadOptions read;  ///< with the bounds of what is read and of what is made of it
   int threads = 1;
   bool geometry = true;  ///< fill in the values that follow from the mesh; builds the contacts once
   const SchemaSet* schemas = nullptr;  ///< nullptr: the built-in ones; must outlive what is loaded

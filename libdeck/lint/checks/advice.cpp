@@ -145,10 +145,9 @@ void check_bumult(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_same_sides(const LintContext& c, const Rule& rule, Reporter& r) {
   std::map<std::tuple<int, double, double>, const ContactCard*> seen;
   each(c, rule, [&](const ContactCard& card) {
-    const std::string_view one = card.type == 11   ? "line_IDs"
-                                 : card.type == 19 ? "surf_IDs"
-                                                   : "grnd_IDs";
-    const std::string_view two = card.type == 11 ? "line_IDm" : "surf_IDm";
+    const InterfaceTraits* const traits = traits_of(card.type);
+    if (traits == nullptr) return;
+    const std::string_view one = traits->secondary.field, two = traits->main.field;
     if (card.given("sens_ID") || card.given("Tstart") || card.given("Tstop")) return;
     if (!card.given(two)) return;
     const auto [it, fresh] =

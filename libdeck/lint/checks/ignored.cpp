@@ -164,8 +164,9 @@ bool share_nodes(const LintContext& c, const ContactCard& card) {
 void check_removal(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (card.input("Irem_gap") != 2) return;
-    std::string_view one = card.type == 7 ? "grnd_IDs" : card.type == 11 ? "line_IDs" : "surf_IDs";
-    std::string_view two = card.type == 11 ? "line_IDm" : "surf_IDm";
+    const InterfaceTraits* const traits = traits_of(card.type);
+    if (traits == nullptr) return;
+    const std::string_view one = traits->secondary.field, two = traits->main.field;
     if (c.selections == nullptr || !card.given(one) || !card.given(two)) return;
     if (card.type == 7 ? share_nodes(c, card) : card.input(one) == card.input(two)) return;
     ignored(c, rule, r, card, {"Irem_gap"}, one, "the two sides are different: no self contact",

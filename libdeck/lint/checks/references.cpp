@@ -18,19 +18,11 @@ struct Side {
 };
 
 std::vector<Side> sides_of(const ContactCard& card) {
-  switch (card.type) {
-    case 7:
-      // Ists turns the node group into a surface; that is not evaluated.
-      if (card.given("Ists")) return {{"surf_IDm", "surf", false}};
-      return {{"grnd_IDs", "grnod", true}, {"surf_IDm", "surf", false}};
-    case 10:
-      return {{"grnd_IDs", "grnod", true}, {"surf_IDm", "surf", false}};
-    case 11:
-      return {{"line_IDs", "line", true}, {"line_IDm", "line", false}};
-    case 19:
-      return {{"surf_IDs", "surf", true}, {"surf_IDm", "surf", false}};
-    default:
-      break;
+  if (const InterfaceTraits* t = traits_of(card.type)) {
+    const Side main{t->main.field, t->main.refers_to, false};
+    // Ists turns the node group into a surface; that is not evaluated.
+    if (card.given("Ists")) return {main};
+    return {{t->secondary.field, t->secondary.refers_to, true}, main};
   }
   const std::string_view keyword = card.block->schema->keyword;
   if (keyword.ends_with("/TYPE7") || keyword == "/INTER/TYPE5")

@@ -57,7 +57,7 @@ int carrying_nodes(ElementKind kind) {
 
 }  // namespace detail
 
-Selections::Impl::Impl(const Model& m, const SchemaSet& s, const MemoryLimits& l)
+Selections::Impl::Impl(const Model& m, const SchemaSet& s, const Limits& l)
     : model(&m), schemas(&s), limits(l) {
   std::uint64_t members = m.nodes.size();
   for (const detail::FamilyName& name : detail::family_names())
@@ -214,9 +214,9 @@ bool Selections::Impl::hold(std::size_t count, std::size_t size, const Block& bl
   return true;
 }
 
-Selections::Selections(const Model& model, const SchemaSet& schemas, const MemoryLimits& limits)
+Selections::Selections(const Model& model, const SchemaSet& schemas, const Limits& limits)
     : impl_(std::make_unique<Impl>(model, schemas, limits)) {}
-void Selections::set_limits(const MemoryLimits& limits) { impl_->limits = limits; }
+void Selections::set_limits(const Limits& limits) { impl_->limits = limits; }
 bool Selections::complete() const { return impl_->all_held; }
 Selections::~Selections() = default;
 

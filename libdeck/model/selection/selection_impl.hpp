@@ -136,10 +136,10 @@ struct Selections::Impl {
   std::uint32_t rank(NodeIndex n) const { return ranks.empty() ? n : ranks[n]; }
   void sort_nodes(std::vector<NodeIndex>& nodes) const;
 
-  MemoryLimits limits;
+  Limits limits;
   std::uint64_t most_members = 0;  ///< of one list, repetitions included
   std::uint64_t bytes_held = 0;    ///< by all results together
-  bool all_held = true;            ///< false: something was left out for want of MemoryLimits
+  bool all_held = true;            ///< false: something was left out for want of Limits
   /// True if `count` more items of `size` bytes may be held; otherwise that is reported once.
   bool fits(std::size_t count, std::size_t size, const Block& block);
   /// The same, and counts them as held.
@@ -150,7 +150,7 @@ struct Selections::Impl {
     if (!hold(list.size(), sizeof(typename List::value_type), block)) List().swap(list);
   }
 
-  Impl(const Model& m, const SchemaSet& s, const MemoryLimits& l);
+  Impl(const Model& m, const SchemaSet& s, const Limits& l);
   const Deck& deck() const { return *model->deck; }
 
   // ---- definitions and lists (selection.cpp)

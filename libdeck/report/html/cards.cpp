@@ -16,7 +16,7 @@ constexpr std::string_view editable[] = {"Gapmin",  "Fscalegap", "Gapmax",
                                          "Fpenmax", "Igap",      "Inacti"};
 
 std::string_view name_on_card(const InterBase& inter, std::string_view field) {
-  return inter.type == 10 && field == "Gapmin" ? "Gap" : field;
+  return field == "Gapmin" ? traits_of(inter).gap : field;
 }
 
 void write_card_text(JsonWriter& j, const Deck& deck, const InterBase& inter) {

@@ -360,9 +360,13 @@ std::string params_text(const ParamsInput& in, const ParamsTextOptions& options)
     out += params_table(in, *inter, options).fitted(options.width, options.color, 2) + "\n";
   }
   const auto& all = *in.interfaces;
-  out += fmt::format("{}: {} interfaces (TYPE7 {}, TYPE10 {}, TYPE11 {}, TYPE19 {})",
-                     terminal_text(in.path), all.ordered.size(), all.type7.size(),
-                     all.type10.size(), all.type11.size(), all.type19.size());
+  out += fmt::format("{}: {} interfaces (", terminal_text(in.path), all.ordered.size());
+  const char* separator = "";
+  all.each_list([&]<class Inter>(const std::vector<Inter>& list) {
+    out +=
+        fmt::format("{}TYPE{} {}", std::exchange(separator, ", "), Inter::traits.type, list.size());
+  });
+  out += ")";
   if (!coverage.not_examined.empty())
     out += "; not examined: " + terminal_text(not_examined_text(coverage));
   return out + "\n";

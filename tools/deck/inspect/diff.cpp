@@ -47,7 +47,7 @@ Result<Side> read_side(const Options& o, const std::string& path, const SchemaSe
   SceneOptions scene;
   scene.threads = o.common.thread_count();
   scene.candidates = false;
-  scene.limits = o.common.memory;
+  scene.limits = o.common.limits;
   scene.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
   side.scene =
       build_scene(side.loaded->model, side.loaded->interfaces, side.loaded->diagnostics, scene);

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "deck/base/limits.hpp"
 #include "deck/contact/pair_gap.hpp"
 #include "deck/contact/penetration.hpp"
 #include "deck/contact/search.hpp"
 #include "deck/contact/what_if.hpp"
 #include "deck/model/interfaces.hpp"
-#include "deck/model/memory_limits.hpp"
 #include "deck/model/model.hpp"
 
 namespace deck {
@@ -128,7 +128,7 @@ struct Scene {
   Coordinates coordinates;        ///< after Inacti 3 moved nodes
   std::vector<Contact> contacts;  ///< in the solver's processing order
   DecisionReport decisions;       ///< of the penetrations
-  MemoryLimits limits;            ///< of SceneOptions, for what is made of the scene
+  Limits limits;                  ///< of SceneOptions, for what is made of the scene
 };
 
 struct SceneOptions {
@@ -139,7 +139,7 @@ struct SceneOptions {
   bool nodal_stiffness = false;    ///< fill SecondaryNode::nodal_stiffness (needed for forces)
   std::vector<std::int64_t> only;  ///< interface ids to build; empty: all
   std::vector<WhatIf> what_if;
-  MemoryLimits limits;  ///< pair_bytes: what lies beyond is not evaluated, with a finding
+  Limits limits;  ///< pair_bytes: what lies beyond is not evaluated, with a finding
   /// Called with (contacts done, contacts in all); may be empty.
   std::function<void(std::size_t, std::size_t)> progress;
 };

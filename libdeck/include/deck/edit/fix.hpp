@@ -21,7 +21,7 @@ struct FixOptions {
   int threads = 1;
   std::vector<std::int64_t> interfaces;  ///< ids to treat; empty: all
   ReadOptions read;                      ///< how the deck was read, overlay included
-  MemoryLimits memory;
+  Limits limits;
   /// Called with what is being done and (done, total); total 0: unknown. May be empty.
   std::function<void(std::string_view step, std::size_t done, std::size_t total)> progress;
 };

@@ -6,14 +6,14 @@
 #include <set>
 #include <string>
 
+#include "deck/base/limits.hpp"
 #include "deck/edit/rewrite.hpp"
-#include "deck/model/memory_limits.hpp"
 
 namespace deck {
 
 struct VerifyOptions {
   int threads = 1;
-  MemoryLimits memory;
+  Limits limits;
 };
 
 /// What a deck is at its start: effective values, contacts, forces of the first cycle, nodal

@@ -15,7 +15,7 @@ namespace deck {
 ///
 struct GeometryOptions {
   int threads = 1;  ///< changes no finding
-  MemoryLimits limits = {};
+  Limits limits = {};
   const Gate* gate = nullptr;  ///< what passes over it is reported, too
   const EarlierGaps* earlier = nullptr;
 };

@@ -1,6 +1,7 @@
 // The contact interfaces as plain structs of effective values: what the solver will use for every
 // field of /INTER/TYPE7, 10, 11, 19, where each value came from, and what the card said.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -14,6 +15,18 @@ using EffectiveInt = Effective<std::int64_t>;
 using EffectiveReal = Effective<double>;
 using EffectiveText = Effective<std::string>;
 
+/// What sets the interface types apart, one row a type. A side is the field that names it and what
+/// its id refers to, in the words of the schemas.
+struct InterfaceTraits {
+  struct Side {
+    std::string_view field, refers_to;
+  };
+  int type;
+  std::string_view keyword;
+  Side secondary, main;
+  std::string_view gap;  ///< field of the minimum gap
+};
+
 /// What every interface has.
 struct InterBase {
   std::int64_t id = 0;
@@ -26,6 +39,8 @@ struct InterBase {
 
 /// The fields common to types 7, 11 and 19. IBC is "xyz", one digit each.
 struct InterType7 : InterBase {
+  static constexpr InterfaceTraits traits{
+      7, "/INTER/TYPE7", {"grnd_IDs", "grnod"}, {"surf_IDm", "surf"}, "Gapmin"};
   EffectiveInt grnd_IDs, surf_IDm, Istf, Ithe, Igap, Ibag, Idel, Icurv, Iadm;
   EffectiveReal Fscalegap, Gapmax, Fpenmax;
   EffectiveInt ITIED;
@@ -55,6 +70,8 @@ struct InterType7 : InterBase {
 };
 
 struct InterType10 : InterBase {
+  static constexpr InterfaceTraits traits{
+      10, "/INTER/TYPE10", {"grnd_IDs", "grnod"}, {"surf_IDm", "surf"}, "Gap"};
   EffectiveInt grnd_IDs, surf_IDm, Idel;
   EffectiveReal Stfac, Gap, Tstart, Tstop;
   EffectiveInt ITIED, Inacti;
@@ -66,6 +83,8 @@ struct InterType10 : InterBase {
 };
 
 struct InterType11 : InterBase {
+  static constexpr InterfaceTraits traits{
+      11, "/INTER/TYPE11", {"line_IDs", "line"}, {"line_IDm", "line"}, "Gapmin"};
   EffectiveInt line_IDs, line_IDm, Istf, Ithe, Igap, Irem_gap, Idel;
   EffectiveReal Stmin, Stmax, mesh_size, dtmin;
   EffectiveInt Iform, sens_ID;
@@ -86,6 +105,8 @@ struct InterType11 : InterBase {
 };
 
 struct InterType19 : InterBase {
+  static constexpr InterfaceTraits traits{
+      19, "/INTER/TYPE19", {"surf_IDs", "surf"}, {"surf_IDm", "surf"}, "Gapmin"};
   EffectiveInt surf_IDs, surf_IDm, Istf, Ithe, Igap, Iedge, Ibag, Idel, Icurv;
   EffectiveReal Fscalegap, Gapmax, Edge_scale_gap, Stmin, Stmax, mesh_size, dtmin;
   EffectiveInt Irem_gap, Irem_i2, node_ID1, node_ID2;
@@ -136,6 +157,8 @@ struct Friction {
   Span span;
 };
 
+/// The contact interfaces of a deck. `ordered` points into the lists, so it can be moved, not
+/// copied.
 struct Interfaces {
   std::vector<InterType7> type7;
   std::vector<InterType10> type10;
@@ -146,7 +169,34 @@ struct Interfaces {
   /// All interfaces in deck order.
   std::vector<const InterBase*> ordered;
   const Friction* friction(std::int64_t id) const;
+
+  Interfaces() = default;
+  Interfaces(Interfaces&&) = default;
+  Interfaces& operator=(Interfaces&&) = default;
+  Interfaces(const Interfaces&) = delete;
+  Interfaces& operator=(const Interfaces&) = delete;
+  ~Interfaces() = default;
+
+  /// Calls f(list) for the list of every interface type.
+  template <class F>
+  void each_list(F&& f) {
+    f(type7), f(type10), f(type11), f(type19);
+  }
+  template <class F>
+  void each_list(F&& f) const {
+    f(type7), f(type10), f(type11), f(type19);
+  }
 };
+
+inline constexpr std::array<const InterfaceTraits*, 4> interface_types{
+    &InterType7::traits, &InterType10::traits, &InterType11::traits, &InterType19::traits};
+/// The row of an interface type; nullptr for types that are not read.
+inline const InterfaceTraits* traits_of(int type) {
+  for (const InterfaceTraits* t : interface_types)
+    if (t->type == type) return t;
+  return nullptr;
+}
+inline const InterfaceTraits& traits_of(const InterBase& inter) { return *traits_of(inter.type); }
 
 /// Decodes the interface blocks and forms the effective values in the reference solver's order of
 /// evaluation. `model` supplies what some defaults depend on (thermal materials, adaptive meshing,

@@ -1,6 +1,7 @@
 // The fields of every interface type by name, in the order of the manual: what makes reports, rules
 // and tests treat them alike. Included at the end of interfaces.hpp.
 #pragma once
+#include <stdexcept>
 #include <type_traits>
 
 #include "deck/model/interfaces.hpp"
@@ -216,16 +217,11 @@ void InterType19::for_each(F&& f) const {
 /// Calls f(interface) with the interface as its own type; `base` must be an element of Interfaces.
 template <class F>
 decltype(auto) visit_interface(const InterBase& base, F&& f) {
-  switch (base.type) {
-    case 10:
-      return f(static_cast<const InterType10&>(base));
-    case 11:
-      return f(static_cast<const InterType11&>(base));
-    case 19:
-      return f(static_cast<const InterType19&>(base));
-    default:
-      return f(static_cast<const InterType7&>(base));
-  }
+  if (base.type == InterType7::traits.type) return f(static_cast<const InterType7&>(base));
+  if (base.type == InterType10::traits.type) return f(static_cast<const InterType10&>(base));
+  if (base.type == InterType11::traits.type) return f(static_cast<const InterType11&>(base));
+  if (base.type == InterType19::traits.type) return f(static_cast<const InterType19&>(base));
+  throw std::logic_error("visit_interface: not an element of Interfaces");
 }
 
 }  // namespace deck

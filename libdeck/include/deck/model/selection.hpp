@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/model/memory_limits.hpp"
+#include "deck/base/limits.hpp"
 #include "deck/model/model.hpp"
 
 namespace deck {
@@ -16,11 +16,11 @@ class Selections {
  public:
   /// Collects the definitions of `model`'s deck; nothing is resolved yet. The model must stay at
   /// its address (build_model's own selections follow their model when it is moved).
-  Selections(const Model& model, const SchemaSet& schemas, const MemoryLimits& limits = {});
+  Selections(const Model& model, const SchemaSet& schemas, const Limits& limits = {});
   /// For what is resolved from now on.
-  void set_limits(const MemoryLimits& limits);
+  void set_limits(const Limits& limits);
   /// False: members were left out because the results would need more than
-  /// MemoryLimits::selection_bytes (DK332).
+  /// Limits::selection_bytes (DK332).
   bool complete() const;
   ~Selections();
   Selections(const Selections&) = delete;

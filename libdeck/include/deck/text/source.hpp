@@ -10,20 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "deck/base/limits.hpp"
 #include "deck/text/result.hpp"
 
 namespace deck {
-
-/// What a hostile or broken deck may cost at most. An argument everywhere, with safe defaults.
-struct Limits {
-  std::uint64_t total_bytes = std::uint64_t{64} << 30;    ///< all files of the include tree
-  std::uint64_t map_threshold = std::uint64_t{32} << 20;  ///< larger files are mapped, not read
-  std::uint64_t stdin_bytes = std::uint64_t{4} << 30;     ///< standard input has no size to check
-  int include_depth = 100;  ///< the reference solver stops at about 10
-  int files = 10000;
-  int diagnostics_per_rule = 1000;  ///< further ones are counted, not kept
-  int expression_steps = 10000;     ///< parameter expressions
-};
 
 /// A stretch of bytes of one file. Line and column are computed when a person wants to see them.
 struct Span {

@@ -28,9 +28,7 @@ struct GeometryRun {
 /// "/INTER/TYPE19 3 (reversed)"
 std::string name_of(const GeometryRun& run, const Contact& contact);
 /// The name that the minimum gap has on the card.
-inline std::string_view gap_field(const Contact& contact) {
-  return contact.inter->type == 10 ? "Gap" : "Gapmin";
-}
+inline std::string_view gap_field(const Contact& contact) { return traits_of(*contact.inter).gap; }
 /// "1 2 3 4" or, for triangles, "1 2 3".
 std::string nodes_text(const Model& model, const MainSegment& segment);
 /// "element 7 of part 2", or "no element".

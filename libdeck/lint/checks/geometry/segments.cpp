@@ -10,9 +10,7 @@
 namespace deck::detail {
 namespace {
 
-std::string_view main_field(const Contact& c) {
-  return c.inter->type == 11 ? "line_IDm" : "surf_IDm";
-}
+std::string_view main_field(const Contact& c) { return traits_of(*c.inter).main.field; }
 
 /// Reports a rule about some main segments, naming the first.
 Diagnostic* about_segments(const GeometryRun& run, RuleId rule, const Contact& c,
@@ -60,10 +58,7 @@ void check_stiffness(const GeometryRun& run, const Contact& c) {
     }
     if (first == nullptr) continue;
     Diagnostic* d = run.report(
-        RuleId::DK322, c,
-        main                  ? main_field(c)
-        : c.inter->type == 11 ? "line_IDs"
-                              : "surf_IDs",
+        RuleId::DK322, c, main ? main_field(c) : traits_of(*c.inter).secondary.field,
         fmt::format("{}: {} of {} on the {} side belong to no element, for example {} {}",
                     name_of(run, c), count_text(count, "edge"), edges.size(),
                     main ? "main" : "secondary", run.model().node_id(first->nodes[0]),

@@ -1,0 +1,437 @@
+// The two forms of the closest points, step by step: what the templates of closest.hpp are made of.
+// Included at its end; nothing here is meant to be named elsewhere.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "deck/contact/closest.hpp"
+
+namespace deck {
+
+namespace closest_detail {
+
+using scalar::absolute_value;
+using scalar::larger;
+using scalar::smaller;
+using scalar::square_root;
+
+template <class T>
+T clamp01(const T& a) {
+  return larger(T(0), smaller(T(1), a));
+}
+
+// Reference formula on one sub-triangle; `p` the node, absolute coordinates.
+template <class T>
+SubTriangleClosest<T> reference_sub_triangle(const Point3<T>& p, const Point3<T>& o,
+                                             const Point3<T>& corner_a, const Point3<T>& corner_b) {
+  const T floor30(1e-30), floor20(1e-20), zero(0);
+  const Point3<T> a = corner_a - o, b = corner_b - o, r = p - o;
+  const Point3<T> n = cross(a, b);
+  const T s = T(1) / larger(floor30, dot(n, n));
+  T la = s * dot(n, cross(r, b));
+  T lb = s * dot(n, cross(a, r));
+  T lo = T(1) - la - lb;
+  const Point3<T> e = corner_b - corner_a;
+  const T ee = larger(floor20, dot(e, e));
+  const T bb = larger(floor30, dot(b, b));
+  const T aa = larger(floor30, dot(a, a));
+  const T ho = lo * absolute_value(lo) / ee;
+  const T ha = la * absolute_value(la) / bb;
+  const T hb = lb * absolute_value(lb) / aa;
+  if (lo < zero && ho <= ha && ho <= hb) {
+    la = clamp01(T(dot(corner_b - p, e) / ee));
+    lb = T(1) - la;
+    lo = zero;
+  } else if (la < zero && ha <= hb && ha <= ho) {
+    la = zero;
+    lb = clamp01(T(dot(r, b) / bb));
+    lo = T(1) - lb;
+  } else if (lb < zero && hb <= ho && hb <= ha) {
+    lb = zero;
+    la = clamp01(T(dot(r, a) / aa));
+    lo = T(1) - la;
+  }
+  SubTriangleClosest<T> out;
+  out.vector = p - (o + la * a + lb * b);
+  out.weight_o = lo;
+  out.weight_a = la;
+  out.weight_b = lb;
+  out.distance_squared = dot(out.vector, out.vector);
+  out.distance = square_root(out.distance_squared);
+  return out;
+}
+
+// Closest point on the edge from u (weight 1-t) to v (weight t); `u`, `v` seen from the node,
+// `e` = v - u. Residual form: the distance is |e x u| / |e|, which does not cancel.
+template <class T>
+struct EdgePoint {
+  T t{}, distance{}, distance_squared{};
+  Point3<T> vector;
+};
+template <class T>
+EdgePoint<T> closest_on_edge(const Point3<T>& u, const Point3<T>& v, const Point3<T>& e) {
+  EdgePoint<T> out;
+  const T ee = dot(e, e);
+  const T along = -dot(e, u);
+  if (along <= T(0) || ee <= T(0)) {
+    out.t = T(0);
+    out.vector = -u;
+  } else if (along >= ee) {
+    out.t = T(1);
+    out.vector = -v;
+  } else {
+    const Point3<T> moment = cross(u, e);  // e x (node - u)
+    out.t = along / ee;
+    out.vector = T(T(1) / ee) * cross(moment, e);
+    if constexpr (NumberTraits<T>::has_sqrt) {
+      out.distance = length(moment) / square_root(ee);
+      out.distance_squared = out.distance * out.distance;
+    } else {
+      out.distance_squared = dot(moment, moment) / ee;
+    }
+    return out;
+  }
+  out.distance = length(out.vector);
+  out.distance_squared = dot(out.vector, out.vector);
+  return out;
+}
+
+template <class T>
+bool nearer(const T& distance_a, const T& squared_a, const T& distance_b, const T& squared_b) {
+  if constexpr (NumberTraits<T>::has_sqrt) {
+    (void)squared_a, (void)squared_b;
+    return distance_a < distance_b;
+  } else {
+    (void)distance_a, (void)distance_b;
+    return squared_a < squared_b;
+  }
+}
+
+// The distance along the normal can only be believed if the point with the computed weights, which
+// lies in the triangle whatever the round-off, is not clearly farther away. On needles it is: then
+// the normal is noise and the edges give the better answer.
+template <class T>
+bool normal_is_trustworthy(const SubTriangleClosest<T>& face, const Point3<T>& vo,
+                           const Point3<T>& va, const Point3<T>& vb) {
+  if constexpr (std::is_floating_point_v<T>) {
+    const Point3<T> q = face.weight_o * vo + face.weight_a * va + face.weight_b * vb;
+    const T size =
+        larger(largest_component(vo), larger(largest_component(va), largest_component(vb)));
+    return square_root(dot(q, q)) - face.distance <=
+           T(256) * std::numeric_limits<T>::epsilon() * size;
+  } else {
+    (void)face, (void)vo, (void)va, (void)vb;
+    return true;
+  }
+}
+
+// Robust formula on one sub-triangle. Vertices as seen from the node (vertex - node); a, b, e the
+// edge vectors A-O, B-O, B-A, formed from the input where that loses less than from the vertices.
+template <class T>
+SubTriangleClosest<T> robust_sub_triangle(const Point3<T>& vo, const Point3<T>& va,
+                                          const Point3<T>& vb, const Point3<T>& a,
+                                          const Point3<T>& b, const Point3<T>& e) {
+  SubTriangleClosest<T> out;
+  const Point3<T> n = cross(a, b);
+  const T nn = dot(n, n);
+  if (nn > NumberTraits<T>::parallel_guard() * dot(a, a) * dot(b, b)) {
+    const T fa = dot(n, cross(b, vo)), fb = dot(n, cross(vo, a)), fo = dot(n, cross(va, vb));
+    const T sum = fa + fb + fo;
+    if (fa >= T(0) && fb >= T(0) && fo >= T(0) && sum > T(0)) {
+      const T height = -dot(n, vo);
+      out.weight_a = fa / sum;
+      out.weight_b = fb / sum;
+      out.weight_o = fo / sum;
+      out.vector = T(height / nn) * n;
+      if constexpr (NumberTraits<T>::has_sqrt) {
+        out.distance = absolute_value(height) / square_root(nn);
+        out.distance_squared = out.distance * out.distance;
+      } else {
+        out.distance_squared = height * height / nn;
+      }
+      if (normal_is_trustworthy(out, vo, va, vb)) return out;
+    }
+  }
+  const EdgePoint<T> ab = closest_on_edge(va, vb, e);
+  const EdgePoint<T> ob = closest_on_edge(vo, vb, b);
+  const EdgePoint<T> oa = closest_on_edge(vo, va, a);
+  const EdgePoint<T>* best = &ab;
+  if (nearer(ob.distance, ob.distance_squared, best->distance, best->distance_squared)) best = &ob;
+  if (nearer(oa.distance, oa.distance_squared, best->distance, best->distance_squared)) best = &oa;
+  const T first = T(1) - best->t;
+  out.weight_o = best == &ab ? T(0) : first;
+  out.weight_a = best == &ab ? first : (best == &oa ? best->t : T(0));
+  out.weight_b = best == &oa ? T(0) : best->t;
+  out.vector = best->vector;
+  out.distance = best->distance;
+  out.distance_squared = best->distance_squared;
+  return out;
+}
+
+template <class T>
+using Corners = std::array<Point3<T>, 4>;
+
+template <class T>
+std::array<SubTriangleClosest<T>, 4> reference_sub_triangles(const Point3<T>& p,
+                                                             const Corners<T>& x, bool triangle) {
+  Point3<T> o = x[2];
+  if (!triangle) o = T(0.25) * (x[0] + x[1] + x[2] + x[3]);
+  return {reference_sub_triangle(p, o, x[0], x[1]), reference_sub_triangle(p, o, x[1], x[2]),
+          reference_sub_triangle(p, o, x[2], x[3]), reference_sub_triangle(p, o, x[3], x[0])};
+}
+
+// Power of two that brings numbers of this size where products of up to six of them stay inside the
+// exponent range; 0 if they are there already. An infinite size is an overflow of a difference: all
+// finite coordinates divided by the largest power of two are at most 1.
+template <class T>
+int safe_shift(const T& big) {
+  constexpr int kSafe = std::numeric_limits<T>::max_exponent / 10;
+  if (!(big > T(0)) || (big >= std::ldexp(T(1), -kSafe) && big <= std::ldexp(T(1), kSafe)))
+    return 0;
+  return big <= std::numeric_limits<T>::max() ? -std::ilogb(big)
+                                              : -std::numeric_limits<T>::max_exponent;
+}
+
+template <class T>
+Point3<T> shifted(const Point3<T>& v, int shift) {
+  return {std::ldexp(v.x, shift), std::ldexp(v.y, shift), std::ldexp(v.z, shift)};
+}
+
+// The four sub-triangles at a harmless size.
+template <class T>
+std::array<SubTriangleClosest<T>, 4> scaled_sub_triangles(const Point3<T>& p, const Corners<T>& x,
+                                                          bool triangle) {
+  const Corners<T> v{x[0] - p, x[1] - p, x[2] - p, x[3] - p};
+  std::array<SubTriangleClosest<T>, 4> out;
+  if (triangle) {
+    out[0] = robust_sub_triangle(v[2], v[0], v[1], x[0] - x[2], x[1] - x[2], x[1] - x[0]);
+    // The three degenerate sub-triangles are the third node.
+    SubTriangleClosest<T> node;
+    node.weight_o = T(1);
+    node.vector = -v[2];
+    node.distance = length(node.vector);
+    node.distance_squared = dot(node.vector, node.vector);
+    out[1] = out[2] = out[3] = node;
+    return out;
+  }
+  const Point3<T> vo = T(0.25) * ((v[0] + v[2]) + (v[1] + v[3]));
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t next = (k + 1) % 4;
+    out[k] = robust_sub_triangle(vo, v[k], v[next], v[k] - vo, v[next] - vo, x[next] - x[k]);
+  }
+  return out;
+}
+
+template <class T>
+std::array<SubTriangleClosest<T>, 4> robust_sub_triangles(const Point3<T>& p, const Corners<T>& x,
+                                                          bool triangle) {
+  if constexpr (std::is_floating_point_v<T>) {
+    T big(0);
+    for (const Point3<T>& corner : x) big = larger(big, largest_component(corner - p));
+    if (const int shift = safe_shift(big); shift != 0) {
+      const Corners<T> y{shifted(x[0], shift), shifted(x[1], shift), shifted(x[2], shift),
+                         shifted(x[3], shift)};
+      auto out = scaled_sub_triangles(shifted(p, shift), y, triangle);
+      for (auto& sub : out) {
+        sub.vector = shifted(sub.vector, -shift);
+        sub.distance = std::ldexp(sub.distance, -shift);
+        sub.distance_squared = std::ldexp(sub.distance_squared, -2 * shift);
+      }
+      return out;
+    }
+  }
+  return scaled_sub_triangles(p, x, triangle);
+}
+
+// Names the feature from the weights that are exactly 0 and spreads them over the corners.
+template <class T>
+void classify(SegmentClosest<T>& out, bool triangle) {
+  const auto k = static_cast<std::size_t>(out.best);
+  const std::size_t next = (k + 1) % 4;
+  const SubTriangleClosest<T>& s = out.sub[k];
+  const bool has_o = s.weight_o != T(0), has_a = s.weight_a != T(0), has_b = s.weight_b != T(0);
+  const auto set = [&out](Feature feature, std::size_t index) {
+    out.feature = feature;
+    out.feature_index = static_cast<int>(index);
+  };
+  if (triangle) {
+    // Sub-triangle 0 is (n3, n1, n2); the others are the third node.
+    out.weights = {T(0), T(0), T(0), T(0)};
+    if (k == 0) {
+      out.weights = {s.weight_a, s.weight_b, s.weight_o, T(0)};
+    } else {
+      out.weights[2] = T(1);
+    }
+    if (k != 0 || (!has_a && !has_b)) return set(Feature::corner, 2);
+    if (has_o && has_a && has_b) return set(Feature::face, 0);
+    if (has_a && has_b) return set(Feature::edge, 0);
+    if (has_o && has_b) return set(Feature::edge, 1);
+    if (has_o && has_a) return set(Feature::edge, 2);
+    return set(Feature::corner, has_a ? 0 : 1);
+  }
+  const T quarter = s.weight_o * T(0.25);
+  out.weights = {quarter, quarter, quarter, quarter};
+  out.weights[k] = out.weights[k] + s.weight_a;
+  out.weights[next] = out.weights[next] + s.weight_b;
+  if (has_o && has_a && has_b) return set(Feature::face, k);
+  if (has_a && has_b) return set(Feature::edge, k);
+  if (has_o && has_a) return set(Feature::spoke, k);
+  if (has_o && has_b) return set(Feature::spoke, next);
+  if (has_o) return set(Feature::centre, 0);
+  return set(Feature::corner, has_a ? k : next);
+}
+
+template <class T>
+EdgeFeature edge_feature(const T& weight_of_first) {
+  if (weight_of_first == T(1)) return EdgeFeature::first_node;
+  return weight_of_first == T(0) ? EdgeFeature::second_node : EdgeFeature::interior;
+}
+
+template <class T>
+EdgeClosest<T> reference_edges(const Point3<T>& s1, const Point3<T>& s2, const Point3<T>& m1,
+                               const Point3<T>& m2) {
+  const T floor20(1e-20);
+  const Point3<T> s = s2 - s1, m = m2 - m1, w = m2 - s2;
+  const T aa = dot(s, s), cc = dot(m, m), q = -dot(s, m), xa = dot(s, w), xb = -dot(m, w);
+  const T det = larger(floor20, T(cc * aa - q * q));
+  EdgeClosest<T> out;
+  out.weight_m = clamp01(T((xa * q - xb * aa) / det));
+  out.weight_s = clamp01(T(-(xa + out.weight_m * q) / larger(aa, floor20)));
+  out.weight_m = clamp01(T(-(xb + out.weight_s * q) / larger(cc, floor20)));
+  const T rest_s = T(1) - out.weight_s, rest_m = T(1) - out.weight_m;
+  // Summed from left to right like the reference: this order decides pairs that touch the gap.
+  out.vector = out.weight_s * s1 + rest_s * s2 - out.weight_m * m1 - rest_m * m2;
+  out.distance_squared = dot(out.vector, out.vector);
+  out.distance = square_root(out.distance_squared);
+  return out;
+}
+
+// Quotient clamped to [0,1] without dividing unless the result is inside; 0/0 gives 0.
+template <class T>
+T clamped_ratio(const T& numerator, const T& denominator) {
+  if (numerator <= T(0)) return T(0);
+  if (numerator >= denominator) return T(1);
+  return numerator / denominator;
+}
+
+// Two edges at a harmless size.
+template <class T>
+EdgeClosest<T> scaled_edges(const Point3<T>& s1, const Point3<T>& s2, const Point3<T>& m1,
+                            const Point3<T>& m2) {
+  // Edge points: s2 - hs*s and m2 - hm*m with h the weight of the first node.
+  const Point3<T> s = s2 - s1, m = m2 - m1, w = m2 - s2;
+  const T aa = dot(s, s), cc = dot(m, m), q = dot(s, m);
+  const Point3<T> n = cross(s, m);
+  const T nn = dot(n, n);
+  EdgeClosest<T> out;
+  if (nn > NumberTraits<T>::parallel_guard() * aa * cc) {
+    // Lines: w + hs*s - hm*m parallel to n. Clamp, then project back and forth once: exact for
+    // edges that are not parallel, and insensitive to the round-off of hm for those that nearly
+    // are.
+    const T hm = clamped_ratio(T(dot(n, cross(s, w))), nn);
+    out.weight_s = clamped_ratio(T(hm * q - dot(s, w)), aa);
+    out.weight_m = clamped_ratio(T(out.weight_s * q + dot(m, w)), cc);
+    const T hs = clamped_ratio(T(out.weight_m * q - dot(s, w)), aa);
+    out.weight_s = hs;
+  } else if (!(aa > T(0)) || !(cc > T(0))) {
+    out.weight_s = clamped_ratio(T(-dot(s, w)), aa);
+    out.weight_m = clamped_ratio(T(out.weight_s * q + dot(m, w)), cc);
+  } else {
+    // Parallel: parameters of the two ends of M on S, as weight of s1; overlap with [0,1].
+    const T at_m2 = -dot(s, w) / aa;
+    const T at_m1 = at_m2 + q / aa;
+    const T low = larger(T(0), smaller(at_m1, at_m2));
+    const T high = smaller(T(1), larger(at_m1, at_m2));
+    out.parallel = low < high;
+    out.weight_s = clamp01(T(T(0.5) * (low + high)));
+    if (!(low < high)) out.weight_s = high < T(0.5) ? T(0) : T(1);
+    out.weight_m = clamped_ratio(T(out.weight_s * q + dot(m, w)), cc);
+  }
+  out.vector = out.weight_m * m - out.weight_s * s - w;
+  if (out.parallel) {
+    const Point3<T> moment = cross(s, w);
+    out.vector = T(T(1) / aa) * cross(s, moment);
+  }
+  out.distance_squared = dot(out.vector, out.vector);
+  out.distance = length(out.vector);
+  return out;
+}
+
+template <class T>
+EdgeClosest<T> robust_edges(const Point3<T>& s1, const Point3<T>& s2, const Point3<T>& m1,
+                            const Point3<T>& m2) {
+  if constexpr (std::is_floating_point_v<T>) {
+    T big = largest_component(s2 - s1);
+    big = larger(big, larger(largest_component(m2 - m1), largest_component(m2 - s2)));
+    if (const int shift = safe_shift(big); shift != 0) {
+      EdgeClosest<T> out = scaled_edges(shifted(s1, shift), shifted(s2, shift), shifted(m1, shift),
+                                        shifted(m2, shift));
+      out.vector = shifted(out.vector, -shift);
+      out.distance = std::ldexp(out.distance, -shift);
+      out.distance_squared = std::ldexp(out.distance_squared, -2 * shift);
+      return out;
+    }
+  }
+  return scaled_edges(s1, s2, m1, m2);
+}
+
+}  // namespace closest_detail
+
+template <Form F, class T>
+SegmentClosest<T> closest_on_segment(const Point3<T>& p, const std::array<Point3<T>, 4>& x,
+                                     bool triangle) {
+  SegmentClosest<T> out;
+  if constexpr (F == Form::reference) {
+    out.sub = closest_detail::reference_sub_triangles(p, x, triangle);
+  } else {
+    out.sub = closest_detail::robust_sub_triangles(p, x, triangle);
+  }
+  for (std::size_t k = 1; k < 4; ++k) {
+    const SubTriangleClosest<T>&a = out.sub[k], &b = out.closest();
+    if (closest_detail::nearer(a.distance, a.distance_squared, b.distance, b.distance_squared)) {
+      out.best = static_cast<int>(k);
+    }
+  }
+  closest_detail::classify(out, triangle);
+  return out;
+}
+
+template <class T>
+Penetration<T> penetration(const SegmentClosest<T>& closest, const T& gap) {
+  using scalar::larger;
+  Penetration<T> out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const T value = larger(T(0), T(gap - closest.sub[k].distance));
+    if (k == 0 || value > out.value) {
+      out.value = value;
+      out.sub = static_cast<int>(k);
+    }
+  }
+  const SubTriangleClosest<T>& sub = closest.sub[static_cast<std::size_t>(out.sub)];
+  out.on_surface = !(sub.distance > T(0));
+  if (!out.on_surface) {
+    const T factor = T(1) / larger(T(1e-30), sub.distance);
+    out.normal = factor * sub.vector;
+  }
+  return out;
+}
+
+template <Form F, class T>
+EdgeClosest<T> closest_between_edges(const Point3<T>& s1, const Point3<T>& s2, const Point3<T>& m1,
+                                     const Point3<T>& m2) {
+  EdgeClosest<T> out;
+  if constexpr (F == Form::reference) {
+    out = closest_detail::reference_edges(s1, s2, m1, m2);
+  } else {
+    out = closest_detail::robust_edges(s1, s2, m1, m2);
+  }
+  out.feature_s = closest_detail::edge_feature(out.weight_s);
+  out.feature_m = closest_detail::edge_feature(out.weight_m);
+  return out;
+}
+
+}  // namespace deck
