@@ -150,12 +150,36 @@ TEST(ToUnitsFunctions, PointsStayWhereWorkingUnitsStay) {
   EXPECT_TRUE(w->after(convert(*w, "Mg,cm,s"))->contains(curve));
 }
 
-TEST(ToUnitsFunctions, PointsThatTwoUsesReadInDifferentUnitsAreRefused) {
+TEST(ToUnitsFunctions, PointsThatTwoUsesReadInDifferentUnitsGetACopy) {
   const auto w = deck_of(joint("5") + load("/IMPVEL/1", "X", "1.0") + curve);
   const Rewrite r = convert(*w, "kg,m,ms");
-  ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_NE(r.refusals[0].find("function 5 is used in several units"), std::string::npos)
-      << r.refusals[0];
+  const auto after = w->after(r);
+  EXPECT_TRUE(after->contains(std::string(curve) +
+                              "/FUNCT/6\nf\n                 0.0                 1.0\n"
+                              "                0.01                 2.0\n"))
+      << after->main_text();
+  EXPECT_TRUE(after->contains(cell("0.002", 20) + cell("6", 10) + "\n/IMPVEL"))
+      << after->main_text();
+  EXPECT_TRUE(after->contains("/IMPVEL/1\nload\n         5")) << after->main_text();
+  bool said = false;
+  for (const LossEntry& e : r.losses) said |= e.old_text == "5" && e.new_text == "6";
+  EXPECT_TRUE(said);
+}
+
+TEST(ToUnitsFunctions, ACopyBringsTheBlockThatMovesItsFunction) {
+  const std::string move = "/MOVE_FUNCT/5\nm\n" + cell("1.0", 20) + cell("1.0", 20) +
+                           cell("30.0", 20) + cell("0.0", 20) + "\n";
+  const auto w = deck_of(joint("5") + load("/IMPVEL/1", "X", "1.0") + curve + move);
+  const auto after = w->after(convert(*w, "kg,m,ms"));
+  EXPECT_EQ(real(*after, "/MOVE_FUNCT/5", "Ashift_x"), 30.0);
+  EXPECT_EQ(real(*after, "/MOVE_FUNCT/6", "Ashift_x"), 0.03);
+}
+
+TEST(ToUnitsFunctions, AFunctionThatATableMayUseStaysAndIsCopied) {
+  const auto w = deck_of(joint("5") + curve + "/TABLE/1/9\nt\n         1\n         5\n");
+  const auto after = w->after(convert(*w, "kg,m,ms"));
+  EXPECT_TRUE(after->contains(curve)) << after->main_text();
+  EXPECT_NE(edit_test::block(after->deck, "/FUNCT/10"), nullptr) << after->main_text();
 }
 
 // ---- added mass ---------------------------------------------------------------------------------
@@ -172,11 +196,12 @@ TEST(ToUnitsFunctions, AddedMassOfASurfaceIsMassPerArea) {
 
 TEST(ToUnitsFunctions, PartialLeavesABlockAsItWasWhenOneOfItsValuesIsOpen) {
   const std::string material =
-      "/MAT/ELAST/1\nm\n" + cell("1e-6", 20) + "\n" + cell("&e", 20) + cell("0.3", 20) + "\n";
-  const std::string parameter = "/PARAMETER/GLOBAL/REAL/1\np\ne                        200.0\n";
-  const auto w = deck_of(parameter + material + "/UNKNOWN/1\n&e\n");
-  const Rewrite r = convert(*w, "Mg,mm,ms", {.partial = true});
-  EXPECT_TRUE(w->after(r)->contains(parameter + material)) << w->after(r)->main_text();
+      "/MAT/ELAST/1\nm\n" + cell("1e-6", 20) + "\n" + cell("200.0x", 20) + cell("0.3", 20) + "\n";
+  const auto w = deck_of(material + "/SENSOR/TIME/1\ns\n" + cell("2.0", 20) + "\n");
+  const Rewrite r = convert(*w, "Mg,mm,s", {.partial = true});
+  const auto after = w->after(r);
+  EXPECT_TRUE(after->contains(material)) << after->main_text();
+  EXPECT_EQ(real(*after, "/SENSOR/TIME/1", "Tdelay"), 0.002);
   std::size_t open = 0;
   for (const LossEntry& e : r.losses)
     open += e.loss == Loss::undecided && e.keyword == "/MAT/ELAST";

@@ -55,8 +55,32 @@ TEST(ScaledNumber, ReadsEverySpellingOfADeck) {
   for (const char* text : {"1.5-3", "1.5e-3", "1.5D-03", "+.0015", "15.0E-4", "0.0015"}) {
     const auto s = detail::scale_text(text, 20, ten_to(3));
     ASSERT_TRUE(s) << text;
-    EXPECT_EQ(s->text, "1.5") << text;
+    EXPECT_EQ(read_real(s->text).value, 1.5) << text;
   }
+}
+
+TEST(ScaledNumber, KeepsTheSpellingOfTheNumber) {
+  const std::pair<const char*, const char*> thousandth[] = {
+      {"210.0", "0.21"},     {"210000.0", "210.0"},
+      {"210000.", "210."},   {"210000", "210"},
+      {"-.5", "-.0005"},     {"2.60000000E+02", "2.60000000E-01"},
+      {"1.5d4", "1.5d1"},    {"1.00000E+30", "1.00000E+27"},
+      {"15.0E-4", "1.5E-6"}, {"3E06", "3E03"},
+      {"0.5", "0.0005"}};
+  for (const auto& [before, after] : thousandth) {
+    const auto s = detail::scale_text(before, 20, ten_to(-3));
+    ASSERT_TRUE(s) << before;
+    EXPECT_EQ(s->text, after) << before;
+  }
+}
+
+TEST(ScaledNumber, SpellingGivesWayToDigits) {
+  const auto wide = detail::scale_text("123456.7", 8, ten_to(-6));
+  ASSERT_TRUE(wide);
+  EXPECT_EQ(wide->text, ".1234567");
+  const auto exponent = detail::scale_text("1.0000000E9", 8, ten_to(91));
+  ASSERT_TRUE(exponent);
+  EXPECT_EQ(exponent->text, "1.E100");
 }
 
 TEST(ScaledNumber, RefusesWhatIsNoNumber) {
@@ -235,15 +259,31 @@ TEST(ToUnits, UndescribedZerosAreNoReasonToRefuse) {
 }
 
 TEST(ToUnits, FieldOfUnknownDimensionIsRefusedUnlessZero) {
-  const auto solid = [](const std::string& viscosity) {
-    return deck_of("/PROP/SOLID/1\ns\n        14\n" + std::string(60, ' ') +
-                   std::string(20 - viscosity.size(), ' ') + viscosity + "\n");
+  const auto spring = [](const std::string& size) {
+    return deck_of("/PROP/SPR_MAT/1\ns\n" + std::string(40 - size.size(), ' ') + size + "\n");
   };
-  EXPECT_TRUE(convert(*Whole::text(solid("0.0")), "Mg,m,s").refusals.empty());
-  const Rewrite r = convert(*Whole::text(solid("2.0")), "Mg,m,s");
+  EXPECT_TRUE(convert(*Whole::text(spring("0.0")), "Mg,m,s").refusals.empty());
+  const Rewrite r = convert(*Whole::text(spring("2.0")), "Mg,m,s");
   ASSERT_EQ(r.refusals.size(), 1u);
-  EXPECT_NE(r.refusals[0].find(":10:61: /PROP/SOLID/1 Lambda_V"), std::string::npos)
+  EXPECT_NE(r.refusals[0].find(":9:21: /PROP/SPR_MAT/1 Volume_or_area"), std::string::npos)
       << r.refusals[0];
+}
+
+TEST(ToUnits, HeatFunctionOfAContactIsReadAtTheSamePressure) {
+  for (const char* card : {"Kthe=2 fct_IDK=5 AscaleK=4", "fct_IDK=5"}) {
+    const auto w = Whole::text(test::SmallDeck()
+                                   .add("@/INTER/TYPE7/1 Ithe=1 " + std::string(card))
+                                   .add("/FUNCT/5\nf\n                 0.0                 1.0\n"
+                                        "                10.0                 2.0")
+                                   .text());
+    const auto before = decode(w->deck, *edit_test::block(w->deck, "/INTER/TYPE7/1"));
+    const auto after = w->after(convert(*w, "Mg,m,s"));
+    const double kthe = before.real("Kthe"), ascale = before.real("AscaleK");
+    EXPECT_EQ(edit_test::real(*after, "/INTER/TYPE7/1", "Kthe"), (kthe == 0 ? 1 : kthe) * 1e6);
+    EXPECT_EQ(edit_test::real(*after, "/INTER/TYPE7/1", "AscaleK"),
+              (ascale == 0 ? 1 : ascale) * 1e-6);
+    EXPECT_TRUE(after->contains("                10.0                 2.0"));
+  }
 }
 
 TEST(ToUnits, DefaultThatIsOneUnitIsWrittenOut) {
@@ -297,25 +337,31 @@ TEST(ToUnits, ParameterOfOneDimensionIsConvertedAtItsDefinition) {
   EXPECT_TRUE(after->contains("&gap"));
 }
 
-TEST(ToUnits, ParameterWithTwoMeaningsIsRefused) {
+TEST(ToUnits, ParameterWithTwoMeaningsGivesWayToItsNumber) {
   const std::string use =
-      "/NODE\n         1                  &a                 0.0                 0.0\n";
+      "/NODE\n         1                  &a                 -&a                 0.0\n";
   const std::string definition = "/PARAMETER/GLOBAL/REAL/1\np\na                          2.5\n";
   for (const std::string other :
        {"/SENSOR/TIME/1\ns\n                  &a\n",               // a time
         "/PROP/SHELL/1\np\n\n                  &a\n         3\n",  // a pure number
-        "/PARAMETER/GLOBAL/REAL_EXPR/2\np\nb         a*2\n",       // an expression
-        "/UNKNOWN/1\n&a\n"}) {
-    const Rewrite r =
-        convert(*Whole::text(deck_of(definition + use + other)), "Mg,m,ms", {.partial = true});
-    bool found = false;
-    for (const LossEntry& e : r.losses) found |= e.loss == Loss::undecided && e.field == "X";
-    if (other.starts_with("/SENSOR")) {
-      EXPECT_TRUE(
-          convert(*Whole::text(deck_of(definition + use + other)), "kg,m,s").refusals.size() > 0);
-    }
-    EXPECT_TRUE(found) << other;
+        "/PARAMETER/GLOBAL/REAL_EXPR/2\np\nb         a*2\n"}) {    // an expression
+    const auto w = Whole::text(deck_of(definition + use + other));
+    const Rewrite r = convert(*w, "Mg,m,s");
+    const auto after = w->after(r);
+    EXPECT_EQ(after->model.nodes.x[0], 0.0025) << after->main_text();
+    EXPECT_EQ(after->model.nodes.y[0], -0.0025) << after->main_text();
+    EXPECT_TRUE(after->contains(definition)) << after->main_text();
+    bool said = false;
+    for (const LossEntry& e : r.losses) said |= e.loss == Loss::kept && e.old_text == "&a";
+    EXPECT_TRUE(said) << other;
   }
+}
+
+TEST(ToUnits, ParameterWithoutAValueIsRefused) {
+  const auto w = Whole::text(deck_of("/NODE\n         1                  &a\n"));
+  const Rewrite r = convert(*w, "Mg,m,ms");
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_NE(r.refusals[0].find("not defined"), std::string::npos) << r.refusals[0];
 }
 
 TEST(ToUnits, FreeFormatKeepsItsCommas) {

@@ -143,13 +143,17 @@ class Resolver {
   double factor(const Field& f, bool after) const {
     const UnitSystem* units = c_.deck.units_of(block_);
     if (units == nullptr) return 1;
+    const auto all = [&](const std::vector<Condition>& when) {
+      return std::all_of(when.begin(), when.end(),
+                         [&](const Condition& c) { return c.holds(flag(c.field, after)); });
+    };
     Dimension dimension = f.dimension;
     for (const auto& [when, d] : f.dimension_when)
-      if (std::all_of(when.begin(), when.end(),
-                      [&](const Condition& c) { return c.holds(flag(c.field, after)); })) {
+      if (all(when)) {
         dimension = d;
         break;
       }
+    if (f.solver_dimension && all(f.solver_when)) dimension = *f.solver_dimension;
     return conversion_factor(*units, c_.deck.begin.working, dimension);
   }
 
@@ -158,7 +162,8 @@ class Resolver {
     for (const DecodedCard& card : decoded_.cards)
       for (const Cell& cell : card.cells) {
         const Field& f = *cell.field;
-        if (f.type != FieldType::real || f.dimension_when.empty() || cell.real == 0) continue;
+        if (f.type != FieldType::real || cell.real == 0) continue;
+        if (f.dimension_when.empty() && f.solver_when.empty()) continue;
         if (texts_.count(&f) > 0) continue;
         const double before = factor(f, false), after = factor(f, true);
         if (before == after) continue;

@@ -160,10 +160,10 @@ Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_
       place.line = card.line;
       place.free_format = card.free_format;
       if (cell.field->type == FieldType::real) {
-        const UnitSystem* units = deck.units_of(block);
-        if (units == nullptr) return fail("its unit system is not defined");
-        place.factor =
-            conversion_factor(*units, deck.begin.working, dimension_of(*cell.field, decoded));
+        if (deck.units_of(block) == nullptr) return fail("its unit system is not defined");
+        Cell one = cell;
+        one.real = 1;
+        place.factor = working_value(deck, decoded, one);
       }
       return place;
     }

@@ -36,7 +36,6 @@ void write_card_text(JsonWriter& j, const Deck& deck, const InterBase& inter) {
   }
   j.end_array();
   const DecodedBlock decoded = decode(deck, block);
-  const UnitSystem* units = deck.units_of(block);
   j.key("cells").begin_array();
   for (const std::string_view field : editable) {
     const std::string_view name = name_on_card(inter, field);
@@ -46,10 +45,10 @@ void write_card_text(JsonWriter& j, const Deck& deck, const InterBase& inter) {
       if (line == offsets.end()) continue;
       for (const Cell& cell : card.cells) {
         if (cell.field == nullptr || cell.field->name != name) continue;
-        double factor = 1;
-        if (cell.field->type == FieldType::real && units != nullptr)
-          factor =
-              conversion_factor(*units, deck.begin.working, dimension_of(*cell.field, decoded));
+        Cell one = cell;
+        one.real = 1;
+        const double factor =
+            cell.field->type == FieldType::real ? working_value(deck, decoded, one) : 1;
         j.begin_object(true).field("field", field);
         j.field("line", static_cast<std::int64_t>(line - offsets.begin()));
         j.field("first", cell.field->first).field("last", cell.field->last);

@@ -29,15 +29,51 @@ void UnitConversion::undecided(const Block& block, Span place, std::string field
   if (options.partial) left.insert(&block);
 }
 
+UnitConversion::OpenShare::OpenShare(UnitConversion& c, const Block& block)
+    : c_(c), block_(block), share_{c.out.edits.size(), 0, c.out.losses.size(), 0} {}
+
+UnitConversion::OpenShare::~OpenShare() {
+  share_.edits_end = c_.out.edits.size();
+  share_.losses_end = c_.out.losses.size();
+  if (share_.edits_end > share_.edits || share_.losses_end > share_.losses)
+    c_.shares.emplace(&block_, share_);
+}
+
+UnitConversion::Place UnitConversion::place_of(const Block& block, const DecodedCard& card,
+                                               const Cell& cell) {
+  Place place{&block,           cell.span,       cell.field->name, card.line, cell.field->first,
+              cell.field->last, card.free_format};
+  // The cells of a list stand side by side; the field has the columns of the first.
+  if (card.schema->repeat == Repeat::ids && !card.free_format) {
+    const int shift = static_cast<int>(cell.span.offset - card.line.offset) + 1 - place.first;
+    place.first += shift;
+    place.last += shift;
+  }
+  return place;
+}
+
+bool UnitConversion::put(const Place& place, const std::string& text) {
+  if (!place.free_format) {
+    if (static_cast<int>(text.size()) > place.last - place.first + 1) return false;
+    replace_fixed(place.line, place.first, place.last, text);
+    return true;
+  }
+  if (place.line.text.size() + text.size() > line_columns + std::size_t{place.span.length})
+    return false;
+  out.edits.push_back({place.span, text});
+  return true;
+}
+
 void UnitConversion::leave_blocks() {
   std::vector<bool> edit_goes(out.edits.size()), loss_goes(out.losses.size());
   for (const Block* block : left) {
-    const auto share = shares.find(block);
-    if (share == shares.end()) continue;
-    const Share& s = share->second;
-    for (std::size_t i = s.edits; i < s.edits_end; ++i) edit_goes[i] = true;
-    for (std::size_t i = s.losses; i < s.losses_end; ++i)
-      loss_goes[i] = out.losses[i].loss != Loss::undecided;
+    const auto [first, last] = shares.equal_range(block);
+    for (auto share = first; share != last; ++share) {
+      const Share& s = share->second;
+      for (std::size_t i = s.edits; i < s.edits_end; ++i) edit_goes[i] = true;
+      for (std::size_t i = s.losses; i < s.losses_end; ++i)
+        loss_goes[i] = out.losses[i].loss != Loss::undecided;
+    }
   }
   const auto keep = [](auto& list, const std::vector<bool>& goes) {
     std::size_t to = 0;
@@ -236,21 +272,16 @@ class BlockConverter {
   explicit BlockConverter(UnitConversion& c) : c_(c), deck_(c.deck) {}
 
   void convert(const Block& b) {
-    UnitConversion::Share share;
-    share.edits = c_.out.edits.size();
-    share.losses = c_.out.losses.size();
+    const UnitConversion::OpenShare share(c_, b);
+    const auto before = c_.out.edits.size();
     convert_block(b);
     for (TextEdit& e : grown_.finish(deck_.sources)) c_.out.edits.push_back(std::move(e));
     grown_ = {};
-    if (const auto values = c_.out.edits.size() - share.edits; values > 0) {
+    if (const auto values = c_.out.edits.size() - before; values > 0) {
       LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
       entry.note = std::to_string(values) + (values == 1 ? " value" : " values") + " converted";
       c_.out.losses.push_back(std::move(entry));
     }
-    share.edits_end = c_.out.edits.size();
-    share.losses_end = c_.out.losses.size();
-    if (share.edits_end > share.edits || share.losses_end > share.losses)
-      c_.shares.emplace(&b, share);
   }
 
  private:
@@ -360,7 +391,7 @@ class BlockConverter {
           const UnitFactor factor = c_.factors.of(written_dimension(
               f, dimension_of(f, d), f.solver_dimension && holds(f.solver_when, d)));
           if (factor.one()) continue;
-          const auto text = detail::scale_text("1", f.last - f.first + 1, factor);
+          const auto text = detail::scale_text("1.0", f.last - f.first + 1, factor);
           if (!text) {
             c_.undecided(b, {}, name, "blank means 1, which does not fit in the new units");
             continue;
@@ -406,7 +437,8 @@ class BlockConverter {
                     const Cell& cell) {
     const Field& f = *cell.field;
     if (f.axes.empty() || (cell.integer == 0 && !cell.parameter)) return;
-    UnitConversion::FunctionUse use{&b, cell.span, f.name, std::abs(cell.integer), {}};
+    UnitConversion::FunctionUse use{
+        UnitConversion::place_of(b, card, cell), std::abs(cell.integer), {}};
     for (const Axis& axis : f.axes) {
       bool scaled = axis.scales.empty();
       for (const std::string& name : axis.scales) {
@@ -485,7 +517,8 @@ class BlockConverter {
           c_.undecided(b, cell.span, f.name,
                        "the units of the axes of this function are not known");
         else if (f.ref == "funct")
-          c_.function_uses.push_back({&b, cell.span, f.name, std::abs(cell.integer), {}});
+          c_.function_uses.push_back(
+              {UnitConversion::place_of(b, card, cell), std::abs(cell.integer), {}});
       }
       if (f.type != FieldType::real) continue;
       const bool zero = cell.blank() || (cell.status == NumberStatus::ok && cell.real == 0);
@@ -499,12 +532,16 @@ class BlockConverter {
       const Dimension dimension =
           working ? Dimension{1, 0, -2, 0} : effective_dimension(d, card, cell);
       if (zero && !cell.parameter) {
-        if (brought)
+        if (brought && own_units_ && f.solver_dimension && !f.solver_dimension->dimensionless())
+          c_.undecided(b, cell.span, f.name,
+                       "blank means 1 in working units here, while the block has units of its own; "
+                       "write the number");
+        else if (brought)
           write_one(b, card, cell, dimension);
         else if (c_.working_changes)
           write_default(b, card, cell, dimension_of(f, d, &card));
       } else if (!own_units_ || working || f.solver_dimension) {
-        convert_cell(b, d, card, cell, dimension);
+        convert_cell(b, card, cell, dimension);
       }
     }
   }
@@ -540,29 +577,21 @@ class BlockConverter {
     return a;
   }
 
-  void convert_cell(const Block& b, const DecodedBlock& d, const DecodedCard& card,
-                    const Cell& cell, const Dimension& dimension) {
+  void convert_cell(const Block& b, const DecodedCard& card, const Cell& cell,
+                    const Dimension& dimension) {
     const Field& f = *cell.field;
-    // The solver reads Xfreq as a frequency, but for these filters it is a pure coefficient: with
-    // new working units the same number must arrive.
-    if (c_.working_changes && f.name == "Xfreq" &&
-        (d.integer("Ifiltr") == 1 || d.integer("Ifiltr") == 2))
-      return;
     const UnitFactor factor = c_.factors.of(dimension);
     if (factor.one()) return;
     c_.note_dimension(dimension, factor);
+    const UnitConversion::Place place = UnitConversion::place_of(b, card, cell);
     if (cell.parameter) {
       std::string_view name = cell.text;
       name.remove_prefix(name.starts_with('-') ? 2 : 1);
-      c_.parameter_uses[std::string(name)].push_back({&b, cell.span, f.name, dimension});
+      c_.parameter_uses[std::string(name)].push_back({place, dimension, cell.real});
     } else if (card.free_format) {
       c_.convert_free(b, card.line, cell.span, f.name, factor);
     } else {
-      // The cells of a list stand side by side; the field has the columns of the first.
-      const bool list = card.schema->repeat == Repeat::ids;
-      const int shift =
-          list ? static_cast<int>(cell.span.offset - card.line.offset) + 1 - f.first : 0;
-      c_.convert_fixed(b, card.line, f.first + shift, f.last + shift, f.name, factor);
+      c_.convert_fixed(b, card.line, place.first, place.last, f.name, factor);
     }
   }
 
@@ -587,7 +616,7 @@ class BlockConverter {
     const Field& f = *cell.field;
     const UnitFactor factor = c_.factors.of(dimension);
     if (factor.one()) return;
-    const auto text = detail::scale_text("1", f.last - f.first + 1, factor);
+    const auto text = detail::scale_text("1.0", f.last - f.first + 1, factor);
     if (!text) {
       c_.undecided(b, cell.span, f.name, "blank means 1, which does not fit in the new units");
       return;
@@ -604,7 +633,9 @@ class BlockConverter {
     const auto value = ordinary_default(f);
     const UnitFactor factor = from_working_.of(dimension);
     if (!value || factor.one()) return;
-    const auto text = detail::scale_text(f.default_text, f.last - f.first + 1, factor);
+    const bool whole = f.default_text.find_first_of(".eE") == std::string::npos;
+    const auto text =
+        detail::scale_text(f.default_text + (whole ? ".0" : ""), f.last - f.first + 1, factor);
     if (!text) {
       c_.undecided(b, cell.span, f.name,
                    "blank means " + f.default_text + " in working units, which change");

@@ -161,38 +161,72 @@ const Block* definition_of(const Deck& deck, const Parameter& p) {
 
 }  // namespace
 
+namespace {
+
+/// The parameter stays what it is, and the cells that use it get their numbers in the new units.
+void write_numbers(UnitConversion& c, const std::string& name,
+                   const std::vector<UnitConversion::ParameterUse>& uses, const std::string& why) {
+  for (const auto& use : uses) {
+    const UnitConversion::OpenShare share(c, *use.block);
+    const std::string old(c.deck.sources.text(use.span));
+    const int width = use.free_format ? 24 : use.last - use.first + 1;
+    const auto number = format_real(use.value, 24);
+    const auto text = number ? scale_text(number->text + (number->text.ends_with('.') ? "0" : ""),
+                                          width, c.factors.of(use.dimension))
+                             : std::nullopt;
+    if (!text || !c.put(use, text->text)) {
+      c.undecided(*use.block, use.span, use.field,
+                  "parameter &" + name + " " + why + ", and the number itself has no room here; " +
+                      "give this dimension a parameter of its own");
+      continue;
+    }
+    ++c.changed_cells;
+    LossEntry entry =
+        loss_entry(c.deck, text->exact ? Loss::kept : Loss::approximated, *use.block, use.span);
+    entry.field = use.field;
+    entry.old_text = std::string(trim(old));
+    entry.new_text = text->text;
+    entry.note = "parameter &" + name + " " + why + "; the number was written instead";
+    c.out.losses.push_back(std::move(entry));
+  }
+}
+
+}  // namespace
+
 void convert_parameters(UnitConversion& c) {
   if (c.parameter_uses.empty()) return;
   const auto counts = count_names(c.deck);
   for (const auto& [name, uses] : c.parameter_uses) {
+    const auto [first, last] = c.deck.parameters.equal_range(name);
     std::string why;
+    for (auto it = first; it != last; ++it)
+      if (!it->second.valid) why = "has no usable value";
+    if (first == last) why = "is not defined";
+    if (!why.empty()) {
+      for (const auto& use : uses)
+        c.undecided(*use.block, use.span, use.field, "parameter &" + name + " " + why);
+      continue;
+    }
     for (const auto& use : uses)
       if (!(use.dimension == uses[0].dimension)) why = "is used with several dimensions";
     const auto count = counts.find(name);
     if (why.empty() && (count == counts.end() || count->second != uses.size()))
       why = "is used in other places too, where its value must not change";
-    const auto [first, last] = c.deck.parameters.equal_range(name);
-    if (why.empty() && first == last) why = "is not defined";
     for (auto it = first; it != last && why.empty(); ++it)
-      if (it->second.type != Parameter::Type::real || !it->second.expression.empty() ||
-          !it->second.valid)
+      if (it->second.type != Parameter::Type::real || !it->second.expression.empty())
         why = "is not a plain real number";
-    if (why.empty()) {
-      const UnitFactor factor = c.factors.of(uses[0].dimension);
-      for (auto it = first; it != last; ++it) {
-        const Parameter& p = it->second;
-        const Block* block = definition_of(c.deck, p);
-        if (block == nullptr) continue;
-        const Line line{c.deck.sources.text(p.span), p.span.file, p.span.offset};
-        c.convert_fixed(*block, line, 11, 30, "value", factor);
-      }
+    if (!why.empty()) {
+      write_numbers(c, name, uses, why);
       continue;
     }
-    for (const auto& use : uses)
-      c.undecided(*use.block, use.span, use.field,
-                  "parameter &" + name + " " + why +
-                      "; write the number itself, or give this "
-                      "dimension a parameter of its own");
+    const UnitFactor factor = c.factors.of(uses[0].dimension);
+    for (auto it = first; it != last; ++it) {
+      const Parameter& p = it->second;
+      const Block* block = definition_of(c.deck, p);
+      if (block == nullptr) continue;
+      const Line line{c.deck.sources.text(p.span), p.span.file, p.span.offset};
+      c.convert_fixed(*block, line, 11, 30, "value", factor);
+    }
   }
 }
 

@@ -107,10 +107,74 @@ Digits rounded(Digits d, std::size_t count) {
   return d;
 }
 
+/// How a number was written, so that its successor looks like it.
+struct Spelling {
+  bool point = false, leading_zero = true;
+  std::size_t decimals = 0;  ///< digits behind the point
+  char letter = 0;           ///< of the exponent; 0: none
+  bool plus = false;         ///< a positive exponent has a sign
+  std::size_t exponent_digits = 0;
+};
+
+Spelling spelling_of(std::string_view cell) {
+  Spelling s;
+  const auto letter = cell.find_first_of("eEdD");
+  const std::string_view mantissa = cell.substr(0, letter);
+  if (const auto point = mantissa.find('.'); point != std::string_view::npos) {
+    s.point = true;
+    s.leading_zero = point > 0 && is_digit(mantissa[point - 1]);
+    for (std::size_t i = point + 1; i < mantissa.size() && is_digit(mantissa[i]); ++i) ++s.decimals;
+  }
+  if (letter == std::string_view::npos) return s;
+  s.letter = cell[letter];
+  const std::string_view exponent = cell.substr(letter + 1);
+  for (const char c : exponent)
+    if (is_digit(c)) ++s.exponent_digits;
+  s.plus = exponent.starts_with('+') || (exponent.starts_with('-') && s.exponent_digits > 1);
+  return s;
+}
+
+/// One digit, the point, at least `decimals` more, and the exponent in the spelling of the old one.
+std::string exponent_text(const Digits& d, const Spelling& like, std::size_t decimals) {
+  std::string text = d.negative ? "-" : "";
+  text += d.digits[0];
+  if (like.point || d.digits.size() > 1) text += '.';
+  text.append(d.digits, 1);
+  if (d.digits.size() - 1 < decimals) text.append(decimals - (d.digits.size() - 1), '0');
+  const int exponent = d.point - 1;
+  std::string digits = std::to_string(std::abs(exponent));
+  if (digits.size() < like.exponent_digits)
+    digits.insert(0, like.exponent_digits - digits.size(), '0');
+  text += like.letter;
+  if (exponent < 0 || like.plus) text += exponent < 0 ? '-' : '+';
+  return text + digits;
+}
+
+/// All digits of `d` in at most `room` columns, spelled as the number that it replaces: with or
+/// without an exponent, a point, digits behind it. Empty: they do not fit in any spelling.
+std::string print_like(const Digits& d, const Spelling& like, std::size_t room) {
+  if (d.digits.empty()) return print(d, room);
+  if (like.letter != 0) {
+    for (const std::size_t decimals : {like.decimals, std::size_t{0}})
+      if (std::string text = exponent_text(d, like, decimals); text.size() <= room) return text;
+    return print(d, room);
+  }
+  std::string text = print(d, room);
+  if (text.empty() || text.find('e') != std::string::npos) return text;
+  if (!like.leading_zero)
+    if (const auto zero = text.find("0."); zero == (d.negative ? 1U : 0U)) text.erase(zero, 1);
+  if (!text.ends_with('.')) return text;
+  if (!like.point)
+    text.pop_back();
+  else if (like.decimals > 0 && text.size() < room)
+    text += '0';
+  return text;
+}
+
 /// With as many digits as fit.
-std::string print_rounded(const Digits& d, std::size_t room) {
+std::string print_rounded(const Digits& d, const Spelling& like, std::size_t room) {
   for (std::size_t count = std::max<std::size_t>(d.digits.size(), 1); count > 0; --count)
-    if (std::string text = print(rounded(d, count), room); !text.empty()) return text;
+    if (std::string text = print_like(rounded(d, count), like, room); !text.empty()) return text;
   return {};
 }
 
@@ -198,7 +262,7 @@ std::optional<ScaledText> scale_text(std::string_view cell, int width, const Uni
   const auto result = scaled(cell, factor);
   if (!result) return std::nullopt;
   ScaledText out;
-  out.text = print_rounded(*result, static_cast<std::size_t>(width));
+  out.text = print_rounded(*result, spelling_of(cell), static_cast<std::size_t>(width));
   if (out.text.empty()) return std::nullopt;
   const RealCell now = read_real(out.text);
   if (now.status != NumberStatus::ok || (now.value == 0 && !result->digits.empty()))

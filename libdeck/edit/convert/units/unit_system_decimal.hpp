@@ -36,8 +36,9 @@ struct ScaledText {
   bool exact = false;  ///< converting the text back gives the old value
 };
 
-/// `cell` times `factor` with the most significant digits that fit `width` columns. nullopt: the
-/// cell holds no plain number, or the result does not fit or is out of range.
+/// `cell` times `factor` with the most significant digits that fit `width` columns, spelled as the
+/// cell is: 210.0 becomes 0.21 and comes back as 210.0. nullopt: the cell holds no plain number, or
+/// the result does not fit or is out of range.
 std::optional<ScaledText> scale_text(std::string_view cell, int width, const UnitFactor& factor);
 
 }  // namespace deck::detail

@@ -2,6 +2,7 @@
 // working units wherever no scale stands between them and the block that uses the function.
 #include <algorithm>
 
+#include "deck/text/number.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
 #include "keyword/reader.hpp"
 
@@ -69,43 +70,145 @@ bool has_tables(const Deck& deck) {
                      [](const Block& b) { return b.header.starts_with("/TABLE"); });
 }
 
-void convert_function(UnitConversion& c, std::int64_t id, const std::vector<const Use*>& uses) {
+/// The block's bytes with these edits made.
+std::string edited(const Deck& deck, const Block& b, std::vector<TextEdit> edits) {
+  std::sort(edits.begin(), edits.end(),
+            [](const TextEdit& x, const TextEdit& y) { return x.span.offset < y.span.offset; });
+  std::string text;
+  const auto append = [&](std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
+    const std::string_view bytes = deck.sources[file].bytes();
+    for (const TextEdit& e : edits) {
+      if (e.span.file != file || e.span.offset < begin || e.span.offset >= end) continue;
+      text.append(bytes.substr(begin, e.span.offset - begin)).append(e.text);
+      begin = e.span.offset + e.span.length;
+    }
+    text.append(bytes.substr(begin, end - begin));
+    if (!text.ends_with('\n')) text += '\n';
+  };
+  const Piece& first = b.body.front();
+  const std::uint64_t header_end = b.header_span.offset + b.header_span.length;
+  append(b.header_span.file, b.header_span.offset,
+         first.file == b.header_span.file ? first.begin : header_end);
+  for (const Piece& piece : b.body) append(piece.file, piece.begin, piece.end);
+  return text;
+}
+
+/// An id that no function and no table has; both share their ids.
+std::int64_t free_id(const Deck& deck) {
+  std::int64_t largest = 0;
+  for (const Block& b : deck.blocks) {
+    if (b.schema != nullptr && b.schema->kind == "funct")
+      largest = std::max(largest, b.id.value + deck.offset_of(b, "funct"));
+    if (!b.header.starts_with("/TABLE")) continue;
+    for (std::string_view rest = b.header; !rest.empty();) {
+      rest.remove_prefix(1);
+      const auto field = rest.substr(0, rest.find('/'));
+      const IntegerCell number = read_integer(field);
+      if (number.status == NumberStatus::ok)
+        largest = std::max(largest, number.value + deck.offset_of(b, "funct"));
+      rest.remove_prefix(field.size());
+    }
+  }
+  return largest + 1;
+}
+
+/// Copies of the blocks of function `id` with converted points behind them, for `uses`, which then
+/// name the copy. False: a copy is not possible.
+bool copy_function(UnitConversion& c, std::int64_t id, const std::vector<const Block*>& blocks,
+                   const std::vector<const Use*>& uses) {
+  const std::int64_t fresh = std::max(free_id(c.deck), c.last_copy + 1);
+  const auto local = [&](const Block& b) {
+    return std::to_string(fresh - c.deck.offset_of(b, "funct"));
+  };
+  constexpr std::size_t most_digits = 10;
+  for (const Block* b : blocks)
+    if (b->body.empty() || b->id.span.length == 0 || local(*b).size() > most_digits) return false;
+  c.last_copy = fresh;
   const PointFactors factors = factors_of(c, *uses.front());
-  const bool alike = std::all_of(uses.begin(), uses.end(), [&](const Use* use) {
-    const PointFactors other = factors_of(c, *use);
-    return equal(factors.x, other.x) && equal(factors.y, other.y);
-  });
+  for (const Block* b : blocks) {
+    const auto made = c.out.edits.size();
+    convert_points(c, *b, factors);
+    std::vector<TextEdit> points(c.out.edits.begin() + static_cast<std::ptrdiff_t>(made),
+                                 c.out.edits.end());
+    c.out.edits.resize(made);
+    points.push_back({b->id.span, local(*b)});
+    const Piece& last = b->body.back();
+    std::string text = edited(c.deck, *b, std::move(points));
+    const std::string_view bytes = c.deck.sources[last.file].bytes();
+    if (last.end > 0 && bytes[last.end - 1] != '\n') text.insert(0, 1, '\n');
+    c.copies[{last.file, last.end}] += text;
+  }
+  for (const Use* use : uses) {
+    const UnitConversion::OpenShare share(c, *use->block);
+    if (!c.put(*use,
+               (c.deck.sources.text(use->span).find('-') == std::string_view::npos ? "" : "-") +
+                   local(*use->block))) {
+      c.undecided(*use->block, use->span, use->field,
+                  "function " + std::to_string(id) + " needs a copy for this use, and its new id " +
+                      "has no room here");
+      continue;
+    }
+    LossEntry entry = loss_entry(c.deck, Loss::kept, *use->block, use->span);
+    entry.field = use->field;
+    entry.old_text = std::to_string(id);
+    entry.new_text = local(*use->block);
+    entry.note = "other uses read function " + std::to_string(id) +
+                 " in other units; this one has a converted copy";
+    c.out.losses.push_back(std::move(entry));
+  }
+  return true;
+}
+
+void convert_function(UnitConversion& c, std::int64_t id, const std::vector<const Use*>& uses) {
   const bool between = std::any_of(uses.begin(), uses.end(), [](const Use* use) {
     return std::any_of(use->points.begin(), use->points.end(),
                        [](const Dimension& d) { return !d.dimensionless(); });
   });
-  if (!between || (alike && factors.one())) return;
-  const auto refuse = [&](const std::string& why) {
-    for (const Use* use : uses)
-      if (!factors_of(c, *use).one()) c.undecided(*use->block, use->span, use->field, why);
-  };
-  const auto blocks = definitions(c.deck, id);
-  if (blocks.empty()) return refuse("the points of this table have units, and tables are not read");
-  if (!alike)
-    return refuse("function " + std::to_string(id) +
-                  " is used in several units, and this use has no scale for its points; give it a "
-                  "function of its own");
-  if (has_tables(c.deck))
-    return refuse("the points of function " + std::to_string(id) +
-                  " would have to change, and a table may use them; write the table's function "
-                  "under another id");
-  for (const Block* b : blocks) {
-    if (b->schema->keyword == "/FUNCT_PYTHON")
-      return refuse("the function is computed by a script, which cannot be converted");
-    UnitConversion::Share share;
-    share.edits = c.out.edits.size();
-    share.losses = c.out.losses.size();
-    convert_points(c, *b, factors);
-    share.edits_end = c.out.edits.size();
-    share.losses_end = c.out.losses.size();
-    c.shares[b] = share;
+  if (!between) return;
+  // Uses that want the same points, in the order of the deck.
+  std::vector<std::vector<const Use*>> groups;
+  bool as_they_are = has_tables(c.deck);  // a table may use the points
+  for (const Use* use : uses) {
+    const PointFactors factors = factors_of(c, *use);
+    if (factors.one()) {
+      as_they_are = true;
+      continue;
+    }
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
+      const PointFactors other = factors_of(c, *group.front());
+      return equal(factors.x, other.x) && equal(factors.y, other.y);
+    });
+    if (same == groups.end())
+      groups.push_back({use});
+    else
+      same->push_back(use);
   }
-  for (const Block* b : moves(c.deck, id)) convert_points(c, *b, factors);
+  const auto refuse = [&](const std::vector<const Use*>& group, const std::string& why) {
+    for (const Use* use : group) c.undecided(*use->block, use->span, use->field, why);
+  };
+  std::vector<const Block*> blocks = definitions(c.deck, id);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (blocks.empty()) {
+      refuse(groups[i], "the points of this table have units, and tables are not read");
+    } else if (std::any_of(blocks.begin(), blocks.end(),
+                           [](const Block* b) { return b->schema->keyword == "/FUNCT_PYTHON"; })) {
+      refuse(groups[i], "the function is computed by a script, which cannot be converted");
+    } else if (as_they_are || i > 0) {
+      std::vector<const Block*> all = blocks;
+      for (const Block* b : moves(c.deck, id)) all.push_back(b);
+      if (!copy_function(c, id, all, groups[i]))
+        refuse(groups[i], "function " + std::to_string(id) +
+                              " is used in several units, and a copy of it cannot be made; give "
+                              "this use a function of its own");
+    } else {
+      const PointFactors factors = factors_of(c, *groups[i].front());
+      for (const Block* b : blocks) {
+        const UnitConversion::OpenShare share(c, *b);
+        convert_points(c, *b, factors);
+      }
+      for (const Block* b : moves(c.deck, id)) convert_points(c, *b, factors);
+    }
+  }
 }
 
 }  // namespace
@@ -116,6 +219,8 @@ void convert_functions(UnitConversion& c) {
   for (const Use& use : c.function_uses)
     by_id[use.id + c.deck.offset_of(*use.block, "funct")].push_back(&use);
   for (const auto& [id, uses] : by_id) convert_function(c, id, uses);
+  for (auto& [place, text] : c.copies)
+    c.out.edits.push_back({Span{place.first, 0, place.second}, std::move(text)});
 }
 
 }  // namespace deck::detail

@@ -44,29 +44,53 @@ struct UnitConversion {
   /// Puts `text` into the columns, as far right as the old text stood.
   void replace_fixed(const Line& line, int first, int last, std::string_view text);
 
-  struct ParameterUse {
+  /// Where a cell stands and how to write into it.
+  struct Place {
     const Block* block = nullptr;
     Span span;
     std::string field;
+    Line line;
+    int first = 0, last = 0;  ///< columns, unless
+    bool free_format = false;
+  };
+  static Place place_of(const Block& block, const DecodedCard& card, const Cell& cell);
+  /// Other text for the cell; false: its line has no room for it.
+  bool put(const Place& place, const std::string& text);
+
+  struct ParameterUse : Place {
     Dimension dimension;
+    double value = 0;
   };
   std::map<std::string, std::vector<ParameterUse>, std::less<>> parameter_uses;
 
   /// An id of a function or table in a block.
-  struct FunctionUse {
-    const Block* block = nullptr;
-    Span span;
-    std::string field;
+  struct FunctionUse : Place {
     std::int64_t id = 0;
     std::vector<Dimension> points;  ///< dimension that the points themselves carry, axis by axis
   };
   std::vector<FunctionUse> function_uses;
+  std::map<std::pair<std::uint32_t, std::uint64_t>, std::string>
+      copies;                  ///< of functions, by place
+  std::int64_t last_copy = 0;  ///< id of the last one
 
   /// What a block added to `out`, and with `partial` the blocks that stay as they are.
   struct Share {
     std::size_t edits = 0, edits_end = 0, losses = 0, losses_end = 0;
   };
-  std::map<const Block*, Share> shares;
+  std::multimap<const Block*, Share> shares;
+  /// The share of a block that begins here; the destructor closes it.
+  class OpenShare {
+   public:
+    OpenShare(UnitConversion& c, const Block& block);
+    OpenShare(const OpenShare&) = delete;
+    OpenShare& operator=(const OpenShare&) = delete;
+    ~OpenShare();
+
+   private:
+    UnitConversion& c_;
+    const Block& block_;
+    Share share_;
+  };
   std::set<const Block*> left;
   /// Takes the edits of the blocks in `left` out again.
   void leave_blocks();
@@ -83,10 +107,12 @@ struct UnitConversion {
 
 /// /BEGIN, or the /UNIT/LENGTH ... of old versions. False: refused.
 bool convert_begin(UnitConversion& conversion);
-/// The definitions of the parameters that converted cells use.
+/// The definitions of the parameters that converted cells use; where a parameter stands for more
+/// than one thing, the cells get numbers.
 void convert_parameters(UnitConversion& conversion);
 
-/// The points of functions whose axes have no scale.
+/// The points of functions whose axes have no scale; a function that is read in several units gets
+/// a copy for each.
 void convert_functions(UnitConversion& conversion);
 
 /// Puts `text` into columns first..last of a fixed-column line, ending where the old text ended if
