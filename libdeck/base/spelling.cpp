@@ -30,4 +30,17 @@ std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t li
   return row[b.size()];
 }
 
+std::string closest_word(std::string_view word, const std::vector<std::string>& known) {
+  const std::string wanted = in_capitals(word);
+  std::size_t best = word.size() < 3 ? 1 : word.size() < 6 ? 2 : 3;  // the most that is close
+  std::string found;
+  for (const std::string& candidate : known) {
+    const std::size_t d = edit_distance(wanted, in_capitals(candidate), best);
+    if (d > best || (d == best && !found.empty())) continue;
+    best = d;
+    found = candidate;
+  }
+  return found;
+}
+
 }  // namespace deck

@@ -1,12 +1,11 @@
 // Recorded states held against the kernel: result columns computed again, group by group.
 #include "deck/cycle/replay.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "cycle/replay/results.hpp"
+#include "deck/text/gzip.hpp"
 
 namespace deck::cycle {
 namespace {
@@ -187,40 +186,10 @@ ReplayReport replay(const ContactCard& card, std::string_view csv, const ReplayO
 }
 
 std::optional<std::string> states_text(std::string_view bytes, std::size_t limit) {
-  const bool gzip = bytes.size() > 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b';
-  if (!gzip) return std::string(bytes);
-  z_stream z{};
-  if (inflateInit2(&z, 15 + 32) != Z_OK) return std::nullopt;
-  std::string text;
-  std::vector<char> chunk(1 << 16);
-  int code = Z_OK;
-  std::size_t used = 0;
-  while (code == Z_OK || (code == Z_STREAM_END && used < bytes.size())) {
-    if (code == Z_STREAM_END && inflateReset(&z) != Z_OK) break;  // a further gzip member
-    if (z.avail_in == 0) {
-      const std::size_t n = std::min<std::size_t>(bytes.size() - used, 1 << 20);
-      z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data() + used));
-      z.avail_in = static_cast<uInt>(n);
-      used += n;
-    }
-    z.next_out = reinterpret_cast<Bytef*>(chunk.data());
-    z.avail_out = static_cast<uInt>(chunk.size());
-    code = inflate(&z, Z_NO_FLUSH);
-    const std::size_t made = chunk.size() - z.avail_out;
-    if (text.size() + made > limit) {
-      code = Z_MEM_ERROR;
-      break;
-    }
-    text.append(chunk.data(), made);
-    if (code == Z_STREAM_END) {  // hand back what the next member starts with
-      used -= z.avail_in;
-      z.avail_in = 0;
-    }
-    if (code == Z_BUF_ERROR) break;
-  }
-  inflateEnd(&z);
-  if (code != Z_STREAM_END) return std::nullopt;
-  return text;
+  if (!is_gzip(bytes)) return std::string(bytes);
+  auto text = gunzip(bytes, limit);
+  if (!text) return std::nullopt;
+  return std::move(*text);
 }
 
 }  // namespace deck::cycle

@@ -5,44 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "deck/text/similar_file.hpp"
 #include "keyword/reader.hpp"
 
 namespace deck::detail {
-namespace {
-
 namespace fs = std::filesystem;
-
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  return text;
-}
-
-/// The path of a file that differs from `path` in the case of its letters only; empty: none.
-std::string other_case(const std::string& path) {
-  constexpr int most_entries = 10'000;
-  std::error_code bad;
-  fs::path found;
-  for (const fs::path& part : fs::path(path)) {
-    fs::path next = found / part;
-    if (!fs::exists(next, bad)) {
-      const std::string wanted = lower(part.string());
-      next.clear();
-      fs::directory_iterator entry(found.empty() ? fs::path(".") : found, bad);
-      const fs::directory_iterator none;
-      for (int n = 0; !bad && entry != none && n < most_entries; ++n, entry.increment(bad)) {
-        const std::string name = entry->path().filename().string();
-        if (lower(name) == wanted && (next.empty() || found / name < next)) next = found / name;
-      }
-      if (next.empty()) return {};
-    }
-    found = std::move(next);
-  }
-  const bool other = fs::is_regular_file(found, bad) && found != fs::path(path);
-  return other ? found.string() : std::string();
-}
-
-}  // namespace
 
 bool is_include(std::string_view line) {
   if (!starts_with_nocase(line, "#include")) return false;
@@ -86,6 +53,11 @@ std::vector<std::string> include_candidates(const std::string& written,
     consider(path);
   else
     for (const std::string& directory : directories) consider(fs::path(directory) / path);
+  for (std::size_t i = 0, places = all.size(); i < places; ++i) {
+    std::error_code bad;
+    std::string packed = all[i] + ".gz";
+    if (fs::is_regular_file(packed, bad)) all.push_back(std::move(packed));
+  }
   return all;
 }
 
@@ -98,8 +70,11 @@ std::string include_hint(std::string written, bool backslash,
            written;
   }
   for (const std::string& path : candidates)
-    if (const std::string other = other_case(path); !other.empty())
+    if (const std::string other = file_in_other_case(path); !other.empty())
       return "the case of letters counts in file names: '" + other + "' is there";
+  for (const std::string& path : candidates)
+    if (const std::string other = similar_file(path); !other.empty())
+      return "did you mean '" + other + "'?";
   return backslash ? "write the path with '/': '" + written + "'" : std::string();
 }
 

@@ -17,7 +17,8 @@ bool is_include(std::string_view line);
 /// that starts with "+". `pos` moves behind the directive.
 std::string include_path(std::string_view bytes, std::uint64_t& pos);
 
-/// Candidate places of an include, in the order they are tried, without repetition.
+/// Candidate places of an include, in the order they are tried, without repetition; at the end the
+/// packed files (".gz") of these names that are on disk.
 std::vector<std::string> include_candidates(const std::string& written,
                                             const std::vector<std::string>& directories);
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "deck/text/gzip.hpp"
 #include "deck/text/number.hpp"
 #include "keyword/blank_units.hpp"
 #include "keyword/header_line.hpp"
@@ -32,13 +33,13 @@ constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 constexpr int known_versions[] = {2026, 2025, 2024, 2023, 2022, 2021, 2020, 2019, 2018, 2017,
                                   140,  130,  120,  110,  100,  90,   51,   44,   42,   41};
 
-/// The file, or what the overlay says it holds.
+/// The text of the file, or of what the overlay says it holds.
 Result<std::unique_ptr<Source>> open_source(const std::string& path, const Limits& limits,
                                             const ReadOptions& options) {
   if (options.overlay != nullptr)
     if (const auto it = options.overlay->find(path); it != options.overlay->end())
-      return Source::from_bytes(path, it->second);
-  return Source::open(path, limits);
+      return Source::unpack(Source::from_bytes(path, it->second), limits);
+  return Source::open_text(path, limits);
 }
 
 class Reader {
@@ -52,6 +53,7 @@ class Reader {
     if (auto bad = refuse_empty(*main); !bad) return bad.error();
     if (auto bad = refuse_binary(*main); !bad) return bad.error();
     deck_.total_bytes = main->bytes().size();
+    if (main->packed()) unpacked_bytes_ = main->bytes().size();
     main_directory_ = directory_of(main->path());
     deck_.sources.add(std::move(main));
     check_banner();
@@ -172,6 +174,7 @@ class Reader {
     // A file that many others include is opened again and again: beyond a bound the text is mapped,
     // so that it does not pile up in memory.
     if (memory_bytes_ > 8 * limits.map_threshold) limits.map_threshold = 0;
+    limits.unpacked_bytes -= std::min(limits.unpacked_bytes, unpacked_bytes_);
     const std::vector<std::string> places =
         detail::include_candidates(written, directories(parent));
     for (const std::string& path : places) {
@@ -182,7 +185,9 @@ class Reader {
         tried += (tried.empty() ? "" : "; ") + source.error().message;
         continue;
       }
-      if ((*source)->bytes().size() <= limits.map_threshold)
+      if ((*source)->packed())
+        check_packed(**source, written, directive);
+      else if ((*source)->bytes().size() <= limits.map_threshold)
         memory_bytes_ += (*source)->bytes().size();
       if (backslash)
         report(RuleId::DK058, directive, "the path holds '\\'; '" + written + "' was read");
@@ -199,6 +204,21 @@ class Reader {
             .fix = hint.empty()
                        ? "correct the path, or name the folder that holds it with --include-path"
                        : hint});
+  }
+
+  /// In a deck that is packed itself it is only the way in which the files are kept.
+  void check_packed(const Source& source, const std::string& written, Span directive) {
+    unpacked_bytes_ += source.bytes().size();
+    if (deck_.sources[0].packed() || has_gz_name(deck_.sources[0].path())) return;
+    const bool other_name = has_gz_name(source.path()) && !has_gz_name(written);
+    report(RuleId::DK378, directive,
+           other_name ? "'" + written + "' is not there; '" + source.path() +
+                            "', packed with gzip, was read for it"
+                      : "the included file '" + written + "' is packed with gzip; it was unpacked",
+           {.solver = other_name ? "it does not find the file and stops with an error"
+                                 : "it takes the packed bytes for lines of the deck",
+            .fix = "unpack the file before a run (gunzip " + source.path() + ")" +
+                   (other_name ? "" : " and name it without .gz")});
   }
 
   void enter(std::unique_ptr<Source> source, std::string written, Span directive,
@@ -553,8 +573,9 @@ class Reader {
   std::vector<std::int32_t> submodel_stack_;
   std::vector<int> outer_versions_;  // version outside of every open submodel
   detail::ReaderNotes notes_;
-  int hints_ = 0;                   // searched for wrong paths
-  std::uint64_t memory_bytes_ = 0;  // of included files that are not mapped
+  int hints_ = 0;                     // searched for wrong paths
+  std::uint64_t memory_bytes_ = 0;    // of included files that are not mapped
+  std::uint64_t unpacked_bytes_ = 0;  // text of packed files
   std::int64_t open_block_ = -1;
 };
 

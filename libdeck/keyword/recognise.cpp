@@ -15,7 +15,7 @@ struct Magic {
   std::string_view bytes, what;
 };
 constexpr Magic magics[] = {
-    {"\x1f\x8b", "gzip-compressed data; unpack it first (gunzip)"},
+    {"\x1f\x8b", "gzip-compressed data that was packed twice; unpack it first (gunzip)"},
     {"BZh", "bzip2-compressed data; unpack it first (bunzip2)"},
     {"\xfd"
      "7zXZ",

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "deck/text/gzip.hpp"
+
 namespace deck {
 namespace {
 
@@ -105,6 +107,7 @@ struct Parsed {
   bool bare = false, whole = false;
   std::vector<std::pair<std::string, std::string>> texts;  // file name ("" = main), content
   std::vector<std::pair<std::string, int>> limits;
+  std::vector<std::string> packed;  // files that lie there packed
 };
 
 Parsed parse(std::string_view example, const SchemaSet& schemas) {
@@ -130,6 +133,8 @@ Parsed parse(std::string_view example, const SchemaSet& schemas) {
       out.whole = true;
     else if (first == "@file" && parts.size() > 1)
       out.texts.emplace_back(parts[1], "");
+    else if (first == "@gzip" && parts.size() > 1)
+      out.texts.emplace_back(out.packed.emplace_back(parts[1]), "");
     else if (first == "@limit" && parts.size() > 2)
       out.limits.emplace_back(parts[1], number(2));
     else if (first.starts_with("@/"))
@@ -146,7 +151,11 @@ ExampleDeck example_deck(std::string_view example, const SchemaSet& schemas) {
   const Parsed p = parse(example, schemas);
   ExampleDeck out;
   out.limits = p.limits;
-  for (std::size_t i = 1; i < p.texts.size(); ++i) out.files.push_back(p.texts[i]);
+  for (std::size_t i = 1; i < p.texts.size(); ++i) {
+    const auto& [name, text] = p.texts[i];
+    const bool packed = std::find(p.packed.begin(), p.packed.end(), name) != p.packed.end();
+    out.files.emplace_back(name, packed ? gzip(text) : text);
+  }
   if (p.whole) {
     out.main = p.texts[0].second;
     return out;

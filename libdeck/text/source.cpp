@@ -1,4 +1,4 @@
-// Maps files into memory and finds lines and columns in them.
+// Maps files into memory, unpacks those that are packed, and finds lines and columns in them.
 #include "deck/text/source.hpp"
 
 #include <fcntl.h>
@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+
+#include "deck/text/gzip.hpp"
 
 namespace deck {
 namespace {
@@ -98,11 +100,34 @@ Result<std::unique_ptr<Source>> Source::open(const std::string& path, const Limi
   return source;
 }
 
+Result<std::unique_ptr<Source>> Source::open_text(const std::string& path, const Limits& limits) {
+  auto source = open(path, limits);
+  return source ? unpack(std::move(*source), limits) : std::move(source);
+}
+
 std::unique_ptr<Source> Source::from_bytes(std::string name, std::string bytes) {
   std::unique_ptr<Source> source(new Source);
   source->path_ = std::move(name);
   source->storage_ = std::move(bytes);
   source->bytes_ = source->storage_;
+  return source;
+}
+
+Result<std::unique_ptr<Source>> Source::unpack(std::unique_ptr<Source> source,
+                                               const Limits& limits) {
+  if (!is_gzip(source->bytes_)) return source;
+  constexpr std::uint64_t always = std::uint64_t{64} << 20;
+  const std::uint64_t size = source->bytes_.size();
+  const std::uint64_t by_ratio = std::max(always, size < limits.total_bytes / limits.unpacked_ratio
+                                                      ? size * limits.unpacked_ratio
+                                                      : limits.total_bytes);
+  auto text =
+      gunzip(source->bytes_, std::min({limits.total_bytes, limits.unpacked_bytes, by_ratio}));
+  if (!text) return Error{text.error().code, source->path_ + ": " + text.error().message};
+  source->packed_ = true;
+  source->packed_bytes_ = source->bytes_;
+  source->unpacked_ = std::move(*text);
+  source->bytes_ = source->unpacked_;
   return source;
 }
 
@@ -149,7 +174,7 @@ std::string_view Source::line_at(std::uint64_t offset) const {
 }
 
 void Source::release(std::uint64_t begin, std::uint64_t end) const {
-  if (map_ == nullptr) return;
+  if (map_ == nullptr || packed_) return;
   constexpr std::uint64_t page = 4096;
   begin = begin / page * page;  // a page that is shared with earlier bytes goes, too
   end = std::min<std::uint64_t>(end, map_size_) / page * page;

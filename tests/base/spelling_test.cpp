@@ -32,5 +32,17 @@ TEST(EditDistance, GivesUpWhereTheLengthsAloneAreTooFarApart) {
   EXPECT_EQ(edit_distance("Gapmin", "Gapmax", 1), 2u);
 }
 
+TEST(ClosestWord, IsTheNearestOneWhateverItsLetters) {
+  const std::vector<std::string> known = {"lint", "params", "gaps", "cycle", "Gapmin", "13", "130"};
+  EXPECT_EQ(closest_word("lnit", known), "lint");
+  EXPECT_EQ(closest_word("LINT", known), "lint");
+  EXPECT_EQ(closest_word("gapmni", known), "Gapmin");
+  EXPECT_EQ(closest_word("gap", known), "gaps");
+  EXPECT_EQ(closest_word("134", known), "13") << "the first of those that are as close";
+  EXPECT_EQ(closest_word("nothing", known), "");
+  EXPECT_EQ(closest_word("xy", known), "") << "a short word has to be closer";
+  EXPECT_EQ(closest_word("", known), "");
+}
+
 }  // namespace
 }  // namespace deck

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "deck/text/gzip.hpp"
 #include "lint/support.hpp"
 
 namespace deck::test {
@@ -56,6 +57,34 @@ TEST_F(EditSets, AFileThatTwoDecksShareIsWrittenOnce) {
   const auto tree = set.tree(at("out"));
   ASSERT_TRUE(tree) << tree.error().message;
   EXPECT_EQ(tree->files.size(), 3u) << "two decks and the file that they share";
+}
+
+TEST_F(EditSets, APackedFileStaysPackedInPlaceAndInATree) {
+  const std::string main = main_deck("#include y.inc\n"), before = gzip("/TITLE\nold\n");
+  folder_.write("c/c_0000.rad.gz", gzip(main));
+  folder_.write("c/y.inc.gz", before);
+  const auto deck = read("c/c_0000.rad.gz");
+  EditSet set;
+  ASSERT_TRUE(add(set, *deck, "c/y.inc.gz", "/TITLE\nnew\n"));
+  const auto plan = set.in_place();
+  ASSERT_TRUE(plan) << plan.error().message;
+  ASSERT_EQ(plan->files.size(), 1u);
+  EXPECT_EQ(plan->files[0].path, at("c/y.inc.gz"));
+  EXPECT_EQ(plan->files[0].bytes, gzip("/TITLE\nnew\n"));
+  EXPECT_EQ(plan->files[0].read->bytes, before) << "what is compared before it is replaced";
+  // Elsewhere a file is what its name says: the #include leads to y.inc.
+  const auto tree = set.tree(at("out"));
+  ASSERT_TRUE(tree) << tree.error().message;
+  ASSERT_EQ(tree->files.size(), 2u);
+  EXPECT_EQ(tree->files[0].path, at("out/c_0000.rad.gz"));
+  EXPECT_EQ(tree->files[0].bytes, gzip(main));
+  EXPECT_EQ(tree->files[1].path, at("out/y.inc"));
+  EXPECT_EQ(tree->files[1].bytes, "/TITLE\nnew\n");
+  // A patch is for what gunzip makes of it.
+  const auto patch = set.diff();
+  ASSERT_TRUE(patch);
+  EXPECT_NE(patch->find("c/y.inc\n"), std::string::npos) << *patch;
+  EXPECT_EQ(patch->find(".gz"), std::string::npos) << *patch;
 }
 
 TEST_F(EditSets, TwoTextsForOneFileAreRefusedWithBothPlaces) {

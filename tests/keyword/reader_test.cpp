@@ -1,6 +1,7 @@
 // The walk through a deck: blocks, headers, /BEGIN, includes, submodels, ends.
 #include <gmock/gmock.h>
 
+#include "deck/text/gzip.hpp"
 #include "keyword/reading.hpp"
 
 namespace deck {
@@ -436,10 +437,61 @@ TEST_F(ReaderInclude, AWrongPathComesWithAHint) {
   EXPECT_THAT(help("#include \"Sub/Mesh.inc\""), HasSubstr("#include Sub/Mesh.inc"));
   EXPECT_THAT(help("#include Sub\\none.inc"), HasSubstr("'Sub/none.inc'"));
   EXPECT_THAT(help("#include nowhere.inc"), HasSubstr("--include-path"));
+  EXPECT_THAT(help("#include Sub/Mehs.inc"),
+              HasSubstr("did you mean '" + (dir_ / "Sub/Mesh.inc").string()));
   EXPECT_EQ(help("#include Sub/Mesh.inc"), "(found)");
   EXPECT_EQ(help("#include Sub\\Mesh.inc"), "(found)");
   const Deck d = read_file(file("m_0000.rad", deck_of("#include Sub\\Mesh.inc\n")));
   EXPECT_EQ(count(d.diagnostics, RuleId::DK058), 1u);
+}
+
+TEST_F(ReaderInclude, PackedFilesAreReadWithTheLinesOfTheirText) {
+  file("a.inc.gz", gzip("# a comment\n/GRNOD/NODE/1\n/GRNOD/NODE/2\n"));
+  const Deck d = read_file(file("m_0000.rad", deck_of("#include a.inc.gz\n")));
+  const Block* second = block(d, "/GRNOD/NODE/2");
+  ASSERT_NE(second, nullptr);
+  EXPECT_EQ(d.sources.position(second->header_span).line, 3u);
+  EXPECT_THAT(first(d.diagnostics, RuleId::DK378)->message, HasSubstr("it was unpacked"));
+}
+
+TEST_F(ReaderInclude, WhereOnlyThePackedFileIsThereItIsReadAndSaid) {
+  file("a.inc.gz", gzip("/GRNOD/NODE/1\n"));
+  const std::string body = "#include a.inc\n";
+  const Deck d = read_file(file("m_0000.rad", deck_of(body)));
+  EXPECT_NE(block(d, "/GRNOD/NODE/1"), nullptr);
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK378), 1u);
+  EXPECT_THAT(first(d.diagnostics, RuleId::DK378)->message, HasSubstr("'a.inc' is not there"));
+  file("a.inc", "/GRNOD/NODE/2\n");
+  const Deck plain = read_file(file("m_0000.rad", deck_of(body)));
+  EXPECT_NE(block(plain, "/GRNOD/NODE/2"), nullptr) << "the plain file comes first";
+  EXPECT_EQ(count(plain.diagnostics, RuleId::DK378), 0u);
+}
+
+TEST_F(ReaderInclude, TheIncludesOfAPackedDeckMayBePackedWithoutAFinding) {
+  file("a.inc.gz", gzip("/GRNOD/NODE/1\n"));
+  const Deck d = read_file(file("m_0000.rad.gz", gzip(deck_of("#include a.inc\n"))));
+  EXPECT_NE(block(d, "/GRNOD/NODE/1"), nullptr);
+  EXPECT_EQ(d.diagnostics.counts().size(), 0u);
+}
+
+TEST_F(ReaderInclude, ADamagedPackedIncludeCannotBeReadAndSaysWhy) {
+  const std::string packed = gzip("/GRNOD/NODE/1\n");
+  file("a.inc.gz", packed.substr(0, packed.size() - 3));
+  const Deck d = read_file(file("m_0000.rad", deck_of("#include a.inc.gz\n")));
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK004), 1u);
+  EXPECT_THAT(first(d.diagnostics, RuleId::DK004)->message, HasSubstr("cut off"));
+}
+
+TEST_F(ReaderInclude, PackedIncludesTogetherStayBelowTheLimit) {
+  file("a.inc.gz", gzip("/GRNOD/NODE/1\n" + std::string(1000, '\n')));
+  ReadOptions options;
+  options.limits.unpacked_bytes = 2500;
+  const std::string main =
+      file("m_0000.rad", deck_of("#include a.inc.gz\n#include a.inc.gz\n#include a.inc.gz\n"));
+  const auto d = read_deck(main, SchemaSet::built_in(), options);
+  ASSERT_TRUE(d.ok());
+  ASSERT_EQ(count(d->diagnostics, RuleId::DK004), 1u);
+  EXPECT_THAT(first(d->diagnostics, RuleId::DK004)->message, HasSubstr("more than the limit"));
 }
 
 TEST_F(ReaderInclude, EndAndEnddataSkipTheRestOfTheIncludeOnly) {

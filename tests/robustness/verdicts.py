@@ -48,7 +48,10 @@ def no_decks():
     rng = random.Random(4)
     yield "empty", b"", "empty"
     yield "blank", b"  \n\n", "empty"
-    yield "compressed", gzip.compress(deck), "gzip"
+    yield "packed and cut off", gzip.compress(deck)[:-100], "cut off"
+    yield "packed and damaged", gzip.compress(deck)[:200] + b"damage" + gzip.compress(deck)[206:], "damaged"
+    yield "packed twice", gzip.compress(gzip.compress(deck)), "packed twice"
+    yield "a bomb", gzip.compress(bytes(100 << 20)), "limit"
     yield "LS-DYNA", b"$ a comment\n*KEYWORD\n*NODE\n       1             0.0             0.0             0.0\n*END\n", "LS-DYNA"
     yield "Engine", b"#RADIOSS ENGINE\n/VERS/2022\n/RUN/car/1\n              10.0\n/DT/NODA/CST/0\n 0.9 0.0\n/TFILE\n 0.1\n", "Engine"
     yield "Engine without banner", b"/RUN/car/1/\n 10.\n/TFILE/4\n 0.1\n/PRINT/-100\n", "Engine"

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "deck/text/diagnostic.hpp"
+#include "deck/text/gzip.hpp"
 #include "deck/text/rule_id.hpp"
 
 namespace deck {
@@ -194,6 +195,92 @@ TEST(Diagnostics, MergingInOrderEqualsCollectingInOrder) {
   ASSERT_EQ(first.all().size(), one.all().size());
   for (std::size_t i = 0; i < one.all().size(); ++i)
     EXPECT_EQ(first.all()[i].message, one.all()[i].message);
+}
+
+// ---- packed files
+
+std::string numbered_lines(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += "line " + std::to_string(i * 7919 % 100003) + '\n';
+  return text;
+}
+
+TEST(Gzip, WhatIsPackedUnpacksToTheSameText) {
+  for (const int lines : {0, 1, 3, 1000, 200000}) {
+    const std::string text = numbered_lines(lines), packed = gzip(text);
+    const auto back = gunzip(packed, text.size());
+    ASSERT_TRUE(back.ok()) << lines << ": " << back.error().message;
+    EXPECT_EQ(*back, text);
+    EXPECT_EQ(gzip(text), packed) << "the same bytes every time";
+  }
+}
+
+TEST(Gzip, SeveralMembersAndZerosBehindThemAreOneText) {
+  const auto back = gunzip(gzip("one\n") + gzip("") + gzip("two\n") + std::string(512, '\0'), 100);
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  EXPECT_EQ(*back, "one\ntwo\n");
+}
+
+TEST(Gzip, EveryTruncationIsAnErrorThatSaysHowFarTheTextGoes) {
+  const std::string packed = gzip(numbered_lines(40));
+  for (std::size_t length = 2; length < packed.size(); ++length) {
+    const auto r = gunzip(std::string_view(packed).substr(0, length), 1 << 20);
+    ASSERT_FALSE(r.ok()) << length;
+    EXPECT_NE(r.error().message.find("cut off: after"), std::string::npos) << r.error().message;
+    EXPECT_NE(r.error().message.find("in line"), std::string::npos) << r.error().message;
+  }
+}
+
+TEST(Gzip, NoChangedBytePassesUnnoticed) {
+  const std::string text = numbered_lines(40), packed = gzip(text);
+  for (std::size_t i = 10; i < packed.size(); ++i) {  // behind the header, which holds no check
+    std::string broken = packed;
+    broken[i] = static_cast<char>(broken[i] ^ 0x10);
+    EXPECT_FALSE(gunzip(broken, 1 << 20).ok()) << i;
+  }
+  EXPECT_FALSE(gunzip(packed + "rubbish", 1 << 20).ok());
+}
+
+TEST(Gzip, ATextLongerThanTheLimitIsRefused) {
+  const std::string packed = gzip("0123456789");
+  EXPECT_TRUE(gunzip(packed, 10).ok());
+  const auto r = gunzip(packed, 9);
+  ASSERT_FALSE(r.ok());
+  EXPECT_EQ(r.error().code, Error::Code::limit);
+  EXPECT_EQ(gunzip_head(packed, 4), "0123");
+}
+
+TEST_F(SourceFiles, APackedFileHasTheLinesOfItsTextAndKeepsWhatIsOnDisk) {
+  const std::string text = numbered_lines(3000), packed = gzip(text);
+  for (const std::uint64_t threshold : {std::uint64_t{1} << 20, std::uint64_t{100}}) {
+    Limits limits;
+    limits.map_threshold = threshold;  // read, and mapped
+    const auto s = Source::open_text(file("a.gz", packed), limits);
+    ASSERT_TRUE(s.ok()) << s.error().message;
+    EXPECT_TRUE((*s)->packed());
+    (*s)->release(0, text.size());
+    EXPECT_EQ((*s)->bytes(), text);
+    EXPECT_EQ((*s)->on_disk(), packed);
+    EXPECT_EQ((*s)->position(text.size() - 1).line, 3000u);
+    EXPECT_NE((*s)->inode(), 0u);
+  }
+  const auto plain = Source::open_text(file("b", text), {});
+  ASSERT_TRUE(plain.ok());
+  EXPECT_FALSE((*plain)->packed());
+  EXPECT_EQ((*plain)->on_disk(), text);
+}
+
+TEST_F(SourceFiles, ABombEndsWithTheLimitAndNamesItsFile) {
+  const std::string bomb = gzip(std::string(std::size_t{100} << 20, ' '));
+  ASSERT_LT(bomb.size(), std::size_t{200} << 10);
+  const auto r = Source::open_text(file("bomb.gz", bomb), {});
+  ASSERT_FALSE(r.ok());
+  EXPECT_EQ(r.error().code, Error::Code::limit);
+  EXPECT_NE(r.error().message.find("bomb.gz: is packed with gzip"), std::string::npos);
+  Limits small;
+  small.unpacked_bytes = 1000;
+  EXPECT_FALSE(Source::open_text(file("c.gz", gzip(std::string(1001, 'x'))), small).ok());
+  EXPECT_TRUE(Source::open_text(file("d.gz", gzip(std::string(1000, 'x'))), small).ok());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "command_line.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -40,36 +41,77 @@ Option& Option::required(bool yes) {
   option_->required(yes);
   return *this;
 }
-Option& Option::one_of(std::initializer_list<const char*> values) {
-  option_->check(CLI::IsMember(std::vector<std::string>(values.begin(), values.end())));
-  return *this;
+
+namespace {
+
+using Check = std::function<std::string(std::string&)>;
+
+/// The parser's own validators describe the values in the help; what is refused, and with which
+/// words, is decided here.
+CLI::Validator described_by(CLI::Validator validator, Check check) {
+  return validator.operation(std::move(check));
 }
-Option& Option::one_of(std::initializer_list<int> values) {
-  option_->check(CLI::IsMember(std::vector<int>(values)));
-  return *this;
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+  const std::string close = closest_word(word, known);
+  return close.empty() ? close : "; did you mean '" + close + "'?";
 }
-Option& Option::range(int least, int most) {
-  option_->check(CLI::Range(least, most));
-  return *this;
+
+Check check_whole(std::int64_t least, std::int64_t most) {
+  return [least, most](std::string& text) -> std::string {
+    const IntegerCell cell = read_integer(text);
+    if (cell.status == NumberStatus::ok && cell.value >= least && cell.value <= most) return {};
+    return fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
+  };
 }
-Option& Option::range(double least, double most) {
-  option_->check(CLI::Range(least, most));
-  return *this;
-}
-Option& Option::range(std::size_t least, std::size_t most) {
-  option_->check(CLI::Range(least, most));
-  return *this;
-}
-// CLI::Range lets "nan" pass.
-Option& Option::number(double least, double most) {
-  const auto check = [least, most](std::string& text) -> std::string {
+
+Check check_number(double least, double most) {
+  return [least, most](std::string& text) -> std::string {
     const RealCell cell = read_real(text);
     const bool number =
         cell.status == NumberStatus::ok || cell.status == NumberStatus::implicit_exponent;
     if (number && cell.value >= least && cell.value <= most) return {};
     return fmt::format("'{}' is not a number from {} to {}", text, least, most);
   };
-  option_->check(CLI::Validator(check, ""));
+}
+
+}  // namespace
+
+Option& Option::one_of(std::initializer_list<const char*> values) {
+  const std::vector<std::string> all(values.begin(), values.end());
+  option_->check(described_by(CLI::IsMember(all), [all](std::string& text) -> std::string {
+    if (std::find(all.begin(), all.end(), text) != all.end()) return {};
+    return fmt::format("'{}' is none of {}{}", text, fmt::join(all, ", "), did_you_mean(text, all));
+  }));
+  return *this;
+}
+Option& Option::one_of(std::initializer_list<int> values) {
+  const std::vector<int> all(values);
+  option_->check(described_by(CLI::IsMember(all), [all](std::string& text) -> std::string {
+    const IntegerCell cell = read_integer(text);
+    if (cell.status == NumberStatus::ok &&
+        std::find(all.begin(), all.end(), cell.value) != all.end())
+      return {};
+    return fmt::format("'{}' is none of {}", text, fmt::join(all, ", "));
+  }));
+  return *this;
+}
+Option& Option::range(int least, int most) {
+  option_->check(described_by(CLI::Range(least, most), check_whole(least, most)));
+  return *this;
+}
+Option& Option::range(double least, double most) {
+  option_->check(described_by(CLI::Range(least, most), check_number(least, most)));
+  return *this;
+}
+Option& Option::range(std::size_t least, std::size_t most) {
+  option_->check(
+      described_by(CLI::Range(least, most),
+                   check_whole(static_cast<std::int64_t>(least), static_cast<std::int64_t>(most))));
+  return *this;
+}
+Option& Option::number(double least, double most) {
+  option_->check(CLI::Validator(check_number(least, most), ""));
   return *this;
 }
 Option& Option::one_each() {
@@ -120,7 +162,15 @@ Option CommandLine::bytes(const std::string& names, std::function<void(std::uint
                           const std::string& help) {
   CLI::Option* option = app_->add_option_function<std::uint64_t>(
       names, [take](std::uint64_t n) { take(n); }, help);
-  option->transform(CLI::AsSizeValue(false));
+  const CLI::AsSizeValue size(false);
+  option->transform(described_by(size, [size](std::string& text) -> std::string {
+    const std::string given = text;
+    try {
+      if (size(text).empty()) return {};
+    } catch (const CLI::ValidationError&) {  // a unit that it does not know
+    }
+    return "'" + given + "' is no number of bytes, such as 500MB or 2GB";
+  }));
   return Option(option);
 }
 Option CommandLine::flag(const std::string& names, bool& target, const std::string& help) {
@@ -141,12 +191,78 @@ bool CommandLine::given(const std::string& name) const {
 void CommandLine::hide() { app_->group(""); }
 bool CommandLine::hidden() const { return app_->get_group().empty(); }
 
+// ---- wrong usage
+
+namespace {
+
+/// Names of the options of a verb, those of its groups (verbs without a name) included.
+void collect_names(const CLI::App& app, std::vector<std::string>& names) {
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_group().empty())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (group->get_name().empty()) collect_names(*group, names);
+}
+
+/// What the parser could not place.
+std::string unexpected(const CLI::App& app) {
+  const std::vector<std::string> all = app.remaining();
+  const auto option = std::find_if(all.begin(), all.end(),
+                                   [](const std::string& word) { return word.starts_with('-'); });
+  if (option == all.end())
+    return "unexpected argument '" + (all.empty() ? std::string() : all.front()) + "'";
+  std::vector<std::string> names;
+  collect_names(app, names);
+  const std::string word = option->substr(0, option->find('='));
+  return "unknown option '" + word + "'" + did_you_mean(word, names);
+}
+
+/// How the help calls the value of an option, or an argument without a name.
+std::string value_name(const CLI::Option* option) {
+  if (option == nullptr) return {};
+  std::string text = option->get_option_text();  // "DECK STATES"
+  if (text.empty()) text = option->get_type_name();
+  return text.substr(0, text.find(':'));
+}
+
+/// Wrong usage in the words of all other errors. `app` is the verb.
+std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return unexpected(app);
+  const std::string text = error.what();
+  // All messages begin with the name of the option, or have it behind a colon.
+  constexpr std::string_view no_number = "Could not convert: ";
+  if (text.starts_with(no_number)) {
+    const auto equal = text.find(" = ");
+    if (equal != text.npos)
+      return text.substr(no_number.size(), equal - no_number.size()) + ": '" +
+             text.substr(equal + 3) + "' is not a number";
+  }
+  const std::string name = text.substr(0, text.find_first_of(": "));
+  const CLI::Option* option = app.get_option_no_throw(name);
+  const std::string value = value_name(option);
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && option != nullptr)
+    return option->nonpositional() ? name + " " + value + " is missing"
+                                   : (value.empty() ? name : value) + " is missing";
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && option != nullptr)
+    return option->nonpositional() ? name + " needs a value: " + value : "expected " + value;
+  return text;
+}
+
+}  // namespace
+
+int wrong_usage(const std::string& verb, std::string_view message) {
+  const std::string help = verb.empty() ? "Run 'deck --help' for the verbs."
+                                        : "Run 'deck " + verb + " --help' for its options.";
+  fmt::print(stderr, "deck: error: {}\n{}\n", terminal_text(message), help);
+  return exit_usage;
+}
+
 Result<void> CommandLine::parse(std::vector<std::string> words) {
   std::reverse(words.begin(), words.end());  // the parser takes them from the back
   try {
     app_->parse(words);
   } catch (const CLI::ParseError& e) {
-    return Error{Error::Code::config, e.what()};
+    return Error{Error::Code::config, what_is_wrong(*app_, e)};
   }
   return {};
 }
@@ -208,26 +324,26 @@ void collect(const CLI::App& app, const std::string& group, VerbInfo& verb) {
 }
 
 /// Refuses an unknown verb with the closest known one; 0: the verb is known or there is none.
-int check_verb(int argc, char** argv, const std::vector<Verb>& all) {
-  if (argc < 2 || argv[1][0] == '-') return 0;
-  const std::string_view word = argv[1];
-  const Verb* best = nullptr;
-  std::size_t distance = 4;
-  for (const Verb& v : all) {
-    if (v.name == word) return 0;
-    if (const auto d = edit_distance(word, v.name); d < distance) {
-      distance = d;
-      best = &v;
-    }
-  }
-  std::string text = "deck: error: there is no verb '" + terminal_text(word) + "'";
-  if (word.find('.') != std::string_view::npos)
-    text += "; name what to do first, for example: deck params " + terminal_text(word);
-  else if (best != nullptr)
-    text += "; did you mean '" + std::string(best->name) + "'?";
-  text += "\nRun 'deck --help' for the list.\n";
-  std::fputs(text.c_str(), stderr);
-  return exit_usage;
+int check_verb(const std::vector<std::string>& words, const std::vector<Verb>& all) {
+  if (words.empty() || words.front().starts_with('-')) return exit_clean;
+  const std::string& word = words.front();
+  std::vector<std::string> known = {"help"};
+  for (const Verb& v : all) known.emplace_back(v.name);
+  if (std::find(known.begin() + 1, known.end(), word) != known.end()) return exit_clean;
+  std::string text = "there is no verb '" + word + "'";
+  if (word.find('.') != std::string::npos)
+    text += "; name what to do first, for example: deck params " + word;
+  else
+    text += did_you_mean(word, known);
+  return wrong_usage("", text);
+}
+
+/// "deck help VERB" as "deck VERB --help".
+void settle_help(std::vector<std::string>& words) {
+  if (words.empty() || words.front() != "help") return;
+  words.erase(words.begin());
+  if (!words.empty() && !words.front().starts_with('-')) words.resize(1);
+  words.emplace_back("--help");
 }
 
 }  // namespace
@@ -257,7 +373,7 @@ std::vector<VerbInfo> describe_verbs() {
 std::vector<OptionInfo> program_options() {
   OptionInfo help, version;
   help.names = {"-h", "--help"};
-  help.description = "Help; deck VERB --help explains a verb";
+  help.description = "Help; deck help VERB explains a verb";
   version.names = {"--version"};
   version.description = "Version and compiler";
   return {help, version};
@@ -267,10 +383,12 @@ std::vector<OptionInfo> program_options() {
 
 int run_program(int argc, char** argv, const std::string& version) {
   const std::vector<Verb> all = verbs();
-  if (const int code = check_verb(argc, argv, all); code != 0) return code;
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  settle_help(words);
+  if (const int code = check_verb(words, all); code != exit_clean) return code;
   CLI::App app("Radioss contact decks (TYPE7, 10, 11, 19): read, check, measure, rewrite.", "deck");
   app.set_version_flag("--version", version, "Version and compiler");
-  app.set_help_flag("-h,--help", "This help; 'deck VERB --help' explains a verb");
+  app.set_help_flag("-h,--help", "This help; 'deck help VERB' explains a verb");
   std::map<CLI::App*, Action> actions;
   for (const Verb& v : all) {
     CLI::App* sub = app.add_subcommand(std::string(v.name), std::string(v.summary));
@@ -288,13 +406,18 @@ int run_program(int argc, char** argv, const std::string& version) {
       "Exit codes: 0 clean, 1 findings, 2 wrong usage, 3 input could not be read, 4 internal "
       "error.");
   try {
-    app.parse(argc, argv);
+    std::reverse(words.begin(), words.end());  // the parser takes them from the back
+    app.parse(words);
   } catch (const CLI::ParseError& e) {
-    std::ostringstream out, err;
-    const int code = app.exit(e, out, err);
+    const auto verb = app.get_subcommands();
+    if (e.get_exit_code() != 0) {
+      if (verb.empty()) return wrong_usage("", what_is_wrong(app, e));
+      return wrong_usage(verb.front()->get_name(), what_is_wrong(*verb.front(), e));
+    }
+    std::ostringstream out;
+    app.exit(e, out, out);
     std::fputs(out.str().c_str(), stdout);
-    std::fputs(terminal_lines(err.str()).c_str(), stderr);
-    return code == 0 ? exit_clean : exit_usage;
+    return exit_clean;
   }
   const auto chosen = app.get_subcommands();
   if (chosen.empty()) {

@@ -107,6 +107,10 @@ class CommandLine {
 /// Splits a line at blanks as a shell would, quotes included; the quotes are gone.
 std::vector<std::string> split_words(const std::string& line);
 
+/// Says what is wrong on the command line of a verb ("": of the program), and where its help is.
+/// Returns exit_usage.
+int wrong_usage(const std::string& verb, std::string_view message);
+
 /// The program: finds the verb in argv, lets every verb add its options, parses and runs it.
 /// `version` is what --version prints. Returns the exit code.
 int run_program(int argc, char** argv, const std::string& version);

@@ -11,9 +11,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
 #include <thread>
 
 #include "deck/base/escape.hpp"
+#include "deck/base/spelling.hpp"
 #include "deck/contact/resolve.hpp"
 #include "deck/keyword/recognise.hpp"
 #include "deck/model/coverage.hpp"
@@ -21,7 +23,9 @@
 #include "deck/report/json.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
+#include "deck/text/similar_file.hpp"
 #include "writing/frame.hpp"
+#include "writing/library.hpp"
 
 namespace deck::cli {
 
@@ -203,7 +207,7 @@ Result<void> check_mapped(const Deck& deck, const Limits& limits, const timespec
   for (std::uint32_t f = 0; f < deck.sources.size(); ++f) {
     const Source& source = deck.sources[f];
     struct stat status {};
-    if (source.inode() == 0 || source.bytes().size() <= limits.map_threshold) continue;
+    if (source.inode() == 0 || source.on_disk().size() <= limits.map_threshold) continue;
     if (stat(source.path().c_str(), &status) != 0) continue;
     const auto moment = [](const timespec& t) { return std::pair{t.tv_sec, t.tv_nsec}; };
     if (moment(status.st_mtim) >= moment(since))
@@ -238,9 +242,15 @@ void observe_loading(std::function<void(const Deck&)> observer) {
   load_observer() = std::move(observer);
 }
 
-Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& schemas,
+void note_found(const std::string& given, const std::string& path, const CommonOptions& options) {
+  if (path != given && !options.quiet) print_note(given + " is not there; reading " + path);
+}
+
+Result<std::unique_ptr<Loaded>> load(const std::string& given, const SchemaSet& schemas,
                                      const CommonOptions& options, Stage stage,
                                      const Overlay* overlay) {
+  const std::string path = overlay == nullptr ? find_deck(given) : given;
+  note_found(given, path, options);
   Progress progress(!options.quiet);
   progress.step("reading " + path);
   ReadOptions read;
@@ -248,7 +258,13 @@ Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& s
   read.overlay = overlay;
   read.limits = options.limits;
   auto deck = read_settled(path, schemas, options, read);
-  if (!deck) return deck.error();
+  if (!deck) {
+    Error error = deck.error();
+    if (std::error_code ec; path != "-" && !std::filesystem::exists(path, ec))
+      if (const std::string close = similar_file(path); !close.empty())
+        error.message += "; did you mean '" + close + "'?";
+    return error;
+  }
   remember_read(deck->sources);
   if (const std::string other = no_starter_deck(*deck); !other.empty())
     return Error{Error::Code::syntax, path + ": " + other};
@@ -304,14 +320,18 @@ int examined_code(const Loaded& loaded, const CommonOptions& options) {
 
 namespace {
 
-/// "1, 2, 3 and 4 more".
-std::string list_of(const std::vector<std::int64_t>& ids) {
+/// "1, 2, 3 and 4 more", and where `wanted` may be one of those that are not shown, the closest.
+std::string list_of(const std::vector<std::int64_t>& ids, std::int64_t wanted) {
   constexpr std::size_t most = 20;
   std::string text;
   for (std::size_t i = 0; i < std::min(most, ids.size()); ++i)
     text += fmt::format("{}{}", i == 0 ? "" : ", ", ids[i]);
-  if (ids.size() > most) text += fmt::format(" and {} more", ids.size() - most);
-  return text;
+  if (ids.size() <= most) return text;
+  std::vector<std::string> words;
+  for (const std::int64_t id : ids) words.push_back(std::to_string(id));
+  const std::string close = closest_word(std::to_string(wanted), words);
+  return text + fmt::format(" and {} more", ids.size() - most) +
+         (close.empty() ? close : "; did you mean " + close + "?");
 }
 
 }  // namespace
@@ -328,7 +348,7 @@ Result<void> check_interfaces(const Loaded& loaded, const std::vector<std::int64
     for (const NotExamined& n : coverage_of(loaded.deck, loaded.interfaces).not_examined)
       if (std::find(n.ids.begin(), n.ids.end(), id) != n.ids.end())
         text += fmt::format("; {}/{} is of a type that is not examined", n.keyword, id);
-    text += known.empty() ? "; it has none at all" : "; it has " + list_of(known);
+    text += known.empty() ? "; it has none at all" : "; it has " + list_of(known, id);
     return Error{Error::Code::config, text};
   }
   return {};
@@ -341,9 +361,10 @@ Result<void> check_parts(const Loaded& loaded, const std::vector<std::int64_t>& 
     std::vector<std::int64_t> known;
     for (const Part& p : loaded.model.parts) known.push_back(p.id);
     std::sort(known.begin(), known.end());
-    return Error{Error::Code::config,
-                 fmt::format("{} {}: {} has no part {}; {}", option, id, loaded.path, id,
-                             known.empty() ? "it has none at all" : "it has " + list_of(known))};
+    return Error{
+        Error::Code::config,
+        fmt::format("{} {}: {} has no part {}; {}", option, id, loaded.path, id,
+                    known.empty() ? "it has none at all" : "it has " + list_of(known, id))};
   }
   return {};
 }

@@ -89,9 +89,13 @@ using Overlay = std::map<std::string, std::string>;
 /// what it is. `schemas` must outlive it.
 /// Where the deck is to be rewritten in place (options.rewrites), an interrupted writing of its
 /// files is finished first; a verb that only reads says that there is one and changes nothing.
-Result<std::unique_ptr<Loaded>> load(const std::string& path, const SchemaSet& schemas,
+/// A name without its ending is found (see find_deck), with a note.
+Result<std::unique_ptr<Loaded>> load(const std::string& given, const SchemaSet& schemas,
                                      const CommonOptions& options, Stage stage = Stage::interfaces,
                                      const Overlay* overlay = nullptr);
+
+/// Says that another file is read than the one that was named, if that is so.
+void note_found(const std::string& given, const std::string& path, const CommonOptions& options);
 
 /// From now on load() shows every deck it has read: for `deck batch`, which runs the other verbs
 /// and has to know the files that a result came from.

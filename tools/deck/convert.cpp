@@ -18,6 +18,7 @@
 #include "deck/edit/verify.hpp"
 #include "deck/report/deck_json.hpp"
 #include "deck/report/losses.hpp"
+#include "deck/text/gzip.hpp"
 #include "deck/text/number.hpp"
 #include "writing/changes.hpp"
 #include "writing/library.hpp"
@@ -97,7 +98,8 @@ std::unique_ptr<Behaviour> behaviour_of(const Loaded& loaded, const SchemaSet& s
 /// Compares the deck with what it was before a step. An exit code if it is another one.
 int verify(Conversion& c, const Loaded& again, const ConvertStep& step,
            const std::vector<LossEntry>& losses, const SchemaSet& schemas,
-           const CommonOptions& common) {
+           const CommonOptions& common, Progress& progress) {
+  progress.step(c.now->path + ": comparing the result of " + step.option + " with the deck");
   auto after = behaviour_of(again, schemas, common);
   VerifyRelation relation = relation_of(losses);
   relation.new_ids = step.option == "--renumber";
@@ -105,6 +107,7 @@ int verify(Conversion& c, const Loaded& again, const ConvertStep& step,
   relation.expanded = step.option == "--expand-type19";
   const auto difference = first_difference(*c.behaviour, *after, relation);
   c.behaviour = std::move(after);
+  progress.clear();
   if (!difference) return exit_clean;
   print_error(common, c.now->path + ": " + step.option +
                           ": the result is not the same model: " + *difference +
@@ -113,13 +116,15 @@ int verify(Conversion& c, const Loaded& again, const ConvertStep& step,
 }
 
 /// One conversion, and the deck read again as it is then. An exit code if that failed.
-int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
-          const Options& options) {
+int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, const Options& options,
+          Progress& progress) {
   const CommonOptions& common = options.common;
   const EditContext context{c.now->deck, c.now->model, c.now->interfaces, schemas};
+  progress.step(c.now->path + ": " + step.option);
   Rewrite rewrite = step.run(context);
   // With a batch the values that only changed are left out: its report holds all decks.
   if (!options.report.empty()) add_changed_values(context, step.option, rewrite);
+  progress.clear();
   const std::vector<LossEntry> losses = std::move(rewrite.losses);
   c.losses.insert(c.losses.end(), losses.begin(), losses.end());
   if (!rewrite.refusals.empty()) {
@@ -147,7 +152,8 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas,
     print_error(common, again.error().message);
     return exit_internal;
   }
-  const int code = c.behaviour ? verify(c, **again, step, losses, schemas, common) : exit_clean;
+  const int code =
+      c.behaviour ? verify(c, **again, step, losses, schemas, common, progress) : exit_clean;
   c.now = std::move(*again);
   return code;
 }
@@ -188,6 +194,7 @@ struct Run {
   const Options& options;
   const std::vector<ConvertStep> steps;
   Changes changes;
+  Progress progress;
   std::vector<Document> documents = {};
   std::vector<LossEntry> losses = {};
   bool refused = false;  ///< nothing may be written
@@ -210,7 +217,7 @@ std::vector<fs::path> document_names(const Run& run) {
     return !relative.empty() && *relative.begin() != "..";
   };
   for (const auto& [deck, text, below_root] : run.documents) {
-    places.push_back(fs::absolute(deck == "-" ? "stdin" : deck).lexically_normal());
+    places.push_back(fs::absolute(deck == "-" ? "stdin" : without_gz(deck)).lexically_normal());
     places.back().replace_extension(".json");
     names.push_back(places.back().filename());
     if (places.size() == 1) shared = places.back().parent_path();
@@ -259,7 +266,9 @@ int write_all(Run& run) {
   if (options.to == "json" || options.from == "lsdyna") {
     return exit_clean;
   } else if (options.write.in_place || !options.write.directory.empty()) {
+    run.progress.step("writing");
     done = run.changes.write(true);
+    run.progress.clear();
   } else if (options.write.diff) {
     const auto patch = run.changes.diff();
     if (!patch) return fail(run, patch.error());
@@ -290,7 +299,8 @@ int add_document(Run& run, const Conversion& c, const SchemaSet& schemas) {
     if (const std::string why = document_difference(*document, c.now->deck, schemas); !why.empty())
       return fail(run, {Error::Code::internal, c.now->path + ": the JSON is not the deck: " + why});
   Document made{c.now->path, std::move(*document), {}};
-  fs::path name = made.deck == "-" ? "stdin.json" : fs::path(made.deck).stem().string() + ".json";
+  fs::path name =
+      made.deck == "-" ? "stdin.json" : fs::path(without_gz(made.deck)).stem().string() + ".json";
   if (!run.changes.root().empty())
     made.below_root = name =
         (fs::absolute(made.deck).lexically_normal().parent_path().lexically_relative(
@@ -340,7 +350,7 @@ int convert(Run& run, const std::string& name, std::unique_ptr<Loaded> loaded, O
   c.losses = losses;
   int code = exit_clean;
   for (const ConvertStep& step : run.steps) {
-    code = apply(c, step, schemas, options);
+    code = apply(c, step, schemas, options, run.progress);
     if (code != exit_clean) break;
   }
   if (code == exit_clean) print_losses(c.losses, options.common);
@@ -445,7 +455,8 @@ int run(const Options& options) {
   if (const int bad = check_outputs(options.common, {options.report}); bad != exit_clean)
     return bad;
   const std::string_view ending = options.from == "json" ? document_ending : deck_ending;
-  Run work{options, std::move(*steps), Changes(options.common, options.write)};
+  Run work{options, std::move(*steps), Changes(options.common, options.write),
+           Progress(!options.common.quiet)};
   auto decks = Result<std::vector<std::string>>(options.common.decks);
   if (options.from != "lsdyna") decks = work.changes.decks(options.common.decks, ending);
   if (!decks) {

@@ -17,6 +17,7 @@
 #include "deck/edit/unit_system.hpp"
 #include "deck/edit/version.hpp"
 #include "deck/edit/write.hpp"
+#include "deck/text/gzip.hpp"
 
 namespace deck::cli {
 
@@ -127,7 +128,7 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
 
 Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schemas,
                                 const ConvertSteps& steps, std::vector<LossEntry>& losses) {
-  const auto source = Source::open(path, Limits{});
+  const auto source = Source::open_text(path, Limits{});
   if (!source) return source.error();
   remember_read(**source);
   auto files = deck_from_json((*source)->bytes(), schemas, {steps.round}, &losses);
@@ -148,7 +149,7 @@ int convert_lsdyna(const ConvertSteps& steps, const std::string& directory,
   std::vector<std::unique_ptr<Source>> sources;
   std::vector<LsDynaFile> files;
   for (const std::string& path : common.decks) {
-    auto source = Source::open(path, Limits{});
+    auto source = Source::open_text(path, Limits{});
     if (!source) {
       print_error(common, source.error().message);
       worst = exit_input;
@@ -180,7 +181,7 @@ int convert_lsdyna(const ConvertSteps& steps, const std::string& directory,
       continue;
     }
     const std::string stem =
-        files[i].path == "-" ? "stdin" : fs::path(files[i].path).stem().string();
+        files[i].path == "-" ? "stdin" : fs::path(without_gz(files[i].path)).stem().string();
     outputs.push_back({(fs::path(directory) / (stem + "_contacts.inc")).string(), text});
     const auto [it, is_new] = from.emplace(outputs.back().path, files[i].path);
     if (is_new) continue;

@@ -9,6 +9,7 @@
 #include "accuracy_option.hpp"
 #include "common.hpp"
 #include "deck/report/cycle.hpp"
+#include "deck/text/gzip.hpp"
 #include "deck/text/number.hpp"
 #include "gate.hpp"
 
@@ -109,7 +110,7 @@ Result<cycle::PartVelocity> parse_velocity(const std::string& text) {
 /// Writes VTK files: into the directory itself, or one below it per deck if there are several.
 Result<void> write_vtk(const Options& o, std::string_view path, const std::vector<VtkFile>& vtk) {
   std::filesystem::path directory = o.vtk;
-  if (o.common.decks.size() > 1) directory /= std::filesystem::path(path).stem();
+  if (o.common.decks.size() > 1) directory /= std::filesystem::path(without_gz(path)).stem();
   std::vector<OutputFile> files;
   for (const VtkFile& f : vtk) files.push_back({(directory / f.name).string(), f.bytes});
   return write_outputs(files);

@@ -12,6 +12,7 @@
 #include <map>
 
 #include "common.hpp"
+#include "deck/text/gzip.hpp"
 
 namespace deck::cli {
 namespace {
@@ -56,7 +57,7 @@ bool file_looks_like_deck(const std::string& path) {
   std::string head(enough, '\0');
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(in.gcount()));
-  return looks_like_deck(head);
+  return looks_like_deck(is_gzip(head) ? gunzip_head(head, enough) : head);
 }
 
 bool holds(const std::string& path, std::uint64_t size, std::string_view bytes) {

@@ -25,7 +25,7 @@ const Contact* contact_of(const Scene& scene, bool edges) {
   return nullptr;
 }
 
-int run_deck(const Options& o, const std::string& csv, Loaded& loaded, JsonOutput& json) {
+int run_deck(const Options& o, std::string_view csv, Loaded& loaded, JsonOutput& json) {
   const auto& all = loaded.interfaces.ordered;
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&](const InterBase* i) { return i->id == o.interface_id; });
@@ -76,21 +76,16 @@ int run_deck(const Options& o, const std::string& csv, Loaded& loaded, JsonOutpu
 int run(Options& o) {
   o.states = o.common.decks.back();
   o.common.decks.pop_back();
-  const auto source = Source::open(o.states, Limits{});
+  const auto source = Source::open_text(o.states, Limits{});
   if (!source) {
     print_error(o.common, source.error().message);
     return exit_input;
   }
   remember_read(**source);
-  const auto csv = cycle::states_text((*source)->bytes());
-  if (!csv) {
-    print_error(o.common, o.states + ": the compressed data is damaged");
-    return exit_input;
-  }
   JsonOutput json(o.common, "deck/replay", 1);
   const int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
     print_findings(loaded, o.common);
-    return run_deck(o, *csv, loaded, json);
+    return run_deck(o, (*source)->bytes(), loaded, json);
   });
   return json.finish(code);
 }

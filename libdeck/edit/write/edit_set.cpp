@@ -6,6 +6,7 @@
 #include <set>
 
 #include "deck/text/edits.hpp"
+#include "deck/text/gzip.hpp"
 #include "edit/write/tree.hpp"
 #include "edit/write/write_plan.hpp"
 
@@ -107,6 +108,7 @@ Result<std::size_t> EditSet::enter(const Source& source) {
   file.inode = source.inode();
   file.places.emplace_back(place, source.path());
   file.texts.emplace_back(source.bytes());
+  if (source.packed()) file.on_disk = source.on_disk();
   return files_.size() - 1;
 }
 
@@ -231,6 +233,10 @@ Result<std::vector<std::pair<const EditSet::File*, std::size_t>>> EditSet::chang
   return out;
 }
 
+std::string_view EditSet::as_written(Plan& plan, const std::string& text, bool packed) {
+  return packed ? std::string_view(plan.packed.emplace_back(gzip(text))) : std::string_view(text);
+}
+
 Result<EditSet::Plan> EditSet::in_place() const {
   auto changed = changes();
   if (!changed) return changed.error();
@@ -242,9 +248,11 @@ Result<EditSet::Plan> EditSet::in_place() const {
     }
     if (file->inode == 0)
       return refuse(file->uses.front().path + " was not read from a file and cannot be rewritten");
-    for (const auto& [place, path] : file->places)
-      plan.files.push_back(
-          {path, file->texts[text], FileRead{file->device, file->inode, file->texts.front()}});
+    const bool packed = !file->on_disk.empty();
+    const std::string_view bytes = as_written(plan, file->texts[text], packed);
+    const FileRead read{file->device, file->inode,
+                        packed ? std::string_view(file->on_disk) : file->texts.front()};
+    for (const auto& [place, path] : file->places) plan.files.push_back({path, bytes, read});
   }
   return plan;
 }
@@ -310,8 +318,10 @@ Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
                       "; nothing was written. Write the decks to different directories");
     }
   }
-  for (const auto& [target, source] : targets)
-    plan.files.push_back({target, source.first->texts[source.second->text]});
+  for (const auto& [target, source] : targets) {
+    const std::string& text = source.first->texts[source.second->text];
+    plan.files.push_back({target, as_written(plan, text, has_gz_name(target))});
+  }
   plan.outside.assign(outside.begin(), outside.end());
   return plan;
 }
@@ -330,8 +340,8 @@ Result<std::string> EditSet::diff() const {
   std::string out;
   for (const auto& [file, text] : *changed)
     for (const auto& [place, path] : file->places) {
-      const std::string shown =
-          place.empty() ? path : fs::path(place).lexically_relative(root).string();
+      std::string shown = place.empty() ? path : fs::path(place).lexically_relative(root).string();
+      if (!file->on_disk.empty()) shown = without_gz(shown);
       const std::string hunks = unified_diff(shown, file->texts.front(), file->texts[text]);
       if (!hunks.empty() && (elsewhere || file->is_new))
         out += "diff --git a/" + shown + " b/" + shown + "\n";

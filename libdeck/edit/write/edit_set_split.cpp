@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "deck/edit/edit_set.hpp"
+#include "deck/text/gzip.hpp"
 #include "edit/write/write_plan.hpp"
 #include "keyword/include_file.hpp"
 
@@ -41,8 +42,8 @@ bool redirect(std::string& text, const std::string& written, const std::string& 
 }  // namespace
 
 std::string EditSet::free_name(const std::string& path, const std::string& deck) const {
-  const fs::path p(path);
-  std::string stem = fs::path(deck).stem().string();
+  const fs::path p(without_gz(path));
+  std::string stem = fs::path(without_gz(deck)).stem().string();
   if (stem.ends_with("_0000")) stem.resize(stem.size() - 5);
   std::error_code ec;
   for (int number = 1;; ++number) {

@@ -43,7 +43,7 @@ std::vector<std::string> directives_of(std::string_view text) {
 const std::vector<std::string>& IncludeScan::written(const File& file) {
   const auto [it, is_new] = written_.try_emplace(file.identity);
   if (is_new)
-    if (const auto source = Source::open(file.path, Limits{}))
+    if (const auto source = Source::open_text(file.path, Limits{}))
       it->second = directives_of((*source)->bytes());
   return it->second;
 }

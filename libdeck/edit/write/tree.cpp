@@ -34,10 +34,12 @@ std::vector<fs::path> relative_places(const Deck& deck, Layout& layout) {
       layout.outside.push_back(opened);
       continue;
     }
-    const fs::path beside = fs::path(deck.sources[e.parent].path()).parent_path() / written;
-    const fs::path by_main = main.parent_path() / written;
-    const bool from_main = beside.lexically_normal().string() != opened &&
-                           by_main.lexically_normal().string() == opened;
+    const auto opened_below = [&](const fs::path& directory) {
+      const std::string found = (directory / written).lexically_normal().string();
+      return found == opened || (deck.sources[e.file].packed() && found + ".gz" == opened);
+    };
+    const bool from_main = !opened_below(fs::path(deck.sources[e.parent].path()).parent_path()) &&
+                           opened_below(main.parent_path());
     const fs::path base = from_main ? fs::path() : place[e.parent].parent_path();
     place[e.file] = (base / written).lexically_normal();
     known[e.file] = true;

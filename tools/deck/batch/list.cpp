@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "deck/edit/include_scan.hpp"
+#include "deck/text/gzip.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/source.hpp"
 #include "writing/library.hpp"
@@ -50,7 +51,7 @@ bool reserved(const std::string& stem) {
 
 /// The last `parents` directory names and the stem, "a--b--car_0000".
 std::string name_with_parents(const fs::path& path, int parents) {
-  std::string name = path.stem().string();
+  std::string name = fs::path(without_gz(path.string())).stem().string();
   fs::path dir = path.parent_path();
   for (int i = 0; i < parents && dir.has_filename(); ++i, dir = dir.parent_path())
     name = dir.filename().string() + "--" + name;
@@ -96,7 +97,7 @@ std::vector<std::string> result_names(const std::vector<fs::path>& paths) {
 /// True for a text with keywords that no deck can be: without head and /BEGIN. An Engine file, a
 /// page, binary data or nothing at all are decks that cannot be read.
 bool is_part_of_a_deck(const std::string& path) {
-  const auto source = Source::open(path, Limits{});
+  const auto source = Source::open_text(path, Limits{});
   if (!source) return false;
   const std::string_view text = (*source)->bytes();
   constexpr std::size_t head = 4096;  // as far as the banner is looked for

@@ -48,6 +48,8 @@ std::string usage_error(const WriteChoice& choice) {
 
 Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& given,
                                                 std::string_view ending) {
+  if (ending == deck_ending)
+    for (const std::string& path : given) note_found(path, find_deck(path), common_);
   auto all = expand_decks(given, ending, choice_.directory);
   if (!all) return all;
   if (all->empty())

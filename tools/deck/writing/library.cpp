@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <set>
 
+#include "deck/text/gzip.hpp"
+
 namespace deck::cli {
 namespace {
 
@@ -38,6 +40,14 @@ std::vector<std::string> matches_of(const std::string& pattern) {
 
 }  // namespace
 
+std::string find_deck(const std::string& given) {
+  std::error_code ec;
+  if (given.empty() || given == "-" || fs::exists(given, ec)) return given;
+  for (const char* ending : {"_0000.rad", ".rad", "_0000.rad.gz", ".rad.gz", ".gz"})
+    if (const std::string path = given + ending; fs::is_regular_file(path, ec)) return path;
+  return given;
+}
+
 Result<std::vector<std::string>> files_below(const std::string& directory, std::string_view ending,
                                              const std::string& output) {
   std::vector<std::string> found;
@@ -50,7 +60,10 @@ Result<std::vector<std::string>> files_below(const std::string& directory, std::
     if (it->is_directory(status) &&
         (name.starts_with('.') || (!output.empty() && absolute_of(it->path().string()) == results)))
       it.disable_recursion_pending();
-    if (name.ends_with(ending) && it->is_regular_file(status)) found.push_back(it->path().string());
+    if (!without_gz(name).ends_with(ending) || !it->is_regular_file(status)) continue;
+    // Where both lie there the packed one is the copy.
+    if (has_gz_name(name) && fs::exists(without_gz(it->path().string()), status)) continue;
+    found.push_back(it->path().string());
   }
   if (ec) return Error{Error::Code::io, "cannot read " + directory + ": " + ec.message()};
   std::sort(found.begin(), found.end());
@@ -83,7 +96,7 @@ Result<std::vector<std::string>> expand_decks(const std::vector<std::string>& gi
       for (const std::string& deck : matches)
         if (!fs::is_directory(deck, ec)) add(deck);
     } else {
-      add(path);
+      add(ending == deck_ending ? find_deck(path) : path);
     }
   }
   return out;
@@ -155,6 +168,35 @@ Result<Dependents> find_dependents(const std::vector<std::string>& decks, const 
   }
   std::sort(out.decks.begin(), out.decks.end());
   return out;
+}
+
+Result<std::vector<std::string>> decks_of_files(const std::vector<std::string>& changed,
+                                                const std::string& root,
+                                                const std::vector<std::string>& include_paths) {
+  const fs::path here = absolute_of(".");
+  // As they were given, or as git names them from the current directory.
+  const auto shown = [&](const std::string& path) {
+    const fs::path relative = absolute_of(path).lexically_relative(here);
+    return relative.empty() || *relative.begin() == ".." ? path : relative.string();
+  };
+  std::set<std::string> decks, roots;
+  std::set<FileIdentity> included;
+  IncludeScan scan(include_paths);
+  for (const std::string& path : changed) {
+    const auto files = scan.files(path);
+    if (files.empty()) continue;  // removed by the change, or no file
+    if (without_gz(path).ends_with(deck_ending)) decks.insert(shown(path));
+    included.insert(files.front().identity);
+    roots.insert(root.empty() ? library_root(path) : root);
+  }
+  for (const std::string& directory : roots) {
+    const auto below = files_below(directory, deck_ending);
+    if (!below) return below.error();
+    for (const std::string& deck : *below)
+      for (const IncludeScan::File& file : scan.files(deck))
+        if (included.contains(file.identity)) decks.insert(shown(deck));
+  }
+  return std::vector<std::string>(decks.begin(), decks.end());
 }
 
 }  // namespace deck::cli

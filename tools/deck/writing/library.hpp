@@ -13,7 +13,12 @@ namespace deck::cli {
 
 inline constexpr std::string_view deck_ending = "_0000.rad", document_ending = "_0000.json";
 
-/// All files below a directory whose names end so, sorted; hidden directories and `output`, where
+/// The deck that a name without its ending stands for: "crash_box" is crash_box_0000.rad where that
+/// is there, then crash_box.rad, then one of them packed (".gz"). What exists stands for itself.
+std::string find_deck(const std::string& given);
+
+/// All files below a directory whose names end so, packed (".gz") ones included where
+/// the plain one is not there as well, sorted; hidden directories and `output`, where
 /// results go, are passed over.
 Result<std::vector<std::string>> files_below(const std::string& directory, std::string_view ending,
                                              const std::string& output = {});
@@ -41,5 +46,12 @@ struct Dependents {
 /// `root` empty: library_root of each deck.
 Result<Dependents> find_dependents(const std::vector<std::string>& decks, const std::string& root,
                                    const std::vector<std::string>& include_paths);
+
+/// The decks that changed files belong to, sorted: a deck itself, and for every other file those
+/// below `root` (empty: library_root of the file) that include it. Error: a directory that cannot
+/// be read.
+Result<std::vector<std::string>> decks_of_files(const std::vector<std::string>& changed,
+                                                const std::string& root,
+                                                const std::vector<std::string>& include_paths);
 
 }  // namespace deck::cli

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace deck {
 
@@ -10,6 +11,10 @@ namespace deck {
 /// bytes, capitals count as other letters. `limit + 1` where their lengths alone differ by more.
 std::size_t edit_distance(std::string_view a, std::string_view b,
                           std::size_t limit = static_cast<std::size_t>(-1) / 2);
+
+/// The word of `known` that `word` was probably meant to be: the closest one, in whatever letters;
+/// empty: none is close. The shorter the word, the closer it has to be.
+std::string closest_word(std::string_view word, const std::vector<std::string>& known);
 
 /// With the letters a to z as A to Z, whatever the locale.
 std::string in_capitals(std::string_view text);

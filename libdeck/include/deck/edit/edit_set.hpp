@@ -26,7 +26,8 @@ class EditSet {
 
   /// What a call would write, once and for all of its decks. Points into the set.
   struct Plan {
-    std::vector<OutputFile> files;     ///< by path
+    std::vector<OutputFile> files;     ///< by path; the bytes are those that will be on disk
+    std::deque<std::string> packed;    ///< bytes of packed files
     std::vector<std::string> outside;  ///< trees: included by an absolute path, left where they are
   };
 
@@ -54,9 +55,10 @@ class EditSet {
   /// files, or two texts of one file, for one place; a file that stays where it is would have to
   /// change.
   Result<Plan> tree(const std::string& directory) const;
-  /// The changes of in_place() as one patch that git apply takes, every file once. Paths are
-  /// relative to the top of the git work tree that holds the files, else to the current directory,
-  /// else to the directory that all of them share.
+  /// The changes of in_place() as one patch that git apply takes, every file once; of packed files
+  /// it changes the unpacked ones, named without ".gz". Paths are relative to the top of the git
+  /// work tree that holds the files, else to the current directory, else to the directory that all
+  /// of them share.
   Result<std::string> diff() const;
 
   /// A deck that is not in the set and includes a file of it, too: the file cannot be changed in
@@ -93,6 +95,7 @@ class EditSet {
     /// Where it is on disk, links resolved, and how it was opened: several if hard-linked.
     std::vector<std::pair<std::string, std::string>> places;
     std::deque<std::string> texts;  ///< as it was read, then what is wanted
+    std::string on_disk;            ///< of a packed file: what was unpacked
     std::vector<Use> uses;
     std::string outsider;  ///< a deck outside the set that includes it
     bool is_new = false;   ///< a copy that is to be made
@@ -118,6 +121,7 @@ class EditSet {
   Error conflict(const File& file, const Use& a, const Use& b, const std::string& where) const;
   std::vector<std::string> folders() const;
   const Use* use_of(std::size_t deck, const std::string& path) const;
+  static std::string_view as_written(Plan& plan, const std::string& text, bool packed);
   const Use* odd_use(const File& file) const;
   Result<void> give_copy(std::size_t deck, const std::string& path, const std::string& copy);
   std::string free_name(const std::string& path, const std::string& deck) const;

@@ -17,6 +17,7 @@ namespace deck {
 ///   @bare               no model around the text, only /BEGIN and /END
 ///   @deck               the text is the whole main file
 ///   @file NAME          what follows is the content of another file of the deck
+///   @gzip NAME          the same, and the file lies there packed
 ///   @limit NAME N       a reading limit for this example (used by tests only)
 ///   @/KEYWORD/1 A=1 B=2 the card of that keyword; interfaces get sides 1 and 2 if none are given
 ///   anything else       taken as it is

@@ -35,13 +35,22 @@ class Source {
   /// Opens a regular file; "-" reads standard input. Errors: missing, directory, FIFO, device,
   /// unreadable, over the limit — with the system's reason.
   static Result<std::unique_ptr<Source>> open(const std::string& path, const Limits& limits);
+  /// The same with the text of a file that is packed with gzip, see unpack().
+  static Result<std::unique_ptr<Source>> open_text(const std::string& path, const Limits& limits);
   static std::unique_ptr<Source> from_bytes(std::string name, std::string bytes);
+  /// The same file; where it is packed with gzip, with the text that was packed as its bytes.
+  /// Errors: damaged, cut off, over the limit.
+  static Result<std::unique_ptr<Source>> unpack(std::unique_ptr<Source> source,
+                                                const Limits& limits);
   ~Source();
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
   const std::string& path() const { return path_; }  ///< as it was asked for
   std::string_view bytes() const { return bytes_; }
+  /// What is on disk: other bytes than bytes() if the file is packed.
+  std::string_view on_disk() const { return packed_ ? packed_bytes_ : bytes_; }
+  bool packed() const { return packed_; }
   std::uint64_t device() const { return device_; }
   std::uint64_t inode() const { return inode_; }
 
@@ -56,8 +65,9 @@ class Source {
  private:
   Source() = default;
   std::string path_;
-  std::string storage_;
-  std::string_view bytes_;
+  std::string storage_, unpacked_;
+  std::string_view bytes_, packed_bytes_;
+  bool packed_ = false;
   void* map_ = nullptr;
   std::size_t map_size_ = 0;
   std::uint64_t device_ = 0, inode_ = 0;
