@@ -35,8 +35,19 @@ struct ParserLost {};
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "deck/base/spelling.hpp"
+
 namespace deck {
 namespace fs = std::filesystem;
+
+std::string unknown_selector(std::string_view text) {
+  std::vector<std::string> ids;
+  for (const Rule& rule : all_rules()) ids.emplace_back(id_text(rule.id));
+  const std::string close = closest_word(text, ids);
+  return "no rule is called '" + std::string(text) + "'" +
+         (close.empty() ? "; see 'deck rules'" : "; did you mean '" + close + "'?");
+}
+
 namespace {
 
 Error config_error(const std::string& path, std::uint64_t line, const std::string& what) {
@@ -58,8 +69,7 @@ Result<std::vector<std::string>> string_list(const toml::node& node, const std::
     if (!text)
       return config_error(path, line_of(item),
                           "'" + std::string(key) + "' holds something that is not a string");
-    if (!known_selector(*text))
-      return config_error(path, line_of(item), "no rule is called '" + *text + "'");
+    if (!known_selector(*text)) return config_error(path, line_of(item), unknown_selector(*text));
     out.push_back(*text);
   }
   return out;
@@ -83,9 +93,9 @@ Result<void> read_severity(const toml::node& node, LintConfig& config) {
       return config_error(config.path, line_of(value),
                           "a severity is \"error\", \"warning\" or \"info\"");
     if (!known_selector(key.str()))
-      return config_error(config.path, line_of(value),
-                          "no rule is called '" + std::string(key.str()) + "'");
+      return config_error(config.path, line_of(value), unknown_selector(key.str()));
     config.severity[std::string(key.str())] = *severity;
+    config.lines["severity." + std::string(key.str())] = line_of(value);
   }
   return {};
 }
@@ -136,11 +146,10 @@ Result<GateScope> read_scope(const toml::node& node, const std::string& path,
     const auto known = read_bound(key.str(), value, path, scope.limits);
     if (!known) return known.error();
     if (!*known || (patterns == 2 && key.str() == "max-dt-loss"))
-      return config_error(path, line_of(value),
-                          "unknown key '" + std::string(key.str()) +
-                              "'; known: match, max-depth, "
-                              "max-ratio, max-count" +
-                              (patterns == 1 ? ", max-dt-loss" : ""));
+      return config_error(
+          path, line_of(value),
+          "unknown key '" + std::string(key.str()) + "'; known: " +
+              known_config_keys(patterns == 1 ? "gate.interface" : "gate.part-pair"));
   }
   if (scope.match.empty()) return config_error(path, line_of(node), "'match' is missing: " + form);
   return scope;
@@ -159,11 +168,14 @@ Result<void> read_gate(const toml::node& node, LintConfig& config) {
       for (const toml::node& item : *list) {
         auto scope = read_scope(item, config.path, of_interface ? 1 : 2);
         if (!scope) return scope.error();
-        (of_interface ? config.gate.interfaces : config.gate.part_pairs)
-            .push_back(std::move(*scope));
+        auto& scopes = of_interface ? config.gate.interfaces : config.gate.part_pairs;
+        config.lines["gate." + std::string(key.str()) + "[" + std::to_string(scopes.size()) + "]"] =
+            line_of(item);
+        scopes.push_back(std::move(*scope));
       }
       continue;
     }
+    config.lines["gate." + std::string(key.str())] = line_of(value);
     if (key.str() == "fail-on") {
       const toml::array* list = value.as_array();
       bool legal = list != nullptr;
@@ -177,24 +189,27 @@ Result<void> read_gate(const toml::node& node, LintConfig& config) {
                             "'fail-on' of the gate is a list of \"new\" and \"worse\"");
       continue;
     }
-    if (key.str() == "compare") {
+    if (key.str() == "compare" || key.str() == "baseline") {
       const auto text = value.value<std::string>();
-      if (!text) return config_error(config.path, line_of(value), "'compare' is not a path");
-      config.compare = (fs::path(config.path).parent_path() / *text).string();
+      if (!text)
+        return config_error(config.path, line_of(value),
+                            "'" + std::string(key.str()) + "' is not a path");
+      (key.str() == "compare" ? config.compare : config.accepted) =
+          (fs::path(config.path).parent_path() / *text).string();
       continue;
     }
     const auto known = read_bound(key.str(), value, config.path, config.gate.general);
     if (!known) return known.error();
     if (!*known)
-      return config_error(config.path, line_of(value),
-                          "unknown key '" + std::string(key.str()) +
-                              "'; known: max-depth, max-ratio, max-count, max-dt-loss, fail-on, "
-                              "compare, interface, part-pair");
+      return config_error(
+          config.path, line_of(value),
+          "unknown key '" + std::string(key.str()) + "'; known: " + known_config_keys("gate"));
   }
   return {};
 }
 
 Result<void> read_key(std::string_view key, const toml::node& node, LintConfig& config) {
+  config.lines[std::string(key)] = line_of(node);
   if (key == "select" || key == "ignore") {
     auto list = string_list(node, config.path, key);
     if (!list) return list.error();
@@ -225,13 +240,12 @@ Result<void> read_key(std::string_view key, const toml::node& node, LintConfig& 
       auto list = string_list(rules, config.path, glob.str());
       if (!list) return list.error();
       config.per_file_ignores.emplace_back(std::string(glob.str()), std::move(*list));
+      config.lines["per-file-ignores." + std::string(glob.str())] = line_of(rules);
     }
     return {};
   }
   return config_error(config.path, line_of(node),
-                      "unknown key '" + std::string(key) +
-                          "'; known: select, ignore, fail-on, baseline, severity, "
-                          "per-file-ignores, gate");
+                      "unknown key '" + std::string(key) + "'; known: " + known_config_keys(""));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "report/diagnostics_common.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace deck::detail {
 
@@ -54,9 +55,16 @@ std::optional<Coverage> coverage_of(const LintedDeck& linted) {
   return deck::coverage_of(*linted.deck, *linted.interfaces);
 }
 
-std::string relative_path(std::string_view path) {
-  while (path.starts_with("./")) path.remove_prefix(2);
-  return std::string(path);
+std::string SourceRoot::place(std::string_view file) const {
+  namespace fs = std::filesystem;
+  if (root_.empty())
+    while (file.starts_with("./")) file.remove_prefix(2);
+  if (root_.empty() || file == "-") return std::string(file);
+  std::error_code ec;
+  const fs::path whole = fs::absolute(file, ec).lexically_normal();
+  const fs::path relative = whole.lexically_relative(root_);
+  const bool below = !relative.empty() && *relative.begin() != "..";
+  return (below ? relative : whole).generic_string();
 }
 
 }  // namespace deck::detail

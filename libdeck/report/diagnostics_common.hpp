@@ -20,8 +20,18 @@ Place place_of(const LintedDeck& deck, const Span& span);
 const char* severity_name(Severity severity);
 /// "Fix: ..." and what the reference solver does, as sentences for formats without own fields.
 std::string details(const Diagnostic& d);
-/// Path as SARIF and GitHub want it: relative, with forward slashes, no "./".
-std::string relative_path(std::string_view path);
+/// The directory that a forge knows files by: the top of a work tree. Empty: files as given.
+class SourceRoot {
+ public:
+  explicit SourceRoot(std::string root) : root_(std::move(root)) {}
+  const std::string& path() const { return root_; }
+  /// A file below the root relative to it, with forward slashes; any other one by its absolute
+  /// path; standard input as "-".
+  std::string place(std::string_view file) const;
+
+ private:
+  std::string root_;
+};
 
 /// What the contact rules covered; nullopt where no interfaces were formed.
 std::optional<Coverage> coverage_of(const LintedDeck& linted);

@@ -1,6 +1,7 @@
 // The writers of lint results: places, carets, escapes, bounds.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "deck/report/diagnostics.hpp"
@@ -108,6 +109,25 @@ TEST(SarifReport, HasRulesRegionsFixesAndFingerprints) {
   EXPECT_EQ(replacement["deletedRegion"]["endColumn"], 71);
 }
 
+TEST(SarifReport, NamesFilesByTheSourceRoot) {
+  const Linted run = lint_example("@/INTER/TYPE7/1 Ibag=1\n", only("DK258"));
+  auto decks = one(run);
+  const auto artifact = [&](const std::string& root) {
+    const auto json = nlohmann::json::parse(lint_sarif(decks, SchemaSet::built_in(), root));
+    EXPECT_EQ(json["runs"][0]["originalUriBaseIds"]["%SRCROOT%"]["uri"], "file://" + root + "/");
+    return json["runs"][0]["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"];
+  };
+  namespace fs = std::filesystem;
+  const fs::path here = fs::current_path();
+  EXPECT_EQ(artifact(here.string())["uri"], "deck_0000.rad");
+  EXPECT_EQ(artifact(here.string())["uriBaseId"], "%SRCROOT%");
+  EXPECT_EQ(artifact(here.parent_path().string())["uri"],
+            (here.filename() / "deck_0000.rad").string());
+  const auto elsewhere = artifact("/no/such/folder");
+  EXPECT_EQ(elsewhere["uri"], "file://" + (here / "deck_0000.rad").string());
+  EXPECT_FALSE(elsewhere.contains("uriBaseId"));
+}
+
 TEST(SarifReport, SaysThatColumnsCountCharacters) {
   const Linted run = lint_example("@/INTER/TYPE7/1 Ibag=1\n", only("DK258"));
   const auto json = nlohmann::json::parse(lint_sarif(one(run), SchemaSet::built_in()));
@@ -135,11 +155,30 @@ TEST(GithubReport, EscapesAndPutsTheWorstFirst) {
   EXPECT_EQ(lint_github(bad), "::error file=a%3Ab%2Cc,title=deck::line%0Abreak\n");
 }
 
+TEST(JunitReport, NamesOfCasesDoNotMoveWithTheirLines) {
+  const auto names = [](const std::string& example) {
+    const std::string text = lint_junit(one(lint_example(example, only("DK258"))));
+    std::vector<std::string> out;
+    for (auto at = text.find("<testcase name=\""); at != text.npos;
+         at = text.find("<testcase name=\"", at + 1)) {
+      const auto begin = at + 16;
+      out.push_back(text.substr(begin, text.find('"', begin) - begin));
+    }
+    return out;
+  };
+  const std::string cards = "@/INTER/TYPE7/1 Ibag=1\n@/INTER/TYPE7/2 Ibag=1\n";
+  const auto before = names(cards);
+  EXPECT_EQ(before, (std::vector<std::string>{"DK258 /INTER/TYPE7/1", "DK258 /INTER/TYPE7/2"}));
+  EXPECT_EQ(names("/TITLE\nseveral\n" + cards), before);
+}
+
 TEST(JunitReport, CountsFailuresAndEscapesMarkup) {
   const Linted run = lint_example("@/INTER/TYPE7/1 fric_ID=77 Inacti=5\n");
   const std::string text = lint_junit(one(run));
   EXPECT_NE(text.find("<failure type=\"error\""), std::string::npos);
   EXPECT_NE(text.find("<system-out>"), std::string::npos) << "notes are no failures";
+  EXPECT_EQ(text.find("<failure type=\"warning\""), std::string::npos);
+  EXPECT_NE(text.find("failures=\"1\""), std::string::npos) << "warnings are none either: " << text;
   const std::vector<LintedDeck> bad = {{"x", nullptr, nullptr, "<a> & \"b\""}};
   EXPECT_NE(lint_junit(bad).find("&lt;a&gt; &amp; &quot;b&quot;"), std::string::npos);
   LintOptions errors_only;

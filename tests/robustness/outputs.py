@@ -89,7 +89,8 @@ def check_sarif(c, files):
         c.skip("SARIF against the 2.1.0 schema", "npm could not install @microsoft/sarif-multitool")
         return
     def errors_in(paths):
-        r = subprocess.run([tool, "validate", *paths], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+        # With the rules of GitHub's code scanning.
+        r = subprocess.run([tool, "validate", *paths, "--rule-kind", "Sarif;Ghas"], capture_output=True, text=True, stdin=subprocess.DEVNULL)
         return r.returncode, [x for x in r.stdout.split("\n") if ": error " in x], r.stdout + r.stderr
     # The judge must be able to say no.
     bad = os.path.join(os.path.dirname(files[0]), "bad.sarif")
@@ -99,12 +100,58 @@ def check_sarif(c, files):
     _, errors, out = errors_in([bad])
     if not c.check("the SARIF validator refuses a wrong file", bool(errors), out[-300:]):
         return
+    with open(files[0]) as f:
+        document = json.load(f)
+    document["runs"][0]["results"] = [{"ruleId": "DK101", "message": {"text": "Nowhere."}}]
+    with open(bad, "w") as f:
+        json.dump(document, f)
+    _, errors, out = errors_in([bad])
+    c.check("it knows what GitHub wants", any("GH1017" in e for e in errors), out[-300:])
     for f in files:
         code, errors, out = errors_in([f])
         c.check("SARIF of " + os.path.basename(f), not errors and "scanned" in out, "; ".join(errors[:3]) or out[-300:])
 
 
+# JUnit as Jenkins' schema has it (junit-10.xsd): element -> its attributes and its children.
+JUNIT = {"testsuites": ({"name", "time", "tests", "failures", "disabled", "errors"}, {"testsuite"}),
+         "testsuite": ({"name", "tests", "failures", "errors", "time", "disabled", "skipped", "timestamp", "hostname", "id", "package", "file"},
+                       {"properties", "testsuite", "testcase", "system-out", "system-err"}),
+         "testcase": ({"name", "assertions", "time", "classname", "status", "class", "file", "line"}, {"skipped", "error", "failure", "system-out", "system-err"}),
+         "skipped": ({"type", "message"}, set()), "error": ({"type", "message"}, set()), "failure": ({"type", "message"}, set()),
+         "system-out": (set(), set())}
+
+
+def junit_errors(text):
+    """What is wrong with a JUnit document, counts included."""
+    out = []
+
+    def look(e):
+        if e.tagName not in JUNIT:
+            return out.append("<%s> is no element" % e.tagName)
+        attributes, children = JUNIT[e.tagName]
+        out.extend("%s has no attribute %s" % (e.tagName, a) for a in e.attributes.keys() if a not in attributes)
+        if e.tagName in ("testsuite", "testcase") and not e.getAttribute("name"):
+            out.append("%s without a name" % e.tagName)
+        for child in e.childNodes:
+            if child.nodeType == child.ELEMENT_NODE:
+                if child.tagName not in children:
+                    out.append("%s in %s" % (child.tagName, e.tagName))
+                look(child)
+    root = xml.dom.minidom.parseString(text).documentElement
+    look(root)
+    for suite in root.getElementsByTagName("testsuite"):
+        for attribute, tag in (("tests", "testcase"), ("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
+            n = len(suite.getElementsByTagName(tag))
+            if suite.getAttribute(attribute) not in (str(n), "" if n == 0 else "-"):
+                out.append("%s=%s of %d" % (attribute, suite.getAttribute(attribute), n))
+        names = [(t.getAttribute("classname"), t.getAttribute("name")) for t in suite.getElementsByTagName("testcase")]
+        out.extend("two cases %s" % (n,) for n in set(names) if names.count(n) > 1)
+    return out
+
+
 def lint_formats(c, tmp):
+    c.check("the JUnit check refuses a wrong file", junit_errors('<testsuites><testsuite name="a" tests="2" failures="0" errors="0">'
+            '<testcase name="x"/><case/></testsuite></testsuites>') == ["case in testsuite", "<case> is no element", "tests=2 of 1"])
     sarifs = []
     validators = validator_of(c, "lint")
     for path in SAMPLES:
@@ -116,8 +163,9 @@ def lint_formats(c, tmp):
         check_document(c, "lint json of " + stem, open(out["json"]).read(), validators)
         sarifs.append(out["sarif"])
         try:
-            xml.dom.minidom.parse(out["junit"])
-            c.check("junit of " + stem, True)
+            with open(out["junit"], "rb") as f:
+                errors = junit_errors(f.read())
+            c.check("junit of " + stem, not errors, "; ".join(errors[:3]))
         except Exception as e:  # any parser error
             c.check("junit of " + stem, False, str(e))
         for fmt in ("human", "json", "sarif", "github", "junit", "gitlab"):

@@ -150,6 +150,32 @@ class Gate:
         self.c.check("other ids make nothing new", got == (0, dict(new=0, worse=0, better=0, same=9, solved=0)), str(got))
         write(self.deck, self.text)
 
+    def baseline(self):
+        """Penetrations that are accepted, by deck, wherever the program is called."""
+        bound = ("--fail-on", "warning")
+        self.expect("without a baseline any penetration stops", 1, "gaps", DECK, *bound)
+        self.expect("writing a baseline accepts what is there", 0, "gaps", DECK, "--write-baseline", "base.json", *bound)
+        self.expect("what is in the baseline is accepted", 0, "gaps", DECK, "--baseline", "base.json")
+        r = self.c.run("gaps", os.path.join(os.path.basename(self.folder), DECK), "--baseline", os.path.join(self.folder, "base.json"),
+                       cwd=os.path.dirname(self.folder))
+        self.c.check("a baseline knows its decks from any directory", r.code == 0, r.text[-300:])
+        shutil.copyfile(self.deck, os.path.join(self.folder, "other_0000.rad"))
+        self.expect("a deck that is not in the baseline has nothing accepted", 1, "gaps", "other_0000.rad", "--baseline", "base.json", rules=["DK374"])
+        self.expect("several decks have one baseline", 0, "gaps", DECK, "other_0000.rad", "--write-baseline", "both.json")
+        self.expect("of which each has its own", 0, "gaps", "other_0000.rad", DECK, "--baseline", "both.json")
+        self.expect("a bound counts all the same", 1, "gaps", DECK, "--baseline", "base.json", "--max-depth", "0.1", rules=["DK370"])
+        self.expect("a level that is asked for, too", 1, "gaps", DECK, "--baseline", "base.json", *bound)
+        self.expect("a baseline and --compare are wrong usage together", 2, "gaps", DECK, "--baseline", "base.json", "--compare", "base.json")
+        write(self.deck, lifted(self.text, 105, "0.8"))
+        self.expect("what is deeper than accepted stops", 1, "gaps", DECK, "--baseline", "base.json", rules=["DK375"])
+        write(os.path.join(self.folder, ".decklint.toml"), "[gate]\nbaseline = \"base.json\"\n")
+        self.expect("[gate] baseline: the same", 1, "gaps", DECK, rules=["DK375"])
+        self.expect("[gate] baseline: lint --geometry, too", 1, "lint", DECK, "--geometry", "--fail-on", "never", rules=["DK375"])
+        write(self.deck, lifted(self.text, 105, "1.0"))
+        self.expect("what is less deep passes", 0, "gaps", DECK)
+        os.remove(os.path.join(self.folder, ".decklint.toml"))
+        write(self.deck, self.text)
+
     def repository(self):
         """What the gate is for: main is as it is, a change is held against it."""
         git = lambda *a: subprocess.run(["git", "-C", self.folder, "-c", "user.name=a", "-c", "user.email=a@b.c", *a], check=True, capture_output=True)
@@ -178,6 +204,7 @@ def main():
         gate.usage()
         gate.configuration()
         gate.trends()
+        gate.baseline()
         gate.repository()
     c.finish()
 

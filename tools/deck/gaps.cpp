@@ -13,6 +13,7 @@
 #include "deck/report/html.hpp"
 #include "deck/report/json.hpp"
 #include "deck/report/vtk.hpp"
+#include "deck/text/gzip.hpp"
 #include "deck/text/number.hpp"
 #include "gate.hpp"
 
@@ -27,7 +28,7 @@ struct Options {
   bool fail = false;
   bool crossings = false;
   std::size_t worst = 20;
-  std::string csv, html, vtk, accuracy = "robust";
+  std::string csv, html, vtk, write_baseline, accuracy = "robust";
   GateOptions gate;
   std::vector<std::int64_t> only;
   std::vector<std::string> what_if;
@@ -142,7 +143,7 @@ Result<void> write_vtk(const Options& o, const Loaded& loaded, const Scene& scen
                        const SceneView& view) {
   namespace fs = std::filesystem;
   fs::path directory = o.vtk;
-  if (o.common.decks.size() > 1) directory /= fs::path(loaded.path).stem();
+  if (o.common.decks.size() > 1) directory /= fs::path(without_gz(loaded.path)).stem();
   const std::vector<VtkFile> written = gaps_vtk(scene, view);
   std::vector<OutputFile> files;
   for (const VtkFile& f : written) files.push_back({(directory / f.name).string(), f.bytes});
@@ -187,7 +188,8 @@ int run(const Options& o) {
     print_error(o.common, "--html takes one deck at a time");
     return exit_usage;
   }
-  if (const int bad = check_outputs(o.common, {o.csv, o.html}); bad != exit_clean) return bad;
+  if (const int bad = check_outputs(o.common, {o.csv, o.html, o.write_baseline}); bad != exit_clean)
+    return bad;
   SceneOptions scene_options;
   scene_options.threads = o.common.thread_count();
   scene_options.only = o.only;
@@ -202,13 +204,22 @@ int run(const Options& o) {
     scene_options.what_if.push_back(*w);
   }
   JsonOutput json(o.common, "deck/gaps", 1);
+  CommonOptions baseline_common = o.common;
+  baseline_common.json = o.write_baseline;
+  JsonOutput baseline(baseline_common, "deck/gaps", 1);
+  GateOptions gate_options = o.gate;
+  if (baseline.wanted()) {  // which replaces the old one
+    gate_options.baseline.clear();
+    gate_options.no_config = true;
+  }
   int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
     if (auto fits = check_options(o, loaded, scene_options.what_if); !fits) {
       print_error(o.common, fits.error().message);
       return static_cast<int>(exit_usage);
     }
-    auto config = config_of(o.gate, loaded.path);
-    auto gate = config ? gate_of(o.gate, *config, loaded.path) : Result<DeckGate>(config.error());
+    auto config = config_of(gate_options, loaded.path);
+    auto gate =
+        config ? gate_of(gate_options, *config, loaded.path) : Result<DeckGate>(config.error());
     if (!gate) {
       print_error(o.common, gate.error().message);
       return static_cast<int>(exit_usage);
@@ -237,6 +248,9 @@ int run(const Options& o) {
     if (json.wanted())
       json.add(gaps_json(loaded.path, loaded.deck, scene, view, o.all,
                          o.crossings ? &crossings : nullptr, &report));
+    if (baseline.wanted())
+      baseline.add(gaps_json(name_in_baseline(loaded.path, o.write_baseline), loaded.deck, scene,
+                             view, false));
     if (!o.csv.empty())
       if (auto r = write_output(o.csv, gaps_csv(loaded.deck, scene, view)); !r) {
         print_error(o.common, r.error().message);
@@ -260,14 +274,16 @@ int run(const Options& o) {
       if (o.crossings) print_text(crossings_text(scene, crossings, text));
       if (const std::string lines = gate_text(report); !lines.empty()) print_text("\n" + lines);
     }
+    const bool accepted = baseline.wanted() || (gate->baseline && o.gate.level().empty());
     bool found = o.fail || o.gate.fails_on("warning") ? view.total.count.pairs > 0
                                                       : view.total.solver_errors > 0;
+    found = found && !accepted;
     for (const Contact& c : scene.contacts) found = found || !c.evaluated;
     if (o.gate.fails_on("never")) found = false;
     found = found || !report.passed();
     return static_cast<int>(found ? exit_findings : exit_clean);
   });
-  return json.finish(code);
+  return baseline.finish(json.finish(code));
 }
 
 Action setup(CommandLine& line) {
@@ -297,6 +313,13 @@ Action setup(CommandLine& line) {
   line.flag("--fail-on-penetration", options->fail,
             "Exit 1 for any initial penetration, as --fail-on warning");
   add_gate_with_config(line, options->gate, "the solver stops", "any initial penetration");
+  line.option("--baseline", options->gate.baseline,
+              "Accept the penetrations in FILE, of the decks listed there: only new and worse ones "
+              "exit with 1")
+      .value("FILE");
+  line.option("--write-baseline", options->write_baseline,
+              "Write all penetrations to FILE as a baseline")
+      .value("FILE");
   return [options] { return run(*options); };
 }
 
@@ -307,7 +330,9 @@ const VerbRegistration registration{
      "  deck gaps car_0000.rad --json gaps.json --all\n"
      "  deck gaps car_0000.rad --what-if 3:Gapmin=1.5,Inacti=6\n"
      "  deck gaps car_0000.rad --max-depth 0.5 --max-count 20\n"
-     "  deck gaps car_0000.rad --compare main.json --fail-on new,worse\n",
+     "  deck gaps car_0000.rad --compare main.json --fail-on new,worse\n"
+     "  deck gaps car_0000.rad --write-baseline gaps-baseline.json\n"
+     "  deck gaps car_0000.rad --baseline gaps-baseline.json\n",
      setup}};
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <filesystem>
 
 #include "deck/report/gaps.hpp"
 
@@ -13,14 +14,25 @@ void set(std::optional<double>& bound, double given) {
   if (given >= 0) bound = given;
 }
 
-Result<EarlierGaps> read_earlier(const std::string& path, const std::string& deck_path) {
+Result<EarlierGaps> read_earlier(const std::string& path, const std::string& deck_path,
+                                 bool strict) {
   const auto text = read_config_file(path, most_baseline_bytes);
   if (!text) return text.error();
   remember_read(path);
-  return read_earlier_gaps(path, *text, deck_path);
+  return read_earlier_gaps(path, *text, deck_path, strict);
 }
 
 }  // namespace
+
+std::string name_in_baseline(const std::string& deck_path, const std::string& path) {
+  namespace fs = std::filesystem;
+  if (deck_path == "-") return deck_path;
+  std::error_code ec;
+  return fs::absolute(deck_path, ec)
+      .lexically_normal()
+      .lexically_relative(fs::absolute(path, ec).lexically_normal().parent_path())
+      .generic_string();
+}
 
 bool GateOptions::fails_on(std::string_view word) const {
   return std::find(fail_on.begin(), fail_on.end(), word) != fail_on.end();
@@ -34,7 +46,7 @@ std::string GateOptions::level() const {
 
 bool GateOptions::given() const {
   return max_depth >= 0 || max_ratio >= 0 || max_dt_loss >= 0 || max_count >= 0 ||
-         !compare.empty() || fails_on("new") || fails_on("worse");
+         !compare.empty() || !baseline.empty() || fails_on("new") || fails_on("worse");
 }
 
 void add_gate(CommandLine& line, GateOptions& o) {
@@ -108,9 +120,21 @@ Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
   if (o.max_count >= 0) out.gate.general.max_count = static_cast<std::uint64_t>(o.max_count);
   out.gate.on_fresh |= o.fails_on("new");
   out.gate.on_worse |= o.fails_on("worse");
-  const std::string& compare = o.compare.empty() ? config.compare : o.compare;
-  if (!compare.empty()) {
-    auto read = read_earlier(compare, deck_path);
+  // What the command line names goes before both of the configuration.
+  const bool given = !o.compare.empty() || !o.baseline.empty();
+  const std::string& compare = given ? o.compare : config.compare;
+  const std::string& accepted = given ? o.baseline : config.accepted;
+  if (!compare.empty() && !accepted.empty())
+    return Error{Error::Code::config,
+                 "a baseline and an earlier run to compare with exclude each other: " + accepted +
+                     " and " + compare};
+  if (!accepted.empty()) {
+    auto read = read_earlier(accepted, name_in_baseline(deck_path, accepted), true);
+    if (!read) return read.error();
+    out.earlier = std::move(*read);
+    out.baseline = out.gate.on_fresh = out.gate.on_worse = true;
+  } else if (!compare.empty()) {
+    auto read = read_earlier(compare, deck_path, false);
     if (!read) return read.error();
     out.earlier = std::move(*read);
   } else if (out.gate.on_fresh || out.gate.on_worse) {

@@ -20,6 +20,7 @@ struct GateOptions {
   int max_count = -1;
   std::vector<std::string> fail_on;  ///< words: new, worse, error, warning, never
   std::string compare;               ///< an earlier `deck gaps --json`
+  std::string baseline;              ///< accepted penetrations; of `deck gaps` alone
   std::string config;
   bool no_config = false;
 
@@ -45,12 +46,15 @@ Result<LintConfig> config_of(const GateOptions& options, const std::string& deck
 /// What holds for one deck: the bounds, and what the deck is compared with.
 struct DeckGate {
   Gate gate;
+  bool baseline = false;  ///< `earlier` is what was accepted
   std::optional<EarlierGaps> earlier;
 
   /// Looks, and adds what it finds to the deck's findings. `forces` may be nullptr.
   GateReport look(Loaded& loaded, const Scene& scene, const SceneView& view,
                   const cycle::SceneOutcome* forces) const;
 };
+/// How a deck is called in a baseline that lies at `path`: relative to it.
+std::string name_in_baseline(const std::string& deck_path, const std::string& path);
 Result<DeckGate> gate_of(const GateOptions& options, const LintConfig& config,
                          const std::string& deck_path);
 

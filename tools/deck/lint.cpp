@@ -13,6 +13,7 @@
 #include "deck/model/selection.hpp"
 #include "deck/report/diagnostics.hpp"
 #include "gate.hpp"
+#include "help/settings.hpp"
 #include "writing/changes.hpp"
 #include "writing/library.hpp"
 
@@ -29,6 +30,7 @@ struct Options {
   std::string baseline, write_baseline;
   GateOptions gate;
   bool geometry = false, fix = false, unsafe_fixes = false, diff = false, ruler = false;
+  bool changed = false, init = false, show_config = false;
   WriteChoice write;
   int per_rule = 10;
 };
@@ -48,10 +50,12 @@ struct Job {
 std::string render(std::string_view format, const std::vector<LintedDeck>& decks,
                    const Options& options, const SchemaSet& schemas, bool to_terminal) {
   if (format == "json") return lint_json(decks);
-  if (format == "sarif") return lint_sarif(decks, schemas);
-  if (format == "github") return lint_github(decks);
+  // The git work tree that this runs in, else the current directory.
+  const std::string root = library_root("here");
+  if (format == "sarif") return lint_sarif(decks, schemas, root);
+  if (format == "github") return lint_github(decks, root);
   if (format == "junit") return lint_junit(decks);
-  if (format == "gitlab") return lint_gitlab(decks);
+  if (format == "gitlab") return lint_gitlab(decks, root);
   HumanOptions human;
   human.color = to_terminal && options.common.color_on(1);
   human.ruler = options.ruler;
@@ -70,8 +74,7 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
   out.diagnostics_per_rule = options.common.limits.diagnostics_per_rule;
   for (const auto* list : {&options.select, &options.ignore})
     for (const std::string& s : *list)
-      if (!known_selector(s))
-        return Error{Error::Code::config, "no rule is called '" + s + "'; see 'deck rules'"};
+      if (!known_selector(s)) return Error{Error::Code::config, unknown_selector(s)};
   const std::string baseline = options.baseline.empty() ? config.baseline : options.baseline;
   // A baseline that is about to be written replaces the old one.
   if (baseline.empty() || !options.write_baseline.empty()) return out;
@@ -123,7 +126,11 @@ class Run {
     int worst = exit_clean;
     const bool rewrites = options_.diff || options_.fix || options_.unsafe_fixes;
     auto decks = Result<std::vector<std::string>>(common_.decks);
-    if (rewrites) decks = changes_.decks(common_.decks, deck_ending);
+    if (options_.changed) {
+      decks = decks_of_files(common_.decks, options_.write.root, common_.include_paths);
+      if (decks && decks->empty()) return none_changed();
+    }
+    if (rewrites && decks) decks = changes_.decks(*decks, deck_ending);
     if (!decks) {
       print_error(common_, decks.error().message);
       return decks.error().code == Error::Code::config ? exit_usage : exit_input;
@@ -150,6 +157,11 @@ class Run {
   int usage(const std::string& message) {
     print_error(common_, message);
     return exit_usage;
+  }
+
+  int none_changed() const {
+    if (!common_.quiet) print_note("no deck includes any of these files; nothing to lint");
+    return exit_clean;
   }
 
   /// Configuration, schemas, output list.
@@ -356,7 +368,42 @@ class Run {
   int after_fix_ = exit_clean;
 };
 
+int init(const Options& options) {
+  const CommonOptions& common = options.common;
+  const auto path = common.decks.size() > 1
+                        ? Error{Error::Code::config, "--init takes one directory"}
+                        : write_settings_file(common.decks.empty() ? "" : common.decks.front());
+  if (!path) {
+    print_error(common, path.error().message);
+    return exit_usage;
+  }
+  if (!common.quiet) print_text("wrote " + terminal_text(*path) + "\n");
+  return exit_clean;
+}
+
+/// For every deck, or for one in the current directory.
+int show_config(const Options& options) {
+  const GivenSettings given{options.select, options.ignore, options.baseline, options.gate};
+  const std::vector<std::string>& decks = options.common.decks;
+  for (const std::string& deck : decks.empty() ? std::vector<std::string>{"-"} : decks) {
+    const auto config = config_of(options.gate, deck);
+    if (!config) {
+      print_error(options.common, config.error().message);
+      return exit_usage;
+    }
+    const std::string of = deck == "-" ? "the current directory" : deck;
+    print_text(terminal_text(
+                   of + ": " +
+                   (config->path.empty() ? "no .decklint.toml" : "settings of " + config->path)) +
+               "\n" + settings_text(*config, given));
+  }
+  return exit_clean;
+}
+
 int run(const Options& options) {
+  if (options.init) return init(options);
+  if (options.show_config) return show_config(options);
+  if (options.common.decks.empty()) return wrong_usage("lint", "DECK is missing");
   Run lint(options);
   const int code = lint.run();
   // After --fix only what is left counts, unless writing itself failed.
@@ -382,6 +429,16 @@ Action setup(CommandLine& line) {
       .value("FILE");
   line.option("--write-baseline", o.write_baseline, "Write all findings to FILE as a baseline")
       .value("FILE");
+  line.existing("decks").required(false).describe(
+      "Starter decks (*_0000.rad); '-' is standard input. With --changed any files");
+  line.flag("--changed", o.changed,
+            "The files are what a change touches: lint the decks among them, and all decks of the "
+            "git work tree (or --root) that include one of the others");
+  line.flag("--init", o.init,
+            "Write .decklint.toml with every key as a comment, into the current or the given "
+            "directory, unless there is one");
+  line.flag("--show-config", o.show_config,
+            "Print every setting that holds for the deck, and where it comes from");
   add_require_examined(line, o.common);
   add_gate_with_config(line, o.gate, "an error", "an error or a warning");
   line.flag("--geometry", o.geometry,
@@ -402,7 +459,9 @@ Action setup(CommandLine& line) {
     options->common.rewrites = (options->fix || options->unsafe_fixes) && !options->diff;
     options->write.in_place = options->common.rewrites;
     options->write.diff = options->diff;
-    if (const std::string wrong = usage_error(options->write); !wrong.empty()) {
+    WriteChoice checked = options->write;
+    if (options->changed) checked.root.clear();  // which goes with that as well
+    if (const std::string wrong = usage_error(checked); !wrong.empty()) {
       print_error(options->common, wrong);
       return static_cast<int>(exit_usage);
     }

@@ -7,16 +7,17 @@
 
 namespace deck {
 
-std::string lint_github(const std::vector<LintedDeck>& decks) {
+std::string lint_github(const std::vector<LintedDeck>& decks, const std::string& source_root) {
   struct Item {
     const LintedDeck* deck;
     const Diagnostic* d;
   };
   std::vector<Item> items;
+  const detail::SourceRoot root(source_root);
   std::string out, leads, notices, tails;
   for (const LintedDeck& deck : decks) {
     if (deck.result == nullptr) {
-      out += "::error file=" + workflow_property(detail::relative_path(deck.path)) +
+      out += "::error file=" + workflow_property(root.place(deck.path)) +
              ",title=deck::" + workflow_text(deck.error) + "\n";
       continue;
     }
@@ -25,8 +26,7 @@ std::string lint_github(const std::vector<LintedDeck>& decks) {
     if (!coverage) continue;
     const std::string lead = coverage_lead(*coverage), tail = coverage_tail(*coverage);
     const auto command = [&](const char* level, std::string_view text) {
-      return std::string("::") + level +
-             " file=" + workflow_property(detail::relative_path(deck.path)) +
+      return std::string("::") + level + " file=" + workflow_property(root.place(deck.path)) +
              ",title=not examined::" + workflow_text(text) + "\n";
     };
     if (!lead.empty()) leads += command("warning", lead + tail);
@@ -42,7 +42,7 @@ std::string lint_github(const std::vector<LintedDeck>& decks) {
                                 : d.severity == Severity::warning ? "warning"
                                                                   : "notice";
     (d.severity == Severity::info ? notices : out) +=
-        std::string("::") + command + " file=" + workflow_property(detail::relative_path(at.file)) +
+        std::string("::") + command + " file=" + workflow_property(root.place(at.file)) +
         ",line=" + std::to_string(at.line) + ",col=" + std::to_string(at.column) +
         ",endColumn=" + std::to_string(at.end_column) + ",title=" + std::string(id_text(d.rule)) +
         "::" + workflow_text(d.message + ". " + detail::details(d)) + "\n";

@@ -6,11 +6,12 @@
 
 namespace deck {
 
-std::string lint_gitlab(const std::vector<LintedDeck>& decks) {
+std::string lint_gitlab(const std::vector<LintedDeck>& decks, const std::string& source_root) {
   std::string out;
   JsonWriter json(out);
   json.begin_array();
   std::map<std::string, int> seen;
+  const detail::SourceRoot root(source_root);
   for (const LintedDeck& deck : decks) {
     if (deck.result == nullptr) continue;
     for (std::size_t i = 0; i < deck.result->diagnostics.size(); ++i) {
@@ -26,7 +27,7 @@ std::string lint_gitlab(const std::vector<LintedDeck>& decks) {
           .field("severity", d.severity == Severity::error     ? "major"
                              : d.severity == Severity::warning ? "minor"
                                                                : "info");
-      json.key("location").begin_object().field("path", detail::relative_path(at.file));
+      json.key("location").begin_object().field("path", root.place(at.file));
       json.key("lines").begin_object(true).field("begin", at.line).end_object();
       json.end_object().end_object();
     }

@@ -1,4 +1,8 @@
 // Findings as JUnit XML: a suite for each deck, a case for what was found or could not be read.
+// Only errors are failures. The names of cases hold no lines, so that a server knows them again
+// after an edit elsewhere.
+#include <map>
+
 #include "deck/base/escape.hpp"
 #include "report/diagnostics_common.hpp"
 
@@ -7,6 +11,18 @@ namespace {
 
 std::string attribute(std::string_view name, std::string_view value) {
   return " " + std::string(name) + "=\"" + xml_text(value) + "\"";
+}
+
+/// "DK171 /INTER/TYPE7/31", and "... (2)" for the second of a name in a file.
+std::string case_name(const Diagnostic& d, const std::string& file,
+                      std::map<std::string, int>& seen) {
+  std::string name(id_text(d.rule));
+  if (!d.keyword.empty()) {
+    name += " " + d.keyword;
+    if (d.id != 0) name += "/" + std::to_string(d.id);
+  }
+  const int number = ++seen[file + '\n' + name];
+  return number == 1 ? name : name + " (" + std::to_string(number) + ")";
 }
 
 }  // namespace
@@ -28,7 +44,7 @@ std::string lint_junit(const std::vector<LintedDeck>& decks) {
     const std::size_t skipped = left_out.empty() ? 0 : 1;
     const std::size_t count = (r.diagnostics.empty() ? 1 : r.diagnostics.size()) + skipped;
     std::size_t failures = 0;
-    for (const Diagnostic& d : r.diagnostics) failures += d.severity != Severity::info;
+    for (const Diagnostic& d : r.diagnostics) failures += d.severity == Severity::error;
     out += "  <testsuite" + attribute("name", deck.path) + " tests=\"" + std::to_string(count) +
            "\" failures=\"" + std::to_string(failures) + "\" errors=\"0\" skipped=\"" +
            std::to_string(skipped) + "\">\n";
@@ -38,16 +54,20 @@ std::string lint_junit(const std::vector<LintedDeck>& decks) {
       out += "    <testcase name=\"not examined\"" + attribute("classname", deck.path) +
              "><skipped" + attribute("message", left_out.substr(left_out.find_first_not_of(' '))) +
              "/></testcase>\n";
+    std::map<std::string, int> seen;
     for (const Diagnostic& d : r.diagnostics) {
       const detail::Place at = detail::place_of(deck, d.span);
       const std::string where =
           at.file + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
-      out += "    <testcase" + attribute("name", std::string(id_text(d.rule)) + " " + where) +
+      out += "    <testcase" + attribute("name", case_name(d, at.file, seen)) +
              attribute("classname", at.file) + attribute("file", at.file) + " line=\"" +
              std::to_string(at.line) + "\">";
       const std::string body = where + "\n" + detail::details(d);
-      if (d.severity == Severity::info)
-        out += "<system-out>" + xml_text(d.message + "\n" + body) + "</system-out>";
+      if (d.severity != Severity::error)
+        out += "<system-out>" +
+               xml_text(std::string(detail::severity_name(d.severity)) + ": " + d.message + "\n" +
+                        body) +
+               "</system-out>";
       else
         out += "<failure" + attribute("type", detail::severity_name(d.severity)) +
                attribute("message", d.message) + ">" + xml_text(body) + "</failure>";

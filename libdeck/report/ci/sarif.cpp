@@ -12,12 +12,14 @@ const char* level_of(Severity severity) {
   return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
 }
 
+constexpr std::string_view root_id = "%SRCROOT%";
+
 /// Percent-encodes what may not stand in a URI reference.
 std::string uri_of(std::string_view path) {
   constexpr char hex[] = "0123456789ABCDEF";
   const bool absolute = path.starts_with('/');
   std::string out = absolute ? "file://" : "";
-  for (const char c : detail::relative_path(path)) {
+  for (const char c : path) {
     const auto u = static_cast<unsigned char>(c);
     const bool plain = (u >= 'a' && u <= 'z') || (u >= 'A' && u <= 'Z') || (u >= '0' && u <= '9') ||
                        std::string_view("-._~/!$&'()*+,;=@").find(c) != std::string_view::npos;
@@ -34,7 +36,8 @@ std::string uri_of(std::string_view path) {
 
 class Sarif {
  public:
-  explicit Sarif(JsonWriter& json, const SchemaSet& schemas) : json_(json), schemas_(schemas) {}
+  Sarif(JsonWriter& json, const SchemaSet& schemas, const std::string& source_root)
+      : json_(json), schemas_(schemas), root_(source_root) {}
 
   void write(const std::vector<LintedDeck>& decks) {
     json_.begin_object();
@@ -45,6 +48,7 @@ class Sarif {
         .begin_object();
     tool();
     json_.field("columnKind", "unicodeCodePoints");
+    if (!root_.path().empty()) source_root();
     invocation(decks);
     json_.key("results").begin_array();
     for (const LintedDeck& deck : decks)
@@ -57,6 +61,12 @@ class Sarif {
  private:
   void text(std::string_view name, std::string_view content) {
     json_.key(name).begin_object(true).field("text", content).end_object();
+  }
+
+  void source_root() {
+    json_.key("originalUriBaseIds").begin_object().key(root_id).begin_object(true);
+    json_.field("uri", uri_of(root_.path() + (root_.path().ends_with('/') ? "" : "/")));
+    json_.end_object().end_object();
   }
 
   void tool() {
@@ -109,6 +119,15 @@ class Sarif {
     json_.end_object();
   }
 
+  /// A file below the root by its place there, so that the log means the same on another machine.
+  void artifact(std::string_view file) {
+    const std::string place = root_.place(file);
+    json_.key("artifactLocation").begin_object(true).field("uri", uri_of(place));
+    if (!root_.path().empty() && !place.starts_with('/') && place != "-")
+      json_.field("uriBaseId", root_id);
+    json_.end_object();
+  }
+
   void region(const LintedDeck& deck, const Span& span, bool with_end_line = false) {
     const Source& source = deck.deck->sources[span.file];
     const detail::Place at = detail::place_of(deck, span);
@@ -139,8 +158,11 @@ class Sarif {
     json_.begin_object();
     if (message != nullptr) text("message", *message);
     json_.key("physicalLocation").begin_object();
-    json_.key("artifactLocation").begin_object(true).field("uri", uri_of(at.file)).end_object();
-    if (at.known) region(deck, span);
+    artifact(at.file);
+    if (at.known)
+      region(deck, span);
+    else  // code scanning shows nothing without a line
+      json_.key("region").begin_object(true).field("startLine", at.line).end_object();
     json_.end_object();
     if (d != nullptr && !d->keyword.empty())
       json_.key("logicalLocations")
@@ -161,10 +183,7 @@ class Sarif {
     json_.key("artifactChanges").begin_array();
     for (const auto& [file, edits] : by_file) {
       json_.begin_object();
-      json_.key("artifactLocation")
-          .begin_object(true)
-          .field("uri", uri_of(deck.deck->sources[file].path()))
-          .end_object();
+      artifact(deck.deck->sources[file].path());
       json_.key("replacements").begin_array();
       for (const TextEdit* e : edits) {
         json_.begin_object();
@@ -199,14 +218,16 @@ class Sarif {
 
   JsonWriter& json_;
   const SchemaSet& schemas_;
+  const detail::SourceRoot root_;
 };
 
 }  // namespace
 
-std::string lint_sarif(const std::vector<LintedDeck>& decks, const SchemaSet& schemas) {
+std::string lint_sarif(const std::vector<LintedDeck>& decks, const SchemaSet& schemas,
+                       const std::string& source_root) {
   std::string out;
   JsonWriter json(out);
-  Sarif(json, schemas).write(decks);
+  Sarif(json, schemas, source_root).write(decks);
   if (out.back() != '\n') out += '\n';
   return out;
 }

@@ -59,7 +59,7 @@ EarlierGaps::Row row_of(const Json& p) {
 }  // namespace
 
 Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
-                                      std::string_view deck_path) {
+                                      std::string_view deck_path, bool strict) {
   const Json all = Json::parse(json.begin(), json.end(), nullptr, false);
   if (all.is_discarded()) return wrong(path, "this is not JSON");
   const Json* document = is_gaps(all) ? &all : nullptr;
@@ -76,6 +76,7 @@ Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
   if (document == nullptr) return wrong(path, "there is no list \"interfaces\"");
   EarlierGaps out;
   out.path = std::move(path);
+  if (strict && deck_path_of(*document) != deck_path) return out;
   out.deck_path = deck_path_of(*document);
   for (const Json& inter : (*document)["interfaces"]) {
     if (!inter.is_object() || !inter.contains("contacts") || !inter["contacts"].is_array())

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "deck/lint/gate.hpp"
 #include "deck/lint/lint.hpp"
@@ -12,21 +13,37 @@
 
 namespace deck {
 
-/// .decklint.toml. Keys: select, ignore (lists of ids or prefixes), fail-on ("error", "warning",
-/// "never"), baseline (path, relative to the file), [severity] id = "error"|"warning"|"info",
-/// [per-file-ignores] glob = list, [gate] max-depth, max-ratio,
-/// max-count, max-dt-loss, fail-on (list of "new", "worse"), compare (path), [[gate.interface]]
-/// match = pattern of id or title, [[gate.part-pair]] match = two of them, each with bounds of its
-/// own.
+/// A key that .decklint.toml may have.
+struct ConfigKey {
+  std::string_view table;     ///< "" or "gate"; "gate.interface" is [[gate.interface]], a list
+  std::string_view key;       ///< an example where it is a selector or a pattern
+  std::string_view example;   ///< a value, as TOML
+  std::string_view fallback;  ///< what holds without the key; empty: it has to be there
+  std::string_view meaning;
+};
+const std::vector<ConfigKey>& config_keys();
+/// The keys of a table and the tables in it, "max-depth, max-ratio, ...", for messages.
+std::string known_config_keys(std::string_view table);
+/// What `deck lint --init` writes: every key as a comment.
+std::string config_template();
+
+/// What is wrong with a selector that fits no rule, with the id that was probably meant.
+std::string unknown_selector(std::string_view text);
+
+/// .decklint.toml, read.
 struct LintConfig {
   std::string path;  ///< file it came from; empty: none
+  /// Line of every key that is there: "fail-on", "severity.DK9", "gate.max-depth",
+  /// "gate.interface[0]".
+  std::map<std::string, std::uint64_t> lines;
   std::vector<std::string> select, ignore;
   std::string fail_on;
   std::string baseline;
   std::map<std::string, Severity> severity;
   std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;
   Gate gate;
-  std::string compare;  ///< [gate] compare: an earlier `deck gaps --json`
+  std::string compare;   ///< [gate] compare: an earlier `deck gaps --json`
+  std::string accepted;  ///< [gate] baseline: of `deck gaps --write-baseline`
 };
 
 /// Parses the text of a configuration; unknown keys and unknown rules are errors.

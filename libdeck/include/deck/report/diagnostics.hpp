@@ -30,13 +30,15 @@ struct HumanOptions {
 std::string lint_human(const std::vector<LintedDeck>& decks, const HumanOptions& options);
 /// The JSON of `deck lint --format json`; one document for one deck, a list under "decks" for more.
 std::string lint_json(const std::vector<LintedDeck>& decks);
-/// SARIF 2.1.0 with every rule in the driver.
-std::string lint_sarif(const std::vector<LintedDeck>& decks, const SchemaSet& schemas);
+/// SARIF 2.1.0 with every rule in the driver. With `source_root` (the top of a work tree, absolute)
+/// files below it are named relative to it, as forges know them; without it as they were given.
+std::string lint_sarif(const std::vector<LintedDeck>& decks, const SchemaSet& schemas,
+                       const std::string& source_root = {});
 /// Workflow commands (::error file=…), worst first.
-std::string lint_github(const std::vector<LintedDeck>& decks);
+std::string lint_github(const std::vector<LintedDeck>& decks, const std::string& source_root = {});
 std::string lint_junit(const std::vector<LintedDeck>& decks);
 /// GitLab code quality.
-std::string lint_gitlab(const std::vector<LintedDeck>& decks);
+std::string lint_gitlab(const std::vector<LintedDeck>& decks, const std::string& source_root = {});
 
 /// All rules: a table, and JSON.
 std::string rules_table(bool color);
