@@ -214,6 +214,9 @@ class Block:
             return float(text), text
         if kind == "int":
             legal = field.get("values")
+            asked = self.asked(field["name"])
+            if legal is None and asked and draw.random() < 0.7:
+                legal = asked  # what conditions tell apart
             if legal is None:
                 low, high = int(field.get("min", 0)), int(field.get("max", max(field.get("min", 0) + 3, 3)))
                 legal = range(max(low, 0), max(low, 0, min(high, 4)) + 1)
@@ -236,6 +239,11 @@ class Block:
         words = field.get("words") or [w for c in self.text_tests(field["name"]) for w in c["words"]]
         word = draw.choice(words)[:width] if words else "ABC"[:width]
         return word, word
+
+    def asked(self, name):
+        """Small numbers that conditions on the field tell from others."""
+        tests = [c for card in self.schema["cards"] for c in conditions(card) if c.get("field") == name]
+        return sorted({n for c in tests for n in c.get("in", []) + c.get("not_in", []) + [c.get("min", 0)] if 0 <= n < 100})
 
     def text_tests(self, name):
         found = []

@@ -383,11 +383,26 @@ TEST(ContactDimensions, FrictionCoefficientsFollowTheLaw) {
 }
 
 TEST(ContactDimensions, HeatExchangeWithAndWithoutFunction) {
-  EXPECT_EQ(dimension("/INTER/TYPE7", "Kthe", {}), (Dimension{1, 0, -3, -1}));
-  EXPECT_TRUE(dimension("/INTER/TYPE7", "Kthe", {{"fct_IDK", 4}}).dimensionless());
+  const Schema& type7 = schema("/INTER/TYPE7");
+  const Dimension pressure{1, -1, -2, 0}, per_pressure{-1, 1, 2, 0}, conductance{1, 0, -3, -1};
+  // The solver takes Kthe as it is where a function stands beside it.
+  EXPECT_EQ(dimension("/INTER/TYPE7", "Kthe", {}), conductance);
+  EXPECT_EQ(dimension("/INTER/TYPE7", "Kthe", {{"fct_IDK", 4}}), conductance);
+  const Field& kthe = *type7.find_field("Kthe");
+  ASSERT_TRUE(kthe.solver_dimension && kthe.solver_when.size() == 1);
+  EXPECT_TRUE(kthe.solver_dimension->dimensionless());
+  EXPECT_TRUE(kthe.solver_when[0].holds(4));
+  EXPECT_FALSE(kthe.solver_when[0].holds(0));
+  // It brings AscaleK to working units as a pressure, and multiplies the pressure by it.
+  EXPECT_EQ(dimension("/INTER/TYPE7", "AscaleK", {}), per_pressure);
+  EXPECT_EQ(type7.find_field("AscaleK")->solver_dimension, pressure);
   EXPECT_EQ(dimension("/INTER/TYPE7", "Frad", {}), (Dimension{1, 0, -3, -4}));
-  EXPECT_EQ(dimension("/INTER/TYPE7", "AscaleK", {}), (Dimension{1, -1, -2, 0}));
-  EXPECT_EQ(dimension("/INTER/TYPE7", "Xfreq", {}), (Dimension{0, 0, -1, 0}));
+}
+
+TEST(ContactDimensions, XfreqIsAFrequencyToTheSolverWhateverTheFilter) {
+  EXPECT_EQ(dimension("/INTER/TYPE7", "Xfreq", {{"Ifiltr", 3}}), (Dimension{0, 0, -1, 0}));
+  EXPECT_TRUE(dimension("/INTER/TYPE7", "Xfreq", {{"Ifiltr", 1}}).dimensionless());
+  EXPECT_EQ(schema("/INTER/TYPE7").find_field("Xfreq")->solver_dimension, (Dimension{0, 0, -1, 0}));
 }
 
 }  // namespace
