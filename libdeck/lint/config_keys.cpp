@@ -9,17 +9,17 @@ namespace deck {
 const std::vector<ConfigKey>& config_keys() {
   static const std::vector<ConfigKey> keys = {
       {"", "select", R"(["DK0", "DK1", "DK2"])", "all rules",
-       "only these rules: ids (\"DK203\") or how they begin (\"DK2\"); see 'deck rules'"},
-      {"", "ignore", R"(["DK916"])", "none", "not these rules, whoever selected them"},
+       "only these rules: ids or how ids begin (\"DK2\"); see 'deck rules'"},
+      {"", "ignore", R"(["DK9"])", "none", "not these rules, whoever selected them"},
       {"", "fail-on", R"("warning")", "\"error\"",
        "exit code 1 at or above: \"error\", \"warning\" or \"never\""},
       {"", "baseline", R"("lint-baseline.json")", "none",
        "findings that are known and accepted: a file of 'deck lint --write-baseline', relative to "
        "this one"},
-      {"severity", "DK906", R"("warning")", "that of the rule",
+      {"severity", "DK9", R"("warning")", "that of the rule",
        "severity of rules: \"error\", \"warning\" or \"info\"; the longest selector that fits "
        "wins"},
-      {"per-file-ignores", R"("legacy/**/*.inc")", R"(["DK203"])", "none",
+      {"per-file-ignores", R"("legacy/**/*.inc")", R"(["DK2"])", "none",
        "not these rules in files that the pattern fits, included ones too"},
       {"gate", "max-depth", "0.5", "no bound", "deepest penetration, in the deck's units"},
       {"gate", "max-ratio", "0.5", "no bound", "largest share of its gap that a pair penetrates"},
