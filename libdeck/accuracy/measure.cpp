@@ -135,10 +135,7 @@ std::vector<PairSample> thinned(std::span<const PairSample> samples, std::size_t
   return out;
 }
 
-bool has_family_rows(const Tier& tier) {
-  const std::string_view name = tier.name, what = tier.what;
-  return what == "distance" && (name == "reference" || name == "robust");
-}
+bool has_family_rows(const Tier& tier) { return std::string_view(tier.what) == "distance"; }
 
 void add_family_rows(AccuracyReport& report, const Tier& tier,
                      const std::vector<Errors>& families) {
@@ -219,6 +216,23 @@ struct Measurement {
       row.jumps += values && !accuracy::is_continuous(tier, s);
     }
   }
+  /// Where the robust decision ends, and what that takes.
+  void run_stages(AccuracyReport& report) const {
+    const Tier tier{"robust", "gaps", [](const PairSample& s, FilterCounters& counters) {
+                      return Outcome{0.0, accuracy::decide(s, counters), -1, {}};
+                    }};
+    std::array<std::vector<PairSample>, 3> ends;
+    for (const PairSample& s : samples) {
+      FilterCounters counters;
+      accuracy::decide(s, counters);
+      ends[counters.exact > 0 ? 2 : counters.double_double > 0 ? 1 : 0].push_back(s);
+    }
+    constexpr const char* names[] = {"filter", "double-double", "exact"};
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      const double ns = ends[k].empty() ? 0.0 : time_of(tier, ends[k], options.repeats);
+      report.stages.push_back({names[k], ends[k].size(), ns});
+    }
+  }
   void run_kernel(AccuracyReport& report) const {
     const accuracy::KernelRun run = accuracy::run_kernel(samples, options.repeats);
     Errors errors;
@@ -257,6 +271,7 @@ AccuracyReport measure_accuracy(std::span<const PairSample> samples,
   for (const Tier& tier : accuracy::distance_tiers()) measurement.run(tier, report);
   for (const Tier& tier : accuracy::force_tiers()) measurement.run(tier, report);
   measurement.run_kernel(report);
+  measurement.run_stages(report);
   mark_dominated(report.tiers);
   return report;
 }

@@ -125,11 +125,12 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
                         {"not finite", Align::right},
                         {"expected"}});
     for (const FamilyResult& f : report.families) {
-      if (f.tier == "robust" && f.decision_errors == 0 && f.max_ulp <= 1.0) continue;
+      const bool failing = f.decision_errors > 0 || f.max_ulp > 1.0;
+      if (f.tier != "reference" && !(f.tier == "robust" && failing)) continue;
       families.row({std::to_string(f.id), f.name, f.tier, number(f.max_relative_error),
                     count(f.decision_errors), count(f.non_finite), f.expected});
     }
-    out += "\nFamilies (robust only where it fails):\n" + families.render(color);
+    out += "\nFamilies (reference; robust only where it fails):\n" + families.render(color);
   }
   out += fmt::format("\n{}; {}\n", terminal_text(context.processor), accuracy_compiler());
   return out;
@@ -137,8 +138,11 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
 
 std::string accuracy_examples(const AccuracyReport& report) {
   std::string out;
-  for (const FamilyResult& f : report.families)
-    if (f.has_example && (f.decision_errors > 0 || f.non_finite > 0)) out += example_text(f);
+  for (const FamilyResult& f : report.families) {
+    const bool shown = f.tier == "reference" || f.tier == "robust";
+    if (shown && f.has_example && (f.decision_errors > 0 || f.non_finite > 0))
+      out += example_text(f);
+  }
   return out.empty() ? out : "Examples of wrong decisions:\n" + out;
 }
 
@@ -174,6 +178,11 @@ std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& c
     j.field("non_finite", f.non_finite).field("expected", f.expected);
     write_example(j, f);
     j.end_object();
+  }
+  j.end_array().key("stages").begin_array();
+  for (const StageResult& s : report.stages) {
+    j.begin_object(true).field("name", s.name).field("pairs", s.pairs);
+    j.field("ns_per_pair", s.ns_per_pair).end_object();
   }
   j.end_array().end_object();
   return out;

@@ -1,18 +1,20 @@
-// The chart of `deck accuracy`: worst relative error against time per pair, drawn by hand as SVG,
-// and the page around it.
+// The chart of `deck accuracy`: wrong decisions or error against time per pair, with the frontier
+// of what nothing else beats, drawn as SVG. Colours are classes, so that a page can give it another
+// ground.
+#include "report/accuracy_chart.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "deck/base/escape.hpp"
-#include "deck/report/accuracy.hpp"
 
 namespace deck {
 namespace {
 
-constexpr double kWidth = 920, kPanel = 540, kHead = 44, kFoot = 70;
-constexpr double kLeft = 84, kRight = 590, kTop = 50, kBottom = 460;  // within a panel
+constexpr double kWidth = 920, kPanel = 440, kHead = 44, kFoot = 70;
+constexpr double kLeft = 84, kRight = 890, kTop = 34, kBottom = 372;  // within a panel
 
 // The tiers of one kind, and what is drawn upwards for them.
 struct Panel {
@@ -24,9 +26,7 @@ struct Panel {
 
   bool counts() const { return what == "gaps"; }
   double error(const TierResult& t) const {
-    if (counts())
-      return 1e6 * static_cast<double>(t.decision_errors) /
-             static_cast<double>(std::max<std::uint64_t>(t.samples, 1));
+    if (counts()) return static_cast<double>(t.decision_errors);
     return scaled ? t.max_scaled_error : t.max_relative_error;
   }
   double x(double ns) const {
@@ -37,6 +37,13 @@ struct Panel {
         error > 0.0 ? std::clamp(std::log10(std::min(error, 1e300)), floor, ceiling) : floor;
     return kBottom - (at - floor) / (ceiling - floor) * (kBottom - kTop);
   }
+  // Another one is as fast and has no larger error on this axis, and is better in one of both.
+  bool beaten(const TierResult& t) const {
+    return std::any_of(tiers.begin(), tiers.end(), [&](const TierResult* o) {
+      const double a = error(*o), b = error(t);
+      return o->ns_per_pair <= t.ns_per_pair && a <= b && (o->ns_per_pair < t.ns_per_pair || a < b);
+    });
+  }
 };
 
 // Hard cases have exact distances of 0 and 1e-300: there the error is taken over the pair's size.
@@ -44,20 +51,21 @@ Panel panel_of(const AccuracyReport& report, const std::string& what) {
   Panel p;
   p.what = what;
   p.scaled = report.scene == "hard-cases";
-  double low = 1e9, high = 1;
+  double low = 1e12, high = 1, most = 1;
   for (const TierResult& t : report.tiers) {
     if (t.what != what) continue;
     p.tiers.push_back(&t);
     low = std::min(low, t.ns_per_pair);
     high = std::max(high, t.ns_per_pair);
+    most = std::max(most, static_cast<double>(t.decision_errors));
   }
   p.first = std::floor(std::log10(std::max(low, 1e-3)));
-  // Room for the label of the slowest tier.
-  p.last = std::max(p.first + 1, std::ceil(std::log10(high) + 0.5));
+  p.last = std::max(p.first + 1, std::ceil(std::log10(high)));
   if (what == "gaps") {
+    const auto pairs = p.tiers.empty() ? 0 : p.tiers[0]->samples;
     p.title = p.scaled ? "Contact decision" : "Whole deck gaps, reading included";
-    p.label = "wrong decisions per million";
-    p.floor = -1, p.ceiling = 6;
+    p.label = fmt::format("wrong decisions of {}", pairs);
+    p.floor = -0.7, p.ceiling = std::ceil(std::log10(most) + 0.1);
   } else {
     p.title = what == "force" ? "Elastic contact force" : "Distance";
     p.label = p.scaled ? "worst error of the distance / size of the pair"
@@ -67,11 +75,9 @@ Panel panel_of(const AccuracyReport& report, const std::string& what) {
   return p;
 }
 
-std::string line(double x1, double y1, double x2, double y2, std::string_view color,
-                 std::string_view dash = "") {
-  return fmt::format("<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' stroke='{}'{}/>\n", x1,
-                     y1, x2, y2, color,
-                     dash.empty() ? std::string() : fmt::format(" stroke-dasharray='{}'", dash));
+std::string line(double x1, double y1, double x2, double y2, std::string_view kind) {
+  return fmt::format("<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' class='{}'/>\n", x1, y1,
+                     x2, y2, kind);
 }
 std::string text(double x, double y, std::string_view anchor, std::string_view content,
                  std::string_view extra = "") {
@@ -79,129 +85,189 @@ std::string text(double x, double y, std::string_view anchor, std::string_view c
                      extra, xml_text(content));
 }
 
+// 10 ns, 100 ns, 1 us ...
+std::string time_text(double power) {
+  static constexpr const char* units[] = {"ns", "\xc2\xb5s", "ms", "s"};
+  if (power < 0) return fmt::format("{:g} ns", std::pow(10.0, power));
+  const int unit = std::min(3, static_cast<int>(power) / 3);
+  return fmt::format("{:g} {}", std::pow(10.0, power - 3 * unit), units[unit]);
+}
+
+std::string power_of_ten(double power) {
+  static constexpr const char* digits[] = {
+      "\xe2\x81\xb0", "\xc2\xb9",     "\xc2\xb2",     "\xc2\xb3",     "\xe2\x81\xb4",
+      "\xe2\x81\xb5", "\xe2\x81\xb6", "\xe2\x81\xb7", "\xe2\x81\xb8", "\xe2\x81\xb9"};
+  if (power == 0) return "1";
+  std::string out = "10";
+  for (const char c : fmt::format("{:.0f}", power))
+    out += c == '-' ? "\xe2\x81\xbb" : digits[c - '0'];
+  return out;
+}
+
 std::string frame(const Panel& panel) {
-  std::string out = text(kLeft, kTop - 14, "start", panel.title, "font-size='13'");
+  std::string out = text(kLeft, kTop - 14, "start", panel.title, "class='dk-title'");
   for (double p = panel.first; p <= panel.last; ++p) {
     const double x = panel.x(std::pow(10.0, p));
-    out += line(x, kTop, x, kBottom, "#ddd");
-    out += text(x, kBottom + 18, "middle", fmt::format("1e{:.0f}", p));
+    out += line(x, kTop, x, kBottom, "dk-grid");
+    out += text(x, kBottom + 18, "middle", time_text(p));
+    for (const double part : {2.0, 5.0})
+      if (p < panel.last) {
+        const double at = panel.x(part * std::pow(10.0, p));
+        out += line(at, kBottom - 5, at, kBottom, "dk-grid");
+      }
   }
-  for (double p = panel.floor; p <= panel.ceiling; p += panel.counts() ? 1 : 2) {
-    const double y = panel.y(std::pow(10.0, p));
-    out += line(kLeft, y, kRight, y, "#ddd");
-    std::string label = fmt::format("1e{:.0f}", p);
-    if (p == panel.floor) label = panel.counts() ? "none" : "exact";
-    if (p == panel.ceiling) label = ">= " + label;
+  const auto level = [&](double y, const std::string& label) {
+    out += line(kLeft, y, kRight, y, "dk-grid");
     out += text(kLeft - 8, y + 4, "end", label);
-  }
-  if (!panel.counts()) {
+  };
+  level(kBottom, panel.counts() ? "none" : "exact");
+  if (panel.counts()) {
+    for (double p = 0; p <= panel.ceiling; ++p)
+      level(panel.y(std::pow(10.0, p)), fmt::format("{:.0f}", std::pow(10.0, p)));
+  } else {
+    for (double p = panel.floor + 2; p <= panel.ceiling; p += 4)
+      level(panel.y(std::pow(10.0, p)), power_of_ten(p));
+    level(kTop, "more");
     const double ulp = panel.y(0x1p-52);
-    out += line(kLeft, ulp, kRight, ulp, "#b55", "5 4");
-    out += text(kRight - 4, ulp - 4, "end", "1 ulp", "fill='#b55'");
+    out += line(kLeft, ulp, kRight, ulp, "dk-ulp");
+    out += text(kRight - 4, ulp - 4, "end", "1 ulp");
   }
-  out += text(0.5 * (kLeft + kRight), kBottom + 38, "middle", "nanoseconds per pair");
+  out += text(0.5 * (kLeft + kRight), kBottom + 38, "middle", "time per pair");
   out += text(18, 0.5 * (kTop + kBottom), "middle", panel.label,
               fmt::format("transform='rotate(-90 18 {:.1f})'", 0.5 * (kTop + kBottom)));
   return out;
 }
 
+// Steps through the tiers that nothing beats.
+std::string frontier(const Panel& panel) {
+  std::vector<const TierResult*> best;
+  for (const TierResult* t : panel.tiers)
+    if (!panel.beaten(*t)) best.push_back(t);
+  std::sort(best.begin(), best.end(), [](const TierResult* a, const TierResult* b) {
+    return a->ns_per_pair < b->ns_per_pair;
+  });
+  std::string path;
+  for (const TierResult* t : best) {
+    const double x = panel.x(t->ns_per_pair), y = panel.y(panel.error(*t));
+    path += path.empty() ? fmt::format("M{:.1f} {:.1f} V{:.1f}", x, kTop, y)
+                         : fmt::format(" H{:.1f} V{:.1f}", x, y);
+  }
+  return path.empty() ? path
+                      : fmt::format("<path d='{} H{:.1f}' class='dk-frontier'/>\n", path, kRight);
+}
+
+struct Box {
+  double x, y, width, height;
+  bool meets(const Box& b) const {
+    return x < b.x + b.width && b.x < x + width && y < b.y + b.height && b.y < y + height;
+  }
+  bool inside() const {
+    return x >= kLeft && x + width <= kRight && y >= kTop - 8 && y + height <= kBottom + 2;
+  }
+};
+
+// The place nearest to the mark that is clear of all marks and labels so far.
+Box place_label(double x, double y, double width, const std::vector<Box>& taken) {
+  const Box fallback{x + 10, y - 7, width, 14};
+  for (double far = 10; far < 160; far += 8)
+    for (int k = 0; k < 16; ++k) {
+      // Right first, then left, then above and below.
+      static constexpr int order[] = {0, 8, 4, 12, 2, 14, 6, 10, 1, 15, 7, 9, 3, 13, 5, 11};
+      const double angle = order[k] * 0.39269908169872414;
+      const double cx = x + far * std::cos(angle), cy = y - far * std::sin(angle);
+      const double shift = 0.5 * width * std::cos(angle);
+      const Box box{cx + shift - 0.5 * width, cy - 7, width, 14};
+      if (!box.inside()) continue;
+      if (std::none_of(taken.begin(), taken.end(), [&](const Box& b) { return b.meets(box); }))
+        return box;
+    }
+  return fallback;
+}
+
 std::string marks(const Panel& panel) {
   std::string out;
-  struct Box {
-    double x, y, width;
-  };
-  std::vector<Box> labels;  // placed ones, and the marks themselves
+  std::vector<Box> taken;
   for (const TierResult* t : panel.tiers)
-    labels.push_back({panel.x(t->ns_per_pair) - 6, panel.y(panel.error(*t)) + 4, 12});
+    taken.push_back({panel.x(t->ns_per_pair) - 8, panel.y(panel.error(*t)) - 8, 16, 16});
   for (const TierResult* tier : panel.tiers) {
     const TierResult& t = *tier;
     const double x = panel.x(t.ns_per_pair), y = panel.y(panel.error(t));
-    const std::string& name = t.name;
-    Box box{x + 9, y + 4, 6.6 * static_cast<double>(name.size())};
-    // Move a label up until it is clear of the others.
-    for (std::size_t k = 0; k < labels.size();) {
-      const Box& b = labels[k];
-      const bool clear =
-          std::abs(b.y - box.y) >= 13 || box.x > b.x + b.width || b.x > box.x + box.width;
-      if (clear) {
-        ++k;
-      } else {
-        box.y = b.y - 13;
-        k = 0;
-      }
-    }
-    labels.push_back(box);
+    const bool standard = t.name == "robust";
+    const std::string name = standard ? t.name + " (default)" : t.name;
+    const Box box = place_label(x, y, 7.0 * static_cast<double>(name.size()), taken);
+    taken.push_back(box);
+    const double near = std::clamp(x, box.x, box.x + box.width);
+    if (std::hypot(near - x, box.y + 7 - y) > 22) out += line(x, y, near, box.y + 7, "dk-lead");
+    if (standard)
+      out += fmt::format(
+          "<rect x='{:.1f}' y='{:.1f}' width='20' height='20' rx='10' class='dk-default'/>\n",
+          x - 10, y - 10);
     out += fmt::format(
-        "<circle cx='{:.1f}' cy='{:.1f}' r='5' stroke='{}' stroke-width='2' fill='{}'/>\n", x, y,
-        "#1f5fa8", t.dominated ? "#fff" : "#1f5fa8");
-    out += text(box.x, box.y, "start", name);
+        "<circle cx='{:.1f}' cy='{:.1f}' r='5' class='{}'><title>{}: {:.4g} ns, "
+        "{}</title></circle>\n",
+        x, y, panel.beaten(t) ? "dk-mark dk-hollow" : "dk-mark", xml_text(t.name), t.ns_per_pair,
+        panel.counts() ? fmt::format("{} wrong", t.decision_errors)
+                       : fmt::format("error {:.3g}", panel.error(t)));
+    out += text(box.x, box.y + 11, "start", name,
+                standard ? "class='dk-label dk-strong'" : "class='dk-label'");
   }
-  return out;
+  return out + text(kRight, kBottom + 38, "end",
+                    "hollow: another one is as fast and not worse on this axis");
 }
 
-// Decision errors and fallbacks beside the chart.
-std::string side_panel(const Panel& panel) {
-  const double x = kRight + 24;
-  std::string out =
-      text(x, kTop, "start", "wrong decisions / million; fallback share", "font-weight='bold'");
-  double y = kTop + 26;
-  for (const TierResult* tier : panel.tiers) {
-    const TierResult& t = *tier;
-    const double per_million = 1e6 * static_cast<double>(t.decision_errors) /
-                               static_cast<double>(std::max<std::uint64_t>(t.samples, 1));
-    out += text(x, y, "start", t.name);
-    const double bar = per_million > 0 ? 22 * (1 + std::log10(1 + per_million) / 2) : 2;
-    out += fmt::format("<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='9' fill='{}'/>\n",
-                       x + 132, y - 9, bar, per_million > 0 ? "#b55" : "#3a8");
-    out += text(x + 138 + bar, y, "start",
-                t.fallback_share > 0
-                    ? fmt::format("{:.4g}; {:.3g} %", per_million, 100 * t.fallback_share)
-                    : fmt::format("{:.4g}", per_million));
-    y += 24;
-  }
-  return out + text(x, y + 6, "start", "hollow mark: dominated (slower and less accurate)",
-                    "font-size='10' fill='#555'");
+constexpr std::string_view kStyle =
+    "<style>.dk-ground{fill:#fff} .dk-grid{stroke:#dde2e8} "
+    ".dk-ulp{stroke:#b3261e;stroke-dasharray:5 4} "
+    ".dk-frontier{fill:none;stroke:#1f5fd0;stroke-width:2;stroke-opacity:.35} "
+    ".dk-lead{stroke:#5c6979;stroke-width:.8} "
+    ".dk-mark{fill:#1f5fd0;stroke:#1f5fd0;stroke-width:2} .dk-mark.dk-hollow{fill:#fff} "
+    ".dk-default{fill:none;stroke:#9a5b00;stroke-width:2} .dk-svg text{fill:#5c6979} "
+    ".dk-svg .dk-label{fill:#17202b;stroke:#fff;stroke-width:3px;paint-order:stroke} .dk-svg "
+    ".dk-strong{font-weight:bold} "
+    ".dk-svg .dk-title{fill:#17202b;font-size:13px;font-weight:bold}</style>\n";
+
+std::string open_svg(double height, const std::string& name) {
+  return fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' class='dk-svg' viewBox='0 0 {0} {1}' width='{0}' "
+      "height='{1}' "
+      "font-family='system-ui, sans-serif' font-size='12' role='img' aria-label='{3}'>\n{2}<rect "
+      "width='{0}' "
+      "height='{1}' class='dk-ground'/>\n",
+      kWidth, height, kStyle, xml_text(name));
 }
 
-std::string title_of(const AccuracyReport& report, const AccuracyContext& context) {
+}  // namespace
+
+std::string accuracy_title(const AccuracyReport& report, const AccuracyContext& context) {
   const std::uint64_t n = report.tiers.empty() ? 0 : report.tiers[0].samples;
   return fmt::format("Accuracy against time: {} pairs of {}", n,
                      context.path.empty() ? "the hard cases" : context.path);
 }
 
-}  // namespace
+std::string accuracy_panel(const AccuracyReport& report, const std::string& what) {
+  const Panel panel = panel_of(report, what);
+  if (panel.tiers.empty()) return {};
+  return open_svg(kPanel, panel.title + ": " + panel.label + " against time") + frame(panel) +
+         frontier(panel) + marks(panel) + "</svg>\n";
+}
 
 std::string accuracy_svg(const AccuracyReport& report, const AccuracyContext& context) {
   std::string panels;
   double top = kHead;
-  for (const char* what : {"distance", "gaps", "force"}) {
+  for (const char* what : {"gaps", "distance", "force"}) {
     const Panel panel = panel_of(report, what);
     if (panel.tiers.empty()) continue;
     panels += fmt::format("<g transform='translate(0 {:.0f})'>\n", top) + frame(panel) +
-              marks(panel) + side_panel(panel) + "</g>\n";
+              frontier(panel) + marks(panel) + "</g>\n";
     top += kPanel;
   }
   const double height = top + kFoot;
-  std::string out = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0} {1}' width='{0}' height='{1}' "
-      "font-family='sans-serif' font-size='11'>\n<rect width='{0}' height='{1}' fill='#fff'/>\n",
-      kWidth, height);
-  out += text(kLeft, 28, "start", title_of(report, context), "font-size='16'") + panels;
-  out += text(kLeft, height - 52, "start", context.processor, "fill='#555'");
-  out += text(kLeft, height - 36, "start", accuracy_compiler(), "fill='#555'");
-  out += text(kLeft, height - 20, "start", context.command, "fill='#555'");
+  std::string out = open_svg(height, accuracy_title(report, context));
+  out += text(kLeft, 28, "start", accuracy_title(report, context), "class='dk-title'") + panels;
+  out += text(kLeft, height - 52, "start", context.processor);
+  out += text(kLeft, height - 36, "start", accuracy_compiler());
+  out += text(kLeft, height - 20, "start", context.command);
   return out + "</svg>\n";
-}
-
-std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& context) {
-  std::string out = "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>\n<title>" +
-                    xml_text(title_of(report, context)) +
-                    "</title>\n<style>body{font-family:sans-serif;margin:2em;max-width:70em}"
-                    "svg{max-width:100%;height:auto}pre{overflow-x:auto}</style></head><body>\n";
-  out += accuracy_svg(report, context);
-  out += "<pre>" + html_text(accuracy_text(report, context)) + "\n" +
-         html_text(accuracy_examples(report)) + "</pre>\n";
-  return out + "</body></html>\n";
 }
 
 }  // namespace deck

@@ -4,6 +4,8 @@ import { execFileSync } from "node:child_process";
 import { cpSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { ALL, check, corpus, deck, DECK_ARTEFACTS, DECK_CORPUS, finish, gaps, launch, open, ROOT, run, same, sample, skip, WORK } from "./support.mjs";
+import { accuracyPage } from "./accuracy.mjs";
+import { accessible, reachable } from "./axe.mjs";
 import { find } from "./find.mjs";
 import { picture, section } from "./picture.mjs";
 import { tablesBehave, tablesFit, widths } from "./tables.mjs";
@@ -20,6 +22,7 @@ function page(name, path, ...more) {
   return file;
 }
 const shot = (p, name) => p.screenshot({ path: join(DECK_ARTEFACTS, `${name}.png`) });
+const pagesOf = (name) => readFileSync(join(DECK_ARTEFACTS, name), "latin1").match(/\/Type \/Page\b/g).length;
 const quiet = (name, p) => check(`${name}: no console error and no request`, p.trouble.length === 0, p.trouble.join("; "));
 /** Rows in sight: text of each column by the column's key. */
 const cells = (p, selector) =>
@@ -149,13 +152,27 @@ async function crashBox() {
   const errors = (file) => JSON.parse(deck("lint", file, "--format", "json")).summary.errors;
   same("the /GRNOD/NODE block reads without an error", errors(with_group), errors(path));
   await p.click("#export summary");
-  const [download] = await Promise.all([p.waitForEvent("download"), p.click("#export button:has-text('CSV')")]);
+  const [download] = await Promise.all([p.waitForEvent("download"), p.click("#export button:has-text('all columns')")]);
   same("the export has the deck's name", download.suggestedFilename(), "crash_box_0000_penetrations.csv");
+
+  const fetched = async (label) => {
+    await p.click("#export summary");
+    const [d] = await Promise.all([p.waitForEvent("download"), p.click(`#export button:has-text('${label}')`)]);
+    return readFileSync(await d.path(), "utf8");
+  };
+  const list = (await fetched("the columns in sight")).trimEnd().split("\r\n");
+  const titles = await p.$$eval(".list-table [role=columnheader] button", (b) => b.map((e) => e.textContent.replace(/ [↑↓]$/, "")));
+  same("the list as CSV has the columns and rows in sight", [list[0], list.length - 1], [titles.join(","), await p.evaluate(() => window.deckReport.report.filtered.length)]);
+  const tcl = await fetched("(Tcl)");
+  const marked_nodes = [...tcl.matchAll(/^\*(?:create|append)mark nodes 1 (.*)$/gm)].flatMap((m) => m[1].split(" ").map(Number));
+  same("the Tcl marks the nodes of the list", marked_nodes, await p.evaluate(() => [...new Set(window.deckReport.report.filtered.flatMap((x) => x.nodes.filter((n) => n > 0)))].sort((a, b) => a - b)));
 
   // Print.
   await p.emulateMedia({ media: "print" });
   await p.pdf({ path: join(DECK_ARTEFACTS, "crash_box.pdf"), format: "A4" });
-  check("paper has the picture and the list", statSync(join(DECK_ARTEFACTS, "crash_box.pdf")).size > 30000);
+  same("a report is printed on two pages", pagesOf("crash_box.pdf"), 2);
+  const paper = await p.$eval(".paper", (e) => ({ picture: e.querySelectorAll("img").length, rows: [...e.querySelectorAll("tbody")].map((b) => b.rows.length) }));
+  same("paper has the picture, the ten worst and the interfaces", paper, { picture: 1, rows: [10, 6] });
   await p.emulateMedia({ media: "screen" });
   quiet("crash box", p);
   await p.close();
@@ -180,6 +197,23 @@ async function layout() {
   writeFileSync(folded, readFileSync(sample("crash_box"), "utf8").replace(/^(\/(?:PART|INTER\/TYPE\d+)\/\d+\n)(.*)$/gm, "$1FRONT_STRUCTURE_$2"));
   const p = await open(browser, page("folded", folded));
   await tablesBehave(p);
+  await p.close();
+}
+
+async function accessibility() {
+  const p = await open(browser, join(scratch, "crash_box.html"));
+  await accessible(p, "report");
+  await reachable(p, "report");
+  await p.keyboard.press("t");
+  await p.evaluate(() => {
+    const { report } = window.deckReport;
+    report.setFilter({ interface: 0 });
+    report.select(report.filtered[0]);
+  });
+  for (const k of ["x", "p", "m"]) await p.keyboard.press(k);
+  await p.waitForTimeout(500);
+  await accessible(p, "report, dark, everything open");
+  await shot(p, "everything_open_dark");
   await p.close();
 }
 
@@ -336,6 +370,8 @@ async function sled() {
     }
     await p.waitForTimeout(300);
     await shot(p, name);
+    await p.pdf({ path: join(DECK_ARTEFACTS, `${name}.pdf`) });
+    same(`${name}: printed on two pages`, pagesOf(`${name}.pdf`), 2);
     await tablesFit(p, name, ALL ? widths : [390, 1440]);
     quiet(name, p);
     await p.close();
@@ -367,7 +403,7 @@ async function manySettings() {
 }
 
 // ONLY=crashBox,layout runs some pieces; the later ones read pages that crashBox writes.
-const pieces = { crashBox, layout, pictures, finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
+const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser, scratch, shot), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
 const only = process.env.ONLY?.split(",");
 for (const [name, piece] of Object.entries(pieces)) if (!only || only.includes(name)) await piece();
 if (!only) check("at least 200 settings were compared bit for bit", compared >= 200, `${compared}`);

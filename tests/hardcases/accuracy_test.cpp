@@ -152,9 +152,25 @@ TEST(Accuracy, WholeDecksAreHeldAgainstTheExactOnes) {
   EXPECT_EQ(tier(report, "robust", "gaps").fallback_share, 0.25);
 }
 
+TEST(Accuracy, StagesOfTheRobustDecisionHoldEveryPairOnce) {
+  const AccuracyReport r = small_report();
+  ASSERT_EQ(r.stages.size(), 3u);
+  std::uint64_t pairs = 0;
+  for (const StageResult& s : r.stages) {
+    pairs += s.pairs;
+    EXPECT_EQ(s.ns_per_pair > 0, s.pairs > 0) << s.name;
+  }
+  const TierResult& robust = tier(r, "robust", "gaps");
+  EXPECT_EQ(pairs, robust.samples);
+  EXPECT_NEAR(static_cast<double>(r.stages[2].pairs) / static_cast<double>(pairs),
+              robust.exact_share, 1e-12);
+}
+
 TEST(Accuracy, FamiliesHaveOneRowPerTier) {
   const AccuracyReport r = small_report();
-  ASSERT_EQ(r.families.size(), 8u);
+  const auto distances = std::count_if(r.tiers.begin(), r.tiers.end(),
+                                       [](const TierResult& t) { return t.what == "distance"; });
+  ASSERT_EQ(r.families.size(), 4u * static_cast<std::size_t>(distances));
   for (const FamilyResult& f : r.families) EXPECT_EQ(f.samples, 50u);
 }
 

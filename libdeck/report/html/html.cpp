@@ -11,10 +11,8 @@
 #include "report/html/parts.hpp"
 
 namespace deck {
-namespace {
 
-/// '<' occurs in JSON only inside strings.
-std::string script_safe(std::string_view json) {
+std::string detail::script_safe(std::string_view json) {
   std::string out;
   out.reserve(json.size() + json.size() / 50);
   for (const char c : json) {
@@ -25,6 +23,8 @@ std::string script_safe(std::string_view json) {
   }
   return out;
 }
+
+namespace {
 
 std::string_view file_name(std::string_view path) {
   const auto slash = path.find_last_of("/\\");
@@ -157,7 +157,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   out += bundle.style;
   out += "</style>\n</head>\n<body>\n";
   out += static_body(in);
-  add_block(out, "deck-meta", "application/json", script_safe(meta_json(in, page)));
+  add_block(out, "deck-meta", "application/json", detail::script_safe(meta_json(in, page)));
   add_block(out, "deck-contacts", "application/octet-stream",
             detail::contacts_block(in, page, nodes));
   add_block(out, "deck-mesh", "application/octet-stream", detail::mesh_block(model, mesh, nodes));

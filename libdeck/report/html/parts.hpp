@@ -18,6 +18,9 @@ struct ViewerBundle {
 };
 const ViewerBundle& viewer_bundle();
 
+/// JSON as it may stand in a script element: '<' occurs in it only inside strings.
+std::string script_safe(std::string_view json);
+
 /// Numbers the nodes that occur in the page in the order of the model.
 class PageNodes {
  public:

@@ -93,8 +93,8 @@ function alternatives(report: Report, x: Hit, current: number, fpenmax: number):
       default: return "pushed out from the first cycle on";
     }
   };
-  return h("div", { class: "alternatives", role: "table", "aria-label": "What each Inacti does to this node" },
-    ...[0, 1, 2, 3, 5, 6].map((k) => h("div", { class: `alternative${k === current ? " on" : ""}`, role: "row" },
+  return h("div", { class: "alternatives", role: "list", "aria-label": "What each Inacti does to this node" },
+    ...[0, 1, 2, 3, 5, 6].map((k) => h("div", { class: `alternative${k === current ? " on" : ""}`, role: "listitem" },
       h("b", null, `Inacti ${k === 0 ? "0" : k}`), h("span", { class: "muted" }, inactiWords[k]), h("span", null, text(k)))));
 }
 

@@ -66,6 +66,14 @@ export function setBlock(hits: Hit[], id: number, title: string): string {
   return lines.join("\n") + "\n";
 }
 
+/** Public commands of HyperMesh that mark the nodes and keep them as a set. */
+export function tclMarks(hits: Hit[], title: string): string {
+  const ids = nodeIds(hits);
+  const lines = ["*clearmark nodes 1"];
+  for (let i = 0; i < ids.length; i += 50) lines.push(`*${i === 0 ? "createmark" : "appendmark"} nodes 1 ${ids.slice(i, i + 50).join(" ")}`);
+  return [...lines, `*entitysetcreate "${title}" nodes 1`, "*numbersmark nodes 1 1"].join("\n") + "\n";
+}
+
 /** The table of `deck gaps --csv`. */
 export function csv(report: Report, hits: Hit[]): string {
   const head =

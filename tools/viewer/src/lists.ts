@@ -1,5 +1,5 @@
 // Part pairs as table and matrix, distributions, and the list of penetrations.
-import { colorAt, cssColor } from "./scene/colormap";
+import { colorAt, cssColor, inkOn } from "./scene/colormap";
 import { button, fileName, group, h, num, percent, plural, replace, sectionHead, svg } from "./dom";
 import type { Look } from "./look";
 import type { Hit, Report } from "./report";
@@ -118,7 +118,7 @@ function drawMatrix(report: Report, rows: PairRow[], look: Look): HTMLElement {
     const t = report.partShort(p);
     return t.length > 26 ? `${t.slice(0, 25)}…` : t;
   };
-  const grid = h("div", { class: "matrix", role: "table", "aria-label": "Deepest penetration by part pair" });
+  const grid = h("div", { class: "matrix", role: "group", "aria-label": "Deepest penetration by part pair" });
   grid.style.gridTemplateColumns = `max-content repeat(${across.length}, minmax(26px, 46px))`;
   grid.append(h("div", { class: "matrix-corner" }, "secondary \u2193   main \u2192"));
   for (const p of across) grid.append(h("div", { class: "matrix-col", title: report.partText(p) }, h("span", null, short(p))));
@@ -132,10 +132,9 @@ function drawMatrix(report: Report, rows: PairRow[], look: Look): HTMLElement {
       }
       const t = top > 0 ? r.max / top : 0;
       const [red, green, blue] = colorAt(look.map, t);
-      const light = 0.299 * red + 0.587 * green + 0.114 * blue > 150;
       const on = pair?.[0] === s && pair[1] === m;
       grid.append(h("button", {
-        type: "button", class: `matrix-cell${on ? " on" : ""}`, style: `background:rgb(${red} ${green} ${blue});color:${light ? "#10151b" : "#fff"}`,
+        type: "button", class: `matrix-cell${on ? " on" : ""}`, style: `background:rgb(${red} ${green} ${blue});color:${inkOn(red, green, blue)}`,
         title: `${report.partText(s)} into ${report.partText(m)}: ${plural(r.pairs, "pair", "pairs")}, deepest ${num(r.max)}`,
         onclick: () => report.setFilter({ pair: on ? null : [s, m] }),
       }, r.pairs > 999 ? `${Math.round(r.pairs / 1000)}k` : String(r.pairs)));

@@ -3,9 +3,9 @@ import { crossedSection } from "./scene/crossed";
 import { cycleSection } from "./cycle";
 import { loadContacts, loadCrossed, loadCycle, loadEarlier, loadMesh, loadMeta } from "./data";
 import { detail, notChecked } from "./detail";
-import { button, fileName, group, h, num, percent } from "./dom";
-import { allChangedCards, copyText, csv, grnodBlock, plainNodes, save } from "./exports";
-import { distribution, exportMenu, listSection, pairsSection, partPairs } from "./lists";
+import { button, fileName, group, h, num, percent, replace } from "./dom";
+import { allChangedCards, copyText, csv, grnodBlock, plainNodes, save, tclMarks } from "./exports";
+import { distribution, exportMenu, listSection, pairsSection } from "./lists";
 import type { ContourKind, Look } from "./look";
 import type { FieldName, Overrides } from "./meta";
 import { interfaces, verdict } from "./overview";
@@ -40,6 +40,7 @@ function build(): void {
     { label: "Node ids, one per line", run: () => save(`${stem}_nodes.txt`, plainNodes(report.filtered)) },
     { label: "Node ids to the clipboard", run: () => void copyText(plainNodes(report.filtered)) },
     { label: "/GRNOD/NODE block", hint: "A node group for the deck, with an id that is free", run: () => save(`${stem}_grnod.inc`, grnodBlock(report.filtered, meta.free_group_id, "initial penetrations")) },
+    { label: "Marked nodes (Tcl)", hint: "*createmark and *entitysetcreate, for HyperMesh", run: () => save(`${stem}_nodes.tcl`, tclMarks(report.filtered, "initial penetrations")) },
     { label: "List (CSV), the columns in sight", run: () => save(`${stem}_list.csv`, list.table.csv()) },
     { label: "Table (CSV), all columns", run: () => save(`${stem}_penetrations.csv`, csv(report, report.filtered)) },
     { label: "Changed cards", hint: "Cards of all interfaces with settings under test", run: () => save(`${stem}_cards.inc`, allChangedCards(report)) },
@@ -70,7 +71,7 @@ function build(): void {
       .map(([id, name]) => h("a", { href: `#${id}` }, name)));
   const left = h("div", { class: "left", id: "tables" }, nav, verdict(report), interfaces(report), pairsSection(report, look), distribution(report, look), list.element, crossedSection(report, (points) => viewport.openPoints(points)), cycleSection(report), notChecked(report));
   for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
-  const divider = h("div", { class: "divider", role: "separator", "aria-orientation": "vertical", "aria-label": "Width of the tables", tabindex: 0 });
+  const divider = h("div", { class: "divider", role: "separator", "aria-orientation": "vertical", "aria-label": "Width of the tables", "aria-valuemin": 25, "aria-valuemax": 80, "aria-valuenow": 53, tabindex: 0 });
   const right = h("aside", { class: "right" }, viewport.element, detail(report, fly));
   const split = h("div", { class: "split" }, left, divider, right);
   const app = h("div", { class: "app" }, header, split, help);
@@ -89,7 +90,7 @@ function build(): void {
   viewport.onRest = () => state!.note();
   viewport.onMenu = (p, x, y) => openMenu(p.hit ? rowItems(report, p.hit) : viewport.itemsOf(p), x, y);
   keys(report, viewport, list.table, help, look, changeLook, () => state!.undo());
-  printing(report, viewport, right);
+  printing(report, viewport);
 
   // Tables first; the picture comes with the next frame.
   times.tables = performance.now() - started;
@@ -131,7 +132,11 @@ function evaluateFor(report: Report, id: number, change: Overrides): unknown {
 export type { FieldName };
 
 function dragDivider(divider: HTMLElement, split: HTMLElement): void {
-  const set = (share: number) => split.style.setProperty("--left", `${Math.min(Math.max(share, 0.25), 0.8) * 100}%`);
+  const set = (wanted: number) => {
+    const percent = Math.min(Math.max(wanted, 0.25), 0.8) * 100;
+    split.style.setProperty("--left", `${percent}%`);
+    divider.setAttribute("aria-valuenow", percent.toFixed(0));
+  };
   let share = 0.53;
   divider.addEventListener("pointerdown", (e) => {
     divider.setPointerCapture(e.pointerId);
@@ -226,26 +231,26 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
   });
 }
 
-/** Paper gets the picture as an image and the first rows as a real table. */
-function printing(report: Report, viewport: Viewport, right: HTMLElement): void {
+/** Two pages of paper: verdict, picture, the ten worst, the interfaces. */
+function printing(report: Report, viewport: Viewport): void {
+  const most = 34; // interfaces that the second page has room for
   const paper = h("div", { class: "paper" });
   document.querySelector(".left")!.append(paper);
+  const table = (titles: string[], rows: (string | number)[][]) =>
+    h("table", { class: "plain" }, h("thead", null, h("tr", null, ...titles.map((t) => h("th", null, t)))),
+      h("tbody", null, ...rows.map((r) => h("tr", null, ...r.map((t) => h("td", null, t))))));
+  const id = (contact: number) => report.meta.interfaces[report.meta.contacts[contact].interface].id;
   window.addEventListener("beforeprint", () => {
-    paper.replaceChildren();
-    if (viewport.view) {
-      const img = h("img", { alt: "3D view", src: viewport.view.picture(1.5) });
-      paper.append(h("h2", null, "Picture"), img);
-    }
-    const cells = (tag: "th" | "td", list: (string | number)[]) => list.map((t) => h(tag, null, t));
-    paper.append(
-      h("h2", null, "Part pairs"),
-      h("table", { class: "plain" }, h("thead", null, h("tr", null, ...cells("th", ["Secondary part", "Main part", "Pairs", "Deepest", "Mean", "Of gap"]))),
-        h("tbody", null, ...partPairs(report, report.hits).slice(0, 60).map((p) => h("tr", null, ...cells("td", [report.partText(p.secondary), report.partText(p.main), p.pairs, num(p.max), num(p.mean), percent(p.ratio)]))))),
-      h("h2", null, "Worst first"),
-      h("table", { class: "plain" }, h("thead", null, h("tr", null, ...cells("th", ["Depth", "Gap", "Interface", "Node / edge", "Segment / edge", "Part", "Main part", "Action"]))),
-        h("tbody", null, ...report.filtered.slice(0, 100).map((x) => h("tr", null, ...cells("td", [num(x.depth, 5), num(x.row.gap), report.meta.interfaces[report.meta.contacts[x.contact].interface].id, report.secondaryText(x.row), report.mainText(x.row), report.partText(x.secondaryPart), report.partText(x.mainPart), x.row.action]))))),
-      report.filtered.length > 100 ? h("p", { class: "note" }, `… and ${group(report.filtered.length - 100)} more`) : "");
-    void right;
+    const contacts = report.results.map((r, i) => ({ i, t: r.totals })).sort((a, b) => b.t.max_depth - a.t.max_depth || a.i - b.i);
+    replace(paper,
+      viewport.view && h("img", { alt: "The picture", src: viewport.view.picture(1.5) }),
+      h("h2", null, "Ten worst"),
+      table(["Depth", "Gap", "Interface", "Node / edge", "Segment / edge", "Part", "Main part", "Action"],
+        report.filtered.slice(0, 10).map((x) => [num(x.depth, 5), num(x.row.gap), id(x.contact), report.secondaryText(x.row), report.mainText(x.row), report.partShort(x.secondaryPart), report.partShort(x.mainPart), x.row.action])),
+      h("h2", { class: "second" }, "Interfaces"),
+      table(["Id", "Title", "Kind", "Gapmin", "Pairs", "Nodes", "Edges", "Deepest", "Of gap"],
+        contacts.slice(0, most).map(({ i, t }) => [id(i), report.meta.interfaces[report.meta.contacts[i].interface].title, report.roleText(i), num(report.results[i].setting.gapmin), group(t.pairs), group(t.nodes), group(t.edges), num(t.max_depth), percent(t.max_ratio)])),
+      contacts.length > most && h("p", { class: "note" }, `… and ${group(contacts.length - most)} with shallower penetrations or none`));
   });
 }
 

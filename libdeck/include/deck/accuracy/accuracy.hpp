@@ -84,10 +84,18 @@ struct FamilyResult {
   double got = 0.0, exact = 0.0;  // its distance
 };
 
+// Pairs whose robust decision ends in one stage, and what such a pair takes from its beginning.
+struct StageResult {
+  std::string name;  // "filter", "double-double", "exact"
+  std::uint64_t pairs = 0;
+  double ns_per_pair = 0.0;
+};
+
 struct AccuracyReport {
   std::string scene;  // "hard-cases" or "deck"
   std::vector<TierResult> tiers;
-  std::vector<FamilyResult> families;
+  std::vector<FamilyResult> families;  // of every tier that computes distances
+  std::vector<StageResult> stages;     // of the robust decision
 };
 
 // Runs every tier over the samples. Relative errors where the exact distance is 0 count as 0 or

@@ -30,3 +30,10 @@ export function cssColor(name: MapName, t: number): string {
   const [r, g, b] = colorAt(name, t);
   return `rgb(${r} ${g} ${b})`;
 }
+
+/** Black or white, whichever reads better on a colour. */
+export function inkOn(red: number, green: number, blue: number): string {
+  const linear = (v: number) => (v <= 10 ? v / 3295 : ((v / 255 + 0.055) / 1.055) ** 2.4);
+  const light = 0.2126 * linear(red) + 0.7152 * linear(green) + 0.0722 * linear(blue);
+  return (light + 0.05) / 0.05 > 1.05 / (light + 0.05) ? "#000" : "#fff";
+}

@@ -1,0 +1,13 @@
+// Pieces of the chart of `deck accuracy` for the page around it. Private to the stage.
+#pragma once
+#include <string>
+
+#include "deck/report/accuracy.hpp"
+
+namespace deck {
+
+std::string accuracy_title(const AccuracyReport& report, const AccuracyContext& context);
+/// One chart alone; empty: there are no tiers of this kind.
+std::string accuracy_panel(const AccuracyReport& report, const std::string& what);
+
+}  // namespace deck
