@@ -156,9 +156,9 @@ std::string frontier(const Panel& panel) {
                       : fmt::format("<path d='{} H{:.1f}' class='dk-frontier'/>\n", path, kRight);
 }
 
-struct Box {
+struct LabelBox {
   double x, y, width, height;
-  bool meets(const Box& b) const {
+  bool meets(const LabelBox& b) const {
     return x < b.x + b.width && b.x < x + width && y < b.y + b.height && b.y < y + height;
   }
   bool inside() const {
@@ -167,8 +167,8 @@ struct Box {
 };
 
 // The place nearest to the mark that is clear of all marks and labels so far.
-Box place_label(double x, double y, double width, const std::vector<Box>& taken) {
-  const Box fallback{x + 10, y - 7, width, 14};
+LabelBox place_label(double x, double y, double width, const std::vector<LabelBox>& taken) {
+  const LabelBox fallback{x + 10, y - 7, width, 14};
   for (double far = 10; far < 160; far += 8)
     for (int k = 0; k < 16; ++k) {
       // Right first, then left, then above and below.
@@ -176,9 +176,9 @@ Box place_label(double x, double y, double width, const std::vector<Box>& taken)
       const double angle = order[k] * 0.39269908169872414;
       const double cx = x + far * std::cos(angle), cy = y - far * std::sin(angle);
       const double shift = 0.5 * width * std::cos(angle);
-      const Box box{cx + shift - 0.5 * width, cy - 7, width, 14};
+      const LabelBox box{cx + shift - 0.5 * width, cy - 7, width, 14};
       if (!box.inside()) continue;
-      if (std::none_of(taken.begin(), taken.end(), [&](const Box& b) { return b.meets(box); }))
+      if (std::none_of(taken.begin(), taken.end(), [&](const LabelBox& b) { return b.meets(box); }))
         return box;
     }
   return fallback;
@@ -186,7 +186,7 @@ Box place_label(double x, double y, double width, const std::vector<Box>& taken)
 
 std::string marks(const Panel& panel) {
   std::string out;
-  std::vector<Box> taken;
+  std::vector<LabelBox> taken;
   for (const TierResult* t : panel.tiers)
     taken.push_back({panel.x(t->ns_per_pair) - 8, panel.y(panel.error(*t)) - 8, 16, 16});
   for (const TierResult* tier : panel.tiers) {
@@ -194,7 +194,7 @@ std::string marks(const Panel& panel) {
     const double x = panel.x(t.ns_per_pair), y = panel.y(panel.error(t));
     const bool standard = t.name == "robust";
     const std::string name = standard ? t.name + " (default)" : t.name;
-    const Box box = place_label(x, y, 7.0 * static_cast<double>(name.size()), taken);
+    const LabelBox box = place_label(x, y, 7.0 * static_cast<double>(name.size()), taken);
     taken.push_back(box);
     const double near = std::clamp(x, box.x, box.x + box.width);
     if (std::hypot(near - x, box.y + 7 - y) > 22) out += line(x, y, near, box.y + 7, "dk-lead");
@@ -215,7 +215,7 @@ std::string marks(const Panel& panel) {
                     "hollow: another one is as fast and not worse on this axis");
 }
 
-constexpr std::string_view kStyle =
+constexpr std::string_view kChartStyle =
     "<style>.dk-ground{fill:#fff} .dk-grid{stroke:#dde2e8} "
     ".dk-ulp{stroke:#b3261e;stroke-dasharray:5 4} "
     ".dk-frontier{fill:none;stroke:#1f5fd0;stroke-width:2;stroke-opacity:.35} "
@@ -233,7 +233,7 @@ std::string open_svg(double height, const std::string& name) {
       "font-family='system-ui, sans-serif' font-size='12' role='img' aria-label='{3}'>\n{2}<rect "
       "width='{0}' "
       "height='{1}' class='dk-ground'/>\n",
-      kWidth, height, kStyle, xml_text(name));
+      kWidth, height, kChartStyle, xml_text(name));
 }
 
 }  // namespace

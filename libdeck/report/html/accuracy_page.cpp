@@ -13,7 +13,7 @@
 namespace deck {
 namespace {
 
-constexpr std::string_view kStyle = R"~(
+constexpr std::string_view kPageStyle = R"~(
 :root { --ground:#f5f6f8; --panel:#fff; --ink:#17202b; --muted:#5c6979; --line:#e2e6ec; --accent:#1f5fd0; --soft:#e8f0fe; color-scheme: light; }
 [data-theme=dark] { --ground:#10151b; --panel:#171e27; --ink:#e7edf4; --muted:#93a2b4; --line:#303c4c; --accent:#7fb2ff; --soft:#1b2c47; color-scheme: dark; }
 * { box-sizing: border-box; }
@@ -39,7 +39,7 @@ th, td { padding: 4px 10px; border: 1px solid var(--line); text-align: right; wh
 @media print { header button, .save { display: none; } }
 )~";
 
-constexpr std::string_view kScript = R"~(
+constexpr std::string_view kPageScript = R"~(
 const root = document.documentElement, data = JSON.parse(document.getElementById("accuracy-json").textContent);
 root.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 document.getElementById("theme").onclick = () => root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
@@ -226,7 +226,7 @@ std::string tier_table(const AccuracyReport& r) {
             t.rewritten > 0
                 ? std::to_string(t.invariance_violations) + " of " + std::to_string(t.rewritten)
                 : "not asked",
-            percent(t.fallback_share, 1), percent(t.exact_share, 1));
+            percent(t.fallback_share, 1.0), percent(t.exact_share, 1.0));
     if (rows.empty()) continue;
     out += std::string("<h3>") + title +
            "</h3>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
@@ -250,7 +250,7 @@ std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& c
       "style-src 'unsafe-inline'; img-src data: blob:\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
       html_text(accuracy_title(report, context)) + "</title>\n<style>";
-  out += kStyle;
+  out += kPageStyle;
   out += "</style>\n</head>\n<body>\n<header><h1>" + html_text(accuracy_title(report, context)) +
          "</h1><button type=\"button\" id=\"theme\">Dark or light</button></header>\n<main>\n";
   out += "<p class=\"said\">" + sentence(report) + "</p>\n" + chart(report, "gaps");
@@ -262,7 +262,7 @@ std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& c
     out += "<p class=\"note\">" + html_text(line) + "</p>\n";
   out += "</main>\n<script type=\"application/json\" id=\"accuracy-json\">" +
          detail::script_safe(accuracy_json(report, context)) + "</script>\n<script>";
-  out += kScript;
+  out += kPageScript;
   return out + "</script>\n</body>\n</html>\n";
 }
 

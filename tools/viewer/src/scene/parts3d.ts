@@ -36,6 +36,8 @@ export interface Part3D {
 // Muted colours that leave room for the contour.
 const palette = ["#8fa3b8", "#b3a58f", "#94ad9b", "#b79a9c", "#a49bb8", "#8fb0b5", "#b8ac84", "#9aa7a0", "#a88f86", "#8c99c0"];
 
+const manyTriangles = 30000;
+
 export const elementKey = (kind: number, id: number): number => 16 * id + kind;
 
 const sideColor = (side: Side, dark: boolean): string =>
@@ -299,9 +301,14 @@ export class Parts3D {
     part.look = look;
   }
 
-  /** Hides all lines for a while, whatever else is set. */
-  setLinesShown(on: boolean): void {
-    for (const p of this.parts) if (p.lines) p.lines.visible = on && this.edgesOn && p.look === "solid";
+  /** While a slow machine moves the view: no lines, and of large models no see-through faces, which cost most. */
+  setMoving(on: boolean): void {
+    const large = this.parts.reduce((n, p) => n + p.triangleElement.length, 0) > manyTriangles;
+    for (const p of this.parts) {
+      if (p.lines) p.lines.visible = !on && this.edgesOn && p.look === "solid";
+      if (p.hotLines) p.hotLines.visible = !on && this.edgesOn && (p.look === "hot" || p.look === "only");
+      if (p.faces && large && (p.look === "hot" || p.look === "ghost")) p.faces.visible = !on;
+    }
   }
 
   setEdges(on: boolean): void {

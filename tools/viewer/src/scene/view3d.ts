@@ -86,7 +86,7 @@ export class View3D {
     this.head.position.set(0.3, 0.5, 1);
     const all = this.parts.bounds(() => true) ?? new Sphere(new Vector3(), 1);
     this.control.setBounds(all.center, all.radius);
-    for (const p of this.parts.parts) this.parts.setLook(p, "solid");
+    for (const p of this.parts.parts) this.parts.setLook(p, "hidden"); // until the first view is chosen
     new ResizeObserver(() => this.resize()).observe(container);
     this.resize();
     this.control.fly(all.center, all.radius, new Vector3(-1, -1.4, 0.8), undefined, true);
@@ -109,7 +109,7 @@ export class View3D {
   setCoarse(on: boolean): void {
     if (this.coarse === on) return;
     this.coarse = on;
-    this.parts.setLinesShown(!on);
+    this.parts.setMoving(on);
     if (this.arrows) this.arrows.visible = this.arrowsOn && !on;
     for (const l of this.crossed) l.visible = !on;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2) * (on ? 0.5 : 1));
