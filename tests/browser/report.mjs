@@ -53,6 +53,15 @@ async function crashBox() {
   const pairs = await cells(p, "#pairs");
   same("part-pair table agrees with the JSON", pairs.map((r) => `${parseInt(r.s)} ${parseInt(r.m)} ${r.pairs} ${r.nodes} ${r.edges}`).sort(),
     json.part_pairs.map((x) => `${x.secondary} ${x.main} ${x.pairs} ${x.nodes} ${x.edges}`).sort());
+  const touching = await p.$eval("#touches svg", (s) => {
+    const frame = s.getBoundingClientRect();
+    const cut = [...s.querySelectorAll("text")].map((t) => t.getBoundingClientRect()).filter((r) => r.left < frame.left - 0.5 || r.top < frame.top - 0.5).length;
+    return { red: s.querySelectorAll(".deep").length, said: [...s.querySelectorAll(".touch:has(.deep) title")].map((e) => Number(/; (\d+) penetration/.exec(e.textContent)[1])).sort(), cut };
+  });
+  same("who touches whom: the red cells are the part pairs of the JSON, no name is cut", touching, { red: json.part_pairs.length, said: json.part_pairs.map((x) => x.pairs).sort(), cut: 0 });
+  await p.click("#touches .touch:has(.deep)");
+  check("a cell of it chooses its part pair", await p.evaluate(() => window.deckReport.report.filter.pair !== null));
+  await p.keyboard.press("Escape");
   const deepest = await p.evaluate(() => window.deckReport.report.hits[0].depth);
   same("the deepest row is that of the JSON", deepest, json.summary.max_depth);
   check("the page's own evaluation is the program's", await p.evaluate(() => window.deckReport.report.verified));
