@@ -1,7 +1,7 @@
 // Forces, energies and time steps of the first cycle, where the page carries them.
 import { group, h, num, plural, replace } from "./dom";
 import type { Report } from "./report";
-import { VirtualTable } from "./table";
+import { VirtualTable } from "./table/table";
 
 export function cycleSection(report: Report): HTMLElement {
   const section = h("section", { id: "cycle" });

@@ -4,8 +4,8 @@ import { button, fileName, group, h, num, percent, plural, replace, sectionHead,
 import type { Look } from "./look";
 import type { Hit, Report } from "./report";
 import { openMenu, rowItems } from "./menu";
-import { named } from "./names";
-import { VirtualTable, type Column } from "./table";
+import { named } from "./table/names";
+import { VirtualTable, type Column } from "./table/table";
 import { actionWords } from "./words";
 
 interface PairRow {

@@ -5,8 +5,8 @@ import { copyText, whatIfCommand } from "./exports";
 import type { FieldName } from "./meta";
 import type { Result } from "./evaluate";
 import type { Report } from "./report";
-import { commonStart, named } from "./names";
-import { VirtualTable } from "./table";
+import { commonStart, named } from "./table/names";
+import { VirtualTable } from "./table/table";
 import { actionWords, flagText } from "./words";
 
 /** "62 nodes and 12 edges", without what there is none of. */

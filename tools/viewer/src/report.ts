@@ -3,7 +3,7 @@
 import { kindNames, type Contacts, type Mesh } from "./data";
 import { onSurfaceError, type Row } from "./core";
 import { Evaluator, ratioOf, Tally, type Result } from "./evaluate";
-import { commonStart } from "./names";
+import { commonStart } from "./table/names";
 import type { Crossed, Cycle, Earlier, FieldName, Meta, Overrides, Totals } from "./meta";
 
 export type Status = "new" | "worse" | "better" | "same" | "solved";

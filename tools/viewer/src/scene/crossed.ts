@@ -3,8 +3,8 @@ import { kindNames } from "../data";
 import { h, plural } from "../dom";
 import type { Crossed } from "../meta";
 import type { Report } from "../report";
-import { named } from "../names";
-import { VirtualTable } from "../table";
+import { named } from "../table/names";
+import { VirtualTable } from "../table/table";
 
 type Row = Crossed["rows"][0];
 

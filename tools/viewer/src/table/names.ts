@@ -1,5 +1,5 @@
 // Names of parts and interfaces: ids are never cut, and what many titles start with is folded.
-import { h } from "./dom";
+import { h } from "../dom";
 
 /** Id and title of a part or interface: the id is never cut, and what the titles have in common is folded. */
 export function named(id: number | string, title: string, prefix: string): HTMLElement {

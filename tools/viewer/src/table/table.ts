@@ -1,6 +1,6 @@
 // A table that draws only the rows in sight and gives every column the width of what stands in it: ids and numbers are
 // never cut, text gives way, and what does not fit at all is left out by rank and offered in the chooser.
-import { h, replace } from "./dom";
+import { h, replace } from "../dom";
 import { fullText } from "./tooltip";
 
 export interface Column<T> {

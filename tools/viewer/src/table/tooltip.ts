@@ -1,5 +1,5 @@
 // One small box that says in full what a cell has no room for, on hover and on keyboard focus.
-import { h } from "./dom";
+import { h } from "../dom";
 
 const box = h("div", { class: "full-text", role: "tooltip", hidden: true });
 
