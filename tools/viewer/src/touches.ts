@@ -40,7 +40,7 @@ export function touches(report: Report): Touch[] {
 export function touchesSection(report: Report, name: string): HTMLElement {
   const drawing = h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Who touches whom" });
   const count = h("span", { class: "muted count" });
-  const saveIt = button("Save as SVG", "save", () => save(name, drawing.querySelector("svg")!.outerHTML), { class: "small" });
+  const saveIt = button("Save as SVG", "save", () => save(name, drawing.querySelector("svg.tw")!.outerHTML), { class: "small" });
   const section = h("section", { id: "touches" }, sectionHead(h("h2", null, "Who touches whom", count), saveIt), drawing,
     h("p", { class: "note" }, "Interfaces by number of the part pairs that come near each other; red where they penetrate. Choose a cell to see the pair."));
   const draw = () => {
