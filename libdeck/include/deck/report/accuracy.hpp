@@ -27,11 +27,11 @@ std::string accuracy_json(const AccuracyReport& report, const AccuracyContext& c
 // One line per tier, then one per family and tier, RFC 4180.
 std::string accuracy_csv(const AccuracyReport& report);
 // Self-contained, one panel per kind of tier: x = time per pair, y = worst error (relative; of hard
-// cases over the size of the pair; of decisions alone: wrong ones), both logarithmic; the frontier of
-// what nothing else beats on these axes; the rest hollow.
+// cases over the size of the pair; of decisions alone: wrong ones), both logarithmic; the frontier
+// of what nothing else beats on these axes; the rest hollow.
 std::string accuracy_svg(const AccuracyReport& report, const AccuracyContext& context);
-// One page without outside references: a sentence, the chart, families with an example on click, where
-// the time goes, tables; the JSON document stands in it.
+// One page without outside references: a sentence, the chart, families with an example on click,
+// where the time goes, tables; the JSON document stands in it.
 std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& context);
 
 }  // namespace deck
