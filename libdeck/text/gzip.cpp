@@ -9,9 +9,9 @@
 namespace deck {
 namespace {
 
-constexpr std::string_view ending = ".gz";
+constexpr std::string_view gz_ending = ".gz";
 constexpr int gzip_window = 15 + 16;  // the largest window, in the format of gzip
-constexpr std::size_t piece = std::size_t{1} << 18;
+constexpr std::size_t gzip_piece = std::size_t{1} << 18;
 
 enum class Unpacked { whole, damaged, cut_off, too_long };
 
@@ -31,10 +31,10 @@ bool only_zeros(std::string_view bytes) { return bytes.find_first_not_of('\0') =
 Unpacked inflate_all(std::string_view bytes, std::uint64_t most, std::string& text) {
   Inflater inflater;
   z_stream& z = inflater.z;
-  std::string out(piece, '\0');
+  std::string out(gzip_piece, '\0');
   std::size_t used = 0;
   for (;;) {
-    const std::size_t offered = std::min(bytes.size() - used, piece);
+    const std::size_t offered = std::min(bytes.size() - used, gzip_piece);
     z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data() + used));
     z.avail_in = static_cast<uInt>(offered);
     z.next_out = reinterpret_cast<Bytef*>(out.data());
@@ -109,9 +109,9 @@ std::string gzip(std::string_view text) {
   if (deflateInit2(&z, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzip_window, memory_level,
                    Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::bad_alloc();
-  std::string packed, out(piece, '\0');
+  std::string packed, out(gzip_piece, '\0');
   for (int code = Z_OK; code != Z_STREAM_END;) {
-    const std::size_t offered = std::min(text.size(), piece);
+    const std::size_t offered = std::min(text.size(), gzip_piece);
     z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
     z.avail_in = static_cast<uInt>(offered);
     z.next_out = reinterpret_cast<Bytef*>(out.data());
@@ -125,11 +125,11 @@ std::string gzip(std::string_view text) {
 }
 
 bool has_gz_name(std::string_view path) {
-  return path.size() > ending.size() && path.ends_with(ending);
+  return path.size() > gz_ending.size() && path.ends_with(gz_ending);
 }
 
 std::string without_gz(std::string_view path) {
-  if (has_gz_name(path)) path.remove_suffix(ending.size());
+  if (has_gz_name(path)) path.remove_suffix(gz_ending.size());
   return std::string(path);
 }
 
