@@ -5,45 +5,37 @@
 #include <string>
 #include <vector>
 
+#include "deck/base/columns.hpp"
 #include "deck/lint/example.hpp"
 #include "deck/lint/rule.hpp"
+#include "deck/lint/topics.hpp"
 #include "lint/context.hpp"
 #include "text/rule_page.hpp"
 
 namespace deck {
 namespace {
 
-constexpr std::size_t page_width = 92;
-
-/// Text broken at blanks, every line behind `indent` blanks.
-std::string wrapped(std::string_view text, std::size_t indent) {
-  std::string out, line;
-  const std::string margin(indent, ' ');
-  const auto flush = [&] {
-    if (!line.empty()) out += margin + line + "\n";
-    line.clear();
-  };
-  while (!text.empty()) {
-    const auto end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    if (!line.empty() && indent + line.size() + 1 + word.size() > page_width) flush();
-    if (!word.empty()) line += (line.empty() ? "" : " ") + std::string(word);
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  flush();
-  return out;
+std::string section(std::string_view name, std::string_view text, std::size_t width) {
+  return text.empty() ? std::string() : std::string(name) + "\n" + wrapped(text, 2, width) + "\n";
 }
 
-std::string section(std::string_view name, std::string_view text) {
-  return text.empty() ? std::string() : std::string(name) + "\n" + wrapped(text, 2) + "\n";
-}
-
-std::string indented(std::string_view text) {
+/// Card lines behind a bar; what does not fit `width` (0: everything does) is continued, whole
+/// cells of ten columns at a time.
+std::string indented(std::string_view text, std::size_t width) {
   std::string out;
+  const std::size_t room = width == 0 ? text.size() : std::max<std::size_t>(width, 24) - 4;
   while (!text.empty()) {
     const auto nl = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, nl);
-    out += line.empty() ? "  |\n" : "  | " + std::string(line) + "\n";
+    const char* bar = "  | ";
+    for (; line.size() > room; bar = "  … ") {
+      const std::size_t cells = room / 10 * 10;
+      std::string piece(line.substr(0, cells));
+      piece.resize(piece.find_last_not_of(' ') + 1);
+      out += bar + piece + "\n";
+      line.remove_prefix(cells);
+    }
+    out += line.empty() ? "  |\n" : bar + std::string(line) + "\n";
     text.remove_prefix(std::min(nl + 1, text.size()));
   }
   return out;
@@ -130,41 +122,46 @@ std::string range_text(const Field& f) {
 }
 
 /// "name        text", the text broken behind its first column.
-std::string page_row(std::string_view name, const std::string& text) {
+std::string page_row(std::string_view name, const std::string& text, std::size_t width) {
   constexpr std::size_t margin = 14;
   if (text.empty()) return {};
-  return fmt::format("  {:<12}", name) + wrapped(text, margin).substr(margin);
+  return fmt::format("  {:<12}", name) + wrapped(text, margin, width).substr(margin);
 }
 
-std::string field_head(const Schema& schema, const CardSchema& card, const Field& f) {
+std::string field_head(const Schema& schema, const CardSchema& card, const Field& f,
+                       std::size_t width) {
   return wrapped(
-      fmt::format("{} of {}: {}", f.name, schema.keyword, f.doc.empty() ? card.name : f.doc), 0);
+      fmt::format("{} of {}: {}", f.name, schema.keyword, f.doc.empty() ? card.name : f.doc), 0,
+      width);
 }
 
 /// Where the cell is.
-std::string field_place(const CardSchema& card, const Field& f) {
-  return page_row("columns", fmt::format("{}-{} of the line '{}', {}", f.first, f.last, card.name,
-                                         field_versions(card, f)));
+std::string field_place(const CardSchema& card, const Field& f, std::size_t width) {
+  return page_row("columns",
+                  fmt::format("{}-{} of the line '{}', {}", f.first, f.last, card.name,
+                              field_versions(card, f)),
+                  width);
 }
 
 /// Everything else about a cell.
-std::string field_rows(const CardSchema& card, const Field& f) {
+std::string field_rows(const CardSchema& card, const Field& f, std::size_t width) {
   std::vector<Condition> present = card.when;
   present.insert(present.end(), f.when.begin(), f.when.end());
-  std::string out = page_row("present if", conditions(present)) + page_row("type", type_name(f)) +
-                    page_row("legal", range_text(f)) + page_row("default", f.default_text);
+  std::string out =
+      page_row("present if", conditions(present), width) + page_row("type", type_name(f), width) +
+      page_row("legal", range_text(f), width) + page_row("default", f.default_text, width);
   if (f.type == FieldType::real) {
     std::string dimension = f.dimension_known ? dimension_text(f.dimension) : "not known";
     for (const auto& [when, d] : f.dimension_when)
       dimension += "; " + dimension_text(d) + " if " + conditions(when);
-    out += page_row("dimension", dimension);
+    out += page_row("dimension", dimension, width);
   }
-  if (f.ignored) out += page_row("effect", "none: the reference solver does not use it");
-  return out + page_row("manual", f.from_manual);
+  if (f.ignored) out += page_row("effect", "none: the reference solver does not use it", width);
+  return out + page_row("manual", f.from_manual, width);
 }
 
 /// The newest layout first; layouts that differ in their columns alone share the rest.
-std::string field_page(const Schema& schema, std::string_view field) {
+std::string field_page(const Schema& schema, std::string_view field, std::size_t width) {
   struct Layout {
     std::string head, places, rows;
   };
@@ -172,7 +169,8 @@ std::string field_page(const Schema& schema, std::string_view field) {
   for (auto card = schema.cards.rbegin(); card != schema.cards.rend(); ++card)
     for (auto f = card->fields.rbegin(); f != card->fields.rend(); ++f) {
       if (f->name != field) continue;
-      Layout l{field_head(schema, *card, *f), field_place(*card, *f), field_rows(*card, *f)};
+      Layout l{field_head(schema, *card, *f, width), field_place(*card, *f, width),
+               field_rows(*card, *f, width)};
       const auto same = std::find_if(layouts.begin(), layouts.end(), [&](const Layout& other) {
         return other.head == l.head && other.rows == l.rows;
       });
@@ -188,7 +186,9 @@ std::string field_page(const Schema& schema, std::string_view field) {
 
 }  // namespace
 
-std::string explain_rule(const Rule& rule, const SchemaSet& schemas) {
+std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t width) {
+  const std::size_t card_width = width;
+  if (width == 0) width = usual_page_width;
   namespace heading = detail::heading;
   std::string severities;
   for (const Severity s : rule.severities)
@@ -202,26 +202,37 @@ std::string explain_rule(const Rule& rule, const SchemaSet& schemas) {
     for (std::size_t i = 0; i < rule.types.size(); ++i)
       out += fmt::format("{} TYPE{}", i == 0 ? "" : ",", rule.types[i]);
   }
-  out += "\n\n" + section(heading::problem, rule.problem) + section(heading::why, rule.why);
+  out += "\n\n" + section(heading::problem, rule.problem, width) +
+         section(heading::why, rule.why, width);
   std::string solver = rule.solver;
   if (!rule.messages.empty())
     solver += fmt::format(" ({} {})", severity_name(rule.messages.front().severity),
                           rule.messages.front().number);
-  out += section(heading::solver, solver) + section(heading::fix, rule.fix);
+  out += section(heading::solver, solver, width) + section(heading::fix, rule.fix, width);
   if (!rule.bad.empty())
-    out += fmt::format("{}\n{}\n{}\n{}\n", heading::bad, indented(example_text(rule.bad, schemas)),
-                       heading::good, indented(example_text(rule.good, schemas)));
-  out += section(heading::ignore, rule.ignore);
+    out += fmt::format("{}\n{}\n{}\n{}\n", heading::bad,
+                       indented(example_text(rule.bad, schemas), card_width), heading::good,
+                       indented(example_text(rule.good, schemas), card_width));
+  out += section(heading::ignore, rule.ignore, width);
   out += "Suppress it for one block with a comment in or above the block:\n";
   out += fmt::format("  # decklint: ignore[{}] reason=...\n", id_text(rule.id));
   return out;
 }
 
+std::string explain_rule(const Rule& rule, const SchemaSet& schemas) {
+  return explain_rule(rule, schemas, 0);
+}
+
 std::string explain_keyword(const Schema& schema, std::string_view field) {
-  if (!field.empty()) return field_page(schema, field);
+  return explain_keyword(schema, field, 0);
+}
+
+std::string explain_keyword(const Schema& schema, std::string_view field, std::size_t width) {
+  if (width == 0) width = usual_page_width;
+  if (!field.empty()) return field_page(schema, field, width);
   std::string out = schema.keyword;
   for (const std::string& alias : schema.aliases) out += ", " + alias;
-  out += "\n" + wrapped(schema.doc, 2);
+  out += "\n" + wrapped(schema.doc, 2, width);
   if (schema.from > 0) out += fmt::format("  from version {}\n", schema.from);
   out += std::string("  header: ") + schema.keyword + (schema.has_id ? "/id" : "") +
          (schema.has_id && schema.has_unit ? "/unit_ID" : "") +
@@ -234,14 +245,17 @@ std::string explain_keyword(const Schema& schema, std::string_view field) {
                        : card.count.empty()        ? "; repeats"
                                                    : "; repeats, count " + card.count);
     for (const Field& f : card.fields) {
-      out += fmt::format("  {:>3}-{:<3} {:<15} {}", f.first, f.last, f.name, f.doc);
-      if (const std::string range = range_text(f); !range.empty()) out += " [" + range + "]";
-      if (!f.default_text.empty()) out += "; 0 or blank: " + f.default_text;
-      if (f.from != 0 || f.until != 9999) out += " (" + versions(f.from, f.until) + ")";
-      if (!f.when.empty()) out += "; only if " + conditions(f.when);
-      if (f.ignored) out += " (not used)";
-      out += "\n";
-      if (!f.from_manual.empty()) out += wrapped("Manual: " + f.from_manual, 12);
+      constexpr std::size_t margin = 26;
+      std::string text = f.doc;
+      if (const std::string range = range_text(f); !range.empty()) text += " [" + range + "]";
+      if (!f.default_text.empty()) text += "; 0 or blank: " + f.default_text;
+      if (f.from != 0 || f.until != 9999) text += " (" + versions(f.from, f.until) + ")";
+      if (!f.when.empty()) text += "; only if " + conditions(f.when);
+      if (f.ignored) text += " (not used)";
+      const std::string lines = wrapped(text, margin, width);
+      out += fmt::format("  {:>3}-{:<3} {:<15} ", f.first, f.last, f.name) +
+             (lines.empty() ? "\n" : lines.substr(margin));
+      if (!f.from_manual.empty()) out += wrapped("Manual: " + f.from_manual, 12, width);
     }
   }
   return out;

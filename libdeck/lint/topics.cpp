@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "deck/base/columns.hpp"
 #include "deck/base/spelling.hpp"
 #include "deck/lint/rule.hpp"
 #include "deck/text/number.hpp"
@@ -13,25 +14,8 @@
 namespace deck {
 namespace {
 
-constexpr std::size_t usual_width = 92;
 constexpr const char* contact_keywords[] = {"/INTER/TYPE7", "/INTER/TYPE10", "/INTER/TYPE11",
                                             "/INTER/TYPE19"};
-
-/// Text broken at blanks; every line behind `indent` blanks.
-std::string paragraph(std::string_view text, std::size_t indent, std::size_t width) {
-  std::string out, line;
-  while (!text.empty()) {
-    const auto end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    if (!line.empty() && indent + line.size() + 1 + word.size() > width) {
-      out += std::string(indent, ' ') + line + "\n";
-      line.clear();
-    }
-    if (!word.empty()) line += (line.empty() ? "" : " ") + std::string(word);
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return line.empty() ? out : out + std::string(indent, ' ') + line + "\n";
-}
 
 /// Keywords with the four contacts that are evaluated first.
 std::vector<const Schema*> contacts_first(const SchemaSet& schemas) {
@@ -72,7 +56,7 @@ std::string field_named(const Schema& schema, std::string_view name) {
 
 std::string field_with_help(const Schema& schema, const std::string& name, const SchemaSet& schemas,
                             std::size_t width) {
-  std::string page = explain_keyword(schema, name);
+  std::string page = explain_keyword(schema, name, width);
   for (const CardSchema& card : schema.cards)
     for (const Field& f : card.fields)
       if (f.name == name)
@@ -93,14 +77,14 @@ std::string field_everywhere(std::string_view name, const SchemaSet& schemas, st
       others += (others.empty() ? "" : ", ") + s->keyword + "." + field;
   }
   if (others.empty()) return page;
-  return page + "\nAlso a field of\n" + paragraph(others, 2, width);
+  return page + "\nAlso a field of\n" + wrapped(others, 2, width);
 }
 
 std::string rule_line(const Rule& r, std::size_t width) {
   const char* severity = r.severity() == Severity::error     ? "error"
                          : r.severity() == Severity::warning ? "warning"
                                                              : "info";
-  std::string text = paragraph(r.title, 17, width);
+  std::string text = wrapped(r.title, 17, width);
   const std::string head = fmt::format("  {:<7}{:<8}", id_text(r.id), severity);
   return text.size() < 17 ? head + "\n" : head + text.substr(17);
 }
@@ -152,16 +136,16 @@ std::string solver_message(const std::string& digits, const SchemaSet& schemas, 
     if (is_own)
       rules += fmt::format("  as {} of the solver\n",
                            own->severity == Severity::error ? "an error" : "a warning");
-    if (!r.problem.empty()) rules += paragraph(r.problem, 2, width);
-    if (!r.solver.empty()) rules += paragraph("Solver: " + r.solver, 2, width);
-    if (!r.fix.empty()) rules += paragraph("Fix: " + r.fix, 2, width);
+    if (!r.problem.empty()) rules += wrapped(r.problem, 2, width);
+    if (!r.solver.empty()) rules += wrapped("Solver: " + r.solver, 2, width);
+    if (!r.fix.empty()) rules += wrapped("Fix: " + r.fix, 2, width);
   }
   for (const Schema* s : contacts_first(schemas))
     for (const CardSchema& card : s->cards)
       for (const Field& f : card.fields) {
         const auto says = [&](const std::optional<int>& n, const char* why) {
           if (n && *n == number && number != 0)
-            cells += paragraph(fmt::format("{}.{}: {}", s->keyword, f.name, why), 2, width);
+            cells += wrapped(fmt::format("{}.{}: {}", s->keyword, f.name, why), 2, width);
         };
         says(f.missing, "what the id names does not exist");
         says(f.empty, "what the id names has no member");
@@ -176,13 +160,13 @@ std::string solver_message(const std::string& digits, const SchemaSet& schemas, 
 }  // namespace
 
 std::string field_help(const Field& field, const SchemaSet& schemas, std::size_t width) {
-  if (width == 0) width = usual_width;
+  if (width == 0) width = usual_page_width;
   std::string out;
   bool figure = false;
   for (const std::string& text : field.help) {
     const bool line = text.starts_with('|');
     if (!out.empty() && !(line && figure)) out += "\n";
-    out += line ? "    " + text.substr(1) + "\n" : paragraph(text, 2, width);
+    out += line ? "    " + text.substr(1) + "\n" : wrapped(text, 2, width);
     figure = line;
   }
   if (field.help_of.empty()) return out;
@@ -196,10 +180,10 @@ std::string field_help(const Field& field, const SchemaSet& schemas, std::size_t
 }
 
 std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std::size_t width) {
-  if (width == 0) width = usual_width;
   const std::string capitals = in_capitals(topic);
   if (capitals.empty()) return {};
-  if (const Rule* rule = find_rule(capitals)) return explain_rule(*rule, schemas);
+  if (const Rule* rule = find_rule(capitals)) return explain_rule(*rule, schemas, width);
+  if (width == 0) width = usual_page_width;
   if (std::string page = rule_family(capitals, width); !page.empty()) return page;
   if (capitals.find_first_not_of("0123456789") == std::string::npos && capitals.size() < 6)
     return solver_message(capitals, schemas, width);
@@ -216,9 +200,9 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
       });
   if (of_contact) return field_everywhere(topic, schemas, width);
   if (keyword != nullptr && (topic.starts_with('/') || schemas.find("/" + capitals) != nullptr))
-    return explain_keyword(*keyword);
+    return explain_keyword(*keyword, {}, width);
   if (std::string page = field_everywhere(topic, schemas, width); !page.empty()) return page;
-  return keyword != nullptr ? explain_keyword(*keyword) : std::string();
+  return keyword != nullptr ? explain_keyword(*keyword, {}, width) : std::string();
 }
 
 std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet& schemas) {

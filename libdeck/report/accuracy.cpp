@@ -77,8 +77,8 @@ std::string accuracy_compiler() {
   return name + __VERSION__ + level + ", no contraction";
 }
 
-std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& context,
-                          bool color) {
+std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& context, bool color,
+                          std::size_t width) {
   if (report.tiers.empty()) return "No pairs to measure.\n";
   std::string out =
       fmt::format("{} pairs of {}\n\n", report.tiers[0].samples,
@@ -115,7 +115,7 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
                percent(t.fallback_share), percent(t.exact_share),
                t.dominated ? TextTable::Cell("dominated", Tone::dim) : TextTable::Cell("")});
   }
-  out += table.render(color);
+  out += table.fitted(width, color, 0, 2);
   if (!report.families.empty()) {
     TextTable families({{"family", Align::right},
                         {""},
@@ -130,7 +130,8 @@ std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& c
       families.row({std::to_string(f.id), f.name, f.tier, number(f.max_relative_error),
                     count(f.decision_errors), count(f.non_finite), f.expected});
     }
-    out += "\nFamilies (reference; robust only where it fails):\n" + families.render(color);
+    out += "\nFamilies (reference; robust only where it fails):\n" +
+           families.fitted(width, color, 0, 3);
   }
   out += fmt::format("\n{}; {}\n", terminal_text(context.processor), accuracy_compiler());
   return out;

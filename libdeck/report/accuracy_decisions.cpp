@@ -84,7 +84,7 @@ void write_decisions(JsonWriter& j, const Scene& scene) {
   j.end_array().end_object();
 }
 
-std::string decisions_text(const Scene& scene, std::size_t rows, bool color) {
+std::string decisions_text(const Scene& scene, std::size_t rows, bool color, std::size_t width) {
   const DecisionReport& r = scene.decisions;
   if (r.pairs == 0) return {};
   std::string out = fmt::format("Decisions ({}): {} pairs", to_string(r.mode), r.pairs);
@@ -104,7 +104,7 @@ std::string decisions_text(const Scene& scene, std::size_t rows, bool color) {
                    {"gap", Align::right},
                    {"distance", Align::right},
                    {"the solver's", Align::right},
-                   {"the solver does"}});
+                   {"action"}});
   const std::size_t shown = std::min(rows, r.differences.size());
   for (std::size_t k = 0; k < shown; ++k) {
     const DecisionDifference& d = r.differences[k];
@@ -115,7 +115,7 @@ std::string decisions_text(const Scene& scene, std::size_t rows, bool color) {
                fmt::format("{}", d.exact_distance), fmt::format("{}", d.solver_distance),
                to_string(d.action)});
   }
-  if (shown > 0) out += table.render(color, 2);
+  if (shown > 0) out += table.fitted(width, color, 2, 2);
   if (shown > 0 && shown < differ) out += fmt::format("  … and {} more (--json)\n", differ - shown);
   return out;
 }

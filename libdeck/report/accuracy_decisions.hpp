@@ -12,7 +12,7 @@ namespace deck {
 /// the solver's arithmetic decides otherwise.
 void write_decisions(JsonWriter& j, const Scene& scene);
 
-/// One sentence, and a table of the first `rows` differences if there are any.
-std::string decisions_text(const Scene& scene, std::size_t rows, bool color);
+/// One sentence, and a table of the first `rows` differences if there are any, fitted to `width`.
+std::string decisions_text(const Scene& scene, std::size_t rows, bool color, std::size_t width);
 
 }  // namespace deck

@@ -62,7 +62,7 @@ std::string crossings_text(const Scene& scene, const std::vector<Crossing>& cros
                fmt::format("{}", segment_element(scene, x).id)});
   }
   return fmt::format("\nCrossed elements: {}\n{}", crossings.size(),
-                     table.render(options.color, 2));
+                     table.fitted(options.width, options.color, 2, 2));
 }
 
 }  // namespace deck

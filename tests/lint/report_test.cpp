@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "deck/base/columns.hpp"
 #include "deck/report/diagnostics.hpp"
 #include "lint/support.hpp"
 
@@ -56,6 +57,96 @@ TEST(HumanReport, CutsLongLinesAroundTheCaretAndFloodsPerRule) {
     EXPECT_LT(nl - at, 260u) << out.substr(at, nl - at);
     at = nl + 1;
   }
+}
+
+/// Twenty interfaces with a flag that does not exist, and one error behind them.
+std::string many_alike() {
+  std::string text;
+  for (int i = 1; i <= 20; ++i) text += "@/INTER/TYPE7/" + std::to_string(i) + " Istf=7 Gapmin=1\n";
+  return text + "@/INTER/TYPE10/30 Inacti=5\n";
+}
+
+LintOptions these(std::vector<std::string> rules) {
+  LintOptions o;
+  o.select = std::move(rules);
+  return o;
+}
+
+std::size_t count_of(const std::string& text, std::string_view what) {
+  std::size_t n = 0;
+  for (auto at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST(HumanReport, GroupsMoreThanThreeOfARule) {
+  const Linted run = lint_example(many_alike(), these({"DK201"}));
+  ASSERT_EQ(run.count(RuleId::DK201), 20u) << run.list();
+  const std::string grouped = lint_human(one(run), {});
+  EXPECT_EQ(count_of(grouped, "warning[DK201]"), 1u) << grouped;
+  EXPECT_NE(grouped.find("19 more of DK201: "), std::string::npos) << grouped;
+  EXPECT_NE(grouped.find(": Istf of /INTER/TYPE7 2 is 7"), std::string::npos) << grouped;
+  EXPECT_NE(grouped.find("… and 10 more"), std::string::npos) << grouped;
+  HumanOptions all;
+  all.group = false;
+  all.per_rule = 0;
+  EXPECT_EQ(count_of(lint_human(one(run), all), "warning[DK201]"), 20u);
+}
+
+TEST(HumanReport, ThreeOfARuleAreShownInFull) {
+  const Linted run = lint_example(
+      "@/INTER/TYPE7/1 Istf=7\n@/INTER/TYPE7/2 Istf=7\n@/INTER/TYPE7/3 Istf=7\n", only("DK201"));
+  EXPECT_EQ(count_of(lint_human(one(run), {}), "warning[DK201]"), 3u) << run.list();
+}
+
+TEST(HumanReport, ShowsErrorsBeforeWarnings) {
+  const Linted run = lint_example(many_alike(), these({"DK201", "DK254"}));
+  const std::string text = lint_human(one(run), {});
+  ASSERT_NE(text.find("error[DK254]"), std::string::npos) << text;
+  EXPECT_LT(text.find("error[DK254]"), text.find("warning[DK201]")) << text;
+}
+
+TEST(HumanReport, ManyDecksHaveOneListOfWhatWasNotCheckedAndOneTotal) {
+  const Linted run = lint_example("@/INTER/TYPE7/1 Istf=7\n", only("DK201"));
+  auto decks = one(run);
+  decks.push_back(decks[0]);
+  decks.push_back({"absent_0000.rad", nullptr, nullptr, "no such file"});
+  const std::string text = lint_human(decks, {});
+  EXPECT_EQ(count_of(text, "not checked:"), 1u) << text;
+  EXPECT_NE(text.find("3 decks: 0 errors, 2 warnings; 0 without either; 1 could not be read\n"),
+            std::string::npos)
+      << text;
+}
+
+/// The columns at which the carets of a text begin, and the characters over them.
+std::pair<std::string, std::string> card_and_caret(const std::string& text) {
+  const auto caret = text.find('^');
+  if (caret == text.npos) return {};
+  const auto begin = text.rfind('\n', caret), card = text.rfind('\n', begin - 1);
+  return {text.substr(card + 1, begin - card - 1),
+          text.substr(begin + 1, text.find('\n', caret) - begin - 1)};
+}
+
+TEST(HumanReport, TheCaretIsUnderItsCellWhateverStandsBeforeAndBehindIt) {
+  for (std::string before : {"1", "\xe8\xbb\x8a\xe4\xbd\x93", "\ta\xc3\xbc"})
+    for (const std::size_t width : {0u, 40u, 60u, 80u}) {
+      before.resize(10, ' ');  // bytes are columns of a card
+      std::string line = before;
+      for (int k = 0; k < 5; ++k) line += "         2";
+      line += "       xyz         3         4         5";
+      const Linted run = lint_example("/GRNOD/NODE/7\nnodes\n" + line + "\n", only("DK020"));
+      const auto text = lint_human(one(run), {.group = false, .width = width});
+      const auto at = text.find("'xyz'");
+      ASSERT_NE(at, std::string::npos) << text;
+      const auto [card, caret] = card_and_caret(text.substr(at));
+      EXPECT_TRUE(width == 0 || display_width(card) <= width) << card;
+      EXPECT_TRUE(width == 0 || display_width(caret) <= width) << caret;
+      // What stands over the carets is what the finding is about.
+      const std::size_t columns = display_width(caret.substr(0, caret.find('^')));
+      std::size_t over = 0;
+      while (display_width(card.substr(0, over)) < columns) ++over;
+      EXPECT_EQ(card.substr(over, 3), "xyz") << card << "\n" << caret;
+      EXPECT_TRUE(caret.ends_with(" ^^^")) << caret;
+    }
 }
 
 TEST(HumanReport, ShowsBytesThatAreNoUtf8AsReplacementCharacters) {
@@ -196,6 +287,21 @@ TEST(GitlabReport, NumbersEqualFingerprints) {
   ASSERT_EQ(json.size(), 2u) << run.list();
   EXPECT_NE(json[0]["fingerprint"], json[1]["fingerprint"]);
   EXPECT_EQ(json[0]["location"]["path"], "deck_0000.rad");
+}
+
+TEST(RulesReport, FitsTheTerminalAndLosesNoTitle) {
+  const std::string table = rules_table(false, 80);
+  std::string words;
+  for (std::size_t at = 0; at < table.size();) {
+    const auto nl = std::min(table.find('\n', at), table.size());
+    const std::string line = table.substr(at, nl - at);
+    if (!line.starts_with("DK") && !line.ends_with("page of a rule.")) {
+      EXPECT_LE(display_width(line), 80u) << line;
+    }
+    words += line.substr(std::min(line.find_first_not_of(' '), line.size())) + " ";
+    at = nl + 1;
+  }
+  for (const Rule& r : all_rules()) EXPECT_NE(words.find(r.title), std::string::npos) << r.title;
 }
 
 TEST(RulesReport, TableAndJsonAgree) {

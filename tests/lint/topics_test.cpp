@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "deck/report/text_table.hpp"
+#include "deck/base/columns.hpp"
+#include "deck/lint/rule.hpp"
 
 namespace deck {
 namespace {
@@ -72,6 +73,36 @@ TEST(FieldHelp, FiguresStandAsTheyAreAndParagraphsAreBroken) {
   own.help_of.clear();
   EXPECT_EQ(field_help(own, schemas(), 20),
             "  one two three four\n  five six seven\n\n      o--o\n       \\/\n");
+}
+
+/// The longest line of a page, in columns.
+std::size_t widest(const std::string& page) {
+  std::size_t most = 0;
+  for (std::size_t at = 0; at < page.size();) {
+    const auto nl = std::min(page.find('\n', at), page.size());
+    const std::string line = page.substr(at, nl - at);
+    // Keywords, titles and headers are single lines; a terminal's width folds them later.
+    if (line.starts_with("  ")) most = std::max(most, display_width(line));
+    at = nl + 1;
+  }
+  return most;
+}
+
+TEST(ExplainTopic, PagesOfRulesFitANarrowTerminalWithTheirCards) {
+  for (const Rule& r : all_rules())
+    EXPECT_LE(widest(explain_topic(id_text(r.id), schemas(), 80)), 80u) << id_text(r.id);
+}
+
+TEST(ExplainTopic, PagesOfContactsFitANarrowTerminal) {
+  for (const char* topic : {"TYPE7", "TYPE10", "TYPE11", "TYPE19", "Gapmin", "TYPE7.Igap"})
+    EXPECT_LE(widest(explain_topic(topic, schemas(), 80)), 80u) << topic;
+}
+
+TEST(ExplainTopic, ACardThatIsContinuedKeepsItsCellsWhole) {
+  const std::string page = explain_topic("DK203", schemas(), 60);
+  EXPECT_LE(widest(page), 60u);
+  const std::string whole = explain_topic("DK203", schemas(), 0);
+  EXPECT_EQ(page.find("…") != page.npos, widest(whole) > 60u) << page;
 }
 
 TEST(FieldHelp, LinesFitANarrowTerminal) {

@@ -1,4 +1,5 @@
 // What two decks mean differently, and what makes no difference.
+#include "deck/base/columns.hpp"
 #include "report/inspected.hpp"
 
 #include <nlohmann/json.hpp>

@@ -72,7 +72,7 @@ int show(const Options& o, const AccuracyReport& report, const AccuracyContext& 
       !write(o.html, accuracy_html(report, context)))
     return exit_usage;
   if (o.common.wants_text() && o.csv != "-" && o.svg != "-" && o.html != "-")
-    print_text(accuracy_text(report, context, o.common.color_on(1)));
+    print_lines(accuracy_text(report, context, o.common.color_on(1), text_width()));
   for (const TierResult& t : report.tiers)
     if (t.name == "robust" && t.decision_errors + t.non_finite > 0) return exit_findings;
   return exit_clean;

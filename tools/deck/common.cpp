@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "deck/base/columns.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/base/spelling.hpp"
 #include "deck/contact/resolve.hpp"
@@ -65,9 +66,13 @@ bool CommonOptions::color_on(int fd) const {
   return isatty(fd) == 1 && (term == nullptr || std::strcmp(term, "dumb") != 0);
 }
 
-std::size_t text_width() {
+std::size_t terminal_width(int fd) {
   winsize size{};
-  if (isatty(1) == 1 && ioctl(1, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return isatty(fd) == 1 && ioctl(fd, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
+std::size_t text_width() {
+  if (const std::size_t width = terminal_width(1); width > 0) return width;
   const char* columns = std::getenv("COLUMNS");
   const IntegerCell n = read_integer(columns == nullptr ? "" : columns);
   return n.status == NumberStatus::ok && n.value > 0 ? static_cast<std::size_t>(n.value) : 0;
@@ -110,6 +115,10 @@ void add_common(CommandLine& line, CommonOptions& options, bool with_json) {
 void add_require_examined(CommandLine& line, CommonOptions& options) {
   line.flag("--require-examined", options.require_examined,
             "Exit 1 if the deck has no interface of a type that is examined (TYPE7, 10, 11, 19)");
+}
+
+void add_verbose(CommandLine& line, CommonOptions& options, const std::string& what) {
+  line.flag("-v,--verbose", options.verbose, what);
 }
 
 // ---- loading --------------------------------------------------------------------------------
@@ -175,11 +184,11 @@ Result<bool> settle_interrupted(const Deck& deck, const SchemaSet& schemas,
   if (files.empty()) return false;
   if (!options.rewrites) {
     if (!options.quiet)
-      fmt::print(stderr,
-                 "deck: note: a rewriting of {} was interrupted ({}): some of its files may be "
-                 "old and some new; the next convert --in-place, fix --in-place or lint --fix of "
-                 "it finishes that\n",
-                 terminal_text(files.front()), terminal_text(*unfinished_note(files.front())));
+      print_messages(fmt::format(
+          "deck: note: a rewriting of {} was interrupted ({}): some of its files may be "
+          "old and some new; the next convert --in-place, fix --in-place or lint --fix of "
+          "it finishes that\n",
+          terminal_text(files.front()), terminal_text(*unfinished_note(files.front()))));
     return false;
   }
   const std::vector<std::string> tree = files_of_call(schemas, options);
@@ -196,8 +205,9 @@ Result<bool> settle_interrupted(const Deck& deck, const SchemaSet& schemas,
     finished += done->files;
   }
   if (finished > 0 && !options.quiet)
-    fmt::print(stderr, "deck: note: an interrupted rewriting of {} was finished: {} file{}\n",
-               terminal_text(files.front()), finished, finished == 1 ? "" : "s");
+    print_messages(
+        fmt::format("deck: note: an interrupted rewriting of {} was finished: {} file{}\n",
+                    terminal_text(files.front()), finished, finished == 1 ? "" : "s"));
   return finished > 0;
 }
 
@@ -401,8 +411,8 @@ const char* color_of(Severity severity) {
 
 void print_error(const CommonOptions& options, std::string_view message) {
   const bool color = options.color_on(2);
-  fmt::print(stderr, "deck: {}error:{} {}\n", color ? "\x1b[1;31m" : "", color ? "\x1b[0m" : "",
-             terminal_text(message));
+  print_messages(fmt::format("deck: {}error:{} {}\n", color ? "\x1b[1;31m" : "",
+                             color ? "\x1b[0m" : "", terminal_text(message)));
   if (BatchFrame* frame = batch_frame()) frame->note_error(message);
 }
 
@@ -420,20 +430,27 @@ std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options,
       }
       ++shown;
       const std::string where = d.span.valid() ? loaded.deck.sources.where(d.span) : loaded.path;
-      fmt::print(stderr, "{}: {}{}:{} {} [{}]\n", terminal_text(where),
-                 color ? color_of(d.severity) : "", name_of(d.severity), color ? "\x1b[0m" : "",
-                 terminal_text(d.message), id_text(d.rule));
+      print_messages(fmt::format(
+          "{}: {}{}:{} {} [{}]\n", terminal_text(where), color ? color_of(d.severity) : "",
+          name_of(d.severity), color ? "\x1b[0m" : "", terminal_text(d.message), id_text(d.rule)));
     }
   }
   if (hidden > 0)
-    fmt::print(stderr, "{}: {} more like these; 'deck lint {}' shows them all\n",
-               terminal_text(loaded.path), hidden, terminal_text(loaded.path));
+    print_messages(fmt::format("{}: {} more like these; 'deck lint {}' shows them all\n",
+                               terminal_text(loaded.path), hidden, terminal_text(loaded.path)));
   return errors;
 }
 
 // ---- output ---------------------------------------------------------------------------------
 
 void print_text(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+void print_lines(std::string_view text) { print_text(folded(text, text_width())); }
+
+void print_messages(std::string_view text) {
+  const std::string lines = folded(text, terminal_width(2));
+  std::fwrite(lines.data(), 1, lines.size(), stderr);
+}
 
 void print_contents(std::string_view text) {
   if (isatty(1) == 1)
@@ -443,7 +460,7 @@ void print_contents(std::string_view text) {
 }
 
 void print_note(std::string_view note) {
-  fmt::print(stderr, "deck: note: {}\n", terminal_text(note));
+  print_messages(fmt::format("deck: note: {}\n", terminal_text(note)));
 }
 
 int JsonOutput::finish(int code) const {

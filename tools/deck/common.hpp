@@ -38,6 +38,7 @@ struct CommonOptions {
   std::string json;                ///< file, "-" for standard output, empty: none
   int threads = 0;                 ///< 0: all processors
   bool quiet = false;
+  bool verbose = false;
   bool require_examined = false;  ///< exit 1 where no interface was examined
   std::string color = "auto";
   std::vector<std::string> include_paths, schema_dirs;
@@ -62,6 +63,9 @@ Result<SchemaSet> load_schemas(const CommonOptions& options);
 
 /// Adds --require-examined, for verbs whose result is a verdict about contacts.
 void add_require_examined(CommandLine& line, CommonOptions& options);
+
+/// Adds -v, for verbs whose text folds things.
+void add_verbose(CommandLine& line, CommonOptions& options, const std::string& what);
 
 /// How far to read.
 enum class Stage { blocks, model, interfaces };
@@ -127,11 +131,18 @@ void print_error(const CommonOptions& options, std::string_view message);
 
 /// Prints results on standard output. A failure (full disk) is noticed at the end of the program.
 void print_text(std::string_view text);
+/// The same for lines that people read: those longer than text_width() are continued on further
+/// ones.
+void print_lines(std::string_view text);
+/// Lines on standard error, continued in the same way where that is a terminal.
+void print_messages(std::string_view text);
 
 /// The same for contents of files (a deck, a patch): as they are, but on a terminal with what it
 /// would obey spelled out.
 void print_contents(std::string_view text);
 
+/// Columns of the terminal behind a descriptor (1, 2); 0: it is none.
+std::size_t terminal_width(int fd);
 /// Columns of the terminal that standard output is, else of $COLUMNS; 0: lines of any length.
 std::size_t text_width();
 

@@ -176,11 +176,11 @@ void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& com
         "{}:{}: {}: {}/{} {}{}{}{}{}", e.file, e.line, names[static_cast<std::size_t>(e.loss)],
         e.keyword, e.id, e.field, e.old_text.empty() ? "" : " " + e.old_text,
         e.new_text.empty() ? "" : " -> " + e.new_text, e.note.empty() ? "" : ": ", e.note);
-    fmt::print(stderr, "{}\n", terminal_text(line));
+    print_messages(terminal_text(line) + "\n");
   }
-  if (hidden > 0) fmt::print(stderr, "... and {} more; --report FILE lists all\n", hidden);
-  fmt::print(stderr, "deck: kept {}, approximated {}, dropped {}, undecided {}\n", count[0],
-             count[1], count[2], count[3]);
+  if (hidden > 0) print_messages(fmt::format("... and {} more; --report FILE lists all\n", hidden));
+  print_messages(fmt::format("deck: kept {}, approximated {}, dropped {}, undecided {}\n", count[0],
+                             count[1], count[2], count[3]));
 }
 
 /// A deck in JSON; `below_root` is its place where the call mirrors a tree.

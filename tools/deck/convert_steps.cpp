@@ -196,7 +196,7 @@ int convert_lsdyna(const ConvertSteps& steps, const std::string& directory,
     return exit_usage;
   }
   if (!common.quiet)
-    for (const OutputFile& f : outputs) print_text(terminal_text(f.path) + "\n");
+    for (const OutputFile& f : outputs) print_lines(terminal_text(f.path) + "\n");
   return worst;
 }
 

@@ -142,6 +142,7 @@ int run(const Options& o) {
     return exit_usage;
   }
   JsonOutput json(o.common, "deck/cycle", 1);
+  bool first = true;
   options.keep_pairs = (o.all && json.wanted()) || !o.vtk.empty();
   std::vector<std::int64_t> parts;
   for (const cycle::PartVelocity& v : velocities) parts.push_back(v.part);
@@ -245,8 +246,14 @@ int run(const Options& o) {
       return static_cast<int>(exit_usage);
     }
     if (o.common.wants_text()) {
-      print_text(cycle_text(input, {o.common.color_on(1), o.effects}));
-      if (const std::string lines = gate_text(report); !lines.empty()) print_text("\n" + lines);
+      CycleTextOptions text;
+      text.color = o.common.color_on(1);
+      text.effects = o.effects;
+      text.verbose = o.common.verbose;
+      text.several = o.common.decks.size() > 1;
+      text.width = text_width();
+      print_lines((first ? "" : "\n") + cycle_text(input, text));
+      first = false;
     }
     return static_cast<int>(found ? exit_findings : exit_clean);
   });
@@ -288,6 +295,8 @@ Action setup(CommandLine& line) {
       .value("PART=VX,VY,VZ");
   line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
   add_require_examined(line, options->common);
+  add_verbose(line, options->common,
+              "Every interface, the parts of a TYPE19 in rows of their own, and more columns");
   line.flag("--fail-on-force", options->fail,
             "Exit 1 when any contact pushes, at the start or at any step, as --fail-on warning");
   add_gate_with_config(line, options->gate, "a contact could not be evaluated",

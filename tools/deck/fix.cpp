@@ -104,9 +104,9 @@ class FixRun {
       if (auto done = changes_.write(false); !done) return std::max(code, usage(done.error()));
     for (std::string& document : documents_) json_.add(std::move(document));
     if (o_.write.diff || o_.common.json == "-")
-      fmt::print(stderr, "{}", texts_);
+      print_messages(texts_);
     else
-      print_text(texts_);
+      print_lines(texts_);
     return code;
   }
 
@@ -176,6 +176,7 @@ class FixRun {
     if (o_.common.quiet) return {};
     FixTextOptions text;
     text.rows = o_.rows;
+    text.width = text_width();
     const bool to_stderr = o_.write.diff || o_.common.json == "-";
     text.color = o_.common.color_on(to_stderr ? 2 : 1);
     std::string out;

@@ -212,6 +212,7 @@ int run(const Options& o) {
     gate_options.baseline.clear();
     gate_options.no_config = true;
   }
+  bool first = true;
   int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
     if (auto fits = check_options(o, loaded, scene_options.what_if); !fits) {
       print_error(o.common, fits.error().message);
@@ -270,9 +271,13 @@ int run(const Options& o) {
       GapsTextOptions text;
       text.worst = o.worst;
       text.color = o.common.color_on(1);
-      print_text(gaps_text(loaded.deck, scene, view, text));
-      if (o.crossings) print_text(crossings_text(scene, crossings, text));
-      if (const std::string lines = gate_text(report); !lines.empty()) print_text("\n" + lines);
+      text.verbose = o.common.verbose;
+      text.width = text_width();
+      if (o.common.decks.size() > 1) text.name = loaded.path;
+      if (o.crossings) text.crossings = &crossings;
+      text.gate = &report;
+      print_lines((first ? "" : "\n") + gaps_text(loaded.deck, scene, view, text));
+      first = false;
     }
     const bool accepted = baseline.wanted() || (gate->baseline && o.gate.level().empty());
     bool found = o.fail || o.gate.fails_on("warning") ? view.total.count.pairs > 0
@@ -306,6 +311,8 @@ Action setup(CommandLine& line) {
   line.option("--worst", options->worst, "Rows of the list of deepest penetrations").show_default();
   line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
   add_require_examined(line, options->common);
+  add_verbose(line, options->common,
+              "Every interface, the parts of a TYPE19 in rows of their own, and more columns");
   line.option("--what-if", options->what_if,
               "Evaluate an interface with other values, e.g. 3:Gapmin=2,Inacti=6 (repeatable); "
               "the deck is not changed")

@@ -1,7 +1,8 @@
 // deck lint: findings with file, line and column, in every format that people and pipelines read.
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
 #include "common.hpp"
@@ -32,7 +33,7 @@ struct Options {
   bool geometry = false, fix = false, unsafe_fixes = false, diff = false, ruler = false;
   bool changed = false, init = false, show_config = false;
   WriteChoice write;
-  int per_rule = 10;
+  int per_rule = -1;  ///< not given: 10, or all with -v
 };
 
 constexpr std::initializer_list<const char*> formats = {"human",  "json",  "sarif",
@@ -59,7 +60,9 @@ std::string render(std::string_view format, const std::vector<LintedDeck>& decks
   HumanOptions human;
   human.color = to_terminal && options.common.color_on(1);
   human.ruler = options.ruler;
-  human.per_rule = options.per_rule;
+  human.group = !options.common.verbose;
+  human.per_rule = options.per_rule >= 0 ? options.per_rule : options.common.verbose ? 0 : 10;
+  human.width = to_terminal ? text_width() : 0;
   return lint_human(decks, human);
 }
 
@@ -249,15 +252,14 @@ class Run {
     constexpr std::size_t most = 10;
     for (std::size_t i = 0; i < std::min(most, agreed.withheld.size()) && !common_.quiet; ++i) {
       const WithheldFix& w = agreed.withheld[i];
-      std::fprintf(
-          stderr, "%s: note: not fixed (%s): %s includes this file, too, and needs it as it is\n",
-          terminal_text(jobs[w.deck]->loaded->deck.sources.where(w.diagnostic->span)).c_str(),
-          std::string(id_text(w.diagnostic->rule)).c_str(),
-          terminal_text(jobs[w.other]->path).c_str());
+      print_messages(fmt::format(
+          "{}: note: not fixed ({}): {} includes this file, too, and needs it as it is\n",
+          terminal_text(jobs[w.deck]->loaded->deck.sources.where(w.diagnostic->span)),
+          id_text(w.diagnostic->rule), terminal_text(jobs[w.other]->path)));
     }
     if (agreed.withheld.size() > most && !common_.quiet)
-      std::fprintf(stderr, "deck: note: %zu more were not fixed for that reason\n",
-                   agreed.withheld.size() - most);
+      print_note(
+          fmt::format("{} more were not fixed for that reason", agreed.withheld.size() - most));
     return changed;
   }
 
@@ -277,9 +279,9 @@ class Run {
         if (!jobs_[d]->loaded) continue;
         const FixResult& fixed = results[r++];
         if (!common_.quiet && !fixed.files.empty())
-          std::fprintf(stderr, "%s: %zu fixed in %zu file%s\n",
-                       terminal_text(jobs_[d]->path).c_str(), fixed.applied, fixed.files.size(),
-                       fixed.files.size() == 1 ? "" : "s");
+          print_messages(fmt::format("{}: {} fixed in {} file{}\n", terminal_text(jobs_[d]->path),
+                                     fixed.applied, fixed.files.size(),
+                                     fixed.files.size() == 1 ? "" : "s"));
       }
       relint_ = true;
     }
@@ -297,18 +299,17 @@ class Run {
     for (const auto& job : jobs_) {
       if (!job->loaded || job->result.stale.empty() || common_.quiet) continue;
       constexpr std::size_t most = 10;
-      std::fprintf(stderr,
-                   "%s: note: %zu entries of the baseline do not occur any more; write it again "
-                   "with --write-baseline\n",
-                   terminal_text(job->path).c_str(), job->result.stale.size());
+      print_messages(
+          fmt::format("{}: note: {} entries of the baseline do not occur any more; write it again "
+                      "with --write-baseline\n",
+                      terminal_text(job->path), job->result.stale.size()));
       std::size_t shown = 0;
       for (const auto& [key, count] : job->result.stale) {
         if (shown++ == most) break;
         const auto& [rule, entity] = job->baseline_names.at(key);
-        std::fprintf(stderr, "  %s %s%s%s: %llu time%s\n", terminal_text(key.first).c_str(),
-                     terminal_text(rule).c_str(), entity.empty() ? "" : " ",
-                     terminal_text(entity).c_str(), static_cast<unsigned long long>(count),
-                     count == 1 ? "" : "s");
+        print_messages(fmt::format("  {} {}{}{}: {} time{}\n", terminal_text(key.first),
+                                   terminal_text(rule), entity.empty() ? "" : " ",
+                                   terminal_text(entity), count, count == 1 ? "" : "s"));
       }
     }
   }
@@ -346,10 +347,11 @@ class Run {
     const bool taken = common_.json == "-" || options_.diff ||
                        std::any_of(options_.outputs.begin(), options_.outputs.end(),
                                    [](const std::string& o) { return o.ends_with("=-"); });
-    if (!taken && !(common_.quiet && options_.format == "human"))
-      print_text(render(options_.format, decks, options_, schemas_, true));
-    else if (options_.diff && !common_.quiet)
-      std::fputs(render("human", decks, options_, schemas_, false).c_str(), stderr);
+    if (!taken && !(common_.quiet && options_.format == "human")) {
+      const std::string text = render(options_.format, decks, options_, schemas_, true);
+      options_.format == "human" ? print_lines(text) : print_text(text);
+    } else if (options_.diff && !common_.quiet)
+      print_messages(render("human", decks, options_, schemas_, false));
     return code;
   }
 
@@ -452,7 +454,10 @@ Action setup(CommandLine& line) {
             "Print the fixes as a patch (findings on standard error), write nothing");
   add_dependent_options(line, o.write);
   line.flag("--ruler", o.ruler, "Show column numbers above each card line");
-  line.option("--per-rule", o.per_rule, "Findings shown per rule; 0 shows all")
+  add_verbose(line, o.common,
+              "Show every finding in full: no rule's findings are grouped or left out");
+  line.flag("--no-group", o.common.verbose, "The same");
+  line.option("--per-rule", o.per_rule, "Findings shown per rule; 0 shows all (default: 10)")
       .range(0, 1000000)
       .value("N");
   return [options] {

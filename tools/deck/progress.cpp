@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "common.hpp"
+#include "deck/base/columns.hpp"
 #include "deck/base/escape.hpp"
 
 namespace deck::cli {
@@ -39,7 +41,10 @@ void Progress::update(std::uint64_t done, std::uint64_t total) {
 
 void Progress::draw(double share) {
   constexpr int width = 30;
-  std::string line = "\r\x1b[K" + what_;
+  // A line that the terminal breaks could not be drawn over.
+  constexpr std::size_t bar = width + 10;
+  const std::size_t columns = std::max<std::size_t>(terminal_width(2), bar + 10);
+  std::string line = "\r\x1b[K" + cut_to(what_, columns - bar);
   if (share >= 0) {
     const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * width);
     line += fmt::format(" [{}{}] {:3.0f} %", std::string(static_cast<std::size_t>(full), '#'),

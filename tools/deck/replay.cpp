@@ -69,7 +69,7 @@ int run_deck(const Options& o, std::string_view csv, Loaded& loaded, JsonOutput&
     }
   const ReplayInput input{loaded.path, o.states, &loaded.deck, *found, options.model};
   if (json.wanted()) json.add(replay_json(input, report));
-  if (o.common.wants_text() && o.csv != "-") print_text(replay_text(input, report));
+  if (o.common.wants_text() && o.csv != "-") print_lines(replay_text(input, report));
   return exit_clean;
 }
 

@@ -1,4 +1,5 @@
 // Findings as the project's own JSON document.
+#include "deck/base/columns.hpp"
 #include "deck/report/json.hpp"
 #include "report/diagnostics_common.hpp"
 
@@ -181,7 +182,7 @@ std::string rules_json() {
   return out;
 }
 
-std::string rules_table(bool color) {
+std::string rules_table(bool color, std::size_t width) {
   std::string out;
   std::string_view family;
   const char* const bold = color ? "\x1b[1m" : "";
@@ -199,7 +200,12 @@ std::string rules_table(bool color) {
     fix.resize(7, ' ');
     std::string number = r.messages.empty() ? "" : std::to_string(r.messages.front().number);
     number.insert(0, 6 - std::min<std::size_t>(number.size(), 6), ' ');
-    out += line + severity + " " + fix + " " + number + "  " + r.title + "\n";
+    line += severity + " " + fix + " " + number + "  ";
+    if (width == 0 || line.size() + 20 > width) {
+      out += line + r.title + "\n";
+    } else {
+      out += line + wrapped(r.title, line.size(), width).substr(line.size());
+    }
   }
   out += "\n" + std::to_string(all_rules().size()) +
          " rules. Columns: id, severity, fix, message of the reference solver, title. "

@@ -8,6 +8,7 @@
 #include "deck/base/escape.hpp"
 #include "deck/model/coverage.hpp"
 #include "deck/report/cycle.hpp"
+#include "deck/report/gate.hpp"
 #include "deck/report/text_table.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/terminal/words.hpp"
@@ -110,7 +111,7 @@ std::string lasting_lines(const CycleInput& input) {
 }
 
 /// Iadm: the nodes with the sharpest radius.
-std::string criteria_table(const CycleInput& input, bool color) {
+std::string criteria_table(const CycleInput& input, const CycleTextOptions& options) {
   const Model& model = *input.scene->model;
   TextTable table =
       make_table({">interface", ">node", ">radius", ">penetration / (Padm gap)", ">angle"});
@@ -123,7 +124,7 @@ std::string criteria_table(const CycleInput& input, bool color) {
                  fmt::format("{:.6g}", list[i].radius), fmt::format("{:.4g}", list[i].penetration),
                  list[i].angle < 1e30 ? fmt::format("{:.6g}", list[i].angle) : "-"});
   }
-  return table.size() > 0 ? table.render(color, 2) : std::string();
+  return table.size() > 0 ? table.fitted(options.width, options.color, 2) : std::string();
 }
 
 std::string event_text(const CycleInput& input, const cycle::StepEvent& e) {
@@ -149,7 +150,7 @@ std::string event_text(const CycleInput& input, const cycle::StepEvent& e) {
 }
 
 /// The history in at most twenty lines, and the first events.
-std::string steps_text(const CycleInput& input, bool color) {
+std::string steps_text(const CycleInput& input, const CycleTextOptions& options) {
   const cycle::StepsOutcome& s = *input.steps;
   TextTable table = make_table({">step", ">time", ">pairs with force", ">sum of |F|",
                                 ">elastic energy", ">tied", ">removed so far"});
@@ -173,7 +174,7 @@ std::string steps_text(const CycleInput& input, bool color) {
       "  prescribed motion only: nodes keep their given velocities, no structure answers and "
       "contact "
       "forces move nothing\n" +
-      table.render(color, 2);
+      table.fitted(options.width, options.color, 2);
   for (std::size_t i = 0; i < std::min<std::size_t>(20, s.events.size()); ++i)
     out += event_text(input, s.events[i]);
   if (s.events.size() > 20)
@@ -207,43 +208,102 @@ std::string state_words(const cycle::ContactOutcome& o) {
   return text;
 }
 
-std::string contact_table(const CycleInput& input, bool color) {
+/// What several contacts of one interface do together.
+struct ContactSums {
+  std::size_t in_reach = 0, with_force = 0, near_singular = 0;
+  double force = 0, largest_force = 0, elastic = 0, friction = 0, damping = 0;
+  double acceleration = 0, dt = 1e30;
+  NodeIndex acceleration_node = no_index, dt_node = no_index;
+  bool closed = false;
+  std::string note;
+
+  explicit ContactSums(const std::vector<const cycle::ContactOutcome*>& list) {
+    for (const cycle::ContactOutcome* o : list) {
+      in_reach += o->pairs_in_reach;
+      with_force += o->pairs_with_force;
+      near_singular += o->near_singular_count;
+      force += o->totals.total_abs;
+      largest_force = std::max(largest_force, o->largest_force);
+      elastic += o->totals.elastic_energy;
+      friction += o->totals.friction_energy;
+      damping += o->totals.damping_energy;
+      if (acceleration_node == no_index || o->largest_acceleration > acceleration) {
+        acceleration = o->largest_acceleration;
+        acceleration_node = o->acceleration_node;
+      }
+      if (o->step.dt < dt) {
+        dt = o->step.dt;
+        dt_node = o->step_node;
+      }
+      closed = closed || o->gap_closed > 0;
+      const std::string words = state_words(*o);
+      if (words.empty()) continue;
+      note += note.empty() ? "" : "; ";
+      note += list.size() > 1 ? fmt::format("{}: {}", to_string(o->contact->role), words) : words;
+    }
+  }
+};
+
+/// One row per interface; those without a pair in reach in one line. With `verbose` all of them,
+/// every contact of a TYPE19 in a row of its own below, and more columns.
+std::string contact_table(const CycleInput& input, const CycleTextOptions& options) {
   const Model& model = *input.scene->model;
-  const double structure = input.outcome->structure.dt;
+  const bool all = options.verbose;
   TextTable table =
-      make_table({">interface", "kind", ">in reach", ">with force", ">sum of |F|", ">largest |F|",
-                  ">elastic energy", ">friction", ">damping", ">acceleration", "of node",
-                  ">contact dt", "of node", ">near singular", "note"});
-  std::size_t quiet = 0;
-  for (const cycle::ContactOutcome& o : input.outcome->contacts) {
-    if (o.pairs_in_reach == 0 && o.step.dt >= 1e30 && state_words(o).empty()) {
-      ++quiet;
+      all ? make_table({">id", "type", "title", ">in reach", ">with force", ">sum of |F|",
+                        ">largest |F|", ">elastic energy", ">friction", ">damping", ">acceleration",
+                        "of node", ">contact dt", "of node", ">near singular", "note"})
+          : make_table(
+                {">id", "type", "title", ">pairs", ">sum |F|", ">energy", ">dt", "node", "note"});
+  const auto add = [&](const std::vector<const cycle::ContactOutcome*>& list, bool part) {
+    const ContactSums s(list);
+    const Contact& c = *list.front()->contact;
+    std::vector<TextTable::Cell> cells = {
+        fmt::format("{}", c.inter->id), part ? kind_name(c) : fmt::format("TYPE{}", c.inter->type),
+        part ? "" : c.inter->title};
+    if (all) cells.emplace_back(fmt::format("{}", s.in_reach));
+    cells.emplace_back(fmt::format("{}", s.with_force));
+    cells.emplace_back(fmt::format("{:.4g}", s.force));
+    if (all) cells.emplace_back(fmt::format("{:.4g}", s.largest_force));
+    cells.emplace_back(fmt::format("{:.4g}", all ? s.elastic : s.elastic + s.friction + s.damping));
+    if (all) {
+      cells.emplace_back(fmt::format("{:.4g}", s.friction));
+      cells.emplace_back(fmt::format("{:.4g}", s.damping));
+      cells.emplace_back(fmt::format("{:.4g}", s.acceleration));
+      cells.emplace_back(node_text(model, s.acceleration_node));
+    }
+    const bool limits = s.dt < input.outcome->structure.dt;
+    cells.emplace_back(step_text(s.dt), limits ? Tone::yellow : Tone::plain);
+    cells.emplace_back(node_text(model, s.dt_node));
+    if (all) cells.emplace_back(fmt::format("{}", s.near_singular));
+    cells.emplace_back(s.note, s.closed ? Tone::red : Tone::plain);
+    table.row(std::move(cells));
+  };
+  std::vector<std::int64_t> quiet;
+  for (const auto& places :
+       by_interface(input.outcome->contacts,
+                    [](const cycle::ContactOutcome& o) { return o.contact->inter; })) {
+    std::vector<const cycle::ContactOutcome*> list;
+    for (const std::size_t i : places) list.push_back(&input.outcome->contacts[i]);
+    const bool idle = std::all_of(list.begin(), list.end(), [](const cycle::ContactOutcome* o) {
+      return o->pairs_in_reach == 0 && o->step.dt >= 1e30 &&
+             (o->contact->dropped || state_words(*o).empty());
+    });
+    if (idle && !all) {
+      quiet.push_back(list.front()->contact->inter->id);
       continue;
     }
-    const bool limits = o.step.dt < structure;
-    table.row({fmt::format("{}", o.contact->inter->id),
-               kind_name(*o.contact),
-               fmt::format("{}", o.pairs_in_reach),
-               fmt::format("{}", o.pairs_with_force),
-               fmt::format("{:.4g}", o.totals.total_abs),
-               fmt::format("{:.4g}", o.largest_force),
-               fmt::format("{:.4g}", o.totals.elastic_energy),
-               fmt::format("{:.4g}", o.totals.friction_energy),
-               fmt::format("{:.4g}", o.totals.damping_energy),
-               fmt::format("{:.4g}", o.largest_acceleration),
-               node_text(model, o.acceleration_node),
-               {step_text(o.step.dt), limits ? Tone::yellow : Tone::plain},
-               node_text(model, o.step_node),
-               fmt::format("{}", o.near_singular_count),
-               {state_words(o), o.gap_closed > 0 ? Tone::red : Tone::plain}});
+    add(list, false);
+    if (all && list.size() > 1)
+      for (const cycle::ContactOutcome* o : list) add({o}, true);
   }
-  std::string out = table.size() > 0 ? table.render(color, 2) : std::string();
-  if (quiet > 0)
-    out += fmt::format("  {} contact{} without a pair in reach\n", quiet, quiet == 1 ? "" : "s");
-  return out;
+  std::string out;
+  if (table.size() > 0) out = table.fitted(options.width, options.color, 2);
+  return out + folded_ids(quiet, "interface without a pair in reach",
+                          "interfaces without a pair in reach");
 }
 
-std::string singular_table(const CycleInput& input, bool color) {
+std::string singular_table(const CycleInput& input, const CycleTextOptions& options) {
   const Model& model = *input.scene->model;
   std::vector<std::pair<const cycle::ContactOutcome*, const cycle::PairOutcome*>> all;
   for (const cycle::ContactOutcome& o : input.outcome->contacts)
@@ -263,7 +323,7 @@ std::string singular_table(const CycleInput& input, bool color) {
                fmt::format("{:.4g}", p->k_nodal), fmt::format("{}", o->contact->inter->id),
                secondary_text(model, *o->contact, *p), main_text(model, *o->contact, *p)});
   }
-  return table.render(color, 2);
+  return table.fitted(options.width, options.color, 2);
 }
 
 std::string joined(const std::vector<EffectLine>& lines, bool on) {
@@ -405,14 +465,19 @@ std::string cycle_verdict(const CycleInput& input) {
 std::string cycle_text(const CycleInput& input, const CycleTextOptions& options) {
   const char* bold = options.color ? "\033[1m" : "";
   const char* plain = options.color ? "\033[0m" : "";
-  std::string out = fmt::format("{}{}{}\n", bold, terminal_text(cycle_verdict(input)), plain);
-  if (input.scene->contacts.empty()) return out;
-  out += fmt::format("\n{}Contacts{}\n{}", bold, plain, contact_table(input, options.color));
+  const std::string verdict =
+      fmt::format("{}{}{}\n", bold, terminal_text(cycle_verdict(input)), plain);
+  std::string out;
+  if (options.several) out += toned(terminal_text(input.path), Tone::cyan, options.color) + "\n";
+  out += verdict;
+  const std::string gate = input.gate == nullptr ? std::string() : gate_text(*input.gate);
+  if (input.scene->contacts.empty()) return gate.empty() ? out : out + "\n" + gate;
+  out += fmt::format("\n{}Interfaces{}\n{}", bold, plain, contact_table(input, options));
   if (const std::string text = lasting_lines(input); !text.empty() && input.steps == nullptr)
     out += fmt::format("\n{}From now on{}\n{}", bold, plain, text);
   if (input.steps != nullptr)
-    out += fmt::format("\n{}Steps{}\n{}", bold, plain, steps_text(input, options.color));
-  if (const std::string text = criteria_table(input, options.color); !text.empty())
+    out += fmt::format("\n{}Steps{}\n{}", bold, plain, steps_text(input, options));
+  if (const std::string text = criteria_table(input, options); !text.empty())
     out += fmt::format("\n{}Criteria of adaptive meshing, sharpest first{}\n{}", bold, plain, text);
   out += fmt::format("\n{}Time step{}\n{}", bold, plain, step_lines(input));
   for (const cycle::ContactOutcome& o : input.outcome->contacts)
@@ -421,10 +486,8 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
           "  interface {} {}: heat in this cycle {:.4g} to the secondary side, {:.4g} "
           "to the main side\n",
           o.contact->inter->id, kind_name(*o.contact), o.heat_secondary, o.heat_main);
-  if (const std::string table = singular_table(input, options.color); !table.empty())
+  if (const std::string table = singular_table(input, options); !table.empty())
     out += fmt::format("\n{}Nearest to the mid-surface{}\n{}", bold, plain, table);
-  if (const std::string text = decisions_text(*input.scene, 3, options.color); !text.empty())
-    out += "\n" + text;
   out += fmt::format("\n{}Effects{}\n", bold, plain);
   for (const InterBase* inter : input.scene->interfaces->ordered) {
     const auto lines = effect_lines(*input.deck, *input.outcome, *inter);
@@ -442,7 +505,10 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
       left_out += fmt::format("  interface {} {}: {}\n", o.contact->inter->id,
                               kind_name(*o.contact), terminal_text(text));
   if (!left_out.empty()) out += fmt::format("\n{}Not evaluated{}\n{}", bold, plain, left_out);
-  return out;
+  if (const std::string text = decisions_text(*input.scene, 3, options.color, options.width);
+      !text.empty())
+    out += "\n" + text;
+  return out + "\n" + verdict + gate;
 }
 
 }  // namespace deck

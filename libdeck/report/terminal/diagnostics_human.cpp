@@ -2,16 +2,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
+#include "deck/base/columns.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/report/text_table.hpp"
 #include "report/diagnostics_common.hpp"
+#include "report/terminal/words.hpp"
 
 namespace deck {
 namespace {
 
-constexpr std::size_t line_window = 110;  ///< columns of a card line that are shown
+constexpr std::size_t usual_window = 110;  ///< columns of a card line that are shown
+constexpr std::size_t most_alike = 3;      ///< findings of a rule that are shown in full
 
 struct Colors {
   const char *error, *warning, *info, *bold, *blue, *off;
@@ -20,32 +24,71 @@ constexpr Colors no_colors = {"", "", "", "", "", ""};
 constexpr Colors ansi = {"\x1b[1;31m", "\x1b[1;33m", "\x1b[1;36m",
                          "\x1b[1m",    "\x1b[1;34m", "\x1b[0m"};
 
-/// Columns 10, 20, ... as an editor's ruler shows them.
-std::string ruler_text(std::size_t first, std::size_t count) {
-  std::string out;
-  for (std::size_t c = first; c < first + count; ++c)
-    out += c % 10 == 0 ? static_cast<char>('0' + c / 10 % 10) : c % 5 == 0 ? '+' : '.';
+/// What an editor's ruler shows over a column of the file.
+char ruler_mark(std::size_t column) {
+  return column % 10 == 0 ? static_cast<char>('0' + column / 10 % 10) : column % 5 == 0 ? '+' : '.';
+}
+
+/// A character of a card line: where it stands in the file, and what is shown for it.
+struct Glyph {
+  std::size_t at = 0;  ///< bytes before it in the line
+  std::string_view shown;
+  std::size_t columns = 0;
+};
+
+/// The characters of a piece of a line that begins at byte `start` of it; `shown` is the piece's
+/// terminal_columns() and must outlive them.
+std::vector<Glyph> glyphs_of(std::string_view line, std::string_view shown, std::size_t start) {
+  std::vector<Glyph> out;
+  for (std::size_t at = 0, to = 0; at < line.size() && to < shown.size();) {
+    const TextUnit unit = text_unit_at(shown, to);
+    const std::string_view text = shown.substr(to, unit.length);
+    out.push_back({start + at, text, display_width(text)});
+    at += std::max<std::size_t>(text_unit_at(line, at).length, 1);
+    to += std::max<std::size_t>(unit.length, 1);
+  }
   return out;
 }
+
+int rank(Severity s) { return s == Severity::error ? 0 : s == Severity::warning ? 1 : 2; }
 
 class Human {
  public:
   Human(const LintedDeck& deck, const HumanOptions& options)
       : deck_(deck), options_(options), c_(options.color ? ansi : no_colors) {}
 
+  /// Errors first; rules in the order in which they first occur, their findings together where
+  /// there are more than a few.
   std::string findings() {
+    std::vector<const Diagnostic*> all;
+    std::map<RuleId, std::vector<const Diagnostic*>> of_rule;
+    for (const Diagnostic& d : deck_.result->diagnostics) {
+      all.push_back(&d);
+      of_rule[d.rule].push_back(&d);
+    }
+    std::stable_sort(all.begin(), all.end(), [](const Diagnostic* a, const Diagnostic* b) {
+      return rank(a->severity) < rank(b->severity);
+    });
     std::string out;
     std::map<RuleId, int> shown;
-    std::map<RuleId, std::uint64_t> hidden;
-    for (const Diagnostic& d : deck_.result->diagnostics) {
-      if (options_.per_rule > 0 && shown[d.rule] >= options_.per_rule) {
-        ++hidden[d.rule];
-        continue;
+    std::map<RuleId, std::uint64_t> hidden = deck_.result->dropped;
+    for (const Diagnostic* d : all) {
+      const auto& alike = of_rule[d->rule];
+      int& n = shown[d->rule];
+      if (options_.group && alike.size() > most_alike) {
+        if (n++ > 0) continue;
+        std::vector<const Diagnostic*> others;
+        std::copy_if(all.begin(), all.end(), std::back_inserter(others),
+                     [&](const Diagnostic* x) { return x != d && x->rule == d->rule; });
+        out += one(*d, group(others, hidden[d->rule]));
+        hidden.erase(d->rule);
+      } else if (options_.per_rule > 0 && n >= options_.per_rule) {
+        ++hidden[d->rule];
+      } else {
+        ++n;
+        out += one(*d, {});
       }
-      ++shown[d.rule];
-      out += one(d);
     }
-    for (const auto& [rule, count] : deck_.result->dropped) hidden[rule] += count;
     for (const auto& [rule, count] : hidden)
       out += fmt::format("{}...{} {} more findings of {}{}{}: {}\n", c_.bold, c_.off, count,
                          c_.bold, id_text(rule), c_.off, rule_of(rule).title);
@@ -56,7 +99,7 @@ class Human {
   std::string summary() {
     const LintResult& r = *deck_.result;
     std::string out = fmt::format("{}{}{}: ", c_.bold, terminal_text(deck_.path), c_.off);
-    out += count(r.errors, "error") + ", " + count(r.warnings, "warning");
+    out += count(r.errors, "error", "errors") + ", " + count(r.warnings, "warning", "warnings");
     if (r.infos > 0) out += fmt::format(", {} info", r.infos);
     if (r.suppressed > 0) out += fmt::format(", {} suppressed", r.suppressed);
     if (r.baselined > 0) out += fmt::format(", {} in the baseline", r.baselined);
@@ -69,21 +112,38 @@ class Human {
     if (const auto coverage = detail::coverage_of(deck_))
       if (const std::string lead = coverage_lead(*coverage); !lead.empty())
         out += c_.bold + terminal_text(lead) + c_.off + "\n";
-    if (!r.not_checked.empty()) out += "not checked:\n";
-    for (const NotChecked& n : r.not_checked)
-      out += fmt::format("  - {}: {}\n", terminal_text(n.what), terminal_text(n.why));
     return out;
   }
 
  private:
-  static std::string count(std::uint64_t n, std::string_view what) {
-    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-  }
   const char* color(Severity s) const {
     return s == Severity::error ? c_.error : s == Severity::warning ? c_.warning : c_.info;
   }
 
-  std::string one(const Diagnostic& d) {
+  /// The other findings of a rule, a line each; `dropped` more were not kept.
+  std::string group(const std::vector<const Diagnostic*>& others, std::uint64_t dropped) const {
+    const std::size_t shown =
+        options_.per_rule == 0
+            ? others.size()
+            : std::min(others.size(), static_cast<std::size_t>(options_.per_rule) - 1);
+    std::string out =
+        fmt::format("{}{} more of {}{}: {}\n", c_.bold, others.size() + dropped,
+                    id_text(others.front()->rule), c_.off, rule_of(others.front()->rule).title);
+    for (std::size_t i = 0; i < shown; ++i) {
+      const Diagnostic& d = *others[i];
+      const detail::Place at = detail::place_of(deck_, d.span);
+      const std::string place =
+          at.known ? fmt::format("{}:{}:{}", at.file, at.line, at.column) : at.file;
+      out += fmt::format("  {}{}{}: {}\n", c_.blue, terminal_text(place), c_.off,
+                         terminal_text(d.message));
+    }
+    if (const std::uint64_t more = others.size() - shown + dropped; more > 0)
+      out += fmt::format("  … and {} more (-v shows all that are kept, in full)\n", more);
+    return out;
+  }
+
+  /// A finding in full, and below it what else belongs to it.
+  std::string one(const Diagnostic& d, const std::string& others) {
     std::string out =
         fmt::format("{}{}[{}]{}{}: {}{}\n", color(d.severity), detail::severity_name(d.severity),
                     id_text(d.rule), c_.off, c_.bold, terminal_text(d.message), c_.off);
@@ -113,7 +173,7 @@ class Human {
     for (const auto& [span, text] : d.notes)
       note("note", text + (span.valid() ? " --> " + deck_.deck->sources.where(span) : ""));
     if (d.fix) note(d.fix->safe ? "fix" : "unsafe fix", d.fix->title);
-    return out + "\n";
+    return out + others + "\n";
   }
 
   /// The line of the finding with a caret under its columns; long lines are cut around it.
@@ -130,24 +190,61 @@ class Human {
       first = b;
       last = e;
     }
-    std::size_t begin = 0;
-    if (line.size() > line_window && last > line_window) begin = first > 20 ? first - 20 : 0;
-    const std::string_view shown = line.substr(std::min(begin, line.size()), line_window);
-    std::string out;
-    const std::string before = begin > 0 ? "…" : "";
-    if (options_.ruler)
-      out += fmt::format("{} {}{}\n", bar, begin > 0 ? " " : "",
-                         ruler_text(begin + 1, std::max<std::size_t>(shown.size(), 10)));
-    out += fmt::format("{}{} |{} {}{}{}\n", c_.blue, number, c_.off, before,
-                       terminal_columns(shown), begin + shown.size() < line.size() ? "…" : "");
-    const std::size_t from = first - std::min(first, begin);
-    const std::size_t lead =
-        from <= shown.size() ? display_width(terminal_columns(shown.substr(0, from))) : from;
-    const std::size_t room = shown.size() > from ? shown.size() - from : 0;
-    const std::size_t length =
-        std::max<std::size_t>(1, display_width(terminal_columns(shown.substr(
-                                     std::min(from, shown.size()), std::min(last - first, room)))));
-    out += fmt::format("{} {}{}{}{}{}\n", bar, begin > 0 ? " " : "", std::string(lead, ' '),
+    // Of a very long line only what can be near the caret.
+    constexpr std::size_t most = 2000;
+    std::size_t start = std::min(first, line.size()) > most ? first - most : 0;
+    while (start > 0 && start < line.size() &&
+           (static_cast<unsigned char>(line[start]) & 0xc0U) == 0x80U && first - start < most + 3)
+      --start;
+    const std::string_view near = line.substr(std::min(start, line.size()), 2 * most);
+    const std::string picture = terminal_columns(near);
+    std::vector<Glyph> glyphs = glyphs_of(near, picture, start);
+    const std::size_t text_end = glyphs.size();
+    // Blanks for a caret behind the end of the line, and for a ruler of a few columns.
+    const std::size_t least = std::max<std::size_t>(first + 1, options_.ruler ? 10 : 0);
+    for (std::size_t k = start + near.size(); k < least; ++k) glyphs.push_back({k, " ", 1});
+    std::vector<std::size_t> columns = {0};  // before each of them
+    for (const Glyph& g : glyphs) columns.push_back(columns.back() + g.columns);
+    const auto index_at = [&](std::size_t byte) {  // the first one that begins there or later
+      return static_cast<std::size_t>(
+          std::lower_bound(glyphs.begin(), glyphs.end(), byte,
+                           [](const Glyph& g, std::size_t wanted) { return g.at < wanted; }) -
+          glyphs.begin());
+    };
+    const auto width_of = [&](std::size_t from, std::size_t to) {
+      return columns[std::min(to, glyphs.size())] - columns[from];
+    };
+    const std::size_t caret = std::min(index_at(first), glyphs.size() - 1);
+    const std::size_t caret_end = std::max(caret + 1, index_at(last));
+    const std::size_t gutter = number.size() + 3;
+    const std::size_t room = options_.width == 0
+                                 ? usual_window
+                                 : std::max<std::size_t>(options_.width, gutter + 20) - gutter;
+    // Cut around the caret: as much as fits of what is before it, and a cell behind it.
+    std::size_t begin = 0, end = glyphs.size();
+    if (width_of(0, end) > room) {
+      const std::size_t wanted = std::min(index_at(glyphs[caret_end - 1].at + 11), end);
+      while (begin < caret && width_of(begin, wanted) + 2 > room) ++begin;
+      const std::size_t left = room - (begin > 0 ? 1 : 0);
+      if (width_of(begin, end) > left)
+        while (end > begin + 1 && width_of(begin, end) + 1 > left) --end;
+    }
+    const bool cut_before = begin > 0 || start > 0;
+    const bool cut_behind = end < text_end || start + near.size() < line.size();
+    const char* margin = cut_before ? " " : "";
+    std::string out, text;
+    if (options_.ruler) {
+      std::string ruler;
+      for (std::size_t k = begin; k < end; ++k)
+        if (glyphs[k].columns > 0)
+          ruler += ruler_mark(glyphs[k].at + 1) + std::string(glyphs[k].columns - 1, ' ');
+      out += fmt::format("{} {}{}\n", bar, margin, ruler);
+    }
+    for (std::size_t k = begin; k < std::min(end, text_end); ++k) text += glyphs[k].shown;
+    out += fmt::format("{}{} |{} {}{}{}\n", c_.blue, number, c_.off, cut_before ? "…" : "", text,
+                       cut_behind ? "…" : "");
+    const std::size_t length = std::max<std::size_t>(1, width_of(caret, std::min(caret_end, end)));
+    out += fmt::format("{} {}{}{}{}{}\n", bar, margin, std::string(width_of(begin, caret), ' '),
                        color(d.severity), std::string(length, '^'), c_.off);
     return out;
   }
@@ -159,6 +256,61 @@ class Human {
 
 }  // namespace
 
+namespace {
+
+/// What no deck was checked for, each once, with the decks that it is about if not about all.
+std::string not_checked_text(const std::vector<LintedDeck>& decks) {
+  std::vector<std::pair<const NotChecked*, std::vector<std::string>>> all;
+  std::size_t read = 0;
+  for (const LintedDeck& deck : decks) {
+    if (deck.result == nullptr) continue;
+    ++read;
+    for (const NotChecked& n : deck.result->not_checked) {
+      auto it = std::find_if(all.begin(), all.end(), [&](const auto& entry) {
+        return entry.first->what == n.what && entry.first->why == n.why;
+      });
+      if (it == all.end()) it = all.insert(all.end(), {&n, {}});
+      it->second.push_back(deck.path);
+    }
+  }
+  if (all.empty()) return {};
+  constexpr std::size_t most = 3;
+  std::string out = "not checked:\n";
+  for (const auto& [n, paths] : all) {
+    out += fmt::format("  - {}: {}", terminal_text(n->what), terminal_text(n->why));
+    if (paths.size() < read) {
+      out += " [";
+      for (std::size_t i = 0; i < std::min(most, paths.size()); ++i)
+        out += (i == 0 ? "" : ", ") + terminal_text(paths[i]);
+      out += paths.size() > most ? fmt::format(", … and {} more decks]", paths.size() - most) : "]";
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+/// All decks together.
+std::string grand_total(const std::vector<LintedDeck>& decks, bool color) {
+  std::uint64_t errors = 0, warnings = 0, clean = 0, unread = 0;
+  for (const LintedDeck& deck : decks) {
+    if (deck.result == nullptr) {
+      ++unread;
+      continue;
+    }
+    errors += deck.result->errors;
+    warnings += deck.result->warnings;
+    if (deck.result->errors + deck.result->warnings == 0) ++clean;
+  }
+  std::string out = toned(fmt::format("{} decks: ", decks.size()), Tone::bold, color) +
+                    count(errors, "error", "errors") + ", " +
+                    count(warnings, "warning", "warnings");
+  out += fmt::format("; {} without either", clean);
+  if (unread > 0) out += fmt::format("; {} could not be read", unread);
+  return out + "\n";
+}
+
+}  // namespace
+
 std::string lint_human(const std::vector<LintedDeck>& decks, const HumanOptions& options) {
   std::string out;
   for (const LintedDeck& deck : decks) {
@@ -167,6 +319,9 @@ std::string lint_human(const std::vector<LintedDeck>& decks, const HumanOptions&
     out += human.findings();
     if (!options.quiet) out += human.summary();
   }
+  if (options.quiet) return out;
+  out += not_checked_text(decks);
+  if (decks.size() > 1) out += grand_total(decks, options.color);
   return out;
 }
 

@@ -35,7 +35,7 @@ std::string names(const std::vector<std::int64_t>& ids) {
   return text;
 }
 
-std::string interface_table(const PenetrationFix& fix, bool color) {
+std::string interface_table(const PenetrationFix& fix, const FixTextOptions& options) {
   const bool flags = changes_flags(fix);
   TextTable table({{"interface", Align::right},
                    {"type"},
@@ -72,7 +72,7 @@ std::string interface_table(const PenetrationFix& fix, bool color) {
                  changed.empty() ? "-" : changed,
                  i.title});
   }
-  return table.render(color, 2);
+  return table.fitted(options.width, options.color, 2);
 }
 
 std::string moved_text(const PenetrationFix& fix, const FixTextOptions& options) {
@@ -109,7 +109,7 @@ std::string moved_text(const PenetrationFix& fix, const FixTextOptions& options)
                fmt::format("{:.4g}", m.distance), fmt::format("{:.4g}", m.by[0]),
                fmt::format("{:.4g}", m.by[1]), fmt::format("{:.4g}", m.by[2])});
   }
-  text += table.render(options.color, 2);
+  text += table.fitted(options.width, options.color, 2);
   if (order.size() > options.rows)
     text += fmt::format("  ... and {} more (--json lists all)\n", order.size() - options.rows);
   return text;
@@ -214,7 +214,7 @@ std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options) {
   const Tone tone = fix.complete ? Tone::green : Tone::yellow;
   std::string text = toned(fix_verdict(fix), tone, options.color) + "\n";
   if (fix.interfaces.empty()) return text;
-  text += "\n" + interface_table(fix, options.color);
+  text += "\n" + interface_table(fix, options);
   text += moved_text(fix, options);
   text += actions_text(fix, options);
   text += refused_text(fix, options);

@@ -7,6 +7,7 @@
 
 #include "deck/base/escape.hpp"
 #include "deck/report/gaps.hpp"
+#include "deck/report/gate.hpp"
 #include "deck/report/text_table.hpp"
 #include "model/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
@@ -20,11 +21,15 @@ const PenetrationRow& row_of(const Scene& scene, const NamedPenetration& p) {
   return scene.contacts[p.contact].penetrations[p.row];
 }
 
-/// What the solver does about the penetrations of a contact, in a few words.
-std::string action_words(const Contact& c) {
-  if (c.penetrations.empty()) return "-";
-  std::size_t by_action[6] = {};
-  for (const PenetrationRow& row : c.penetrations) ++by_action[static_cast<int>(row.action)];
+/// What the solver does about the penetrations of contacts, in a few words.
+std::string action_words(const std::vector<const Contact*>& contacts) {
+  std::size_t by_action[6] = {}, all = 0;
+  for (const Contact* c : contacts) {
+    if (!c->evaluated) return "not evaluated";
+    all += c->penetrations.size();
+    for (const PenetrationRow& row : c->penetrations) ++by_action[static_cast<int>(row.action)];
+  }
+  if (all == 0) return "-";
   static constexpr const char* words[6] = {
       "nothing",     "nodes switched off", "segments switched off",
       "nodes moved", "gaps reduced",       "edges switched off"};
@@ -32,8 +37,7 @@ std::string action_words(const Contact& c) {
   for (int a = 0; a < 6; ++a) {
     if (by_action[a] == 0) continue;
     if (!text.empty()) text += ", ";
-    text += by_action[a] == c.penetrations.size() ? words[a]
-                                                  : fmt::format("{} {}", by_action[a], words[a]);
+    text += by_action[a] == all ? words[a] : fmt::format("{} {}", by_action[a], words[a]);
   }
   return text;
 }
@@ -50,38 +54,103 @@ std::string secondary_text(const NamedPenetration& p) {
                              : fmt::format("{}-{}", p.secondary[0], p.secondary[1]);
 }
 
-/// Columns by title; a title that starts with '>' is aligned to the right.
-std::string interface_table(const Scene& scene, const SceneView& view, bool color) {
-  TextTable table = make_table({">interface", "kind", ">Igap", ">Gapmin", ">nodes", ">segments",
-                                ">in reach", ">pairs", ">nodes in", ">edges in", ">deepest",
-                                ">of gap", "the solver does", "Gapmin from"});
-  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const Contact& c = scene.contacts[i];
-    const ContactTotals& t = view.contacts[i];
-    const bool edges = c.kind == ContactKind::edge_edge;
-    table.row({fmt::format("{}", c.inter->id), kind_name(c), fmt::format("{}", c.igap),
-               fmt::format("{:.6g}", c.gapmin),
-               fmt::format("{}", edges ? c.secondary_edges.size() : c.secondary.size()),
-               fmt::format("{}", edges ? c.main_edges.size() : c.main.size()),
-               fmt::format("{}", c.candidates), fmt::format("{}", t.count.pairs),
-               edges ? "-" : fmt::format("{}", t.count.nodes),
-               edges ? fmt::format("{}", t.count.edges) : "-",
-               t.count.pairs ? fmt::format("{:.6g}", t.max_depth) : "-",
-               t.count.pairs ? fmt::format("{:.0f} %", 100 * t.max_ratio) : "-", action_words(c),
-               to_string(c.gapmin_origin)});
+/// Totals of several contacts of one interface: a node that is in two of them counts in both.
+ContactTotals sum_of(const std::vector<ContactTotals>& all) {
+  ContactTotals sum;
+  for (const ContactTotals& t : all) {
+    sum.count.pairs += t.count.pairs;
+    sum.count.nodes += t.count.nodes;
+    sum.count.edges += t.count.edges;
+    sum.max_depth = std::max(sum.max_depth, t.max_depth);
+    sum.max_ratio = std::max(sum.max_ratio, t.max_ratio);
   }
-  return table.render(color, 2);
+  return sum;
 }
+
+/// One row per interface; those without penetrations in one line. With `verbose` all of them, every
+/// contact of a TYPE19 in a row of its own below, and what their sides and gaps are.
+class InterfaceTable {
+ public:
+  InterfaceTable(const Scene& scene, const SceneView& view, const GapsTextOptions& options)
+      : scene_(scene),
+        view_(view),
+        options_(options),
+        table_(options.verbose
+                   ? make_table({">id", "type", "title", ">Igap", ">Gapmin", "Gapmin from",
+                                 ">nodes", ">segments", ">in reach", ">pairs", ">nodes in",
+                                 ">edges in", ">deepest", ">of gap", "action"})
+                   : make_table({">id", "type", "title", ">Gapmin", ">nodes", ">edges", ">deepest",
+                                 ">of gap", "action"})) {}
+
+  std::string run() {
+    std::vector<std::int64_t> clean;
+    for (const auto& list :
+         by_interface(scene_.contacts, [](const Contact& c) { return c.inter; })) {
+      std::vector<const Contact*> contacts;
+      std::vector<ContactTotals> totals;
+      bool open = false;
+      for (const std::size_t i : list) {
+        contacts.push_back(&scene_.contacts[i]);
+        totals.push_back(view_.contacts[i]);
+        open = open || !scene_.contacts[i].evaluated;
+      }
+      const ContactTotals sum = sum_of(totals);
+      if (!options_.verbose && !open && sum.count.pairs == 0) {
+        clean.push_back(contacts.front()->inter->id);
+        continue;
+      }
+      row(contacts, sum, false);
+      if (options_.verbose && contacts.size() > 1)
+        for (std::size_t k = 0; k < contacts.size(); ++k) row({contacts[k]}, totals[k], true);
+    }
+    std::string out;
+    if (table_.size() > 0) out = table_.fitted(options_.width, options_.color, 2);
+    return out + folded_ids(clean, "clean interface", "clean interfaces");
+  }
+
+ private:
+  void row(const std::vector<const Contact*>& contacts, const ContactTotals& t, bool part) {
+    const Contact& c = *contacts.front();
+    std::vector<TextTable::Cell> cells;
+    const auto add = [&](std::string text) { cells.emplace_back(std::move(text)); };
+    const auto number = [](std::uint64_t n) { return fmt::format("{}", n); };
+    add(fmt::format("{}", c.inter->id));
+    add(part ? kind_name(c) : fmt::format("TYPE{}", c.inter->type));
+    add(part ? "" : c.inter->title);
+    if (options_.verbose) add(fmt::format("{}", c.igap));
+    add(fmt::format("{:.6g}", c.gapmin));
+    if (options_.verbose) {
+      const bool one = contacts.size() == 1, edges = c.kind == ContactKind::edge_edge;
+      std::uint64_t reach = 0;
+      for (const Contact* x : contacts) reach += x->candidates;
+      add(to_string(c.gapmin_origin));
+      add(one ? number(edges ? c.secondary_edges.size() : c.secondary.size()) : "");
+      add(one ? number(edges ? c.main_edges.size() : c.main.size()) : "");
+      add(number(reach));
+      add(number(t.count.pairs));
+    }
+    const auto has = [&](ContactKind kind) {
+      return std::any_of(contacts.begin(), contacts.end(),
+                         [&](const Contact* x) { return x->kind == kind; });
+    };
+    add(has(ContactKind::node_segment) ? number(t.count.nodes) : "-");
+    add(has(ContactKind::edge_edge) ? number(t.count.edges) : "-");
+    add(t.count.pairs ? fmt::format("{:.6g}", t.max_depth) : "-");
+    add(t.count.pairs ? fmt::format("{:.0f} %", 100 * t.max_ratio) : "-");
+    add(action_words(contacts));
+    table_.row(std::move(cells));
+  }
+
+  const Scene& scene_;
+  const SceneView& view_;
+  const GapsTextOptions& options_;
+  TextTable table_;
+};
 
 std::string part_name(const Model& model, std::int64_t id) {
   const auto it = model.part_of_id.find(id);
   if (it == model.part_of_id.end()) return id == 0 ? "(no part)" : fmt::format("{}", id);
   std::string title = model.parts[it->second].title;
-  if (title.size() > 30) {  // not through the middle of a character
-    std::size_t end = 0;
-    while (end < 30) end += text_unit_at(title, end).length;
-    title.resize(end);
-  }
   while (!title.empty() && title.back() == ' ') title.pop_back();
   return title.empty() ? fmt::format("{}", id) : fmt::format("{} {}", id, title);
 }
@@ -137,36 +206,31 @@ std::string gaps_verdict(const Deck& deck, const Scene& scene, const SceneView& 
   return text + coverage_tail(coverage);
 }
 
-std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
-                      const GapsTextOptions& options) {
-  const Model& model = *scene.model;
-  const char* bold = options.color ? "\033[1m" : "";
-  const char* plain = options.color ? "\033[0m" : "";
-  std::string out =
-      fmt::format("{}{}{}\n", bold, terminal_text(gaps_verdict(deck, scene, view)), plain);
-  if (scene.contacts.empty()) return out;
-  out +=
-      fmt::format("\n{}Interfaces{}\n{}", bold, plain, interface_table(scene, view, options.color));
-  const std::string decisions = decisions_text(scene, 5, options.color);
-  if (!decisions.empty()) out += "\n" + decisions;
-  if (view.penetrations.empty()) return out;
+namespace {
 
-  TextTable pairs = make_table({"secondary part", "main part", ">pairs", ">nodes", ">edges",
-                                ">deepest", ">mean", ">p95", ">of gap"});
+std::string part_pairs_text(const Scene& scene, const SceneView& view,
+                            const GapsTextOptions& options) {
+  const Model& model = *scene.model;
+  TextTable pairs = make_table(
+      {"secondary", "main", ">pairs", ">nodes", ">edges", ">deepest", ">mean", ">p95", ">of gap"});
   const std::size_t shown = std::min(options.part_pairs, view.part_pairs.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const PartPair& p = view.part_pairs[i];
     pairs.row({part_name(model, p.secondary), part_name(model, p.main),
                fmt::format("{}", p.count.pairs), fmt::format("{}", p.count.nodes),
                fmt::format("{}", p.count.edges), fmt::format("{:.6g}", p.max_depth),
-               fmt::format("{:.6g}", p.mean_depth), fmt::format("{:.6g}", p.p95_depth),
+               fmt::format("{:.4g}", p.mean_depth), fmt::format("{:.4g}", p.p95_depth),
                fmt::format("{:.0f} %", 100 * p.max_ratio)});
   }
-  out += fmt::format("\n{}Part pairs{}\n{}", bold, plain, pairs.render(options.color, 2));
+  std::string out = pairs.fitted(options.width, options.color, 2, 2);
   if (shown < view.part_pairs.size())
     out += fmt::format("  … and {} more\n", view.part_pairs.size() - shown);
+  return out;
+}
 
-  TextTable worst = make_table({">depth", ">gap", ">distance", ">interface", "node/edge",
+std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& view,
+                       const GapsTextOptions& options) {
+  TextTable worst = make_table({">interface", "node/edge", ">depth", ">gap", ">distance",
                                 "segment/edge", "elements", "action", "position", "defined at"});
   const std::size_t rows = std::min(options.worst, view.deepest_per_node.size());
   for (std::size_t i = 0; i < rows; ++i) {
@@ -180,18 +244,47 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
     std::string action =
         stops ? fmt::format("error {}", on_surface_error(c)) : to_string(row.action);
     if (!stops && row.has_gap0) action += fmt::format(" to {:.4g}", row.gap0);
-    worst.row({fmt::format("{:.6g}", row.depth), fmt::format("{:.6g}", row.gap),
-               fmt::format("{:.6g}", row.distance), fmt::format("{}", c.inter->id),
-               secondary_text(p), segment_text(p),
+    worst.row({fmt::format("{}", c.inter->id), secondary_text(p), fmt::format("{:.6g}", row.depth),
+               fmt::format("{:.6g}", row.gap), fmt::format("{:.6g}", row.distance), segment_text(p),
                fmt::format("{} / {}", p.secondary_element.id, p.main_element.id), action,
                fmt::format("({:.5g}, {:.5g}, {:.5g})", p.at[0], p.at[1], p.at[2]),
-               deck.sources.where(model.node_span(n))});
+               deck.sources.where(scene.model->node_span(n))});
   }
-  out += fmt::format("\n{}Deepest, one row per node or edge{}\n{}", bold, plain,
-                     worst.render(options.color, 2));
+  std::string out = rows == 0 ? std::string() : worst.fitted(options.width, options.color, 2, 2);
   if (rows < view.deepest_per_node.size())
     out += fmt::format("  … and {} more (--worst N, --csv, --json)\n",
                        view.deepest_per_node.size() - rows);
+  return out;
+}
+
+}  // namespace
+
+std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
+                      const GapsTextOptions& options) {
+  const std::string verdict =
+      toned(terminal_text(gaps_verdict(deck, scene, view)), Tone::bold, options.color) + "\n";
+  std::string out;
+  if (!options.name.empty())
+    out += toned(terminal_text(options.name), Tone::cyan, options.color) + "\n";
+  out += verdict;
+  const auto heading = [&](const char* title) {
+    return "\n" + toned(title, Tone::bold, options.color) + "\n";
+  };
+  if (!scene.contacts.empty()) {
+    out += heading("Interfaces") + InterfaceTable(scene, view, options).run();
+    if (!view.penetrations.empty()) {
+      out += heading("Part pairs") + part_pairs_text(scene, view, options);
+      out += heading("Deepest, one row per node or edge") + worst_text(deck, scene, view, options);
+    }
+    if (options.crossings != nullptr) out += crossings_text(scene, *options.crossings, options);
+    if (const std::string text = decisions_text(scene, 5, options.color, options.width);
+        !text.empty())
+      out += "\n" + text;
+    out += "\n" + verdict;
+  }
+  if (options.gate != nullptr)
+    if (const std::string lines = gate_text(*options.gate); !lines.empty())
+      out += (scene.contacts.empty() ? "\n" : "") + lines;
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "deck/base/columns.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/report/json.hpp"
 #include "deck/report/show.hpp"

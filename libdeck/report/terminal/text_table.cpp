@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "deck/base/columns.hpp"
 #include "deck/base/escape.hpp"
 
 namespace deck {
@@ -35,12 +36,6 @@ std::string toned(std::string_view text, Tone tone, bool color) {
   return code + std::string(text) + "\x1b[0m";
 }
 
-std::size_t display_width(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;
-  }));
-}
-
 void TextTable::row(std::vector<Cell> cells) {
   for (Cell& cell : cells) cell.text = terminal_text(cell.text);
   rows_.push_back(std::move(cells));
@@ -48,29 +43,18 @@ void TextTable::row(std::vector<Cell> cells) {
 
 namespace {
 
-/// `text` in pieces of at most `width` columns: broken behind blanks, commas and slashes, or where
-/// nothing else helps inside a word.
-std::vector<std::string> broken(const std::string& text, std::size_t width) {
-  std::vector<std::string> out;
-  std::string_view rest = text;
-  while (display_width(rest) > width) {
-    std::size_t at = 0, columns = 0, best = 0;
-    while (at < rest.size() && columns < width) {
-      at += std::max<std::size_t>(text_unit_at(rest, at).length, 1);
-      ++columns;
-      const char c = rest[at - 1];
-      if (c == ' ' || c == ',' || c == '/' || c == ':') best = at;
-    }
-    if (at < rest.size() && rest[at] == ' ') best = at;
-    if (best == 0) best = at;
-    std::string piece(rest.substr(0, best));
-    while (piece.ends_with(' ')) piece.pop_back();
-    out.push_back(std::move(piece));
-    rest.remove_prefix(best);
-    while (rest.starts_with(' ')) rest.remove_prefix(1);
+/// The longest word of `text` that is a number or an id: such a word is never broken.
+std::size_t longest_number(std::string_view text) {
+  std::size_t longest = 0;
+  while (!text.empty()) {
+    const auto end = std::min(text.find_first_of(" ,/:"), text.size());
+    const std::string_view word = text.substr(0, end);
+    if (word.find_first_of("0123456789") != word.npos &&
+        word.find_first_not_of("0123456789+-.e()%") == word.npos)
+      longest = std::max(longest, std::min(end + 1, text.size()));
+    text.remove_prefix(std::min(end + 1, text.size()));
   }
-  out.emplace_back(rest);
-  return out;
+  return longest;
 }
 
 }  // namespace
@@ -83,7 +67,8 @@ std::string TextTable::part(const std::vector<std::size_t>& columns,
     std::vector<std::vector<std::string>> pieces;
     std::size_t height = 1;
     for (const std::size_t i : columns) {
-      pieces.push_back(broken(i < cells.size() ? cells[i].text : std::string(), width[i]));
+      pieces.push_back(
+          broken(i < cells.size() ? cells[i].text : std::string(), width[i], width[i]));
       height = std::max(height, pieces.back().size());
     }
     for (std::size_t row = 0; row < height; ++row) {
@@ -121,45 +106,58 @@ std::string TextTable::render(bool color, std::size_t indent) const {
 
 std::string TextTable::fitted(std::size_t width, bool color, std::size_t indent,
                               std::size_t keys) const {
-  constexpr std::size_t narrow = 12;  // texts are not broken into less
-  std::vector<std::size_t> need(columns_.size());
-  for (std::size_t i = 0; i < need.size(); ++i) need[i] = display_width(columns_[i].title);
+  constexpr std::size_t narrow = 10;  // texts are not broken into less
+  const std::size_t n = columns_.size();
+  std::vector<std::size_t> need(n), least(n);
+  std::vector<bool> empty(n, true);
+  for (std::size_t i = 0; i < n; ++i) {
+    need[i] = display_width(columns_[i].title);
+    least[i] = std::max(narrow, need[i]);
+  }
   for (const auto& cells : rows_)
-    for (std::size_t i = 0; i < std::min(cells.size(), need.size()); ++i)
+    for (std::size_t i = 0; i < std::min(cells.size(), n); ++i) {
       need[i] = std::max(need[i], display_width(cells[i].text));
-  std::vector<std::size_t> all(columns_.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  const auto length = [&](const std::vector<std::size_t>& columns) {
+      least[i] = std::max(least[i], longest_number(cells[i].text));
+      empty[i] = empty[i] && cells[i].text.empty();
+    }
+  for (std::size_t i = 0; i < n; ++i)
+    if (columns_[i].align == Align::right || least[i] > need[i]) least[i] = need[i];
+  const auto length = [&](const std::vector<std::size_t>& columns,
+                          const std::vector<std::size_t>& widths) {
     std::size_t sum = indent;
-    for (const std::size_t i : columns) sum += need[i] + (i == columns.front() ? 0 : 2);
+    for (const std::size_t i : columns) sum += widths[i] + (i == columns.front() ? 0 : 2);
     return sum;
   };
-  // The widest texts give way first.
-  while (width > 0 && length(all) > width) {
-    std::size_t widest = all.size();
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (columns_[i].align == Align::left &&
-          need[i] > std::max(narrow, display_width(columns_[i].title)) &&
-          (widest == all.size() || need[i] > need[widest]))
-        widest = i;
-    if (widest == all.size()) break;
-    --need[widest];
-  }
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < n; ++i) all.push_back(i);
+  // Where there is not enough room, a column without a text is none.
+  if (width > 0 && rows_.size() > 0 && length(all, need) > width)
+    std::erase_if(all, [&](std::size_t i) { return i >= keys && empty[i]; });
   std::string out;
   for (std::size_t next = 0; next < all.size();) {
     std::vector<std::size_t> columns;
-    for (std::size_t k = 0; next > 0 && k < std::min(keys, all.size()); ++k) columns.push_back(k);
+    for (std::size_t k = 0; next > 0 && k < std::min(keys, all.size()); ++k)
+      columns.push_back(all[k]);
     const std::size_t repeated = columns.size();
     while (next < all.size()) {
-      columns.push_back(next);
+      columns.push_back(all[next]);
       const bool first = columns.size() == repeated + 1 || next < keys;
-      if (width > 0 && !first && length(columns) > width) {
+      if (width > 0 && !first && length(columns, least) > width) {
         columns.pop_back();
         break;
       }
       ++next;
     }
-    out += (out.empty() ? "" : "\n") + part(columns, need, color, indent);
+    // The widest texts give way first.
+    std::vector<std::size_t> widths = need;
+    while (width > 0 && length(columns, widths) > width) {
+      std::size_t widest = n;
+      for (const std::size_t i : columns)
+        if (widths[i] > least[i] && (widest == n || widths[i] > widths[widest])) widest = i;
+      if (widest == n) break;
+      --widths[widest];
+    }
+    out += (out.empty() ? "" : "\n") + part(columns, widths, color, indent);
   }
   return out;
 }

@@ -647,7 +647,7 @@ int report_batch(const BatchOptions& o, const Summary& s, std::size_t kept) {
                         s.entries.size(), s.count("clean"), s.count("findings"), not_examined,
                         s.count("unreadable"), skipped, s.count("failed"));
     if (kept > 0) text += fmt::format("; {} were finished before", kept);
-    print_text(text + "; " + terminal_text(o.directory) + "/" + summary_name(s.shard) + "\n");
+    print_lines(text + "; " + terminal_text(o.directory) + "/" + summary_name(s.shard) + "\n");
   }
   return s.worst();
 }

@@ -34,7 +34,7 @@ int run(const Options& options) {
                       "message (611)");
       return exit_usage;
     }
-    print_text((first ? "" : "\n") + terminal_lines(page));
+    print_lines((first ? "" : "\n") + terminal_lines(page));
     first = false;
   }
   return exit_clean;

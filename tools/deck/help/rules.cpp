@@ -14,7 +14,7 @@ int run(const CommonOptions& common) {
       print_error(common, written.error().message);
       return exit_usage;
     }
-  if (common.wants_text()) print_text(rules_table(common.color_on(1)));
+  if (common.wants_text()) print_lines(rules_table(common.color_on(1), text_width()));
   return exit_clean;
 }
 

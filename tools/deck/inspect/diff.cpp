@@ -97,7 +97,7 @@ int run(const Options& o) {
     } else {
       text.color = o.common.color_on(1);
       text.width = text_width();
-      print_text(diff_text(sa, sb, diff, text));
+      print_lines(diff_text(sa, sb, diff, text));
     }
   }
   return code;

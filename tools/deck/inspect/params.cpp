@@ -59,7 +59,7 @@ int run(const Options& options) {
     if (common.wants_text() && options.csv != "-") {
       text.color = common.color_on(1);
       text.width = text_width();
-      print_text(options.matrix ? params_matrix(input, text) : params_text(input, text));
+      print_lines(options.matrix ? params_matrix(input, text) : params_text(input, text));
     }
     return static_cast<int>(errors > 0 ? exit_findings : exit_clean);
   });

@@ -38,7 +38,7 @@ int run(Options& o) {
       text.color = o.common.color_on(1);
       text.all = o.all;
       text.width = text_width();
-      print_text(show_text(params, view, text));
+      print_lines(show_text(params, view, text));
     }
     return static_cast<int>(exit_clean);
   });

@@ -109,7 +109,7 @@ Result<void> Changes::announce(const std::vector<OutputFile>& files) {
 
 void Changes::list_files(const std::vector<OutputFile>& files) const {
   if (common_.quiet) return;
-  for (const OutputFile& f : files) print_text(terminal_text(f.path) + "\n");
+  for (const OutputFile& f : files) print_lines(terminal_text(f.path) + "\n");
 }
 
 /// Every deck read from the files as they will lie: it must consist of the texts that were decided

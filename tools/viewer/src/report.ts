@@ -233,7 +233,7 @@ export class Report {
     const c = this.meta.contacts[contact];
     const type = this.meta.interfaces[c.interface].type;
     if (type !== 19) return `TYPE${type}`;
-    return `TYPE19 ${c.role === "primary" ? "nodes" : c.role === "reversed" ? "back" : "edges"}`;
+    return `TYPE19 ${c.role}`;
   }
   /** Exact position of the secondary point: the node, or the closest point of the edge. */
   point(row: Row): [number, number, number] {

@@ -7,13 +7,22 @@
 #include <vector>
 
 #include "deck/keyword/schema.hpp"
+#include "deck/text/rule.hpp"
 
 namespace deck {
 
+/// Columns of a page where nothing says how many there are.
+constexpr std::size_t usual_page_width = 92;
+
 /// The page about what a person typed, in any case: "DK254", "DK1", "/INTER/TYPE7", "TYPE7",
-/// "TYPE7.Gapmin", "Gapmin", "611". Lines of tables are no longer than `width` (0: 92). Empty:
-/// nothing is known.
+/// "TYPE7.Gapmin", "Gapmin", "611". Lines of tables are no longer than `width` (0: the usual).
+/// Empty: nothing is known.
 std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std::size_t width = 0);
+
+/// The pages of deck/lint/rule.hpp, as wide as `width` (0: the usual). Cards of examples are
+/// continued on further lines only where a width is given.
+std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t width);
+std::string explain_keyword(const Schema& schema, std::string_view field, std::size_t width);
 
 /// Topics that are spelled nearly so, the nearest first; at most three.
 std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet& schemas);

@@ -18,8 +18,9 @@ struct AccuracyContext {
 // Name and version of the compiler that built the library, with the build's rules of arithmetic.
 std::string accuracy_compiler();
 
+// Tables fit lines of `width` columns; 0: of any length.
 std::string accuracy_text(const AccuracyReport& report, const AccuracyContext& context,
-                          bool color = false);
+                          bool color = false, std::size_t width = 0);
 // One pair of every family and tier with wrong decisions, its coordinates as hexadecimal numbers;
 // empty if there is none.
 std::string accuracy_examples(const AccuracyReport& report);

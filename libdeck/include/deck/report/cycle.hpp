@@ -44,12 +44,18 @@ std::vector<EffectLine> effect_lines(const Deck& deck, const cycle::SceneOutcome
 struct CycleTextOptions {
   bool color = false;
   bool effects = false;  ///< also list the effects that are off
+  /// Interfaces without a pair in reach, too, each contact of an interface in a row of its own, and
+  /// more columns.
+  bool verbose = false;
+  bool several = false;   ///< decks in the call: the text names this one
+  std::size_t width = 0;  ///< columns of a line of a table; 0: any
 };
 
 /// The document of `deck cycle --json` (schemas/output/cycle.schema.json). With `all`, every pair
 /// that has a penetration.
 std::string cycle_json(const CycleInput& input, bool all);
-/// Verdict, table of contacts, time steps, pairs near the gap singularity, effects.
+/// Verdict, table of interfaces, time steps, pairs near the gap singularity, effects, how the
+/// decisions were taken; the verdict again, and the gate.
 std::string cycle_text(const CycleInput& input, const CycleTextOptions& options = {});
 /// One or two sentences: forces, the largest acceleration, contact step against structural step.
 std::string cycle_verdict(const CycleInput& input);

@@ -21,9 +21,11 @@ struct LintedDeck {
 
 struct HumanOptions {
   bool color = false;
-  bool ruler = false;  ///< a line with column numbers above the card
-  int per_rule = 10;   ///< findings shown per rule, 0: all
-  bool quiet = false;  ///< only the findings, no summary and no "not checked"
+  bool ruler = false;     ///< a line with column numbers above the card
+  int per_rule = 10;      ///< findings shown per rule, 0: all
+  bool group = true;      ///< more than three of a rule: the first in full, the others a line each
+  bool quiet = false;     ///< only the findings, no summary and no "not checked"
+  std::size_t width = 0;  ///< columns of a line; 0: any, card lines are cut all the same
 };
 
 /// rustc-like text.
@@ -40,8 +42,8 @@ std::string lint_junit(const std::vector<LintedDeck>& decks);
 /// GitLab code quality.
 std::string lint_gitlab(const std::vector<LintedDeck>& decks, const std::string& source_root = {});
 
-/// All rules: a table, and JSON.
-std::string rules_table(bool color);
+/// All rules: a table whose lines have at most `width` columns (0: any), and JSON.
+std::string rules_table(bool color, std::size_t width = 0);
 std::string rules_json();
 
 }  // namespace deck

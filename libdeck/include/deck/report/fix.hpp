@@ -11,6 +11,7 @@ namespace deck {
 struct FixTextOptions {
   std::size_t rows = 10;  ///< of the lists of moved nodes and of what was not treated
   bool color = false;
+  std::size_t width = 0;  ///< columns of a line of a table; 0: any
 };
 
 /// One sentence: what was done, what is left.

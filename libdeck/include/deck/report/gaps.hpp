@@ -19,9 +19,17 @@ struct GapsTextOptions {
   std::size_t worst = 20;       ///< rows of the worst list
   std::size_t part_pairs = 15;  ///< rows of the part-pair table
   bool color = false;
+  /// Interfaces without penetrations, too, each contact of an interface in a row of its own, and
+  /// what its sides are.
+  bool verbose = false;
+  std::size_t width = 0;                             ///< columns of a line of a table; 0: any
+  std::string name;                                  ///< of the deck, where there are several
+  const std::vector<Crossing>* crossings = nullptr;  ///< also list these
+  const GateReport* gate = nullptr;
 };
 
-/// Verdict, interface table, part pairs, worst list.
+/// Verdict, interface table, part pairs, worst list, crossed elements, how the decisions were
+/// taken; the verdict again, and the gate.
 std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
                       const GapsTextOptions& options = {});
 /// How many, how deep, whether the solver stops, crossed elements, and what was not examined; or

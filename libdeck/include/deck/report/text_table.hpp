@@ -11,8 +11,6 @@ enum class Tone : unsigned char { plain, bold, dim, red, yellow, green, cyan };
 
 /// Escape codes around `text` if `color` is set.
 std::string toned(std::string_view text, Tone tone, bool color);
-/// Columns a text takes on a terminal: UTF-8 characters, not bytes.
-std::size_t display_width(std::string_view text);
 
 class TextTable {
  public:

@@ -1,0 +1,318 @@
+#!/usr/bin/env python3
+"""A tour through the verbs in a pseudo-terminal: what a person sees at 80 and 120 columns is compared with the screens in
+tests/tools/screens, and no line of any screen is wider than the terminal, at 80, 120 and 200 columns, over the samples
+and, where they are there, decks outside of the project (whose screens are measured, not kept). At the end a repository
+whose server stops a change that makes one gap worse and takes one that makes it better.
+
+    python3 tests/tools/tour.py DECK            compares
+    python3 tests/tools/tour.py DECK --record   writes the screens anew; look at the difference before you commit it
+
+A file of screens has a command behind '$', then a screen for each width. Verbs whose output depends on the machine are only
+measured. It ends with 'N passed, N failed'."""
+import argparse
+import difflib
+import fcntl
+import glob
+import os
+import pty
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import termios
+import unicodedata
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SCREENS = os.path.join(ROOT, "tests", "tools", "screens")
+KEPT, MEASURED = (80, 120), (80, 120, 200)
+ESCAPES = re.compile(r"\x1b\[[0-9;]*[mK]")
+
+# One file of screens each: commands as they are typed in a directory with samples/ and the decks made below.
+TOUR = {
+    "gaps": [
+        "gaps samples/crash_box_0000.rad --worst 4",
+        "gaps samples/crash_box_0000.rad --worst 2 -v",
+        "gaps samples/crash_box_0000.rad --worst 0 --crossings",
+        "gaps samples/clean_plates_0000.rad samples/too_close_0000.rad --worst 1",
+        "gaps samples/inacti_variants_0000.rad --worst 3",
+        "gaps samples/too_close_0000.rad --what-if 1:Gapmin=0.8",
+        "gaps wide_0000.rad --worst 2",
+        "gaps long_0000.rad --worst 2",
+        "gaps samples/absent_0000.rad",
+    ],
+    "gate": [
+        "gaps samples/too_close_0000.rad --max-depth 0.3 --max-count 8 --worst 1",
+        "gaps samples/too_close_0000.rad --max-depth 0.4 --max-ratio 0.3 --worst 0",
+        "gaps samples/too_close_0000.rad --json old.json --quiet",
+        "gaps samples/too_close_0000.rad --compare old.json --fail-on new,worse --worst 0",
+        "gaps worse_0000.rad --compare old.json --fail-on new,worse --worst 1",
+        "gaps better_0000.rad --compare old.json --fail-on new,worse --worst 1",
+        "cycle samples/too_close_0000.rad --max-dt-loss 0.1",
+        "lint samples/too_close_0000.rad --geometry --max-depth 0.3 --select DK37",
+    ],
+    "cycle": [
+        "cycle samples/crash_box_0000.rad",
+        "cycle samples/two_surfaces_0000.rad -v",
+        "cycle samples/too_close_0000.rad --effects",
+        "cycle samples/too_close_0000.rad --velocity 2=0,0,-5 --dt 1e-3 --steps 3",
+        "cycle samples/clean_plates_0000.rad samples/too_close_0000.rad",
+    ],
+    "lint": [
+        "lint samples/every_mistake_0000.rad --select DK171,DK242,DK201,DK240",
+        "lint samples/every_mistake_0000.rad --select DK171 --ruler",
+        "lint samples/clean_plates_0000.rad samples/too_close_0000.rad samples/absent_0000.rad",
+        "lint alike_0000.rad --select DK201",
+        "lint alike_0000.rad --select DK201 --no-group --per-rule 2",
+        "lint wide_0000.rad",
+        "lint samples/crash_box_0000.rad --geometry --select DK30,DK32",
+    ],
+    "params": [
+        "params samples/tied_layer_0000.rad",
+        "params samples/variable_gap_0000.rad --changed",
+        "params samples/variable_gap_0000.rad --filled-in --interface 3",
+        "params samples/crash_box_0000.rad --matrix",
+        "params samples/crash_box_0000.rad --matrix --changed",
+        "params samples/crash_box_0000.rad --csv params.csv --quiet",
+        "params long_0000.rad --changed",
+    ],
+    "show": [
+        "show samples/crash_box_0000.rad 2",
+        "show samples/crash_box_0000.rad /GRNOD/PART/1",
+        "show samples/crash_box_0000.rad node:804",
+        "show samples/include_tree_0000.rad part:1",
+        "show samples/crash_box_0000.rad 99",
+    ],
+    "diff": [
+        "diff samples/clean_plates_0000.rad samples/too_close_0000.rad",
+        "diff samples/too_close_0000.rad better_0000.rad",
+        "diff samples/too_close_0000.rad %s/too_close_0000.rad" % "/".join(["a_folder_with_a_rather_long_name"] * 3),
+    ],
+    "explain": [
+        "explain DK203", "explain DK254", "explain Gapmin", "explain TYPE7.Igap",
+        "explain /INTER/TYPE19.Gapmin", "explain 611", "explain Gapmim",
+    ],
+    "fix": [
+        "fix samples/too_close_0000.rad --strategy reduce-gap",
+        "fix samples/crash_box_0000.rad --strategy inacti",
+    ],
+}
+# Not kept: times and processors are in them, or every new rule. A batch has a directory per width.
+UNKEPT = [
+    "rules",
+    "explain DK1",
+    "explain TYPE7",
+    "accuracy samples/crash_box_0000.rad --samples 5 --repeats 1",
+    "accuracy --samples 5 --repeats 1",
+    "batch --verb gaps -o batch-{columns} samples/clean_plates_0000.rad samples/too_close_0000.rad",
+    "convert samples/two_surfaces_0000.rad -o converted-{columns} --expand-type19",
+]
+OUTSIDE = [("lint", "--geometry"), ("gaps", "--crossings"), ("gaps", "-v"), ("cycle",), ("cycle", "-v"), ("params", "--matrix")]
+
+
+def columns_of(text):
+    wide = 0
+    for c in ESCAPES.sub("", text):
+        if unicodedata.category(c) not in ("Mn", "Me", "Cf"):
+            wide += 2 if unicodedata.east_asian_width(c) in "WF" else 1
+    return wide
+
+
+def without_progress(text):
+    """The line of progress is drawn on one line and wiped; it holds no line end."""
+    first, *parts = text.split("\r\x1b[K")
+    return first + "".join(p for p in parts if "\n" in p)
+
+
+def seen(program, command, columns, folder, color=False):
+    """(what a terminal of so many columns shows, exit code)"""
+    main, sub = pty.openpty()
+    fcntl.ioctl(sub, termios.TIOCSWINSZ, struct.pack("HHHH", 50, columns, 0, 0))
+    env = {k: v for k, v in os.environ.items() if k not in ("COLUMNS", "NO_COLOR", "DECK_SCHEMAS")}
+    env.update(TERM="xterm", LC_ALL="C.UTF-8")
+    if not color:
+        env["NO_COLOR"] = "1"
+    words = [w.replace("{columns}", str(columns)) for w in command]
+    process = subprocess.Popen([program, *words], cwd=folder, env=env, stdin=sub, stdout=sub, stderr=sub, start_new_session=True)
+    os.close(sub)
+    data = b""
+    while True:
+        try:
+            piece = os.read(main, 65536)
+        except OSError:  # the other end is closed
+            break
+        if not piece:
+            break
+        data += piece
+    os.close(main)
+    text = without_progress(data.decode("utf-8", "replace").replace("\r\n", "\n"))
+    return re.sub(r"\b\d+ of \d+ rules", lambda m: re.sub(r"\d", "#", m.group(0)), text), process.wait()
+
+
+def moved(text, node, z):
+    out, n = re.subn(r"(?m)^(%10d.{40})(.{20})$" % node, lambda m: m.group(1) + "%20s" % z, text)
+    assert n == 1, "no line of node %d" % node
+    return out
+
+
+def make_decks(folder):
+    """The samples, and what is made of them: wide characters, long names, many findings of a kind."""
+    shutil.copytree(os.path.join(ROOT, "samples"), os.path.join(folder, "samples"))
+    with open(os.path.join(ROOT, "samples", "too_close_0000.rad"), encoding="utf-8") as f:
+        text = f.read()
+
+    def write(name, what):
+        os.makedirs(os.path.dirname(os.path.join(folder, name)), exist_ok=True)
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as f:
+            f.write(what)
+    # The plates at z 0 and 0.9: node 101 further in, and further out.
+    write("worse_0000.rad", moved(text, 101, "0.8"))
+    write("better_0000.rad", moved(text, 101, "1.0"))
+    write(os.path.join(*["a_folder_with_a_rather_long_name"] * 3, "too_close_0000.rad"), moved(text, 101, "1.0"))
+    lines = text.split("\n")
+    header = next(i for i, line in enumerate(lines) if line.startswith("/INTER/TYPE7/1"))
+    parts = [i for i, line in enumerate(lines) if re.match(r"/PART/\d", line)]
+
+    def titled(interface, part):
+        out = list(lines)
+        out[header + 1] = interface
+        for i in parts:
+            out[i + 1] = part
+        return out
+    wide = titled("車体前部 と 障壁 の 接触 ünïcödé", "前面パネル 左側")
+    # A flag that is none, behind a tab and a wide character in a comment line's place: the card itself stays in columns.
+    cells = next(i for i in range(header + 2, len(wide)) if wide[i][:1] not in "#/" and wide[i].strip())
+    wide[cells] = wide[cells][:20] + "%10s" % "7" + wide[cells][30:].rstrip() + "\t\t車体" + " and a long remark behind the card" * 4
+    write("wide_0000.rad", "\n".join(wide))
+    write("long_0000.rad", "\n".join(titled("front rail left hand side against the inner barrier face, revision of the second loop",
+                                            "a_part_whose_name_was_made_by_a_program_that_knows_no_blanks_at_all_and_goes_on")))
+    block = [line for line in lines[header:]]
+    end = next(i for i in range(1, len(block)) if block[i].startswith("/"))
+    alike = list(lines)
+    at = header + end
+    for k in range(2, 20):
+        copy = [("/INTER/TYPE7/%d" % k)] + block[1:end]
+        alike[at:at] = copy
+    for i, line in enumerate(alike):
+        if line.startswith("/INTER/TYPE7/"):
+            card = next(j for j in range(i + 2, len(alike)) if alike[j][:1] not in "#/" and alike[j].strip())
+            alike[card] = alike[card][:20] + "%10s" % "7" + alike[card][30:]
+    write("alike_0000.rad", "\n".join(alike))
+
+
+class Tour:
+    def __init__(self, options):
+        self.program, self.options = os.path.abspath(options.deck), options
+        self.passed = self.failed = 0
+
+    def check(self, name, ok, why=""):
+        self.passed, self.failed = self.passed + bool(ok), self.failed + (not ok)
+        if not ok:
+            print("FAILED  %s%s" % (name, ": " + why if why else ""), flush=True)
+
+    def measure(self, name, screen, columns, code=None):
+        if code is not None:
+            self.check("%s at %d ends orderly" % (name, columns), code in (0, 1, 2, 3), "exit code %s" % code)
+        long = [line for line in screen.split("\n") if columns_of(line) > columns]
+        self.check("%s at %d columns has no wider line" % (name, columns), not long, "%d lines, such as %r" % (len(long), (long or [""])[0]))
+
+    def file(self, name, commands, folder):
+        """The text of one file of screens. Commands of a file follow each other: some need what others wrote."""
+        text = []
+        for command in commands:
+            text.append("$ deck %s" % command)
+            for columns in MEASURED:
+                screen, code = seen(self.program, command.split(), columns, folder)
+                self.measure("deck " + command, screen, columns)
+                if columns in KEPT:
+                    text += ["---- %d columns, exit code %d" % (columns, code), screen]
+                self.check("deck %s at %d shows no path of this machine" % (command, columns), folder not in screen and ROOT not in screen)
+            screen, _ = seen(self.program, command.split(), 80, folder, color=True)
+            self.measure("coloured deck " + command, screen, 80)
+        return "\n".join(text)
+
+    def screens(self, folder):
+        for name, commands in TOUR.items():
+            if self.options.only and name != self.options.only:
+                continue
+            text, path = self.file(name, commands, folder), os.path.join(SCREENS, name + ".txt")
+            if self.options.record:
+                with open(path, "w", encoding="utf-8") as f:
+                    f.write(text)
+                continue
+            kept = ""
+            if os.path.exists(path):
+                with open(path, encoding="utf-8") as f:
+                    kept = f.read()
+            difference = "\n".join(list(difflib.unified_diff(kept.split("\n"), text.split("\n"), "kept", "seen", lineterm="", n=1))[:20])
+            self.check("the screens of %s are those that were kept" % name, kept == text, "\n" + difference)
+
+    def outside(self, folder):
+        """Decks that are not the project's: measured only."""
+        for command in UNKEPT:
+            for columns in MEASURED:
+                screen, code = seen(self.program, command.split(), columns, folder)
+                self.measure("deck " + command, screen, columns, code)
+        corpus = os.path.join(self.options.corpus, "corpus")
+        decks = sorted(glob.glob(os.path.join(corpus, "**", "*_0000.rad"), recursive=True), key=os.path.getsize)
+        for path in decks if self.options.all else decks[:4]:
+            for verb in OUTSIDE:
+                screen, code = seen(self.program, (verb[0], path, *verb[1:]), 80, folder)
+                self.measure("deck %s of %s" % (" ".join(verb), os.path.relpath(path, corpus)), screen, 80, code)
+
+    def repository(self, folder):
+        """A server that takes a push only if no gap got worse."""
+        if shutil.which("git") is None:
+            print("skipped the repository: there is no git")
+            return
+        env = {**os.environ, "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1", "GIT_AUTHOR_NAME": "a", "GIT_AUTHOR_EMAIL": "a@b.example",
+               "GIT_COMMITTER_NAME": "a", "GIT_COMMITTER_EMAIL": "a@b.example", "DECK": self.program}
+        server, work = os.path.join(folder, "server.git"), os.path.join(folder, "work")
+
+        def git(*words, cwd=work):
+            return subprocess.run(["git", *words], cwd=cwd, env=env, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
+        git("init", "-q", "--bare", server, cwd=folder)
+        hook = os.path.join(server, "hooks", "pre-receive")
+        with open(hook, "w") as f:
+            f.write("#!/bin/sh\nfolder=$(mktemp -d)\ntrap 'rm -rf \"$folder\"' EXIT\nread old new ref\ngit archive \"$new\" | tar -x -C \"$folder\"\n"
+                    "cd \"$folder\" && \"$DECK\" gaps car_0000.rad --compare gaps.json --fail-on new,worse --worst 0\n")
+        os.chmod(hook, 0o755)
+        git("init", "-q", "-b", "main", work, cwd=folder)
+        car = os.path.join(work, "car_0000.rad")
+        shutil.copy(os.path.join(folder, "samples", "too_close_0000.rad"), car)
+        subprocess.run([self.program, "gaps", "car_0000.rad", "--json", "gaps.json", "--quiet"], cwd=work, timeout=60)
+        git("add", "-A")
+        git("commit", "-qm", "the car")
+        git("remote", "add", "origin", server)
+        for name, source, taken, said in (("the deck as it is", None, True, "Gate: passed"), ("a change that makes one gap worse", "worse_0000.rad", False, "1 worse"),
+                                          ("a change that makes it better", "better_0000.rad", True, "1 better")):
+            if source:
+                git("checkout", "-q", "-B", "change", "main")
+                shutil.copy(os.path.join(folder, source), car)
+                git("commit", "-qam", name)
+            r = git("push", "-q", "-f", "origin", "HEAD")
+            self.check("%s is %s by the server" % (name, "taken" if taken else "stopped"), (r.returncode == 0) == taken and said in r.stderr,
+                       "git push: %d, %s" % (r.returncode, r.stderr[-600:]))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("deck", nargs="?", default=os.path.join(ROOT, "build", "dev", "tools", "deck"))
+    parser.add_argument("--record", action="store_true", help="write the screens anew")
+    parser.add_argument("--only", help="one file of screens, such as gaps")
+    parser.add_argument("--all", action="store_true", help="all decks outside of the project, not the smallest alone")
+    parser.add_argument("--corpus", default=os.environ.get("DECK_CORPUS") or os.path.join(ROOT, os.pardir, "shared"))
+    tour = Tour(parser.parse_args())
+    with tempfile.TemporaryDirectory() as folder:
+        make_decks(folder)
+        tour.screens(folder)
+        if not tour.options.only:
+            tour.outside(folder)
+            tour.repository(folder)
+    print("%d passed, %d failed" % (tour.passed, tour.failed))
+    sys.exit(1 if tour.failed else 0)
+
+
+if __name__ == "__main__":
+    main()
