@@ -33,8 +33,8 @@ struct BatchList {
 /// manifest or directory that cannot be read, a pattern that matches nothing, "-" as a deck.
 ///
 /// Of what directories and patterns stand for, a file that another deck of the list includes is an
-/// include, and so is one that has keywords, but neither the head of a deck nor /BEGIN. What is named
-/// itself is taken for a deck.
+/// include, and so is one that has keywords, but neither the head of a deck nor /BEGIN. What is
+/// named itself is taken for a deck.
 ///
 /// A result is named after the deck's file name without extension. Where that is not unique, the
 /// name of the directory is put before it ("left--car_0000.json"), and of the one above as long as
