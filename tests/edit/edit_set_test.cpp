@@ -83,7 +83,7 @@ TEST_F(EditSets, APackedFileStaysPackedInPlaceAndInATree) {
   // A patch is for what gunzip makes of it.
   const auto patch = set.diff();
   ASSERT_TRUE(patch);
-  EXPECT_NE(patch->find("c/y.inc\n"), std::string::npos) << *patch;
+  EXPECT_NE(patch->find("+++ b/y.inc\n"), std::string::npos) << *patch;
   EXPECT_EQ(patch->find(".gz"), std::string::npos) << *patch;
 }
 
