@@ -93,6 +93,36 @@ TEST(Verification, OneChangedValueIsNamed) {
   EXPECT_NE(mass->find("the mass of node"), std::string::npos) << *mass;
 }
 
+/// A spring whose force follows a curve: the blank scale is 1 in the unit of force.
+constexpr const char* spring_with_a_curve = R"(/PROP/SPRING/77
+with a curve
+#               MASS                                 sens_ID    Isflag     Ileng
+                0.01                                       0         0         0
+#                 K1                  C1                  A1                  B1                  D1
+                0.01                 0.0                 0.0                 0.0                 0.0
+# fct_ID11        H1  fct_ID21  fct_ID31  fct_ID41                      DeltaMin            DeltaMax
+        88         0         0         0         0                           0.0                 0.0
+#                 F1                  E1             AScale1             Hscale1
+                 0.0                 0.0                 0.0                 0.0
+/FUNCT/88
+curve
+#                  X                   Y
+                 0.0                 0.0
+                 1.0                 2.0
+/END)";
+
+TEST(Verification, AStiffnessThatKeepsItsNumberInOtherUnitsIsNamedWithTheReason) {
+  const auto plain = sample();
+  const auto deck = edited(*plain, "/END", spring_with_a_curve);
+  const Rewrite rewrite = to_units(deck->context(), *parse_unit_system("g,mm,ms"), {true});
+  const auto after = deck->after(rewrite);
+  const auto why = difference(*deck, *after, relation_of(rewrite.losses));
+  ASSERT_TRUE(why);
+  EXPECT_NE(why->find("springs of /PROP/SPRING/77"), why->npos) << *why;
+  EXPECT_NE(why->find("K / A"), why->npos) << *why;
+  EXPECT_NE(why->find("is 0.01, expected 10"), why->npos) << *why;
+}
+
 TEST(Verification, WhatIsGivenUpForAnInterfaceIsAccepted) {
   const auto deck = sample();
   const InterType7& inter = deck->interfaces.type7.at(0);

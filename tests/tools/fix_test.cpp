@@ -1,4 +1,6 @@
 // deck fix from the command line: what it prints, what it writes, exit codes.
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tools/command_line.hpp"
@@ -62,6 +64,69 @@ TEST_F(FixCommand, ASecondRunCountsWhatTheReportSaysWasMovedBefore) {
   write(dir_ / "too_close_0000.rad", too_close_);
   ASSERT_EQ(deck(command), 1);
   EXPECT_EQ(read(dir_ / "too_close_0000.rad"), once);
+}
+
+TEST_F(FixCommand, StrategiesActInTheirOrderOnWhatTheOneBeforeHasLeft) {
+  const fs::path sample = deck::test::source_dir() / "samples/tied_layer_0000.rad";
+  fs::copy(sample, dir_);
+  const auto pairs = [&](const std::string& path) {
+    deck("gaps " + path + " --json gaps.json -q");
+    return nlohmann::json::parse(read(dir_ / "gaps.json"))["summary"]["pairs"].get<int>();
+  };
+  // The gaps alone may not shrink as far as needed; where nodes have moved, for one it is enough.
+  std::map<std::string, int> left;
+  for (const char* s :
+       {"reduce-gap", "move-nodes", "reduce-gap,move-nodes", "move-nodes,reduce-gap"}) {
+    const std::string out = std::string("out-") + s;
+    ASSERT_EQ(
+        deck("fix tied_layer_0000.rad --min-gap 80% --max-moved 20% --json fix.json --strategy " +
+             std::string(s) + " -o " + out),
+        1)
+        << err();
+    const std::string said = this->out();
+    left[s] = pairs(out + "/tied_layer_0000.rad");
+    const auto report = nlohmann::json::parse(read(dir_ / "fix.json"));
+    EXPECT_EQ(report["strategy"], s);
+    int after = 0;
+    for (const auto& i : report["interfaces"]) after += i["after"]["pairs"].get<int>();
+    EXPECT_EQ(after, left[s]) << s;
+    if (left.size() < 3) continue;
+    ASSERT_EQ(report["steps"].size(), 2u);
+    EXPECT_EQ(report["steps"][0]["strategy"].get<std::string>() + "," +
+                  report["steps"][1]["strategy"].get<std::string>(),
+              s);
+    int between[2] = {};
+    for (const auto& i : report["steps"][0]["interfaces"])
+      between[0] += i["after"]["pairs"].get<int>();
+    for (const auto& i : report["steps"][1]["interfaces"])
+      between[1] += i["before"]["pairs"].get<int>();
+    EXPECT_EQ(between[0], between[1]) << "the second begins with what the first has left";
+    EXPECT_NE(said.find("step 2 of 2\n" + report["steps"][1]["strategy"].get<std::string>()),
+              std::string::npos)
+        << said;
+  }
+  EXPECT_LT(left["move-nodes,reduce-gap"], std::min(left["reduce-gap"], left["move-nodes"]));
+  EXPECT_EQ(left["reduce-gap,move-nodes"], left["move-nodes"]) << "nothing that gaps can do first";
+  EXPECT_EQ(deck("fix tied_layer_0000.rad --strategy inacti,inacti"), 2);
+  EXPECT_EQ(deck("fix tied_layer_0000.rad --strategy inacti,pray"), 2);
+  EXPECT_NE(err().find("'pray'"), std::string::npos) << err();
+}
+
+TEST_F(FixCommand, TheReportShowsTheFixedDeckBesideTheOneBefore) {
+  const int code =
+      deck("fix too_close_0000.rad --html page.html --strategy move-nodes --max-moved 100%");
+  if (code == 2 && err().find("no viewer") != std::string::npos) GTEST_SKIP();
+  ASSERT_EQ(code, 0) << err();
+  ASSERT_EQ(deck(std::string("fix too_close_0000.rad -o out ") + move), 0);
+  ASSERT_EQ(deck("gaps too_close_0000.rad --json before.json -q"), 0);
+  ASSERT_EQ(deck("gaps out/too_close_0000.rad --compare before.json --html gaps.html -q"), 0);
+  ASSERT_EQ(deck("gaps out/too_close_0000.rad --html plain.html -q"), 0);
+  // The same page but for the paths of the deck and of what is compared; its data are packed.
+  const auto size = [&](const char* name) { return static_cast<long>(read(dir_ / name).size()); };
+  EXPECT_LT(std::abs(size("page.html") - size("gaps.html")), 100);
+  EXPECT_GT(size("page.html"), size("plain.html") + 200);
+  EXPECT_EQ(deck("fix too_close_0000.rad include_tree_0000.rad --html x.html --strategy inacti"),
+            2);
 }
 
 TEST_F(FixCommand, WrongUsageIsTwoAndMissingInputThree) {

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "common.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/edit/depenetrate.hpp"
 #include "deck/model/coverage.hpp"
 #include "deck/report/fix.hpp"
+#include "deck/report/html.hpp"
 #include "deck/text/number.hpp"
 #include "writing/changes.hpp"
+#include "writing/fix_page.hpp"
 #include "writing/library.hpp"
 
 namespace {
@@ -20,7 +23,8 @@ using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
-  std::string strategy;
+  std::vector<std::string> strategies;  ///< in this order
+  std::string html;
   WriteChoice write;
   bool backup = false;
   std::vector<std::int64_t> interfaces;
@@ -46,7 +50,7 @@ class FixRun {
   FixRun(const Options& options, const SchemaSet& schemas, JsonOutput& json)
       : o_(options), schemas_(schemas), json_(json), changes_(options.common, options.write) {
     // The report of the run before, which this one replaces.
-    if (o_.strategy != "move-nodes" || o_.common.json.empty() || o_.common.json == "-") return;
+    if (!uses("move-nodes") || o_.common.json.empty() || o_.common.json == "-") return;
     if (const auto report = Source::open(o_.common.json, Limits{}))
       earlier_report_ = (*report)->bytes();
   }
@@ -69,22 +73,29 @@ class FixRun {
       print_note(loaded.path + ": " + lead);
     const auto member = changes_.add(loaded, loaded.path);
     if (!member) return fail(member.error());
-    auto fix = make(loaded);
-    if (!fix) return fail(fix.error());
-    auto changed = apply_rewrite(loaded.deck.sources, fix->rewrite);
-    if (!changed) return fail(changed.error());
+    auto fixed = make(loaded);
+    if (!fixed) return fail(fixed.error());
+    const ChangedFiles& changed = fixed->changed;
+    const PenetrationFix whole =
+        fixed->fixes.size() == 1 ? fixed->fixes.front() : combined(fixed->fixes);
     if (loaded.path == "-" && (o_.write.in_place || !o_.write.directory.empty()))
       return fail({Error::Code::config,
                    o_.write.in_place ? "standard input cannot be rewritten; use --diff"
                                      : "a deck from standard input has no name to write it to"});
-    changes_.propose(*member, loaded.deck, *changed);
+    changes_.propose(*member, loaded.deck, changed);
+    if (!o_.html.empty()) {
+      auto page = fix_page(loaded, schemas_, changed, o_.common);
+      if (!page) return fail(page.error());
+      page_ = std::move(*page);
+    }
     const std::string written = o_.write.in_place             ? "in-place"
                                 : !o_.write.directory.empty() ? o_.write.directory
                                 : o_.write.diff               ? "diff"
                                                               : "no";
-    if (json_.wanted()) documents_.push_back(fix_json(loaded.path, loaded.deck, *fix, written));
-    texts_ += report(*fix, *changed, loaded.path);
-    return fix->complete ? exit_clean : exit_findings;
+    if (json_.wanted())
+      documents_.push_back(fix_json(loaded.path, loaded.deck, whole, written, fixed->fixes));
+    texts_ += report(whole, fixed->fixes, changed, loaded.path);
+    return whole.complete ? exit_clean : exit_findings;
   }
 
   /// Writes what the decks want together, and says what was done.
@@ -102,6 +113,9 @@ class FixRun {
     }
     if (o_.write.in_place || !o_.write.directory.empty())
       if (auto done = changes_.write(false); !done) return std::max(code, usage(done.error()));
+    if (!page_.empty())
+      if (auto done = write_output(o_.html, page_); !done)
+        return std::max(code, usage(done.error()));
     for (std::string& document : documents_) json_.add(std::move(document));
     if (o_.write.diff || o_.common.json == "-")
       print_messages(texts_);
@@ -127,7 +141,12 @@ class FixRun {
     }
   }
 
-  Result<PenetrationFix> make(const Loaded& loaded) const {
+  bool uses(std::string_view strategy) const {
+    return std::find(o_.strategies.begin(), o_.strategies.end(), strategy) != o_.strategies.end();
+  }
+
+  /// All strategies in their order.
+  Result<FixSequence> make(const Loaded& loaded) const {
     const EditContext context{loaded.deck, loaded.model, loaded.interfaces, schemas_};
     Progress progress(!o_.common.quiet);
     std::string step;
@@ -140,30 +159,42 @@ class FixRun {
       if (step != what) progress.step(step = what);
       progress.update(done, total);
     };
-    if (o_.strategy == "reduce-gap") {
+    std::vector<FixStep> steps;
+    for (const std::string& strategy : o_.strategies)
+      steps.emplace_back([&](const EditContext& here, const ReadOptions& read) {
+        FixOptions options = base;
+        options.read = read;
+        return one_step(strategy, here, options, loaded.path);
+      });
+    return fix_in_order(context, base, steps);
+  }
+
+  Result<PenetrationFix> one_step(const std::string& strategy, const EditContext& context,
+                                  const FixOptions& base, const std::string& path) const {
+    if (strategy == "reduce-gap") {
       ReduceGapOptions options;
       static_cast<FixOptions&>(options) = base;
       options.least_share = *share(o_.min_gap);
       options.digits = o_.digits;
       return reduce_gaps(context, options);
     }
-    if (o_.strategy == "inacti") {
+    if (strategy == "inacti") {
       InactiOptions options;
       static_cast<FixOptions&>(options) = base;
       options.inacti = o_.inacti;
       return set_inacti(context, options);
     }
-    if (o_.strategy == "fpenmax") {
+    if (strategy == "fpenmax") {
       FpenmaxOptions options;
       static_cast<FixOptions&>(options) = base;
       if (!o_.fpenmax.empty()) options.ratio = *share(o_.fpenmax);
       return set_fpenmax(context, options);
     }
     MoveNodesOptions options = o_.move;
-    options.earlier = earlier_moves(earlier_report_, loaded.path);
+    options.earlier = earlier_moves(earlier_report_, path);
     if (!options.earlier.empty() && !o_.common.quiet)
       print_note(fmt::format("{}: {} nodes that were moved before, by {}, count for --max-moved",
-                             loaded.path, options.earlier.size(), o_.common.json));
+                             path, options.earlier.size(), o_.common.json));
     static_cast<FixOptions&>(options) = base;
     options.most_moved = *share(o_.max_moved);
     if (!o_.max_displacement.empty())
@@ -171,8 +202,8 @@ class FixRun {
     return move_nodes(context, options);
   }
 
-  std::string report(const PenetrationFix& fix, const ChangedFiles& changed,
-                     const std::string& path) const {
+  std::string report(const PenetrationFix& fix, const std::vector<PenetrationFix>& steps,
+                     const ChangedFiles& changed, const std::string& path) const {
     if (o_.common.quiet) return {};
     FixTextOptions text;
     text.rows = o_.rows;
@@ -181,7 +212,14 @@ class FixRun {
     text.color = o_.common.color_on(to_stderr ? 2 : 1);
     std::string out;
     if (o_.common.decks.size() > 1) out += terminal_text(path) + "\n";
-    out += fix_text(fix, text);
+    if (steps.size() > 1) {
+      // What each did on what the one before has left, then all of it together.
+      for (std::size_t i = 0; i < steps.size(); ++i)
+        out += fmt::format("step {} of {}\n{}\n", i + 1, steps.size(), fix_text(steps[i], text));
+      out += "all steps\n" + fix_verdict(fix) + "\n";
+    } else {
+      out += fix_text(fix, text);
+    }
     if (!changed.empty()) {
       const bool written = o_.write.in_place || !o_.write.directory.empty();
       out += "\n";
@@ -201,11 +239,23 @@ class FixRun {
   std::string earlier_report_;
   Changes changes_;
   std::vector<std::string> documents_;
-  std::string texts_;
+  std::string texts_, page_;
 };
+
+constexpr std::array<std::string_view, 4> strategies = {"move-nodes", "reduce-gap", "inacti",
+                                                        "fpenmax"};
 
 /// What is wrong with the combination of options; empty: nothing.
 std::string wrong_usage(const Options& o) {
+  for (const std::string& s : o.strategies) {
+    if (std::find(strategies.begin(), strategies.end(), s) == strategies.end())
+      return "--strategy: '" + s + "' is none of move-nodes, reduce-gap, inacti, fpenmax";
+    if (std::count(o.strategies.begin(), o.strategies.end(), s) > 1)
+      return "--strategy names " + s + " twice";
+  }
+  if (!o.html.empty() && o.common.decks.size() > 1) return "--html takes one deck at a time";
+  if (std::string why; !o.html.empty() && !html_available(&why))
+    return "--html: this build has no viewer: " + why;
   if (o.write.in_place && !o.write.directory.empty()) return "--in-place and -o exclude each other";
   if (o.backup && !o.write.in_place) return "--backup needs --in-place";
   if (o.write.overwrite && o.write.directory.empty()) return "--overwrite needs -o";
@@ -224,6 +274,7 @@ int run(const Options& o) {
     print_error(o.common, wrong);
     return exit_usage;
   }
+  if (const int bad = check_outputs(o.common, {o.html}); bad != exit_clean) return bad;
   const auto schemas = load_schemas(o.common);
   if (!schemas) {
     print_error(o.common, schemas.error().message);
@@ -268,11 +319,12 @@ Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   Options& o = *options;
   add_common(line, o.common);
-  line.option("--strategy", o.strategy,
+  line.option("--strategy", o.strategies,
               "move-nodes: out of each other's gap; reduce-gap: the largest gap without a "
-              "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones")
+              "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones. "
+              "Several by commas: each acts on what the one before has left")
       .required()
-      .one_of({"move-nodes", "reduce-gap", "inacti", "fpenmax"})
+      .comma_list()
       .value("STRATEGY");
   line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
   line.flag("--diff", o.write.diff,
@@ -286,6 +338,9 @@ Action setup(CommandLine& line) {
   line.flag("--overwrite", o.write.overwrite,
             "With -o: replace decks and includes that lie in DIR already and differ");
   add_dependent_options(line, o.write);
+  line.option("--html", o.html,
+              "Write a report with the deck as it is fixed, compared with before, to FILE")
+      .value("FILE");
   line.option("--rows", o.rows, "Rows of the lists in the report").show_default();
 
   CommandLine move = line.group("move-nodes");
@@ -339,6 +394,7 @@ const VerbRegistration registration{
      "  deck fix car_0000.rad --strategy move-nodes --max-moved 100% --lock 12,13 --in-place "
      "--backup\n"
      "  deck fix car_0000.rad --strategy reduce-gap --min-gap 80% -o fixed\n"
+     "  deck fix car_0000.rad --strategy reduce-gap,move-nodes --html fixed.html --diff\n"
      "  deck fix car_0000.rad --strategy inacti --inacti 6 --interface 3 --in-place\n"
      "  deck fix car_0000.rad --strategy fpenmax --fpenmax 0.9 --diff | git apply\n"
      "\n"

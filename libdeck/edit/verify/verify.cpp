@@ -82,8 +82,8 @@ std::string DeckComparison::node_name(NodeIndex node) const {
 DeckComparison::Difference DeckComparison::number(const std::string& what, double was, double now,
                                                   double unit, double slack) const {
   const auto endless = [](double x) { return !(std::abs(x) < 1e29); };
-  if (was == now || (endless(was) && endless(now))) return {};
   const double expected = was * unit;
+  if (now == expected || (endless(was) && endless(now))) return {};
   if (std::abs(now - expected) <= tolerance * std::abs(expected) + slack) return {};
   return fmt::format("{} is {:.9g}, expected {:.9g}{}", what, now, expected,
                      unit == 1 ? "" : fmt::format(" ({:.9g} in the units before)", was));

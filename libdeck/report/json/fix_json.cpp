@@ -37,10 +37,32 @@ void write_interface(JsonWriter& j, const FixedInterface& i) {
   j.end_array().end_object();
 }
 
+void write_interfaces(JsonWriter& j, const PenetrationFix& fix) {
+  j.key("interfaces").begin_array();
+  for (const FixedInterface& i : fix.interfaces) write_interface(j, i);
+  j.end_array();
+}
+
+void write_crossings(JsonWriter& j, const PenetrationFix& fix) {
+  j.key("crossings").begin_object(true);
+  j.field("before", fix.crossings_before).field("after", fix.crossings_after).end_object();
+}
+
+/// What one strategy of several did.
+void write_step(JsonWriter& j, const PenetrationFix& step) {
+  j.begin_object().field("strategy", step.strategy).field("complete", step.complete);
+  write_crossings(j, step);
+  write_interfaces(j, step);
+  std::vector<std::int64_t> nodes;
+  for (const MovedNode& m : step.moved) nodes.push_back(m.id);
+  write_ids(j, "moved", nodes);
+  j.field("not_treated", step.refused.size()).end_object();
+}
+
 }  // namespace
 
 std::string fix_json(std::string_view path, const Deck& deck, const PenetrationFix& fix,
-                     std::string_view written) {
+                     std::string_view written, const std::vector<PenetrationFix>& steps) {
   std::string out;
   JsonWriter j(out);
   j.begin_object();
@@ -48,11 +70,13 @@ std::string fix_json(std::string_view path, const Deck& deck, const PenetrationF
   write_json_deck(j, path, deck, nullptr, nullptr);
   j.field("strategy", fix.strategy).field("written", written).field("complete", fix.complete);
   j.field("iterations", fix.iterations);
-  j.key("crossings").begin_object(true);
-  j.field("before", fix.crossings_before).field("after", fix.crossings_after).end_object();
-  j.key("interfaces").begin_array();
-  for (const FixedInterface& i : fix.interfaces) write_interface(j, i);
-  j.end_array();
+  write_crossings(j, fix);
+  write_interfaces(j, fix);
+  if (steps.size() > 1) {
+    j.key("steps").begin_array();
+    for (const PenetrationFix& step : steps) write_step(j, step);
+    j.end_array();
+  }
   j.key("moved").begin_array();
   for (const MovedNode& m : fix.moved) {
     j.begin_object(true).field("node", m.id).key("part");

@@ -118,4 +118,19 @@ struct FpenmaxOptions : FixOptions {
 /// Sets Fpenmax of TYPE7 interfaces; all other penetrations stay with Inacti.
 Result<PenetrationFix> set_fpenmax(const EditContext& context, const FpenmaxOptions& options);
 
+/// One strategy of several. `read` says how the deck in `context` was read.
+using FixStep =
+    std::function<Result<PenetrationFix>(const EditContext& context, const ReadOptions& read)>;
+struct FixSequence {
+  std::vector<PenetrationFix> fixes;  ///< one a step; rewrites are of the deck before that step
+  ChangedFiles changed;               ///< by all steps together, against the deck as given
+};
+/// Each step acts on the deck with what the steps before have changed. Of `options` reading and
+/// threads count.
+Result<FixSequence> fix_in_order(const EditContext& context, const FixOptions& options,
+                                 const std::vector<FixStep>& steps);
+/// Several fixes as one report: strategies by commas, before of the first, after, actions and
+/// what is not treated of the last. Its rewrite is empty.
+PenetrationFix combined(const std::vector<PenetrationFix>& fixes);
+
 }  // namespace deck

@@ -20,7 +20,8 @@ std::string fix_verdict(const PenetrationFix& fix);
 std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options = {});
 
 /// The document of `deck fix --json`. `written`: "no", "diff", "in-place" or the directory.
+/// `steps`: of several strategies what each did; `fix` is then all of them combined().
 std::string fix_json(std::string_view path, const Deck& deck, const PenetrationFix& fix,
-                     std::string_view written);
+                     std::string_view written, const std::vector<PenetrationFix>& steps = {});
 
 }  // namespace deck

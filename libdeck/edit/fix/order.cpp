@@ -1,0 +1,69 @@
+// Several strategies one after the other, each on the deck that the one before has left.
+#include <algorithm>
+#include <memory>
+
+#include "edit/fix/common.hpp"
+
+namespace deck {
+
+Result<FixSequence> fix_in_order(const EditContext& context, const FixOptions& options,
+                                 const std::vector<FixStep>& steps) {
+  FixSequence out;
+  std::unique_ptr<detail::Reread> now;  // nullptr: the deck as given
+  for (const FixStep& step : steps) {
+    const EditContext here =
+        now ? EditContext{now->deck, now->model, now->interfaces, context.schemas} : context;
+    FixOptions reading = options;
+    if (now) reading.read.overlay = &now->overlay;
+    auto fix = step(here, reading.read);
+    if (!fix) return fix.error();
+    auto changed = apply_rewrite(here.deck.sources, fix->rewrite);
+    if (!changed) return changed.error();
+    for (auto& [path, text] : *changed) out.changed[path] = std::move(text);
+    const bool more = out.fixes.size() + 1 < steps.size();
+    if (more && !changed->empty()) {
+      auto again = detail::read_again(here, fix->rewrite, reading);
+      if (!again) return again.error();
+      now = std::move(*again);
+    }
+    out.fixes.push_back(std::move(*fix));
+  }
+  return out;
+}
+
+PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
+  PenetrationFix out;
+  const auto append = [](auto& to, const auto& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  for (const PenetrationFix& fix : fixes) {
+    out.strategy += (out.strategy.empty() ? "" : ",") + fix.strategy;
+    out.iterations += fix.iterations;
+    out.crossings_before = std::max(out.crossings_before, fix.crossings_before);
+    if (fix.strategy == "move-nodes") out.crossings_after = fix.crossings_after;
+    append(out.moved, fix.moved);
+    append(out.moved_before, fix.moved_before);
+    // An interface that this step does not list any more has no penetrations.
+    for (FixedInterface& entry : out.interfaces) entry.after = {};
+    for (const FixedInterface& i : fix.interfaces) {
+      const auto entry = std::find_if(out.interfaces.begin(), out.interfaces.end(),
+                                      [&](const FixedInterface& e) { return e.id == i.id; });
+      if (entry == out.interfaces.end()) {
+        out.interfaces.push_back(i);
+        continue;
+      }
+      entry->after = i.after;
+      append(entry->changes, i.changes);
+    }
+  }
+  if (!fixes.empty()) {
+    out.refused = fixes.back().refused;
+    out.actions = fixes.back().actions;
+    out.complete = fixes.back().complete;
+  }
+  std::sort(out.interfaces.begin(), out.interfaces.end(),
+            [](const FixedInterface& a, const FixedInterface& b) { return a.id < b.id; });
+  return out;
+}
+
+}  // namespace deck
