@@ -53,6 +53,7 @@ async function crashBox() {
   const pairs = await cells(p, "#pairs");
   same("part-pair table agrees with the JSON", pairs.map((r) => `${parseInt(r.s)} ${parseInt(r.m)} ${r.pairs} ${r.nodes} ${r.edges}`).sort(),
     json.part_pairs.map((x) => `${x.secondary} ${x.main} ${x.pairs} ${x.nodes} ${x.edges}`).sort());
+  await p.waitForSelector("#touches svg.tw");
   const touching = await p.$eval("#touches svg.tw", (s) => {
     const frame = s.getBoundingClientRect();
     const cut = [...s.querySelectorAll("text")].map((t) => t.getBoundingClientRect()).filter((r) => r.left < frame.left - 0.5 || r.top < frame.top - 0.5).length;

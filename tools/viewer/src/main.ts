@@ -234,7 +234,7 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
 
 /** Two pages of paper: verdict, picture, the ten worst, the interfaces. */
 function printing(report: Report, viewport: Viewport): void {
-  const most = 34; // interfaces that the second page has room for
+  const most = 30; // interfaces that the second page has room for
   const paper = h("div", { class: "paper" });
   document.querySelector(".left")!.append(paper);
   const table = (titles: string[], rows: (string | number)[][]) =>

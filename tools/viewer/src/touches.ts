@@ -51,7 +51,8 @@ export function touchesSection(report: Report, name: string): HTMLElement {
     replace(drawing, matrix(report, all));
   };
   report.on("results", draw);
-  draw();
+  // The first picture does not wait for it.
+  requestIdleCallback(draw, { timeout: 2000 });
   return section;
 }
 
