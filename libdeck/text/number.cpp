@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "text/decimal.hpp"
 #include "text/number_scan.hpp"
 
@@ -254,6 +256,12 @@ std::optional<FormattedReal> format_real(double value, int width) {
 std::optional<std::string> format_integer(std::int64_t value, int width) {
   std::string text = std::to_string(value);
   if (text.size() > static_cast<std::size_t>(width < 0 ? 0 : width)) return std::nullopt;
+  return text;
+}
+
+std::string shortest(double number) {
+  std::string text = fmt::format("{}", number);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
   return text;
 }
 

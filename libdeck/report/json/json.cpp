@@ -9,12 +9,6 @@ namespace deck {
 
 std::string_view library_version() { return DECK_VERSION; }
 
-std::string shortest(double number) {
-  std::string text = fmt::format("{}", number);
-  if (text.find_first_of(".en") == std::string::npos) text += ".0";
-  return text;
-}
-
 void JsonWriter::before_value() {
   if (after_key_) {
     after_key_ = false;

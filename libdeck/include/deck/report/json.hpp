@@ -13,6 +13,7 @@
 #include "deck/model/coverage.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
+#include "deck/text/number.hpp"
 
 namespace deck {
 
@@ -60,9 +61,6 @@ class JsonWriter {
   std::vector<Level> levels_;
   bool after_key_ = false;
 };
-
-/// Shortest text that reads back to `number`, with a point or an exponent.
-std::string shortest(double number);
 
 /// Version of this library, "1.2.3".
 std::string_view library_version();

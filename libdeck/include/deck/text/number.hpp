@@ -47,4 +47,7 @@ std::optional<FormattedReal> format_real(double value, int width);
 /// nullopt if it does not fit.
 std::optional<std::string> format_integer(std::int64_t value, int width);
 
+/// Shortest text that reads back to `number`, with a point or an exponent.
+std::string shortest(double number);
+
 }  // namespace deck

@@ -1,0 +1,251 @@
+"""The Python module: the same answers as the command line, arrays without copying, errors with places."""
+import glob
+import json
+import os
+import pickle
+import subprocess
+import threading
+
+import numpy as np
+import pytest
+
+import libdeck
+
+PROGRAM = os.environ["DECK_PROGRAM"]
+SAMPLES = os.environ["DECK_SAMPLES"]
+BOX = os.path.join(SAMPLES, "crash_box_0000.rad")
+DECKS = sorted(glob.glob(os.path.join(SAMPLES, "*_0000.rad")))
+# The largest decks there are, where all of their includes are.
+CORPUS = sorted((p for p in glob.glob(os.path.join(os.environ.get("DECK_CORPUS", ""), "corpus", "**", "*_0000.rad"), recursive=True)
+                 if "missing_include" not in p), key=os.path.getsize)[-2:]
+
+
+def command(*args):
+    run = subprocess.run([PROGRAM, *args, "--json", "-"], capture_output=True, cwd=SAMPLES)
+    assert run.returncode in (0, 1), run.stderr.decode()
+    return json.loads(run.stdout)
+
+
+def same(a, b, without=("gate", "compared")):  # of the gate on the command line
+    for key in without:
+        a.pop(key, None), b.pop(key, None)
+    assert a == b
+
+
+@pytest.fixture(scope="module")
+def box():
+    return libdeck.load(BOX)
+
+
+@pytest.mark.parametrize("path", DECKS + CORPUS, ids=os.path.basename)
+def test_gaps_are_those_of_the_command_line(path):
+    same(dict(libdeck.load(path).gaps(all=True)), command("gaps", path, "--all", "--crossings"))
+
+
+@pytest.mark.parametrize("path", DECKS, ids=os.path.basename)
+def test_forces_are_those_of_the_command_line(path):
+    same(dict(libdeck.load(path).cycle(all=True)), command("cycle", path, "--all"))
+
+
+@pytest.mark.parametrize("path", DECKS, ids=os.path.basename)
+def test_effective_values_are_those_of_the_command_line(path):
+    document = command("params", path)
+    deck = libdeck.load(path)
+    assert deck.params() == document
+    for listed, interface in zip(document["interfaces"], deck.interfaces.list):
+        assert (listed["id"], listed["type"], listed["title"]) == (interface.id, interface.type, interface.title)
+        for name, told in listed["parameters"].items():
+            if name in interface.fields:
+                mine = interface[name]
+                assert (mine.value, mine.input, mine.origin) == (told["value"], told["input"], told["origin"]), name
+
+
+@pytest.mark.parametrize("path", DECKS, ids=os.path.basename)
+def test_findings_are_those_of_the_command_line(path, tmp_path):
+    # Without a configuration file in sight, as in the module.
+    run = subprocess.run([PROGRAM, "lint", "--geometry", "--format", "json", path], capture_output=True, cwd=tmp_path)
+    told = json.loads(run.stdout)["diagnostics"]
+    mine = libdeck.load(path).lint(geometry=True)
+    assert [(d["rule"], d["file"], d["line"], d["column"], d["message"]) for d in told] == \
+           [(f.rule, f.file, f.line, f.column, f.message) for f in mine]
+
+
+def test_arrays_say_what_the_json_says(box):
+    gaps = box.gaps(all=True)
+    listed = [c for i in gaps["interfaces"] for c in i["contacts"]]
+    by_part = {(c.interface, c.role): c for c in gaps.contacts}
+    seen = 0
+    for i in gaps["interfaces"]:
+        for told in i["contacts"]:
+            c = by_part[i["id"], told["role"]]
+            p = c.penetrations
+            assert len(p["penetration"]) == len(told["penetrations"])
+            mine = sorted(zip(p["penetration"].tolist(), p["gap"].tolist(), p["distance"].tolist(), p["action"].tolist()))
+            assert mine == sorted((t["penetration"], t["gap"], t["distance"], t["action"]) for t in told["penetrations"])
+            if c.kind == "node_segment":
+                pairs = sorted(zip(p.node.tolist(), map(tuple, p.segment.tolist())))
+                assert pairs == sorted((t["node"], tuple(t["segment"])) for t in told["penetrations"])
+                assert c.secondary["node"].tolist() == [t["node"] for t in told["secondary"]]
+                assert c.main["gap"].tolist() == [t["gap"] for t in told["main"]]
+            else:
+                pairs = sorted((tuple(a), tuple(b)) for a, b in zip(p.edge.tolist(), p.main_edge.tolist()))
+                assert pairs == sorted((tuple(t["edge"]), tuple(t["main_edge"])) for t in told["penetrations"])
+            seen += len(told["penetrations"])
+    assert seen == gaps["summary"]["pairs"] == 142 and listed
+
+
+def test_nothing_is_copied(box):
+    first, again = box.nodes, libdeck.Deck(box._native).nodes
+    for name in ("ids", "x", "y", "z"):
+        a, b = getattr(first, name), getattr(again, name)
+        assert a.ctypes.data == b.ctypes.data and not a.flags.owndata and not a.flags.writeable
+    assert box.elements("shell").nodes.ctypes.data == box.elements("shell").nodes.ctypes.data
+    contact = box.gaps().contacts[0]
+    depth, gap = contact.penetrations["penetration"], contact.penetrations["gap"]
+    assert depth.strides == gap.strides and depth.strides[0] > 8
+    assert 0 < abs(depth.ctypes.data - gap.ctypes.data) < depth.strides[0]  # members of one row
+
+
+def test_arrays_outlive_the_deck():
+    depth = libdeck.load(BOX).gaps().contacts[0].penetrations["penetration"]
+    x = libdeck.load(BOX).nodes.x
+    for _ in range(3):
+        libdeck.load(BOX).gaps()
+    assert depth.max() == pytest.approx(1.02379, abs=1e-5) and x[0] == 40.0
+
+
+def test_nodes_are_found_by_id(box):
+    n = box.nodes
+    assert n.ids[n.index(2001)] == 2001
+    with pytest.raises(KeyError):
+        n.index(987654321)
+    assert n.coordinates.shape == (len(n), 3)
+
+
+def test_what_if_is_that_of_the_command_line(box):
+    same(dict(box.what_if(1, Gapmin=0.1, Inacti=6)), command("gaps", BOX, "--crossings", "--what-if", "1:Gapmin=0.1,Inacti=6"))
+    for bad in ({"Inacti": 5.9}, {"Igap": 77}, {"Nonsense": 1}, {"Gapmin": float("nan")}):
+        with pytest.raises(ValueError):
+            box.what_if(1, **bad)
+    with pytest.raises(KeyError):
+        box.what_if(99, Gapmin=1.0)
+
+
+def test_velocities_push(box):
+    part = box.parts[0].id
+    still, moving = box.cycle(dt=1e-6), box.cycle(dt=1e-6, velocities={part: (0.0, 0.0, -10.0)})
+    assert still["nodal_force"] != moving["nodal_force"]
+    force = moving.contacts[0].pairs["force"]
+    assert force.shape[1] == 3 and np.isfinite(force).all()
+    assert moving.mass.sum() > 0
+    with pytest.raises(KeyError):
+        box.cycle(velocities={424242: (0, 0, 0)})
+
+
+def test_a_conversion_is_that_of_the_command_line(box, tmp_path):
+    edit = box.convert(units="Mg,mm,s", renumber="node+1000")
+    written = edit.write(tmp_path / "mine")
+    subprocess.run([PROGRAM, "convert", BOX, "--units", "Mg,mm,s", "--renumber", "node+1000", "-o", tmp_path / "theirs"],
+                   check=True, capture_output=True)
+    for path in written:
+        with open(path, "rb") as a, open(tmp_path / "theirs" / os.path.relpath(path, tmp_path / "mine"), "rb") as b:
+            assert a.read() == b.read()
+    assert edit.deck.nodes.ids[0] == box.nodes.ids[0] + 1000
+    assert {"kept", "approximated", "dropped", "undecided"} <= set(edit.losses)
+    with pytest.raises(FileExistsError):
+        edit.write(tmp_path / "mine")
+    assert edit.write(tmp_path / "mine", overwrite=True) == written
+
+
+def test_a_deck_is_never_written_over(tmp_path):
+    path = tmp_path / "box_0000.rad"
+    with open(BOX, "rb") as f:
+        path.write_bytes(f.read())
+    before = path.read_bytes()
+    edit = libdeck.load(path).convert(renumber="node+1")
+    with pytest.raises(libdeck.DeckError):
+        edit.write(tmp_path, overwrite=True)
+    assert path.read_bytes() == before
+
+
+def test_a_repair_leaves_less(box):
+    edit = box.fix("reduce-gap")
+    assert edit.report["strategy"] == "reduce-gap" and b"/INTER/" in edit.diff()
+    assert edit.deck.gaps()["summary"]["pairs"] < box.gaps()["summary"]["pairs"]
+    with pytest.raises(ValueError):
+        box.fix("magic")
+
+
+def test_errors_have_places(tmp_path):
+    with pytest.raises(libdeck.DeckError):
+        libdeck.load(tmp_path / "nothing_0000.rad")
+    other = tmp_path / "page_0000.rad"
+    other.write_text("<html>\n<body>\n</body>\n</html>\n")
+    with pytest.raises(libdeck.DeckError, match="HTML|html|Starter"):
+        libdeck.load(other)
+    half = tmp_path / "half_0000.rad"
+    with open(BOX) as f:
+        half.write_text(f.read().replace("/END", "#include gone.inc\n/END"))
+    deck = libdeck.load(half)
+    with pytest.raises(libdeck.DeckError) as caught:
+        deck.gaps()
+    assert caught.value.diagnostics[0]["line"] > 0 and "gone.inc" in str(caught.value.diagnostics)
+    with pytest.raises(libdeck.DeckError):
+        deck.convert(units="Mg,mm,s")
+
+
+def test_unknown_names_are_errors(box):
+    with pytest.raises(KeyError):
+        box.gaps(interfaces=[99])
+    with pytest.raises(AttributeError):
+        box.interfaces[1].Gapmni
+    with pytest.raises(ValueError):
+        box.gaps(accuracy="perfect")
+    with pytest.raises(KeyError):
+        box.elements("shells")
+    with pytest.raises(AttributeError, match="cycle"):
+        box.gaps().contacts[0].pairs
+
+
+def test_threads_may_share_a_deck(box):
+    answers = []
+    threads = [threading.Thread(target=lambda: answers.append(box.gaps()["summary"])) for _ in range(4)]
+    for t in threads:
+        t.start()
+    for t in threads:
+        t.join()
+    assert len(answers) == 4 and all(a == answers[0] for a in answers)
+
+
+def test_values_explain_themselves(box):
+    value = box.interfaces[1].Gapmin
+    assert value.dimension == "length" and value.doc and str(value.span).endswith(":1846:41")
+    assert "Gapmin" in dir(box.interfaces[1])
+    assert pickle.loads(pickle.dumps(value)) == value
+
+
+def test_penetrations_make_a_frame(box):
+    pytest.importorskip("pandas")
+    frame = box.gaps().contacts[0].penetrations.frame()
+    assert {"node", "penetration", "normal_0", "segment_3"} <= set(frame.columns)
+    assert frame["penetration"].max() > 0
+
+
+@pytest.mark.parametrize("script", sorted(glob.glob(os.path.join(SAMPLES, "python", "*.py"))), ids=os.path.basename)
+def test_sample_scripts_run(script, tmp_path):
+    import sys
+
+    run = subprocess.run([sys.executable, script, BOX], capture_output=True, cwd=tmp_path, text=True)
+    assert run.returncode == 0, run.stderr
+    assert run.stdout.strip() and any(name.endswith(".svg") for name in os.listdir(tmp_path))
+
+
+def test_the_manual_is_true(tmp_path, monkeypatch):
+    import doctest
+    import shutil
+
+    shutil.copytree(SAMPLES, tmp_path / "samples")
+    monkeypatch.chdir(tmp_path)
+    page = os.path.join(os.path.dirname(SAMPLES), "tools", "docs", "python.md")
+    failed, tried = doctest.testfile(page, module_relative=False)
+    assert tried > 15 and failed == 0

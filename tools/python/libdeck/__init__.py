@@ -1,0 +1,520 @@
+"""Contact interfaces of Radioss Starter decks: effective values, gaps, penetrations, first-cycle forces.
+
+    import libdeck
+    d = libdeck.load("car_0000.rad")
+    d.interfaces[3].Gapmin.value          # what the solver uses, in the deck's working units
+    d.interfaces[3].Gapmin.origin         # "card", "default-block", "built-in" or "derived"
+    for c in d.gaps().contacts:
+        print(c.interface, c.role, c.penetrations["penetration"].max(initial=0.0))
+
+Arrays are NumPy arrays over the memory of the library: nothing is copied, and what they belong to lives as long as
+they do. All lengths, forces and times are in the deck's working units.
+"""
+from __future__ import annotations
+
+import json as _json
+from collections.abc import Mapping as _Mapping
+from dataclasses import dataclass, field
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Union
+
+import numpy as _np
+
+from . import _native
+from ._errors import DeckError
+
+__all__ = ["load", "Deck", "DeckError", "Edit", "Finding", "Forces", "Gaps", "Contact", "Interface", "Interfaces",
+           "Nodes", "Elements", "Part", "Place", "Value"]
+__version__: str = _native.version
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where something stands: 1-based line and columns of a file, as an editor shows them (columns count bytes)."""
+    file: str
+    line: int
+    column: int
+    end_column: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+@dataclass(frozen=True)
+class Value:
+    """One field of an interface."""
+    name: str
+    value: Union[int, float, str]
+    """What the solver uses."""
+    input: Union[int, float, str, None]
+    """What the card says; None for a blank cell, or where this input version has no such cell."""
+    origin: str
+    """"card", "default-block", "built-in" or "derived" (follows from other values or from the mesh)."""
+    span: Optional[Place]
+    """The columns on the card; None where nothing is written."""
+    dimension: str
+    """For example "mass length^-2"; empty for flags, ids and ratios."""
+    doc: str
+    """What the field is, one line."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One finding of lint, with the keys of ``deck lint --format json``."""
+    rule: str
+    severity: str
+    file: Optional[str]
+    line: Optional[int]
+    column: Optional[int]
+    message: str
+    help: str = ""
+    end_column: Optional[int] = None
+    entity: Optional[Dict[str, Any]] = None
+    reference: Optional[Dict[str, Any]] = None
+    fix: Optional[Dict[str, Any]] = None
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}: {self.severity} {self.rule}: {self.message}"
+
+
+@dataclass(frozen=True)
+class Nodes:
+    """All nodes. ``ids`` is int64, ``x``, ``y``, ``z`` are float64 (working units), all without copying."""
+    ids: _np.ndarray
+    x: _np.ndarray
+    y: _np.ndarray
+    z: _np.ndarray
+    _deck: Any = field(repr=False, default=None)
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    def index(self, node_id: int) -> int:
+        """Position of a node id in the arrays; KeyError if there is none."""
+        at = self._deck.node_index(int(node_id))
+        if at is None:
+            raise KeyError(f"no node {node_id}")
+        return at
+
+    @property
+    def coordinates(self) -> _np.ndarray:
+        """A copy as one array of shape (n, 3)."""
+        return _np.column_stack((self.x, self.y, self.z))
+
+
+@dataclass(frozen=True)
+class Elements:
+    """One family of elements, without copying. ``nodes`` (n, k) are positions in the arrays of ``Deck.nodes``
+    (4294967295: missing), ``part`` positions in ``Deck.parts``."""
+    ids: _np.ndarray
+    nodes: _np.ndarray
+    part: _np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+
+@dataclass(frozen=True)
+class Part:
+    id: int
+    title: str
+    prop_id: int
+    mat_id: int
+    thickness: float
+    """Contact thickness, 0 where there is none; working units."""
+    span: Optional[Place]
+
+
+class Interface:
+    """A contact interface. Its fields are attributes: ``i.Gapmin.value``; names that are no Python names are
+    items: ``i["%mesh_size"]``."""
+
+    def __init__(self, deck: Any, at: int, row: Sequence[Any]) -> None:
+        self.id: int = row[0]
+        self.type: int = row[1]
+        self.title: str = _text(row[2])
+        self.span: Optional[Place] = _place(row[3])
+        self._deck, self._at = deck, at
+        self._fields: Optional[Dict[str, Value]] = None
+
+    @property
+    def fields(self) -> Dict[str, Value]:
+        """All fields by the manual's names, in the manual's order."""
+        if self._fields is None:
+            self._fields = {r[0]: Value(r[0], r[1], r[2], r[3], _place(r[4]), r[5], r[6])
+                            for r in self._deck.fields(self._at)}
+        return self._fields
+
+    def __getitem__(self, name: str) -> Value:
+        return self.fields[name]
+
+    def __getattr__(self, name: str) -> Value:
+        if not name.startswith("_"):
+            found = self.fields.get(name) or self.fields.get("%" + name)
+            if found is not None:
+                return found
+        raise AttributeError(f"/INTER/TYPE{self.__dict__.get('type')} has no field {name}")
+
+    def __dir__(self) -> List[str]:
+        return sorted(set(super().__dir__()) | {n.lstrip("%") for n in self.fields})
+
+    def __repr__(self) -> str:
+        return f"<Interface /INTER/TYPE{self.type}/{self.id} {self.title!r}>"
+
+
+class Interfaces(_Mapping):
+    """Interfaces by id, in deck order. Of several with one id, ``[id]`` is the first; ``list`` has all."""
+
+    def __init__(self, deck: Any) -> None:
+        self.list: List[Interface] = [Interface(deck, k, row) for k, row in enumerate(deck.interfaces())]
+        self._by_id: Dict[int, Interface] = {}
+        for i in self.list:
+            self._by_id.setdefault(i.id, i)
+
+    def __getitem__(self, interface_id: int) -> Interface:
+        return self._by_id[interface_id]
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(self._by_id)
+
+    def __len__(self) -> int:
+        return len(self._by_id)
+
+
+class Arrays(_Mapping):
+    """Named arrays of equal length. Those that exist in the library are not copied; ids are looked up when asked for."""
+
+    def __init__(self, arrays: Dict[str, Any], made: Dict[str, Any]) -> None:
+        self._arrays, self._made = arrays, made
+
+    def __getitem__(self, name: str) -> _np.ndarray:
+        if name not in self._arrays:
+            self._arrays[name] = _np.asarray(self._made[name]())
+        value = self._arrays[name]
+        if not isinstance(value, _np.ndarray):
+            value = self._arrays[name] = _np.asarray(value)
+        return value
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(dict.fromkeys([*self._made, *self._arrays]))
+
+    def __len__(self) -> int:
+        return len(list(iter(self)))
+
+    def __getattr__(self, name: str) -> _np.ndarray:
+        if name.startswith("_") or name not in set(self):
+            raise AttributeError(name)
+        return self[name]
+
+    def __dir__(self) -> List[str]:
+        return [*super().__dir__(), *self]
+
+    def frame(self) -> Any:
+        """A pandas DataFrame; arrays with two axes become columns with numbers (``normal_0``)."""
+        import pandas
+
+        columns: Dict[str, Any] = {}
+        for name in self:
+            a = self[name]
+            if a.ndim == 1:
+                columns[name] = a
+            else:
+                columns.update({f"{name}_{k}": a[:, k] for k in range(a.shape[1])})
+        return pandas.DataFrame(columns)
+
+
+class Contact:
+    """One elementary contact: nodes against segments, or edges against edges. A TYPE19 gives up to three.
+
+    ``secondary``, ``main``, ``penetrations`` and, of ``Forces``, ``pairs`` are arrays by name. Names are those of the
+    JSON (ids: ``node``, ``segment``, ``edge``, ``main_edge``); ``..._index`` are positions in the arrays of the nodes.
+    """
+
+    def __init__(self, deck: "Deck", native: Any, at: int) -> None:
+        self._deck, self._native, self._at = deck, native, at
+        self.__dict__.update(native.facts(at))
+
+    def _ids(self, index: _np.ndarray) -> _np.ndarray:
+        return self._deck.nodes.ids[index]
+
+    def _side(self, arrays: Dict[str, Any], names: Dict[str, str]) -> Arrays:
+        made = {name: (lambda n=index: self._ids(arrays[n])) for name, index in names.items() if index in arrays}
+        return Arrays(arrays, made)
+
+    @property
+    def secondary(self) -> Arrays:
+        """``node`` (or ``edge``), ``stiffness``, ``gap``, ``nodal_stiffness``."""
+        return self._side(self._native.secondary(self._at), {"node": "node_index", "edge": "edge_index"})
+
+    @property
+    def main(self) -> Arrays:
+        """``nodes`` (or ``edge``), ``stiffness``, ``gap``, ``thickness`` of every main segment (edge)."""
+        return self._side(self._native.main(self._at), {"nodes": "segment_index", "edge": "edge_index"})
+
+    def _named(self, arrays: Dict[str, Any]) -> Arrays:
+        s, m = self._native.secondary(self._at), self._native.main(self._at)
+        at, on = arrays["secondary"], arrays["main"]
+        if self.kind == "edge_edge":
+            made = {"edge": lambda: self._ids(s["edge_index"][at]), "main_edge": lambda: self._ids(m["edge_index"][on])}
+            if "normal" in arrays:  # the solver compares the distance of edges with the square of the gap
+                depth, gap = arrays.pop("penetration"), arrays.pop("gap")
+                arrays.update(depth=depth, pair_gap=gap)
+                made.update(penetration=lambda: gap * gap - arrays["distance"], gap=lambda: gap * gap)
+        else:
+            made = {"node": lambda: self._ids(s["node_index"][at]),
+                    "segment": lambda: self._ids(m["segment_index"][on])}
+        return Arrays(arrays, made)
+
+    @property
+    def penetrations(self) -> Arrays:
+        """``node``, ``segment`` (or ``edge``, ``main_edge``), ``penetration``, ``gap``, ``distance``, ``normal``,
+        ``on_surface``, ``action``, ``gap0``, ``p0``; ``secondary`` and ``main`` are positions in the lists of the sides.
+        Edge pairs have ``depth`` and ``pair_gap`` as well: their ``penetration`` and ``gap`` are the figures of the
+        solver's listing, which are no lengths."""
+        return self._named(self._native.penetrations(self._at))
+
+    @property
+    def pairs(self) -> Arrays:
+        """Of ``Deck.cycle()``: ``node``, ``segment``, ``force`` (on the main side), ``normal_force`` (negative pushes
+        apart), ``weights``, ``penetration``, ``gap``, ``distance``, ``k0``, ``k_nodal``."""
+        if not hasattr(self._native, "pairs"):
+            raise AttributeError("pairs: forces are in Deck.cycle(), not in Deck.gaps()")
+        return self._named(self._native.pairs(self._at))
+
+    def __repr__(self) -> str:
+        return f"<Contact of interface {self.interface}: {self.kind}, {self.role}>"
+
+
+class _Results(_Mapping):
+    """Results with the keys of the JSON of the command line, and arrays."""
+
+    def __init__(self, deck: "Deck", native: Any, all: bool) -> None:
+        self.deck, self._native, self._all = deck, native, all
+        self._json: Optional[Dict[str, Any]] = None
+        self.contacts: List[Contact] = [Contact(deck, native, k) for k in range(len(native))]
+
+    @property
+    def verdict(self) -> str:
+        """One or two sentences."""
+        return self._native.verdict()
+
+    @property
+    def json(self) -> Dict[str, Any]:
+        """The document of the command line, as Python objects."""
+        if self._json is None:
+            self._json = _json.loads(self._native.json(self._all))
+        return self._json
+
+    def __getitem__(self, key: str) -> Any:
+        return self.json[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.json)
+
+    def __len__(self) -> int:
+        return len(self.json)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self.deck.path}: {self.verdict}>"
+
+
+class Gaps(_Results):
+    """Gaps, stiffnesses and initial penetrations: the keys of ``deck gaps --json``, and arrays in ``contacts``."""
+
+    @property
+    def coordinates(self) -> _np.ndarray:
+        """Coordinates after Inacti 3 has moved nodes, (n, 3), a copy."""
+        return _np.column_stack(self._native.coordinates())
+
+
+class Forces(_Results):
+    """Forces of the first cycle: the keys of ``deck cycle --json``, and arrays in ``contacts[k].pairs``."""
+
+    @property
+    def mass(self) -> _np.ndarray:
+        """Lumped mass of every node, working units, without copying."""
+        return self._native.mass()
+
+
+class Edit:
+    """A converted or repaired deck in memory. Nothing is on disk until ``write``."""
+
+    def __init__(self, native: Any) -> None:
+        self._native = native
+
+    @property
+    def deck(self) -> "Deck":
+        """The deck as it would be."""
+        return Deck(self._native.deck)
+
+    @property
+    def files(self) -> Dict[str, bytes]:
+        """New contents by path, of files that change."""
+        return self._native.files
+
+    @property
+    def notes(self) -> List[str]:
+        return self._native.notes
+
+    @property
+    def losses(self) -> Dict[str, Any]:
+        """The loss report: lists ``kept``, ``approximated``, ``dropped``, ``undecided``."""
+        return _json.loads(self._native.losses_json())
+
+    @property
+    def report(self) -> Optional[Dict[str, Any]]:
+        """Of ``fix``: the document of ``deck fix --json``; None for conversions."""
+        return _json.loads(self._native.report_json) if self._native.report_json else None
+
+    def diff(self) -> bytes:
+        """A patch that ``git apply`` takes."""
+        return self._native.diff()
+
+    def write(self, directory: Any, overwrite: bool = False) -> List[str]:
+        """Writes the whole include tree below a directory, all files or none; returns their paths.
+
+        FileExistsError where a file is there and ``overwrite`` is False; files of the deck itself are never replaced.
+        """
+        return self._native.write(str(directory), overwrite)
+
+
+class Deck:
+    """A deck with everything it includes. ``load`` makes one."""
+
+    def __init__(self, native: Any) -> None:
+        self._native = native
+        self._interfaces: Optional[Interfaces] = None
+        self._nodes: Optional[Nodes] = None
+
+    @property
+    def path(self) -> str:
+        return self._native.path
+
+    @property
+    def version(self) -> int:
+        """Input version."""
+        return self._native.version
+
+    @property
+    def files(self) -> List[str]:
+        """The main file and all includes, as they were opened."""
+        return self._native.files
+
+    @property
+    def nodes(self) -> Nodes:
+        if self._nodes is None:
+            self._nodes = Nodes(*self._native.nodes(), self._native)
+        return self._nodes
+
+    def elements(self, family: str) -> Elements:
+        """``"shell"``, ``"sh3n"``, ``"solid"``, ``"quad"``, ``"tria"``, ``"truss"``, ``"beam"`` or ``"spring"``."""
+        return Elements(**self._native.family(family))
+
+    @property
+    def parts(self) -> List[Part]:
+        """In deck order."""
+        return [Part(p["id"], _text(p["title"]), p["prop_id"], p["mat_id"], p["thickness"], _place(p["span"]))
+                for p in self._native.parts()]
+
+    @property
+    def interfaces(self) -> Interfaces:
+        if self._interfaces is None:
+            self._interfaces = Interfaces(self._native)
+        return self._interfaces
+
+    @property
+    def findings(self) -> List[Finding]:
+        """What reading had to say; ``lint`` says much more."""
+        return [Finding(**f) for f in self._native.findings()]
+
+    def _complete(self) -> None:
+        if self._native.incomplete:
+            raise DeckError(f"{self.path}: the include tree is not complete; no verdict about an incomplete model",
+                            [f for f in self._native.findings() if f["severity"] == "error"])
+
+    def params(self) -> Dict[str, Any]:
+        """The document of ``deck params --json``."""
+        return _json.loads(self._native.params_json())
+
+    def lint(self, geometry: bool = False, select: Iterable[str] = (), ignore: Iterable[str] = ()) -> List[Finding]:
+        """All findings, sorted by file, line, column and rule. No configuration file is read."""
+        document = _json.loads(self._native.lint_json(geometry, list(select), list(ignore)))
+        known = Finding.__dataclass_fields__
+        return [Finding(**{k: v for k, v in f.items() if k in known}) for f in document["diagnostics"]]
+
+    def gaps(self, interfaces: Iterable[int] = (), accuracy: str = "robust", all: bool = False) -> Gaps:
+        """Gaps and initial penetrations, of some interfaces or (empty) of all.
+
+        ``all``: the JSON has every secondary node and main segment; the arrays always have. KeyError for an id that
+        the deck does not have, DeckError where the include tree is not complete.
+        """
+        self._complete()
+        return Gaps(self, _native.gaps(self._native, [int(i) for i in interfaces], accuracy, []), all)
+
+    def what_if(self, interface: int, all: bool = False, **values: Union[int, float]) -> Gaps:
+        """``gaps`` with other values for one interface, without changing the deck: ``d.what_if(3, Gapmin=1.5)``.
+
+        Fields: Gapmin Fscalegap Gapmax Fpenmax mesh_size Igap Inacti Irem_gap. ValueError for what the field cannot
+        hold.
+        """
+        self._complete()
+        if not values:
+            raise TypeError("what_if needs a field, for example Gapmin=1.5")
+        change = ",".join(f"{'%mesh_size' if k == 'mesh_size' else k}={v!r}" for k, v in values.items())
+        return Gaps(self, _native.gaps(self._native, [], "robust", [f"{int(interface)}:{change}"]), all)
+
+    def cycle(self, interfaces: Iterable[int] = (), dt: float = 0.0, time: float = 0.0, model: str = "robust",
+              velocities: Optional[Dict[int, Sequence[float]]] = None, accuracy: str = "robust",
+              all: bool = False) -> Forces:
+        """Contact forces of the first cycle. ``velocities``: part id to velocity (3 numbers, working units)."""
+        self._complete()
+        native = _native.cycle(self._native, [int(i) for i in interfaces], accuracy, model, float(dt), float(time),
+                               dict(velocities or {}))
+        return Forces(self, native, all)
+
+    def convert(self, *, extract: Iterable[int] = (), flatten: bool = False, expand_type19: bool = False,
+                resolve_defaults: bool = False, version: int = 0, allow_loss: bool = False, units: str = "",
+                keep_working_units: bool = False, renumber: Union[str, Iterable[str]] = (), partial: bool = False,
+                verify: bool = True) -> Edit:
+        """The conversions of ``deck convert`` in its order. DeckError with the places where one is refused.
+
+        ``verify``: effective values, gaps, forces, masses and time steps of the result are compared with the
+        original's.
+        """
+        rules = [renumber] if isinstance(renumber, str) else list(renumber)
+        return Edit(_native.convert(self._native, [int(i) for i in extract], flatten, expand_type19, resolve_defaults,
+                                    version, allow_loss, units, keep_working_units, [r for r in rules if r], partial,
+                                    verify))
+
+    def fix(self, strategy: str, interfaces: Iterable[int] = (), min_gap: float = 0.5, inacti: int = 6,
+            fpenmax: Optional[float] = None, max_moved: float = 0.1, max_displacement: Optional[float] = None,
+            lock: Iterable[int] = ()) -> Edit:
+        """Repairs initial penetrations: ``"reduce-gap"``, ``"inacti"``, ``"fpenmax"`` or ``"move-nodes"``."""
+        return Edit(_native.fix(self._native, strategy, [int(i) for i in interfaces], min_gap, inacti, fpenmax,
+                                max_moved, max_displacement, [int(i) for i in lock]))
+
+    def __repr__(self) -> str:
+        return f"<Deck {self.path}: {len(self.nodes)} nodes, {len(self.interfaces.list)} interfaces>"
+
+
+def load(path: Any, *, threads: int = 0, include_paths: Iterable[str] = (), max_memory: int = 0) -> Deck:
+    """Reads a deck with everything it includes, its model and the effective values of its interfaces.
+
+    ``threads``: 0 takes all processors; results do not depend on it. ``max_memory``: bytes for the pairs of one contact
+    and for the members of all groups, 0 the default (2 and 4 GB). DeckError if the main file cannot be read or is no
+    Starter deck; everything else that is wrong with the deck is in ``findings``.
+    """
+    import os
+
+    count = threads or len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else threads or os.cpu_count() or 1
+    return Deck(_native.load(os.fspath(path), count, [os.fspath(p) for p in include_paths], max_memory))
+
+
+def _place(value: Optional[Dict[str, Any]]) -> Optional[Place]:
+    return None if value is None else Place(**value)
+
+
+def _text(raw: bytes) -> str:
+    try:
+        return raw.decode("utf-8")
+    except UnicodeDecodeError:
+        return raw.decode("latin-1")

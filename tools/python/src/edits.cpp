@@ -1,0 +1,252 @@
+// libdeck._native: conversions and repairs of a deck, kept in memory until somebody writes them.
+#include <functional>
+#include <map>
+
+#include "deck/edit/depenetrate.hpp"
+#include "deck/edit/edit_set.hpp"
+#include "deck/edit/extract.hpp"
+#include "deck/edit/fix.hpp"
+#include "deck/edit/flatten.hpp"
+#include "deck/edit/renumber.hpp"
+#include "deck/edit/resolve.hpp"
+#include "deck/edit/type19.hpp"
+#include "deck/edit/unit_system.hpp"
+#include "deck/edit/verify.hpp"
+#include "deck/edit/version.hpp"
+#include "deck/edit/write.hpp"
+#include "deck/report/fix.hpp"
+#include "deck/report/losses.hpp"
+#include "native.hpp"
+
+namespace deck::python {
+namespace {
+
+/// What a deck is to become: the changed files, and the deck read again with them.
+struct PyEdit {
+  DeckPointer before;
+  ChangedFiles changed;
+  DeckPointer after;
+  std::vector<LossEntry> losses;
+  std::vector<std::string> notes;
+  std::string report;  ///< of a fix: the document of `deck fix --json`
+};
+using EditPointer = std::shared_ptr<PyEdit>;
+
+EditContext context_of(const PyDeck& d) {
+  return {d.loaded.deck(), d.loaded.model(), d.loaded.interfaces(), SchemaSet::built_in()};
+}
+
+/// The deck as it is with the changed files.
+DeckPointer read_again(const PyDeck& d, const ChangedFiles& changed) {
+  LoadOptions options = d.options;
+  options.read.overlay = &changed;
+  auto loaded = load(d.path, options);
+  if (!loaded) raise_error(loaded.error().message);
+  return std::make_shared<PyDeck>(d.path, std::move(*loaded), d.options);
+}
+
+/// Adds what a rewrite does to `edit`; `now` is the deck that it was made for.
+void take(PyEdit& edit, const PyDeck& now, const Rewrite& rewrite) {
+  if (!rewrite.refusals.empty()) {
+    std::string why = "refused:";
+    for (std::size_t i = 0; i < rewrite.refusals.size() && i < 20; ++i)
+      why += "\n" + rewrite.refusals[i];
+    if (rewrite.refusals.size() > 20)
+      why += "\nand " + std::to_string(rewrite.refusals.size() - 20) + " more";
+    raise_error(why);
+  }
+  auto changed = apply_rewrite(now.loaded.deck().sources, rewrite);
+  if (!changed) raise_error(changed.error().message);
+  for (auto& [path, text] : *changed) edit.changed[path] = std::move(text);
+  edit.losses.insert(edit.losses.end(), rewrite.losses.begin(), rewrite.losses.end());
+  edit.notes.insert(edit.notes.end(), rewrite.notes.begin(), rewrite.notes.end());
+}
+
+void must_be_whole(const PyDeck& d) {
+  if (incomplete(d))
+    raise_error(d.path + ": the include tree is not complete", &d.loaded.deck(),
+                &d.loaded.deck().diagnostics.all());
+}
+
+EditPointer convert_deck(const DeckPointer& d, const std::vector<std::int64_t>& extract, bool flat,
+                         bool expand, bool resolve, int version, bool allow_loss,
+                         const std::string& units, bool keep_working,
+                         const std::vector<std::string>& ids, bool partial, bool verify) {
+  using Step = std::function<Rewrite(const EditContext&)>;
+  std::vector<Step> steps;
+  if (!extract.empty())
+    steps.emplace_back([&](const EditContext& c) { return extract_contacts(c, extract); });
+  if (flat) steps.emplace_back([](const EditContext& c) { return flatten(c); });
+  if (expand) steps.emplace_back([](const EditContext& c) { return expand_type19(c); });
+  if (resolve) steps.emplace_back([](const EditContext& c) { return resolve_defaults(c); });
+  if (version != 0)
+    steps.emplace_back([&](const EditContext& c) { return to_version(c, version, {allow_loss}); });
+  if (!units.empty()) {
+    const auto target = parse_unit_system(units);
+    if (!target) throw py::value_error("units: " + target.error().message);
+    steps.emplace_back([&, system = *target](const EditContext& c) {
+      return to_units(c, system, {partial, keep_working});
+    });
+  }
+  if (!ids.empty()) {
+    RenumberOptions options;
+    options.partial = partial;
+    for (const std::string& text : ids) {
+      auto rule = parse_renumber_rule(text);
+      if (!rule) throw py::value_error("renumber: " + rule.error().message);
+      options.rules.push_back(std::move(*rule));
+    }
+    steps.emplace_back([options](const EditContext& c) { return renumber(c, options); });
+  }
+  must_be_whole(*d);
+  auto edit = std::make_shared<PyEdit>();
+  edit->before = edit->after = d;
+  for (const Step& step : steps) {
+    Rewrite rewrite = [&] {
+      const py::gil_scoped_release free;
+      const std::lock_guard one(edit->after->mutex);
+      return step(context_of(*edit->after));
+    }();
+    take(*edit, *edit->after, rewrite);
+    if (verify) {
+      const DeckPointer next = read_again(*d, edit->changed);
+      const VerifyOptions options{d->options.threads, d->options.read.limits};
+      const auto why = [&] {
+        const py::gil_scoped_release free;
+        const std::lock_guard one(edit->after->mutex);
+        const Behaviour before(context_of(*edit->after), options),
+            after(context_of(*next), options);
+        return first_difference(before, after, relation_of(rewrite.losses));
+      }();
+      if (why) raise_error("the converted deck is not the same: " + *why);
+      edit->after = next;
+    } else {
+      edit->after = read_again(*d, edit->changed);
+    }
+  }
+  return edit;
+}
+
+EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
+                     const std::vector<std::int64_t>& interfaces, double min_gap, int inacti,
+                     std::optional<double> fpenmax, double max_moved,
+                     std::optional<double> max_displacement,
+                     const std::vector<std::int64_t>& lock) {
+  must_be_whole(*d);
+  FixOptions base;
+  base.threads = d->options.threads;
+  base.interfaces = interfaces;
+  base.read = d->options.read;
+  base.limits = d->options.read.limits;
+  const EditContext context = context_of(*d);
+  const auto with = [&]<class Options>(Options options) {
+    static_cast<FixOptions&>(options) = base;
+    return options;
+  };
+  auto fix = [&]() -> Result<PenetrationFix> {
+    const py::gil_scoped_release free;
+    const std::lock_guard one(d->mutex);
+    if (strategy == "reduce-gap") {
+      auto options = with(ReduceGapOptions{});
+      options.least_share = min_gap;
+      return reduce_gaps(context, options);
+    }
+    if (strategy == "inacti") {
+      auto options = with(InactiOptions{});
+      options.inacti = inacti;
+      return set_inacti(context, options);
+    }
+    if (strategy == "fpenmax") {
+      auto options = with(FpenmaxOptions{});
+      options.ratio = fpenmax;
+      return set_fpenmax(context, options);
+    }
+    if (strategy == "move-nodes") {
+      auto options = with(MoveNodesOptions{});
+      options.most_moved = max_moved;
+      options.most_displacement = max_displacement;
+      options.lock = lock;
+      return move_nodes(context, options);
+    }
+    return Error{Error::Code::config,
+                 "strategy is 'reduce-gap', 'inacti', 'fpenmax' or "
+                 "'move-nodes', not '" +
+                     strategy + "'"};
+  }();
+  if (!fix && fix.error().code == Error::Code::config) throw py::value_error(fix.error().message);
+  if (!fix) raise_error(fix.error().message);
+  auto edit = std::make_shared<PyEdit>();
+  edit->before = d;
+  take(*edit, *d, fix->rewrite);
+  edit->after = read_again(*d, edit->changed);
+  edit->report = fix_json(d->path, d->loaded.deck(), *fix, "no");
+  return edit;
+}
+
+/// The edit as a set of files. Everything that it points to lives in `edit`.
+void enter(EditSet& set, const PyEdit& edit) {
+  const auto member = set.add(edit.before->loaded.deck(), edit.before->path);
+  if (!member) raise_error(member.error().message);
+  set.propose(*member, edit.after->loaded.deck(), edit.changed);
+}
+
+std::vector<std::string> write_tree(const PyEdit& edit, const std::string& directory,
+                                    bool overwrite) {
+  EditSet set;
+  enter(set, edit);
+  const auto plan = set.tree(directory);
+  if (!plan) raise_error(plan.error().message);
+  const py::object exists = py::module_::import("os.path").attr("lexists");
+  std::vector<std::string> paths;
+  for (const OutputFile& f : plan->files) {
+    if (!overwrite && exists(f.path).cast<bool>()) {
+      PyErr_SetString(PyExc_FileExistsError,
+                      (f.path + " is there; overwrite=True replaces it").c_str());
+      throw py::error_already_set();
+    }
+    for (std::uint32_t i = 0; i < edit.before->loaded.deck().sources.size(); ++i)
+      if (py::module_::import("os.path").attr("realpath")(f.path).equal(
+              py::module_::import("os.path").attr("realpath")(
+                  edit.before->loaded.deck().sources[i].path())))
+        raise_error(f.path + " is a file of the deck itself; write to another directory");
+    paths.push_back(f.path);
+  }
+  WriteOptions options;
+  options.make_directories = true;
+  const auto done = [&] {
+    const py::gil_scoped_release free;
+    return write_files_atomic(plan->files, options);
+  }();
+  if (!done) raise_error(done.error().message);
+  return paths;
+}
+
+}  // namespace
+
+void bind_edits(py::module_& m) {
+  py::class_<PyEdit, EditPointer>(m, "Edit")
+      .def_readonly("deck", &PyEdit::after)
+      .def_property_readonly("files",
+                             [](const PyEdit& e) {
+                               py::dict out;
+                               for (const auto& [path, text] : e.changed)
+                                 out[py::str(path)] = py::bytes(text);
+                               return out;
+                             })
+      .def_readonly("notes", &PyEdit::notes)
+      .def_readonly("report_json", &PyEdit::report)
+      .def("losses_json", [](const PyEdit& e) { return losses_json(e.losses); })
+      .def("diff",
+           [](const PyEdit& e) {
+             EditSet set;
+             enter(set, e);
+             const auto patch = set.diff();
+             if (!patch) raise_error(patch.error().message);
+             return py::bytes(*patch);
+           })
+      .def("write", &write_tree);
+  m.def("convert", &convert_deck);
+  m.def("fix", &fix_deck);
+}
+
+}  // namespace deck::python

@@ -1,0 +1,73 @@
+// What the parts of the Python module share: a deck that arrays can keep alive, and errors.
+#pragma once
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "deck/deck.hpp"
+
+namespace deck::python {
+
+namespace py = pybind11;
+
+/// A deck in Python. Arrays over it have it as their base, so that it lives as long as they do.
+struct PyDeck {
+  PyDeck(std::string deck_path, LoadedDeck&& read, LoadOptions how)
+      : path(std::move(deck_path)), loaded(std::move(read)), options(std::move(how)) {}
+  std::string path;
+  LoadedDeck loaded;
+  LoadOptions options;
+  /// Groups are resolved on demand, by one thread at a time. Locked without the interpreter's lock.
+  std::mutex mutex;
+};
+using DeckPointer = std::shared_ptr<PyDeck>;
+
+/// Raises libdeck.DeckError(message, diagnostics as a list of dictionaries).
+[[noreturn]] void raise_error(const std::string& message, const Deck* deck = nullptr,
+                              const std::vector<Diagnostic>* diagnostics = nullptr);
+/// A finding as a dictionary with the keys of `deck lint --format json`.
+py::dict finding_of(const Deck& deck, const Diagnostic& diagnostic);
+/// {"file", "line", "column", "end_column"} of a span, or None.
+py::object place_of(const Deck& deck, const Span& span);
+
+/// A read-only NumPy array over memory that `owner` keeps: nothing is copied.
+template <class T>
+py::array view_of(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
+                  const py::object& owner) {
+  py::array out(py::dtype::of<T>(), std::move(shape), std::move(strides), data, owner);
+  out.attr("flags").attr("writeable") = false;
+  return out;
+}
+template <class T>
+py::array view_of(const std::vector<T>& values, const py::object& owner) {
+  return view_of(values.data(), {static_cast<py::ssize_t>(values.size())},
+                 {static_cast<py::ssize_t>(sizeof(T))}, owner);
+}
+/// A view of one member of every element of `rows`; an array member gives a second axis.
+template <class Row, class T>
+py::array member_view(const std::vector<Row>& rows, T Row::*member, const py::object& owner) {
+  const auto n = static_cast<py::ssize_t>(rows.size());
+  const auto step = static_cast<py::ssize_t>(sizeof(Row));
+  const Row* const first = rows.data();
+  if constexpr (requires { typename T::value_type; }) {
+    using V = typename T::value_type;
+    return view_of<V>(rows.empty() ? nullptr : (first->*member).data(),
+                      {n, static_cast<py::ssize_t>(std::tuple_size_v<T>)},
+                      {step, static_cast<py::ssize_t>(sizeof(V))}, owner);
+  } else {
+    return view_of<T>(rows.empty() ? nullptr : &(first->*member), {n}, {step}, owner);
+  }
+}
+
+/// True if a file of the include tree could not be read.
+bool incomplete(const PyDeck& d);
+
+void bind_results(py::module_& m);
+void bind_edits(py::module_& m);
+
+}  // namespace deck::python
