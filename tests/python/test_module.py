@@ -249,3 +249,20 @@ def test_the_manual_is_true(tmp_path, monkeypatch):
     page = os.path.join(os.path.dirname(SAMPLES), "tools", "docs", "python.md")
     failed, tried = doctest.testfile(page, module_relative=False)
     assert tried > 15 and failed == 0
+
+
+def test_the_stubs_name_what_is_there():
+    import ast
+
+    from libdeck import _native
+
+    path = os.path.join(os.path.dirname(libdeck.__file__), "_native.pyi")
+    with open(path) as f:
+        tree = ast.parse(f.read())
+    for item in tree.body:
+        if isinstance(item, ast.FunctionDef):
+            assert callable(getattr(_native, item.name))
+        elif isinstance(item, ast.ClassDef):
+            have = {n for n in dir(getattr(_native, item.name)) if not n.startswith("_")} | {"__len__"}
+            told = {getattr(b, "name", None) or b.target.id for b in item.body}
+            assert told <= have and have - {"__len__"} <= told, item.name
