@@ -7,6 +7,7 @@ import glob
 import os
 import re
 import resource
+import signal
 import subprocess
 import sys
 import time
@@ -70,10 +71,13 @@ class Checks:
             self._verbs[verb] = self.run(verb, "--help").code == 0
         return self._verbs[verb]
 
-    def run(self, *args, timeout=120, stdin=None, cwd=None, env=None, memory_mb=4096):
-        """Runs the program; address space bounded unless a sanitizer needs it."""
+    def run(self, *args, timeout=120, stdin=None, cwd=None, env=None, memory_mb=4096, file_bytes=None):
+        """Runs the program; address space bounded unless a sanitizer needs it. With `file_bytes` writing beyond that size fails."""
         def limits():
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            if file_bytes is not None:
+                signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+                resource.setrlimit(resource.RLIMIT_FSIZE, (file_bytes, file_bytes))
             if not self.sanitized:
                 resource.setrlimit(resource.RLIMIT_AS, (memory_mb << 20, memory_mb << 20))
         if self.sanitized:

@@ -13,7 +13,7 @@ import tempfile
 import time
 
 from common import ROOT, Checks
-from kill import stable
+from kill import FAILURES, Striker, build_shim, stable, whole_or_old
 from together import pieces, put, tree
 
 
@@ -231,6 +231,79 @@ def killed(c, tmp, families, each, kills, command, target, name):
     return took
 
 
+def full_disk(c, tmp, shim, strikes):
+    """A disk that is full, or breaks, at any call: what is there is whole, it is said, and the next run completes it."""
+    r = random.Random(9)
+    for verb, target in (("convert --units kg,m,s", "out"), ("fix --strategy inacti", "out"), ("convert --renumber node+1000 --in-place", ".")):
+        command = ["batch", "-o", "out", ".", "--verb", verb, "--jobs", "1"]
+        lib = os.path.join(tmp, "full")
+
+        def prepare():
+            shutil.rmtree(lib, ignore_errors=True)
+            library(lib, 2, 2, side=12)
+        prepare()
+        before = tree(lib)
+        first = c.run(*command, cwd=lib)
+        expected = results(os.path.join(lib, target))
+        decks = {k: v for k, v in expected.items() if k.endswith((".rad", ".inc"))}
+        if not c.check("%s: runs" % verb, first.code in (0, 1) and decks and (target == "out" or decks != before), first.text[-300:]):
+            continue
+
+        def afterwards(name, code, text):
+            now = {k: v for k, v in tree(lib).items() if k.endswith((".rad", ".inc"))}
+            old, new = dict(before), {os.path.normpath(os.path.join(target, k)): v for k, v in decks.items()}
+            why = whole_or_old(now, old, dict(old, **new), False)
+            last = c.run(*command, cwd=lib)
+            done = results(os.path.join(lib, target))
+            c.check(name, not why and last.code == first.code and done == expected, "%s; exit code %s, then %s; %s; %s; %s" % (
+                why, code, last.code, differing(done, expected), text[-200:].strip(), last.text[-200:].strip()))
+        # No file can become larger than this: the mesh does not fit, the decks do.
+        prepare()
+        small = c.run(*command, cwd=lib, file_bytes=max(len(v) for v in before.values()) // 2)
+        c.check("%s, a file does not fit: it is said which" % verb, small.code >= 2 and "mesh.inc" in small.text, "%s; %s" % (small.code, small.text[-400:]))
+        afterwards("%s, a file does not fit: the next run completes it" % verb, small.code, small.text)
+        if shim is None or c.sanitized:
+            c.skip("%s on a full disk" % verb, "no preloaded library")
+            continue
+        s, struck = Striker(c, shim, tmp), 0
+        for number in sorted(r.sample(range(1, 160), strikes)):
+            prepare()
+            action = r.choice(FAILURES)
+            code, hit, text = s.run(number, action, *command, cwd=lib)
+            struck += hit
+            afterwards("%s, error %s at call %d" % (verb, action, number), code, text)
+        c.check("%s: the errors met calls that touch files (%d)" % (verb, struck), struck >= strikes // 3)
+
+
+def launchers(c, tmp):
+    """Variables that launchers set share the decks out, or mean nothing; the decks written are the same."""
+    lib, one, out = (os.path.join(tmp, n) for n in ("llib", "lone", "lout"))
+    library(lib, 3, 2)
+    verb = ("--verb", "convert --units kg,m,s", "--jobs", "1", "--quiet")
+    c.run("batch", "-o", one, lib, *verb)
+    expected = results(one)
+    # Two ranks as mpirun starts them: at the same time, each knowing its number.
+    ranks = [subprocess.Popen([c.program, "batch", "-o", out, lib, *verb], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, env=dict(
+        os.environ, OMPI_COMM_WORLD_RANK=str(i), OMPI_COMM_WORLD_SIZE="2", OMPI_COMM_WORLD_LOCAL_SIZE="2", PMIX_NAMESPACE="job-17")) for i in (0, 1)]
+    said = [p.communicate(timeout=120)[1].decode() for p in ranks]
+    c.check("two ranks of MPI write what one process writes", [p.returncode for p in ranks] == [0, 0] and results(out) == expected,
+            "%s; %s" % ("; ".join(said)[-300:], differing(results(out), expected)))
+    shares = [n for n in os.listdir(os.path.join(out, ".batch")) if "rank-" in n and n.endswith(".jsonl")]
+    c.check("each rank had its share", len(shares) == 2, str(shares))
+    shutil.rmtree(out)
+    c.run("batch", "-o", out, lib, *verb, "--no-mpi", env={"OMPI_COMM_WORLD_RANK": "1", "OMPI_COMM_WORLD_SIZE": "2"})
+    c.check("--no-mpi writes all", results(out) == expected, differing(results(out), expected))
+    shutil.rmtree(out)
+    for task in (3, 1, 2):
+        env = {"SLURM_ARRAY_TASK_ID": str(task), "SLURM_ARRAY_TASK_COUNT": "3", "SLURM_PROCID": "0", "SLURM_NTASKS": "8", "SLURM_JOB_ID": "4711",
+               "SLURM_CPUS_PER_TASK": "1"}
+        command = 'exec "$0" batch -o "$1" "$2" --verb "convert --units kg,m,s" --jobs 1 --quiet --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT"'
+        subprocess.run(["sh", "-c", command, c.program, out, lib], env=dict(os.environ, **env), stdin=subprocess.DEVNULL, timeout=120)
+    r = c.run("batch", "-o", out, "--merge")
+    merged = {k: v for k, v in results(out).items() if "-of-3" not in k}
+    c.check("a Slurm array writes what one process writes", r.code == 0 and merged == expected, "%s; %s" % (r.text[-200:], differing(merged, expected)))
+
+
 def times(c, tmp, families, each):
     """Against copying the library and parsing it once."""
     lib = os.path.join(tmp, "time")
@@ -287,6 +360,8 @@ def main():
         together_or_not(c, tmp)
         in_place(c, tmp)
         unverified(c, tmp)
+        launchers(c, tmp)
+        full_disk(c, tmp, build_shim(tmp), 40 if c.options.all else 8)
         big = c.options.all
         families, each, kills = (250, 4, 20) if big else (12, 3, 6)
         killed(c, tmp, families, each, kills, ["batch", "-o", "out", ".", "--verb", "convert --units kg,m,s", "--jobs", "2"], "out", "below another directory")

@@ -160,17 +160,21 @@ class FixRun {
       progress.update(done, total);
     };
     std::vector<FixStep> steps;
+    std::vector<MovedNode> moved;  // by the steps before: they count for --max-moved
     for (const std::string& strategy : o_.strategies)
       steps.emplace_back([&](const EditContext& here, const ReadOptions& read) {
         FixOptions options = base;
         options.read = read;
-        return one_step(strategy, here, options, loaded.path);
+        auto fix = one_step(strategy, here, options, loaded.path, moved);
+        if (fix) moved.insert(moved.end(), fix->moved.begin(), fix->moved.end());
+        return fix;
       });
     return fix_in_order(context, base, steps);
   }
 
   Result<PenetrationFix> one_step(const std::string& strategy, const EditContext& context,
-                                  const FixOptions& base, const std::string& path) const {
+                                  const FixOptions& base, const std::string& path,
+                                  const std::vector<MovedNode>& moved) const {
     if (strategy == "reduce-gap") {
       ReduceGapOptions options;
       static_cast<FixOptions&>(options) = base;
@@ -195,11 +199,12 @@ class FixRun {
     if (!options.earlier.empty() && !o_.common.quiet)
       print_note(fmt::format("{}: {} nodes that were moved before, by {}, count for --max-moved",
                              path, options.earlier.size(), o_.common.json));
+    options.earlier.insert(options.earlier.end(), moved.begin(), moved.end());
     static_cast<FixOptions&>(options) = base;
     options.most_moved = *share(o_.max_moved);
     if (!o_.max_displacement.empty())
       options.most_displacement = read_real(o_.max_displacement).value;
-    return move_nodes(context, options);
+    return strategy == "untangle" ? untangle(context, options) : move_nodes(context, options);
   }
 
   std::string report(const PenetrationFix& fix, const std::vector<PenetrationFix>& steps,
@@ -242,14 +247,14 @@ class FixRun {
   std::string texts_, page_;
 };
 
-constexpr std::array<std::string_view, 4> strategies = {"move-nodes", "reduce-gap", "inacti",
-                                                        "fpenmax"};
+constexpr std::array<std::string_view, 5> strategies = {"move-nodes", "reduce-gap", "inacti",
+                                                        "fpenmax", "untangle"};
 
 /// What is wrong with the combination of options; empty: nothing.
 std::string wrong_usage(const Options& o) {
   for (const std::string& s : o.strategies) {
     if (std::find(strategies.begin(), strategies.end(), s) == strategies.end())
-      return "--strategy: '" + s + "' is none of move-nodes, reduce-gap, inacti, fpenmax";
+      return "--strategy: '" + s + "' is none of move-nodes, reduce-gap, inacti, fpenmax, untangle";
     if (std::count(o.strategies.begin(), o.strategies.end(), s) > 1)
       return "--strategy names " + s + " twice";
   }
@@ -321,7 +326,8 @@ Action setup(CommandLine& line) {
   add_common(line, o.common);
   line.option("--strategy", o.strategies,
               "move-nodes: out of each other's gap; reduce-gap: the largest gap without a "
-              "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones. "
+              "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones; "
+              "untangle: crossed elements that one node's move takes apart. "
               "Several by commas: each acts on what the one before has left")
       .required()
       .comma_list()
@@ -343,7 +349,7 @@ Action setup(CommandLine& line) {
       .value("FILE");
   line.option("--rows", o.rows, "Rows of the lists in the report").show_default();
 
-  CommandLine move = line.group("move-nodes");
+  CommandLine move = line.group("move-nodes, untangle");
   move.option("--lock", o.move.lock, "Nodes of these parts stay (also where shared)")
       .by_commas()
       .value("PART");
@@ -407,8 +413,9 @@ const VerbRegistration registration{
      "Every change is verified before it is shown: the deck is read again with the new values as\n"
      "printed. Moves never make a new penetration, cross elements, turn one inside out or halve\n"
      "one of its sides; what cannot be solved that way stays and is listed with its reason.\n"
-     "Elements that cross already have no right side: separate them first (deck gaps\n"
-     "--crossings shows them).\n"
+     "Elements that cross already have no right side: untangle takes those apart for which one "
+     "node\n"
+     "is enough, the others have to be separated by hand (deck gaps --crossings shows them).\n"
      "\n"
      "Several decks are fixed together: a file that they share is written once, and if they want\n"
      "different texts for it nothing is written (exit code 2).\n"

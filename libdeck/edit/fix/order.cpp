@@ -1,5 +1,6 @@
 // Several strategies one after the other, each on the deck that the one before has left.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "edit/fix/common.hpp"
@@ -40,8 +41,19 @@ PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
     out.strategy += (out.strategy.empty() ? "" : ",") + fix.strategy;
     out.iterations += fix.iterations;
     out.crossings_before = std::max(out.crossings_before, fix.crossings_before);
-    if (fix.strategy == "move-nodes") out.crossings_after = fix.crossings_after;
-    append(out.moved, fix.moved);
+    if (fix.strategy == "move-nodes" || fix.strategy == "untangle")
+      out.crossings_after = fix.crossings_after;
+    for (const MovedNode& m : fix.moved) {
+      const auto again = std::find_if(out.moved.begin(), out.moved.end(),
+                                      [&](const MovedNode& o) { return o.id == m.id; });
+      if (again == out.moved.end()) {
+        out.moved.push_back(m);
+        continue;
+      }
+      again->to = m.to;
+      for (std::size_t k = 0; k < 3; ++k) again->by[k] += m.by[k];
+      again->distance = std::hypot(again->by[0], again->by[1], again->by[2]);
+    }
     append(out.moved_before, fix.moved_before);
     // An interface that this step does not list any more has no penetrations.
     for (FixedInterface& entry : out.interfaces) entry.after = {};
@@ -56,6 +68,13 @@ PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
       append(entry->changes, i.changes);
     }
   }
+  // What a step takes for moved before was moved by the step before it.
+  std::erase_if(out.moved_before, [&](const MovedNode& b) {
+    return std::any_of(out.moved.begin(), out.moved.end(),
+                       [&](const MovedNode& m) { return m.id == b.id; });
+  });
+  std::sort(out.moved.begin(), out.moved.end(),
+            [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
   if (!fixes.empty()) {
     out.refused = fixes.back().refused;
     out.actions = fixes.back().actions;

@@ -188,9 +188,14 @@ std::string actions_text(const PenetrationFix& fix, const FixTextOptions& option
 std::string fix_verdict(const PenetrationFix& fix) {
   const FixCount before = total(fix, &FixedInterface::before),
                  after = total(fix, &FixedInterface::after);
-  if (fix.interfaces.empty()) return "no initial penetrations: nothing to fix";
+  const bool untangles = fix.strategy == "untangle";
+  if (fix.interfaces.empty() && !untangles) return "no initial penetrations: nothing to fix";
   std::string text;
-  if (changes_flags(fix)) {
+  if (untangles) {
+    text = fmt::format("untangle: {} before, {} after",
+                       count(fix.crossings_before, "crossed element", "crossed elements"),
+                       fix.crossings_after);
+  } else if (changes_flags(fix)) {
     text = fmt::format("{}: {}, {} without treatment before, {} after", fix.strategy,
                        count(before.pairs, "penetration", "penetrations"), before.untreated,
                        after.untreated);
@@ -213,8 +218,7 @@ std::string fix_verdict(const PenetrationFix& fix) {
 std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options) {
   const Tone tone = fix.complete ? Tone::green : Tone::yellow;
   std::string text = toned(fix_verdict(fix), tone, options.color) + "\n";
-  if (fix.interfaces.empty()) return text;
-  text += "\n" + interface_table(fix, options);
+  if (!fix.interfaces.empty()) text += "\n" + interface_table(fix, options);
   text += moved_text(fix, options);
   text += actions_text(fix, options);
   text += refused_text(fix, options);

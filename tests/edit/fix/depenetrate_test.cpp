@@ -300,6 +300,103 @@ TEST(MoveNodes, CrossedElementsAreNotTornApart) {
   EXPECT_TRUE(said);
 }
 
+/// Two plates 2 apart; one node of the upper one sticks out by `out` through the lower one.
+SmallDeck spike(double out) {
+  SmallDeck d;
+  d.shell_part(1, 1.0).shell_part(2, 1.0);
+  add_sheet(d, 1, 1, 4, 4, [](int i, int j) { return P{2.0 * i, 2.0 * j, 0}; });
+  add_sheet(d, 2, 101, 3, 3, [&](int i, int j) {
+    return P{1.1 + 2.0 * i, 1.1 + 2.0 * j, i == 1 && j == 1 ? -out : 2.0};
+  });
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1});
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0");
+  return d;
+}
+
+PenetrationFix untangled(const Built& deck, MoveNodesOptions options = {}) {
+  options.most_moved = 1;
+  const auto fix = untangle(context_of(deck), options);
+  EXPECT_TRUE(fix) << fix.error().message;
+  return fix ? *fix : PenetrationFix{};
+}
+
+TEST(Untangle, ANodeThatSticksThroughTheOtherSideGoesBackToItsOwn) {
+  const Built before(spike(0.3));
+  ASSERT_FALSE(oracle_crossings(before).empty());
+  const PenetrationFix fix = untangled(before);
+  EXPECT_TRUE(fix.complete);
+  EXPECT_GT(fix.crossings_before, 0u);
+  EXPECT_EQ(fix.crossings_after, 0u);
+  ASSERT_EQ(fix.moved.size(), 1u);
+  EXPECT_EQ(fix.moved[0].id, 106);
+  EXPECT_GT(fix.moved[0].to[2], 1.0) << "as far as the gap";
+  const auto after = expect_harmless(before, fix);
+  EXPECT_TRUE(oracle_crossings(*after).empty());
+  EXPECT_TRUE(oracle_penetrations(*after).empty());
+  EXPECT_TRUE(untangled(*after).rewrite.edits.empty()) << "a second run finds nothing to do";
+}
+
+TEST(Untangle, WhatOneNodeCannotUndoStaysAndIsNamed) {
+  SmallDeck d;
+  d.shell_part(1, 1.0).shell_part(2, 1.0);
+  add_sheet(d, 1, 1, 3, 3, [](int i, int j) { return P{2.0 * i, 2.0 * j, 0}; });
+  add_sheet(d, 2, 101, 2, 3, [](int i, int j) { return P{2.9, 0.7 + 1.4 * j, -0.7 + 1.1 * i}; });
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1});
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=1.0");
+  const Built before(d);
+  const PenetrationFix fix = untangled(before);
+  const auto left = oracle_crossings(*expect_harmless(before, fix));
+  EXPECT_EQ(left.size(), fix.crossings_after);
+  ASSERT_FALSE(left.empty());
+  EXPECT_FALSE(fix.complete);
+  ASSERT_EQ(fix.refused.size(), left.size());
+  for (const FixRefusal& r : fix.refused) {
+    EXPECT_EQ(r.nodes.size(), 2u);
+    EXPECT_THAT(r.reason, ::testing::HasSubstr("the edge passes through a segment"));
+  }
+}
+
+TEST(Untangle, LocksAndLimitsHold) {
+  const Built before(spike(0.3));
+  MoveNodesOptions locked, near;
+  locked.lock = {1, 2};
+  near.most_displacement = 0.1;
+  for (const auto& [options, why] :
+       {std::pair{locked, "locked"}, std::pair{near, "moved as far"}}) {
+    const PenetrationFix fix = untangled(before, options);
+    EXPECT_TRUE(fix.rewrite.edits.empty());
+    EXPECT_FALSE(fix.complete);
+    ASSERT_FALSE(fix.refused.empty());
+    EXPECT_THAT(fix.refused[0].reason, ::testing::HasSubstr(why));
+  }
+}
+
+TEST(Untangle, RandomScenesComeToNoHarm) {
+  std::size_t gone = 0, left = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> noise(-0.9, 0.9);
+    SmallDeck d;
+    d.shell_part(1, 1.0).shell_part(2, 1.0);
+    add_sheet(d, 1, 1, 5, 5, [&](int i, int j) {
+      return P{2.0 * i, 2.0 * j, 0.3 * noise(random)};
+    });
+    add_sheet(d, 2, 101, 4, 4, [&](int i, int j) {
+      return P{0.9 + 1.9 * i, 1.1 + 1.9 * j, 0.6 + noise(random)};
+    });
+    d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/1", {1});
+    d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=1 Gapmin=0.2");
+    const Built before(d);
+    const PenetrationFix fix = untangled(before);
+    expect_harmless(before, fix);
+    gone += fix.crossings_before - fix.crossings_after;
+    left += fix.crossings_after;
+    EXPECT_EQ(fix.refused.size(), fix.crossings_after) << seed;
+  }
+  EXPECT_GT(gone, 20u);
+  EXPECT_GT(left, 0u) << "no scene was too much for it: make them worse";
+}
+
 TEST(MoveNodes, ElementsAreNotPressedFlat) {
   // Edge to edge with a locked sheet: two columns of nodes would have to go to the same place.
   SmallDeck d;

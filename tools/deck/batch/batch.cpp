@@ -144,7 +144,11 @@ Result<void> plan_groups(const BatchOptions& o, BatchTask& task, BatchList& list
     }
     files_of_decks.push_back(scan.files(decks[i].path));
     files.push_back(decks[i].path);
-    for (const IncludeScan::File& f : files_of_decks.back()) files.push_back(f.path);
+    std::set<std::string>& seen = task.seen[decks[i].path];
+    for (const IncludeScan::File& f : files_of_decks.back()) {
+      files.push_back(f.path);
+      seen.insert(normal_path(f.path));
+    }
   }
   task.frame_root = common_root(directories, files);
   if (task.from_json) return {};

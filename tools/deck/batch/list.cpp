@@ -123,7 +123,8 @@ bool is_part_of_a_deck(const std::string& path) {
 std::vector<IncludeFile> take_includes(std::vector<std::string>& found,
                                        const std::vector<std::string>& named,
                                        const std::vector<std::string>& include_paths) {
-  const std::set<std::string> by_name(named.begin(), named.end());
+  std::set<std::string> by_name;
+  for (const std::string& path : named) by_name.insert(find_deck(path));
   if (std::all_of(found.begin(), found.end(),
                   [&](const std::string& path) { return by_name.contains(path); }))
     return {};

@@ -399,6 +399,9 @@ void Batch::read_journals() {
         for (const std::size_t i : found->second) {
           const std::string& result = task_.writes ? record->result : decks_[i].result;
           if (records_[i].code >= 0 || o_.force) continue;
+          // Refused, perhaps for a reason that is gone: a file that could not be read just then.
+          if (task_.verb.name == "convert" && record->code != exit_clean && !record->written)
+            continue;
           if (freshness.holds(*record, o_.directory, key_, result,
                               settings_of(task_, decks_[i].path)))
             records_[i] = *record;

@@ -42,6 +42,9 @@ struct BatchTask {
   std::string root;        ///< where to look for decks that depend on the same files
   std::string frame_root;  ///< decks are written where they lie below it
   std::map<FileIdentity, std::string> outsiders;  ///< see BatchFrame
+  /// Files of each deck, by its path, that grouping the decks has seen; normal paths. Empty: decks
+  /// are no text with includes.
+  std::map<std::string, std::set<std::string>> seen;
 };
 
 /// One process's part of a batch. Nothing is lost when it is killed: results are put in place
@@ -112,6 +115,8 @@ class Batch {
   int journal_ = -1, lock_ = -1;
 };
 
+/// Absolute, without . and .. and //.
+std::string normal_path(const std::string& path);
 /// Runs a verb as `deck VERB ... DECK...` would; its output goes where standard output goes.
 int run_verb(const BatchTask& task, const std::vector<std::string>& decks);
 /// The first line of what a program says on standard error.

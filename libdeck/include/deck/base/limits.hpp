@@ -13,7 +13,7 @@ struct Limits {
   std::uint64_t map_threshold = std::uint64_t{32} << 20;  ///< larger files are mapped, not read
   std::uint64_t stdin_bytes = std::uint64_t{4} << 30;     ///< standard input has no size to check
   std::uint64_t unpacked_bytes = std::uint64_t{4} << 30;  ///< text of packed files, kept in memory
-  std::uint64_t unpacked_ratio = 256;  ///< more text than this times the file (and 64 MiB): no deck
+  std::uint64_t unpacked_ratio = 100;  ///< more text than this times the file (and 64 MiB): no deck
   int include_depth = 100;             ///< the reference solver stops at about 10
   int files = 10000;
   std::size_t blocks = 20'000'000;
