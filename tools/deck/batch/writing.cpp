@@ -333,17 +333,19 @@ bool Batch::is_ours(const std::string& path) const {
 
 void Batch::remove_leftovers() const {
   std::set<std::string> listed, results, outputs;
-  for (const BatchDeck& d : all_) {
-    listed.insert(as_utf8(d.path));
-    results.insert(d.result);
-  }
-  for (const Record& r : records_)
+  for (const BatchDeck& d : all_) listed.insert(as_utf8(d.path));
+  // A group of decks has one result; which groups there are may have been another time's guess.
+  for (const Record& r : records_) {
+    results.insert(r.result);
     for (const FileState& f : r.outputs) outputs.insert(normal_path(f.path));
+  }
   std::set<std::string> ours;
   for (const BatchDeck& d : decks_) ours.insert(as_utf8(d.path));
   for (const Record& r : known_)  // of other shards
-    if (listed.contains(r.deck) && !ours.contains(r.deck))
+    if (listed.contains(r.deck) && !ours.contains(r.deck)) {
+      results.insert(r.result);
       for (const FileState& f : r.outputs) outputs.insert(normal_path(f.path));
+    }
   Freshness freshness;
   const std::string root = normal_path(o_.directory) + "/";
   for (const Record& r : known_) {
