@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "common.hpp"
 #include "deck/base/escape.hpp"
@@ -247,17 +246,11 @@ class FixRun {
   std::string texts_, page_;
 };
 
-constexpr std::array<std::string_view, 5> strategies = {"move-nodes", "reduce-gap", "inacti",
-                                                        "fpenmax", "untangle"};
-
 /// What is wrong with the combination of options; empty: nothing.
 std::string wrong_usage(const Options& o) {
-  for (const std::string& s : o.strategies) {
-    if (std::find(strategies.begin(), strategies.end(), s) == strategies.end())
-      return "--strategy: '" + s + "' is none of move-nodes, reduce-gap, inacti, fpenmax, untangle";
+  for (const std::string& s : o.strategies)
     if (std::count(o.strategies.begin(), o.strategies.end(), s) > 1)
       return "--strategy names " + s + " twice";
-  }
   if (!o.html.empty() && o.common.decks.size() > 1) return "--html takes one deck at a time";
   if (std::string why; !o.html.empty() && !html_available(&why))
     return "--html: this build has no viewer: " + why;
@@ -331,7 +324,8 @@ Action setup(CommandLine& line) {
               "Several by commas: each acts on what the one before has left")
       .required()
       .comma_list()
-      .value("STRATEGY");
+      .value("STRATEGY")
+      .one_of({"move-nodes", "reduce-gap", "inacti", "fpenmax", "untangle"});
   line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
   line.flag("--diff", o.write.diff,
             "Print the patch (git apply takes it); the report goes to stderr");
