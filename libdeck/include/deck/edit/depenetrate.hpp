@@ -38,10 +38,10 @@ std::vector<MovedNode> earlier_moves(std::string_view report, std::string_view p
 Result<PenetrationFix> move_nodes(const EditContext& context, const MoveNodesOptions& options);
 
 /// Takes crossed elements apart where the move of one node does it: to the other side of what its
-/// edge passes through, or in line with its neighbours. Made only if a crossing goes and none comes,
-/// no penetration is new or deeper, no element turned inside out and no side halved. The crossings
-/// that stay are in `refused`. Of the options, those that say which nodes may move, how many of a
-/// part and how far (absent: any distance) count, and `clearance`.
+/// edge passes through, or in line with its neighbours. Made only if a crossing goes and none
+/// comes, no penetration is new or deeper, no element turned inside out and no side halved. The
+/// crossings that stay are in `refused`. Of the options, those that say which nodes may move, how
+/// many of a part and how far (absent: any distance) count, and `clearance`.
 Result<PenetrationFix> untangle(const EditContext& context, const MoveNodesOptions& options);
 
 }  // namespace deck
