@@ -241,7 +241,7 @@ std::string open_svg(double height, const std::string& name) {
 std::string accuracy_title(const AccuracyReport& report, const AccuracyContext& context) {
   const std::uint64_t n = report.tiers.empty() ? 0 : report.tiers[0].samples;
   return fmt::format("Accuracy against time: {} pairs of {}", n,
-                     context.path.empty() ? "the hard cases" : context.path);
+                     context.path.empty() ? "the hard cases" : terminal_text(context.path));
 }
 
 std::string accuracy_panel(const AccuracyReport& report, const std::string& what) {

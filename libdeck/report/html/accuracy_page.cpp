@@ -259,7 +259,7 @@ std::string accuracy_html(const AccuracyReport& report, const AccuracyContext& c
   out += "<h2>Distances and forces</h2>\n" + chart(report, "distance") + chart(report, "force");
   out += "<h2>All figures</h2>\n" + tier_table(report);
   for (const std::string& line : {context.processor, accuracy_compiler(), context.command})
-    out += "<p class=\"note\">" + html_text(line) + "</p>\n";
+    out += "<p class=\"note\">" + html_text(terminal_text(line)) + "</p>\n";
   out += "</main>\n<script type=\"application/json\" id=\"accuracy-json\">" +
          detail::script_safe(accuracy_json(report, context)) + "</script>\n<script>";
   out += kPageScript;
