@@ -38,3 +38,7 @@ target_compile_options(deck_warnings INTERFACE -Wall -Wextra -Wpedantic -Wnon-vi
 add_library(deck_lightly INTERFACE)
 target_compile_options(deck_lightly INTERFACE $<$<CONFIG:Release,RelWithDebInfo>:-O1>
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-stringop-overread>)
+# Sanitizers double what the compiler has to do; without optimising it takes half of that again.
+if(DECK_SANITIZE AND NOT DECK_SANITIZE MATCHES "fuzzer")
+  target_compile_options(deck_lightly INTERFACE -O0)
+endif()
