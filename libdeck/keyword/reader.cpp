@@ -1,5 +1,6 @@
 // One pass over the bytes of every file: only header lines and directives are looked at, everything
 // else becomes part of the block that is open. What needs the whole deck is in reader_finish.cpp.
+// Over 600 lines: the walk and what it opens, skips and reports are one state machine.
 #include "keyword/reader.hpp"
 
 #include <algorithm>

@@ -103,17 +103,20 @@ CyclePointer forces_of(const DeckPointer& deck, const std::vector<std::int64_t>&
 
 const Contact& contact_at(const PyScene& s, std::size_t k) { return s.scene.contacts.at(k); }
 
+py::dict edge_arrays(const std::vector<ContactEdge>& edges, const py::object& owner) {
+  py::dict out;
+  out["edge_index"] = member_view(edges, &ContactEdge::nodes, owner);
+  out["stiffness"] = member_view(edges, &ContactEdge::stiffness, owner);
+  out["gap"] = member_view(edges, &ContactEdge::gap, owner);
+  return out;
+}
+
 /// Arrays of one contact by name. Nodes are positions in the arrays of the deck's nodes.
 py::dict secondary_arrays(const ScenePointer& s, std::size_t k) {
   const Contact& c = contact_at(*s, k);
   const py::object owner = py::cast(s);
+  if (c.kind == ContactKind::edge_edge) return edge_arrays(c.secondary_edges, owner);
   py::dict out;
-  if (c.kind == ContactKind::edge_edge) {
-    out["edge_index"] = member_view(c.secondary_edges, &ContactEdge::nodes, owner);
-    out["stiffness"] = member_view(c.secondary_edges, &ContactEdge::stiffness, owner);
-    out["gap"] = member_view(c.secondary_edges, &ContactEdge::gap, owner);
-    return out;
-  }
   out["node_index"] = member_view(c.secondary, &SecondaryNode::node, owner);
   out["stiffness"] = member_view(c.secondary, &SecondaryNode::multiplier, owner);
   out["gap"] = member_view(c.secondary, &SecondaryNode::gap, owner);
@@ -124,13 +127,8 @@ py::dict secondary_arrays(const ScenePointer& s, std::size_t k) {
 py::dict main_arrays(const ScenePointer& s, std::size_t k) {
   const Contact& c = contact_at(*s, k);
   const py::object owner = py::cast(s);
+  if (c.kind == ContactKind::edge_edge) return edge_arrays(c.main_edges, owner);
   py::dict out;
-  if (c.kind == ContactKind::edge_edge) {
-    out["edge_index"] = member_view(c.main_edges, &ContactEdge::nodes, owner);
-    out["stiffness"] = member_view(c.main_edges, &ContactEdge::stiffness, owner);
-    out["gap"] = member_view(c.main_edges, &ContactEdge::gap, owner);
-    return out;
-  }
   out["segment_index"] = member_view(c.main, &MainSegment::nodes, owner);
   out["stiffness"] = member_view(c.main, &MainSegment::stiffness, owner);
   out["gap"] = member_view(c.main, &MainSegment::gap, owner);

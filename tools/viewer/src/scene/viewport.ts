@@ -1,4 +1,5 @@
 // Around the 3D view: tool bar, legend, list of parts, axes, and what is known about the selection.
+// Over 600 lines: every control of the view acts on the one state that it shares with the others.
 import { Vector3 } from "three";
 import { colorAt, cssColor, mapNames, type MapName } from "./colormap";
 import { contourOf, type Contour } from "./contour";
