@@ -185,7 +185,8 @@ LintContext build_context(const LintInput& input, Diagnostics& sink) {
                       {},
                       {},
                       {},
-                      {}};
+                      {},
+                      input.engine};
   std::map<const Block*, const InterBase*> typed;
   if (input.interfaces != nullptr)
     for (const InterBase* inter : input.interfaces->ordered) typed[inter->block] = inter;

@@ -183,6 +183,16 @@ std::string joined(const std::map<std::string, std::uint64_t>& counts) {
   return out;
 }
 
+std::vector<NotChecked> engine_not_checked(const EngineFiles* engine) {
+  const std::string what = "the Engine file (*_0001.rad)";
+  if (engine == nullptr || engine->run.empty()) return {{what, "only the Starter deck is read"}};
+  if (engine->files.empty() && engine->unread.empty())
+    return {{what, "there is none beside the deck"}};
+  std::vector<NotChecked> out;
+  for (const EngineFiles::Unread& u : engine->unread) out.push_back({u.path, u.why});
+  return out;
+}
+
 std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& options,
                                     const std::vector<Diagnostic>& found) {
   std::vector<NotChecked> out;
@@ -215,7 +225,7 @@ std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& o
   if (input.extra_checks.empty())
     out.push_back({"geometry: penetrations, gaps against mesh size, contact time step",
                    "needs the contact model; --geometry builds it"});
-  out.push_back({"the Engine file (*_0001.rad)", "only the Starter deck is read"});
+  for (NotChecked& n : engine_not_checked(input.engine)) out.push_back(std::move(n));
   const auto off = std::count_if(all_rules().begin(), all_rules().end(),
                                  [&](const Rule& r) { return !enabled(options, r.id); });
   if (off > 0)
@@ -349,14 +359,15 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
 }
 
 LintResult lint_deck(const Deck& deck, const SchemaSet& schemas, const LintOptions& options,
-                     int threads) {
+                     int threads, const EngineFiles* engine) {
   Diagnostics of_model, of_interfaces;
   ModelOptions model_options;
   model_options.threads = threads;
   const Model model = build_model(deck, schemas, of_model, model_options);
   const Interfaces interfaces = read_interfaces(deck, model, of_interfaces);
   LintInput input{
-      deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces}, {}};
+      deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces},
+      {},   engine};
   return run_lint(input, options);
 }
 

@@ -80,7 +80,8 @@ inline Linted lint_file(const std::string& path, const LintOptions& options = {}
   if (!deck) throw std::runtime_error(deck.error().message);
   Linted out;
   out.deck = std::make_unique<Deck>(std::move(*deck));
-  out.result = lint_deck(*out.deck, schemas, options);
+  const EngineFiles engine = read_engine_files(*out.deck);
+  out.result = lint_deck(*out.deck, schemas, options, 1, &engine);
   return out;
 }
 
@@ -114,19 +115,23 @@ inline Linted lint_geometry_of(Deck deck, int threads = 1) {
   Diagnostics of_model, of_interfaces;
   const Model model = build_model(*out.deck, schemas, of_model);
   const Interfaces interfaces = read_interfaces(*out.deck, model, of_interfaces);
+  const EngineFiles engine = read_engine_files(*out.deck);
   LintInput input{
       *out.deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces},
-      {}};
+      {},        &engine};
   input.extra_checks.push_back(
       [&](const LintContext& c, Reporter& r) { check_geometry(c, r, {.threads = threads}); });
   out.result = run_lint(input);
   return out;
 }
 
-/// Lints an example of one file with the geometry checks.
+/// Lints an example with the geometry checks.
 inline Linted lint_geometry(std::string_view example, int threads = 1) {
   const SchemaSet& schemas = SchemaSet::built_in();
-  auto deck = read_deck_text("deck_0000.rad", example_deck(example, schemas).main, schemas);
+  const ExampleDeck written = example_deck(example, schemas);
+  Folder folder;
+  for (const auto& [name, text] : written.files) folder.write(name, text);
+  auto deck = read_deck(folder.write("deck_0000.rad", written.main), schemas);
   if (!deck) throw std::runtime_error(deck.error().message);
   return lint_geometry_of(std::move(*deck), threads);
 }

@@ -110,6 +110,7 @@ def changed(c, tmp):
     write(text + "/END\n", tmp, "c", "c_0000.rad")
     write("#include mesh.txt\n", tmp, "common", "outer.inc")
     write("/TITLE\nfine\n", tmp, "common", "mesh.txt")
+    write("/RUN/c/1\n1.0\n", tmp, "c", "c_0001.rad")
     write("not part of any deck\n", tmp, "notes.txt")
 
     def decks(*files, cwd=tmp):
@@ -118,6 +119,7 @@ def changed(c, tmp):
     for name, files, expected in (("an include of two decks", ["common/mesh.txt"], ["a/a_0000.rad", "b/b_0000.rad.gz"]),
                                   ("an include of one", ["common/outer.inc"], ["a/a_0000.rad"]),
                                   ("a deck", ["c/c_0000.rad"], ["c/c_0000.rad"]),
+                                  ("an Engine file", ["c/c_0001.rad"], ["c/c_0000.rad"]),
                                   ("a deck and its include", ["a/a_0000.rad", "common/outer.inc"], ["a/a_0000.rad"]),
                                   ("a file of no deck and one that is gone", ["notes.txt", "gone.inc"], [])):
         code, found, output = decks(*files)

@@ -275,6 +275,8 @@ Result<std::unique_ptr<Loaded>> load(const std::string& given, const SchemaSet& 
         error.message += "; did you mean '" + close + "'?";
     return error;
   }
+  EngineFiles engine;
+  if (options.engine_files) engine = read_engine_files(*deck, options.limits);
   remember_read(deck->sources);
   if (const std::string other = no_starter_deck(*deck); !other.empty())
     return Error{Error::Code::syntax, path + ": " + other};
@@ -282,6 +284,7 @@ Result<std::unique_ptr<Loaded>> load(const std::string& given, const SchemaSet& 
   loaded->path = path;
   loaded->diagnostics = Diagnostics(options.limits.diagnostics_per_rule);
   loaded->deck = std::move(*deck);
+  loaded->engine = std::move(engine);
   if (load_observer()) load_observer()(loaded->deck);
   if (stage == Stage::blocks) return loaded;
   progress.step("building the model of " + path);

@@ -13,7 +13,7 @@
 #include "command_line.hpp"
 #include "deck/base/limits.hpp"
 #include "deck/edit/write.hpp"
-#include "deck/keyword/deck.hpp"
+#include "deck/keyword/engine_file.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
 #include "progress.hpp"
@@ -44,6 +44,7 @@ struct CommonOptions {
   std::vector<std::string> include_paths, schema_dirs;
   /// The verb will change files of the decks in place. Set by the verb, not by an option.
   bool rewrites = false;
+  bool engine_files = false;  ///< the verb looks at the Engine files beside the decks, too
   Limits limits;
 
   int thread_count() const;
@@ -72,8 +73,9 @@ enum class Stage { blocks, model, interfaces };
 
 /// A deck with what was made of it. Never moved: the parts point to one another.
 struct Loaded {
-  std::string path;  ///< as given
-  Deck deck;         ///< with the findings of reading in deck.diagnostics
+  std::string path;    ///< as given
+  Deck deck;           ///< with the findings of reading in deck.diagnostics
+  EngineFiles engine;  ///< where they were asked for
   Model model;
   Interfaces interfaces;
   Diagnostics diagnostics;  ///< findings of the model and interface stages

@@ -102,7 +102,8 @@ LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptio
                   &loaded.interfaces,
                   loaded.model.selections.get(),
                   {&loaded.diagnostics},
-                  {}};
+                  {},
+                  &loaded.engine};
   if (command.geometry)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
       check_geometry(context, reporter,
@@ -461,6 +462,7 @@ Action setup(CommandLine& line) {
       .range(0, 1000000)
       .value("N");
   return [options] {
+    options->common.engine_files = true;
     options->common.rewrites = (options->fix || options->unsafe_fixes) && !options->diff;
     options->write.in_place = options->common.rewrites;
     options->write.diff = options->diff;

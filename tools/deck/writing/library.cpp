@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "deck/keyword/engine_file.hpp"
 #include "deck/text/gzip.hpp"
 
 namespace deck::cli {
@@ -182,7 +183,10 @@ Result<std::vector<std::string>> decks_of_files(const std::vector<std::string>& 
   std::set<std::string> decks, roots;
   std::set<FileIdentity> included;
   IncludeScan scan(include_paths);
-  for (const std::string& path : changed) {
+  for (const std::string& name : changed) {
+    // An Engine file is looked at with the deck beside it.
+    const std::string starter = starter_of_engine_file(name);
+    const std::string& path = starter.empty() ? name : starter;
     const auto files = scan.files(path);
     if (files.empty()) continue;  // removed by the change, or no file
     if (without_gz(path).ends_with(deck_ending)) decks.insert(shown(path));

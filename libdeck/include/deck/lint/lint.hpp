@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "deck/keyword/decode.hpp"
+#include "deck/keyword/engine_file.hpp"
 #include "deck/lint/rule.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
@@ -73,6 +74,7 @@ class LintContext {
   std::map<std::string_view, std::set<std::int64_t>> referenced;
   /// Every whole number in blocks whose cards are not described: any of them may be a reference.
   std::unordered_set<std::int64_t> loose_numbers;
+  const EngineFiles* engine = nullptr;  ///< nullptr: not looked for
 
   /// Id of a reference as the model knows it (submodel offset added).
   std::int64_t resolved(const Block& block, std::string_view kind, std::int64_t id) const;
@@ -117,6 +119,7 @@ struct LintInput {
   Selections* selections = nullptr;
   std::vector<const Diagnostics*> earlier = {};
   std::vector<std::function<void(const LintContext&, Reporter&)>> extra_checks = {};
+  const EngineFiles* engine = nullptr;  ///< those beside the deck; nullptr: not looked for
 };
 
 struct NotChecked {
@@ -138,7 +141,7 @@ LintResult run_lint(const LintInput& input, const LintOptions& options = {});
 
 /// Reads nothing but the deck: builds the model, the selections and the interfaces, then run_lint.
 LintResult lint_deck(const Deck& deck, const SchemaSet& schemas, const LintOptions& options = {},
-                     int threads = 1);
+                     int threads = 1, const EngineFiles* engine = nullptr);
 
 /// Rule, entity and the text of the card with runs of blanks made one: stays the same when lines
 /// move. Sixteen hexadecimal digits.

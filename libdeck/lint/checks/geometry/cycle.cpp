@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "deck/cycle/scene_cycle.hpp"
+#include "deck/text/number.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {
@@ -112,6 +113,40 @@ void report_singular(const GeometryRun& run, const Contact& contact, const Inter
   run.report(RuleId::DK403, contact, gap_field(contact), std::move(message));
 }
 
+/// Time step of /DT/INTER/DEL of the first run, in which nothing has moved yet.
+struct DeletionStep {
+  double dt = 0;  ///< 0: not asked for
+  Span place;
+};
+DeletionStep deletion_step(const LintContext& c) {
+  if (c.engine == nullptr || c.engine->files.empty() || c.engine->files[0].number != 1) return {};
+  for (const EngineBlock& b : c.engine->files[0].blocks) {
+    if (b.part(0) != "DT" || b.part(1) != "INTER" || b.part(2) != "DEL" || b.lines.empty())
+      continue;
+    const std::vector<Span> cells = engine_cells(c.deck.sources, b.lines[0]);
+    if (cells.size() < 2) return {};
+    return {read_real(c.text(cells[1])).value, b.lines[0]};
+  }
+  return {};
+}
+
+/// dtmin of the card goes before /DT/INTER/DEL, and TYPE10 does not look at it.
+void report_deletion(const GeometryRun& run, const Contact& contact, const InterfaceSummary& s,
+                     const DeletionStep& deletion) {
+  if (!(s.contact_dt <= deletion.dt) || s.inter->type == 10) return;
+  const ContactCard* card = run.card(contact);
+  if (card != nullptr && card->given("dtmin")) return;
+  Diagnostic* d = run.report(
+      RuleId::DK808, contact, "dtmin",
+      fmt::format("{}: time step {:.4g} from {}{}, and /DT/INTER/DEL removes what is below {:.4g}",
+                  summary_name(s), s.contact_dt, element_of(s.contact_dt_source),
+                  s.contact_dt_node == no_index
+                      ? std::string()
+                      : fmt::format(" at node {}", node_text(run.model(), s.contact_dt_node)),
+                  deletion.dt));
+  if (d != nullptr) d->notes.emplace_back(deletion.place, "the time step of /DT/INTER/DEL");
+}
+
 }  // namespace
 
 cycle::SceneOutcome check_cycle(const GeometryRun& run) {
@@ -123,6 +158,7 @@ cycle::SceneOutcome check_cycle(const GeometryRun& run) {
     if (!c.complete && c.contact->evaluated && !c.notes.empty())
       run.report(RuleId::DK381, *c.contact, gap_field(*c.contact),
                  fmt::format("{}: {}", name_of(run, *c.contact), c.notes.back()));
+  const DeletionStep deletion = deletion_step(run.context);
   for (const InterfaceSummary& s : cycle::summarize(run.scene, outcome)) {
     const Contact* contact = contact_of(outcome, s);
     if (contact == nullptr) continue;
@@ -131,6 +167,7 @@ cycle::SceneOutcome check_cycle(const GeometryRun& run) {
       report_singular(run, *contact, s, outcome);
     }
     report_step(run, *contact, s);
+    report_deletion(run, *contact, s, deletion);
   }
   return outcome;
 }

@@ -1,0 +1,115 @@
+// Finds the Engine files beside a deck and cuts them into keywords and lines.
+#include "deck/keyword/engine_file.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace deck {
+namespace {
+
+constexpr std::string_view starter_ending = "_0000.rad", packed_ending = ".gz";
+constexpr int most_runs = 9999;  // the name has four digits
+
+std::string_view without(std::string_view text, std::string_view ending) {
+  return text.substr(0, text.size() - ending.size());
+}
+
+std::string_view trim_end(std::string_view line) {
+  const auto last = line.find_last_not_of(" \t\r");
+  return line.substr(0, last == std::string_view::npos ? 0 : last + 1);
+}
+
+/// `text` is a line of the file, beginning at `offset`.
+void take_line(EngineFile& out, std::string_view text, std::uint64_t offset) {
+  text = trim_end(text);
+  const Span span{out.file, static_cast<std::uint32_t>(text.size()), offset};
+  if (text.starts_with("#include"))
+    out.includes.push_back(span);
+  else if (text.empty() || text[0] == '#' || text[0] == '$')
+    return;
+  else if (text[0] == '/')
+    out.blocks.push_back({text, span, {}});
+  else if (!out.blocks.empty())
+    out.blocks.back().lines.push_back(span);
+}
+
+EngineFile cut(const Source& source, std::uint32_t file, int number) {
+  EngineFile out;
+  out.file = file;
+  out.number = number;
+  const std::string_view bytes = source.bytes();
+  for (std::size_t at = 0; at < bytes.size();) {
+    const auto end = std::min(bytes.find('\n', at), bytes.size());
+    take_line(out, bytes.substr(at, end - at), at);
+    at = end + 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string_view EngineBlock::part(std::size_t n) const {
+  std::size_t begin = 1;  // behind the first slash
+  for (; n > 0; --n) {
+    begin = keyword.find('/', begin);
+    if (begin == std::string_view::npos) return {};
+    ++begin;
+  }
+  return keyword.substr(begin, keyword.find('/', begin) - begin);
+}
+
+EngineFiles read_engine_files(Deck& deck, const Limits& limits) {
+  EngineFiles out;
+  std::string_view path = deck.sources[0].path();
+  const bool packed = path.ends_with(packed_ending);
+  if (packed) path = without(path, packed_ending);
+  if (!path.ends_with(starter_ending)) return out;
+  const std::string stem(without(path, starter_ending));
+  out.run = std::filesystem::path(stem).filename().string();
+  if (out.run.empty()) return out;
+  Limits small = limits;
+  small.total_bytes = std::min(limits.total_bytes, limits.map_threshold);
+  for (int number = 1; number <= std::min(most_runs, limits.files); ++number) {
+    std::string name = fmt::format("{}_{:04}.rad", stem, number);
+    std::error_code ec;
+    if (packed && !std::filesystem::exists(name, ec)) name += packed_ending;
+    if (!std::filesystem::exists(name, ec)) break;
+    auto source = Source::open_text(name, small);
+    if (!source) {
+      out.unread.push_back({name, source.error().message});
+      continue;
+    }
+    const std::uint32_t file = deck.sources.add(std::move(*source));
+    out.files.push_back(cut(deck.sources[file], file, number));
+  }
+  return out;
+}
+
+std::string starter_of_engine_file(std::string_view path) {
+  constexpr std::string_view ending = ".rad";
+  const bool packed = path.ends_with(packed_ending);
+  const std::string_view name = packed ? without(path, packed_ending) : path;
+  if (name.size() <= starter_ending.size() || !name.ends_with(ending)) return {};
+  const std::string_view stem = without(name, starter_ending);
+  const std::string_view number = name.substr(stem.size() + 1, 4);
+  if (name[stem.size()] != '_' || number == "0000" ||
+      number.find_first_not_of("0123456789") != std::string_view::npos)
+    return {};
+  return std::string(stem) + std::string(starter_ending) +
+         std::string(packed ? packed_ending : std::string_view());
+}
+
+std::vector<Span> engine_cells(const SourceSet& sources, Span line) {
+  constexpr std::string_view between = " \t,";
+  const std::string_view text = sources.text(line);
+  std::vector<Span> out;
+  for (std::size_t at = text.find_first_not_of(between); at < text.size();) {
+    const auto end = std::min(text.find_first_of(between, at), text.size());
+    out.push_back({line.file, static_cast<std::uint32_t>(end - at), line.offset + at});
+    at = std::min(text.find_first_not_of(between, end), text.size());
+  }
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,239 @@
+// What the Engine files beside a deck ask for: the run they name, its times, the ids they list.
+#include "deck/keyword/engine_file.hpp"
+
+#include <optional>
+#include <set>
+
+#include "deck/model/selection.hpp"
+#include "deck/text/number.hpp"
+#include "lint/check.hpp"
+#include "lint/check_tables.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// "/RUN/car/1" and "/RERUN/car/1".
+bool is_run(const EngineBlock& b) { return b.part(0) == "RUN" || b.part(0) == "RERUN"; }
+
+const EngineBlock* run_of(const EngineFile& file) {
+  for (const EngineBlock& b : file.blocks)
+    if (is_run(b)) return &b;
+  return nullptr;
+}
+
+std::vector<double> numbers_of(const LintContext& c, const EngineBlock& b) {
+  std::vector<double> out;
+  for (const Span& line : b.lines)
+    for (const Span& cell : engine_cells(c.deck.sources, line)) {
+      const RealCell number = read_real(c.text(cell));
+      if (number.status != NumberStatus::ok && number.status != NumberStatus::implicit_exponent)
+        return out;
+      out.push_back(number.value);
+    }
+  return out;
+}
+
+/// Final time of the run; nullopt: none that can be read, or /RERUN, which has none.
+std::optional<double> final_time(const LintContext& c, const EngineFile& file) {
+  const EngineBlock* run = run_of(file);
+  if (run == nullptr || run->part(0) != "RUN") return std::nullopt;
+  const std::vector<double> numbers = numbers_of(c, *run);
+  if (numbers.empty() || !(numbers[0] > 0)) return std::nullopt;
+  return numbers[0];
+}
+
+/// Place of a finding about what a file does not have: its first line.
+Span first_line(const LintContext& c, const EngineFile& file) {
+  const std::string_view line = c.deck.sources[file.file].line_at(0);
+  return {file.file, static_cast<std::uint32_t>(line.size()), 0};
+}
+
+/// Calls f(file) for every Engine file.
+template <class F>
+void each_file(const LintContext& c, F&& f) {
+  if (c.engine == nullptr) return;
+  for (const EngineFile& file : c.engine->files) f(file);
+}
+
+void check_run_missing(const LintContext& c, const Rule& rule, Reporter& r) {
+  each_file(c, [&](const EngineFile& file) {
+    if (run_of(file) == nullptr)
+      r.report(rule, first_line(c, file), "the Engine file has neither /RUN nor /RERUN");
+  });
+}
+
+void check_run_name(const LintContext& c, const Rule& rule, Reporter& r) {
+  each_file(c, [&](const EngineFile& file) {
+    const EngineBlock* run = run_of(file);
+    if (run == nullptr || run->part(1) == c.engine->run) return;
+    r.report(rule, run->header,
+             fmt::format("{} is not a run of this deck, whose name is {}", clipped(run->keyword),
+                         clipped(c.engine->run)));
+  });
+}
+
+void check_run_number(const LintContext& c, const Rule& rule, Reporter& r) {
+  each_file(c, [&](const EngineFile& file) {
+    const EngineBlock* run = run_of(file);
+    if (run == nullptr) return;
+    const IntegerCell number = read_integer(run->part(2));
+    if (number.status == NumberStatus::ok && number.value == file.number) return;
+    r.report(rule, run->header,
+             fmt::format("{} in the file of run {}", clipped(run->keyword), file.number));
+  });
+}
+
+void check_final_time(const LintContext& c, const Rule& rule, Reporter& r) {
+  std::optional<double> before;
+  each_file(c, [&](const EngineFile& file) {
+    const EngineBlock* run = run_of(file);
+    if (run == nullptr || run->part(0) != "RUN") return;
+    const std::optional<double> end = final_time(c, file);
+    const Span place = run->lines.empty() ? run->header : run->lines[0];
+    if (run->lines.empty())
+      r.report(rule, place, fmt::format("{} has no final time", clipped(run->keyword)));
+    else if (!end)
+      r.report(rule, place,
+               fmt::format("the final time of {} is '{}'", clipped(run->keyword),
+                           clipped(c.text(place))));
+    else if (before && *end <= *before)
+      r.report(rule, place,
+               fmt::format("{} ends at {}, the run before it at {}", clipped(run->keyword),
+                           number_text(*end), number_text(*before)));
+    if (end) before = end;
+  });
+}
+
+/// What a keyword of an Engine file lists below it.
+struct Listed {
+  std::string_view what;    ///< "interface"
+  bool ranges = false;      ///< first and last id in turn: both ends are looked for
+  std::size_t at_most = 0;  ///< only so many numbers of a line are ids; 0: all
+  std::vector<const Elements*> families = {};  ///< of elements
+};
+
+std::optional<Listed> listed(const LintContext& c, const EngineBlock& b) {
+  if (b.part(0) == "DEL" && b.part(1) == "INTER") return Listed{"interface"};
+  if (b.part(0) == "H3D" && b.part(1) == "PART") return Listed{"part"};
+  if (b.part(0) == "ANIM" && b.part(1) == "SENSOR") return Listed{"sensor", false, 1};
+  if (b.part(0) != "DEL" || c.model == nullptr) return std::nullopt;
+  const Model& m = *c.model;
+  Listed out{"element", b.part(2) == "1"};
+  const std::string_view type = b.part(1);
+  if (type == "BRICK") out.families = {&m.solid8};
+  if (type == "QUAD") out.families = {&m.quad};
+  if (type == "SHELL") out.families = {&m.shell4};
+  if (type == "SH_3N") out.families = {&m.shell3, &m.tria};
+  if (type == "TRUSS") out.families = {&m.truss};
+  if (type == "BEAM") out.families = {&m.beam};
+  if (type == "SPRING") out.families = {&m.spring};
+  if (out.families.empty()) return std::nullopt;
+  return out;
+}
+
+bool exists(const LintContext& c, const Listed& list, std::int64_t id) {
+  for (const Elements* family : list.families)
+    if (family->map.find(id) != no_index) return true;
+  if (!list.families.empty()) return false;
+  if (list.what == "interface") {
+    const auto it = c.defined.find("inter");
+    return it != c.defined.end() && it->second.count(id) > 0;
+  }
+  return list.what == "part" ? c.model->part_of_id.count(id) > 0 : c.model->sensors.count(id) > 0;
+}
+
+void check_ids(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr) return;
+  each_file(c, [&](const EngineFile& file) {
+    for (const EngineBlock& b : file.blocks) {
+      const std::optional<Listed> list = listed(c, b);
+      if (!list) continue;
+      for (const Span& line : b.lines) {
+        std::size_t n = 0;
+        for (const Span& cell : engine_cells(c.deck.sources, line)) {
+          if (list->at_most > 0 && n++ >= list->at_most) break;
+          const IntegerCell id = read_integer(c.text(cell));
+          const std::string name = clipped(b.keyword);
+          if (id.status != NumberStatus::ok)
+            r.report(rule, cell, fmt::format("'{}' in {} is no id", clipped(c.text(cell)), name));
+          // Between the ends of a range some ids may well be missing.
+          else if (!list->ranges && !exists(c, *list, id.value))
+            r.report(
+                rule, cell,
+                fmt::format("{} names {} {}, which does not exist", name, list->what, id.value));
+        }
+      }
+    }
+  });
+}
+
+void check_outputs(const LintContext& c, const Rule& rule, Reporter& r) {
+  double begin = 0;
+  each_file(c, [&](const EngineFile& file) {
+    const std::optional<double> end = final_time(c, file);
+    if (!end) return;
+    for (const EngineBlock& b : file.blocks) {
+      const bool states = (b.part(0) == "ANIM" || b.part(0) == "H3D") && b.part(1) == "DT";
+      const bool history = b.part(0) == "TFILE" && b.part(1).size() <= 1;
+      if (!states && !history) continue;
+      const std::vector<double> n = numbers_of(c, b);
+      if (n.size() < (states ? 2U : 1U)) continue;
+      const double interval = n[states ? 1 : 0];
+      if (states && n[0] > *end)
+        r.report(rule, b.lines[0],
+                 fmt::format("{} begins at {}, the run ends at {}", clipped(b.keyword),
+                             number_text(n[0]), number_text(*end)));
+      else if (interval > *end - begin)
+        r.report(rule, b.lines[0],
+                 fmt::format("{} writes every {}, the run takes {}", clipped(b.keyword),
+                             number_text(interval), number_text(*end - begin)));
+    }
+    begin = *end;
+  });
+}
+
+void check_late_interfaces(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.engine == nullptr || c.engine->files.empty()) return;
+  std::optional<double> last;
+  Span place;
+  for (const EngineFile& file : c.engine->files) {
+    const std::optional<double> end = final_time(c, file);
+    if (!end) return;  // nobody knows when it ends
+    if (!last || *end > *last) {
+      last = end;
+      place = run_of(file)->lines[0];
+    }
+  }
+  for (const ContactCard& card : c.contacts) {
+    const double start = card.value("Tstart");
+    if (start < *last) continue;
+    Diagnostic* d = report_at(r, rule, card, "Tstart",
+                              fmt::format("{} begins at {}, the last run ends at {}", name_of(card),
+                                          number_text(start), number_text(*last)));
+    if (d != nullptr) d->notes.emplace_back(place, "the end of the last run");
+  }
+}
+
+void check_includes(const LintContext& c, const Rule& rule, Reporter& r) {
+  each_file(c, [&](const EngineFile& file) {
+    for (const Span& line : file.includes)
+      r.report(rule, line, "the Engine does not read what this line includes");
+  });
+}
+
+constexpr Checked table[] = {
+    {RuleId::DK800, check_run_missing},
+    {RuleId::DK801, check_run_name},
+    {RuleId::DK802, check_run_number},
+    {RuleId::DK803, check_final_time},
+    {RuleId::DK804, check_ids},
+    {RuleId::DK805, check_outputs},
+    {RuleId::DK806, check_late_interfaces},
+    {RuleId::DK807, check_includes},
+};
+
+}  // namespace
+
+std::span<const Checked> engine_checks() { return table; }
+
+}  // namespace deck::detail

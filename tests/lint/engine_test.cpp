@@ -1,0 +1,135 @@
+// Lint looks at the Engine files beside a deck: which files it takes, and what it holds against
+// them.
+#include "deck/text/gzip.hpp"
+#include "lint/support.hpp"
+
+namespace deck {
+namespace {
+
+using test::Folder;
+using test::lint_file;
+using test::Linted;
+
+/// A deck "car" with one interface, id 3, shells 1 and 2, parts 1 and 2, and its Engine files.
+class EngineFilesOfADeck : public testing::Test {
+ protected:
+  Linted lint(const std::vector<std::pair<std::string, std::string>>& files,
+              std::string_view deck = "@/INTER/TYPE7/3\n") {
+    for (const auto& [name, text] : files) folder_.write(name, text);
+    return lint_file(folder_.write("car_0000.rad", example_deck(deck, SchemaSet::built_in()).main));
+  }
+  std::string where(const Linted& run, RuleId rule) const {
+    const Diagnostic* d = run.find(rule);
+    if (d == nullptr) return "nowhere";
+    const std::string text = run.deck->sources.where(d->span);
+    return text.substr(text.rfind('/') + 1);
+  }
+  Folder folder_;
+};
+
+TEST_F(EngineFilesOfADeck, GiveNoFindingWhereAllIsRight) {
+  const Linted run =
+      lint({{"car_0001.rad",
+             "#RADIOSS ENGINE\n/RUN/car/1/\n  10.0\n/TFILE/4\n0.1\n/ANIM/DT\n0. 1.\n"
+             "/DEL/INTER\n3\n/DEL/SHELL\n1, 2\n/H3D/PART\n1 2\n/ANIM/SENSOR\n1 0.5\n"},
+            {"car_0002.rad", "/RUN/car/2\n20.0\n/ANIM/DT\n12. 5.\n"}});
+  for (const Diagnostic& d : run.result.diagnostics)
+    EXPECT_NE(id_number(d.rule) / 100, 8) << id_text(d.rule) << " " << d.message;
+}
+
+TEST_F(EngineFilesOfADeck, AreNamedWhereTheFindingStands) {
+  EXPECT_EQ(where(lint({{"car_0001.rad", "/RUN/car/1\n1.\n$ a comment\n/DEL/INTER\n 3,  4\n"}}),
+                  RuleId::DK804),
+            "car_0001.rad:5:6");
+}
+
+TEST_F(EngineFilesOfADeck, AreReadUpToTheFirstNumberThatIsMissing) {
+  const Linted run = lint({{"car_0001.rad", "/RUN/car/1\n1.\n"}, {"car_0003.rad", "/TFILE\n1.\n"}});
+  EXPECT_FALSE(run.fires(RuleId::DK800)) << run.list();
+}
+
+TEST_F(EngineFilesOfADeck, OfAnotherNameAreNotLookedAt) {
+  EXPECT_FALSE(lint({{"bus_0001.rad", "/TFILE\n1.\n"}}).fires(RuleId::DK800));
+}
+
+TEST_F(EngineFilesOfADeck, MayBePackedWhereTheDeckIs) {
+  folder_.write("car_0001.rad.gz", gzip("/TFILE\n1.\n"));
+  const std::string text = example_deck("@/INTER/TYPE7/3\n", SchemaSet::built_in()).main;
+  EXPECT_TRUE(lint_file(folder_.write("car_0000.rad.gz", gzip(text))).fires(RuleId::DK800));
+}
+
+TEST_F(EngineFilesOfADeck, ThatCannotBeReadAreNamedAsNotChecked) {
+  std::filesystem::create_directory(std::filesystem::path(folder_.path()) / "car_0001.rad");
+  const Linted run = lint({});
+  ASSERT_FALSE(run.result.not_checked.empty());
+  EXPECT_NE(run.result.not_checked.back().what.find("car_0001.rad"), std::string::npos);
+}
+
+TEST_F(EngineFilesOfADeck, AboveTheBoundAreNotRead) {
+  const std::string deck =
+      folder_.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main);
+  folder_.write("car_0001.rad", "/TFILE\n" + std::string(5000, ' ') + "\n");
+  auto read = read_deck(deck, SchemaSet::built_in());
+  ASSERT_TRUE(read);
+  Limits limits;
+  limits.map_threshold = 4096;
+  const EngineFiles engine = read_engine_files(*read, limits);
+  EXPECT_TRUE(engine.files.empty());
+  EXPECT_EQ(engine.unread.size(), 1u);
+}
+
+TEST_F(EngineFilesOfADeck, AreNotEmptyOnlyBecauseTheyHaveNoLineEnd) {
+  EXPECT_FALSE(lint({{"car_0001.rad", "/RUN/car/1\r\n1."}}).fires(RuleId::DK803));
+}
+
+TEST_F(EngineFilesOfADeck, WithoutAnythingInThemHaveNoRun) {
+  EXPECT_EQ(where(lint({{"car_0001.rad", ""}}), RuleId::DK800), "car_0001.rad:1:1");
+}
+
+TEST(EngineFile, ReadsTheFinalTimeOfSeveralRunsInTurn) {
+  Folder folder;
+  folder.write("car_0001.rad", "/RUN/car/1\n10.\n");
+  folder.write("car_0002.rad", "/RUN/car/2\n5.\n");
+  const Linted run =
+      lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
+  ASSERT_TRUE(run.fires(RuleId::DK803));
+  EXPECT_NE(run.find(RuleId::DK803)->message.find("ends at 5, the run before it at 10"),
+            std::string::npos);
+}
+
+TEST(EngineFile, HoldsElementsAgainstTheirOwnKind) {
+  Folder folder;
+  folder.write("car_0001.rad",
+               "/RUN/car/1\n10.\n/DEL/BRICK\n1\n/DEL/SHELL/1\n1 900\n/DEL/SHELL\n2 9\n");
+  const Linted run =
+      lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
+  // Brick 1 and shell 9 do not exist; of a range some ids may be missing.
+  EXPECT_EQ(run.count(RuleId::DK804), 2u) << run.list();
+}
+
+TEST(EngineFile, OfALaterRunHasTheTimeSinceTheRunBefore) {
+  Folder folder;
+  folder.write("car_0001.rad", "/RUN/car/1\n10.\n");
+  folder.write("car_0002.rad", "/RUN/car/2\n12.\n/TFILE\n3.\n");
+  const Linted run =
+      lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
+  EXPECT_TRUE(run.fires(RuleId::DK805)) << run.list();
+}
+
+TEST(EngineFile, DoesNotRemoveByItsStepWhereDtminOfTheCardGoesFirst) {
+  const std::string engine = "@file deck_0001.rad\n/RUN/deck/1\n1.0\n/DT/INTER/DEL\n0.9 1.0\n";
+  EXPECT_TRUE(test::lint_geometry("@/INTER/TYPE7/1 Gapmin=3.5\n" + engine).fires(RuleId::DK808));
+  EXPECT_FALSE(test::lint_geometry("@/INTER/TYPE7/1 Gapmin=3.5 dtmin=1.e-20\n" + engine)
+                   .fires(RuleId::DK808));
+  EXPECT_FALSE(test::lint_geometry("@/INTER/TYPE10/1 Gap=3.5\n" + engine).fires(RuleId::DK808));
+}
+
+TEST(EngineFile, NamesItsStarterDeck) {
+  EXPECT_EQ(starter_of_engine_file("a/car_0002.rad"), "a/car_0000.rad");
+  EXPECT_EQ(starter_of_engine_file("car_0012.rad.gz"), "car_0000.rad.gz");
+  for (const char* other : {"car_0000.rad", "car.rad", "_001.rad", "car_00x1.rad", "", "0001.rad"})
+    EXPECT_EQ(starter_of_engine_file(other), "") << other;
+}
+
+}  // namespace
+}  // namespace deck
