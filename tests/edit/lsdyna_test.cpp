@@ -387,7 +387,7 @@ TEST(LsDyna, EveryCellIsAccountedFor) {
     options.target = targets[random() % 5];
     const Rewrite r = converted(text, options);
     ASSERT_TRUE(r.new_text.has_value());
-    const detail::DynaFile file = detail::read_dyna(text);
+    const detail::DynaFile file = detail::read_dyna({"crash.k", text}, {});
     for (const detail::DynaCell& cell : file.contacts.at(0).cells) {
       if (cell.written.empty()) continue;
       const bool found = std::any_of(r.losses.begin(), r.losses.end(), [&](const LossEntry& e) {

@@ -138,6 +138,16 @@ void lsdyna(Seeds& seeds) {
     seeds.put("fuzz_lsdyna", std::to_string(n++),
               text + plain + card({"2", "0.1", "", "1.025", "2", "2"}) + "*END\n");
   }
+  const std::string sets = "*SET_PART_LIST_TITLE\nall\n" + card({"12"}) + card({"1", "2"}) +
+                           "*SET_NODE_ADD\n" + card({"11"}) + card({"13", "14"}) +
+                           "*SET_NODE_LIST_GENERATE_COLLECT\n" + card({"13"}) + card({"1", "9"}) +
+                           "*SET_SEGMENT\n" + card({"12"}) + card({"1", "2", "3", "3"}) +
+                           "*SET_SHELL\n" + card({"11"}) + card({"5"}) + "*SET_NODE_COLUMN\n" +
+                           card({"14"}) + card({"4"});
+  for (const char* types : {"4", "0", "1", "6", "2"})
+    seeds.put("fuzz_lsdyna", std::to_string(n++),
+              "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n" + card({"11", "12", types, "2"}) +
+                  card({"0.2"}) + card({"1.0"}) + sets);
   for (const char* keyword :
        {"NODES_TO_SURFACE", "SURFACE_TO_SURFACE_OFFSET", "SHELL_EDGE_TO_SURFACE_MPP"})
     seeds.put(

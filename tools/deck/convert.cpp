@@ -501,8 +501,8 @@ Action setup(CommandLine& line) {
       .one_of({"rad", "json"})
       .value("FORMAT");
   line.option("--from", options->from,
-              "Format to read: rad, json (as written by --to json), lsdyna (contact keywords "
-              "only)")
+              "Format to read: rad, json (as written by --to json), lsdyna (contacts, and the sets "
+              "that they name)")
       .one_of({"rad", "json", "lsdyna"})
       .value("FORMAT");
   line.option("-o,--output", options->write.directory,

@@ -141,6 +141,22 @@ Result<JsonFiles> files_of_json(const std::string& path, const SchemaSet& schema
   return result;
 }
 
+namespace {
+
+/// Beside the file that includes it, in the current directory, then in each --include-path.
+Result<std::unique_ptr<Source>> open_included(const std::string& name, const std::string& from,
+                                              const CommonOptions& common) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> places = {fs::path(from).parent_path() / name, name};
+  for (const std::string& dir : common.include_paths) places.push_back(fs::path(dir) / name);
+  for (const fs::path& place : places)
+    if (std::error_code ec; fs::exists(place, ec))
+      return Source::open_text(place.string(), common.limits);
+  return Error{Error::Code::io, "there is no such file"};
+}
+
+}  // namespace
+
 int convert_lsdyna(const ConvertSteps& steps, const std::string& directory,
                    const CommonOptions& common, const SchemaSet& schemas,
                    std::vector<LossEntry>& losses) {
@@ -161,6 +177,13 @@ int convert_lsdyna(const ConvertSteps& steps, const std::string& directory,
   }
   LsDynaOptions options;
   options.target = steps.target;
+  options.include = [&](std::string_view name, std::string_view from) -> Result<LsDynaFile> {
+    auto source = open_included(std::string(name), std::string(from), common);
+    if (!source) return source.error();
+    remember_read(**source);
+    sources.push_back(std::move(*source));
+    return LsDynaFile{sources.back()->path(), sources.back()->bytes()};
+  };
   if (steps.version != 0) options.version = steps.version;
   if (steps.first_id != 0) options.first_id = steps.first_id;
   std::vector<OutputFile> outputs;

@@ -12,14 +12,30 @@ std::string list_cell(std::int64_t id) {
   return text ? std::string(10 - text->size(), ' ') + *text : std::string(10, ' ');
 }
 
+std::int64_t DynaHelpers::make(const char* kind, std::int64_t id, std::string block) {
+  taken_.emplace(kind, id);
+  block.replace(block.find('@'), 1, std::to_string(id));
+  text_ += block;
+  return id;
+}
+
 std::int64_t DynaHelpers::id_of(const char* kind, std::int64_t a, std::int64_t b,
                                 std::string block) {
-  const auto [it, fresh] = made_.try_emplace(std::tuple{std::string(kind), a, b}, next_id_);
+  const auto [it, fresh] = made_.try_emplace(std::tuple{std::string(kind), a, b}, 0);
   if (fresh) {
-    block.replace(block.find('@'), 1, std::to_string(next_id_++));
-    text_ += block;
+    while (taken_.contains({kind, next_id_})) ++next_id_;
+    it->second = make(kind, next_id_++, std::move(block));
   }
   return it->second;
+}
+
+std::int64_t DynaHelpers::own_id_of(const char* kind, std::int64_t a, std::int64_t b,
+                                    std::string block) {
+  const auto made = made_.find(std::tuple{std::string(kind), a, b});
+  if (made != made_.end()) return made->second;
+  if (taken_.contains({kind, b})) return id_of(kind, a, b, std::move(block));
+  made_.emplace(std::tuple{std::string(kind), a, b}, b);
+  return make(kind, b, std::move(block));
 }
 
 const Field* CardValues::field(std::string_view name) const {

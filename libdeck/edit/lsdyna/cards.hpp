@@ -2,9 +2,11 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "deck/keyword/schema.hpp"
 
@@ -16,16 +18,23 @@ std::string list_cell(std::int64_t id);
 /// Surfaces, groups, lines and sets that the interfaces need besides those of the deck.
 class DynaHelpers {
  public:
-  explicit DynaHelpers(std::int64_t first_id) : next_id_(first_id) {}
+  /// Ids by kind of block, of all files of a call.
+  using Taken = std::set<std::pair<std::string, std::int64_t>>;
+  DynaHelpers(std::int64_t first_id, Taken& taken) : next_id_(first_id), taken_(taken) {}
   /// Id of the block for this key; the first time it is made from `block`, '@' being its id.
   std::int64_t id_of(const char* kind, std::int64_t a, std::int64_t b, std::string block);
+  /// The same under the id `b` itself; another one if a block of this kind has that id already.
+  std::int64_t own_id_of(const char* kind, std::int64_t a, std::int64_t b, std::string block);
   const std::string& text() const { return text_; }
   std::int64_t next_id() const { return next_id_; }
 
  private:
+  std::int64_t make(const char* kind, std::int64_t id, std::string block);
+
   std::map<std::tuple<std::string, std::int64_t, std::int64_t>, std::int64_t> made_;
   std::string text_;
   std::int64_t next_id_;
+  Taken& taken_;
 };
 
 /// Values of a card by field name; integers and reals as text.

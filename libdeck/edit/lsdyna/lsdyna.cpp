@@ -1,5 +1,4 @@
 // Decides for every LS-DYNA contact what interface it becomes and which value goes where.
-// Over 600 lines: one table of cards and fields, read from top to bottom as the format is.
 #include "deck/edit/lsdyna.hpp"
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "edit/lsdyna/cards.hpp"
 #include "edit/lsdyna/names.hpp"
 #include "edit/lsdyna/read.hpp"
+#include "edit/lsdyna/sides.hpp"
 #include "keyword/reader.hpp"
 
 namespace deck {
@@ -26,32 +26,36 @@ std::string shown(double value) {
   return text ? text->text : std::string("?");
 }
 
-/// One side of a contact as the card names it.
-struct Side {
-  std::int64_t id = 0, type = 0;
-  const DynaCell* cell = nullptr;
-};
-
 /// Ids that the files of a call share.
 struct Ids {
   std::set<std::int64_t> given, written;  ///< of contacts
   std::int64_t free = 1;                  ///< for the next contact without an id
+  detail::DynaHelpers::Taken blocks;      ///< of groups, surfaces, lines and sets
   std::int64_t helper = 90000001;         ///< for the next group, surface, line or set
 };
 
 class Converter {
  public:
-  Converter(std::string_view path, const SchemaSet& schemas, const LsDynaOptions& options, Ids& ids)
-      : path_(path), schemas_(schemas), options_(options), ids_(ids), helpers_(ids.helper) {}
+  Converter(std::string_view path, const SchemaSet& schemas, const LsDynaOptions& options, Ids& ids,
+            detail::DynaFile& file)
+      : path_(path),
+        schemas_(schemas),
+        options_(options),
+        ids_(ids),
+        file_(file),
+        helpers_(ids.helper, ids.blocks),
+        sides_(options.version, file.sets, helpers_) {}
 
-  Rewrite run(const detail::DynaFile& file) {
-    for (const DynaContact& c : file.contacts) contact(c);
+  Rewrite run() {
+    for (const detail::DynaMissing& m : file_.missing) missing(m);
+    for (const DynaContact& c : file_.contacts) contact(c);
     check_sets();
-    out_.notes = file.notes;
-    out_.notes.push_back(
-        "sets of LS-DYNA are named by their ids: they must be sets, surfaces or "
-        "groups of the same ids in the Radioss deck");
-    if (!helpers_.text().empty())
+    out_.notes = file_.notes;
+    if (!sides_.outside().empty())
+      out_.notes.push_back(
+          "sets that are not in these files are named by their ids: they must be sets, surfaces or "
+          "groups of the same ids in the Radioss deck");
+    if (helpers_.next_id() > ids_.helper)
       out_.notes.push_back("ids " + std::to_string(ids_.helper) + " to " +
                            std::to_string(helpers_.next_id() - 1) +
                            " are used for surfaces, groups, lines and sets made here");
@@ -72,7 +76,7 @@ class Converter {
            std::string note, std::uint64_t line = 0) {
     LossEntry e;
     e.loss = loss;
-    e.file = path_;
+    e.file = contact_->file;
     e.line = line != 0 ? line : contact_->line;
     e.keyword = contact_->keyword;
     e.id = id_;
@@ -80,6 +84,16 @@ class Converter {
     e.old_text = std::move(old_text);
     e.new_text = std::move(new_text);
     e.note = std::move(note);
+    out_.losses.push_back(std::move(e));
+  }
+  void missing(const detail::DynaMissing& m) {
+    LossEntry e;
+    e.loss = Loss::undecided;
+    e.file = m.file;
+    e.line = m.line;
+    e.keyword = "*INCLUDE";
+    e.old_text = m.name;
+    e.note = m.why;
     out_.losses.push_back(std::move(e));
   }
   /// About one cell; blank ones are not reported, and the first word about a cell is the last.
@@ -137,68 +151,17 @@ class Converter {
 
   // ---- sets and parts -------------------------------------------------------------------------
 
-  Side side(const char* id, const char* type) {
-    Side s;
-    s.id = integer(id);
-    s.type = integer(type);
-    s.cell = contact_->find(id);
-    return s;
+  using Side = detail::DynaSide;
+
+  Side side(const char* id, const char* type, bool single) {
+    return {integer(id), integer(type), single};
   }
 
-  bool whole_model(const Side& s, bool single) const {
-    return s.type == 5 || (single && s.id == 0 && s.type != 6);
-  }
-
-  /// Surface of a side; 0 with a report if there is none.
-  std::int64_t surface(const Side& s, const char* name, bool single) {
-    if (whole_model(s, single) || s.type == 6) {
-      if (options_.version < 2021) {
-        cell(Loss::undecided, name, "",
-             "all parts need /SET/GENERAL, which input version " +
-                 std::to_string(options_.version) + " does not have; name a surface");
-        return 0;
-      }
-      const bool but = s.type == 6;
-      const std::int64_t id = helpers_.id_of(
-          "set", s.type == 6 ? 6 : 5, but ? s.id : 0,
-          std::string("/SET/GENERAL/@\n") + (but ? "all parts but one set" : "all parts") +
-              "\nALL\n" + (but ? "SET_D     " + detail::list_cell(s.id) + "\n" : ""));
-      if (but) used_sets_.emplace(s.id, 2);
-      return id;
-    }
-    if (s.id <= 0 || s.id > 2147483647) {
-      cell(Loss::undecided, name, "", "no " + std::string(detail::set_name(s.type)) + " is named");
-      return 0;
-    }
-    if (s.type == 3)
-      return helpers_.id_of(
-          "surf", 3, s.id,
-          "/SURF/PART/EXT/@\npart " + std::to_string(s.id) + "\n" + detail::list_cell(s.id) + "\n");
-    if (s.type < 0 || s.type > 7)
-      cell(Loss::undecided, name, std::to_string(s.id), "the type of this set is not known");
-    used_sets_.emplace(s.id, s.type);
-    return s.id;
-  }
-
-  std::int64_t nodes(const Side& s, const char* name) {
-    if (s.type == 4) {
-      if (s.id <= 0) cell(Loss::undecided, name, "", "no node set is named");
-      used_sets_.emplace(s.id, 4);
-      return std::max<std::int64_t>(s.id, 0);
-    }
-    const std::int64_t surf = surface(s, name, false);
-    return surf == 0 ? 0
-                     : helpers_.id_of("grnod", surf, 0,
-                                      "/GRNOD/SURF/@\nnodes of surface " + std::to_string(surf) +
-                                          "\n" + detail::list_cell(surf) + "\n");
-  }
-
-  std::int64_t line(const Side& s, const char* name, bool single) {
-    const std::int64_t surf = surface(s, name, single);
-    return surf == 0 ? 0
-                     : helpers_.id_of("line", surf, 0,
-                                      "/LINE/SURF/@\nedges of surface " + std::to_string(surf) +
-                                          "\n" + detail::list_cell(surf) + "\n");
+  /// The id of a side; what a person has to look at is reported.
+  std::int64_t made(const detail::DynaSides::Made& side, const char* name) {
+    if (!side.doubt.empty())
+      cell(Loss::undecided, name, side.id == 0 ? "" : std::to_string(side.id), side.doubt);
+    return side.id;
   }
 
   void report_side(const Side& s, const char* id, const char* type, std::int64_t target) {
@@ -209,33 +172,27 @@ class Converter {
 
   void sides(const DynaContact& c) {
     const bool single = detail::is_single(c.kind);
-    const Side a = side("SSID", "SSTYP"), b = side("MSID", "MSTYP");
+    const Side a = side("SSID", "SSTYP", single), b = side("MSID", "MSTYP", false);
     std::int64_t secondary = 0, main = 0;
     if (target_ == 11) {
-      secondary = line(a, "SSID", single);
-      main = single ? secondary : line(b, "MSID", false);
+      secondary = made(sides_.line(a), "SSID");
+      main = single ? secondary : made(sides_.line(b), "MSID");
       flag("line_IDs", secondary);
       flag("line_IDm", main);
     } else if (target_ == 19) {
-      secondary = surface(a, "SSID", single);
-      main = single ? secondary : surface(b, "MSID", false);
+      secondary = made(sides_.surface(a), "SSID");
+      main = single ? secondary : made(sides_.surface(b), "MSID");
       flag("surf_IDs", secondary);
       flag("surf_IDm", main);
     } else if (single) {
-      main = surface(a, "SSID", true);
+      main = made(sides_.surface(a), "SSID");
       secondary = main;
       // Without a node group TYPE7 takes the nodes of its own surface; TYPE10 needs the group.
-      const std::int64_t group =
-          target_ == 10 && main != 0
-              ? helpers_.id_of("grnod", main, 0,
-                               "/GRNOD/SURF/@\nnodes of surface " + std::to_string(main) + "\n" +
-                                   detail::list_cell(main) + "\n")
-              : 0;
-      flag("grnd_IDs", group);
+      flag("grnd_IDs", target_ == 10 ? sides_.group_of(main) : 0);
       flag("surf_IDm", main);
     } else {
-      secondary = nodes(a, "SSID");
-      main = surface(b, "MSID", false);
+      secondary = made(sides_.nodes(a), "SSID");
+      main = made(sides_.surface(b), "MSID");
       flag("grnd_IDs", secondary);
       flag("surf_IDm", main);
     }
@@ -254,7 +211,7 @@ class Converter {
   /// A set id that stands for sets of two types can be one Radioss set only.
   void check_sets() {
     std::map<std::int64_t, std::set<std::int64_t>> types;
-    for (const auto& [id, type] : used_sets_) types[id].insert(type);
+    for (const auto& [id, type] : sides_.outside()) types[id].insert(type);
     for (const auto& [id, list] : types) {
       if (list.size() < 2) continue;
       std::string names;
@@ -573,9 +530,10 @@ class Converter {
   const LsDynaOptions& options_;
   Ids& ids_;
   Rewrite out_;
+  detail::DynaFile& file_;
   detail::DynaHelpers helpers_;
+  detail::DynaSides sides_;
   std::string text_;
-  std::set<std::pair<std::int64_t, std::int64_t>> used_sets_;  ///< (id, type)
   std::size_t count_ = 0;
   // The contact at hand.
   const DynaContact* contact_ = nullptr;
@@ -612,14 +570,14 @@ std::vector<Rewrite> contacts_from_lsdyna(const std::vector<LsDynaFile>& files,
   Ids ids;
   if (options.first_id) ids.free = ids.helper = *options.first_id;
   for (const LsDynaFile& file : files) {
-    read.push_back(detail::read_dyna(file.text));
+    read.push_back(detail::read_dyna(file, options));
     for (const DynaContact& c : read.back().contacts)
       if (const DynaCell* cid = c.find("CID"))
         if (const auto n = read_integer(cid->text); n.status == NumberStatus::ok)
           ids.given.insert(n.value);
   }
   for (std::size_t i = 0; i < files.size(); ++i)
-    all[i] = Converter(files[i].path, schemas, options, ids).run(read[i]);
+    all[i] = Converter(files[i].path, schemas, options, ids, read[i]).run();
   return all;
 }
 

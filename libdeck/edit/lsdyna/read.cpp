@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "deck/base/limits.hpp"
 #include "deck/text/number.hpp"
 #include "keyword/reader.hpp"
 
@@ -177,56 +178,136 @@ std::vector<std::string_view> split(std::string_view line, std::size_t width, st
   return cells;
 }
 
+/// One file of the include tree, and how far it is read.
+struct Frame {
+  LsDynaFile file;
+  std::size_t parent = 0;  ///< place of the file that includes it; its own: the main file
+  std::size_t at = 0;
+  std::uint64_t number = 0;
+  bool all_long = false;  ///< *KEYWORD LONG=Y
+};
+
 class Reader {
  public:
-  explicit Reader(std::string_view text) : text_(text) {}
+  Reader(const LsDynaFile& file, const LsDynaOptions& options) : main_(file), options_(options) {}
 
   DynaFile run() {
     collect_parameters();
-    for (TextLine line = next(); line.number != 0; line = next()) {
-      if (!line.text.starts_with('*')) continue;
-      std::string keyword = keyword_of(line.text);
-      if (keyword == "*END") break;
-      if (keyword == "*KEYWORD") {
-        const std::string all = upper(line.text);
-        all_long_ = all.find("LONG=Y") != std::string::npos;
-      } else if (keyword.starts_with("*INCLUDE")) {
-        note("*INCLUDE is not followed: convert the included files one by one");
-      } else if (keyword == "*CONTROL_CONTACT") {
+    begin();
+    std::string keyword;
+    for (TextLine line = next_keyword(keyword); line.number != 0; line = next_keyword(keyword)) {
+      DynaSetKeyword set;
+      if (keyword == "*CONTROL_CONTACT")
         note("*CONTROL_CONTACT was not read: its defaults for blank cells are not carried");
-      } else if (keyword.starts_with("*CONTACT_")) {
+      else if (keyword.starts_with("*CONTACT_"))
         contact(std::move(keyword), line);
-      }
+      else if (read_set_keyword(keyword, set))
+        read_set(set);
+      else if (keyword == "*PART")
+        read_parts();
     }
     return std::move(out_);
   }
 
  private:
-  void note(const char* text) {
+  void note(std::string text) {
     if (std::find(out_.notes.begin(), out_.notes.end(), text) == out_.notes.end())
-      out_.notes.emplace_back(text);
+      out_.notes.push_back(std::move(text));
   }
 
-  /// Next line that is no comment; number 0 at the end.
+  // ---- lines of the include tree --------------------------------------------------------------
+
+  void begin() {
+    frames_.assign(1, {main_});
+    includes_ = 0;
+  }
+
+  /// Next line of the file at work that is no comment; number 0 at its end.
   TextLine next() {
-    while (at_ < text_.size()) {
-      const auto nl = std::min(text_.find('\n', at_), text_.size());
-      const std::string_view line = trim_right(text_.substr(at_, nl - at_));
-      at_ = nl + 1;
-      ++number_;
-      if (!line.starts_with('$')) return {line, number_};
+    Frame& f = frames_.back();
+    while (f.at < f.file.text.size()) {
+      const auto nl = std::min(f.file.text.find('\n', f.at), f.file.text.size());
+      const std::string_view line = trim_right(f.file.text.substr(f.at, nl - f.at));
+      f.at = nl + 1;
+      ++f.number;
+      if (!line.starts_with('$')) return {line, f.number};
     }
     return {};
   }
-  /// Next data line of the open keyword; number 0 where the next keyword begins.
+  /// Next data line of the open keyword; number 0 where the next keyword begins, or the file ends.
   TextLine next_data() {
-    const std::size_t at = at_;
-    const std::uint64_t number = number_;
+    const Frame before = frames_.back();
     const TextLine line = next();
     if (line.number == 0 || !line.text.starts_with('*')) return line;
-    at_ = at;
-    number_ = number;
+    frames_.back() = before;
     return {};
+  }
+  /// Next keyword of the tree, in capitals without its format mark; number 0 at the end.
+  TextLine next_keyword(std::string& keyword) {
+    while (!frames_.empty()) {
+      const TextLine line = next();
+      if (line.number == 0) {
+        frames_.pop_back();
+        continue;
+      }
+      if (!line.text.starts_with('*')) continue;
+      keyword = keyword_of(line.text);
+      if (keyword == "*END")
+        frames_.pop_back();
+      else if (keyword == "*KEYWORD")
+        frames_.back().all_long = upper(line.text).find("LONG=Y") != std::string::npos;
+      else if (keyword == "*INCLUDE")
+        include();
+      else if (keyword.starts_with("*INCLUDE"))
+        note(keyword + " is not followed: convert its files one by one");
+      else
+        return line;
+    }
+    return {};
+  }
+
+  /// File names, one on a line; " +" at the end of a line continues the name.
+  void include() {
+    std::vector<std::pair<std::string, std::uint64_t>> names;
+    bool open = false;
+    for (TextLine line = next_data(); line.number != 0; line = next_data()) {
+      std::string_view text = trim(line.text);
+      const bool more = text.ends_with(" +");
+      if (more) text.remove_suffix(2);
+      if (open)
+        names.back().first += std::string(text);
+      else if (!text.empty())
+        names.emplace_back(std::string(text), line.number);
+      open = more && !names.empty();
+    }
+    // What was pushed last is read first.
+    const std::size_t parent = frames_.size() - 1;
+    for (auto name = names.rbegin(); name != names.rend(); ++name) open_file(*name, parent);
+  }
+  void open_file(const std::pair<std::string, std::uint64_t>& name, std::size_t parent) {
+    if (!options_.include) {
+      note("*INCLUDE is not followed: convert the included files one by one");
+      return;
+    }
+    const Frame from = frames_[parent];
+    const auto miss = [&](std::string why) {
+      if (complete_) return;  // said when parameters were collected
+      out_.missing.push_back(
+          {std::string(from.file.path), name.second, name.first.substr(0, 200), std::move(why)});
+    };
+    const auto file = options_.include(name.first, from.file.path);
+    if (!file) return miss(file.error().message);
+    int depth = 1;
+    bool again = false;
+    for (std::size_t at = parent;; at = frames_[at].parent, ++depth) {
+      again = again || frames_[at].file.path == file->path;
+      if (frames_[at].parent == at) break;
+    }
+    constexpr Limits limits{};
+    if (again) return miss("it includes itself");
+    if (depth > limits.include_depth || ++includes_ > limits.files)
+      return miss("too many files include one another");
+    frames_.push_back({*file, parent, 0, 0, from.all_long});
   }
 
   /// The keyword in capitals without the format mark; sets the width of its cells.
@@ -234,36 +315,112 @@ class Reader {
     const auto end = std::min(line.find_first_of(" \t"), line.size());
     std::string keyword = upper(line.substr(0, end));
     std::string_view rest = trim(line.substr(end));
-    width_ = all_long_ ? 20 : 10;
+    width_ = frames_.back().all_long ? 20 : 10;
     if (keyword.ends_with('+') || rest.starts_with('+')) width_ = 20;
     if (keyword.ends_with('-') || rest.starts_with('-')) width_ = 10;
     while (keyword.ends_with('+') || keyword.ends_with('-')) keyword.pop_back();
     return keyword;
   }
 
+  // ---- values ---------------------------------------------------------------------------------
+
   /// *PARAMETER: name and value in turn; the first letter of the name is its type.
   void collect_parameters() {
-    bool open = false;
-    for (TextLine line = next(); line.number != 0; line = next()) {
-      if (line.text.starts_with('*')) {
-        const std::string keyword = keyword_of(line.text);
-        open = keyword == "*PARAMETER" || keyword == "*PARAMETER_GLOBAL" ||
-               keyword == "*PARAMETER_LOCAL";
-        if (keyword == "*END") break;
+    begin();
+    std::string keyword;
+    for (TextLine line = next_keyword(keyword); line.number != 0; line = next_keyword(keyword)) {
+      if (keyword != "*PARAMETER" && keyword != "*PARAMETER_GLOBAL" &&
+          keyword != "*PARAMETER_LOCAL")
         continue;
-      }
-      if (!open) continue;
-      const auto cells = split(line.text, width_, 8);
-      for (std::size_t i = 0; i + 1 < cells.size(); i += 2) {
-        std::string_view name = cells[i];
-        if (name.empty()) continue;
-        name.remove_prefix(1);
-        parameters_.emplace(upper(trim(name)), cells[i + 1]);
+      for (TextLine data = next_data(); data.number != 0; data = next_data()) {
+        const auto cells = split(data.text, width_, 8);
+        for (std::size_t i = 0; i + 1 < cells.size(); i += 2) {
+          std::string_view name = cells[i];
+          if (name.empty()) continue;
+          name.remove_prefix(1);
+          parameters_.emplace(upper(trim(name)), cells[i + 1]);
+        }
       }
     }
-    at_ = 0;
-    number_ = 0;
+    complete_ = true;
   }
+
+  /// Text of a cell with its parameter replaced; nullopt: there is no such parameter.
+  std::optional<std::string> value_of(std::string_view text) const {
+    std::string_view name = text;
+    const bool minus = name.starts_with("-&");
+    if (minus) name.remove_prefix(1);
+    if (!name.starts_with('&')) return std::string(text.substr(0, 100));
+    const auto it = parameters_.find(upper(name.substr(1)));
+    if (it == parameters_.end()) return std::nullopt;
+    const bool negative = it->second.starts_with('-');
+    std::string out(it->second.substr(minus && negative ? 1 : 0));
+    if (minus && !negative) out.insert(0, 1, '-');
+    return out;
+  }
+
+  /// Ids of a line; blank cells and 0 are none. What is no id goes to `unread`.
+  std::vector<std::int64_t> ids_of(std::string_view line, std::size_t most, std::string& unread) {
+    std::vector<std::int64_t> out;
+    for (const std::string_view text : split(line, width_, most)) {
+      const auto value = value_of(text);
+      const IntegerCell id = read_integer(value ? *value : std::string("?"));
+      if (id.status == NumberStatus::ok && id.value >= 0 && id.value <= 2147483647)
+        out.push_back(id.value);
+      else if (id.status == NumberStatus::blank)
+        out.push_back(0);
+      else if (unread.empty())
+        unread = "'" + std::string(text.substr(0, 20)) + "' in it is no id";
+    }
+    return out;
+  }
+
+  // ---- sets and parts -------------------------------------------------------------------------
+
+  void read_set(const DynaSetKeyword& keyword) {
+    using Form = DynaSetKeyword::Form;
+    DynaSet set;
+    TextLine line = next_data();
+    if (keyword.title && line.number != 0) {
+      set.title = std::string(trim(line.text).substr(0, 100));
+      line = next_data();
+    }
+    if (line.number == 0) return;
+    const auto first = ids_of(line.text, 1, set.unread);
+    const std::int64_t id = first.empty() ? 0 : first[0];
+    if (keyword.form == Form::other) set.unread = "this form of *SET is not read";
+    for (line = next_data(); line.number != 0 && keyword.form != Form::other; line = next_data()) {
+      const std::size_t most = keyword.form == Form::column     ? 1
+                               : keyword.form == Form::segments ? 4
+                                                                : 8;
+      std::vector<std::int64_t> ids = ids_of(line.text, most, set.unread);
+      if (keyword.form == Form::segments) {
+        ids.resize(4);
+        if (ids[0] != 0) set.segments.push_back({ids[0], ids[1], ids[2], ids[3]});
+      } else if (keyword.form == Form::generate) {
+        for (std::size_t i = 0; i + 1 < ids.size(); i += 2)
+          if (ids[i] != 0) set.ranges.emplace_back(ids[i], ids[i + 1]);
+      } else {
+        std::erase(ids, 0);
+        auto& to = keyword.form == Form::add ? set.sets : set.ids;
+        to.insert(to.end(), ids.begin(), ids.end());
+      }
+    }
+    if (id > 0) out_.sets.add(keyword.kind, id, std::move(set), keyword.collect);
+  }
+
+  /// Heading and card in turn.
+  void read_parts() {
+    std::string unread;
+    for (TextLine title = next_data(); title.number != 0; title = next_data()) {
+      const TextLine card = next_data();
+      if (card.number == 0) return;
+      const auto ids = ids_of(card.text, 1, unread);
+      if (!ids.empty() && ids[0] > 0) out_.sets.parts.insert(ids[0]);
+    }
+  }
+
+  // ---- contacts -------------------------------------------------------------------------------
 
   void add_cell(DynaContact& c, const CellLayout& layout, std::string_view text,
                 std::uint64_t line) {
@@ -273,20 +430,9 @@ class Reader {
     cell.fallback = layout.fallback;
     cell.line = line;
     cell.written = std::string(text.substr(0, 100));
-    std::string_view name = text;
-    const bool minus = name.starts_with("-&");
-    if (minus) name.remove_prefix(1);
-    if (name.starts_with('&')) {
-      const auto it = parameters_.find(upper(name.substr(1)));
-      cell.unknown_parameter = it == parameters_.end();
-      if (!cell.unknown_parameter) {
-        const bool negative = it->second.starts_with('-');
-        cell.text = std::string(it->second.substr(minus && negative ? 1 : 0));
-        if (minus && !negative) cell.text.insert(0, 1, '-');
-      }
-    } else {
-      cell.text = cell.written;
-    }
+    const auto value = value_of(text);
+    cell.unknown_parameter = !value;
+    if (value) cell.text = *value;
     c.cells.push_back(std::move(cell));
   }
 
@@ -309,6 +455,7 @@ class Reader {
   void contact(std::string keyword, const TextLine& header) {
     DynaContact c;
     c.keyword = std::move(keyword);
+    c.file = std::string(frames_.back().file.path);
     c.line = header.number;
     const std::string stripped(strip_options(c.keyword, c.options));
     c.kind = kind_of(stripped);
@@ -349,11 +496,13 @@ class Reader {
     out_.contacts.push_back(std::move(c));
   }
 
-  std::string_view text_;
-  std::size_t at_ = 0, width_ = 10;
-  std::uint64_t number_ = 0;
-  bool all_long_ = false;
+  LsDynaFile main_;
+  const LsDynaOptions& options_;
+  std::vector<Frame> frames_;  ///< the include tree: the file at work last
+  int includes_ = 0;
+  std::size_t width_ = 10;
   std::map<std::string, std::string_view, std::less<>> parameters_;
+  bool complete_ = false;  ///< parameters are collected
   DynaFile out_;
 };
 
@@ -369,6 +518,8 @@ const DynaCell* DynaContact::find(std::string_view name) const {
   return nullptr;
 }
 
-DynaFile read_dyna(std::string_view text) { return Reader(text).run(); }
+DynaFile read_dyna(const LsDynaFile& file, const LsDynaOptions& options) {
+  return Reader(file, options).run();
+}
 
 }  // namespace deck::detail

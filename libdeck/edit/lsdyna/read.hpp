@@ -7,6 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "deck/edit/lsdyna.hpp"
+#include "edit/lsdyna/sets.hpp"
+
 namespace deck::detail {
 
 enum class DynaKind : std::uint8_t {
@@ -41,6 +44,7 @@ struct DynaContact {
   DynaKind kind = DynaKind::other;
   std::string keyword;               ///< "*CONTACT_AUTOMATIC_GENERAL_ID"
   std::vector<std::string> options;  ///< what was stripped: "ID", "MPP", "OFFSET" ...
+  std::string file;                  ///< path
   std::uint64_t line = 0;
   std::string heading;
   std::vector<DynaCell> cells;     ///< all named cells of all cards that are there, in order
@@ -51,11 +55,21 @@ struct DynaContact {
   const DynaCell* find(std::string_view name) const;
 };
 
+/// An *INCLUDE that leads nowhere.
+struct DynaMissing {
+  std::string file;  ///< that has the line
+  std::uint64_t line = 0;
+  std::string name, why;
+};
+
+/// A file with all that it includes.
 struct DynaFile {
   std::vector<DynaContact> contacts;
+  DynaSets sets;
+  std::vector<DynaMissing> missing;
   std::vector<std::string> notes;
 };
 
-DynaFile read_dyna(std::string_view text);
+DynaFile read_dyna(const LsDynaFile& file, const LsDynaOptions& options);
 
 }  // namespace deck::detail

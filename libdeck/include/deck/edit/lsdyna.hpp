@@ -1,14 +1,20 @@
-// LS-DYNA contact keywords as Radioss interfaces: the contact cards only; sets and parts by id.
+// LS-DYNA contact keywords as Radioss interfaces, with the sets and parts that they name.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/keyword/schema.hpp"
+#include "deck/text/result.hpp"
 
 namespace deck {
+
+struct LsDynaFile {
+  std::string_view path, text;
+};
 
 struct LsDynaOptions {
   /// 7, 10, 11 or 19 for every contact; 0: by keyword — single surface, nodes to surface and one
@@ -19,18 +25,19 @@ struct LsDynaOptions {
   /// Contacts without an id, and the groups, surfaces, lines and sets that they need, get ids from
   /// here on. Not given: contacts from 1, the others from 90000001.
   std::optional<std::int64_t> first_id;
-};
-
-struct LsDynaFile {
-  std::string_view path, text;
+  /// The file that `name` on an *INCLUDE line of the file `from` means; it must stay as it is until
+  /// the conversion has ended. Error: why there is none. Not given: nothing is included.
+  std::function<Result<LsDynaFile>(std::string_view name, std::string_view from)> include = {};
 };
 
 /// Reads *CONTACT_AUTOMATIC_SINGLE_SURFACE, _SURFACE_TO_SURFACE, _ONE_WAY_SURFACE_TO_SURFACE,
 /// _NODES_TO_SURFACE, _GENERAL and *CONTACT_TIED_NODES_TO_SURFACE, _SURFACE_TO_SURFACE,
 /// _SHELL_EDGE_TO_SURFACE with the options ID, MPP, OFFSET, BEAM_OFFSET, CONSTRAINED_OFFSET,
 /// SMOOTH, MORTAR, INTERIOR and the optional cards A to G; 10-column, long (20-column) and comma
-/// format; values by *PARAMETER. `new_text` is an include file of /INTER blocks and what they need,
-/// to be used where sets of LS-DYNA have become sets (or surfaces, groups) of the same id.
+/// format; values by *PARAMETER; files by *INCLUDE. Sets of nodes, parts, segments and shells
+/// (*SET_…, lists, columns, ranges, sets of sets) that a contact names become groups, surfaces or
+/// sets. `new_text` is an include file of /INTER blocks and what they need; a set that is not in
+/// these files is named by its id, and must be a set (or surface, group) of that id in the deck.
 ///
 /// The loss report has an entry for every cell that is not blank. Units are not changed. Nothing in
 /// `text` can make the function fail: what cannot be read is `undecided`. Refusals: no contact

@@ -1,0 +1,85 @@
+// Values outside of what the schema of their keyword allows, for keywords without rules of their
+// own: those of users' schemas above all.
+#include <algorithm>
+
+#include "lint/check.hpp"
+#include "lint/check_tables.hpp"
+
+namespace deck::detail {
+namespace {
+
+bool bounded(const Field& f) { return !f.values.empty() || f.min || f.max; }
+
+/// Contacts, their defaults and frictions have a rule for every field.
+bool has_own_rules(const Schema& s) {
+  return s.kind == "inter" || s.kind == "friction" || s.keyword.starts_with("/DEFAULT/INTER");
+}
+
+bool within(const Field& f, double value) {
+  if (f.min && (value < *f.min || (f.min_open && value == *f.min))) return false;
+  return !f.max || !(value > *f.max || (f.max_open && value == *f.max));
+}
+
+std::string range_of(const Field& f) {
+  const auto bound = [](double v, bool open, std::string_view word) {
+    return fmt::format("{} {}{}", word, number_text(v), open ? " (not itself)" : "");
+  };
+  std::string out;
+  if (f.min) out = bound(*f.min, f.min_open, "from");
+  if (f.max) out += (out.empty() ? "" : " ") + bound(*f.max, f.max_open, "up to");
+  return out;
+}
+
+/// What is legal, where the cell is not; empty: it is.
+std::string legal_instead(const Cell& cell) {
+  const Field& f = *cell.field;
+  if (cell.status != NumberStatus::ok && cell.status != NumberStatus::implicit_exponent) return {};
+  const bool real = f.type == FieldType::real;
+  const double value = real ? cell.real : static_cast<double>(cell.integer);
+  if (value == 0) return {};  // 0 and blank are the default
+  if (!within(f, value)) return range_of(f);
+  if (real || f.values.empty() ||
+      std::find(f.values.begin(), f.values.end(), cell.integer) != f.values.end())
+    return {};
+  std::string out;
+  for (std::size_t i = 0; i < f.values.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == f.values.size() ? " or " : ", ") + std::to_string(f.values[i]);
+  return out;
+}
+
+void check_block(const LintContext& c, const Rule& rule, Reporter& r, const Block& block) {
+  const DecodedBlock decoded = decode(c.deck, block);
+  for (const DecodedCard& card : decoded.cards)
+    for (const Cell& cell : card.cells) {
+      if (cell.field == nullptr || !bounded(*cell.field)) continue;
+      const std::string legal = legal_instead(cell);
+      if (legal.empty()) continue;
+      Diagnostic* d =
+          r.report(rule, block, cell.span,
+                   fmt::format("{} of {} {} is {}; legal: {}", cell.field->name,
+                               block.schema->keyword, block.id.value, clipped(cell.text), legal));
+      if (d != nullptr && !cell.field->doc.empty()) d->help += " (" + cell.field->doc + ")";
+    }
+}
+
+void check_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
+  std::map<const Schema*, bool> wanted;
+  for (const Block& block : c.deck.blocks) {
+    const Schema* s = block.schema;
+    if (s == nullptr || block.opaque || s->bulk) continue;
+    const auto [it, fresh] = wanted.try_emplace(s, false);
+    if (fresh && !has_own_rules(*s))
+      it->second = std::any_of(s->cards.begin(), s->cards.end(), [](const CardSchema& card) {
+        return std::any_of(card.fields.begin(), card.fields.end(), bounded);
+      });
+    if (it->second) check_block(c, rule, r, block);
+  }
+}
+
+constexpr Checked table[] = {{RuleId::DK096, check_bounds}};
+
+}  // namespace
+
+std::span<const Checked> bound_checks() { return table; }
+
+}  // namespace deck::detail

@@ -1,0 +1,59 @@
+// Values against the bounds of a schema: inside, outside, at an open bound, and where 0 is the
+// default.
+#include "lint/support.hpp"
+
+namespace deck {
+namespace {
+
+constexpr std::string_view winch = R"({
+  "keyword": "/WINCH", "kind": "other", "doc": "A winch.",
+  "cards": [{ "name": "all", "fields": [
+    { "name": "Imode", "cols": [1, 10], "type": "int", "values": [0, 1, 4], "doc": "Mode" },
+    { "name": "share", "cols": [11, 30], "type": "real", "min": 0, "max": 1, "max_open": true, "doc": "Share" }
+  ]}]
+})";
+
+class BoundsOfASchema : public testing::Test {
+ protected:
+  /// The message about the card, or nothing.
+  std::string said(std::string_view line) {
+    folder_.write("winch.json", winch);
+    SchemaSet schemas = SchemaSet::built_in();
+    EXPECT_TRUE(schemas.add_directory(folder_.path()));
+    const std::string text =
+        example_deck("/WINCH/3\nfront\n" + std::string(line) + "\n", SchemaSet::built_in()).main;
+    const auto deck = read_deck_text("deck_0000.rad", text, schemas);
+    EXPECT_TRUE(deck);
+    const LintResult result = lint_deck(*deck, schemas);
+    for (const Diagnostic& d : result.diagnostics)
+      if (d.rule == RuleId::DK096) return d.message;
+    return {};
+  }
+  test::Folder folder_;
+};
+
+TEST_F(BoundsOfASchema, SayNothingOfLegalValues) {
+  EXPECT_EQ(said("         4                 0.5"), "");
+}
+
+TEST_F(BoundsOfASchema, TakeZeroAndBlankForTheDefault) {
+  EXPECT_EQ(said("         0                 0.0"), "");
+  EXPECT_EQ(said(""), "");
+}
+
+TEST_F(BoundsOfASchema, NameTheLegalValuesOfAFlag) {
+  EXPECT_EQ(said("         2                 0.5"), "Imode of /WINCH 3 is 2; legal: 0, 1 or 4");
+}
+
+TEST_F(BoundsOfASchema, NameTheRangeAndThatAnOpenBoundIsNotInIt) {
+  EXPECT_EQ(said("         1                 1.0"),
+            "share of /WINCH 3 is 1.0; legal: from 0 up to 1 (not itself)");
+  EXPECT_EQ(said("         1               0.999"), "");
+}
+
+TEST_F(BoundsOfASchema, LeaveWhatIsNoNumberToItsOwnRule) {
+  EXPECT_EQ(said("       two                 0.5"), "");
+}
+
+}  // namespace
+}  // namespace deck
