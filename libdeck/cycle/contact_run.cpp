@@ -64,13 +64,6 @@ class LocalNodes {
   std::vector<double> mass_, temperature_;
 };
 
-/// What the pairs of one evaluation bring along, beside the values they were found with.
-struct PairInputs {
-  std::vector<double> k0, p0, zero;
-  std::array<std::vector<double>, 3> ft;   ///< empty: all 0
-  std::array<std::vector<double>, 8> tie;  ///< empty: all 0
-};
-
 /// Stiffness, residual penetration, friction memory and ties of the pairs, as remembered.
 PairInputs recall(const ContactPairs& pairs, const ContactCard& card, const ContactMemory& memory) {
   PairInputs in;
@@ -103,34 +96,6 @@ PairInputs recall(const ContactPairs& pairs, const ContactCard& card, const Cont
     for (std::size_t c = 0; c < 8; ++c) in.tie[c][i] = known->tie[c];
   }
   return in;
-}
-
-/// Points the view at the pairs' own arrays.
-void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in) {
-  const auto data = [](const std::vector<double>& v) { return v.empty() ? nullptr : v.data(); };
-  const auto or_zero = [&](const std::vector<double>& v) {
-    return v.empty() ? in.zero.data() : v.data();
-  };
-  view.k0 = data(in.k0);
-  view.gap = data(pairs.gap);
-  view.p0 = data(in.p0);
-  for (std::size_t c = 0; c < 3; ++c) view.ft_old[c] = or_zero(in.ft[c]);
-  for (std::size_t c = 0; c < 8; ++c) view.tie[c] = or_zero(in.tie[c]);
-  view.area = data(pairs.area);
-  view.conductivity = data(pairs.conductivity);
-  for (std::size_t k = 0; k < 2; ++k) {
-    view.edge_width[k] = data(pairs.edge_width[k]);
-    view.ortho_mu[k] = data(pairs.ortho_mu[k]);
-    view.ortho_direction[k] = data(pairs.ortho_direction[k]);
-  }
-  for (std::size_t k = 0; k < 4; ++k) view.edge_conductivity[k] = data(pairs.edge_conductivity[k]);
-  view.fric = data(pairs.fric);
-  view.visf2 = data(pairs.visf2);
-  for (std::size_t k = 0; k < 6; ++k) view.c[k] = data(pairs.c[k]);
-  for (std::size_t k = 0; k < 6; ++k) view.c2[k] = data(pairs.c2[k]);
-  view.directed = data(pairs.directed);
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t c = 0; c < 3; ++c) view.normal[k][c] = data(pairs.normal[k][c]);
 }
 
 PairOutcome outcome_of(const ContactPairs& pairs, const PacketResult& r, std::size_t i) {
@@ -468,6 +433,33 @@ void refresh(const RunContext& run, const Contact& contact, const ContactCard& c
 }
 
 }  // namespace
+
+void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in) {
+  const auto data = [](const std::vector<double>& v) { return v.empty() ? nullptr : v.data(); };
+  const auto or_zero = [&](const std::vector<double>& v) {
+    return v.empty() ? in.zero.data() : v.data();
+  };
+  view.k0 = data(in.k0);
+  view.gap = data(pairs.gap);
+  view.p0 = data(in.p0);
+  for (std::size_t c = 0; c < 3; ++c) view.ft_old[c] = or_zero(in.ft[c]);
+  for (std::size_t c = 0; c < 8; ++c) view.tie[c] = or_zero(in.tie[c]);
+  view.area = data(pairs.area);
+  view.conductivity = data(pairs.conductivity);
+  for (std::size_t k = 0; k < 2; ++k) {
+    view.edge_width[k] = data(pairs.edge_width[k]);
+    view.ortho_mu[k] = data(pairs.ortho_mu[k]);
+    view.ortho_direction[k] = data(pairs.ortho_direction[k]);
+  }
+  for (std::size_t k = 0; k < 4; ++k) view.edge_conductivity[k] = data(pairs.edge_conductivity[k]);
+  view.fric = data(pairs.fric);
+  view.visf2 = data(pairs.visf2);
+  for (std::size_t k = 0; k < 6; ++k) view.c[k] = data(pairs.c[k]);
+  for (std::size_t k = 0; k < 6; ++k) view.c2[k] = data(pairs.c2[k]);
+  view.directed = data(pairs.directed);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t c = 0; c < 3; ++c) view.normal[k][c] = data(pairs.normal[k][c]);
+}
 
 void SearchedAt::take(const Contact& contact, const Coordinates& x) {
   for (auto& n : nodes_) n.clear();

@@ -46,6 +46,16 @@ struct ContactMemory {
   std::size_t searches = 0, deaths = 0;
 };
 
+/// What the pairs of one evaluation bring along, beside the values they were found with.
+struct PairInputs {
+  std::vector<double> k0, p0, zero;
+  std::array<std::vector<double>, 3> ft;   ///< empty: all 0
+  std::array<std::vector<double>, 8> tie;  ///< empty: all 0
+};
+
+/// Points the view at the pairs' own arrays; both outlive it.
+void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in);
+
 /// Share of a node's stable step that the solver takes.
 inline constexpr double step_factor = 0.9;
 

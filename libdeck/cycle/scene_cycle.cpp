@@ -112,6 +112,20 @@ SceneOutcome run_cycle(const Scene& scene, const State& state, const CycleOption
   return CycleRun(scene, false).evaluate(scene.coordinates, state, options);
 }
 
+std::vector<ActedNode> acted_nodes(const State& state, const SceneOutcome& outcome) {
+  std::vector<ActedNode> out;
+  const NodalSums& sums = outcome.nodes;
+  for (NodeIndex n = 0; n < sums.stiffness.size(); ++n) {
+    ActedNode a{n, {sums.force[0][n], sums.force[1][n], sums.force[2][n]}, sums.stiffness[n]};
+    const bool pushed = a.force[0] != 0.0 || a.force[1] != 0.0 || a.force[2] != 0.0;
+    if (!pushed && a.stiffness == 0.0) continue;
+    if (a.stiffness > 0.0 && state.mass[n] > 0.0)
+      a.dt = detail::step_factor * std::sqrt(2.0 * state.mass[n] / a.stiffness);
+    out.push_back(a);
+  }
+  return out;
+}
+
 std::vector<InterfaceSummary> summarize(const Scene& scene, const SceneOutcome& outcome) {
   std::vector<InterfaceSummary> all;
   for (const InterBase* inter : scene.interfaces->ordered) {

@@ -6,6 +6,7 @@ import { basename, join } from "node:path";
 import { ALL, check, corpus, deck, DECK_ARTEFACTS, DECK_CORPUS, finish, gaps, launch, open, ROOT, run, same, sample, skip, WORK } from "./support.mjs";
 import { accuracyPage } from "./accuracy.mjs";
 import { accessible, reachable } from "./axe.mjs";
+import { effectsPage } from "./effects.mjs";
 import { find } from "./find.mjs";
 import { picture, section } from "./picture.mjs";
 import { tablesBehave, tablesFit, widths } from "./tables.mjs";
@@ -413,7 +414,7 @@ async function manySettings() {
 }
 
 // ONLY=crashBox,layout runs some pieces; the later ones read pages that crashBox writes.
-const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser, scratch, shot), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
+const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser, scratch, shot), effects: () => effectsPage(browser, scratch, shot), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
 const only = process.env.ONLY?.split(",");
 for (const [name, piece] of Object.entries(pieces)) if (!only || only.includes(name)) await piece();
 if (!only) check("at least 200 settings were compared bit for bit", compared >= 200, `${compared}`);

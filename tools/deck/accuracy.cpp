@@ -1,10 +1,9 @@
 // deck accuracy: what accuracy costs in time, on the hard cases or on the pairs of a deck.
 
-#include <fstream>
-
-#include "common.hpp"
 #include "deck/accuracy/accuracy.hpp"
+#include "common.hpp"
 #include "deck/report/accuracy.hpp"
+#include "processor.hpp"
 
 namespace {
 
@@ -18,16 +17,6 @@ struct Options {
   std::uint64_t seed = 1;
   std::string csv, svg, html;
 };
-
-std::string processor_name() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    const auto colon = line.find(": ");
-    if (line.rfind("model name", 0) == 0 && colon != std::string::npos)
-      return line.substr(colon + 2);
-  }
-  return "unknown processor";
-}
 
 std::string command_of(const Options& o) {
   std::string out = "deck accuracy";

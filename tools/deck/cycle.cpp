@@ -8,10 +8,13 @@
 
 #include "accuracy_option.hpp"
 #include "common.hpp"
+#include "deck/accuracy/effect_cost.hpp"
 #include "deck/report/cycle.hpp"
+#include "deck/report/html.hpp"
 #include "deck/text/gzip.hpp"
 #include "deck/text/number.hpp"
 #include "gate.hpp"
+#include "processor.hpp"
 
 namespace {
 
@@ -20,12 +23,13 @@ using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
-  bool all = false, effects = false, fail = false;
+  bool all = false, effects = false, costs = false, fail = false;
+  bool measures() const { return costs || !html.empty(); }
   std::string model = "robust", accuracy = "robust";
   double dt = 0, time = 0;
   std::vector<std::int64_t> only;
   std::vector<std::string> velocities, gone;
-  std::string vtk;
+  std::string vtk, html;
   int steps = 1;
   GateOptions gate;
 };
@@ -116,6 +120,36 @@ Result<void> write_vtk(const Options& o, std::string_view path, const std::vecto
   return write_outputs(files);
 }
 
+/// Writes the page: the report of `deck gaps` with the effects and their costs first.
+Result<void> write_html(const Options& o, const CycleInput& cycle, const SceneView& view) {
+  HtmlInput input;
+  input.path = cycle.path;
+  input.deck = cycle.deck;
+  input.scene = cycle.scene;
+  input.view = &view;
+  input.only = o.only;
+  input.cycle = cycle.outcome;
+  input.state = cycle.state;
+  input.effects = &cycle;
+  input.threads = cycle.options.threads;
+  auto page = gaps_html(input);
+  if (!page) return page.error();
+  return write_output(o.html, *page);
+}
+
+/// Options that do not go together.
+Result<void> check_page(const Options& o) {
+  if (o.measures() && o.steps > 1)
+    return Error{Error::Code::config, std::string(o.html.empty() ? "--costs" : "--html") +
+                                          " is about one evaluation: leave out --steps"};
+  if (o.html.empty()) return {};
+  if (std::string why; !html_available(&why))
+    return Error{Error::Code::config, "--html: this build has no viewer: " + why};
+  if (o.common.decks.size() > 1)
+    return Error{Error::Code::config, "--html takes one deck at a time"};
+  return {};
+}
+
 std::string suffix_of(std::size_t step) { return fmt::format("_{:04}", step); }
 
 int run(const Options& o) {
@@ -141,9 +175,14 @@ int run(const Options& o) {
     print_error(o.common, legal.error().message);
     return exit_usage;
   }
+  if (auto fits = check_page(o); !fits) {
+    print_error(o.common, fits.error().message);
+    return exit_usage;
+  }
+  if (const int bad = check_outputs(o.common, {o.html}); bad != exit_clean) return bad;
   JsonOutput json(o.common, "deck/cycle", 1);
   bool first = true;
-  options.keep_pairs = (o.all && json.wanted()) || !o.vtk.empty();
+  options.keep_pairs = (o.all && json.wanted()) || !o.vtk.empty() || !o.html.empty();
   std::vector<std::int64_t> parts;
   for (const cycle::PartVelocity& v : velocities) parts.push_back(v.part);
   const int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
@@ -170,7 +209,7 @@ int run(const Options& o) {
     }
     SceneOptions scene_options;
     scene_options.threads = options.threads;
-    scene_options.candidates = false;
+    scene_options.candidates = !o.html.empty();  // the page counts them
     scene_options.nodal_stiffness = true;
     scene_options.only = o.only;
     scene_options.accuracy = accuracy_of(o.accuracy);
@@ -237,6 +276,15 @@ int run(const Options& o) {
     const GateReport report = gate->look(loaded, scene, view, &steps.last);
     input.view = &view;
     input.gate = &report;
+    std::vector<ContactCost> costs;
+    if (o.measures()) {
+      const EffectCostOptions how;
+      costs = measure_effects(scene, state, steps.last, options, how);
+      input.costs = &costs;
+      input.cost_repeats = how.repeats;
+      input.processor = processor_name();
+    }
+    if (!o.html.empty() && written) written = write_html(o, input, view);
     if (o.gate.fails_on("never")) found = false;
     found = found || !report.passed();
     print_findings(loaded, o.common);
@@ -265,6 +313,13 @@ Action setup(CommandLine& line) {
   add_common(line, options->common);
   line.flag("--all", options->all, "JSON with every pair that has a penetration");
   line.flag("--effects", options->effects, "Also list the effects that are off, and why");
+  line.flag("--costs", options->costs,
+            "Also measure on this deck what each effect costs in the loop over pairs, with it "
+            "against without it");
+  line.option("--html", options->html,
+              "Write a page to FILE: which effects run and why, what each costs, forces and time "
+              "steps in the picture; one file, no network")
+      .value("FILE");
   line.option("--vtk", options->vtk,
               "Write pairs and nodes with their forces as VTK files (ParaView) into DIR")
       .value("DIR");
@@ -308,6 +363,7 @@ const VerbRegistration registration{
     {"cycle", 40, "Contact forces, energies and time step of the first cycle",
      "  deck cycle car_0000.rad\n"
      "  deck cycle car_0000.rad --interface 3 --effects\n"
+     "  deck cycle car_0000.rad --html cycle.html\n"
      "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3\n"
      "  deck cycle car_0000.rad --velocity 12=0,0,-5 --dt 1e-3 --steps 200 --vtk paraview\n"
      "  deck cycle car_0000.rad --model reference --all --json cycle.json\n",

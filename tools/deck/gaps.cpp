@@ -66,10 +66,11 @@ Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& sce
   cycle::CycleOptions cycle_options;
   cycle_options.threads = scene_options.threads;
   cycle_options.keep_pairs = true;
-  const cycle::SceneOutcome forces =
-      cycle::run_cycle(scene, cycle::make_state(scene), cycle_options);
+  const cycle::State state = cycle::make_state(scene);
+  const cycle::SceneOutcome forces = cycle::run_cycle(scene, state, cycle_options);
   HtmlInput input;
   input.cycle = &forces;
+  input.state = &state;
   input.crossings = &crossings;
   input.path = loaded.path;
   input.deck = &loaded.deck;

@@ -7,7 +7,8 @@
 namespace deck::detail {
 namespace {
 
-constexpr std::size_t most_rows = 100000;  // per contact, largest force first
+constexpr std::size_t most_rows = 100000;   // per contact, largest force first
+constexpr std::size_t most_nodes = 300000;  // largest force first
 
 const char* name_of(cycle::StepLimit::Source source) {
   switch (source) {
@@ -54,9 +55,34 @@ void write_contact(JsonWriter& j, const cycle::ContactOutcome& c) {
   j.end_array().end_object();
 }
 
+/// Nodes with their forces, in the order of the mesh unless there are too many.
+void write_nodes(JsonWriter& j, std::vector<cycle::ActedNode> all, const PageNodes& nodes) {
+  if (all.size() > most_nodes) {
+    std::stable_sort(all.begin(), all.end(),
+                     [](const cycle::ActedNode& a, const cycle::ActedNode& b) {
+                       return size_of(a.force) > size_of(b.force);
+                     });
+    all.resize(most_nodes);
+  }
+  j.key("nodes").begin_array(true);
+  for (const cycle::ActedNode& n : all) {
+    j.begin_array(true).value(nodes[n.node]);
+    for (const double f : n.force) j.value(f);
+    j.value(n.stiffness);
+    n.dt < 1e30 ? j.value(n.dt) : j.null();
+    j.end_array();
+  }
+  j.end_array();
+}
+
 }  // namespace
 
-std::string cycle_block(const cycle::SceneOutcome& outcome) {
+void use_nodes(const std::vector<cycle::ActedNode>& acted, PageNodes& nodes) {
+  for (const cycle::ActedNode& n : acted) nodes.use(n.node);
+}
+
+std::string cycle_block(const cycle::SceneOutcome& outcome,
+                        const std::vector<cycle::ActedNode>& acted, const PageNodes& nodes) {
   std::string out;
   JsonWriter j(out);
   j.begin_object(true);
@@ -64,7 +90,9 @@ std::string cycle_block(const cycle::SceneOutcome& outcome) {
   write_step(j, "contact_dt", outcome.contact_dt);
   j.key("contacts").begin_array(true);
   for (const cycle::ContactOutcome& c : outcome.contacts) write_contact(j, c);
-  j.end_array().end_object();
+  j.end_array();
+  write_nodes(j, acted, nodes);
+  j.end_object();
   return packed_text(out);
 }
 

@@ -7,6 +7,7 @@
 
 #include "deck/base/escape.hpp"
 #include "deck/report/gaps.hpp"
+#include "report/cycle_costs.hpp"
 #include "report/gaps_names.hpp"
 #include "report/html/parts.hpp"
 
@@ -46,6 +47,7 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page) {
   JsonWriter j(out);
   j.begin_object();
   write_json_head(j, "deck/gaps-html", 1);
+  j.field("page", in.effects != nullptr ? "cycle" : "gaps");
   write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
   j.field("verdict", gaps_verdict(*in.deck, *in.scene, *in.view));
   j.key("summary").begin_object(true);
@@ -98,10 +100,12 @@ std::string earlier_json(const HtmlInput& in) {
 
 /// What a reader without scripts gets: the verdict and a table of the contacts.
 std::string static_body(const HtmlInput& in) {
-  std::string out = "<main id=\"static\"><h1>" + html_text(file_name(in.path)) + "</h1>\n<p>" +
-                    html_text(gaps_verdict(*in.deck, *in.scene, *in.view)) +
-                    "</p>\n<table><thead><tr><th>Interface</th><th>Title</th><th>Part of it</th>"
-                    "<th>Gapmin</th><th>Penetrations</th><th>Deepest</th></tr></thead><tbody>\n";
+  std::string out = "<main id=\"static\"><h1>" + html_text(file_name(in.path)) + "</h1>\n";
+  if (in.effects != nullptr)
+    out += "<p>" + html_text(cycle_verdict(*in.effects)) + "</p>\n" + cost_html(*in.effects);
+  out += "<p>" + html_text(gaps_verdict(*in.deck, *in.scene, *in.view)) +
+         "</p>\n<table><thead><tr><th>Interface</th><th>Title</th><th>Part of it</th>"
+         "<th>Gapmin</th><th>Penetrations</th><th>Deepest</th></tr></thead><tbody>\n";
   for (std::size_t i = 0; i < in.scene->contacts.size(); ++i) {
     const Contact& c = in.scene->contacts[i];
     const ContactTotals& t = in.view->contacts[i];
@@ -142,6 +146,9 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   const std::vector<detail::MeshPart> mesh = detail::collect_mesh(model, nodes);
   const detail::PageContacts page = detail::collect_contacts(in, nodes);
   if (in.crossings != nullptr) detail::use_nodes(*in.crossings, nodes);
+  std::vector<cycle::ActedNode> acted;
+  if (in.cycle != nullptr && in.state != nullptr) acted = cycle::acted_nodes(*in.state, *in.cycle);
+  detail::use_nodes(acted, nodes);
   nodes.number();
 
   std::string out =
@@ -153,7 +160,9 @@ Result<std::string> gaps_html(const HtmlInput& in) {
       "<meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"generator\" "
       "content=\"deck " +
       std::string(library_version()) + "\">\n<title>" + html_text(file_name(in.path)) +
-      " \xe2\x80\x93 initial penetrations</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>";
+      (in.effects != nullptr ? " \xe2\x80\x93 first contact cycle"
+                             : " \xe2\x80\x93 initial penetrations") +
+      "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>";
   out += bundle.style;
   out += "</style>\n</head>\n<body>\n";
   out += static_body(in);
@@ -169,7 +178,11 @@ Result<std::string> gaps_html(const HtmlInput& in) {
     add_block(out, "deck-crossed", "application/octet-stream",
               detail::crossings_block(model, *in.crossings, nodes));
   if (in.cycle != nullptr)
-    add_block(out, "deck-cycle", "application/octet-stream", detail::cycle_block(*in.cycle));
+    add_block(out, "deck-cycle", "application/octet-stream",
+              detail::cycle_block(*in.cycle, acted, nodes));
+  if (in.effects != nullptr)
+    add_block(out, "cycle-json", "application/json",
+              detail::script_safe(cycle_json(*in.effects, false)));
   out += "<script>";
   out += bundle.script;
   out += "</script>\n</body>\n</html>\n";

@@ -82,7 +82,9 @@ void write_interfaces(JsonWriter& json, const HtmlInput& input);
 void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);
 
 // html_cycle.cpp — forces, energies and time steps of the first cycle
-std::string cycle_block(const cycle::SceneOutcome& outcome);
+void use_nodes(const std::vector<cycle::ActedNode>& acted, PageNodes& nodes);
+std::string cycle_block(const cycle::SceneOutcome& outcome,
+                        const std::vector<cycle::ActedNode>& acted, const PageNodes& nodes);
 
 // html_crossings.cpp — crossed elements
 void use_nodes(const std::vector<Crossing>& crossings, PageNodes& nodes);

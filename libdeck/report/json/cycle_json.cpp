@@ -3,6 +3,7 @@
 #include "deck/report/gate.hpp"
 #include "deck/report/json.hpp"
 #include "report/accuracy_decisions.hpp"
+#include "report/cycle_costs.hpp"
 #include "report/gaps_names.hpp"
 
 namespace deck {
@@ -170,7 +171,9 @@ const char* name_of(cycle::StepLimit::Source source) {
   }
 }
 
-void write_contact(JsonWriter& j, const Model& model, const cycle::ContactOutcome& o, bool all) {
+void write_contact(JsonWriter& j, const CycleInput& input, const cycle::ContactOutcome& o,
+                   bool all) {
+  const Model& model = *input.scene->model;
   const Contact& c = *o.contact;
   j.begin_object().field("kind", to_string(c.kind)).field("role", to_string(c.role));
   j.field("active", o.active).field("complete", o.complete);
@@ -204,6 +207,7 @@ void write_contact(JsonWriter& j, const Model& model, const cycle::ContactOutcom
   j.key("notes").begin_array();
   for (const std::string& text : o.notes) j.value(text);
   j.end_array();
+  write_cost(j, input, o);
   if (all) {
     j.key("pairs").begin_array();
     for (const cycle::PairOutcome& p : o.pairs) write_pair(j, model, c, p);
@@ -226,9 +230,21 @@ void write_interface(JsonWriter& j, const CycleInput& input, const InterBase& in
   j.end_array().key("contacts").begin_array();
   for (const ContactRole role : {ContactRole::primary, ContactRole::reversed, ContactRole::edges})
     for (const cycle::ContactOutcome& c : input.outcome->contacts)
-      if (c.contact->inter == &inter && c.contact->role == role)
-        write_contact(j, *input.scene->model, c, all);
+      if (c.contact->inter == &inter && c.contact->role == role) write_contact(j, input, c, all);
   j.end_array().end_object();
+}
+
+/// Nodes that any contact acts on, with what acts.
+void write_acted_nodes(JsonWriter& j, const CycleInput& input) {
+  j.key("nodes").begin_array();
+  for (const cycle::ActedNode& n : cycle::acted_nodes(*input.state, *input.outcome)) {
+    j.begin_object(true).field("node", input.scene->model->node_id(n.node)).key("force");
+    write_vector(j, n.force);
+    j.field("stiffness", n.stiffness);
+    write_step(j, "dt", n.dt);
+    j.end_object();
+  }
+  j.end_array();
 }
 
 }  // namespace
@@ -256,6 +272,8 @@ std::string cycle_json(const CycleInput& input, bool all) {
         break;
       }
   j.end_array();
+  write_costs(j, input);
+  if (all) write_acted_nodes(j, input);
   j.key("nodal_force").begin_object(true).field("max", o.largest_nodal_force);
   write_node(j, model, "node", o.force_node);
   j.end_object();

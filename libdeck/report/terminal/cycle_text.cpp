@@ -11,6 +11,7 @@
 #include "deck/report/gate.hpp"
 #include "deck/report/text_table.hpp"
 #include "report/accuracy_decisions.hpp"
+#include "report/cycle_costs.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {
@@ -497,6 +498,8 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
     if (options.effects) out += fmt::format("    off: {}\n", terminal_text(joined(lines, false)));
   }
   if (!options.effects) out += "  (--effects lists what is off, and why)\n";
+  if (const std::string text = cost_text(input, options); !text.empty())
+    out += fmt::format("\n{}What effects cost{}\n{}", bold, plain, text);
   std::string left_out;
   for (const std::string& text : input.state->not_evaluated)
     left_out += "  " + terminal_text(text) + "\n";

@@ -4,7 +4,7 @@ import type { ContactMeta, Crossed, Cycle, Earlier, Meta } from "./meta";
 
 export const kindNames = ["shell", "sh3n", "solid", "quad", "tria", "truss", "beam", "spring"];
 
-function blockText(id: string): string | null {
+export function blockText(id: string): string | null {
   return document.getElementById(id)?.textContent ?? null;
 }
 

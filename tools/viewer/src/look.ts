@@ -1,7 +1,9 @@
 // How things look: theme, colour map, what the colours mean.
 import type { MapName } from "./scene/colormap";
 
-export type ContourKind = "depth" | "ratio" | "gap" | "edge" | "none";
+export type ContourKind = "depth" | "ratio" | "gap" | "edge" | "none" | "force" | "stiffness" | "step";
+/** Kinds that show what contact does in the first cycle. */
+export const ofCycle = (kind: ContourKind): boolean => kind === "force" || kind === "stiffness" || kind === "step";
 
 export interface Look {
   map: MapName;
@@ -17,4 +19,7 @@ export const contourNames: Record<ContourKind, string> = {
   gap: "Largest pair gap",
   edge: "Pair gap ÷ shortest side",
   none: "Part colours",
+  force: "Nodal contact force",
+  stiffness: "Nodal contact stiffness",
+  step: "Nodal time step",
 };

@@ -9,6 +9,7 @@ import { distribution, exportMenu, listSection, pairsSection } from "./lists";
 import type { ContourKind, Look } from "./look";
 import type { FieldName, Overrides } from "./meta";
 import { interfaces, verdict } from "./overview";
+import { effectsSection, loadCycleDocument } from "./effects";
 import { findBox } from "./find";
 import { openMenu, rowItems } from "./menu";
 import { ViewState } from "./state";
@@ -25,7 +26,8 @@ function build(): void {
   const times: Record<string, number> = { decoded: performance.now() - started };
   const report = new Report(meta, mesh, contacts, loadEarlier(), loadCycle(), loadCrossed());
   times.evaluated = performance.now() - started;
-  const look: Look = { map: "heat", dark: false, contour: "depth", bands: 0 };
+  const doc = loadCycleDocument();
+  const look: Look = { map: "heat", dark: false, contour: doc && report.acted?.length ? "force" : "depth", bands: 0 };
   const changeLook = (change: Partial<Look>) => {
     Object.assign(look, change);
     document.documentElement.dataset.theme = look.dark ? "dark" : "light";
@@ -56,7 +58,7 @@ function build(): void {
   const undo = button("", "undo", () => state?.undo(), { "aria-label": "Undo (u)", title: "Undo (u)", class: "tool", disabled: true });
   const units = meta.deck.units.working;
   const header = h("header", { class: "top" },
-    h("div", { class: "brand" }, h("span", { class: "mark", "aria-hidden": "true" }), h("b", null, "deck gaps")),
+    h("div", { class: "brand" }, h("span", { class: "mark", "aria-hidden": "true" }), h("b", null, `deck ${meta.page}`)),
     h("div", { class: "deck-name", title: meta.deck.path }, h("h1", null, fileName(meta.deck.path)), meta.deck.title ? h("span", { class: "muted ellipsis" }, meta.deck.title) : null),
     h("div", { class: "facts" },
       h("span", null, `version ${meta.deck.version}`),
@@ -68,9 +70,9 @@ function build(): void {
       button("", "print", () => window.print(), { "aria-label": "Print", title: "Print", class: "tool" }),
       button("", "help", () => help.showModal(), { "aria-label": "Keys (?)", title: "Keys (?)", class: "tool" })));
   const nav = h("nav", { "aria-label": "Sections" },
-    ...([["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["notes", "About"]] as const)
+    ...([["effects", "Effects"], ["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["notes", "About"]] as const)
       .map(([id, name]) => h("a", { href: `#${id}` }, name)));
-  const left = h("div", { class: "left", id: "tables" }, nav, verdict(report), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`), distribution(report, look), list.element, crossedSection(report, (points) => viewport.openPoints(points)), cycleSection(report), notChecked(report));
+  const left = h("div", { class: "left", id: "tables" }, nav, doc && effectsSection(report, doc, `${stem}_effects.svg`), doc && cycleSection(report), verdict(report), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`), distribution(report, look), list.element, crossedSection(report, (points) => viewport.openPoints(points)), !doc && cycleSection(report), notChecked(report));
   for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
   const divider = h("div", { class: "divider", role: "separator", "aria-orientation": "vertical", "aria-label": "Width of the tables", "aria-valuemin": 25, "aria-valuemax": 80, "aria-valuenow": 53, tabindex: 0 });
   const right = h("aside", { class: "right" }, viewport.element, detail(report, fly));
@@ -169,7 +171,7 @@ const keyList: [string, string][] = [
   ["x", "section planes"],
   ["p", "list of parts"],
   ["c", "edges of crossed elements"],
-  ["1 … 5", "colours: depth, depth ÷ gap, gap, gap ÷ side, parts"],
+  ["1 … 8", "colours: depth, depth ÷ gap, gap, gap ÷ side, parts, force, stiffness, time step"],
   ["t", "dark or light"],
   ["drag · shift-drag · wheel", "turn · move · zoom"],
   ["← ↑ → ↓", "turn the picture when it has the focus"],
@@ -183,7 +185,7 @@ function helpDialog(): HTMLDialogElement {
 }
 
 function keys(report: Report, viewport: Viewport, list: { move(by: number): void }, help: HTMLDialogElement, look: Look, changeLook: (l: Partial<Look>) => void, undo: () => void): void {
-  const contours: ContourKind[] = ["depth", "ratio", "gap", "edge", "none"];
+  const contours: ContourKind[] = ["depth", "ratio", "gap", "edge", "none", ...(report.cycle?.nodes.length ? (["force", "stiffness", "step"] as const) : [])];
   const run: Record<string, () => void> = {
     j: () => list.move(1),
     k: () => list.move(-1),

@@ -106,6 +106,7 @@ export interface Units {
 }
 
 export interface Meta {
+  page: "gaps" | "cycle"; // which verb wrote it
   tool: { name: string; version: string };
   deck: {
     path: string;
@@ -150,6 +151,7 @@ export interface Cycle {
     elastic: number;
     rows: [number, number, number, number][]; // secondary, main, force, stiffness
   }[];
+  nodes: [number, number, number, number, number, number | null][]; // page node, force on it, stiffness, time step
 }
 
 /** Crossed elements: contact, page nodes of the edge, kind and id of its element, position of the

@@ -273,6 +273,15 @@ export class Report {
     return this.cycle && !this.settingsDiffer(contact) ? this.cycle.contacts[contact] : null;
   }
 
+  /** Nodes that contact acts on in the first cycle, of an interface or part pair that is chosen those of its rows; null as above. */
+  get acted(): Cycle["nodes"] | null {
+    if (!this.cycle || this.meta.contacts.some((_, i) => this.settingsDiffer(i))) return null;
+    const { interface: inter, pair } = this.filter;
+    if (inter === null && pair === null) return this.cycle.nodes;
+    const own = new Set(this.passing("perNode").flatMap((x) => [...this.secondaryNodes(x.row), ...this.mainNodes(x.row)]));
+    return this.cycle.nodes.filter((n) => own.has(n[0]));
+  }
+
   // ---- rows and filters ---------------------------------------------------------------------
 
   private collect(): void {

@@ -153,6 +153,16 @@ class CycleRun {
 [[nodiscard]] SceneOutcome run_cycle(const Scene& scene, const State& state,
                                      const CycleOptions& options = {});
 
+/// A node that some contact pushes or stiffens.
+struct ActedNode {
+  NodeIndex node = no_index;
+  std::array<double, 3> force{};  ///< on the node, of all contacts
+  double stiffness = 0.0;         ///< given by all contacts
+  double dt = 1e30;  ///< 0.9 sqrt(2 m / stiffness); 1e30 without mass or stiffness: no limit
+};
+/// In the order of nodes. The state must be that of the outcome.
+[[nodiscard]] std::vector<ActedNode> acted_nodes(const State& state, const SceneOutcome& outcome);
+
 /// What lint rules want to know about an interface before the run: its parts together.
 struct InterfaceSummary {
   std::int64_t id = 0;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "deck/accuracy/effect_cost.hpp"
 #include "deck/cycle/replay.hpp"
 #include "deck/cycle/steps.hpp"
 #include "deck/keyword/deck.hpp"
@@ -28,6 +29,10 @@ struct CycleInput {
   const Coordinates* coordinates = nullptr;  ///< where the outcome was computed; null: the scene's
   const SceneView* view = nullptr;           ///< of the scene, where there is a gate
   const GateReport* gate = nullptr;
+  /// Of measure_effects over the same outcome, contact by contact; null: not measured.
+  const std::vector<ContactCost>* costs = nullptr;
+  int cost_repeats = 0;   ///< timings of each loop
+  std::string processor;  ///< that measured
 };
 
 /// An effect of an interface: on where any of its parts has it on; `because` names the deciding
@@ -52,7 +57,7 @@ struct CycleTextOptions {
 };
 
 /// The document of `deck cycle --json` (schemas/output/cycle.schema.json). With `all`, every pair
-/// that has a penetration.
+/// that has a penetration, and every node that contact acts on.
 std::string cycle_json(const CycleInput& input, bool all);
 /// Verdict, table of interfaces, time steps, pairs near the gap singularity, effects, how the
 /// decisions were taken; the verdict again, and the gate.

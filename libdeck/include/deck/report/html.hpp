@@ -16,6 +16,8 @@
 
 namespace deck {
 
+struct CycleInput;  // deck/report/cycle.hpp
+
 struct HtmlInput {
   std::string_view path;  ///< of the deck, as given
   const Deck* deck = nullptr;
@@ -26,6 +28,10 @@ struct HtmlInput {
   const EarlierGaps* earlier = nullptr;
   /// Forces of the first cycle with their pairs (CycleOptions::keep_pairs); may be nullptr.
   const cycle::SceneOutcome* cycle = nullptr;
+  const cycle::State* state = nullptr;  ///< of `cycle`: what its nodes weigh
+  /// Makes the page that of `deck cycle --html`: the document of `deck cycle --json` stands in it,
+  /// effects and what they cost come first. May be nullptr.
+  const CycleInput* effects = nullptr;
   const std::vector<Crossing>* crossings = nullptr;  ///< of the same scene; may be nullptr
   int threads = 1;
 };
@@ -33,7 +39,8 @@ struct HtmlInput {
 /// True if the viewer was built in (npm was there at build time); if not, why in `reason`.
 bool html_available(std::string* reason = nullptr);
 
-/// The page. Error (config): the viewer was not built in.
+/// The page: of `deck gaps`, or of `deck cycle` where `effects` is given. Error (config): the
+/// viewer was not built in.
 Result<std::string> gaps_html(const HtmlInput& input);
 
 }  // namespace deck

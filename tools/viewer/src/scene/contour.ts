@@ -1,6 +1,7 @@
 // Values per page node for the coloured surface.
 import { pairGap } from "../core";
-import type { ContourKind } from "../look";
+import { num } from "../dom";
+import { ofCycle, type ContourKind } from "../look";
 import type { Hit, Report } from "../report";
 
 export interface Contour {
@@ -8,22 +9,37 @@ export interface Contour {
   values: Float32Array | null;
   top: number;
   of(hit: Hit): number; // value of a row in [0, 1]
+  /** What a place on the scale stands for. */
+  tick(t: number): string;
+}
+
+/** Forces, stiffness and time steps of the nodes; the smallest step is the hottest. */
+function cycleContour(report: Report, kind: ContourKind): Contour {
+  const values = new Float32Array(report.mesh.nodeId.length).fill(NaN);
+  const nodes = report.acted ?? [];
+  const raw = (n: (typeof nodes)[0]) => (kind === "force" ? Math.hypot(n[1], n[2], n[3]) : kind === "stiffness" ? n[4] : n[5] === null ? 0 : 1 / n[5]);
+  const top = nodes.reduce((m, n) => Math.max(m, raw(n)), 0) || 1;
+  for (const n of nodes) values[n[0]] = raw(n) / top;
+  const of = (x: Hit) => [...report.secondaryNodes(x.row), ...report.mainNodes(x.row)].reduce((m, n) => (values[n] > m ? values[n] : m), 0);
+  return { values, top, of, tick: (t) => (kind !== "step" ? num(t * top, 3) : t === 0 ? "∞" : num(1 / (t * top), 3)) };
 }
 
 export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Contour {
+  if (ofCycle(kind)) return cycleContour(report, kind);
   const n = report.mesh.nodeId.length;
+  const scale = (top: number) => (t: number) => num(t * top, 3);
   const pick = kind === "ratio" ? (x: Hit) => x.ratio : kind === "gap" ? (x: Hit) => x.row.gap : (x: Hit) => x.depth;
   if (kind === "none" || kind === "depth" || kind === "ratio") {
     const top = hits.reduce((m, x) => Math.max(m, pick(x)), 0) || 1;
     const of = (x: Hit) => pick(x) / top;
-    if (kind === "none") return { values: null, top, of };
+    if (kind === "none") return { values: null, top, of, tick: scale(top) };
     const values = new Float32Array(n).fill(NaN);
     for (const x of hits) {
       const v = of(x);
       for (const node of report.secondaryNodes(x.row).concat(report.mainNodes(x.row)))
         if (!(values[node] >= v)) values[node] = v;
     }
-    return { values, top, of };
+    return { values, top, of, tick: scale(top) };
   }
   const raw = new Float32Array(n).fill(NaN);
   const position = report.nodePositions;
@@ -66,7 +82,7 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
     const side = shortestSide(position, Uint32Array.from(report.mainNodes(x.row)));
     return Math.min(1, x.row.gap / side / top);
   };
-  return { values, top, of: rowValue };
+  return { values, top, of: rowValue, tick: scale(top) };
 }
 
 function shortestSide(position: Float32Array, nodes: Uint32Array): number {

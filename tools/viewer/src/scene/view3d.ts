@@ -22,6 +22,13 @@ export interface Picked {
   node: number;
 }
 
+export interface Arrow {
+  at: [number, number, number];
+  along: [number, number, number];
+  length: number; // of the longest
+  rgb: [number, number, number]; // linear, 0..1
+}
+
 const mostArrows = 10000;
 const mostThickLines = 1000; // thick lines are triangles
 
@@ -51,6 +58,7 @@ export class View3D {
   private pending = false;
   private dots: Points | null = null;
   private dotHits: Hit[] = [];
+  private arrowList: Arrow[] = [];
   private arrows: InstancedMesh | null = null;
   private arrowsOn = true;
   private readonly selection: (LineSegments2 | Points | Mesh)[] = [];
@@ -206,8 +214,8 @@ export class View3D {
     return this.partOf.get(part);
   }
 
-  /** Dots and arrows of rows; `colorOf` gives a colour of 0..255 parts. */
-  setHits(hits: Hit[], colorOf: (h: Hit) => [number, number, number]): void {
+  /** Dots of rows; `colorOf` gives a colour of 0..255 parts. Arrows show the way out of rows, or what is given instead. */
+  setHits(hits: Hit[], colorOf: (h: Hit) => [number, number, number], instead: Arrow[] | null = null): void {
     if (this.dots) {
       this.scene.remove(this.dots);
       this.dots.geometry.dispose();
@@ -239,12 +247,15 @@ export class View3D {
     this.dots.frustumCulled = false;
     this.dots.renderOrder = 3;
     this.scene.add(this.dots);
-    const count = Math.min(hits.length, mostArrows);
+    this.arrowList = instead ?? hits.slice(0, mostArrows).map((hit, i) => ({
+      at: this.report.point(hit.row), along: hit.row.normal, length: hit.row.onSurface ? 0 : 1, rgb: rgb[i].toArray() as [number, number, number],
+    }));
+    const count = Math.min(this.arrowList.length, mostArrows);
     if (count > 0) {
       this.arrows = new InstancedMesh(arrowGeometry(), new MeshLambertMaterial({ color: "#ffffff" }), count);
       this.arrows.frustumCulled = false;
       this.arrows.visible = this.arrowsOn;
-      for (let i = 0; i < count; i++) this.arrows.setColorAt(i, rgb[i]);
+      for (let i = 0; i < count; i++) this.arrows.setColorAt(i, c.fromArray(this.arrowList[i].rgb));
       this.scene.add(this.arrows);
       this.arrowScale = 0;
     }
@@ -261,13 +272,12 @@ export class View3D {
     const up = new Vector3(0, 1, 0);
     const m = new Matrix4();
     const q = new Quaternion();
-    const size = new Vector3(scale, scale, scale);
-    const zero = new Vector3(0, 0, 0);
     for (let i = 0; i < this.arrows.count; i++) {
-      const row = this.dotHits[i].row;
-      const n = new Vector3(...row.normal);
+      const { at, along, length } = this.arrowList[i];
+      const n = new Vector3(...along).normalize();
       q.setFromUnitVectors(up, n.lengthSq() > 0 ? n : up);
-      this.arrows.setMatrixAt(i, m.compose(new Vector3(...this.report.point(row)), q, row.onSurface ? zero : size));
+      const thick = length > 0 ? scale : 0;
+      this.arrows.setMatrixAt(i, m.compose(new Vector3(...at), q, new Vector3(thick, scale * length, thick)));
     }
     this.arrows.instanceMatrix.needsUpdate = true;
   }

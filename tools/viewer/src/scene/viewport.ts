@@ -1,18 +1,18 @@
 // Around the 3D view: tool bar, legend, list of parts, axes, and what is known about the selection.
 // Over 600 lines: every control of the view acts on the one state that it shares with the others.
-import { Vector3 } from "three";
+import { Color, Vector3 } from "three";
 import { colorAt, cssColor, mapNames, type MapName } from "./colormap";
 import { contourOf, type Contour } from "./contour";
 import { segmentOf } from "./crossed";
 import { button, fileName, h, icon, num, replace, svg } from "../dom";
 import { saveDataUrl } from "../exports";
 import { frameOf } from "../find";
-import { contourNames, type ContourKind, type Look } from "../look";
+import { contourNames, ofCycle, type ContourKind, type Look } from "../look";
 import { loadElements, kindNames, type ElementOrigin } from "../data";
 import { elementKey, type Look as PartLook, type Part3D } from "./parts3d";
 import type { Cut } from "./section";
 import type { Hit, Report } from "../report";
-import { View3D, type Picked } from "./view3d";
+import { View3D, type Arrow, type Picked } from "./view3d";
 
 const mostArrowsAtFirst = 400;
 
@@ -75,7 +75,7 @@ export class Viewport {
     }
     const view = this.view;
     // So many arrows hide what they point at.
-    this.arrows = this.report.filtered.length <= mostArrowsAtFirst;
+    this.arrows = this.report.filtered.length <= mostArrowsAtFirst || ofCycle(this.look.contour);
     view.setArrows(this.arrows);
     this.axes.toggleAttribute("hidden", false);
     this.element.append(this.toolbar());
@@ -114,7 +114,7 @@ export class Viewport {
 
   private toolbar(): HTMLElement {
     const contour = h("select", { "aria-label": "Colours show", title: "What the colours show (keys 1 to 5)", onchange: () => this.changeLook({ contour: contour.value as ContourKind }) },
-      ...Object.entries(contourNames).map(([k, name]) => h("option", { value: k }, name)));
+      ...Object.entries(contourNames).filter(([k]) => !ofCycle(k as ContourKind) || this.report.cycle?.nodes.length).map(([k, name]) => h("option", { value: k }, name)));
     this.report.on("look", () => (contour.value = this.look.contour));
     contour.value = this.look.contour;
     const toggle = (key: string, name: string, iconName: string, on: boolean, run: () => void) => {
@@ -127,7 +127,7 @@ export class Viewport {
     return h("div", { class: "toolbar", role: "toolbar", "aria-label": "3D view" },
       contour,
       h("span", { class: "bar" },
-        toggle("arrows", "Arrows: the way out (a)", "arrows", this.arrows, () => this.toggleArrows()),
+        toggle("arrows", "Arrows: the way out, or nodal forces where colours show those (a)", "arrows", this.arrows, () => this.toggleArrows()),
         toggle("edges", "Element sides (w)", "mesh", this.edges, () => this.toggleEdges()),
         toggle("rest", "Only what penetrates (h)", "ghost", false, () => this.toggleRest()),
         toggle("solid", "All parts solid (o)", "parts3d", false, () => this.toggleSolid()),
@@ -519,9 +519,23 @@ export class Viewport {
     const own = (x: Hit) => !parts || (parts.has(x.secondaryPart) && parts.has(x.mainPart));
     const hidden = new Set([...this.hidden].map((p) => p.data.part));
     this.view?.setHits(this.report.filtered.filter((x) => own(x) && !(hidden.has(x.secondaryPart) && hidden.has(x.mainPart))),
-      (x) => this.color(this.contour!.of(x)));
+      (x) => this.color(this.contour!.of(x)), ofCycle(this.look.contour) ? this.forces() : null);
     this.hitsShownFor = this.isolationKey();
     this.drawCrossed();
+  }
+  /** Nodal forces, largest first: length by size, colour by what the colours show. */
+  private forces(): Arrow[] {
+    const x = this.report.nodePositions;
+    const size = (n: readonly (number | null)[]) => Math.hypot(n[1]!, n[2]!, n[3]!);
+    const nodes = (this.report.acted ?? []).filter((n) => size(n) > 0).sort((a, b) => size(b) - size(a));
+    const c = new Color();
+    return nodes.map((n) => {
+      const [r, g, b] = this.color(this.contour!.values![n[0]]);
+      return {
+        at: [x[3 * n[0]], x[3 * n[0] + 1], x[3 * n[0] + 2]], along: [n[1], n[2], n[3]], length: 0.2 + 0.8 * (size(n) / size(nodes[0])),
+        rgb: c.setRGB(r / 255, g / 255, b / 255, "srgb").toArray() as [number, number, number],
+      };
+    });
   }
   private isolationKey(): string {
     const list = (s: Iterable<Part3D> | null) => (s ? [...s].map((p) => p.index).join(",") : "-");
@@ -546,7 +560,7 @@ export class Viewport {
 
   private drawLegend(): void {
     const c = this.contour;
-    this.legend.hidden = !c || (!["gap", "edge"].includes(this.look.contour) && this.report.filtered.length === 0);
+    this.legend.hidden = !c || (ofCycle(this.look.contour) ? !this.report.acted?.length : !["gap", "edge"].includes(this.look.contour) && this.report.filtered.length === 0);
     if (!c) return;
     const stops = Array.from({ length: 33 }, (_, i) => {
       const [r, g, b] = this.color(Math.min(i / 32, 0.9999));
@@ -561,7 +575,7 @@ export class Viewport {
     replace(this.legend,
       h("div", { class: "legend-title" }, name + lengthUnit),
       h("div", { class: "legend-scale" }, h("div", { class: "legend-bar", style: `background:linear-gradient(to top, ${stops.join(",")})` }),
-        h("div", { class: "legend-ticks" }, ...[1, 0.75, 0.5, 0.25, 0].map((t) => h("span", null, num(t * c.top, 3))))),
+        h("div", { class: "legend-ticks" }, ...[1, 0.75, 0.5, 0.25, 0].map((t) => h("span", null, c.tick(t))))),
       h("div", { class: "legend-options" }, maps, h("label", { class: "check" }, bands, "steps")));
     this.legend.style.setProperty("--low", cssColor(this.look.map, 0));
   }

@@ -1,0 +1,455 @@
+// Times the pair loop of each contact with and without each effect. A loop is compared with itself
+// chosen in another way (flags instead of a composition) before it is timed, and with its first
+// answer afterwards.
+#include "deck/accuracy/effect_cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <optional>
+
+#include "accuracy/tiers.hpp"
+#include "cycle/contact_run.hpp"
+
+namespace deck {
+namespace {
+
+using cycle::ContactCard;
+using cycle::ContactKind;
+using cycle::KernelPlan;
+using cycle::PacketResult;
+using cycle::PacketView;
+
+/// A card that differs in one effect, and in which words.
+struct Other {
+  ContactCard card;
+  std::string says;
+};
+
+void no_friction(ContactCard& c) {
+  c.fric = 0.0;
+  c.ifric = 0;
+  c.fric_id = c.fric_orthotropic = false;
+  c.fct_idf.reset();
+}
+void no_heat_left(ContactCard& c) {
+  const bool conducts = c.kthe != 0.0 || c.fct_idk, radiates = c.frad != 0.0 && c.drad > 0.0;
+  if (!conducts && !radiates && c.fheats == 0.0 && c.fheatm == 0.0) c.ithe = 0;
+}
+
+/// Takes an effect away that the card asks for; the words say how.
+struct Switch {
+  const char* name;
+  const char* off;
+  void (*take)(ContactCard&);
+  const char* on;
+  void (*give)(ContactCard&);
+  bool edges = true;  ///< edge contacts have it, too
+};
+
+/// Effects inside the pair loop. What is given has the values named; only the time counts.
+const Switch switches[] = {
+    {"gap-reduction", "Inacti = 0", [](ContactCard& c) { c.inacti = 0; }, "Inacti = 6",
+     [](ContactCard& c) { c.inacti = 6; }},
+    {"fixed-stiffness", "Istf = 0", [](ContactCard& c) { c.istf = 0; }, "Istf = 1",
+     [](ContactCard& c) { c.istf = 1; }, false},
+    {"normal-damping", "VISs = 0", [](ContactCard& c) { c.viss = 0.0; }, "VISs = 0.05",
+     [](ContactCard& c) { c.viss = 0.05; }},
+    {"friction-viscous", "no friction", no_friction, "Fric = 0.2, Iform = 1",
+     [](ContactCard& c) {
+       c.fric = 0.2;
+       c.iform = 1;
+     }},
+    {"friction-incremental", "no friction", no_friction, "Fric = 0.2, Iform = 2",
+     [](ContactCard& c) {
+       c.fric = 0.2;
+       c.iform = 2;
+     }},
+    {"friction-law", "Ifric = 0", [](ContactCard& c) { c.ifric = 0; }, "Fric = 0.2, Ifric = 2",
+     [](ContactCard& c) {
+       if (c.fric == 0.0) c.fric = 0.2;
+       c.ifric = 2;
+       c.c = {1e-6, -1e-3, 1e-6, -1e-3, 1e-2, -1e-2};
+     },
+     false},
+    {"friction-temperature", "fct_IDF = 0", [](ContactCard& c) { c.fct_idf.reset(); },
+     "Ithe = 1, a function fct_IDF",
+     [](ContactCard& c) {
+       c.ithe = 1;
+       c.fct_idf = cycle::Curve{{0.0, 1000.0}, {1.0, 2.0}};
+     },
+     false},
+    {"friction-filter", "Ifiltr = 0", [](ContactCard& c) { c.ifiltr = 0; },
+     "Fric = 0.2, Ifiltr = 1, Xfreq = 0.3",
+     [](ContactCard& c) {
+       if (c.fric == 0.0) c.fric = 0.2;
+       c.ifiltr = 1;
+       c.xfreq = 0.3;
+     },
+     false},
+    {"orthotropic-friction", "no directions",
+     [](ContactCard& c) { c.fric_orthotropic = false; }, nullptr, nullptr, false},
+    {"part-pair-friction", "fric_ID = 0",
+     [](ContactCard& c) {
+       c.fric_id = c.fric_orthotropic = false;
+       if (c.fric == 0.0) c.fric = 0.2;
+     },
+     nullptr, nullptr},
+    {"heat-conduction", "Kthe = 0",
+     [](ContactCard& c) {
+       c.kthe = 0.0;
+       c.fct_idk.reset();
+       no_heat_left(c);
+     },
+     "Ithe = 1, Kthe = 1",
+     [](ContactCard& c) {
+       c.ithe = c.ithe_form = 1;
+       c.kthe = 1.0;
+     }},
+    {"radiation", "Frad = 0",
+     [](ContactCard& c) {
+       c.frad = c.drad = 0.0;
+       no_heat_left(c);
+     },
+     "Ithe = 1, Frad = 1e-8, Drad = Gapmin",
+     [](ContactCard& c) {
+       c.ithe = c.ithe_form = 1;
+       c.frad = 1e-8;
+       c.drad = std::max(c.gapmin, 1e-300);
+     }},
+    {"friction-heat", "Fheats = Fheatm = 0",
+     [](ContactCard& c) {
+       c.fheats = c.fheatm = 0.0;
+       no_heat_left(c);
+     },
+     "Ithe = 1, Fric = 0.2, Fheats = 0.5",
+     [](ContactCard& c) {
+       c.ithe = c.ithe_form = 1;
+       if (c.fric == 0.0) c.fric = 0.2;
+       c.fheats = 0.5;
+     },
+     false},
+    {"curvature", "Icurv = 0", [](ContactCard& c) { c.icurv = 0; }, "Icurv = 3",
+     [](ContactCard& c) { c.icurv = 3; }, false},
+    {"adaptivity-criteria", "Iadm = 0", [](ContactCard& c) { c.iadm = 0; }, "Iadm = 2",
+     [](ContactCard& c) { c.iadm = 2; }, false},
+    {"time-step-deletion", "dtmin = 0", [](ContactCard& c) { c.dtmin = 0.0; }, "dtmin = 1e-300",
+     [](ContactCard& c) {
+       c.dtmin = 1e-300;
+       c.itied = 0;
+     }},
+    {"tie-on-time-step", "ITIED = 0", [](ContactCard& c) { c.itied = 0; },
+     "ITIED = 1, dtmin = 1e-300",
+     [](ContactCard& c) {
+       c.itied = 1;
+       c.dtmin = 1e-300;
+     },
+     false},
+    {"boundary-release", "IBC = 000", [](ContactCard& c) { c.ibc = 0; }, "IBC = 111",
+     [](ContactCard& c) { c.ibc = 7; }, false},
+};
+
+bool rubs(const std::vector<cycle::EffectState>& account) {
+  return std::any_of(account.begin(), account.end(), [](const cycle::EffectState& e) {
+    return e.on && (e.name == "friction-viscous" || e.name == "friction-incremental");
+  });
+}
+
+/// Names of effects that are always there, or act elsewhere than in the pair loop.
+std::string outside_the_loop(const std::string& name) {
+  if (name == "elastic-normal" || name == "contact-time-step" || name == "tie")
+    return "the loop itself";
+  if (name == "stiffness-combination" || name == "variable-gap" ||
+      name == "initial-penetration-action" || name == "penetration-limit")
+    return "acts when pairs are found, not in the loop";
+  return "acts outside the loop over pairs";
+}
+
+/// The card to hold against, or why there is none.
+std::optional<Other> other_card(const ContactCard& card, const cycle::EffectState& e, bool friction,
+                                std::string& why_not) {
+  const auto* s = std::find_if(std::begin(switches), std::end(switches),
+                               [&](const Switch& w) { return e.name == w.name; });
+  if (s == std::end(switches)) {
+    why_not = outside_the_loop(e.name);
+    return std::nullopt;
+  }
+  Other out{card, e.on ? s->off : s->on == nullptr ? "" : s->on};
+  if (e.on) {
+    s->take(out.card);
+    return out;
+  }
+  if (card.kind == ContactKind::tied || (card.kind == ContactKind::edge_edge && !s->edges))
+    why_not = "contacts of this kind have no such effect";
+  else if (s->give == nullptr)
+    why_not = "needs a /FRICTION, which the deck does not name here";
+  else if (friction && e.name.rfind("friction-", 0) == 0 &&
+           (e.name == "friction-viscous" || e.name == "friction-incremental"))
+    why_not = "the other form of friction runs";
+  else if (e.name == "time-step-deletion" && card.itied != 0)
+    why_not = "ITIED ties instead";
+  else
+    s->give(out.card);
+  if (!why_not.empty()) return std::nullopt;
+  return out;
+}
+
+/// Everything that can run together. Deletion and a tie exclude each other; the tie is more work.
+Other everything(const ContactCard& card) {
+  Other out{card, {}};
+  const std::vector<cycle::EffectState> account = cycle::effect_plan(card);
+  const bool friction = rubs(account);
+  for (const cycle::EffectState& e : account) {
+    if (e.on || e.name == "time-step-deletion" || e.name == "friction-temperature" ||
+        e.name == "fixed-stiffness" || e.name == "friction-incremental")
+      continue;
+    std::string why_not;
+    // On the card as it has become: each adds to the ones before.
+    if (!other_card(card, e, friction, why_not)) continue;
+    const auto* s = std::find_if(std::begin(switches), std::end(switches),
+                                 [&](const Switch& w) { return e.name == w.name; });
+    s->give(out.card);
+    out.says += (out.says.empty() ? "" : "; ") + std::string(s->on);
+  }
+  return out;
+}
+
+/// The packet of one contact with all arrays that any loop could ask for.
+class Packet {
+ public:
+  Packet(const Scene& scene, const Contact& contact, const ContactCard& card,
+         const cycle::State& state, const cycle::CycleOptions& options, double margin,
+         std::size_t most) {
+    ContactCard wide = card;
+    if (card.kind != ContactKind::tied && card.ithe == 0) {
+      wide.ithe = 1;
+      wide.drad = 0.0;  // finds no pair more
+    }
+    if (wide.iadm == 0) wide.iadm = 2;
+    pairs_ = cycle::make_pairs(scene, contact, wide, options.model, options.threads,
+                               {nullptr, margin, {}});
+    if (wide.ithe > 0) cycle::add_conductivity(scene, contact, state.temperature, pairs_);
+    inputs_.k0 = pairs_.k0;
+    inputs_.p0 = pairs_.p0;
+    inputs_.zero.assign(pairs_.size(), 0.0);
+    const Coordinates& x = scene.coordinates;
+    cycle::NodalState nodes;
+    nodes.position = {x.x.data(), x.y.data(), x.z.data()};
+    for (std::size_t c = 0; c < 3; ++c) nodes.velocity[c] = state.velocity[c].data();
+    nodes.mass = state.mass.data();
+    nodes.temperature = state.temperature.data();
+    using F = cycle::Field;
+    buffer_.gather(nodes, pairs_.nodes,
+                   F::position | F::velocity | F::mass_secondary | F::mass_main | F::temperature);
+    view_ = buffer_.view();
+    cycle::detail::attach(view_, pairs_, inputs_);
+    view_.dt1 = options.dt1;
+    view_.dt12 = options.dt12;
+    view_.size = std::min(pairs_.size(), most);
+  }
+  Packet(const Packet&) = delete;
+  Packet& operator=(const Packet&) = delete;
+  const PacketView& view() const { return view_; }
+  std::size_t pairs() const { return pairs_.size(); }
+  bool complete() const { return pairs_.complete; }
+
+ private:
+  cycle::ContactPairs pairs_;
+  cycle::detail::PairInputs inputs_;
+  cycle::PacketBuffer buffer_;
+  PacketView view_;
+};
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+bool same_answers(const PacketResult& a, const PacketResult& b) {
+  bool same = same_bits(a.normal_force, b.normal_force) && same_bits(a.k_nodal, b.k_nodal) &&
+              same_bits(a.penetration, b.penetration) && a.status == b.status;
+  for (std::size_t c = 0; c < 3; ++c) same = same && same_bits(a.force[c], b.force[c]);
+  for (std::size_t k = 0; k < 4; ++k) same = same && same_bits(a.weights[k], b.weights[k]);
+  for (std::size_t k = 0; k < 5; ++k) same = same && same_bits(a.heat[k], b.heat[k]);
+  return same;
+}
+
+/// Largest difference of a pair force over the largest pair force; 0 where there is none at all.
+double change_of(const PacketResult& a, const PacketResult& b) {
+  double most = 0.0, off = 0.0;
+  for (std::size_t i = 0; i < a.size; ++i) {
+    double f[3] = {0.0, 0.0, 0.0};
+    for (std::size_t c = 0; c < 3; ++c) {
+      f[0] += a.force[c][i] * a.force[c][i];
+      f[1] += b.force[c][i] * b.force[c][i];
+      f[2] += (a.force[c][i] - b.force[c][i]) * (a.force[c][i] - b.force[c][i]);
+    }
+    most = std::max({most, f[0], f[1]});
+    off = std::max(off, f[2]);
+  }
+  return most > 0.0 ? std::sqrt(off / most) : 0.0;
+}
+
+/// One loop, ready to run.
+class Loop {
+ public:
+  Loop(const ContactCard& card, const cycle::CycleOptions& options, bool flags,
+       const PacketView& view)
+      : view_(view) {
+    cycle::PlanOptions how = options.plan;
+    how.force_generic = flags;
+    plan_ = cycle::make_plan(card, options.model, how);
+  }
+  bool can_run() const {
+    return plan_.table != nullptr &&
+           cycle::missing_fields(plan_, view_) == cycle::Field::none;
+  }
+  void run() { cycle::evaluate(plan_, view_, result_); }
+  /// Nanoseconds of processor time for one pass, as the mean of `times`.
+  double time(int times) {
+    const double start = accuracy::thread_nanoseconds();
+    for (int k = 0; k < times; ++k) run();
+    return (accuracy::thread_nanoseconds() - start) / times;
+  }
+  const PacketResult& result() const { return result_; }
+
+ private:
+  KernelPlan plan_;
+  const PacketView& view_;
+  PacketResult result_;
+};
+
+double quantile(std::vector<double> v, double q) {
+  std::sort(v.begin(), v.end());
+  const double at = q * static_cast<double>(v.size() - 1);
+  const auto i = static_cast<std::size_t>(at);
+  const double next = v[std::min(i + 1, v.size() - 1)];
+  return v[i] + (at - static_cast<double>(i)) * (next - v[i]);
+}
+
+/// Times of two loops, taken in turn.
+struct Race {
+  std::vector<double> a, b;
+};
+Race race(Loop& a, Loop& b, const EffectCostOptions& how) {
+  // As many passes in a timing as the clock needs to be fine enough.
+  const double once = std::max(1.0, std::max(a.time(1), b.time(1)));
+  const int times = static_cast<int>(std::clamp(how.least_ns / once, 1.0, 1e6));
+  Race r;
+  for (int k = 0; k < std::max(1, how.repeats); ++k) {
+    const bool first = k % 2 == 0;
+    if (first) r.a.push_back(a.time(times));
+    r.b.push_back(b.time(times));
+    if (!first) r.a.push_back(a.time(times));
+  }
+  return r;
+}
+
+/// A loop that has shown that it gives the same answer in both ways; nothing: it does not, or the
+/// packet lacks what it needs.
+std::optional<Loop> proven(const ContactCard& card, const cycle::CycleOptions& options,
+                           const PacketView& view, std::string& why_not) {
+  Loop composed(card, options, false, view), flags(card, options, true, view);
+  if (!composed.can_run() || !flags.can_run()) {
+    why_not = "needs data that the deck does not give";
+    return std::nullopt;
+  }
+  composed.run();
+  flags.run();
+  if (!same_answers(composed.result(), flags.result())) {
+    why_not = "the loop and the one with flags do not give the same answer";
+    return std::nullopt;
+  }
+  return composed;
+}
+
+class Measure {
+ public:
+  Measure(const cycle::CycleOptions& options, const EffectCostOptions& how, const PacketView& view)
+      : options_(options), how_(how), view_(view), per_pair_(1.0 / static_cast<double>(view.size)) {}
+
+  void run(const ContactCard& card, ContactCost& out) {
+    std::optional<Loop> base = proven(card, options_, view_, out.problem);
+    if (!base) return;
+    const PacketResult first = base->result();
+    Loop flags(card, options_, true, view_);
+    const Race own = race(*base, flags, how_);
+    out.loop_ns = quantile(own.a, 0.5) * per_pair_;
+    out.flags_ns = quantile(own.b, 0.5) * per_pair_;
+    Other all = everything(card);
+    std::string why_not;
+    if (std::optional<Loop> loop = proven(all.card, options_, view_, why_not)) {
+      out.all_ns = quantile(race(*base, *loop, how_).b, 0.5) * per_pair_;
+      out.all = std::move(all.says);
+    }
+    const std::vector<cycle::EffectState> account = cycle::effect_plan(card);
+    const bool friction = rubs(account);
+    for (const cycle::EffectState& e : account) {
+      out.effects.push_back({e.name, e.on, {}, {}});
+      effect(card, e, friction, *base, out.effects.back());
+    }
+    if (!same_answers(first, base->result()))
+      out.problem = "the loop does not repeat its own answer";
+  }
+
+ private:
+  void effect(const ContactCard& card, const cycle::EffectState& e, bool friction, Loop& base,
+              EffectCost& out) {
+    const std::optional<Other> other = other_card(card, e, friction, out.why_not);
+    if (!other) return;
+    std::optional<Loop> loop = proven(other->card, options_, view_, out.why_not);
+    if (!loop) return;
+    out.other = other->says;
+    out.change = change_of(base.result(), loop->result());
+    const Race r = race(base, *loop, how_);
+    std::vector<double> added;
+    for (std::size_t k = 0; k < r.a.size(); ++k)
+      added.push_back((e.on ? r.a[k] - r.b[k] : r.b[k] - r.a[k]) * per_pair_);
+    out.ns = quantile(added, 0.5);
+    out.low = quantile(added, 0.25);
+    out.high = quantile(added, 0.75);
+  }
+
+  const cycle::CycleOptions& options_;
+  const EffectCostOptions& how_;
+  const PacketView& view_;
+  double per_pair_;
+};
+
+}  // namespace
+
+std::vector<ContactCost> measure_effects(const Scene& scene, const cycle::State& state,
+                                         const cycle::SceneOutcome& outcome,
+                                         const cycle::CycleOptions& options,
+                                         const EffectCostOptions& how) {
+  std::vector<ContactCost> out;
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const Contact& contact = scene.contacts[i];
+    ContactCost& cost = out.emplace_back();
+    cost.contact = i;
+    if (contact.dropped || !contact.evaluated || !outcome.contacts[i].complete) {
+      cost.problem = "not evaluated";
+      continue;
+    }
+    if (!outcome.contacts[i].active) {
+      cost.problem = "not active at this time";
+      continue;
+    }
+    const ContactCard& card = outcome.contacts[i].card;
+    // In gaps; a deck that starts without contact still has neighbours.
+    for (const double further : {0.0, 1.0, 4.0}) {
+      cost.margin = further * contact.max_gap;
+      const Packet packet(scene, contact, card, state, options, cost.margin, how.most_pairs);
+      cost.pairs = packet.pairs();
+      cost.measured = packet.view().size;
+      cost.problem = !packet.complete() ? "too many pairs"
+                     : cost.pairs == 0  ? "no pair is within five times the gap"
+                                        : "";
+      if (cost.problem.empty()) Measure(options, how, packet.view()).run(card, cost);
+      if (cost.pairs > 0 || !packet.complete()) break;
+    }
+  }
+  return out;
+}
+
+}  // namespace deck

@@ -1,0 +1,198 @@
+// What the effects of the force stage cost on a deck: one sentence, JSON, tables for a terminal and
+// for a page without scripts.
+#include "report/cycle_costs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "deck/base/escape.hpp"
+#include "deck/report/accuracy.hpp"
+#include "deck/report/text_table.hpp"
+#include "report/gaps_names.hpp"
+
+namespace deck {
+namespace {
+
+const ContactCost* cost_of(const CycleInput& input, const cycle::ContactOutcome& contact) {
+  const std::size_t i = static_cast<std::size_t>(&contact - input.outcome->contacts.data());
+  return input.costs == nullptr || i >= input.costs->size() ? nullptr : &(*input.costs)[i];
+}
+
+std::string nanoseconds(double v) { return fmt::format("{:.{}f}", v, std::abs(v) < 10 ? 1 : 0); }
+
+/// The change of the largest pair force, in words.
+std::string change_text(double change) {
+  if (change == 0.0) return "nothing";
+  return change < 1e-3 ? fmt::format("{:.1e}", change) : fmt::format("{:.3g} %", 100.0 * change);
+}
+
+/// An effect whose range leaves no doubt about its sign.
+bool resolved(const EffectCost& e) { return e.low > 0.0 || e.high < 0.0; }
+
+std::string added_text(const EffectCost& e) {
+  if (!e.why_not.empty()) return "-";
+  return resolved(e) ? nanoseconds(e.ns) : "under " + nanoseconds(std::max(e.high, -e.low));
+}
+
+std::string name_of(const Contact& c) {
+  return fmt::format("TYPE{}{}", c.inter->type,
+                     c.inter->type == 19 ? std::string(" ") + to_string(c.role) : std::string());
+}
+
+template <class F>
+void each_timed(const CycleInput& input, F&& f) {
+  for (const cycle::ContactOutcome& c : input.outcome->contacts)
+    if (const ContactCost* cost = cost_of(input, c); cost != nullptr && cost->problem.empty())
+      f(c, *cost);
+}
+
+}  // namespace
+
+CostSummary summarize_costs(const CycleInput& input) {
+  CostSummary s;
+  std::set<std::string> on, known;
+  for (const cycle::ContactOutcome& c : input.outcome->contacts)
+    for (const cycle::EffectState& e : c.effects) {
+      known.insert(e.name);
+      if (e.on) on.insert(e.name);
+    }
+  s.on = on.size();
+  s.known = known.size();
+  double loop = 0, flags = 0, all = 0;
+  bool every = true;
+  each_timed(input, [&](const cycle::ContactOutcome&, const ContactCost& cost) {
+    const auto n = static_cast<double>(cost.pairs);
+    ++s.contacts;
+    s.pairs += cost.pairs;
+    s.wider += cost.margin > 0.0;
+    loop += n * cost.loop_ns;
+    flags += n * cost.flags_ns;
+    all += n * cost.all_ns;
+    every = every && cost.all_ns > 0.0;
+  });
+  if (s.pairs == 0) return s;
+  const auto n = static_cast<double>(s.pairs);
+  s.loop_ns = loop / n;
+  s.flags_ns = flags / n;
+  s.all_ns = every ? all / n : 0.0;
+  return s;
+}
+
+std::string cost_sentence(const CycleInput& input) {
+  const CostSummary s = summarize_costs(input);
+  if (s.pairs == 0)
+    return fmt::format(
+        "{} of {} effects are asked for; no pair is within five times its gap at the start, so "
+        "there is no loop to time.",
+        s.on, s.known);
+  std::string out = fmt::format(
+      "{} of {} effects are asked for on this deck, and only they run: {} ns per pair", s.on,
+      s.known, nanoseconds(s.loop_ns));
+  if (s.all_ns > 0.0)
+    out += fmt::format("; with everything that these contacts could do it would be {} ns ({:.2g} x)",
+                       nanoseconds(s.all_ns), s.all_ns / s.loop_ns);
+  out += fmt::format(
+      ", with flags asked for inside the loop {} ns ({:.2f} x). Measured over {} pair{} of {} "
+      "contact{}",
+      nanoseconds(s.flags_ns), s.flags_ns / s.loop_ns, s.pairs, s.pairs == 1 ? "" : "s", s.contacts,
+      s.contacts == 1 ? "" : "s");
+  if (s.wider > 0)
+    out += fmt::format(", {} of them with pairs up to five gaps apart, as none is nearer", s.wider);
+  return out + ".";
+}
+
+void write_cost(JsonWriter& j, const CycleInput& input, const cycle::ContactOutcome& contact) {
+  j.key("cost");
+  const ContactCost* cost = cost_of(input, contact);
+  if (cost == nullptr) {
+    j.null();
+    return;
+  }
+  j.begin_object().field("pairs", cost->pairs).field("measured", cost->measured);
+  j.field("margin", cost->margin);
+  j.field("problem", cost->problem).field("loop_ns", cost->loop_ns);
+  j.field("flags_ns", cost->flags_ns).field("all_ns", cost->all_ns).field("all", cost->all);
+  j.key("effects").begin_array();
+  for (const EffectCost& e : cost->effects) {
+    j.begin_object(true).field("name", e.name).field("on", e.on);
+    if (!e.why_not.empty()) {
+      j.field("why_not", e.why_not).end_object();
+      continue;
+    }
+    j.field("against", e.other).field("ns", e.ns).field("low", e.low).field("high", e.high);
+    j.field("change", e.change).end_object();
+  }
+  j.end_array().end_object();
+}
+
+void write_costs(JsonWriter& j, const CycleInput& input) {
+  j.key("costs");
+  if (input.costs == nullptr) {
+    j.null();
+    return;
+  }
+  const CostSummary s = summarize_costs(input);
+  j.begin_object().field("verdict", cost_sentence(input)).field("contacts", s.contacts);
+  j.field("pairs", s.pairs).field("effects_on", s.on).field("effects", s.known);
+  j.field("loop_ns", s.loop_ns).field("flags_ns", s.flags_ns).field("all_ns", s.all_ns);
+  j.field("repeats", input.cost_repeats).field("processor", input.processor);
+  j.field("compiler", accuracy_compiler()).end_object();
+}
+
+std::string cost_text(const CycleInput& input, const CycleTextOptions& options) {
+  if (input.costs == nullptr) return {};
+  TextTable table({{"interface", Align::right},
+                   {""},
+                   {"pairs", Align::right},
+                   {"ns/pair", Align::right},
+                   {"with flags", Align::right},
+                   {"with everything", Align::right}});
+  TextTable effects({{"interface", Align::right},
+                     {""},
+                     {"effect"},
+                     {"adds ns/pair", Align::right},
+                     {"against"},
+                     {"moves a force by"}});
+  each_timed(input, [&](const cycle::ContactOutcome& c, const ContactCost& cost) {
+    const std::string id = std::to_string(c.contact->inter->id), name = name_of(*c.contact);
+    table.row({id, name, std::to_string(cost.pairs), nanoseconds(cost.loop_ns),
+               nanoseconds(cost.flags_ns),
+               cost.all_ns > 0 ? nanoseconds(cost.all_ns) : std::string("-")});
+    for (const EffectCost& e : cost.effects)
+      if (e.on && e.why_not.empty())
+        effects.row({id, name, e.name, added_text(e), e.other, change_text(e.change)});
+  });
+  std::string out = cost_sentence(input) + "\n";
+  if (table.size() > 0) out += table.fitted(options.width, options.color, 2);
+  if (effects.size() > 0)
+    out += "Effects that run\n" + effects.fitted(options.width, options.color, 2, 3);
+  return out + fmt::format("  {} timings each, in turn; {}; {}\n", input.cost_repeats,
+                           terminal_text(input.processor), accuracy_compiler());
+}
+
+std::string cost_html(const CycleInput& input) {
+  std::string out = "<h2>Effects</h2>\n";
+  if (input.costs != nullptr) out += "<p>" + html_text(cost_sentence(input)) + "</p>\n";
+  out +=
+      "<table><thead><tr><th>Interface</th><th>Effect</th><th>Because of</th><th>Adds ns per "
+      "pair</th></tr></thead><tbody>\n";
+  for (const InterBase* inter : input.scene->interfaces->ordered)
+    for (const EffectLine& line : effect_lines(*input.deck, *input.outcome, *inter)) {
+      if (!line.on) continue;
+      std::string added;
+      each_timed(input, [&](const cycle::ContactOutcome& c, const ContactCost& cost) {
+        if (c.contact->inter != inter) return;
+        for (const EffectCost& e : cost.effects)
+          if (e.name == line.name && e.on && e.why_not.empty())
+            added += (added.empty() ? "" : ", ") + added_text(e);
+      });
+      out += "<tr><td>" + std::to_string(inter->id) + "</td><td>" + html_text(line.name) +
+             "</td><td>" + html_text(line.because) + "</td><td>" + html_text(added) + "</td></tr>\n";
+    }
+  return out + "</tbody></table>\n";
+}
+
+}  // namespace deck

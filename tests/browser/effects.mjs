@@ -1,0 +1,135 @@
+// The page of `deck cycle --html`: effects, the fields that ask for them and their costs against the JSON; forces and time
+// steps in the picture against the JSON; keyboard, axe, widths.
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { accessible, reachable } from "./axe.mjs";
+import { check, deck, open, run, same, sample } from "./support.mjs";
+
+const widths = [390, 768, 1024, 1280, 1440, 1920];
+
+/** What is drawn against what was measured. */
+async function costs(p, data) {
+  const said = await p.$eval("#effects .verdict-text", (e) => e.textContent);
+  check("the sentence is that of the JSON", said.startsWith(data.costs.verdict) && said.includes(data.verdict), said);
+  const round = (v) => `${Math.abs(v) < 10 ? v.toFixed(1) : v.toFixed(0)} ns`;
+  const contacts = data.interfaces.flatMap((i) => i.contacts.map((c) => c.cost)).filter((c) => c.problem === "");
+  check("some loops were timed", contacts.length > 0 && contacts.every((c) => c.loop_ns > 0 && c.flags_ns > 0));
+  const bars = await p.$$eval(".ef-bar", (b) => b.map((e) => ({ name: e.dataset.name, text: e.querySelector("text:last-of-type").textContent, on: e.querySelector(".ef-on") !== null, width: e.querySelector("rect").getBoundingClientRect().width })));
+  same("the loop has its bar", bars[0].text, round(data.costs.loop_ns));
+  const mean = (list, pick) => list.reduce((n, [c, e]) => n + c.pairs * pick(e), 0) / list.reduce((n, [c]) => n + c.pairs, 0);
+  for (const b of bars.slice(3)) {
+    const all = contacts.flatMap((c) => c.effects.filter((e) => e.name === b.name && !e.why_not).map((e) => [c, e]));
+    const on = all.filter(([, e]) => e.on);
+    const list = on.length ? on : all;
+    const [low, high] = [mean(list, (e) => e.low), mean(list, (e) => e.high)];
+    const figure = low > 0 || high < 0 ? round(mean(list, (e) => e.ns)) : `under ${round(Math.max(high, -low))}`;
+    same(`${b.name}: the bar says the figure of the JSON, filled where it runs`, [b.text, b.on], [figure, on.length > 0]);
+  }
+  const longest = bars.slice(3).reduce((a, b) => (a.width > b.width ? a : b));
+  check("the longest bar is the dearest effect", Math.max(...bars.slice(3).map((b) => parseFloat(b.text) || 0)) === parseFloat(longest.text), longest.name);
+  const boxes = await p.$$eval(".ef-bar text", (t) => t.map((e) => e.getBoundingClientRect()).map((r) => [r.left, r.top, r.right, r.bottom]));
+  const meet = (a, b) => a[0] < b[2] - 1 && b[0] < a[2] - 1 && a[1] < b[3] - 2 && b[1] < a[3] - 2;
+  check("no label of the chart meets another", boxes.every((a, i) => boxes.slice(i + 1).every((b) => !meet(a, b))));
+}
+
+/** Every cell of the matrix, and one of each kind in words. */
+async function matrix(p, data, path) {
+  const names = await p.$$eval("table.effects thead th", (t) => t.map((e) => e.textContent));
+  const rows = await p.$$eval("table.effects tbody tr", (r) => r.map((e) => [parseInt(e.querySelector("th").textContent), ...[...e.querySelectorAll("td")].map((c) => c.classList.contains("on"))]));
+  same("one row per interface", rows.map((r) => r[0]), data.interfaces.map((i) => i.id));
+  const wrong = rows.flatMap((r, k) => names.filter((n, c) => r[c + 1] !== (data.interfaces[k].effects.find((e) => e.name === n)?.on ?? false)).map((n) => `${r[0]} ${n}`));
+  check("cells are filled where the effect runs", wrong.length === 0, wrong.join(" "));
+  // By mouse, then by keyboard: the detail names the line that decides, and the line holds the field's value.
+  const inter = data.interfaces.find((i) => i.effects.some((e) => e.on && e.name.startsWith("friction-")));
+  const effect = inter.effects.find((e) => e.on && e.name.startsWith("friction-"));
+  const row = data.interfaces.indexOf(inter);
+  await p.click(`#ef-${row}-${names.indexOf(effect.name)}`);
+  const detail = await p.$eval(".effect-detail", (e) => e.textContent);
+  check("a cell says which field on which line asks for the effect", detail.includes(`${effect.source.file.split("/").pop()}:${effect.source.line}`) && detail.includes(effect.because), detail);
+  const line = readFileSync(path, "utf8").split("\n")[effect.source.line - 1];
+  const value = /= (\S+)/.exec(effect.because)[1];
+  check("the line of the deck has that value in that column", line.slice(effect.source.column - 1).trim().startsWith(value), `${line} ${value}`);
+  const cost = inter.contacts[0].cost.effects.find((e) => e.name === effect.name);
+  check("and what its loop was held against", detail.includes(cost.against), detail);
+  same("choosing a cell filters by its interface", await p.evaluate(() => window.deckReport.report.meta.interfaces[window.deckReport.report.filter.interface]?.id), inter.id);
+  await p.focus("table.effects");
+  await p.keyboard.press("ArrowRight");
+  await p.keyboard.press("Enter");
+  const next = names[Math.min(names.indexOf(effect.name) + 1, names.length - 1)];
+  check("arrows and Enter do the same", (await p.$eval(".effect-detail h3", (e) => e.textContent)).startsWith(next), next);
+  await p.evaluate(() => window.deckReport.report.setFilter({ interface: null }));
+}
+
+/** Nodes with forces: the picture has what the JSON says. */
+async function forces(p, path) {
+  const all = JSON.parse(deck("cycle", path, "--all", "--quiet", "--json", "-")).nodes;
+  const mine = await p.evaluate(() => window.deckReport.report.cycle.nodes.map((n) => ({ node: window.deckReport.report.nodeId(n[0]), force: n.slice(1, 4), stiffness: n[4], dt: n[5] })));
+  check("there are nodes with forces", all.some((n) => Math.hypot(...n.force) > 0));
+  same("forces, stiffness and steps of the nodes are those of the JSON", mine, all);
+  same("the page opens with forces in the picture", await p.$eval(".legend-title", (e) => e.textContent), "Nodal contact force");
+  const seen = await p.evaluate(() => {
+    const { view } = window.deckReport.viewport;
+    return { count: view.arrowList.length, first: view.arrowList[0], visible: view.arrows.visible };
+  });
+  const pushed = all.filter((n) => Math.hypot(...n.force) > 0);
+  same("an arrow per node that is pushed", [seen.count, seen.visible], [pushed.length, true]);
+  const most = pushed.reduce((a, b) => (Math.hypot(...a.force) >= Math.hypot(...b.force) ? a : b));
+  same("the longest arrow is the largest force, along it", [seen.first.length, seen.first.along], [1, most.force]);
+  const steps = all.filter((n) => n.dt !== null).map((n) => n.dt);
+  await p.keyboard.press("8");
+  const ticks = await p.$$eval(".legend-ticks span", (t) => t.map((e) => e.textContent));
+  const smallest = Math.min(...steps);
+  check("time steps: the scale ends at the smallest", Math.abs(Number(ticks[0]) / smallest - 1) < 0.01 && ticks.at(-1) === "∞", ticks.join(" "));
+  const hottest = await p.evaluate(() => {
+    const { report, viewport } = window.deckReport;
+    const v = viewport.contour.values;
+    let best = -1;
+    v.forEach((x, i) => x > (v[best] ?? -1) && (best = i));
+    return report.nodeId(best);
+  });
+  same("the hottest node has the smallest step", all.find((n) => n.node === hottest).dt, smallest);
+  await p.keyboard.press("6");
+}
+
+export async function effectsPage(browser, scratch, shot) {
+  const path = sample("crash_box");
+  const [html, json] = ["html", "json"].map((e) => join(scratch, `cycle.${e}`));
+  deck("cycle", path, "--quiet", "--html", html, "--json", json);
+  const data = JSON.parse(readFileSync(json));
+  const p = await open(browser, html, { viewport: { width: 1440, height: 900 } });
+  same("the page holds the JSON document", await p.$eval("#cycle-json", (e) => JSON.parse(e.textContent)), data);
+  await costs(p, data);
+  await matrix(p, data, path);
+  await forces(p, path);
+  for (const width of widths) {
+    await p.setViewportSize({ width, height: 900 });
+    check(`cycle page, ${width} wide: not wider than the window`, await p.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  }
+  await p.setViewportSize({ width: 1440, height: 900 });
+  await accessible(p, "cycle page");
+  await reachable(p, "cycle page");
+  await p.keyboard.press("f");
+  await p.waitForTimeout(600);
+  await p.$eval(".left", (e) => e.scrollTo({ top: 0, behavior: "instant" }));
+  await shot(p, "cycle");
+  await p.keyboard.press("t");
+  await accessible(p, "cycle page, dark");
+  await shot(p, "cycle_dark");
+  check("cycle page: no trouble", p.trouble.length === 0, p.trouble.join("; "));
+  await p.close();
+  // Without scripts the table is there; a hostile title stays text.
+  const evil = '<script>alert(1)</script>"\'&';
+  const bad = join(scratch, "cycle_evil_0000.rad");
+  writeFileSync(bad, readFileSync(path, "utf8").replace(/^(\/INTER\/TYPE7\/\d+\n).*$/gm, `$1${evil}`));
+  deck("cycle", bad, "--quiet", "--html", html);
+  const q = await browser.newPage({ javaScriptEnabled: false });
+  await q.goto(`file://${html}`);
+  const text = await q.$eval("#static", (e) => e.textContent);
+  check("without scripts effects and their fields are listed", /friction-incremental/.test(text) && /Iform = 2/.test(text));
+  await q.close();
+  const r = await open(browser, html);
+  check("a hostile title is text in the cycle page", r.trouble.length === 0 && (await r.$$eval(".left script", (e) => e.length)) === 0, r.trouble.join("; "));
+  await r.close();
+  const refused = run("cycle", path, "--quiet", "--html", html, "--steps", "3", "--dt", "1e-3");
+  check("--html with --steps is refused with a reason", refused.code === 2 && /--steps/.test(refused.err), refused.err);
+}

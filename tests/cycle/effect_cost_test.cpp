@@ -1,0 +1,154 @@
+// What effects cost on a deck: which loops are held against each other, over which pairs, and what
+// must hold before a time is told.
+#include "deck/accuracy/effect_cost.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/small_deck.hpp"
+#include "deck/report/cycle.hpp"
+
+namespace deck {
+namespace {
+
+using test::Built;
+using test::SmallDeck;
+
+/// A square shell of side 10 in z = 0 and one of side 4 above it, thickness 1, moving across.
+std::unique_ptr<Built> scene_of(const std::string& fields, double distance = 0.6,
+                                const std::string& type = "TYPE7") {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(11, 1, 5, distance).node(12, 5, 1, distance).node(13, 9, 5, distance);
+  d.node(14, 5, 9, distance);
+  d.shell_part(1, 1.0).shell_part(2, 1.0);
+  d.shell(1, 1, 1, 2, 3, 4).shell(2, 2, 11, 12, 13, 14);
+  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/2", {1});
+  d.add("@/INTER/" + type + "/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 " + fields);
+  SceneOptions o;
+  o.nodal_stiffness = true;
+  return std::make_unique<Built>(d, o);
+}
+
+struct Measured {
+  std::unique_ptr<Built> built;
+  cycle::State state;
+  cycle::SceneOutcome outcome;
+  ContactCost cost;
+  const EffectCost& operator[](const std::string& name) const {
+    const auto it = std::find_if(cost.effects.begin(), cost.effects.end(),
+                                 [&](const EffectCost& e) { return e.name == name; });
+    if (it == cost.effects.end()) throw std::out_of_range(name);
+    return *it;
+  }
+};
+
+Measured measure(std::unique_ptr<Built> built, EffectCostOptions how = {}) {
+  Measured m;
+  m.built = std::move(built);
+  m.state = cycle::make_state(m.built->scene, {{2, {3.0, 0.0, -1.0}}});
+  cycle::CycleOptions options;
+  options.dt1 = options.dt12 = 1e-6;
+  how.repeats = 3;
+  how.least_ns = 1e3;
+  m.outcome = cycle::run_cycle(m.built->scene, m.state, options);
+  m.cost = measure_effects(m.built->scene, m.state, m.outcome, options, how).at(0);
+  return m;
+}
+
+TEST(EffectCost, EveryEffectOfTheAccountIsMeasuredOrSaysWhyNot) {
+  const Measured m = measure(scene_of("Fric=0.2 Inacti=6"));
+  EXPECT_EQ(m.cost.problem, "");
+  const auto& account = m.outcome.contacts.at(0).effects;
+  ASSERT_EQ(m.cost.effects.size(), account.size());
+  std::size_t measured = 0;
+  for (std::size_t i = 0; i < account.size(); ++i) {
+    const EffectCost& e = m.cost.effects[i];
+    EXPECT_EQ(e.name, account[i].name);
+    EXPECT_EQ(e.on, account[i].on) << e.name;
+    EXPECT_NE(e.why_not.empty(), e.other.empty()) << e.name;
+    if (!e.why_not.empty()) continue;
+    ++measured;
+    EXPECT_TRUE(std::isfinite(e.ns)) << e.name;
+    EXPECT_LE(e.low, e.ns) << e.name;
+    EXPECT_LE(e.ns, e.high) << e.name;
+  }
+  EXPECT_GE(measured, 12u);
+}
+
+TEST(EffectCost, FrictionThatTheCardAsksForIsHeldAgainstNoneAndMovesForces) {
+  const Measured m = measure(scene_of("Fric=0.2"));
+  EXPECT_TRUE(m["friction-viscous"].on);
+  EXPECT_EQ(m["friction-viscous"].other, "no friction");
+  EXPECT_GT(m["friction-viscous"].change, 1e-3);
+  // The other form excludes it.
+  EXPECT_FALSE(m["friction-incremental"].why_not.empty());
+}
+
+TEST(EffectCost, FrictionThatTheCardDoesNotAskForIsHeldAgainstSome) {
+  const Measured m = measure(scene_of(""));
+  EXPECT_FALSE(m["friction-viscous"].on);
+  EXPECT_EQ(m["friction-viscous"].other, "Fric = 0.2, Iform = 1");
+  EXPECT_GT(m["friction-viscous"].change, 1e-3);
+}
+
+TEST(EffectCost, AnEffectThatChangesNothingHereSaysSo) {
+  // Temperatures are all 0: conduction moves heat, never a force.
+  EXPECT_EQ(measure(scene_of(""))["heat-conduction"].change, 0.0);
+}
+
+TEST(EffectCost, EverythingCostsMoreThanWhatIsAskedFor) {
+  const Measured m = measure(scene_of(""), {3, 16384, 1e6});
+  EXPECT_GT(m.cost.loop_ns, 0.0);
+  EXPECT_GT(m.cost.flags_ns, 0.0);
+  EXPECT_GT(m.cost.all_ns, m.cost.loop_ns);
+  for (const char* said : {"Inacti = 6", "Fric = 0.2", "Ifric = 2", "Ithe = 1", "Icurv = 3"})
+    EXPECT_NE(m.cost.all.find(said), std::string::npos) << said << " in " << m.cost.all;
+}
+
+TEST(EffectCost, WithoutAPairInItsGapFurtherOnesAreTimed) {
+  const Measured near = measure(scene_of("")), far = measure(scene_of("", 1.8)),
+                 none = measure(scene_of("", 50.0));
+  EXPECT_EQ(near.cost.margin, 0.0);
+  EXPECT_EQ(near.cost.pairs, 4u);
+  EXPECT_EQ(far.cost.margin, 1.0);
+  EXPECT_EQ(far.cost.pairs, 4u);
+  EXPECT_GT(far.cost.loop_ns, 0.0);
+  EXPECT_EQ(far["friction-viscous"].change, 0.0);
+  EXPECT_EQ(none.cost.pairs, 0u);
+  EXPECT_NE(none.cost.problem, "");
+  EXPECT_TRUE(none.cost.effects.empty());
+}
+
+TEST(EffectCost, NoMorePairsThanAskedForAreTimed) {
+  EffectCostOptions how;
+  how.most_pairs = 3;
+  const Measured m = measure(scene_of(""), how);
+  EXPECT_EQ(m.cost.pairs, 4u);
+  EXPECT_EQ(m.cost.measured, 3u);
+}
+
+TEST(EffectCost, AContactThatIsNotActiveIsNotTimed) {
+  EXPECT_EQ(measure(scene_of("Tstart=1")).cost.problem, "not active at this time");
+}
+
+TEST(ActedNodes, ForcesAddUpToNothingAndStepsAreThoseOfTheNodes) {
+  const Measured m = measure(scene_of(""));
+  const auto nodes = cycle::acted_nodes(m.state, m.outcome);
+  ASSERT_EQ(nodes.size(), 8u);
+  double sum = 0, most = 0, smallest = 1e30;
+  for (const cycle::ActedNode& n : nodes) {
+    sum += n.force[2];
+    most = std::max(most, std::abs(n.force[2]));
+    smallest = std::min(smallest, n.dt);
+    EXPECT_DOUBLE_EQ(n.dt, 0.9 * std::sqrt(2.0 * m.state.mass[n.node] / n.stiffness));
+  }
+  EXPECT_GT(most, 1.0);
+  EXPECT_NEAR(sum, 0.0, 1e-9 * most);
+  EXPECT_LE(m.outcome.contact_dt, smallest);
+}
+
+}  // namespace
+}  // namespace deck
