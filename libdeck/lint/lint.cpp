@@ -133,7 +133,7 @@ struct Pool {
 
   /// In a card whose lines are shifted every value is read from the wrong cell: what the values of
   /// that card would be accused of is left out until the lines are right.
-  void drop_consequences(const detail::BlockIndex& index) {
+  void drop_consequences(const BlockIndex& index) {
     constexpr RuleId shifts[] = {RuleId::DK242, RuleId::DK243, RuleId::DK244};
     std::set<std::int64_t> shifted;
     for (const Diagnostic& d : kept)
@@ -296,7 +296,7 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
   if (input.selections != nullptr) input.selections->resolve_all();
   if (input.selections != nullptr) pool.take(input.selections->diagnostics(), options);
 
-  const detail::BlockIndex index(deck);
+  const BlockIndex index(deck);
   std::vector<detail::Suppression> suppressions = detail::find_suppressions(deck, index, reporter);
   pool.take(own, options);
   pool.sort_and_unite();

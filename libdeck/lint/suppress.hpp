@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "deck/keyword/place.hpp"
 #include "deck/lint/lint.hpp"
 
 namespace deck::detail {
@@ -16,28 +17,6 @@ struct Suppression {
   std::int64_t block = -1;  ///< index into Deck::blocks; -1: whole file, or nothing
   Span span;                ///< the comment line
   bool used = false;
-};
-
-/// Finds which block an offset of a file belongs to.
-class BlockIndex {
- public:
-  explicit BlockIndex(const Deck& deck);
-  /// Index into Deck::blocks, -1: none.
-  std::int64_t find(std::uint32_t file, std::uint64_t offset) const;
-  /// Start of the next header behind `offset` in the file, if only comments stand between.
-  std::int64_t next_header_after_comments(std::uint32_t file, std::uint64_t offset) const;
-  /// True if the file has no header before `offset`.
-  bool before_first_header(std::uint32_t file, std::uint64_t offset) const;
-
- private:
-  struct Range {
-    std::uint32_t file;
-    std::uint64_t begin, end;
-    std::int64_t block;
-  };
-  const Deck* deck_;
-  std::vector<Range> ranges_;   // sorted by file, begin
-  std::vector<Range> headers_;  // likewise
 };
 
 /// All suppressions of the deck; malformed ones become findings.

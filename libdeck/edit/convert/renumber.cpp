@@ -54,9 +54,7 @@ class Renumbering {
       out_.refusals.push_back(std::move(why));
     for (const auto& [name, space] : spaces_)
       if (space.changes)
-        out_.notes.push_back(name + ": " + std::to_string(space.ids.size()) + " ids, " +
-                             std::to_string(space.ids.front()) + " becomes " +
-                             std::to_string(*space.mapped(space.ids.front())));
+        out_.notes.push_back(name + ": " + note_of(space));
     if (!out_.refusals.empty()) out_.edits.clear();
     return std::move(out_);
   }
@@ -67,6 +65,13 @@ class Renumbering {
     std::int64_t written = 0;  ///< as it stands in the deck afterwards
     std::string why;           ///< not empty: impossible
   };
+
+  static std::string note_of(const IdSpace& space) {
+    const bool one = space.only != 0;
+    const std::int64_t first = one ? space.only : space.ids.front();
+    return std::to_string(one ? 1 : space.ids.size()) + (one ? " id, " : " ids, ") +
+           std::to_string(first) + " becomes " + std::to_string(*space.mapped(first));
+  }
 
   const IdSpace* space(std::string_view kind) const {
     const auto it = spaces_.find(detail::space_of(kind));
@@ -279,7 +284,22 @@ class Renumbering {
     if (first.second->integer <= 0 || last.second->integer <= 0)
       return refuse("a range with a negative id");
     std::int64_t new_from = from + target->value, new_to = to + target->value;
-    if (target->compact) {
+    if (target->only != 0) {
+      // The same members under their new ids, with the ends as they are or moved with the id.
+      const bool ends = from == target->only || to == target->only;
+      new_from = from == target->only ? target->value : from;
+      new_to = to == target->only ? target->value : to;
+      std::vector<std::int64_t> before = target->members(from, to, increment);
+      const bool inside = std::binary_search(before.begin(), before.end(), target->only);
+      std::vector<std::int64_t> after = target->members(new_from, new_to, increment);
+      std::erase(before, target->only);
+      std::erase(after, target->only);
+      const bool reaches = target->value >= new_from && target->value <= new_to &&
+                           (target->value - new_from) % std::max<std::int64_t>(increment, 1) == 0;
+      if (before != after || inside != reaches)
+        return refuse("the range does not stay the same with the new id");
+      if (!ends) return;
+    } else if (target->compact) {
       const auto lower = std::lower_bound(target->ids.begin(), target->ids.end(), from);
       const auto upper = std::upper_bound(target->ids.begin(), target->ids.end(), to);
       if (lower >= upper) return refuse("the range holds no id and has no new place");

@@ -78,6 +78,10 @@ bool IdSpace::defined(std::int64_t id) const {
 
 std::optional<std::int64_t> IdSpace::mapped(std::int64_t id) const {
   if (!changes) return id;
+  if (only != 0) {
+    if (id == only) return value;
+    return id == value ? std::nullopt : std::optional(id);
+  }
   if (!compact) return id + value;
   const auto it = std::lower_bound(ids.begin(), ids.end(), id);
   if (it != ids.end() && *it == id) return value + (it - ids.begin());
@@ -86,11 +90,39 @@ std::optional<std::int64_t> IdSpace::mapped(std::int64_t id) const {
   return id;
 }
 
+std::vector<std::int64_t> IdSpace::members(std::int64_t from, std::int64_t to,
+                                           std::int64_t step) const {
+  std::vector<std::int64_t> out;
+  for (auto it = std::lower_bound(ids.begin(), ids.end(), from); it != ids.end() && *it <= to; ++it)
+    if ((*it - from) % std::max<std::int64_t>(step, 1) == 0) out.push_back(*it);
+  return out;
+}
+
 bool IdSpace::taken(std::int64_t new_id) const {
   if (!changes) return defined(new_id);
+  if (only != 0) return new_id == value || (new_id != only && defined(new_id));
   if (!compact) return defined(new_id - value);
   return new_id >= value && new_id < value + static_cast<std::int64_t>(ids.size());
 }
+
+namespace {
+
+/// One id gets another number: it has to be there, and the number has to be free and legal.
+void check_single(const std::string& name, IdSpace& space, std::vector<std::string>& refusals) {
+  const std::string from = name + " " + std::to_string(space.only);
+  const std::string to = std::to_string(space.value);
+  if (space.value == space.only) {
+    space.changes = false;
+  } else if (!space.defined(space.only)) {
+    refusals.push_back("renumber: there is no " + from);
+  } else if (space.defined(space.value)) {
+    refusals.push_back("renumber: " + from + " would become " + to + ", which exists");
+  } else if (space.value < 1 || space.value > largest_id) {
+    refusals.push_back("renumber: " + from + " would become " + to + ", which is no legal id");
+  }
+}
+
+}  // namespace
 
 IdSpaces collect_spaces(const EditContext& context, const RenumberOptions& options,
                         std::vector<std::string>& refusals) {
@@ -104,6 +136,7 @@ IdSpaces collect_spaces(const EditContext& context, const RenumberOptions& optio
       space.changes = true;
       space.compact = rule.compact;
       space.value = rule.value;
+      space.only = rule.only;
     }
   }
   const Deck& deck = context.deck;
@@ -135,6 +168,10 @@ IdSpaces collect_spaces(const EditContext& context, const RenumberOptions& optio
     if (!space.changes) continue;
     if (space.ids.empty()) {
       space.changes = false;
+      continue;
+    }
+    if (space.only != 0) {
+      check_single(name, space, refusals);
       continue;
     }
     if (space.compact

@@ -19,12 +19,14 @@ std::string_view space_of(std::string_view kind);
 struct IdSpace {
   std::vector<std::int64_t> ids;  ///< defined ones, ascending, unique
   bool changes = false, compact = false;
-  std::int64_t value = 0;
+  std::int64_t value = 0, only = 0;  ///< as in RenumberRule
 
   bool defined(std::int64_t id) const;
   /// New number of a defined id, or of one that only a reference names; nullopt: it cannot have
   /// one.
   std::optional<std::int64_t> mapped(std::int64_t id) const;
+  /// Those of the ids from, from + step ... to that are defined.
+  std::vector<std::int64_t> members(std::int64_t from, std::int64_t to, std::int64_t step) const;
   /// A number that a defined id has afterwards.
   bool taken(std::int64_t new_id) const;
 };

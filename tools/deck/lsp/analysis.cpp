@@ -1,0 +1,178 @@
+// Model, rules and geometry of a deck whose text is in an editor.
+#include "lsp/analysis.hpp"
+
+#include <algorithm>
+
+#include "deck/contact/resolve.hpp"
+#include "deck/keyword/recognise.hpp"
+#include "deck/lint/geometry.hpp"
+#include "deck/model/selection.hpp"
+#include "deck/text/number.hpp"
+#include "deck/text/rule.hpp"
+
+namespace deck::lsp {
+
+std::uint32_t Syntax::file_of(const std::string& path) const {
+  for (std::uint32_t f = 0; f < deck.sources.size(); ++f)
+    if (deck.sources[f].path() == path) return f;
+  return Span::no_file;
+}
+
+const LineTable& Syntax::lines(std::uint32_t file) const {
+  auto& table = tables_[file];
+  if (table == nullptr) table = std::make_shared<const LineTable>(deck.sources[file].bytes());
+  return *table;
+}
+
+const Geometry::Interface* Geometry::find(std::int64_t id, int type) const {
+  for (const Interface& i : interfaces)
+    if (i.id == id && i.type == type) return &i;
+  return nullptr;
+}
+
+namespace {
+
+/// The settings of .decklint.toml, as `deck lint` takes them.
+Result<LintOptions> lint_options(const LintConfig& config, const std::string& path,
+                                 const Limits& limits) {
+  LintOptions out;
+  out.select = config.select;
+  out.ignore = config.ignore;
+  out.severity = config.severity;
+  out.per_file_ignores = config.per_file_ignores;
+  out.diagnostics_per_rule = limits.diagnostics_per_rule;
+  if (config.baseline.empty()) return out;
+  const auto text = read_config_file(config.baseline, most_baseline_bytes);
+  if (!text) return text.error();
+  const auto parsed = parse_baseline(*text, config.baseline);
+  if (!parsed) return parsed.error();
+  if (const auto* entries = parsed->find(path))
+    for (const auto& [key, entry] : *entries) out.baseline.emplace(key, entry.count);
+  return out;
+}
+
+ModelOptions model_options(const Settings& settings) {
+  ModelOptions options;
+  options.threads = settings.threads;
+  options.limits = settings.limits;
+  return options;
+}
+
+}  // namespace
+
+std::shared_ptr<const Semantics> analyse(std::shared_ptr<const Syntax> syntax,
+                                         const SchemaSet& schemas, const Settings& settings,
+                                         const std::atomic<bool>& stop) {
+  auto out = std::make_shared<Semantics>(std::move(syntax));
+  const Deck& deck = out->syntax->deck;
+  const std::string& path = deck.sources[0].path();
+  out->refusal = no_starter_deck(deck);
+  if (!out->refusal.empty()) return out;
+  out->findings = Diagnostics(settings.limits.diagnostics_per_rule);
+  out->model = build_model(deck, schemas, out->findings, model_options(settings));
+  if (stop) return nullptr;
+  out->model.selections->set_limits(settings.limits);
+  out->interfaces = read_interfaces(deck, out->model, out->findings);
+  const auto config = find_lint_config(path);
+  if (!config) out->config_error = config.error().message;
+  auto options = lint_options(config ? *config : LintConfig{}, path, settings.limits);
+  if (!options) {
+    out->config_error = options.error().message;
+    options = LintOptions{};
+  }
+  if (stop) return nullptr;
+  LintInput input{deck,
+                  schemas,
+                  &out->model,
+                  &out->interfaces,
+                  out->model.selections.get(),
+                  {&out->findings},
+                  {}};
+  out->lint = run_lint(input, *options);
+  return out;
+}
+
+namespace {
+
+/// What the lens over an interface and the hover over its default gap say.
+void note_contacts(const Interfaces& interfaces, const Scene& scene, const SceneView& view,
+                   Geometry& out) {
+  for (const InterBase* inter : interfaces.ordered) {
+    Geometry::Interface row;
+    row.id = inter->id;
+    row.type = inter->type;
+    row.evaluated = first_contact(scene, *inter) != nullptr;
+    for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+      if (scene.contacts[c].inter != inter) continue;
+      const ContactTotals& totals = view.contacts[c];
+      row.nodes += totals.count.nodes;
+      row.edges += totals.count.edges;
+      row.pairs += totals.count.pairs;
+      row.errors += totals.solver_errors;
+      row.depth = std::max(row.depth, totals.max_depth);
+      row.evaluated = row.evaluated && scene.contacts[c].evaluated;
+    }
+    if (const Contact* first = first_contact(scene, *inter))
+      visit_interface(*inter, [&](const auto& typed) {
+        typed.for_each([&](std::string_view name, const auto& field) {
+          if (field.origin == Origin::geometry)
+            row.values.emplace_back(name, shortest(geometry_value(*first, name)));
+        });
+      });
+    out.interfaces.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const Geometry> examine(
+    const std::string& path, const std::map<std::string, std::string>& texts,
+    const SchemaSet& schemas, const Settings& settings,
+    const std::function<void(std::size_t, std::size_t)>& progress, const std::atomic<bool>& stop) {
+  ReadOptions read;
+  read.include_paths = settings.include_paths;
+  read.limits = settings.limits;
+  read.overlay = &texts;
+  auto deck = read_deck(path, schemas, read);
+  if (!deck || stop || !no_starter_deck(*deck).empty()) return nullptr;
+  Diagnostics findings(settings.limits.diagnostics_per_rule);
+  const Model model = build_model(*deck, schemas, findings, model_options(settings));
+  if (stop) return nullptr;
+  model.selections->set_limits(settings.limits);
+  const Interfaces interfaces = read_interfaces(*deck, model, findings);
+  auto out = std::make_shared<Geometry>();
+  {
+    SceneOptions options;
+    options.threads = settings.threads;
+    options.limits = settings.limits;
+    options.candidates = false;
+    options.progress = progress;
+    const Scene scene = build_scene(model, interfaces, findings, options);
+    if (stop) return nullptr;
+    note_contacts(interfaces, scene, make_view(scene), *out);
+  }
+  const auto config = find_lint_config(path);
+  auto options = lint_options(config ? *config : LintConfig{}, path, settings.limits);
+  if (!options) options = LintOptions{};
+  Gate gate = config ? config->gate : Gate{};
+  gate.on_fresh = gate.on_worse = false;  // there is no earlier run here
+  LintInput input{*deck, schemas, &model, &interfaces, model.selections.get(), {&findings}, {}};
+  input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
+    check_geometry(context, reporter, {settings.threads, settings.limits, &gate, nullptr});
+  });
+  LintResult result = run_lint(input, *options);
+  for (Diagnostic& d : result.diagnostics) {
+    const RuleStage stage = rule_of(d.rule).stage;
+    if ((stage != RuleStage::extra && stage != RuleStage::gate) || !d.span.valid()) continue;
+    const Source& source = deck->sources[d.span.file];
+    d.notes.clear();  // their places are of a text that may have changed
+    const std::string_view line = source.line_at(d.span.offset);
+    out->findings.push_back({source.path(), std::string(line),
+                             source.position(d.span.offset).line - 1,
+                             static_cast<std::uint64_t>(line.data() - source.bytes().data()),
+                             std::move(d)});
+  }
+  return out;
+}
+
+}  // namespace deck::lsp

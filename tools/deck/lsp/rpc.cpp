@@ -1,0 +1,83 @@
+// Frames of messages: "Content-Length: N", an empty line, N bytes.
+#include "lsp/rpc.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+
+namespace deck::lsp {
+namespace {
+
+constexpr std::size_t most_header = 8192;
+constexpr std::size_t most_content = std::size_t{2} << 30;
+
+/// N of "Content-Length: N" among the lines of a header; nullopt: there is none.
+std::optional<std::size_t> content_length(std::string_view header) {
+  constexpr std::string_view name = "content-length:";
+  while (!header.empty()) {
+    const auto end = std::min(header.find("\r\n"), header.size());
+    std::string_view line = header.substr(0, end);
+    header.remove_prefix(std::min(end + 2, header.size()));
+    std::string lower(line.substr(0, name.size()));
+    for (char& c : lower)
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+    if (lower != name) continue;
+    line.remove_prefix(name.size());
+    while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
+    std::size_t n = 0;
+    const auto [p, error] = std::from_chars(line.data(), line.data() + line.size(), n);
+    if (error != std::errc() || n > most_content) return std::nullopt;
+    return n;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool Connection::fill() {
+  if (begin_ > 0) {
+    buffer_.erase(0, begin_);
+    begin_ = 0;
+  }
+  char chunk[65536];
+  ssize_t n = 0;
+  do {
+    n = ::read(in_, chunk, sizeof chunk);
+  } while (n < 0 && errno == EINTR);
+  if (n <= 0) return false;
+  buffer_.append(chunk, static_cast<std::size_t>(n));
+  return true;
+}
+
+std::optional<std::string> Connection::read() {
+  std::size_t end = 0;
+  while ((end = buffer_.find("\r\n\r\n", begin_)) == buffer_.npos) {
+    if (buffer_.size() - begin_ > most_header || !fill()) return std::nullopt;
+  }
+  const auto length = content_length(std::string_view(buffer_).substr(begin_, end - begin_));
+  if (!length) return std::nullopt;
+  begin_ = end + 4;
+  while (buffer_.size() - begin_ < *length)
+    if (!fill()) return std::nullopt;
+  std::string content = buffer_.substr(begin_, *length);
+  begin_ += *length;
+  return content;
+}
+
+bool Connection::write(const Json& message) {
+  // Text of decks may be no UTF-8: such bytes are replaced, the answer goes out.
+  const std::string content = message.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string frame = "Content-Length: " + std::to_string(content.size()) + "\r\n\r\n" + content;
+  const std::lock_guard lock(writing_);
+  std::size_t done = 0;
+  while (done < frame.size()) {
+    const ssize_t n = ::write(out_, frame.data() + done, frame.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    done += static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+}  // namespace deck::lsp

@@ -1,0 +1,41 @@
+// JSON-RPC over a pair of file descriptors: the frames of the Language Server Protocol.
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace deck::lsp {
+
+using Json = nlohmann::json;
+
+enum ErrorCode : int {
+  parse_error = -32700,
+  invalid_request = -32600,
+  method_not_found = -32601,
+  invalid_params = -32602,
+  internal_error = -32603,
+  server_not_initialized = -32002,
+  request_failed = -32803,
+  request_cancelled = -32800,
+};
+
+class Connection {
+ public:
+  Connection(int in, int out) : in_(in), out_(out) {}
+
+  /// The content of the next message; nullopt: the other side has closed, or sends no frames.
+  std::optional<std::string> read();
+  /// Sends a message; one at a time, from any thread. False: nobody takes it any more.
+  bool write(const Json& message);
+
+ private:
+  bool fill();
+  int in_, out_;
+  std::string buffer_;
+  std::size_t begin_ = 0;  ///< of what was not taken yet
+  std::mutex writing_;
+};
+
+}  // namespace deck::lsp

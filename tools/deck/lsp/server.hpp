@@ -1,0 +1,115 @@
+// The language server: takes messages in order, answers requests from what is known, and lets
+// threads beside it find out more.
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "lsp/queue.hpp"
+#include "lsp/rpc.hpp"
+#include "lsp/view.hpp"
+#include "lsp/workspace.hpp"
+
+namespace deck::lsp {
+
+class Server {
+ public:
+  /// `schemas` must outlive the server.
+  Server(Connection& connection, const SchemaSet& schemas, Settings settings);
+  ~Server();
+  /// Serves until the client says exit, or closes. 0: it said shutdown before.
+  int run();
+
+ private:
+  using Clock = Queue::Clock;
+
+  // ---- messages (server.cpp)
+  void read_messages();
+  void take(std::string content);
+  void dispatch(const Json& message);
+  Json answer(const std::string& method, const Json& params, const Json& id, bool& later);
+  void notified(const std::string& method, const Json& params);
+  void respond(const Json& id, Json result);
+  void fail(const Json& id, int code, const std::string& message);
+  void notify(const char* method, Json params);
+  void request(const char* method, Json params);
+  bool cancelled(const Json& id);
+  Json initialize(const Json& params);
+  std::optional<View> view_of(const Json& params);
+
+  // ---- documents (server_documents.cpp)
+  void did_open(const Json& params);
+  void did_change(const Json& params);
+  void did_close(const Json& params);
+  void did_save(const Json& params);
+  void files_changed(const Json& params);
+  void execute_command(const Json& id, const Json& params);
+  void gap_report(const Json& id, const Json& params);
+  void open_gap_report(const Json& id, const Json& argument);
+  /// Forms the page beside everything else; `then` gets it, or why there is none.
+  void form_report(const Json& id, const View& view, std::vector<std::int64_t> only,
+                   std::function<void(std::string html, std::string why)> then);
+  Json explain(const Json& params) const;
+  void cursor_moved(const Json& params);
+
+  // ---- findings (server_findings.cpp)
+  /// The line that is being typed: what is new in its block waits until the cursor leaves.
+  struct Typing {
+    bool active = false;
+    std::string path;
+    std::uint64_t line = 0;
+    std::set<std::string> before;  ///< findings that were there when the typing began
+    Clock::time_point last;
+  };
+  void schedule(const std::string& path, bool now = false);
+  void start_due();
+  std::optional<Clock::time_point> next_due() const;
+  void start_analysis(OpenDeck& deck);
+  void start_geometry(OpenDeck& deck);
+  void publish(OpenDeck& deck);
+  void typed(const std::string& path, std::uint64_t line);
+  void cursor_at(const std::string& path, std::uint64_t line);
+  void release_typing();
+  bool held_back(const OpenDeck& deck, const Diagnostic& d) const;
+  Json finding(const OpenDeck& deck, const Diagnostic& d) const;
+
+  // ---- progress
+  struct Progress {
+    std::string token;
+    std::atomic<bool> stop{false};
+  };
+  std::shared_ptr<Progress> begin_progress(const std::string& title);
+  void report_progress(const Progress& progress, std::size_t done, std::size_t all);
+  void end_progress(const std::shared_ptr<Progress>& progress);
+
+  Connection& connection_;
+  Queue queue_;
+  Workspace workspace_;
+  Client client_;
+  bool initialized_ = false, shutdown_ = false, done_ = false;
+  int next_id_ = 1;
+  std::mutex cancelling_;
+  std::set<std::string> cancelled_;  ///< ids as JSON
+  std::map<std::string, std::shared_ptr<Progress>> progresses_;
+  std::map<std::string, std::shared_ptr<Progress>> reports_;  ///< by id of the request
+
+  int delay_ms_ = 120, hold_ms_ = 2500;
+  bool geometry_on_save_ = true;
+  std::map<std::string, Clock::time_point> due_;          ///< decks that wait for an analysis
+  std::map<std::string, std::shared_ptr<std::atomic<bool>>> analysing_;
+  std::map<std::string, std::shared_ptr<Progress>> examining_;
+  Typing typing_;
+  std::string report_folder_;  ///< made for reports that the client shows; ends with the server
+
+  // Last, so that they end first.
+  std::unique_ptr<Worker> analyst_, geometer_;
+};
+
+}  // namespace deck::lsp

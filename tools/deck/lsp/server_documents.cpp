@@ -1,0 +1,267 @@
+// Documents that are opened, edited, saved and closed, and commands that change them.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "deck/contact/crossings.hpp"
+#include "deck/contact/view.hpp"
+#include "deck/cycle/scene_cycle.hpp"
+#include "deck/edit/write.hpp"
+#include "deck/keyword/recognise.hpp"
+#include "deck/lint/topics.hpp"
+#include "deck/model/selection.hpp"
+#include "deck/report/html.hpp"
+#include "lsp/server.hpp"
+
+namespace deck::lsp {
+
+void Server::did_open(const Json& params) {
+  const Json& d = params.at("textDocument");
+  const std::string uri = d.at("uri").get<std::string>();
+  const std::string path = path_of_uri(uri);
+  if (path.empty()) return;
+  workspace_.open(path, uri, d.value("version", std::int64_t{0}), d.at("text").get<std::string>());
+  schedule(path, true);
+  if (OpenDeck* deck = workspace_.deck_of(path); deck != nullptr && deck->geometry == nullptr)
+    start_geometry(*deck);
+}
+
+void Server::did_change(const Json& params) {
+  const Json& d = params.at("textDocument");
+  const std::string path = path_of_uri(d.at("uri").get<std::string>());
+  Document* document = workspace_.find(path);
+  if (document == nullptr) return;
+  std::string& text = workspace_.text(path);
+  std::uint64_t line = 0;
+  bool one_place = false;
+  for (const Json& change : params.at("contentChanges")) {
+    const std::string by = change.at("text").get<std::string>();
+    const auto range = change.find("range");
+    if (range == change.end()) {
+      text = by;
+      document->lines = std::make_shared<const LineTable>(text);
+      one_place = false;
+      continue;
+    }
+    const auto place = [&](const Json& p) {
+      return document->lines->offset(
+          text, {p.at("line").get<std::uint64_t>(), p.at("character").get<std::uint64_t>()},
+          client_.encoding);
+    };
+    const std::uint64_t begin = place(range->at("start")), end = place(range->at("end"));
+    replace(text, *document, begin, std::max(begin, end), by);
+    line = document->lines->line_of(begin + by.size());
+    one_place = true;
+  }
+  document->version = d.value("version", document->version + 1);
+  workspace_.changed();
+  if (one_place) typed(path, line);
+  schedule(path);
+}
+
+void Server::did_close(const Json& params) {
+  const std::string path =
+      path_of_uri(params.at("textDocument").at("uri").get<std::string>());
+  if (workspace_.find(path) == nullptr) return;
+  if (typing_.path == path) typing_.active = false;
+  workspace_.close(path);
+  for (const OpenDeck& gone : workspace_.forget_closed()) {
+    due_.erase(gone.path);
+    if (const auto it = analysing_.find(gone.path); it != analysing_.end()) *it->second = true;
+    if (const auto it = examining_.find(gone.path); it != examining_.end())
+      it->second->stop = true;
+    for (const std::string& file : gone.published)
+      notify("textDocument/publishDiagnostics",
+             {{"uri", workspace_.uri(file)}, {"diagnostics", Json::array()}});
+  }
+  for (auto& [root, deck] : workspace_.decks()) due_[root] = Clock::now();
+}
+
+void Server::did_save(const Json& params) {
+  const std::string path =
+      path_of_uri(params.at("textDocument").at("uri").get<std::string>());
+  release_typing();
+  OpenDeck* deck = workspace_.deck_of(path);
+  if (deck == nullptr) return;
+  schedule(path, true);
+  if (geometry_on_save_) start_geometry(*deck);
+}
+
+/// Files that nobody has open, as far as the client watches them.
+void Server::files_changed(const Json&) {
+  workspace_.changed();
+  for (auto& [root, deck] : workspace_.decks()) due_[root] = Clock::now();
+}
+
+void Server::execute_command(const Json& id, const Json& params) {
+  const std::string command = params.at("command").get<std::string>();
+  const auto list = params.find("arguments");
+  if (list == params.end() || !list->is_array() || list->empty() || !list->front().is_object())
+    return fail(id, invalid_params, command + " needs an object as its argument");
+  const Json& argument = list->front();
+  if (command == "deck.explain") return respond(id, explain(argument));
+  if (command == "deck.openGapReport") return open_gap_report(id, argument);
+  using Edit = Json (*)(const View&, const Json&);
+  const Edit edit_of = command == "deck.setField"     ? set_field_edit
+                       : command == "deck.insertCard" ? insert_card_edit
+                       : command == "deck.fixAll"     ? fix_all_edit
+                                                      : nullptr;
+  if (edit_of == nullptr) return fail(id, invalid_params, "there is no command '" + command + "'");
+  const auto view = view_of(argument);
+  if (!view) return fail(id, request_failed, "the document is not open, or no deck");
+  const Json edit = edit_of(*view, argument);
+  request("workspace/applyEdit", {{"label", command}, {"edit", edit}});
+  respond(id, nullptr);
+}
+
+namespace {
+
+struct Report {
+  std::string html, why;
+};
+
+/// The page of `deck gaps --html`.
+Report write_report(const std::string& path, const std::map<std::string, std::string>& texts,
+                    const SchemaSet& schemas, const Settings& settings,
+                    const std::vector<std::int64_t>& only, const std::atomic<bool>& stop) {
+  ReadOptions read;
+  read.include_paths = settings.include_paths;
+  read.limits = settings.limits;
+  read.overlay = &texts;
+  const auto deck = read_deck(path, schemas, read);
+  if (!deck) return {{}, deck.error().message};
+  if (std::string other = no_starter_deck(*deck); !other.empty()) return {{}, std::move(other)};
+  Diagnostics findings;
+  ModelOptions build;
+  build.threads = settings.threads;
+  build.limits = settings.limits;
+  const Model model = build_model(*deck, schemas, findings, build);
+  model.selections->set_limits(settings.limits);
+  const Interfaces interfaces = read_interfaces(*deck, model, findings);
+  if (stop) return {{}, "cancelled"};
+  SceneOptions options;
+  options.threads = settings.threads;
+  options.limits = settings.limits;
+  options.only = only;
+  options.nodal_stiffness = true;
+  const Scene scene = build_scene(model, interfaces, findings, options);
+  if (stop) return {{}, "cancelled"};
+  const std::vector<Crossing> crossings = find_crossings(scene, settings.threads);
+  const SceneView view = make_view(scene, &crossings);
+  cycle::CycleOptions cycle_options;
+  cycle_options.threads = settings.threads;
+  cycle_options.keep_pairs = true;
+  const cycle::SceneOutcome forces =
+      cycle::run_cycle(scene, cycle::make_state(scene), cycle_options);
+  if (stop) return {{}, "cancelled"};
+  HtmlInput input;
+  input.path = path;
+  input.deck = &*deck;
+  input.scene = &scene;
+  input.view = &view;
+  input.only = only;
+  input.cycle = &forces;
+  input.crossings = &crossings;
+  input.threads = settings.threads;
+  auto page = gaps_html(input);
+  if (!page) return {{}, page.error().message};
+  return {std::move(*page), {}};
+}
+
+}  // namespace
+
+void Server::form_report(const Json& id, const View& view, std::vector<std::int64_t> only,
+                         std::function<void(std::string, std::string)> then) {
+  auto progress = begin_progress("Gap report");
+  {
+    const std::lock_guard lock(cancelling_);
+    reports_[id.dump()] = progress;
+  }
+  geometer_->push([this, id, progress, only = std::move(only), then = std::move(then),
+                   path = view.open.path, texts = workspace_.texts(),
+                   &schemas = workspace_.schemas(), settings = workspace_.settings()] {
+    Report report = write_report(path, texts, schemas, settings, only, progress->stop);
+    queue_.push([this, id, progress, then, report = std::move(report)]() mutable {
+      end_progress(progress);
+      {
+        const std::lock_guard lock(cancelling_);
+        reports_.erase(id.dump());
+        cancelled_.erase(id.dump());
+      }
+      if (progress->stop) return fail(id, request_cancelled, "cancelled");
+      then(std::move(report.html), std::move(report.why));
+    });
+  });
+}
+
+namespace {
+
+std::vector<std::int64_t> wanted_interfaces(const Json& params) {
+  const auto it = params.find("interface");
+  if (it == params.end() || !it->is_number_integer()) return {};
+  return {it->get<std::int64_t>()};
+}
+
+}  // namespace
+
+/// {"textDocument", "interface"?: id, "file"?: path to write} -> {"html"} or {"file"}
+void Server::gap_report(const Json& id, const Json& params) {
+  const auto view = view_of(params);
+  if (!view) return fail(id, request_failed, "the document is not open, or no deck");
+  const std::string file = params.value("file", std::string());
+  if (!file.empty() && !file.ends_with(".html"))
+    return fail(id, invalid_params, "'file' has to end with .html");
+  form_report(id, *view, wanted_interfaces(params), [this, id, file](auto html, auto why) {
+    if (!why.empty()) return fail(id, request_failed, why);
+    if (file.empty()) return respond(id, {{"html", std::move(html)}});
+    if (auto written = write_files_atomic({{file, html}}); !written)
+      return fail(id, request_failed, written.error().message);
+    respond(id, {{"file", file}});
+  });
+}
+
+/// The command "deck.openGapReport": for clients that have no window of their own for it.
+void Server::open_gap_report(const Json& id, const Json& argument) {
+  const auto view = view_of(argument);
+  if (!view) return fail(id, request_failed, "the document is not open, or no deck");
+  if (report_folder_.empty()) {
+    const char* const temporary = std::getenv("TMPDIR");
+    std::string folder = std::string(temporary == nullptr ? "/tmp" : temporary) + "/deck-XXXXXX";
+    if (mkdtemp(folder.data()) == nullptr)
+      return fail(id, request_failed, folder + " cannot be made");
+    report_folder_ = folder;
+  }
+  const std::string file =
+      report_folder_ + "/" + std::filesystem::path(view->open.path).stem().string() + ".html";
+  form_report(id, *view, wanted_interfaces(argument), [this, id, file](auto html, auto why) {
+    if (!why.empty()) return fail(id, request_failed, why);
+    if (auto written = write_files_atomic({{file, html}}); !written)
+      return fail(id, request_failed, written.error().message);
+    request("window/showDocument", {{"uri", uri_of_path(file)}, {"external", true}});
+    respond(id, {{"file", file}});
+  });
+}
+
+/// {"topic"} -> {"text"}: the page of `deck explain`.
+Json Server::explain(const Json& params) const {
+  const std::string topic = params.at("topic").get<std::string>();
+  std::string page = explain_topic(topic, workspace_.schemas());
+  if (page.empty()) throw Refusal{"nothing is known about '" + topic + "'"};
+  return {{"text", utf8(page)}};
+}
+
+/// {"textDocument", "position"}: the client says where the cursor is.
+void Server::cursor_moved(const Json& params) {
+  const std::string path = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
+  const Json& p = params.at("position");
+  const Place place{p.at("line").get<std::uint64_t>(), p.at("character").get<std::uint64_t>()};
+  cursor_at(path, place.line);
+  OpenDeck* deck = workspace_.deck_of(path);
+  if (deck == nullptr) return;
+  deck->cursor = Cursor{path, place};
+  if (client_.refresh_hints) request("workspace/inlayHint/refresh", nullptr);
+}
+
+}  // namespace deck::lsp

@@ -1,0 +1,291 @@
+// Findings: when a deck is analysed, what of it goes to the client, and what waits until the line
+// that is being typed is done.
+#include <algorithm>
+#include <tuple>
+
+#include "deck/text/rule.hpp"
+#include "lsp/server.hpp"
+
+namespace deck::lsp {
+namespace {
+
+/// A finding however the text around it moves.
+std::string key_of(const Diagnostic& d) {
+  return std::string(id_text(d.rule)) + "|" + d.keyword + "|" + std::to_string(d.id) + "|" +
+         d.message;
+}
+
+int severity_of(Severity s) { return s == Severity::error ? 1 : s == Severity::warning ? 2 : 3; }
+
+std::string full_message(const Diagnostic& d) {
+  std::string out = d.message;
+  if (!d.reference_behaviour.empty()) out += "\nSolver: " + d.reference_behaviour;
+  if (!d.help.empty()) out += "\nHelp: " + d.help;
+  return out;
+}
+
+}  // namespace
+
+// ---- when ------------------------------------------------------------------------------------
+
+void Server::schedule(const std::string& path, bool now) {
+  const OpenDeck* deck = workspace_.deck_of(path);
+  if (deck == nullptr) return;
+  due_[deck->path] = Clock::now() + std::chrono::milliseconds(now ? 0 : delay_ms_);
+}
+
+std::optional<Server::Clock::time_point> Server::next_due() const {
+  std::optional<Clock::time_point> first;
+  const auto consider = [&](Clock::time_point t) {
+    if (!first || t < *first) first = t;
+  };
+  for (const auto& [root, when] : due_)
+    if (!analysing_.contains(root)) consider(when);
+  if (typing_.active) consider(typing_.last + std::chrono::milliseconds(hold_ms_));
+  return first;
+}
+
+void Server::start_due() {
+  const auto now = Clock::now();
+  if (typing_.active && now >= typing_.last + std::chrono::milliseconds(hold_ms_))
+    release_typing();
+  for (auto it = due_.begin(); it != due_.end();) {
+    const auto deck = workspace_.decks().find(it->first);
+    if (deck == workspace_.decks().end()) {
+      it = due_.erase(it);
+      continue;
+    }
+    // One at a time for a deck: what comes meanwhile is looked at afterwards.
+    if (it->second > now || analysing_.contains(it->first)) {
+      ++it;
+      continue;
+    }
+    it = due_.erase(it);
+    start_analysis(deck->second);
+  }
+}
+
+void Server::start_analysis(OpenDeck& deck) {
+  const auto& syntax = workspace_.refresh(deck);
+  if (syntax == nullptr || deck.fragment) {
+    deck.semantics = nullptr;
+    publish(deck);
+    return;
+  }
+  auto stop = std::make_shared<std::atomic<bool>>(false);
+  analysing_[deck.path] = stop;
+  analyst_->push([this, stop, syntax, path = deck.path, &schemas = workspace_.schemas(),
+                  settings = workspace_.settings()] {
+    auto found = *stop ? nullptr : analyse(syntax, schemas, settings, *stop);
+    queue_.push([this, path, found = std::move(found)] {
+      analysing_.erase(path);
+      const auto it = workspace_.decks().find(path);
+      if (it == workspace_.decks().end() || found == nullptr) return;
+      const bool first = it->second.semantics == nullptr;
+      it->second.semantics = found;
+      publish(it->second);
+      if (first && client_.refresh_hints) request("workspace/inlayHint/refresh", nullptr);
+    });
+  });
+}
+
+void Server::start_geometry(OpenDeck& deck) {
+  if (deck.fragment) return;
+  if (const auto it = examining_.find(deck.path); it != examining_.end()) it->second->stop = true;
+  auto progress = begin_progress("Contacts of " + deck.path.substr(deck.path.rfind('/') + 1));
+  examining_[deck.path] = progress;
+  geometer_->push([this, progress, path = deck.path, texts = workspace_.texts(),
+                   &schemas = workspace_.schemas(), settings = workspace_.settings()] {
+    const auto told = [&](std::size_t done, std::size_t all) {
+      report_progress(*progress, done, all);
+    };
+    auto found =
+        progress->stop ? nullptr : examine(path, texts, schemas, settings, told, progress->stop);
+    queue_.push([this, path, progress, found = std::move(found)] {
+      end_progress(progress);
+      if (const auto it = examining_.find(path); it != examining_.end() && it->second == progress)
+        examining_.erase(it);
+      const auto it = workspace_.decks().find(path);
+      if (it == workspace_.decks().end() || found == nullptr) return;
+      it->second.geometry = found;
+      if (it->second.semantics != nullptr) publish(it->second);
+      if (client_.refresh_lenses) request("workspace/codeLens/refresh", nullptr);
+      if (client_.refresh_hints) request("workspace/inlayHint/refresh", nullptr);
+    });
+  });
+}
+
+// ---- what ------------------------------------------------------------------------------------
+
+Json Server::finding(const OpenDeck& deck, const Diagnostic& d) const {
+  const View view(workspace_, client_, deck, deck.path);
+  Json out = {{"range", d.span.valid() ? view.range(d.span) : view.range(0, 0, 0)},
+              {"severity", severity_of(d.severity)},
+              {"code", std::string(id_text(d.rule))},
+              {"source", "deck"},
+              {"message", utf8(full_message(d))},
+              {"data", {{"rule", std::string(id_text(d.rule))}, {"message", utf8(d.message)}}}};
+  if (d.fix) out["data"]["fix"] = {{"title", utf8(d.fix->title)}, {"safe", d.fix->safe}};
+  Json related = Json::array();
+  for (const auto& [span, text] : d.notes)
+    if (span.valid())
+      related.push_back({{"location", view.location(span)}, {"message", utf8(text)}});
+  if (!related.empty()) out["relatedInformation"] = std::move(related);
+  return out;
+}
+
+namespace {
+
+/// Where a line of an earlier text is now: the nearest one that is the same. nullopt: nowhere.
+std::optional<std::uint64_t> line_now(const LineTable& lines, std::string_view text,
+                                      const Geometry::Finding& f) {
+  for (std::uint64_t away = 0; away < 5000; ++away) {
+    if (lines.line(text, f.line + away) == f.line_text && f.line + away < lines.size())
+      return f.line + away;
+    if (away <= f.line && lines.line(text, f.line - away) == f.line_text &&
+        f.line - away < lines.size())
+      return f.line - away;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void Server::publish(OpenDeck& deck) {
+  std::map<std::string, Json> by_file;
+  const Semantics* s = deck.semantics.get();
+  // Findings of an earlier text would point at wrong lines; those of the present one are on their
+  // way.
+  if (s != nullptr && (deck.syntax == nullptr || s->syntax->generation != deck.syntax->generation ||
+                       deck.syntax->generation != workspace_.generation()))
+    return;
+  if (s != nullptr && s->refusal.empty()) {
+    for (const Diagnostic& d : s->lint.diagnostics) {
+      if (held_back(deck, d)) continue;
+      const std::uint32_t file = d.span.valid() ? d.span.file : 0;
+      by_file.try_emplace(deck.syntax->deck.sources[file].path(), Json::array())
+          .first->second.push_back(finding(deck, d));
+    }
+    if (deck.geometry != nullptr)
+      for (const Geometry::Finding& f : deck.geometry->findings) {
+        const std::uint32_t file = deck.syntax->file_of(f.path);
+        if (file == Span::no_file) continue;
+        const LineTable& lines = deck.syntax->lines(file);
+        const auto line = line_now(lines, deck.syntax->deck.sources[file].bytes(), f);
+        if (!line) continue;
+        Diagnostic d = f.finding;
+        const std::uint64_t begin = lines.start(*line);
+        const std::uint64_t column = d.span.offset - std::min(d.span.offset, f.line_offset);
+        d.span = {file, d.span.length, begin + std::min<std::uint64_t>(column, f.line_text.size())};
+        by_file.try_emplace(f.path, Json::array()).first->second.push_back(finding(deck, d));
+      }
+  } else if (s != nullptr) {
+    by_file.try_emplace(deck.path, Json::array())
+        .first->second.push_back({{"range", Json::parse(R"({"start":{"line":0,"character":0},
+                                                          "end":{"line":0,"character":0}})")},
+                                  {"severity", 2},
+                                  {"source", "deck"},
+                                  {"message", utf8(s->refusal)}});
+  }
+  if (s != nullptr && !s->config_error.empty())
+    by_file.try_emplace(deck.path, Json::array())
+        .first->second.push_back({{"range", Json::parse(R"({"start":{"line":0,"character":0},
+                                                          "end":{"line":0,"character":0}})")},
+                                  {"severity", 1},
+                                  {"source", "deck"},
+                                  {"message", utf8(s->config_error)}});
+  // Files that had findings and have none now, and open files, which learn that all is well.
+  for (const std::string& file : deck.published) by_file.try_emplace(file, Json::array());
+  if (deck.syntax != nullptr)
+    for (std::uint32_t f = 0; f < deck.syntax->deck.sources.size(); ++f)
+      if (const std::string& path = deck.syntax->deck.sources[f].path();
+          workspace_.find(path) != nullptr)
+        by_file.try_emplace(path, Json::array());
+  deck.published.clear();
+  for (auto& [path, list] : by_file) {
+    if (!list.empty()) deck.published.insert(path);
+    Json params = {{"uri", workspace_.uri(path)}, {"diagnostics", std::move(list)}};
+    if (const Document* d = workspace_.find(path)) params["version"] = d->version;
+    notify("textDocument/publishDiagnostics", std::move(params));
+  }
+}
+
+// ---- the line that is being typed ------------------------------------------------------------
+
+void Server::typed(const std::string& path, std::uint64_t line) {
+  if (hold_ms_ == 0) return;
+  const bool same = typing_.active && typing_.path == path && typing_.line == line;
+  if (!same) {
+    std::set<std::string> before;
+    if (const OpenDeck* deck = workspace_.deck_of(path); deck != nullptr && deck->semantics != nullptr)
+      for (const Diagnostic& d : deck->semantics->lint.diagnostics)
+        // What was held back on the line before comes out now.
+        before.insert(key_of(d));
+    typing_ = {true, path, line, std::move(before), Clock::now()};
+  }
+  typing_.last = Clock::now();
+}
+
+void Server::cursor_at(const std::string& path, std::uint64_t line) {
+  if (typing_.active && (typing_.path != path || typing_.line != line)) release_typing();
+}
+
+void Server::release_typing() {
+  if (!typing_.active) return;
+  typing_.active = false;
+  if (OpenDeck* deck = workspace_.deck_of(typing_.path);
+      deck != nullptr && deck->semantics != nullptr)
+    publish(*deck);
+}
+
+bool Server::held_back(const OpenDeck& deck, const Diagnostic& d) const {
+  if (!typing_.active || !d.span.valid()) return false;
+  const Syntax& syntax = *deck.syntax;
+  if (syntax.deck.sources[d.span.file].path() != typing_.path) return false;
+  if (typing_.before.contains(key_of(d))) return false;
+  // The block of the line, and those of the lines beside it: a half-typed header cuts a block.
+  const LineTable& lines = syntax.lines(d.span.file);
+  const std::int64_t of = syntax.index.find(d.span.file, d.span.offset);
+  const std::uint64_t line = lines.line_of(d.span.offset);
+  if (line == typing_.line) return true;
+  for (const std::int64_t away : {-1, 0, 1}) {
+    const std::uint64_t beside = typing_.line + static_cast<std::uint64_t>(away);
+    if (beside >= lines.size()) continue;
+    if (of >= 0 && syntax.index.find(d.span.file, lines.start(beside)) == of) return true;
+  }
+  return false;
+}
+
+// ---- progress --------------------------------------------------------------------------------
+
+std::shared_ptr<Server::Progress> Server::begin_progress(const std::string& title) {
+  auto progress = std::make_shared<Progress>();
+  if (!client_.progress) return progress;
+  progress->token = "deck-progress-" + std::to_string(next_id_++);
+  progresses_[progress->token] = progress;
+  request("window/workDoneProgress/create", {{"token", progress->token}});
+  notify("$/progress", {{"token", progress->token},
+                        {"value",
+                         {{"kind", "begin"},
+                          {"title", utf8(title)},
+                          {"cancellable", true},
+                          {"percentage", 0}}}});
+  return progress;
+}
+
+void Server::report_progress(const Progress& progress, std::size_t done, std::size_t all) {
+  if (progress.token.empty() || all == 0) return;
+  notify("$/progress", {{"token", progress.token},
+                        {"value",
+                         {{"kind", "report"},
+                          {"message", std::to_string(done) + " of " + std::to_string(all)},
+                          {"percentage", std::min<std::size_t>(100, 100 * done / all)}}}});
+}
+
+void Server::end_progress(const std::shared_ptr<Progress>& progress) {
+  if (progress->token.empty()) return;
+  progresses_.erase(progress->token);
+  notify("$/progress", {{"token", progress->token}, {"value", {{"kind", "end"}}}});
+}
+
+}  // namespace deck::lsp

@@ -1,0 +1,134 @@
+// What a request is answered from: the document, its deck, and what is known about it.
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "lsp/analysis.hpp"
+#include "lsp/rpc.hpp"
+#include "lsp/workspace.hpp"
+
+namespace deck::lsp {
+
+/// What the client can do, as far as answers depend on it.
+struct Client {
+  Encoding encoding = Encoding::utf16;
+  bool markdown = true;             ///< of hover and completion
+  bool snippets = false;            ///< in completion
+  bool document_changes = false;    ///< WorkspaceEdit.documentChanges
+  bool progress = false;            ///< window/workDoneProgress
+  bool refresh_lenses = false, refresh_hints = false;
+  bool hierarchical_symbols = false;
+  std::string show_report = "deck.openGapReport";  ///< command of a lens
+};
+
+/// A document of a deck at one moment.
+class View {
+ public:
+  View(const Workspace& space, const Client& client_of, const OpenDeck& deck_of, std::string path_of);
+
+  const Workspace& workspace;
+  const Client& client;
+  const OpenDeck& open;
+  std::string path;
+  std::shared_ptr<const Syntax> syntax;
+  const Deck& deck;
+  std::uint32_t file = 0;  ///< of the document in the deck
+
+  const SchemaSet& schemas() const { return workspace.schemas(); }
+  /// nullptr: not known yet. Of this or an earlier text.
+  const Semantics* semantics() const;
+  /// The interface of a block; of the last analysis, found by type and id. nullptr: none.
+  const InterBase* interface_of(const Block& block) const;
+
+  std::string_view text() const { return deck.sources[file].bytes(); }
+  std::uint64_t offset(const Json& position) const;
+  PlacedLine line_at(std::uint64_t offset) const;
+
+  // ---- to the protocol
+  Json position(std::uint32_t of_file, std::uint64_t offset) const;
+  Json range(std::uint32_t of_file, std::uint64_t begin, std::uint64_t end) const;
+  Json range(const Span& span) const { return range(span.file, span.offset, span.offset + span.length); }
+  Json location(const Span& span) const;
+  std::string uri(std::uint32_t of_file) const;
+  /// Edits of files of the deck as a WorkspaceEdit. A file that is included twice gets them once.
+  Json workspace_edit(const std::vector<TextEdit>& edits) const;
+  Json text_edit(const TextEdit& edit) const;
+
+  /// Where a block ends: behind its last line that is no comment at its end.
+  std::uint64_t block_end(const Block& block) const;
+};
+
+/// Why a request cannot be answered, for the person who asked.
+struct Refusal {
+  std::string message;
+};
+
+/// An answer, or why there is none.
+using Answer = Json;
+
+// ---- features: what a method answers. `params` are those of the request.
+Answer hover(const View& view, const Json& params);
+Answer inlay_hints(const View& view, const Json& params);
+Answer completion(const View& view, const Json& params);
+Answer semantic_tokens(const View& view, const Json& params);
+Answer document_symbols(const View& view, const Json& params);
+Answer folding_ranges(const View& view, const Json& params);
+Answer definition(const View& view, const Json& params);
+Answer references(const View& view, const Json& params);
+Answer document_highlight(const View& view, const Json& params);
+Answer document_links(const View& view, const Json& params);
+Answer prepare_call_hierarchy(const View& view, const Json& params);
+Answer incoming_calls(const View& view, const Json& params);
+Answer outgoing_calls(const View& view, const Json& params);
+Answer prepare_rename(const View& view, const Json& params);
+Answer rename(const View& view, const Json& params);
+Answer code_actions(const View& view, const Json& params);
+Answer code_lenses(const View& view, const Json& params);
+Answer range_formatting(const View& view, const Json& params);
+/// deck/locate, deck/card: see tools/docs/editors.md.
+Answer locate(const View& view, const Json& params);
+Answer card_at(const View& view, const Json& params);
+/// Edits of the command "deck.setField".
+Json set_field_edit(const View& view, const Json& argument);
+/// Of "deck.insertCard": all lines of a card with headings.
+Json insert_card_edit(const View& view, const Json& argument);
+/// Of "deck.fixAll": all fixes of the document's findings, "unsafe" ones if asked.
+Json fix_all_edit(const View& view, const Json& argument);
+
+/// Types of semantic tokens, in the order of their numbers.
+Json token_legend();
+
+// ---- shared by features
+/// What a person is told about a cell: name, columns, type, unit, range, value and origin, help.
+struct CellText {
+  std::string head;   ///< "Gapmin · columns 41-60 · real · mm"
+  std::string value;  ///< "0.55, derived from the mesh"; empty: nothing is known
+  std::string doc;    ///< one line
+  std::string rest;   ///< legal values, default, manual
+  std::string help;
+};
+CellText describe(const View& view, const Block& block, const DecodedCard& card, const Cell& cell);
+/// "mm/s" of a dimension in a unit system; empty: none.
+std::string unit_text(const Dimension& dimension, const UnitSystem* units);
+/// "1000 constant Gapmin": what the one-line text of a field says about a value; empty: nothing.
+std::string meaning_of_value(const Field& field, std::int64_t value);
+/// Title of a block; empty: none.
+std::string title_of(const Deck& deck, const Block& block);
+/// The id that a place names or defines.
+struct NamedId {
+  std::string kind;
+  std::int64_t id = 0;
+  Span span;
+  bool definition = false;
+};
+std::optional<NamedId> id_at(const View& view, std::uint64_t offset);
+/// The place that defines an id; invalid: none.
+Span definition_of(const View& view, std::string_view kind, std::int64_t id);
+Json markup(const View& view, const std::string& markdown);
+
+}  // namespace deck::lsp

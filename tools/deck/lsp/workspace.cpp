@@ -1,0 +1,166 @@
+// Finds the deck that a document belongs to and keeps its blocks as fresh as its text.
+#include "lsp/workspace.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "deck/text/gzip.hpp"
+
+namespace deck::lsp {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t most_candidates = 200;
+
+/// True for the text of a main file: /BEGIN at the start of a line, near the top.
+bool is_main_file(std::string_view text) {
+  text = text.substr(0, 1 << 16);
+  return text.starts_with("/BEGIN") || text.find("\n/BEGIN") != text.npos ||
+         text.starts_with("#RADIOSS STARTER");
+}
+
+bool has_starter_name(const fs::path& path) {
+  const std::string name = without_gz(path.filename().string());
+  return name.ends_with("_0000.rad") || name.ends_with(".D00");
+}
+
+}  // namespace
+
+// ---- documents ------------------------------------------------------------------------------
+
+Document& Workspace::open(const std::string& path, std::string uri, std::int64_t version,
+                          std::string text) {
+  changed();
+  Document& d = documents_[path];
+  d.uri = std::move(uri);
+  d.version = version;
+  d.lines = std::make_shared<const LineTable>(text);
+  texts_[path] = std::move(text);
+  roots_.erase(path);
+  return d;
+}
+
+void Workspace::close(const std::string& path) {
+  changed();
+  documents_.erase(path);
+  texts_.erase(path);
+  roots_.erase(path);
+}
+
+Document* Workspace::find(const std::string& path) {
+  const auto it = documents_.find(path);
+  return it == documents_.end() ? nullptr : &it->second;
+}
+
+std::string Workspace::uri(const std::string& path) const {
+  const auto it = documents_.find(path);
+  return it == documents_.end() ? uri_of_path(path) : it->second.uri;
+}
+
+// ---- decks ----------------------------------------------------------------------------------
+
+bool Workspace::reaches(const std::string& root, const std::string& path) {
+  // An open main file may name includes that its file on disk does not.
+  if (const auto it = decks_.find(root); it != decks_.end())
+    if (const auto& syntax = refresh(it->second); syntax != nullptr)
+      return syntax->file_of(path) != Span::no_file;
+  IncludeScan scan(settings_.include_paths);
+  const auto files = scan.files(root);
+  return std::any_of(files.begin(), files.end(), [&](const IncludeScan::File& f) {
+    return fs::path(f.path).lexically_normal() == path;
+  });
+}
+
+/// Starter decks beside and above the file and in the folders of the client.
+std::vector<std::string> Workspace::candidates(const std::string& path) const {
+  std::vector<std::string> out;
+  const auto consider = [&](const fs::path& p) {
+    const std::string text = p.lexically_normal().string();
+    if (out.size() < most_candidates && has_starter_name(p) &&
+        std::find(out.begin(), out.end(), text) == out.end())
+      out.push_back(text);
+  };
+  const auto list = [&](const fs::path& folder) {
+    std::error_code ec;
+    std::vector<fs::path> names;
+    for (fs::directory_iterator it(folder, ec), end; !ec && it != end; it.increment(ec))
+      names.push_back(it->path());
+    std::sort(names.begin(), names.end());
+    for (const fs::path& p : names) consider(p);
+  };
+  fs::path folder = fs::path(path).parent_path();
+  for (int up = 0; up < 3; ++up) {
+    list(folder);
+    if (folder == folder.parent_path()) break;
+    folder = folder.parent_path();
+  }
+  for (const std::string& f : folders_) list(f);
+  return out;
+}
+
+std::string Workspace::root_of(const std::string& path, bool& fragment) {
+  fragment = false;
+  for (auto& [root, deck] : decks_)
+    if (!deck.fragment && root != path && reaches(root, path)) return root;
+  if (is_main_file(texts_.at(path)) || has_starter_name(path)) return path;
+  for (const std::string& root : candidates(path))
+    if (root != path && reaches(root, path)) return root;
+  fragment = true;
+  return path;
+}
+
+OpenDeck* Workspace::deck_of(const std::string& path) {
+  if (!documents_.contains(path)) return nullptr;
+  const auto known = roots_.find(path);
+  if (known != roots_.end()) {
+    OpenDeck& deck = decks_.at(known->second);
+    // The deck may have stopped including the file.
+    if (const auto& syntax = refresh(deck);
+        syntax != nullptr && syntax->file_of(path) != Span::no_file)
+      return &deck;
+    if (deck.path == path) return nullptr;
+  }
+  bool fragment = false;
+  const std::string root = root_of(path, fragment);
+  roots_[path] = root;
+  OpenDeck& deck = decks_[root];
+  deck.path = root;
+  deck.fragment = fragment;
+  const auto& syntax = refresh(deck);
+  return syntax != nullptr && syntax->file_of(path) != Span::no_file ? &deck : nullptr;
+}
+
+const std::shared_ptr<const Syntax>& Workspace::refresh(OpenDeck& deck) {
+  if (deck.syntax != nullptr && deck.syntax->generation == generation_) return deck.syntax;
+  ReadOptions read;
+  read.include_paths = settings_.include_paths;
+  read.limits = settings_.limits;
+  read.overlay = &texts_;
+  auto fresh = read_deck(deck.path, *schemas_, read);
+  if (!fresh) {
+    deck.syntax = nullptr;
+    return deck.syntax;
+  }
+  const auto syntax = std::make_shared<const Syntax>(std::move(*fresh), generation_);
+  for (std::uint32_t f = 0; f < syntax->deck.sources.size(); ++f)
+    if (const Document* d = find(syntax->deck.sources[f].path())) syntax->set_lines(f, d->lines);
+  deck.syntax = syntax;
+  return deck.syntax;
+}
+
+std::vector<OpenDeck> Workspace::forget_closed() {
+  std::vector<OpenDeck> out;
+  for (auto it = decks_.begin(); it != decks_.end();) {
+    const bool used = std::any_of(roots_.begin(), roots_.end(),
+                                  [&](const auto& r) { return r.second == it->first; });
+    if (used) {
+      ++it;
+      continue;
+    }
+    out.push_back(std::move(it->second));
+    it = decks_.erase(it);
+  }
+  return out;
+}
+
+}  // namespace deck::lsp

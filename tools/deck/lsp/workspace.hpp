@@ -1,0 +1,81 @@
+// Open documents, and the decks that they belong to.
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "deck/edit/include_scan.hpp"
+#include "lsp/analysis.hpp"
+
+namespace deck::lsp {
+
+/// Where the cursor is, as far as the client says.
+struct Cursor {
+  std::string path;
+  Place place;
+};
+
+/// A deck of which some file is open.
+struct OpenDeck {
+  std::string path;  ///< of the main file
+  std::shared_ptr<const Syntax> syntax;
+  std::shared_ptr<const Semantics> semantics;  ///< of this or an earlier text
+  std::shared_ptr<const Geometry> geometry;    ///< of the text last saved
+  bool fragment = false;  ///< no deck includes the file: it stands for itself, without findings
+  std::set<std::string> published;  ///< files with findings at the client
+  std::optional<Cursor> cursor;     ///< in a file of the deck
+};
+
+/// Texts and decks. For one thread.
+class Workspace {
+ public:
+  void configure(const SchemaSet& schemas, Settings settings) {
+    schemas_ = &schemas;
+    settings_ = std::move(settings);
+  }
+  const SchemaSet& schemas() const { return *schemas_; }
+  const Settings& settings() const { return settings_; }
+  /// Folders that are searched for decks which include a file.
+  void set_folders(std::vector<std::string> folders) { folders_ = std::move(folders); }
+
+  // ---- documents
+  Document& open(const std::string& path, std::string uri, std::int64_t version, std::string text);
+  void close(const std::string& path);
+  Document* find(const std::string& path);
+  const std::map<std::string, Document>& documents() const { return documents_; }
+  std::string& text(const std::string& path) { return texts_.at(path); }
+  const std::map<std::string, std::string>& texts() const { return texts_; }
+  /// The client's name of a file, whether it is open or not.
+  std::string uri(const std::string& path) const;
+  /// An open text or a file changed: what was read is old.
+  void changed() { ++generation_; }
+  std::uint64_t generation() const { return generation_; }
+
+  // ---- decks
+  /// The deck of a document, of the text as it is now; nullptr: it cannot be read at all.
+  OpenDeck* deck_of(const std::string& path);
+  std::map<std::string, OpenDeck>& decks() { return decks_; }
+  /// Reads a deck again if its text has changed.
+  const std::shared_ptr<const Syntax>& refresh(OpenDeck& deck);
+  /// Forgets decks of which no file is open; they are given back.
+  std::vector<OpenDeck> forget_closed();
+
+ private:
+  std::string root_of(const std::string& path, bool& fragment);
+  bool reaches(const std::string& root, const std::string& path);
+  std::vector<std::string> candidates(const std::string& path) const;
+
+  const SchemaSet* schemas_ = nullptr;
+  Settings settings_;
+  std::vector<std::string> folders_;
+  std::map<std::string, Document> documents_;
+  std::map<std::string, std::string> texts_;
+  std::map<std::string, OpenDeck> decks_;        ///< by main file
+  std::map<std::string, std::string> roots_;     ///< document -> main file
+  std::uint64_t generation_ = 1;
+};
+
+}  // namespace deck::lsp
