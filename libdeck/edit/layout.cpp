@@ -61,14 +61,14 @@ std::string ordered_line(const Deck& deck, const Block& block, const DecodedCard
                  left ? std::string(cell.text) + blanks : blanks + std::string(cell.text));
   }
   text.resize(detail::trim_right(text).size());
-  const DecodedCard again = decode_line(
-      deck, block, *card.schema, {text, card.line.file, card.line.offset}, nullptr);
+  const DecodedCard again =
+      decode_line(deck, block, *card.schema, {text, card.line.file, card.line.offset}, nullptr);
   bool same = again.cells.size() >= card.cells.size() && again.free_format == card.free_format;
   for (std::size_t i = 0; same && i < card.cells.size(); ++i) {
     // Conditions on other lines are not known to decode_line: cells are found by their columns.
     const auto it = std::find_if(again.cells.begin(), again.cells.end(), [&](const Cell& c) {
-      return c.field == card.cells[i].field && columns_of(again, c).first ==
-                                                   columns_of(card, card.cells[i]).first;
+      return c.field == card.cells[i].field &&
+             columns_of(again, c).first == columns_of(card, card.cells[i]).first;
     });
     same = it != again.cells.end() && it->text == card.cells[i].text;
   }

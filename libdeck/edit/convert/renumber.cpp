@@ -53,8 +53,7 @@ class Renumbering {
     for (std::string& why : detail::contradicting_copies(deck_.sources, out_.edits))
       out_.refusals.push_back(std::move(why));
     for (const auto& [name, space] : spaces_)
-      if (space.changes)
-        out_.notes.push_back(name + ": " + note_of(space));
+      if (space.changes) out_.notes.push_back(name + ": " + note_of(space));
     if (!out_.refusals.empty()) out_.edits.clear();
     return std::move(out_);
   }

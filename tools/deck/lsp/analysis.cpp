@@ -87,7 +87,8 @@ std::shared_ptr<const Semantics> analyse(std::shared_ptr<const Syntax> syntax,
                   &out->interfaces,
                   out->model.selections.get(),
                   {&out->findings},
-                  {}};
+                  {},
+                  &out->syntax->engine};
   out->lint = run_lint(input, *options);
   return out;
 }
@@ -135,6 +136,7 @@ std::shared_ptr<const Geometry> examine(
   read.overlay = &texts;
   auto deck = read_deck(path, schemas, read);
   if (!deck || stop || !no_starter_deck(*deck).empty()) return nullptr;
+  const EngineFiles engine = read_engine_files(*deck, settings.limits);
   Diagnostics findings(settings.limits.diagnostics_per_rule);
   const Model model = build_model(*deck, schemas, findings, model_options(settings));
   if (stop) return nullptr;
@@ -156,7 +158,8 @@ std::shared_ptr<const Geometry> examine(
   if (!options) options = LintOptions{};
   Gate gate = config ? config->gate : Gate{};
   gate.on_fresh = gate.on_worse = false;  // there is no earlier run here
-  LintInput input{*deck, schemas, &model, &interfaces, model.selections.get(), {&findings}, {}};
+  LintInput input{*deck,       schemas, &model, &interfaces, model.selections.get(),
+                  {&findings}, {},      &engine};
   input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
     check_geometry(context, reporter, {settings.threads, settings.limits, &gate, nullptr});
   });
@@ -167,10 +170,9 @@ std::shared_ptr<const Geometry> examine(
     const Source& source = deck->sources[d.span.file];
     d.notes.clear();  // their places are of a text that may have changed
     const std::string_view line = source.line_at(d.span.offset);
-    out->findings.push_back({source.path(), std::string(line),
-                             source.position(d.span.offset).line - 1,
-                             static_cast<std::uint64_t>(line.data() - source.bytes().data()),
-                             std::move(d)});
+    out->findings.push_back(
+        {source.path(), std::string(line), source.position(d.span.offset).line - 1,
+         static_cast<std::uint64_t>(line.data() - source.bytes().data()), std::move(d)});
   }
   return out;
 }

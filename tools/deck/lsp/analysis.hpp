@@ -12,6 +12,7 @@
 #include "deck/contact/scene.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/keyword/deck.hpp"
+#include "deck/keyword/engine_file.hpp"
 #include "deck/keyword/place.hpp"
 #include "deck/keyword/references.hpp"
 #include "deck/lint/config.hpp"
@@ -24,11 +25,15 @@ namespace deck::lsp {
 
 /// A deck cut into blocks. Immutable but for the tables of lines, which the server's thread fills.
 struct Syntax {
-  Syntax(Deck&& read, std::uint64_t text_generation)
-      : generation(text_generation), deck(std::move(read)), index(deck) {}
+  Syntax(Deck&& read, EngineFiles&& beside, std::uint64_t text_generation)
+      : generation(text_generation),
+        deck(std::move(read)),
+        engine(std::move(beside)),
+        index(deck) {}
 
   std::uint64_t generation;  ///< of the open documents when it was read
   Deck deck;
+  EngineFiles engine;  ///< beside the deck, as they are on disk
   BlockIndex index;
 
   /// Index of the file at that path; Span::no_file.
@@ -89,10 +94,9 @@ std::shared_ptr<const Semantics> analyse(std::shared_ptr<const Syntax> syntax,
 
 /// Builds the contacts of the deck at `path` with the given texts over the files. `progress` gets
 /// contacts done and in all. nullptr: stopped, or no deck.
-std::shared_ptr<const Geometry> examine(const std::string& path,
-                                        const std::map<std::string, std::string>& texts,
-                                        const SchemaSet& schemas, const Settings& settings,
-                                        const std::function<void(std::size_t, std::size_t)>& progress,
-                                        const std::atomic<bool>& stop);
+std::shared_ptr<const Geometry> examine(
+    const std::string& path, const std::map<std::string, std::string>& texts,
+    const SchemaSet& schemas, const Settings& settings,
+    const std::function<void(std::size_t, std::size_t)>& progress, const std::atomic<bool>& stop);
 
 }  // namespace deck::lsp

@@ -24,9 +24,10 @@ int run(const Options& o) {
     return exit_usage;
   }
   if (isatty(0) == 1) {
-    print_error(o.common,
-                "deck lsp is started by an editor and speaks the Language Server Protocol; there is "
-                "nothing to type here");
+    print_error(
+        o.common,
+        "deck lsp is started by an editor and speaks the Language Server Protocol; there is "
+        "nothing to type here");
     return exit_usage;
   }
   // A client that is gone shows in what write() says.

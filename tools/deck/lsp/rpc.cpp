@@ -68,7 +68,8 @@ std::optional<std::string> Connection::read() {
 bool Connection::write(const Json& message) {
   // Text of decks may be no UTF-8: such bytes are replaced, the answer goes out.
   const std::string content = message.dump(-1, ' ', false, Json::error_handler_t::replace);
-  const std::string frame = "Content-Length: " + std::to_string(content.size()) + "\r\n\r\n" + content;
+  const std::string frame =
+      "Content-Length: " + std::to_string(content.size()) + "\r\n\r\n" + content;
   const std::lock_guard lock(writing_);
   std::size_t done = 0;
   while (done < frame.size()) {

@@ -67,14 +67,12 @@ Json capabilities(const Client& client) {
        {{"openClose", true}, {"change", 2}, {"save", {{"includeText", false}}}}},
       {"hoverProvider", true},
       {"inlayHintProvider", true},
-      {"completionProvider",
-       {{"triggerCharacters", {"/", " "}}, {"resolveProvider", false}}},
+      {"completionProvider", {{"triggerCharacters", {"/", " "}}, {"resolveProvider", false}}},
       {"definitionProvider", true},
       {"referencesProvider", true},
       {"documentHighlightProvider", true},
       {"documentSymbolProvider", true},
-      {"codeActionProvider",
-       {{"codeActionKinds", {"quickfix", "source.fixAll", "refactor"}}}},
+      {"codeActionProvider", {{"codeActionKinds", {"quickfix", "source.fixAll", "refactor"}}}},
       {"codeLensProvider", {{"resolveProvider", false}}},
       {"documentLinkProvider", {{"resolveProvider", false}}},
       {"documentRangeFormattingProvider", true},
@@ -85,8 +83,7 @@ Json capabilities(const Client& client) {
        {{"commands",
          {"deck.setField", "deck.insertCard", "deck.fixAll", "deck.openGapReport", "deck.explain"}},
         {"workDoneProgress", false}}},
-      {"semanticTokensProvider",
-       {{"legend", token_legend()}, {"full", true}, {"range", true}}},
+      {"semanticTokensProvider", {{"legend", token_legend()}, {"full", true}, {"range", true}}},
       {"workspace", {{"workspaceFolders", {{"supported", true}, {"changeNotifications", true}}}}},
   };
 }
@@ -165,7 +162,8 @@ void Server::notify(const char* method, Json params) {
   connection_.write({{"jsonrpc", "2.0"}, {"method", method}, {"params", std::move(params)}});
 }
 void Server::request(const char* method, Json params) {
-  Json message = {{"jsonrpc", "2.0"}, {"id", "deck-" + std::to_string(next_id_++)}, {"method", method}};
+  Json message = {
+      {"jsonrpc", "2.0"}, {"id", "deck-" + std::to_string(next_id_++)}, {"method", method}};
   if (!params.is_null()) message["params"] = std::move(params);
   connection_.write(message);
 }
@@ -176,7 +174,8 @@ void Server::dispatch(const Json& message) {
   const Json id = has_id ? message["id"] : Json();
   if (!method.is_string()) {
     // An answer to a request of ours needs nothing done.
-    if (!message.is_object() || !has_id || !(message.contains("result") || message.contains("error")))
+    if (!message.is_object() || !has_id ||
+        !(message.contains("result") || message.contains("error")))
       fail(id, invalid_request, "the message has no method");
     return;
   }
@@ -272,15 +271,14 @@ void Server::notified(const std::string& method, const Json& params) {
 
 Json Server::initialize(const Json& params) {
   const Json& c = at(params, {"capabilities"});
-  client_.encoding = lists(at(c, {"general", "positionEncodings"}), "utf-8") ? Encoding::utf8
-                                                                            : Encoding::utf16;
+  client_.encoding =
+      lists(at(c, {"general", "positionEncodings"}), "utf-8") ? Encoding::utf8 : Encoding::utf16;
   const Json& preferred = at(c, {"general", "positionEncodings"});
   if (preferred.is_array() && !preferred.empty() && preferred[0] == "utf-16")
     client_.encoding = Encoding::utf16;
   const Json& format = at(c, {"textDocument", "hover", "contentFormat"});
   client_.markdown = !format.is_array() || lists(format, "markdown");
-  client_.snippets =
-      is_true(c, {"textDocument", "completion", "completionItem", "snippetSupport"});
+  client_.snippets = is_true(c, {"textDocument", "completion", "completionItem", "snippetSupport"});
   client_.document_changes = is_true(c, {"workspace", "workspaceEdit", "documentChanges"});
   client_.progress = is_true(c, {"window", "workDoneProgress"});
   client_.refresh_lenses = is_true(c, {"workspace", "codeLens", "refreshSupport"});

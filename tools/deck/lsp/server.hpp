@@ -102,7 +102,7 @@ class Server {
 
   int delay_ms_ = 120, hold_ms_ = 2500;
   bool geometry_on_save_ = true;
-  std::map<std::string, Clock::time_point> due_;          ///< decks that wait for an analysis
+  std::map<std::string, Clock::time_point> due_;  ///< decks that wait for an analysis
   std::map<std::string, std::shared_ptr<std::atomic<bool>>> analysing_;
   std::map<std::string, std::shared_ptr<Progress>> examining_;
   Typing typing_;

@@ -62,16 +62,14 @@ void Server::did_change(const Json& params) {
 }
 
 void Server::did_close(const Json& params) {
-  const std::string path =
-      path_of_uri(params.at("textDocument").at("uri").get<std::string>());
+  const std::string path = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
   if (workspace_.find(path) == nullptr) return;
   if (typing_.path == path) typing_.active = false;
   workspace_.close(path);
   for (const OpenDeck& gone : workspace_.forget_closed()) {
     due_.erase(gone.path);
     if (const auto it = analysing_.find(gone.path); it != analysing_.end()) *it->second = true;
-    if (const auto it = examining_.find(gone.path); it != examining_.end())
-      it->second->stop = true;
+    if (const auto it = examining_.find(gone.path); it != examining_.end()) it->second->stop = true;
     for (const std::string& file : gone.published)
       notify("textDocument/publishDiagnostics",
              {{"uri", workspace_.uri(file)}, {"diagnostics", Json::array()}});
@@ -80,8 +78,7 @@ void Server::did_close(const Json& params) {
 }
 
 void Server::did_save(const Json& params) {
-  const std::string path =
-      path_of_uri(params.at("textDocument").at("uri").get<std::string>());
+  const std::string path = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
   release_typing();
   OpenDeck* deck = workspace_.deck_of(path);
   if (deck == nullptr) return;

@@ -47,8 +47,7 @@ std::optional<Server::Clock::time_point> Server::next_due() const {
 
 void Server::start_due() {
   const auto now = Clock::now();
-  if (typing_.active && now >= typing_.last + std::chrono::milliseconds(hold_ms_))
-    release_typing();
+  if (typing_.active && now >= typing_.last + std::chrono::milliseconds(hold_ms_)) release_typing();
   for (auto it = due_.begin(); it != due_.end();) {
     const auto deck = workspace_.decks().find(it->first);
     if (deck == workspace_.decks().end()) {
@@ -217,7 +216,8 @@ void Server::typed(const std::string& path, std::uint64_t line) {
   const bool same = typing_.active && typing_.path == path && typing_.line == line;
   if (!same) {
     std::set<std::string> before;
-    if (const OpenDeck* deck = workspace_.deck_of(path); deck != nullptr && deck->semantics != nullptr)
+    if (const OpenDeck* deck = workspace_.deck_of(path);
+        deck != nullptr && deck->semantics != nullptr)
       for (const Diagnostic& d : deck->semantics->lint.diagnostics)
         // What was held back on the line before comes out now.
         before.insert(key_of(d));
@@ -264,12 +264,10 @@ std::shared_ptr<Server::Progress> Server::begin_progress(const std::string& titl
   progress->token = "deck-progress-" + std::to_string(next_id_++);
   progresses_[progress->token] = progress;
   request("window/workDoneProgress/create", {{"token", progress->token}});
-  notify("$/progress", {{"token", progress->token},
-                        {"value",
-                         {{"kind", "begin"},
-                          {"title", utf8(title)},
-                          {"cancellable", true},
-                          {"percentage", 0}}}});
+  notify("$/progress",
+         {{"token", progress->token},
+          {"value",
+           {{"kind", "begin"}, {"title", utf8(title)}, {"cancellable", true}, {"percentage", 0}}}});
   return progress;
 }
 

@@ -17,10 +17,10 @@ namespace deck::lsp {
 /// What the client can do, as far as answers depend on it.
 struct Client {
   Encoding encoding = Encoding::utf16;
-  bool markdown = true;             ///< of hover and completion
-  bool snippets = false;            ///< in completion
-  bool document_changes = false;    ///< WorkspaceEdit.documentChanges
-  bool progress = false;            ///< window/workDoneProgress
+  bool markdown = true;           ///< of hover and completion
+  bool snippets = false;          ///< in completion
+  bool document_changes = false;  ///< WorkspaceEdit.documentChanges
+  bool progress = false;          ///< window/workDoneProgress
   bool refresh_lenses = false, refresh_hints = false;
   bool hierarchical_symbols = false;
   std::string show_report = "deck.openGapReport";  ///< command of a lens
@@ -29,7 +29,8 @@ struct Client {
 /// A document of a deck at one moment.
 class View {
  public:
-  View(const Workspace& space, const Client& client_of, const OpenDeck& deck_of, std::string path_of);
+  View(const Workspace& space, const Client& client_of, const OpenDeck& deck_of,
+       std::string path_of);
 
   const Workspace& workspace;
   const Client& client;
@@ -52,7 +53,9 @@ class View {
   // ---- to the protocol
   Json position(std::uint32_t of_file, std::uint64_t offset) const;
   Json range(std::uint32_t of_file, std::uint64_t begin, std::uint64_t end) const;
-  Json range(const Span& span) const { return range(span.file, span.offset, span.offset + span.length); }
+  Json range(const Span& span) const {
+    return range(span.file, span.offset, span.offset + span.length);
+  }
   Json location(const Span& span) const;
   std::string uri(std::uint32_t of_file) const;
   /// Edits of files of the deck as a WorkspaceEdit. A file that is included twice gets them once.

@@ -64,6 +64,7 @@ bool Workspace::reaches(const std::string& root, const std::string& path) {
   if (const auto it = decks_.find(root); it != decks_.end())
     if (const auto& syntax = refresh(it->second); syntax != nullptr)
       return syntax->file_of(path) != Span::no_file;
+  if (std::error_code ec; starter_of_engine_file(path) == root && fs::exists(root, ec)) return true;
   IncludeScan scan(settings_.include_paths);
   const auto files = scan.files(root);
   return std::any_of(files.begin(), files.end(), [&](const IncludeScan::File& f) {
@@ -103,6 +104,9 @@ std::string Workspace::root_of(const std::string& path, bool& fragment) {
   for (auto& [root, deck] : decks_)
     if (!deck.fragment && root != path && reaches(root, path)) return root;
   if (is_main_file(texts_.at(path)) || has_starter_name(path)) return path;
+  if (const std::string starter = starter_of_engine_file(path);
+      !starter.empty() && reaches(starter, path))
+    return starter;
   for (const std::string& root : candidates(path))
     if (root != path && reaches(root, path)) return root;
   fragment = true;
@@ -141,9 +145,16 @@ const std::shared_ptr<const Syntax>& Workspace::refresh(OpenDeck& deck) {
     deck.syntax = nullptr;
     return deck.syntax;
   }
-  const auto syntax = std::make_shared<const Syntax>(std::move(*fresh), generation_);
-  for (std::uint32_t f = 0; f < syntax->deck.sources.size(); ++f)
-    if (const Document* d = find(syntax->deck.sources[f].path())) syntax->set_lines(f, d->lines);
+  EngineFiles engine = read_engine_files(*fresh, settings_.limits);
+  const auto syntax =
+      std::make_shared<const Syntax>(std::move(*fresh), std::move(engine), generation_);
+  for (std::uint32_t f = 0; f < syntax->deck.sources.size(); ++f) {
+    const Source& source = syntax->deck.sources[f];
+    // Engine files are as they are on disk, whether they are open or not.
+    if (const Document* d = find(source.path());
+        d != nullptr && source.bytes() == text(source.path()))
+      syntax->set_lines(f, d->lines);
+  }
   deck.syntax = syntax;
   return deck.syntax;
 }

@@ -73,8 +73,8 @@ class Workspace {
   std::vector<std::string> folders_;
   std::map<std::string, Document> documents_;
   std::map<std::string, std::string> texts_;
-  std::map<std::string, OpenDeck> decks_;        ///< by main file
-  std::map<std::string, std::string> roots_;     ///< document -> main file
+  std::map<std::string, OpenDeck> decks_;     ///< by main file
+  std::map<std::string, std::string> roots_;  ///< document -> main file
   std::uint64_t generation_ = 1;
 };
 

@@ -43,9 +43,9 @@ struct PlacedLine {
     opaque,  ///< a line of a block without schema, encrypted, or behind the described ones
   };
   What what = What::outside;
-  Line line;                     ///< the whole line
-  std::int64_t block = -1;       ///< index into Deck::blocks
-  DecodedCard card;              ///< of What::card
+  Line line;                              ///< the whole line
+  std::int64_t block = -1;                ///< index into Deck::blocks
+  DecodedCard card;                       ///< of What::card
   const Cell* cell_at(int column) const;  ///< of a 1-based column; nullptr: none
 };
 

@@ -66,10 +66,12 @@ std::vector<TextEdit> all_fixes(const View& view, const Semantics& s, bool unsaf
     std::size_t head = 0, tail = 0;
     const std::size_t most = std::min(before.size(), f.text.size());
     while (head < most && before[head] == f.text[head]) ++head;
-    while (tail < most - head && before[before.size() - 1 - tail] == f.text[f.text.size() - 1 - tail])
+    while (tail < most - head &&
+           before[before.size() - 1 - tail] == f.text[f.text.size() - 1 - tail])
       ++tail;
     // Never inside a character.
-    while (head > 0 && head < before.size() && (static_cast<unsigned char>(before[head]) & 0xc0) == 0x80)
+    while (head > 0 && head < before.size() &&
+           (static_cast<unsigned char>(before[head]) & 0xc0) == 0x80)
       --head;
     while (tail > 0 && (static_cast<unsigned char>(before[before.size() - tail]) & 0xc0) == 0x80)
       --tail;
@@ -107,8 +109,9 @@ Answer code_actions(const View& view, const Json& params) {
       if (line < first || line > last) continue;
       const std::string rule(id_text(d.rule));
       if (d.fix)
-        out.push_back(action(view, (d.fix->safe ? "Fix: " : "Unsafe fix: ") + d.fix->title + " (" + rule + ")",
-                             "quickfix", &d, view.workspace_edit(d.fix->edits), d.fix->safe));
+        out.push_back(action(
+            view, (d.fix->safe ? "Fix: " : "Unsafe fix: ") + d.fix->title + " (" + rule + ")",
+            "quickfix", &d, view.workspace_edit(d.fix->edits), d.fix->safe));
       if (!d.span.valid()) continue;
       if (const auto edit = suppression(view, d))
         out.push_back(action(view, "Suppress " + rule + " here", "quickfix", &d,
@@ -197,17 +200,17 @@ Answer card_at(const View& view, const Json& params) {
   const PlacedLine line = view.line_at(offset);
   if (line.block < 0) return nullptr;
   const Block& block = view.deck.blocks[static_cast<std::size_t>(line.block)];
-  Json out = {{"header", utf8(block.header)},
-              {"keyword", block.schema != nullptr ? block.schema->keyword : utf8(block.keyword)},
-              {"id", id_of(view.deck, block)},
-              {"title", title_of(view.deck, block)},
-              {"version", block.version},
-              {"range", view.range(view.file, block.header_span.file == view.file
-                                                  ? block.header_span.offset
-                                                  : line.line.offset,
-                                   block.header_span.file == view.file
-                                       ? view.block_end(block)
-                                       : line.line.offset + line.line.text.size())}};
+  Json out = {
+      {"header", utf8(block.header)},
+      {"keyword", block.schema != nullptr ? block.schema->keyword : utf8(block.keyword)},
+      {"id", id_of(view.deck, block)},
+      {"title", title_of(view.deck, block)},
+      {"version", block.version},
+      {"range",
+       view.range(view.file,
+                  block.header_span.file == view.file ? block.header_span.offset : line.line.offset,
+                  block.header_span.file == view.file ? view.block_end(block)
+                                                      : line.line.offset + line.line.text.size())}};
   if (line.what != PlacedLine::What::card) return out;
   out["card"] = line.card.schema->name;
   out["heading"] = card_heading(*line.card.schema, block.version);
@@ -317,11 +320,12 @@ Answer code_lenses(const View& view, const Json&) {
         doing = fmt::format("Inacti {}: {}", typed.Inacti.value,
                             meaning_of_value(*f, inacti == 0 ? 1000 : inacti));
     });
-    out.push_back({{"range", range},
-                   {"command",
-                    {{"title", utf8(doing)},
-                     {"command", "deck.explain"},
-                     {"arguments", Json::array({{{"topic", block.schema->keyword + ".Inacti"}}})}}}});
+    out.push_back(
+        {{"range", range},
+         {"command",
+          {{"title", utf8(doing)},
+           {"command", "deck.explain"},
+           {"arguments", Json::array({{{"topic", block.schema->keyword + ".Inacti"}}})}}}});
   }
   return out;
 }

@@ -13,7 +13,13 @@ namespace deck::lsp {
 namespace {
 
 constexpr std::size_t most_items = 1000;
-enum Kind : int { kind_file = 17, kind_keyword = 14, kind_snippet = 15, kind_value = 20, kind_reference = 18 };
+enum Kind : int {
+  kind_file = 17,
+  kind_keyword = 14,
+  kind_snippet = 15,
+  kind_value = 20,
+  kind_reference = 18
+};
 
 class Completion {
  public:
@@ -49,11 +55,12 @@ class Completion {
     const int version = version_here();
     for (const Schema* s : view_.schemas().all()) {
       if (s->from > version) continue;
-      Json item = {{"label", s->keyword},
-                   {"kind", kind_keyword},
-                   {"detail", utf8(s->doc)},
-                   {"filterText", s->keyword},
-                   {"textEdit", edit(begin_ + word, begin_ + end, s->keyword + (s->has_id ? "/" : ""))}};
+      Json item = {
+          {"label", s->keyword},
+          {"kind", kind_keyword},
+          {"detail", utf8(s->doc)},
+          {"filterText", s->keyword},
+          {"textEdit", edit(begin_ + word, begin_ + end, s->keyword + (s->has_id ? "/" : ""))}};
       items_.push_back(std::move(item));
       if (s->bulk || s->cards.empty() || !view_.client.snippets) continue;
       items_.push_back({{"label", s->keyword + " …"},
@@ -129,8 +136,9 @@ class Completion {
     const Block& block = view_.deck.blocks[static_cast<std::size_t>(line.block)];
     // The column in front of the caret if something was typed there, else the one behind it.
     const int column = static_cast<int>(offset_ - begin_);
-    const bool typed = column > 0 && static_cast<std::size_t>(column) <= line_.size() &&
-                       static_cast<unsigned char>(line_[static_cast<std::size_t>(column - 1)]) > ' ';
+    const bool typed =
+        column > 0 && static_cast<std::size_t>(column) <= line_.size() &&
+        static_cast<unsigned char>(line_[static_cast<std::size_t>(column - 1)]) > ' ';
     const Cell* cell = line.cell_at(typed ? column : column + 1);
     if (cell == nullptr || cell->field == nullptr) return;
     const CellColumns at = columns_of(line.card, *cell);
@@ -142,7 +150,8 @@ class Completion {
 
   /// The cell with the text at its end; the blanks before it are part of the edit.
   Json cell_item(const CellColumns& at, const std::string& text) const {
-    const auto first = static_cast<std::size_t>(at.first - 1), last = static_cast<std::size_t>(at.last);
+    const auto first = static_cast<std::size_t>(at.first - 1),
+               last = static_cast<std::size_t>(at.last);
     const std::size_t from = std::min(first, line_.size()), to = std::min(last, line_.size());
     const std::size_t width = last - first;
     const std::string padded =
@@ -171,7 +180,8 @@ class Completion {
     }
     for (const std::int64_t v : f.values) {
       std::string meaning = meaning_of_value(f, v);
-      if (v == 0 && meaning.empty() && !f.default_text.empty()) meaning = "default: " + f.default_text;
+      if (v == 0 && meaning.empty() && !f.default_text.empty())
+        meaning = "default: " + f.default_text;
       add(v, meaning);
     }
   }
@@ -179,8 +189,8 @@ class Completion {
   void ids(const Block& of, const Cell& cell, const CellColumns& at) {
     const std::string& kind = cell.field->ref;
     constexpr std::string_view may_be_sets[] = {"grnod", "surf", "line", "grpart"};
-    const bool sets = std::find(std::begin(may_be_sets), std::end(may_be_sets), kind) !=
-                      std::end(may_be_sets);
+    const bool sets =
+        std::find(std::begin(may_be_sets), std::end(may_be_sets), kind) != std::end(may_be_sets);
     const std::int64_t offset = view_.deck.offset_of(of, kind);
     std::vector<std::pair<std::int64_t, const Block*>> found;
     for (const Block& b : view_.deck.blocks)

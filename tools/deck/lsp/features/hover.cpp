@@ -126,8 +126,9 @@ std::string unit_text(const Dimension& d, const UnitSystem* units) {
   const auto add = [&](const std::string& code, const char* base, int power) {
     if (power == 0) return;
     const bool word = !code.empty() && !(code[0] >= '0' && code[0] <= '9') && code[0] != '.';
-    out += (out.empty() ? "" : " ") +
-           (word ? utf8(code) : code.empty() ? std::string(base) : utf8(code) + " " + base);
+    out += (out.empty() ? "" : " ") + (word           ? utf8(code)
+                                       : code.empty() ? std::string(base)
+                                                      : utf8(code) + " " + base);
     if (power != 1) out += "^" + std::to_string(power);
   };
   const UnitSystem none;
@@ -170,10 +171,10 @@ CellText describe(const View& view, const Block& block, const DecodedCard& card,
   const Field& f = *cell.field;
   const CellColumns at = columns_of(card, cell);
   CellText out;
-  out.head = fmt::format("{} · column{} {} · {}", f.name, at.first == at.last ? "" : "s",
-                         at.first == at.last ? std::to_string(at.first)
-                                             : fmt::format("{}–{}", at.first, at.last),
-                         type_text(f));
+  out.head = fmt::format(
+      "{} · column{} {} · {}", f.name, at.first == at.last ? "" : "s",
+      at.first == at.last ? std::to_string(at.first) : fmt::format("{}–{}", at.first, at.last),
+      type_text(f));
   if (card.free_format) out.head += " · free format";
   if (f.type == FieldType::real) {
     if (!f.dimension_known) {
@@ -265,8 +266,8 @@ Answer hover(const View& view, const Json& params) {
   if (line.what == PlacedLine::What::header) return hover_of_header(view, line);
   if (line.what == PlacedLine::What::title) {
     const Block& block = view.deck.blocks[static_cast<std::size_t>(line.block)];
-    return {{"contents", markup(view, "**title** of " + plain(block.header) +
-                                          " · columns 1–100 · text")},
+    return {{"contents",
+             markup(view, "**title** of " + plain(block.header) + " · columns 1–100 · text")},
             {"range", view.range(line.line.whole())}};
   }
   if (line.what != PlacedLine::What::card) return nullptr;
@@ -285,8 +286,8 @@ std::string hint_of(const View& view, const Block& block, const DecodedCard& car
   for (const Cell& cell : card.cells) {
     const Field& f = *cell.field;
     if (f.type == FieldType::id && cell.integer != 0 && card.schema->repeat == Repeat::once) {
-      const std::string title = title_of_id(
-          view, f.ref, std::abs(cell.integer) + view.deck.offset_of(block, f.ref));
+      const std::string title =
+          title_of_id(view, f.ref, std::abs(cell.integer) + view.deck.offset_of(block, f.ref));
       if (!title.empty()) add(f.name + ": " + title);
       continue;
     }
@@ -329,11 +330,9 @@ Answer inlay_hints(const View& view, const Json& params) {
     if (offset >= begin && offset <= end) {
       const PlacedLine line = view.line_at(offset);
       if (const Cell* cell = line.cell_at(static_cast<int>(offset - line.line.offset) + 1))
-        add(line.line,
-            "▸ " +
-                describe(view, view.deck.blocks[static_cast<std::size_t>(line.block)], line.card,
-                         *cell)
-                    .head);
+        add(line.line, "▸ " + describe(view, view.deck.blocks[static_cast<std::size_t>(line.block)],
+                                       line.card, *cell)
+                                  .head);
     }
   }
   return out;

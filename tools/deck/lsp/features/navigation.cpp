@@ -1,4 +1,5 @@
-// From an id to what defines it and to what names it; includes as links and as a hierarchy of calls.
+// From an id to what defines it and to what names it; includes as links and as a hierarchy of
+// calls.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -65,8 +66,8 @@ std::optional<NamedId> item_at(const View& view, const Block& block, const Place
                                std::uint64_t offset) {
   const Cell* cell = line.cell_at(static_cast<int>(offset - line.line.offset) + 1);
   if (cell == nullptr || cell->integer == 0) return std::nullopt;
-  const bool own = &line.card.cells.front() == cell && block.schema->find_field(cell->field->name) ==
-                                                           cell->field;
+  const bool own = &line.card.cells.front() == cell &&
+                   block.schema->find_field(cell->field->name) == cell->field;
   const std::string kind = own ? block.schema->kind : cell->field->ref;
   if (kind.empty() || (!own && cell->field->type != FieldType::id)) return std::nullopt;
   return NamedId{kind, std::abs(cell->integer) + view.deck.offset_of(block, kind),
@@ -233,10 +234,10 @@ Answer document_links(const View& view, const Json&) {
     if (name == line.npos) continue;
     auto end = line.size();
     while (end > name && static_cast<unsigned char>(line[end - 1]) <= ' ') --end;
-    out.push_back({{"range", view.range(view.file, e.directive.offset + name,
-                                        e.directive.offset + end)},
-                   {"target", view.uri(e.file)},
-                   {"tooltip", utf8(view.deck.sources[e.file].path())}});
+    out.push_back(
+        {{"range", view.range(view.file, e.directive.offset + name, e.directive.offset + end)},
+         {"target", view.uri(e.file)},
+         {"tooltip", utf8(view.deck.sources[e.file].path())}});
   }
   return out;
 }

@@ -27,7 +27,8 @@ class Tokens {
     if (length == 0) return;
     while (line_ + 1 < lines_.size() && lines_.start(line_ + 1) <= offset) ++line_;
     const std::uint64_t start = lines_.start(line_);
-    const std::uint64_t character = units(text_.substr(start, offset - start), view_.client.encoding);
+    const std::uint64_t character =
+        units(text_.substr(start, offset - start), view_.client.encoding);
     const std::uint64_t wide = units(text_.substr(offset, length), view_.client.encoding);
     data_.push_back(line_ - last_line_);
     data_.push_back(line_ == last_line_ ? character - last_character_ : character);
@@ -58,11 +59,11 @@ class Tokens {
       if (at < end || at >= text_.size()) continue;  // cells do not overlap
       end = at + cell.text.size();
       const Field& f = *cell.field;
-      const TokenType type = cell.parameter                     ? parameter
-                             : f.type == FieldType::id          ? id
-                             : f.type == FieldType::real        ? real
-                             : f.type == FieldType::text        ? text
-                                                                : flag;
+      const TokenType type = cell.parameter              ? parameter
+                             : f.type == FieldType::id   ? id
+                             : f.type == FieldType::real ? real
+                             : f.type == FieldType::text ? text
+                                                         : flag;
       add(at, cell.text.size(), type, shade | (f.ignored ? ignored : none));
     }
   }
@@ -133,8 +134,8 @@ void comments(const View& view, const Stretch& where, std::vector<Piece>& out) {
     if (lines.start(l) >= where.end) return;
     const std::string_view line = lines.line(view.text(), l);
     if (line.empty() || (line[0] != '#' && line[0] != '$')) continue;
-    const bool include = line.size() >= 8 && (line.starts_with("#include") ||
-                                              line.starts_with("#INCLUDE"));
+    const bool include =
+        line.size() >= 8 && (line.starts_with("#include") || line.starts_with("#INCLUDE"));
     out.push_back({lines.start(l), line.size(), nullptr, {}, include ? directive : comment});
   }
 }
@@ -202,8 +203,7 @@ Answer document_symbols(const View& view, const Json&) {
   for (const Block& b : view.deck.blocks) {
     if (b.header_span.file != view.file) continue;
     const std::string name = utf8(b.header);
-    const Json range =
-        view.range(view.file, b.header_span.offset, view.block_end(b));
+    const Json range = view.range(view.file, b.header_span.offset, view.block_end(b));
     if (view.client.hierarchical_symbols)
       out.push_back({{"name", name},
                      {"detail", title_of(view.deck, b)},
