@@ -1,0 +1,85 @@
+// Draws the column ruler: fields of the card under the cursor, their names behind the end of the line, and
+// the field under the cursor in the status bar. The server says where the fields are.
+import * as vscode from "vscode";
+import type { LanguageClient } from "vscode-languageclient/node";
+import { nextCell, ruler, type CardLayout } from "./columns";
+
+const border = { borderStyle: "solid", borderWidth: "0 0 0 1px", borderColor: new vscode.ThemeColor("editorRuler.foreground") };
+const even = vscode.window.createTextEditorDecorationType(border);
+const odd = vscode.window.createTextEditorDecorationType({ ...border, backgroundColor: new vscode.ThemeColor("editor.hoverHighlightBackground") });
+const current = vscode.window.createTextEditorDecorationType({ ...border, backgroundColor: new vscode.ThemeColor("editor.wordHighlightBackground") });
+const tail = vscode.window.createTextEditorDecorationType({ after: { color: new vscode.ThemeColor("editorCodeLens.foreground") } });
+const kinds = [even, odd, current, tail];
+
+export class RulerView implements vscode.Disposable {
+  private readonly status = vscode.window.createStatusBarItem("deck.field", vscode.StatusBarAlignment.Right, 101);
+  private readonly listeners: vscode.Disposable[];
+  private asked = 0;
+
+  constructor(private readonly client: LanguageClient) {
+    this.status.name = "Field of the card";
+    this.listeners = [
+      vscode.window.onDidChangeTextEditorSelection((e) => void this.draw(e.textEditor)),
+      vscode.window.onDidChangeActiveTextEditor((e) => void this.draw(e)),
+      vscode.workspace.onDidChangeTextDocument((e) => {
+        const editor = vscode.window.activeTextEditor;
+        if (editor && e.document === editor.document) void this.draw(editor);
+      }),
+      vscode.workspace.onDidChangeConfiguration((e) => {
+        if (e.affectsConfiguration("deck.ruler")) void this.draw(vscode.window.activeTextEditor);
+      }),
+    ];
+    this.listeners.push(client.onDidChangeState(() => void this.draw(vscode.window.activeTextEditor)));
+  }
+
+  private async ask(editor: vscode.TextEditor): Promise<CardLayout | null> {
+    if (!this.client.isRunning()) return null;
+    const textDocument = this.client.code2ProtocolConverter.asTextDocumentIdentifier(editor.document);
+    const position = this.client.code2ProtocolConverter.asPosition(editor.selection.active);
+    // A server without this request, or one that has not read the deck yet: no ruler.
+    return this.client.sendRequest<CardLayout | null>("deck/card", { textDocument, position }).catch(() => null);
+  }
+
+  private async draw(editor: vscode.TextEditor | undefined): Promise<void> {
+    const mine = ++this.asked;
+    const wanted = editor?.document.languageId === "radioss" && vscode.workspace.getConfiguration("deck", editor.document).get("ruler.enabled", true);
+    const layout = editor && wanted ? await this.ask(editor) : null;
+    if (mine !== this.asked) return; // the cursor went on
+    if (!editor || !layout || layout.cells.length === 0) {
+      if (editor) for (const kind of kinds) editor.setDecorations(kind, []);
+      this.status.hide();
+      return;
+    }
+    const { line, character } = editor.selection.active;
+    const text = editor.document.lineAt(line).text;
+    const r = ruler(layout, text.length, character);
+    const range = (c: { start: number; end: number }) => new vscode.Range(line, c.start, line, c.end);
+    editor.setDecorations(current, r.cells.filter((c) => c.current).map(range));
+    editor.setDecorations(odd, r.cells.filter((c) => c.odd && !c.current).map(range));
+    editor.setDecorations(even, r.cells.filter((c) => !c.odd && !c.current).map(range));
+    const end = new vscode.Range(line, text.length, line, text.length);
+    editor.setDecorations(tail, r.tail ? [{ range: end, renderOptions: { after: { contentText: r.tail } } }] : []);
+    this.status.text = `$(symbol-ruler) ${r.status}`;
+    this.status.tooltip = r.tooltip;
+    this.status.show();
+  }
+
+  /** Moves the cursor to the next or the previous field and selects what stands there; blanks are written where the line ends early. */
+  async go(step: 1 | -1): Promise<void> {
+    const editor = vscode.window.activeTextEditor;
+    const layout = editor && (await this.ask(editor));
+    const cell = editor && layout && nextCell(layout.cells, editor.selection.active.character, step);
+    if (!cell) return;
+    const { line } = editor.selection.active;
+    const length = editor.document.lineAt(line).text.length;
+    if (length < cell.end) await editor.edit((e) => e.insert(new vscode.Position(line, length), " ".repeat(cell.end - length)));
+    editor.selection = new vscode.Selection(line, cell.start, line, cell.end);
+    editor.revealRange(editor.selection);
+  }
+
+  dispose(): void {
+    for (const l of this.listeners) l.dispose();
+    for (const kind of kinds) vscode.window.activeTextEditor?.setDecorations(kind, []);
+    this.status.dispose();
+  }
+}
