@@ -37,7 +37,8 @@ function start(report: Report): void {
     const at = report.filter.interface;
     if (at === shown) return;
     shown = at;
-    if (!asked && at !== null) editor.postMessage({ type: "interface", id: report.meta.interfaces[at].id, card: place(report.meta.interfaces[at].card) });
+    const inter = at === null ? null : report.meta.interfaces[at];
+    if (!asked) editor.postMessage({ type: "interface", id: inter?.id ?? null, card: inter && place(inter.card) });
   });
 
   // The places in the panel of a pair are links here.
@@ -61,6 +62,7 @@ function start(report: Report): void {
     if (to) editor.postMessage({ type: "open", place: to });
   });
 
+  const chosen = () => ({ interface: report.filter.interface === null ? null : report.meta.interfaces[report.filter.interface].id, key: report.selected?.key ?? null });
   const show = (m: Extract<ToPage, { type: "show" }>): string | null => {
     const at = report.meta.interfaces.findIndex((i) => i.card.file === m.file && i.card.line === m.header);
     if (at >= 0) {
@@ -83,7 +85,7 @@ function start(report: Report): void {
     const m = e.data;
     asked = true;
     try {
-      if (m.type === "show") editor.postMessage({ type: "shown", what: show(m) });
+      if (m.type === "show") editor.postMessage({ type: "shown", what: show(m), chosen: chosen() });
       else if (m.type === "restore") {
         const at = report.meta.interfaces.findIndex((i) => i.id === m.interface);
         if (at >= 0) report.setFilter({ interface: at });

@@ -1,21 +1,51 @@
 // The column ruler of one card: which characters belong to which field, what stands to the right of a
 // line that ends early, what the status bar says. Knows nothing of the editor.
 
-/** A cell of a card as the server describes it; characters count from 0, `end` is behind the last. */
+/** The server's answer to `deck/card`: the card on the line that was asked for (tools/docs/editors.md). */
+export interface CardAnswer {
+  keyword: string;
+  card?: string; // not there: the line is no card
+  cells?: { field: string; columns: [number, number]; label: string; used: string; doc: string }[];
+}
+
+/** A cell of a card; characters count from 0, `end` is behind the last. */
 export interface Cell {
   name: string;
   start: number;
   end: number;
-  type: string;
-  doc?: string;
-  unit?: string;
+  about: string; // name, columns, type, unit and value in one line
+  doc: string;
 }
 
-/** Answer to `deck/card`: the card on the line that was asked for. */
 export interface CardLayout {
   keyword: string;
   card: string;
   cells: Cell[];
+}
+
+/** Columns are bytes and count from 1; a letter like é has two, but is one character. */
+function characterAt(text: string, column: number): number {
+  let bytes = 0;
+  let at = 0;
+  for (const c of text) {
+    if (bytes >= column) return at;
+    bytes += new TextEncoder().encode(c).length;
+    at += c.length;
+  }
+  return at + column - bytes;
+}
+
+/** What the ruler needs of an answer; null: there is no card on the line, whose text is `text`. */
+export function layoutOf(answer: CardAnswer | null, text: string): CardLayout | null {
+  if (!answer?.card || !answer.cells?.length) return null;
+  const cells = answer.cells.map((c) => ({
+    name: c.field,
+    start: characterAt(text, c.columns[0] - 1),
+    end: characterAt(text, c.columns[1]),
+    about: [c.label, c.used].filter(Boolean).join(": "),
+    doc: c.doc,
+  }));
+  return { keyword: answer.keyword, card: answer.card, cells: cells.sort((a, b) => a.start - b.start) };
 }
 
 export interface Ruler {
@@ -29,7 +59,7 @@ const blank = "\u00a0"; // plain blanks would be drawn as one
 
 /** `length`: of the line; `character`: where the cursor is. */
 export function ruler(layout: CardLayout, length: number, character: number): Ruler {
-  const cells = [...layout.cells].sort((a, b) => a.start - b.start);
+  const { cells } = layout;
   const current = cellAt(cells, character);
   const right = cells.at(-1)?.end ?? 0;
   let tail = "";
@@ -49,7 +79,7 @@ export function ruler(layout: CardLayout, length: number, character: number): Ru
     cells: cells.filter((c) => c.start < length).map((c) => ({ start: c.start, end: Math.min(c.end, length), odd: cells.indexOf(c) % 2 === 1, current: c === current })),
     tail: tail.trimEnd() === "" ? "" : tail,
     status: current ? `${current.name}  ${current.start + 1}–${current.end}` : `column ${character + 1}: no field`,
-    tooltip: current ? [`${layout.keyword}, ${layout.card}: ${current.name} (${[current.type, current.unit].filter(Boolean).join(", ")})`, current.doc].filter(Boolean).join("\n\n") : `${layout.keyword}, ${layout.card}`,
+    tooltip: [`${layout.keyword}, ${layout.card}`, current?.about, current?.doc].filter(Boolean).join("\n\n"),
   };
 }
 
@@ -58,10 +88,9 @@ export function cellAt(cells: Cell[], character: number): Cell | null {
   return cells.find((c) => c.start <= character && character < c.end) ?? cells.find((c) => c.end === character) ?? null;
 }
 
-/** Where Tab goes: the last character of the next cell, where a number ends; null: there is none. */
+/** The field behind the one under the cursor, or before it; null: there is none. */
 export function nextCell(cells: Cell[], character: number, step: 1 | -1): Cell | null {
-  const sorted = [...cells].sort((a, b) => a.start - b.start);
-  const here = cellAt(sorted, character);
-  if (here) return sorted[sorted.indexOf(here) + step] ?? null;
-  return (step === 1 ? sorted.find((c) => c.start > character) : sorted.findLast((c) => c.end <= character)) ?? null;
+  const here = cellAt(cells, character);
+  if (here) return cells[cells.indexOf(here) + step] ?? null;
+  return (step === 1 ? cells.find((c) => c.start > character) : cells.findLast((c) => c.end <= character)) ?? null;
 }

@@ -3,8 +3,8 @@ import * as vscode from "vscode";
 import { readFileSync } from "node:fs";
 import { LanguageClient, TransportKind } from "vscode-languageclient/node";
 import { registerCommands } from "./commands";
-import { notFound, serverCall } from "./program";
-import { Reports } from "./report";
+import { noServer, notFound, serverCall, serverOptions } from "./program";
+import { Report } from "./report";
 import { RulerView } from "./ruler";
 import { run } from "./run";
 import { program, settings } from "./settings";
@@ -17,49 +17,69 @@ async function stop(): Promise<void> {
   parts = [];
   const old = client;
   client = undefined;
-  // A server that did not start cannot be stopped.
   await old?.dispose(2000).catch(() => undefined);
+}
+
+/** Without a program every command says what is missing. */
+function missing(context: vscode.ExtensionContext, why: string): void {
+  const say = async () => {
+    if ((await vscode.window.showErrorMessage(why, "Open Settings")) === "Open Settings") await vscode.commands.executeCommand("workbench.action.openSettings", "deck.path");
+  };
+  const commands: { command: string }[] = context.extension.packageJSON.contributes.commands;
+  parts = commands.filter((c) => c.command !== "deck.restart").map((c) => vscode.commands.registerCommand(c.command, say));
+  void say();
 }
 
 async function start(context: vscode.ExtensionContext, channel: vscode.LogOutputChannel): Promise<void> {
   await stop();
   const s = settings();
   const path = program(s);
-  if (path === null) {
-    // Each command says what is missing, too.
-    const say = async () => {
-      if ((await vscode.window.showErrorMessage(notFound(s.path), "Open Settings")) === "Open Settings")
-        await vscode.commands.executeCommand("workbench.action.openSettings", "deck.path");
-    };
-    const commands: { command: string }[] = context.extension.packageJSON.contributes.commands;
-    parts = commands.filter((c) => c.command !== "deck.restart").map((c) => vscode.commands.registerCommand(c.command, say));
-    void say();
-    return;
-  }
+  if (path === null) return missing(context, notFound(s.path));
+  if ((await run(path, ["lsp", "--help"], context.extensionPath)).code !== 0) return missing(context, noServer(path));
   channel.info(`${path} ${serverCall(s).join(" ")}`);
-  const bridge = readFileSync(vscode.Uri.joinPath(context.extensionUri, "dist/bridge.js").fsPath, "utf8");
-  const reports = new Reports(path, bridge, channel);
   const server = new LanguageClient(
     "deck",
     "libdeck",
     { command: path, args: serverCall(s), transport: TransportKind.stdio },
-    { documentSelector: [{ language: "radioss", scheme: "file" }], outputChannel: channel },
+    {
+      documentSelector: [{ language: "radioss", scheme: "file" }],
+      initializationOptions: serverOptions(s),
+      outputChannel: channel,
+      middleware: {
+        // The server's commands are known by name; these two want a window.
+        executeCommand: (name, [argument], next) => (name === "deck.explain" ? explain(argument.topic) : name === "deck.openGapReport" ? showReport(argument) : next(name, [argument])),
+      },
+    },
   );
+  const report = new Report(server, readFileSync(vscode.Uri.joinPath(context.extensionUri, "dist/bridge.js").fsPath, "utf8"));
   const ruler = new RulerView(server);
+  const explain = async (topic: string) => {
+    const { text } = await server.sendRequest<{ text: string }>("deck/explain", { topic });
+    await vscode.window.showTextDocument(await vscode.workspace.openTextDocument({ content: text }), { viewColumn: vscode.ViewColumn.Beside, preview: true });
+  };
+  /** From a lens with the interface it stands above, or from the palette without. */
+  const showReport = async (of?: { textDocument?: { uri: string }; interface?: number }) => {
+    const uri = of?.textDocument ? server.protocol2CodeConverter.asUri(of.textDocument.uri) : deckEditor()?.document.uri;
+    if (uri) await report.show(uri, of?.interface ?? null);
+  };
+  const deckEditor = () => {
+    const editor = vscode.window.activeTextEditor;
+    if (editor?.document.languageId === "radioss") return editor;
+    void vscode.window.showInformationMessage("Open a Radioss deck first.");
+    return undefined;
+  };
   parts = [
-    reports,
+    report,
     ruler,
     ...registerCommands(path, channel),
-    vscode.commands.registerCommand("deck.showGapReport", () => reports.show()),
-    vscode.commands.registerCommand("deck.showInReport", () => reports.showLine()),
+    vscode.commands.registerCommand("deck.showGapReport", showReport),
+    vscode.commands.registerCommand("deck.showInReport", async () => {
+      const editor = deckEditor();
+      if (editor) await report.showLine(editor);
+    }),
     vscode.commands.registerCommand("deck.nextField", () => ruler.go(1)),
     vscode.commands.registerCommand("deck.previousField", () => ruler.go(-1)),
   ];
-  // An older program without a server still makes reports, and changes decks.
-  if ((await run(path, ["lsp", "--help"], context.extensionPath)).code !== 0) {
-    void vscode.window.showWarningMessage(`${path} has no language server ('deck lsp'): there are colours, commands and the report, but no findings. Install a newer libdeck.`);
-    return;
-  }
   client = server;
   await server.start().catch((e: unknown) => channel.error(String(e)));
 }
@@ -70,7 +90,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     channel,
     vscode.commands.registerCommand("deck.restart", () => start(context, channel)),
     vscode.workspace.onDidChangeConfiguration((e) => {
-      if (["path", "includePaths", "arguments"].some((k) => e.affectsConfiguration(`deck.${k}`))) void start(context, channel);
+      if (["path", "includePaths", "arguments", "geometryOnSave"].some((k) => e.affectsConfiguration(`deck.${k}`))) void start(context, channel);
     }),
   );
   await start(context, channel);

@@ -6,7 +6,7 @@ export interface Settings {
   path: string; // of the program; a bare name is looked for on PATH
   includePaths: string[];
   arguments: string[]; // of `deck lsp`
-  reportArguments: string[]; // of `deck gaps --html`
+  geometryOnSave: boolean; // whether penetrations are looked for when a deck is saved
 }
 
 function runs(path: string): boolean {
@@ -37,10 +37,13 @@ export const notFound = (name: string): string =>
     ? "The program 'deck' was not found on PATH. Install libdeck, or set deck.path to the program. Until then decks are coloured only."
     : `deck.path is '${name}', but there is no such program. Give an absolute path or a name that is on PATH. Until then decks are coloured only.`;
 
+export const noServer = (path: string): string => `${path} has no language server ('deck lsp'): install a newer libdeck. Until then decks are coloured only.`;
+
 const includes = (s: Settings): string[] => s.includePaths.flatMap((p) => ["--include-path", p]);
 
-export const serverCall = (s: Settings): string[] => ["lsp", ...includes(s), ...s.arguments];
-export const reportCall = (s: Settings, file: string, to: string): string[] => ["gaps", file, "--html", to, "--quiet", ...includes(s), ...s.reportArguments];
+export const serverCall = (s: Settings): string[] => ["lsp", ...s.arguments];
+/** What the server is told at its start. Its lenses name the command that shows the report here. */
+export const serverOptions = (s: Settings) => ({ includePaths: s.includePaths, geometryOnSave: s.geometryOnSave, showReportCommand: "deck.showGapReport" });
 export const lintCall = (s: Settings, file: string): string[] => ["lint", file, "--geometry", "--color", "never", ...includes(s)];
 
 /** A change of files: how to see it as a patch, and how to carry it out. */

@@ -1,19 +1,14 @@
-// The gap report beside the text: made by `deck gaps --html`, shown in a panel, and tied to the text in
-// both directions (bridge.ts speaks for the page).
+// The gap report beside the text: made by the server from the text as it stands in the editor, shown in a
+// panel, and tied to the text in both directions (bridge.ts speaks for the page).
 import * as vscode from "vscode";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { dirname, isAbsolute, join, resolve } from "node:path";
-import { deckOf } from "./deck_of";
-import type { FromPage, Place, ToPage } from "./messages";
+import { dirname, isAbsolute, resolve } from "node:path";
+import type { LanguageClient } from "vscode-languageclient/node";
+import type { Chosen, FromPage, Place, ToPage } from "./messages";
 import { headerAbove, withScript } from "./page";
-import { reportCall } from "./program";
-import { run } from "./run";
-import { settings } from "./settings";
 
-const most = 100 << 20; // bytes of a page for a panel; larger ones are for a browser
+const most = 100 << 20; // characters of a page for a panel; larger ones are for a browser
 
-/** Somebody else's line: the editor shows the file beside the report and marks the line. */
+/** The editor shows a line beside the report. */
 async function open(place: Place, deck: vscode.Uri, focus: boolean): Promise<void> {
   const uri = vscode.Uri.file(isAbsolute(place.file) ? place.file : resolve(dirname(deck.fsPath), place.file));
   const shown = vscode.window.visibleTextEditors.find((e) => e.document.uri.fsPath === uri.fsPath);
@@ -22,163 +17,120 @@ async function open(place: Place, deck: vscode.Uri, focus: boolean): Promise<voi
   await vscode.window.showTextDocument(uri, { viewColumn: shown?.viewColumn ?? vscode.ViewColumn.One, preserveFocus: !focus, preview: true, selection });
 }
 
-class Panel {
-  private chosen: { interface: number | null; key: string | null } = { interface: null, key: null };
-  private readonly panel: vscode.WebviewPanel;
-  private work: vscode.CancellationTokenSource | null = null;
+const follows = (of: vscode.Uri): string => vscode.workspace.getConfiguration("deck", of).get<string>("report.follow", "card");
+
+/** There is one panel: the report of the deck that was asked for last. */
+export class Report implements vscode.Disposable {
+  private panel: vscode.WebviewPanel | null = null;
+  private document: vscode.Uri | null = null; // the deck, or a file that it includes
+  private chosen: Chosen = { interface: null, key: null };
   private ready = false;
   private waiting: ToPage | null = null; // asked for before the page was there
+  private work: vscode.CancellationTokenSource | null = null;
+  private readonly listeners: vscode.Disposable[];
 
+  /** `bridge`: the script for the page. */
   constructor(
-    private readonly program: string,
+    private readonly client: LanguageClient,
     private readonly bridge: string,
-    readonly deck: vscode.Uri,
-    private readonly channel: vscode.LogOutputChannel,
-    closed: () => void,
   ) {
-    const title = `Gaps of ${deck.path.split("/").at(-1)}`;
-    this.panel = vscode.window.createWebviewPanel("deck.report", title, { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true }, { enableScripts: true, retainContextWhenHidden: true, enableFindWidget: true });
-    this.panel.webview.onDidReceiveMessage((m: FromPage) => void this.heard(m));
-    this.panel.onDidDispose(() => {
-      this.work?.cancel();
-      closed();
-    });
+    this.listeners = [
+      vscode.workspace.onDidSaveTextDocument((d) => {
+        if (this.panel && d.languageId === "radioss" && vscode.workspace.getConfiguration("deck", d).get("report.refreshOnSave", true)) void this.refresh();
+      }),
+      vscode.window.onDidChangeTextEditorSelection((e) => {
+        // What the report itself shows in the text is no choice of the user.
+        const byHand = e.kind === vscode.TextEditorSelectionChangeKind.Mouse;
+        if (byHand && this.panel && e.textEditor.document.languageId === "radioss" && follows(e.textEditor.document.uri) !== "off") this.choose(e.textEditor);
+      }),
+    ];
   }
 
-  reveal(): void {
+  /** Shows the report of a deck or of the deck that includes a file; `interface`: only that one at first. */
+  async show(document: vscode.Uri, id: number | null = null): Promise<void> {
+    const another = this.document?.toString() !== document.toString();
+    this.document = document;
+    if (another || id !== null) this.chosen = { interface: id, key: null };
+    if (!this.panel) {
+      this.panel = vscode.window.createWebviewPanel("deck.report", "Gaps", { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true }, { enableScripts: true, retainContextWhenHidden: true, enableFindWidget: true });
+      this.panel.webview.onDidReceiveMessage((m: FromPage) => void this.heard(m));
+      this.panel.onDidDispose(() => {
+        this.work?.cancel();
+        this.panel = null;
+        this.ready = false;
+      });
+    }
+    this.panel.title = `Gaps of ${document.path.split("/").at(-1)}`;
     this.panel.reveal(undefined, true);
+    await this.refresh();
   }
 
-  /** Runs the program and shows the page it writes. */
-  async refresh(): Promise<void> {
+  /** Has the page made anew; what was chosen in it stays chosen. */
+  private async refresh(): Promise<void> {
     this.work?.cancel();
     const work = (this.work = new vscode.CancellationTokenSource());
-    const folder = mkdtempSync(join(tmpdir(), "deck-report-"));
+    const textDocument = { uri: this.client.code2ProtocolConverter.asUri(this.document!) };
     try {
-      const to = join(folder, "report.html");
-      const said = await vscode.window.withProgress({ location: vscode.ProgressLocation.Window, title: "Searching for penetrations" }, () =>
-        run(this.program, reportCall(settings(this.deck), this.deck.fsPath, to), this.deck.fsPath, work.token));
-      if (work.token.isCancellationRequested) return;
-      let html: Buffer;
-      try {
-        html = readFileSync(to);
-      } catch {
-        this.channel.error(said.error);
-        void vscode.window.showErrorMessage(`The report could not be made: ${said.error.trim().split("\n")[0] || `exit code ${said.code}`}`);
-        return;
-      }
+      const { html } = await vscode.window.withProgress({ location: vscode.ProgressLocation.Window, title: "Searching for penetrations" }, () => this.client.sendRequest<{ html: string }>("deck/gapReport", { textDocument }, work.token));
+      if (work.token.isCancellationRequested || !this.panel) return;
       if (html.length > most) {
-        void vscode.window.showWarningMessage(`The report has ${Math.round(html.length / (1 << 20))} MB, too much for a panel. Open it in a browser: deck gaps ${this.deck.fsPath} --html report.html`);
+        void vscode.window.showWarningMessage(`The report has ${Math.round(html.length / (1 << 20))} MB, too much for a panel. 'deck gaps --html' writes it for a browser.`);
         return;
       }
       this.ready = false;
-      this.panel.webview.html = withScript(html.toString("utf8"), this.bridge);
-    } finally {
-      rmSync(folder, { recursive: true, force: true });
-      if (this.work === work) this.work = null;
+      this.panel.webview.html = withScript(html, this.bridge);
+    } catch (e) {
+      if (!work.token.isCancellationRequested) void vscode.window.showErrorMessage(`The report could not be made: ${e instanceof Error ? e.message : String(e)}`);
     }
   }
 
   private post(message: ToPage): void {
     this.waiting = this.ready ? null : message;
-    if (this.ready) void this.panel.webview.postMessage(message);
+    if (this.ready) void this.panel?.webview.postMessage(message);
   }
 
   private async heard(m: FromPage): Promise<void> {
-    const follow = vscode.workspace.getConfiguration("deck", this.deck).get<string>("report.follow", "card");
+    const deck = this.document!;
+    const follow = follows(deck);
     switch (m.type) {
       case "ready":
         this.ready = true;
         if (this.waiting) this.post(this.waiting);
         else if (this.chosen.key !== null || this.chosen.interface !== null) this.post({ type: "restore", ...this.chosen });
         break;
-      case "selected": {
+      case "selected":
         this.chosen.key = m.key;
-        const to = follow === "node" ? (m.node ?? m.card) : m.card;
-        if (follow !== "off") await open(to, this.deck, false);
+        if (follow !== "off") await open(follow === "node" ? (m.node ?? m.card) : m.card, deck, false);
         vscode.window.setStatusBarMessage(`$(link) ${m.pair}`, 4000);
         break;
-      }
       case "interface":
         this.chosen.interface = m.id;
-        if (follow !== "off") await open(m.card, this.deck, false);
+        if (m.card && follow !== "off") await open(m.card, deck, false);
         break;
       case "open":
-        await open(m.place, this.deck, true);
+        await open(m.place, deck, true);
         break;
       case "shown":
+        this.chosen = m.chosen;
         vscode.window.setStatusBarMessage(m.what ? `$(link) ${m.what}` : "Nothing of the report stands on this line", 4000);
         break;
     }
   }
 
-  /** Chooses in the page what stands on a line of the text. */
-  show(document: vscode.TextDocument, line: number): void {
-    this.post({ type: "show", file: document.uri.fsPath, line: line + 1, header: headerAbove((at) => document.lineAt(at - 1).text, line + 1) });
-  }
-}
-
-export class Reports implements vscode.Disposable {
-  private readonly panels = new Map<string, Panel>();
-  private readonly listeners: vscode.Disposable[];
-
-  /** `bridge`: the script for the page. */
-  constructor(
-    private readonly program: string,
-    private readonly bridge: string,
-    private readonly channel: vscode.LogOutputChannel,
-  ) {
-    this.listeners = [
-      vscode.workspace.onDidSaveTextDocument((d) => {
-        if (d.languageId !== "radioss" || !vscode.workspace.getConfiguration("deck", d).get("report.refreshOnSave", true)) return;
-        for (const p of this.panels.values()) void p.refresh();
-      }),
-      // What the report itself shows in the text is no choice of the user.
-      vscode.window.onDidChangeTextEditorSelection((e) => {
-        const byHand = e.kind === vscode.TextEditorSelectionChangeKind.Mouse;
-        if (!byHand || e.textEditor.document.languageId !== "radioss" || this.panels.size !== 1) return;
-        if (vscode.workspace.getConfiguration("deck", e.textEditor.document).get<string>("report.follow", "card") === "off") return;
-        for (const p of this.panels.values()) p.show(e.textEditor.document, e.selections[0].active.line);
-      }),
-    ];
-  }
-
-  async show(): Promise<void> {
-    const document = vscode.window.activeTextEditor?.document;
-    if (!document || document.languageId !== "radioss") {
-      void vscode.window.showInformationMessage("Open a Radioss deck first.");
-      return;
-    }
-    const deck = await deckOf(document.uri);
-    if (!deck) return;
-    const dirty = vscode.workspace.textDocuments.filter((d) => d.isDirty && d.languageId === "radioss");
-    if (dirty.length > 0) {
-      const answer = await vscode.window.showWarningMessage("The report is made from the files on disk, and the text has changes.", "Save", "Use the Files");
-      if (!answer) return;
-      if (answer === "Save") for (const d of dirty) await d.save();
-    }
-    let panel = this.panels.get(deck.toString());
-    if (panel) panel.reveal();
-    else {
-      const key = deck.toString();
-      panel = new Panel(this.program, this.bridge, deck, this.channel, () => this.panels.delete(key));
-      this.panels.set(key, panel);
-    }
-    await panel.refresh();
+  private choose(editor: vscode.TextEditor): void {
+    const line = editor.selection.active.line + 1;
+    this.post({ type: "show", file: editor.document.uri.fsPath, line, header: headerAbove((at) => editor.document.lineAt(at - 1).text, line) });
   }
 
   /** Chooses in the report what stands on the line of the cursor; opens the report if need be. */
-  async showLine(): Promise<void> {
-    const editor = vscode.window.activeTextEditor;
-    if (!editor) return;
-    const deck = await deckOf(editor.document.uri);
-    const open = deck && this.panels.get(deck.toString());
-    if (!open) await this.show();
-    else open.reveal();
-    (deck && this.panels.get(deck.toString()))?.show(editor.document, editor.selection.active.line);
+  async showLine(editor: vscode.TextEditor): Promise<void> {
+    if (this.panel) this.panel.reveal(undefined, true);
+    else await this.show(editor.document.uri);
+    this.choose(editor);
   }
 
   dispose(): void {
     for (const l of this.listeners) l.dispose();
+    this.panel?.dispose();
   }
 }

@@ -2,7 +2,7 @@
 // the field under the cursor in the status bar. The server says where the fields are.
 import * as vscode from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
-import { nextCell, ruler, type CardLayout } from "./columns";
+import { layoutOf, nextCell, ruler, type CardAnswer, type CardLayout } from "./columns";
 
 const border = { borderStyle: "solid", borderWidth: "0 0 0 1px", borderColor: new vscode.ThemeColor("editorRuler.foreground") };
 const even = vscode.window.createTextEditorDecorationType(border);
@@ -34,18 +34,24 @@ export class RulerView implements vscode.Disposable {
 
   private async ask(editor: vscode.TextEditor): Promise<CardLayout | null> {
     if (!this.client.isRunning()) return null;
-    const textDocument = this.client.code2ProtocolConverter.asTextDocumentIdentifier(editor.document);
-    const position = this.client.code2ProtocolConverter.asPosition(editor.selection.active);
-    // A server without this request, or one that has not read the deck yet: no ruler.
-    return this.client.sendRequest<CardLayout | null>("deck/card", { textDocument, position }).catch(() => null);
+    const at = this.at(editor);
+    const answer = await this.client.sendRequest<CardAnswer | null>("deck/card", at).catch(() => null);
+    return layoutOf(answer, editor.document.lineAt(at.position.line).text);
+  }
+
+  private at(editor: vscode.TextEditor) {
+    const { code2ProtocolConverter: to } = this.client;
+    return { textDocument: to.asTextDocumentIdentifier(editor.document), position: to.asPosition(editor.selection.active) };
   }
 
   private async draw(editor: vscode.TextEditor | undefined): Promise<void> {
     const mine = ++this.asked;
     const wanted = editor?.document.languageId === "radioss" && vscode.workspace.getConfiguration("deck", editor.document).get("ruler.enabled", true);
+    // The server, too, wants to know where the cursor is: for hints, and for findings on the line that is being typed.
+    if (editor?.document.languageId === "radioss" && this.client.isRunning()) void this.client.sendNotification("deck/cursor", this.at(editor));
     const layout = editor && wanted ? await this.ask(editor) : null;
     if (mine !== this.asked) return; // the cursor went on
-    if (!editor || !layout || layout.cells.length === 0) {
+    if (!editor || !layout) {
       if (editor) for (const kind of kinds) editor.setDecorations(kind, []);
       this.status.hide();
       return;

@@ -12,7 +12,7 @@ export function settings(scope?: vscode.Uri): Settings {
   const c = vscode.workspace.getConfiguration("deck", scope);
   const folder = ((scope && vscode.workspace.getWorkspaceFolder(scope)) ?? vscode.workspace.workspaceFolders?.[0])?.uri.fsPath ?? ".";
   const list = (key: string) => c.get<string[]>(key, []).map((s) => expanded(s, folder));
-  return { path: expanded(c.get("path", "deck"), folder), includePaths: list("includePaths"), arguments: list("arguments"), reportArguments: list("report.arguments") };
+  return { path: expanded(c.get("path", "deck"), folder), includePaths: list("includePaths"), arguments: list("arguments"), geometryOnSave: c.get("geometryOnSave", true) };
 }
 
 export const program = (s: Settings): string | null => locate(s.path, process.env.PATH);
