@@ -108,7 +108,7 @@ test("cells that touch are parted", () => {
 
 test("field names are told apart in headings, and nowhere else", () => {
   const lines = tokens("/INTER/TYPE7/1\ntitle with Gapmin\n#  Gapmin  Nothing\n       1\n/NODE\n# Gapmin\n");
-  const names = lines.map((l) => l.tokens.filter((t) => t.scope.startsWith("entity.other.attribute-name")).map((t) => l.line.slice(t.start, t.end)));
+  const names = lines.map((l) => l.tokens.filter((t) => t.scope === "meta.field-name.radioss").map((t) => l.line.slice(t.start, t.end)));
   assert.deepEqual(names.flat(), ["Gapmin"]);
   assert.equal(lines[1].tokens[0].scope, "string.unquoted.title.radioss");
 });

@@ -17,7 +17,7 @@ const part = async (name) => {
   await require("esbuild").build({ entryPoints: [join(ROOT, "tools/vscode/src", `${name}.ts`)], bundle: true, format: "esm", platform: "node", outfile, logLevel: "warning" });
   return import(outfile);
 };
-const { convert, fix, lintCall, lintFix, locate, noServer, notFound } = await part("program");
+const { convert, fix, lintCall, locate, noServer, notFound } = await part("program");
 const { cellAt, layoutOf, nextCell, ruler } = await part("columns");
 const { headerAbove, withScript } = await part("page");
 const manifest = JSON.parse(readFileSync(join(WORK, "stage/package.json"), "utf8"));
@@ -61,7 +61,7 @@ test("every call is one that the program takes", () => {
   const lint = run(lintCall(s, file));
   assert.ok([0, 1].includes(lint.status), lint.stderr);
   assert.match(lint.stdout, /DK3/);
-  for (const c of [lintFix(s, file, false), lintFix(s, file, true), fix(s, file, ["inacti", "move-nodes"]), convert(s, file, ["--version", "2026"]), convert(s, file, ["--resolve-defaults"])]) {
+  for (const c of [fix(s, file, ["inacti", "move-nodes"]), convert(s, file, ["--version", "2026"]), convert(s, file, ["--resolve-defaults"])]) {
     const preview = run(c.preview);
     assert.ok([0, 1].includes(preview.status), `${c.preview.join(" ")}: ${preview.stderr}`);
     assert.deepEqual(readFileSync(file), original, `${c.preview.join(" ")} is to write nothing`);

@@ -60,7 +60,10 @@ function lines(cards, comments) {
   return [...comments, { begin: expression, beginCaptures: captures, end: "(?=^/)", patterns: lines(rest, comments) }];
 }
 
-/** The rule for comment lines that name the fields of `schema` above its cards; null: it has none. */
+/**
+ * The rule for comment lines that name the fields of `schema` above its cards; null: it has none. The names
+ * look like the rest of the comment in themes that do not ask for them.
+ */
 function heading(schema) {
   const names = [...new Set((schema.cards ?? []).flatMap((c) => (c.fields ?? []).map((f) => f.name)))].sort((a, b) => b.length - a.length);
   if (names.length === 0) return null;
@@ -68,7 +71,7 @@ function heading(schema) {
     name: "comment.line.heading.radioss",
     begin: "^#(?!include\\b|enddata\\b)",
     end: "$",
-    patterns: [{ name: "entity.other.attribute-name.field.radioss", match: `(?<![^\\s#|-])(?:${names.map(escape).join("|")})(?![^\\s|-])` }],
+    patterns: [{ name: "meta.field-name.radioss", match: `(?<![^\\s#|-])(?:${names.map(escape).join("|")})(?![^\\s|-])` }],
   };
 }
 

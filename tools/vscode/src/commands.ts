@@ -1,7 +1,7 @@
 // Commands that run the program on a deck: findings, and changes that are shown as a patch before anything is written.
 import * as vscode from "vscode";
 import { deckOf } from "./deck_of";
-import { convert, fix, lintCall, lintFix, type Change, type Settings } from "./program";
+import { convert, fix, lintCall, type Change, type Settings } from "./program";
 import { run } from "./run";
 import { settings } from "./settings";
 
@@ -68,8 +68,6 @@ export function registerCommands(program: string, channel: vscode.LogOutputChann
       const document = await vscode.workspace.openTextDocument({ content: `${said.out}${said.error}` });
       await vscode.window.showTextDocument(document, { viewColumn: vscode.ViewColumn.Beside, preview: true });
     }),
-    command("deck.fixSafely", () => change("Safe fixes", (s, file) => lintFix(s, file, false))),
-    command("deck.fixUnsafely", () => change("All fixes", (s, file) => lintFix(s, file, true))),
     command("deck.fixPenetrations", async () => {
       const chosen = await vscode.window.showQuickPick(strategies, { title: "Repair initial penetrations by", canPickMany: true });
       if (chosen?.length) await change("Repair", (s, file) => fix(s, file, chosen.map((c) => c.label)));

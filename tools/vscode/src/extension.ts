@@ -48,6 +48,7 @@ async function start(context: vscode.ExtensionContext, channel: vscode.LogOutput
       middleware: {
         // The server's commands are known by name; these two want a window.
         executeCommand: (name, [argument], next) => (name === "deck.explain" ? explain(argument.topic) : name === "deck.openGapReport" ? showReport(argument) : next(name, [argument])),
+        provideInlayHints: async (document, range, cancel, next) => (await next(document, range, cancel))?.filter((h) => !ruler.covers(document, h.position.line)),
       },
     },
   );
@@ -68,6 +69,10 @@ async function start(context: vscode.ExtensionContext, channel: vscode.LogOutput
     void vscode.window.showInformationMessage("Open a Radioss deck first.");
     return undefined;
   };
+  const fixAll = async (unsafe: boolean) => {
+    const editor = deckEditor();
+    if (editor) await vscode.commands.executeCommand("deck.fixAll", { textDocument: server.code2ProtocolConverter.asTextDocumentIdentifier(editor.document), unsafe });
+  };
   parts = [
     report,
     ruler,
@@ -77,6 +82,9 @@ async function start(context: vscode.ExtensionContext, channel: vscode.LogOutput
       const editor = deckEditor();
       if (editor) await report.showLine(editor);
     }),
+    vscode.commands.registerCommand("deck.fixSafely", () => fixAll(false)),
+    vscode.commands.registerCommand("deck.fixUnsafely", () => fixAll(true)),
+    vscode.commands.registerCommand("deck.editField", () => ruler.edit()),
     vscode.commands.registerCommand("deck.nextField", () => ruler.go(1)),
     vscode.commands.registerCommand("deck.previousField", () => ruler.go(-1)),
   ];

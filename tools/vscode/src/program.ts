@@ -51,8 +51,7 @@ export interface Change {
   preview: string[];
   apply: string[];
 }
-const change = (s: Settings, call: string[], apply: string[]): Change => ({ preview: [...call, "--diff", ...includes(s)], apply: [...call, ...apply, ...includes(s)] });
+const change = (s: Settings, call: string[]): Change => ({ preview: [...call, "--diff", ...includes(s)], apply: [...call, "--in-place", ...includes(s)] });
 
-export const lintFix = (s: Settings, file: string, unsafe: boolean): Change => change(s, ["lint", file, unsafe ? "--unsafe-fixes" : "--fix"], []);
-export const fix = (s: Settings, file: string, strategies: string[]): Change => change(s, ["fix", file, "--strategy", strategies.join(",")], ["--in-place"]);
-export const convert = (s: Settings, file: string, what: string[]): Change => change(s, ["convert", file, ...what], ["--in-place"]);
+export const fix = (s: Settings, file: string, strategies: string[]): Change => change(s, ["fix", file, "--strategy", strategies.join(",")]);
+export const convert = (s: Settings, file: string, what: string[]): Change => change(s, ["convert", file, ...what]);

@@ -2,7 +2,7 @@
 // the field under the cursor in the status bar. The server says where the fields are.
 import * as vscode from "vscode";
 import type { LanguageClient } from "vscode-languageclient/node";
-import { layoutOf, nextCell, ruler, type CardAnswer, type CardLayout } from "./columns";
+import { cellAt, layoutOf, nextCell, ruler, type CardAnswer, type CardLayout } from "./columns";
 
 const border = { borderStyle: "solid", borderWidth: "0 0 0 1px", borderColor: new vscode.ThemeColor("editorRuler.foreground") };
 const even = vscode.window.createTextEditorDecorationType(border);
@@ -15,6 +15,7 @@ export class RulerView implements vscode.Disposable {
   private readonly status = vscode.window.createStatusBarItem("deck.field", vscode.StatusBarAlignment.Right, 101);
   private readonly listeners: vscode.Disposable[];
   private asked = 0;
+  private drawn: { uri: string; line: number } | null = null; // the line with something behind its end
 
   constructor(private readonly client: LanguageClient) {
     this.status.name = "Field of the card";
@@ -51,6 +52,7 @@ export class RulerView implements vscode.Disposable {
     if (editor?.document.languageId === "radioss" && this.client.isRunning()) void this.client.sendNotification("deck/cursor", this.at(editor));
     const layout = editor && wanted ? await this.ask(editor) : null;
     if (mine !== this.asked) return; // the cursor went on
+    this.drawn = null;
     if (!editor || !layout) {
       if (editor) for (const kind of kinds) editor.setDecorations(kind, []);
       this.status.hide();
@@ -59,6 +61,7 @@ export class RulerView implements vscode.Disposable {
     const { line, character } = editor.selection.active;
     const text = editor.document.lineAt(line).text;
     const r = ruler(layout, text.length, character);
+    if (r.tail) this.drawn = { uri: editor.document.uri.toString(), line };
     const range = (c: { start: number; end: number }) => new vscode.Range(line, c.start, line, c.end);
     editor.setDecorations(current, r.cells.filter((c) => c.current).map(range));
     editor.setDecorations(odd, r.cells.filter((c) => c.odd && !c.current).map(range));
@@ -70,7 +73,7 @@ export class RulerView implements vscode.Disposable {
     this.status.show();
   }
 
-  /** Moves the cursor to the next or the previous field and selects what stands there; blanks are written where the line ends early. */
+  /** Moves the cursor to the next or the previous field; blanks are written where the line ends early. */
   async go(step: 1 | -1): Promise<void> {
     const editor = vscode.window.activeTextEditor;
     const layout = editor && (await this.ask(editor));
@@ -78,9 +81,27 @@ export class RulerView implements vscode.Disposable {
     if (!cell) return;
     const { line } = editor.selection.active;
     const length = editor.document.lineAt(line).text.length;
-    if (length < cell.end) await editor.edit((e) => e.insert(new vscode.Position(line, length), " ".repeat(cell.end - length)));
-    editor.selection = new vscode.Selection(line, cell.start, line, cell.end);
+    if (length < cell.start) await editor.edit((e) => e.insert(new vscode.Position(line, length), " ".repeat(cell.start - length)));
+    editor.selection = new vscode.Selection(line, cell.start, line, cell.start);
     editor.revealRange(editor.selection);
+  }
+
+  /** Asks for a value of the field under the cursor; the server writes it where its columns end. */
+  async edit(): Promise<void> {
+    const editor = vscode.window.activeTextEditor;
+    const layout = editor && (await this.ask(editor));
+    const cell = editor && layout && cellAt(layout.cells, editor.selection.active.character);
+    if (!cell) return void vscode.window.showInformationMessage("The cursor is on no field of a card.");
+    const { textDocument, position } = this.at(editor);
+    const old = editor.document.getText(new vscode.Range(position.line, cell.start, position.line, cell.end)).trim();
+    const value = await vscode.window.showInputBox({ title: cell.about, prompt: cell.doc, value: old });
+    if (value === undefined) return;
+    await vscode.commands.executeCommand("deck.setField", { textDocument, position, field: cell.name, value });
+  }
+
+  /** Hints at the end of the line would push aside what the ruler draws there. */
+  covers(document: vscode.TextDocument, line: number): boolean {
+    return this.drawn?.line === line && this.drawn.uri === document.uri.toString();
   }
 
   dispose(): void {
