@@ -2,29 +2,12 @@
 // of the samples, which stand above their columns, and from the type of the field with that name.
 import assert from "node:assert/strict";
 import { readFileSync, readdirSync } from "node:fs";
-import { createRequire } from "node:module";
 import { join } from "node:path";
 import { test } from "node:test";
 import { cellScopes } from "../../tools/vscode/grammar.mjs";
+import { tokens } from "./engine.mjs";
 
-const { ROOT, WORK } = process.env;
-const require = createRequire(join(WORK, "x.js"));
-const { loadWASM, OnigScanner, OnigString } = require("vscode-oniguruma");
-const { INITIAL, Registry, parseRawGrammar } = require("vscode-textmate");
-await loadWASM(readFileSync(require.resolve("vscode-oniguruma/release/onig.wasm")));
-const onigLib = Promise.resolve({ createOnigScanner: (s) => new OnigScanner(s), createOnigString: (s) => new OnigString(s) });
-const text = readFileSync(join(WORK, "stage/syntaxes/radioss.tmLanguage.json"), "utf8");
-const grammar = await new Registry({ onigLib, loadGrammar: () => Promise.resolve(parseRawGrammar(text, "radioss.json")) }).loadGrammar("source.radioss");
-
-/** Tokens of every line, without those of blanks alone. */
-function tokens(content) {
-  let state = INITIAL;
-  return content.split(/\r?\n/).map((line) => {
-    const r = grammar.tokenizeLine(line, state);
-    state = r.ruleStack;
-    return { line, tokens: r.tokens.map((t) => ({ start: t.startIndex, end: Math.min(t.endIndex, line.length), scope: t.scopes.at(-1), scopes: t.scopes })).filter((t) => line.slice(t.start, t.end).trim()) };
-  });
-}
+const { ROOT } = process.env;
 const samples = ["samples", "samples/include_tree"].flatMap((d) => readdirSync(join(ROOT, d)).filter((f) => /\.(rad|inc)$/.test(f)).map((f) => join(ROOT, d, f)));
 const schemas = readdirSync(join(ROOT, "schemas/keywords")).flatMap((f) => {
   const d = JSON.parse(readFileSync(join(ROOT, "schemas/keywords", f), "utf8"));

@@ -1,0 +1,139 @@
+// A scripted client against the real server: what the extension asks beyond the protocol, and that the
+// grammar and the server see the same cells.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { cellScopes } from "../../tools/vscode/grammar.mjs";
+import { tokens } from "./engine.mjs";
+
+const { ROOT, WORK, DECK } = process.env;
+const require = createRequire(join(WORK, "x.js"));
+const { StreamMessageReader, StreamMessageWriter, createMessageConnection } = require("vscode-jsonrpc/node");
+const out = mkdtempSync(join(tmpdir(), "deck-client-"));
+for (const name of ["program", "columns", "page"])
+  await require("esbuild").build({ entryPoints: [join(ROOT, `tools/vscode/src/${name}.ts`)], bundle: true, format: "esm", platform: "node", outfile: join(out, `${name}.mjs`) });
+const { serverCall, serverOptions } = await import(join(out, "program.mjs"));
+const { layoutOf, ruler } = await import(join(out, "columns.mjs"));
+const { withScript } = await import(join(out, "page.mjs"));
+
+const settings = { path: DECK, includePaths: [join(ROOT, "samples")], arguments: ["--threads", "1"], geometryOnSave: false };
+const server = spawn(DECK, serverCall(settings), { stdio: ["pipe", "pipe", "inherit"] });
+const connection = createMessageConnection(new StreamMessageReader(server.stdout), new StreamMessageWriter(server.stdin));
+const edits = [];
+connection.onRequest("workspace/applyEdit", (p) => {
+  edits.push(p.edit);
+  return { applied: true };
+});
+connection.onRequest(() => null);
+const waiting = new Map(); // by document: who waits for its findings
+connection.onNotification("textDocument/publishDiagnostics", ({ uri }) => waiting.get(uri)?.());
+connection.listen();
+after(async () => {
+  await connection.sendRequest("shutdown");
+  await connection.sendNotification("exit");
+  rmSync(out, { recursive: true });
+});
+const { capabilities } = await connection.sendRequest("initialize", {
+  processId: process.pid, rootUri: null, initializationOptions: serverOptions(settings),
+  capabilities: { general: { positionEncodings: ["utf-16"] }, textDocument: { semanticTokens: { requests: { full: true }, tokenTypes: [], tokenModifiers: [], formats: ["relative"] } } },
+});
+await connection.sendNotification("initialized", {});
+
+/** Opens a sample, `text` in place of what is on disk, and waits until the server knows it. */
+async function open(name, text = readFileSync(join(ROOT, "samples", name), "utf8")) {
+  const uri = pathToFileURL(join(ROOT, "samples", name)).href;
+  const known = new Promise((resolve) => waiting.set(uri, resolve));
+  await connection.sendNotification("textDocument/didOpen", { textDocument: { uri, languageId: "radioss", version: 1, text } });
+  await known;
+  return { textDocument: { uri }, lines: text.split("\n") };
+}
+const close = ({ textDocument }) => connection.sendNotification("textDocument/didClose", { textDocument });
+const card = (lines, header, down) => lines.findIndex((l) => header.test(l)) + down;
+
+test("the server counts as the editor does", () => assert.equal(capabilities.positionEncoding, "utf-16"));
+
+test("every line with cells has a layout that ends where they end, other lines have none", async () => {
+  const deck = await open("crash_box_0000.rad");
+  const at = card(deck.lines, /^\/INTER\/TYPE7\/1$/, 3);
+  const ask = async (line, character) => layoutOf(await connection.sendRequest("deck/card", { textDocument: deck.textDocument, position: { line, character } }), deck.lines[line]);
+  const layout = await ask(at, 25);
+  assert.equal(layout.keyword, "/INTER/TYPE7");
+  assert.deepEqual(layout.cells.slice(0, 3).map((c) => [c.name, c.start, c.end]), [["grnd_IDs", 0, 10], ["surf_IDm", 10, 20], ["Istf", 20, 30]]);
+  assert.match(ruler(layout, deck.lines[at].length, 25).status, /^Istf {2}21–30$/);
+  assert.match(layout.cells[2].about, /Istf.*: 4/);
+  assert.equal(await ask(at - 3, 0), null, "the keyword");
+  assert.equal(await ask(at - 1, 5), null, "a comment");
+  await close(deck);
+});
+
+test("the lens shows the report by the extension's command, and the report takes its script", async () => {
+  const deck = await open("crash_box_0000.rad");
+  const lenses = await connection.sendRequest("textDocument/codeLens", { textDocument: deck.textDocument });
+  const lens = (lenses ?? []).find((l) => l.command.command === "deck.showGapReport");
+  assert.ok(lens, JSON.stringify(lenses)?.slice(0, 300));
+  assert.deepEqual(lens.command.arguments[0].textDocument, deck.textDocument);
+  assert.equal(typeof lens.command.arguments[0].interface, "number");
+  const { html } = await connection.sendRequest("deck/gapReport", { textDocument: deck.textDocument });
+  assert.match(withScript(html, "f()"), /<script>f\(\)<\/script>\n<\/body>\n<\/html>\n$/);
+  await close(deck);
+});
+
+test("the report is that of the text, not of the file", async () => {
+  const text = readFileSync(join(ROOT, "samples/crash_box_0000.rad"), "utf8").replace("a crash box against a barrier", "a title nobody saved");
+  const deck = await open("crash_box_0000.rad", text);
+  const { html } = await connection.sendRequest("deck/gapReport", { textDocument: deck.textDocument });
+  assert.match(html, /a title nobody saved/);
+  await close(deck);
+});
+
+test("a field is set where its columns end, and nothing else moves", async () => {
+  const deck = await open("every_mistake_0000.rad");
+  const at = card(deck.lines, /^\/INTER\/TYPE7\/31$/, 3);
+  edits.length = 0;
+  await connection.sendRequest("workspace/executeCommand", { command: "deck.setField", arguments: [{ textDocument: deck.textDocument, position: { line: at, character: 25 }, field: "Istf", value: "5" }] });
+  const [edit] = Object.values(edits[0].changes ?? {}).flat().concat((edits[0].documentChanges ?? []).flatMap((c) => c.edits));
+  const line = deck.lines[at];
+  assert.equal(edit.range.start.line, at);
+  const after = line.slice(0, edit.range.start.character) + edit.newText + line.slice(edit.range.end.character);
+  assert.equal(after, line.slice(0, 20) + "         5" + line.slice(30));
+  edits.length = 0;
+  await connection.sendRequest("workspace/executeCommand", { command: "deck.fixAll", arguments: [{ textDocument: deck.textDocument, unsafe: true }] });
+  assert.ok(JSON.stringify(edits).includes("newText"), "all fixes of the file");
+  await close(deck);
+});
+
+test("what the solver does is told by topic", async () => {
+  const { text } = await connection.sendRequest("deck/explain", { topic: "/INTER/TYPE7.Inacti" });
+  assert.match(text, /Initial penetrations/);
+});
+
+test("the grammar and the server see the same cells in every sample", async () => {
+  const { tokenTypes } = capabilities.semanticTokensProvider.legend;
+  const sharp = new Set(Object.values(cellScopes));
+  let same = 0;
+  for (const name of readdirSync(join(ROOT, "samples")).filter((f) => f.endsWith(".rad") && f !== "every_mistake_0000.rad")) {
+    const deck = await open(name);
+    const seen = tokens(deck.lines.join("\n"));
+    const { data } = await connection.sendRequest("textDocument/semanticTokens/full", { textDocument: deck.textDocument });
+    for (let i = 0, line = 0, start = 0; i < data.length; i += 5) {
+      start = data[i] ? data[i + 1] : start + data[i + 1];
+      line += data[i];
+      const text = deck.lines[line];
+      const end = start + data[i + 2];
+      if (/^[/#$]/.test(text) || !text.slice(start, end).trim()) continue;
+      const last = start + text.slice(start, end).trimEnd().length;
+      const token = seen[line].tokens.find((t) => t.start < last && last <= t.end);
+      assert.ok(token, `${name}:${line + 1}: nothing at ${start}–${end} (${tokenTypes[data[i + 3]]})`);
+      if (!sharp.has(token.scope)) continue;
+      assert.equal(token.start + text.slice(token.start, token.end).trimEnd().length, last, `${name}:${line + 1}: the server has ${start}–${end} (${tokenTypes[data[i + 3]]}), the grammar ${token.start}–${token.end}: '${text}'`);
+      ++same;
+    }
+    await close(deck);
+  }
+  assert.ok(same > 3000, String(same));
+});
