@@ -77,7 +77,9 @@ EngineFiles read_engine_files(Deck& deck, const Limits& limits) {
     if (!std::filesystem::exists(name, ec)) break;
     auto source = Source::open_text(name, small);
     if (!source) {
-      out.unread.push_back({name, source.error().message});
+      std::string why = source.error().message;
+      if (why.starts_with(name + ": ")) why.erase(0, name.size() + 2);
+      out.unread.push_back({name, std::move(why)});
       continue;
     }
     const std::uint32_t file = deck.sources.add(std::move(*source));

@@ -63,6 +63,7 @@ TEST_F(EngineFilesOfADeck, ThatCannotBeReadAreNamedAsNotChecked) {
   const Linted run = lint({});
   ASSERT_FALSE(run.result.not_checked.empty());
   EXPECT_NE(run.result.not_checked.back().what.find("car_0001.rad"), std::string::npos);
+  EXPECT_EQ(run.result.not_checked.back().why.find("car_0001.rad"), std::string::npos);
 }
 
 TEST_F(EngineFilesOfADeck, AboveTheBoundAreNotRead) {
