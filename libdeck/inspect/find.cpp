@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
+#include "deck/base/spelling.hpp"
 #include "deck/inspect/show.hpp"
 #include "deck/text/number.hpp"
 #include "inspect/families.hpp"
@@ -128,6 +130,18 @@ class Finder {
     return true;
   }
 
+  /// The keywords, or the kinds, that the deck has.
+  std::vector<std::string> of_schemas(std::string Schema::*what) const {
+    std::set<std::string> out;
+    for (const Block& b : deck_.blocks)
+      if (b.schema != nullptr) out.insert(b.schema->*what);
+    return {out.begin(), out.end()};
+  }
+  static std::string meant(std::string_view word, const std::vector<std::string>& known) {
+    const std::string close = closest_word(word, known);
+    return close.empty() ? close : "; did you mean '" + close + "'";
+  }
+
   Result<Entity> by_kind(std::string_view what, const std::string& kind, std::int64_t id) const {
     Entity e;
     if (item(kind, id, e)) return e;
@@ -145,6 +159,7 @@ class Finder {
     std::string why = kind == "inter" ? fmt::format("there is no interface {}", id)
                       : known         ? fmt::format("there is no {} {}", kind, id)
                                       : fmt::format("the deck has nothing of kind '{}'", kind);
+    if (!known) why += meant(kind, of_schemas(&Schema::kind));
     if (const std::string others = with_id(id); !others.empty())
       why += fmt::format("; {} is the id of {}", id, others);
     return bad(what, why);
@@ -170,6 +185,10 @@ class Finder {
         return e;
     }
     std::string why = fmt::format("there is no {}/{}", wanted, id);
+    const std::vector<std::string> keywords = of_schemas(&Schema::keyword);
+    if (std::none_of(keywords.begin(), keywords.end(),
+                     [&](const std::string& k) { return detail::is_below(k, wanted); }))
+      why += meant(wanted, keywords);
     if (const std::string others = with_id(id); !others.empty())
       why += fmt::format("; {} is the id of {}", id, others);
     return bad(what, why);

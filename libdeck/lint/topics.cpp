@@ -206,6 +206,9 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
 }
 
 std::vector<std::string> similar_topics(std::string_view topic, const SchemaSet& schemas) {
+  std::vector<std::string> rules;
+  for (const Rule& r : all_rules()) rules.emplace_back(id_text(r.id));
+  if (const std::string rule = closest_word(topic, rules); !rule.empty()) return {rule};
   const std::string wanted =
       in_capitals(topic.substr(topic.find('.') == topic.npos ? 0 : topic.rfind('.') + 1));
   std::map<std::string, std::size_t> found;

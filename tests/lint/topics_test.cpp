@@ -46,6 +46,10 @@ TEST(ExplainTopic, WhatIsNotKnownIsEmptyAndHasNeighbours) {
   EXPECT_EQ(near[0], "Gapmin");
 }
 
+TEST(ExplainTopic, AMistypedRuleIsTheClosestOne) {
+  EXPECT_EQ(similar_topics("DK1o4", schemas()), std::vector<std::string>{"DK104"});
+}
+
 TEST(ExplainTopic, CompletionOffersRulesKeywordsAndFields) {
   const auto all = common_topics(schemas());
   for (const char* topic : {"DK254", "TYPE7", "Gapmin", "Edge_scale_gap"})

@@ -36,6 +36,13 @@ TEST(ShowEntity, AnUnknownIdIsAnsweredWithWhatHasIt) {
   EXPECT_NE(message_of(d, "nothing").find("is no id"), std::string::npos);
 }
 
+TEST(ShowEntity, AMistypedKindOrKeywordIsAnsweredWithTheClosest) {
+  const Inspected d(plates());
+  EXPECT_NE(message_of(d, "shel:1").find("did you mean 'shell'"), std::string::npos);
+  EXPECT_NE(message_of(d, "/INTER/TYP7/1").find("did you mean '/INTER/TYPE7'"), std::string::npos);
+  EXPECT_EQ(message_of(d, "/INTER/TYPE7/9").find("did you mean"), std::string::npos);
+}
+
 TEST(ShowEntity, AGroupIsUsedByItsInterfaceAndRefersToItsParts) {
   const EntityView v = Inspected(plates()).look("grnod:2");
   const Link* user = link_to(v.used_by, "/INTER/TYPE7", 1);
