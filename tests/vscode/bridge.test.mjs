@@ -120,3 +120,13 @@ test("what was chosen is chosen again in a page that was made anew", { skip }, a
   await ask({ type: "restore", interface: 999999, key: "nothing" });
   assert.equal(await page.evaluate(() => window.deckReport.report.selected.key), chosen.key);
 });
+
+test("the page is as dark as the editor", { skip }, async () => {
+  const theme = async (c) => {
+    await page.evaluate((names) => (document.body.className = names), c);
+    await page.waitForTimeout(200);
+    return page.evaluate(() => document.documentElement.dataset.theme);
+  };
+  assert.deepEqual([await theme("vscode-dark"), await theme("vscode-light"), await theme("vscode-high-contrast"), await theme("vscode-high-contrast vscode-high-contrast-light")], ["dark", "light", "dark", "light"]);
+  assert.deepEqual(await said(), []);
+});

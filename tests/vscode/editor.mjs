@@ -164,8 +164,13 @@ await page.waitForSelector(".quick-input-widget input");
 await page.waitForTimeout(300);
 await page.keyboard.type("5");
 await page.keyboard.press("Enter");
-const text = /^\s+131\s+131\s+5\s+1000\s+2/;
-check("a value is written where its columns end", await soon(async () => (await page.$$eval(".view-line", (l) => l.map((e) => e.textContent.replaceAll("\u00a0", " ")))).some((l) => l.startsWith("       131       131         5                1000") && text.test(l)), 10));
+const text = /^ {7}131 {7}131 {9}5 {16}1000 {29}2/;
+const lines = () => page.$$eval(".view-line", (l) => l.map((e) => e.textContent.replaceAll("\u00a0", " ")));
+check("a value is written where its columns end", await soon(async () => (await lines()).some((l) => text.test(l)), 10));
+await page.keyboard.press("Control+/");
+check("a card becomes a comment in its first column", await soon(async () => (await lines()).some((l) => l.startsWith("#       131       131         5")), 10));
+await page.keyboard.press("Control+/");
+check("and a card again", await soon(async () => (await lines()).some((l) => l.startsWith("       131       131         5")), 10));
 
 await show(page, "crash_box_0000.rad");
 await command(page, "Deck: Show Gap Report");

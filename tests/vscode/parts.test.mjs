@@ -20,6 +20,7 @@ const part = async (name) => {
 const { convert, fix, lintCall, locate, noServer, notFound } = await part("program");
 const { cellAt, layoutOf, nextCell, ruler } = await part("columns");
 const { headerAbove, withScript } = await part("page");
+const { toggled } = await part("comments");
 const manifest = JSON.parse(readFileSync(join(WORK, "stage/package.json"), "utf8"));
 const source = readdirSync(join(ROOT, "tools/vscode/src")).map((f) => readFileSync(join(ROOT, "tools/vscode/src", f), "utf8")).join("\n");
 
@@ -137,6 +138,13 @@ test("the keyword above a line is found, also on its own line", () => {
   const lines = ["#RADIOSS STARTER", "/BEGIN", "a", "# /NODE", "/INTER/TYPE7/1", "b"];
   const at = (line) => headerAbove((n) => lines[n - 1], line);
   assert.deepEqual([1, 2, 3, 4, 5, 6].map(at), [0, 2, 2, 2, 5, 5]);
+});
+
+test("lines become comments in the first column, and what they were again", () => {
+  const card = ["         1       2.5", "", "# heading"];
+  assert.deepEqual(toggled(card), ["#         1       2.5", "#", "## heading"]);
+  assert.deepEqual(toggled(toggled(card)), card);
+  assert.deepEqual(toggled(["# heading"]), [" heading"]);
 });
 
 test("every command of the manifest is carried out, and every one carried out is in it", () => {

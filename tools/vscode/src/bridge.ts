@@ -63,6 +63,14 @@ function start(report: Report): void {
   });
 
   const chosen = () => ({ interface: report.filter.interface === null ? null : report.meta.interfaces[report.filter.interface].id, key: report.selected?.key ?? null });
+  // The page is as dark as the editor, now and when that changes.
+  const colours = () => {
+    const dark = document.body.matches(".vscode-dark, .vscode-high-contrast:not(.vscode-high-contrast-light)");
+    if (dark !== (document.documentElement.dataset.theme === "dark")) document.querySelector<HTMLElement>("[aria-label='Dark or light (t)']")?.click();
+  };
+  if (document.body.matches("[class*=vscode-]")) colours();
+  new MutationObserver(colours).observe(document.body, { attributes: true, attributeFilter: ["class"] });
+
   const show = (m: Extract<ToPage, { type: "show" }>): string | null => {
     const at = report.meta.interfaces.findIndex((i) => i.card.file === m.file && i.card.line === m.header);
     if (at >= 0) {

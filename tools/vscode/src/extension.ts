@@ -2,6 +2,7 @@
 import * as vscode from "vscode";
 import { readFileSync } from "node:fs";
 import { LanguageClient, TransportKind } from "vscode-languageclient/node";
+import { toggled } from "./comments";
 import { registerCommands } from "./commands";
 import { noServer, notFound, serverCall, serverOptions } from "./program";
 import { Report } from "./report";
@@ -9,6 +10,7 @@ import { RulerView } from "./ruler";
 import { run } from "./run";
 import { program, settings } from "./settings";
 
+const alone = ["deck.restart", "deck.toggleComment"]; // need no program
 let client: LanguageClient | undefined;
 let parts: vscode.Disposable[] = [];
 
@@ -20,13 +22,27 @@ async function stop(): Promise<void> {
   await old?.dispose(2000).catch(() => undefined);
 }
 
+/** The editor's own command would put the mark where the text begins, which makes another card of the line. */
+async function toggleComment(): Promise<void> {
+  const editor = vscode.window.activeTextEditor;
+  if (!editor) return;
+  const ranges = editor.selections.map((s) => {
+    // A selection that ends before a line's first character does not mean that line.
+    const last = s.end.line > s.start.line && s.end.character === 0 ? s.end.line - 1 : s.end.line;
+    return new vscode.Range(s.start.line, 0, last, editor.document.lineAt(last).text.length);
+  });
+  await editor.edit((e) => {
+    for (const r of ranges) e.replace(r, toggled(editor.document.getText(r).split(/\r?\n/)).join(editor.document.eol === vscode.EndOfLine.LF ? "\n" : "\r\n"));
+  });
+}
+
 /** Without a program every command says what is missing. */
 function missing(context: vscode.ExtensionContext, why: string): void {
   const say = async () => {
     if ((await vscode.window.showErrorMessage(why, "Open Settings")) === "Open Settings") await vscode.commands.executeCommand("workbench.action.openSettings", "deck.path");
   };
   const commands: { command: string }[] = context.extension.packageJSON.contributes.commands;
-  parts = commands.filter((c) => c.command !== "deck.restart").map((c) => vscode.commands.registerCommand(c.command, say));
+  parts = commands.filter((c) => !alone.includes(c.command)).map((c) => vscode.commands.registerCommand(c.command, say));
   void say();
 }
 
@@ -97,6 +113,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
   context.subscriptions.push(
     channel,
     vscode.commands.registerCommand("deck.restart", () => start(context, channel)),
+    vscode.commands.registerCommand("deck.toggleComment", toggleComment),
     vscode.workspace.onDidChangeConfiguration((e) => {
       if (["path", "includePaths", "arguments", "geometryOnSave"].some((k) => e.affectsConfiguration(`deck.${k}`))) void start(context, channel);
     }),
