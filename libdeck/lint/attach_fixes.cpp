@@ -62,6 +62,13 @@ Fix remove_line(const Deck& deck, const Span& span, bool safe, std::string title
   return fix;
 }
 
+/// True if the blanks at `span` stand in front of the line: without them it is read as it was. A
+/// blank further on may end the keyword or hide the id.
+bool before_the_line(const Deck& deck, const Span& span) {
+  const Source& source = deck.sources[span.file];
+  return source.line_at(span.offset).data() == source.bytes().data() + span.offset;
+}
+
 }  // namespace
 
 void attach_fix(const LintContext& context, Diagnostic& d) {
@@ -74,7 +81,7 @@ void attach_fix(const LintContext& context, Diagnostic& d) {
   } else if (d.rule == RuleId::DK033 || d.rule == RuleId::DK001) {
     d.fix = first_line(deck, d.span.file);
   } else if (d.rule == RuleId::DK052) {
-    d.fix = Fix{"remove the blank", true, {{d.span, ""}}};
+    d.fix = Fix{"remove the blank", before_the_line(deck, d.span), {{d.span, ""}}};
   } else if (d.rule == RuleId::DK013) {
     d.fix = tabs_to_blanks(deck, d.span);
   } else if (d.rule == RuleId::DK012 || d.rule == RuleId::DK027 || d.rule == RuleId::DK028) {

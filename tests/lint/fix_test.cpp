@@ -86,6 +86,18 @@ TEST_P(EveryFix, SafeOnesLeaveTheEffectiveValuesAlone) {
 INSTANTIATE_TEST_SUITE_P(Fixes, EveryFix, testing::ValuesIn(fixable_ids()),
                          [](const auto& one) { return one.param; });
 
+TEST(SafeFixes, RemoveNoBlankInsideAKeywordLine) {
+  LintOptions only;
+  only.select = {"DK052"};
+  const Linted same = lint_example("/TITLE\n /TITLE\nexample\n", only);
+  ASSERT_EQ(same.count(RuleId::DK052), 1u) << same.list();
+  EXPECT_TRUE(same.result.diagnostics[0].fix->safe);
+  // Without the blank this line has another id, or is no /BEGIN any more.
+  const Linted other = lint_example("/TITLE     /1\nexample\n", only);
+  ASSERT_EQ(other.count(RuleId::DK052), 1u) << other.list();
+  EXPECT_FALSE(other.result.diagnostics[0].fix->safe);
+}
+
 TEST(SafeFixes, WriteNoDefaultIntoABlockOfOtherUnits) {
   // The default of Stfac is 1 in working units; here 1.0 on the card would be 1e-6 of them.
   const std::string deck =

@@ -78,7 +78,7 @@ TEST(NulByte, FiresInDataAndNotInCleanData) {
   EXPECT_FALSE(lint_text(clean).fires(RuleId::DK014));
 }
 
-/// No built-in keyword reaches DK165; one that somebody adds can.
+/// A keyword that somebody adds can reach DK165, or a control character in a header.
 TEST(UnknownCombination, FiresForAnAddedSurfaceKeyword) {
   SchemaSet schemas = SchemaSet::built_in();
   ASSERT_TRUE(schemas.add_json("extra", R"({"keyword": "/SURF/CLOUD", "kind": "surf",
@@ -91,6 +91,12 @@ TEST(UnknownCombination, FiresForAnAddedSurfaceKeyword) {
   };
   EXPECT_TRUE(fires("/SURF/CLOUD/9\nnothing\n"));
   EXPECT_FALSE(fires("/SURF/PART/9\nlower\n         1\n"));
+}
+
+TEST(UnknownCombination, OfALineHasTheMessageOfLines) {
+  const Linted run = lint_example("/LINE/SURF\x1d/9\nodd\n         1\n");
+  ASSERT_TRUE(run.fires(RuleId::DK165)) << run.list();
+  EXPECT_EQ(run.find(RuleId::DK165)->reference->number, 688);
 }
 
 TEST(RuleTable, HasBothExamplesExceptWhereAnotherTestBringsThem) {
