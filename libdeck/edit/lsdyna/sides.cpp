@@ -2,12 +2,12 @@
 #include "edit/lsdyna/sides.hpp"
 
 #include "edit/lsdyna/names.hpp"
+#include "text/columns.hpp"
 
 namespace deck::detail {
 namespace {
 
 constexpr int first_with_sets = 2021;  // input version of /SET/GENERAL
-constexpr std::int64_t largest_id = 2147483647;
 
 std::string needs_sets(const std::string& what, int version) {
   return what + " need /SET/GENERAL, which input version " + std::to_string(version) +
