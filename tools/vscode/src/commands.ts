@@ -4,6 +4,7 @@ import { deckOf } from "./deck_of";
 import { convert, fix, lintCall, type Change, type Settings } from "./program";
 import { run } from "./run";
 import { settings } from "./settings";
+import { showText } from "./texts";
 
 /** The deck of the active editor with its changes on disk; undefined: there is none, or somebody said no. */
 async function savedDeck(): Promise<vscode.Uri | undefined> {
@@ -51,8 +52,7 @@ export function registerCommands(program: string, channel: vscode.LogOutputChann
       void vscode.window.showInformationMessage(why ? `Nothing to change: ${why}` : "Nothing to change.");
       return;
     }
-    const patch = await vscode.workspace.openTextDocument({ language: "diff", content: seen.out });
-    await vscode.window.showTextDocument(patch, { viewColumn: vscode.ViewColumn.Beside, preview: true });
+    await showText(`${title}.diff`, seen.out);
     if ((await vscode.window.showInformationMessage(`${title}: the patch shows what would change.`, "Change the Files")) !== "Change the Files") return;
     const done = await busy(title, (cancel) => run(program, calls.apply, file, cancel));
     channel.info(`${done.out}${done.error}`);
@@ -65,8 +65,7 @@ export function registerCommands(program: string, channel: vscode.LogOutputChann
       const deck = await savedDeck();
       if (!deck) return;
       const said = await busy("Checking the deck", (cancel) => run(program, lintCall(settings(deck), deck.fsPath), deck.fsPath, cancel));
-      const document = await vscode.workspace.openTextDocument({ content: `${said.out}${said.error}` });
-      await vscode.window.showTextDocument(document, { viewColumn: vscode.ViewColumn.Beside, preview: true });
+      await showText(`findings of ${deck.path.split("/").at(-1)}.txt`, `${said.out}${said.error}`);
     }),
     command("deck.fixPenetrations", async () => {
       const chosen = await vscode.window.showQuickPick(strategies, { title: "Repair initial penetrations by", canPickMany: true });

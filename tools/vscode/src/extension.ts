@@ -9,6 +9,7 @@ import { Report } from "./report";
 import { RulerView } from "./ruler";
 import { run } from "./run";
 import { program, settings } from "./settings";
+import { showText, textProvider } from "./texts";
 
 const alone = ["deck.restart", "deck.toggleComment"]; // need no program
 let client: LanguageClient | undefined;
@@ -72,7 +73,7 @@ async function start(context: vscode.ExtensionContext, channel: vscode.LogOutput
   const ruler = new RulerView(server);
   const explain = async (topic: string) => {
     const { text } = await server.sendRequest<{ text: string }>("deck/explain", { topic });
-    await vscode.window.showTextDocument(await vscode.workspace.openTextDocument({ content: text }), { viewColumn: vscode.ViewColumn.Beside, preview: true });
+    await showText(topic.replaceAll("/", " ").trim(), text);
   };
   /** From a lens with the interface it stands above, or from the palette without. */
   const showReport = async (of?: { textDocument?: { uri: string }; interface?: number }) => {
@@ -112,6 +113,7 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
   const channel = vscode.window.createOutputChannel("libdeck", { log: true });
   context.subscriptions.push(
     channel,
+    textProvider(),
     vscode.commands.registerCommand("deck.restart", () => start(context, channel)),
     vscode.commands.registerCommand("deck.toggleComment", toggleComment),
     vscode.workspace.onDidChangeConfiguration((e) => {
