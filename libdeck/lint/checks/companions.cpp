@@ -97,12 +97,15 @@ std::vector<bool> rigid_nodes(const LintContext& c) {
 
 /// Shortest side of a surface; 0: it has none.
 double shortest_side(const Model& model, const Surface& surface) {
+  const auto& x = model.nodes;
   double least = 0;
-  for (const auto& [a, b] : sides_of(surface)) {
-    const auto& x = model.nodes;
-    const double length = std::hypot(x.x[a] - x.x[b], x.y[a] - x.y[b], x.z[a] - x.z[b]);
-    if (length > 0 && (least == 0 || length < least)) least = length;
-  }
+  for (const Segment& s : surface.segments)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const NodeIndex a = s.nodes[k], b = s.nodes[(k + 1) % 4];
+      if (a == b || a == no_index || b == no_index) continue;
+      const double length = std::hypot(x.x[a] - x.x[b], x.y[a] - x.y[b], x.z[a] - x.z[b]);
+      if (length > 0 && (least == 0 || length < least)) least = length;
+    }
   return least;
 }
 

@@ -60,37 +60,29 @@ ModelOptions model_options(const Settings& settings) {
 
 }  // namespace
 
-std::shared_ptr<const Semantics> analyse(std::shared_ptr<const Syntax> syntax,
-                                         const SchemaSet& schemas, const Settings& settings,
-                                         const std::atomic<bool>& stop) {
-  auto out = std::make_shared<Semantics>(std::move(syntax));
-  const Deck& deck = out->syntax->deck;
+void find(Semantics& out, const EngineFiles& engine, const SchemaSet& schemas,
+          const Settings& settings) {
+  const Deck& deck = *out.deck;
+  Diagnostics findings(settings.limits.diagnostics_per_rule);
+  out.interfaces = read_interfaces(deck, *out.model, findings);
   const std::string& path = deck.sources[0].path();
-  out->refusal = no_starter_deck(deck);
-  if (!out->refusal.empty()) return out;
-  out->findings = Diagnostics(settings.limits.diagnostics_per_rule);
-  out->model = build_model(deck, schemas, out->findings, model_options(settings));
-  if (stop) return nullptr;
-  out->model.selections->set_limits(settings.limits);
-  out->interfaces = read_interfaces(deck, out->model, out->findings);
   const auto config = find_lint_config(path);
-  if (!config) out->config_error = config.error().message;
+  if (!config) out.config_error = config.error().message;
   auto options = lint_options(config ? *config : LintConfig{}, path, settings.limits);
   if (!options) {
-    out->config_error = options.error().message;
+    out.config_error = options.error().message;
     options = LintOptions{};
   }
-  if (stop) return nullptr;
   LintInput input{deck,
                   schemas,
-                  &out->model,
-                  &out->interfaces,
-                  out->model.selections.get(),
-                  {&out->findings},
+                  out.model.get(),
+                  &out.interfaces,
+                  out.model->selections.get(),
+                  {out.model_findings.get(), &findings},
                   {},
-                  &out->syntax->engine};
-  out->lint = run_lint(input, *options);
-  return out;
+                  &engine};
+  out.lint = run_lint(input, *options);
+  for (Diagnostic& d : out.lint.diagnostics) out.slacks.make_real(deck.sources, d);
 }
 
 namespace {

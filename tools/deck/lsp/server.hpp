@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "lsp/analyst.hpp"
 #include "lsp/queue.hpp"
 #include "lsp/rpc.hpp"
 #include "lsp/view.hpp"
@@ -105,6 +106,7 @@ class Server {
   std::map<std::string, Clock::time_point> due_;  ///< decks that wait for an analysis
   std::map<std::string, std::shared_ptr<std::atomic<bool>>> analysing_;
   std::map<std::string, std::shared_ptr<Progress>> examining_;
+  std::map<std::string, std::shared_ptr<Analyst>> analysts_;  ///< by deck, for the worker
   Typing typing_;
   std::string report_folder_;  ///< made for reports that the client shows; ends with the server
 

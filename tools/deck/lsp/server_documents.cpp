@@ -24,7 +24,8 @@ void Server::did_open(const Json& params) {
   if (path.empty()) return;
   workspace_.open(path, uri, d.value("version", std::int64_t{0}), d.at("text").get<std::string>());
   schedule(path, true);
-  if (OpenDeck* deck = workspace_.deck_of(path); deck != nullptr && deck->geometry == nullptr)
+  if (OpenDeck* deck = workspace_.deck_of(path);
+      geometry_on_save_ && deck != nullptr && deck->geometry == nullptr)
     start_geometry(*deck);
 }
 
@@ -68,6 +69,7 @@ void Server::did_close(const Json& params) {
   workspace_.close(path);
   for (const OpenDeck& gone : workspace_.forget_closed()) {
     due_.erase(gone.path);
+    analysts_.erase(gone.path);
     if (const auto it = analysing_.find(gone.path); it != analysing_.end()) *it->second = true;
     if (const auto it = examining_.find(gone.path); it != examining_.end()) it->second->stop = true;
     for (const std::string& file : gone.published)

@@ -73,9 +73,11 @@ void Server::start_analysis(OpenDeck& deck) {
   }
   auto stop = std::make_shared<std::atomic<bool>>(false);
   analysing_[deck.path] = stop;
-  analyst_->push([this, stop, syntax, path = deck.path, &schemas = workspace_.schemas(),
+  auto& analyst = analysts_[deck.path];
+  if (analyst == nullptr) analyst = std::make_shared<Analyst>();
+  analyst_->push([this, stop, syntax, analyst, path = deck.path, &schemas = workspace_.schemas(),
                   settings = workspace_.settings()] {
-    auto found = *stop ? nullptr : analyse(syntax, schemas, settings, *stop);
+    auto found = *stop ? nullptr : analyst->look(syntax, schemas, settings, *stop);
     queue_.push([this, path, found = std::move(found)] {
       analysing_.erase(path);
       const auto it = workspace_.decks().find(path);
