@@ -76,10 +76,11 @@ void check_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
-constexpr Checked table[] = {{RuleId::DK096, check_bounds}};
-
 }  // namespace
 
-std::span<const Checked> bound_checks() { return table; }
+std::span<const Checked> bound_checks() {
+  static constexpr Checked all[] = {{RuleId::DK096, check_bounds}};
+  return all;
+}
 
 }  // namespace deck::detail

@@ -221,19 +221,20 @@ void check_includes(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-constexpr Checked table[] = {
-    {RuleId::DK800, check_run_missing},
-    {RuleId::DK801, check_run_name},
-    {RuleId::DK802, check_run_number},
-    {RuleId::DK803, check_final_time},
-    {RuleId::DK804, check_ids},
-    {RuleId::DK805, check_outputs},
-    {RuleId::DK806, check_late_interfaces},
-    {RuleId::DK807, check_includes},
-};
-
 }  // namespace
 
-std::span<const Checked> engine_checks() { return table; }
+std::span<const Checked> engine_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK800, check_run_missing},
+      {RuleId::DK801, check_run_name},
+      {RuleId::DK802, check_run_number},
+      {RuleId::DK803, check_final_time},
+      {RuleId::DK804, check_ids},
+      {RuleId::DK805, check_outputs},
+      {RuleId::DK806, check_late_interfaces},
+      {RuleId::DK807, check_includes},
+  };
+  return all;
+}
 
 }  // namespace deck::detail
