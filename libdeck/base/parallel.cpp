@@ -25,7 +25,7 @@ void run_workers(int workers, CancelFlag& cancel, const std::function<void(std::
       cancel.set();
     }
   };
-  std::vector<std::jthread> others;
+  std::vector<std::thread> others;  // the loop in `guarded` throws nothing: all are joined
   others.reserve(count - 1);
   try {
     for (std::size_t w = 1; w < count && !cancel.is_set(); ++w) others.emplace_back(guarded, w);
@@ -34,7 +34,7 @@ void run_workers(int workers, CancelFlag& cancel, const std::function<void(std::
   } catch (const std::bad_alloc&) {
   }
   guarded(0);
-  others.clear();  // joins
+  for (std::thread& other : others) other.join();
   for (const std::exception_ptr& e : thrown)
     if (e) std::rethrow_exception(e);
 }

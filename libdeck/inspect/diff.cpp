@@ -641,8 +641,8 @@ class Differ {
     for (auto& [key, p] : parts) {
       if (p.lost.empty() && p.gained.empty() && p.altered.empty()) continue;
       Change& c = loose(ChangeKind::changed, "part", "/PART", key.first);
-      const auto title = [&](const Model& m) {
-        const auto it = m.part_of_id.find(key.first);
+      const auto title = [id = key.first](const Model& m) {
+        const auto it = m.part_of_id.find(id);
         return it == m.part_of_id.end() ? std::string() : m.parts[it->second].title;
       };
       c.title = title(*a_.model);

@@ -31,8 +31,8 @@ Line LineCursor::next_physical() {
     const std::string_view bytes = (*sources_)[p.file].bytes();
     const char* const start = bytes.data() + offset_;
     const void* const nl = std::memchr(start, '\n', p.end - offset_);
-    const std::uint64_t length =
-        nl ? static_cast<std::uint64_t>(static_cast<const char*>(nl) - start) : p.end - offset_;
+    const auto length = static_cast<std::size_t>(
+        nl ? static_cast<std::uint64_t>(static_cast<const char*>(nl) - start) : p.end - offset_);
     const Line line{detail::trim_right({start, length}), p.file, offset_};
     offset_ += length + 1;
     return line;

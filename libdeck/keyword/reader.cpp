@@ -366,7 +366,7 @@ class Reader {
       run = next;
       const auto slash = bytes.find('/', pos);
       const std::string_view line =
-          trim_right(bytes.substr(slash, std::min(end - slash, header_columns)));
+          trim_right(bytes.substr(slash, std::min<std::uint64_t>(end - slash, header_columns)));
       const std::string_view header = detail::without_comment(line, version);
       if (end - slash > header_columns) check_header_tail(file, slash, end);
       check_header_blanks(file, pos, slash, header, version);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/length3.hpp"
 #include "model/selection/selection_impl.hpp"
 
 namespace deck {
@@ -22,7 +23,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 bool normalise_vector(Vector& v) {
-  const double n = std::hypot(v[0], v[1], v[2]);
+  const double n = length3(v[0], v[1], v[2]);
   if (!(n > 0)) return false;
   for (double& c : v) c /= n;
   return true;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "base/length3.hpp"
 #include "deck/text/number.hpp"
 #include "model/item_spans.hpp"
 #include "model/model_build.hpp"
@@ -41,9 +42,8 @@ class NodeGrid {
           const auto it = cells_.find(cell(n, i, j, k));
           if (it == cells_.end()) continue;
           for (const NodeIndex other : it->second) {
-            const double d =
-                std::hypot(nodes_.x[n] - nodes_.x[other], nodes_.y[n] - nodes_.y[other],
-                           nodes_.z[n] - nodes_.z[other]);
+            const double d = length3(nodes_.x[n] - nodes_.x[other], nodes_.y[n] - nodes_.y[other],
+                                     nodes_.z[n] - nodes_.z[other]);
             if (d < best_distance || (d == best_distance && (best == no_index || other < best))) {
               best = other;
               best_distance = d;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/length3.hpp"
 #include "deck/model/selection.hpp"
 #include "model/model_build.hpp"
 
@@ -58,7 +59,7 @@ AffineMap then(const AffineMap& first, const AffineMap& second) {
 }
 
 /// Squares cannot overflow.
-double length(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
+double length(const Vector& v) { return length3(v[0], v[1], v[2]); }
 Vector unit(const Vector& v) { return v / length(v); }
 Matrix square(const Vector& n) { return n * n.transpose(); }
 

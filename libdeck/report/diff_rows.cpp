@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/length3.hpp"
 #include "deck/report/json.hpp"
 
 namespace deck {
@@ -94,7 +95,7 @@ std::vector<DiffTable> diff_tables(const DiffSide& a, const DiffSide& b, const D
         const auto* q = std::get_if<std::array<double, 3>>(&c.new_value);
         const double by = p == nullptr || q == nullptr
                               ? 0
-                              : std::hypot((*q)[0] - (*p)[0], (*q)[1] - (*p)[1], (*q)[2] - (*p)[2]);
+                              : length3((*q)[0] - (*p)[0], (*q)[1] - (*p)[1], (*q)[2] - (*p)[2]);
         moved.rows.push_back(
             {c.id_b == 0 ? std::to_string(c.id) : fmt::format("{} -> {}", c.id, c.id_b),
              diff_value(c.old_value), diff_value(c.new_value), length_text(by),

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/real_text.hpp"
 #include "text/decimal.hpp"
 #include "text/number_scan.hpp"
 
@@ -32,8 +33,7 @@ std::int64_t decimal_exponent(std::string_view mantissa, std::string_view expone
 RealCell read_hexadecimal(std::string_view s) {
   double value = 0;
   if (s.empty() || s[0] == '-') return {};
-  const auto [end, error] =
-      std::from_chars(s.data(), s.data() + s.size(), value, std::chars_format::hex);
+  const auto [end, error] = read_hexadecimal_text(s.data(), s.data() + s.size(), value);
   if (end == s.data() || !std::isfinite(value)) return {};  // "inf" and "nan" are no digits
   if (error == std::errc::result_out_of_range) return {0, NumberStatus::overflow};
   return {value, NumberStatus::trailing_text};  // not the number that a deck's author has in mind
@@ -92,7 +92,7 @@ RealCell convert(std::string_view s) {
   double value = 0;
   std::from_chars_result result;
   if (exponent.empty()) {
-    result = std::from_chars(mantissa.data(), mantissa.data() + mantissa.size(), value);
+    result = read_real_text(mantissa.data(), mantissa.data() + mantissa.size(), value);
   } else {
     // The library reads neither D nor a missing letter: spell the number its way. Cells of a deck
     // fit the buffer; only hostile ones need the heap.
@@ -109,7 +109,7 @@ RealCell convert(std::string_view s) {
     *to++ = 'e';
     if (minus) *to++ = '-';
     to = std::copy(exponent.begin(), exponent.end(), to);
-    result = std::from_chars(text, to, value);
+    result = read_real_text(text, to, value);
   }
   if (result.ec == std::errc::result_out_of_range) {
     if (!nonzero) {
@@ -174,11 +174,7 @@ using detail::scientific_text;
 
 /// `significant` digits, correctly rounded; 0: the fewest that read back to the same double.
 Decimal to_decimal(double value, int significant, char (&buffer)[32]) {
-  const auto result =
-      significant == 0
-          ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific)
-          : std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific,
-                          significant - 1);
+  const auto result = write_real_text(buffer, buffer + sizeof buffer, value, significant);
   // "-d.ddde+XX": move the digits together over the point.
   Decimal out;
   char* first = buffer;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/bits.hpp"
 #include "deck/text/number.hpp"
 
 namespace deck::detail {
@@ -101,8 +102,8 @@ RealCell read_real_general(const char* begin, const char* end);
 /// Reads a real cell. One rounding at most where mantissa and power of ten are exact doubles
 /// (Clinger), else the general case.
 inline double with_sign(double value, bool negative) {
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^
-                               (static_cast<std::uint64_t>(negative) << 63));
+  return bit_cast<double>(bit_cast<std::uint64_t>(value) ^
+                          (static_cast<std::uint64_t>(negative) << 63));
 }
 
 template <Blanks blanks = Blanks::all>

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <system_error>
 
@@ -84,8 +85,10 @@ Result<std::unique_ptr<Source>> Source::open(const std::string& path, const Limi
     return io_error(path, "is not a regular file (FIFO, socket or device)");
   source->device_ = info.st_dev;
   source->inode_ = info.st_ino;
-  const auto size = static_cast<std::uint64_t>(info.st_size);
-  if (size > limits.total_bytes) return limit_error(path, size, limits.total_bytes);
+  const auto bytes = static_cast<std::uint64_t>(info.st_size);
+  const auto limit = std::min<std::uint64_t>(limits.total_bytes, SIZE_MAX / 2);
+  if (bytes > limit) return limit_error(path, bytes, limit);
+  const auto size = static_cast<std::size_t>(bytes);
   if (size <= limits.map_threshold) {
     if (auto r = read_sized(file.fd, path, size, source->storage_); !r) return r.error();
     source->bytes_ = source->storage_;

@@ -151,7 +151,9 @@ Option CommandLine::option(const std::string& names, T& target, const std::strin
 template Option CommandLine::option(const std::string&, std::string&, const std::string&);
 template Option CommandLine::option(const std::string&, int&, const std::string&);
 template Option CommandLine::option(const std::string&, std::int64_t&, const std::string&);
-template Option CommandLine::option(const std::string&, std::size_t&, const std::string&);
+// std::size_t is one of these, std::uint64_t the same or the other.
+template Option CommandLine::option(const std::string&, unsigned long&, const std::string&);
+template Option CommandLine::option(const std::string&, unsigned long long&, const std::string&);
 template Option CommandLine::option(const std::string&, double&, const std::string&);
 template Option CommandLine::option(const std::string&, std::vector<std::string>&,
                                     const std::string&);

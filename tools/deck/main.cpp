@@ -1,6 +1,9 @@
 // deck: the command line of libdeck. Runs the verb and turns
 // whatever goes wrong into one of the promised exit codes.
+#if __has_include(<gmp.h>)
 #include <gmp.h>
+#define DECK_LONG_NUMBERS_OF_GMP
+#endif
 
 #include <csignal>
 #include <cstdio>
@@ -31,6 +34,7 @@ void on_bus_error(int) {
   _exit(exit_internal);
 }
 
+#ifdef DECK_LONG_NUMBERS_OF_GMP
 // The library of long numbers knows no error but the end of the program: let it be an orderly one.
 [[noreturn]] void no_memory() {
   constexpr char text[] = "deck: internal error: out of memory\n";
@@ -48,6 +52,7 @@ void* gmp_reallocate(void* old, std::size_t, std::size_t size) {
   return p;
 }
 void gmp_free(void* p, std::size_t) { std::free(p); }
+#endif
 
 std::string version_text() {
   return std::string("deck ") + DECK_VERSION + " (compiled " +
@@ -63,7 +68,9 @@ std::string version_text() {
 int main(int argc, char** argv) {
   std::signal(SIGBUS, on_bus_error);
   std::set_terminate(on_terminate);
+#ifdef DECK_LONG_NUMBERS_OF_GMP
   mp_set_memory_functions(gmp_allocate, gmp_reallocate, gmp_free);
+#endif
   int code = exit_internal;
   try {
     code = run_program(argc, argv, version_text());

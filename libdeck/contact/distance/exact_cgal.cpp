@@ -19,7 +19,7 @@ std::array<Point3<Q>, 4> lift(const std::array<Point3<double>, 4>& x) {
 
 // Rounded towards zero, from the exact value: that of a lazy number itself may be off by an
 // interval.
-double to_double(const Q& value) { return CGAL::to_double(value.exact()); }
+double to_double(const Q& value) { return rounded_towards_zero(value.exact()); }
 
 Point3<double> lower(const Point3<Q>& p) {
   return {to_double(p.x), to_double(p.y), to_double(p.z)};

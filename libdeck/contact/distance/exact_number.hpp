@@ -10,7 +10,11 @@
 namespace deck {
 
 // Every double is one, and so are their sums, products and quotients.
+#ifdef CGAL_USE_GMP
 using Rational = CGAL::Exact_rational;
+#else  // CGAL would take quotients of integers that are never reduced
+using Rational = CGAL::BOOST_cpp_arithmetic_kernel::Rational;
+#endif
 // The same with an interval round it: rationals are formed only where intervals leave a doubt.
 using LazyRational = CGAL::Lazy_exact_nt<Rational>;
 
@@ -33,6 +37,9 @@ Rational exact_distance_squared(const Point3<double>& p,
                                 const std::array<Point3<double>, 4>& corners, bool triangle);
 Rational exact_distance_squared(const Point3<double>& s1, const Point3<double>& s2,
                                 const Point3<double>& m1, const Point3<double>& m2);
+
+// Rounded towards zero, whatever the library behind the number does.
+double rounded_towards_zero(const Rational& value);
 
 // gap - sqrt(squared) rounded towards zero, whatever cancels; 0 if not positive.
 double rounded_depth(double gap, const Rational& squared);

@@ -3,7 +3,7 @@
 // sums and products of doubles suffice.
 #include "contact/distance/filtered_exact.hpp"
 
-#include <CGAL/Mpzf.h>
+#include <CGAL/Number_types/internal/Exact_type_selector.h>
 
 #include <cmath>
 #include <initializer_list>
@@ -11,8 +11,9 @@
 namespace deck {
 namespace {
 
-// Integer times a power of two: every double, and what sums and products make of them.
-using Z = CGAL::Mpzf;
+// Integer times a power of two: every double, and what sums and products make of them. CGAL::Mpzf
+// where GMP is, else its own CGAL::MP_Float.
+using Z = CGAL::internal::Exact_ring_selector<double>::Type;
 using V = Point3<Z>;
 
 template <std::size_t N>

@@ -5,11 +5,11 @@
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "base/bits.hpp"
 #include "contact/distance/exact_number.hpp"
 
 namespace deck {
@@ -56,6 +56,15 @@ double rounded_down(double guess, const Test& at_most) {
 
 }  // namespace
 
+double rounded_towards_zero(const Rational& value) {
+  // Libraries round to nearest or cut off: at most one step too far.
+  double r = CGAL::to_double(value);
+  const Rational size = CGAL::abs(value);
+  while (std::isinf(r) || CGAL::compare(Rational(std::abs(r)), size) == CGAL::LARGER)
+    r = std::nextafter(r, 0.0);
+  return r;
+}
+
 double rounded_square_root(const Rational& value) {
   if (CGAL::sign(value) <= 0) return 0.0;
   const double low = rounded_down(guessed_square_root(value), [&](double r) {
@@ -71,7 +80,7 @@ double rounded_square_root(const Rational& value) {
     case CGAL::EQUAL:
       break;
   }
-  return std::bit_cast<std::uint64_t>(low) % 2 == 0 ? low : high;
+  return bit_cast<std::uint64_t>(low) % 2 == 0 ? low : high;
 }
 
 Rational long_square_root(const Rational& value) {

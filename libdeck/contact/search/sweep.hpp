@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "base/bits.hpp"
 #include "contact/search/box_order.hpp"
 #include "contact/search/box_tree.hpp"
 #include "deck/contact/search.hpp"
@@ -82,7 +83,7 @@ class Sink {
             static_cast<std::int64_t>(kChunk))
       full_ = true;
     if (full_) return;  // what comes now overwrites: nobody reads a full sink
-    chunks_.push_back(std::make_unique_for_overwrite<CandidatePair[]>(kChunk));
+    chunks_.push_back(std::make_unique<CandidatePair[]>(kChunk));
     last_ = chunks_.back().get();
   }
   std::atomic<std::int64_t>* allowance_;
@@ -201,7 +202,7 @@ inline std::vector<std::uint32_t> active(std::size_t count, std::span<const doub
 // Things whose sizes differ by more than a factor of eight or so are kept in different leaves and
 // groups. The class repeats every 8^8, which does no harm.
 inline unsigned size_class(double size) {
-  return static_cast<unsigned>(((std::bit_cast<std::uint64_t>(size) >> 52) & 0x7ffU) / 3) & 7U;
+  return static_cast<unsigned>(((bit_cast<std::uint64_t>(size) >> 52) & 0x7ffU) / 3) & 7U;
 }
 
 // Box of an edge, widened by `reach`.

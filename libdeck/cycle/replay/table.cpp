@@ -2,8 +2,9 @@
 #include "cycle/replay/table.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+
+#include "base/real_text.hpp"
 
 namespace deck::cycle::detail {
 
@@ -53,7 +54,7 @@ bool Table::values(std::string_view line) {
   const char* const end = p + line.size();
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     double value = 0.0;
-    const auto [next, code] = std::from_chars(p, end, value);
+    const auto [next, code] = read_real_text(p, end, value);
     // Smaller than any double: the nearest is 0.
     if (code != std::errc() && code != std::errc::result_out_of_range) return false;
     columns_[c].push_back(value);
@@ -79,8 +80,7 @@ void append_number(double value, std::string& out) {
     out += value < 0.0 ? "-inf" : "inf";
   } else {
     char text[40];
-    const auto end = std::to_chars(text, text + sizeof text, value == 0.0 ? 0.0 : value,
-                                   std::chars_format::scientific, 16);
+    const auto end = write_real_text(text, text + sizeof text, value == 0.0 ? 0.0 : value, 17);
     out.append(text, end.ptr);
   }
 }

@@ -2,10 +2,10 @@
 #include "edit/convert/version_cards.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "base/real_text.hpp"
 #include "deck/text/number.hpp"
 
 namespace deck::detail {
@@ -29,7 +29,7 @@ double default_number(const Field& field) {
   if (const auto at = text.find("else "); at != std::string_view::npos) text.remove_prefix(at + 5);
   double value = 0;
   const auto end = std::min(text.find_first_of(" ,;("), text.size());
-  const auto result = std::from_chars(text.data(), text.data() + end, value);
+  const auto result = read_real_text(text.data(), text.data() + end, value);
   return result.ec == std::errc() && result.ptr == text.data() + end ? value : 0;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/real_text.hpp"
 #include "deck/contact/view.hpp"
 
 namespace deck::detail {
@@ -194,7 +195,7 @@ struct RoundedNumber {
   double value() const {
     const std::string text = std::to_string(mantissa) + "e" + std::to_string(exponent);
     double out = 0;
-    std::from_chars(text.data(), text.data() + text.size(), out);
+    read_real_text(text.data(), text.data() + text.size(), out);
     return out;
   }
 };
@@ -202,8 +203,7 @@ struct RoundedNumber {
 /// The decimal of that many digits nearest to `value` > 0.
 RoundedNumber nearest(double value, int digits) {
   char buffer[64];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value,
-                                 std::chars_format::scientific, digits - 1);
+  const auto end = write_real_text(buffer, buffer + sizeof buffer, value, digits);
   const std::string_view text(buffer, static_cast<std::size_t>(end.ptr - buffer));
   RoundedNumber out;
   const auto e = text.find('e');

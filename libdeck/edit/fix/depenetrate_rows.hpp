@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "contact/scene/scene_parts.hpp"
@@ -23,7 +24,10 @@ struct PairKey {
   std::uint32_t contact = 0;
   std::array<NodeIndex, 2> secondary{};
   std::array<NodeIndex, 4> main{};
-  friend auto operator<=>(const PairKey&, const PairKey&) = default;
+  // Not all standard libraries compare arrays three ways.
+  friend bool operator<(const PairKey& a, const PairKey& b) {
+    return std::tie(a.contact, a.secondary, a.main) < std::tie(b.contact, b.secondary, b.main);
+  }
 };
 PairKey key_of(const Scene& scene, const PairAt& at);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/length3.hpp"
 #include "edit/fix/common.hpp"
 
 namespace deck {
@@ -52,7 +53,7 @@ PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
       }
       again->to = m.to;
       for (std::size_t k = 0; k < 3; ++k) again->by[k] += m.by[k];
-      again->distance = std::hypot(again->by[0], again->by[1], again->by[2]);
+      again->distance = length3(again->by[0], again->by[1], again->by[2]);
     }
     append(out.moved_before, fix.moved_before);
     // An interface that this step does not list any more has no penetrations.

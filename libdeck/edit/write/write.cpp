@@ -20,6 +20,7 @@
 #include <tuple>
 
 #include "deck/text/source.hpp"
+#include "edit/write/rename.hpp"
 #include "edit/write/write_plan.hpp"
 
 namespace deck {
@@ -302,7 +303,7 @@ Result<bool> Transaction::copy_to(const Entry& entry, const std::string& backup)
   }
   struct stat status {};
   if (lstat(backup.c_str(), &status) == 0) return false;
-  if (renameat2(AT_FDCWD, name->c_str(), AT_FDCWD, backup.c_str(), RENAME_NOREPLACE) != 0) {
+  if (rename_if_free(name->c_str(), backup.c_str()) != 0) {
     if (errno == EEXIST) return false;
     if (errno != EINVAL && errno != ENOSYS)
       return io_error("cannot make the backup", backup, errno);
@@ -381,8 +382,7 @@ Result<void> Transaction::lay_plan() {
 /// what was read, it is put back. False: this file system cannot exchange two names.
 Result<bool> Transaction::exchange(Entry& entry) {
   const auto swap = [&] {
-    return renameat2(AT_FDCWD, entry.temporary.c_str(), AT_FDCWD, entry.target.c_str(),
-                     RENAME_EXCHANGE) == 0;
+    return rename_exchanging(entry.temporary.c_str(), entry.target.c_str()) == 0;
   };
   if (!swap()) {
     if (errno == EINVAL || errno == ENOSYS || errno == ENOTSUP) return false;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/length3.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 
@@ -103,7 +104,7 @@ double shortest_side(const Model& model, const Surface& surface) {
     for (std::size_t k = 0; k < 4; ++k) {
       const NodeIndex a = s.nodes[k], b = s.nodes[(k + 1) % 4];
       if (a == b || a == no_index || b == no_index) continue;
-      const double length = std::hypot(x.x[a] - x.x[b], x.y[a] - x.y[b], x.z[a] - x.z[b]);
+      const double length = length3(x.x[a] - x.x[b], x.y[a] - x.y[b], x.z[a] - x.z[b]);
       if (length > 0 && (least == 0 || length < least)) least = length;
     }
   return least;

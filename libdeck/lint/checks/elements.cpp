@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/length3.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 
@@ -21,7 +22,7 @@ Vec cross(const Vec& a, const Vec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double length(const Vec& a) { return std::hypot(a[0], a[1], a[2]); }
+double length(const Vec& a) { return length3(a[0], a[1], a[2]); }
 
 /// Rounding of products of coordinates differences, as a share of the product of their lengths.
 constexpr double rounding = 1e-13;

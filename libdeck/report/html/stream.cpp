@@ -3,9 +3,10 @@
 
 #include <zlib.h>
 
-#include <bit>
 #include <stdexcept>
 #include <vector>
+
+#include "base/bits.hpp"
 
 namespace deck::detail {
 
@@ -13,7 +14,7 @@ void ByteStream::f64(std::span<const double> values) {
   const std::size_t start = bytes_.size();
   bytes_.resize(start + 8 * values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    std::uint64_t bits = std::bit_cast<std::uint64_t>(values[i]);
+    std::uint64_t bits = bit_cast<std::uint64_t>(values[i]);
     for (std::size_t plane = 0; plane < 8; ++plane) {
       bytes_[start + plane * values.size() + i] = static_cast<char>(bits & 0xff);
       bits >>= 8;

@@ -2,10 +2,10 @@
 #include "edit/convert/units/unit_system_decimal.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 
+#include "base/real_text.hpp"
 #include "deck/text/number.hpp"
 #include "text/decimal.hpp"
 #include "text/number_scan.hpp"
@@ -65,10 +65,7 @@ std::optional<Digits> parse(std::string_view cell) {
 /// Shortest digits that read back as `value`, or a given number of them.
 Digits decimal_of(double value, int significant = 0) {
   char buffer[64];
-  const auto end = significant == 0 ? std::to_chars(buffer, buffer + sizeof buffer, value,
-                                                    std::chars_format::scientific)
-                                    : std::to_chars(buffer, buffer + sizeof buffer, value,
-                                                    std::chars_format::scientific, significant - 1);
+  const auto end = write_real_text(buffer, buffer + sizeof buffer, value, significant);
   return *parse({buffer, static_cast<std::size_t>(end.ptr - buffer)});
 }
 

@@ -1,0 +1,297 @@
+// The page of the whole program in a browser: what it shows against the command line, editing, files
+// in and out, the automation face, and that nothing leaves.
+import { execFileSync, spawnSync } from "node:child_process";
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { basename, dirname, join } from "node:path";
+import { gzipSync } from "node:zlib";
+import { accessible, reachable } from "../browser/axe.mjs";
+import { ALL, check, corpus, DECK, DECK_ARTEFACTS, DECK_CORPUS, finish, launch, open, ROOT, same, sample, skip, WORK } from "../browser/support.mjs";
+
+const PAGE = process.env.PAGE;
+const { unzipSync, zipSync } = createRequire(join(WORK, "x.js"))("fflate");
+mkdirSync(DECK_ARTEFACTS, { recursive: true });
+const scratch = mkdtempSync(join(tmpdir(), "deck-page-"));
+const samples = join(ROOT, "samples");
+
+/** The program in a folder; what it prints. */
+const native = (folder, ...args) => {
+  const r = spawnSync(DECK, args, { cwd: folder, encoding: "utf8", maxBuffer: 1 << 30 });
+  return { exitCode: r.status, stdout: r.stdout, stderr: r.stderr };
+};
+const nativeFindings = (folder, deck) => JSON.parse(native(folder, "lint", deck, "--geometry", "--json", "-", "-q").stdout).diagnostics;
+const nativeVerdict = (folder, deck) => JSON.parse(native(folder, "gaps", deck, "--json", "-", "-q").stdout).verdict;
+
+const browser = await launch();
+
+async function idle(p) {
+  await p.waitForFunction(() => document.documentElement.dataset.busy === "false" && document.documentElement.dataset.linted === "all", null, { timeout: 120000 });
+}
+async function give(p, paths, input = "#files") {
+  await p.evaluate(() => delete document.documentElement.dataset.linted);
+  await p.setInputFiles(input, paths);
+  await idle(p);
+}
+const findings = (p) => p.$$eval(".finding", (all) => all.map((e) => [e.querySelector("b").textContent.replace(/.* /, ""), e.querySelector(".muted").textContent.trim(), e.querySelector(".finding-text").textContent]));
+const sorted = (rows) => rows.map((r) => JSON.stringify(r)).sort();
+const asRows = (found) => found.map((f) => [f.rule, `${f.file}:${f.line}:${f.column}`, f.message]);
+const quiet = (name, p) => check(`${name}: no console error and no request`, p.trouble.length === 0, p.trouble.join("; "));
+const shot = (p, name) => p.screenshot({ path: join(DECK_ARTEFACTS, `web-${name}.png`) });
+async function saved(p, label) {
+  await p.click(".downloads summary");
+  const [download] = await Promise.all([p.waitForEvent("download"), p.click(`.downloads button:has-text("${label}")`)]);
+  const bytes = readFileSync(await download.path());
+  await p.keyboard.press("Escape");
+  await p.evaluate(() => (document.querySelector(".downloads").open = false));
+  return bytes;
+}
+
+// ---- the file itself ----------------------------------------------------------------------------
+
+const html = readFileSync(PAGE, "utf8");
+check("the page has 8 MB at most", html.length <= 8e6, String(html.length));
+const policy = /http-equiv="Content-Security-Policy" content="([^"]*)"/.exec(html)?.[1] ?? "";
+check("the policy allows nothing by default and no connections", policy.includes("default-src 'none'") && !policy.includes("connect-src"), policy);
+
+// ---- findings, cards, editing -------------------------------------------------------------------
+
+{
+  const p = await open(browser, PAGE, { acceptDownloads: true });
+  console.log(`page ready after ${(await p.evaluate(() => performance.now())).toFixed(0)} ms`);
+  await shot(p, "welcome");
+  await give(p, [sample("every_mistake")]);
+  const expected = nativeFindings(samples, "every_mistake_0000.rad");
+  same("the page lists the findings of the command line", sorted(await findings(p)), sorted(asRows(expected)));
+  same("the page says the verdict of the command line", await p.textContent(".verdict-line"), nativeVerdict(samples, "every_mistake_0000.rad"));
+  await accessible(p, "findings");
+  await reachable(p, "findings");
+  await shot(p, "findings");
+
+  // A rule is explained in the words of the program.
+  await p.click(".rule");
+  await p.waitForSelector("dialog[open] pre");
+  const rule = await p.textContent(".rule");
+  same("a rule is explained as on the command line", await p.textContent("dialog pre"), native(samples, "explain", rule).stdout);
+  await p.keyboard.press("Escape");
+
+  // A safe fix: what the program says of the text after its edits.
+  const before = (await findings(p)).length;
+  const fixable = expected.find((f) => f.fix?.safe);
+  await p.fill(".list-tools input", `${fixable.rule} ${fixable.message.slice(0, 30)}`);
+  await p.click(".finding");
+  await p.evaluate(() => delete document.documentElement.dataset.linted);
+  await p.click(".fix");
+  await idle(p);
+  await p.fill(".list-tools input", "");
+  const text = (await saved(p, "zip"), unzipSync(await saved(p, "zip")))["every_mistake_0000.rad"];
+  const folder = join(scratch, "fixed");
+  mkdirSync(folder);
+  writeFileSync(join(folder, "every_mistake_0000.rad"), text);
+  const after = nativeFindings(folder, "every_mistake_0000.rad");
+  same("after a fix the findings are those of the fixed text", sorted(await findings(p)), sorted(asRows(after)));
+  check("the fix takes its finding away", after.length < before && !after.some((f) => f.rule === fixable.rule && f.line === fixable.line && f.message === fixable.message));
+  const original = join(scratch, "patched");
+  mkdirSync(original);
+  cpSync(sample("every_mistake"), join(original, "every_mistake_0000.rad"));
+  execFileSync("git", ["apply", "--unsafe-paths", "-"], { cwd: original, input: await saved(p, "patch") });
+  check("git applies the patch, and the result is the deck of the page", readFileSync(join(original, "every_mistake_0000.rad")).equals(Buffer.from(text)));
+  await p.evaluate(() => delete document.documentElement.dataset.linted);
+  await p.click('button:has-text("Undo")');
+  await idle(p);
+  same("undo brings the findings back", sorted(await findings(p)), sorted(asRows(expected)));
+  quiet("every mistake", p);
+  await p.close();
+}
+
+{
+  const p = await open(browser, PAGE, { acceptDownloads: true });
+  await give(p, [sample("two_surfaces")]);
+  await p.click("#tab-values");
+  await p.click('#panel-values tr:has(td:text-is("Gapmin")) button');
+  await p.waitForSelector('input.cell[data-field="Gapmin"]');
+  // Names stand over their columns: as the card says.
+  const card = JSON.parse(native(samples, "show", "two_surfaces_0000.rad", "1", "--json", "-", "-q").stdout).cards.find((c) => c.cells.some((x) => x.field === "Gapmin"));
+  const cell = card.cells.find((x) => x.field === "Gapmin");
+  const at = await p.$eval('input.cell[data-field="Gapmin"]', (e) => ({ left: e.style.left, width: e.style.width, value: e.value }));
+  same("a cell lies in its columns", at, { left: `${cell.columns[0] - 1}ch`, width: `${cell.columns[1] - cell.columns[0] + 1}ch`, value: cell.text });
+  await shot(p, "card");
+  await p.evaluate(() => delete document.documentElement.dataset.linted);
+  await p.fill('input.cell[data-field="Gapmin"]', "2.25");
+  await p.keyboard.press("Enter");
+  await idle(p);
+  const text = unzipSync(await saved(p, "zip"))["two_surfaces_0000.rad"];
+  const folder = join(scratch, "edited");
+  mkdirSync(folder);
+  writeFileSync(join(folder, "two_surfaces_0000.rad"), text);
+  const line = Buffer.from(text).toString().split("\n")[card.line - 1];
+  same("the value stands in its columns", line.slice(cell.columns[0] - 1, cell.columns[1]).trim(), "2.25");
+  same("findings follow the cell", sorted(await findings(p)), sorted(asRows(nativeFindings(folder, "two_surfaces_0000.rad"))));
+  const verdict = await p.textContent(".verdict-line");
+  same("gaps follow the cell", verdict, nativeVerdict(folder, "two_surfaces_0000.rad"));
+  check("and are others than before", verdict !== nativeVerdict(samples, "two_surfaces_0000.rad"));
+  await p.click("#tab-values");
+  same("values follow the cell", await p.$eval('#panel-values tr:has(td:text-is("Gapmin")) td:nth-child(3)', (e) => e.textContent), "2.25");
+  await p.click("#tab-findings");
+  await p.fill('input.cell[data-field="Gapmin"]', "123456789012345678901");
+  await p.keyboard.press("Enter");
+  check("a text that does not fit is refused", (await p.textContent(".card-panel [role=alert]")).includes("columns"));
+
+  // The report in its frame, the first cycle, the difference.
+  await p.click("#tab-gaps");
+  await p.waitForSelector("iframe");
+  const frame = await (await p.$("iframe")).contentFrame();
+  await frame.waitForFunction(() => document.documentElement.dataset.ready === "true", null, { timeout: 60000 });
+  const json = JSON.parse(native(folder, "gaps", "two_surfaces_0000.rad", "--json", "-", "-q").stdout);
+  same("the report in the page counts what the command line counts", (await frame.$$eval(".tile-value", (t) => t.map((e) => e.textContent)))[0].replace(/\u202f/g, ""), String(json.summary.pairs));
+  await shot(p, "gaps");
+  await p.click("#tab-cycle");
+  await p.waitForSelector("#panel-cycle pre");
+  same("the first cycle is that of the command line", await p.textContent("#panel-cycle pre"), native(folder, "cycle", "two_surfaces_0000.rad").stdout);
+  await p.click("#tab-diff");
+  await p.setInputFiles("#second", [sample("two_surfaces")]);
+  await p.waitForSelector("#panel-diff pre");
+  mkdirSync(join(folder, "other"));
+  cpSync(sample("two_surfaces"), join(folder, "other/two_surfaces_0000.rad"));
+  same("the difference is that of the command line", await p.textContent("#panel-diff pre"), native(folder, "diff", "other/two_surfaces_0000.rad", "two_surfaces_0000.rad").stdout);
+  const sarif = JSON.parse((await saved(p, "SARIF")).toString());
+  same("SARIF holds the findings", sarif.runs[0].results.length, nativeFindings(folder, "two_surfaces_0000.rad").length);
+  quiet("two surfaces", p);
+  await p.close();
+}
+
+// ---- files in many shapes -----------------------------------------------------------------------
+
+{
+  const p = await open(browser, PAGE);
+  await give(p, [sample("include_tree")]);
+  check("missing includes are asked for by name", (await p.textContent(".missing")).includes("mesh.inc"));
+  await give(p, readdirSync(join(samples, "include_tree")).map((n) => join(samples, "include_tree", n)));
+  check("files that were asked for go where the deck looks for them", await p.$eval(".missing", (e) => e.hidden));
+  const whole = sorted(asRows(nativeFindings(samples, "include_tree_0000.rad")));
+  same("with its includes the deck has the findings of the command line", sorted(await findings(p)), whole);
+  const zip = join(scratch, "tree.zip");
+  const inside = { "car/include_tree_0000.rad": readFileSync(sample("include_tree")) };
+  for (const n of readdirSync(join(samples, "include_tree"))) inside[`car/include_tree/${n}`] = readFileSync(join(samples, "include_tree", n));
+  writeFileSync(zip, zipSync(inside));
+  await p.reload();
+  await p.waitForFunction(() => document.documentElement.dataset.ready === "true");
+  await give(p, [zip]);
+  same("a zip is a folder", sorted(await findings(p)), whole);
+  const packed = join(scratch, "two_surfaces_0000.rad.gz");
+  writeFileSync(packed, gzipSync(readFileSync(sample("two_surfaces"))));
+  await give(p, [packed]);
+  same("a packed deck is read", await p.textContent(".verdict-line"), nativeVerdict(scratch, "two_surfaces_0000.rad.gz"));
+  quiet("files", p);
+  await p.close();
+}
+
+// ---- the automation face ------------------------------------------------------------------------
+
+{
+  const p = await open(browser, PAGE);
+  const ask = (args, files) => p.evaluate(async ([a, f]) => {
+    const r = await window.deck(a, f);
+    return { ...r, files: Object.fromEntries(Object.entries(r.files).map(([n, b]) => [n, new TextDecoder().decode(b)])) };
+  }, [args, files]);
+  const decks = readdirSync(samples).filter((n) => n.endsWith("_0000.rad"));
+  const files = Object.fromEntries(decks.map((n) => [n, readFileSync(join(samples, n), "latin1")]));
+  for (const n of readdirSync(join(samples, "include_tree"))) files[`include_tree/${n}`] = readFileSync(join(samples, "include_tree", n), "latin1");
+  for (const name of ALL ? decks : decks.slice(0, 4))
+    for (const args of [["lint", name, "--json", "-"], ["gaps", name, "--all", "--json", "-"], ["cycle", name, "--all", "--json", "-"]]) {
+      const r = await ask(args, files);
+      const expected = native(samples, ...args, "-q");
+      check(`window.deck: ${args.slice(0, 2).join(" ")} as on the command line`, r.exitCode === expected.exitCode && r.stdout === expected.stdout, `${r.exitCode} ${expected.exitCode} ${r.stderr.slice(0, 200)}`);
+    }
+  const made = await ask(["convert", "two_surfaces_0000.rad", "-o", "out", "-q"], files);
+  same("what a run wrote comes back", Object.keys(made.files), ["out/two_surfaces_0000.rad"]);
+  same("wrong usage has its exit code", (await ask(["gaps"], {})).exitCode, 2);
+  const outside = await p.evaluate(async () => {
+    try {
+      await fetch("https://example.invalid/");
+      return "sent";
+    } catch {
+      return "refused";
+    }
+  });
+  same("the page may not send anything", outside, "refused");
+  check("nothing was stored", await p.evaluate(async () => {
+    try {
+      return localStorage.length + sessionStorage.length === 0;
+    } catch {
+      return true;
+    }
+  }));
+  const asked = p.trouble.filter((t) => t.startsWith("request"));
+  check("no request was made", asked.every((t) => t.includes("example.invalid")), asked.join("; "));
+  await p.close();
+}
+
+// ---- hostile decks ------------------------------------------------------------------------------
+
+const hostile = [];
+const findingsFolder = join(DECK_CORPUS, "findings");
+if (existsSync(findingsFolder)) {
+  for (const e of readdirSync(findingsFolder, { recursive: true })) if (/_0000\.rad$/.test(e)) hostile.push(join(findingsFolder, e));
+} else skip("hostile decks: no corpus");
+{
+  const p = await open(browser, PAGE);
+  for (const path of ALL ? hostile : hostile.slice(0, 6)) {
+    await p.reload();
+    await p.waitForFunction(() => document.documentElement.dataset.ready === "true");
+    await give(p, [path]);
+    const said = await p.evaluate(() => document.querySelector(".verdict-line").textContent + document.querySelector(".trouble").textContent + document.querySelector(".count").textContent);
+    check(`${basename(path)} ends with an answer or a message`, said.length > 0);
+  }
+  const bomb = join(scratch, "bomb_0000.rad.gz");
+  writeFileSync(bomb, gzipSync(Buffer.alloc(600e6, "#\n")));
+  await p.reload();
+  await p.waitForFunction(() => document.documentElement.dataset.ready === "true");
+  await p.setInputFiles("#files", [bomb]);
+  await p.waitForFunction(() => document.querySelector(".trouble").textContent !== "" || document.documentElement.dataset.busy === "false", null, { timeout: 120000 });
+  check("a packed file that is too large ends with a message", (await p.textContent(".trouble")).length > 0);
+  await p.close();
+}
+
+// ---- a large deck: speed and the cancel button --------------------------------------------------
+
+const large = corpus("EuroSID_II/EuroSID_II_0000.rad");
+if (large) {
+  const p = await open(browser, PAGE);
+  await p.setInputFiles("#files", [large]);
+  await p.waitForFunction(() => document.documentElement.dataset.busy === "true");
+  await p.click('button:has-text("Cancel")');
+  await p.waitForFunction(() => document.documentElement.dataset.busy === "false", null, { timeout: 5000 });
+  check("cancel ends all work at once, and says so", (await p.textContent(".trouble")).includes("Cancelled"));
+  await p.reload();
+  await p.waitForFunction(() => document.documentElement.dataset.ready === "true");
+  await give(p, [large]);
+  same("the findings of the dummy are those of the command line", sorted(await p.evaluate(() => {
+    document.querySelector(".findings li:last-child > button:not(.finding)")?.click();
+    return [...document.querySelectorAll(".finding")].map((e) => [e.querySelector("b").textContent.replace(/.* /, ""), e.querySelector(".muted").textContent.trim(), e.querySelector(".finding-text").textContent]);
+  })), sorted(asRows(nativeFindings(dirname(large), basename(large)))));
+  await shot(p, "dummy");
+  quiet("dummy", p);
+  await p.close();
+} else skip("the dummy: no corpus");
+
+// ---- widths and colours -------------------------------------------------------------------------
+
+for (const [width, height] of [[390, 800], [900, 700], [1600, 1000], [2560, 1300]])
+  for (const colorScheme of ["light", "dark"]) {
+    const p = await open(browser, PAGE, { viewport: { width, height }, colorScheme });
+    await accessible(p, `welcome ${width} ${colorScheme}`);
+    await give(p, [sample("crash_box")]);
+    for (const tab of ["findings", "values", "cycle"]) {
+      await p.click(`#tab-${tab}`);
+      await p.waitForFunction(() => document.documentElement.dataset.busy === "false");
+      const over = await p.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      check(`${tab} at ${width}: nothing beyond the right edge`, over <= 0, `${over} px`);
+      if (width === 390 || width === 1600) await accessible(p, `${tab} ${width} ${colorScheme}`);
+      if (width !== 900) await shot(p, `${tab}-${width}-${colorScheme}`);
+    }
+    await p.close();
+  }
+
+await browser.close();
+finish();

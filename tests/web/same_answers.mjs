@@ -1,0 +1,115 @@
+// The same answers as the command line's: decks of samples and corpus through verbs of the module in
+// node, byte for byte with the native program.
+//   node same_answers.mjs DECK-PROGRAM ENGINE-FOLDER [--only TEXT] [--verbs a,b] [--sampled] [--times]
+// --sampled: the corpus through lint and gaps only. Ends with 'N passed, N failed'.
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync, existsSync, cpSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { basename, dirname, join, relative, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
+const [deck, engineFolder, ...rest] = process.argv.slice(2);
+const option = (name) => (rest.includes(name) ? rest[rest.indexOf(name) + 1] : null);
+const corpus = process.env.DECK_CORPUS ?? join(root, "../shared");
+
+/** Arguments of a verb for a deck; `{}` stands for it. What it writes is compared as well. */
+const verbs = {
+  lint: ["lint", "{}", "--json", "-", "--geometry", "--fail-on", "never"],
+  params: ["params", "{}", "--json", "-"],
+  gaps: ["gaps", "{}", "--all", "--json", "-"],
+  cycle: ["cycle", "{}", "--all", "--json", "-"],
+  convert: ["convert", "{}", "-o", "out", "--version", "2026", "--allow-loss", "--partial", "--report", "losses.json"],
+  json: ["convert", "{}", "--to", "json", "-o", "deck.json"],
+};
+const wanted = option("--verbs")?.split(",") ?? Object.keys(verbs);
+
+function decksBelow(folder) {
+  if (!existsSync(folder)) return [];
+  return readdirSync(folder, { recursive: true, withFileTypes: true })
+    .filter((e) => e.isFile() && /_0000\.rad(\.gz)?$/.test(e.name))
+    .map((e) => join(e.parentPath ?? e.path, e.name))
+    .sort();
+}
+
+/** All files of a folder by name, without the large ones that belong to no deck. */
+function filesBelow(folder) {
+  const out = {};
+  for (const e of readdirSync(folder, { recursive: true, withFileTypes: true })) {
+    if (!e.isFile()) continue;
+    const path = join(e.parentPath ?? e.path, e.name);
+    if (statSync(path).size < 64e6) out[relative(folder, path)] = readFileSync(path);
+  }
+  return out;
+}
+
+function native(folder, args) {
+  const copy = mkdtempSync(join(tmpdir(), "deck-web-"));
+  try {
+    cpSync(folder, copy, { recursive: true });
+    const before = filesBelow(copy);
+    const started = process.hrtime.bigint();
+    const r = spawnSync(deck, args, { cwd: copy, maxBuffer: 1 << 30, env: { PATH: process.env.PATH } });
+    const ms = Number(process.hrtime.bigint() - started) / 1e6;
+    const files = {};
+    for (const [name, bytes] of Object.entries(filesBelow(copy)))
+      if (!before[name] || !before[name].equals(bytes)) files[name] = bytes;
+    return { exitCode: r.status, stdout: r.stdout, stderr: r.stderr, files, ms };
+  } finally {
+    rmSync(copy, { recursive: true, force: true });
+  }
+}
+
+/** Where two outputs part, in words. */
+function difference(a, b) {
+  if (Buffer.compare(Buffer.from(a), Buffer.from(b)) === 0) return null;
+  const x = Buffer.from(a).toString("latin1").split("\n");
+  const y = Buffer.from(b).toString("latin1").split("\n");
+  const i = x.findIndex((line, k) => line !== y[k]);
+  return i < 0 ? `lines ${x.length} and ${y.length}` : `line ${i + 1}: ${x[i]?.slice(0, 200)} <> ${y[i]?.slice(0, 200)}`;
+}
+
+const require = createRequire(import.meta.url);
+const create = require(resolve(engineFolder, "deck.js"));
+const code = await WebAssembly.compile(readFileSync(resolve(engineFolder, "deck.wasm")));
+const { run } = await import(resolve(engineFolder, "engine.mjs"));
+
+let passed = 0;
+let failed = 0;
+const times = {};
+for (const path of [...decksBelow(join(root, "samples")), ...decksBelow(join(corpus, "corpus"))]) {
+  if (option("--only") && !path.includes(option("--only"))) continue;
+  const folder = dirname(path);
+  const files = filesBelow(folder);
+  const sampled = rest.includes("--sampled") && !path.startsWith(root);
+  for (const verb of sampled ? wanted.filter((v) => v === "lint" || v === "gaps") : wanted) {
+    const args = [...verbs[verb].map((a) => (a === "{}" ? basename(path) : a)), "--quiet"];
+    const expected = native(folder, [...args, "--threads", "1"]);
+    const started = performance.now();
+    const got = await run(create, code, args, files);
+    const ms = performance.now() - started;
+    const entry = (times[verb] ??= { native: 0, web: 0 });
+    entry.native += expected.ms;
+    entry.web += ms;
+    const why = [];
+    if (expected.exitCode !== got.exitCode) why.push(`exit code ${expected.exitCode} <> ${got.exitCode}`);
+    for (const stream of ["stdout", "stderr"]) {
+      const d = difference(expected[stream], got[stream]);
+      if (d) why.push(`${stream}: ${d}`);
+    }
+    for (const name of new Set([...Object.keys(expected.files), ...Object.keys(got.files)])) {
+      const d = difference(expected.files[name] ?? "", got.files[name] ?? "");
+      if (d || !expected.files[name] || !got.files[name]) why.push(`${name}: ${d ?? "only one of them writes it"}`);
+    }
+    if (why.length === 0) ++passed;
+    else {
+      ++failed;
+      console.log(`FAILED  ${relative(root, path)} ${verb}: ${why.join("; ")}`);
+    }
+    if (rest.includes("--times")) console.log(`${basename(path)} ${verb}: native ${expected.ms.toFixed(0)} ms, wasm ${ms.toFixed(0)} ms, ${got.stdout.length} bytes`);
+  }
+}
+for (const [verb, t] of Object.entries(times)) console.log(`${verb}: native ${(t.native / 1000).toFixed(2)} s, WebAssembly ${(t.web / 1000).toFixed(2)} s`);
+console.log(`${passed} passed, ${failed} failed`);
+process.exit(failed > 0 ? 1 : 0);

@@ -1,0 +1,468 @@
+// The page: files come in, `deck` runs over them in threads, what it says is drawn. Nothing is
+// sent and nothing is kept.
+import { button, h, num, plural, replace } from "../../viewer/src/dom";
+import { drawCards, type Card, type Cell, type Shown } from "./card";
+import { Cancelled, deck, engine, Lane } from "./client";
+import type { Result } from "./engine";
+import { chosen, dropped, save, type Given } from "./files";
+import { drawFinding, FindingList, type Finding, type LintDocument } from "./findings";
+import { TextView, type Mark } from "./text";
+import { Tree, unpack } from "./tree";
+
+const text = (b: Uint8Array) => new TextDecoder().decode(b);
+const OTHER = "other";
+
+interface Parameter {
+  input: unknown;
+  value: unknown;
+  origin: string;
+  source?: { file: string; line: number; column: number; end_column: number };
+}
+interface ParamsDocument {
+  interfaces: { id: number; type: number; title: string; parameters: Record<string, Parameter> }[];
+}
+
+let tree = new Tree();
+let main = "";
+let other: Tree | null = null;
+let lint: LintDocument | null = null;
+let place: (Mark & { file: string }) | null = null;
+const lanes = { lint: new Lane(), values: new Lane(), gaps: new Lane(), card: new Lane(), page: new Lane(), cycle: new Lane(), diff: new Lane() };
+
+/* ---- parts of the page ---- */
+
+const status = h("span", { class: "status muted", role: "status" });
+const cancel = button("Cancel", null, () => stopAll(), { class: "small", hidden: true });
+const title = h("h1", null, "deck");
+const roots = h("select", { "aria-label": "Deck", hidden: true });
+const verdict = h("p", { class: "verdict-line", role: "status" });
+const trouble = h("div", { class: "note warn trouble", role: "alert", hidden: true });
+const missing = h("div", { class: "note warn missing", hidden: true });
+const files = h("input", { type: "file", multiple: true, hidden: true, id: "files", "aria-label": "Files" });
+const folder = h("input", { type: "file", webkitdirectory: true, hidden: true, id: "folder", "aria-label": "Folder" });
+const second = h("input", { type: "file", multiple: true, hidden: true, id: "second", "aria-label": "Deck to compare with" });
+const list = new FindingList((f) => showFinding(f));
+const about = h("section", { class: "about", "aria-label": "Finding" });
+const cards = h("section", { class: "card-panel", "aria-label": "Cards" });
+const view = new TextView();
+const which = h("select", { "aria-label": "File" });
+const values = h("div", { class: "values" });
+const gapsPage = h("div", { class: "report" });
+const cyclePage = h("div", { class: "output-page" });
+const diffPage = h("div", { class: "output-page" });
+const explained = h("dialog", { class: "explain", "aria-label": "Explanation" });
+const undo = button("Undo", "undo", () => {
+  if (tree.undo()) void refresh();
+}, { disabled: true });
+
+const save1 = (label: string, name: () => string, make: () => Promise<string | Uint8Array>, type: string) =>
+  button(label, null, () => {
+    void make().then((content) => save(name(), content, type), (e: Error) => e instanceof Cancelled || say(e.message));
+  }, { class: "small" });
+const stem = () => main.slice(main.lastIndexOf("/") + 1).replace(/(_0000)?\.[a-z]+(\.gz)?$/i, "");
+async function output(args: string[], file?: string): Promise<string | Uint8Array> {
+  const r = await lanes.page.run(args, tree.all());
+  const out = file ? r.files[file] : r.stdout;
+  if (!out || r.exitCode > 3) throw new Error(text(r.stderr) || "there is nothing to save");
+  return out;
+}
+const downloads = h(
+  "details", { class: "downloads" }, h("summary", { class: "button" }, "Download"),
+  h("div", { class: "menu-list" },
+    save1("Deck with its files (zip)", () => `${stem()}.zip`, async () => tree.zip(), "application/zip"),
+    save1("Changes (patch)", () => `${stem()}.patch`, async () => Uint8Array.from([...tree.patch()].map((c) => c.charCodeAt(0))), "text/x-patch"),
+    save1("Gap report (HTML)", () => `${stem()}.html`, () => output(["gaps", main, "--html", "gaps.html", "-q"], "gaps.html"), "text/html"),
+    save1("Gaps (JSON)", () => `${stem()}.gaps.json`, () => output(["gaps", main, "--json", "-", "-q"]), "application/json"),
+    save1("Findings (JSON)", () => `${stem()}.lint.json`, () => output(["lint", main, "--geometry", "--json", "-", "-q"]), "application/json"),
+    save1("Findings (SARIF)", () => `${stem()}.sarif`, () => output(["lint", main, "--geometry", "--format", "sarif", "-q"]), "application/json"),
+  ),
+);
+
+const tabs: { id: string; label: string; body: HTMLElement; open?: () => void }[] = [
+  { id: "findings", label: "Findings", body: h("div", { class: "two" }, list.element, h("div", { class: "beside" }, about, cards, h("div", { class: "text-head" }, which), view.element)) },
+  { id: "values", label: "Values", body: values },
+  { id: "gaps", label: "Gaps", body: gapsPage, open: () => void openGaps() },
+  { id: "cycle", label: "First cycle", body: cyclePage, open: () => void openCycle() },
+  { id: "diff", label: "Difference", body: diffPage, open: () => void openDiff() },
+];
+let tab = "findings";
+const tabButtons = tabs.map((t) => h("button", { type: "button", role: "tab", id: `tab-${t.id}`, "aria-controls": `panel-${t.id}`, onclick: () => show(t.id) }, t.label));
+for (const t of tabs) {
+  t.body.id = `panel-${t.id}`;
+  t.body.setAttribute("role", "tabpanel");
+  t.body.setAttribute("aria-labelledby", `tab-${t.id}`);
+}
+const tabList = h("div", { class: "tabs", role: "tablist", "aria-label": "Views", onkeydown: ((e: KeyboardEvent) => {
+  const step = e.key === "ArrowRight" ? 1 : e.key === "ArrowLeft" ? -1 : 0;
+  if (step === 0) return;
+  const at = tabs.findIndex((t) => t.id === tab);
+  show(tabs[(at + step + tabs.length) % tabs.length].id);
+  tabButtons[(at + step + tabs.length) % tabs.length].focus();
+}) as EventListener }, ...tabButtons);
+
+function show(id: string): void {
+  tab = id;
+  tabs.forEach((t, i) => {
+    t.body.hidden = t.id !== id;
+    tabButtons[i].setAttribute("aria-selected", String(t.id === id));
+    tabButtons[i].tabIndex = t.id === id ? 0 : -1;
+  });
+  if (main !== "") tabs.find((t) => t.id === id)?.open?.();
+}
+
+const welcome = h(
+  "main", { class: "welcome" },
+  h("h2", null, "Drop a Radioss deck here"),
+  h("p", null, "A Starter deck (", h("code", null, "NAME_0000.rad"), "), its folder with all includes, a .zip or a .gz. It is checked by ", h("code", null, "deck"), " itself, in this page: nothing is installed, nothing is sent, nothing is kept."),
+  h("p", { class: "buttons" }, button("Choose files…", null, () => files.click(), { class: "primary" }), button("Choose a folder…", null, () => folder.click())),
+);
+const work = h("main", { class: "work", hidden: true }, h("div", { class: "work-head" }, verdict, missing), tabList, ...tabs.map((t) => t.body));
+const dark = button("Dark or light", "sun", () => {
+  const now = document.documentElement.dataset.theme === "dark" ? "light" : "dark";
+  document.documentElement.dataset.theme = now;
+}, { class: "tool", "aria-label": "Dark or light", title: "Dark or light" });
+const header = h(
+  "header", { class: "top" }, h("div", { class: "brand" }, h("span", { class: "mark" }), "deck"), h("div", { class: "deck-name" }, title, roots), status, cancel,
+  h("div", { class: "tools" }, undo, downloads, button("Open…", null, () => files.click()), dark),
+);
+
+/* ---- runs ---- */
+
+let running = 0;
+let began = 0;
+let clock = 0;
+
+function say(message: string): void {
+  trouble.textContent = message;
+  trouble.hidden = message === "";
+}
+
+function tick(): void {
+  const busy = running > 0;
+  cancel.hidden = !busy;
+  if (busy && clock === 0) {
+    began = performance.now();
+    clock = window.setInterval(() => {
+      status.textContent = `working, ${((performance.now() - began) / 1000).toFixed(1)} s`;
+    }, 200);
+  } else if (!busy && clock !== 0) {
+    clearInterval(clock);
+    clock = 0;
+    status.textContent = "";
+  }
+  document.documentElement.dataset.busy = String(busy);
+}
+
+/** null: a newer run took its place, or it was cancelled. */
+async function run(lane: Lane, args: string[], given = tree.all()): Promise<Result | null> {
+  ++running;
+  tick();
+  try {
+    return await lane.run(args, given);
+  } catch (e) {
+    if (!(e instanceof Cancelled)) throw e;
+    return null;
+  } finally {
+    --running;
+    tick();
+  }
+}
+
+function stopAll(): void {
+  for (const lane of Object.values(lanes)) lane.cancel();
+  say("Cancelled. What is shown may be out of date; “Undo”, another change or another file starts again.");
+}
+
+function parsed<T>(r: Result): T | null {
+  try {
+    return JSON.parse(text(r.stdout)) as T;
+  } catch {
+    say(text(r.stderr).trim() || `deck ended with exit code ${r.exitCode} and said nothing`);
+    return null;
+  }
+}
+
+/** All that follows the text. */
+async function refresh(): Promise<void> {
+  ++versions;
+  undo.disabled = !tree.canUndo;
+  title.textContent = `${main}${tree.changed().length > 0 ? " (changed)" : ""}`;
+  say("");
+  drawText();
+  await Promise.all([refreshLint(), refreshValues(), refreshGaps()]);
+  for (const t of tabs) if (t.id === tab) t.open?.();
+}
+
+async function refreshLint(): Promise<void> {
+  for (const more of [[], ["--geometry"]]) {
+    const r = await run(lanes.lint, ["lint", main, ...more, "--json", "-", "-q"]);
+    if (!r) return;
+    const document = parsed<LintDocument>(r);
+    if (!document) return;
+    lint = document;
+    list.show(lint.diagnostics);
+    askForMissing();
+    if (list.selected) showFinding(list.selected);
+    else if (!place) {
+      if (lint.diagnostics.length > 0) list.pick([...lint.diagnostics].sort((a, b) => Number(b.severity === "error") - Number(a.severity === "error"))[0]);
+      else replace(about, h("p", null, "No findings."));
+    }
+    globalThis.document.documentElement.dataset.linted = more.length > 0 ? "all" : "text";
+  }
+}
+
+function askForMissing(): void {
+  const names = (lint?.diagnostics ?? []).filter((f) => f.rule === "DK004").map((f) => /'([^']+)'/.exec(f.message)?.[1]).filter((n): n is string => n !== undefined);
+  missing.hidden = names.length === 0;
+  if (names.length === 0) return;
+  replace(missing, h("span", null, `${plural(names.length, "included file is", "included files are")} not here: `), h("span", null, names.slice(0, 8).join(", ")), names.length > 8 && " …", " ", button("Add files…", null, () => files.click(), { class: "small" }), " or drop them.");
+  missing.dataset.names = JSON.stringify(names);
+}
+
+async function refreshValues(): Promise<void> {
+  const r = await run(lanes.values, ["params", main, "--json", "-", "-q"]);
+  const document = r && parsed<ParamsDocument>(r);
+  if (!document) return;
+  replace(
+    values,
+    document.interfaces.length === 0 ? h("p", null, "This deck has no contact interface that deck knows.") : null,
+    ...document.interfaces.map((i) =>
+      h("details", { open: document.interfaces.length < 4 }, h("summary", null, `TYPE${i.type} ${i.id} `, h("span", { class: "muted" }, i.title)),
+        h("table", { class: "plain" }, h("thead", null, h("tr", null, ...["Field", "Card", "Value", "Origin", "Place"].map((t) => h("th", { scope: "col" }, t)))),
+          h("tbody", null, ...Object.entries(i.parameters).map(([name, p]) =>
+            h("tr", null, h("td", null, name), h("td", null, p.input === null ? "–" : String(p.input)), h("td", null, typeof p.value === "number" ? num(p.value, 8) : JSON.stringify(p.value)), h("td", null, p.origin),
+              h("td", null, p.source ? button(`${p.source.file}:${p.source.line}`, null, () => goTo(p.source as Mark & { file: string; end_column: number }, `/INTER/TYPE${i.type}`, i.id), { class: "link" }) : "")))))))
+  );
+}
+
+async function refreshGaps(): Promise<void> {
+  const r = await run(lanes.gaps, ["gaps", main, "--json", "-", "-q"]);
+  const document = r && parsed<{ verdict: string }>(r);
+  if (document) verdict.textContent = document.verdict;
+}
+
+/* ---- findings, cards, text ---- */
+
+function drawText(): void {
+  const name = place && tree.get(place.file) ? place.file : main;
+  replace(which, ...tree.names.map((n) => h("option", { value: n, selected: n === name }, n)));
+  view.show(tree.text(name), place?.file === name ? place : null);
+}
+
+function showFinding(f: Finding): void {
+  drawFinding(about, f, { explain, fix: applyFix, go: (file, line, column, end) => goTo({ file, line, column, end_column: end }, null, 0) });
+  place = { file: f.file, line: f.line, column: f.column, endColumn: f.end_column };
+  drawText();
+  if (f.entity) void showCards(f.entity.keyword, f.entity.id);
+  else replace(cards);
+}
+
+function goTo(s: { file: string; line: number; column: number; end_column: number }, keyword: string | null, id: number): void {
+  place = { file: s.file, line: s.line, column: s.column, endColumn: Math.max(s.end_column, s.column + 1) };
+  show("findings");
+  drawText();
+  if (keyword) {
+    list.selected = null;
+    replace(about, h("h2", null, `${keyword}/${id}`));
+    void showCards(keyword, id);
+  }
+}
+
+async function showCards(keyword: string, id: number): Promise<void> {
+  const r = await run(lanes.card, ["show", main, `${keyword}/${id}`, "--no-geometry", "--json", "-", "-q"]);
+  if (!r || !place) return;
+  try {
+    const entity = JSON.parse(text(r.stdout)) as Shown;
+    const focused = cards.contains(document.activeElement) ? document.activeElement?.getAttribute("aria-label") : null;
+    drawCards(cards, entity, place, writeCell);
+    if (focused) cards.querySelector<HTMLElement>(`[aria-label="${CSS.escape(focused)}"]`)?.focus();
+  } catch {
+    replace(cards);
+  }
+}
+
+function writeCell(card: Card, cell: Cell, entered: string): string {
+  const [from, to] = cell.columns;
+  const width = to - from + 1;
+  if (entered.length > width) return `“${entered}” needs ${entered.length} columns; ${cell.field} has ${width}.`;
+  if (/[^\x20-\x7e]/.test(entered)) return "A cell holds letters, digits and signs only.";
+  const lineText = lineOf(card.file, card.line);
+  const column = Math.min(from, lineText.length + 1);
+  const blanks = " ".repeat(from - column);
+  place = { file: card.file, line: card.line, column: from, endColumn: to + 1 };
+  tree.apply([{ file: card.file, line: card.line, column, end_line: card.line, end_column: Math.min(to, lineText.length) + 1, text: blanks + entered.padStart(width) }]);
+  void refresh().then(() => {
+    const open = cards.querySelector("h3")?.firstChild?.textContent?.trim() ?? "";
+    const slash = open.lastIndexOf("/");
+    if (!list.selected && slash > 0) void showCards(open.slice(0, slash), Number(open.slice(slash + 1)));
+  });
+  return "";
+}
+
+function lineOf(file: string, line: number): string {
+  return (tree.text(file).split("\n", line)[line - 1] ?? "").replace(/\r$/, "");
+}
+
+function applyFix(f: Finding): void {
+  if (!f.fix) return;
+  tree.apply(f.fix.edits);
+  void refresh();
+}
+
+async function explain(rule: string): Promise<void> {
+  const r = await run(lanes.page, ["explain", rule], {});
+  if (!r) return;
+  replace(explained, h("pre", { tabindex: "0" }, text(r.stdout) || text(r.stderr)), h("form", { method: "dialog" }, h("button", null, "Close")));
+  explained.showModal();
+}
+
+/* ---- the other views ---- */
+
+let versions = 0;
+let gapsOf = -1;
+async function openGaps(): Promise<void> {
+  const state = versions;
+  if (gapsOf === state) return;
+  const r = await run(lanes.page, ["gaps", main, "--html", "gaps.html", "-q"]);
+  if (!r) return;
+  const page = r.files["gaps.html"];
+  if (!page) {
+    replace(gapsPage, h("p", { class: "bad" }, text(r.stderr) || "There is no report."));
+    return;
+  }
+  gapsOf = state;
+  // A frame of its own without rights: it reaches neither this page nor anything else.
+  const frame = h("iframe", { title: "Gap report", sandbox: "allow-scripts allow-downloads allow-modals" });
+  frame.srcdoc = text(page);
+  replace(gapsPage, frame);
+}
+
+async function printed(into: HTMLElement, lane: Lane, args: string[], given = tree.all()): Promise<void> {
+  const r = await run(lane, [...args, "--color", "never"], given);
+  if (r) replace(into, h("pre", { tabindex: "0" }, text(r.stdout) || text(r.stderr)));
+}
+
+const openCycle = () => printed(cyclePage, lanes.cycle, ["cycle", main]);
+
+async function openDiff(): Promise<void> {
+  const choose = button("Compare with another deck…", null, () => second.click(), { class: "primary" });
+  const out = h("div", null);
+  const siblings = tree.roots().filter((n) => n !== main);
+  const pick = h("select", { "aria-label": "Deck to compare with" }, ...siblings.map((n) => h("option", { value: n }, n)));
+  const compare = () => printed(out, lanes.diff, ["diff", pick.value, main]);
+  pick.addEventListener("change", () => void compare());
+  const unchanged = tree.changed().length > 0 ? button("With the deck as it was opened", null, () => {
+    const both = tree.all();
+    for (const [n, b] of tree.original) both[`${OTHER}/${n}`] = b;
+    void printed(out, lanes.diff, ["diff", `${OTHER}/${main}`, main], both);
+  }) : null;
+  replace(diffPage, h("p", { class: "buttons" }, siblings.length > 0 && pick, choose, unchanged), out);
+  if (other) {
+    const both = tree.all();
+    for (const n of other.names) both[`${OTHER}/${n}`] = other.get(n) as Uint8Array;
+    await printed(out, lanes.diff, ["diff", `${OTHER}/${other.roots()[0]}`, main], both);
+  } else if (siblings.length > 0) await compare();
+}
+
+/* ---- files ---- */
+
+function missingNames(): string[] {
+  return missing.hidden ? [] : (JSON.parse(missing.dataset.names ?? "[]") as string[]);
+}
+
+function placed(given: Map<string, Uint8Array>): Map<string, Uint8Array> {
+  // Files that a deck asked for go where it looks for them.
+  const names = missingNames();
+  const base = (n: string) => n.slice(n.lastIndexOf("/") + 1);
+  const folderOf = main.slice(0, main.lastIndexOf("/") + 1);
+  return new Map([...given].map(([n, b]) => {
+    const wanted = names.find((m) => base(m) === base(n));
+    return [wanted ? folderOf + wanted : n, b];
+  }));
+}
+
+async function open(given: Given[]): Promise<void> {
+  say("");
+  try {
+    const unpacked = unpack(given);
+    if (unpacked.size === 0) return;
+    const asked = placed(unpacked);
+    const answers = main !== "" && [...asked.keys()].some((n) => !unpacked.has(n) || missingNames().includes(n));
+    if (answers) tree.add(asked);
+    else {
+      tree = new Tree();
+      tree.add(unpacked);
+      other = null;
+      place = null;
+      list.selected = null;
+      main = tree.roots()[0];
+      gapsOf = -1;
+    }
+    start();
+  } catch (e) {
+    say(e instanceof Error ? e.message : String(e));
+  }
+}
+
+function start(): void {
+  const all = tree.roots();
+  roots.hidden = all.length < 2;
+  replace(roots, ...all.map((n) => h("option", { value: n, selected: n === main }, n)));
+  welcome.hidden = true;
+  work.hidden = false;
+  replace(gapsPage);
+  show(tab);
+  void refresh();
+}
+
+roots.addEventListener("change", () => {
+  main = roots.value;
+  place = null;
+  list.selected = null;
+  void refresh();
+});
+which.addEventListener("change", () => {
+  place = { file: which.value, line: 1, column: 1, endColumn: 1 };
+  drawText();
+});
+files.addEventListener("change", () => void chosen(files.files as FileList).then(open));
+folder.addEventListener("change", () => void chosen(folder.files as FileList).then(open));
+second.addEventListener("change", () => void chosen(second.files as FileList).then((given) => {
+  other = new Tree();
+  other.add(unpack(given));
+  return openDiff();
+}));
+addEventListener("dragover", (e) => {
+  e.preventDefault();
+  document.documentElement.dataset.drag = "true";
+});
+addEventListener("dragleave", (e) => {
+  if (e.relatedTarget === null) delete document.documentElement.dataset.drag;
+});
+addEventListener("drop", (e) => {
+  e.preventDefault();
+  delete document.documentElement.dataset.drag;
+  if (e.dataTransfer) void dropped(e.dataTransfer).then((given) => {
+    if (tab !== "diff" || main === "") return open(given);
+    other = new Tree();
+    other.add(unpack(given));
+    return openDiff();
+  });
+});
+addEventListener("keydown", (e) => {
+  const busyTyping = e.target instanceof HTMLInputElement || e.target instanceof HTMLSelectElement;
+  if (!busyTyping && !e.ctrlKey && !e.metaKey && !e.altKey && /^[1-5]$/.test(e.key) && main !== "") show(tabs[Number(e.key) - 1].id);
+  if (!busyTyping && (e.ctrlKey || e.metaKey) && e.key === "z" && tree.undo()) void refresh();
+});
+document.addEventListener("click", (e) => {
+  if (downloads.open && !downloads.contains(e.target as Node)) downloads.open = false;
+});
+
+document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+document.body.append(header, trouble, welcome, work, files, folder, second, explained);
+show("findings");
+Object.assign(globalThis, { deck });
+void engine().then(() => {
+  document.documentElement.dataset.ready = "true";
+}, (e: Error) => say(`This browser cannot run deck: ${e.message}`));
+if (location.protocol.startsWith("http") && "serviceWorker" in navigator) void navigator.serviceWorker.register("service-worker.js").catch(() => {});
