@@ -61,12 +61,25 @@ function native(folder, args) {
   }
 }
 
+let neighbours = 0;
+/** The one number that is not the same to the last bit: solids give nodes a stiffness by the cube root of
+ * their volume, and C libraries round cbrt() differently (tools/docs/web.md). One step of a double. */
+function sameButForCubeRoots(a, b) {
+  const stiffness = /"nodal_stiffness": ([-+.0-9e]+)/;
+  const [x, y] = [stiffness.exec(a), stiffness.exec(b)];
+  if (!x || !y || a.replace(stiffness, "") !== b.replace(stiffness, "")) return false;
+  if (!(Math.abs(x[1] - y[1]) <= 2.3e-16 * Math.abs(x[1]))) return false;
+  ++neighbours;
+  return true;
+}
+
 /** Where two outputs part, in words. */
 function difference(a, b) {
   if (Buffer.compare(Buffer.from(a), Buffer.from(b)) === 0) return null;
   const x = Buffer.from(a).toString("latin1").split("\n");
   const y = Buffer.from(b).toString("latin1").split("\n");
-  const i = x.findIndex((line, k) => line !== y[k]);
+  const i = x.findIndex((line, k) => line !== y[k] && !sameButForCubeRoots(line, y[k] ?? ""));
+  if (i < 0 && x.length === y.length) return null;
   return i < 0 ? `lines ${x.length} and ${y.length}` : `line ${i + 1}: ${x[i]?.slice(0, 200)} <> ${y[i]?.slice(0, 200)}`;
 }
 
@@ -111,5 +124,6 @@ for (const path of [...decksBelow(join(root, "samples")), ...decksBelow(join(cor
   }
 }
 for (const [verb, t] of Object.entries(times)) console.log(`${verb}: native ${(t.native / 1000).toFixed(2)} s, WebAssembly ${(t.web / 1000).toFixed(2)} s`);
+if (neighbours > 0) console.log(`${neighbours} nodal stiffnesses of solids are the neighbouring double (cube roots)`);
 console.log(`${passed} passed, ${failed} failed`);
 process.exit(failed > 0 ? 1 : 0);

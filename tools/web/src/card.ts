@@ -62,19 +62,19 @@ export function drawCards(into: HTMLElement, entity: Shown, mark: Mark & { file:
   for (const card of entity.cards.slice(first, first + MOST)) {
     const marked = card.line === mark.line && card.file === mark.file;
     const width = Math.max(card.text.length, ...card.cells.map((c) => c.columns[1]), 1);
-    const line = h("div", { class: "card-line", style: `width:${width}ch` });
-    if (card.cells.length === 0) line.append(h("span", { class: "card-text" }, shown(card.text)));
+    const line = h("div", { class: "deck-card-line", style: `width:${width}ch` });
+    if (card.cells.length === 0) line.append(h("span", { class: "deck-card-text" }, shown(card.text)));
     // Cells that share their columns (readings of different versions) are one input.
     const seen = new Map<number, string>();
     for (const c of card.cells) seen.set(c.columns[0], seen.has(c.columns[0]) ? `${seen.get(c.columns[0])}, ${c.field}` : c.field);
     for (const [at, field] of seen) {
       const c = card.cells.find((x) => x.columns[0] === at) as Cell;
       const hit = marked && mark.column <= c.columns[1] && mark.endColumn > c.columns[0];
-      line.append(h("span", { class: "field", title: field, style: `left:${at - 1}ch;width:${c.columns[1] - at + 1}ch` }, field));
+      line.append(h("span", { class: "cell-name", title: field, style: `left:${at - 1}ch;width:${c.columns[1] - at + 1}ch` }, field));
       line.append(cellInput(card, { ...c, field }, hit, write, say));
     }
     const carets = marked ? h("div", { class: "carets", "aria-hidden": "true" }, " ".repeat(Math.max(0, mark.column - 1)) + "^".repeat(Math.max(1, Math.min(mark.endColumn, mark.column + 200) - mark.column))) : null;
-    rows.push(h("div", { class: `card${card.cells.length > 0 ? "" : " plain"}${marked ? " marked" : ""}` }, h("span", { class: "number", title: card.card }, card.line), h("div", null, line, carets)));
+    rows.push(h("div", { class: `deck-card${card.cells.length > 0 ? "" : " plain"}${marked ? " marked" : ""}` }, h("span", { class: "number", title: card.card }, card.line), h("div", null, line, carets)));
   }
   const left = entity.cards.length - Math.min(MOST, entity.cards.length);
   replace(

@@ -105,7 +105,6 @@ function show(id: string): void {
   tabs.forEach((t, i) => {
     t.body.hidden = t.id !== id;
     tabButtons[i].setAttribute("aria-selected", String(t.id === id));
-    tabButtons[i].tabIndex = t.id === id ? 0 : -1;
   });
   if (main !== "") tabs.find((t) => t.id === id)?.open?.();
 }
@@ -198,6 +197,7 @@ async function refreshLint(): Promise<void> {
     const r = await run(lanes.lint, ["lint", main, ...more, "--json", "-", "-q"]);
     if (!r) return;
     const document = parsed<LintDocument>(r);
+    globalThis.document.documentElement.dataset.linted = document ? (more.length > 0 ? "all" : "text") : "failed";
     if (!document) return;
     lint = document;
     list.show(lint.diagnostics);
@@ -207,7 +207,6 @@ async function refreshLint(): Promise<void> {
       if (lint.diagnostics.length > 0) list.pick([...lint.diagnostics].sort((a, b) => Number(b.severity === "error") - Number(a.severity === "error"))[0]);
       else replace(about, h("p", null, "No findings."));
     }
-    globalThis.document.documentElement.dataset.linted = more.length > 0 ? "all" : "text";
   }
 }
 
