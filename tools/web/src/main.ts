@@ -245,7 +245,8 @@ async function refreshGaps(): Promise<void> {
 function drawText(): void {
   const name = place && tree.get(place.file) ? place.file : main;
   replace(which, ...tree.names.map((n) => h("option", { value: n, selected: n === name }, n)));
-  view.show(tree.text(name), place?.file === name ? place : null);
+  const seen = tree.showable(name);
+  view.show(seen ? tree.text(name) : `${name} is too large to be shown in a page.\n`, seen && place?.file === name ? place : null);
 }
 
 function showFinding(f: Finding): void {
@@ -304,7 +305,12 @@ function lineOf(file: string, line: number): string {
 
 function applyFix(f: Finding): void {
   if (!f.fix) return;
-  tree.apply(f.fix.edits);
+  try {
+    tree.apply(f.fix.edits);
+  } catch (e) {
+    say(e instanceof Error ? e.message : String(e));
+    return;
+  }
   void refresh();
 }
 

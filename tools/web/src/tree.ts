@@ -17,6 +17,7 @@ const isGzip = (b: Uint8Array) => b[0] === 0x1f && b[1] === 0x8b;
 const base = (name: string) => name.slice(name.lastIndexOf("/") + 1);
 /** No page holds more. */
 const most = 1.5e9;
+const mostShown = 2e8;
 
 // Decks are bytes: a character for each keeps those that are no UTF-8.
 export function latin(bytes: Uint8Array): string {
@@ -67,6 +68,7 @@ export class Tree {
   readonly original = new Map<string, Uint8Array>();
   private files = new Map<string, Uint8Array>();
   private past: Map<string, Uint8Array>[] = [];
+  private readonly texts = new WeakMap<Uint8Array, string>();
 
   get names(): string[] {
     return [...this.files.keys()];
@@ -98,11 +100,22 @@ export class Tree {
     return free.length > 0 ? free : some.length > 0 ? some : this.names.slice(0, 1);
   }
 
-  /** The text of a file, one character a byte; packed files are unpacked. */
+  /** The text of a file, one character a byte; packed files are unpacked. "": it is too large to be shown. */
   text(name: string): string {
     const bytes = this.files.get(name);
-    if (!bytes) return "";
-    return latin(isGzip(bytes) ? gunzipSync(bytes) : bytes);
+    if (!bytes || !this.showable(name)) return "";
+    const known = this.texts.get(bytes);
+    if (known !== undefined) return known;
+    const text = latin(isGzip(bytes) ? gunzipSync(bytes) : bytes);
+    this.texts.set(bytes, text);
+    return text;
+  }
+  /** Text takes twice its bytes here: beyond this size only the program sees it. */
+  showable(name: string): boolean {
+    const bytes = this.files.get(name) ?? new Uint8Array();
+    // A packed file says its size, modulo 2^32, in its last four bytes.
+    const size = isGzip(bytes) ? new DataView(bytes.buffer, bytes.byteOffset + bytes.length - 4, 4).getUint32(0, true) : bytes.length;
+    return size <= mostShown && bytes.length <= mostShown;
   }
   packed(name: string): boolean {
     const bytes = this.files.get(name);
@@ -118,6 +131,7 @@ export class Tree {
   apply(edits: Edit[]): void {
     const changed: Record<string, Uint8Array> = {};
     for (const file of new Set(edits.map((e) => e.file))) {
+      if (!this.showable(file)) throw new Error(`${file} is too large to be edited in a page`);
       const text = this.text(file);
       const starts = lineStarts(text);
       const at = (line: number, column: number) => Math.min((starts[line - 1] ?? text.length) + column - 1, text.length);
