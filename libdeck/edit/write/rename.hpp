@@ -1,5 +1,5 @@
-// Renaming that replaces nothing, and exchanging two names: calls of Linux. Elsewhere they fail with
-// ENOSYS, as they do on file systems that cannot; callers have another way.
+// Renaming that replaces nothing, and exchanging two names: calls of Linux. Elsewhere they fail
+// with ENOSYS, as they do on file systems that cannot; callers have another way.
 #pragma once
 
 #include <fcntl.h>
