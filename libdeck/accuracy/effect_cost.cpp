@@ -88,8 +88,8 @@ const Switch switches[] = {
        c.xfreq = 0.3;
      },
      false},
-    {"orthotropic-friction", "no directions",
-     [](ContactCard& c) { c.fric_orthotropic = false; }, nullptr, nullptr, false},
+    {"orthotropic-friction", "no directions", [](ContactCard& c) { c.fric_orthotropic = false; },
+     nullptr, nullptr, false},
     {"part-pair-friction", "fric_ID = 0",
      [](ContactCard& c) {
        c.fric_id = c.fric_orthotropic = false;
@@ -301,8 +301,7 @@ class Loop {
     plan_ = cycle::make_plan(card, options.model, how);
   }
   bool can_run() const {
-    return plan_.table != nullptr &&
-           cycle::missing_fields(plan_, view_) == cycle::Field::none;
+    return plan_.table != nullptr && cycle::missing_fields(plan_, view_) == cycle::Field::none;
   }
   void run() { cycle::evaluate(plan_, view_, result_); }
   /// Nanoseconds of processor time for one pass, as the mean of `times`.
@@ -366,7 +365,10 @@ std::optional<Loop> proven(const ContactCard& card, const cycle::CycleOptions& o
 class Measure {
  public:
   Measure(const cycle::CycleOptions& options, const EffectCostOptions& how, const PacketView& view)
-      : options_(options), how_(how), view_(view), per_pair_(1.0 / static_cast<double>(view.size)) {}
+      : options_(options),
+        how_(how),
+        view_(view),
+        per_pair_(1.0 / static_cast<double>(view.size)) {}
 
   void run(const ContactCard& card, ContactCost& out) {
     std::optional<Loop> base = proven(card, options_, view_, out.problem);

@@ -88,12 +88,13 @@ std::string cost_sentence(const CycleInput& input) {
         "{} of {} effects are asked for; no pair is within five times its gap at the start, so "
         "there is no loop to time.",
         s.on, s.known);
-  std::string out = fmt::format(
-      "{} of {} effects are asked for on this deck, and only they run: {} ns per pair", s.on,
-      s.known, nanoseconds(s.loop_ns));
+  std::string out =
+      fmt::format("{} of {} effects are asked for on this deck, and only they run: {} ns per pair",
+                  s.on, s.known, nanoseconds(s.loop_ns));
   if (s.all_ns > 0.0)
-    out += fmt::format("; with everything that these contacts could do it would be {} ns ({:.2g} x)",
-                       nanoseconds(s.all_ns), s.all_ns / s.loop_ns);
+    out +=
+        fmt::format("; with everything that these contacts could do it would be {} ns ({:.2g} x)",
+                    nanoseconds(s.all_ns), s.all_ns / s.loop_ns);
   out += fmt::format(
       ", with flags asked for inside the loop {} ns ({:.2f} x). Measured over {} pair{} of {} "
       "contact{}",
@@ -190,7 +191,8 @@ std::string cost_html(const CycleInput& input) {
             added += (added.empty() ? "" : ", ") + added_text(e);
       });
       out += "<tr><td>" + std::to_string(inter->id) + "</td><td>" + html_text(line.name) +
-             "</td><td>" + html_text(line.because) + "</td><td>" + html_text(added) + "</td></tr>\n";
+             "</td><td>" + html_text(line.because) + "</td><td>" + html_text(added) +
+             "</td></tr>\n";
     }
   return out + "</tbody></table>\n";
 }

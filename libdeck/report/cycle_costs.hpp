@@ -10,9 +10,9 @@ namespace deck {
 
 /// The loops of all contacts that were timed, by pairs.
 struct CostSummary {
-  std::size_t contacts = 0;  ///< timed
-  std::size_t pairs = 0;     ///< of these
-  std::size_t wider = 0;     ///< contacts whose pairs are further apart than their gap
+  std::size_t contacts = 0;       ///< timed
+  std::size_t pairs = 0;          ///< of these
+  std::size_t wider = 0;          ///< contacts whose pairs are further apart than their gap
   std::size_t on = 0, known = 0;  ///< effects that some interface asks for, and all that there are
   double loop_ns = 0, flags_ns = 0, all_ns = 0;  ///< per pair; all_ns 0: no such loop anywhere
 };

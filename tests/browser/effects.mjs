@@ -3,7 +3,7 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible, reachable } from "./axe.mjs";
-import { check, deck, open, run, same, sample } from "./support.mjs";
+import { check, deck, open, run, same, sample, settled } from "./support.mjs";
 
 const widths = [390, 768, 1024, 1280, 1440, 1920];
 
@@ -109,7 +109,7 @@ export async function effectsPage(browser, scratch, shot) {
   await accessible(p, "cycle page");
   await reachable(p, "cycle page");
   await p.keyboard.press("f");
-  await p.waitForTimeout(600);
+  await settled(p);
   await p.$eval(".left", (e) => e.scrollTo({ top: 0, behavior: "instant" }));
   await shot(p, "cycle");
   await p.keyboard.press("t");

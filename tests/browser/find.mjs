@@ -1,7 +1,7 @@
 // Finding things, chips, undo, links that open the same view, and what the context menu copies.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, deck, open, same } from "./support.mjs";
+import { check, deck, open, same, settled } from "./support.mjs";
 
 /** The crash box: `file` is the report, `path` the deck. */
 export async function find(browser, file, path, scratch) {
@@ -23,7 +23,7 @@ export async function find(browser, file, path, scratch) {
   });
   check("a node of the mesh is found by its id", (await ask(String(quiet.id))).some((t) => t.startsWith("node")));
   await p.keyboard.press("Enter");
-  await p.waitForTimeout(600);
+  await settled(p);
   const target = await p.evaluate(() => window.deckReport.viewport.view.control.target.toArray());
   check("and flown to", Math.hypot(...target.map((v, k) => v - quiet.x[k])) < 1e-3, `${target} ${quiet.x}`);
   const shells = await ask("817");
@@ -69,7 +69,7 @@ export async function find(browser, file, path, scratch) {
     });
   const here = await state(p);
   const q = await open(browser, `${file}${here.hash}`);
-  await q.waitForTimeout(700);
+  await settled(q);
   same("the address opens the same view in another window", await state(q), here);
   check("without trouble", q.trouble.length === 0, q.trouble.join("; "));
   await q.close();

@@ -1,6 +1,6 @@
 // What the picture shows and says, without looking at its pixels.
 import { readFileSync } from "node:fs";
-import { check, same } from "./support.mjs";
+import { check, same, settled } from "./support.mjs";
 
 const looks = (p) => p.evaluate(() => window.deckReport.viewport.view.parts.parts.filter((x) => x.faces).map((x) => x.look));
 const every = (list, what) => list.length > 0 && list.every((l) => l === what);
@@ -37,7 +37,7 @@ export async function picture(p, path) {
   await p.evaluate(() => window.deckReport.viewport.toggleCrossed());
   const all = await p.evaluate(() => window.deckReport.viewport.crossedShown.length);
   await p.click(".interfaces-table .vt-row:has-text('tube rim on barrier')");
-  await p.waitForTimeout(600);
+  await settled(p);
   const chosen = await p.evaluate(() => {
     const { report, viewport } = window.deckReport;
     const sides = report.sidesOf(report.filter.interface);
@@ -57,7 +57,7 @@ export async function picture(p, path) {
 
   // A row: node and segment are named.
   await p.evaluate(() => window.deckReport.report.select(window.deckReport.report.filtered.find((x) => !x.row.onSurface)));
-  await p.waitForTimeout(600);
+  await settled(p);
   const named = await p.evaluate(() => {
     const { report } = window.deckReport;
     return { labels: [...document.querySelectorAll("#view .label:not([hidden])")].map((e) => e.textContent).join(" | "), node: report.secondaryText(report.selected.row), segment: report.mainText(report.selected.row) };
@@ -91,7 +91,7 @@ export async function picture(p, path) {
   });
   if (check("there is something to pick", spots.length > 4)) {
     await p.mouse.click(...spots[0].at);
-    await p.waitForTimeout(100);
+    await settled(p);
     const said = await p.$eval("#view .tip:not(.ruler)", (e) => e.textContent);
     check("picking says part, property and thickness", /part \d+/.test(said) && /property \d+/.test(said) && /thickness [\d.]+/.test(said), said);
     const line = Number(/:(\d+)$/.exec(said)?.[1]);

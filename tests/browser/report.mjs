@@ -1,9 +1,9 @@
 // The report in the browser: tables against the JSON, rows and picture linked both ways, settings
 // under test, comparison, exports, hostile text, no WebGL, print; and how long it takes.
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { cpSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
-import { ALL, check, corpus, deck, DECK_ARTEFACTS, DECK_CORPUS, finish, gaps, launch, open, ROOT, run, same, sample, skip, WORK } from "./support.mjs";
+import { ALL, check, corpus, deck, DECK_ARTEFACTS, DECK_CORPUS, finish, gaps, launch, open, ROOT, run, same, sample, settled, skip, WORK } from "./support.mjs";
 import { accuracyPage } from "./accuracy.mjs";
 import { accessible, reachable } from "./axe.mjs";
 import { effectsPage } from "./effects.mjs";
@@ -46,11 +46,27 @@ async function crashBox() {
   const sentence = await p.$eval(".verdict-text", (e) => e.textContent.replace(/\u202f/g, ""));
   check("verdict keeps nodes, edges and pairs apart", sentence.includes(`${json.summary.pairs} initial penetrations on ${json.summary.nodes} nodes and ${json.summary.edges} edges`), sentence);
   same("verdict counts the solver's errors of the JSON", tiles[4], String(json.summary.solver_errors));
-  const contacts = json.interfaces.flatMap((i) => i.contacts.map((c) => ({ id: i.id, pairs: c.totals.pairs, nodes: c.totals.nodes, edges: c.totals.edges, depth: c.totals.max_depth })));
+  // One row per interface; a TYPE19 unfolds into its contacts, which stay below it.
+  same("one row per interface", (await cells(p, ".interfaces-table")).length, json.interfaces.length);
+  for (const b of await p.$$(".fold-parts")) await b.click();
   const rows = await cells(p, ".interfaces-table");
-  same("one row per contact", rows.length, contacts.length);
+  const inParts = json.interfaces.filter((i) => i.contacts.length > 1);
+  same("and one per contact of an interface with several", rows.length, json.interfaces.length + inParts.reduce((n, i) => n + i.contacts.length, 0));
+  let last = "";
+  for (const r of rows) r.id = last = r.id || last;
   const key = (id, pairs, nodes, edges) => `${id} ${pairs} ${nodes} ${edges}`;
-  same("interface table agrees with the JSON", rows.map((r) => key(r.id, r.pairs, r.nodes, r.edges)).sort(), contacts.map((c) => key(c.id, c.pairs, c.nodes, c.edges)).sort());
+  const whole = (i) => i.totals ?? i.contacts[0].totals;
+  same("interface table agrees with the JSON", rows.filter((r) => !inParts.some((i) => String(i.id) === r.id)).map((r) => key(r.id, r.pairs, r.nodes, r.edges)).sort(),
+    json.interfaces.filter((i) => !inParts.includes(i)).map((i) => key(i.id, whole(i).pairs, whole(i).nodes, whole(i).edges)).sort());
+  for (const i of inParts) {
+    const own = rows.filter((r) => r.id === String(i.id));
+    const at = rows.indexOf(own[0]);
+    same(`interface ${i.id}: its contacts stand below it and agree with the JSON`, [own.map((r) => rows.indexOf(r) - at), own.slice(1).map((r) => key(r.title, r.pairs, r.nodes, r.edges))],
+      [own.map((_, k) => k), i.contacts.map((c) => key(c.role, c.totals.pairs, c.totals.nodes, c.totals.edges))]);
+    same(`interface ${i.id}: pairs of its contacts add up`, Number(own[0].pairs), i.contacts.reduce((n, c) => n + c.totals.pairs, 0));
+  }
+  for (const b of await p.$$(".fold-parts")) await b.click();
+  same("folded again", (await cells(p, ".interfaces-table")).length, json.interfaces.length);
   const pairs = await cells(p, "#pairs");
   same("part-pair table agrees with the JSON", pairs.map((r) => `${parseInt(r.s)} ${parseInt(r.m)} ${r.pairs} ${r.nodes} ${r.edges}`).sort(),
     json.part_pairs.map((x) => `${x.secondary} ${x.main} ${x.pairs} ${x.nodes} ${x.edges}`).sort());
@@ -62,6 +78,18 @@ async function crashBox() {
   });
   same("who touches whom: the red cells are the part pairs of the JSON, no name is cut", touching, { red: json.part_pairs.length, said: json.part_pairs.map((x) => x.pairs).sort(), cut: 0 });
   await p.click("#touches .touch:has(.deep)");
+  // The drawing of the command line has the same cells, in the same order.
+  const drawn = join(scratch, "touches.svg");
+  deck("gaps", path, "--quiet", "--svg", drawn);
+  const read = (root) => ({
+    cells: [...root.querySelectorAll(":scope > rect, :scope > g.touch")].map((e) => (e.tagName === "rect" ? "." : `${e.querySelector("rect").getAttribute("class")} ${e.querySelector("text").textContent}`)),
+    names: [...root.querySelectorAll(":scope > text")].map((e) => parseInt(e.querySelector("title").textContent)),
+    said: [...root.querySelectorAll("g.touch title")].map((e) => e.textContent),
+  });
+  const q = await browser.newPage();
+  await q.setContent(readFileSync(drawn, "utf8"));
+  same("deck gaps --svg draws what the page draws", await q.$eval("svg.tw", read), await p.$eval("#touches svg.tw", read));
+  await q.close();
   check("a cell of it chooses its part pair", await p.evaluate(() => window.deckReport.report.filter.pair !== null));
   await p.keyboard.press("Escape");
   const deepest = await p.evaluate(() => window.deckReport.report.hits[0].depth);
@@ -70,7 +98,7 @@ async function crashBox() {
 
   // Row to picture.
   await p.click(".list-table .vt-row:nth-child(4)");
-  await p.waitForTimeout(700);
+  await settled(p);
   const chosen = await p.evaluate(() => {
     const { report, viewport } = window.deckReport;
     const at = viewport.view.screen(report.selected);
@@ -88,7 +116,7 @@ async function crashBox() {
   await p.keyboard.press("Escape");
   await p.click("#pairs .vt-row:has-text('barrier')");
   await p.click(".list-table .vt-row:nth-child(2)");
-  await p.waitForTimeout(700);
+  await settled(p);
   const target = await p.evaluate(() => {
     const { report, viewport } = window.deckReport;
     viewport.view.setSelected(null);
@@ -104,7 +132,7 @@ async function crashBox() {
   });
   if (check("there is a second node in sight", target !== null)) {
     await p.mouse.click(target.x, target.y);
-    await p.waitForTimeout(600);
+    await settled(p);
     const got = await p.evaluate(() => ({ key: window.deckReport.report.selected?.key, row: document.querySelectorAll(".list-table .vt-row.selected").length }));
     same("a click on a node selects its row", got, { key: target.key, row: 1 });
   }
@@ -148,7 +176,7 @@ async function crashBox() {
   check("? opens the list of keys", await p.$eval("dialog", (d) => d.open));
   await p.keyboard.press("Escape");
   await p.keyboard.press("t");
-  await p.waitForTimeout(300);
+  await settled(p);
   same("t turns the lights off", await p.$eval("html", (e) => e.dataset.theme), "dark");
   await shot(p, "crash_box_dark");
   await p.keyboard.press("t");
@@ -178,12 +206,27 @@ async function crashBox() {
   const marked_nodes = [...tcl.matchAll(/^\*(?:create|append)mark nodes 1 (.*)$/gm)].flatMap((m) => m[1].split(" ").map(Number));
   same("the Tcl marks the nodes of the list", marked_nodes, await p.evaluate(() => [...new Set(window.deckReport.report.filtered.flatMap((x) => x.nodes.filter((n) => n > 0)))].sort((a, b) => a - b)));
 
+  // The same text run by tclsh, with HyperMesh's public commands in place of HyperMesh.
+  const script = join(scratch, "marks.tcl");
+  writeFileSync(script, `set marked {}
+proc *clearmark {type mark} { if {$type ne "nodes" || $mark != 1} {error "clearmark $type $mark"}; set ::marked {} }
+proc *createmark {type mark args} { if {$type ne "nodes" || $mark != 1 || [llength $args] == 0} {error "createmark"}; set ::marked $args }
+proc *appendmark {type mark args} { if {$type ne "nodes" || $mark != 1 || [llength $args] == 0} {error "appendmark"}; lappend ::marked {*}$args }
+proc *entitysetcreate {name type mark} { if {$name eq "" || $type ne "nodes" || $mark != 1} {error "entitysetcreate"}; puts "set [llength $::marked]" }
+proc *numbersmark {type mark on} { if {$type ne "nodes" || $mark != 1 || $on != 1} {error "numbersmark"} }
+${tcl}
+puts $marked
+`);
+  const ran = spawnSync("tclsh", [script], { encoding: "utf8" });
+  if (ran.error) skip("the Tcl, run: no tclsh");
+  else same("tclsh runs the Tcl and has marked the same nodes", [ran.stderr, ...ran.stdout.trim().split("\n")], ["", `set ${marked_nodes.length}`, marked_nodes.join(" ")]);
+
   // Print.
   await p.emulateMedia({ media: "print" });
   await p.pdf({ path: join(DECK_ARTEFACTS, "crash_box.pdf"), format: "A4" });
   same("a report is printed on two pages", pagesOf("crash_box.pdf"), 2);
   const paper = await p.$eval(".paper", (e) => ({ picture: e.querySelectorAll("img").length, rows: [...e.querySelectorAll("tbody")].map((b) => b.rows.length) }));
-  same("paper has the picture, the ten worst and the interfaces", paper, { picture: 1, rows: [10, 6] });
+  same("paper has the picture, the ten worst and the interfaces", paper, { picture: 1, rows: [10, json.interfaces.length] });
   await p.emulateMedia({ media: "screen" });
   quiet("crash box", p);
   await p.close();
@@ -222,7 +265,7 @@ async function accessibility() {
     report.select(report.filtered[0]);
   });
   for (const k of ["x", "p", "m"]) await p.keyboard.press(k);
-  await p.waitForTimeout(500);
+  await settled(p);
   await accessible(p, "report, dark, everything open");
   await shot(p, "everything_open_dark");
   await p.close();
@@ -301,7 +344,7 @@ async function firstCycle() {
   if (crossed > 0) {
     same("every crossing has a row", (await p.evaluate(() => window.deckReport.report.crossed.rows.length)), crossed);
     await p.click("#crossed .vt-row");
-    await p.waitForTimeout(700);
+    await settled(p);
     await shot(p, "crash_box_crossed");
   }
   quiet("first cycle", p);
@@ -319,7 +362,7 @@ async function hostileText() {
   await p.click(".list-table .vt-row");
   await p.click(".interfaces-table .vt-row");
   await p.keyboard.press("p");
-  await p.waitForTimeout(300);
+  await settled(p);
   check("the title is shown as text", (await p.$eval(".interfaces-table", (e) => e.textContent)).includes("<script>alert(1)"));
   same("no element came from the deck", await p.$$eval("img, b > b, .left script", (e) => e.length), 0);
   quiet("hostile text", p);
@@ -376,10 +419,10 @@ async function sled() {
     check(`${name}: draw calls are bounded`, info.calls < 800, `${info.calls}`);
     if (json.summary.pairs > 0) {
       await p.click(".list-table .vt-row");
-      await p.waitForTimeout(800);
+      await settled(p);
       check("a row of the sled selects its node", await p.evaluate(() => window.deckReport.report.selected === window.deckReport.report.filtered[0]));
     }
-    await p.waitForTimeout(300);
+    await settled(p);
     await shot(p, name);
     await p.pdf({ path: join(DECK_ARTEFACTS, `${name}.pdf`) });
     same(`${name}: printed on two pages`, pagesOf(`${name}.pdf`), 2);
@@ -416,7 +459,13 @@ async function manySettings() {
 // ONLY=crashBox,layout runs some pieces; the later ones read pages that crashBox writes.
 const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser, scratch, shot), effects: () => effectsPage(browser, scratch, shot), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
 const only = process.env.ONLY?.split(",");
-for (const [name, piece] of Object.entries(pieces)) if (!only || only.includes(name)) await piece();
+timings.seconds = {};
+for (const [name, piece] of Object.entries(pieces)) {
+  if (only && !only.includes(name)) continue;
+  const start = performance.now();
+  await piece();
+  timings.seconds[name] = +((performance.now() - start) / 1000).toFixed(1);
+}
 if (!only) check("at least 200 settings were compared bit for bit", compared >= 200, `${compared}`);
 timings.settings_compared = compared;
 writeFileSync(join(DECK_ARTEFACTS, "timings.json"), JSON.stringify(timings, null, 1));

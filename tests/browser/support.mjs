@@ -83,6 +83,9 @@ export async function open(browser, file, options = {}) {
   return page;
 }
 
+/** Waits until the picture is drawn and no flight goes on. */
+export const settled = (p) => p.waitForFunction(() => window.deckReport.viewport.view?.resting ?? true);
+
 /** Numbers without the state of the machine: same seed, same settings. */
 export function random(seed) {
   let s = seed >>> 0;

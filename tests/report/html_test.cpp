@@ -93,5 +93,31 @@ TEST_F(Page, HoldsPlaneElementsOfEveryShape) {
     EXPECT_NE(mesh(more), none) << more;
 }
 
+std::string touches_of(const Built& b) {
+  const SceneView view = make_view(b.scene);
+  HtmlInput input;
+  input.path = "small_0000.rad";
+  input.deck = &b.deck;
+  input.scene = &b.scene;
+  input.view = &view;
+  return touches_svg(input);
+}
+
+TEST(Touches, PartsThatPenetrateAreRedAndNeighboursAreNot) {
+  const auto deep = [](double height) {
+    SmallDeck d = plate();
+    d.node(11, 1, 1, height).node(12, 3, 1, height).node(13, 2, 3, height);
+    d.shell_part(2, 1).shell3(2, 7, 11, 12, 13).group("/GRNOD/PART/3", {2});
+    d.add("@/INTER/TYPE7/1 grnd_IDs=3 surf_IDm=1 Gapmin=1");
+    return touches_of(Built(d));
+  };
+  const std::string red = deep(0.5), near = deep(1.5), far = deep(90);
+  EXPECT_NE(red.find("class=\"deep\""), std::string::npos);
+  EXPECT_NE(red.find("; 3 penetrations, deepest 0.5"), std::string::npos) << red;
+  EXPECT_EQ(near.find("class=\"deep\""), std::string::npos);
+  EXPECT_NE(near.find("class=\"near\""), std::string::npos);
+  EXPECT_EQ(far.find("class=\"touch\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace deck::test

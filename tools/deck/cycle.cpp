@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "accuracy_option.hpp"
 #include "common.hpp"
@@ -112,11 +113,14 @@ Result<cycle::PartVelocity> parse_velocity(const std::string& text) {
 }
 
 /// Writes VTK files: into the directory itself, or one below it per deck if there are several.
-Result<void> write_vtk(const Options& o, std::string_view path, const std::vector<VtkFile>& vtk) {
+/// Several steps bring their own script.
+Result<void> write_vtk(const Options& o, std::string_view path, const std::vector<VtkFile>& vtk,
+                       const std::optional<VtkFile>& script = {}) {
   std::filesystem::path directory = o.vtk;
   if (o.common.decks.size() > 1) directory /= std::filesystem::path(without_gz(path)).stem();
   std::vector<OutputFile> files;
   for (const VtkFile& f : vtk) files.push_back({(directory / f.name).string(), f.bytes});
+  if (script) files.push_back({(directory / script->name).string(), script->bytes});
   return write_outputs(files);
 }
 
@@ -267,9 +271,11 @@ int run(const Options& o) {
       if (series && written) {
         std::vector<std::string> suffixes;
         for (std::size_t k = 0; k < steps.lines.size(); ++k) suffixes.push_back(suffix_of(k));
-        written = write_vtk(o, loaded.path, cycle_vtk_series(steps, suffixes));
+        const std::vector<VtkFile> collections = cycle_vtk_series(steps, suffixes);
+        written = write_vtk(o, loaded.path, collections, paraview_script(collections));
       } else if (!o.vtk.empty() && written) {
-        written = write_vtk(o, loaded.path, cycle_vtk(input));
+        const std::vector<VtkFile> files = cycle_vtk(input);
+        written = write_vtk(o, loaded.path, files, paraview_script(files));
       }
     }
     const SceneView view = make_view(scene);
@@ -320,8 +326,10 @@ Action setup(CommandLine& line) {
               "Write a page to FILE: which effects run and why, what each costs, forces and time "
               "steps in the picture; one file, no network")
       .value("FILE");
-  line.option("--vtk", options->vtk,
-              "Write pairs and nodes with their forces as VTK files (ParaView) into DIR")
+  line.option(
+          "--vtk", options->vtk,
+          "Write pairs and nodes with their forces as VTK files into DIR, with a script that opens "
+          "them in ParaView")
       .value("DIR");
   line.option("--model", options->model,
               "reference: as the solver computes; robust: the same physics without its "

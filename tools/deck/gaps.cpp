@@ -28,7 +28,7 @@ struct Options {
   bool fail = false;
   bool crossings = false;
   std::size_t worst = 20;
-  std::string csv, html, vtk, write_baseline, accuracy = "robust";
+  std::string csv, html, svg, vtk, write_baseline, accuracy = "robust";
   GateOptions gate;
   std::vector<std::int64_t> only;
   std::vector<std::string> what_if;
@@ -56,7 +56,23 @@ Result<void> write_vtk(const Options& o, const Loaded& loaded, const Scene& scen
   const std::vector<VtkFile> written = gaps_vtk(scene, view);
   std::vector<OutputFile> files;
   for (const VtkFile& f : written) files.push_back({(directory / f.name).string(), f.bytes});
+  const VtkFile script = paraview_script(written);
+  files.push_back({(directory / script.name).string(), script.bytes});
   return write_outputs(files);
+}
+
+/// What page and drawing are made from.
+HtmlInput page_input(const Loaded& loaded, const Scene& scene, const SceneView& view,
+                     const SceneOptions& scene_options) {
+  HtmlInput input;
+  input.path = loaded.path;
+  input.deck = &loaded.deck;
+  input.scene = &scene;
+  input.view = &view;
+  input.what_if = scene_options.what_if;
+  input.only = scene_options.only;
+  input.threads = scene_options.threads;
+  return input;
 }
 
 /// Writes the HTML report; what can be wrong is wrong usage or a file.
@@ -68,17 +84,10 @@ Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& sce
   cycle_options.keep_pairs = true;
   const cycle::State state = cycle::make_state(scene);
   const cycle::SceneOutcome forces = cycle::run_cycle(scene, state, cycle_options);
-  HtmlInput input;
+  HtmlInput input = page_input(loaded, scene, view, scene_options);
   input.cycle = &forces;
   input.state = &state;
   input.crossings = &crossings;
-  input.path = loaded.path;
-  input.deck = &loaded.deck;
-  input.scene = &scene;
-  input.view = &view;
-  input.what_if = scene_options.what_if;
-  input.only = scene_options.only;
-  input.threads = scene_options.threads;
   input.earlier = gate.earlier;
   auto page = gaps_html(input);
   if (!page) return page.error();
@@ -94,11 +103,12 @@ int run(const Options& o) {
     print_error(o.common, legal.error().message);
     return exit_usage;
   }
-  if (!o.html.empty() && o.common.decks.size() > 1) {
-    print_error(o.common, "--html takes one deck at a time");
+  if ((!o.html.empty() || !o.svg.empty()) && o.common.decks.size() > 1) {
+    print_error(o.common, "--html and --svg take one deck at a time");
     return exit_usage;
   }
-  if (const int bad = check_outputs(o.common, {o.csv, o.html, o.write_baseline}); bad != exit_clean)
+  if (const int bad = check_outputs(o.common, {o.csv, o.html, o.svg, o.write_baseline});
+      bad != exit_clean)
     return bad;
   SceneOptions scene_options;
   scene_options.threads = o.common.thread_count();
@@ -177,7 +187,13 @@ int run(const Options& o) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }
-    if (o.common.wants_text() && o.csv != "-" && o.html != "-") {
+    if (!o.svg.empty())
+      if (auto r = write_output(o.svg, touches_svg(page_input(loaded, scene, view, scene_options)));
+          !r) {
+        print_error(o.common, r.error().message);
+        return static_cast<int>(exit_usage);
+      }
+    if (o.common.wants_text() && o.csv != "-" && o.html != "-" && o.svg != "-") {
       GapsTextOptions text;
       text.worst = o.worst;
       text.color = o.common.color_on(1);
@@ -211,8 +227,12 @@ Action setup(CommandLine& line) {
       .value("FILE");
   line.flag("--crossings", options->crossings,
             "List the crossed elements: edges of the secondary side through main segments");
+  line.option("--svg", options->svg,
+              "Draw who touches whom into FILE: parts against parts, red where they penetrate")
+      .value("FILE");
   line.option("--vtk", options->vtk,
-              "Write the contacts and penetrations as VTK files (ParaView) into DIR")
+              "Write the contacts and penetrations as VTK files into DIR, with a script that opens "
+              "them in ParaView")
       .value("DIR");
   line.option("--html", options->html,
               "Write the interactive report to FILE: one page, no network needed")

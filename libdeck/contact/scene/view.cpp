@@ -8,7 +8,7 @@
 #include <set>
 
 #include "contact/rules/actions.hpp"
-#include "contact/scene/node_elements.hpp"
+#include "contact/scene/element_names.hpp"
 
 namespace deck {
 namespace {
@@ -54,9 +54,6 @@ ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t e) {
   return kind && e != no_index ? name_of(model, *kind, e) : ElementName{};
 }
 
-namespace {
-
-/// The element a node is named after: the first family that has one, smallest index.
 ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex node) {
   for (const ElementKind kind : families_in_view) {
     const auto list = connectivity.elements(kind, node);
@@ -64,6 +61,8 @@ ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex
   }
   return {};
 }
+
+namespace {
 
 double ratio(const PenetrationRow& row) { return row.gap > 0 ? row.depth / row.gap : 0; }
 

@@ -73,6 +73,7 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page) {
   detail::write_what_if(j, in.what_if);
   detail::write_interfaces(j, in);
   detail::write_contacts(j, in, page);
+  detail::write_touches(j, detail::collect_touches(in, page));
   j.end_object();
   return out;
 }

@@ -77,6 +77,18 @@ std::string contacts_block(const HtmlInput& input, const PageContacts& page,
 /// The member "contacts": options, totals, default gaps.
 void write_contacts(JsonWriter& json, const HtmlInput& input, const PageContacts& page);
 
+// touches.cpp — who touches whom
+struct Touch {
+  int secondary = -1, main = -1;          ///< positions in Model::parts, -1: no part
+  std::vector<std::uint32_t> interfaces;  ///< positions in Interfaces::ordered, ascending
+  std::size_t pairs = 0;                  ///< penetrating
+  double depth = 0;                       ///< of the deepest
+};
+/// Part pairs with a pair within the page's reach, or a penetration; by secondary, then main.
+std::vector<Touch> collect_touches(const HtmlInput& input, const PageContacts& page);
+/// The member "touches".
+void write_touches(JsonWriter& json, const std::vector<Touch>& touches);
+
 // html_cards.cpp — the members "interfaces" and "what_if"
 void write_interfaces(JsonWriter& json, const HtmlInput& input);
 void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);

@@ -256,10 +256,32 @@ function readContacts(bytes: Uint8Array, meta: Meta, nodes: number): Contacts {
   return { exactNode, exactOf, x, y, z, contacts: meta.contacts.map((c) => readContact(r, c)) };
 }
 
+const unpacked = new Map<string, Uint8Array>();
+
 const inflate = (id: string): Uint8Array | null => {
+  const known = unpacked.get(id);
+  unpacked.delete(id); // each is read once
+  if (known) return known;
   const text = blockText(id);
   return text === null ? null : unzlibSync(fromBase64(text));
 };
+
+/** Unpacks blocks with the browser's own inflater, which works beside the page; where it has none they are unpacked when read. */
+export async function unpack(ids: string[], progress: (done: number, all: number) => void): Promise<void> {
+  if (typeof DecompressionStream === "undefined") return;
+  const texts = ids.flatMap((id) => {
+    const text = blockText(id);
+    return text === null ? [] : [{ id, text }];
+  });
+  const all = texts.reduce((n, t) => n + t.text.length, 0);
+  let done = 0;
+  await Promise.all(texts.map(async ({ id, text }) => {
+    const packed = fromBase64(text);
+    const stream = new Blob([packed as Uint8Array<ArrayBuffer>]).stream().pipeThrough(new DecompressionStream("deflate"));
+    unpacked.set(id, new Uint8Array(await new Response(stream).arrayBuffer()));
+    progress((done += text.length), all);
+  }));
+}
 
 export function loadMeta(): Meta {
   return JSON.parse(blockText("deck-meta")!) as Meta;

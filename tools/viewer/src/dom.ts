@@ -48,6 +48,8 @@ const icons: Record<string, string> = {
   node: "M8 5.500a2.500 2.500 0 100 5 2.500 2.500 0 000-5z",
   undo: "M3 7a5.500 5.500 0 1110 4M3 3v4h4",
   up: "M4 10l4-4 4 4",
+  down: "M4 6l4 4 4-4",
+  right: "M6 4l4 4-4 4",
   camera: "M2 5h3l1-2h4l1 2h3v8H2zM8 6.500a2.500 2.500 0 100 5 2.500 2.500 0 000-5z",
 };
 

@@ -1,7 +1,7 @@
 // The page: reads its data, builds the sections, wires keys and exports.
 import { crossedSection } from "./scene/crossed";
 import { cycleSection } from "./cycle";
-import { loadContacts, loadCrossed, loadCycle, loadEarlier, loadMesh, loadMeta } from "./data";
+import { loadContacts, loadCrossed, loadCycle, loadEarlier, loadMesh, loadMeta, unpack } from "./data";
 import { detail, notChecked } from "./detail";
 import { button, fileName, group, h, num, percent, replace } from "./dom";
 import { allChangedCards, copyText, csv, grnodBlock, plainNodes, save, tclMarks } from "./exports";
@@ -19,11 +19,31 @@ import { Viewport } from "./scene/viewport";
 
 const started = performance.now();
 
+/** Unpacks the data beside the page, which shows how far it is, then builds. */
+async function start(): Promise<void> {
+  const bar = h("progress", { max: 1, value: 0, "aria-label": "Unpacking" });
+  const said = h("span", null, "Unpacking the model …");
+  const wait = h("div", { class: "unpacking", role: "status" }, bar, said);
+  document.body.prepend(wait);
+  try {
+    await unpack(["deck-mesh", "deck-contacts", "deck-earlier", "deck-cycle", "deck-crossed"], (done, all) => {
+      bar.value = done / all;
+      if (done === all) said.textContent = "Building the tables …";
+    });
+  } catch {
+    // A browser that cannot do that reads the blocks itself.
+  }
+  await new Promise((painted) => setTimeout(painted));
+  wait.remove();
+  build();
+}
+
 function build(): void {
+  const unpackedAt = performance.now() - started;
   const meta = loadMeta();
   const mesh = loadMesh();
   const contacts = loadContacts(meta, mesh);
-  const times: Record<string, number> = { decoded: performance.now() - started };
+  const times: Record<string, number> = { unpacked: unpackedAt, decoded: performance.now() - started };
   const report = new Report(meta, mesh, contacts, loadEarlier(), loadCycle(), loadCrossed());
   times.evaluated = performance.now() - started;
   const doc = loadCycleDocument();
@@ -244,7 +264,10 @@ function printing(report: Report, viewport: Viewport): void {
       h("tbody", null, ...rows.map((r) => h("tr", null, ...r.map((t) => h("td", null, t))))));
   const id = (contact: number) => report.meta.interfaces[report.meta.contacts[contact].interface].id;
   window.addEventListener("beforeprint", () => {
-    const contacts = report.results.map((r, i) => ({ i, t: r.totals })).sort((a, b) => b.t.max_depth - a.t.max_depth || a.i - b.i);
+    const all = report.meta.interfaces
+      .map((inter, i) => ({ inter, contacts: report.contactsOf(i), t: report.totals("now", i) }))
+      .filter((x) => x.contacts.length > 0)
+      .sort((a, b) => b.t.max_depth - a.t.max_depth);
     replace(paper,
       viewport.view && h("img", { alt: "The picture", src: viewport.view.picture(1.5) }),
       h("h2", null, "Ten worst"),
@@ -252,9 +275,9 @@ function printing(report: Report, viewport: Viewport): void {
         report.filtered.slice(0, 10).map((x) => [num(x.depth, 5), num(x.row.gap), id(x.contact), report.secondaryText(x.row), report.mainText(x.row), report.partShort(x.secondaryPart), report.partShort(x.mainPart), x.row.action])),
       h("h2", { class: "second" }, "Interfaces"),
       table(["Id", "Title", "Kind", "Gapmin", "Pairs", "Nodes", "Edges", "Deepest", "Of gap"],
-        contacts.slice(0, most).map(({ i, t }) => [id(i), report.meta.interfaces[report.meta.contacts[i].interface].title, report.roleText(i), num(report.results[i].setting.gapmin), group(t.pairs), group(t.nodes), group(t.edges), num(t.max_depth), percent(t.max_ratio)])),
-      contacts.length > most && h("p", { class: "note" }, `… and ${group(contacts.length - most)} with shallower penetrations or none`));
+        all.slice(0, most).map(({ inter, contacts, t }) => [inter.id, inter.title, `TYPE${inter.type}`, num(report.results[contacts[0]].setting.gapmin), group(t.pairs), group(t.nodes), group(t.edges), num(t.max_depth), percent(t.max_ratio)])),
+      all.length > most && h("p", { class: "note" }, `… and ${group(all.length - most)} with shallower penetrations or none`));
   });
 }
 
-build();
+void start();

@@ -126,6 +126,7 @@ export interface Meta {
   what_if: (Overrides & { interface: number; "%mesh_size"?: number; Irem_gap?: number })[];
   interfaces: InterfaceMeta[];
   contacts: ContactMeta[];
+  touches: [number, number, ...number[]][]; // parts that come near each other: secondary, main (-1: none), interfaces
 }
 
 export interface Earlier {

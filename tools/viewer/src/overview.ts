@@ -2,7 +2,7 @@
 import { cardText, changedCard } from "./card";
 import { button, group, h, num, percent, plural, replace, sectionHead } from "./dom";
 import { copyText, whatIfCommand } from "./exports";
-import type { FieldName } from "./meta";
+import type { FieldName, Totals } from "./meta";
 import type { Result } from "./evaluate";
 import type { Report } from "./report";
 import { commonStart, named } from "./table/names";
@@ -83,63 +83,102 @@ function drawCompare(report: Report, element: HTMLElement): void {
   );
 }
 
+/** An interface with all its contacts, or one of several contacts of it. */
 interface ContactRow {
-  contact: number;
   inter: number;
+  contacts: number[];
+  part: boolean;
 }
 
-/** Table of contacts; choosing one filters everything and opens its settings. */
+/** Table of interfaces, the contacts of a TYPE19 folded; choosing a row filters everything and opens its settings. */
 export function interfaces(report: Report): HTMLElement {
-  const rows: ContactRow[] = report.meta.contacts
-    .map((c, i) => ({ contact: i, inter: c.interface }))
-    .sort((a, b) => a.inter - b.inter || a.contact - b.contact);
-  const now = (r: ContactRow) => report.results[r.contact];
+  const open = new Set<number>();
+  const rowsNow = (): ContactRow[] =>
+    report.meta.interfaces.flatMap((_, inter) => {
+      const contacts = report.contactsOf(inter);
+      if (contacts.length === 0) return [];
+      const parts = contacts.length > 1 && open.has(inter) ? contacts.map((c) => ({ inter, contacts: [c], part: true })) : [];
+      return [{ inter, contacts, part: false }, ...parts];
+    });
+  let rows = rowsNow();
   const inter = (r: ContactRow) => report.meta.interfaces[r.inter];
+  const setting = (r: ContactRow, of: Result[]) => of[r.contacts[0]].setting;
+  // Nodes and edges count once in an interface: totals of contacts do not add up.
+  const whole = { now: new Map<number, Totals>(), base: new Map<number, Totals>() };
+  const totals = (r: ContactRow, which: "now" | "base" = "now"): Totals => {
+    if (r.contacts.length === 1) return (which === "now" ? report.results : report.base)[r.contacts[0]].totals;
+    let t = whole[which].get(r.inter);
+    if (!t) whole[which].set(r.inter, (t = report.totals(which, r.inter)));
+    return t;
+  };
+  // Parts stay below their interface however the table is sorted.
+  const head = (r: ContactRow): ContactRow => (r.part ? { inter: r.inter, contacts: report.contactsOf(r.inter), part: false } : r);
   const changedCell = (text: string, was: string) =>
     text === was ? text : h("span", { class: "changed", title: `deck: ${was}` }, text);
-  const deepest = (r: Result) => (r.totals.pairs ? num(r.totals.max_depth) : "–");
+  const deepest = (t: Totals) => (t.pairs ? num(t.max_depth) : "–");
   const prefix = commonStart(report.meta.interfaces.map((i) => i.title));
+  const fold = (r: ContactRow) => {
+    const on = open.has(r.inter);
+    const b = button("", on ? "down" : "right", () => {
+      if (!open.delete(r.inter)) open.add(r.inter);
+      draw();
+      table.element.querySelector<HTMLElement>(`button.fold-parts[data-interface="${r.inter}"]`)?.focus();
+    }, { class: "fold-parts", "data-interface": r.inter, "aria-expanded": on ? "true" : "false", "aria-label": `Contacts of interface ${inter(r).id}`, title: "Its contacts" });
+    b.addEventListener("click", (e) => e.stopPropagation());
+    return b;
+  };
+  const kind = (r: ContactRow) => (r.part ? report.roleText(r.contacts[0]) : `TYPE${inter(r).type}`);
+  const count = (key: "pairs" | "nodes" | "edges", title: string, hint: string, rank?: number) => ({
+    key, title, hint, kind: "number" as const, rank, value: (r: ContactRow) => totals(head(r))[key], text: (r: ContactRow) => group(totals(r)[key]),
+    cell: (r: ContactRow) => changedCell(group(totals(r)[key]), group(totals(r, "base")[key])),
+  });
   const table = new VirtualTable<ContactRow>(
     [
-      { key: "id", title: "Id", kind: "id", value: (r) => inter(r).id, text: (r) => String(inter(r).id) },
-      { key: "title", title: "Interface", kind: "text", least: 170, value: (r) => inter(r).title.toLowerCase(), text: (r) => inter(r).title || "(no title)",
-        cell: (r) => (inter(r).title ? named("", inter(r).title, prefix) : "(no title)") },
-      { key: "kind", title: "Kind", kind: "text", rank: 6, value: (r) => report.roleText(r.contact), text: (r) => report.roleText(r.contact) },
-      { key: "igap", title: "Igap", kind: "number", rank: 7, value: (r) => now(r).setting.igap, text: (r) => String(now(r).setting.igap),
-        cell: (r) => changedCell(String(now(r).setting.igap), String(report.base[r.contact].setting.igap)) },
-      { key: "gapmin", title: "Gapmin", hint: "Smallest pair gap, and where it comes from", kind: "number", rank: 5, value: (r) => now(r).setting.gapmin, text: (r) => `${num(now(r).setting.gapmin)} *`,
+      { key: "id", title: "Id", kind: "id", value: (r) => inter(r).id, text: (r) => (r.part ? "" : String(inter(r).id)) },
+      { key: "title", title: "Interface", kind: "text", least: 170, value: (r) => inter(r).title.toLowerCase(), text: (r) => (r.part ? report.meta.contacts[r.contacts[0]].role : inter(r).title || "(no title)"),
         cell: (r) => {
-          const s = now(r).setting;
-          const was = report.base[r.contact].setting.gapmin;
+          if (r.part) return h("span", { class: "part-of" }, report.meta.contacts[r.contacts[0]].role);
+          const title = inter(r).title ? named("", inter(r).title, prefix) : h("span", null, "(no title)");
+          return r.contacts.length > 1 ? h("span", { class: "named" }, fold(r), title) : title;
+        } },
+      { key: "kind", title: "Kind", kind: "text", rank: 6, value: (r) => kind(head(r)), text: kind },
+      { key: "igap", title: "Igap", kind: "number", rank: 7, value: (r) => setting(head(r), report.results).igap, text: (r) => String(setting(r, report.results).igap),
+        cell: (r) => changedCell(String(setting(r, report.results).igap), String(setting(r, report.base).igap)) },
+      { key: "gapmin", title: "Gapmin", hint: "Smallest pair gap, and where it comes from", kind: "number", rank: 5, value: (r) => setting(head(r), report.results).gapmin, text: (r) => `${num(setting(r, report.results).gapmin)} *`,
+        cell: (r) => {
+          const s = setting(r, report.results);
+          const was = setting(r, report.base).gapmin;
           return h("span", { class: s.gapmin !== was ? "changed" : "", title: `${s.gapmin} (${s.gapminFrom})` },
             num(s.gapmin), s.gapminFrom === "card" ? null : h("i", { class: "derived" }, " *"));
         } },
-      { key: "pairs", title: "Pairs", hint: "Penetrating pairs", kind: "number", value: (r) => now(r).totals.pairs, text: (r) => group(now(r).totals.pairs),
-        cell: (r) => changedCell(group(now(r).totals.pairs), group(report.base[r.contact].totals.pairs)) },
-      { key: "nodes", title: "Nodes", hint: "Distinct secondary nodes", kind: "number", rank: 3, value: (r) => now(r).totals.nodes, text: (r) => group(now(r).totals.nodes),
-        cell: (r) => changedCell(group(now(r).totals.nodes), group(report.base[r.contact].totals.nodes)) },
-      { key: "edges", title: "Edges", hint: "Distinct secondary edges", kind: "number", rank: 4, value: (r) => now(r).totals.edges, text: (r) => group(now(r).totals.edges),
-        cell: (r) => changedCell(group(now(r).totals.edges), group(report.base[r.contact].totals.edges)) },
-      { key: "depth", title: "Deepest", kind: "number", value: (r) => now(r).totals.max_depth, text: (r) => deepest(now(r)),
-        cell: (r) => changedCell(deepest(now(r)), deepest(report.base[r.contact])) },
-      { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => now(r).totals.max_ratio, text: (r) => (now(r).totals.pairs ? percent(now(r).totals.max_ratio) : "–") },
-      { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 1, value: (r) => actionsText(report, r.contact), text: (r) => actionsText(report, r.contact),
+      count("pairs", "Pairs", "Penetrating pairs"),
+      count("nodes", "Nodes", "Distinct secondary nodes", 3),
+      count("edges", "Edges", "Distinct secondary edges", 4),
+      { key: "depth", title: "Deepest", kind: "number", value: (r) => totals(head(r)).max_depth, text: (r) => deepest(totals(r)),
+        cell: (r) => changedCell(deepest(totals(r)), deepest(totals(r, "base"))) },
+      { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => totals(head(r)).max_ratio, text: (r) => (totals(r).pairs ? percent(totals(r).max_ratio) : "–") },
+      { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 1, value: (r) => actionsText(report, head(r).contacts), text: (r) => actionsText(report, r.contacts),
         cell: (r) => {
-          const e = now(r).totals.solver_errors;
-          return e > 0 ? h("span", { class: "bad", title: "A node lies exactly on a segment and the options do not avoid the error" }, actionsText(report, r.contact)) : actionsText(report, r.contact);
+          const text = actionsText(report, r.contacts);
+          return totals(r).solver_errors > 0 ? h("span", { class: "bad", title: "A node lies exactly on a segment and the options do not avoid the error" }, text) : text;
         } },
     ],
     {
       label: "Interfaces", sort: "depth", descending: true,
       select: (r) => report.setFilter({ interface: r && report.filter.interface !== r.inter ? r.inter : null, pair: null, depth: null, ratio: null }),
-      classOf: (r) => `${now(r).totals.pairs === 0 ? "quiet" : ""} ${report.filter.interface === r.inter ? "group" : ""}`,
+      classOf: (r) => `${totals(r).pairs === 0 ? "quiet" : ""} ${report.filter.interface === r.inter ? "group" : ""}`,
+      same: (a, b) => a.inter === b.inter && a.part === b.part && a.contacts[0] === b.contacts[0],
     },
   );
   table.element.classList.add("interfaces-table");
-  const fit = () => table.element.style.setProperty("--rows", String(Math.min(rows.length, 11)));
-  fit();
-  table.setRows(rows);
-  report.on("results", () => table.setRows(rows));
+  const draw = () => {
+    whole.now.clear();
+    rows = rowsNow();
+    table.element.style.setProperty("--rows", String(Math.min(rows.length, 11)));
+    table.setRows(rows);
+  };
+  draw();
+  report.on("results", draw);
   report.on("filter", () => {
     const i = report.filter.interface;
     table.setSelected(i === null ? null : (rows.find((r) => r.inter === i) ?? null), false);
@@ -153,9 +192,11 @@ export function interfaces(report: Report): HTMLElement {
   );
 }
 
-function actionsText(report: Report, contact: number): string {
-  const { rows, totals } = report.results[contact];
-  if (totals.solver_errors > 0) return `stops (${totals.solver_errors})`;
+/** What is done about the penetrations of some contacts. */
+export function actionsText(report: Report, contacts: number[]): string {
+  const errors = contacts.reduce((n, c) => n + report.results[c].totals.solver_errors, 0);
+  const rows = contacts.flatMap((c) => report.results[c].rows);
+  if (errors > 0) return `stops (${errors})`;
   if (rows.length === 0) return "–";
   const count = new Map<string, number>();
   for (const r of rows) count.set(r.action, (count.get(r.action) ?? 0) + 1);

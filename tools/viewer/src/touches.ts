@@ -14,7 +14,7 @@ interface Touch {
 
 const mostParts = 60;
 
-/** Part pairs with a pair of a contact within the page's reach, or a penetration. */
+/** Part pairs with a pair of a contact within the page's reach (found by the program), or a penetration at the settings under test. */
 export function touches(report: Report): Touch[] {
   const found = new Map<string, Touch>();
   const at = (secondary: number, main: number): Touch => {
@@ -23,11 +23,7 @@ export function touches(report: Report): Touch[] {
     if (!t) found.set(key, (t = { secondary, main, interfaces: new Set(), penetrating: 0, depth: 0 }));
     return t;
   };
-  report.meta.contacts.forEach((meta, i) => {
-    const c = report.data.contacts[i];
-    for (let k = 0; k < c.pairSecondary.length; k++)
-      at(c.secondaryOwner.part[c.secondaryListed[c.pairSecondary[k]]], c.mainOwner.part[c.pairMain[k]]).interfaces.add(meta.interface);
-  });
+  for (const [secondary, main, ...interfaces] of report.meta.touches) for (const i of interfaces) at(secondary, main).interfaces.add(i);
   for (const x of report.hits) {
     const t = at(x.secondaryPart, x.mainPart);
     t.interfaces.add(report.meta.contacts[x.contact].interface);

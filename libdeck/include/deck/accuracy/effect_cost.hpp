@@ -1,6 +1,7 @@
 // What every effect of a contact costs on the deck at hand: the pair loop that the card asks for,
 // timed against the loop of a card that differs in that effect alone, over the same pairs.
-// Example: for (const ContactCost& c : measure_effects(scene, state, outcome, {})) print(c.loop_ns);
+// Example: for (const ContactCost& c : measure_effects(scene, state, outcome, {}))
+// print(c.loop_ns);
 #pragma once
 
 #include <cstddef>
@@ -13,9 +14,9 @@ namespace deck {
 
 /// One effect of a contact: with it against without it, whichever of both the card asks for.
 struct EffectCost {
-  std::string name;   ///< as in cycle::EffectState
-  bool on = false;    ///< the card asks for it
-  std::string other;  ///< what the card of the loop that it is held against says, e.g. "VISs = 0"
+  std::string name;     ///< as in cycle::EffectState
+  bool on = false;      ///< the card asks for it
+  std::string other;    ///< what the card of the loop that it is held against says, e.g. "VISs = 0"
   std::string why_not;  ///< why there is no figure; empty: there is one
   double ns = 0.0;      ///< median over the repeats of what it adds, nanoseconds per pair
   double low = 0.0, high = 0.0;  ///< quartiles of the same: a range with 0 in it tells nothing
@@ -25,7 +26,7 @@ struct EffectCost {
 
 /// The pair loop of one contact.
 struct ContactCost {
-  std::size_t contact = 0;             ///< position in Scene::contacts
+  std::size_t contact = 0;              ///< position in Scene::contacts
   std::size_t pairs = 0, measured = 0;  ///< in reach of the search; the first of them are timed
   /// Where no pair is nearer than its gap: how much further pairs were looked for. They go through
   /// the same loop; nothing pushes.
@@ -39,7 +40,7 @@ struct ContactCost {
 };
 
 struct EffectCostOptions {
-  int repeats = 7;                 ///< timings of each loop, in turn with the one it is held against
+  int repeats = 7;  ///< timings of each loop, in turn with the one it is held against
   std::size_t most_pairs = 16384;  ///< timed per contact
   double least_ns = 2e5;           ///< of one timing: short loops run more than once in it
 };

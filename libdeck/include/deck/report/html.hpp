@@ -43,4 +43,9 @@ bool html_available(std::string* reason = nullptr);
 /// viewer was not built in.
 Result<std::string> gaps_html(const HtmlInput& input);
 
+/// Who touches whom, as the page draws it for the deck's settings: parts against parts, the number
+/// of interfaces through which they come near each other, red where they penetrate. SVG; needs no
+/// viewer.
+std::string touches_svg(const HtmlInput& input);
+
 }  // namespace deck

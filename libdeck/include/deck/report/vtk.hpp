@@ -29,4 +29,9 @@ struct VtkFile {
 /// file for it.
 std::vector<VtkFile> gaps_vtk(const Scene& scene, const SceneView& view);
 
+/// open.py, a script for ParaView (paraview.simple) that opens files of gaps_vtk or cycle_vtk lying
+/// beside it: surfaces by depth, penetrations and forces as arrows. Of a series give the files of
+/// cycle_vtk_series.
+VtkFile paraview_script(const std::vector<VtkFile>& files);
+
 }  // namespace deck

@@ -29,6 +29,9 @@ export class CameraControl {
     element.addEventListener("contextmenu", (e) => e.preventDefault());
   }
 
+  get flying(): boolean {
+    return this.flight !== null;
+  }
   get dragging(): boolean {
     return this.drag !== null;
   }

@@ -37,6 +37,7 @@ export interface Part3D {
 const palette = ["#8fa3b8", "#b3a58f", "#94ad9b", "#b79a9c", "#a49bb8", "#8fb0b5", "#b8ac84", "#9aa7a0", "#a88f86", "#8c99c0"];
 
 const manyTriangles = 30000;
+const shortestSide = 3; // pixels
 
 export const elementKey = (kind: number, id: number): number => 16 * id + kind;
 
@@ -61,7 +62,8 @@ export class Parts3D {
     this.texture.magFilter = this.texture.minFilter = LinearFilter;
     this.texture.colorSpace = SRGBColorSpace;
     this.uniforms.contourMap.value = this.texture;
-    const ghost = () => new MeshLambertMaterial({ transparent: true, depthWrite: false, side: DoubleSide, flatShading: true });
+    // One pass: layers of one colour look the same in any order.
+    const ghost = () => new MeshLambertMaterial({ transparent: true, depthWrite: false, side: DoubleSide, flatShading: true, forceSinglePass: true });
     this.ghosts = { none: ghost(), secondary: ghost(), main: ghost() };
     this.line = new LineBasicMaterial({ color: "#1c2733", transparent: true, opacity: 0.28 });
     this.ghostLine = new LineBasicMaterial({ color: "#7b8896", transparent: true, opacity: 0.05, depthWrite: false });
@@ -288,11 +290,7 @@ export class Parts3D {
       const hot = look === "hot" || look === "only";
       if (part.hot) part.hot.visible = hot;
       if (part.hotLines) part.hotLines.visible = hot && this.edgesOn;
-      const lines = look === "solid" && this.edgesOn ? this.sides(part) : part.lines;
-      if (lines) {
-        lines.visible = this.edgesOn && look === "solid";
-        lines.material = this.line;
-      }
+      if (part.lines) part.lines.visible = false; // see showSides
     }
     if (part.wires) {
       part.wires.visible = look !== "hidden" && look !== "only";
@@ -301,11 +299,38 @@ export class Parts3D {
     part.look = look;
   }
 
+  /** Element sides of solid parts, where they are long enough on the screen to be told apart; `pixel`: length of one at a point. */
+  showSides(pixel: (at: Vector3) => number): void {
+    for (const p of this.parts) {
+      if (!p.faces) continue;
+      const on = this.edgesOn && !this.moving && p.look === "solid" && this.side(p) > shortestSide * pixel(p.sphere.center);
+      const lines = on ? this.sides(p) : p.lines;
+      if (lines) lines.visible = on;
+    }
+  }
+  private readonly typical = new Map<Part3D, number>();
+  /** Length of a side in the middle of a sample. */
+  private side(part: Part3D): number {
+    let found = this.typical.get(part);
+    if (found !== undefined) return found;
+    const x = part.data.position;
+    const lengths: number[] = [];
+    for (const g of part.data.groups)
+      for (let i = 0; g.corners > 2 && i < g.count; i += Math.max(1, Math.floor(g.count / 40))) {
+        const [a, b] = [3 * g.vertex[g.corners * i], 3 * g.vertex[g.corners * i + 1]];
+        lengths.push(Math.hypot(x[a] - x[b], x[a + 1] - x[b + 1], x[a + 2] - x[b + 2]));
+      }
+    found = lengths.sort((a, b) => a - b)[lengths.length >> 1] ?? 0;
+    this.typical.set(part, found);
+    return found;
+  }
+  private moving = false;
+
   /** While a slow machine moves the view: no lines, and of large models no see-through faces, which cost most. */
   setMoving(on: boolean): void {
     const large = this.parts.reduce((n, p) => n + p.triangleElement.length, 0) > manyTriangles;
+    this.moving = on;
     for (const p of this.parts) {
-      if (p.lines) p.lines.visible = !on && this.edgesOn && p.look === "solid";
       if (p.hotLines) p.hotLines.visible = !on && this.edgesOn && (p.look === "hot" || p.look === "only");
       if (p.faces && large && (p.look === "hot" || p.look === "ghost")) p.faces.visible = !on;
     }

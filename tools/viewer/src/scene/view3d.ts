@@ -110,6 +110,11 @@ export class View3D {
     });
   }
 
+  /** Drawn, and no flight goes on. */
+  get resting(): boolean {
+    return !this.pending && !this.control.flying;
+  }
+
   private lastDraw = 0;
   private slow = 0;
   private coarse = false;
@@ -122,6 +127,11 @@ export class View3D {
     for (const l of this.crossed) l.visible = !on;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2) * (on ? 0.5 : 1));
     this.renderer.setSize(this.container.clientWidth, this.container.clientHeight, false);
+  }
+
+  private render(): void {
+    this.parts.showSides((at) => this.control.pixel(at));
+    this.renderer.render(this.scene, this.control.camera);
   }
 
   private draw(now: number): void {
@@ -138,7 +148,7 @@ export class View3D {
       if (this.slow >= 3) this.setCoarse(true);
     }
     this.scaleArrows();
-    this.renderer.render(this.scene, this.control.camera);
+    this.render();
     this.frames++;
     this.onFrame();
     if (again) this.request();
@@ -155,7 +165,7 @@ export class View3D {
     for (let i = 0; i < frames; i++) {
       this.control.rotate(4, 0);
       this.control.update(performance.now());
-      this.renderer.render(this.scene, this.control.camera);
+      this.render();
       gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     }
     const mean = (performance.now() - start) / frames;
@@ -175,7 +185,7 @@ export class View3D {
     this.renderer.setPixelRatio(ratio * scale);
     this.renderer.setSize(w, h, false);
     this.control.update(performance.now());
-    this.renderer.render(this.scene, this.control.camera);
+    this.render();
     const url = this.canvas.toDataURL("image/png");
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(w, h, false);
@@ -191,7 +201,7 @@ export class View3D {
     this.control.camera.aspect = w / h;
     for (const s of [...this.selection, ...this.crossed]) if (s instanceof LineSegments2) s.material.resolution.set(w, h);
     this.control.update(performance.now());
-    this.renderer.render(this.scene, this.control.camera);
+    this.render();
     this.onFrame();
   }
 

@@ -1,0 +1,222 @@
+// Who touches whom: parts against parts, with the interfaces through which they come near each
+// other. Found once for the page, which follows settings under test, and for the drawing alone.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "contact/scene/element_names.hpp"
+#include "deck/base/escape.hpp"
+#include "report/html/parts.hpp"
+
+namespace deck {
+namespace {
+
+using detail::Touch;
+
+/// Code points of a text in UTF-8.
+std::size_t length_of(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
+}
+
+std::string first_points(std::string_view text, std::size_t count) {
+  std::size_t at = 0;
+  for (std::size_t seen = 0; at < text.size(); ++at)
+    if ((static_cast<unsigned char>(text[at]) & 0xC0) != 0x80 && seen++ == count) break;
+  return std::string(text.substr(0, at));
+}
+
+std::string part_text(const Model& model, int part) {
+  if (part < 0) return "(no part)";
+  const Part& p = model.parts[static_cast<std::size_t>(part)];
+  return p.title.empty() ? std::to_string(p.id) : std::to_string(p.id) + " " + p.title;
+}
+
+/// Deepest first, then those with the most neighbours, then as in the deck; at most 60.
+template <class Side>
+std::vector<int> ranked(const std::vector<Touch>& all, Side side) {
+  struct Rank {
+    double depth = 0;
+    int neighbours = 0;
+  };
+  std::map<int, Rank> rank;
+  for (const Touch& t : all) {
+    Rank& r = rank[side(t)];
+    r.depth = std::max(r.depth, t.depth);
+    ++r.neighbours;
+  }
+  std::vector<std::pair<int, Rank>> order(rank.begin(), rank.end());
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+    if (a.second.depth != b.second.depth) return a.second.depth > b.second.depth;
+    return a.second.neighbours > b.second.neighbours;
+  });
+  std::vector<int> out;
+  for (const auto& [part, r] : order) out.push_back(part);
+  if (out.size() > 60) out.resize(60);
+  return out;
+}
+
+/// The drawing; measures and classes are those of the page (tools/viewer/src/touches.ts).
+class Drawing {
+ public:
+  Drawing(const HtmlInput& in, const std::vector<Touch>& all) : in_(in), all_(all) {
+    down_ = ranked(all, [](const Touch& t) { return t.secondary; });
+    across_ = ranked(all, [](const Touch& t) { return t.main; });
+    left_ = 14 + 8.6 * static_cast<double>(widest(down_, 12));
+    top_ = 14 + 8.6 * static_cast<double>(widest(across_, 6));
+  }
+
+  std::string run() {
+    const double width = left_ + size * static_cast<double>(across_.size()) + 8,
+                 height = top_ + size * static_cast<double>(down_.size()) + 8;
+    out_ = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"tw\" viewBox=\"0 0 {0} {1}\" "
+        "width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"Parts against parts\">\n<style>.tw "
+        "text{{font:12px system-ui,sans-serif;fill:#5c6979}} .tw .near{{fill:#c9d6e6}} .tw "
+        ".deep{{fill:#bd0026}} .tw .none{{fill:#8881}} .tw .n{{fill:#fff}} .tw "
+        ".m{{fill:#17202b}}</style>\n",
+        width, height);
+    for (std::size_t i = 0; i < across_.size(); ++i)
+      name(across_[i], fmt::format("transform=\"translate({} {}) rotate(-90)\"",
+                                   left_ + size * static_cast<double>(i) + 16, top_ - 6));
+    for (std::size_t j = 0; j < down_.size(); ++j) {
+      name(down_[j], fmt::format("x=\"{}\" y=\"{}\" text-anchor=\"end\"", left_ - 8,
+                                 top_ + size * static_cast<double>(j) + 16));
+      for (std::size_t i = 0; i < across_.size(); ++i) cell(j, i);
+    }
+    return out_ + "</svg>\n";
+  }
+
+ private:
+  static constexpr double size = 24;
+
+  std::string short_text(int part) const {
+    const std::string text = part_text(*in_.scene->model, part);
+    return length_of(text) > 28 ? first_points(text, 27) + "\xe2\x80\xa6" : text;
+  }
+  std::size_t widest(const std::vector<int>& parts, std::size_t least) const {
+    for (const int p : parts) least = std::max(least, length_of(short_text(p)));
+    return least;
+  }
+  void name(int part, const std::string& where) {
+    out_ += fmt::format("<text {}>{}<title>{}</title></text>\n", where, xml_text(short_text(part)),
+                        xml_text(part_text(*in_.scene->model, part)));
+  }
+  void cell(std::size_t j, std::size_t i) {
+    const auto t = std::find_if(all_.begin(), all_.end(), [&](const Touch& x) {
+      return x.secondary == down_[j] && x.main == across_[i];
+    });
+    const double x = left_ + size * static_cast<double>(i),
+                 y = top_ + size * static_cast<double>(j);
+    const std::string box =
+        fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"3\"", x + 1, y + 1,
+                    size - 2, size - 2);
+    if (t == all_.end()) {
+      out_ += box + " class=\"none\"/>\n";
+      return;
+    }
+    std::string said = part_text(*in_.scene->model, t->secondary) + " and " +
+                       part_text(*in_.scene->model, t->main) + ": ";
+    for (std::size_t k = 0; k < t->interfaces.size(); ++k) {
+      const InterBase& inter = *in_.scene->interfaces->ordered[t->interfaces[k]];
+      said += (k == 0 ? "" : ", ") + std::to_string(inter.id) +
+              (inter.title.empty() ? "" : " " + inter.title);
+    }
+    if (t->pairs > 0)
+      said += fmt::format("; {} penetration{}, deepest {:.4g}", t->pairs, t->pairs == 1 ? "" : "s",
+                          t->depth);
+    out_ += fmt::format(
+        "<g class=\"touch\"><title>{}</title>{} class=\"{}\"/><text x=\"{}\" y=\"{}\" "
+        "text-anchor=\"middle\" class=\"{}\">{}</text></g>\n",
+        xml_text(said), box, t->pairs > 0 ? "deep" : "near", x + size / 2, y + 16,
+        t->pairs > 0 ? "n" : "m", t->interfaces.size());
+  }
+
+  const HtmlInput& in_;
+  const std::vector<Touch>& all_;
+  std::vector<int> down_, across_;
+  double left_ = 0, top_ = 0;
+  std::string out_;
+};
+
+}  // namespace
+
+std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContacts& page) {
+  const Model& model = *in.scene->model;
+  std::map<std::int64_t, int> position;
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    position.emplace(model.parts[p].id, static_cast<int>(p));
+  const auto part = [&](std::int64_t id) {
+    const auto found = position.find(id);
+    return id == 0 || found == position.end() ? -1 : found->second;
+  };
+  std::map<std::pair<int, int>, Touch> found;
+  const auto at = [&](int secondary, int main, const InterBase& inter) -> Touch& {
+    Touch& t = found[{secondary, main}];
+    t.secondary = secondary;
+    t.main = main;
+    const auto& order = in.scene->interfaces->ordered;
+    const auto k =
+        static_cast<std::uint32_t>(std::find(order.begin(), order.end(), &inter) - order.begin());
+    if (std::find(t.interfaces.begin(), t.interfaces.end(), k) == t.interfaces.end())
+      t.interfaces.push_back(k);
+    return t;
+  };
+  Connectivity connectivity(model);
+  for (std::size_t i = 0; i < page.contacts.size(); ++i) {
+    const Contact& c = page.scene.contacts[i];
+    const bool edges = c.kind == ContactKind::edge_edge;
+    // Parts of items, each looked up once.
+    std::vector<int> of_secondary(edges ? c.secondary_edges.size() : c.secondary.size(), -2),
+        of_main(edges ? c.main_edges.size() : c.main.size(), -2);
+    std::map<std::pair<int, int>, bool> seen;
+    for (const CandidatePair& p : page.contacts[i].pairs) {
+      int& s = of_secondary[p.secondary];
+      int& m = of_main[p.main];
+      if (s == -2)
+        s = part(edges ? carrier_name(model, c.secondary_edges[p.secondary].carrier,
+                                      c.secondary_edges[p.secondary].element)
+                             .part
+                       : element_at(model, connectivity, c.secondary[p.secondary].node).part);
+      if (m == -2)
+        m = part(
+            edges ? carrier_name(model, c.main_edges[p.main].carrier, c.main_edges[p.main].element)
+                        .part
+                  : carrier_name(model, c.main[p.main].carrier, c.main[p.main].element).part);
+      if (seen.emplace(std::pair{s, m}, true).second) at(s, m, *in.scene->contacts[i].inter);
+    }
+  }
+  for (const NamedPenetration& p : in.view->penetrations) {
+    Touch& t = at(part(p.secondary_element.part), part(p.main_element.part),
+                  *in.scene->contacts[p.contact].inter);
+    ++t.pairs;
+    t.depth = std::max(t.depth, in.scene->contacts[p.contact].penetrations[p.row].depth);
+  }
+  std::vector<Touch> out;
+  for (auto& [key, t] : found) {
+    std::sort(t.interfaces.begin(), t.interfaces.end());
+    out.push_back(std::move(t));
+  }
+  return out;
+}
+
+void detail::write_touches(JsonWriter& j, const std::vector<Touch>& touches) {
+  j.key("touches").begin_array();
+  for (const Touch& t : touches) {
+    j.begin_array(true).value(t.secondary).value(t.main);
+    for (const std::uint32_t i : t.interfaces) j.value(i);
+    j.end_array();
+  }
+  j.end_array();
+}
+
+std::string touches_svg(const HtmlInput& in) {
+  detail::PageNodes nodes(in.scene->model->nodes.size());
+  const std::vector<Touch> all = collect_touches(in, detail::collect_contacts(in, nodes));
+  return Drawing(in, all).run();
+}
+
+}  // namespace deck
