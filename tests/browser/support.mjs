@@ -1,5 +1,5 @@
 // What the browser checks share: counting, running `deck`, opening pages that may ask for nothing.
-import { execFileSync, spawnSync } from "node:child_process";
+import { execFile, execFileSync, spawnSync } from "node:child_process";
 import { createRequire } from "node:module";
 import { existsSync } from "node:fs";
 import { join } from "node:path";
@@ -42,12 +42,18 @@ export function deck(...args) {
     throw new Error(`deck ${args.join(" ")}: exit code ${e.status}: ${e.stderr}`);
   }
 }
+/** The same, while the browser goes on. */
+export const deckLater = (...args) =>
+  new Promise((done, fail) =>
+    execFile(DECK, args, { encoding: "utf8", maxBuffer: 1 << 30 }, (e, out, err) => (e && e.code !== 1 ? fail(new Error(`deck ${args.join(" ")}: exit code ${e.code}: ${err}`)) : done(out))));
 /** Exit code and standard error of a run that may fail. */
 export function run(...args) {
   const r = spawnSync(DECK, args, { encoding: "utf8", maxBuffer: 1 << 30 });
   return { code: r.status, err: r.stderr };
 }
 export const gaps = (path, ...args) => JSON.parse(deck("gaps", path, "--json", "-", "--quiet", ...args));
+
+export const gapsLater = async (path, ...args) => JSON.parse(await deckLater("gaps", path, "--json", "-", "--quiet", ...args));
 
 export const sample = (name) => join(ROOT, "samples", `${name}_0000.rad`);
 export const corpus = (path) => {

@@ -1,6 +1,6 @@
 // Settings under test: what the page computes is, to the last bit, what `deck gaps --what-if` prints.
 import { difference } from "./difference.mjs";
-import { check, gaps, open, random } from "./support.mjs";
+import { check, gapsLater, open, random } from "./support.mjs";
 
 /** Rows of a contact in the JSON, as the page names them. */
 function rowsOf(contact) {
@@ -58,8 +58,7 @@ function setting(next, inter) {
 
 /** Tries `count` settings on one deck; returns how many were compared. */
 export async function tryDeck(browser, path, html, count, seed) {
-  const page = await open(browser, html);
-  const document = gaps(path);
+  const [page, document] = await Promise.all([open(browser, html), gapsLater(path)]);
   const next = random(seed);
   const inters = document.interfaces.filter((i) => i.contacts.length > 0);
   let compared = 0;
@@ -75,8 +74,10 @@ export async function tryDeck(browser, path, html, count, seed) {
       i--;
       continue;
     }
-    const mine = await page.evaluate(([id, f]) => window.deckReport.whatIf(id, f), [inter.id, fields]);
-    d = compare(gaps(path, "--what-if", `${inter.id}:${text}`), mine);
+    const [mine, theirs] = await Promise.all([
+      page.evaluate(([id, f]) => window.deckReport.whatIf(id, f), [inter.id, fields]), gapsLater(path, "--what-if", `${inter.id}:${text}`),
+    ]);
+    d = compare(theirs, mine);
     if (d === "incomplete") beyond++;
     else if (d) unlike = `--what-if ${inter.id}:${text}: ${d}`;
     else compared++;
