@@ -37,7 +37,6 @@ export interface Part3D {
 const palette = ["#8fa3b8", "#b3a58f", "#94ad9b", "#b79a9c", "#a49bb8", "#8fb0b5", "#b8ac84", "#9aa7a0", "#a88f86", "#8c99c0"];
 
 const manyTriangles = 30000;
-const shortestSide = 3; // pixels
 
 export const elementKey = (kind: number, id: number): number => 16 * id + kind;
 
@@ -299,11 +298,11 @@ export class Parts3D {
     part.look = look;
   }
 
-  /** Element sides of solid parts, where they are long enough on the screen to be told apart; `pixel`: length of one at a point. */
-  showSides(pixel: (at: Vector3) => number): void {
+  /** Element sides of solid parts, where they are longer on the screen than `least` pixels; `pixel`: length of one at a point. */
+  showSides(least: number, pixel: (at: Vector3) => number): void {
     for (const p of this.parts) {
       if (!p.faces) continue;
-      const on = this.edgesOn && !this.moving && p.look === "solid" && this.side(p) > shortestSide * pixel(p.sphere.center);
+      const on = this.edgesOn && !this.moving && p.look === "solid" && this.side(p) > least * pixel(p.sphere.center);
       const lines = on ? this.sides(p) : p.lines;
       if (lines) lines.visible = on;
     }

@@ -51,6 +51,7 @@ export class View3D {
   /** Drawn, and nothing moves. */
   onRest: () => void = () => {};
   frames = 0;
+  private readonly software = drawsInSoftware();
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly head = new DirectionalLight("#ffffff", 1.7);
@@ -72,7 +73,7 @@ export class View3D {
     private readonly report: Report,
     private readonly container: HTMLElement,
   ) {
-    this.renderer = new WebGLRenderer({ antialias: !drawsInSoftware(), stencil: true, preserveDrawingBuffer: false, powerPreference: "high-performance" });
+    this.renderer = new WebGLRenderer({ antialias: !this.software, stencil: true, preserveDrawingBuffer: false, powerPreference: "high-performance" });
     this.renderer.localClippingEnabled = true;
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
@@ -130,7 +131,7 @@ export class View3D {
   }
 
   private render(): void {
-    this.parts.showSides((at) => this.control.pixel(at));
+    this.parts.showSides(this.software ? 8 : 3, (at) => this.control.pixel(at));
     this.renderer.render(this.scene, this.control.camera);
   }
 
