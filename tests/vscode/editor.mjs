@@ -172,8 +172,7 @@ check("a card becomes a comment in its first column", await soon(async () => (aw
 await page.keyboard.press("Control+/");
 check("and a card again", await soon(async () => (await lines()).some((l) => l.startsWith("       131       131         5")), 10));
 
-const lens = await soon(() => page.$(".codelens-decoration a:has-text('Inacti')"));
-await lens?.click();
+await soon(() => page.click(".codelens-decoration a:has-text('Inacti')", { timeout: 3000 }).then(() => true));
 check("the lens over an interface tells what the solver does", await soon(async () => (await lines()).some((l) => l.startsWith("Inacti of /INTER/TYPE7")), 15));
 await picture(page, "explained");
 await page.click(".tab.active:has-text('Inacti') .codicon-close");
