@@ -11,7 +11,7 @@ namespace {
 enum TokenType : int { keyword, title, id, flag, real, text, parameter, comment, directive };
 constexpr std::array type_names = {"keyword", "string",    "variable", "enumMember", "number",
                                    "string",  "parameter", "comment",  "macro"};
-enum Modifier : int { none = 0, even = 1, ignored = 2, definition = 4 };
+enum Modifier : int { none = 0, even = 1, ignored = 2, defines = 4 };
 constexpr std::array modifier_names = {"even", "deprecated", "definition"};
 
 /// Lines of nodes and elements are many: they are coloured where they are looked at.
@@ -45,7 +45,7 @@ class Tokens {
     add(begin, std::min<std::uint64_t>(name, b.header_span.length), keyword);
     for (const HeaderId* h : {&b.id, &b.unit_id})
       if (h->present && h->span.offset >= begin + name) {
-        add(h->span.offset, h->span.length, id, definition);
+        add(h->span.offset, h->span.length, id, defines);
       }
   }
 
