@@ -8,7 +8,7 @@ namespace deck::detail {
 namespace {
 
 constexpr std::size_t most_rows = 100000;   // per contact, largest force first
-constexpr std::size_t most_nodes = 300000;  // largest force first
+constexpr std::size_t most_nodes = 100000;  // largest force first
 
 const char* name_of(cycle::StepLimit::Source source) {
   switch (source) {

@@ -17,7 +17,7 @@ export interface Hit {
   secondaryPart: number; // index into Meta.parts, -1: none
   mainPart: number;
   nodes: [number, number]; // ids: node and 0, or the two nodes of an edge
-  key: string;
+  readonly key: string;
   status: Status | null;
   earlier: number | null; // depth in the earlier report
 }
@@ -291,9 +291,10 @@ export class Report {
       const meta = this.meta.contacts[contact];
       const c = this.data.contacts[contact];
       const id = this.meta.interfaces[meta.interface].id;
+      const edges = meta.kind === "edge_edge";
       for (const row of result.rows) {
-        const nodes = this.secondaryNodes(row).map((n) => this.nodeId(n));
-        const pair: [number, number] = [nodes[0], nodes[1] ?? 0];
+        const at = edges ? 2 * row.secondary : row.secondary;
+        const pair: [number, number] = [this.nodeId(c.secondaryNode[at]), edges ? this.nodeId(c.secondaryNode[at + 1]) : 0];
         const hit: Hit = {
           row,
           depth: row.depth,
@@ -302,7 +303,9 @@ export class Report {
           secondaryPart: c.secondaryOwner.part[c.secondaryListed[row.secondary]],
           mainPart: c.mainOwner.part[row.main],
           nodes: pair,
-          key: `${contact}/${row.secondary}/${row.main}`,
+          get key() {
+            return `${contact}/${row.secondary}/${row.main}`;
+          },
           status: null,
           earlier: null,
         };
@@ -350,7 +353,8 @@ export class Report {
   passing(except: keyof Filter | null): Hit[] {
     const f = this.filter;
     const text = f.text.trim().toLowerCase();
-    const seen = new Set<string>();
+    // The first, and so the deepest, row of a node or edge: there can be half a million of them.
+    const seen = except !== "perNode" && f.perNode ? this.data.contacts.map((c) => new Uint8Array(c.secondaryNode.length)) : null;
     return this.hits.filter((x) => {
       if (except !== "interface" && f.interface !== null && this.meta.contacts[x.contact].interface !== f.interface) return false;
       if (except !== "pair" && f.pair && (x.secondaryPart !== f.pair[0] || x.mainPart !== f.pair[1])) return false;
@@ -358,12 +362,9 @@ export class Report {
       if (except !== "ratio" && f.ratio && !(x.ratio >= f.ratio[0] && x.ratio <= f.ratio[1])) return false;
       if (except !== "status" && f.status && x.status !== f.status) return false;
       if (except !== "text" && text && !this.matches(x, text)) return false;
-      if (except !== "perNode" && f.perNode) {
-        const k = `${x.contact}/${x.row.secondary}`;
-        if (seen.has(k)) return false;
-        seen.add(k);
-      }
-      return true;
+      if (!seen) return true;
+      const of = seen[x.contact];
+      return of[x.row.secondary] === 0 && (of[x.row.secondary] = 1) === 1;
     });
   }
 
