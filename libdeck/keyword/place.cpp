@@ -109,6 +109,15 @@ const CardSchema* bulk_card(const Deck& deck, const Block& block, const Line& wa
   return nullptr;
 }
 
+/// True for the line behind the last one of a block: /END, or what follows an included file.
+bool behind(const Source& source, const Block& block, const Line& line) {
+  if (line.offset == source.bytes().size()) return false;  // still to be written
+  for (const Piece& p : block.body)
+    if (p.file == line.file && p.begin <= line.offset && line.offset < p.end) return false;
+  return block.header_span.file != line.file || line.offset < block.header_span.offset ||
+         line.offset >= block.header_span.offset + block.header_span.length;
+}
+
 /// True for a line of an #include that goes over several ones.
 bool in_directive(const Deck& deck, const Line& line) {
   for (const IncludeEdge& e : deck.includes) {
@@ -135,6 +144,8 @@ PlacedLine line_at(const Deck& deck, const BlockIndex& index, std::uint32_t file
     return out;
   }
   out.block = index.find(file, out.line.offset);
+  if (out.block >= 0 && behind(source, deck.blocks[static_cast<std::size_t>(out.block)], out.line))
+    out.block = -1;
   if (!text.empty() && (text[0] == '#' || text[0] == '$')) {
     out.what = PlacedLine::What::comment;
     return out;

@@ -52,6 +52,50 @@ TEST(RenumberRuleText, IsKindSignAndNumber) {
     EXPECT_FALSE(parse_renumber_rule(bad).ok()) << bad;
 }
 
+/// One id gets another number.
+Rewrite renamed(const Whole& w, const char* kind, std::int64_t id, std::int64_t now) {
+  RenumberOptions options;
+  options.rules = {{kind, false, now, id}};
+  return renumber(w.context(), options);
+}
+
+TEST(RenumberOne, ChangesThatIdAndWhatNamesItOnly) {
+  const auto w = Whole::text(plates()
+                                 .group("/GRNOD/NODE/3", {50, 51})
+                                 .segments("/SURF/SEG/3", {{10, 20, 40, 30}})
+                                 .add("@/INTER/TYPE7/1 grnd_IDs=3 surf_IDm=3 Icurv=1 node_ID1=10")
+                                 .text());
+  const Rewrite node = renamed(*w, "node", 10, 999);
+  EXPECT_TRUE(node.refusals.empty());
+  EXPECT_EQ(node.edits.size(), 4u);  // the node, the shell, the segment, node_ID1
+  const Rewrite group = renamed(*w, "grnod", 3, 33);
+  EXPECT_TRUE(group.refusals.empty());
+  EXPECT_EQ(group.edits.size(), 2u);  // its header and grnd_IDs
+}
+
+TEST(RenumberOne, RefusesIdsThatAreTakenOrNotThere) {
+  const auto w = Whole::text(plates().text());
+  for (const auto& [id, now] : {std::pair{10, 20}, {11, 12}, {10, 0}}) {
+    const Rewrite r = renamed(*w, "node", id, now);
+    EXPECT_EQ(r.refusals.size(), 1u) << id << " " << now;
+    EXPECT_TRUE(r.edits.empty());
+  }
+  EXPECT_TRUE(renamed(*w, "node", 10, 10).edits.empty());
+  EXPECT_TRUE(renamed(*w, "node", 10, 10).refusals.empty());
+}
+
+TEST(RenumberOne, KeepsRangesTrue) {
+  const auto w = Whole::text(plates().group("/GRNOD/GENE/5", {10, 30}).text());
+  // The end of the range moves with the node, within the range nothing is written ...
+  const Rewrite end = renamed(*w, "node", 30, 35);
+  EXPECT_TRUE(end.refusals.empty());
+  EXPECT_EQ(end.edits.size(), 3u);  // node, shell, range
+  EXPECT_EQ(renamed(*w, "node", 20, 25).edits.size(), 2u);
+  // ... and a node neither leaves it nor comes into it.
+  EXPECT_FALSE(renamed(*w, "node", 20, 500).refusals.empty());
+  EXPECT_FALSE(renamed(*w, "node", 53, 25).refusals.empty());
+}
+
 TEST(Renumber, ReferencesFollow) {
   const auto w = Whole::text(plates()
                                  .group("/GRNOD/NODE/3", {50, 51})

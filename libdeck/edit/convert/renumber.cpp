@@ -308,8 +308,8 @@ class Renumbering {
     }
     if (new_from - offset < 1 || new_to > detail::largest_id)
       return refuse("the new range is not legal");
-    write_cell(b, *first.first, *first.second, {true, new_from - offset, {}});
-    write_cell(b, *last.first, *last.second, {true, new_to - offset, {}});
+    if (new_from != from) write_cell(b, *first.first, *first.second, {true, new_from - offset, {}});
+    if (new_to != to) write_cell(b, *last.first, *last.second, {true, new_to - offset, {}});
   }
 
   void grouped(const Block& b, std::string_view kind, const std::vector<Place>& places,

@@ -66,7 +66,7 @@ class Server {
     bool active = false;
     std::string path;
     std::uint64_t line = 0;
-    std::set<std::string> before;  ///< findings that were there when the typing began
+    std::set<std::string> before;  ///< findings that were there since the last save
     Clock::time_point last;
   };
   void schedule(const std::string& path, bool now = false);
@@ -77,7 +77,7 @@ class Server {
   void publish(OpenDeck& deck);
   void typed(const std::string& path, std::uint64_t line);
   void cursor_at(const std::string& path, std::uint64_t line);
-  void release_typing();
+  void release_typing(bool saved = false);
   bool held_back(const OpenDeck& deck, const Diagnostic& d) const;
   Json finding(const OpenDeck& deck, const Diagnostic& d) const;
 

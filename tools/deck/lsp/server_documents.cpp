@@ -81,7 +81,7 @@ void Server::did_close(const Json& params) {
 
 void Server::did_save(const Json& params) {
   const std::string path = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
-  release_typing();
+  release_typing(true);
   OpenDeck* deck = workspace_.deck_of(path);
   if (deck == nullptr) return;
   schedule(path, true);

@@ -217,7 +217,9 @@ void Server::typed(const std::string& path, std::uint64_t line) {
   if (hold_ms_ == 0) return;
   const bool same = typing_.active && typing_.path == path && typing_.line == line;
   if (!same) {
+    // What was there before any of this typing may come back when it is taken back.
     std::set<std::string> before;
+    if (typing_.path == path) before = std::move(typing_.before);
     if (const OpenDeck* deck = workspace_.deck_of(path);
         deck != nullptr && deck->semantics != nullptr)
       for (const Diagnostic& d : deck->semantics->lint.diagnostics)
@@ -232,7 +234,8 @@ void Server::cursor_at(const std::string& path, std::uint64_t line) {
   if (typing_.active && (typing_.path != path || typing_.line != line)) release_typing();
 }
 
-void Server::release_typing() {
+void Server::release_typing(bool saved) {
+  if (saved) typing_.before.clear();
   if (!typing_.active) return;
   typing_.active = false;
   if (OpenDeck* deck = workspace_.deck_of(typing_.path);

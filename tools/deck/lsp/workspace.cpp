@@ -1,6 +1,8 @@
 // Finds the deck that a document belongs to and keeps its blocks as fresh as its text.
 #include "lsp/workspace.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -37,6 +39,8 @@ Document& Workspace::open(const std::string& path, std::string uri, std::int64_t
   d.lines = std::make_shared<const LineTable>(text);
   texts_[path] = std::move(text);
   roots_.erase(path);
+  // This may be the deck of a file that had none.
+  std::erase_if(roots_, [&](const auto& r) { return decks_.at(r.second).fragment; });
   return d;
 }
 
@@ -110,7 +114,18 @@ std::string Workspace::root_of(const std::string& path, bool& fragment) {
   for (const std::string& root : candidates(path))
     if (root != path && reaches(root, path)) return root;
   fragment = true;
-  return path;
+  return frame_of(path);
+}
+
+std::string Workspace::frame_of(const std::string& path) {
+  const fs::path file(path);
+  const std::string frame =
+      (file.parent_path() / (".deck-lsp-" + file.filename().string())).string();
+  const std::string units = "                  kg                  mm                  ms\n";
+  texts_[frame] = "#RADIOSS STARTER\n/BEGIN\nframe\n" +
+                  fmt::format("{:>10}{:>10}\n", newest_version, 0) + units + units + "#include " +
+                  file.filename().string() + "\n/END\n";
+  return frame;
 }
 
 OpenDeck* Workspace::deck_of(const std::string& path) {
@@ -171,6 +186,7 @@ std::vector<OpenDeck> Workspace::forget_closed() {
       ++it;
       continue;
     }
+    if (it->second.fragment) texts_.erase(it->first);
     out.push_back(std::move(it->second));
     it = decks_.erase(it);
   }

@@ -65,6 +65,8 @@ class Workspace {
 
  private:
   std::string root_of(const std::string& path, bool& fragment);
+  /// A deck around a file that none includes: its lines follow no /BEGIN of their own.
+  std::string frame_of(const std::string& path);
   bool reaches(const std::string& root, const std::string& path);
   std::vector<std::string> candidates(const std::string& path) const;
 

@@ -1,0 +1,104 @@
+// Cards laid out by their schema.
+#include <gtest/gtest.h>
+
+#include "deck/edit/layout.hpp"
+#include "keyword/reading.hpp"
+
+namespace deck {
+namespace {
+
+using testing_support::deck_of;
+using testing_support::read;
+
+std::string changed(const Deck& deck, std::vector<TextEdit> edits) {
+  const auto text = apply_edits(deck.sources[0], std::move(edits));
+  EXPECT_TRUE(text.ok());
+  return text ? *text : std::string();
+}
+
+std::string values(const Deck& deck) {
+  std::string out;
+  for (const Block& b : deck.blocks)
+    for (const DecodedCard& card : decode(deck, b).cards)
+      for (const Cell& c : card.cells) out += c.field->name + "=" + std::string(c.text) + ";";
+  return out;
+}
+
+const Block& block(const Deck& deck, std::string_view keyword) {
+  for (const Block& b : deck.blocks)
+    if (b.header.starts_with(keyword)) return b;
+  throw std::runtime_error("no such block");
+}
+
+TEST(NewCard, IsReadWithoutAFindingAndWithAllItsLines) {
+  for (const char* keyword : {"/INTER/TYPE7", "/INTER/TYPE10", "/INTER/TYPE11", "/INTER/TYPE19",
+                              "/FRICTION", "/MAT/ELAST", "/PROP/SHELL"})
+    for (const int version : {51, 110, 140, 2019, 2024, 2026}) {
+      const Schema* schema = SchemaSet::built_in().find(keyword);
+      ASSERT_NE(schema, nullptr);
+      const std::string card = new_card(*schema, std::string(keyword) + "/7", version, "mine");
+      const Deck deck = read(deck_of(card, std::to_string(version)));
+      Diagnostics findings;
+      const DecodedBlock decoded = decode(deck, block(deck, keyword), &findings);
+      EXPECT_EQ(findings.all().size(), 0u) << card << findings.all()[0].message;
+      EXPECT_EQ(decoded.title, "mine");
+      for (const DecodedCard& line : decoded.cards) EXPECT_FALSE(line.missing()) << card;
+    }
+}
+
+TEST(Heading, EndsNamesWhereTheirColumnsEnd) {
+  const Schema* schema = SchemaSet::built_in().find("/INTER/TYPE7");
+  for (const CardSchema& card : schema->cards) {
+    const std::string head = card_heading(card, 2022);
+    if (head.empty()) continue;
+    for (const Field& f : card.fields) {
+      if (!f.in_version(2022) || f.last - f.first < 5) continue;
+      const auto last = static_cast<std::size_t>(f.last);
+      ASSERT_GE(head.size(), last);
+      EXPECT_NE(head[last - 1], ' ') << head << f.name;
+      EXPECT_TRUE(head.size() == last || head[last] == ' ') << head << f.name;
+    }
+  }
+}
+
+TEST(FormatCard, PutsCellsInPlaceAndKeepsTheirValues) {
+  const Deck deck = read(deck_of("/INTER/TYPE7/3\nt\n# grnd surf_IDm\n 1            2      4\n"));
+  const Block& b = block(deck, "/INTER/TYPE7");
+  const std::string text = changed(deck, format_card(deck, b));
+  EXPECT_NE(text.find("\n         1         2         4\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n# grnd_IDs  surf_IDm      Istf"), std::string::npos) << text;
+  const Deck again = read(text);
+  EXPECT_EQ(values(again), values(deck));
+  EXPECT_TRUE(format_card(again, block(again, "/INTER/TYPE7")).empty());
+}
+
+TEST(FormatCard, LeavesCommentsOfPeopleAndFreeFormatAlone) {
+  const Deck deck =
+      read(deck_of("/INTER/TYPE7/3\nt\n# ask Anna about the gap here\n1,2,4\n# and this\n"));
+  EXPECT_TRUE(format_card(deck, block(deck, "/INTER/TYPE7")).empty());
+}
+
+TEST(SetCell, MovesNothingElse) {
+  const Deck deck = read(deck_of("/INTER/TYPE7/3\nt\n         1         2         4\n"));
+  const Block& b = block(deck, "/INTER/TYPE7");
+  const auto edit = set_cell(deck, b, "Igap", "3");
+  ASSERT_TRUE(edit.ok());
+  EXPECT_NE(changed(deck, {*edit}).find("\n         1         2         4                   3\n"),
+            std::string::npos)
+      << changed(deck, {*edit});
+}
+
+TEST(SetCell, SaysWhyNot) {
+  const Deck deck = read(deck_of("/INTER/TYPE7/3\nt\n1,2,4\n"));
+  const Block& b = block(deck, "/INTER/TYPE7");
+  EXPECT_NE(set_cell(deck, b, "Igap", "3").error().message.find("free format"), std::string::npos);
+  EXPECT_NE(set_cell(deck, b, "Nosuch", "3").error().message.find("no field"), std::string::npos);
+  EXPECT_NE(set_cell(deck, b, "Gapmin", "3").error().message.find("not there"), std::string::npos);
+  const Deck fixed = read(deck_of("/INTER/TYPE7/3\nt\n         1         2         4\n"));
+  const auto wide = set_cell(fixed, block(fixed, "/INTER/TYPE7"), "Igap", "12345678901");
+  ASSERT_FALSE(wide.ok());
+  EXPECT_NE(wide.error().message.find("longer than the 10 columns"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace deck

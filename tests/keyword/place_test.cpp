@@ -1,0 +1,90 @@
+// What stands at a place of a deck.
+#include <gtest/gtest.h>
+
+#include "deck/keyword/place.hpp"
+#include "keyword/reading.hpp"
+
+namespace deck {
+namespace {
+
+using testing_support::deck_of;
+using testing_support::read;
+using What = PlacedLine::What;
+
+const std::string body =
+    "# above\n"
+    "/INTER/TYPE7/3\n"
+    "a title\n"
+    "# heading\n"
+    "         1         2         4\n"
+    "/GRNOD/NODE/1\n"
+    "nodes\n"
+    "         5        60\n"
+    "/NODE\n"
+    "         5                 1.0                 2.0                 3.0\n"
+    "/NOSUCH/KEYWORD\n"
+    "some text\n";
+
+PlacedLine at(const Deck& deck, const std::string& text, int column = 1) {
+  const BlockIndex index(deck);
+  const auto offset = deck.sources[0].bytes().find(text);
+  EXPECT_NE(offset, std::string::npos) << text;
+  return line_at(deck, index, 0, offset + static_cast<std::uint64_t>(column) - 1);
+}
+
+TEST(PlacedLine, SaysWhatALineIsFor) {
+  const Deck deck = read(deck_of(body));
+  EXPECT_EQ(at(deck, "# above").what, What::comment);
+  EXPECT_EQ(at(deck, "/INTER/TYPE7/3").what, What::header);
+  EXPECT_EQ(at(deck, "a title").what, What::title);
+  EXPECT_EQ(at(deck, "# heading").what, What::comment);
+  EXPECT_EQ(at(deck, "         1         2").what, What::card);
+  EXPECT_EQ(at(deck, "some text").what, What::opaque);
+  EXPECT_EQ(at(deck, "/END").what, What::outside);
+}
+
+TEST(PlacedLine, NamesTheCellOfAColumn) {
+  const Deck deck = read(deck_of(body));
+  const PlacedLine line = at(deck, "         1         2         4", 30);
+  ASSERT_NE(line.cell_at(30), nullptr);
+  EXPECT_EQ(line.cell_at(30)->field->name, "Istf");
+  EXPECT_EQ(line.cell_at(30)->integer, 4);
+  EXPECT_EQ(line.cell_at(10)->field->name, "grnd_IDs");
+  EXPECT_EQ(line.cell_at(11)->field->name, "surf_IDm");
+  // Behind the end of the line there are cells all the same.
+  ASSERT_NE(line.cell_at(45), nullptr);
+  EXPECT_EQ(line.cell_at(45)->field->name, "Igap");
+  EXPECT_TRUE(line.cell_at(45)->blank());
+}
+
+TEST(PlacedLine, KnowsCellsOfListsAndOfNodes) {
+  const Deck deck = read(deck_of(body));
+  const PlacedLine list = at(deck, "         5        60");
+  ASSERT_NE(list.cell_at(20), nullptr);
+  EXPECT_EQ(list.cell_at(20)->integer, 60);
+  EXPECT_EQ(columns_of(list.card, *list.cell_at(20)).first, 11);
+  const PlacedLine node = at(deck, "         5                 1.0");
+  ASSERT_NE(node.cell_at(50), nullptr);
+  EXPECT_EQ(node.cell_at(50)->real, 2.0);
+}
+
+TEST(PlacedLine, TakesADirectiveForWhatItIs) {
+  const Deck deck = read(deck_of("#include nowhere.inc\n/NODE\n"));
+  EXPECT_EQ(at(deck, "#include").what, What::directive);
+}
+
+TEST(PlacedLine, FindsSomethingAtEveryPlaceOfADamagedDeck) {
+  const std::string text = deck_of(body).substr(0, 300) + "\n/\n/INTER\n/INTER/TYPE7/\n,,,\n\t\n/";
+  const Deck deck = read(text);
+  const BlockIndex index(deck);
+  for (std::uint64_t offset = 0; offset <= text.size(); ++offset) {
+    const PlacedLine line = line_at(deck, index, 0, offset);
+    for (int column = 0; column < 120; ++column) {
+      const Cell* cell = line.cell_at(column);
+      EXPECT_TRUE(cell == nullptr || cell->field != nullptr);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace deck
