@@ -152,9 +152,13 @@ PlacedLine line_at(const Deck& deck, const BlockIndex& index, std::uint32_t file
   }
   if (out.block < 0) {
     // A header may have blanks before it.
-    if (const auto slash = text.find('/'); slash != text.npos)
-      out.block = index.find(file, out.line.offset + slash);
-    if (out.block < 0) return out;
+    const auto slash = text.find('/');
+    if (slash == text.npos) return out;
+    const std::int64_t b = index.find(file, out.line.offset + slash);
+    if (b < 0 ||
+        deck.blocks[static_cast<std::size_t>(b)].header_span.offset != out.line.offset + slash)
+      return out;
+    out.block = b;
   }
   const Block& block = deck.blocks[static_cast<std::size_t>(out.block)];
   if (block.header_span.file == file && block.header_span.offset >= out.line.offset &&
