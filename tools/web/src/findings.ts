@@ -34,6 +34,8 @@ export class FindingList {
   private all: Finding[] = [];
   private most = 300;
   selected: Finding | null = null;
+  /** Somebody chose what is shown: what comes later does not take its place. */
+  chosen = false;
 
   constructor(private readonly choose: (f: Finding) => void) {
     this.search.addEventListener("input", () => this.draw());
@@ -63,7 +65,7 @@ export class FindingList {
       this.list,
       ...found.slice(0, this.most).map((f) =>
         h("li", null, h(
-          "button", { type: "button", class: `finding ${f.severity}`, "aria-current": f === this.selected ? "true" : null, onclick: () => this.pick(f) },
+          "button", { type: "button", class: `finding ${f.severity}`, "aria-current": f === this.selected ? "true" : null, onclick: () => this.pick(f, true) },
           h("span", { class: "finding-head" }, h("b", null, `${f.severity} ${f.rule}`), h("span", { class: "muted" }, ` ${f.file}:${f.line}:${f.column}`)),
           h("span", { class: "finding-text" }, f.message),
         ))),
@@ -75,8 +77,19 @@ export class FindingList {
     if (focused) this.list.querySelector<HTMLElement>("[aria-current]")?.focus();
   }
 
-  pick(f: Finding): void {
+  reset(): void {
+    this.selected = null;
+    this.chosen = false;
+  }
+
+  /** The worst. */
+  pickFirst(): void {
+    if (this.all.length > 0) this.pick(this.all[0], false);
+  }
+
+  private pick(f: Finding, chosen: boolean): void {
     this.selected = f;
+    this.chosen = chosen;
     this.draw();
     this.choose(f);
   }

@@ -202,11 +202,9 @@ async function refreshLint(): Promise<void> {
     lint = document;
     list.show(lint.diagnostics);
     askForMissing();
-    if (list.selected) showFinding(list.selected);
-    else if (!place) {
-      if (lint.diagnostics.length > 0) list.pick([...lint.diagnostics].sort((a, b) => Number(b.severity === "error") - Number(a.severity === "error"))[0]);
-      else replace(about, h("p", null, "No findings."));
-    }
+    if (list.selected && list.chosen) showFinding(list.selected);
+    else if (!place || !list.chosen) list.pickFirst();
+    if (!list.selected && lint.diagnostics.length === 0) replace(about, h("p", null, "No findings."));
   }
 }
 
@@ -263,6 +261,7 @@ function goTo(s: { file: string; line: number; column: number; end_column: numbe
   drawText();
   if (keyword) {
     list.selected = null;
+    list.chosen = true;
     replace(about, h("h2", null, `${keyword}/${id}`));
     void showCards(keyword, id);
   }
@@ -294,7 +293,9 @@ function writeCell(card: Card, cell: Cell, entered: string): string {
   void refresh().then(() => {
     const open = cards.querySelector("h3")?.firstChild?.textContent?.trim() ?? "";
     const slash = open.lastIndexOf("/");
-    if (!list.selected && slash > 0) void showCards(open.slice(0, slash), Number(open.slice(slash + 1)));
+    if (list.selected) return;
+    replace(about, h("h2", null, open));
+    if (slash > 0) void showCards(open.slice(0, slash), Number(open.slice(slash + 1)));
   });
   return "";
 }
@@ -311,6 +312,7 @@ function applyFix(f: Finding): void {
     say(e instanceof Error ? e.message : String(e));
     return;
   }
+  list.reset();
   void refresh();
 }
 
@@ -399,7 +401,7 @@ async function open(given: Given[]): Promise<void> {
       tree.add(unpacked);
       other = null;
       place = null;
-      list.selected = null;
+      list.reset();
       main = tree.roots()[0];
       gapsOf = -1;
     }
@@ -423,11 +425,12 @@ function start(): void {
 roots.addEventListener("change", () => {
   main = roots.value;
   place = null;
-  list.selected = null;
+  list.reset();
   void refresh();
 });
 which.addEventListener("change", () => {
   place = { file: which.value, line: 1, column: 1, endColumn: 1 };
+  list.chosen = true;
   drawText();
 });
 files.addEventListener("change", () => void chosen(files.files as FileList).then(open));
