@@ -2,6 +2,7 @@
 // in and out, the automation face, and that nothing leaves.
 import { execFileSync, spawnSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { basename, dirname, join } from "node:path";
@@ -282,6 +283,33 @@ if (large) {
   quiet("dummy", p);
   await p.close();
 } else skip("the dummy: no corpus");
+
+// ---- served as a folder -------------------------------------------------------------------------
+
+{
+  const site = join(dirname(PAGE), "site");
+  const asked = [];
+  const server = createServer((request, answer) => {
+    asked.push(request.url);
+    const name = request.url === "/" ? "index.html" : request.url.slice(1);
+    if (!existsSync(join(site, name))) return answer.writeHead(404).end();
+    answer.writeHead(200, { "content-type": name.endsWith(".js") ? "text/javascript" : "text/html" }).end(readFileSync(join(site, name)));
+  });
+  await new Promise((ok) => server.listen(0, "127.0.0.1", ok));
+  const context = await browser.newContext();
+  const p = await context.newPage();
+  await p.goto(`http://127.0.0.1:${server.address().port}/`);
+  await p.evaluate(() => navigator.serviceWorker.ready.then(() => 0));
+  await p.waitForFunction(() => navigator.serviceWorker.controller !== null, null, { timeout: 30000 });
+  server.close();
+  server.closeAllConnections();
+  await p.reload();
+  await p.waitForFunction(() => document.documentElement.dataset.ready === "true", null, { timeout: 60000 });
+  await give(p, [sample("two_surfaces")]);
+  same("the folder works without its server once it was opened", await p.textContent(".verdict-line"), nativeVerdict(samples, "two_surfaces_0000.rad"));
+  check("the server was asked for nothing but the page and its keeper", asked.every((u) => ["/", "/index.html", "/service-worker.js"].includes(u)), asked.join(" "));
+  await context.close();
+}
 
 // ---- widths and colours -------------------------------------------------------------------------
 
