@@ -619,6 +619,35 @@ TEST(DeckJson, SeveralDecksAreOneDocument) {
   EXPECT_EQ(both["decks"][1], Json::parse(one));
 }
 
+/// A /MAT/LAW51 of Iform 6: Pext stands in columns 1-20, with other flags in 21-40.
+const std::string moving_field =
+    "#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n"
+    "                  kg                  mm                  ms\n"
+    "                  kg                  mm                  ms\n"
+    "/MAT/LAW51/4\nexplosive\n\n         6\n"
+    "                 0.6                             700.0                 2.0\n/END\n";
+
+TEST(DeckFromJson, AFieldThatMovesWithAFlagStaysInItsColumns) {
+  EXPECT_EQ(main_of(Json::parse(json_of(moving_field))), moving_field);
+}
+
+TEST(DeckFromJson, AFieldThatMovesWithAFlagIsChangedWhereItsColumnsSay) {
+  Json document = Json::parse(json_of(moving_field));
+  line_with(document, "Pext")["fields"]["Pext"] = 0.7;
+  std::string expected = moving_field;
+  expected.replace(expected.find("0.6"), 3, "0.7");
+  EXPECT_EQ(main_of(document), expected);
+}
+
+TEST(DeckFromJson, AFieldThatMovesWithAFlagNeedsItsColumnsToBeChanged) {
+  Json document = Json::parse(json_of(moving_field));
+  Json& line = line_with(document, "Pext");
+  line.erase("columns");
+  EXPECT_EQ(main_of(document), moving_field);
+  line["fields"]["Pext"] = 0.7;
+  EXPECT_THAT(error_of(document.dump()), HasSubstr("state its \"columns\""));
+}
+
 TEST(DeckFromJson, BrokenDocumentsAreErrorsWithAPosition) {
   EXPECT_THAT(error_of(""), HasSubstr("line 1, column 1"));
   EXPECT_THAT(error_of("{\n \"schema\": }"), HasSubstr("line 2, column 12"));

@@ -206,6 +206,25 @@ class FileWriter {
     fail(path, fmt::format("this keyword has no card \"{}\" in version {}", name, block.version));
   }
 
+  /// A field may have other columns with other flags, which are not known here: then the stated
+  /// columns choose, and without them a cell that has the value.
+  bool is_meant(const Cell& cell, const DecodedCard& card, const Json& value, const Json* columns,
+                const Path& path) const {
+    std::vector<const Cell*> others;
+    for (const Cell& c : card.cells)
+      if (c.field->name == cell.field->name &&
+          (c.field->first != cell.field->first || c.field->last != cell.field->last))
+        others.push_back(&c);
+    if (others.empty()) return true;
+    if (columns != nullptr && columns->is_object() && columns->contains(cell.field->name))
+      return (*columns)[cell.field->name] == Json::array({cell.field->first, cell.field->last});
+    if (same(cell, value, path)) return true;
+    if (std::any_of(others.begin(), others.end(),
+                    [&](const Cell* other) { return same(*other, value, path); }))
+      return false;
+    fail(path, "stands in other columns with other flags; state its \"columns\"");
+  }
+
   std::string card_line(const Block& block, const Json& json, const Path& path) {
     const Json* text = optional_member(json, "text", path);
     std::string line = text != nullptr ? bytes(*text, {&path, "text"}) : std::string();
@@ -219,6 +238,7 @@ class FileWriter {
     only(json, {"line", "card", "text", "text_sum", "fields", "columns"}, path);
     const std::string& name = string_of(member(json, "card", path), {&path, "card"});
     const Json* fields = optional_member(json, "fields", path);
+    const Json* columns = optional_member(json, "columns", path);
     const Path fields_path{&path, "fields"};
     if (fields != nullptr && !fields->is_object())
       fail(fields_path, std::string("expected an object, found ") + fields->type_name());
@@ -233,7 +253,8 @@ class FileWriter {
         continue;
       }
       for (const Cell& cell : old.cells) {
-        if (cell.field->name != f.key()) continue;
+        if (cell.field->name != f.key() || !is_meant(cell, old, f.value(), columns, place))
+          continue;
         // The other blocks of the document have the columns of the old version.
         if (text != nullptr && block.schema->keyword == "/BEGIN" && cell.field->name == "Invers" &&
             !same(cell, f.value(), place))
