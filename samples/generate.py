@@ -4,6 +4,9 @@ the repository so that nobody needs to run it to use them.
 
     python3 samples/generate.py            write all decks
     python3 samples/generate.py --check    exit 1 if a deck on disk differs from what would be written
+    python3 samples/generate.py --sheets N FILE
+                                           write a deck of 2 N^2 shells to FILE ('-': standard output), for
+                                           measuring; nothing of it is kept in the repository
 
 Every line is built from (column, width, name, value) cells and preceded by a comment line naming the
 columns, the way pre-processors write decks. every_mistake_0000.rad is written by hand and is not
@@ -595,7 +598,51 @@ ALL = (clean_plates, too_close, inacti_variants, crossing_edges, two_surfaces, t
        units_and_parameters, solid_and_skin, hot_contact, sets_and_friction, crash_box)
 
 
+def sheets(n, out):
+    """Two wavy sheets of n by n shells each, one above the other, 1.2 mm apart on average with a gap of
+    1.0: crests of the lower one reach into the gap. TYPE7, upper nodes on lower segments. About 122
+    bytes a shell; written piece by piece, because a model may be larger than the memory."""
+    d = Deck("sheets", "two wavy sheets of %d by %d shells" % (n, n))
+    d.elastic(1, "steel")
+    d.shell_prop(1, "sheet", 1.0)
+    d.part(1, "lower sheet", 1, 1)
+    d.part(2, "upper sheet", 1, 1)
+    out.write(d.text)
+    row, edge = n + 1, 5.0
+    across = [math.sin(2 * math.pi * i / 40) for i in range(row)]
+    other = [math.cos(2 * math.pi * i / 56) for i in range(row)]
+    out.write("/NODE\n#  node_ID                   X                   Y                   Z\n")
+    for sheet in range(2):
+        wave, shift, low = (across, 0.0, 0.0) if sheet == 0 else (other, 0.37 * edge, 1.2)
+        x = ["%20.6f" % (edge * i + shift) for i in range(row)]
+        for j in range(row):
+            first, y, t = 1 + (sheet * row + j) * row, "%20.6f" % (edge * j + shift), across[j]
+            out.write("".join("%10d%s%s%20.9f\n" % (first + i, x[i], y, low + 0.25 * (wave[i] + t))
+                              for i in range(row)))
+    for sheet in range(2):
+        out.write("/SHELL/%d\n# elem_ID     node1     node2     node3     node4\n" % (sheet + 1))
+        for j in range(n):
+            e, a = 1 + (sheet * n + j) * n, 1 + (sheet * row + j) * row
+            out.write("".join("%10d%10d%10d%10d%10d\n" % (e + i, a + i, a + i + 1, a + i + row + 1, a + i + row)
+                              for i in range(n)))
+    d.text = ""
+    d.ids("/SURF/PART/1", "lower sheet", [1])
+    d.ids("/GRNOD/PART/2", "nodes of the upper sheet", [2])
+    d.type7(1, "upper on lower", 2, 1, Istf=4, Igap=1, Idel=2, Irem_gap=1, Irem_i2=3, Stfac=1.0, Fric=0.2, Gapmin=1.0,
+            Inacti=6, VISs=0.05, Bumult=0.2, Iform=2)
+    out.write(d.end()[d.name + "_0000.rad"])
+
+
 def main():
+    if len(sys.argv) > 1 and sys.argv[1] == "--sheets":
+        if len(sys.argv) != 4 or not sys.argv[2].isdigit() or int(sys.argv[2]) < 1:
+            sys.exit("generate.py --sheets N FILE: N is the number of shells along each edge")
+        if sys.argv[3] == "-":
+            sheets(int(sys.argv[2]), sys.stdout)
+            return 0
+        with open(sys.argv[3], "w", newline="\n") as f:
+            sheets(int(sys.argv[2]), f)
+        return 0
     different = 0
     for build in ALL:
         for name, text in build().items():

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include "base/parallel.hpp"
 #include "contact/crossings/crossings_exact.hpp"
@@ -69,6 +70,55 @@ bool passes_through(const NodeArrays& nodes, const std::array<std::uint32_t, 2>&
   return s[2] != s[3] && detail::passes_through(p, q, a, c, at(s[3]));
 }
 
+bool meet(const Box& a, const Box& b) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(a.low[k] <= b.high[k] && b.low[k] <= a.high[k])) return false;
+  return true;
+}
+
+/// Segments in a tree whose leaves are eight neighbours each. `segment_of(i)`: the nodes of one.
+template <class SegmentOf>
+class SegmentTree {
+ public:
+  struct Near {
+    std::uint32_t segment;
+    Box box;
+  };
+  SegmentTree(const NodeArrays& nodes, std::size_t count, const SegmentOf& segment_of, int threads)
+      : nodes_(nodes), segment_of_(segment_of), order_(count) {
+    std::iota(order_.begin(), order_.end(), 0U);
+    sweep::put_in_order(order_, [&](std::uint32_t i) { return box_of(i); }, threads);
+    const std::size_t leaves = (count + width - 1) / width;
+    std::vector<BoxBlock> blocks((leaves + width - 1) / width);
+    parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t leaf = begin * width; leaf < std::min(leaves, end * width); ++leaf) {
+        Box box;
+        for (std::size_t i = leaf * width; i < std::min(count, (leaf + 1) * width); ++i)
+          box.add(box_of(order_[i]));
+        blocks[leaf / width].set(leaf % width, box);
+      }
+    });
+    tree_ = BoxTree(std::move(blocks), threads);
+  }
+
+  /// The segments whose boxes meet `box`.
+  void near(const Box& box, std::vector<Near>& out) const {
+    out.clear();
+    walk(tree_, tree_.levels() - 1, 0, box, [&](std::size_t leaf) {
+      for (std::size_t i = leaf * width; i < std::min(order_.size(), (leaf + 1) * width); ++i)
+        if (const Box own = box_of(order_[i]); meet(own, box)) out.push_back({order_[i], own});
+    });
+  }
+
+ private:
+  Box box_of(std::uint32_t i) const { return segment_box(nodes_, segment_of_(i)); }
+
+  const NodeArrays& nodes_;
+  const SegmentOf& segment_of_;
+  std::vector<std::uint32_t> order_;
+  BoxTree tree_;
+};
+
 }  // namespace
 
 std::vector<CandidatePair> find_crossing_pairs(
@@ -76,24 +126,18 @@ std::vector<CandidatePair> find_crossing_pairs(
     std::span<const std::array<std::uint32_t, 4>> segments, int threads) {
   if (edges.empty() || segments.empty()) return {};
   threads = effective_threads(threads);
-  const auto box_of = [&](std::uint32_t i) { return sweep::edge_box(nodes, edges[i], 0); };
-  std::vector<std::uint32_t> order(edges.size());
-  std::iota(order.begin(), order.end(), 0U);
-  sweep::sort_in_space(order, box_of, threads);
-  std::vector<BoxBlock> blocks((order.size() + width - 1) / width);
-  for (std::size_t i = 0; i < order.size(); ++i) blocks[i / width].set(i % width, box_of(order[i]));
-  const BoxTree tree(std::move(blocks), threads);
-
+  const auto segment_of = [&](std::uint32_t i) { return segments[i]; };
+  const SegmentTree tree(nodes, segments.size(), segment_of, threads);
   std::vector<std::vector<CandidatePair>> found(static_cast<std::size_t>(threads));
-  parallel_parts(
-      threads, segments.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
-        for (std::size_t m = begin; m < end; ++m)
-          walk(tree, tree.levels() - 1, 0, segment_box(nodes, segments[m]), [&](std::size_t leaf) {
-            const std::uint32_t e = order[leaf];
-            if (passes_through(nodes, edges[e], segments[m]))
-              found[part].push_back({e, static_cast<std::uint32_t>(m)});
-          });
-      });
+  parallel_parts(threads, edges.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    std::vector<typename decltype(tree)::Near> near;
+    for (std::size_t e = begin; e < end; ++e) {
+      tree.near(sweep::edge_box(nodes, edges[e], 0), near);
+      for (const auto& m : near)
+        if (passes_through(nodes, edges[e], segments[m.segment]))
+          found[part].push_back({static_cast<std::uint32_t>(e), m.segment});
+    }
+  });
   std::vector<CandidatePair> all;
   for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
   std::sort(all.begin(), all.end());
@@ -101,13 +145,6 @@ std::vector<CandidatePair> find_crossing_pairs(
 }
 
 namespace {
-
-/// An edge with the element that has it.
-struct ElementEdge {
-  std::array<NodeIndex, 2> nodes{};
-  ElementKind kind{};
-  std::uint32_t element = no_index;
-};
 
 using LocalEdge = std::array<int, 2>;
 constexpr LocalEdge bar_edges[] = {{0, 1}};
@@ -144,33 +181,62 @@ std::span<const LocalEdge> local_edges(const Elements& family, std::uint32_t e) 
   }
 }
 
-/// Marks the nodes that are secondary in any node-to-segment contact.
-std::vector<std::uint8_t> secondary_nodes(const Scene& scene) {
-  std::vector<std::uint8_t> marks(scene.model->nodes.size());
-  for (const Contact& c : scene.contacts)
-    for (const SecondaryNode& s : c.secondary) marks[s.node] = 1;
-  return marks;
+/// Calls visit(edge) for every edge of an element whose nodes are both marked.
+template <class Visit>
+void marked_edges(const Elements& family, std::uint32_t e, const std::vector<std::uint8_t>& marks,
+                  const Visit& visit) {
+  const NodeIndex* n = family.of(e);
+  for (const LocalEdge& local : local_edges(family, e)) {
+    const NodeIndex a = n[local[0]], b = n[local[1]];
+    if (a == b || a == no_index || b == no_index || !marks[a] || !marks[b]) continue;
+    visit(std::array<NodeIndex, 2>{std::min(a, b), std::max(a, b)});
+  }
 }
 
-/// Every edge between two marked nodes once, with the first element that has it, sorted by nodes.
-std::vector<ElementEdge> edges_between(const Model& model, const std::vector<std::uint8_t>& marks) {
-  std::vector<ElementEdge> out;
+/// Elements with such edges, by family.
+struct Bearers {
+  const Elements* family = nullptr;
+  std::vector<std::uint32_t> elements;
+};
+std::vector<Bearers> bearers(const Model& model, const std::vector<std::uint8_t>& marks) {
+  std::vector<Bearers> out;
   for (const ElementKind kind : families_with_edges) {
-    const Elements& family = model.family(kind);
-    for (std::uint32_t e = 0; e < family.size(); ++e) {
-      const NodeIndex* n = family.of(e);
-      for (const LocalEdge& local : local_edges(family, e)) {
-        const NodeIndex a = n[local[0]], b = n[local[1]];
-        if (a == b || a == no_index || b == no_index || !marks[a] || !marks[b]) continue;
-        out.push_back({{std::min(a, b), std::max(a, b)}, kind, e});
-      }
+    Bearers all{&model.family(kind), {}};
+    for (std::uint32_t e = 0; e < all.family->size(); ++e) {
+      bool any = false;
+      marked_edges(*all.family, e, marks, [&](const auto&) { any = true; });
+      if (any) all.elements.push_back(e);
     }
+    if (!all.elements.empty()) out.push_back(std::move(all));
   }
-  const auto before = [](const ElementEdge& a, const ElementEdge& b) { return a.nodes < b.nodes; };
-  std::stable_sort(out.begin(), out.end(), before);
-  const auto same = [](const ElementEdge& a, const ElementEdge& b) { return a.nodes == b.nodes; };
-  out.erase(std::unique(out.begin(), out.end(), same), out.end());
   return out;
+}
+
+/// Edges of these elements between marked nodes that pass through main segments of one contact, in
+/// the order of the elements: an edge comes once for every element that has it.
+template <class Tree>
+void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const NodeArrays& nodes,
+           const Contact& contact, const Tree& tree, int threads, std::vector<Crossing>& out) {
+  std::vector<std::vector<Crossing>> found(static_cast<std::size_t>(threads));
+  parallel_parts(
+      threads, bearers.elements.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+        std::vector<typename Tree::Near> near;
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::uint32_t e = bearers.elements[i];
+          Box around;
+          marked_edges(*bearers.family, e, marks,
+                       [&](const auto& edge) { around.add(sweep::edge_box(nodes, edge, 0)); });
+          tree.near(around, near);
+          if (near.empty()) continue;
+          marked_edges(*bearers.family, e, marks, [&](const auto& edge) {
+            const Box box = sweep::edge_box(nodes, edge, 0);
+            for (const auto& m : near)
+              if (meet(m.box, box) && passes_through(nodes, edge, contact.main[m.segment].nodes))
+                found[part].push_back({0, edge, bearers.family->kind, e, m.segment});
+          });
+        }
+      });
+  for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
 }
 
 /// An edge and the nodes of a segment in any order: segments on the same nodes are one place.
@@ -184,31 +250,34 @@ SpotKey spot_of(const Crossing& crossing, const MainSegment& segment) {
 }  // namespace
 
 std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
+  threads = effective_threads(threads);
+  const NodeArrays nodes{scene.coordinates.x, scene.coordinates.y, scene.coordinates.z};
+  std::vector<std::uint8_t> marks(scene.model->nodes.size());
+  const auto mark = [&](const Contact& contact, std::uint8_t value) {
+    for (const SecondaryNode& s : contact.secondary) marks[s.node] = value;
+  };
+  for (const Contact& c : scene.contacts) mark(c, 1);
+  const std::vector<Bearers> all = bearers(*scene.model, marks);
+  for (const Contact& c : scene.contacts) mark(c, 0);
   std::vector<Crossing> out;
-  const Coordinates& x = scene.coordinates;
-  const std::vector<ElementEdge> all = edges_between(*scene.model, secondary_nodes(scene));
-  if (all.empty()) return out;
-  std::vector<std::uint32_t> contact_of(scene.model->nodes.size(), no_index);
   std::set<SpotKey> seen;
   for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
     const Contact& contact = scene.contacts[c];
-    if (contact.main.empty()) continue;
-    for (const SecondaryNode& s : contact.secondary) contact_of[s.node] = c;
-    std::vector<std::array<std::uint32_t, 4>> segments;
-    segments.reserve(contact.main.size());
-    for (const MainSegment& m : contact.main) segments.push_back(m.nodes);
-    std::vector<std::uint32_t> owners;
-    std::vector<std::array<std::uint32_t, 2>> edges;
-    for (std::uint32_t e = 0; e < all.size(); ++e) {
-      if (contact_of[all[e].nodes[0]] != c || contact_of[all[e].nodes[1]] != c) continue;
-      owners.push_back(e);
-      edges.push_back(all[e].nodes);
-    }
-    for (const CandidatePair& pair :
-         find_crossing_pairs({x.x, x.y, x.z}, edges, segments, threads)) {
-      const ElementEdge& e = all[owners[pair.secondary]];
-      const Crossing crossing{c, e.nodes, e.kind, e.element, pair.main};
-      if (seen.insert(spot_of(crossing, contact.main[pair.main])).second) out.push_back(crossing);
+    if (contact.main.empty() || contact.secondary.empty()) continue;
+    const auto segment_of = [&](std::uint32_t i) { return contact.main[i].nodes; };
+    const SegmentTree tree(nodes, contact.main.size(), segment_of, threads);
+    mark(contact, 1);
+    std::vector<Crossing> found;
+    for (const Bearers& b : all) cross(b, marks, nodes, contact, tree, threads, found);
+    mark(contact, 0);
+    // Of the elements that have an edge the first one stays.
+    std::stable_sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
+      return std::tie(a.edge, a.main) < std::tie(b.edge, b.main);
+    });
+    for (Crossing& crossing : found) {
+      crossing.contact = c;
+      if (seen.insert(spot_of(crossing, contact.main[crossing.main])).second)
+        out.push_back(crossing);
     }
   }
   return out;
