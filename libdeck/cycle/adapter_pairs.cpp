@@ -6,6 +6,7 @@
 
 #include "contact/rules/removal.hpp"
 #include "contact/scene/scene_parts.hpp"
+#include "contact/scene/sides.hpp"
 #include "cycle/adapter_parts.hpp"
 #include "deck/cycle/adapter.hpp"
 #include "deck/cycle/kernel.hpp"
@@ -14,6 +15,7 @@ namespace deck::cycle {
 namespace {
 
 using deck::detail::at;
+using deck::detail::SearchSides;
 
 /// What a pair takes while forces are evaluated: its lists here, its packed state and its results.
 constexpr std::size_t bytes_of_a_pair = 512;
@@ -83,58 +85,8 @@ double curvature_reach(const Coordinates& x, const Contact& contact, const Conta
   return std::max(0.5 * reach, card.icurv == 3 ? bicubic_reach(x, contact) : 0.0);
 }
 
-/// The lists of one contact as the search takes them. What start-up switched off takes no part.
-struct SearchLists {
-  std::vector<std::uint32_t> nodes;
-  std::vector<std::array<std::uint32_t, 4>> segments;
-  std::vector<std::array<std::uint32_t, 2>> edges[2];
-  std::vector<double> gap[2], length[2], stiffness[2];
-
-  explicit SearchLists(const Contact& contact) {
-    if (contact.kind == deck::ContactKind::edge_edge) {
-      take(contact.secondary_edges, 0);
-      take(contact.main_edges, 1);
-      return;
-    }
-    for (const SecondaryNode& s : contact.secondary) {
-      nodes.push_back(s.node);
-      add(0, s.gap, s.length, s.off ? 0.0 : s.multiplier);
-    }
-    for (const MainSegment& m : contact.main) {
-      segments.push_back(m.nodes);
-      add(1, m.gap, m.length, m.off ? 0.0 : m.stiffness);
-    }
-  }
-
-  NodeSegmentInput node_input(const Coordinates& x) const {
-    return {{x.x, x.y, x.z}, nodes,  gap[0],    length[0],   stiffness[0],
-            segments,        gap[1], length[1], stiffness[1]};
-  }
-  EdgeEdgeInput edge_input(const Coordinates& x) const {
-    return {{x.x, x.y, x.z}, edges[0], gap[0],    length[0],   stiffness[0],
-            edges[1],        gap[1],   length[1], stiffness[1]};
-  }
-  SearchResult find(const Coordinates& x, const SearchOptions& options) const {
-    if (!edges[0].empty() || !edges[1].empty()) return find_edge_edge_pairs(edge_input(x), options);
-    return find_node_segment_pairs(node_input(x), options);
-  }
-
- private:
-  void add(std::size_t side, double g, double l, double k) {
-    gap[side].push_back(g);
-    length[side].push_back(l);
-    stiffness[side].push_back(k);
-  }
-  void take(const std::vector<ContactEdge>& list, std::size_t side) {
-    for (const ContactEdge& e : list) {
-      edges[side].push_back(e.nodes);
-      add(side, e.gap, e.length, e.off ? 0.0 : e.stiffness);
-    }
-  }
-};
-
 /// Takes out what Irem_gap = 2 keeps apart; false if there is no room for that.
-bool remove_pairs(const Scene& scene, const Contact& contact, const SearchLists& lists,
+bool remove_pairs(const Scene& scene, const Contact& contact, const SearchSides& sides,
                   std::vector<CandidatePair>& pairs) {
   if (contact.irem_gap != 2) return true;
   const deck::detail::RemovalGaps gaps{contact.gap_rule, contact.igap, contact.drad,
@@ -143,8 +95,8 @@ bool remove_pairs(const Scene& scene, const Contact& contact, const SearchLists&
   deck::detail::RemovalLists removed;
   const Coordinates& x = scene.coordinates;
   if (!(contact.kind == deck::ContactKind::edge_edge
-            ? deck::detail::remove_along_mesh(lists.edge_input(x), gaps, room, removed)
-            : deck::detail::remove_along_mesh(lists.node_input(x), gaps, room, removed)))
+            ? deck::detail::remove_along_mesh(sides.edges(x), gaps, room, removed)
+            : deck::detail::remove_along_mesh(sides.nodes(x), gaps, room, removed)))
     return false;
   std::erase_if(pairs,
                 [&](const CandidatePair& p) { return deck::detail::is_removed(removed, p); });
@@ -207,13 +159,15 @@ ContactPairs make_pairs(const Scene& scene, const deck::Contact& contact, const 
   search.margin = curvature_reach(x, contact, card) + where.margin;
   search.threads = threads;
   search.max_pairs = scene.limits.pair_bytes / bytes_of_a_pair;
-  const SearchLists lists(contact);
-  SearchResult found = lists.find(x, search);
-  out.complete = found.complete;
-  out.at = std::move(found.pairs);
-  if (!remove_pairs(scene, contact, lists, out.at)) {
-    out.complete = false;
-    out.at.clear();
+  {
+    const SearchSides sides(contact, SearchSides::Off::left_out);
+    SearchResult found = sides.find(x, search);
+    out.complete = found.complete;
+    out.at = std::move(found.pairs);
+    if (!remove_pairs(scene, contact, sides, out.at)) {
+      out.complete = false;
+      out.at.clear();
+    }
   }
   if (out.complete && !where.always.empty()) {
     out.at.insert(out.at.end(), where.always.begin(), where.always.end());

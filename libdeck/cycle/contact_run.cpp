@@ -292,8 +292,10 @@ void collect_nodes(const LocalNodes& nodes, const NodalSums& sums, ContactOutcom
       f2 += sums.force[c][n] * sums.force[c][n];
     }
     all.stiffness[g] += sums.stiffness[n];
-    all.heat[g] += sums.heat[n];
-    all.conductance[g] += sums.conductance[n];
+    if (!all.heat.empty()) {
+      all.heat[g] += sums.heat[n];
+      all.conductance[g] += sums.conductance[n];
+    }
     all.contact[g] |= sums.contact[n];
     all.removed[g] |= sums.removed[n];
     all.released[g] |= sums.released[n];

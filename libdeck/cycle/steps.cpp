@@ -78,17 +78,23 @@ StepLine line_of(const SceneOutcome& r, const CycleOptions& options, const StepL
 
 }  // namespace
 
-StepsOutcome run_steps(const Scene& scene, State state, CycleOptions options, std::size_t steps,
-                       const Motion& motion, const StepWatch& watch) {
+StepsOutcome run_steps(const Scene& scene, const State& start_state, CycleOptions options,
+                       std::size_t steps, const Motion& motion, const StepWatch& watch) {
   StepsOutcome out;
-  out.coordinates = scene.coordinates;
-  CycleRun run(scene);
+  // Large models: one evaluation where everything is copies neither places nor state.
+  const bool moves = motion || steps > 1;
+  if (moves) out.coordinates = scene.coordinates;
+  const Coordinates& x = moves ? out.coordinates : scene.coordinates;
+  State moved;
+  if (motion) moved = start_state;
+  const State& state = motion ? moved : start_state;
+  CycleRun run(scene, steps > 1);
   const double start = options.time;
   if (options.margin == 0.0 && steps > 1) options.margin = search_margin(scene, state, options.dt1);
   const auto progress = options.progress;
   for (std::size_t k = 0; k < steps; ++k) {
     if (motion) {
-      motion(k, out.coordinates, state, options);
+      motion(k, out.coordinates, moved, options);
     } else if (k > 0) {
       // From the start, so that roundings do not add up.
       const double t = static_cast<double>(k) * options.dt1;
@@ -104,11 +110,11 @@ StepsOutcome run_steps(const Scene& scene, State state, CycleOptions options, st
       options.progress = [&, k](std::size_t done, std::size_t total) {
         progress(k * total + done, steps * total);
       };
-    out.last = run.evaluate(out.coordinates, state, options);
+    out.last = run.evaluate(x, state, options);
     out.lines.push_back(
         line_of(out.last, options, out.lines.empty() ? nullptr : &out.lines.back()));
     add_events(k, options.time, out.last, out);
-    if (watch) watch(k, out.last, out.coordinates);
+    if (watch) watch(k, out.last, x);
   }
   out.searches = run.searches();
   return out;

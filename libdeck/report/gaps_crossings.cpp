@@ -9,15 +9,16 @@
 
 namespace deck {
 
+NodeIndex first_node(const Scene& scene, const NamedPenetration& p) {
+  const Contact& c = scene.contacts[p.contact];
+  const std::uint32_t s = c.penetrations[p.row].secondary;
+  return c.kind == ContactKind::node_segment ? c.secondary[s].node : c.secondary_edges[s].nodes[0];
+}
+
 std::vector<NodeIndex> first_nodes(const Scene& scene, const SceneView& view) {
   std::vector<NodeIndex> out;
   out.reserve(view.penetrations.size());
-  for (const NamedPenetration& p : view.penetrations) {
-    const Contact& c = scene.contacts[p.contact];
-    const std::uint32_t s = c.penetrations[p.row].secondary;
-    out.push_back(c.kind == ContactKind::node_segment ? c.secondary[s].node
-                                                      : c.secondary_edges[s].nodes[0]);
-  }
+  for (const NamedPenetration& p : view.penetrations) out.push_back(first_node(scene, p));
   return out;
 }
 

@@ -17,7 +17,9 @@ inline void write_nodes(JsonWriter& j, const Model& model, const NodeIndex* node
   j.end_array();
 }
 
-/// The secondary node of every penetration of a view (edge pairs: the first node of the edge).
+/// The secondary node of a penetration (edge pairs: the first node of the edge), and those of all
+/// of a view.
+NodeIndex first_node(const Scene& scene, const NamedPenetration& penetration);
 std::vector<NodeIndex> first_nodes(const Scene& scene, const SceneView& view);
 
 /// The element that has the edge of a crossing, and the one behind its segment.

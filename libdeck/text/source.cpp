@@ -17,7 +17,7 @@
 namespace deck {
 namespace {
 
-constexpr std::uint64_t checkpoint_step = 64 * 1024;
+constexpr std::uint64_t checkpoint_step = 4 * 1024;
 
 Error io_error(const std::string& path, const std::string& why) {
   return {Error::Code::io, path + ": " + why};

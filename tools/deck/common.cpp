@@ -466,13 +466,20 @@ void print_note(std::string_view note) {
   print_messages(fmt::format("deck: note: {}\n", terminal_text(note)));
 }
 
+void JsonOutput::add(const MakeText& make) {
+  if (options_.decks.size() > 1) return add(make({}));
+  if (auto written = write_output(options_.json, make); !written) {
+    print_error(options_, written.error().message);
+    failed_ = true;
+  }
+}
+
 int JsonOutput::finish(int code) const {
+  if (failed_) return std::max<int>(code, exit_usage);
   if (!wanted() || documents_.empty()) return code;
-  std::string text;
-  if (options_.decks.size() <= 1) {
-    text = documents_.front();
-  } else {
-    JsonWriter json(text);
+  std::string list;
+  if (options_.decks.size() > 1) {
+    JsonWriter json(list);
     json.begin_object();
     write_json_head(json, schema_id_, schema_version_);
     json.key("decks").begin_array();
@@ -482,6 +489,7 @@ int JsonOutput::finish(int code) const {
     }
     json.end_array().end_object();
   }
+  const std::string& text = options_.decks.size() > 1 ? list : documents_.front();
   if (auto written = write_output(options_.json, text); !written) {
     print_error(options_, written.error().message);
     return std::max<int>(code, exit_usage);

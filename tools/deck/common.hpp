@@ -16,6 +16,7 @@
 #include "deck/keyword/engine_file.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
+#include "deck/report/drain.hpp"
 #include "progress.hpp"
 #include "verbs.hpp"
 
@@ -176,6 +177,10 @@ int check_outputs(const CommonOptions& options, const std::vector<std::string>& 
 Result<void> check_outputs(const std::vector<OutputFile>& files, const OutputRules& rules);
 /// Writes bytes to standard output ("-") or atomically to a file.
 Result<void> write_output(const std::string& path, std::string_view bytes);
+/// Makes a document and returns what of it has not left through the drain.
+using MakeText = std::function<std::string(const TextDrain&)>;
+/// The same for a document that is written while it is made.
+Result<void> write_output(const std::string& path, const MakeText& make);
 /// Writes a set of files, all or none.
 Result<void> write_outputs(const std::vector<OutputFile>& files, const OutputRules& rules = {},
                            const WriteOptions& options = {"", true, true, true});
@@ -188,6 +193,8 @@ class JsonOutput {
       : options_(options), schema_id_(schema_id), schema_version_(schema_version) {}
   bool wanted() const { return !options_.json.empty(); }
   void add(std::string document) { documents_.push_back(std::move(document)); }
+  /// The same for a large document: with one deck it is written at once, while it is made.
+  void add(const MakeText& make);
   /// Writes what was added; returns `code`, or exit_usage if the file cannot be written.
   int finish(int code) const;
 
@@ -196,6 +203,7 @@ class JsonOutput {
   std::string schema_id_;
   int schema_version_;
   std::vector<std::string> documents_;
+  bool failed_ = false;  ///< a document could not be written
 };
 
 }  // namespace deck::cli

@@ -294,7 +294,8 @@ int run(const Options& o) {
     if (o.gate.fails_on("never")) found = false;
     found = found || !report.passed();
     print_findings(loaded, o.common);
-    if (json.wanted()) json.add(cycle_json(input, o.all));
+    if (json.wanted())
+      json.add([&](const TextDrain& drain) { return cycle_json(input, o.all, drain); });
     if (!written) {
       print_error(o.common, written.error().message);
       return static_cast<int>(exit_usage);

@@ -167,13 +167,18 @@ int run(const Options& o) {
     const GateReport report = gate->look(loaded, scene, view, forces ? &*forces : nullptr);
     print_findings(loaded, o.common);
     if (json.wanted())
-      json.add(gaps_json(loaded.path, loaded.deck, scene, view, o.all,
-                         o.crossings ? &crossings : nullptr, &report));
+      json.add([&](const TextDrain& drain) {
+        return gaps_json(loaded.path, loaded.deck, scene, view, o.all,
+                         o.crossings ? &crossings : nullptr, &report, drain);
+      });
     if (baseline.wanted())
       baseline.add(gaps_json(name_in_baseline(loaded.path, o.write_baseline), loaded.deck, scene,
                              view, false));
     if (!o.csv.empty())
-      if (auto r = write_output(o.csv, gaps_csv(loaded.deck, scene, view)); !r) {
+      if (auto r = write_output(
+              o.csv,
+              [&](const TextDrain& drain) { return gaps_csv(loaded.deck, scene, view, drain); });
+          !r) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }

@@ -139,16 +139,37 @@ Result<void> check_outputs(const std::vector<OutputFile>& files, const OutputRul
   return {};
 }
 
-Result<void> write_output(const std::string& path, std::string_view bytes) {
-  if (path != "-") {
-    if (auto allowed = check_output(path, {}, bytes); !allowed) return allowed;
-    return write_file_atomic(path, bytes);
-  }
+namespace {
+
+Result<void> write_standard_output(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
       std::fflush(stdout) != 0)
     return Error{Error::Code::io,
                  std::string("cannot write standard output: ") + std::strerror(errno)};
   return {};
+}
+
+}  // namespace
+
+Result<void> write_output(const std::string& path, std::string_view bytes) {
+  if (path == "-") return write_standard_output(bytes);
+  if (auto allowed = check_output(path, {}, bytes); !allowed) return allowed;
+  return write_file_atomic(path, bytes);
+}
+
+Result<void> write_output(const std::string& path, const MakeText& make) {
+  const WritePieces pieces = [&](const WritePiece& write) {
+    Result<void> written;
+    const std::string rest = make([&](std::string& text) {
+      if (written) written = write(text);
+      text.clear();
+    });
+    if (written) written = write(rest);
+    return written;
+  };
+  if (path == "-") return pieces(write_standard_output);
+  if (auto allowed = check_output(path); !allowed) return allowed;
+  return write_file_atomic(path, pieces);
 }
 
 }  // namespace deck::cli

@@ -87,7 +87,8 @@ class SegmentTree {
   SegmentTree(const NodeArrays& nodes, std::size_t count, const SegmentOf& segment_of, int threads)
       : nodes_(nodes), segment_of_(segment_of), order_(count) {
     std::iota(order_.begin(), order_.end(), 0U);
-    sweep::put_in_order(order_, [&](std::uint32_t i) { return box_of(i); }, threads);
+    sweep::put_in_order(
+        order_, [&](std::uint32_t i) { return box_of(i); }, threads);
     const std::size_t leaves = (count + width - 1) / width;
     std::vector<BoxBlock> blocks((leaves + width - 1) / width);
     parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {

@@ -9,6 +9,7 @@
 #include "contact/rules/actions.hpp"
 #include "contact/rules/removal.hpp"
 #include "contact/scene/scene_parts.hpp"
+#include "contact/scene/sides.hpp"
 #include "deck/text/rule.hpp"
 
 namespace deck::detail {
@@ -63,61 +64,19 @@ bool rows_fit(const SceneContext& c, const Contact& contact) {
   return contact.penetrations.size() <= c.options.limits.pair_bytes / sizeof(PenetrationRow);
 }
 
-NodeArrays arrays(const Coordinates& c) { return {c.x, c.y, c.z}; }
-
 /// Irem_gap 2. False: there is no room for the lists.
-template <class Input>
-bool find_removed(const SceneContext& c, const Contact& contact, const Input& lists,
+bool find_removed(const SceneContext& c, const Contact& contact, const SearchSides& sides,
                   RemovalLists& removed) {
   if (contact.irem_gap != 2) return true;
-  return remove_along_mesh(
-      lists, {contact.gap_rule, contact.igap, contact.drad, contact.max_gap, contact.shortest_side},
-      c.scene.limits.pair_bytes / sizeof(std::uint32_t), removed);
+  const RemovalGaps gaps{contact.gap_rule, contact.igap, contact.drad, contact.max_gap,
+                         contact.shortest_side};
+  const std::uint64_t room = c.scene.limits.pair_bytes / sizeof(std::uint32_t);
+  const Coordinates& x = c.scene.coordinates;
+  return sides.edge_pairs() ? remove_along_mesh(sides.edges(x), gaps, room, removed)
+                            : remove_along_mesh(sides.nodes(x), gaps, room, removed);
 }
 
 Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
-
-struct NodeSegmentArrays {
-  std::vector<std::uint32_t> secondary;
-  std::vector<double> secondary_gap, secondary_length, secondary_stiffness;
-  std::vector<std::array<std::uint32_t, 4>> segments;
-  std::vector<double> segment_gap, segment_length, segment_stiffness;
-
-  explicit NodeSegmentArrays(const Contact& contact) {
-    const std::size_t n = contact.secondary.size(), m = contact.main.size();
-    secondary.reserve(n);
-    segments.reserve(m);
-    for (const SecondaryNode& s : contact.secondary) {
-      secondary.push_back(s.node);
-      secondary_gap.push_back(s.gap);
-      secondary_length.push_back(s.length);
-      secondary_stiffness.push_back(s.multiplier);
-    }
-    for (const MainSegment& s : contact.main) {
-      segments.push_back(s.nodes);
-      segment_gap.push_back(s.gap);
-      segment_length.push_back(s.length);
-      segment_stiffness.push_back(s.stiffness);
-    }
-  }
-  NodeSegmentInput view(const Coordinates& c) const {
-    return {arrays(c), secondary,   secondary_gap,  secondary_length, secondary_stiffness,
-            segments,  segment_gap, segment_length, segment_stiffness};
-  }
-};
-
-struct EdgeArrays {
-  std::vector<std::array<std::uint32_t, 2>> edges;
-  std::vector<double> gap, length, stiffness;
-  explicit EdgeArrays(const std::vector<ContactEdge>& list) {
-    for (const ContactEdge& e : list) {
-      edges.push_back(e.nodes);
-      gap.push_back(e.gap);
-      length.push_back(e.length);
-      stiffness.push_back(e.stiffness);
-    }
-  }
-};
 
 /// Candidates of a contact: what the solver's search gives, and what only an exact distance finds.
 struct Candidates {
@@ -179,20 +138,17 @@ void find_penetrations(SceneContext& c, Contact& contact) {
   Candidates found;
   RemovalLists removed;
   {
-    const NodeSegmentArrays lists(contact);
+    const SearchSides sides(contact, SearchSides::Off::included);
     const bool wide = c.options.candidates || contact.inacti == 3;
-    const double margin = candidate_margin(arrays(x), lists.segments);
-    const auto find = [&](const SearchOptions& o) {
-      return find_node_segment_pairs(lists.view(x), o);
-    };
+    const double margin = sides.margin(x);
+    const auto find = [&](const SearchOptions& o) { return sides.find(x, o); };
     search.margin = wide ? margin : 0;
     found = candidates(c.options.accuracy, margin, search, find);
     if (!found.complete && wide) {
       search.margin = 0;
       found = candidates(c.options.accuracy, margin, search, find);
     }
-    if (!found.complete || !find_removed(c, contact, lists.view(x), removed))
-      return give_up(c, contact);
+    if (!found.complete || !find_removed(c, contact, sides, removed)) return give_up(c, contact);
   }
   PairJudge judge(c.options.accuracy, c.scene.decisions);
   // The solver measures a whole group of candidates before it acts on any of them.
@@ -247,18 +203,15 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
   Candidates found;
   RemovalLists removed;
   {
-    const EdgeArrays s(contact.secondary_edges), m(contact.main_edges);
+    const SearchSides sides(contact, SearchSides::Off::included);
     SearchOptions search;
     search.gap = contact.gap_rule;
     search.drad = contact.drad;
     search.threads = c.options.threads;
     search.max_pairs = most_pairs(c);
-    const double size = candidate_margin(arrays(x), s.edges, m.edges);
-    const EdgeEdgeInput lists{arrays(x), s.edges, s.gap,    s.length,   s.stiffness,
-                              m.edges,   m.gap,   m.length, m.stiffness};
-    found = candidates(c.options.accuracy, size, search,
-                       [&](const SearchOptions& o) { return find_edge_edge_pairs(lists, o); });
-    if (!found.complete || !find_removed(c, contact, lists, removed)) return give_up(c, contact);
+    found = candidates(c.options.accuracy, sides.margin(x), search,
+                       [&](const SearchOptions& o) { return sides.find(x, o); });
+    if (!found.complete || !find_removed(c, contact, sides, removed)) return give_up(c, contact);
   }
   PairJudge judge(c.options.accuracy, c.scene.decisions);
   for (const CandidatePair& pair : found.pairs) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "contact/rules/actions.hpp"
 #include "contact/scene/element_names.hpp"
@@ -124,9 +123,15 @@ class Tally {
   ContactTotals totals_;
 };
 
-NamedPenetration named(const Model& model, Connectivity& connectivity, const Contact& contact,
-                       const PenetrationRow& row) {
+/// Row `r` of contact `c` of the scene.
+NamedPenetration named(const Scene& scene, Connectivity& connectivity, std::uint32_t c,
+                       std::uint32_t r) {
+  const Model& model = *scene.model;
+  const Contact& contact = scene.contacts[c];
+  const PenetrationRow& row = contact.penetrations[r];
   NamedPenetration p;
+  p.contact = c;
+  p.row = r;
   if (contact.kind == ContactKind::node_segment) {
     const NodeIndex n = contact.secondary[row.secondary].node;
     const MainSegment& m = contact.main[row.main];
@@ -183,20 +188,18 @@ PartPair part_pair(const Scene& scene, const SceneView& view, std::int64_t secon
 
 SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings) {
   SceneView view;
-  const Model& model = *scene.model;
-  Connectivity connectivity(model);
+  struct Place {
+    std::uint32_t contact = 0, row = 0;
+  };
+  std::vector<Place> places;
   Tally all;
   for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
     const Contact& contact = scene.contacts[c];
     Tally tally;
     for (std::uint32_t r = 0; r < contact.penetrations.size(); ++r) {
-      const PenetrationRow& row = contact.penetrations[r];
-      NamedPenetration p = named(model, connectivity, contact, row);
-      p.contact = c;
-      p.row = r;
-      view.penetrations.push_back(p);
-      tally.add(contact, row);
-      all.add(contact, row);
+      places.push_back({c, r});
+      tally.add(contact, contact.penetrations[r]);
+      all.add(contact, contact.penetrations[r]);
     }
     view.contacts.push_back(tally.totals());
   }
@@ -206,18 +209,25 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings) 
     for (ContactTotals& t : view.contacts) t.crossed_elements = 0;
     for (const Crossing& x : *crossings) ++*view.contacts[x.contact].crossed_elements;
   }
-  const auto row_of = [&](const NamedPenetration& p) -> const PenetrationRow& {
+  const auto row_of = [&](const Place& p) -> const PenetrationRow& {
     return scene.contacts[p.contact].penetrations[p.row];
   };
-  std::stable_sort(view.penetrations.begin(), view.penetrations.end(),
-                   [&](const NamedPenetration& a, const NamedPenetration& b) {
-                     return row_of(a).depth > row_of(b).depth;
-                   });
-  std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+  std::stable_sort(places.begin(), places.end(), [&](const Place& a, const Place& b) {
+    return row_of(a).depth > row_of(b).depth;
+  });
+  std::vector<std::vector<std::uint8_t>> seen;  // by contact and secondary item
+  for (const Contact& c : scene.contacts)
+    seen.emplace_back(
+        c.penetrations.empty() ? 0 : std::max(c.secondary.size(), c.secondary_edges.size()), 0);
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> pairs;
-  for (std::uint32_t i = 0; i < view.penetrations.size(); ++i) {
-    const NamedPenetration& p = view.penetrations[i];
-    if (seen.emplace(p.contact, row_of(p).secondary).second) view.deepest_per_node.push_back(i);
+  Connectivity connectivity(*scene.model);
+  view.penetrations.reserve(places.size());
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    view.penetrations.push_back(named(scene, connectivity, places[i].contact, places[i].row));
+    const NamedPenetration& p = view.penetrations.back();
+    std::uint8_t& known = seen[p.contact][row_of(places[i]).secondary];
+    if (known == 0) view.deepest_per_node.push_back(i);
+    known = 1;
     pairs[{p.secondary_element.part, p.main_element.part}].push_back(i);
   }
   for (const auto& [parts, list] : pairs)

@@ -38,10 +38,18 @@ Result<void> write_all(int fd, std::string_view bytes, const std::string& path) 
   return {};
 }
 
-Result<void> write_through(const std::string& path, std::string_view bytes) {
+/// All of a file, from its bytes or its pieces.
+Result<void> write_contents(int fd, std::string_view bytes, const WritePieces& pieces,
+                            const std::string& path) {
+  if (!pieces) return write_all(fd, bytes, path);
+  return pieces([&](std::string_view piece) { return write_all(fd, piece, path); });
+}
+
+Result<void> write_through(const std::string& path, std::string_view bytes,
+                           const WritePieces& pieces) {
   const int fd = open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (fd < 0) return io_error("cannot open", path, errno);
-  Result<void> done = write_all(fd, bytes, path);
+  Result<void> done = write_contents(fd, bytes, pieces, path);
   if (close(fd) != 0 && done) done = io_error("cannot close", path, errno);
   return done;
 }
@@ -174,6 +182,7 @@ class Transaction {
   struct Entry {
     std::string given, target, temporary, former;
     std::string_view bytes;
+    WritePieces pieces;
     std::optional<FileRead> read;
     struct stat old {
     }, fresh{};
@@ -221,6 +230,7 @@ Result<void> Transaction::prepare(const OutputFile& file) {
   Entry entry;
   entry.given = file.path;
   entry.bytes = file.bytes;
+  entry.pieces = file.pieces;
   entry.read = file.read;
   // Before links are followed: those of /proc (/dev/stdout) lead to no path.
   entry.special = options_.follow_links && stat(file.path.c_str(), &entry.old) == 0 &&
@@ -277,7 +287,7 @@ Result<void> Transaction::write_new(Entry& entry) {
         return fail("cannot set the owner of");
     if (fchmod(fd, entry.old.st_mode & 07777) != 0) return fail("cannot set the mode of");
   }
-  if (auto written = write_all(fd, entry.bytes, entry.given); !written) {
+  if (auto written = write_contents(fd, entry.bytes, entry.pieces, entry.given); !written) {
     close(fd);
     return written;
   }
@@ -444,7 +454,7 @@ Result<void> Transaction::commit() {
   std::set<std::string> directories;
   for (const Entry& e : entries_)
     if (e.special) {
-      if (auto done = write_through(e.target, e.bytes); !done) return done;
+      if (auto done = write_through(e.target, e.bytes, e.pieces); !done) return done;
     } else {
       directories.insert(directory_of(e.target));
     }
@@ -486,6 +496,11 @@ Result<void> write_set(const std::vector<OutputFile>& files, const WriteOptions&
 Result<void> write_file_atomic(const std::string& path, std::string_view bytes,
                                const WriteOptions& options) {
   return write_set({{path, bytes}}, options);
+}
+
+Result<void> write_file_atomic(const std::string& path, const WritePieces& pieces,
+                               const WriteOptions& options) {
+  return write_set({{path, {}, std::nullopt, pieces}}, options);
 }
 
 Result<void> write_files_atomic(const std::vector<OutputFile>& files, const WriteOptions& options) {

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
+#include <numeric>
 
 #include "contact/scene/scene_parts.hpp"
+#include "contact/scene/sides.hpp"
 #include "deck/contact/search.hpp"
 #include "report/gaps_names.hpp"
 #include "report/html/parts.hpp"
@@ -19,71 +20,6 @@ constexpr std::size_t pairs_at_least = 60000;  // per contact
 constexpr std::size_t pairs_at_most = 3000000;
 constexpr std::size_t penetrations_kept = 200000;  // per contact where all pairs are too many
 constexpr double reach_factors[] = {3, 2, 1.5, 1.1};
-
-NodeArrays arrays(const Coordinates& c) { return {c.x, c.y, c.z}; }
-
-/// Runs the pair search of one contact for a constant gap.
-class WideSearch {
- public:
-  WideSearch(const Contact& contact, const Coordinates& coordinates, int threads)
-      : contact_(contact), x_(coordinates), threads_(threads) {
-    if (contact.kind == ContactKind::node_segment) {
-      for (const SecondaryNode& s : contact.secondary) {
-        nodes_.push_back(s.node);
-        stiffness_s_.push_back(s.multiplier);
-      }
-      for (const MainSegment& m : contact.main) {
-        segments_.push_back(m.nodes);
-        stiffness_m_.push_back(m.stiffness);
-      }
-      return;
-    }
-    const auto side = [](const std::vector<ContactEdge>& list, auto& edges, auto& stiffness) {
-      for (const ContactEdge& e : list) {
-        edges.push_back(e.nodes);
-        stiffness.push_back(e.stiffness);
-      }
-    };
-    side(contact.secondary_edges, edges_s_, stiffness_s_);
-    side(contact.main_edges, edges_m_, stiffness_m_);
-  }
-
-  double margin() const {
-    return contact_.kind == ContactKind::node_segment ? candidate_margin(arrays(x_), segments_) : 0;
-  }
-
-  SearchResult run(double reach, std::size_t max_pairs) const {
-    SearchOptions options;
-    options.gap = PairGap::constant(reach);
-    options.threads = threads_;
-    options.max_pairs = max_pairs;
-    if (contact_.kind == ContactKind::edge_edge) {
-      EdgeEdgeInput in;
-      in.nodes = arrays(x_);
-      in.secondary = edges_s_;
-      in.main = edges_m_;
-      in.secondary_stiffness = stiffness_s_;
-      in.main_stiffness = stiffness_m_;
-      return find_edge_edge_pairs(in, options);
-    }
-    NodeSegmentInput in;
-    in.nodes = arrays(x_);
-    in.secondary = nodes_;
-    in.segments = segments_;
-    in.secondary_stiffness = stiffness_s_;
-    in.segment_stiffness = stiffness_m_;
-    return find_node_segment_pairs(in, options);
-  }
-
- private:
-  const Contact& contact_;
-  const Coordinates& x_;
-  int threads_;
-  std::vector<std::uint32_t> nodes_;
-  std::vector<std::array<std::uint32_t, 4>> segments_;
-  std::vector<std::array<std::uint32_t, 2>> edges_s_, edges_m_;
-  std::vector<double> stiffness_s_, stiffness_m_;
-};
 
 /// Largest gap that the interface has, could have by thickness, or would have by default.
 double expected_gap(const Contact& contact, const Contact& plain) {
@@ -98,14 +34,18 @@ double expected_gap(const Contact& contact, const Contact& plain) {
 PageContact wide_pairs(const Contact& contact, const Contact& plain, const Coordinates& x,
                        int threads, std::size_t limit) {
   PageContact page;
-  const WideSearch search(plain, x, threads);
-  page.margin = search.margin();
+  const SearchSides sides(plain, SearchSides::Off::included);
+  if (!sides.edge_pairs()) page.margin = sides.margin(x);
   if (!std::isfinite(page.margin)) page.margin = 0;
+  SearchOptions search;
+  search.threads = threads;
+  search.max_pairs = limit;
   const double gap = expected_gap(contact, plain);
   for (const double factor : reach_factors) {
     page.reach = factor * gap + page.margin;
     if (!(page.reach > 0) || !std::isfinite(page.reach)) break;
-    SearchResult found = search.run(page.reach, limit);
+    search.gap = PairGap::constant(page.reach);
+    SearchResult found = sides.find(x, search);
     if (!found.complete) continue;
     page.pairs = std::move(found.pairs);
     return page;
@@ -126,14 +66,14 @@ PageContact wide_pairs(const Contact& contact, const Contact& plain, const Coord
   return page;
 }
 
-/// Sorted distinct positions of one side of the pairs.
+/// Sorted distinct positions of one side of the pairs; the side has `count` items.
 std::vector<std::uint32_t> distinct(const std::vector<CandidatePair>& pairs,
-                                    std::uint32_t CandidatePair::*side) {
+                                    std::uint32_t CandidatePair::*side, std::size_t count) {
+  std::vector<bool> marks(count);
+  for (const CandidatePair& p : pairs) marks[p.*side] = true;
   std::vector<std::uint32_t> out;
-  out.reserve(pairs.size());
-  for (const CandidatePair& p : pairs) out.push_back(p.*side);
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (marks[i]) out.push_back(i);
   return out;
 }
 
@@ -152,19 +92,23 @@ struct NodeLine {
 std::vector<NodeLine> node_places(const Model& model, const Deck& deck,
                                   const std::vector<NodeIndex>& nodes) {
   std::vector<NodeLine> places(nodes.size());
-  std::unordered_map<NodeIndex, std::vector<std::size_t>> wanted;
-  for (std::size_t i = 0; i < nodes.size(); ++i) wanted[nodes[i]].push_back(i);
-  if (wanted.empty()) return places;
+  std::vector<std::uint32_t> order(nodes.size());  // of the nodes, by their indices
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return nodes[a] < nodes[b]; });
+  auto wanted = order.begin();
   for (const BulkBlock& range : model.node_blocks) {
     LineCursor cursor(deck.sources, *range.block);
     std::uint32_t file = Span::no_file;
     std::uint64_t at = 0, line_number = 1;
     NodeIndex node = range.first;
-    for (Line line = cursor.next(); line.valid() && node < range.first + range.count;
+    while (wanted != order.end() && nodes[*wanted] < node) ++wanted;
+    for (Line line = cursor.next();
+         line.valid() && node < range.first + range.count && wanted != order.end();
          line = cursor.next()) {
       if (line.text.find_first_not_of(' ') == std::string_view::npos) continue;
-      const auto found = wanted.find(node++);
-      if (found == wanted.end()) continue;
+      const NodeIndex here = node++;
+      if (nodes[*wanted] != here) continue;
       if (line.file != file || line.offset < at) {
         file = line.file;
         line_number = deck.sources[file].position(line.offset).line;
@@ -173,7 +117,8 @@ std::vector<NodeLine> node_places(const Model& model, const Deck& deck,
         line_number += static_cast<std::uint64_t>(std::count(between.begin(), between.end(), '\n'));
       }
       at = line.offset;
-      for (const std::size_t i : found->second) places[i] = {file, line_number};
+      for (; wanted != order.end() && nodes[*wanted] == here; ++wanted)
+        places[*wanted] = {file, line_number};
     }
   }
   return places;
@@ -235,12 +180,14 @@ class Writer {
       const Contact& plain = page_.scene.contacts[i];
       const PageContact& wide = page_.contacts[i];
       const bool edge_pairs = plain.kind == ContactKind::edge_edge;
+      const std::size_t s = edge_pairs ? plain.secondary_edges.size() : plain.secondary.size();
+      const std::size_t m = edge_pairs ? plain.main_edges.size() : plain.main.size();
       if (input_.scene->contacts[i].irem_gap == 2) {  // removal along the mesh looks at all items
-        secondary_ = everything(edge_pairs ? plain.secondary_edges.size() : plain.secondary.size());
-        main_ = everything(edge_pairs ? plain.main_edges.size() : plain.main.size());
+        secondary_ = everything(s);
+        main_ = everything(m);
       } else {
-        secondary_ = distinct(wide.pairs, &CandidatePair::secondary);
-        main_ = distinct(wide.pairs, &CandidatePair::main);
+        secondary_ = distinct(wide.pairs, &CandidatePair::secondary, s);
+        main_ = distinct(wide.pairs, &CandidatePair::main, m);
       }
       pairs(plain, wide);
       if (!edge_pairs)
@@ -248,7 +195,7 @@ class Writer {
       else
         edges(plain);
     }
-    return packed_text(out_.bytes());
+    return std::move(out_).text();
   }
 
  private:
@@ -310,9 +257,12 @@ class Writer {
     out_.f64(values);
   }
 
-  void owners(const std::vector<Owner>& list) {
+  /// `owner_at(item)` for each of the items.
+  template <class Items, class OwnerAt>
+  void owners(const Items& items, const OwnerAt& owner_at) {
     Delta part, id;
-    for (const Owner& o : list) {
+    for (const auto& item : items) {
+      const Owner o = owner_at(item);
       out_.u(static_cast<std::uint64_t>(o.kind));
       out_.s(id(o.id));
       out_.s(part(o.part == no_index ? 0 : std::int64_t{o.part} + 1));
@@ -339,15 +289,10 @@ class Writer {
     out_.palette(c.main, [](const MainSegment& m) {
       return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3 ? m.thickness : 0.0;
     });
-    std::vector<Owner> main_owners, secondary_owners;
+    owners(c.main, [&](const MainSegment& m) { return owner(model_, m.carrier, m.element); });
     std::vector<NodeIndex> paired;
-    for (const MainSegment& m : c.main) main_owners.push_back(owner(model_, m.carrier, m.element));
-    owners(main_owners);
-    for (const std::uint32_t s : secondary_) {
-      paired.push_back(c.secondary[s].node);
-      secondary_owners.push_back(owner_of_node(model_, connectivity_, paired.back()));
-    }
-    owners(secondary_owners);
+    for (const std::uint32_t s : secondary_) paired.push_back(c.secondary[s].node);
+    owners(paired, [&](NodeIndex node) { return owner_of_node(model_, connectivity_, node); });
     places(paired);
     selected(secondary_, c.secondary, [](const SecondaryNode& s) { return s.length; });
     selected(main_, c.main, [](const MainSegment& m) { return m.length; });
@@ -363,17 +308,11 @@ class Writer {
     };
     side(c.secondary_edges);
     side(c.main_edges);
-    std::vector<Owner> main_owners, secondary_owners;
-    for (const ContactEdge& e : c.main_edges)
-      main_owners.push_back(owner(model_, e.carrier, e.element));
+    const auto of_edge = [&](const ContactEdge& e) { return owner(model_, e.carrier, e.element); };
+    owners(c.main_edges, of_edge);
+    owners(secondary_, [&](std::uint32_t s) { return of_edge(c.secondary_edges[s]); });
     std::vector<NodeIndex> first;
-    for (const std::uint32_t s : secondary_) {
-      const ContactEdge& e = c.secondary_edges[s];
-      secondary_owners.push_back(owner(model_, e.carrier, e.element));
-      first.push_back(e.nodes[0]);
-    }
-    owners(main_owners);
-    owners(secondary_owners);
+    for (const std::uint32_t s : secondary_) first.push_back(c.secondary_edges[s].nodes[0]);
     places(first);
     selected(secondary_, c.secondary_edges, [](const ContactEdge& e) { return e.length; });
     selected(main_, c.main_edges, [](const ContactEdge& e) { return e.length; });

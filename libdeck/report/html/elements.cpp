@@ -63,7 +63,7 @@ std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh
         out.s(line(static_cast<std::int64_t>(place[f.element].line)));
       out.palette(g.faces, [&](const MeshFace& f) { return own_thickness(family, f.element); });
     }
-  return packed_text(out.bytes());
+  return std::move(out).text();
 }
 
 }  // namespace deck::detail

@@ -235,7 +235,7 @@ std::string mesh_block(const Model& model, const std::vector<MeshPart>& mesh,
   out.u(mesh.size());
   PartWriter writer(model, nodes, out);
   for (const MeshPart& part : mesh) writer.write(part);
-  return packed_text(out.bytes());
+  return std::move(out).text();
 }
 
 }  // namespace deck::detail

@@ -3,36 +3,69 @@
 
 #include <zlib.h>
 
-#include <stdexcept>
-#include <vector>
+#include <algorithm>
+#include <array>
+#include <new>
 
 #include "base/bits.hpp"
 
 namespace deck::detail {
 
 void ByteStream::f64(std::span<const double> values) {
-  const std::size_t start = bytes_.size();
-  bytes_.resize(start + 8 * values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    std::uint64_t bits = bit_cast<std::uint64_t>(values[i]);
-    for (std::size_t plane = 0; plane < 8; ++plane) {
-      bytes_[start + plane * values.size() + i] = static_cast<char>(bits & 0xff);
-      bits >>= 8;
-    }
-  }
+  // Planes are written one after the other, each in pieces.
+  for (std::size_t plane = 0; plane < 8; ++plane)
+    for (const double v : values)
+      byte(static_cast<unsigned>(bit_cast<std::uint64_t>(v) >> (8 * plane) & 0xff));
 }
 
-std::string packed_text(std::string_view bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::vector<Bytef> packed(size);
-  // The buffer is as large as zlib asked for: only memory can be missing.
-  if (compress2(packed.data(), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                static_cast<uLong>(bytes.size()), 9) != Z_OK)
-    throw std::bad_alloc();
+struct PackedText::State {
+  z_stream zip{};
+  std::array<Bytef, 3 * 8192> packed;  // a multiple of three, so that base64 goes on without a seam
+  std::string text;
+};
+
+PackedText::PackedText() : state_(std::make_unique<State>()) {
+  // Nothing but memory can be missing.
+  if (deflateInit(&state_->zip, 9) != Z_OK) throw std::bad_alloc();
+  state_->zip.next_out = state_->packed.data();
+  state_->zip.avail_out = static_cast<uInt>(state_->packed.size());
+}
+
+PackedText::~PackedText() { deflateEnd(&state_->zip); }
+
+void PackedText::add(std::string_view bytes) { run(bytes, false); }
+
+std::string PackedText::finish() {
+  run({}, true);
+  return std::move(state_->text);
+}
+
+void PackedText::run(std::string_view bytes, bool last) {
+  constexpr std::size_t most = std::size_t{1} << 30;  // zlib counts with 32 bits
+  z_stream& zip = state_->zip;
+  do {
+    const std::string_view piece = bytes.substr(0, most);
+    bytes.remove_prefix(piece.size());
+    zip.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(piece.data()));
+    zip.avail_in = static_cast<uInt>(piece.size());
+    const bool ends = last && bytes.empty();
+    for (;;) {
+      const int result = deflate(&zip, ends ? Z_FINISH : Z_NO_FLUSH);
+      if (zip.avail_out == 0) encode(false);
+      if (ends ? result == Z_STREAM_END : zip.avail_in == 0 && zip.avail_out > 0) break;
+    }
+  } while (!bytes.empty());
+  if (last) encode(true);
+}
+
+/// Writes out what is packed: a full buffer, or the end.
+void PackedText::encode(bool last) {
   static constexpr char digits[] =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((size + 2) / 3 * 4);
+  const auto& packed = state_->packed;
+  std::string& text = state_->text;
+  const std::size_t size = packed.size() - state_->zip.avail_out;
+  if (!last && size < packed.size()) return;
   for (std::size_t i = 0; i < size; i += 3) {
     const unsigned a = packed[i], b = i + 1 < size ? packed[i + 1] : 0u,
                    c = i + 2 < size ? packed[i + 2] : 0u;
@@ -42,7 +75,14 @@ std::string packed_text(std::string_view bytes) {
     text += i + 1 < size ? digits[v >> 6 & 63] : '=';
     text += i + 2 < size ? digits[v & 63] : '=';
   }
-  return text;
+  state_->zip.next_out = state_->packed.data();
+  state_->zip.avail_out = static_cast<uInt>(packed.size());
+}
+
+std::string packed_text(std::string_view bytes) {
+  PackedText packed;
+  packed.add(bytes);
+  return packed.finish();
 }
 
 }  // namespace deck::detail

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,24 @@
 #include <vector>
 
 namespace deck::detail {
+
+/// Bytes that are packed (zlib, level 9) and written as base64 piece by piece as they come.
+class PackedText {
+ public:
+  PackedText();
+  ~PackedText();
+  PackedText(const PackedText&) = delete;
+  PackedText& operator=(const PackedText&) = delete;
+  void add(std::string_view bytes);
+  /// What all that was added makes. Nothing may be added afterwards.
+  std::string finish();
+
+ private:
+  struct State;
+  void run(std::string_view bytes, bool last);
+  void encode(bool last);
+  std::unique_ptr<State> state_;
+};
 
 class ByteStream {
  public:
@@ -20,13 +39,17 @@ class ByteStream {
       v >>= 7;
     }
     bytes_ += static_cast<char>(v);
+    if (bytes_.size() >= enough) pack();
   }
   /// Signed: sign in the lowest bit.
   void s(std::int64_t v) {
     u((static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63));
   }
   /// One byte as it is.
-  void byte(unsigned v) { bytes_ += static_cast<char>(v); }
+  void byte(unsigned v) {
+    bytes_ += static_cast<char>(v);
+    if (bytes_.size() >= enough) pack();
+  }
   /// Doubles as eight planes of bytes: first all lowest bytes, last all highest ones.
   void f64(std::span<const double> values);
   void f64(double value) { f64(std::span(&value, 1)); }
@@ -47,10 +70,20 @@ class ByteStream {
     if (values.size() > 1)
       for (const std::uint32_t i : index) u(i);
   }
-  const std::string& bytes() const { return bytes_; }
+  /// All of it, packed, as text.
+  std::string text() && {
+    pack();
+    return packed_.finish();
+  }
 
  private:
-  std::string bytes_;
+  static constexpr std::size_t enough = std::size_t{1} << 18;
+  void pack() {
+    packed_.add(bytes_);
+    bytes_.clear();
+  }
+  PackedText packed_;
+  std::string bytes_;  // not packed yet
 };
 
 /// Running difference for ByteStream::s.

@@ -171,8 +171,15 @@ const char* name_of(cycle::StepLimit::Source source) {
   }
 }
 
+/// Whether every pair is a row, and how rows leave.
+struct PairRows {
+  bool wanted = false;
+  std::string& text;
+  const TextDrain& drain;
+};
+
 void write_contact(JsonWriter& j, const CycleInput& input, const cycle::ContactOutcome& o,
-                   bool all) {
+                   const PairRows& rows) {
   const Model& model = *input.scene->model;
   const Contact& c = *o.contact;
   j.begin_object().field("kind", to_string(c.kind)).field("role", to_string(c.role));
@@ -208,15 +215,19 @@ void write_contact(JsonWriter& j, const CycleInput& input, const cycle::ContactO
   for (const std::string& text : o.notes) j.value(text);
   j.end_array();
   write_cost(j, input, o);
-  if (all) {
+  if (rows.wanted) {
     j.key("pairs").begin_array();
-    for (const cycle::PairOutcome& p : o.pairs) write_pair(j, model, c, p);
+    for (const cycle::PairOutcome& p : o.pairs) {
+      write_pair(j, model, c, p);
+      drain_text(rows.drain, rows.text);
+    }
     j.end_array();
   }
   j.end_object();
 }
 
-void write_interface(JsonWriter& j, const CycleInput& input, const InterBase& inter, bool all) {
+void write_interface(JsonWriter& j, const CycleInput& input, const InterBase& inter,
+                     const PairRows& rows) {
   j.begin_object().field("id", inter.id).field("type", inter.type);
   j.field("title", inter.title).key("source");
   write_json_place(j, *input.deck, inter.span);
@@ -230,7 +241,7 @@ void write_interface(JsonWriter& j, const CycleInput& input, const InterBase& in
   j.end_array().key("contacts").begin_array();
   for (const ContactRole role : {ContactRole::primary, ContactRole::reversed, ContactRole::edges})
     for (const cycle::ContactOutcome& c : input.outcome->contacts)
-      if (c.contact->inter == &inter && c.contact->role == role) write_contact(j, input, c, all);
+      if (c.contact->inter == &inter && c.contact->role == role) write_contact(j, input, c, rows);
   j.end_array().end_object();
 }
 
@@ -249,9 +260,10 @@ void write_acted_nodes(JsonWriter& j, const CycleInput& input) {
 
 }  // namespace
 
-std::string cycle_json(const CycleInput& input, bool all) {
+std::string cycle_json(const CycleInput& input, bool all, const TextDrain& drain) {
   std::string out;
   JsonWriter j(out);
+  const PairRows rows{all, out, drain};
   const Model& model = *input.scene->model;
   const cycle::SceneOutcome& o = *input.outcome;
   j.begin_object();
@@ -268,7 +280,7 @@ std::string cycle_json(const CycleInput& input, bool all) {
   for (const InterBase* inter : input.scene->interfaces->ordered)
     for (const cycle::ContactOutcome& c : o.contacts)
       if (c.contact->inter == inter && c.contact->role == ContactRole::primary) {
-        write_interface(j, input, *inter, all);
+        write_interface(j, input, *inter, rows);
         break;
       }
   j.end_array();

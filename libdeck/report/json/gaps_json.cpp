@@ -17,20 +17,33 @@ void write_vector(JsonWriter& j, const std::array<double, 3>& v) {
   j.end_array();
 }
 
-void write_sides(JsonWriter& j, const Model& model, const Contact& c) {
+/// A document under way: after every row it may leave.
+struct Rows {
+  JsonWriter& json;
+  std::string& text;
+  const TextDrain& drain;
+  void end_row() const {
+    json.end_object();
+    drain_text(drain, text);
+  }
+};
+
+void write_sides(const Rows& rows, const Model& model, const Contact& c) {
+  JsonWriter& j = rows.json;
   if (c.kind == ContactKind::node_segment) {
     j.key("secondary").begin_array();
     for (const SecondaryNode& s : c.secondary) {
       j.begin_object(true).field("node", model.node_id(s.node)).field("stiffness", s.multiplier);
       j.field("gap", s.gap);
       if (c.istf >= 2) j.field("nodal_stiffness", s.nodal_stiffness);
-      j.end_object();
+      rows.end_row();
     }
     j.end_array().key("main").begin_array();
     for (const MainSegment& m : c.main) {
       j.begin_object(true).key("nodes");
       write_nodes(j, model, m.nodes.data(), 4);
-      j.field("stiffness", m.stiffness).field("gap", m.gap).end_object();
+      j.field("stiffness", m.stiffness).field("gap", m.gap);
+      rows.end_row();
     }
     j.end_array();
     return;
@@ -40,7 +53,8 @@ void write_sides(JsonWriter& j, const Model& model, const Contact& c) {
     for (const ContactEdge& e : edges) {
       j.begin_object(true).key("edge");
       write_nodes(j, model, e.nodes.data(), 2);
-      j.field("stiffness", e.stiffness).field("gap", e.gap).end_object();
+      j.field("stiffness", e.stiffness).field("gap", e.gap);
+      rows.end_row();
     }
     j.end_array();
   };
@@ -49,10 +63,11 @@ void write_sides(JsonWriter& j, const Model& model, const Contact& c) {
 }
 
 /// `spans` are the lines of the secondary nodes, parallel to the view's penetrations.
-void write_penetrations(JsonWriter& j, const Deck& deck, const Scene& scene, const SceneView& view,
-                        const std::vector<Span>& spans,
+void write_penetrations(const Rows& rows, const Deck& deck, const Scene& scene,
+                        const SceneView& view, const std::vector<Span>& spans,
                         const std::vector<const NamedPenetration*>& named, const Contact& c) {
   const Model& model = *scene.model;
+  JsonWriter& j = rows.json;
   j.key("penetrations").begin_array();
   for (const NamedPenetration* p : named) {
     const PenetrationRow& r = c.penetrations[p->row];
@@ -100,7 +115,7 @@ void write_penetrations(JsonWriter& j, const Deck& deck, const Scene& scene, con
     element("main_element", p->main_element);
     j.key("source");
     write_json_place(j, deck, spans[static_cast<std::size_t>(p - view.penetrations.data())]);
-    j.end_object();
+    rows.end_row();
   }
   j.end_array();
 }
@@ -148,9 +163,10 @@ void write_totals(JsonWriter& j, const ContactTotals& t) {
 
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
                       const SceneView& view, bool all, const std::vector<Crossing>* crossings,
-                      const GateReport* gate) {
+                      const GateReport* gate, const TextDrain& drain) {
   std::string out;
   JsonWriter j(out);
+  const Rows rows{j, out, drain};
   j.begin_object();
   write_json_head(j, "deck/gaps", 1);
   write_json_deck(j, path, deck, scene.model, scene.interfaces);
@@ -199,8 +215,8 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
         j.field("shortest_main_side", c.shortest_side).key("totals").begin_object(true);
         write_totals(j, view.contacts[i]);
         j.end_object();
-        if (all) write_sides(j, *scene.model, c);
-        write_penetrations(j, deck, scene, view, spans, named[i], c);
+        if (all) write_sides(rows, *scene.model, c);
+        write_penetrations(rows, deck, scene, view, spans, named[i], c);
         if (crossings != nullptr)
           write_crossings(j, scene, *crossings, static_cast<std::uint32_t>(i));
         j.end_object();

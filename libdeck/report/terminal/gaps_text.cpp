@@ -233,13 +233,14 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
   TextTable worst = make_table({">interface", "node/edge", ">depth", ">gap", ">distance",
                                 "segment/edge", "elements", "action", "position", "defined at"});
   const std::size_t rows = std::min(options.worst, view.deepest_per_node.size());
+  std::vector<NodeIndex> nodes;
+  for (std::size_t i = 0; i < rows; ++i)
+    nodes.push_back(first_node(scene, view.penetrations[view.deepest_per_node[i]]));
+  const std::vector<Span> spans = detail::node_spans(*scene.model, nodes);
   for (std::size_t i = 0; i < rows; ++i) {
     const NamedPenetration& p = view.penetrations[view.deepest_per_node[i]];
     const Contact& c = scene.contacts[p.contact];
     const PenetrationRow& row = row_of(scene, p);
-    const NodeIndex n = c.kind == ContactKind::node_segment
-                            ? c.secondary[row.secondary].node
-                            : c.secondary_edges[row.secondary].nodes[0];
     const bool stops = row.on_surface && on_surface_error(c) != 0;
     std::string action =
         stops ? fmt::format("error {}", on_surface_error(c)) : to_string(row.action);
@@ -248,7 +249,7 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
                fmt::format("{:.6g}", row.gap), fmt::format("{:.6g}", row.distance), segment_text(p),
                fmt::format("{} / {}", p.secondary_element.id, p.main_element.id), action,
                fmt::format("({:.5g}, {:.5g}, {:.5g})", p.at[0], p.at[1], p.at[2]),
-               deck.sources.where(scene.model->node_span(n))});
+               deck.sources.where(spans[i])});
   }
   std::string out = rows == 0 ? std::string() : worst.fitted(options.width, options.color, 2, 2);
   if (rows < view.deepest_per_node.size())
@@ -288,7 +289,8 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
   return out;
 }
 
-std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view) {
+std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view,
+                     const TextDrain& drain) {
   std::string out =
       "interface,type,role,kind,secondary_1,secondary_2,main_1,main_2,main_3,main_4,depth,gap,"
       "distance,ratio,normal_x,normal_y,normal_z,on_surface,action,gap0,p0,x,y,z,"
@@ -318,6 +320,7 @@ std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view
         id(p.main_element.id), id(p.main_element.part),
         span.valid() ? quote(terminal_text(deck.sources[span.file].path())) : std::string(),
         span.valid() ? fmt::format("{}", deck.sources.position(span).line) : "");
+    drain_text(drain, out);
   }
   return out;
 }

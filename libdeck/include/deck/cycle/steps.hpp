@@ -40,7 +40,7 @@ struct StepEvent {
 
 struct StepsOutcome {
   SceneOutcome last;
-  Coordinates coordinates;  ///< of the last step
+  Coordinates coordinates;  ///< of the last step; empty: a single one without a motion
   std::vector<StepLine> lines;
   std::vector<StepEvent> events;  ///< in the order they happened
   std::size_t searches = 0;       ///< how often the pairs of a contact were searched
@@ -57,7 +57,7 @@ using StepWatch = std::function<void(std::size_t step, const SceneOutcome&, cons
 /// and edges that were removed (dtmin, mid-surface, Idel), released translations. Pairs are
 /// searched again when the motion leaves what was searched. The result does not depend on the
 /// number of threads.
-[[nodiscard]] StepsOutcome run_steps(const Scene& scene, State state, CycleOptions options,
+[[nodiscard]] StepsOutcome run_steps(const Scene& scene, const State& state, CycleOptions options,
                                      std::size_t steps, const Motion& motion = {},
                                      const StepWatch& watch = {});
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,12 +19,18 @@ struct FileRead {
   std::string_view bytes;
 };
 
+/// Writes one piece of a file behind those before it. Error: the system's reason.
+using WritePiece = std::function<Result<void>(std::string_view)>;
+/// Makes the contents of a file that is never held as a whole; passes on the error of a piece.
+using WritePieces = std::function<Result<void>(const WritePiece&)>;
+
 /// A file to be written, alone or as part of a set.
 struct OutputFile {
   std::string path;
   std::string_view bytes;
   /// Given: the file is replaced only if it still is the one that was read, byte for byte.
   std::optional<FileRead> read = std::nullopt;
+  WritePieces pieces = nullptr;  ///< given: called once for the contents, instead of `bytes`
 };
 
 struct WriteOptions {
@@ -44,6 +51,10 @@ struct WriteOptions {
 /// reason. The old file is then as it was and nothing is left beside it, unless all that failed is
 /// flushing the directory at the end. A kill can leave a hidden file, see is_temporary_of.
 Result<void> write_file_atomic(const std::string& path, std::string_view bytes,
+                               const WriteOptions& options = {});
+
+/// The same for contents that come piece by piece. Whatever goes wrong, nothing is put in place.
+Result<void> write_file_atomic(const std::string& path, const WritePieces& pieces,
                                const WriteOptions& options = {});
 
 /// The same for several files: all of them are written and flushed beside their places before the

@@ -10,6 +10,7 @@
 #include "deck/cycle/steps.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
+#include "deck/report/drain.hpp"
 #include "deck/report/vtk.hpp"
 
 namespace deck {
@@ -58,7 +59,7 @@ struct CycleTextOptions {
 
 /// The document of `deck cycle --json` (schemas/output/cycle.schema.json). With `all`, every pair
 /// that has a penetration, and every node that contact acts on.
-std::string cycle_json(const CycleInput& input, bool all);
+std::string cycle_json(const CycleInput& input, bool all, const TextDrain& drain = {});
 /// Verdict, table of interfaces, time steps, pairs near the gap singularity, effects, how the
 /// decisions were taken; the verdict again, and the gate.
 std::string cycle_text(const CycleInput& input, const CycleTextOptions& options = {});

@@ -9,6 +9,7 @@
 #include "deck/contact/earlier.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/keyword/deck.hpp"
+#include "deck/report/drain.hpp"
 #include "deck/text/result.hpp"
 
 namespace deck {
@@ -41,7 +42,7 @@ std::string gaps_verdict(const Deck& deck, const Scene& scene, const SceneView& 
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
                       const SceneView& view, bool all,
                       const std::vector<Crossing>* crossings = nullptr,
-                      const GateReport* gate = nullptr);
+                      const GateReport* gate = nullptr, const TextDrain& drain = {});
 
 /// Crossed elements by part pair.
 std::string crossings_text(const Scene& scene, const std::vector<Crossing>& crossings,
@@ -54,6 +55,7 @@ Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
                                       std::string_view deck_path, bool strict = false);
 
 /// One line per penetration, deepest first, RFC 4180.
-std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view);
+std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view,
+                     const TextDrain& drain = {});
 
 }  // namespace deck

@@ -1,0 +1,43 @@
+// The sides of a contact as the pair search takes them: plain arrays, with only those that the
+// contact's rules look at. Private to the library.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "deck/contact/scene.hpp"
+
+namespace deck::detail {
+
+class SearchSides {
+ public:
+  /// What start-up switched off (Inacti, Fpenmax) takes part or not.
+  enum class Off : bool { included, left_out };
+
+  SearchSides(const Contact& contact, Off off);
+
+  bool edge_pairs() const { return kind_ == ContactKind::edge_edge; }
+  /// Views of the arrays: valid as long as this object and the coordinates.
+  NodeSegmentInput nodes(const Coordinates& x) const;
+  EdgeEdgeInput edges(const Coordinates& x) const;
+  /// The pairs of either kind.
+  SearchResult find(const Coordinates& x, const SearchOptions& options) const;
+  /// The solver's margin beyond the gap, from the mean edge length of the searched sides.
+  double margin(const Coordinates& x) const;
+
+ private:
+  struct Side {
+    std::vector<double> gap, length,
+        stiffness;  ///< length, stiffness: empty where they say nothing
+  };
+  void add(Side& side, double gap, double length, double stiffness);
+
+  ContactKind kind_;
+  bool lengths_;
+  std::vector<std::uint32_t> nodes_;
+  std::vector<std::array<std::uint32_t, 4>> segments_;
+  std::array<std::vector<std::array<std::uint32_t, 2>>, 2> edges_;
+  std::array<Side, 2> sides_;
+};
+
+}  // namespace deck::detail
