@@ -114,10 +114,9 @@ Incidence::Incidence(const PairList& pairs, std::size_t node_count) {
   }
 }
 
-void NodalSums::resize(std::size_t nodes, bool with_heat) {
+void NodalSums::resize(std::size_t nodes) {
   for (auto& f : force) f.assign(nodes, 0.0);
-  stiffness.assign(nodes, 0.0);
-  for (auto* a : {&heat, &conductance}) a->assign(with_heat ? nodes : 0, 0.0);
+  for (auto* a : {&stiffness, &heat, &conductance}) a->assign(nodes, 0.0);
   for (auto* a : {&contact, &removed, &released}) a->assign(nodes, 0);
 }
 

@@ -271,6 +271,29 @@ TEST_F(AtomicWriting, SameFileTwiceNeedsTheSameBytes) {
   EXPECT_EQ(get("a.rad"), "x");
 }
 
+TEST_F(AtomicWriting, PiecesBecomeOneFile) {
+  put("a", "old");
+  ASSERT_TRUE(write_file_atomic(at("a"), [](const WritePiece& write) -> Result<void> {
+    for (const char* piece : {"one ", "", "two ", "three"})
+      if (auto written = write(piece); !written) return written;
+    return {};
+  }));
+  EXPECT_EQ(get("a"), "one two three");
+  EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(AtomicWriting, PiecesThatFailHalfWayLeaveTheOldFile) {
+  put("a", "old");
+  const auto written = write_file_atomic(at("a"), [](const WritePiece& write) -> Result<void> {
+    if (auto done = write("new"); !done) return done;
+    return Error{Error::Code::io, "no more"};
+  });
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().message, "no more");
+  EXPECT_EQ(get("a"), "old");
+  EXPECT_EQ(entries(), 1u);
+}
+
 TEST_F(AtomicWriting, MissingDirectoryIsMadeOnlyWhenAskedFor) {
   EXPECT_FALSE(write_file_atomic(at("x/y/a.rad"), "a"));
   EXPECT_EQ(entries(), 0u);

@@ -82,8 +82,11 @@ Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& sce
   cycle::CycleOptions cycle_options;
   cycle_options.threads = scene_options.threads;
   cycle_options.keep_pairs = true;
-  const cycle::State state = cycle::make_state(scene);
+  cycle::State state = cycle::make_state(scene);
   const cycle::SceneOutcome forces = cycle::run_cycle(scene, state, cycle_options);
+  // The page asks for masses only, and nodes may be many.
+  state.velocity = {};
+  std::vector<double>().swap(state.temperature);
   HtmlInput input = page_input(loaded, scene, view, scene_options);
   input.cycle = &forces;
   input.state = &state;

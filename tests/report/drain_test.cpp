@@ -1,0 +1,89 @@
+// Documents that leave while they are made are the ones that are made as a whole.
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <string>
+
+#include "contact/small_deck.hpp"
+#include "deck/contact/view.hpp"
+#include "deck/report/gaps.hpp"
+#include "report/html/stream.hpp"
+
+namespace deck::test {
+namespace {
+
+/// Two plates of n by n shells, 0.5 apart, gap 1: every upper node penetrates.
+SmallDeck plates(int n) {
+  SmallDeck d;
+  for (int sheet = 0; sheet < 2; ++sheet)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+        d.node(1 + i + (n + 1) * (j + (n + 1) * sheet), 5.0 * i + sheet, 5.0 * j + sheet,
+               0.5 * sheet);
+  d.shell_part(1, 1).shell_part(2, 1);
+  for (int sheet = 0; sheet < 2; ++sheet)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const int a = 1 + i + (n + 1) * (j + (n + 1) * sheet);
+        d.shell(1 + sheet, 1 + i + n * (j + n * sheet), a, a + 1, a + n + 2, a + n + 1);
+      }
+  return d.group("/SURF/PART/1", {1}).group("/GRNOD/PART/2", {2});
+}
+
+TEST(LargeDocuments, LeaveInPiecesThatAreTheWhole) {
+  const Built b(plates(48).add("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1"));
+  const SceneView view = make_view(b.scene);
+  ASSERT_GT(view.penetrations.size(), 2000u);
+  for (const bool csv : {false, true}) {
+    const auto document = [&](const TextDrain& drain) {
+      return csv ? gaps_csv(b.deck, b.scene, view, drain)
+                 : gaps_json("x", b.deck, b.scene, view, true, nullptr, nullptr, drain);
+    };
+    std::string text;
+    int pieces = 0;
+    const std::string rest = document([&](std::string& piece) {
+      text += piece;
+      piece.clear();
+      ++pieces;
+    });
+    const std::string whole = document({});
+    EXPECT_EQ(text + rest, whole);
+    EXPECT_EQ(pieces > 0, whole.size() > (std::size_t{1} << 20)) << whole.size();
+    EXPECT_TRUE(csv || pieces > 0) << whole.size();
+  }
+}
+
+/// What base64 text stands for.
+std::string decoded(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  unsigned bits = 0, count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    if (++count % 4 != 1) out += static_cast<char>(bits >> (6 - 2 * ((count - 1) % 4)) & 0xff);
+  }
+  return out;
+}
+
+TEST(PackedText, IsTheSameInPiecesAndHoldsWhatWasPacked) {
+  std::string bytes;
+  for (unsigned i = 0; i < 300000; ++i) bytes += static_cast<char>(i * i * 2654435761u >> 24);
+  detail::PackedText packed;
+  for (std::size_t at = 0; at < bytes.size(); at += 977)
+    packed.add(std::string_view(bytes).substr(at, 977));
+  const std::string text = packed.finish();
+  EXPECT_EQ(text, detail::packed_text(bytes));
+  const std::string raw = decoded(text);
+  std::string back(bytes.size() + 1, '\0');
+  uLongf size = back.size();
+  ASSERT_EQ(uncompress(reinterpret_cast<Bytef*>(back.data()), &size,
+                       reinterpret_cast<const Bytef*>(raw.data()), raw.size()),
+            Z_OK);
+  back.resize(size);
+  EXPECT_EQ(back, bytes);
+  EXPECT_EQ(detail::packed_text("").size() % 4, 0u);
+}
+
+}  // namespace
+}  // namespace deck::test
