@@ -130,7 +130,7 @@ std::string nodes_file(const CycleInput& input) {
   for (NodeIndex n = 0; n < sums.stiffness.size(); ++n) {
     const auto known = figures.find(n);
     if (sums.contact[n] == 0 && sums.removed[n] == 0 && sums.stiffness[n] == 0.0 &&
-        sums.heat[n] == 0.0 && known == figures.end())
+        sums.heat_of(n) == 0.0 && known == figures.end())
       continue;
     const std::array<double, 3> f{sums.force[0][n], sums.force[1][n], sums.force[2][n]};
     const double m = input.state->mass[n], k = sums.stiffness[n];
@@ -149,7 +149,7 @@ std::string nodes_file(const CycleInput& input) {
     stiffness.push_back(k);
     mass.push_back(m);
     dt.push_back(m > 0 && k > 0 ? 0.9 * std::sqrt(2 * m / k) : 0.0);
-    heat.push_back(sums.heat[n]);
+    heat.push_back(sums.heat_of(n));
     removed.push_back(sums.removed[n]);
     node.push_back(scene.model->node_id(n));
   }

@@ -67,6 +67,8 @@ struct NodalSums {
   std::vector<double> stiffness;
   std::vector<double> heat;            ///< empty: no contact of a scene asks for it
   std::vector<double> conductance;     ///< the same
+  /// Heat of a node, 0 where no contact asks for it.
+  double heat_of(std::size_t node) const { return heat.empty() ? 0.0 : heat[node]; }
   std::vector<std::uint8_t> contact;   ///< 1 when a pair of the node has a force (Ibag, Iadm)
   std::vector<std::uint8_t> removed;   ///< 1 when the node (edge) is to leave the interface
   std::vector<std::uint8_t> released;  ///< translations to free, 4 X + 2 Y + 1 Z (IBC)
