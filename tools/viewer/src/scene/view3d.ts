@@ -1,17 +1,17 @@
 // The 3D view: parts, penetrating nodes as dots, arrows, the selected pair, clip plane and picking.
 // Frames are drawn on demand only.
 import {
-  BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, CylinderGeometry, DirectionalLight, HemisphereLight,
+  BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, DirectionalLight, HemisphereLight,
   InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Points, PointsMaterial, Quaternion, Raycaster, Scene,
   Sphere, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
-import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { CameraControl } from "./camera";
 import { Parts3D, type Look, type Part3D } from "./parts3d";
 import { Section, type Cut } from "./section";
+import { arrowGeometry, discTexture } from "./shapes";
 import type { Hit, Report } from "../report";
 
 export interface Picked {
@@ -584,22 +584,3 @@ function directions(n: Vector3): Vector3[] {
     return t.clone().multiplyScalar(0.9 * Math.cos(a)).addScaledVector(u, 0.9 * Math.sin(a)).addScaledVector(n, 0.45).normalize();
   });
 }
-
-function arrowGeometry(): BufferGeometry {
-  const shaft = new CylinderGeometry(0.022, 0.022, 0.62, 5, 1, true).translate(0, 0.31, 0);
-  const tip = new ConeGeometry(0.085, 0.3, 7).translate(0, 0.77, 0);
-  return mergeGeometries([shaft, tip])!;
-}
-
-function discTexture(): CanvasTexture {
-  const size = 64;
-  const canvas = document.createElement("canvas");
-  canvas.width = canvas.height = size;
-  const g = canvas.getContext("2d")!;
-  g.fillStyle = "#fff";
-  g.beginPath();
-  g.arc(size / 2, size / 2, size / 2 - 2, 0, 2 * Math.PI);
-  g.fill();
-  return new CanvasTexture(canvas);
-}
-

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "keyword/decode_parts.hpp"
+#include "keyword/decode/parts.hpp"
 #include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
 

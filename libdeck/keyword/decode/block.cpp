@@ -4,7 +4,7 @@
 #include <span>
 
 #include "keyword/deck_json_cells.hpp"
-#include "keyword/decode_parts.hpp"
+#include "keyword/decode/parts.hpp"
 #include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
 
