@@ -65,8 +65,8 @@ class Incidence {
 struct NodalSums {
   std::array<std::vector<double>, 3> force;
   std::vector<double> stiffness;
-  std::vector<double> heat;            ///< empty: no contact of a scene asks for it
-  std::vector<double> conductance;     ///< the same
+  std::vector<double> heat;         ///< empty: no contact of a scene asks for it
+  std::vector<double> conductance;  ///< the same
   /// Heat of a node, 0 where no contact asks for it.
   double heat_of(std::size_t node) const { return heat.empty() ? 0.0 : heat[node]; }
   std::vector<std::uint8_t> contact;   ///< 1 when a pair of the node has a force (Ibag, Iadm)
