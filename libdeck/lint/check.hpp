@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "deck/lint/fix.hpp"
 #include "deck/lint/lint.hpp"
@@ -22,6 +23,14 @@ void each(const LintContext& c, const Rule& rule, F&& f) {
 /// "/INTER/TYPE7 3"
 inline std::string name_of(const ContactCard& card) {
   return card.decoded.block->schema->keyword + " " + std::to_string(card.block->id.value);
+}
+
+/// Legal values of a flag: "0, 1 or 4".
+inline std::string list_of(const std::vector<std::int64_t>& values) {
+  std::string out;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == values.size() ? " or " : ", ") + std::to_string(values[i]);
+  return out;
 }
 
 inline Diagnostic* report_at(Reporter& r, const Rule& rule, const ContactCard& card,

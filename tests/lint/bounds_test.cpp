@@ -8,8 +8,8 @@ namespace {
 constexpr std::string_view winch = R"({
   "keyword": "/WINCH", "kind": "other", "doc": "A winch.",
   "cards": [{ "name": "all", "fields": [
-    { "name": "Imode", "cols": [1, 10], "type": "int", "values": [0, 1, 4], "doc": "Mode" },
-    { "name": "share", "cols": [11, 30], "type": "real", "min": 0, "max": 1, "max_open": true, "doc": "Share" }
+    { "name": "Imode", "cols": [1, 10], "type": "int", "values": [1, 4], "doc": "Mode" },
+    { "name": "share", "cols": [11, 30], "type": "real", "min": 0.1, "max": 1, "max_open": true, "doc": "Share" }
   ]}]
 })";
 
@@ -42,12 +42,12 @@ TEST_F(BoundsOfASchema, TakeZeroAndBlankForTheDefault) {
 }
 
 TEST_F(BoundsOfASchema, NameTheLegalValuesOfAFlag) {
-  EXPECT_EQ(said("         2                 0.5"), "Imode of /WINCH 3 is 2; legal: 0, 1 or 4");
+  EXPECT_EQ(said("         2                 0.5"), "Imode of /WINCH 3 is 2; legal: 1 or 4");
 }
 
 TEST_F(BoundsOfASchema, NameTheRangeAndThatAnOpenBoundIsNotInIt) {
   EXPECT_EQ(said("         1                 1.0"),
-            "share of /WINCH 3 is 1.0; legal: from 0 up to 1 (not itself)");
+            "share of /WINCH 3 is 1.0; legal: from 0.1 up to 1 (not itself)");
   EXPECT_EQ(said("         1               0.999"), "");
 }
 

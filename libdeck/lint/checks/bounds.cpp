@@ -41,10 +41,7 @@ std::string legal_instead(const Cell& cell) {
   if (real || f.values.empty() ||
       std::find(f.values.begin(), f.values.end(), cell.integer) != f.values.end())
     return {};
-  std::string out;
-  for (std::size_t i = 0; i < f.values.size(); ++i)
-    out += (i == 0 ? "" : i + 1 == f.values.size() ? " or " : ", ") + std::to_string(f.values[i]);
-  return out;
+  return list_of(f.values);
 }
 
 void check_block(const LintContext& c, const Rule& rule, Reporter& r, const Block& block) {

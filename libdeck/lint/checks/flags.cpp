@@ -23,13 +23,6 @@ constexpr FlagRule flag_rules[] = {
     {RuleId::DK216, "Ithe_form"}, {RuleId::DK218, "Idir"},
 };
 
-std::string list_of(const std::vector<std::int64_t>& values) {
-  std::string out;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    out += (i == 0 ? "" : i + 1 == values.size() ? " or " : ", ") + std::to_string(values[i]);
-  return out;
-}
-
 /// Values with a rule of their own.
 bool special(std::string_view keyword, std::string_view field, std::int64_t value) {
   if (keyword == "/INTER/TYPE19")

@@ -154,6 +154,15 @@ std::optional<std::uint64_t> line_now(const LineTable& lines, std::string_view t
 
 void Server::publish(OpenDeck& deck) {
   std::map<std::string, Json> by_file;
+  // What has no place stands in the first line of the main file; 1: an error, 2: a warning.
+  const auto about_the_deck = [&](int severity, const std::string& message) {
+    const Json start = {{"line", 0}, {"character", 0}};
+    by_file.try_emplace(deck.path, Json::array())
+        .first->second.push_back({{"range", {{"start", start}, {"end", start}}},
+                                  {"severity", severity},
+                                  {"source", "deck"},
+                                  {"message", utf8(message)}});
+  };
   const Semantics* s = deck.semantics.get();
   // Findings of an earlier text would point at wrong lines; those of the present one are on their
   // way.
@@ -181,20 +190,9 @@ void Server::publish(OpenDeck& deck) {
         by_file.try_emplace(f.path, Json::array()).first->second.push_back(finding(deck, d));
       }
   } else if (s != nullptr) {
-    by_file.try_emplace(deck.path, Json::array())
-        .first->second.push_back({{"range", Json::parse(R"({"start":{"line":0,"character":0},
-                                                          "end":{"line":0,"character":0}})")},
-                                  {"severity", 2},
-                                  {"source", "deck"},
-                                  {"message", utf8(s->refusal)}});
+    about_the_deck(2, s->refusal);
   }
-  if (s != nullptr && !s->config_error.empty())
-    by_file.try_emplace(deck.path, Json::array())
-        .first->second.push_back({{"range", Json::parse(R"({"start":{"line":0,"character":0},
-                                                          "end":{"line":0,"character":0}})")},
-                                  {"severity", 1},
-                                  {"source", "deck"},
-                                  {"message", utf8(s->config_error)}});
+  if (s != nullptr && !s->config_error.empty()) about_the_deck(1, s->config_error);
   // Files that had findings and have none now, and open files, which learn that all is well.
   for (const std::string& file : deck.published) by_file.try_emplace(file, Json::array());
   if (deck.syntax != nullptr)
