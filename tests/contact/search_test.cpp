@@ -175,6 +175,27 @@ TEST(SearchOrder, ShortRunsFromEverywhereAreSorted) {
   list.expect_all_pairs();
 }
 
+bool segments_keep_their_order(const Mesh& mesh) {
+  NodeSegmentInput in = node_input(mesh);
+  in.secondary = in.secondary.first(64);
+  const sweep::NodeSweep w(in, LongList::options(), 1);
+  return std::is_sorted(w.segments.begin(), w.segments.end());
+}
+
+TEST(SearchOrder, SegmentsInRowsOfAnyLengthAreTakenAsTheyCome) {
+  for (const int row : {95, 210, 316})
+    EXPECT_TRUE(segments_keep_their_order(two_sheets(row))) << row;
+}
+
+TEST(SearchOrder, ShuffledSegmentsAreSorted) {
+  Mesh mesh = two_sheets(95);
+  Dice dice(6);
+  for (std::size_t i = mesh.segments.size(); i > 1; --i)
+    std::swap(mesh.segments[i - 1],
+              mesh.segments[std::min(i - 1, static_cast<std::size_t>(dice.uniform(0, double(i))))]);
+  EXPECT_FALSE(segments_keep_their_order(mesh));
+}
+
 TEST(SearchThreads, AnyNumberGivesTheSameList) {
   const Mesh mesh = two_sheets(90);
   SearchOptions o;

@@ -4,6 +4,7 @@
 
 #include "contact/distance/exact.hpp"
 #include "contact/distance/filtered_bounds.hpp"
+#include "contact/distance/filtered_piece.hpp"
 
 namespace deck {
 
@@ -26,6 +27,15 @@ bool is_closer_than(const P& p, const std::array<P, 4>& corners, bool triangle, 
     answer = answer_of(c, pair.v, pair.largest, triangle, *limit);
     if (answer == Answer::unknown) {
       stage = FilterStage::double_double;
+      const auto piece = piece_distance(pair, c);
+      if (piece) answer = piece->closer_than(*limit);
+      // The closest part is known and the distance is the gap to all digits: mostly it is the gap.
+      if (piece && answer == Answer::unknown) {
+        stage = FilterStage::exact;
+        answer = proved(prove_closer(pair.points, triangle, c.best, guesses(c), *limit));
+      }
+    }
+    if (answer == Answer::unknown) {
       const auto v = wide_hull<DoubleDouble>(pair);
       const P largest = largest_magnitudes(v);
       // What double took for the closest parts nearly always is that: first the exact proof,
@@ -67,6 +77,14 @@ bool is_closer_than(const P& s1, const P& s2, const P& m1, const P& m2, double g
     answer = answer_of(c, pair.v, pair.largest, *limit);
     if (answer == Answer::unknown) {
       stage = FilterStage::double_double;
+      const auto piece = piece_distance(pair, c);
+      if (piece) answer = piece->closer_than(*limit);
+      if (piece && answer == Answer::unknown) {
+        stage = FilterStage::exact;
+        answer = proved(prove_closer(pair.points, c.feature_s, c.feature_m, c.parallel, *limit));
+      }
+    }
+    if (answer == Answer::unknown) {
       const auto v = pair.hull_of<DoubleDouble>();
       const auto w = wide_closest(pair);
       answer = answer_of(w, v, largest_magnitudes(v), *limit);

@@ -414,10 +414,11 @@ inline std::optional<double> rounded(const DoubleDouble& low, const DoubleDouble
 
 // The corners of each sub-triangle that carry its closest point; none for those that were ruled
 // out in double.
-inline std::array<PartGuess, 4> guesses(const SegmentClosest<DoubleDouble>& c) {
+template <class T>
+std::array<PartGuess, 4> guesses(const SegmentClosest<T>& c) {
   std::array<PartGuess, 4> out;
   for (std::size_t k = 0; k < 4; ++k) {
-    const DoubleDouble zero(0.0);
+    const T zero(0.0);
     const auto& sub = c.sub[k];
     out[k] = {sub.weight_o > zero, sub.weight_a > zero, sub.weight_b > zero};
   }

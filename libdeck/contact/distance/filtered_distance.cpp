@@ -3,6 +3,7 @@
 
 #include "contact/distance/exact.hpp"
 #include "contact/distance/filtered_bounds.hpp"
+#include "contact/distance/filtered_piece.hpp"
 
 namespace deck {
 
@@ -127,6 +128,13 @@ FilteredSegment filtered_closest_on_segment(const P& p, const std::array<P, 4>& 
   if (scaled.possible) {
     if (scaled.shift != 0) pair.refresh();
     const auto c = closest_on_segment<Form::robust>(pair.points[4], pair.corners(), triangle);
+    const auto piece = piece_distance(pair, c);
+    const bool certain = piece && piece->one_part;
+    if (const auto value = certain ? piece->rounded(scaled.shift) : std::nullopt) {
+      out = {*value, c.feature, c.feature_index, c.weights, FilterStage::double_double};
+      count(counters, out.stage);
+      return out;
+    }
     const auto v = wide_hull<DoubleDouble>(pair);
     const auto largest = largest_magnitudes(v);
     const auto round_once = [&](const SegmentClosest<DoubleDouble>& w) {
@@ -171,6 +179,15 @@ FilteredEdges filtered_closest_between_edges(const P& s1, const P& s2, const P& 
   const Scaled scaled = big == 0.0 ? Scaled{0, false} : Scaled::of(pair.points, big);
   if (scaled.possible) {
     if (scaled.shift != 0) pair.refresh();
+    const auto c = closest_of(pair);
+    const auto piece = piece_distance(pair, c, true);
+    const bool certain = piece && piece->one_part;
+    if (const auto value = certain ? piece->rounded(scaled.shift) : std::nullopt) {
+      out = {*value,      piece->weight[0], piece->weight[1],
+             c.feature_s, c.feature_m,      FilterStage::double_double};
+      count(counters, out.stage);
+      return out;
+    }
     const auto v = pair.hull_of<DoubleDouble>();
     const auto w = wide_closest(pair);
     const auto value = rounded(lower_bound(w, v, largest_magnitudes(v)),

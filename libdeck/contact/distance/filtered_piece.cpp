@@ -1,0 +1,315 @@
+// Squared distances from one plane, line or corner, with their proof that nothing else is closer.
+#include "contact/distance/filtered_piece.hpp"
+
+#include <cmath>
+
+#include "contact/distance/fused.hpp"
+
+namespace deck::filter {
+namespace piece_detail {
+namespace {
+
+using D = DoubleDouble;
+using Q = Point3<D>;
+
+constexpr double kUnit = 0x1p-53;
+// Weights this close to 0 or 1 may belong to another part: that is for others to decide.
+constexpr double kInside = 0x1p-20;
+// Directions of a plane may not be much more parallel than this: |a| |b| / |a x b|.
+constexpr double kMostOblique = 0x1p10;
+
+double sum_of_sizes(const P& p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z); }
+P head_of(const Q& q) { return {q.x.hi(), q.y.hi(), q.z.hi()}; }
+
+// a - b without loss.
+Q difference(const P& a, const P& b) { return lift<D>(a) - lift<D>(b); }
+
+// The points base + sum of weight * direction, seen from the origin; `free` directions of them.
+struct Piece {
+  Q base;
+  std::array<Q, 2> direction;
+  std::array<double, 2> weight{};
+  unsigned free = 0;
+
+  void add(const Q& along, double by) {
+    direction[free] = along;
+    weight[free] = by;
+    ++free;
+  }
+};
+
+// What is known of the closest point of a piece.
+struct Foot {
+  PieceDistance distance;
+  Q point;           // of the piece, with the given weights
+  P q;               // the same, rounded
+  double off = 0.0;  // how far that may be from the closest point
+  bool usable = false;
+  // Of the weights, from those given to the exact ones, and the round-off of that.
+  std::array<double, 2> moved{}, unsure{};
+
+  explicit Foot(const Piece& piece) {
+    point = piece.base;
+    double sizes = sum_of_sizes(head_of(piece.base));
+    for (unsigned k = 0; k < piece.free; ++k) {
+      point = point + D(piece.weight[k]) * piece.direction[k];
+      sizes += sum_of_sizes(head_of(piece.direction[k]));
+    }
+    q = head_of(point);
+    const double length = sum_of_sizes(q);  // at least the length, at most twice
+    distance.squared = dot(point, point);
+    // Relative error 2^-102 at most for each of a dozen operations on numbers of these sizes.
+    distance.error = 0x1p-96 * length * sizes;
+    double along = 0.0, slack = 0.0;  // length of the part of q along the piece, and its round-off
+    if (piece.free == 1) {
+      const P e = head_of(piece.direction[0]);
+      const double ee = dot(e, e), g = dot(q, e);
+      if (!(ee > kTiny)) return;
+      const double size = std::sqrt(ee);
+      along = std::abs(g) / size;
+      slack = 16.0 * kUnit * length;
+      moved[0] = -g / ee;
+      unsure[0] = slack / size;
+      subtract(along * along, along * along * 0x1p-38 + (2.0 * along + slack) * slack);
+    } else if (piece.free == 2) {
+      const P a = head_of(piece.direction[0]), b = head_of(piece.direction[1]), n = cross(a, b);
+      const double aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), nn = dot(n, n);
+      const double ga = dot(q, a), gb = dot(q, b);
+      if (!(nn * (kMostOblique * kMostOblique) > aa * bb && nn > kTiny)) return;
+      moved = {(gb * ab - ga * bb) / nn, (ga * ab - gb * aa) / nn};
+      const double root = std::sqrt(nn), size_a = std::sqrt(aa), size_b = std::sqrt(bb);
+      along = (std::abs(ga) * size_b + std::abs(gb) * size_a) / root;
+      slack = 32.0 * kUnit * length * (size_a * size_b / root);
+      unsure = {slack * (size_b / root), slack * (size_a / root)};
+      // The part along the plane in full: what the bound above exceeds it by counts as error.
+      const double part = -(moved[0] * ga + moved[1] * gb);
+      subtract(part, along * along * 0x1p-38 + (2.0 * along + slack) * slack);
+    }
+    off = (along + slack) * (1.0 + 0x1p-20) + 2.0 * kUnit * length;
+    // Far smaller distances than sizes have digits in double-double only.
+    usable = distance.squared.hi() > kTiny && length > 0x1p-30 * sizes && off < 0x1p-10 * length;
+  }
+
+ private:
+  void subtract(double part, double error) {
+    distance.squared = distance.squared - D(part);
+    distance.error += error;
+  }
+};
+
+// Whether a vertex that is `d` away from a vertex of the piece lies beyond the plane through its
+// foot, for any foot that close.
+struct Beyond {
+  double height = 0.0, margin = 0.0;
+  bool coincides = true;  // with the vertex of the piece: no further away, and no nearer
+  Beyond() = default;
+  Beyond(const P& d, const Foot& foot)
+      : height(dot(d, foot.q)),
+        margin(sum_of_sizes(d) * (foot.off + 32.0 * kUnit * sum_of_sizes(foot.q))),
+        coincides(sum_of_sizes(d) == 0.0) {}
+  Beyond& operator+=(const Beyond& other) {
+    height += other.height;
+    margin += other.margin;
+    coincides = coincides && other.coincides;
+    return *this;
+  }
+  explicit operator bool() const { return height > margin || coincides; }
+};
+
+bool is_inside(double weight) { return weight > kInside && weight < 1.0 - kInside; }
+
+// Whether the exact weights may be taken to lie where the given ones do.
+bool stays(const Foot& foot, const Piece& piece) {
+  for (unsigned k = 0; k < piece.free; ++k)
+    if (!(std::abs(foot.moved[k]) + foot.unsure[k] < 0.0625 * kInside)) return false;
+  return true;
+}
+
+// The segment: corner numbers of the best sub-triangle's ends, and of the two others.
+struct SegmentWork {
+  static std::optional<PieceDistance> run(const SegmentPair& pair,
+                                          const SegmentClosest<double>& c) {
+    const auto& best = c.closest();
+    const auto& x = pair.points;
+    const bool has_o = best.weight_o > 0.0, has_a = best.weight_a > 0.0,
+               has_b = best.weight_b > 0.0;
+    const unsigned parts = unsigned{has_o} + unsigned{has_a} + unsigned{has_b};
+    if (parts == 0) return std::nullopt;
+    if (parts > 1 && ((has_o && !is_inside(best.weight_o)) ||
+                      (has_a && !is_inside(best.weight_a)) || (has_b && !is_inside(best.weight_b))))
+      return std::nullopt;
+    return pair.triangle ? triangle(x, has_o, has_a, has_b, c)
+                         : quad(pair, x, has_o, has_a, has_b, c);
+  }
+
+  static std::optional<PieceDistance> triangle(const std::array<P, 5>& x, bool has_o, bool has_a,
+                                               bool has_b, const SegmentClosest<double>& c) {
+    if (c.best != 0) return std::nullopt;
+    // Vertices o, a, b and their weights; the first that takes part is the base.
+    const std::array<std::size_t, 3> corner{2, 0, 1};
+    const std::array<bool, 3> has{has_o, has_a, has_b};
+    const auto& best = c.closest();
+    const std::array<double, 3> weight{best.weight_o, best.weight_a, best.weight_b};
+    const std::size_t base = has_o ? 0 : (has_a ? 1 : 2);
+    Piece piece;
+    piece.base = difference(x[corner[base]], x[4]);
+    for (std::size_t k = base + 1; k < 3; ++k)
+      if (has[k]) piece.add(difference(x[corner[k]], x[corner[base]]), weight[k]);
+    const Foot foot(piece);
+    if (!foot.usable || !stays(foot, piece)) return std::nullopt;
+    PieceDistance out = foot.distance;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (has[k]) continue;
+      const Beyond vertex(x[corner[k]] - x[corner[base]], foot);
+      if (!vertex) return std::nullopt;
+      out.one_part = out.one_part && !vertex.coincides;
+    }
+    return out;
+  }
+
+  static std::optional<PieceDistance> quad(const SegmentPair& pair, const std::array<P, 5>& x,
+                                           bool has_o, bool has_a, bool has_b,
+                                           const SegmentClosest<double>& c) {
+    const auto& best = c.closest();
+    const auto k = static_cast<std::size_t>(c.best);
+    // Seen from `u`, an end of the best sub-triangle: its other end, and the two corners beyond.
+    const bool from_a = has_a || !has_b;
+    const std::size_t u = from_a ? k : (k + 1) % 4, v = from_a ? (k + 1) % 4 : k;
+    const std::size_t m = (k + 2) % 4, n = (k + 3) % 4;
+    const Q to_v = difference(x[v], x[u]);
+    Piece piece;
+    piece.base = difference(x[u], x[4]);
+    if (has_o) {
+      // The centre is u + (v-u + m-u + n-u)/4: in the plane of u, v and the centre both others
+      // weigh the same.
+      const Q others = difference(x[m], x[u]) + difference(x[n], x[u]);
+      const double quarter = 0.25 * best.weight_o;
+      if (has_a && has_b) {
+        piece.add(to_v, best.weight_b + quarter);
+        piece.add(others, quarter);
+      } else if (has_a || has_b) {
+        piece.add(to_v + others, quarter);
+      } else {
+        return std::nullopt;  // the centre, a mean, has no corners beyond it on all sides
+      }
+    } else if (has_a && has_b) {
+      piece.add(to_v, best.weight_b);
+    }
+    const Foot foot(piece);
+    if (!foot.usable || !stays(foot, piece)) return std::nullopt;
+    // Heights of all corners and the centre over the plane across the foot, less that of the piece.
+    std::array<Beyond, 4> corner;
+    Beyond sum;
+    for (std::size_t j = 0; j < 4; ++j) {
+      if (j == u) continue;
+      corner[j] = Beyond(x[j] - x[u], foot);
+      sum += corner[j];
+    }
+    PieceDistance out = foot.distance;
+    std::array<bool, 4> beyond{};
+    for (std::size_t j = 0; j < 4; ++j) {
+      beyond[j] = bool(corner[j]);
+      if (j != u && corner[j].coincides) out.one_part = false;
+    }
+    if (has_a) beyond[k] = true;
+    if (has_b) beyond[(k + 1) % 4] = true;
+    const bool centre_beyond = has_o || bool(sum);
+    if (!(centre_beyond && beyond[k] && beyond[(k + 1) % 4])) return std::nullopt;
+    const double high =
+        std::sqrt(foot.distance.squared.hi() + foot.distance.error) * (1.0 + 0x1p-50);
+    for (std::size_t j = 0; j < 4; ++j) {
+      if (j == k || (centre_beyond && beyond[j] && beyond[(j + 1) % 4])) continue;
+      const Support<double> own(c.sub[j].vector, pair.v, pair.largest);
+      if (!own.is_apart(own.least(j), high)) return std::nullopt;
+    }
+    return out;
+  }
+};
+
+// Two edges: the parallelogram s2 - m2 + hs (s1 - s2) - hm (m1 - m2).
+struct EdgeWork {
+  static std::optional<PieceDistance> run(const EdgePair& pair, const EdgeClosest<double>& c,
+                                          bool weights) {
+    if (c.parallel) return std::nullopt;
+    const auto& x = pair.points;
+    const Q s = difference(x[0], x[1]), m = difference(x[3], x[2]);
+    const std::array<double, 2> weight{c.weight_s, c.weight_m};
+    const std::array<const Q*, 2> along{&s, &m};
+    Piece piece;
+    piece.base = difference(x[1], x[3]);
+    std::array<bool, 2> inside{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (weight[k] == 0.0) continue;
+      if (weight[k] == 1.0) {
+        piece.base = piece.base + *along[k];
+        continue;
+      }
+      if (!is_inside(weight[k])) return std::nullopt;
+      inside[k] = true;
+      piece.add(*along[k], weight[k]);
+    }
+    Foot foot(piece);
+    if (!foot.usable || !stays(foot, piece)) return std::nullopt;
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (inside[k]) continue;
+      const Beyond end(weight[k] == 0.0 ? head_of(*along[k]) : -head_of(*along[k]), foot);
+      if (!end) return std::nullopt;
+      foot.distance.one_part = foot.distance.one_part && !end.coincides;
+    }
+    if (weights) foot.distance.weight = moved_weights(foot.point, s, m, weight, inside);
+    return foot.distance;
+  }
+
+  // To the closest point: the step that ends the part of `q` along the free directions.
+  static std::array<double, 2> moved_weights(const Q& q, const Q& s, const Q& m,
+                                             std::array<double, 2> weight,
+                                             const std::array<bool, 2>& inside) {
+    const P a = head_of(s), b = head_of(m);
+    const double aa = dot(a, a), bb = dot(b, b), ab = dot(a, b);
+    const double ga = inside[0] ? dot(q, s).hi() : 0.0, gb = inside[1] ? dot(q, m).hi() : 0.0;
+    if (inside[0] && inside[1]) {
+      const P n = cross(a, b);
+      const double nn = dot(n, n);
+      weight[0] += (gb * ab - ga * bb) / nn;
+      weight[1] += (ga * ab - gb * aa) / nn;
+    } else if (inside[0]) {
+      weight[0] -= ga / aa;
+    } else if (inside[1]) {
+      weight[1] -= gb / bb;
+    }
+    return weight;
+  }
+};
+
+}  // namespace
+}  // namespace piece_detail
+
+std::optional<double> PieceDistance::rounded(int shift) const {
+  const DoubleDouble root = sqrt(squared);
+  const double slack = root.hi() * (0x1p-95 + error / squared.hi());
+  if (root.hi() + (root.lo() - slack) != root.hi() || root.hi() + (root.lo() + slack) != root.hi())
+    return std::nullopt;
+  const double value = std::ldexp(root.hi(), -shift);
+  if (!std::isnormal(value)) return std::nullopt;
+  return value;
+}
+
+Answer PieceDistance::closer_than(double gap) const {
+  if (!can_be_squared(gap)) return Answer::unknown;
+  const DoubleDouble over = squared - DoubleDouble(gap) * gap;
+  const double slack = error + 0x1p-95 * (squared.hi() + gap * gap);
+  if (over.hi() > slack) return Answer::no;
+  return over.hi() < -slack ? Answer::yes : Answer::unknown;
+}
+
+std::optional<PieceDistance> piece_distance(const SegmentPair& pair,
+                                            const SegmentClosest<double>& c) {
+  return fused<piece_detail::SegmentWork>(pair, c);
+}
+
+std::optional<PieceDistance> piece_distance(const EdgePair& pair, const EdgeClosest<double>& c,
+                                            bool weights) {
+  return fused<piece_detail::EdgeWork>(pair, c, weights);
+}
+
+}  // namespace deck::filter
