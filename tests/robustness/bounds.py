@@ -21,12 +21,8 @@ def sheet(first, n, size, z, part):
     """A sheet of n x n shells."""
     out = b"/NODE\n" + b"".join(node(first + i * (n + 1) + j, i * size, j * size, z)
                                 for i in range(n + 1) for j in range(n + 1))
-    out += b"/SHELL/%d\n" % part
-    for i in range(n):
-        for j in range(n):
-            a = first + i * (n + 1) + j
-            out += b"%10d%10d%10d%10d%10d\n" % (a, a, a + 1, a + n + 2, a + n + 1)
-    return out
+    corners = (first + i * (n + 1) + j for i in range(n) for j in range(n))
+    return out + b"/SHELL/%d\n" % part + b"".join(b"%10d%10d%10d%10d%10d\n" % (a, a, a + 1, a + n + 2, a + n + 1) for a in corners)
 
 
 PARTS = (b"/MAT/ELAST/1\nsteel\n             7.8E-06\n               210.0                 0.3\n"
