@@ -33,8 +33,16 @@ class Deck:
     def __init__(self, c, stem, path, tmp):
         self.c, self.stem, self.path, self.tmp = c, stem, path, tmp
         self.size = os.path.getsize(path)
+        self.own = {}  # what the verbs say of the deck itself: asked once
 
     def view(self, verb, path, *more):
+        if path != self.path:
+            return self.ask(verb, path, *more)
+        if (verb, more) not in self.own:
+            self.own[verb, more] = self.ask(verb, path, *more)
+        return self.own[verb, more]
+
+    def ask(self, verb, path, *more):
         target = os.path.join(self.tmp, "view.json")
         r = self.c.run(verb, path, "--quiet", "--json", target, *more, timeout=300)
         if r.code not in (0, 1):
