@@ -1,5 +1,6 @@
 // How the sources of the page become one script: also for tests that run parts of them in node.
 import { readFileSync } from "node:fs";
+import { resolve } from "node:path";
 import { deflateSync } from "node:zlib";
 
 /** WebAssembly modules become packed bytes in the script. */
@@ -8,6 +9,18 @@ const packed = {
   setup: (build) =>
     build.onLoad({ filter: /\.wasm$/ }, (file) => ({ contents: deflateSync(readFileSync(file.path), { level: 9 }), loader: "binary" })),
 };
+
+/** `./x.ts?text` is the bundled script of a thread, as a text. */
+const threads = (esbuild, modules, options) => ({
+  name: "threads",
+  setup: (build) => {
+    build.onResolve({ filter: /\?text$/ }, (from) => ({ path: resolve(from.resolveDir, from.path.replace(/\?text$/, "")), namespace: "thread" }));
+    build.onLoad({ filter: /.*/, namespace: "thread" }, async (file) => {
+      const made = await bundle(esbuild, modules, { entryPoints: [file.path], write: false, format: "iife", minify: options.minify !== false });
+      return { contents: made.outputFiles[0].text, loader: "text" };
+    });
+  },
+});
 
 /** `esbuild`: the package; `modules`: the node_modules that the sources import from. */
 export const bundle = (esbuild, modules, options) =>
@@ -18,6 +31,6 @@ export const bundle = (esbuild, modules, options) =>
     legalComments: "inline",
     nodePaths: [modules],
     logLevel: "warning",
-    plugins: [packed],
+    plugins: [packed, threads(esbuild, modules, options)],
     ...options,
   });

@@ -130,6 +130,27 @@ export interface Evaluated {
   uncertain: boolean;
 }
 
+/** The same as the rules hand it out, which can be given from thread to thread. */
+export interface Raw {
+  head: Float64Array;
+  rows: Float64Array;
+}
+
+export function evaluated(contact: number, { head, rows: out }: Raw): Evaluated {
+  const [igap, inacti, irem, fpenmax, scale, gapmin, from, gapmax, maxGap, drad, reached, uncertain, count] = head;
+  const rows: Row[] = [];
+  for (let i = 0; i < count; i++) rows.push(rowOf(contact, out, i * rowSize));
+  return { setting: { igap, inacti, irem, fpenmax, scale, gapmin, gapminFrom: text(rules.origin_text(from)), gapmax, maxGap, drad }, rows, reached, uncertain: uncertain !== 0 };
+}
+
+/** How far the rows of a contact move a node at most. */
+export function largestMove({ rows }: Raw): number {
+  let most = 0;
+  for (let at = 0; at < rows.length; at += rowSize)
+    if (actions[rows[at + 9]] === "node-moved") most = Math.max(most, Math.hypot(rows[at + 13], rows[at + 14], rows[at + 15]));
+  return most;
+}
+
 /** All contacts of the page, with their nodes. */
 export class Core {
   private readonly wasm = start();
@@ -141,24 +162,35 @@ export class Core {
     const xyz = new Float64Array(3 * (n + 1));
     [data.x, data.y, data.z].forEach((axis, k) => xyz.set(axis, k * (n + 1)));
     this.wasm.nodes(n + 1, this.put(xyz));
-    const position = (node: number) => (data.exactOf[node] < 0 ? n : data.exactOf[node]);
+    const position = (nodes: Uint32Array) => {
+      const out = new Uint32Array(nodes.length);
+      for (let i = 0; i < out.length; i++) {
+        const at = data.exactOf[nodes[i]];
+        out[i] = at < 0 ? n : at;
+      }
+      return out;
+    };
     meta.contacts.forEach((c, i) => this.add(c, meta.interfaces[c.interface].type, data.contacts[i], position));
   }
 
-  private add(c: ContactMeta, interfaceType: number, d: ContactData, position: (node: number) => number): void {
+  private add(c: ContactMeta, interfaceType: number, d: ContactData, position: (nodes: Uint32Array) => Uint32Array): void {
     const edges = c.kind === "edge_edge";
     const card = c.card;
     const none: Samples = [0, 0, null, null, 0];
     // JSON has no infinity.
     const samples = ([count, sum, smallest, largest, shortest]: Samples) => [count, sum, smallest ?? Infinity, largest ?? -Infinity, shortest];
-    const lengths = (listed: Int32Array, length: Float64Array) => Float64Array.from(listed, (k) => (k < 0 ? Infinity : length[k]));
+    const lengths = (listed: Int32Array, length: Float64Array) => {
+      const out = new Float64Array(listed.length);
+      for (let i = 0; i < out.length; i++) out[i] = listed[i] < 0 ? Infinity : length[listed[i]];
+      return out;
+    };
     this.send([
       Number(edges), c.type, interfaceType, c.shortest_side, c.longest_main, c.longest_node, c.reach, c.margin,
       card.Gapmin, card.Igap, card.Inacti, card.Irem_gap, card.Fscalegap, card.Gapmax, card.Fpenmax,
       Number(card.thermal), card.Drad, card.Edge_scale_gap,
       ...samples(c.default[0]), ...samples(c.default[1] ?? none),
       d.secondaryListed.length, d.mainListed.length, d.pairMain.length,
-      this.put(d.secondaryNode.map(position)), this.put(d.mainNode.map(position)),
+      this.put(position(d.secondaryNode)), this.put(position(d.mainNode)),
       this.put(d.secondaryThickness), this.put(d.mainThickness),
       this.put(lengths(d.secondaryListed, d.secondaryLength)), this.put(lengths(d.mainListed, d.mainLength)),
       this.put(d.pairSecondary), this.put(d.pairMain), this.put(d.pairClass),
@@ -182,16 +214,12 @@ export class Core {
   }
 
   /** `moved`: how far the contacts before have moved a node; without pairs there are no rows. */
-  evaluate(contact: number, change: Overrides, moved: number, withPairs: boolean): Evaluated {
+  evaluate(contact: number, change: Overrides, moved: number, withPairs: boolean): Raw {
     const { Gapmin, Fscalegap, Gapmax, Fpenmax, Igap, Inacti } = change;
     this.send([Gapmin, Fscalegap, Gapmax, Fpenmax, Igap, Inacti].map((v) => v ?? NaN));
     this.wasm.evaluate(contact, moved, Number(withPairs));
-    const [igap, inacti, irem, fpenmax, scale, gapmin, from, gapmax, maxGap, drad, reached, uncertain, count, address] =
-      new Float64Array(this.wasm.memory.buffer, this.wasm.exchange(), 14);
-    const out = new Float64Array(this.wasm.memory.buffer, address, count * rowSize);
-    const rows: Row[] = [];
-    for (let i = 0; i < count; i++) rows.push(rowOf(contact, out, i * rowSize));
-    return { setting: { igap, inacti, irem, fpenmax, scale, gapmin, gapminFrom: text(rules.origin_text(from)), gapmax, maxGap, drad }, rows, reached, uncertain: uncertain !== 0 };
+    const head = new Float64Array(this.wasm.memory.buffer, this.wasm.exchange(), 14).slice();
+    return { head, rows: new Float64Array(this.wasm.memory.buffer, head[13], head[12] * rowSize).slice() };
   }
 
   /** Gaps that the items of both sides bring at these settings. */

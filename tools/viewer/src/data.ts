@@ -1,83 +1,12 @@
-// Decodes the binary blocks of the page (see libdeck/report/html/*.cpp for the writers).
+// The blocks of the page (see libdeck/report/html/*.cpp for the writers) and what they hold.
 import { unzlibSync } from "fflate";
+import { fromBase64, Reader } from "./decode/reader";
 import type { ContactMeta, Crossed, Cycle, Earlier, Meta } from "./meta";
 
 export const kindNames = ["shell", "sh3n", "solid", "quad", "tria", "truss", "beam", "spring"];
 
 export function blockText(id: string): string | null {
   return document.getElementById(id)?.textContent ?? null;
-}
-
-export function fromBase64(text: string): Uint8Array {
-  const table = new Uint8Array(128);
-  const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (let i = 0; i < 64; i++) table[digits.charCodeAt(i)] = i;
-  let end = text.length;
-  while (end > 0 && text.charCodeAt(end - 1) === 61) end--;
-  const out = new Uint8Array((end * 3) >> 2);
-  let o = 0;
-  for (let i = 0; i < end; i += 4) {
-    const v =
-      (table[text.charCodeAt(i)] << 18) |
-      (table[text.charCodeAt(i + 1)] << 12) |
-      (i + 2 < end ? table[text.charCodeAt(i + 2)] << 6 : 0) |
-      (i + 3 < end ? table[text.charCodeAt(i + 3)] : 0);
-    out[o++] = v >> 16;
-    if (o < out.length) out[o++] = (v >> 8) & 255;
-    if (o < out.length) out[o++] = v & 255;
-  }
-  return out;
-}
-
-class Reader {
-  private at = 0;
-  constructor(private readonly b: Uint8Array) {}
-
-  u(): number {
-    let v = this.b[this.at++];
-    if (v < 0x80) return v;
-    v &= 0x7f;
-    let scale = 128;
-    for (;;) {
-      const c = this.b[this.at++];
-      v += (c & 0x7f) * scale;
-      if (c < 0x80) return v;
-      scale *= 128;
-    }
-  }
-  s(): number {
-    const v = this.u();
-    return v % 2 === 0 ? v / 2 : -(v + 1) / 2;
-  }
-  bytes(n: number): Uint8Array {
-    return this.b.subarray(this.at, (this.at += n));
-  }
-  f64(n: number): Float64Array {
-    const bytes = new Uint8Array(8 * n);
-    for (let plane = 0; plane < 8; plane++)
-      for (let i = 0; i < n; i++) bytes[8 * i + plane] = this.b[this.at++];
-    return new Float64Array(bytes.buffer);
-  }
-  deltas32(n: number): Uint32Array {
-    const out = new Uint32Array(n);
-    let v = 0;
-    for (let i = 0; i < n; i++) out[i] = v += this.s();
-    return out;
-  }
-  deltas(n: number): Float64Array {
-    const out = new Float64Array(n);
-    let v = 0;
-    for (let i = 0; i < n; i++) out[i] = v += this.s();
-    return out;
-  }
-  /** Values by index into a list of distinct ones. */
-  palette(n: number): Float64Array {
-    const values = this.f64(this.u());
-    const out = new Float64Array(n);
-    if (values.length === 1) out.fill(values[0]);
-    if (values.length > 1) for (let i = 0; i < n; i++) out[i] = values[this.u()];
-    return out;
-  }
 }
 
 export interface Owners {
@@ -142,7 +71,7 @@ export interface Contacts {
   contacts: ContactData[];
 }
 
-function readMesh(bytes: Uint8Array): Mesh {
+export function readMesh(bytes: Uint8Array): Mesh {
   const r = new Reader(bytes);
   const nodeId = r.deltas(r.u());
   const parts: MeshPart[] = [];
@@ -170,12 +99,8 @@ function readMesh(bytes: Uint8Array): Mesh {
       const kind = r.u();
       const corners = r.u();
       const items = r.u();
-      const vertex = new Uint32Array(items * corners);
-      for (let i = 0; i < vertex.length; i++) {
-        const back = r.u();
-        vertex[i] = next - back;
-        if (back === 0) next++;
-      }
+      const vertex = r.backwards(items * corners, next);
+      for (let i = 0; i < vertex.length; i++) if (vertex[i] >= next) next = vertex[i] + 1;
       groups.push({ kind, corners, count: items, vertex, element: r.deltas(items) });
     }
     parts.push({ part, node, position, groups });
@@ -207,7 +132,7 @@ export function loadElements(mesh: Mesh): (part: number, item: number) => Elemen
 
 function listPositions(pairs: Uint32Array, items: number, all: boolean): [Int32Array, number] {
   const out = new Int32Array(items).fill(all ? 0 : -1);
-  for (const i of pairs) out[i] = 0;
+  for (let k = 0; k < pairs.length; k++) out[pairs[k]] = 0;
   let n = 0;
   for (let i = 0; i < items; i++) if (out[i] === 0) out[i] = n++;
   return [out, n];
@@ -246,12 +171,12 @@ function readContact(r: Reader, meta: ContactMeta): ContactData {
   return d;
 }
 
-function readContacts(bytes: Uint8Array, meta: Meta, nodes: number): Contacts {
+export function readContacts(bytes: Uint8Array, meta: Meta, nodes: number): Contacts {
   const r = new Reader(bytes);
   const count = r.u();
   const exactNode = r.deltas32(count);
   const exactOf = new Int32Array(nodes).fill(-1);
-  exactNode.forEach((n, i) => (exactOf[n] = i));
+  for (let i = 0; i < count; i++) exactOf[exactNode[i]] = i;
   const [x, y, z] = [r.f64(count), r.f64(count), r.f64(count)];
   return { exactNode, exactOf, x, y, z, contacts: meta.contacts.map((c) => readContact(r, c)) };
 }
@@ -267,20 +192,20 @@ const inflate = (id: string): Uint8Array | null => {
 };
 
 /** Unpacks blocks with the browser's own inflater, which works beside the page; where it has none they are unpacked when read. */
-export async function unpack(ids: string[], progress: (done: number, all: number) => void): Promise<void> {
+export async function unpack(ids: string[]): Promise<void> {
   if (typeof DecompressionStream === "undefined") return;
-  const texts = ids.flatMap((id) => {
+  await Promise.all(ids.map(async (id) => {
     const text = blockText(id);
-    return text === null ? [] : [{ id, text }];
-  });
-  const all = texts.reduce((n, t) => n + t.text.length, 0);
-  let done = 0;
-  await Promise.all(texts.map(async ({ id, text }) => {
-    const packed = fromBase64(text);
-    const stream = new Blob([packed as Uint8Array<ArrayBuffer>]).stream().pipeThrough(new DecompressionStream("deflate"));
-    unpacked.set(id, new Uint8Array(await new Response(stream).arrayBuffer()));
-    progress((done += text.length), all);
+    if (text !== null) unpacked.set(id, await inflateText(text));
   }));
+}
+
+/** A block's bytes, with the browser's own inflater where it has one. */
+export async function inflateText(text: string): Promise<Uint8Array> {
+  const packed = fromBase64(text);
+  if (typeof DecompressionStream === "undefined") return unzlibSync(packed);
+  const stream = new Blob([packed as Uint8Array<ArrayBuffer>]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 export function loadMeta(): Meta {

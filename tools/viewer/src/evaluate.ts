@@ -1,6 +1,6 @@
 // Evaluates all contacts for given card values: the rules are the program's own (core.ts), so the rows
 // are those of `deck gaps --what-if`. Inacti 3 moves nodes, and later contacts see that.
-import { Core, onSurfaceError, type Row, type Setting } from "./core";
+import { Core, evaluated, largestMove, onSurfaceError, type Raw, type Row, type Setting } from "./core";
 import type { ContactData, Contacts } from "./data";
 import type { ContactMeta, Meta, Overrides, Totals } from "./meta";
 
@@ -13,14 +13,45 @@ export interface Result {
   complete: boolean; // false: a gap exceeds what this page carries
 }
 
-export class Evaluator {
-  readonly core: Core;
+/** Contacts that have rows to look for. */
+const searched = (meta: ContactMeta) => meta.secondary > 0 && meta.main > 0 && !meta.dropped;
 
+export class Evaluator {
+  private made: Core | null = null;
+
+  /** `deckResults`: those of the deck's settings, where another thread has evaluated them. */
   constructor(
     readonly meta: Meta,
     readonly data: Contacts,
-  ) {
-    this.core = new Core(meta, data);
+    private readonly deckResults: Raw[] | null = null,
+  ) {}
+
+  /** The rules with all contacts: made when something is evaluated here. */
+  get core(): Core {
+    return (this.made ??= new Core(this.meta, this.data));
+  }
+
+  /** The deck's settings. */
+  base(): Result[] {
+    const none = this.meta.interfaces.map(() => ({}) as Overrides);
+    if (!this.deckResults) return this.evaluate(none);
+    let moved = 0;
+    return this.deckResults.map((raw, i) => {
+      const result = this.result(i, raw, moved);
+      moved = Math.max(moved, largestMove(raw));
+      return result;
+    });
+  }
+
+  /** The same as base() gets from another thread. */
+  rawBase(): Raw[] {
+    this.core.reset();
+    let moved = 0;
+    return this.meta.contacts.map((c, i) => {
+      const raw = this.core.evaluate(i, {}, moved, searched(c));
+      moved = Math.max(moved, largestMove(raw));
+      return raw;
+    });
   }
 
   /** Results of all contacts; `overrides` by position of the interface. `known` supplies results of
@@ -33,23 +64,22 @@ export class Evaluator {
       return JSON.stringify(overrides[k]) === JSON.stringify(known!.overrides[k]);
     };
     const out: Result[] = [];
-    let largestMove = 0;
+    let most = 0;
     this.core.reset();
     for (let i = 0; i < this.meta.contacts.length; i++) {
       if (known && !moves && !moved && same(i)) {
         out.push(known.results[i]);
         continue;
       }
-      const r = this.contact(i, overrides[this.meta.contacts[i].interface], largestMove);
-      for (const row of r.rows)
-        if (row.movedBy) largestMove = Math.max(largestMove, Math.hypot(...row.movedBy));
-      out.push(r);
+      const raw = this.core.evaluate(i, overrides[this.meta.contacts[i].interface], most, searched(this.meta.contacts[i]));
+      out.push(this.result(i, raw, most));
+      most = Math.max(most, largestMove(raw));
     }
     return out;
   }
 
   setting(i: number, overrides: Overrides): Setting {
-    return this.core.evaluate(i, overrides, 0, false).setting;
+    return evaluated(i, this.core.evaluate(i, overrides, 0, false)).setting;
   }
 
   private moves(overrides: Overrides[]): boolean {
@@ -58,12 +88,12 @@ export class Evaluator {
     );
   }
 
-  private contact(i: number, overrides: Overrides, moved: number): Result {
+  /** `moved`: how far the contacts before have moved a node. */
+  private result(i: number, raw: Raw, moved: number): Result {
     const meta = this.meta.contacts[i];
-    const withPairs = meta.secondary > 0 && meta.main > 0 && !meta.dropped;
-    const { setting, rows, reached, uncertain } = this.core.evaluate(i, overrides, moved, withPairs);
+    const { setting, rows, reached, uncertain } = evaluated(i, raw);
     const result: Result = { setting, rows, totals: emptyTotals(), reached, complete: true };
-    if (withPairs) {
+    if (searched(meta)) {
       const exactMove = setting.inacti === 3 && meta.kind === "node_segment" ? setting.maxGap + meta.margin : 0;
       const needed = Math.max(reached, exactMove) + 2 * moved;
       result.complete = uncertain ? false : meta.complete

@@ -1,7 +1,9 @@
 // The page: reads its data, builds the sections, wires keys and exports.
 import { crossedSection } from "./scene/crossed";
 import { cycleSection } from "./cycle";
-import { loadContacts, loadCrossed, loadCycle, loadEarlier, loadMesh, loadMeta, unpack } from "./data";
+import { loadCrossed, loadCycle, loadEarlier, loadMeta, unpack } from "./data";
+import { loadModel } from "./decode/client";
+import type { Model } from "./decode/model";
 import { detail, notChecked } from "./detail";
 import { button, fileName, group, h, num, percent, replace } from "./dom";
 import { allChangedCards, copyText, csv, grnodBlock, plainNodes, save, tclMarks } from "./exports";
@@ -15,36 +17,37 @@ import { openMenu, rowItems } from "./menu";
 import { ViewState } from "./state";
 import { touchesSection } from "./touches";
 import { Report, type Hit } from "./report";
+import { drawsInSoftware } from "./scene/view3d";
 import { Viewport } from "./scene/viewport";
 
 const started = performance.now();
 
-/** Unpacks the data beside the page, which shows how far it is, then builds. */
+/** Decodes the data beside the page, which shows how far it is, then builds. */
 async function start(): Promise<void> {
   const bar = h("progress", { max: 1, value: 0, "aria-label": "Unpacking" });
   const said = h("span", null, "Unpacking the model …");
   const wait = h("div", { class: "unpacking", role: "status" }, bar, said);
   document.body.prepend(wait);
+  const software = drawsInSoftware();
+  const model = loadModel(software, (done, next) => {
+    bar.value = done;
+    said.textContent = next;
+  });
   try {
-    await unpack(["deck-mesh", "deck-contacts", "deck-earlier", "deck-cycle", "deck-crossed"], (done, all) => {
-      bar.value = done / all;
-      if (done === all) said.textContent = "Building the tables …";
-    });
+    await unpack(["deck-earlier", "deck-cycle", "deck-crossed"]);
   } catch {
     // A browser that cannot do that reads the blocks itself.
   }
+  const ready = await model;
   await new Promise((painted) => setTimeout(painted));
   wait.remove();
-  build();
+  build(ready, software);
 }
 
-function build(): void {
-  const unpackedAt = performance.now() - started;
+function build(model: Model & { beside: boolean }, software: boolean): void {
+  const times: Record<string, number> = { decoded: performance.now() - started };
   const meta = loadMeta();
-  const mesh = loadMesh();
-  const contacts = loadContacts(meta, mesh);
-  const times: Record<string, number> = { unpacked: unpackedAt, decoded: performance.now() - started };
-  const report = new Report(meta, mesh, contacts, loadEarlier(), loadCycle(), loadCrossed());
+  const report = new Report(meta, model.mesh, model.contacts, loadEarlier(), loadCycle(), loadCrossed(), model.base);
   times.evaluated = performance.now() - started;
   const doc = loadCycleDocument();
   const look: Look = { map: "heat", dark: false, contour: doc && report.acted?.length ? "force" : "depth", bands: 0 };
@@ -56,7 +59,7 @@ function build(): void {
   look.dark = matchMedia("(prefers-color-scheme: dark)").matches;
   document.documentElement.dataset.theme = look.dark ? "dark" : "light";
 
-  const viewport = new Viewport(report, look, changeLook);
+  const viewport = new Viewport(report, look, changeLook, model.shapes, software);
   const fly = (x: Hit) => viewport.open(x);
   const stem = fileName(meta.deck.path).replace(/\.rad$/i, "");
   const exports = exportMenu(report, [
@@ -126,7 +129,7 @@ function build(): void {
       document.documentElement.dataset.ready = "true";
     });
   });
-  (window as unknown as Record<string, unknown>).deckReport = { report, viewport, times, whatIf: (id: number, o: Overrides) => evaluateFor(report, id, o), csv: () => csv(report, report.hits), grnod: () => grnodBlock(report.filtered, meta.free_group_id, "initial penetrations") };
+  (window as unknown as Record<string, unknown>).deckReport = { report, viewport, times, beside: model.beside, whatIf: (id: number, o: Overrides) => evaluateFor(report, id, o), csv: () => csv(report, report.hits), grnod: () => grnodBlock(report.filtered, meta.free_group_id, "initial penetrations") };
 }
 
 /** For scripts: rows of all contacts with other settings of one interface, named as in the JSON. */

@@ -358,7 +358,7 @@ function control(report: Report, inter: number, field: FieldName): { element: HT
     if (document.activeElement !== slider) slider.value = String(Math.min(v, top));
     number.value = v === 0 && meaning ? "0" : String(v);
     element.classList.toggle("on", v !== deck);
-    const s = report.evaluator.setting(contacts[0], report.overrides[inter]);
+    const s = report.results[contacts[0]].setting;
     const unused = (field === "Fscalegap" || field === "Gapmax") && s.igap < 2;
     element.classList.toggle("unused", unused);
     note.textContent = unused ? "no effect with this Igap"

@@ -1,7 +1,7 @@
 // The state of the page: data, settings under test, results, filters, selection; and who is told
 // when one of them changes.
 import { kindNames, type Contacts, type Mesh } from "./data";
-import { onSurfaceError, type Row } from "./core";
+import { onSurfaceError, type Raw, type Row } from "./core";
 import { Evaluator, ratioOf, Tally, type Result } from "./evaluate";
 import { commonStart } from "./table/names";
 import type { Crossed, Cycle, Earlier, FieldName, Meta, Overrides, Totals } from "./meta";
@@ -65,11 +65,11 @@ export class Report {
     readonly earlier: Earlier | null,
     readonly cycle: Cycle | null,
     readonly crossed: Crossed | null,
+    deckResults: Raw[] | null = null,
   ) {
     this.forces = cycle && cycle.contacts.map((c) => new Map(c.rows.map((r) => [`${r[0]}/${r[1]}`, { force: r[2], stiffness: r[3] }])));
-    this.evaluator = new Evaluator(meta, data);
-    const none = meta.interfaces.map(() => ({}) as Overrides);
-    this.base = this.evaluator.evaluate(none);
+    this.evaluator = new Evaluator(meta, data, deckResults);
+    this.base = this.evaluator.base();
     this.overrides = meta.interfaces.map((inter) => {
       const out: Overrides = {};
       for (const w of meta.what_if)
@@ -79,7 +79,8 @@ export class Report {
       return out;
     });
     this.started = this.overrides;
-    this.results = this.evaluator.evaluate(this.overrides, { overrides: none, results: this.base });
+    const none = meta.interfaces.map(() => ({}) as Overrides);
+    this.results = this.anyChanged ? this.evaluator.evaluate(this.overrides, { overrides: none, results: this.base }) : this.base;
     this.earlierRows =
       earlier &&
       new Map(earlier.rows.map((r) => [`${r[0]}|${r[1]}|${r[2]}|${r[3]}`, { depth: r[4], gap: r[5], row: r }]));

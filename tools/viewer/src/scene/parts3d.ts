@@ -2,11 +2,13 @@
 // A pair of numbers per vertex carries the contour: value times weight, and weight, so that colours
 // fade into the part's own colour at the rim of a patch.
 import {
-  BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, DynamicDrawUsage, LineBasicMaterial, LineSegments, LinearFilter,
+  BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, LineBasicMaterial, LineSegments, LinearFilter,
   Mesh as Mesh3, MeshLambertMaterial, Object3D, type Plane, RGBAFormat, Sphere, SRGBColorSpace, Vector3,
 } from "three";
 import { acceleratedRaycast, MeshBVH } from "three-mesh-bvh";
 import type { Mesh, MeshPart } from "../data";
+import type { Shape } from "../decode/shape";
+import { Coarser, contourAttribute, fillContour, ranges, type Marks } from "./coarser";
 
 Mesh3.prototype.raycast = acceleratedRaycast;
 
@@ -17,6 +19,11 @@ export type Side = "none" | "secondary" | "main";
 export interface Part3D {
   index: number; // into Mesh.parts
   data: MeshPart;
+  shape: Shape;
+  coarser: Coarser[]; // coarsest first
+  /** Contour and penetrating elements are those of the last settings. */
+  contourDrawn: boolean;
+  hotDrawn: boolean;
   faces: Mesh3 | null;
   lines: LineSegments | null; // sides of faces
   wires: LineSegments | null; // one-dimensional elements
@@ -37,6 +44,8 @@ export interface Part3D {
 const palette = ["#8fa3b8", "#b3a58f", "#94ad9b", "#b79a9c", "#a49bb8", "#8fb0b5", "#b8ac84", "#9aa7a0", "#a88f86", "#8c99c0"];
 
 const manyTriangles = 30000;
+const fewMarks = 4000; // nodes: their elements are drawn as they are while the view moves
+const atRest = 300000; // triangles that a machine without a graphics processor draws at rest
 
 export const elementKey = (kind: number, id: number): number => 16 * id + kind;
 
@@ -56,7 +65,7 @@ export class Parts3D {
   private readonly uniforms = { contourMap: { value: null as DataTexture | null } };
   private edgesOn = true;
 
-  constructor(mesh: Mesh) {
+  constructor(mesh: Mesh, shapes: Shape[]) {
     this.texture = new DataTexture(new Uint8Array(256 * 4), 256, 1, RGBAFormat);
     this.texture.magFilter = this.texture.minFilter = LinearFilter;
     this.texture.colorSpace = SRGBColorSpace;
@@ -67,49 +76,33 @@ export class Parts3D {
     this.line = new LineBasicMaterial({ color: "#1c2733", transparent: true, opacity: 0.28 });
     this.ghostLine = new LineBasicMaterial({ color: "#7b8896", transparent: true, opacity: 0.05, depthWrite: false });
     this.wire = new LineBasicMaterial({ color: "#5b6b7d" });
-    mesh.parts.forEach((data, i) => this.add(data, i));
+    mesh.parts.forEach((data, i) => this.add(data, shapes[i], i));
   }
 
-  private add(data: MeshPart, index: number): void {
+  private add(data: MeshPart, shape: Shape, index: number): void {
     const color = new Color(palette[index % palette.length]);
-    const triangles = data.groups.reduce((n, g) => n + (g.corners === 4 ? 2 : g.corners === 3 ? 1 : 0) * g.count, 0);
     const items = data.groups.reduce((n, g) => n + g.count, 0);
-    const triangleElement = new Uint32Array(triangles);
     const element = new Float64Array(items);
     const elementKind = new Uint8Array(items);
-    const Index = data.node.length > 65535 ? Uint32Array : Uint16Array;
-    const index3 = new Index(3 * triangles);
-    const wires: number[] = [];
-    let t = 0;
     let e = 0;
     for (const g of data.groups) {
-      for (let i = 0; i < g.count; i++, e++) {
-        element[e] = g.element[i];
-        elementKind[e] = g.kind;
-        const v = g.vertex.subarray(g.corners * i, g.corners * (i + 1));
-        if (g.corners === 2) {
-          wires.push(v[0], v[1]);
-          continue;
-        }
-        for (let k = 2; k < g.corners; k++) {
-          triangleElement[t] = e;
-          index3.set([v[0], v[k - 1], v[k]], 3 * t++);
-        }
-      }
+      element.set(g.element, e);
+      elementKind.fill(g.kind, e, (e += g.count));
     }
+    const { triangleElement } = shape;
     const position = new BufferAttribute(data.position, 3);
-    const contour = new BufferAttribute(new Float32Array(2 * data.node.length), 2).setUsage(DynamicDrawUsage);
+    const empty = !(shape.high[0] >= shape.low[0]);
+    const middle = new Vector3(...shape.low).add(new Vector3(...shape.high)).multiplyScalar(0.5);
     const part: Part3D = {
-      index, data, faces: null, lines: null, wires: null, color, look: "solid", side: "none", hot: null, hotLines: null,
-      sphere: new Sphere(), triangleElement, element, elementKind,
+      index, data, shape, coarser: [], contourDrawn: false, hotDrawn: false, faces: null, lines: null, wires: null, color, look: "solid", side: "none",
+      hot: null, hotLines: null, sphere: empty ? new Sphere() : new Sphere(middle, shape.radius), triangleElement, element, elementKind,
     };
-    if (triangles > 0) {
+    if (triangleElement.length > 0) {
       const geometry = new BufferGeometry();
       geometry.setAttribute("position", position);
-      geometry.setAttribute("contour", contour);
-      geometry.setIndex(new BufferAttribute(index3, 1));
-      geometry.computeBoundingSphere();
-      part.sphere.copy(geometry.boundingSphere!);
+      geometry.setAttribute("contour", contourAttribute(data.node.length));
+      geometry.setIndex(new BufferAttribute(shape.index, 1));
+      geometry.boundingSphere = part.sphere.clone();
       const material = new MeshLambertMaterial({
         color, side: DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
       });
@@ -117,13 +110,14 @@ export class Parts3D {
       part.faces = new Mesh3(geometry, material);
       part.faces.userData = { part, triangleElement };
       this.group.add(part.faces);
+      part.coarser = shape.coarse.map((c) => new Coarser(c, data, part.sphere));
+      for (const c of part.coarser) this.group.add(c.group);
     }
-    if (wires.length > 0) {
+    if (shape.wires.length > 0) {
       const geometry = new BufferGeometry();
       geometry.setAttribute("position", position);
-      geometry.setIndex(new BufferAttribute(new Index(wires), 1));
-      geometry.computeBoundingSphere();
-      if (triangles === 0) part.sphere.copy(geometry.boundingSphere!);
+      geometry.setIndex(new BufferAttribute(shape.wires, 1));
+      geometry.boundingSphere = part.sphere.clone();
       part.wires = new LineSegments(geometry, this.wire);
       this.group.add(part.wires);
     }
@@ -186,69 +180,80 @@ export class Parts3D {
     material.customProgramCacheKey = () => "contour";
   }
 
+  private values: Float32Array | null = null;
   /** Contour values in [0, 1] by page node, NaN: none. null: no contour. */
   setContour(values: Float32Array | null): void {
+    this.values = values;
     for (const part of this.parts) {
-      const attribute = part.faces?.geometry.getAttribute("contour") as BufferAttribute | undefined;
-      if (!attribute) continue;
-      const out = attribute.array as Float32Array;
-      let any = false;
-      part.data.node.forEach((n, i) => {
-        const v = values ? values[n] : NaN;
-        const w = Number.isNaN(v) ? 0 : 1;
-        const x = w ? v : 0;
-        any ||= out[2 * i] !== x || out[2 * i + 1] !== w;
-        out[2 * i] = x;
-        out[2 * i + 1] = w;
-      });
-      if (any) attribute.needsUpdate = true;
+      part.contourDrawn = false;
+      for (const c of part.coarser) c.contourDrawn = false;
     }
   }
 
-  /** Penetrating elements: those with a marked node, and those named by kind and id. */
-  setHot(node: Uint8Array, elements: Set<number>): void {
+  private marks: Marks = { node: new Uint8Array(0), touched: new Uint8Array(0), elements: new Set(), few: true };
+  /** Penetrating elements: those with a marked node, and those named by kind and id, whose nodes are touched. */
+  setHot(node: Uint8Array, touched: Uint8Array, elements: Set<number>): void {
+    let count = 0;
+    for (let i = 0; i < touched.length; i++) count += touched[i];
+    this.marks = { node, touched, elements, few: count <= fewMarks };
     for (const part of this.parts) {
-      for (const old of [part.hot, part.hotLines]) {
-        if (!old) continue;
-        this.group.remove(old);
-        old.geometry.dispose();
-      }
-      part.hot = part.hotLines = null;
-      if (!part.faces) continue;
-      const marked = part.data.node.some((n) => node[n] === 1);
-      const triangles: number[] = [];
-      const lines: number[] = [];
-      const owner: number[] = [];
-      let e = 0;
-      for (const g of part.data.groups)
-        for (let i = 0; i < g.count; i++, e++) {
-          if (g.corners === 2) continue;
-          let hot = elements.has(elementKey(g.kind, g.element[i]));
-          for (let k = 0; marked && !hot && k < g.corners; k++) hot = node[part.data.node[g.vertex[g.corners * i + k]]] === 1;
-          if (!hot) continue;
-          const v = g.vertex.subarray(g.corners * i, g.corners * (i + 1));
-          for (let k = 2; k < g.corners; k++) {
-            triangles.push(v[0], v[k - 1], v[k]);
-            owner.push(e);
-          }
-          for (let k = 0; k < g.corners; k++) lines.push(v[k], v[(k + 1) % g.corners]);
-        }
-      if (triangles.length === 0) continue;
-      const from = part.faces.geometry;
-      const share = (index: number[]) => {
-        const geometry = new BufferGeometry();
-        geometry.setAttribute("position", from.getAttribute("position"));
-        geometry.setAttribute("contour", from.getAttribute("contour"));
-        geometry.setIndex(index);
-        geometry.boundingSphere = part.sphere.clone();
-        return geometry;
-      };
-      part.hot = new Mesh3(share(triangles), this.materialOf(part));
-      part.hot.userData = { part, triangleElement: Uint32Array.from(owner) };
-      part.hotLines = new LineSegments(share(lines), this.line);
-      this.group.add(part.hot, part.hotLines);
-      this.setLook(part, part.look);
+      part.hotDrawn = false;
+      for (const c of part.coarser) c.hotDrawn = false;
     }
+  }
+
+  /** The part as it is, with contour and penetrating elements of the last settings. */
+  private complete(part: Part3D): void {
+    if (!part.faces) return;
+    if (!part.contourDrawn) {
+      part.contourDrawn = true;
+      fillContour(part.faces.geometry, part.data.node, null, this.values);
+    }
+    if (!part.hotDrawn) {
+      part.hotDrawn = true;
+      this.drawHot(part, part.faces.geometry);
+    }
+  }
+
+  private drawHot(part: Part3D, from: BufferGeometry): void {
+    for (const old of [part.hot, part.hotLines]) {
+      if (!old) continue;
+      this.group.remove(old);
+      old.geometry.dispose();
+    }
+    part.hot = part.hotLines = null;
+    const { node, elements } = this.marks;
+    const marked = part.data.node.some((n) => node[n] === 1);
+    const triangles: number[] = [];
+    const lines: number[] = [];
+    const owner: number[] = [];
+    let e = 0;
+    for (const g of part.data.groups)
+      for (let i = 0; i < g.count; i++, e++) {
+        if (g.corners === 2) continue;
+        let hot = elements.has(elementKey(g.kind, g.element[i]));
+        for (let k = 0; marked && !hot && k < g.corners; k++) hot = node[part.data.node[g.vertex[g.corners * i + k]]] === 1;
+        if (!hot) continue;
+        const v = g.vertex.subarray(g.corners * i, g.corners * (i + 1));
+        for (let k = 2; k < g.corners; k++) {
+          triangles.push(v[0], v[k - 1], v[k]);
+          owner.push(e);
+        }
+        for (let k = 0; k < g.corners; k++) lines.push(v[k], v[(k + 1) % g.corners]);
+      }
+    if (triangles.length === 0) return;
+    const share = (index: number[]) => {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", from.getAttribute("position"));
+      geometry.setAttribute("contour", from.getAttribute("contour"));
+      geometry.setIndex(index);
+      geometry.boundingSphere = part.sphere.clone();
+      return geometry;
+    };
+    part.hot = new Mesh3(share(triangles), this.materialOf(part));
+    part.hot.userData = { part, triangleElement: Uint32Array.from(owner) };
+    part.hotLines = new LineSegments(share(lines), this.line);
+    this.group.add(part.hot, part.hotLines);
   }
 
   /** 256 colours. */
@@ -279,34 +284,55 @@ export class Parts3D {
     return m;
   }
 
+  /** What of a part is drawn; how finely is decided with every picture, see show(). */
   setLook(part: Part3D, look: Look): void {
-    if (part.faces) {
-      const solid = this.materialOf(part);
-      const ghost = look === "ghost" || look === "hot";
-      part.faces.visible = look === "solid" || ghost;
-      part.faces.material = ghost ? this.ghosts[part.side] : solid;
-      part.faces.renderOrder = ghost ? 1 : 0;
-      const hot = look === "hot" || look === "only";
-      if (part.hot) part.hot.visible = hot;
-      if (part.hotLines) part.hotLines.visible = hot && this.edgesOn;
-      if (part.lines) part.lines.visible = false; // see showSides
-    }
-    if (part.wires) {
-      part.wires.visible = look !== "hidden" && look !== "only";
-      part.wires.material = look === "ghost" || look === "hot" ? this.ghostLine : this.wire;
-    }
     part.look = look;
+    if (!part.wires) return;
+    part.wires.visible = look !== "hidden" && look !== "only";
+    part.wires.material = look === "ghost" || look === "hot" ? this.ghostLine : this.wire;
   }
 
-  /** Element sides of solid parts, where they are longer on the screen than `least` pixels; `pixel`: length of one at a point. */
-  showSides(least: number, pixel: (at: Vector3) => number): void {
+  /** Before a picture. `moving`: it is one of many, on a machine that is too slow for them; `slow`: the machine has no graphics
+   * processor; `pixel`: length of one at a point; `sees`: whether something of a sphere is in the picture; `at`: where one looks. */
+  show(moving: boolean, slow: boolean, pixel: (at: Vector3) => number, sees: (s: Sphere) => boolean, at: Vector3): void {
+    const drawn = this.parts.filter((p) => p.faces && p.look !== "hidden" && p.look !== "only");
+    const all = drawn.reduce((n, p) => n + p.triangleElement.length, 0);
+    const least = slow ? 8 : 3;
     for (const p of this.parts) {
       if (!p.faces) continue;
-      const on = this.edgesOn && !this.moving && p.look === "solid" && this.side(p) > least * pixel(p.sphere.center);
-      const lines = on ? this.sides(p) : p.lines;
-      if (lines) lines.visible = on;
+      const near = () => pixel(p.sphere.containsPoint(at) ? at : p.sphere.center);
+      const level = p.coarser.length === 0 ? -1 : moving ? 0 : slow && all > atRest && this.side(p) < 2 * near() ? p.coarser.length - 1 : -1;
+      const ghost = p.look === "ghost" || p.look === "hot";
+      const faces = p.look === "solid" || ghost;
+      const hot = p.look === "hot" || p.look === "only";
+      const exact = level < 0 || (hot && this.marks.few);
+      if (exact && p.look !== "hidden") this.complete(p);
+      p.faces.visible = faces && level < 0 && (!moving || !ghost || all <= manyTriangles);
+      p.faces.material = ghost ? this.ghosts[p.side] : this.materialOf(p);
+      p.faces.renderOrder = ghost ? 1 : 0;
+      if (p.faces.visible) this.narrow(p, slow ? sees : () => true);
+      if (p.hot) p.hot.visible = hot && exact;
+      if (p.hotLines) p.hotLines.visible = hot && exact && this.edgesOn && !moving;
+      if (p.wires) p.wires.visible = p.look !== "hidden" && p.look !== "only" && !(moving && slow);
+      p.coarser.forEach((c, k) => c.show(k === level && p.look !== "hidden", faces, hot && !exact, p.faces!.material as MeshLambertMaterial, this.materialOf(p), this.values, this.marks));
+      const lines = this.edgesOn && !moving && level < 0 && p.look === "solid" && this.side(p) > least * pixel(p.sphere.center);
+      const sides = lines ? this.sides(p) : p.lines;
+      if (sides) sides.visible = lines;
     }
   }
+
+  private readonly spans = new Map<Part3D, { first: number; sphere: Sphere }[]>();
+  /** Of a part with many triangles only those between the first and the last that can be seen. */
+  private narrow(part: Part3D, sees: (s: Sphere) => boolean): void {
+    if (part.triangleElement.length < manyTriangles) return;
+    let spans = this.spans.get(part);
+    if (!spans) this.spans.set(part, (spans = ranges(part.data.position, part.shape.index)));
+    const seen = spans.flatMap((s, i) => (sees(s.sphere) ? [i] : []));
+    const [first, last] = [seen[0] ?? 0, seen.at(-1) ?? -1];
+    const end = last + 1 < spans.length ? spans[last + 1].first : part.shape.index.length;
+    part.faces!.geometry.setDrawRange(spans[first].first, last < 0 ? 0 : end - spans[first].first);
+  }
+
   private readonly typical = new Map<Part3D, number>();
   /** Length of a side in the middle of a sample. */
   private side(part: Part3D): number {
@@ -323,21 +349,8 @@ export class Parts3D {
     this.typical.set(part, found);
     return found;
   }
-  private moving = false;
-
-  /** While a slow machine moves the view: no lines, and of large models no see-through faces, which cost most. */
-  setMoving(on: boolean): void {
-    const large = this.parts.reduce((n, p) => n + p.triangleElement.length, 0) > manyTriangles;
-    this.moving = on;
-    for (const p of this.parts) {
-      if (p.hotLines) p.hotLines.visible = !on && this.edgesOn && (p.look === "hot" || p.look === "only");
-      if (p.faces && large && (p.look === "hot" || p.look === "ghost")) p.faces.visible = !on;
-    }
-  }
-
   setEdges(on: boolean): void {
     this.edgesOn = on;
-    for (const p of this.parts) this.setLook(p, p.look);
   }
 
   setClip(planes: Plane[]): void {
@@ -350,17 +363,23 @@ export class Parts3D {
     const out: Mesh3[] = [];
     for (const p of this.parts) {
       if (p.faces && p.look === "solid") out.push(p.faces);
-      if (p.hot?.visible) out.push(p.hot);
+      if (p.look !== "hot" && p.look !== "only") continue;
+      this.complete(p);
+      if (p.hot) out.push(p.hot);
     }
     return out;
   }
   /** See-through faces: picked where nothing solid is. */
   pickableGhosts(): Mesh3[] {
-    return this.parts.flatMap((p) => (p.faces?.visible && p.look !== "solid" ? [p.faces] : []));
+    return this.parts.flatMap((p) => (p.faces && (p.look === "ghost" || p.look === "hot") ? [p.faces] : []));
   }
   prepare(mesh: Mesh3): void {
     const geometry = mesh.geometry;
-    if (!geometry.boundsTree) geometry.boundsTree = new MeshBVH(geometry, { indirect: true });
+    if (geometry.boundsTree) return;
+    const { start, count } = geometry.drawRange;
+    geometry.setDrawRange(0, Infinity); // all, whatever is in sight
+    geometry.boundsTree = new MeshBVH(geometry, { indirect: true });
+    geometry.setDrawRange(start, count);
   }
 
   bounds(visible: (p: Part3D) => boolean): Sphere | null {
@@ -368,13 +387,8 @@ export class Parts3D {
     const high = low.clone().negate();
     for (const p of this.parts) {
       if (!visible(p)) continue;
-      const { data } = p;
-      for (let i = 0; i < data.position.length; i += 3)
-        for (let k = 0; k < 3; k++) {
-          const v = data.position[i + k];
-          if (v < low.getComponent(k)) low.setComponent(k, v);
-          if (v > high.getComponent(k)) high.setComponent(k, v);
-        }
+      low.min(new Vector3(...p.shape.low));
+      high.max(new Vector3(...p.shape.high));
     }
     if (!(high.x >= low.x)) return null;
     return new Sphere(low.clone().add(high).multiplyScalar(0.5), Math.max(high.distanceTo(low) / 2, 1e-6));

@@ -1,7 +1,7 @@
 // The 3D view: parts, penetrating nodes as dots, arrows, the selected pair, clip plane and picking.
 // Frames are drawn on demand only.
 import {
-  BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, DirectionalLight, HemisphereLight,
+  BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, DirectionalLight, Frustum, HemisphereLight,
   InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Points, PointsMaterial, Quaternion, Raycaster, Scene,
   Sphere, Vector2, Vector3, WebGLRenderer,
 } from "three";
@@ -12,6 +12,7 @@ import { CameraControl } from "./camera";
 import { Parts3D, type Look, type Part3D } from "./parts3d";
 import { Section, type Cut } from "./section";
 import { arrowGeometry, discTexture } from "./shapes";
+import type { Shape } from "../decode/shape";
 import type { Hit, Report } from "../report";
 
 export interface Picked {
@@ -33,11 +34,13 @@ const mostArrows = 10000;
 const mostThickLines = 1000; // thick lines are triangles
 
 /** True where the browser has no graphics processor: smoothing would cost most of the time. */
-function drawsInSoftware(): boolean {
-  const gl = document.createElement("canvas").getContext("webgl2");
-  const info = gl?.getExtension("WEBGL_debug_renderer_info");
-  const name = gl && info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
-  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+export function drawsInSoftware(): boolean {
+  // Most browsers refuse at once where everything would be slow; the others are asked for a name.
+  const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+  if (!gl) return true;
+  const info = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
   return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
@@ -51,7 +54,6 @@ export class View3D {
   /** Drawn, and nothing moves. */
   onRest: () => void = () => {};
   frames = 0;
-  private readonly software = drawsInSoftware();
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly head = new DirectionalLight("#ffffff", 1.7);
@@ -71,6 +73,8 @@ export class View3D {
   /** Throws where there is no WebGL. */
   constructor(
     private readonly report: Report,
+    shapes: Shape[],
+    readonly software: boolean,
     private readonly container: HTMLElement,
   ) {
     this.renderer = new WebGLRenderer({ antialias: !this.software, stencil: true, preserveDrawingBuffer: false, powerPreference: "high-performance" });
@@ -80,7 +84,7 @@ export class View3D {
     this.canvas.setAttribute("aria-label", "3D view of the model. Keys: see the list of shortcuts");
     container.prepend(this.canvas);
     this.disc = discTexture();
-    this.parts = new Parts3D(report.mesh);
+    this.parts = new Parts3D(report.mesh, shapes);
     for (const p of this.parts.parts) this.partOf.set(p.data.part, p);
     this.section = new Section(this.parts);
     this.scene.add(this.parts.group, this.section.group, this.sky);
@@ -96,9 +100,9 @@ export class View3D {
     const all = this.parts.bounds(() => true) ?? new Sphere(new Vector3(), 1);
     this.control.setBounds(all.center, all.radius);
     for (const p of this.parts.parts) this.parts.setLook(p, "hidden"); // until the first view is chosen
-    new ResizeObserver(() => this.resize()).observe(container);
     this.resize();
     this.control.fly(all.center, all.radius, new Vector3(-1, -1.4, 0.8), undefined, true);
+    new ResizeObserver(() => this.resize()).observe(container);
   }
 
   /** Draws a frame when the browser is ready for one. */
@@ -111,42 +115,84 @@ export class View3D {
     });
   }
 
-  /** Drawn, and no flight goes on. */
+  /** Drawn in full, and no flight goes on. */
   get resting(): boolean {
-    return !this.pending && !this.control.flying;
+    return !this.pending && this.finish === 0 && !this.control.flying;
   }
 
   private lastDraw = 0;
   private slow = 0;
   private coarse = false;
-  /** While the view moves, machines that are too slow for it draw fewer pixels and no lines. */
+  /** While the view moves, machines that are too slow for it draw fewer pixels, fewer triangles and no lines. */
   setCoarse(on: boolean): void {
     if (this.coarse === on) return;
     this.coarse = on;
-    this.parts.setMoving(on);
     if (this.arrows) this.arrows.visible = this.arrowsOn && !on;
     for (const l of this.crossed) l.visible = !on;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2) * (on ? 0.5 : 1));
-    this.renderer.setSize(this.container.clientWidth, this.container.clientHeight, false);
+    this.dots?.geometry.setDrawRange(0, this.mostDots);
+    this.size();
   }
 
+  /** Rows are deepest first. */
+  private get mostDots(): number {
+    return !this.software ? Infinity : this.coarse ? 1500 : 20000;
+  }
+
+  /** The first picture, at once; on a slow machine as while it moves. */
+  drawFirst(): void {
+    if (this.software) this.setCoarse(true);
+    this.scaleArrows();
+    this.render();
+    this.frames++;
+    this.onFrame();
+    this.seen.copy(this.control.camera.matrixWorld);
+    if (this.coarse) this.later();
+    this.skip = this.pending;
+  }
+
+  private finish = 0;
+  private due = false;
+  private skip = false;
+  private readonly seen = new Matrix4();
+  /** The full picture, a moment after the last one of a movement. */
+  private later(): void {
+    clearTimeout(this.finish);
+    this.due = false;
+    this.finish = window.setTimeout(() => {
+      this.finish = 0;
+      this.due = true;
+      this.request();
+    }, 150);
+  }
+
+  private readonly frustum = new Frustum();
   private render(): void {
-    this.parts.showSides(this.software ? 8 : 3, (at) => this.control.pixel(at));
-    this.renderer.render(this.scene, this.control.camera);
+    const { camera } = this.control;
+    this.frustum.setFromProjectionMatrix(new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
+    this.parts.show(this.coarse, this.software, (at) => this.control.pixel(at), (s) => this.frustum.intersectsSphere(s), this.control.target);
+    this.renderer.render(this.scene, camera);
   }
 
   private draw(now: number): void {
+    if (this.skip) {
+      this.skip = false; // the first picture was this one
+      return;
+    }
     const again = this.control.update(now);
-    const moving = again || this.control.dragging;
+    const { matrixWorld } = this.control.camera;
+    const moving = again || !this.seen.equals(matrixWorld);
+    this.seen.copy(matrixWorld);
     const took = now - this.lastDraw;
     this.lastDraw = now;
-    if (!moving) {
-      this.slow = 0;
-      this.setCoarse(false);
-    } else if (took < 1000) {
+    if (moving) {
       // One long frame may be a hiccup, three in a row are not.
-      this.slow = took > 80 ? this.slow + 1 : 0;
-      if (this.slow >= 3) this.setCoarse(true);
+      if (took < 1000) this.slow = took > 80 ? this.slow + 1 : 0;
+      if (this.software || this.slow >= 3) this.setCoarse(true);
+      if (this.coarse) this.later();
+    } else if (this.due || this.finish === 0) {
+      if (!this.control.dragging) this.slow = 0;
+      this.due = false;
+      this.setCoarse(false);
     }
     this.scaleArrows();
     this.render();
@@ -181,6 +227,7 @@ export class View3D {
 
   /** PNG of the view as it is, as a data address. */
   picture(scale = 1): string {
+    this.setCoarse(false);
     const { clientWidth: w, clientHeight: h } = this.container;
     const ratio = this.renderer.getPixelRatio();
     this.renderer.setPixelRatio(ratio * scale);
@@ -196,14 +243,22 @@ export class View3D {
 
   private resize(): void {
     const { clientWidth: w, clientHeight: h } = this.container;
-    if (w === 0 || h === 0) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    this.renderer.setSize(w, h, false);
+    const key = `${w}x${h}@${window.devicePixelRatio}`;
+    if (w === 0 || h === 0 || key === this.sized) return;
+    this.sized = key;
+    this.size();
     this.control.camera.aspect = w / h;
     for (const s of [...this.selection, ...this.crossed]) if (s instanceof LineSegments2) s.material.resolution.set(w, h);
+    if (this.frames === 0) return;
     this.control.update(performance.now());
     this.render();
     this.onFrame();
+  }
+  private sized = "";
+  /** Pixels of the picture. */
+  private size(): void {
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2) * (this.coarse ? 0.5 : 1));
+    this.renderer.setSize(this.container.clientWidth, this.container.clientHeight, false);
   }
 
   setGround(dark: boolean, neutral: boolean): void {
@@ -257,6 +312,7 @@ export class View3D {
     );
     this.dots.frustumCulled = false;
     this.dots.renderOrder = 3;
+    geometry.setDrawRange(0, this.mostDots);
     this.scene.add(this.dots);
     this.arrowList = instead ?? hits.slice(0, mostArrows).map((hit, i) => ({
       at: this.report.point(hit.row), along: hit.row.normal, length: hit.row.onSurface ? 0 : 1, rgb: rgb[i].toArray() as [number, number, number],
@@ -265,7 +321,7 @@ export class View3D {
     if (count > 0) {
       this.arrows = new InstancedMesh(arrowGeometry(), new MeshLambertMaterial({ color: "#ffffff" }), count);
       this.arrows.frustumCulled = false;
-      this.arrows.visible = this.arrowsOn;
+      this.arrows.visible = this.arrowsOn && !this.coarse;
       for (let i = 0; i < count; i++) this.arrows.setColorAt(i, c.fromArray(this.arrowList[i].rgb));
       this.scene.add(this.arrows);
       this.arrowScale = 0;
@@ -276,7 +332,7 @@ export class View3D {
   private arrowScale = 0;
   /** Arrows keep their size on the screen: short ones point out of a node the way it has to go. */
   private scaleArrows(): void {
-    if (!this.arrows || !this.arrowsOn) return;
+    if (!this.arrows?.visible) return;
     const scale = Math.min(this.control.pixel(this.control.target) * 44, this.control.radius * 0.08);
     if (this.arrowScale > 0 && Math.abs(scale / this.arrowScale - 1) < 0.08) return;
     this.arrowScale = scale;
@@ -295,7 +351,7 @@ export class View3D {
 
   setArrows(on: boolean): void {
     this.arrowsOn = on;
-    if (this.arrows) this.arrows.visible = on;
+    if (this.arrows) this.arrows.visible = on && !this.coarse;
     this.arrowScale = 0;
     this.request();
   }

@@ -9,6 +9,7 @@ import { saveDataUrl } from "../exports";
 import { frameOf } from "../find";
 import { contourNames, ofCycle, type ContourKind, type Look } from "../look";
 import { loadElements, kindNames, type ElementOrigin } from "../data";
+import type { Shape } from "../decode/shape";
 import { elementKey, type Look as PartLook, type Part3D } from "./parts3d";
 import type { Cut } from "./section";
 import type { Hit, Report } from "../report";
@@ -47,6 +48,8 @@ export class Viewport {
     private readonly report: Report,
     private readonly look: Look,
     private readonly changeLook: (change: Partial<Look>) => void,
+    private readonly shapes: Shape[],
+    private readonly software: boolean,
   ) {
     this.element.append(this.legend, this.tip, this.label, this.segmentTag, this.ruler, this.partList, this.clipPanel, this.axes);
   }
@@ -67,7 +70,7 @@ export class Viewport {
   /** Makes the 3D view; without WebGL a note takes its place. */
   start(): void {
     try {
-      this.view = new View3D(this.report, this.element);
+      this.view = new View3D(this.report, this.shapes, this.software, this.element);
     } catch {
       this.element.classList.add("no-webgl");
       replace(this.element, h("p", { class: "note" }, "There is no WebGL here, so there is no picture. All tables and lists work."));
@@ -108,6 +111,7 @@ export class Viewport {
     view.onMenu = (p, x, y) => this.onMenu(p, x, y);
     this.refresh();
     if (this.later) this.state = this.later;
+    view.drawFirst();
   }
 
   // ---- tool bar -----------------------------------------------------------------------------
@@ -500,16 +504,22 @@ export class Viewport {
   /** Penetrating elements: around penetrating nodes, and the elements of main sides and edges. */
   private markHot(): void {
     const node = new Uint8Array(this.report.mesh.nodeId.length);
+    const touched = new Uint8Array(node.length);
     const elements = new Set<number>();
     for (const x of this.report.filtered) {
       const data = this.report.data.contacts[x.contact];
-      if (this.report.isEdge(x.row)) {
-        const at = data.secondaryListed[x.row.secondary];
+      const { secondary, main } = x.row;
+      const edge = this.report.isEdge(x.row);
+      const [few, many] = edge ? [2, 2] : [1, 4];
+      if (edge) {
+        const at = data.secondaryListed[secondary];
         elements.add(elementKey(data.secondaryOwner.kind[at] - 1, data.secondaryOwner.id[at]));
-      } else for (const n of this.report.secondaryNodes(x.row)) node[n] = 1;
-      elements.add(elementKey(data.mainOwner.kind[x.row.main] - 1, data.mainOwner.id[x.row.main]));
+      } else node[data.secondaryNode[secondary]] = 1;
+      elements.add(elementKey(data.mainOwner.kind[main] - 1, data.mainOwner.id[main]));
+      for (let k = 0; k < few; k++) touched[data.secondaryNode[few * secondary + k]] = 1;
+      for (let k = 0; k < many; k++) touched[data.mainNode[many * main + k]] = 1;
     }
-    this.view?.parts.setHot(node, elements);
+    this.view?.parts.setHot(node, touched, elements);
   }
 
   private hitsShownFor: unknown = null;

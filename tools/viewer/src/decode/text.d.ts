@@ -1,0 +1,5 @@
+// A thread of the page as bundle.mjs bundles it: its script as a text.
+declare module "*?text" {
+  const script: string;
+  export default script;
+}

@@ -1,0 +1,22 @@
+// The thread that decodes the model beside the page: blocks in, typed arrays out, which change hands.
+import { decode, type Blocks } from "./model";
+
+/** Memory behind all arrays of a value, each once. */
+function memory(value: unknown, found = new Set<ArrayBuffer>()): Set<ArrayBuffer> {
+  if (ArrayBuffer.isView(value)) found.add(value.buffer as ArrayBuffer);
+  else if (Array.isArray(value)) {
+    // Lists of numbers hold no array.
+    if (typeof value[0] === "object") for (const v of value) memory(v, found);
+  } else if (value !== null && typeof value === "object") for (const v of Object.values(value)) memory(v, found);
+  return found;
+}
+
+const post = postMessage as (message: unknown, transfer?: ArrayBuffer[]) => void;
+onmessage = async (event: MessageEvent<Blocks>) => {
+  try {
+    const model = await decode(event.data, (done, next) => post({ done, next }));
+    post({ model }, [...memory(model)]);
+  } catch (e) {
+    post({ failed: String(e) });
+  }
+};
