@@ -67,6 +67,7 @@ async function forces(p, path) {
   check("there are nodes with forces", all.some((n) => Math.hypot(...n.force) > 0));
   same("forces, stiffness and steps of the nodes are those of the JSON", mine, all);
   same("the page opens with forces in the picture", await p.$eval(".legend-title", (e) => e.textContent), "Nodal contact force");
+  await settled(p);
   const seen = await p.evaluate(() => {
     const { view } = window.deckReport.viewport;
     return { count: view.arrowList.length, first: view.arrowList[0], visible: view.arrows.visible };

@@ -9,6 +9,7 @@ import { accessible, reachable } from "./axe.mjs";
 import { effectsPage } from "./effects.mjs";
 import { find } from "./find.mjs";
 import { picture, section } from "./picture.mjs";
+import { largeModel } from "./large.mjs";
 import { tablesBehave, tablesFit, widths } from "./tables.mjs";
 import { tryDeck } from "./what_if.mjs";
 
@@ -70,6 +71,7 @@ async function crashBox() {
   const pairs = await cells(p, "#pairs");
   same("part-pair table agrees with the JSON", pairs.map((r) => `${parseInt(r.s)} ${parseInt(r.m)} ${r.pairs} ${r.nodes} ${r.edges}`).sort(),
     json.part_pairs.map((x) => `${x.secondary} ${x.main} ${x.pairs} ${x.nodes} ${x.edges}`).sort());
+  await p.$eval("#touches", (e) => e.scrollIntoView()); // made when it comes into sight
   await p.waitForSelector("#touches svg.tw");
   const touching = await p.$eval("#touches svg.tw", (s) => {
     const frame = s.getBoundingClientRect();
@@ -92,6 +94,17 @@ async function crashBox() {
   await q.close();
   check("a cell of it chooses its part pair", await p.evaluate(() => window.deckReport.report.filter.pair !== null));
   await p.keyboard.press("Escape");
+  const followed = await p.evaluate(() => {
+    const { report } = window.deckReport;
+    const red = () => [...document.querySelectorAll("#touches .touch:has(.deep)")].map((e) => `${e.dataset.s} ${e.dataset.m}${/; \d+ penetration/.test(e.textContent)}`).sort();
+    const wanted = () => [...new Set(report.hits.map((x) => `${x.secondaryPart} ${x.mainPart}true`))].sort();
+    report.setOverrides(report.meta.interfaces.map((_, i) => ({ Gapmin: 1e-9, Gapmax: 1e-9 })));
+    const out = { red: red(), wanted: wanted(), plain: document.querySelectorAll("#touches .near").length };
+    report.clearOverrides(null);
+    return { ...out, again: red().length };
+  });
+  same("for other settings it marks the cells that penetrate then", followed.red, followed.wanted);
+  check("and fewer than before", followed.red.length < followed.again && followed.plain > 0, JSON.stringify(followed));
   const deepest = await p.evaluate(() => window.deckReport.report.hits[0].depth);
   same("the deepest row is that of the JSON", deepest, json.summary.max_depth);
   check("the page's own evaluation is the program's", await p.evaluate(() => window.deckReport.report.verified));
@@ -287,11 +300,14 @@ async function pictures() {
   const near = await sides(1);
   check("element sides are drawn, and left out from afar", near > 0 && (await sides(30)) === 0 && (await sides(1 / 30)) === near, `${near}`);
   await p.close();
-  // A browser without an inflater of its own.
+  // A browser without threads and an inflater of its own.
   const old = await browser.newContext();
-  await old.addInitScript(() => delete window.DecompressionStream);
+  await old.addInitScript(() => {
+    delete window.DecompressionStream;
+    delete window.Worker;
+  });
   p = await open(old, join(scratch, "crash_box.html"));
-  check("the page unpacks its data itself where the browser cannot", await p.evaluate(() => typeof DecompressionStream === "undefined" && window.deckReport.report.verified));
+  check("the page unpacks its data itself where the browser cannot", await p.evaluate(() => typeof DecompressionStream === "undefined" && !window.deckReport.beside && window.deckReport.report.verified));
   check("nothing is left of the progress", (await p.$(".unpacking")) === null);
   quiet("without an inflater", p);
   await old.close();
@@ -357,7 +373,10 @@ async function firstCycle() {
   check("deck cycle has forces", forces.size > 0);
   const unlike = mine.filter(([id, role, s, m, f]) => forces.has(key(id, role, s, m)) && !(Math.abs(f - forces.get(key(id, role, s, m))) <= 1e-12 * Math.abs(f)));
   check("forces of the list are those of deck cycle", unlike.length === 0 && mine.some((r) => r[4] > 0), JSON.stringify(unlike.slice(0, 3)));
-  check("the first cycle has a table", (await cells(p, "#cycle")).length > 0);
+  const table = await cells(p, "#cycle");
+  check("the first cycle has one row per interface", table.length > 0 && new Set(table.map((r) => r.id)).size === table.length, table.map((r) => r.id).join(" "));
+  const added = table.filter((r) => Number(r.pairs) !== cycle.interfaces.find((i) => String(i.id) === r.id).contacts.reduce((n, c) => n + c.pairs.filter((x) => Math.hypot(...x.force) > 0).length, 0));
+  same("its pairs with a force are those of deck cycle, all contacts of the interface together", added, []);
   const crossed = await p.evaluate(() => window.deckReport.report.crossed?.total ?? -1);
   check("crossed elements were searched for", crossed >= 0, `${crossed}`);
   if (crossed > 0) {
@@ -481,7 +500,7 @@ async function manySettings() {
 }
 
 // ONLY=crashBox,layout runs some pieces; the later ones read pages that crashBox writes.
-const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser, scratch, shot), effects: () => effectsPage(browser, scratch, shot), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
+const pieces = { crashBox, layout, pictures, accessibility, accuracy: () => accuracyPage(browser, scratch, shot), effects: () => effectsPage(browser, scratch, shot), finding: () => find(browser, join(scratch, "crash_box.html"), sample("crash_box"), scratch), largeModel: () => largeModel(browser, scratch, timings), firstCycle, comparison, badComparison, hostileText, withoutWebGL, manySettings, sled };
 const only = process.env.ONLY?.split(",");
 timings.seconds = {};
 for (const [name, piece] of Object.entries(pieces)) {

@@ -41,7 +41,8 @@ std::int64_t free_group_id(const Deck& deck) {
   return highest + 1;
 }
 
-std::string meta_json(const HtmlInput& in, const detail::PageContacts& page) {
+std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
+                      const std::vector<detail::Touch>& touches) {
   const Model& model = *in.scene->model;
   std::string out;
   JsonWriter j(out);
@@ -73,7 +74,7 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page) {
   detail::write_what_if(j, in.what_if);
   detail::write_interfaces(j, in);
   detail::write_contacts(j, in, page);
-  detail::write_touches(j, detail::collect_touches(in, page));
+  detail::write_touches(j, touches);
   j.end_object();
   return out;
 }
@@ -155,8 +156,8 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   std::string out =
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-      "script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; "
-      "img-src data: blob:\">\n"
+      "script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; "
+      "style-src 'unsafe-inline'; img-src data: blob:\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<meta name=\"generator\" "
       "content=\"deck " +
@@ -167,7 +168,11 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   out += bundle.style;
   out += "</style>\n</head>\n<body>\n";
   out += static_body(in);
-  add_block(out, "deck-meta", "application/json", detail::script_safe(meta_json(in, page)));
+  const std::vector<detail::Touch> touches = detail::collect_touches(in, page);
+  add_block(out, "deck-meta", "application/json",
+            detail::script_safe(meta_json(in, page, touches)));
+  add_block(out, "deck-touches", "application/octet-stream",
+            detail::packed_text(detail::touches_drawing(in, touches)));
   add_block(out, "deck-contacts", "application/octet-stream",
             detail::contacts_block(in, page, nodes));
   add_block(out, "deck-mesh", "application/octet-stream", detail::mesh_block(model, mesh, nodes));

@@ -88,6 +88,8 @@ struct Touch {
 std::vector<Touch> collect_touches(const HtmlInput& input, const PageContacts& page);
 /// The member "touches".
 void write_touches(JsonWriter& json, const std::vector<Touch>& touches);
+/// As SVG: the deepest 60 parts of each side.
+std::string touches_drawing(const HtmlInput& input, const std::vector<Touch>& touches);
 
 // html_cards.cpp — the members "interfaces" and "what_if"
 void write_interfaces(JsonWriter& json, const HtmlInput& input);

@@ -59,7 +59,8 @@ std::vector<int> ranked(const std::vector<Touch>& all, Side side) {
   return out;
 }
 
-/// The drawing; measures and classes are those of the page (tools/viewer/src/touches.ts).
+/// The drawing, of the command line and of the page, which marks other cells for other settings
+/// (tools/viewer/src/touches.ts).
 class Drawing {
  public:
   Drawing(const HtmlInput& in, const std::vector<Touch>& all) : in_(in), all_(all) {
@@ -129,9 +130,9 @@ class Drawing {
       said += fmt::format("; {} penetration{}, deepest {:.4g}", t->pairs, t->pairs == 1 ? "" : "s",
                           t->depth);
     out_ += fmt::format(
-        "<g class=\"touch\"><title>{}</title>{} class=\"{}\"/><text x=\"{}\" y=\"{}\" "
+        "<g class=\"touch\" data-s=\"{}\" data-m=\"{}\"><title>{}</title>{} class=\"{}\"/><text x=\"{}\" y=\"{}\" "
         "text-anchor=\"middle\" class=\"{}\">{}</text></g>\n",
-        xml_text(said), box, t->pairs > 0 ? "deep" : "near", x + size / 2, y + 16,
+        t->secondary, t->main, xml_text(said), box, t->pairs > 0 ? "deep" : "near", x + size / 2, y + 16,
         t->pairs > 0 ? "n" : "m", t->interfaces.size());
   }
 
@@ -213,10 +214,13 @@ void detail::write_touches(JsonWriter& j, const std::vector<Touch>& touches) {
   j.end_array();
 }
 
+std::string detail::touches_drawing(const HtmlInput& in, const std::vector<Touch>& touches) {
+  return Drawing(in, touches).run();
+}
+
 std::string touches_svg(const HtmlInput& in) {
   detail::PageNodes nodes(in.scene->model->nodes.size());
-  const std::vector<Touch> all = collect_touches(in, detail::collect_contacts(in, nodes));
-  return Drawing(in, all).run();
+  return touches_drawing(in, collect_touches(in, detail::collect_contacts(in, nodes)));
 }
 
 }  // namespace deck

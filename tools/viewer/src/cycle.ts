@@ -1,39 +1,64 @@
 // Forces, energies and time steps of the first cycle, where the page carries them.
 import { group, h, num, plural, replace } from "./dom";
+import type { Cycle } from "./meta";
 import type { Report } from "./report";
 import { VirtualTable } from "./table/table";
+
+type Whole = Omit<Cycle["contacts"][0], "rows" | "active" | "acceleration">;
+
+/** The first cycle of an interface: sums over its contacts, the smallest step; null: settings have changed. */
+function wholeOf(report: Report, inter: number): Whole | null {
+  const out: Whole = { complete: true, dt: null, because: "", with_force: 0, force: 0, largest: 0, elastic: 0 };
+  for (const i of report.contactsOf(inter)) {
+    const c = report.cycleOf(i);
+    if (!c) return null;
+    out.complete &&= c.complete;
+    out.with_force += c.with_force;
+    out.force += c.force;
+    out.largest = Math.max(out.largest, c.largest);
+    out.elastic += c.elastic;
+    if (c.dt === null || (out.dt !== null && out.dt <= c.dt)) continue;
+    out.dt = c.dt;
+    out.because = c.because;
+  }
+  return out;
+}
 
 export function cycleSection(report: Report): HTMLElement {
   const section = h("section", { id: "cycle" });
   const cycle = report.cycle;
-  const rows = cycle ? cycle.contacts.flatMap((c, i) => (c.with_force > 0 || c.dt !== null || !c.complete ? [i] : [])) : [];
   if (!cycle) {
     section.hidden = true;
     return section;
   }
+  const of = (i: number) => wholeOf(report, i);
+  // An interface of several contacts, TYPE19, is one row, as in the other tables.
+  const rows = report.meta.interfaces.flatMap((_, i) => {
+    const c = of(i);
+    return c && (c.with_force > 0 || c.dt !== null || !c.complete) ? [i] : [];
+  });
   const step = (dt: number | null) => (dt === null ? "–" : num(dt));
-  const of = (i: number) => report.cycleOf(i);
-  const dash = (i: number, f: (c: NonNullable<ReturnType<typeof of>>) => string) => {
+  const dash = (i: number, f: (c: Whole) => string) => {
     const c = of(i);
     return c ? f(c) : "settings changed";
   };
   const table = new VirtualTable<number>(
     [
-      { key: "id", title: "Id", kind: "id", value: (i) => report.meta.interfaces[report.meta.contacts[i].interface].id, text: (i) => String(report.meta.interfaces[report.meta.contacts[i].interface].id) },
-      { key: "kind", title: "Kind", kind: "text", rank: 2, value: (i) => report.roleText(i), text: (i) => report.roleText(i) },
+      { key: "id", title: "Id", kind: "id", value: (i) => report.meta.interfaces[i].id, text: (i) => String(report.meta.interfaces[i].id) },
+      { key: "kind", title: "Kind", kind: "text", rank: 2, value: (i) => report.meta.interfaces[i].type, text: (i) => `TYPE${report.meta.interfaces[i].type}` },
       { key: "pairs", title: "With force", hint: "Pairs that carry a force", kind: "number", rank: 5, value: (i) => of(i)?.with_force ?? 0, text: (i) => dash(i, (c) => group(c.with_force)) },
       { key: "force", title: "Sum", hint: "Sum of the sizes of the pair forces", kind: "number", rank: 4, value: (i) => of(i)?.force ?? 0, text: (i) => dash(i, (c) => num(c.force)) },
       { key: "largest", title: "Largest", hint: "Largest force of one pair", kind: "number", value: (i) => of(i)?.largest ?? 0, text: (i) => dash(i, (c) => num(c.largest)) },
       { key: "elastic", title: "Energy", hint: "Elastic energy of the contact", kind: "number", rank: 3, value: (i) => of(i)?.elastic ?? 0, text: (i) => dash(i, (c) => num(c.elastic)) },
-      { key: "dt", title: "Time step", hint: "Smallest step that this contact allows", kind: "number", value: (i) => of(i)?.dt ?? Infinity, text: (i) => dash(i, (c) => (c.complete ? step(c.dt) : "too many pairs")) },
+      { key: "dt", title: "Time step", hint: "Smallest step that this interface allows", kind: "number", value: (i) => of(i)?.dt ?? Infinity, text: (i) => dash(i, (c) => (c.complete ? step(c.dt) : "too many pairs")) },
       { key: "because", title: "Because of", kind: "text", rank: 1, value: (i) => of(i)?.because ?? "", text: (i) => dash(i, (c) => c.because || "–") },
     ],
-    { label: "First cycle", sort: "dt", descending: false, select: (i) => i !== null && report.setFilter({ interface: report.meta.contacts[i].interface, pair: null }) },
+    { label: "First cycle", sort: "dt", descending: false, select: (i) => i !== null && report.setFilter({ interface: i, pair: null }) },
   );
   const sentence = h("p", { class: "note" });
   const draw = () => {
     table.setRows(rows);
-    const forces = rows.reduce((n, i) => n + cycle.contacts[i].with_force, 0);
+    const forces = cycle.contacts.reduce((n, c) => n + c.with_force, 0);
     const limits = cycle.contact_dt !== null && (cycle.structure_dt === null || cycle.contact_dt < cycle.structure_dt);
     replace(sentence,
       `${plural(forces, "pair carries", "pairs carry")} a force in the first cycle. `,

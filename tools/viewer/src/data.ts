@@ -220,10 +220,16 @@ export function loadContacts(meta: Meta, mesh: Mesh): Contacts {
   return readContacts(inflate("deck-contacts")!, meta, mesh.nodeId.length);
 }
 
-const json = (id: string): unknown => {
+const text = (id: string): string | null => {
   const bytes = inflate(id);
-  return bytes ? JSON.parse(new TextDecoder().decode(bytes)) : null;
+  return bytes && new TextDecoder().decode(bytes);
 };
+const json = (id: string): unknown => {
+  const found = text(id);
+  return found === null ? null : JSON.parse(found);
+};
+/** The drawing of who touches whom, as SVG. */
+export const loadTouches = () => text("deck-touches");
 export const loadEarlier = () => json("deck-earlier") as Earlier | null;
 export const loadCycle = () => json("deck-cycle") as Cycle | null;
 export const loadCrossed = () => json("deck-crossed") as Crossed | null;

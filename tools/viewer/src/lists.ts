@@ -21,9 +21,9 @@ interface PairRow {
 }
 
 export function partPairs(report: Report, hits: Hit[]): PairRow[] {
-  const groups = new Map<string, Hit[]>();
+  const groups = new Map<number, Hit[]>();
   for (const x of hits) {
-    const k = `${x.secondaryPart},${x.mainPart}`;
+    const k = (x.secondaryPart + 1) * 2 ** 26 + x.mainPart + 1;
     const list = groups.get(k);
     if (list) list.push(x);
     else groups.set(k, [x]);
@@ -76,7 +76,7 @@ export function pairsSection(report: Report, look: Look): HTMLElement {
   const empty = h("p", { class: "note" }, "No part penetrates another.");
   const section = h("section", { id: "pairs" }, sectionHead(h("h2", null, "Part pairs", count), table.chooser()), table.element, matrix, empty);
   const draw = () => {
-    const rows = partPairs(report, report.passing("pair").length ? rowsWithout(report) : []);
+    const rows = partPairs(report, report.passing("pair", false)); // all pairs count here, whatever the list shows
     table.setRows(rows);
     const pair = report.filter.pair;
     table.setSelected(pair ? (rows.find((r) => r.secondary === pair[0] && r.main === pair[1]) ?? null) : null, true);
@@ -90,15 +90,6 @@ export function pairsSection(report: Report, look: Look): HTMLElement {
   report.on("look", draw);
   draw();
   return section;
-}
-
-/** All pairs count in the part tables, whatever the list shows. */
-function rowsWithout(report: Report): Hit[] {
-  const keep = report.filter.perNode;
-  report.filter.perNode = false;
-  const out = report.passing("pair");
-  report.filter.perNode = keep;
-  return out;
 }
 
 const matrixSize = 26;
@@ -172,7 +163,7 @@ function ticks(top: number): number[] {
 }
 
 function histogram(report: Report, look: Look, field: "depth" | "ratio", title: string): HTMLElement {
-  const values = report.passing(field).map((x) => x[field]);
+  const values = report.around(field).map((x) => x[field]);
   const all = report.hits.reduce((m, x) => Math.max(m, x[field]), 0);
   const top = field === "ratio" ? Math.max(1, all) : all || 1;
   const bins = 24;

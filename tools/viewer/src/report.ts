@@ -22,6 +22,24 @@ export interface Hit {
   earlier: number | null; // depth in the earlier report
 }
 
+/** A row of the evaluation. */
+class Found implements Hit {
+  readonly depth: number;
+  readonly ratio: number;
+  readonly contact: number;
+  status: Status | null = null;
+  earlier: number | null = null;
+
+  constructor(readonly row: Row, readonly secondaryPart: number, readonly mainPart: number, readonly nodes: [number, number]) {
+    this.depth = row.depth;
+    this.ratio = ratioOf(row);
+    this.contact = row.contact;
+  }
+  get key(): string {
+    return `${this.contact}/${this.row.secondary}/${this.row.main}`;
+  }
+}
+
 export interface Solved {
   interfaceId: number;
   role: string;
@@ -199,7 +217,8 @@ export class Report {
   }
   commonPrefix = "";
   private findPrefix(): void {
-    const parts = new Set(this.hits.flatMap((x) => [x.secondaryPart, x.mainPart]));
+    const parts = new Set<number>();
+    for (const x of this.hits) parts.add(x.secondaryPart).add(x.mainPart);
     this.commonPrefix = commonStart([...parts].filter((p) => p >= 0).map((p) => this.meta.parts[p].title));
   }
   partId(part: number): number {
@@ -238,11 +257,15 @@ export class Report {
   }
   /** Exact position of the secondary point: the node, or the closest point of the edge. */
   point(row: Row): [number, number, number] {
-    const d = this.data;
-    const [a, b] = this.secondaryNodes(row).map((n) => d.exactOf[n]);
-    if (b === undefined) return [d.x[a], d.y[a], d.z[a]];
+    const { x, y, z, exactOf, contacts } = this.data;
+    const nodes = contacts[row.contact].secondaryNode;
+    if (!this.isEdge(row)) {
+      const a = exactOf[nodes[row.secondary]];
+      return [x[a], y[a], z[a]];
+    }
+    const [a, b] = [exactOf[nodes[2 * row.secondary]], exactOf[nodes[2 * row.secondary + 1]]];
     const w = row.weight;
-    return [w * d.x[a] + (1 - w) * d.x[b], w * d.y[a] + (1 - w) * d.y[b], w * d.z[a] + (1 - w) * d.z[b]];
+    return [w * x[a] + (1 - w) * x[b], w * y[a] + (1 - w) * y[b], w * z[a] + (1 - w) * z[b]];
   }
   solverError(row: Row): number {
     const { fpenmax, inacti } = this.results[row.contact].setting;
@@ -254,9 +277,15 @@ export class Report {
   get nodePositions(): Float32Array {
     if (this.positions) return this.positions;
     const out = new Float32Array(3 * this.mesh.nodeId.length).fill(NaN);
-    for (const p of this.mesh.parts) p.node.forEach((n, i) => out.set(p.position.subarray(3 * i, 3 * i + 3), 3 * n));
-    const d = this.data;
-    d.exactNode.forEach((n, i) => out.set([d.x[i], d.y[i], d.z[i]], 3 * n));
+    for (const { node, position } of this.mesh.parts)
+      for (let i = 0; i < node.length; i++) for (let k = 0; k < 3; k++) out[3 * node[i] + k] = position[3 * i + k];
+    const { exactNode, x, y, z } = this.data;
+    for (let i = 0; i < exactNode.length; i++) {
+      const at = 3 * exactNode[i];
+      out[at] = x[i];
+      out[at + 1] = y[i];
+      out[at + 2] = z[i];
+    }
     return (this.positions = out);
   }
 
@@ -296,20 +325,7 @@ export class Report {
       for (const row of result.rows) {
         const at = edges ? 2 * row.secondary : row.secondary;
         const pair: [number, number] = [this.nodeId(c.secondaryNode[at]), edges ? this.nodeId(c.secondaryNode[at + 1]) : 0];
-        const hit: Hit = {
-          row,
-          depth: row.depth,
-          ratio: ratioOf(row),
-          contact,
-          secondaryPart: c.secondaryOwner.part[c.secondaryListed[row.secondary]],
-          mainPart: c.mainOwner.part[row.main],
-          nodes: pair,
-          get key() {
-            return `${contact}/${row.secondary}/${row.main}`;
-          },
-          status: null,
-          earlier: null,
-        };
+        const hit = new Found(row, c.secondaryOwner.part[c.secondaryListed[row.secondary]], c.mainOwner.part[row.main], pair);
         if (this.earlier && this.earlierRows) {
           const sameDepth = this.earlier.same_depth;
           const key = `${id}|${meta.role}|${pair[0]}|${pair[1]}`;
@@ -350,23 +366,36 @@ export class Report {
     this.applyFilter();
   }
 
-  /** Hits that pass all filters but the one named. */
-  passing(except: keyof Filter | null): Hit[] {
+  /** Hits that pass all filters but the one named; `perNode`: of a node or edge only the deepest. */
+  passing(except: keyof Filter | null, perNode = this.filter.perNode && except !== "perNode"): Hit[] {
     const f = this.filter;
-    const text = f.text.trim().toLowerCase();
+    const of = <K extends keyof Filter>(k: K): Filter[K] | null => (except === k ? null : f[k]);
+    const [inter, pair, depth, ratio, status] = [of("interface"), of("pair"), of("depth"), of("ratio"), of("status")];
+    const text = (of("text") ?? "").trim().toLowerCase();
     // The first, and so the deepest, row of a node or edge: there can be half a million of them.
-    const seen = except !== "perNode" && f.perNode ? this.data.contacts.map((c) => new Uint8Array(c.secondaryNode.length)) : null;
-    return this.hits.filter((x) => {
-      if (except !== "interface" && f.interface !== null && this.meta.contacts[x.contact].interface !== f.interface) return false;
-      if (except !== "pair" && f.pair && (x.secondaryPart !== f.pair[0] || x.mainPart !== f.pair[1])) return false;
-      if (except !== "depth" && f.depth && !(x.depth >= f.depth[0] && x.depth <= f.depth[1])) return false;
-      if (except !== "ratio" && f.ratio && !(x.ratio >= f.ratio[0] && x.ratio <= f.ratio[1])) return false;
-      if (except !== "status" && f.status && x.status !== f.status) return false;
-      if (except !== "text" && text && !this.matches(x, text)) return false;
-      if (!seen) return true;
-      const of = seen[x.contact];
-      return of[x.row.secondary] === 0 && (of[x.row.secondary] = 1) === 1;
-    });
+    const seen = perNode ? this.data.contacts.map((c) => new Uint8Array(c.secondaryNode.length)) : null;
+    const out: Hit[] = [];
+    for (const x of this.hits) {
+      if (inter !== null && this.meta.contacts[x.contact].interface !== inter) continue;
+      if (pair && (x.secondaryPart !== pair[0] || x.mainPart !== pair[1])) continue;
+      if (depth && !(x.depth >= depth[0] && x.depth <= depth[1])) continue;
+      if (ratio && !(x.ratio >= ratio[0] && x.ratio <= ratio[1])) continue;
+      if (status && x.status !== status) continue;
+      if (text && !this.matches(x, text)) continue;
+      if (seen) {
+        const done = seen[x.contact];
+        if (done[x.row.secondary] === 1) continue;
+        done[x.row.secondary] = 1;
+      }
+      out.push(x);
+    }
+    return out;
+  }
+
+  /** The same of a filter that may not be set: then it is the list. */
+  around(filter: "interface" | "pair" | "depth" | "ratio" | "status" | "text"): Hit[] {
+    const set = this.filter[filter];
+    return set === null || set === "" ? this.filtered : this.passing(filter);
   }
 
   matches(x: Hit, text: string): boolean {

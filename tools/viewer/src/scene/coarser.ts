@@ -8,7 +8,7 @@ import type { Coarse } from "../decode/shape";
 export interface Marks {
   node: Uint8Array; // by page node
   touched: Uint8Array; // these, and the nodes of the elements
-  elements: Set<number>;
+  elements: Set<number> | null; // null: not yet asked for
   few: boolean;
 }
 

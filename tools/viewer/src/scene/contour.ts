@@ -36,8 +36,12 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
     const values = new Float32Array(n).fill(NaN);
     for (const x of hits) {
       const v = of(x);
-      for (const node of report.secondaryNodes(x.row).concat(report.mainNodes(x.row)))
+      const { secondaryNode, mainNode } = report.data.contacts[x.contact];
+      const [few, many] = report.isEdge(x.row) ? [2, 2] : [1, 4];
+      for (let k = 0; k < few + many; k++) {
+        const node = k < few ? secondaryNode[few * x.row.secondary + k] : mainNode[many * x.row.main + k - few];
         if (!(values[node] >= v)) values[node] = v;
+      }
     }
     return { values, top, of, tick: scale(top) };
   }

@@ -190,12 +190,14 @@ export class Parts3D {
     }
   }
 
-  private marks: Marks = { node: new Uint8Array(0), touched: new Uint8Array(0), elements: new Set(), few: true };
+  private marks: Marks = { node: new Uint8Array(0), touched: new Uint8Array(0), elements: null, few: true };
+  private elements: () => Set<number> = () => new Set();
   /** Penetrating elements: those with a marked node, and those named by kind and id, whose nodes are touched. */
-  setHot(node: Uint8Array, touched: Uint8Array, elements: Set<number>): void {
+  setHot(node: Uint8Array, touched: Uint8Array, elements: () => Set<number>): void {
+    this.elements = elements;
     let count = 0;
     for (let i = 0; i < touched.length; i++) count += touched[i];
-    this.marks = { node, touched, elements, few: count <= fewMarks };
+    this.marks = { node, touched, elements: null, few: count <= fewMarks };
     for (const part of this.parts) {
       part.hotDrawn = false;
       for (const c of part.coarser) c.hotDrawn = false;
@@ -222,7 +224,8 @@ export class Parts3D {
       old.geometry.dispose();
     }
     part.hot = part.hotLines = null;
-    const { node, elements } = this.marks;
+    const { node } = this.marks;
+    const elements = (this.marks.elements ??= this.elements());
     const marked = part.data.node.some((n) => node[n] === 1);
     const triangles: number[] = [];
     const lines: number[] = [];

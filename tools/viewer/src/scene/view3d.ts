@@ -31,6 +31,7 @@ export interface Arrow {
 }
 
 const mostArrows = 10000;
+const mostDotsInSoftware = 20000; // no fewer than arrows
 const mostThickLines = 1000; // thick lines are triangles
 
 /** True where the browser has no graphics processor: smoothing would cost most of the time. */
@@ -135,7 +136,7 @@ export class View3D {
 
   /** Rows are deepest first. */
   private get mostDots(): number {
-    return !this.software ? Infinity : this.coarse ? 1500 : 20000;
+    return this.software && this.coarse ? 1500 : Infinity;
   }
 
   /** The first picture, at once; on a slow machine as while it moves. */
@@ -225,6 +226,11 @@ export class View3D {
     return this.renderer.info.render.calls;
   }
 
+  /** Of the last picture. */
+  get drawnTriangles(): number {
+    return this.renderer.info.render.triangles;
+  }
+
   /** PNG of the view as it is, as a data address. */
   picture(scale = 1): string {
     this.setCoarse(false);
@@ -292,17 +298,15 @@ export class View3D {
       this.arrows = null;
     }
     this.dotHits = hits;
-    const position = new Float32Array(3 * hits.length);
-    const color = new Float32Array(3 * hits.length);
+    const dots = this.software ? Math.min(hits.length, mostDotsInSoftware) : hits.length;
+    const position = new Float32Array(3 * dots);
+    const color = new Float32Array(3 * dots);
     const c = new Color();
-    const rgb = hits.map((h) => {
-      const [r, g, b] = colorOf(h);
-      return c.setRGB(r / 255, g / 255, b / 255, "srgb").clone();
-    });
-    hits.forEach((hit, i) => {
-      position.set(this.report.point(hit.row), 3 * i);
-      rgb[i].toArray(color, 3 * i);
-    });
+    for (let i = 0; i < dots; i++) {
+      const [r, g, b] = colorOf(hits[i]);
+      c.setRGB(r / 255, g / 255, b / 255, "srgb").toArray(color, 3 * i);
+      position.set(this.report.point(hits[i].row), 3 * i);
+    }
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(position, 3));
     geometry.setAttribute("color", new BufferAttribute(color, 3));
@@ -315,7 +319,7 @@ export class View3D {
     geometry.setDrawRange(0, this.mostDots);
     this.scene.add(this.dots);
     this.arrowList = instead ?? hits.slice(0, mostArrows).map((hit, i) => ({
-      at: this.report.point(hit.row), along: hit.row.normal, length: hit.row.onSurface ? 0 : 1, rgb: rgb[i].toArray() as [number, number, number],
+      at: this.report.point(hit.row), along: hit.row.normal, length: hit.row.onSurface ? 0 : 1, rgb: [color[3 * i], color[3 * i + 1], color[3 * i + 2]],
     }));
     const count = Math.min(this.arrowList.length, mostArrows);
     if (count > 0) {

@@ -230,6 +230,7 @@ export class Viewport {
     const own = (r: readonly number[]) =>
       (inter === null || this.report.meta.contacts[r[0]].interface === inter) && (!parts || parts.has(this.report.data.contacts[r[0]].mainOwner.part[r[5]]));
     const rows = (this.crossedShown = this.crossedOn ? (this.report.crossed?.rows ?? []).filter(own) : []);
+    if (rows.length === 0) return this.view?.setCrossed(null, null);
     const x = this.report.nodePositions;
     const edges = new Float32Array(6 * rows.length);
     const outlines: number[] = [];
@@ -505,21 +506,27 @@ export class Viewport {
   private markHot(): void {
     const node = new Uint8Array(this.report.mesh.nodeId.length);
     const touched = new Uint8Array(node.length);
-    const elements = new Set<number>();
-    for (const x of this.report.filtered) {
+    const { filtered } = this.report;
+    for (const x of filtered) {
       const data = this.report.data.contacts[x.contact];
       const { secondary, main } = x.row;
       const edge = this.report.isEdge(x.row);
       const [few, many] = edge ? [2, 2] : [1, 4];
-      if (edge) {
-        const at = data.secondaryListed[secondary];
-        elements.add(elementKey(data.secondaryOwner.kind[at] - 1, data.secondaryOwner.id[at]));
-      } else node[data.secondaryNode[secondary]] = 1;
-      elements.add(elementKey(data.mainOwner.kind[main] - 1, data.mainOwner.id[main]));
+      if (!edge) node[data.secondaryNode[secondary]] = 1;
       for (let k = 0; k < few; k++) touched[data.secondaryNode[few * secondary + k]] = 1;
       for (let k = 0; k < many; k++) touched[data.mainNode[many * main + k]] = 1;
     }
-    this.view?.parts.setHot(node, touched, elements);
+    this.view?.parts.setHot(node, touched, () => this.hotElements(filtered));
+  }
+  private hotElements(hits: Hit[]): Set<number> {
+    const out = new Set<number>();
+    for (const { contact, row } of hits) {
+      const { secondaryListed, secondaryOwner: s, mainOwner: m } = this.report.data.contacts[contact];
+      const at = secondaryListed[row.secondary];
+      if (this.report.isEdge(row)) out.add(elementKey(s.kind[at] - 1, s.id[at]));
+      out.add(elementKey(m.kind[row.main] - 1, m.id[row.main]));
+    }
+    return out;
   }
 
   private hitsShownFor: unknown = null;

@@ -1,0 +1,88 @@
+// A model with many elements on a machine without a graphics processor: decoded beside the page, drawn coarsely at first
+// and while it moves, in full at rest.
+import { execFileSync } from "node:child_process";
+import { join } from "node:path";
+import { check, deck, open, ROOT, same, settled } from "./support.mjs";
+
+/** Processor time of all processes of the browser but its own, in ms. */
+async function spent(system) {
+  const { processInfo } = await system.send("SystemInfo.getProcessInfo");
+  return 1000 * processInfo.filter((p) => p.type !== "browser").reduce((n, p) => n + p.cpuTime, 0);
+}
+const median = (list) => [...list].sort((a, b) => a - b)[list.length >> 1];
+
+export async function largeModel(browser, scratch, timings) {
+  const path = join(scratch, "sheets_0000.rad");
+  execFileSync("python3", [join(ROOT, "samples/generate.py"), "--sheets", "300", path], { stdio: "ignore" });
+  const file = join(scratch, "sheets.html");
+  deck("gaps", path, "--quiet", "--html", file);
+
+  const context = await browser.newContext();
+  // What the page says while it decodes, and what its first picture is made of.
+  await context.addInitScript(() => {
+    window.said = [];
+    new MutationObserver(() => {
+      const wait = document.querySelector(".unpacking");
+      const now = wait && `${wait.querySelector("progress").value} ${wait.textContent}`;
+      if (now && window.said.at(-1) !== now) window.said.push(now);
+      const report = window.deckReport;
+      if (document.documentElement.dataset.ready && window.first === undefined) window.first = report.viewport.view.drawnTriangles;
+    }).observe(document, { subtree: true, childList: true, attributes: true, characterData: true });
+  });
+  const p = await open(context, file, { viewport: { width: 1440, height: 900 } });
+  check("the model is decoded beside the page", await p.evaluate(() => window.deckReport.beside));
+  check("what the page's thread evaluated is the program's", await p.evaluate(() => window.deckReport.report.verified));
+  const said = await p.evaluate(() => window.said);
+  const shares = said.map((s) => parseFloat(s));
+  check("the page says how far it is, and never less than before", said.some((s) => s.includes("Evaluating the contacts")) && shares.every((v, i) => i === 0 || v >= shares[i - 1]), said.join(" | "));
+  await settled(p);
+  const drawn = await p.evaluate(() => {
+    const { view } = window.deckReport.viewport;
+    const all = view.parts.parts.reduce((n, x) => n + x.triangleElement.length, 0);
+    const out = { all, first: window.first, rest: view.drawnTriangles };
+    view.measure(1, true);
+    out.moving = view.drawnTriangles;
+    out.hot = view.parts.parts.filter((x) => x.coarser[0]?.group.children[1]?.visible).length;
+    view.measure(1, false);
+    out.near = view.drawnTriangles;
+    return out;
+  });
+  const hits = await p.evaluate(() => window.deckReport.report.hits.length);
+  check("the first picture has a tenth of the triangles at most", drawn.first > 1000 && drawn.first < drawn.all / 10, JSON.stringify(drawn));
+  check("and so have the pictures of a movement", drawn.moving > 1000 && drawn.moving < drawn.all / 10, JSON.stringify(drawn));
+  check("at rest there are more", drawn.rest > 4 * drawn.moving, JSON.stringify(drawn));
+  check("what penetrates is told apart while the view moves", hits > 4000 && drawn.hot > 0, `${hits} ${JSON.stringify(drawn)}`);
+
+  // Whoever comes near sees every element, and of a large part only what is in sight is drawn.
+  const near = await p.evaluate(async () => {
+    const { report, viewport } = window.deckReport;
+    viewport.showAll();
+    report.select(report.filtered[report.filtered.length >> 1]);
+    await new Promise((done) => {
+      const wait = () => (viewport.view.resting ? done() : setTimeout(wait, 50));
+      setTimeout(wait, 700);
+    });
+    const { parts } = viewport.view.parts;
+    return { ranges: parts.filter((x) => x.faces?.visible).map((x) => x.faces.geometry.drawRange.count / 3), whole: parts.map((x) => x.triangleElement.length) };
+  });
+  check("near by the elements themselves are drawn, and not those out of sight", near.ranges.length > 0 && near.ranges.every((n) => n > 0) && near.ranges.some((n, i) => n < 0.9 * near.whole[i]), JSON.stringify(near));
+  await p.keyboard.press("Escape");
+  await p.keyboard.press("f");
+  await settled(p);
+
+  // Processor time, as the machine may be busy with other work.
+  const system = await browser.newBrowserCDPSession();
+  const cost = async (coarse) => {
+    const list = [];
+    for (let i = 0; i < 3; i++) {
+      const before = await spent(system);
+      await p.evaluate((c) => window.deckReport.viewport.view.measure(2, c), coarse);
+      list.push(((await spent(system)) - before) / 2);
+    }
+    return Math.round(median(list));
+  };
+  timings.large = { moving_ms: await cost(true), still_ms: await cost(false) };
+  check("a picture of a movement costs half of one at rest at most", timings.large.moving_ms < timings.large.still_ms / 2, JSON.stringify(timings.large));
+  same("no console error and no request", p.trouble, []);
+  await context.close();
+}
