@@ -17,7 +17,7 @@ import { openMenu, rowItems } from "./menu";
 import { ViewState } from "./state";
 import { touchesSection } from "./touches";
 import { Report, type Hit } from "./report";
-import { drawsInSoftware } from "./scene/view3d";
+import { drawsInSoftware } from "./scene/machine";
 import { Viewport } from "./scene/viewport";
 
 const started = performance.now();

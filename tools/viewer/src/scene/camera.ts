@@ -221,3 +221,14 @@ export function lookFrom(direction: Vector3, up: Vector3): Quaternion {
   helper.matrix.makeBasis(x, y, z);
   return new Quaternion().setFromRotationMatrix(helper.matrix);
 }
+
+/** Directions that see the normal from the side, 25 degrees above the surface. */
+export function directions(n: Vector3): Vector3[] {
+  const other = Math.abs(n.z) < 0.8 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0);
+  const t = new Vector3().crossVectors(n, other).normalize();
+  const u = new Vector3().crossVectors(t, n).normalize();
+  return Array.from({ length: 8 }, (_, i) => {
+    const a = ((i * 45 - 20) * Math.PI) / 180;
+    return t.clone().multiplyScalar(0.9 * Math.cos(a)).addScaledVector(u, 0.9 * Math.sin(a)).addScaledVector(n, 0.45).normalize();
+  });
+}

@@ -1,5 +1,8 @@
 // Shapes that the 3D view draws many times: the arrow of a force or depth, the dot of a node.
-import { BufferGeometry, CanvasTexture, ConeGeometry, CylinderGeometry } from "three";
+import { BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, CylinderGeometry, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Vector3 } from "three";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 
 /** An arrow of length 1 along y. */
@@ -20,4 +23,33 @@ export function discTexture(): CanvasTexture {
   g.arc(size / 2, size / 2, size / 2 - 2, 0, 2 * Math.PI);
   g.fill();
   return new CanvasTexture(canvas);
+}
+
+/** Lines one pixel wide, before everything else. */
+export function thinLines(positions: Float32Array, color: string): LineSegments {
+  const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3));
+  const lines = new LineSegments(geometry, new LineBasicMaterial({ color, depthTest: false, transparent: true }));
+  lines.renderOrder = 7;
+  lines.frustumCulled = false;
+  return lines;
+}
+
+/** The same some pixels wide, in a picture of so many points. */
+export function thickLines(positions: Float32Array, color: string, width: number, across: number, down: number): LineSegments2 {
+  const material = new LineMaterial({ color: new Color(color).getHex(), linewidth: width, depthTest: false, transparent: true });
+  material.resolution.set(across, down);
+  const lines = new LineSegments2(new LineSegmentsGeometry().setPositions(positions), material);
+  lines.renderOrder = 7;
+  lines.frustumCulled = false;
+  return lines;
+}
+
+/** Head of an arrow between two points. */
+export function coneAt(from: Vector3, to: Vector3, color: string): Mesh {
+  const length = from.distanceTo(to);
+  const cone = new Mesh(new ConeGeometry(0.12 * length, 0.32 * length, 12).translate(0, -0.16 * length, 0), new MeshBasicMaterial({ color, depthTest: false, transparent: true }));
+  cone.position.copy(to);
+  cone.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), to.clone().sub(from).divideScalar(length));
+  cone.renderOrder = 8;
+  return cone;
 }

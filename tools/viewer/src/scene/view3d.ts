@@ -1,17 +1,15 @@
 // The 3D view: parts, penetrating nodes as dots, arrows, the selected pair, clip plane and picking.
 // Frames are drawn on demand only.
 import {
-  BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, DirectionalLight, Frustum, HemisphereLight,
-  InstancedMesh, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Points, PointsMaterial, Quaternion, Raycaster, Scene,
+  BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, Frustum, HemisphereLight,
+  InstancedMesh, LineSegments, Matrix4, Mesh, MeshLambertMaterial, Points, PointsMaterial, Quaternion, Raycaster, Scene,
   Sphere, Vector2, Vector3, WebGLRenderer,
 } from "three";
-import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
-import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
-import { CameraControl } from "./camera";
+import { CameraControl, directions } from "./camera";
 import { Parts3D, type Look, type Part3D } from "./parts3d";
 import { Section, type Cut } from "./section";
-import { arrowGeometry, discTexture } from "./shapes";
+import { arrowGeometry, coneAt, discTexture, thickLines, thinLines } from "./shapes";
 import type { Shape } from "../decode/shape";
 import type { Hit, Report } from "../report";
 
@@ -33,17 +31,6 @@ export interface Arrow {
 const mostArrows = 10000;
 const mostDotsInSoftware = 20000; // no fewer than arrows
 const mostThickLines = 1000; // thick lines are triangles
-
-/** True where the browser has no graphics processor: smoothing would cost most of the time. */
-export function drawsInSoftware(): boolean {
-  // Most browsers refuse at once where everything would be slow; the others are asked for a name.
-  const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
-  if (!gl) return true;
-  const info = gl.getExtension("WEBGL_debug_renderer_info");
-  const name = info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
-  gl.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software|basic render/i.test(name);
-}
 
 export class View3D {
   readonly parts: Parts3D;
@@ -222,11 +209,10 @@ export class View3D {
     return mean;
   }
 
+  /** Of the last picture. */
   get drawCalls(): number {
     return this.renderer.info.render.calls;
   }
-
-  /** Of the last picture. */
   get drawnTriangles(): number {
     return this.renderer.info.render.triangles;
   }
@@ -340,15 +326,12 @@ export class View3D {
     const scale = Math.min(this.control.pixel(this.control.target) * 44, this.control.radius * 0.08);
     if (this.arrowScale > 0 && Math.abs(scale / this.arrowScale - 1) < 0.08) return;
     this.arrowScale = scale;
-    const up = new Vector3(0, 1, 0);
-    const m = new Matrix4();
-    const q = new Quaternion();
+    const [up, m, q] = [new Vector3(0, 1, 0), new Matrix4(), new Quaternion()];
     for (let i = 0; i < this.arrows.count; i++) {
       const { at, along, length } = this.arrowList[i];
       const n = new Vector3(...along).normalize();
       q.setFromUnitVectors(up, n.lengthSq() > 0 ? n : up);
-      const thick = length > 0 ? scale : 0;
-      this.arrows.setMatrixAt(i, m.compose(new Vector3(...at), q, new Vector3(thick, scale * length, thick)));
+      this.arrows.setMatrixAt(i, m.compose(new Vector3(...at), q, new Vector3(length > 0 ? scale : 0, scale * length, length > 0 ? scale : 0)));
     }
     this.arrows.instanceMatrix.needsUpdate = true;
   }
@@ -369,7 +352,7 @@ export class View3D {
     }
     if (edges && edges.length > 0) {
       const many = edges.length > 6 * mostThickLines;
-      const draw = (x: Float32Array, color: string, width: number) => (many ? this.thinLines(x, color) : this.lines(x, color, width));
+      const draw = (x: Float32Array, color: string, width: number) => (many ? thinLines(x, color) : this.lines(x, color, width));
       this.crossed.push(draw(outlines!, this.dark ? "#ffb454" : "#b45309", 1.5), draw(edges, this.dark ? "#ff6b81" : "#c1123f", 4));
       for (const l of this.crossed) this.scene.add(l);
     }
@@ -417,23 +400,7 @@ export class View3D {
     this.request();
   }
 
-  private thinLines(positions: Float32Array, color: string): LineSegments {
-    const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3));
-    const lines = new LineSegments(geometry, new LineBasicMaterial({ color, depthTest: false, transparent: true }));
-    lines.renderOrder = 7;
-    lines.frustumCulled = false;
-    return lines;
-  }
-
-  private lines(positions: Float32Array, color: string, width: number): LineSegments2 {
-    const geometry = new LineSegmentsGeometry().setPositions(positions);
-    const material = new LineMaterial({ color: new Color(color).getHex(), linewidth: width, depthTest: false, transparent: true });
-    material.resolution.set(this.container.clientWidth, this.container.clientHeight);
-    const lines = new LineSegments2(geometry, material);
-    lines.renderOrder = 7;
-    lines.frustumCulled = false;
-    return lines;
-  }
+  private readonly lines = (x: Float32Array, color: string, width: number) => thickLines(x, color, width, this.container.clientWidth, this.container.clientHeight);
 
   private addLines(points: Vector3[], color: string, width: number): void {
     const positions = Float32Array.from(points.flatMap((p) => p.toArray()));
@@ -447,10 +414,7 @@ export class View3D {
   private addTip(from: Vector3, to: Vector3, color: string): void {
     const length = from.distanceTo(to);
     if (!(length > 0) || !Number.isFinite(length)) return;
-    const cone = new Mesh(new ConeGeometry(0.12 * length, 0.32 * length, 12).translate(0, -0.16 * length, 0), new MeshBasicMaterial({ color, depthTest: false, transparent: true }));
-    cone.position.copy(to);
-    cone.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), to.clone().sub(from).divideScalar(length));
-    cone.renderOrder = 8;
+    const cone = coneAt(from, to, color);
     this.scene.add(cone);
     this.selection.push(cone);
   }
@@ -528,13 +492,14 @@ export class View3D {
       this.control.fly(s.center, grown);
       return;
     }
-    const s = this.parts.bounds((p) => p.look === "solid") ?? this.parts.bounds(() => true);
+    const s = this.inView();
     if (s) this.control.fly(s.center, s.radius);
   }
+  private inView = () => this.parts.bounds((p) => p.look === "solid") ?? this.parts.bounds(() => true);
 
   look(direction: Vector3, up: Vector3): void {
     this.control.cut = null;
-    const s = this.parts.bounds((p) => p.look === "solid") ?? this.parts.bounds(() => true);
+    const s = this.inView();
     if (s) this.control.fly(s.center, s.radius, direction, up);
   }
 
@@ -632,15 +597,4 @@ export class View3D {
     this.control.update(performance.now());
     return this.place(new Vector3(...this.report.point(hit.row)));
   }
-}
-
-/** Directions that see the normal from the side, 25 degrees above the surface. */
-function directions(n: Vector3): Vector3[] {
-  const other = Math.abs(n.z) < 0.8 ? new Vector3(0, 0, 1) : new Vector3(1, 0, 0);
-  const t = new Vector3().crossVectors(n, other).normalize();
-  const u = new Vector3().crossVectors(t, n).normalize();
-  return Array.from({ length: 8 }, (_, i) => {
-    const a = ((i * 45 - 20) * Math.PI) / 180;
-    return t.clone().multiplyScalar(0.9 * Math.cos(a)).addScaledVector(u, 0.9 * Math.sin(a)).addScaledVector(n, 0.45).normalize();
-  });
 }
