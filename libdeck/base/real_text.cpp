@@ -137,7 +137,6 @@ std::to_chars_result write_real_text(char* first, char* last, double value, int 
     digits.erase(0, zeros);
     exponent -= static_cast<int>(zeros);
     digits.erase(std::max<std::size_t>(digits.find_last_not_of('0') + 1, 1));
-    if (value == 0) exponent = 0;
     text = fmt::format("{}{}{}{}e{}{:02}", std::signbit(value) ? "-" : "", digits[0],
                        digits.size() > 1 ? "." : "", digits.substr(1), exponent < 0 ? '-' : '+',
                        std::abs(exponent));

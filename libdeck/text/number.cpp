@@ -201,15 +201,10 @@ Decimal to_decimal(double value, int significant, char (&buffer)[32]) {
 /// The most readable text of these digits that fits, empty if none does.
 std::string text_of(const Decimal& d, std::size_t room) {
   const bool plain = d.point > -4 && d.point <= 10;
-  // A fixed text longer than any cell is not worth forming: 1e300 has 300 zeros.
-  const auto fixed = [&](bool leading_zero) {
-    return d.point > 340 || d.point < -340 ? std::string(room + 1, ' ')
-                                           : fixed_text(d, leading_zero);
-  };
-  std::string text = plain ? fixed(true) : scientific_text(d, 1);
+  std::string text = plain ? fixed_text(d, true) : scientific_text(d, 1);
   if (text.size() <= room) return text;
   for (const bool leading_zero : {true, false})
-    if (text = fixed(leading_zero); text.size() <= room) return text;
+    if (text = fixed_text(d, leading_zero); text.size() <= room) return text;
   if (text = scientific_text(d, 1); text.size() <= room) return text;
   // Without the point one more digit fits.
   if (text = scientific_text(d, d.digits.size()); text.size() <= room) return text;

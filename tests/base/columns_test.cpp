@@ -51,6 +51,15 @@ TEST(Broken, LosesNothingButBlanks) {
   }
 }
 
+TEST(Broken, BreaksBehindABlankElseBehindASignElseAnywhere) {
+  using Pieces = std::vector<std::string>;
+  EXPECT_EQ(broken("aaa bbbb", 6, 6), (Pieces{"aaa", "bbbb"}));
+  for (const std::string sign : {",", "/", ":"})
+    EXPECT_EQ(broken("abc" + sign + "defgh", 6, 6), (Pieces{"abc" + sign, "defgh"}));
+  EXPECT_EQ(broken("ab_cdefg", 5, 5), (Pieces{"ab_", "cdefg"}));
+  EXPECT_EQ(broken("abcdefgh", 4, 4), (Pieces{"abcd", "efgh"}));
+}
+
 TEST(Folded, NoLineIsWiderAndShortOnesStayAsTheyAre) {
   const std::string text =
       "16 initial penetrations on 9 nodes, deepest 0.35 of a gap of 1.25\n"

@@ -78,6 +78,9 @@ TEST(PortableRealText, WritesWhatTheStandardLibraryWrites) {
 TEST(PortableRealText, SaysWhereTheBufferIsTooShort) {
   char buffer[4];
   EXPECT_EQ(portable::write_real_text(buffer, buffer + 4, 1.5, 0).ec, std::errc::value_too_large);
+  char fits[5];
+  ASSERT_EQ(portable::write_real_text(fits, fits + 5, 1.0, 0).ec, std::errc());
+  EXPECT_EQ(std::string(fits, 5), "1e+00");
 }
 
 using Reader = std::from_chars_result (*)(const char*, const char*, double&);

@@ -1,7 +1,10 @@
 // The front door: a loaded deck owns what it is made of.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "deck/deck.hpp"
+#include "deck/model/selection.hpp"
 #include "where.hpp"
 
 namespace deck::test {
@@ -36,6 +39,30 @@ TEST(Load, MovingMovesNoneOfTheParts) {
   const Scene scene = moved.scene(findings);
   EXPECT_EQ(scene.model, &moved.model());
   EXPECT_FALSE(scene.contacts.empty());
+}
+
+TEST(Load, LeavesTheGapsOfTheMeshOpenWhereGeometryIsNotAskedFor) {
+  std::string waiting;
+  for (const auto& entry : std::filesystem::directory_iterator(source_dir() / "samples")) {
+    LoadOptions options;
+    options.geometry = false;
+    const auto open = load(entry.path().string(), options);
+    if (!open || !waits_for_geometry(open->interfaces())) continue;
+    waiting = entry.path().filename().string();
+    const auto resolved = load(entry.path().string());
+    ASSERT_TRUE(resolved);
+    EXPECT_FALSE(waits_for_geometry(resolved->interfaces())) << waiting;
+  }
+  EXPECT_FALSE(waiting.empty()) << "no sample has a gap that follows from its mesh";
+}
+
+TEST(Load, TheLimitsHoldForSelections) {
+  LoadOptions options;
+  options.read.limits.selection_bytes = 1;
+  auto loaded = load(sample("too_close_0000.rad"), options);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  loaded->model().selections->resolve_all();
+  EXPECT_FALSE(loaded->model().selections->complete());
 }
 
 TEST(Load, AMissingDeckIsAnErrorWithItsName) {

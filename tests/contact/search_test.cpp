@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -431,6 +432,49 @@ TEST(SpaceOrder, HilbertCurveVisitsEveryCellAndMovesByOne) {
                      std::abs(cell[i][2] - cell[i + 1][2]);
     EXPECT_EQ(step, 1) << i;
   }
+}
+
+TEST(SpaceOrder, TheFarEndOfTheGridLiesInItsLastCell) {
+  constexpr unsigned bits = 4;
+  const order_detail::CurveGrid grid({0, 0, 0}, {16, 16, 16}, bits);
+  for (const Point3<double>& p : {Point3<double>{16, 16, 16}, {16, 3, 3}, {3, 16, 3}, {3, 3, 16}}) {
+    const auto inside = [](double v) { return std::min(v, 15.5); };
+    EXPECT_EQ(grid.index(p), grid.index({inside(p.x), inside(p.y), inside(p.z)}));
+  }
+}
+
+TEST(SpaceOrder, TheRadixSortIsTheStableSortOfItsBits) {
+  Dice dice(8);
+  for (const std::size_t n : {100u, 5000u}) {
+    for (const int threads : {1, 3}) {
+      const auto index_bits = static_cast<unsigned>(std::bit_width(n - 1));
+      std::vector<std::uint64_t> keys(n), spare;
+      for (std::size_t i = 0; i < n; ++i)
+        keys[i] = static_cast<std::uint64_t>(dice.uniform(0, 1 << 17)) << index_bits | i;
+      auto expected = keys;
+      std::sort(expected.begin(), expected.end());
+      order_detail::radix_sort(keys, spare, index_bits, index_bits + 17, threads);
+      EXPECT_EQ(keys, expected) << n;
+    }
+  }
+}
+
+TEST(SpaceOrder, ACrowdFarFromTheRestIsOrderedOnItsOwnGrid) {
+  // A thousand points in one cell of the grid over all: without a grid of their own they would stay
+  // in the order of the list, which is none.
+  Dice dice(4);
+  std::vector<Point3<double>> p(1000);
+  for (auto& q : p) q = {1e-6 * dice.uniform(0, 1), 1e-6 * dice.uniform(0, 1), 0.0};
+  p.push_back({1, 1, 1});
+  const auto order = order_by_place(
+      p.size(), [&p](std::uint32_t i) { return Place{p[i]}; }, 1);
+  double path = 0;
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+    const auto &a = p[order[i]], &b = p[order[i + 1]];
+    if (order[i] != 1000 && order[i + 1] != 1000) path += std::hypot(a.x - b.x, a.y - b.y);
+  }
+  // About sqrt(1000) for a curve through the unit square, about 520 for a random walk.
+  EXPECT_LT(path, 100e-6);
 }
 
 TEST(SpaceOrder, IsAPermutationForAnyGradingAndThreads) {

@@ -182,6 +182,37 @@ TEST(NodalStiffness, MeanOverShellsSumOverBars) {
   EXPECT_NEAR(nodal(d, 31), 200 + 7, 1e-12);
 }
 
+TEST(NodalStiffness, TheNodeThatOrientsABeamIsNotHeldByIt) {
+  SmallDeck d = published();
+  d.node(300, 65, 5, 7).beam_part(8, 0.09).bar("BEAM", 8, 80, 32, 35, 300);
+  d.shell3(4, 301, 31, 32, 300).group("/GRNOD/NODE/9", {300, 32, 35});
+  d.add("@/INTER/TYPE7/1 grnd_IDs=9 surf_IDm=1 Istf=2");
+  EXPECT_NEAR(nodal(d, 300), 200, 1e-12) << "its shell of thickness 1 alone";
+}
+
+TEST(NodalStiffness, AThickShellOfSixteenNodesGivesEachCornerAThirtySecond) {
+  SmallDeck d = published();
+  const int middle[8][3] = {{1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0},
+                            {1, 0, 2}, {2, 1, 2}, {1, 2, 2}, {0, 1, 2}};
+  std::string cards = "/SHEL16/2\n        50";
+  const auto cell = [](int id) {
+    std::string text = std::to_string(id);
+    return std::string(10 - text.size(), ' ') + text;
+  };
+  for (int i = 0; i < 8; ++i) {
+    const int x = (i % 4 == 1 || i % 4 == 2) ? 2 : 0, y = i % 4 >= 2 ? 2 : 0, z = i >= 4 ? 2 : 0;
+    d.node(400 + i, 100 + x, y, z);
+    d.node(410 + i, 100 + middle[i][0], middle[i][1], middle[i][2]);
+    cards += cell(400 + i);
+  }
+  cards += "\n";
+  for (int i = 0; i < 8; ++i) cards += cell(410 + i) + (i == 3 ? "\n" : "");
+  d.add(cards).group("/GRNOD/NODE/9", {400, 410});
+  d.add("@/INTER/TYPE7/1 grnd_IDs=9 surf_IDm=1 Istf=2");
+  EXPECT_NEAR(nodal(d, 400), bulk * std::cbrt(2 * 8.0 / 32), 1e-9);
+  EXPECT_NEAR(nodal(d, 410), bulk * std::cbrt(2 * 8.0 * 3 / 32), 1e-9);
+}
+
 TEST(NodalStiffness, NodesSwitchedOffHaveNone) {
   SmallDeck d = published();
   d.node(200, 65, 5, 0.5).shell(4, 200, 200, 31, 34, 33).group("/GRNOD/NODE/9", {200});

@@ -297,5 +297,91 @@ TEST(Account, NamesEveryEffectWithTheFieldThatDecided) {
   EXPECT_FALSE(find("boundary-release").on);
 }
 
+TEST(Account, GivesTheReasonThatTheCardGives) {
+  struct Row {
+    const char* effect;
+    void (*change)(ContactCard&);
+    bool on;
+    const char* field;
+    const char* reason;
+  };
+  const Row rows[] = {
+      {"variable-gap", [](ContactCard& c) { c.igap = 3; }, true, "Igap", "Igap = 3"},
+      {"variable-gap", [](ContactCard& c) { c.igap = 4; }, false, "Igap", "Igap = 4"},
+      {"stiffness-combination", [](ContactCard& c) { c.istf = 2; }, true, "Istf", "Istf = 2"},
+      {"stiffness-combination", [](ContactCard& c) { c.istf = 6; }, false, "Istf", "Istf = 6"},
+      {"time-step-deletion", [](ContactCard& c) { c.dtmin = 0.5; }, true, "dtmin", "dtmin = 0.5"},
+      {"time-step-deletion", [](ContactCard&) {}, false, "dtmin", "dtmin = 0"},
+      {"time-step-deletion", [](ContactCard& c) { c.dtmin = 0.5, c.itied = 1; }, false, "dtmin",
+       "ITIED ties instead"},
+      {"friction-law", [](ContactCard& c) { c.fric = 0.2, c.ifric = 1; }, true, "Ifric",
+       "Ifric = 1"},
+      {"friction-law",
+       [](ContactCard& c) { c.kind = ContactKind::edge_edge, c.fric = 0.2, c.ifric = 1; }, false,
+       "Ifric", "edge contacts use a constant coefficient"},
+      {"boundary-release", [](ContactCard& c) { c.ibc = 5; }, true, "IBC", "IBC frees X, Z"},
+      {"boundary-release", [](ContactCard&) {}, false, "IBC", "IBC = 000"},
+      {"boundary-release", [](ContactCard& c) { c.kind = ContactKind::edge_edge, c.ibc = 7; },
+       false, "IBC", "edges release nothing"},
+      {"friction-heat",
+       [](ContactCard& c) { c.fric = 0.2, c.ithe = c.ithe_form = 1, c.fheatm = 1; }, true, "Fheatm",
+       "Fheats = 0, Fheatm = 1"},
+      {"friction-heat", [](ContactCard& c) { c.fric = 0.2, c.ithe = c.ithe_form = 1; }, false,
+       "Fheats", "Fheats = 0, Fheatm = 0"},
+      {"contact-flag", [](ContactCard& c) { c.iadm = 1; }, true, "Ibag", "Ibag = 0"},
+      {"element-deletion", [](ContactCard& c) { c.idel = 2; }, true, "Idel", "Idel = 2"},
+      {"activity-window", [](ContactCard& c) { c.tstart = 2; }, true, "Tstart", "Tstart = 2"},
+  };
+  for (const Row& row : rows) {
+    ContactCard card;
+    card.idel = 0;
+    row.change(card);
+    bool found = false;
+    for (const EffectState& e : effect_plan(card)) {
+      if (e.name != row.effect) continue;
+      found = true;
+      EXPECT_EQ(e.on, row.on) << row.effect << ": " << row.reason;
+      EXPECT_EQ(e.field, row.field) << row.effect;
+      EXPECT_EQ(e.reason, row.reason) << row.effect;
+    }
+    EXPECT_TRUE(found) << row.effect;
+  }
+}
+
+TEST(Needs, EveryArrayThatIsMissingIsNamed) {
+  const Packet packet(testing::random_pairs(10, 1));
+  const KernelPlan plan = make_plan(testing::elastic_card());
+  PacketView view = packet.view();
+  view.k0 = nullptr;
+  EXPECT_EQ(missing_fields(plan, view), Field::stiffness);
+  view = packet.view();
+  view.gap = nullptr;
+  EXPECT_EQ(missing_fields(plan, view), Field::gap);
+  view = packet.view();
+  view.position[2][1] = nullptr;
+  EXPECT_EQ(missing_fields(plan, view), Field::position);
+}
+
+TEST(Composition, AnInstructionSetThatIsAskedForIsTakenWhereThereIsOne) {
+  const ContactCard card = testing::elastic_card();
+  const auto isa = [&](Isa wish) {
+    PlanOptions options;
+    options.isa = wish;
+    return std::string(make_plan(card, Model::reference, options).isa);
+  };
+  EXPECT_EQ(isa(Isa::baseline), "baseline");
+#if defined(__x86_64__)
+  const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512vl");
+  if (__builtin_cpu_supports("avx2")) {
+    EXPECT_EQ(isa(Isa::avx2), "avx2");
+  }
+  if (wide) {
+    EXPECT_EQ(isa(Isa::avx512), "avx512");
+    EXPECT_EQ(isa(Isa::automatic), "avx512");
+  }
+#endif
+}
+
 }  // namespace
 }  // namespace deck::cycle

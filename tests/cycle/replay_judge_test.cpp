@@ -65,6 +65,31 @@ TEST(ReplayJudge, RowsThatRecordNothingAreCounted) {
   EXPECT_EQ(r.zero_rows, 1u);
 }
 
+TEST(ReplayJudge, FrictionThatTheSolverUsedStandsForThatOfTheCard) {
+  std::string row = state("0.4", "0,0,-750,3125");
+  row.pop_back();
+  const std::string still = "10,10,0,0,10,0,0,0,0,", sliding = "10,10,0,0,10,0,2,0,0,";
+  row.replace(row.find(still), still.size(), sliding);
+  const auto computed = [&](double fric, double visf, const std::string& names,
+                            const std::string& cells) {
+    ContactCard card = spring();
+    card.fric = fric;
+    card.visf = visf;
+    ReplayOptions options;
+    options.csv = true;
+    const ReplayReport r =
+        replay(card, std::string(header) + names + "\n" + row + cells + "\n", options);
+    EXPECT_EQ(r.error, "");
+    return r.csv;
+  };
+  const std::string names = ",mu0,c1,c2,c3,c4,c5,c6", used = ",0.3,0,0,0,0,0,0";
+  const std::string expected = computed(0.3, 2.0, "", "");
+  EXPECT_NE(expected, computed(0.0, 2.0, "", ""));
+  EXPECT_NE(expected, computed(0.3, 1.0, "", ""));
+  EXPECT_EQ(computed(0.0, 2.0, names, used), expected) << "the damping of the card, squared";
+  EXPECT_EQ(computed(0.0, 1.0, names + ",visf", used + ",4"), expected) << "or that of the record";
+}
+
 TEST(ReplayCsv, HasOneLinePerStateOfTheInterfaceInOrder) {
   ReplayOptions options;
   options.csv = true;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -58,6 +59,58 @@ TEST(Masses, BricksGiveAnEighthToEachNode) {
   const Built b(elements());
   const State s = make_state(b.scene);
   for (int id = 10; id <= 17; ++id) EXPECT_DOUBLE_EQ(mass(b, s, id), 1e-6 * 1000 / 8);
+}
+
+/// A block of 2 x 2 x 2 whose mid-side nodes are `middles` of the twelve edges; ids from 1 and 21.
+SmallDeck with_middles(const char* keyword, const std::vector<std::array<int, 3>>& middles) {
+  SmallDeck d;
+  d.solid_part(1).shell_part(2, 1).group("/GRNOD/PART/1", {1});
+  const auto cell = [](int id) {
+    const std::string text = std::to_string(id);
+    return std::string(10 - text.size(), ' ') + text;
+  };
+  std::string card = std::string(keyword) + "/1\n" + cell(7);
+  for (int k = 0; k < 8; ++k) {
+    d.node(1 + k, (k % 4 == 1 || k % 4 == 2) ? 2 : 0, k % 4 >= 2 ? 2 : 0, k >= 4 ? 2 : 0);
+    card += cell(1 + k);
+  }
+  const std::size_t first = middles.size() == 12 ? 8 : 4;
+  for (std::size_t k = 0; k < middles.size(); ++k) {
+    d.node(21 + static_cast<int>(k), middles[k][0], middles[k][1], middles[k][2]);
+    card += (k == 0 || k == first ? "\n" : "") + cell(21 + static_cast<int>(k));
+  }
+  // A shell far away, so that there is something to touch.
+  d.node(91, 0, 0, 50).node(92, 2, 0, 50).node(93, 2, 2, 50).node(94, 0, 2, 50);
+  d.shell(2, 90, 91, 92, 93, 94);
+  return d.add(card);
+}
+
+TEST(Masses, BlocksWithMidSideNodesGiveMostToThese) {
+  const double total = 1e-6 * 8;
+  const Built twenty(with_middles("/BRIC20", {{1, 0, 0},
+                                              {2, 1, 0},
+                                              {1, 2, 0},
+                                              {0, 1, 0},
+                                              {0, 0, 1},
+                                              {2, 0, 1},
+                                              {2, 2, 1},
+                                              {0, 2, 1},
+                                              {1, 0, 2},
+                                              {2, 1, 2},
+                                              {1, 2, 2},
+                                              {0, 1, 2}}));
+  const State a = make_state(twenty.scene);
+  const double q = 8 * 3.0 / 14 + 12;
+  for (int k = 0; k < 8; ++k) EXPECT_NEAR(mass(twenty, a, 1 + k), total * (3.0 / 14) / q, 1e-18);
+  for (int k = 0; k < 12; ++k) EXPECT_NEAR(mass(twenty, a, 21 + k), total / q, 1e-18);
+  const Built sixteen(with_middles(
+      "/SHEL16",
+      {{1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2}, {1, 2, 2}, {0, 1, 2}}));
+  const State b = make_state(sixteen.scene);
+  for (int k = 0; k < 8; ++k) {
+    EXPECT_NEAR(mass(sixteen, b, 1 + k), total / 32, 1e-18);
+    EXPECT_NEAR(mass(sixteen, b, 21 + k), total * 3 / 32, 1e-18);
+  }
 }
 
 TEST(Masses, AddedMassGoesToEveryNodeOrIsSpread) {

@@ -152,6 +152,18 @@ TEST(Damping, OfANodePullsWhenItLeavesFastEnough) {
   expect_digits(run(damped(), p, 1e-6, 1e-6, Model::robust).all.normal_force[0], 20.69600995);
 }
 
+TEST(Damping, IsNoneWithoutVissAlsoWhereFrictionNeedsTheVelocities) {
+  ContactCard card = damped();
+  card.viss = 0.0;
+  card.fric = 0.2;
+  const Outcome still = run(card, moving({0, 0, 0}), 1e-6, 1e-6);
+  EXPECT_LT(still.all.normal_force[0], 0.0);
+  for (const double v : {-20.0, 20.0})
+    EXPECT_EQ(run(card, moving({0, 0, v}), 1e-6, 1e-6).all.normal_force[0],
+              still.all.normal_force[0])
+        << v;
+}
+
 TEST(FrictionViscous, SticksThenSlips) {
   ContactCard card = damped();
   card.fric = 0.2;

@@ -281,6 +281,18 @@ TEST_F(LsDynaIncludes, OfThemselvesEnd) {
   EXPECT_TRUE(doubts(convert("*INCLUDE\na.k\n" + nodes_to_surface(sides)), "includes itself"));
 }
 
+TEST_F(LsDynaIncludes, MayNestAsDeepAsTheLimitsSay) {
+  const int most = Limits{}.include_depth;
+  for (const int deep : {most, most + 1}) {
+    files_.clear();
+    for (int i = 1; i < deep; ++i)
+      files_["f" + std::to_string(i) + ".k"] = "*INCLUDE\nf" + std::to_string(i + 1) + ".k\n";
+    files_["f" + std::to_string(deep) + ".k"] = "*KEYWORD\n";
+    EXPECT_EQ(doubts(convert("*INCLUDE\nf1.k\n" + nodes_to_surface(sides)), "too many files"),
+              deep > most);
+  }
+}
+
 TEST_F(LsDynaIncludes, ThatGrowWithoutBoundEnd) {
   for (int i = 0; i < 40; ++i) {
     const std::string next = "f" + std::to_string(i + 1) + ".k\n";

@@ -157,6 +157,71 @@ TEST(LsDyna, TiedBecomesType10WithoutRebound) {
   EXPECT_EQ(loss_of(r, "option"), Loss::approximated);
 }
 
+TEST(LsDyna, ATiedContactTakesSmallDistancesAndIgnoresIgnore) {
+  const auto tied = [](const std::string& a, const std::string& b) {
+    return converted("*CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET\n" + card({"11", "12", "2", "2"}) +
+                     card({"0"}) + card({"1", "1", a, b}) + card({"1"}) + card({"0"}) +
+                     card({"0", "1"}));
+  };
+  const Rewrite small = tied("-0.5", "-0.25");
+  ASSERT_NE(entry(small, "SST"), nullptr);
+  EXPECT_EQ(in_deck(small)->interfaces.type10.at(0).Gap.value, 0.375);
+  bool in_gap = false;
+  for (const LossEntry& e : small.losses)
+    if (e.field == "MST") in_gap = e.note == "in Gap" && e.loss == Loss::approximated;
+  EXPECT_TRUE(in_gap);
+  EXPECT_EQ(loss_of(small, "IGNORE"), Loss::dropped);
+  EXPECT_EQ(loss_of(tied("0", "0"), "MST"), Loss::kept);
+}
+
+TEST(LsDyna, SoftAndDepthSayWhatTheyAskFor) {
+  const auto with = [](const char* soft, const char* depth) {
+    return converted("*CONTACT_AUTOMATIC_SINGLE_SURFACE\n" + card({"11", "0", "2"}) +
+                     card({"0.1"}) + card({"1"}) + card({soft, "", "", "", "", depth}));
+  };
+  EXPECT_EQ(loss_of(with("0", "2"), "SOFT"), Loss::approximated);
+  EXPECT_EQ(loss_of(with("1", "2"), "SOFT"), Loss::dropped);
+  EXPECT_EQ(loss_of(with("2", "2"), "SOFT"), Loss::dropped);
+  for (const char* edges : {"5", "13", "15", "23", "25", "33", "35", "45", "55"})
+    EXPECT_EQ(loss_of(with("1", edges), "DEPTH"), Loss::dropped) << edges;
+  for (const char* nodes : {"1", "2", "3", "4", "6", "44"})
+    EXPECT_EQ(loss_of(with("1", nodes), "DEPTH"), Loss::approximated) << nodes;
+}
+
+TEST(LsDyna, IgnoreOneReducesTheGapByThePenetrationAlone) {
+  for (const auto& [ignore, inacti] : {std::pair{"1", 5}, {"2", 5}, {"0", 6}}) {
+    const Rewrite r =
+        converted("*CONTACT_AUTOMATIC_SINGLE_SURFACE\n" + card({"11", "0", "2"}) + card({"0.1"}) +
+                  card({"1"}) + card({"1"}) + card({"0"}) + card({"0", ignore}));
+    EXPECT_EQ(in_deck(r)->interfaces.type7.at(0).Inacti.value, inacti) << ignore;
+    const LossEntry* e = entry(r, "IGNORE");
+    ASSERT_NE(e, nullptr) << ignore;
+    EXPECT_EQ(e->note.find("margin") == std::string::npos, inacti == 5) << e->note;
+  }
+}
+
+TEST(LsDyna, FrictionThatDoesNotDecayAccountsForItsOtherCells) {
+  const Rewrite r = converted("*CONTACT_AUTOMATIC_SINGLE_SURFACE\n" + card({"11", "0", "2"}) +
+                              card({"0.2", "0.2", "5.0"}) + card({"1"}));
+  EXPECT_EQ(loss_of(r, "FD"), Loss::kept);
+  EXPECT_EQ(loss_of(r, "DC"), Loss::kept);
+  EXPECT_EQ(in_deck(r)->interfaces.type7.at(0).Fric.value, 0.2);
+}
+
+TEST(LsDyna, LinesBehindTheLastCardAreLeftToAPersonTenOfThemAtMost) {
+  for (const int lines : {1, 10, 12}) {
+    std::string text = "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n" + card({"11", "0", "2"}) +
+                       card({"0.2"}) + card({"1"});
+    for (int k = 0; k < 7; ++k) text += card({"0"});
+    for (int k = 0; k < lines; ++k) text += card({std::to_string(7000 + k)});
+    int undecided = 0;
+    for (const LossEntry& e : converted(text).losses)
+      undecided += e.note == "a line behind the last optional card";
+    EXPECT_GE(undecided, std::min(lines, 10) - 1) << lines;
+    EXPECT_LE(undecided, 10);
+  }
+}
+
 TEST(LsDyna, ATiedContactWithoutADistanceSaysThatTheDistancesDiffer) {
   const Rewrite r = converted("*CONTACT_TIED_NODES_TO_SURFACE\n" + card({"11", "12", "4", "2"}) +
                               card({}) + card({}));

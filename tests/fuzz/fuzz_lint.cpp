@@ -61,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   require(result.fingerprints.size() == result.diagnostics.size(), "every finding has its print");
   // The documents are many times as long as the deck.
-  if (h / 32 % 64 == 0) check_documents(*whole, result);
+  if (h / 32 % 256 == 0) check_documents(*whole, result);
   const bool unsafe = h / 4 % 3 == 0;
   const std::string before = fuzz::effective_values(whole->interfaces, true);
   // Some fixes take a line away, one in a round.

@@ -41,8 +41,10 @@ std::string answers(const std::string& text, int threads) {
   if (!whole) return "";
   fuzz::check_spans(whole->deck, whole->deck.diagnostics);
   std::string out;
+  // Reading the documents costs as much as all the rest: every eighth input.
+  const bool read_back = fuzz::hash_of(text) / 32 % 8 == 0;
   const auto add = [&](std::string document) {
-    require(nlohmann::json::accept(document), "a document is valid JSON", document);
+    if (read_back) require(nlohmann::json::accept(document), "a document is valid JSON", document);
     out += document;
   };
   ParamsInput params;

@@ -26,6 +26,22 @@ std::string read(const fs::path& path) {
   return out.str();
 }
 
+/// Edits for fuzz_lsp, as they are made by hand: a cell, a line taken out, a block put in, a word
+/// cut off and typed again.
+std::string edits_of(const std::string& text) {
+  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  const auto line = [&](std::size_t k) {
+    return std::to_string((lines * k / 7 + k) % (lines + 1));
+  };
+  const auto range = [](const std::string& l, int from, int to) {
+    return "e " + l + " " + std::to_string(from) + " " + l + " " + std::to_string(to) + " ";
+  };
+  return "=== edits\n" + range(line(1), 10, 20) + "         7\n" + "h " + line(2) + " 12\n" +
+         range(line(3), 40, 60) + "                0.25\n" + "e " + line(4) + " 0 " + line(5) +
+         " 0 \n" + range(line(5), 0, 0) + "/GRNOD/NODE/77\\nnew\\n         1         2\\n\n" +
+         range(line(6), 1, 5) + "\n" + range(line(6), 1, 1) + "PART\n";
+}
+
 class Seeds {
  public:
   explicit Seeds(fs::path root) : root_(std::move(root)) {}
@@ -38,6 +54,7 @@ class Seeds {
   void deck(const std::string& name, const std::string& text) {
     for (const char* t : {"fuzz_deck", "fuzz_pipeline", "fuzz_lint", "fuzz_edits", "fuzz_includes"})
       put(t, name, text);
+    if (text.size() < 2800) put("fuzz_lsp", name, text + edits_of(text));
     auto deck = deck::read_deck_text("a_0000.rad", text, deck::SchemaSet::built_in());
     if (!deck || text.size() > 8000) return;
     if (const auto json = deck::deck_to_json({"a_0000.rad", &*deck})) put("fuzz_json", name, *json);

@@ -1,16 +1,19 @@
 // A fuzz target without libFuzzer, for builds without clang. `TARGET FILE...` runs the inputs once;
-// `TARGET -SECONDS SEED DIR CRASH` mutates the inputs of a directory blindly for so long: what the
-// mutator knows of decks has to do without coverage. The input at work stands in the file CRASH.
+// `TARGET -SECONDS SEED DIR CRASH [MOST]` mutates the inputs of a directory blindly for so long:
+// what the mutator knows of decks has to do without coverage. Seconds are processor time; an input
+// has MOST bytes at most, and stands in the file CRASH while it is at work, behind its length and
+// the number of those before it (8 bytes each). One that takes 25 s ends the program.
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -37,6 +40,13 @@ std::string read(const std::filesystem::path& path) {
 
 void run(const std::string& input) {
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+}
+
+/// Processor time so far, of all threads.
+double processor_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 std::string mutated(const std::string& a, const std::string& b, std::size_t most) {
@@ -84,25 +94,28 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) run(read(argv[i]));
     return 0;
   }
-  if (argc != 5) return 2;
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(std::atoi(argv[1] + 1));
+  if (argc != 5 && argc != 6) return 2;
+  const double end = processor_seconds() + std::atoi(argv[1] + 1);
+  const std::size_t most = argc == 6 ? static_cast<std::size_t>(std::atoi(argv[5])) : 12288;
   random_number.seed(static_cast<unsigned>(std::atoi(argv[2])));
   std::vector<std::string> pool;
   for (const auto& entry : std::filesystem::directory_iterator(argv[3]))
     pool.push_back(read(entry.path()));
   std::sort(pool.begin(), pool.end());
-  constexpr std::size_t most = 12288;
   const int fd = ::open(argv[4], O_RDWR | O_CREAT | O_TRUNC, 0600);
-  if (pool.empty() || fd < 0 || ::ftruncate(fd, most + 8) != 0) return 2;
+  if (pool.empty() || fd < 0 || ::ftruncate(fd, static_cast<off_t>(most + 16)) != 0) return 2;
   auto* shared =
-      static_cast<char*>(::mmap(nullptr, most + 8, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0));
+      static_cast<char*>(::mmap(nullptr, most + 16, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0));
   std::uint64_t executions = 0;
-  for (; std::chrono::steady_clock::now() < end; ++executions) {
+  for (; processor_seconds() < end; ++executions) {
+    const itimerval patience{{}, {25, 0}};
+    ::setitimer(ITIMER_PROF, &patience, nullptr);
     const std::string& from = pool[random_number() % pool.size()];
     const std::string input = mutated(from, pool[random_number() % pool.size()], most);
     const std::uint64_t size = input.size();
     std::memcpy(shared, &size, 8);
-    std::memcpy(shared + 8, input.data(), input.size());
+    std::memcpy(shared + 8, &executions, 8);
+    std::memcpy(shared + 16, input.data(), input.size());
     run(input);
   }
   std::printf("%llu\n", static_cast<unsigned long long>(executions));

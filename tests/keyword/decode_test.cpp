@@ -334,8 +334,20 @@ TEST(Decode, EveryUnreadableNumberHasItsRule) {
     const Decoded d("/X/CARDS/5\nt\n" + std::string(fault.text) + "\n");
     ASSERT_EQ(d.findings.all().size(), 1u) << fault.text;
     EXPECT_EQ(d.findings.all()[0].rule, fault.rule) << fault.text;
+    EXPECT_EQ(d.findings.all()[0].reference ? d.findings.all()[0].reference->number : 0,
+              fault.number)
+        << fault.text;
   }
   EXPECT_TRUE(Decoded("/X/CARDS/5\nt\n" + cells({{50, "1"}}) + "1.5-3\n").findings.all().empty());
+}
+
+TEST(Decode, AHexadecimalNumberIsCalledOneHoweverShort) {
+  for (const auto& [text, value] : {std::pair{"0x10", "16"}, {"0xA", "10"}, {"-0x1", "-1"}}) {
+    const Decoded d("/X/CARDS/5\nt\n" + cells({{50, "1"}}) + text + "\n");
+    ASSERT_EQ(d.findings.all().size(), 1u) << text;
+    EXPECT_THAT(d.findings.all()[0].message, HasSubstr("a hexadecimal number; it is read as "));
+    EXPECT_THAT(d.findings.all()[0].message, HasSubstr(value));
+  }
 }
 
 TEST(Decode, FlagsCountOnlyTheDigitOne) {

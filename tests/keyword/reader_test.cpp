@@ -115,9 +115,12 @@ TEST(ReaderEnd, AMissingEndIsReportedAtTheEndOfTheFile) {
 // ---- first line ---------------------------------------------------------------------------------
 
 TEST(ReaderBanner, MissingBannerAndByteOrderMarkAreNamed) {
-  EXPECT_EQ(count(read(begin() + "/END\n").diagnostics, RuleId::DK001), 1u);
+  const Deck bare = read(begin() + "/END\n");
+  ASSERT_EQ(count(bare.diagnostics, RuleId::DK001), 1u);
+  EXPECT_EQ(first(bare.diagnostics, RuleId::DK001)->span, (Span{0, 6, 0})) << "the first line";
   const Deck bom = read("\xef\xbb\xbf" + deck_of(""));
   EXPECT_EQ(count(bom.diagnostics, RuleId::DK033), 1u);
+  EXPECT_EQ(first(bom.diagnostics, RuleId::DK033)->span, (Span{0, 3, 0})) << "the mark alone";
   ASSERT_EQ(count(bom.diagnostics, RuleId::DK001), 1u);
   EXPECT_THAT(first(bom.diagnostics, RuleId::DK001)->message, HasSubstr("byte order mark"));
   EXPECT_EQ(count(bom.diagnostics, RuleId::DK055), 0u);
@@ -129,6 +132,8 @@ TEST(ReaderBanner, LoneCarriageReturnsAreNamed) {
   std::replace(text.begin(), text.end(), '\n', '\r');
   EXPECT_EQ(count(read(text).diagnostics, RuleId::DK057), 1u);
   EXPECT_EQ(count(read(deck_of("/NODE\r\n")).diagnostics, RuleId::DK057), 0u);
+  EXPECT_EQ(count(read("#RADIOSS STARTER\r/").diagnostics, RuleId::DK057), 1u);
+  EXPECT_EQ(count(read("#RADIOSS STARTER\r").diagnostics, RuleId::DK057), 0u);
 }
 
 // ---- /BEGIN -------------------------------------------------------------------------------------
@@ -300,6 +305,14 @@ TEST(ReaderHeader, TheFirstNumberOfAnAddedMassIsItsType) {
   EXPECT_EQ(block(d, "/ADMAS/5/7/3")->id.value, 7);
   EXPECT_EQ(block(d, "/ADMAS/5/7/3")->unit_id.value, 3);
   EXPECT_FALSE(block(d, "/ADMAS/1")->id.present);
+}
+
+TEST(ReaderHeader, BlanksBehindItsLastColumnAreNoText) {
+  const std::string header = "/NODE" + std::string(210, ' ');
+  EXPECT_EQ(count(read(deck_of(header + "\n         1\n")).diagnostics, RuleId::DK012), 0u);
+  const Deck d = read(deck_of(header + "x\n         1\n"));
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK012), 1u);
+  EXPECT_EQ(first(d.diagnostics, RuleId::DK012)->span.length, 14u);
 }
 
 TEST(ReaderHeader, AHashBehindABlankStartsAComment) {

@@ -101,8 +101,11 @@ TEST(InitialPenetrations, OneFindingPerPairOfPartsWithTheDeepestNodes) {
             "gap of 4 between node 11 and segment 1 2 3 4; nothing is done about them: they start "
             "with contact forces");
   const Diagnostic* d = run.find(RuleId::DK301);
-  ASSERT_EQ(d->notes.size(), 3u);
-  for (const auto& note : d->notes) EXPECT_TRUE(note.first.valid());
+  for (const Diagnostic& each : run.result.diagnostics) {
+    if (each.rule != RuleId::DK301) continue;
+    EXPECT_EQ(each.notes.size(), 3u) << each.message;
+    for (const auto& note : each.notes) EXPECT_TRUE(note.first.valid());
+  }
   EXPECT_EQ(d->reference->number, 343);
 }
 

@@ -72,6 +72,21 @@ TEST(RulePage, WithoutASectionAnExampleOrAnEndIsRefused) {
   EXPECT_TRUE(refused(page().substr(0, page().rfind("```")))) << "a fence that stays open";
 }
 
+TEST(RulePage, IsNamedByItsNumber) {
+  for (const char* id : {"DK000", "DK001"})
+    EXPECT_FALSE(detail::parse_rule_page("DKabc.md",
+                                         replaced(page(), "id: DK301", "id: " + std::string(id))))
+        << id;
+}
+
+TEST(RulePage, LinesOfASectionAreOneTextWithABlankBetweenThem) {
+  const auto rule = detail::parse_rule_page(
+      "DK301.md",
+      replaced(page(), "## Why it matters\n\n", "## Why it matters\n\none\ntwo\n\nthree "));
+  ASSERT_TRUE(rule) << rule.error().message;
+  EXPECT_TRUE(rule->why.starts_with("one two three ")) << rule->why;
+}
+
 TEST(RulePage, BytesThatAPageCannotShowAreEscaped) {
   const auto at = page().find("## Fires on"), end = page().find("## Stays silent on");
   const auto with = [&](const std::string& line) {

@@ -46,6 +46,25 @@ TEST(Part, ElementsOfAMissingPartAreOneFindingPerPart) {
   EXPECT_EQ(b.message(RuleId::DK104), 402);
 }
 
+TEST(Part, AMissingOneCountsItsElementsFromTheFirstOn) {
+  Built b(parts() + grid_nodes() + "/SHELL/8\n" + cells({1, 1, 2, 5, 4}));
+  ASSERT_EQ(b.findings(RuleId::DK104), 1u);
+  for (const Diagnostic& d : b.diagnostics().all())
+    if (d.rule == RuleId::DK104) {
+      EXPECT_EQ(d.message.find("1 "), 0u) << d.message;
+    }
+}
+
+TEST(Part, ASpringPropertyExcusesAMaterialThatIsNotNamedNotOneThatIsMissing) {
+  const auto findings = [](std::int64_t mat) {
+    Built b(quad() + "/PROP/SPRING/1\np\n" + reals({1}) + reals({5}) + "/PART/1\np\n" +
+            cells({1, mat}));
+    return b.findings(RuleId::DK103);
+  };
+  EXPECT_EQ(findings(0), 0u);
+  EXPECT_EQ(findings(1), 1u);
+}
+
 TEST(Part, SecondDefinitionIsReported) {
   Built b(parts() + "/PART/1\np\n" + cells({1, 1}));
   EXPECT_EQ(b.findings(RuleId::DK100), 1u);
@@ -65,6 +84,12 @@ TEST(Shell, WithoutAnyThicknessIsMessage495) {
   Built b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/SHELL/1\np\n\n\n\n" +
           "/PART/1\np\n" + cells({1, 1}) + quad());
   EXPECT_EQ(b.message(RuleId::DK106), 495);
+}
+
+TEST(Shell, OfAStackHasTheThicknessOfItsPlies) {
+  Built b("/MAT/ELAST/1\nm\n" + reals({1}) + reals({1, 0.3}) + "/PROP/TYPE17/1\np\n\n\n\n\n" +
+          "/PART/1\np\n" + cells({1, 1}) + quad());
+  EXPECT_EQ(b.findings(RuleId::DK106), 0u);
 }
 
 TEST(Shell, OwnThicknessIsEnough) {
@@ -104,6 +129,12 @@ TEST(Property, ThicknessAndAreaAreInWorkingUnits) {
 TEST(Property, SpringStiffnessIsDividedByItsScale) {
   Built b("/PROP/SPRING/1\np\n" + reals({1}) + reals({5, 0, 2}));
   EXPECT_EQ(b.model().properties[0].stiffness[0], 2.5);
+}
+
+TEST(Property, OfAnAxisymmetricSpringHasTensionAndShear) {
+  Built b("/PROP/SPR_AXI/1\np\n" + reals({1}) + reals({6, 0, 2}) + "\n\n" + reals({8, 0, 4}));
+  EXPECT_EQ(b.model().properties.at(0).stiffness[0], 3);
+  EXPECT_EQ(b.model().properties.at(0).stiffness[1], 2);
 }
 
 TEST(Property, NumberFollowsFromNameOrType) {

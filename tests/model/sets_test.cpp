@@ -1,6 +1,8 @@
 // /SET: clauses, options and the three projections.
 #include "model/selection_deck.hpp"
 
+#include <algorithm>
+
 namespace deck::test {
 namespace {
 
@@ -72,6 +74,18 @@ TEST(Set, OnlyPartsAndSolidsAreAmongThemselvesOtherClausesSeeTheWholeModel) {
   EXPECT_EQ(solids(4), 10);
 }
 
+TEST(Set, AShellOnAFaceOfASolidReplacesTheFace) {
+  const std::string skin = "/SHELL/1\n" + cells({11, 101, 102, 105, 104});
+  Built b(parts() + cube_nodes() + cubes() + skin + set(1, clause("PART", {4, 1})) +
+          set(2, clause("PART", {4})));
+  EXPECT_EQ(b.surface(1).size(), 6u);
+  const auto& segments = b.selections().surface(1)->segments;
+  EXPECT_EQ(std::count_if(segments.begin(), segments.end(),
+                          [](const Segment& s) { return s.carrier == Carrier::shell4; }),
+            1);
+  EXPECT_EQ(b.surface(2).size(), 6u);
+}
+
 TEST(Set, EdgesOfDifferentClausesAreNotMerged) {
   Built b(model() + "/SH3N/3\n" + cells({1, 1, 2, 8}) +
           set(1, clause("SH3N", {1}) + clause("SHELL", {1})));
@@ -117,6 +131,11 @@ TEST(Set, OptionGeneratesIdsWithIncrement) {
 TEST(Set, OptionExternalKeepsFreeEdges) {
   Built b(model() + set(1, clause("PART_E", {1})));
   EXPECT_EQ(b.line(1).size(), 6u);
+}
+
+TEST(Set, OptionExternalLeavesTheNodesOfTheSurface) {
+  Built b(model() + set(1, clause("PART_E", {1})));
+  EXPECT_EQ(b.group(1), (Ids{1, 2, 3, 4, 5, 6}));
 }
 
 TEST(Set, SubsetAndWholeModel) {

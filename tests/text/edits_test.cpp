@@ -95,6 +95,23 @@ TEST(CellEdits, ChangeNothingButTheirColumns) {
   }
 }
 
+TEST(UnifiedDiff, OfOneLineMoreHoldsThatLineAloneWhereverItIs) {
+  const std::string text = "1\n2\n3\n4\n5\n";
+  for (const std::size_t at : {0u, 4u, 10u}) {
+    std::string more = text;
+    more.insert(at, "new\n");
+    for (const bool added : {true, false}) {
+      const std::string diff =
+          added ? unified_diff("a", text, more) : unified_diff("a", more, text);
+      EXPECT_NE(diff.find(added ? "\n+new\n" : "\n-new\n"), std::string::npos) << diff;
+      std::size_t changed = 0;
+      for (std::size_t n = diff.find("\n@@") + 1; (n = diff.find('\n', n)) != diff.npos; ++n)
+        changed += n + 1 < diff.size() && (diff[n + 1] == '+' || diff[n + 1] == '-') ? 1 : 0;
+      EXPECT_EQ(changed, 1u) << diff;
+    }
+  }
+}
+
 TEST(UnifiedDiff, ANameThatCannotBeShownIsQuotedInOctalAsGitDoes) {
   const std::string diff = unified_diff("parts/\x1b[1m\"a\\.inc", "1\n", "2\n");
   EXPECT_EQ(diff.substr(0, diff.find('\n')), R"(--- "a/parts/\033[1m\042a\134.inc")");

@@ -50,6 +50,8 @@ TEST(ReadReal, AcceptsEverySpellingOfTheFormat) {
       {"4e-320", 4e-320, NumberStatus::ok},
       {"5e-324", 5e-324, NumberStatus::ok},
       {"1.5d0 ", 1.5, NumberStatus::ok},
+      {"1.5d300", 1.5e300, NumberStatus::ok},
+      {"1234567890123456789012345D-2", 12345678901234567890123.45, NumberStatus::ok},
   };
   for (const auto& c : cases) {
     const RealCell r = read_real(c.text);

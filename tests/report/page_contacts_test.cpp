@@ -1,0 +1,258 @@
+// What the page knows of the contacts: pairs, sides and coordinates in the block that the viewer
+// unpacks, options and totals in the document beside it, forces at nodes.
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <bit>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "contact/small_deck.hpp"
+#include "deck/contact/view.hpp"
+#include "deck/cycle/scene_cycle.hpp"
+#include "report/html/parts.hpp"
+
+namespace deck::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Reads a block of the page from its begin, as the viewer does.
+class PageBlock {
+ public:
+  explicit PageBlock(const std::string& text) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string raw;
+    unsigned bits = 0, count = 0;
+    for (const char c : text) {
+      if (c == '=') break;
+      bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+      if (++count % 4 != 1) raw += static_cast<char>(bits >> (6 - 2 * ((count - 1) % 4)) & 0xff);
+    }
+    bytes_.resize(1 << 16);
+    uLongf size = bytes_.size();
+    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes_.data()), &size,
+                         reinterpret_cast<const Bytef*>(raw.data()), raw.size()),
+              Z_OK);
+    bytes_.resize(size);
+  }
+  const std::string& bytes() const { return bytes_; }
+  bool done() const { return at_ == bytes_.size(); }
+  unsigned byte() { return static_cast<unsigned char>(bytes_.at(at_++)); }
+  std::uint64_t u() {
+    std::uint64_t v = 0;
+    for (unsigned shift = 0;; shift += 7) {
+      const unsigned b = byte();
+      v |= std::uint64_t{b & 0x7f} << shift;
+      if (b < 0x80) return v;
+    }
+  }
+  /// `count` whole numbers, each as the difference from the one before.
+  std::vector<std::int64_t> deltas(std::size_t count) {
+    std::vector<std::int64_t> out;
+    std::int64_t last = 0;
+    for (; count > 0; --count) {
+      const std::uint64_t v = u();
+      out.push_back(last += static_cast<std::int64_t>(v >> 1) ^ -static_cast<std::int64_t>(v & 1));
+    }
+    return out;
+  }
+  std::vector<double> reals(std::size_t count) {
+    std::vector<std::uint64_t> bits(count);
+    for (unsigned plane = 0; plane < 8; ++plane)
+      for (std::uint64_t& b : bits) b |= std::uint64_t{byte()} << (8 * plane);
+    std::vector<double> out;
+    for (const std::uint64_t b : bits) out.push_back(std::bit_cast<double>(b));
+    return out;
+  }
+  std::vector<double> palette(std::size_t count) {
+    const std::size_t n = u();
+    const std::vector<double> values = reals(n);
+    std::vector<double> out(count, values.empty() ? 0.0 : values[0]);
+    if (n > 1)
+      for (double& v : out) v = values.at(u());
+    return out;
+  }
+
+ private:
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+/// Two quads side by side; node 9 is 0.5 over the first, node 8 far away.
+SmallDeck plates(const std::string& interface) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(5, 20, 0, 0).node(6, 20, 10, 0).node(8, 5, 5, 300).node(9, 3, 4, 0.5);
+  d.shell_part(1, 2).shell(1, 1, 1, 2, 3, 4).shell(1, 2, 2, 5, 6, 3);
+  return d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {9, 8}).add(interface);
+}
+
+struct Page {
+  explicit Page(const SmallDeck& d) : b(d), view(make_view(b.scene)), nodes(b.model.nodes.size()) {
+    input.path = "x";
+    input.deck = &b.deck;
+    input.scene = &b.scene;
+    input.view = &view;
+  }
+  void collect() {
+    page = detail::collect_contacts(input, nodes);
+    nodes.number();
+  }
+  Json contacts() const {
+    std::string text;
+    JsonWriter j(text);
+    j.begin_object();
+    detail::write_contacts(j, input, page);
+    j.end_object();
+    return Json::parse(text)["contacts"];
+  }
+  std::int64_t id(std::int64_t number) const {
+    return b.model.node_id(nodes.list().at(static_cast<std::size_t>(number)));
+  }
+  Built b;
+  SceneView view;
+  HtmlInput input;
+  detail::PageNodes nodes;
+  detail::PageContacts page;
+};
+
+using Ids = std::vector<std::int64_t>;
+
+TEST(PageContacts, HoldPairsSidesAndExactCoordinates) {
+  Page p(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1"));
+  p.collect();
+  ASSERT_EQ(p.page.contacts.size(), 1u);
+  const auto& wide = p.page.contacts[0];
+  EXPECT_TRUE(wide.complete);
+  EXPECT_GT(wide.margin, 0);
+  // Three times the largest gap there could be: that of the card, or both half thicknesses.
+  EXPECT_DOUBLE_EQ(wide.reach, 3 * 1 + wide.margin);
+  ASSERT_FALSE(wide.pairs.empty());
+  PageBlock in(detail::contacts_block(p.input, p.page, p.nodes));
+  // Coordinates of the nodes of pairs: node 8 has none.
+  Ids exact;
+  for (const std::int64_t n : in.deltas(in.u())) exact.push_back(p.id(n));
+  const bool both = wide.pairs.size() == 2;
+  EXPECT_EQ(exact, both ? (Ids{1, 2, 3, 4, 5, 6, 9}) : (Ids{1, 2, 3, 4, 9}));
+  const auto x = in.reals(exact.size()), y = in.reals(exact.size()), z = in.reals(exact.size());
+  EXPECT_EQ((std::vector{x.back(), y.back(), z.back()}), (std::vector{3.0, 4.0, 0.5}));
+  EXPECT_EQ(x[1], 10.0);
+  // Pairs and their distances in 255ths of the reach.
+  const std::size_t pairs = in.u();
+  ASSERT_EQ(pairs, wide.pairs.size());
+  const Ids secondary = in.deltas(pairs), main = in.deltas(pairs);
+  for (std::size_t k = 0; k < pairs; ++k) {
+    EXPECT_EQ(secondary[k], wide.pairs[k].secondary);
+    EXPECT_EQ(main[k], wide.pairs[k].main);
+  }
+  EXPECT_EQ(in.byte(), static_cast<unsigned>(255 * (0.5 / wide.reach)));
+  for (std::size_t k = 1; k < pairs; ++k) EXPECT_GT(in.byte(), 0u);
+  // The secondary side: nodes and gaps; the main side: corners and thicknesses.
+  const Contact& c = p.page.scene.contacts[0];
+  ASSERT_EQ(in.u(), 2u);
+  const Ids side = in.deltas(2);
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_EQ(p.id(side[k]), p.b.model.node_id(c.secondary[k].node));
+  EXPECT_EQ(in.palette(2), (std::vector{c.secondary[0].gap, c.secondary[1].gap}));
+  ASSERT_EQ(in.u(), 2u);
+  Ids corners;
+  for (const std::int64_t n : in.deltas(8)) corners.push_back(p.id(n));
+  EXPECT_EQ(corners, (Ids{1, 2, 3, 4, 2, 5, 6, 3}));
+  EXPECT_EQ(in.palette(2), (std::vector{2.0, 2.0}));
+  // Owners of the segments (kind, id, part), of the node that has pairs, its place, lengths.
+  for (int k = 0; k < 2 * 3 + 3 + 2; ++k) in.u();
+  EXPECT_EQ(in.reals(1),
+            (std::vector{c.secondary[static_cast<std::size_t>(secondary.front())].length}));
+  std::vector<double> lengths;
+  for (const std::int64_t m : std::set<std::int64_t>(main.begin(), main.end()))
+    lengths.push_back(c.main[static_cast<std::size_t>(m)].length);
+  EXPECT_EQ(in.reals(lengths.size()), lengths);
+  EXPECT_TRUE(in.done());
+}
+
+TEST(PageContacts, OfATooLargeGapAreWhatPenetrates) {
+  // A reach that is no number: pairs of it cannot be searched.
+  Page p(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1"));
+  p.b.scene.contacts[0].max_gap = std::numeric_limits<double>::infinity();
+  p.collect();
+  const auto& wide = p.page.contacts.at(0);
+  EXPECT_FALSE(wide.complete);
+  EXPECT_EQ(wide.reach, 0);
+  ASSERT_EQ(wide.pairs.size(), p.b.scene.contacts[0].penetrations.size());
+  ASSERT_FALSE(wide.pairs.empty());
+  EXPECT_EQ(wide.pairs[0].main, p.b.scene.contacts[0].penetrations[0].main);
+}
+
+TEST(PageContacts, ReachFollowsTheThicknessWhereItIsMoreThanTheGap) {
+  for (const double gap : {0.01, 0.2}) {
+    Page p(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=" + std::to_string(gap)));
+    p.collect();
+    const auto& c = p.page.scene.contacts.at(0);
+    double most = 0;
+    for (const SecondaryNode& s : c.secondary) most = std::max(most, s.gap);
+    EXPECT_DOUBLE_EQ(p.page.contacts[0].reach - p.page.contacts[0].margin, 3 * (most + 1.0)) << gap;
+  }
+}
+
+TEST(PageContacts, AreDescribedAsTheSceneHasThem) {
+  Page p(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1 Irem_gap=1"));
+  p.collect();
+  p.b.scene.contacts[0].candidates = 41;
+  p.b.scene.contacts[0].removed_pairs = 42;
+  const Json c = p.contacts().at(0);
+  EXPECT_EQ(c["interface"], 0);
+  EXPECT_EQ(c["secondary"], 2);
+  EXPECT_EQ(c["main"], 2);
+  EXPECT_EQ(c["candidates"], 41);
+  EXPECT_EQ(c["removed_pairs"], 42);
+  EXPECT_EQ(c["pairs"], p.page.contacts[0].pairs.size());
+  EXPECT_EQ(c["reach"], p.page.contacts[0].reach);
+  EXPECT_EQ(c["gapmin"], 1.0);
+  EXPECT_EQ(c["card"]["Gapmin"], 1.0);
+  EXPECT_EQ(c["card"]["Irem_gap"], 1);
+  EXPECT_EQ(c["card"]["Edge_scale_gap"], 0.0);
+  ASSERT_EQ(c["default"].size(), 1u);
+  EXPECT_EQ(c["default"][0][0], 2) << "shells of the main side";
+  EXPECT_EQ(c["default"][0][4], 10.0) << "its shortest side";
+}
+
+TEST(PageContacts, TheCardHasWhatWasAskedForInstead) {
+  Page p(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1"));
+  WhatIf mine, other;
+  mine.interface_id = 1;
+  mine.Irem_gap = 2;
+  other.interface_id = 7;
+  other.Irem_gap = 1;
+  p.input.what_if = {mine, other};
+  p.collect();
+  EXPECT_EQ(p.contacts().at(0)["card"]["Irem_gap"], 2);
+}
+
+TEST(PageContacts, OfTiedInterfacesKeepTheirOwnGap) {
+  Page tied(plates("@/INTER/TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1"));
+  tied.collect();
+  EXPECT_EQ(tied.contacts().at(0)["gapmin"], 1.0);
+  EXPECT_EQ(tied.page.scene.contacts.at(0).igap, tied.b.scene.contacts.at(0).igap);
+  Page gap(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1"));
+  gap.collect();
+  EXPECT_EQ(gap.page.scene.contacts.at(0).igap, 3) << "unscaled half thicknesses";
+}
+
+TEST(PageForces, NodesHaveForceStiffnessAndStep) {
+  Page p(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1"));
+  cycle::ActedNode a;
+  a.node = p.b.model.nodes.map.find(9);
+  a.force = {1.5, -2.5, 3.5};
+  a.stiffness = 7;
+  a.dt = 0.25;
+  detail::use_nodes({a}, p.nodes);
+  p.nodes.number();
+  const PageBlock block(detail::cycle_block(cycle::SceneOutcome{}, {a}, p.nodes));
+  const Json page = Json::parse(block.bytes());
+  EXPECT_EQ(page["nodes"], Json::parse("[[0,1.5,-2.5,3.5,7.0,0.25]]"));
+}
+
+}  // namespace
+}  // namespace deck::test
