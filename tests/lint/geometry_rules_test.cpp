@@ -78,6 +78,17 @@ TEST(CoordinatesWithoutBounds, LeaveTheContactUnevaluatedWithAFinding) {
   EXPECT_EQ(run.count(RuleId::DK301), 0u) << run.list();
 }
 
+TEST(GapWithoutBounds, LeavesTheContactUnevaluatedWithAFinding) {
+  // In working units the gap is 1e400.
+  const Linted run = lint_geometry(
+      "/UNIT/3\nfar\n                  kg             1.e+206                  ms\n"
+      "@/INTER/TYPE7/1/3 Gapmin=1e200\n");
+  ASSERT_EQ(run.count(RuleId::DK380), 1u) << run.list();
+  EXPECT_NE(run.find(RuleId::DK380)->message.find("the gap is no finite number"),
+            std::string::npos);
+  EXPECT_EQ(run.count(RuleId::DK301), 0u) << run.list();
+}
+
 TEST(InitialPenetrations, OneFindingPerPairOfPartsWithTheDeepestNodes) {
   const Linted run = lint_geometry(
       "/NODE\n        21                 5.0                 5.0                1.25\n"

@@ -7,10 +7,12 @@ verb and a sample of the others, with --all all of them (of very many allocation
 import json
 import os
 import random
+import select
 import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 from common import ROOT, Checks
@@ -74,6 +76,59 @@ def verbs():
     yield "explain", ("explain", "/INTER/TYPE7.Inacti"), {}
     yield "rules", ("rules",), {}
     yield "batch", ("batch", "car_0000.rad", "-o", "out", "--jobs", "1"), clean
+    yield "lsp", ("lsp",), tree_of
+
+
+def frame(number, method, params):
+    """A message of the protocol; a request unless nobody answers it."""
+    message = {"jsonrpc": "2.0", "method": method}
+    if params is not None:
+        message["params"] = params
+    if method not in ("initialized", "exit") and "/did" not in method:
+        message["id"] = number
+    text = json.dumps(message).encode()
+    return b"Content-Length: %d\r\n\r\n" % len(text) + text
+
+
+def session(folder):
+    """What an editor sends to the language server: a deck is opened, edited and asked about; and how it takes its leave."""
+    path = os.path.join(folder, "car_0000.rad")
+    uri, place = "file://" + path, {"line": 12, "character": 3}
+    document = {"textDocument": {"uri": uri}, "position": place}
+    everything = {"range": {"start": {"line": 0, "character": 0}, "end": {"line": 400, "character": 0}}}
+    said = [("initialize", {"capabilities": {}, "initializationOptions": {"delay": 0, "holdBack": 0}}), ("initialized", {}),
+            ("textDocument/didOpen", {"textDocument": {"uri": uri, "languageId": "radioss", "version": 1,
+                                                       "text": read(path).decode("utf-8", "replace")}}),
+            ("textDocument/didChange", {"textDocument": {"uri": uri, "version": 2}, "contentChanges": [
+                {"range": {"start": place, "end": place}, "text": "7"}]})]
+    said += [("textDocument/" + m, {**document, **everything, "context": {"diagnostics": []}}) for m in (
+        "hover", "completion", "definition", "documentSymbol", "semanticTokens/full", "foldingRange", "codeAction", "codeLens")]
+    return b"".join(frame(n, *m) for n, m in enumerate(said)), frame(90, "shutdown", None) + frame(91, "exit", None)
+
+
+def talk(command, work, env):
+    """A session: (exit code, everything that was said). It ends when findings have come, or soon after if none come."""
+    p = subprocess.Popen(command, cwd=work, env=env, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    first, last = session(work)
+    heard, end = b"", time.monotonic() + 2
+    try:
+        p.stdin.write(first)
+        p.stdin.flush()
+        while b"publishDiagnostics" not in heard and (left := end - time.monotonic()) > 0:
+            if select.select([p.stdout], [], [], left)[0]:
+                piece = os.read(p.stdout.fileno(), 1 << 16)
+                if not piece:
+                    break
+                heard += piece
+    except BrokenPipeError:
+        last = b""
+    try:
+        out, err = p.communicate(last, timeout=60)
+    except subprocess.TimeoutExpired:
+        p.kill()
+        p.communicate()
+        raise
+    return p.returncode, heard + out + err
 
 
 def whole(name, data):
@@ -102,9 +157,13 @@ class Shortage:
             os.remove(count)
         env = dict(os.environ, NO_COLOR="1", LD_PRELOAD=self.shim, DECK_SHORT_OF=of, DECK_SHORT_AT=str(at), DECK_SHORT_COUNT=count)
         try:
-            r = subprocess.run([self.c.program, *args, "--threads", "2"] if args[0] not in ("explain", "rules", "batch", "accuracy")
-                               else [self.c.program, *args], cwd=work, env=env, stdin=subprocess.DEVNULL, capture_output=True, timeout=60)
-            code, text = r.returncode, (r.stdout + r.stderr).decode("utf-8", "replace")
+            command = [self.c.program, *args] + (["--threads", "2"] if args[0] not in ("explain", "rules", "batch", "accuracy") else [])
+            if args[0] == "lsp":
+                code, said = talk(command, work, env)
+            else:
+                r = subprocess.run(command, cwd=work, env=env, stdin=subprocess.DEVNULL, capture_output=True, timeout=60)
+                code, said = r.returncode, r.stdout + r.stderr
+            text = said.decode("utf-8", "replace")
         except subprocess.TimeoutExpired:
             code, text = None, ""
         asked = int(read(count)) if os.path.exists(count) else None

@@ -252,7 +252,7 @@ class Builder {
     c_.scene.contacts.push_back(std::move(contact));
   }
 
-  /// False, with a finding, where members are missing or have no place.
+  /// False, with a finding, where members are missing or have no place, or the gap is no number.
   bool computable(Contact& contact) {
     const Coordinates& x = c_.scene.coordinates;
     NodeIndex lost = no_index;
@@ -265,14 +265,17 @@ class Builder {
     for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
       for (const ContactEdge& e : *edges)
         for (const NodeIndex n : e.nodes) look(n);
-    contact.evaluated = lost == no_index && selections_.complete();
-    if (contact.evaluated || lost == no_index) return contact.evaluated;
+    const bool endless = !std::isfinite(contact.max_gap) || !std::isfinite(contact.gapmin);
+    contact.evaluated = lost == no_index && !endless && selections_.complete();
+    if (contact.evaluated || (lost == no_index && !endless)) return contact.evaluated;
     const std::string keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
     Diagnostic d =
         finding_of(RuleId::DK380, contact.inter->span,
-                   keyword + " " + std::to_string(contact.inter->id) + ": node " +
-                       std::to_string(c_.model.nodes.id[lost]) +
-                       " has a coordinate that is no finite number; the contact was not evaluated");
+                   keyword + " " + std::to_string(contact.inter->id) + ": " +
+                       (lost == no_index ? std::string("the gap is no finite number")
+                                         : "node " + std::to_string(c_.model.nodes.id[lost]) +
+                                               " has a coordinate that is no finite number") +
+                       "; the contact was not evaluated");
     d.keyword = keyword;
     d.id = contact.inter->id;
     c_.diagnostics.report(std::move(d));
