@@ -62,6 +62,19 @@ bool defines_members(const Deck& deck, const Block& b) {
                      [](const Block& other) { return is_kind(other, {"box"}); });
 }
 
+/// True where a finding, or a place beside it, lies in the block.
+bool speak_of(const Diagnostics& findings, const Block& block) {
+  const auto inside = [&](const Span& s) {
+    return s.valid() && std::any_of(block.body.begin(), block.body.end(), [&](const Piece& p) {
+             return s.file == p.file && s.offset >= p.begin && s.offset <= p.end;
+           });
+  };
+  return std::any_of(findings.all().begin(), findings.all().end(), [&](const Diagnostic& d) {
+    return inside(d.span) || std::any_of(d.notes.begin(), d.notes.end(),
+                                         [&](const auto& note) { return inside(note.first); });
+  });
+}
+
 bool same_tree(const Deck& a, const Deck& b) {
   if (a.sources.size() != b.sources.size() || a.blocks.size() != b.blocks.size() ||
       a.includes.size() != b.includes.size() || a.submodels.size() != b.submodels.size() ||
@@ -183,7 +196,10 @@ void Analyst::build(Semantics& out, const std::optional<Edit>& edit, const Schem
   options.threads = settings.threads;
   options.limits = settings.limits;
   auto model = std::make_shared<Model>(build_model(*out.deck, schemas, *findings, options));
-  if (follows && !defines_members(*out.deck, *block) && same_members(*last_->model, *model)) {
+  // What selections have to say is kept with them: its places move with an edit of their block.
+  if (follows && !defines_members(*out.deck, *block) &&
+      !speak_of(last_->model->selections->diagnostics(), last_->deck->blocks[edit->block]) &&
+      same_members(*last_->model, *model)) {
     model->selections = last_->model->selections;
     model->selections->rebind(*model);
     out.kept = last_->kept;  // whose blocks the definitions are
