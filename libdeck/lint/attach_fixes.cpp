@@ -1,6 +1,8 @@
 // Adds the edits that mend findings of the reader.
 #include "lint/attach_fixes.hpp"
 
+#include <algorithm>
+
 #include "deck/lint/fix.hpp"
 #include "keyword/reader.hpp"
 
@@ -69,9 +71,40 @@ bool before_the_line(const Deck& deck, const Span& span) {
   return source.line_at(span.offset).data() == source.bytes().data() + span.offset;
 }
 
-}  // namespace
+constexpr std::string_view blanks = " \t\r";
 
-void attach_fix(const LintContext& context, Diagnostic& d) {
+/// A line in two: what stands in front of a span, and behind it.
+std::pair<std::string_view, std::string_view> around(const Deck& deck, const Span& span) {
+  const Source& source = deck.sources[span.file];
+  const std::string_view line = source.line_at(span.offset);
+  const auto at = static_cast<std::size_t>(source.bytes().data() + span.offset - line.data());
+  return {line.substr(0, at), line.substr(std::min(line.size(), at + span.length))};
+}
+
+/// True for a cell of a line with commas that would be gone without its text, so that those behind
+/// it moved: blanks part cells there, too.
+bool holds_a_place(const Deck& deck, const Span& span) {
+  const auto [before, behind] = around(deck, span);
+  if (before.find(',') == before.npos && behind.find(',') == behind.npos) return false;
+  const auto left = before.find_last_not_of(blanks), right = behind.find_first_not_of(blanks);
+  if (right == behind.npos) return false;
+  return behind[right] != ',' || (left != before.npos && before[left] != ',');
+}
+
+/// True where a fix blanks all that stands in front of a '/' or '#': the line would be a keyword or
+/// a comment.
+bool uncovers_a_mark(const Deck& deck, const Fix& fix) {
+  return std::any_of(fix.edits.begin(), fix.edits.end(), [&](const TextEdit& e) {
+    if (!e.span.valid() || e.text.empty() || e.text.find_first_not_of(' ') != e.text.npos)
+      return false;
+    const auto [before, behind] = around(deck, e.span);
+    const auto next = behind.find_first_not_of(blanks);
+    return before.find_first_not_of(blanks) == before.npos && next != behind.npos &&
+           (behind[next] == '/' || behind[next] == '#');
+  });
+}
+
+void make_fix(const LintContext& context, Diagnostic& d) {
   if (d.fix) return;
   const Deck& deck = context.deck;
   if (d.rule == RuleId::DK010) {
@@ -85,6 +118,7 @@ void attach_fix(const LintContext& context, Diagnostic& d) {
   } else if (d.rule == RuleId::DK013) {
     d.fix = tabs_to_blanks(deck, d.span);
   } else if (d.rule == RuleId::DK012 || d.rule == RuleId::DK027 || d.rule == RuleId::DK028) {
+    if (holds_a_place(deck, d.span)) return;
     // The reference solver drops this text, so blanking it changes nothing for it. Text that is not
     // just zeros may be a value in the wrong columns: that is for a person to decide.
     const bool zeros = context.text(d.span).find_first_not_of("0.+- ") == std::string_view::npos;
@@ -95,6 +129,13 @@ void attach_fix(const LintContext& context, Diagnostic& d) {
     // Another deck may include the file and need it.
     d.fix = remove_line(deck, d.span, d.span.file == 0, "delete the unused suppression");
   }
+}
+
+}  // namespace
+
+void attach_fix(const LintContext& context, Diagnostic& d) {
+  make_fix(context, d);
+  if (d.fix && uncovers_a_mark(context.deck, *d.fix)) d.fix.reset();
 }
 
 }  // namespace deck::detail

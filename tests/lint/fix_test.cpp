@@ -98,6 +98,35 @@ TEST(SafeFixes, RemoveNoBlankInsideAKeywordLine) {
   EXPECT_FALSE(other.result.diagnostics[0].fix->safe);
 }
 
+TEST(SafeFixes, MoveNoCellOfALineWithCommas) {
+  // Blanks part cells beside commas: without the 0 the 3 would be the first cell.
+  LintOptions only;
+  only.select = {"DK028"};
+  const auto fixable = [&](const char* line) {
+    const Linted run = lint_example(
+        "/INTER/TYPE10/1\nexample\n         2         1\n\n" + std::string(line) + "\n", only);
+    EXPECT_GE(run.count(RuleId::DK028), 1u) << line << run.list();
+    return std::any_of(run.result.diagnostics.begin(), run.result.diagnostics.end(),
+                       [](const Diagnostic& d) { return d.fix && d.fix->safe; });
+  };
+  EXPECT_FALSE(fixable("0  3  0  1,2"));
+  EXPECT_TRUE(fixable("0, 3, 0, 1"));
+}
+
+TEST(SafeFixes, MakeNoKeywordOfALine) {
+  LintOptions only;
+  only.select = {"DK279"};
+  const auto fixable = [&](const char* viss) {
+    const Linted run = lint_example("/INTER/TYPE10/1\nexample\n         2         1\n\n" +
+                                        std::string(30, ' ') + "         6" + viss + "\n",
+                                    only);
+    EXPECT_EQ(run.count(RuleId::DK279), 1u) << run.list();
+    return run.count(RuleId::DK279) == 1 && run.find(RuleId::DK279)->fix.has_value();
+  };
+  EXPECT_TRUE(fixable("                 0.1"));
+  EXPECT_FALSE(fixable("                   /")) << "it would be the first text of the line";
+}
+
 TEST(SafeFixes, WriteNoDefaultIntoABlockOfOtherUnits) {
   // The default of Stfac is 1 in working units; here 1.0 on the card would be 1e-6 of them.
   const std::string deck =
