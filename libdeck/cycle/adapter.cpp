@@ -142,7 +142,10 @@ ContactCard make_card(const Scene& scene, const deck::Contact& contact) {
   visit_interface(*contact.inter, [&](const auto& i) { take_card(scene, i, contact, c); });
   // The scene holds what the contact's own rules made of these.
   c.istf = contact.istf;
-  if (contact.factor < 0) c.stfac = -contact.factor;
+  if (contact.factor < 0) {
+    c.stfac = -contact.factor;
+    if (contact.type == 7) c.istf = 1;  // a constant stiffness, whatever Istf says
+  }
   c.stmin = contact.stmin;
   c.stmax = contact.stmax;
   c.igap = contact.igap;

@@ -8,23 +8,26 @@ namespace deck {
 
 Result<ChangedFiles> apply_edits(const SourceSet& sources, const std::vector<TextEdit>& edits) {
   // A file included twice is two sources with the same path; its edits are made once.
-  std::map<std::string, std::uint32_t> first_of;
-  std::map<std::uint32_t, std::vector<TextEdit>> by_file;
-  std::map<std::uint32_t, std::vector<TextEdit>> by_copy;
-  for (std::uint32_t f = 0; f < sources.size(); ++f) first_of.emplace(sources[f].path(), f);
-  for (const TextEdit& e : edits) {
-    const std::uint32_t first = first_of.at(sources[e.span.file].path());
-    (e.span.file == first ? by_file : by_copy)[e.span.file].push_back(e);
-  }
+  std::map<std::string_view, std::uint32_t> first_of;
+  std::vector<std::vector<const TextEdit*>> by_source(sources.size());
+  std::vector<bool> is_copy;
+  for (std::uint32_t f = 0; f < sources.size(); ++f)
+    is_copy.push_back(!first_of.emplace(sources[f].path(), f).second);
+  for (const TextEdit& e : edits) by_source[e.span.file].push_back(&e);
   ChangedFiles changed;
-  for (const auto* group : {&by_file, &by_copy}) {
-    for (const auto& [file, list] : *group) {
-      auto text = apply_edits(sources[file], list);
+  for (const bool copies : {false, true}) {
+    for (std::uint32_t file = 0; file < sources.size(); ++file) {
+      if (is_copy[file] != copies || by_source[file].empty()) continue;
+      auto text = apply_edit_pointers(sources[file], std::move(by_source[file]));
       if (!text) return text.error();
       if (*text == sources[file].bytes()) continue;
       const std::string& path = sources[file].path();
-      const auto [it, is_new] = changed.try_emplace(path, *text);
-      if (is_new || it->second == *text) continue;
+      const auto it = changed.find(path);
+      if (it == changed.end()) {
+        changed.emplace(path, std::move(*text));
+        continue;
+      }
+      if (it->second == *text) continue;
       return Error{Error::Code::config,
                    path +
                        " is included more than once and would have to become two different "

@@ -8,17 +8,27 @@
 
 namespace deck {
 
-Result<std::string> apply_edits(const Source& source, std::vector<TextEdit> edits) {
-  std::stable_sort(edits.begin(), edits.end(), [](const TextEdit& a, const TextEdit& b) {
-    return a.span.offset != b.span.offset ? a.span.offset < b.span.offset
-                                          : a.span.length < b.span.length;
-  });
+Result<std::string> apply_edits(const Source& source, const std::vector<TextEdit>& edits) {
+  std::vector<const TextEdit*> all;
+  all.reserve(edits.size());
+  for (const TextEdit& e : edits) all.push_back(&e);
+  return apply_edit_pointers(source, std::move(all));
+}
+
+Result<std::string> apply_edit_pointers(const Source& source, std::vector<const TextEdit*> edits) {
+  const auto less = [](const TextEdit* a, const TextEdit* b) {
+    return a->span.offset != b->span.offset ? a->span.offset < b->span.offset
+                                            : a->span.length < b->span.length;
+  };
+  if (!std::is_sorted(edits.begin(), edits.end(), less))
+    std::stable_sort(edits.begin(), edits.end(), less);
   const std::string_view bytes = source.bytes();
   std::string out;
   out.reserve(bytes.size() + 64);
   std::uint64_t at = 0;
   const TextEdit* before = nullptr;
-  for (const TextEdit& e : edits) {
+  for (const TextEdit* edit : edits) {
+    const TextEdit& e = *edit;
     if (before != nullptr && before->span.offset == e.span.offset &&
         before->span.length == e.span.length && before->text == e.text && e.span.length > 0)
       continue;

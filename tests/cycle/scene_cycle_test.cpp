@@ -62,6 +62,16 @@ TEST(FirstCycle, ForceFollowsTheElasticLaw) {
   EXPECT_NEAR(r.contacts[0].totals.elastic_energy, 4 * 100.0 * (0.6 - 1 - std::log(0.6)), 1e-10);
 }
 
+TEST(FirstCycle, ANegativeStfacIsAConstantStiffnessWhateverIstfSays) {
+  for (const char* istf : {"0", "4"}) {
+    const auto b = scene_of(std::string("Stfac=-3 Istf=") + istf, 0.6);
+    const SceneOutcome r = run(*b, keeping_pairs());
+    ASSERT_EQ(r.contacts.size(), 1u);
+    for (const PairOutcome& p : r.contacts[0].pairs)
+      EXPECT_NEAR(p.force[2], -3 * 0.4 / 0.6, 1e-10) << istf;
+  }
+}
+
 TEST(FirstCycle, ForcesAtTheNodesAddUpToNothing) {
   const auto b = scene_of("", 0.6);
   const SceneOutcome r = run(*b, keeping_pairs(Model::reference));

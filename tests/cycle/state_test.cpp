@@ -55,6 +55,21 @@ TEST(Masses, TrianglesGiveByTheirAngles) {
   EXPECT_DOUBLE_EQ(mass(b, s, 7), 1e-6 * 2 * 50 / 4);
 }
 
+TEST(Masses, SpringsPerUnitLengthWeighByTheirLength) {
+  for (const char* per_length : {"0", "1"}) {
+    SmallDeck d = elements();
+    d.node(31, 60, 0, 0).node(32, 64, 3, 0);
+    d.add("/PROP/SPRING/9\nspring\n" + std::string(17, ' ') + "0.5" + std::string(50, ' ') +
+          std::string(9, ' ') + per_length + "\n" + std::string(17, ' ') + "1.0\n");
+    d.add("/PART/9\nspring\n         9         0         0");
+    d.add("/SPRING/9\n        90        31        32");
+    const Built b(d);
+    const State s = make_state(b.scene);
+    EXPECT_DOUBLE_EQ(mass(b, s, 31), 0.25 * (*per_length == '1' ? 5 : 1));
+    EXPECT_DOUBLE_EQ(mass(b, s, 32), mass(b, s, 31));
+  }
+}
+
 TEST(Masses, BricksGiveAnEighthToEachNode) {
   const Built b(elements());
   const State s = make_state(b.scene);

@@ -101,8 +101,36 @@ TEST(ToUnitsFunctions, AFactorWithoutItsFunctionOnlyDividesTheContactStiffnessAn
   };
   const auto without = with("0");
   EXPECT_EQ(real(*without->after(convert(*without, "kg,m,ms")), "/PROP/SPRING/7", "A"), 2.0);
-  const auto used = with("5");
-  EXPECT_EQ(real(*used->after(convert(*used, "kg,m,ms")), "/PROP/SPRING/7", "A"), 0.002);
+}
+
+/// TYPE4 with a function: K, A and B as given.
+std::string following(const char* k, const char* a, const char* b, const char* f2, const char* h) {
+  return "/PROP/SPRING/7\ns\n" + cell("0.1", 20) + "\n" + cell(k, 20) + cell("", 20) + cell(a, 20) +
+         cell(b, 20) + "\n" + cell("5", 10) + cell(h, 10) + cell(f2, 10) + "\n" + cell("", 20) +
+         cell("4.0", 20) + "\n";
+}
+
+TEST(ToUnitsFunctions, ASpringKeepsTheNumbersThatDivideItsContactStiffnessAndThePointsChange) {
+  const auto w = deck_of(following("3.0", "2.0", "7.0", "6", "0") + curve +
+                         "/FUNCT/6\ng\n                 0.0                 1.5\n");
+  const auto after = w->after(convert(*w, "kg,m,ms"));
+  EXPECT_EQ(real(*after, "/PROP/SPRING/7", "A"), 2.0);
+  EXPECT_EQ(real(*after, "/PROP/SPRING/7", "B"), 7.0);
+  EXPECT_EQ(real(*after, "/PROP/SPRING/7", "E1"), 4.0);
+  EXPECT_EQ(real(*after, "/PROP/SPRING/7", "AScale1"), 0.001);
+  EXPECT_TRUE(after->contains("                10.0               0.002\n")) << after->main_text();
+  EXPECT_TRUE(after->contains("/FUNCT/6\ng\n                 0.0                 1.5\n"));
+  const auto back = after->after(convert(*after, "kg,mm,ms"));
+  EXPECT_TRUE(back->contains(curve)) << back->main_text();
+}
+
+TEST(ToUnitsFunctions, ASpringThatCountsInNoContactHasItsScaleConverted) {
+  for (const char* h : {"0", "5"}) {  // no stiffness; the second function is no force
+    const auto w = deck_of(following(*h == '0' ? "" : "3.0", "2.0", "", "0", h) + curve);
+    const auto after = w->after(convert(*w, "kg,m,ms"));
+    EXPECT_EQ(real(*after, "/PROP/SPRING/7", "A"), 0.002) << h;
+    EXPECT_TRUE(after->contains(curve)) << after->main_text();
+  }
 }
 
 TEST(ToUnitsFunctions, ScalesOnLinesThatTheBlockLeavesAwayAreAdded) {
@@ -113,7 +141,7 @@ TEST(ToUnitsFunctions, ScalesOnLinesThatTheBlockLeavesAwayAreAdded) {
                               "\n" + cell("5", 10) + "\n" + curve);
   const auto after = spring->after(convert(*spring, "kg,m,ms"));
   EXPECT_EQ(real(*after, "/PROP/SPRING/7", "AScale1"), 0.001);
-  EXPECT_EQ(real(*after, "/PROP/SPRING/7", "A"), 0.001);
+  EXPECT_EQ(real(*after, "/PROP/SPRING/7", "A"), 0.0);
 }
 
 TEST(ToUnitsFunctions, SpringsPerUnitLengthHaveOtherDimensions) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "../contact/small_deck.hpp"
 #include "deck/edit/unit_system.hpp"
@@ -526,7 +527,14 @@ TEST(ToUnits, DummyOfFourMegabytesInWellUnderASecond) {
   const std::string from = w->deck.begin.input.mass_code + "," + w->deck.begin.input.length_code +
                            "," + w->deck.begin.input.time_code;
   const auto back = there->after(convert(*there, from.c_str(), {.partial = true}));
-  const auto a = edit_test::real_values(w->deck), b = edit_test::real_values(back->deck);
+  const auto a = edit_test::real_values(w->deck);
+  auto b = edit_test::real_values(back->deck);
+  // A function that two uses read in different units has a copy now.
+  std::set<std::pair<std::string, std::int64_t>> blocks;
+  for (const auto& value : a) blocks.emplace(std::get<0>(value), std::get<1>(value));
+  std::erase_if(b, [&](const auto& value) {
+    return !blocks.contains({std::get<0>(value), std::get<1>(value)});
+  });
   ASSERT_EQ(a.size(), b.size());
   std::size_t different = 0;
   // A blank scale of a function is 1 in the units of its block; it is written out.

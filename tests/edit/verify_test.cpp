@@ -93,15 +93,19 @@ TEST(Verification, OneChangedValueIsNamed) {
   EXPECT_NE(mass->find("the mass of node"), std::string::npos) << *mass;
 }
 
-/// A spring whose force follows a curve: the blank scale is 1 in the unit of force.
-constexpr const char* spring_with_a_curve = R"(/PROP/SPRING/77
-with a curve
+/// A spring between two nodes of the contact, whose contact stiffness counts there (Istf 4).
+/// `ileng` 1: its values are per unit length.
+std::string spring(const std::string& ileng, const std::string& function, bool in_contact = true) {
+  return R"(/PROP/SPRING/77
+a spring
 #               MASS                                 sens_ID    Isflag     Ileng
-                0.01                                       0         0         0
+                0.01                                       0         0         )" +
+         ileng + R"(
 #                 K1                  C1                  A1                  B1                  D1
                 0.01                 0.0                 0.0                 0.0                 0.0
 # fct_ID11        H1  fct_ID21  fct_ID31  fct_ID41                      DeltaMin            DeltaMax
-        88         0         0         0         0                           0.0                 0.0
+)" + function +
+         R"(         0         0         0         0                           0.0                 0.0
 #                 F1                  E1             AScale1             Hscale1
                  0.0                 0.0                 0.0                 0.0
 /FUNCT/88
@@ -109,18 +113,127 @@ curve
 #                  X                   Y
                  0.0                 0.0
                  1.0                 2.0
-/END)";
+/PART/77
+spring
+        77         0         0
+)" + (in_contact ? "/SPRING/77\n       901       101       102\n/END" : "/END");
+}
 
-TEST(Verification, AStiffnessThatKeepsItsNumberInOtherUnitsIsNamedWithTheReason) {
+TEST(Verification, ASpringThatFollowsACurveKeepsTheStiffnessItCountsWithInContacts) {
   const auto plain = sample();
-  const auto deck = edited(*plain, "/END", spring_with_a_curve);
+  const auto deck = edited(*plain, "/END", spring("0", "        88"));
   const Rewrite rewrite = to_units(deck->context(), *parse_unit_system("g,mm,ms"), {true});
   const auto after = deck->after(rewrite);
   const auto why = difference(*deck, *after, relation_of(rewrite.losses));
-  ASSERT_TRUE(why);
-  EXPECT_NE(why->find("springs of /PROP/SPRING/77"), why->npos) << *why;
-  EXPECT_NE(why->find("K / A"), why->npos) << *why;
-  EXPECT_NE(why->find("is 0.01, expected 10"), why->npos) << *why;
+  EXPECT_EQ(why, std::nullopt) << *why;
+  EXPECT_TRUE(after->contains("                 1.0              2000.0\n")) << after->main_text();
+  EXPECT_NE(difference(*plain, *deck), std::nullopt) << "the spring must count";
+}
+
+TEST(Verification, AStiffnessThatChangesWithTheUnitsIsNamedWithTheReasonWhereAContactCountsIt) {
+  const auto plain = sample();
+  for (const bool in_contact : {true, false}) {
+    const auto deck = edited(*plain, "/END", spring("1", "         0", in_contact));
+    const Rewrite rewrite = to_units(deck->context(), *parse_unit_system("kg,m,ms"), {true});
+    const auto after = deck->after(rewrite);
+    const auto why = difference(*deck, *after, relation_of(rewrite.losses));
+    ASSERT_EQ(why.has_value(), in_contact) << why.value_or("");
+    if (!in_contact) continue;
+    EXPECT_NE(why->find("springs of /PROP/SPRING/77"), why->npos) << *why;
+    EXPECT_NE(why->find("K / A"), why->npos) << *why;
+    EXPECT_NE(why->find("is 1e-05, expected 0.01"), why->npos) << *why;
+  }
+}
+
+/// A brick below a node; the contact has a constant stiffness, or a face without area.
+std::unique_ptr<Whole> on_a_brick(const std::string& stfac, bool folded) {
+  std::string text = R"(#RADIOSS STARTER
+/BEGIN
+brick
+      2022         0
+                  kg                  mm                  ms
+                  kg                  mm                  ms
+/MAT/ELAST/1
+m
+               1e-06
+                 200                 0.3
+/PROP/SOLID/1
+p
+         0         0                   0         0                   0
+                   0                   0                   0                   0
+                   0
+/PART/1
+p
+         1         1         0
+/NODE
+         1                   0                   0                   0
+         2                   2                   0                   0
+         3                   2                   2                   0
+         4                   0                   2                   0
+         5                   0                   0                   2
+         6                   2                   0                   2
+         7                   2                   2                   2
+         8                   0                   2                   2
+         9                   1                   1                 2.1
+/BRICK/1
+         1         1         2         3         4         5         6         7         8
+/SURF/SEG/1
+s
+         1         5         6         7         8
+)";
+  if (folded) text += "         2         5         6         5         6\n";
+  text += R"(/GRNOD/NODE/1
+g
+         9
+/INTER/TYPE7/1
+i
+         1         1         0         0      1000                   0         0         0         0
+                   0                   0                   0                             0
+                   0                   0                   0                   0         1         0
+)" + std::string(20 - stfac.size(), ' ') +
+          stfac +
+          R"(                   0                 0.3                   0                   0
+       000                             0                   0                   0                   0
+         0         0                   0         0         0         0                   0         0
+/END
+)";
+  return Whole::text(text);
+}
+
+TEST(Verification, OfAConstantStiffnessOfSolidsTheFactorCounts) {
+  const auto deck = on_a_brick("-3.5", false);
+  const Behaviour before(deck->context());
+  const Rewrite rewrite = to_units(deck->context(), *parse_unit_system("g,mm,ms"), {true});
+  const auto after = deck->after(rewrite);
+  const auto why = difference(*deck, *after, relation_of(rewrite.losses));
+  EXPECT_EQ(why, std::nullopt) << *why;
+  EXPECT_NE(difference(*deck, *on_a_brick("-3.6", false)), std::nullopt);
+}
+
+TEST(Verification, WhatTheSolverLeavesOfASegmentWithoutAreaIsTheSameInAllUnits) {
+  const auto deck = on_a_brick("1", true);
+  for (const char* units : {"g,mm,ms", "kg,m,s"}) {
+    const Rewrite rewrite = to_units(deck->context(), *parse_unit_system(units), {true});
+    const auto after = deck->after(rewrite);
+    const auto why = difference(*deck, *after, relation_of(rewrite.losses));
+    EXPECT_EQ(why, std::nullopt) << *why;
+  }
+}
+
+TEST(Verification, MassThatMovesFromOnePartToAnotherIsNamed) {
+  // A spring with mass between two nodes: which part it is of changes no node.
+  const auto with = [](const char* part) {
+    return "/PROP/SPRING/77\na spring\n                 0.1\n                 0.0\n" +
+           std::string("/PART/77\none\n        77         0         0\n") +
+           "/PART/78\nother\n        77         0         0\n/SPRING/" + part +
+           "\n       901       101       102\n/END";
+  };
+  const auto plain = sample();
+  const auto one = edited(*plain, "/END", with("77")), other = edited(*plain, "/END", with("78"));
+  EXPECT_EQ(difference(*one, *one), std::nullopt);
+  const auto why = difference(*one, *other);
+  ASSERT_NE(why, std::nullopt);
+  EXPECT_NE(why->find("the mass of part 77 is 0, expected 0.1"), why->npos) << *why;
 }
 
 TEST(Verification, WhatIsGivenUpForAnInterfaceIsAccepted) {

@@ -27,6 +27,22 @@ bool complete(const NodeIndex* n, int count) {
   return std::find(n, n + count, no_index) == n + count;
 }
 
+int corners_of(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::shell4:
+      return 4;
+    case ElementKind::shell3:
+      return 3;
+    case ElementKind::solid8:
+      return 8;
+    case ElementKind::truss:
+    case ElementKind::beam:
+      return 2;
+    default:
+      return 0;
+  }
+}
+
 /// Shares of a triangle's corners: their angles (measured on the reference solver's masses).
 std::array<double, 4> corner_shares(const Coordinates& x, const NodeIndex* n) {
   std::array<double, 4> share{};
@@ -40,13 +56,11 @@ std::array<double, 4> corner_shares(const Coordinates& x, const NodeIndex* n) {
 
 void add_shells(const Scene& scene, ElementKind kind, std::vector<double>& mass) {
   const Elements& family = scene.model->family(kind);
-  const int corners = kind == ElementKind::shell4 ? 4 : 3;
+  const int corners = corners_of(kind);
   for (std::uint32_t e = 0; e < family.size(); ++e) {
     const NodeIndex* n = family.of(e);
     if (!complete(n, corners)) continue;
-    const double t = deck::detail::stiffness_thickness(*scene.model, kind, e);
-    const double m = detail::density_of(*scene.model, kind, e) * t *
-                     detail::shell_area(scene.coordinates, kind, n);
+    const double m = detail::element_mass(scene, kind, e);
     const std::array<double, 4> share = kind == ElementKind::shell4
                                             ? std::array<double, 4>{0.25, 0.25, 0.25, 0.25}
                                             : corner_shares(scene.coordinates, n);
@@ -61,8 +75,7 @@ void add_solids(const Scene& scene, std::vector<double>& mass) {
     const NodeIndex* n = family.of(e);
     if (!complete(n, 8)) continue;
     const SolidShape shape = family.shape[e];
-    const double m = detail::density_of(*scene.model, ElementKind::solid8, e) *
-                     detail::solid_volume(scene.coordinates, shape, n);
+    const double m = detail::element_mass(scene, ElementKind::solid8, e);
     const bool has_extra = e < family.extra.size() && family.extra[e] != no_index;
     double slot = 0.125, middle = 0.0;
     int middles = 0;
@@ -95,20 +108,17 @@ void add_lines(const Scene& scene, std::vector<double>& mass) {
     for (std::uint32_t e = 0; e < family.size(); ++e) {
       const NodeIndex* n = family.of(e);
       if (!complete(n, 2)) continue;
-      const double half = 0.5 * detail::density_of(*scene.model, kind, e) *
-                          deck::detail::section_area(*scene.model, kind, e) *
-                          distance(scene.coordinates, n[0], n[1]);
+      const double half = 0.5 * detail::element_mass(scene, kind, e);
       mass[n[0]] += half;
       mass[n[1]] += half;
     }
   }
   const Elements& springs = scene.model->spring;
-  const std::vector<double> spring_mass = detail::spring_masses(*scene.model);
+  const detail::SpringMasses spring_masses(*scene.model);
   for (std::uint32_t e = 0; e < springs.size(); ++e) {
     const NodeIndex* n = springs.of(e);
-    const std::uint32_t part = springs.part[e];
-    if (!complete(n, 2) || part == no_index || scene.model->parts[part].prop == no_index) continue;
-    const double half = 0.5 * spring_mass[scene.model->parts[part].prop];
+    if (!complete(n, 2)) continue;
+    const double half = 0.5 * spring_masses.of(scene, e);
     mass[n[0]] += half;
     mass[n[1]] += half;
   }
@@ -323,6 +333,21 @@ void try_velocity(const deck::Model& model, const PartVelocity& wish, State& sta
 }
 
 }  // namespace
+
+double detail::element_mass(const Scene& scene, ElementKind kind, std::uint32_t e) {
+  const Elements& family = scene.model->family(kind);
+  const NodeIndex* n = family.of(e);
+  const int corners = corners_of(kind);
+  if (corners == 0 || !complete(n, corners)) return 0;
+  const double density = density_of(*scene.model, kind, e);
+  if (kind == ElementKind::solid8)
+    return density * solid_volume(scene.coordinates, family.shape[e], n);
+  if (corners > 2)
+    return density * deck::detail::stiffness_thickness(*scene.model, kind, e) *
+           shell_area(scene.coordinates, kind, n);
+  return density * deck::detail::section_area(*scene.model, kind, e) *
+         distance(scene.coordinates, n[0], n[1]);
+}
 
 State make_state(const Scene& scene, const std::vector<PartVelocity>& velocities) {
   State state;

@@ -28,16 +28,28 @@ double solid_volume(const Coordinates& x, SolidShape shape, const NodeIndex* slo
   return shape == SolidShape::tetra4 || shape == SolidShape::tetra10 ? v / 1.5 : v;
 }
 
-std::vector<double> spring_masses(const deck::Model& model) {
-  std::vector<double> mass(model.properties.size(), 0.0);
-  if (model.deck == nullptr) return mass;
-  for (std::size_t p = 0; p < mass.size(); ++p) {
+SpringMasses::SpringMasses(const deck::Model& model) : by_property_(model.properties.size()) {
+  if (model.deck == nullptr || model.spring.size() == 0) return;
+  for (std::size_t p = 0; p < by_property_.size(); ++p) {
     const Block* block = model.properties[p].block;
     if (block == nullptr || block->opaque) continue;
     const DecodedBlock d = decode(*model.deck, *block);
-    if (const Cell* cell = d.find("Mass")) mass[p] = working_value(*model.deck, d, *cell);
+    if (const Cell* cell = d.find("Mass"))
+      by_property_[p] = {working_value(*model.deck, d, *cell), d.integer("Ileng") == 1};
   }
-  return mass;
+}
+
+double SpringMasses::of(const Scene& scene, std::uint32_t spring) const {
+  const Elements& springs = scene.model->spring;
+  const NodeIndex* n = springs.of(spring);
+  const std::uint32_t part = springs.part[spring];
+  if (n[0] == no_index || n[1] == no_index || part == no_index) return 0.0;
+  const std::uint32_t property = scene.model->parts[part].prop;
+  if (property == no_index) return 0.0;
+  const Mass& mass = by_property_[property];
+  if (!mass.per_length) return mass.value;
+  const Vec d = at(scene.coordinates, n[1]) - at(scene.coordinates, n[0]);
+  return mass.value * std::sqrt(dot(d, d));
 }
 
 std::optional<AffineMap> fixed_axes(const deck::Model& model, std::int64_t skew) {

@@ -28,10 +28,25 @@ std::vector<Conductivity> conductivities(const deck::Model& model);
 double shell_area(const Coordinates& x, ElementKind kind, const NodeIndex* n);
 /// Volume from the eight slots; the one-point rule makes tetrahedra 1.5 times larger than they are.
 double solid_volume(const Coordinates& x, SolidShape shape, const NodeIndex* slots);
+/// Mass of one shell, solid, truss or beam, by the formulas of make_state; 0 where a corner is
+/// missing, and of other kinds.
+double element_mass(const Scene& scene, ElementKind kind, std::uint32_t e);
 /// What one element allows as time step (see structure_step); 1e30: any.
 double element_step(const Scene& scene, ElementKind kind, std::uint32_t e);
-/// Mass of one spring by property index; 0 where the property gives none.
-std::vector<double> spring_masses(const deck::Model& model);
+/// Masses of springs: what their property gives, where its Ileng is 1 times their length.
+class SpringMasses {
+ public:
+  explicit SpringMasses(const deck::Model& model);
+  /// 0 where an end is missing, or the property gives no mass.
+  double of(const Scene& scene, std::uint32_t spring) const;
+
+ private:
+  struct Mass {
+    double value = 0.0;
+    bool per_length = false;
+  };
+  std::vector<Mass> by_property_;
+};
 /// Axes of a skew that is fixed in space, as a map from local to global components.
 std::optional<AffineMap> fixed_axes(const deck::Model& model, std::int64_t skew);
 

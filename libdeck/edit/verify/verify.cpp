@@ -10,9 +10,29 @@
 #include "edit/verify/verify_parts.hpp"
 
 namespace deck {
+namespace {
+
+/// Mass of the elements of each part, without masses that the deck adds to nodes.
+std::vector<double> part_masses(const Scene& scene) {
+  const Model& model = *scene.model;
+  std::vector<double> mass(model.parts.size());
+  for (const ElementKind kind : detail::verified_kinds) {
+    const Elements& family = model.family(kind);
+    for (std::uint32_t e = 0; e < family.size(); ++e)
+      if (const std::uint32_t part = family.part[e]; part != no_index)
+        mass[part] += cycle::detail::element_mass(scene, kind, e);
+  }
+  const cycle::detail::SpringMasses spring_masses(model);
+  for (std::uint32_t e = 0; e < model.spring.size(); ++e)
+    if (const std::uint32_t part = model.spring.part[e]; part != no_index)
+      mass[part] += spring_masses.of(scene, e);
+  return mass;
+}
+
+}  // namespace
 
 Behaviour::Behaviour(const EditContext& context, const VerifyOptions& options)
-    : parts_(new Parts{context, {}, {}, {}, {}, 0}) {
+    : parts_(new Parts{context, {}, {}, {}, {}, {}, 0}) {
   Parts& p = *parts_;
   Diagnostics diagnostics;
   SceneOptions scene;
@@ -30,6 +50,7 @@ Behaviour::Behaviour(const EditContext& context, const VerifyOptions& options)
     for (std::uint32_t e = 0; e < context.model.family(kind).size(); ++e)
       p.steps[k].push_back(cycle::detail::element_step(p.scene, kind, e));
   }
+  p.part_mass = part_masses(p.scene);
   const Nodes& nodes = context.model.nodes;
   for (const auto* axis : {&nodes.x, &nodes.y, &nodes.z})
     for (const double x : *axis)
@@ -79,17 +100,23 @@ std::string DeckComparison::node_name(NodeIndex node) const {
   return "node " + std::to_string(after.context.model.node_id(node));
 }
 
-DeckComparison::Difference DeckComparison::number(const std::string& what, double was, double now,
-                                                  double unit, double slack) const {
+bool DeckComparison::same(double was, double now, double unit, double slack) const {
   const auto endless = [](double x) { return !(std::abs(x) < 1e29); };
   const double expected = was * unit;
-  if (now == expected || (endless(was) && endless(now))) return {};
-  if (std::abs(now - expected) <= tolerance * std::abs(expected) + slack) return {};
+  return now == expected || (endless(was) && endless(now)) ||
+         std::abs(now - expected) <= tolerance * std::abs(expected) + slack;
+}
+
+DeckComparison::Difference DeckComparison::number(const std::string& what, double was, double now,
+                                                  double unit, double slack) const {
+  if (same(was, now, unit, slack)) return {};
+  const double expected = was * unit;
   return fmt::format("{} is {:.9g}, expected {:.9g}{}", what, now, expected,
                      unit == 1 ? "" : fmt::format(" ({:.9g} in the units before)", was));
 }
 
-/// What springs count with in contacts. Of some, no conversion of the working units can keep it.
+/// What springs count with in contacts: of some, no conversion of the working units can keep it.
+/// Only asked where a contact has become another one; a spring that is in none does no harm.
 DeckComparison::Difference DeckComparison::springs() const {
   const auto &was = before.context.model.properties, &now = after.context.model.properties;
   if (relation.extract) return {};
@@ -98,12 +125,12 @@ DeckComparison::Difference DeckComparison::springs() const {
   const double unit = factor(1, 0, -2);
   for (std::size_t i = 0; i < now.size(); ++i)
     for (std::size_t k = 0; k < now[i].stiffness.size(); ++k)
-      if (auto d = number(fmt::format("the stiffness with which springs of {}/{} count in contacts",
-                                      now[i].type, now[i].id),
-                          was[i].stiffness[k], now[i].stiffness[k], unit))
-        return *d +
-               "; the solver takes K / A for it, and A is a force here, so that it depends on "
-               "the unit of force (--keep-working-units keeps it)";
+      if (!same(was[i].stiffness[k], now[i].stiffness[k], unit))
+        return *number(fmt::format("the stiffness with which springs of {}/{} count in contacts",
+                                   now[i].type, now[i].id),
+                       was[i].stiffness[k], now[i].stiffness[k], unit) +
+               "; the solver takes K / A for it, and one of the two is a force here, so that it "
+               "depends on the units (--keep-working-units keeps it)";
   return {};
 }
 
@@ -114,13 +141,17 @@ DeckComparison::Difference DeckComparison::masses() const {
     return fmt::format("the deck has {} nodes, expected {}", now.size(), was.size());
   const double heaviest = was.empty() ? 0 : *std::max_element(was.begin(), was.end());
   const double unit = factor(1, 0, 0);
+  const double slack = tolerance * heaviest * unit;
   for (NodeIndex n = 0; n < now.size(); ++n)
-    if (auto d = number("the mass of " + node_name(n), was[n], now[n], unit,
-                        tolerance * heaviest * unit))
-      return d;
-  const auto &parts = before.context.model.parts, &parts_now = after.context.model.parts;
+    if (!same(was[n], now[n], unit, slack))
+      return number("the mass of " + node_name(n), was[n], now[n], unit, slack);
+  const auto &parts = before.part_mass, &parts_now = after.part_mass;
   if (parts.size() != parts_now.size())
     return fmt::format("the deck has {} parts, expected {}", parts_now.size(), parts.size());
+  for (std::size_t p = 0; p < parts_now.size(); ++p)
+    if (!same(parts[p], parts_now[p], unit, slack))
+      return number(fmt::format("the mass of part {}", after.context.model.parts[p].id), parts[p],
+                    parts_now[p], unit, slack);
   return {};
 }
 
@@ -134,10 +165,8 @@ DeckComparison::Difference DeckComparison::time_steps() const {
       return fmt::format("the deck has {} elements of one kind, expected {}", now.size(),
                          was.size());
     for (std::size_t e = 0; e < now.size(); ++e) {
-      if (was[e] == now[e]) continue;
-      if (auto d = number(fmt::format("the time step of element {}", family.id[e]), was[e], now[e],
-                          unit))
-        return d;
+      if (same(was[e], now[e], unit)) continue;
+      return number(fmt::format("the time step of element {}", family.id[e]), was[e], now[e], unit);
     }
   }
   if (!relation.lossy.empty() || relation.lossy_defaults) return {};
@@ -151,8 +180,10 @@ std::optional<std::string> first_difference(const Behaviour& before, const Behav
                                             const VerifyRelation& relation) {
   const detail::DeckComparison c(before.parts(), after.parts(), relation);
   if (auto d = c.values()) return d;
-  if (auto d = c.springs()) return d;
-  if (auto d = c.contacts()) return d;
+  if (auto d = c.contacts()) {
+    const auto cause = c.springs();
+    return cause ? cause : d;
+  }
   if (auto d = c.masses()) return d;
   return c.time_steps();
 }

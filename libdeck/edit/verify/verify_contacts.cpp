@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 
 #include "edit/verify/verify_parts.hpp"
 
@@ -88,25 +88,36 @@ class ContactComparison {
     return {};
   }
 
-  DeckComparison::Difference sizes() const {
-    const std::string gap = "a gap of " + name_, stiffness = "a stiffness of " + name_;
-    const auto both = [&](double g0, double g1, double k0, double k1) {
-      auto d = c_.number(gap, g0, g1, length_);
-      return d ? d : c_.number(stiffness, k0, k1, stiffness_);
-    };
-    for (std::size_t i = 0; i < now_.main.size(); ++i)
-      if (auto d = both(was_.main[i].gap, now_.main[i].gap, was_.main[i].stiffness,
-                        now_.main[i].stiffness))
-        return d;
-    for (std::size_t i = 0; i < now_.secondary.size(); ++i)
-      if (auto d = both(was_.secondary[i].gap, now_.secondary[i].gap,
-                        was_.secondary[i].nodal_stiffness, now_.secondary[i].nodal_stiffness))
-        return d;
-    for (const auto& [a, b] : {std::pair{&was_.main_edges, &now_.main_edges},
-                               std::pair{&was_.secondary_edges, &now_.secondary_edges}})
-      for (std::size_t i = 0; i < b->size(); ++i)
-        if (auto d = both((*a)[i].gap, (*b)[i].gap, (*a)[i].stiffness, (*b)[i].stiffness)) return d;
+  /// Gaps and stiffness of the entries of one list.
+  template <class Entry>
+  DeckComparison::Difference list(const std::vector<Entry>& was, const std::vector<Entry>& now,
+                                  double Entry::*stiffness) const {
+    // A segment without area has what the solver's floor of its area leaves, the same number in
+    // all units: nothing beside the others.
+    constexpr double nothing = 1e-12;
+    double stiffest = 0;
+    for (const Entry& e : now) stiffest = std::max(stiffest, std::abs(e.*stiffness));
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      const Entry &a = was[i], &b = now[i];
+      if (!c_.same(a.gap, b.gap, length_))
+        return c_.number("a gap of " + name_, a.gap, b.gap, length_);
+      // Of a negative one only the sign counts: the contact has a constant stiffness, its factor.
+      const double k0 = a.*stiffness, k1 = b.*stiffness;
+      if (k0 < 0 && k1 < 0) continue;
+      if (!c_.same(k0, k1, stiffness_, nothing * stiffest))
+        return c_.number("a stiffness of " + name_, k0, k1, stiffness_, nothing * stiffest);
+    }
     return {};
+  }
+
+  DeckComparison::Difference sizes() const {
+    if (auto d = c_.number("the factor of the stiffness of " + name_, was_.factor, now_.factor,
+                           was_.factor < 0 ? stiffness_ : 1))
+      return d;
+    if (auto d = list(was_.main, now_.main, &MainSegment::stiffness)) return d;
+    if (auto d = list(was_.secondary, now_.secondary, &SecondaryNode::nodal_stiffness)) return d;
+    if (auto d = list(was_.main_edges, now_.main_edges, &ContactEdge::stiffness)) return d;
+    return list(was_.secondary_edges, now_.secondary_edges, &ContactEdge::stiffness);
   }
 
   std::string pair_name(const PenetrationRow& row) const {
@@ -122,31 +133,57 @@ class ContactComparison {
     return c_.tolerance * gap + digits * c_.after.extent;
   }
 
+  using Rows = std::vector<const PenetrationRow*>;
+  static std::pair<std::uint32_t, std::uint32_t> pair_of(const PenetrationRow* row) {
+    return {row->secondary, row->main};
+  }
+  /// By their pairs.
+  static Rows sorted(const std::vector<PenetrationRow>& rows) {
+    Rows out;
+    out.reserve(rows.size());
+    for (const PenetrationRow& row : rows) out.push_back(&row);
+    const auto less = [](const PenetrationRow* a, const PenetrationRow* b) {
+      return pair_of(a) < pair_of(b);
+    };
+    if (!std::is_sorted(out.begin(), out.end(), less)) std::sort(out.begin(), out.end(), less);
+    return out;
+  }
+
+  DeckComparison::Difference penetration(const PenetrationRow& old,
+                                         const PenetrationRow& row) const {
+    const double margin = slack(row.gap);
+    const bool same = c_.same(old.gap, row.gap, length_, margin) &&
+                      c_.same(old.depth, row.depth, length_, margin) &&
+                      c_.same(old.gap0, row.gap0, length_, margin);
+    const bool same_action =
+        old.action == row.action || row.depth <= margin || row.distance <= margin;
+    if (same && same_action) return {};
+    const std::string at = " of " + pair_name(row);
+    if (auto d = c_.number("the gap" + at, old.gap, row.gap, length_, margin)) return d;
+    if (auto d = c_.number("the penetration" + at, old.depth, row.depth, length_, margin)) return d;
+    if (!same_action)
+      return fmt::format("the action{} is {}, expected {}", at, to_string(row.action),
+                         to_string(old.action));
+    return c_.number("the gap left" + at, old.gap0, row.gap0, length_, margin);
+  }
+
   DeckComparison::Difference penetrations() const {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, const PenetrationRow*> was;
-    for (const PenetrationRow& row : was_.penetrations) was[{row.secondary, row.main}] = &row;
-    for (const PenetrationRow& row : now_.penetrations) {
-      const auto found = was.find({row.secondary, row.main});
-      if (found == was.end()) {
-        if (row.depth <= slack(row.gap)) continue;
-        return fmt::format("{} penetrates by {:.9g}; it did not before", pair_name(row), row.depth);
-      }
-      const PenetrationRow& old = *found->second;
-      was.erase(found);
-      const double margin = slack(row.gap);
-      const std::string at = " of " + pair_name(row);
-      if (auto d = c_.number("the gap" + at, old.gap, row.gap, length_, margin)) return d;
-      if (auto d = c_.number("the penetration" + at, old.depth, row.depth, length_, margin))
+    const Rows was = sorted(was_.penetrations), now = sorted(now_.penetrations);
+    for (auto a = was.begin(), b = now.begin(); a != was.end() || b != now.end();) {
+      if (b == now.end() || (a != was.end() && pair_of(*a) < pair_of(*b))) {
+        const PenetrationRow& row = **a++;
+        if (row.depth * length_ > slack(row.gap * length_))
+          return fmt::format("{}: a pair that penetrated by {:.9g} does not any more", name_,
+                             row.depth);
+      } else if (a == was.end() || pair_of(*b) < pair_of(*a)) {
+        const PenetrationRow& row = **b++;
+        if (row.depth > slack(row.gap))
+          return fmt::format("{} penetrates by {:.9g}; it did not before", pair_name(row),
+                             row.depth);
+      } else if (auto d = penetration(**a++, **b++)) {
         return d;
-      if (old.action != row.action && row.depth > margin && row.distance > margin)
-        return fmt::format("the action{} is {}, expected {}", at, to_string(row.action),
-                           to_string(old.action));
-      if (auto d = c_.number("the gap left" + at, old.gap0, row.gap0, length_, margin)) return d;
+      }
     }
-    for (const auto& [pair, row] : was)
-      if (row->depth * length_ > slack(row->gap * length_))
-        return fmt::format("{}: a pair that penetrated by {:.9g} does not any more", name_,
-                           row->depth);
     return {};
   }
 
@@ -189,11 +226,10 @@ DeckComparison::Difference DeckComparison::contacts() const {
   if (relation.extract || !relation.lossy.empty() || relation.lossy_defaults) return {};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto &a = before.cycle.nodes.force[k], &b = after.cycle.nodes.force[k];
+    const double slack = tolerance * before.cycle.largest_nodal_force * force;
     for (NodeIndex n = 0; n < std::min(a.size(), b.size()); ++n) {
-      if (a[n] == b[n]) continue;
-      if (auto d = number("the contact force at " + node_name(n), a[n], b[n], force,
-                          tolerance * before.cycle.largest_nodal_force * force))
-        return d;
+      if (!same(a[n], b[n], force, slack))
+        return number("the contact force at " + node_name(n), a[n], b[n], force, slack);
     }
   }
   return {};

@@ -18,6 +18,7 @@ struct Behaviour::Parts {
   cycle::State state;
   cycle::SceneOutcome cycle;
   std::array<std::vector<double>, 5> steps;  ///< of shell4, shell3, solid8, truss, beam
+  std::vector<double> part_mass;             ///< of the elements of each part
   double extent = 0;                         ///< largest coordinate
 };
 
@@ -42,7 +43,9 @@ struct DeckComparison {
   /// Node of the first deck that `node` of the second is.
   NodeIndex old_node(NodeIndex node) const;
   std::string node_name(NodeIndex node) const;
-  /// Nothing if `now` is `was` in the other units, or within `slack` of it.
+  /// True if `now` is `was` in the other units, or within `slack` of it.
+  bool same(double was, double now, double unit, double slack = 0) const;
+  /// Nothing if they are the same.
   Difference number(const std::string& what, double was, double now, double unit,
                     double slack = 0) const;
 

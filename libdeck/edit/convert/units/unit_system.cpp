@@ -442,6 +442,10 @@ class BlockConverter {
     for (const Axis& axis : f.axes) {
       bool scaled = axis.scales.empty();
       for (const std::string& name : axis.scales) {
+        if (keeps_number(d, name)) {
+          scaled = scaled || name[0] != 'A';
+          continue;
+        }
         const Cell* scale = beside(d, card, cell, name);
         if (scale != nullptr) brought_.insert(scale);
         scaled = scaled || scale != nullptr;
@@ -459,7 +463,8 @@ class BlockConverter {
             break;
           }
       } else if (!scaled) {
-        // This version has no cell for the scale: it is 1, and the points have its dimension.
+        // This version has no cell for the scale: it is 1, and the points have its dimension; or
+        // the scale has to keep its number.
         const Field* scale = b.schema->find_field(axis.scales.front());
         if (scale != nullptr) points = dimension_of(*scale, d, &card);
       }
@@ -467,6 +472,37 @@ class BlockConverter {
       use.points.push_back(points);
     }
     c_.function_uses.push_back(std::move(use));
+  }
+
+  /// The solver divides K of a spring by its coefficient A where the spring counts in contacts, and
+  /// the force is f(x) (A + B ln(v / D) + E g(v / F)): only if A, B and E keep their numbers and
+  /// the points of f take the unit of force do both stay what they are. True for such a
+  /// coefficient; where K is no stiffness or f has no points it is converted as any other scale.
+  bool keeps_number(const DecodedBlock& d, const std::string& name) const {
+    if (!c_.working_changes || own_units_ || name.empty() || name.size() > 2 ||
+        std::string_view("ABE").find(name[0]) == std::string_view::npos || d.block == nullptr ||
+        d.block->schema->kind != "prop")
+      return false;
+    const std::string row = name.size() == 1 ? "1" : name.substr(1);
+    const Cell* k = d.find("K") != nullptr ? d.find("K") : d.find("K" + row);
+    if (k == nullptr || (k->real == 0 && !k->parameter)) return false;
+    const Cell* a = d.find(d.find("A") != nullptr ? "A" : "A" + row);
+    constexpr int residual = 5;  // the second function gives elongations, which A does not scale
+    return a != nullptr && !a->parameter && k->field->dimension == Dimension{1, 0, -2, 0} &&
+           d.integer("Ileng") == 0 && d.integer("H" + row) != residual &&
+           d.integer("fct_ID1" + row) != 0 && has_points(d, "fct_ID1" + row) &&
+           has_points(d, "fct_ID3" + row);
+  }
+
+  /// The cell names no function, or one that is given point by point.
+  bool has_points(const DecodedBlock& d, const std::string& name) const {
+    const Cell* cell = d.find(name);
+    if (cell == nullptr || (cell->integer == 0 && !cell->parameter)) return true;
+    const std::int64_t id = std::abs(cell->integer) + deck_.offset_of(*d.block, "funct");
+    return std::any_of(deck_.blocks.begin(), deck_.blocks.end(), [&](const Block& b) {
+      return b.schema != nullptr && b.schema->keyword == "/FUNCT" &&
+             b.id.value + deck_.offset_of(b, "funct") == id;
+    });
   }
 
   /// The cell `name` that goes with `cell`: on its line, in its round, at its place of a list, or
@@ -528,6 +564,7 @@ class BlockConverter {
           c_.undecided(b, cell.span, f.name, "the dimension of this value is not known");
         continue;
       }
+      if (keeps_number(d, f.name)) continue;
       const bool working = stiffness_in_working_units(d, cell);
       const Dimension dimension =
           working ? Dimension{1, 0, -2, 0} : effective_dimension(d, card, cell);

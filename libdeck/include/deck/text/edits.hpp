@@ -16,7 +16,8 @@ namespace deck {
 /// The bytes of `source` with the edits made (those of its own file; in any order). The same
 /// replacement given twice is made once. Several insertions at one place are made in the order
 /// given. Error: edits that overlap, or lie outside the file.
-Result<std::string> apply_edits(const Source& source, std::vector<TextEdit> edits);
+Result<std::string> apply_edits(const Source& source, const std::vector<TextEdit>& edits);
+Result<std::string> apply_edit_pointers(const Source& source, std::vector<const TextEdit*> edits);
 
 /// Unified diff of one file, three lines of context, that `git apply` takes. Empty if equal. `path`
 /// is put behind a/ and b/.
