@@ -12,6 +12,7 @@
 #include "edit/fix/depenetrate_locks.hpp"
 #include "edit/fix/depenetrate_mesh.hpp"
 #include "edit/fix/depenetrate_rows.hpp"
+#include "edit/fix/movable.hpp"
 
 namespace deck {
 namespace {
@@ -33,19 +34,10 @@ void put(Nodes& nodes, NodeIndex n, Vec p) {
   nodes.z[n] = p.z;
 }
 
-class Depenetrator {
+class Depenetrator : MovableDeck {
  public:
   Depenetrator(const EditContext& context, const MoveNodesOptions& options)
-      : context_(context), options_(options), cells_(context) {
-    ModelOptions build;
-    build.threads = options.threads;
-    build.limits = options.read.limits;
-    Diagnostics unused;
-    model_ = build_model(context.deck, context.schemas, unused, build);
-    interfaces_ = read_interfaces(context.deck, model_, unused);
-    start_ = {model_.nodes.x, model_.nodes.y, model_.nodes.z};
-    now_ = start_;
-  }
+      : MovableDeck(context, options) {}
 
   Result<PenetrationFix> run() {
     auto holds = make_holds(context_, options_);
@@ -64,8 +56,6 @@ class Depenetrator {
   }
 
  private:
-  Scene evaluate() const { return fix_scene(model_, interfaces_, options_, false); }
-
   void begin(const Scene& scene) {
     mesh_.emplace(scene);
     moved_in_part_.assign(model_.parts.size(), 0);
@@ -593,12 +583,6 @@ class Depenetrator {
     return text;
   }
 
-  const EditContext& context_;
-  const MoveNodesOptions& options_;
-  Model model_;  ///< an own one, whose nodes move
-  Interfaces interfaces_;
-  Coordinates start_, now_;
-  NodeCells cells_;
   std::optional<FixMesh> mesh_;
   std::vector<std::uint8_t> holds_;
   std::vector<bool> looked_up_;  ///< by cells_

@@ -10,6 +10,7 @@
 #include "edit/fix/depenetrate_locks.hpp"
 #include "edit/fix/depenetrate_mesh.hpp"
 #include "edit/fix/depenetrate_rows.hpp"
+#include "edit/fix/movable.hpp"
 
 namespace deck {
 namespace {
@@ -29,19 +30,10 @@ struct Trial {
   double distance = 0;
 };
 
-class Untangler {
+class Untangler : MovableDeck {
  public:
   Untangler(const EditContext& context, const MoveNodesOptions& options)
-      : context_(context), options_(options), cells_(context) {
-    ModelOptions build;
-    build.threads = options.threads;
-    build.limits = options.read.limits;
-    Diagnostics unused;
-    model_ = build_model(context.deck, context.schemas, unused, build);
-    interfaces_ = read_interfaces(context.deck, model_, unused);
-    start_ = {model_.nodes.x, model_.nodes.y, model_.nodes.z};
-    now_ = start_;
-  }
+      : MovableDeck(context, options) {}
 
   Result<PenetrationFix> run() {
     auto holds = make_holds(context_, options_);
@@ -67,8 +59,6 @@ class Untangler {
   }
 
  private:
-  Scene evaluate() const { return fix_scene(model_, interfaces_, options_, false); }
-
   std::vector<Crossing> wanted(const Scene& scene) const {
     std::vector<Crossing> out;
     for (const Crossing& c : find_crossings(scene, options_.threads))
@@ -273,12 +263,6 @@ class Untangler {
            "parts first";
   }
 
-  const EditContext& context_;
-  const MoveNodesOptions& options_;
-  Model model_;  ///< an own one, whose nodes move
-  Interfaces interfaces_;
-  Coordinates start_, now_;
-  NodeCells cells_;
   std::optional<FixMesh> mesh_;
   std::vector<std::uint8_t> holds_;
   std::vector<std::uint32_t> moved_in_part_;

@@ -5,15 +5,14 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "deck/contact/crossings.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/cycle/scene_cycle.hpp"
+#include "deck/contact/scene.hpp"
 #include "deck/edit/write.hpp"
 #include "deck/keyword/recognise.hpp"
 #include "deck/lint/topics.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/report/html.hpp"
 #include "lsp/server.hpp"
+#include "writing/gap_page.hpp"
 
 namespace deck::lsp {
 
@@ -147,24 +146,13 @@ Report write_report(const std::string& path, const std::map<std::string, std::st
   options.nodal_stiffness = true;
   const Scene scene = build_scene(model, interfaces, findings, options);
   if (stop) return {{}, "cancelled"};
-  const std::vector<Crossing> crossings = find_crossings(scene, settings.threads);
-  const SceneView view = make_view(scene, &crossings);
-  cycle::CycleOptions cycle_options;
-  cycle_options.threads = settings.threads;
-  cycle_options.keep_pairs = true;
-  const cycle::SceneOutcome forces =
-      cycle::run_cycle(scene, cycle::make_state(scene), cycle_options);
-  if (stop) return {{}, "cancelled"};
   HtmlInput input;
   input.path = path;
   input.deck = &*deck;
   input.scene = &scene;
-  input.view = &view;
   input.only = only;
-  input.cycle = &forces;
-  input.crossings = &crossings;
   input.threads = settings.threads;
-  auto page = gaps_html(input);
+  auto page = cli::gap_page(input, &stop);
   if (!page) return {{}, page.error().message};
   return {std::move(*page), {}};
 }

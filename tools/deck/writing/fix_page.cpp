@@ -2,10 +2,9 @@
 #include "writing/fix_page.hpp"
 
 #include "deck/contact/crossings.hpp"
-#include "deck/cycle/scene_cycle.hpp"
 #include "deck/report/gaps.hpp"
-#include "deck/report/html.hpp"
 #include "deck/report/json.hpp"
+#include "writing/gap_page.hpp"
 
 namespace deck::cli {
 
@@ -37,23 +36,13 @@ Result<std::string> fix_page(const Loaded& before, const SchemaSet& schemas,
   const Model model = build_model(*deck, schemas, unused, build);
   const Interfaces interfaces = read_interfaces(*deck, model, unused);
   const Scene scene = build_scene(model, interfaces, unused, scene_options);
-  const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
-  const SceneView view = make_view(scene, &crossings);
-  cycle::CycleOptions cycle_options;
-  cycle_options.threads = scene_options.threads;
-  cycle_options.keep_pairs = true;
-  const cycle::SceneOutcome forces =
-      cycle::run_cycle(scene, cycle::make_state(scene), cycle_options);
   HtmlInput input;
   input.path = before.path;
   input.deck = &*deck;
   input.scene = &scene;
-  input.view = &view;
   input.earlier = &*earlier;
-  input.cycle = &forces;
-  input.crossings = &crossings;
   input.threads = scene_options.threads;
-  return gaps_html(input);
+  return gap_page(input);
 }
 
 }  // namespace deck::cli

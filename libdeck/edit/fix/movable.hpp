@@ -1,0 +1,28 @@
+// What strategies that move nodes work on. Private to the stage.
+#pragma once
+#include "deck/edit/depenetrate.hpp"
+#include "edit/fix/common.hpp"
+#include "edit/fix/depenetrate_cells.hpp"
+
+namespace deck::detail {
+
+/// A deck with a model of its own, whose nodes move; the deck itself stays as it is.
+class MovableDeck {
+ protected:
+  MovableDeck(const EditContext& context, const MoveNodesOptions& options);
+  MovableDeck(const MovableDeck&) = delete;
+  MovableDeck& operator=(const MovableDeck&) = delete;
+  ~MovableDeck() = default;
+
+  /// The contacts with the nodes where they are now, as the deck puts them (see fix_scene).
+  Scene evaluate() const { return fix_scene(model_, interfaces_, options_, false); }
+
+  const EditContext& context_;
+  const MoveNodesOptions& options_;
+  Model model_;
+  Interfaces interfaces_;
+  Coordinates start_, now_;
+  NodeCells cells_;
+};
+
+}  // namespace deck::detail
