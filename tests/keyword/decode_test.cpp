@@ -291,6 +291,23 @@ TEST(Decode, BlankColumnsTakeACellOfAFreeFormatLine) {
   EXPECT_EQ(count(Decoded("/X/CARDS/5\nt\n12,7,9,0\n").findings, RuleId::DK028), 1u);
 }
 
+TEST(Decode, ADecimalCommaIsNamedWhereTheLineIsLaidOutInColumns) {
+  const Decoded one("/X/CARDS/5\nt\n" + cells({{50, "1"}}) +
+                    "                 3,5                 4\n");
+  const Diagnostic* f = first(one.findings, RuleId::DK059);
+  ASSERT_NE(f, nullptr);
+  EXPECT_EQ(one.at(f->span).column, 18u);
+  EXPECT_EQ(f->span.length, 3u);
+  EXPECT_NE(f->message.find("'3,5'"), std::string::npos) << f->message;
+  EXPECT_NE(f->message.find("v = 3,"), std::string::npos) << f->message;
+  // Free format as it is meant: commas between all cells, with blanks or without.
+  for (const char* line : {"12,7,,,1", "12, 7,,,1", "  12 ,7", "12,7 "})
+    EXPECT_EQ(count(Decoded("/X/CARDS/5\nt\n" + std::string(line) + "\n").findings, RuleId::DK059),
+              0u)
+        << line;
+  EXPECT_EQ(count(Decoded("/X/CARDS/5\nt\n12 7,5\n").findings, RuleId::DK059), 1u);
+}
+
 TEST(Decode, TabsAndNulBytesInFixedColumnsAreNamed) {
   const Decoded tab("/X/CARDS/5\nt\n12\t7\n");
   EXPECT_EQ(tab.at(first(tab.findings, RuleId::DK013)->span).column, 3u);

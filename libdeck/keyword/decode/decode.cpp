@@ -311,6 +311,50 @@ void drop_blank_cell(Findings& findings, const Block& block,
                    .fix = "write two commas for the blank columns, or fixed columns"});
 }
 
+using FreeCells = std::vector<std::pair<std::string_view, Span>>;
+
+/// Whether blanks alone part cells of the line, or indent it, as in fixed columns.
+bool laid_out_in_columns(std::string_view text) {
+  constexpr std::size_t indent = 5;
+  std::size_t at = std::min(text.find_first_not_of(" \t"), text.size());
+  if (at >= indent) return true;
+  for (at = text.find_first_of(" \t", at); at < text.size(); at = text.find_first_of(" \t", at)) {
+    const std::size_t next = text.find_first_not_of(" \t", at);
+    if (next >= text.size()) return false;
+    if (text[at - 1] != ',' && text[next] != ',') return true;
+    at = next;
+  }
+  return false;
+}
+
+/// "1,25" among cells in columns: a decimal comma, which parts two cells and moves all the others.
+void find_decimal_comma(Findings& findings, const FreeCells& cells, const DecodedCard& card) {
+  const std::string_view text = card.line.text.substr(0, line_columns);
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto read_as = [&](std::size_t i) {
+    const auto it = std::find_if(card.cells.begin(), card.cells.end(), [&](const Cell& c) {
+      return c.span.offset == cells[i].second.offset && c.span.length > 0;
+    });
+    return (it == card.cells.end() ? std::string("no cell") : it->field->name) + " = " +
+           std::string(cells[i].first);
+  };
+  for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
+    const auto& [whole, at] = cells[i];
+    const auto& [fraction, behind] = cells[i + 1];
+    if (whole.empty() || fraction.empty() || !digit(whole.back()) || !digit(fraction.front()) ||
+        behind.offset != at.offset + at.length + 1 ||
+        text[static_cast<std::size_t>(behind.offset - card.line.offset) - 1] != ',')
+      continue;
+    if (!laid_out_in_columns(text)) return;
+    Span both = at;
+    both.length += 1 + behind.length;
+    findings.report(RuleId::DK059, both,
+                    "the comma in " + quoted(std::string(whole) + "," + std::string(fraction)) +
+                        " parts two cells: " + read_as(i) + ", " + read_as(i + 1));
+    return;
+  }
+}
+
 void read_free(const Deck& deck, const Block& block, Findings& findings, const LineContext& context,
                DecodedCard& out) {
   const CardSchema& card = *out.schema;
@@ -348,6 +392,7 @@ void read_free(const Deck& deck, const Block& block, Findings& findings, const L
     while (next < cells.size() &&
            (context.cells == 0 || out.cells.size() < static_cast<std::size_t>(context.cells)))
       take(card.fields.back());
+  find_decimal_comma(findings, cells, out);
   if (next < cells.size() && !list)
     findings.report(RuleId::DK028, cells[next].second,
                     "text " + quoted(cells[next].first) +
