@@ -216,6 +216,14 @@ TEST(LsDynaSets, WithAPartThatIsNotThereSaySo) {
   EXPECT_TRUE(doubts(converted(single_surface(card({"7", "0", "2"})) + parts + set), "part 9"));
 }
 
+TEST(LsDynaSets, SayNothingOfMissingPartsWhereNotAllPartsWereRead) {
+  const std::string part = "*PART\nfirst\n" + card({"1", "1", "1"});
+  const std::string contact = single_surface(card({"9", "0", "3"}));
+  for (const char* other : {"*PART_CONTACT\nbumper\n         9         1         1\n       0.2\n",
+                            "*INCLUDE_TRANSFORM\nwheel.k\n", "*INCLUDE\nbody.k\n"})
+    EXPECT_FALSE(doubts(converted(contact + part + other), "no such part")) << other;
+}
+
 TEST(LsDynaSets, ReadLongCardsCommasAndParameters) {
   const std::string text = "*KEYWORD LONG=Y\n*PARAMETER\n" + card({"I first", "5"}, 20) +
                            "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n" +

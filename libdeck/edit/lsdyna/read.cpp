@@ -205,6 +205,8 @@ class Reader {
         read_set(set);
       else if (keyword == "*PART")
         read_parts();
+      else if (keyword.starts_with("*PART_"))
+        out_.sets.all_parts_known = false;
     }
     return std::move(out_);
   }
@@ -213,6 +215,11 @@ class Reader {
   void note(std::string text) {
     if (std::find(out_.notes.begin(), out_.notes.end(), text) == out_.notes.end())
       out_.notes.push_back(std::move(text));
+  }
+
+  void not_followed(std::string text) {
+    out_.sets.all_parts_known = false;
+    note(std::move(text));
   }
 
   // ---- lines of the include tree --------------------------------------------------------------
@@ -259,7 +266,7 @@ class Reader {
       else if (keyword == "*INCLUDE")
         include();
       else if (keyword.starts_with("*INCLUDE"))
-        note(keyword + " is not followed: convert its files one by one");
+        not_followed(keyword + " is not followed: convert its files one by one");
       else
         return line;
     }
@@ -285,12 +292,11 @@ class Reader {
     for (auto name = names.rbegin(); name != names.rend(); ++name) open_file(*name, parent);
   }
   void open_file(const std::pair<std::string, std::uint64_t>& name, std::size_t parent) {
-    if (!options_.include) {
-      note("*INCLUDE is not followed: convert the included files one by one");
-      return;
-    }
+    if (!options_.include)
+      return not_followed("*INCLUDE is not followed: convert the included files one by one");
     const Frame from = frames_[parent];
     const auto miss = [&](std::string why) {
+      out_.sets.all_parts_known = false;
       if (complete_) return;  // said when parameters were collected
       out_.missing.push_back(
           {std::string(from.file.path), name.second, name.first.substr(0, 200), std::move(why)});

@@ -30,8 +30,13 @@ struct DynaSet {
 /// All of them by kind and id; parts by id.
 struct DynaSets {
   std::map<std::pair<DynaSetKind, std::int64_t>, DynaSet> sets;
-  std::set<std::int64_t> parts;
+  std::set<std::int64_t> parts;  ///< of *PART
+  bool all_parts_known = true;   ///< false: *PART_CONTACT and the like, or a file not followed
 
+  /// No part has the id, as far as that can be said.
+  bool lacks_part(std::int64_t id) const {
+    return all_parts_known && !parts.empty() && !parts.contains(id);
+  }
   /// The set with the members of the sets that it adds; nullptr: not in these files.
   const DynaSet* find(DynaSetKind kind, std::int64_t id);
   /// Adds a set that was read. A second one of the id is merged where both are to be collected,

@@ -56,10 +56,9 @@ DynaSides::Made DynaSides::set(const DynaSide& side, const DynaSet& set, DynaSet
   }
   const char* room = kind == DynaSetKind::node ? "grnod" : "surf";
   Made out{helpers_.own_id_of(room, side.type, side.id, std::move(block)), {}};
-  if (kind == DynaSetKind::part && !sets_.parts.empty())
+  if (kind == DynaSetKind::part)
     for (const std::int64_t id : set.ids)
-      if (!sets_.parts.contains(id))
-        out.doubt = "part " + std::to_string(id) + " of it does not exist";
+      if (sets_.lacks_part(id)) out.doubt = "part " + std::to_string(id) + " of it does not exist";
   return out;
 }
 
@@ -72,7 +71,7 @@ DynaSides::Made DynaSides::surface(const DynaSide& side) {
                             "/SURF/PART/EXT/@\npart " + std::to_string(side.id) + "\n" +
                                 list_cell(side.id) + "\n"),
              {}};
-    if (!sets_.parts.empty() && !sets_.parts.contains(side.id)) out.doubt = "there is no such part";
+    if (sets_.lacks_part(side.id)) out.doubt = "there is no such part";
     return out;
   }
   DynaSetKind kind{};
