@@ -6,6 +6,26 @@
 #include <utility>
 
 namespace deck::detail {
+namespace {
+
+/// Kinds of elements as references name them, and as people do.
+struct ElementName {
+  std::string_view kind, name;
+  ElementKind family;
+};
+constexpr ElementName element_names[] = {
+    {"shell", "4-node shell", ElementKind::shell4}, {"sh3n", "3-node shell", ElementKind::shell3},
+    {"brick", "solid", ElementKind::solid8},        {"quad", "quad", ElementKind::quad},
+    {"truss", "truss", ElementKind::truss},         {"beam", "beam", ElementKind::beam},
+    {"spring", "spring", ElementKind::spring}};
+
+const ElementName* element_of(std::string_view kind) {
+  const auto* it = std::find_if(std::begin(element_names), std::end(element_names),
+                                [&](const ElementName& e) { return e.kind == kind; });
+  return it == std::end(element_names) ? nullptr : it;
+}
+
+}  // namespace
 
 std::string_view kind_name(std::string_view kind) {
   using Name = std::pair<std::string_view, std::string_view>;
@@ -14,6 +34,7 @@ std::string_view kind_name(std::string_view kind) {
       Name{"funct", "/FUNCT"},       Name{"sensor", "/SENSOR"}, Name{"skew", "/SKEW"},
       Name{"frame", "/FRAME"},       Name{"prop", "/PROP"},     Name{"mat", "/MAT"},
       Name{"friction", "/FRICTION"}, Name{"part", "/PART"},     Name{"node", "node"}};
+  if (const ElementName* element = element_of(kind)) return element->name;
   const auto it =
       std::find_if(names.begin(), names.end(), [&](const Name& n) { return n.first == kind; });
   return it == names.end() ? "/SET" : it->second;
@@ -44,6 +65,10 @@ std::optional<bool> target_exists(const LintContext& c, std::string_view kind, s
   if (kind == "node") {
     if (c.model == nullptr) return std::nullopt;
     return c.model->find_node(id) != no_index;
+  }
+  if (const ElementName* element = element_of(kind)) {
+    if (c.model == nullptr) return std::nullopt;
+    return c.model->family(element->family).map.find(id) != no_index;
   }
   if (kind_name(kind) == "/SET") return std::nullopt;
   const auto all = c.defined.find(kind);
