@@ -84,6 +84,9 @@ class Reader {
 
   static Result<void> refuse_binary(const Source& source) {
     const std::string_view head = source.bytes().substr(0, 4096);
+    if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff"))
+      return Error{Error::Code::syntax,
+                   source.path() + ": is UTF-16 text; save it as UTF-8 or ASCII"};
     const auto nul = static_cast<std::size_t>(std::count(head.begin(), head.end(), '\0'));
     if (nul * 10 <= head.size()) return {};
     return Error{Error::Code::syntax, source.path() + ": is a binary file (" + std::to_string(nul) +

@@ -27,8 +27,6 @@ constexpr Magic magics[] = {
      "a program"},
     {"%PDF", "a PDF document"},
     {"\x89PNG", "a picture (PNG)"},
-    {"\xff\xfe", "UTF-16 text; save it as UTF-8 or ASCII"},
-    {"\xfe\xff", "UTF-16 text; save it as UTF-8 or ASCII"},
 };
 
 std::string lower(std::string_view text) {
@@ -121,6 +119,8 @@ std::string no_starter_deck(const Deck& deck) {
                                     [](const Block& b) { return !b.header.starts_with("/END"); });
   if (more && (begin || (banner && keywords))) return {};
   if (mostly_binary(head)) return is("binary data");
+  if (one_line && std::count(head.begin(), head.end(), '\r') > 1)
+    return "is one line only: its lines end with a carriage return alone; save it with line feeds";
   if (banner && !keywords)
     return "is no Starter deck: behind '#RADIOSS STARTER' there is no keyword";
   if (one_line) return is("a single line of text; expected /BEGIN ... /END");

@@ -96,6 +96,7 @@ TEST_F(Hostile, WhatIsNoDeckIsRefusedWithTheReason) {
   std::string wide;
   for (const char c : deck_of("/NODE\n")) wide += {c, '\0'};
   EXPECT_THAT(refusal(file("utf16", wide)), HasSubstr("binary file"));
+  EXPECT_THAT(refusal(file("marked", "\xff\xfe" + wide)), HasSubstr("UTF-16"));
 }
 
 TEST_F(Hostile, OneLineOfSixtyFourMegabytesIsReadInLinearTime) {

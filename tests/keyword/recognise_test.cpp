@@ -33,6 +33,8 @@ TEST(StarterDeck, IsNoneOfThese) {
       {"hello\n", "single line"},
       {"/BEGIN\n", "single line"},
       {"#RADIOSS STARTER\n", "no keyword"},
+      {"#RADIOSS STARTER\r/BEGIN\rrun\r      2022         0\r/NODE\r/END\r", "carriage return"},
+      {"/BEGIN\rrun\r      2022         0\r/NODE\r/END\r", "carriage return"},
       {"#RADIOSS STARTER\n\n# nothing\n/END\n", "no keyword"},
       {"dear all,\nthis is a letter\n", "without a keyword"},
       {"/NODE\n         1\n", "part of one"},

@@ -376,6 +376,14 @@ def overview(c, tmp):
     with open(os.path.join(work, "empty_0000.rad"), "w"):
         pass
     out, page = os.path.join(work, "out"), os.path.join(work, "out", "index.html")
+    links = os.path.join(work, "links")
+    os.makedirs(links)
+    os.symlink("nowhere_0000.rad", os.path.join(links, "lost_0000.rad"))
+    r = c.run("batch", "-o", "linked", "links", cwd=work)
+    c.check("a link that leads nowhere cannot be read", r.code == 3 and b"lost_0000.rad" in r.err, r.text[-200:])
+    shutil.rmtree(links)
+    said = c.run("batch", "-o", "once", "empty_0000.rad", cwd=work).err
+    c.check("an error names its deck once", said.count(b"empty_0000.rad") == 1, str(said))
     lines = screen(c, 80, ("batch", "-o", "out", "."), work)
     c.check("the table fits 80 columns", max(map(len, lines)) <= 80, max(lines, key=len))
     text = "\n".join(lines)

@@ -1,6 +1,8 @@
 // What the Engine files beside a deck ask for: the run they name, its times, the ids they list.
 #include "deck/keyword/engine_file.hpp"
 
+#include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -106,9 +108,9 @@ void check_final_time(const LintContext& c, const Rule& rule, Reporter& r) {
 
 /// What a keyword of an Engine file lists below it.
 struct Listed {
-  std::string_view what;    ///< "interface"
-  bool ranges = false;      ///< first and last id in turn: both ends are looked for
-  std::size_t at_most = 0;  ///< only so many numbers of a line are ids; 0: all
+  std::string_view what;                       ///< "interface"
+  bool ranges = false;                         ///< first and last id in turn
+  std::size_t at_most = 0;                     ///< only so many numbers of a line are ids; 0: all
   std::vector<const Elements*> families = {};  ///< of elements
 };
 
@@ -142,12 +144,51 @@ bool exists(const LintContext& c, const Listed& list, std::int64_t id) {
   return list.what == "part" ? c.model->part_of_id.count(id) > 0 : c.model->sensors.count(id) > 0;
 }
 
+/// Ids of element families in order, sorted when they are first asked for.
+class SortedIds {
+ public:
+  bool any_between(const Elements* family, std::int64_t first, std::int64_t last) {
+    auto& ids = sorted_[family];
+    if (ids.empty()) {
+      ids = family->id;
+      std::sort(ids.begin(), ids.end());
+    }
+    const auto it = std::lower_bound(ids.begin(), ids.end(), first);
+    return it != ids.end() && *it <= last;
+  }
+
+ private:
+  std::map<const Elements*, std::vector<std::int64_t>> sorted_;
+};
+
+/// Between the ends of a range some ids may well be missing, but not all of them.
+void check_ranges(const LintContext& c, const Rule& rule, Reporter& r, const EngineBlock& b,
+                  const Listed& list, SortedIds& ids) {
+  for (const Span& line : b.lines) {
+    const std::vector<Span> cells = engine_cells(c.deck.sources, line);
+    for (std::size_t i = 0; i + 1 < cells.size(); i += 2) {
+      const IntegerCell first = read_integer(c.text(cells[i]));
+      const IntegerCell last = read_integer(c.text(cells[i + 1]));
+      if (first.status != NumberStatus::ok || last.status != NumberStatus::ok ||
+          std::any_of(list.families.begin(), list.families.end(), [&](const Elements* family) {
+            return ids.any_between(family, first.value, last.value);
+          }))
+        continue;
+      r.report(rule, cells[i],
+               fmt::format("{} names {}s {} to {}, none of which exists", clipped(b.keyword),
+                           list.what, first.value, last.value));
+    }
+  }
+}
+
 void check_ids(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr) return;
+  SortedIds ids;
   each_file(c, [&](const EngineFile& file) {
     for (const EngineBlock& b : file.blocks) {
       const std::optional<Listed> list = listed(c, b);
       if (!list) continue;
+      if (list->ranges) check_ranges(c, rule, r, b, *list, ids);
       for (const Span& line : b.lines) {
         std::size_t n = 0;
         for (const Span& cell : engine_cells(c.deck.sources, line)) {
@@ -156,7 +197,6 @@ void check_ids(const LintContext& c, const Rule& rule, Reporter& r) {
           const std::string name = clipped(b.keyword);
           if (id.status != NumberStatus::ok)
             r.report(rule, cell, fmt::format("'{}' in {} is no id", clipped(c.text(cell)), name));
-          // Between the ends of a range some ids may well be missing.
           else if (!list->ranges && !exists(c, *list, id.value))
             r.report(
                 rule, cell,

@@ -560,8 +560,9 @@ Result<int> Batch::work() {
           if (records[k].code > exit_findings && !o_.common.quiet) {
             bar.clear();
             const auto entry = nlohmann::json::parse(records[k].entry);
-            print_error(o_.common,
-                        decks_[group[k]].path + ": " + entry.at("error").get<std::string>());
+            const std::string why = entry.at("error").get<std::string>();
+            const std::string& path = decks_[group[k]].path;  // which most messages begin with
+            print_error(o_.common, why.starts_with(path + ":") ? why : path + ": " + why);
           }
           if (auto kept = keep(std::move(records[k]), group[k]); !kept) trouble = kept.error();
         }

@@ -192,6 +192,8 @@ void Server::dispatch(const Json& message) {
   if (cancelled(id)) return fail(id, request_cancelled, "cancelled");
   if (!initialized_ && name != "initialize")
     return fail(id, server_not_initialized, "the first request has to be initialize");
+  if (initialized_ && name == "initialize")
+    return fail(id, invalid_request, "the server was initialized before");
   if (shutdown_) return fail(id, invalid_request, "the server was shut down");
   try {
     bool later = false;

@@ -61,7 +61,9 @@ Result<std::vector<std::string>> files_below(const std::string& directory, std::
     if (it->is_directory(status) &&
         (name.starts_with('.') || (!output.empty() && absolute_of(it->path().string()) == results)))
       it.disable_recursion_pending();
-    if (!without_gz(name).ends_with(ending) || !it->is_regular_file(status)) continue;
+    // A link that leads nowhere is a deck that cannot be read, not one that is not there.
+    const bool lost = it->is_symlink(status) && !it->exists(status);
+    if (!without_gz(name).ends_with(ending) || !(lost || it->is_regular_file(status))) continue;
     // Where both lie there the packed one is the copy.
     if (has_gz_name(name) && fs::exists(without_gz(it->path().string()), status)) continue;
     found.push_back(it->path().string());
