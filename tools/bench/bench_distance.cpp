@@ -90,8 +90,8 @@ bool race(const std::string& title, const std::vector<PairSample>& samples, int 
   for (std::size_t k = 0; k < all.size(); ++k)
     fmt::print("  {:<28} {:>9.1f} {:>12.2f}\n", fmt::format("{}, {}", all[k]->name, all[k]->what),
                best[k], best[k] / best[0]);
-  ratios[title + ": double / filtered decision"] = best[0] / best[4];
-  ratios[title + ": double / rounded distance"] = best[0] / best[5];
+  ratios["distance, " + title + ": double, of a robust decision"] = best[0] / best[4];
+  ratios["distance, " + title + ": double, of a rounded distance"] = best[0] / best[5];
   return true;
 }
 

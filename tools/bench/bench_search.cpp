@@ -3,12 +3,15 @@
 // processor time, which does not suffer from other work on the machine.
 //
 //   bench_search [--quick] [--size N]... [--repeat K] [--largest N] [--scene NAME] [--no-rivals]
+//                [--json FILE]
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
@@ -25,9 +28,15 @@ struct Settings {
   std::vector<std::size_t> sizes;
   std::size_t largest = 0;  // also measure the library alone at this size
   int repeat = 3;
-  std::string scene;
+  std::string scene, json;
   bool rivals = true;
 };
+
+// Processor time of the rivals over that of one thread of the library, by scene.
+nlohmann::json& ratios() {
+  static nlohmann::json all = nlohmann::json::object();
+  return all;
+}
 
 template <class Input>
 struct Contestant {
@@ -92,27 +101,30 @@ struct Measured {
   Time time;
 };
 
+// All contestants in turn, `repeat` times; the medians.
 template <class Input>
-Measured measure(const Contestant<Input>& c, const Input& s, int repeat) {
-  Measured m;
-  std::vector<double> wall, cpu;
-  for (int k = 0; k < repeat; ++k) {
-    Answer answer;
-    const Time time = time_of([&] { answer = c.run(s); });
-    m.answer = Digest(answer);
-    wall.push_back(time.wall);
-    cpu.push_back(time.cpu);
+std::vector<Measured> measure(const std::vector<Contestant<Input>>& all, const Input& s,
+                              int repeat) {
+  std::vector<Measured> out(all.size());
+  std::vector<std::vector<double>> wall(all.size()), cpu(all.size());
+  for (int round = 0; round < repeat; ++round) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Answer answer;
+      const Time time = time_of([&] { answer = all[i].run(s); });
+      out[i].answer = Digest(answer);
+      wall[i].push_back(time.wall);
+      cpu[i].push_back(time.cpu);
+    }
   }
-  m.time = {median(wall), median(cpu)};
-  return m;
+  for (std::size_t i = 0; i < all.size(); ++i) out[i].time = {median(wall[i]), median(cpu[i])};
+  return out;
 }
 
 // Measures all contestants; false (and no time printed) if their answers differ.
 template <class Input>
 bool compare(const std::string& title, const std::vector<Contestant<Input>>& all,
              const Input& input, std::size_t items, const Settings& settings, double& own_time) {
-  std::vector<Measured> measured;
-  for (const auto& c : all) measured.push_back(measure(c, input, settings.repeat));
+  const std::vector<Measured> measured = measure(all, input, settings.repeat);
   for (std::size_t i = 1; i < all.size(); ++i) {
     if (measured[i].answer == measured[0].answer) continue;
     fmt::print(stderr, "{}: {} finds {} pairs, {} finds {}\n", title, all[0].name,
@@ -127,6 +139,9 @@ bool compare(const std::string& title, const std::vector<Contestant<Input>>& all
                1e9 * t.cpu / static_cast<double>(items), t.cpu / measured[0].time.cpu);
   }
   own_time = measured[0].time.cpu;
+  for (std::size_t i = 2; i < all.size(); ++i)
+    ratios()[fmt::format("search, {}: {}", title, all[i].name)] =
+        measured[i].time.cpu / measured[0].time.cpu;
   return true;
 }
 
@@ -214,6 +229,8 @@ std::optional<Settings> parse(int argc, char** argv) {
       settings.largest = number();
     } else if (arg == "--scene" && i + 1 < argc) {
       settings.scene = argv[++i];
+    } else if (arg == "--json" && i + 1 < argc) {
+      settings.json = argv[++i];
     } else if (arg == "--no-rivals") {
       settings.rivals = false;
     } else {
@@ -242,7 +259,10 @@ int run(const Settings& settings) {
       if (!run_scene(title, build, settings)) return 1;
     }
   }
-  return run_edges(settings) ? 0 : 1;
+  if (!run_edges(settings)) return 1;
+  if (!settings.json.empty())
+    std::ofstream(settings.json) << nlohmann::json{{"ratios", ratios()}}.dump(2) << "\n";
+  return 0;
 }
 
 }  // namespace
@@ -253,7 +273,7 @@ int main(int argc, char** argv) {
   if (!settings) {
     fmt::print(stderr,
                "usage: bench_search [--quick] [--size N]... [--repeat K] [--largest N] "
-               "[--scene NAME] [--no-rivals]\n");
+               "[--scene NAME] [--no-rivals] [--json FILE]\n");
     return 2;
   }
   return bench::run(*settings);
