@@ -2,6 +2,8 @@
 #include "deck/base/columns.hpp"
 #include "report/inspected.hpp"
 
+#include <map>
+
 #include <nlohmann/json.hpp>
 
 namespace deck::test {
@@ -112,6 +114,17 @@ TEST(ShowEntity, JsonHasCellsWithColumnsAndEffectiveValues) {
         EXPECT_EQ(cell["value"], 0.5);
       }
   EXPECT_TRUE(found);
+}
+
+TEST(ShowEntity, JsonCellsBehindTheEndOfTheirLineHaveColumnsOfTheirOwn) {
+  const Inspected d(plates({.card = "Gapmin=0.5"}));
+  const auto j = nlohmann::json::parse(show_json(d.params(), d.look("1")));
+  std::map<std::string, nlohmann::json> columns;
+  for (const auto& card : j["cards"])
+    for (const auto& cell : card["cells"]) columns[cell["field"]] = cell["columns"];
+  EXPECT_EQ(columns["Gapmin"], nlohmann::json::array({41, 60}));
+  EXPECT_EQ(columns["Tstart"], nlohmann::json::array({61, 80}));
+  EXPECT_EQ(columns["Tstop"], nlohmann::json::array({81, 100}));
 }
 
 // ---- params ---------------------------------------------------------------------------------

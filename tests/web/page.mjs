@@ -145,6 +145,7 @@ check("the policy allows nothing by default and no connections", policy.includes
   await frame.waitForFunction(() => document.documentElement.dataset.ready === "true", null, { timeout: 60000 });
   const json = JSON.parse(native(folder, "gaps", "two_surfaces_0000.rad", "--json", "-", "-q").stdout);
   same("the report in the page counts what the command line counts", (await frame.$$eval(".tile-value", (t) => t.map((e) => e.textContent)))[0].replace(/\u202f/g, ""), String(json.summary.pairs));
+  await accessible(p, "gaps");
   await shot(p, "gaps");
   await p.click("#tab-cycle");
   await p.waitForSelector("#panel-cycle pre");
@@ -155,6 +156,7 @@ check("the policy allows nothing by default and no connections", policy.includes
   mkdirSync(join(folder, "other"));
   cpSync(sample("two_surfaces"), join(folder, "other/two_surfaces_0000.rad"));
   same("the difference is that of the command line", await p.textContent("#panel-diff pre"), native(folder, "diff", "other/two_surfaces_0000.rad", "two_surfaces_0000.rad").stdout);
+  await accessible(p, "difference");
   const sarif = JSON.parse((await saved(p, "SARIF")).toString());
   same("SARIF holds the findings", sarif.runs[0].results.length, nativeFindings(folder, "two_surfaces_0000.rad").length);
   quiet("two surfaces", p);

@@ -1,7 +1,8 @@
 // The same answers as the command line's: decks of samples and corpus through verbs of the module in
-// node, byte for byte with the native program.
-//   node same_answers.mjs DECK-PROGRAM ENGINE-FOLDER [--only TEXT] [--verbs a,b] [--sampled] [--times]
-// --sampled: the corpus through lint and gaps only. Ends with 'N passed, N failed'.
+// node or in Chromium, byte for byte with the native program.
+//   node same_answers.mjs DECK-PROGRAM ENGINE-FOLDER [--only TEXT] [--verbs a,b] [--sampled] [--times] [--page FILE]
+// --sampled: the corpus through lint and gaps only; --page: window.deck of this page, in the browser of
+// tests/browser/support.mjs. Ends with 'N passed, N failed'.
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync, existsSync, cpSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -90,6 +91,35 @@ const create = require(resolve(engineFolder, "deck.js"));
 const code = await WebAssembly.compile(readFileSync(resolve(engineFolder, "deck.wasm")));
 const { run } = await import(resolve(engineFolder, "engine.mjs"));
 
+/** The same call in the page: files go there once a deck, and what a run wrote comes back as base64. */
+async function inBrowser(file) {
+  const { launch, open } = await import("../browser/support.mjs");
+  const browser = await launch();
+  const page = await open(browser, resolve(file));
+  let there = null;
+  const answer = async (args, files) => {
+    if (there !== files) {
+      await page.evaluate((list) => {
+        window.given = Object.fromEntries(list.map(([name, text]) => [name, Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]));
+      }, Object.entries(files).map(([name, bytes]) => [name, bytes.toString("base64")]));
+      there = files;
+    }
+    const r = await page.evaluate(async (a) => {
+      const base64 = (bytes) => {
+        let text = "";
+        for (let i = 0; i < bytes.length; i += 8192) text += String.fromCharCode(...bytes.subarray(i, i + 8192));
+        return btoa(text);
+      };
+      const made = await window.deck(a, window.given);
+      return { ...made, files: Object.entries(made.files).map(([name, bytes]) => [name, base64(bytes)]) };
+    }, args);
+    return { ...r, files: Object.fromEntries(r.files.map(([name, text]) => [name, Buffer.from(text, "base64")])) };
+  };
+  return { answer, close: () => browser.close() };
+}
+const inPage = option("--page") ? await inBrowser(option("--page")) : null;
+const answerOf = inPage ? inPage.answer : (args, files) => run(create, code, args, files);
+
 let passed = 0;
 let failed = 0;
 const times = {};
@@ -102,7 +132,7 @@ for (const path of [...decksBelow(join(root, "samples")), ...decksBelow(join(cor
     const args = [...verbs[verb].map((a) => (a === "{}" ? basename(path) : a)), "--quiet"];
     const expected = native(folder, [...args, "--threads", "1"]);
     const started = performance.now();
-    const got = await run(create, code, args, files);
+    const got = await answerOf(args, files);
     const ms = performance.now() - started;
     const entry = (times[verb] ??= { native: 0, web: 0 });
     entry.native += expected.ms;
@@ -127,5 +157,6 @@ for (const path of [...decksBelow(join(root, "samples")), ...decksBelow(join(cor
 }
 for (const [verb, t] of Object.entries(times)) console.log(`${verb}: native ${(t.native / 1000).toFixed(2)} s, WebAssembly ${(t.web / 1000).toFixed(2)} s`);
 if (neighbours > 0) console.log(`${neighbours} nodal stiffnesses of solids differ in their last digit (cube roots)`);
+await inPage?.close();
 console.log(`${passed} passed, ${failed} failed`);
 process.exit(failed > 0 ? 1 : 0);

@@ -1,4 +1,7 @@
 // The document of `deck show --json`.
+#include <algorithm>
+
+#include "deck/keyword/place.hpp"
 #include "deck/report/json.hpp"
 #include "deck/report/show.hpp"
 #include "keyword/deck_json_cells.hpp"
@@ -51,13 +54,15 @@ class ShowJson {
     json_.field("card", card.schema != nullptr ? card.schema->name : card.title ? "title" : "");
     json_.field("text", card.line.text);
     json_.key("cells").begin_array();
+    DecodedCard placed;
+    placed.schema = card.schema;
+    placed.line = card.line;
+    placed.free_format = card.free_format;
     for (const Cell& c : card.cells) {
-      const auto begin = static_cast<std::int64_t>(c.span.offset - card.line.offset) + 1;
-      const std::int64_t width = c.field->last - c.field->first;
+      // A cell behind the end of its line has the columns of its field; free format may leave none.
+      const CellColumns at = columns_of(placed, c);
       json_.begin_object(true).field("field", c.field->name).key("columns").begin_array();
-      json_.value(begin)
-          .value(card.free_format ? begin + c.span.length : begin + width)
-          .end_array();
+      json_.value(at.first).value(std::max(at.first, at.last)).end_array();
       json_.field("text", c.text).key("value");
       switch (detail::kind_of(c)) {
         case CellKind::null:
