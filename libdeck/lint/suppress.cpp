@@ -11,6 +11,29 @@ namespace deck::detail {
 namespace {
 
 constexpr std::string_view marker = "decklint:";
+constexpr std::uint64_t release_step = 8 << 20;
+
+/// Next place of the marker at or behind `from`; npos: none. Decks hold few colons, which are
+/// looked for first. Pages of a mapped file that were looked through are given back.
+std::uint64_t next_marker(const Source& source, std::uint64_t from) {
+  const std::string_view bytes = source.bytes();
+  constexpr std::size_t before = marker.size() - 1;
+  for (std::uint64_t at = from; at < bytes.size();) {
+    const std::uint64_t stop =
+        std::min<std::uint64_t>((at / release_step + 1) * release_step, bytes.size());
+    while (at < stop) {
+      const void* const hit = std::memchr(bytes.data() + at, ':', stop - at);
+      if (hit == nullptr) break;
+      const auto colon = static_cast<std::uint64_t>(static_cast<const char*>(hit) - bytes.data());
+      if (colon >= from + before && bytes.substr(colon - before, marker.size()) == marker)
+        return colon - before;
+      at = colon + 1;
+    }
+    source.release(stop - 1 - (stop - 1) % release_step, stop);
+    at = stop;
+  }
+  return std::string_view::npos;
+}
 
 /// "ignore[DK1,DK203] reason=text" behind the marker; false: not understood.
 bool parse(std::string_view text, Suppression& out) {
@@ -49,18 +72,15 @@ std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& i
   const Rule& unknown = rule_of(RuleId::DK092);
   const Rule& malformed = rule_of(RuleId::DK093);
   for (std::uint32_t file = 0; file < deck.sources.size(); ++file) {
-    const std::string_view bytes = deck.sources[file].bytes();
-    const char* at = bytes.data();
-    const char* const end = bytes.data() + bytes.size();
-    while (at < end) {
-      const void* const hit =
-          memmem(at, static_cast<std::size_t>(end - at), marker.data(), marker.size());
-      if (hit == nullptr) break;
-      const auto offset = static_cast<std::uint64_t>(static_cast<const char*>(hit) - bytes.data());
+    const Source& source = deck.sources[file];
+    const std::string_view bytes = source.bytes();
+    for (std::uint64_t at = 0; at < bytes.size();) {
+      const std::uint64_t offset = next_marker(source, at);
+      if (offset == std::string_view::npos) break;
       const auto before = offset == 0 ? std::string_view::npos : bytes.rfind('\n', offset - 1);
       const std::uint64_t begin = before == std::string_view::npos ? 0 : before + 1;
       const std::uint64_t stop = std::min<std::uint64_t>(bytes.find('\n', offset), bytes.size());
-      at = bytes.data() + std::min<std::uint64_t>(stop + 1, bytes.size());
+      at = stop + 1;
       const bool comment = bytes[begin] == '#' || bytes[begin] == '$';
       if (!comment || !trim(bytes.substr(begin + 1, offset - begin - 1)).empty()) continue;
       Suppression s;

@@ -7,9 +7,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <system_error>
 
 #include "deck/text/gzip.hpp"
@@ -18,6 +20,18 @@ namespace deck {
 namespace {
 
 constexpr std::uint64_t checkpoint_step = 4 * 1024;
+constexpr std::uint64_t release_step = 8 << 20;
+
+/// Line ends in the `checkpoint_step` bytes at `first`: so many counters at once that the compiler
+/// takes vectors for them, each too small to overflow.
+std::uint64_t line_ends(const char* first) {
+  constexpr std::size_t wide = 32;
+  static_assert(checkpoint_step % wide == 0 && checkpoint_step / wide < 256);
+  std::array<unsigned char, wide> count{};
+  for (std::size_t i = 0; i < checkpoint_step; i += wide)
+    for (std::size_t k = 0; k < wide; ++k) count[k] += first[i + k] == '\n' ? 1 : 0;
+  return std::accumulate(count.begin(), count.end(), std::uint64_t{0});
+}
 
 Error io_error(const std::string& path, const std::string& why) {
   return {Error::Code::io, path + ": " + why};
@@ -147,9 +161,9 @@ Position Source::position(std::uint64_t offset) const {
     if (checkpoints_.empty()) checkpoints_.push_back(0);
     while (checkpoints_.size() <= slot) {
       const std::uint64_t from = (checkpoints_.size() - 1) * checkpoint_step;
-      const auto* first = bytes_.data() + from;
-      checkpoints_.push_back(checkpoints_.back() + static_cast<std::uint64_t>(std::count(
-                                                       first, first + checkpoint_step, '\n')));
+      checkpoints_.push_back(checkpoints_.back() + line_ends(bytes_.data() + from));
+      const std::uint64_t to = from + checkpoint_step;
+      if (to % release_step == 0) release(to - release_step, to);
     }
     lines = checkpoints_[slot];
   }

@@ -27,6 +27,21 @@ TEST(Suppression, InsideABlockCoversTheWholeBlock) {
   EXPECT_EQ(run.result.suppressed, 1u);
 }
 
+TEST(Suppression, IsFoundWhereTwoStretchesOfALargeFileMeet) {
+  const std::string text = example_deck(negative, SchemaSet::built_in()).main;
+  const std::string comment = "# decklint: ignore[DK223] reason=a test\n";
+  const auto at = text.find("/INTER/TYPE7/1");
+  constexpr std::size_t stretch = std::size_t{8} << 20;
+  const std::size_t colon = comment.find(':');
+  for (const std::size_t place : {stretch - 1, stretch, stretch + 3}) {
+    std::string filler(place - colon - at, '#');
+    for (std::size_t i = 99; i < filler.size(); i += 100) filler[i] = '\n';
+    filler.back() = '\n';
+    const Linted run = lint_text(std::string(text).insert(at, filler + comment));
+    EXPECT_EQ(run.result.suppressed, 1u) << place;
+  }
+}
+
 TEST(Suppression, DoesNotReachTheNextBlock) {
   const Linted run = lint_example(std::string("# decklint: ignore[DK223] reason=a test\n") +
                                   "@/INTER/TYPE7/2 Fric=0.1\n" + negative);

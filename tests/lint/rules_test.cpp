@@ -1,14 +1,48 @@
 // Every rule fires on its own bad example and stays silent on its good one.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <regex>
 #include <set>
 
+#include "contact/small_deck.hpp"
 #include "lint/support.hpp"
 #include "where.hpp"
 
 namespace deck::test {
 namespace {
+
+/// Nodes 1 to 8 in the corners of three quadrangles that share the side 2-3, each so many nodes
+/// after the one before.
+SmallDeck three_leaves(int apart) {
+  SmallDeck d;
+  const int x[] = {0, 1, 1, 0, 2, 2, 1, 1}, y[] = {0, 0, 1, 1, 0, 1, 0, 1};
+  for (int n = 0; n < 8; ++n) {
+    d.node(1 + n * apart, x[n], y[n], n > 5);
+    for (int k = 1; k < apart; ++k) d.node(1 + n * apart + k, 9, k, n);
+  }
+  return d;
+}
+
+TEST(FreeEdges, AreSidesOfOneSegmentHoweverFarApartTheirNodesAre) {
+  for (const int apart : {1, 50}) {
+    const auto id = [&](int n) { return 1 + (n - 1) * apart; };
+    const std::vector<std::vector<int>> leaves = {
+        {id(1), id(2), id(3), id(4)}, {id(2), id(5), id(6), id(3)}, {id(2), id(7), id(8), id(3)}};
+    const auto said = [&](const std::vector<std::vector<int>>& segments) {
+      SmallDeck d = three_leaves(apart);
+      d.segments("/SURF/SEG/1", segments).group("/GRNOD/NODE/2", {id(1)});
+      const Linted run = lint_text(d.add("@/INTER/TYPE7/1 Gapmin=1").text());
+      const Diagnostic* found = run.find(RuleId::DK916);
+      return found == nullptr ? std::string() : found->message;
+    };
+    EXPECT_THAT(said(leaves), testing::HasSubstr(" 9 free edges")) << apart;
+    EXPECT_THAT(said({leaves[0], leaves[1], leaves[2], leaves[0]}),
+                testing::HasSubstr(" 6 free edges"))
+        << apart;
+    EXPECT_EQ(said({leaves[0], leaves[0]}), "") << apart;
+  }
+}
 
 class EveryRule : public testing::TestWithParam<std::string> {
  protected:

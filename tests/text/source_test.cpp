@@ -250,6 +250,22 @@ TEST(Gzip, ATextLongerThanTheLimitIsRefused) {
   EXPECT_EQ(gunzip_head(packed, 4), "0123");
 }
 
+TEST_F(SourceFiles, LinesOfALargeFileAreCountedThoughItsPagesAreGivenBack) {
+  const std::string text = numbered_lines(700000);  // more than one stretch that is given back
+  Limits limits;
+  limits.map_threshold = 100;
+  const auto s = Source::open(file("large", text), limits);
+  ASSERT_TRUE(s.ok()) << s.error().message;
+  constexpr std::size_t stretch = std::size_t{8} << 20;
+  ASSERT_GT(text.size(), stretch + 4096);
+  for (const std::size_t offset : {text.size() - 1, stretch + 1, stretch, stretch - 1}) {
+    const std::string_view before = std::string_view(text).substr(0, offset);
+    EXPECT_EQ((*s)->position(offset).line,
+              1u + static_cast<std::uint64_t>(std::count(before.begin(), before.end(), '\n')));
+  }
+  EXPECT_EQ((*s)->bytes(), text);
+}
+
 TEST_F(SourceFiles, APackedFileHasTheLinesOfItsTextAndKeepsWhatIsOnDisk) {
   const std::string text = numbered_lines(3000), packed = gzip(text);
   for (const std::uint64_t threshold : {std::uint64_t{1} << 20, std::uint64_t{100}}) {

@@ -2,6 +2,8 @@
 // factors that emissivities can give. One finding per deck or per interface, never per element.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "base/length3.hpp"
@@ -11,28 +13,65 @@
 namespace deck::detail {
 namespace {
 
-/// The sides of a surface's segments, each as (smaller node, larger node), sorted.
-std::vector<std::pair<NodeIndex, NodeIndex>> sides_of(const Surface& surface) {
-  std::vector<std::pair<NodeIndex, NodeIndex>> out;
-  out.reserve(4 * surface.segments.size());
+using Side = std::pair<NodeIndex, NodeIndex>;  // smaller node first
+
+/// Calls f for the sides of a surface's segments.
+template <class F>
+void each_side_of(const Surface& surface, F&& f) {
   for (const Segment& s : surface.segments)
     for (std::size_t k = 0; k < 4; ++k) {
-      const NodeIndex a = s.nodes[k], b = s.nodes[(k + 1) % 4];
-      if (a != b && a != no_index && b != no_index) out.push_back(std::minmax(a, b));
+      const Side side = std::minmax(s.nodes[k], s.nodes[(k + 1) % 4]);
+      if (side.first != side.second && side.second != no_index) f(side);
     }
-  std::sort(out.begin(), out.end());
-  return out;
 }
 
-/// Sides that belong to one segment only: the border of the surface.
-std::size_t count_free_edges(const Surface& surface) {
-  const auto sides = sides_of(surface);
+/// Sides in [from, to) that occur once. Sorts them.
+template <class Iterator>
+std::size_t count_single(Iterator from, Iterator to) {
   std::size_t count = 0;
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t j = i + 1;
-    while (j < sides.size() && sides[j] == sides[i]) ++j;
+  std::sort(from, to);
+  for (auto i = from; i != to;) {
+    const auto j = std::find_if(i, to, [&](const Side& s) { return s != *i; });
     count += j - i == 1;
     i = j;
+  }
+  return count;
+}
+
+/// Sides that belong to one segment only: the border of the surface. Linear in the segments: sides
+/// go into buckets by their smaller node, so many buckets at a time that little memory is needed.
+std::size_t count_free_edges(const Surface& surface) {
+  constexpr std::size_t buckets_at_once = 1 << 21;
+  NodeIndex low = no_index, high = 0;
+  for (const Segment& s : surface.segments)
+    for (const NodeIndex n : s.nodes) {
+      if (n == no_index) continue;
+      low = std::min(low, n);
+      high = std::max(high, n);
+    }
+  if (low > high) return 0;
+  int shift = 0;  // not many more buckets than segments
+  while ((high - low) >> shift > 4 * surface.segments.size()) ++shift;
+  const std::size_t buckets = ((high - low) >> shift) + std::size_t{1};
+  std::size_t count = 0;
+  std::vector<std::uint32_t> end;  // of each bucket, at last
+  std::vector<Side> sides;         // bucket by bucket
+  for (std::size_t begin = 0; begin < buckets; begin += buckets_at_once) {
+    const std::size_t size = std::min(buckets_at_once, buckets - begin);
+    const auto each_here = [&](auto&& f) {
+      each_side_of(surface, [&](const Side& s) {
+        const std::size_t bucket = ((s.first - low) >> shift) - begin;
+        if (bucket < size) f(bucket, s);
+      });
+    };
+    end.assign(size + 1, 0);
+    each_here([&](std::size_t bucket, const Side&) { ++end[bucket + 1]; });
+    std::partial_sum(end.begin(), end.end(), end.begin());
+    sides.resize(end.back());
+    each_here([&](std::size_t bucket, const Side& s) { sides[end[bucket]++] = s; });
+    for (std::size_t b = 0, from = 0; b < size; from = end[b++])
+      count += count_single(sides.begin() + static_cast<std::ptrdiff_t>(from),
+                            sides.begin() + static_cast<std::ptrdiff_t>(end[b]));
   }
   return count;
 }

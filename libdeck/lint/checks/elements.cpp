@@ -24,30 +24,48 @@ Vec cross(const Vec& a, const Vec& b) {
 double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 double length(const Vec& a) { return length3(a[0], a[1], a[2]); }
 
+/// Corners of one element, in the slots of its family.
+struct Corners {
+  std::array<Vec, 8> at;
+  std::size_t count = 0;
+  std::size_t size() const { return count; }
+  const Vec& operator[](std::size_t i) const { return at[i]; }
+};
+
 /// Rounding of products of coordinates differences, as a share of the product of their lengths.
 constexpr double rounding = 1e-13;
 
 /// Corners of an element; false: one of its nodes is missing.
-bool corners_of(const Model& m, const Elements& family, std::size_t e, std::vector<Vec>& out) {
-  out.clear();
+bool corners_of(const Model& m, const Elements& family, std::size_t e, Corners& out) {
   const NodeIndex* n = family.of(e);
-  for (int i = 0; i < family.width; ++i) {
+  out.count = static_cast<std::size_t>(family.width);
+  for (std::size_t i = 0; i < out.count; ++i) {
     if (n[i] >= m.nodes.size()) return false;
-    out.push_back({m.nodes.x[n[i]], m.nodes.y[n[i]], m.nodes.z[n[i]]});
+    out.at[i] = {m.nodes.x[n[i]], m.nodes.y[n[i]], m.nodes.z[n[i]]};
   }
   return true;
 }
 
+/// Most elements have an area: true where the product is so far from vanishing, and no square so
+/// small or large, that the exact lengths need not be formed.
+bool surely_apart(double product2, double a2, double b2) {
+  constexpr double least = 1e-100, most = 1e100, far = 1e6;
+  return a2 > least && a2 < most && b2 > least && b2 < most &&
+         product2 > far * rounding * rounding * a2 * b2;
+}
+
 /// Half the cross product of the diagonals vanishes: all corners on a line, or a crossed quad.
-bool without_area(const std::vector<Vec>& p) {
+bool without_area(const Corners& p) {
   const Vec a = minus(p[2], p[0]);
   const Vec b = minus(p.size() > 3 ? p[3] : p[1], p[1]);
   const Vec side = p.size() > 3 ? b : minus(p[1], p[0]);
-  return length(cross(a, side)) <= rounding * length(a) * length(side);
+  const Vec normal = cross(a, side);
+  if (surely_apart(dot(normal, normal), dot(a, a), dot(side, side))) return false;
+  return length(normal) <= rounding * length(a) * length(side);
 }
 
 /// The one-point volume of the eight slots vanishes.
-bool without_volume(const std::vector<Vec>& p) {
+bool without_volume(const Corners& p) {
   const Vec a = minus(p[6], p[0]), b = minus(p[7], p[1]), c = minus(p[4], p[2]),
             d = minus(p[5], p[3]);
   const Vec u = minus(plus(a, b), plus(c, d)), v = plus(plus(a, d), plus(b, c)),
@@ -61,7 +79,7 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
                std::string_view what, std::string_view lack, Bad&& bad) {
   const Model& m = *c.model;
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> found;  // part: count, first
-  std::vector<Vec> p;
+  Corners p;
   for (std::size_t e = 0; e < family.size(); ++e) {
     if (!corners_of(m, family, e, p) || !bad(p)) continue;
     auto& [count, first] = found[family.part[e]];
@@ -87,12 +105,12 @@ void check_area(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_volume(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr) return;
   count_bad(c, rule, r, c.model->solid8, "solid", "without volume",
-            [](const std::vector<Vec>& p) { return p.size() == 8 && without_volume(p); });
+            [](const Corners& p) { return p.size() == 8 && without_volume(p); });
 }
 
 void check_length(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr) return;
-  const auto short_one = [](const std::vector<Vec>& p) { return p[0] == p[1]; };
+  const auto short_one = [](const Corners& p) { return p[0] == p[1]; };
   count_bad(c, rule, r, c.model->truss, "truss element", "without length", short_one);
   count_bad(c, rule, r, c.model->beam, "beam", "without length", short_one);
 }

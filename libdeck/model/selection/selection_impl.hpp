@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -221,7 +222,7 @@ struct Selections::Impl {
   std::vector<Segment> segments_of_groups(const detail::Definition& def, const DecodedBlock& d);
   std::vector<Segment> segments_of_surfaces(const Block& block, const DecodedBlock& d);
   std::vector<Segment> difference_of_surfaces(const Block& block, const DecodedBlock& d);
-  void add_shells(const Elements& shells, Carrier carrier, const detail::Indices& members,
+  void add_shells(const Elements& shells, Carrier carrier, std::span<const std::uint32_t> members,
                   bool reversed, std::vector<Segment>& out) const;
   void add_solids(const Block& block, std::string_view option, detail::Indices solids,
                   std::vector<Segment>& out);

@@ -165,8 +165,11 @@ void Selections::Impl::add_plain_segment(const Segment& s, std::vector<Segment>&
     out.push_back({pieces[static_cast<std::size_t>(i)], s.carrier, s.element});
 }
 
-void Selections::Impl::add_shells(const Elements& shells, Carrier carrier, const Indices& members,
-                                  bool reversed, std::vector<Segment>& out) const {
+void Selections::Impl::add_shells(const Elements& shells, Carrier carrier,
+                                  std::span<const std::uint32_t> members, bool reversed,
+                                  std::vector<Segment>& out) const {
+  if (out.size() + members.size() > out.capacity())
+    out.reserve(std::max(out.size() + members.size(), 3 * out.size() / 2));
   for (const std::uint32_t e : members) {
     const NodeIndex* n = shells.of(e);
     Segment s{{n[0], n[1], n[2], shells.width == 4 ? n[3] : n[2]}, carrier, e};
@@ -256,8 +259,7 @@ std::vector<Segment> Selections::Impl::segments_of_parts(const Definition& def,
     const PartElements& rows = elements_of_parts(kind);
     for (std::size_t p = 0; p < tags.size(); ++p) {
       if (tags[p] == 0) continue;
-      const Indices members(rows.row(p).begin(), rows.row(p).end());
-      add_shells(shells, detail::family_name(kind).carrier, members, tags[p] < 0, out);
+      add_shells(shells, detail::family_name(kind).carrier, rows.row(p), tags[p] < 0, out);
     }
   }
   Indices solids;
