@@ -236,9 +236,10 @@ class Packet {
     const Coordinates& x = scene.coordinates;
     cycle::NodalState nodes;
     nodes.position = {x.x.data(), x.y.data(), x.z.data()};
-    for (std::size_t c = 0; c < 3; ++c) nodes.velocity[c] = state.velocity[c].data();
+    const auto data = [](const std::vector<double>& v) { return v.empty() ? nullptr : v.data(); };
+    for (std::size_t c = 0; c < 3; ++c) nodes.velocity[c] = data(state.velocity[c]);
     nodes.mass = state.mass.data();
-    nodes.temperature = state.temperature.data();
+    nodes.temperature = data(state.temperature);
     using F = cycle::Field;
     buffer_.gather(nodes, pairs_.nodes,
                    F::position | F::velocity | F::mass_secondary | F::mass_main | F::temperature);

@@ -162,8 +162,8 @@ double conductivity(const deck::Model& model, const std::vector<detail::Conducti
 
 std::uint32_t shell_part_at(const deck::Model& model, Connectivity& connectivity, NodeIndex n) {
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3})
-    if (const auto list = connectivity.elements(kind, n); !list.empty())
-      return model.family(kind).part[list[0]];
+    if (const std::uint32_t e = connectivity.first(kind, n); e != no_index)
+      return model.family(kind).part[e];
   return no_index;
 }
 
@@ -178,6 +178,9 @@ double NodeConductivity::operator()(NodeIndex node, double temperature) {
 void add_conductivity(const Scene& scene, const deck::Contact& contact,
                       const std::vector<double>& temperature, ContactPairs& out) {
   const deck::Model& model = *scene.model;
+  const auto temperature_at = [&](NodeIndex n) {
+    return temperature.empty() ? 0.0 : temperature[n];
+  };
   if (contact.kind == deck::ContactKind::edge_edge) {
     const auto laws = detail::conductivities(model);
     for (const CandidatePair& p : out.at) {
@@ -187,7 +190,7 @@ void add_conductivity(const Scene& scene, const deck::Contact& contact,
         const ContactEdge& e = *edges[r / 2];
         out.edge_conductivity[r].push_back(
             detail::conductivity(model, laws, detail::part_of(model, e.carrier, e.element),
-                                 temperature[e.nodes[r % 2]]));
+                                 temperature_at(e.nodes[r % 2])));
       }
     }
     return;
@@ -195,7 +198,7 @@ void add_conductivity(const Scene& scene, const deck::Contact& contact,
   detail::NodeConductivity of_node(model);
   for (const CandidatePair& p : out.at) {
     const NodeIndex n = contact.secondary[p.secondary].node;
-    out.conductivity.push_back(of_node(n, temperature[n]));
+    out.conductivity.push_back(of_node(n, temperature_at(n)));
   }
 }
 

@@ -69,14 +69,23 @@ void PacketBuffer::gather(const NodalState& nodes, const PairList& pairs, Field 
     const auto& index = pairs.node[role];
     for (std::size_t c = 0; c < 3; ++c) {
       if (contains(needs, Field::position)) pick(nodes.position[c], index, position_[role][c]);
-      if (contains(needs, Field::velocity)) pick(nodes.velocity[c], index, velocity_[role][c]);
+      if (contains(needs, Field::velocity)) {
+        if (nodes.velocity[c] != nullptr)
+          pick(nodes.velocity[c], index, velocity_[role][c]);
+        else if (role == 0)
+          velocity_[0][c].assign(size_, 0.0);  // at rest: one array for all roles, see view()
+      }
     }
     const Field mass = role == 0 ? Field::mass_secondary : Field::mass_main;
     const bool edge_mass = role == 1 && pairs.kind == ContactKind::edge_edge;
     if (contains(needs, edge_mass ? Field::mass_secondary : mass)) {
       pick(nodes.mass, index, mass_[role]);
     }
-    if (contains(needs, Field::temperature)) pick(nodes.temperature, index, temperature_[role]);
+    if (!contains(needs, Field::temperature)) continue;
+    if (nodes.temperature != nullptr)
+      pick(nodes.temperature, index, temperature_[role]);
+    else
+      temperature_[role].assign(size_, 0.0);
   }
 }
 
@@ -86,6 +95,9 @@ PacketView PacketBuffer::view() const {
   for (std::size_t role = 0; role < 5; ++role) {
     v.position[role] = pointers(position_[role]);
     v.velocity[role] = pointers(velocity_[role]);
+    if (role > 0 && (role < 4 || !position_[4][0].empty()))
+      for (std::size_t c = 0; c < 3; ++c)
+        if (v.velocity[role][c] == nullptr) v.velocity[role][c] = v.velocity[0][c];
   }
   v.mass = pointers(mass_);
   v.temperature = pointers(temperature_);

@@ -44,17 +44,19 @@ class LocalNodes {
   const std::array<std::vector<double>, 3>& velocity() const { return velocity_; }
   NodalState arrays() const {
     NodalState s;
+    const auto data = [](const std::vector<double>& v) { return v.empty() ? nullptr : v.data(); };
     for (std::size_t c = 0; c < 3; ++c) {
       s.position[c] = position_[c].data();
-      s.velocity[c] = velocity_[c].data();
+      s.velocity[c] = data(velocity_[c]);
     }
     s.mass = mass_.data();
-    s.temperature = temperature_.data();
+    s.temperature = data(temperature_);
     return s;
   }
 
  private:
   std::vector<double> pick(const std::vector<double>& from) const {
+    if (from.empty()) return {};
     std::vector<double> to(node_.size());
     for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[node_[i]];
     return to;

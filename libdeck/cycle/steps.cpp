@@ -104,7 +104,8 @@ StepsOutcome run_steps(const Scene& scene, const State& start_state, CycleOption
                                            &scene.coordinates.z};
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t n = 0; n < from[c]->size(); ++n)
-          (*to[c])[n] = (*from[c])[n] + t * state.velocity[c][n];
+          (*to[c])[n] =
+              (*from[c])[n] + t * (state.velocity[c].empty() ? 0.0 : state.velocity[c][n]);
     }
     if (progress)
       options.progress = [&, k](std::size_t done, std::size_t total) {

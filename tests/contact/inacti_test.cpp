@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "contact/small_deck.hpp"
 
@@ -41,6 +42,50 @@ TEST(FlatQuad, DepthsAndNormalsOfThePublishedExample) {
   expect_normal(*b.row(c, 102), {0, 0, -1});
   EXPECT_NEAR(b.row(c, 103)->depth, 0.75, 1e-15);
   for (const PenetrationRow& r : c.penetrations) EXPECT_EQ(r.action, PenetrationAction::none);
+}
+
+/// Two sheets of n by n nodes, the upper ones at uneven heights within the gap of the lower ones.
+SmallDeck two_sheets(int n) {
+  SmallDeck d;
+  std::vector<int> upper;
+  const auto lower_id = [n](int i, int j) { return 1 + i * n + j; };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      d.node(lower_id(i, j), i, j, 0);
+      upper.push_back(n * n + lower_id(i, j));
+    }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      d.node(n * n + lower_id(i, j), i + 0.3, j + 0.4, 0.1 + 0.01 * ((7 * i + 3 * j) % 11));
+  d.shell_part(1, 1);
+  for (int i = 0; i + 1 < n; ++i)
+    for (int j = 0; j + 1 < n; ++j)
+      d.shell(1, lower_id(i, j), lower_id(i, j), lower_id(i + 1, j), lower_id(i + 1, j + 1),
+              lower_id(i, j + 1));
+  return d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", upper);
+}
+
+TEST(Penetrations, AreTheSameForAnyNumberOfThreads) {
+  for (const char* inacti : {"0", "1", "3", "6"}) {
+    const SmallDeck d =
+        two_sheets(40).add("@/INTER/TYPE7/1 Gapmin=0.5 Inacti=" + std::string(inacti));
+    SceneOptions many;
+    many.threads = 3;
+    const Built one(d), three(d, many);
+    const Contact &a = one.contact(), &b = three.contact();
+    EXPECT_GT(a.candidates, 8192u);  // more than two threads judge at once
+    EXPECT_EQ(a.candidates, b.candidates);
+    EXPECT_EQ(one.scene.decisions.pairs, three.scene.decisions.pairs);
+    EXPECT_EQ(one.scene.coordinates.z, three.scene.coordinates.z);
+    ASSERT_EQ(a.penetrations.size(), b.penetrations.size());
+    EXPECT_GE(a.penetrations.size(), 1000u);
+    for (std::size_t i = 0; i < a.penetrations.size(); ++i) {
+      const PenetrationRow &p = a.penetrations[i], &q = b.penetrations[i];
+      ASSERT_EQ(std::tie(p.secondary, p.main, p.depth, p.action, p.gap0, p.moved_by),
+                std::tie(q.secondary, q.main, q.depth, q.action, q.gap0, q.moved_by))
+          << inacti << " " << i;
+    }
+  }
 }
 
 TEST(FlatQuad, OutsideEdgeAndCorner) {

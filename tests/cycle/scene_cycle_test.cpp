@@ -131,6 +131,19 @@ TEST(FirstCycle, ApproachAddsDampingAndLimitsTheStep) {
   EXPECT_NEAR(r.contacts[0].totals.dt_kinematic, 0.5 * 0.6 / 500, 1e-12);
 }
 
+TEST(FirstCycle, NodesWithoutVelocitiesAreNodesAtRest) {
+  const auto b = scene_of("Fric=0.3 VISs=0.1 Ithe=1 Kthe=1 Tint=3", 0.6);
+  State none = make_state(b->scene), rest = none;
+  for (auto& v : rest.velocity) v.assign(b->model.nodes.size(), 0.0);
+  rest.temperature.assign(b->model.nodes.size(), 0.0);
+  const SceneOutcome r = run_cycle(b->scene, none, keeping_pairs());
+  const SceneOutcome s = run_cycle(b->scene, rest, keeping_pairs());
+  EXPECT_EQ(r.contacts[0].pairs_with_force, 4u);
+  EXPECT_EQ(r.nodes.force, s.nodes.force);
+  EXPECT_EQ(r.nodes.heat, s.nodes.heat);
+  EXPECT_EQ(r.contact_dt, s.contact_dt);
+}
+
 TEST(FirstCycle, PairsNearTheMidSurfaceAreListed) {
   const auto b = scene_of("", 0.01);
   const SceneOutcome r = run(*b);

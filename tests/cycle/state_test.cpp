@@ -176,6 +176,13 @@ TEST(Velocities, ASkewTurnsThem) {
   EXPECT_DOUBLE_EQ(s.velocity[0][n], 3.0);
 }
 
+TEST(Velocities, AndTemperaturesTakeNoMemoryWhereTheDeckGivesNone) {
+  const Built b(elements());
+  const State s = make_state(b.scene);
+  for (const auto& v : s.velocity) EXPECT_TRUE(v.empty());
+  EXPECT_TRUE(s.temperature.empty());
+}
+
 TEST(Velocities, AMissingGroupIsSaid) {
   SmallDeck d = elements();
   d.add("/INIVEL/TRA/1\nv\n                 1.0                 2.0                 3.0        99");

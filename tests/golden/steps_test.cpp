@@ -71,6 +71,8 @@ class Record {
     options.time = table_.column("t")[row];
     options.dt1 = table_.column("dt1")[row];
     options.dt12 = table_.column("dt12")[row];
+    for (auto& v : state.velocity) v.resize(model.nodes.size());
+    state.temperature.resize(model.nodes.size());
     for (const auto& [id, list] : nodes_) {
       const NodeIndex n = model.nodes.map.find(id);
       if (n == no_index) continue;

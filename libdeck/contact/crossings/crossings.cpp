@@ -76,7 +76,7 @@ bool meet(const Box& a, const Box& b) {
   return true;
 }
 
-/// Segments in a tree whose leaves are eight neighbours each. `segment_of(i)`: the nodes of one.
+/// Segments in a tree of their boxes. `segment_of(i)`: the nodes of one.
 template <class SegmentOf>
 class SegmentTree {
  public:
@@ -89,15 +89,10 @@ class SegmentTree {
     std::iota(order_.begin(), order_.end(), 0U);
     sweep::put_in_order(
         order_, [&](std::uint32_t i) { return box_of(i); }, threads);
-    const std::size_t leaves = (count + width - 1) / width;
-    std::vector<BoxBlock> blocks((leaves + width - 1) / width);
+    std::vector<BoxBlock> blocks((count + width - 1) / width);
     parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t leaf = begin * width; leaf < std::min(leaves, end * width); ++leaf) {
-        Box box;
-        for (std::size_t i = leaf * width; i < std::min(count, (leaf + 1) * width); ++i)
-          box.add(box_of(order_[i]));
-        blocks[leaf / width].set(leaf % width, box);
-      }
+      for (std::size_t i = begin * width; i < std::min(count, end * width); ++i)
+        blocks[i / width].set(i % width, box_of(order_[i]));
     });
     tree_ = BoxTree(std::move(blocks), threads);
   }
@@ -106,8 +101,11 @@ class SegmentTree {
   void near(const Box& box, std::vector<Near>& out) const {
     out.clear();
     walk(tree_, tree_.levels() - 1, 0, box, [&](std::size_t leaf) {
-      for (std::size_t i = leaf * width; i < std::min(order_.size(), (leaf + 1) * width); ++i)
-        if (const Box own = box_of(order_[i]); meet(own, box)) out.push_back({order_[i], own});
+      const BoxBlock& block = tree_.level(0)[leaf / width];
+      const std::size_t i = leaf % width;
+      out.push_back({order_[leaf],
+                     {{block.low[0][i], block.low[1][i], block.low[2][i]},
+                      {block.high[0][i], block.high[1][i], block.high[2][i]}}});
     });
   }
 
@@ -194,11 +192,43 @@ void marked_edges(const Elements& family, std::uint32_t e, const std::vector<std
   }
 }
 
-/// Elements with such edges, by family.
+/// Elements with such edges, by family, and where each node has them.
 struct Bearers {
   const Elements* family = nullptr;
-  std::vector<std::uint32_t> elements;
+  std::vector<std::uint32_t> elements;  ///< ascending
+  IndexRows at_node = {};               ///< positions in `elements`; not formed: no rows
 };
+
+/// Forms `at_node`.
+void find_rows(Bearers& bearers, std::size_t node_count) {
+  std::vector<std::uint32_t>& first = bearers.at_node.first;
+  first.assign(node_count + 1, 0);
+  const auto each = [&](const auto& f) {
+    for (auto i = static_cast<std::uint32_t>(bearers.elements.size()); i-- > 0;) {
+      const NodeIndex* n = bearers.family->of(bearers.elements[i]);
+      for (int k = 0; k < bearers.family->width; ++k)
+        if (n[k] != no_index) f(n[k], i);
+    }
+  };
+  each([&](NodeIndex n, std::uint32_t) { ++first[n]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  bearers.at_node.entries.resize(first.back());
+  // From the end of each row to its beginning, which is where the row before ends.
+  each([&](NodeIndex n, std::uint32_t i) { bearers.at_node.entries[--first[n]] = i; });
+}
+
+/// Those that have two nodes or more of the contact's secondary side, ascending; where there are no
+/// rows to find them in, all.
+std::vector<std::uint32_t> bearers_of(const Bearers& bearers, const Contact& contact) {
+  if (bearers.at_node.rows() == 0) return bearers.elements;
+  std::vector<std::uint8_t> nodes(bearers.elements.size());
+  std::vector<std::uint32_t> out;
+  for (const SecondaryNode& s : contact.secondary)
+    for (const std::uint32_t i : bearers.at_node.row(s.node))
+      if (nodes[i] < 2 && ++nodes[i] == 2) out.push_back(bearers.elements[i]);
+  std::sort(out.begin(), out.end());
+  return out;
+}
 std::vector<Bearers> bearers(const Model& model, const std::vector<std::uint8_t>& marks) {
   std::vector<Bearers> out;
   for (const ElementKind kind : families_with_edges) {
@@ -218,12 +248,13 @@ std::vector<Bearers> bearers(const Model& model, const std::vector<std::uint8_t>
 template <class Tree>
 void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const NodeArrays& nodes,
            const Contact& contact, const Tree& tree, int threads, std::vector<Crossing>& out) {
+  const std::vector<std::uint32_t> elements = bearers_of(bearers, contact);
   std::vector<std::vector<Crossing>> found(static_cast<std::size_t>(threads));
   parallel_parts(
-      threads, bearers.elements.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+      threads, elements.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
         std::vector<typename Tree::Near> near;
         for (std::size_t i = begin; i < end; ++i) {
-          const std::uint32_t e = bearers.elements[i];
+          const std::uint32_t e = elements[i];
           Box around;
           marked_edges(*bearers.family, e, marks,
                        [&](const auto& edge) { around.add(sweep::edge_box(nodes, edge, 0)); });
@@ -258,7 +289,9 @@ std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
     for (const SecondaryNode& s : contact.secondary) marks[s.node] = value;
   };
   for (const Contact& c : scene.contacts) mark(c, 1);
-  const std::vector<Bearers> all = bearers(*scene.model, marks);
+  std::vector<Bearers> all = bearers(*scene.model, marks);
+  if (scene.contacts.size() > 2)  // else most of them belong to every contact
+    for (Bearers& b : all) find_rows(b, scene.model->nodes.size());
   for (const Contact& c : scene.contacts) mark(c, 0);
   std::vector<Crossing> out;
   std::set<SpotKey> seen;

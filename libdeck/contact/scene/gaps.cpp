@@ -27,12 +27,26 @@ double shortest_line_element(SceneContext& c, NodeIndex node) {
   return shortest;
 }
 
+/// Half thickness of the thickest shell at each node, 0: none.
+const std::vector<double>& shell_half_thickness(SceneContext& c) {
+  std::vector<double>& half = c.shells.half_thickness;
+  if (!half.empty()) return half;
+  half.assign(c.model.nodes.size(), 0);
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
+    const Elements& family = c.model.family(kind);
+    for (std::uint32_t e = 0; e < family.size(); ++e) {
+      const double own = 0.5 * gap_thickness(c.model, kind, e);
+      const NodeIndex* n = family.of(e);
+      for (int i = 0; i < family.width; ++i)
+        if (n[i] != no_index) half[n[i]] = std::max(half[n[i]], own);
+    }
+  }
+  return half;
+}
+
 /// Half thickness of the thickest thing attached to a node, before Fscalegap.
 double node_half_thickness(SceneContext& c, NodeIndex node) {
-  double half = 0;
-  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3})
-    for (const std::uint32_t e : c.connectivity.elements(kind, node))
-      half = std::max(half, 0.5 * gap_thickness(c.model, kind, e));
+  double half = shell_half_thickness(c)[node];
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
     const Elements& family = c.model.family(kind);
     for (const std::uint32_t e : c.connectivity.elements(kind, node)) {

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 
+#include "base/parallel.hpp"
 #include "contact/distance/filtered_decisions.hpp"
 #include "contact/rules/actions.hpp"
 #include "contact/rules/removal.hpp"
@@ -114,6 +116,75 @@ Candidates candidates(Accuracy accuracy, double size, SearchOptions search, cons
   return out;
 }
 
+/// Who judges pairs ahead of those that are acted upon.
+enum class Judging : bool {
+  ahead,   ///< on all threads: no act changes what later pairs are judged by
+  in_turn  ///< one by one
+};
+
+/// The verdicts of some pairs in a row: those with a penetration or a difference.
+struct JudgedPairs {
+  std::vector<PairVerdict> verdicts;
+  DecisionReport report;
+};
+
+/// For all pairs that were not removed, in order: before(pair), which says whether to go on, and
+/// act(verdict) where judge(judge, pair) gave a penetration or a difference. False: it was ended.
+template <class Before, class Judge, class Act>
+bool judge_in_order(SceneContext& c, const Candidates& found, const RemovalLists& removed,
+                    Judging judging, const Before& before, const Judge& judge, const Act& act) {
+  const bool ahead = judging == Judging::ahead;
+  const std::size_t at_once = ahead ? 4096 : 1;
+  std::atomic<bool> ended{false};
+  const auto each = [&](std::size_t piece, const auto& f) {
+    const std::size_t end = std::min((piece + 1) * at_once, found.pairs.size());
+    for (std::size_t i = piece * at_once; i < end && !ended; ++i)
+      if (!is_removed(removed, found.pairs[i])) f(found.pairs[i]);
+  };
+  const auto work = [&](std::size_t piece, JudgedPairs& out) {
+    out.verdicts.clear();
+    out.report = {};
+    PairJudge own(c.options.accuracy, out.report);
+    each(piece, [&](const CandidatePair& pair) {
+      if (!ahead && !before(pair)) {
+        ended = true;
+        return;
+      }
+      PairVerdict verdict = judge(own, pair);
+      if (!verdict.is_row() && !verdict.differs) return;
+      verdict.row.secondary = pair.secondary;
+      verdict.row.main = pair.main;
+      out.verdicts.push_back(verdict);
+    });
+  };
+  const auto take = [&](std::size_t piece, JudgedPairs& in) {
+    DecisionReport& all = c.scene.decisions;
+    all.fallback += in.report.fallback;
+    all.exact += in.report.exact;
+    auto next = in.verdicts.begin();
+    each(piece, [&](const CandidatePair& pair) {
+      if (ahead && !before(pair)) {
+        ended = true;
+        return;
+      }
+      ++all.pairs;
+      if (next != in.verdicts.end() && next->row.secondary == pair.secondary &&
+          next->row.main == pair.main)
+        act(*next++);
+    });
+  };
+  const std::size_t pieces = (found.pairs.size() + at_once - 1) / at_once;
+  run_in_order<JudgedPairs>(pieces, ahead ? c.options.threads : 1, work, take);
+  return !ended;
+}
+
+std::uint64_t count_removed(const Candidates& found, const RemovalLists& removed) {
+  return static_cast<std::uint64_t>(
+      std::count_if(found.pairs.begin(), found.pairs.end(), [&](const CandidatePair& pair) {
+        return is_removed(removed, pair) && found.is_counted(pair);
+      }));
+}
+
 /// The report's entry about a pair on which solver and exact arithmetic differ.
 void note(SceneContext& c, PairJudge& judge, const PairVerdict& verdict,
           const PenetrationRow& row) {
@@ -171,29 +242,27 @@ void find_penetrations(SceneContext& c, Contact& contact) {
     }
     verdicts.clear();
   };
-  for (const CandidatePair& pair : found.pairs) {
-    if (is_removed(removed, pair)) {
-      contact.removed_pairs += found.is_counted(pair);
-      continue;
-    }
-    if (found.is_counted(pair)) {
-      ++contact.candidates;
-      if (group.begins_another()) {
-        act_on_group();
-        if (!rows_fit(c, contact)) return give_up(c, contact);
-      }
-    }
+  contact.removed_pairs = count_removed(found, removed);
+  const auto before = [&](const CandidatePair& pair) {
+    if (!found.is_counted(pair)) return true;
+    ++contact.candidates;
+    if (!group.begins_another()) return true;
+    act_on_group();
+    return rows_fit(c, contact);
+  };
+  const auto judge_pair = [&](PairJudge& own, const CandidatePair& pair) {
     const SecondaryNode& s = contact.secondary[pair.secondary];
     const MainSegment& m = contact.main[pair.main];
     const std::array<Point3<double>, 4> corners{point(x, m.nodes[0]), point(x, m.nodes[1]),
                                                 point(x, m.nodes[2]), point(x, m.nodes[3])};
     const double gap = contact.gap_rule(s.gap, m.gap, s.length, m.length);
-    PairVerdict verdict = judge.judge(point(x, s.node), corners, m.nodes[2] == m.nodes[3], gap);
-    if (!verdict.is_row() && !verdict.differs) continue;
-    verdict.row.secondary = pair.secondary;
-    verdict.row.main = pair.main;
-    verdicts.push_back(verdict);
-  }
+    return own.judge(point(x, s.node), corners, m.nodes[2] == m.nodes[3], gap);
+  };
+  // Inacti 3 moves nodes of later pairs.
+  if (!judge_in_order(c, found, removed, contact.inacti == 3 ? Judging::in_turn : Judging::ahead,
+                      before, judge_pair,
+                      [&](const PairVerdict& verdict) { verdicts.push_back(verdict); }))
+    return give_up(c, contact);
   act_on_group();
 }
 
@@ -214,20 +283,21 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     if (!found.complete || !find_removed(c, contact, sides, removed)) return give_up(c, contact);
   }
   PairJudge judge(c.options.accuracy, c.scene.decisions);
-  for (const CandidatePair& pair : found.pairs) {
-    if (is_removed(removed, pair)) {
-      contact.removed_pairs += found.is_counted(pair);
-      continue;
-    }
+  contact.removed_pairs = count_removed(found, removed);
+  const auto before = [&](const CandidatePair& pair) {
     contact.candidates += found.is_counted(pair);
-    ContactEdge& s = contact.secondary_edges[pair.secondary];
-    ContactEdge& m = contact.main_edges[pair.main];
-    PairVerdict verdict = judge.judge(
+    return rows_fit(c, contact);
+  };
+  const auto judge_pair = [&](PairJudge& own, const CandidatePair& pair) {
+    const ContactEdge& s = contact.secondary_edges[pair.secondary];
+    const ContactEdge& m = contact.main_edges[pair.main];
+    return own.judge(
         {point(x, s.nodes[0]), point(x, s.nodes[1]), point(x, m.nodes[0]), point(x, m.nodes[1])},
         contact.gap_rule(s.gap, m.gap, s.length, m.length));
-    if (!verdict.is_row() && !verdict.differs) continue;
-    verdict.row.secondary = pair.secondary;
-    verdict.row.main = pair.main;
+  };
+  const auto act = [&](PairVerdict& verdict) {
+    ContactEdge& s = contact.secondary_edges[verdict.row.secondary];
+    ContactEdge& m = contact.main_edges[verdict.row.main];
     if (verdict.solver_acts) {
       act_on_edges(contact.inacti, verdict.row, s.stored_penetration, m.stored_penetration);
       if (verdict.row.action == PenetrationAction::edge_stiffness_zero)
@@ -235,8 +305,10 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     }
     if (verdict.differs) note(c, judge, verdict, verdict.row);
     if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
-    if (!rows_fit(c, contact)) return give_up(c, contact);
-  }
+  };
+  if (!judge_in_order(c, found, removed, Judging::ahead, before, judge_pair, act) ||
+      !rows_fit(c, contact))
+    return give_up(c, contact);
   // The store is per edge, so the gap left is known only now.
   for (PenetrationRow& row : contact.penetrations)
     finish_edge_row(row, contact.secondary_edges[row.secondary].stored_penetration,

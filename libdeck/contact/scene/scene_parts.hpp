@@ -12,6 +12,13 @@
 
 namespace deck::detail {
 
+/// What the shells around each node give it; empty until a contact asks.
+struct ShellsAtNodes {
+  std::vector<double> half_thickness;  ///< of the thickest, before Fscalegap
+  std::vector<double> stiffness;       ///< sum of all
+  std::vector<std::uint32_t> count;    ///< terms of that sum
+};
+
 /// What all contacts of a scene share.
 struct SceneContext {
   const Model& model;
@@ -19,6 +26,7 @@ struct SceneContext {
   Scene& scene;
   Diagnostics& diagnostics;
   const SceneOptions& options;
+  ShellsAtNodes shells = {};
 };
 
 inline Vec at(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }

@@ -11,6 +11,28 @@ double shell_stiffness(const Model& model, ElementKind kind, std::uint32_t e, do
   return young_of(model, kind, e) * t;
 }
 
+/// Sum of the stiffnesses of the shells at each node, quadrangles first, each in their order.
+const ShellsAtNodes& shell_stiffness_at_nodes(SceneContext& c) {
+  ShellsAtNodes& at = c.shells;
+  if (!at.stiffness.empty()) return at;
+  at.stiffness.assign(c.model.nodes.size(), 0);
+  at.count.assign(c.model.nodes.size(), 0);
+  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
+    const Elements& family = c.model.family(kind);
+    for (std::uint32_t e = 0; e < family.size(); ++e) {
+      const double k = shell_stiffness(c.model, kind, e, stiffness_thickness(c.model, kind, e));
+      const NodeIndex* n = family.of(e);
+      for (int i = 0; i < family.width; ++i) {
+        // A node that an element repeats counts once.
+        if (n[i] == no_index || std::find(n, n + i, n[i]) != n + i) continue;
+        at.stiffness[n[i]] += k;
+        ++at.count[n[i]];
+      }
+    }
+  }
+  return at;
+}
+
 bool holds(const NodeIndex* nodes, int width, NodeIndex n) {
   return std::find(nodes, nodes + width, n) != nodes + width;
 }
@@ -119,6 +141,7 @@ void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const 
 void set_nodal_stiffness(SceneContext& c, Contact& contact) {
   const Model& model = c.model;
   const Coordinates& x = c.scene.coordinates;
+  const ShellsAtNodes& shells = shell_stiffness_at_nodes(c);
   for (SecondaryNode& s : contact.secondary) {
     double k = 0;
     for (const ElementKind kind : {ElementKind::truss, ElementKind::beam}) {
@@ -135,15 +158,7 @@ void set_nodal_stiffness(SceneContext& c, Contact& contact) {
       const NodeIndex* n = model.spring.of(e);
       if (n[0] == s.node || n[1] == s.node) k += spring_stiffness(model, e);
     }
-    double shells = 0;
-    int count = 0;
-    for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
-      for (const std::uint32_t e : c.connectivity.elements(kind, s.node)) {
-        shells += shell_stiffness(model, kind, e, stiffness_thickness(model, kind, e));
-        ++count;
-      }
-    }
-    if (count > 0) k += shells / count;
+    if (shells.count[s.node] > 0) k += shells.stiffness[s.node] / shells.count[s.node];
     double volume = 0, weighted = 0;
     for (const std::uint32_t e : c.connectivity.elements(ElementKind::solid8, s.node)) {
       const SolidShape shape = model.solid8.shape[e];

@@ -55,8 +55,8 @@ ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t e) {
 
 ElementName element_at(const Model& model, Connectivity& connectivity, NodeIndex node) {
   for (const ElementKind kind : families_in_view) {
-    const auto list = connectivity.elements(kind, node);
-    if (!list.empty()) return name_of(model, kind, list[0]);
+    const std::uint32_t e = connectivity.first(kind, node);
+    if (e != no_index) return name_of(model, kind, e);
   }
   return {};
 }
@@ -76,7 +76,7 @@ namespace {
 
 template <class T>
 std::uint64_t distinct(std::vector<T>& items) {
-  std::sort(items.begin(), items.end());
+  if (!std::is_sorted(items.begin(), items.end())) std::sort(items.begin(), items.end());
   items.erase(std::unique(items.begin(), items.end()), items.end());
   return items.size();
 }
@@ -189,15 +189,16 @@ PartPair part_pair(const Scene& scene, const SceneView& view, std::int64_t secon
 SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings) {
   SceneView view;
   struct Place {
+    double depth = 0;
     std::uint32_t contact = 0, row = 0;
   };
-  std::vector<Place> places;
+  std::vector<Place> places;  // deepest first, then by contact and row
   Tally all;
   for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
     const Contact& contact = scene.contacts[c];
     Tally tally;
     for (std::uint32_t r = 0; r < contact.penetrations.size(); ++r) {
-      places.push_back({c, r});
+      places.push_back({contact.penetrations[r].depth, c, r});
       tally.add(contact, contact.penetrations[r]);
       all.add(contact, contact.penetrations[r]);
     }
@@ -209,23 +210,29 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings) 
     for (ContactTotals& t : view.contacts) t.crossed_elements = 0;
     for (const Crossing& x : *crossings) ++*view.contacts[x.contact].crossed_elements;
   }
-  const auto row_of = [&](const Place& p) -> const PenetrationRow& {
-    return scene.contacts[p.contact].penetrations[p.row];
-  };
-  std::stable_sort(places.begin(), places.end(), [&](const Place& a, const Place& b) {
-    return row_of(a).depth > row_of(b).depth;
-  });
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.depth > b.depth; });
+  // Rows are named in their own order, which is that of the mesh.
+  std::vector<std::uint32_t> in_order(places.size());
+  std::vector<std::size_t> first_of_contact;
+  for (std::size_t rows = 0; const Contact& c : scene.contacts) {
+    first_of_contact.push_back(rows);
+    rows += c.penetrations.size();
+  }
+  for (std::uint32_t i = 0; i < places.size(); ++i)
+    in_order[first_of_contact[places[i].contact] + places[i].row] = i;
   std::vector<std::vector<std::uint8_t>> seen;  // by contact and secondary item
   for (const Contact& c : scene.contacts)
     seen.emplace_back(
         c.penetrations.empty() ? 0 : std::max(c.secondary.size(), c.secondary_edges.size()), 0);
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> pairs;
   Connectivity connectivity(*scene.model);
-  view.penetrations.reserve(places.size());
+  view.penetrations.resize(places.size());
+  for (const std::uint32_t i : in_order)
+    view.penetrations[i] = named(scene, connectivity, places[i].contact, places[i].row);
   for (std::uint32_t i = 0; i < places.size(); ++i) {
-    view.penetrations.push_back(named(scene, connectivity, places[i].contact, places[i].row));
-    const NamedPenetration& p = view.penetrations.back();
-    std::uint8_t& known = seen[p.contact][row_of(places[i]).secondary];
+    const NamedPenetration& p = view.penetrations[i];
+    std::uint8_t& known = seen[p.contact][scene.contacts[p.contact].penetrations[p.row].secondary];
     if (known == 0) view.deepest_per_node.push_back(i);
     known = 1;
     pairs[{p.secondary_element.part, p.main_element.part}].push_back(i);

@@ -136,6 +136,11 @@ deck::Field cell_field(const char* name, int first, int last, FieldType type,
   return f;
 }
 
+/// From here on the state has a velocity for every node.
+void give_velocities(const Scene& scene, State& state) {
+  for (auto& v : state.velocity) v.resize(scene.model->nodes.size(), 0.0);
+}
+
 /// Reads what the deck says about the state.
 class InitialConditions {
  public:
@@ -221,6 +226,7 @@ class InitialConditions {
       }
       v = axes->turn(v);
     }
+    give_velocities(scene_, state_);
     for (const NodeIndex n : nodes->nodes)
       if (n != no_index)
         for (std::size_t c = 0; c < 3; ++c) state_.velocity[c][n] = v[c];
@@ -234,10 +240,13 @@ class InitialConditions {
       return;
     }
     const double t = value(d, "T0");
+    give_temperatures();
     for (const NodeIndex n : nodes->nodes)
       if (n != no_index) state_.temperature[n] = t;
     state_.heated = true;
   }
+
+  void give_temperatures() { state_.temperature.resize(scene_.model->nodes.size(), 0.0); }
 
   /// T0 of a /HEAT/MAT for all nodes of its material's elements.
   void material_temperature(const Block& block) {
@@ -249,6 +258,7 @@ class InitialConditions {
     const auto mat = scene_.model->material_of_id.find(id);
     if (t.status != NumberStatus::ok || mat == scene_.model->material_of_id.end()) return;
     state_.heated = true;
+    give_temperatures();
     for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
                                    ElementKind::truss, ElementKind::beam}) {
       const Elements& family = scene_.model->family(kind);
@@ -304,13 +314,15 @@ class InitialConditions {
   std::vector<std::unique_ptr<CardSchema>> cards_;
 };
 
-void try_velocity(const deck::Model& model, const PartVelocity& wish, State& state) {
+void try_velocity(const Scene& scene, const PartVelocity& wish, State& state) {
+  const deck::Model& model = *scene.model;
   const auto it = model.part_of_id.find(wish.part);
   if (it == model.part_of_id.end()) {
     state.not_evaluated.push_back("velocity of part " + std::to_string(wish.part) +
                                   ": there is no such part");
     return;
   }
+  give_velocities(scene, state);
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
                                  ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
     const Elements& family = model.family(kind);
@@ -352,16 +364,13 @@ double detail::element_mass(const Scene& scene, ElementKind kind, std::uint32_t 
 State make_state(const Scene& scene, const std::vector<PartVelocity>& velocities) {
   State state;
   const deck::Model& model = *scene.model;
-  const std::size_t n = model.nodes.size();
-  for (auto& v : state.velocity) v.assign(n, 0.0);
-  state.mass.assign(n, 0.0);
-  state.temperature.assign(n, 0.0);
+  state.mass.assign(model.nodes.size(), 0.0);
   add_shells(scene, ElementKind::shell4, state.mass);
   add_shells(scene, ElementKind::shell3, state.mass);
   add_solids(scene, state.mass);
   add_lines(scene, state.mass);
   if (model.deck != nullptr) InitialConditions(scene, state).read();
-  for (const PartVelocity& wish : velocities) try_velocity(model, wish, state);
+  for (const PartVelocity& wish : velocities) try_velocity(scene, wish, state);
   for (const auto& v : state.velocity)
     state.moving =
         state.moving || std::any_of(v.begin(), v.end(), [](double x) { return x != 0.0; });

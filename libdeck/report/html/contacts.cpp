@@ -42,6 +42,8 @@ PageContact wide_pairs(const Contact& contact, const Contact& plain, const Coord
   search.max_pairs = limit;
   const double gap = expected_gap(contact, plain);
   for (const double factor : reach_factors) {
+    // Every reach includes what the solver's own search has found.
+    if (contact.candidates > limit) break;
     page.reach = factor * gap + page.margin;
     if (!(page.reach > 0) || !std::isfinite(page.reach)) break;
     search.gap = PairGap::constant(page.reach);
@@ -159,8 +161,8 @@ Owner owner(const Model& model, Carrier carrier, std::uint32_t e) {
 Owner owner_of_node(const Model& model, Connectivity& connectivity, NodeIndex node) {
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8,
                                  ElementKind::beam, ElementKind::truss, ElementKind::spring}) {
-    const auto list = connectivity.elements(kind, node);
-    if (!list.empty()) return owner(model, kind, list[0]);
+    const std::uint32_t e = connectivity.first(kind, node);
+    if (e != no_index) return owner(model, kind, e);
   }
   return {};
 }

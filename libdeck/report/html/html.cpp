@@ -146,7 +146,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   const Model& model = *in.scene->model;
   detail::PageNodes nodes(model.nodes.size());
   const std::vector<detail::MeshPart> mesh = detail::collect_mesh(model, nodes);
-  const detail::PageContacts page = detail::collect_contacts(in, nodes);
+  detail::PageContacts page = detail::collect_contacts(in, nodes);
   if (in.crossings != nullptr) detail::use_nodes(*in.crossings, nodes);
   std::vector<cycle::ActedNode> acted;
   if (in.cycle != nullptr && in.state != nullptr) acted = cycle::acted_nodes(*in.state, *in.cycle);
@@ -175,6 +175,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
             detail::packed_text(detail::touches_drawing(in, touches)));
   add_block(out, "deck-contacts", "application/octet-stream",
             detail::contacts_block(in, page, nodes));
+  page = {};  // a scene of its own; meshes are large, too
   add_block(out, "deck-mesh", "application/octet-stream", detail::mesh_block(model, mesh, nodes));
   add_block(out, "deck-elements", "application/octet-stream", detail::elements_block(model, mesh));
   if (in.earlier != nullptr)

@@ -13,9 +13,16 @@ namespace deck::detail {
 
 void ByteStream::f64(std::span<const double> values) {
   // Planes are written one after the other, each in pieces.
+  constexpr std::size_t piece = 4096;
   for (std::size_t plane = 0; plane < 8; ++plane)
-    for (const double v : values)
-      byte(static_cast<unsigned>(bit_cast<std::uint64_t>(v) >> (8 * plane) & 0xff));
+    for (std::size_t from = 0; from < values.size(); from += piece) {
+      const std::size_t size = std::min(piece, values.size() - from), have = bytes_.size();
+      bytes_.resize(have + size);
+      for (std::size_t i = 0; i < size; ++i)
+        bytes_[have + i] =
+            static_cast<char>(bit_cast<std::uint64_t>(values[from + i]) >> (8 * plane) & 0xff);
+      if (bytes_.size() >= enough) pack();
+    }
 }
 
 struct PackedText::State {

@@ -11,7 +11,7 @@
 
 namespace deck::cycle {
 
-/// Nodal arrays, one entry per node; those the plan does not need may be null.
+/// Nodal arrays, one entry per node. Null: 0 (velocity, temperature), or the plan needs none.
 struct NodalState {
   std::array<const double*, 3> position{};
   std::array<const double*, 3> velocity{};

@@ -21,11 +21,11 @@ struct PartVelocity {
 
 /// One entry per node, working units.
 struct State {
-  std::array<std::vector<double>, 3> velocity;
-  std::vector<double> mass;                ///< 0 where no element with density and no /ADMAS is
-  std::vector<double> temperature;         ///< of /INITEMP, else of the material, else 0
-  bool moving = false;                     ///< some velocity is not 0
-  bool heated = false;                     ///< the deck gives a temperature to some node
+  std::array<std::vector<double>, 3> velocity;  ///< empty: the deck gives none, all are 0
+  std::vector<double> mass;         ///< 0 where no element with density and no /ADMAS is
+  std::vector<double> temperature;  ///< of /INITEMP, else of the material, else 0; empty: all are 0
+  bool moving = false;              ///< some velocity is not 0
+  bool heated = false;              ///< the deck gives a temperature to some node
   std::vector<std::string> not_evaluated;  ///< what the deck says about the state and was left out
 };
 
