@@ -251,7 +251,7 @@ TEST(Gzip, ATextLongerThanTheLimitIsRefused) {
 }
 
 TEST_F(SourceFiles, LinesOfALargeFileAreCountedThoughItsPagesAreGivenBack) {
-  const std::string text = numbered_lines(700000);  // more than one stretch that is given back
+  const std::string text = numbered_lines(800000);  // more than one stretch that is given back
   Limits limits;
   limits.map_threshold = 100;
   const auto s = Source::open(file("large", text), limits);
