@@ -11,7 +11,7 @@ namespace deck::detail {
 namespace {
 
 constexpr std::string_view marker = "decklint:";
-constexpr std::uint64_t release_step = 8 << 20;
+constexpr std::uint64_t searched_at_once = 8 << 20;
 
 /// Next place of the marker at or behind `from`; npos: none. Decks hold few colons, which are
 /// looked for first. Pages of a mapped file that were looked through are given back.
@@ -20,7 +20,7 @@ std::uint64_t next_marker(const Source& source, std::uint64_t from) {
   constexpr std::size_t before = marker.size() - 1;
   for (std::uint64_t at = from; at < bytes.size();) {
     const std::uint64_t stop =
-        std::min<std::uint64_t>((at / release_step + 1) * release_step, bytes.size());
+        std::min<std::uint64_t>((at / searched_at_once + 1) * searched_at_once, bytes.size());
     while (at < stop) {
       const void* const hit = std::memchr(bytes.data() + at, ':', stop - at);
       if (hit == nullptr) break;
@@ -29,7 +29,7 @@ std::uint64_t next_marker(const Source& source, std::uint64_t from) {
         return colon - before;
       at = colon + 1;
     }
-    source.release(stop - 1 - (stop - 1) % release_step, stop);
+    source.release(stop - 1 - (stop - 1) % searched_at_once, stop);
     at = stop;
   }
   return std::string_view::npos;

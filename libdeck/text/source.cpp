@@ -20,7 +20,7 @@ namespace deck {
 namespace {
 
 constexpr std::uint64_t checkpoint_step = 4 * 1024;
-constexpr std::uint64_t release_step = 8 << 20;
+constexpr std::uint64_t given_back_at_once = 8 << 20;
 
 /// Line ends in the `checkpoint_step` bytes at `first`: so many counters at once that the compiler
 /// takes vectors for them, each too small to overflow.
@@ -163,7 +163,7 @@ Position Source::position(std::uint64_t offset) const {
       const std::uint64_t from = (checkpoints_.size() - 1) * checkpoint_step;
       checkpoints_.push_back(checkpoints_.back() + line_ends(bytes_.data() + from));
       const std::uint64_t to = from + checkpoint_step;
-      if (to % release_step == 0) release(to - release_step, to);
+      if (to % given_back_at_once == 0) release(to - given_back_at_once, to);
     }
     lines = checkpoints_[slot];
   }

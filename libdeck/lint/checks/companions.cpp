@@ -13,14 +13,14 @@
 namespace deck::detail {
 namespace {
 
-using Side = std::pair<NodeIndex, NodeIndex>;  // smaller node first
+using SurfaceSide = std::pair<NodeIndex, NodeIndex>;  // smaller node first
 
 /// Calls f for the sides of a surface's segments.
 template <class F>
 void each_side_of(const Surface& surface, F&& f) {
   for (const Segment& s : surface.segments)
     for (std::size_t k = 0; k < 4; ++k) {
-      const Side side = std::minmax(s.nodes[k], s.nodes[(k + 1) % 4]);
+      const SurfaceSide side = std::minmax(s.nodes[k], s.nodes[(k + 1) % 4]);
       if (side.first != side.second && side.second != no_index) f(side);
     }
 }
@@ -31,7 +31,7 @@ std::size_t count_single(Iterator from, Iterator to) {
   std::size_t count = 0;
   std::sort(from, to);
   for (auto i = from; i != to;) {
-    const auto j = std::find_if(i, to, [&](const Side& s) { return s != *i; });
+    const auto j = std::find_if(i, to, [&](const SurfaceSide& s) { return s != *i; });
     count += j - i == 1;
     i = j;
   }
@@ -55,20 +55,20 @@ std::size_t count_free_edges(const Surface& surface) {
   const std::size_t buckets = ((high - low) >> shift) + std::size_t{1};
   std::size_t count = 0;
   std::vector<std::uint32_t> end;  // of each bucket, at last
-  std::vector<Side> sides;         // bucket by bucket
+  std::vector<SurfaceSide> sides;  // bucket by bucket
   for (std::size_t begin = 0; begin < buckets; begin += buckets_at_once) {
     const std::size_t size = std::min(buckets_at_once, buckets - begin);
     const auto each_here = [&](auto&& f) {
-      each_side_of(surface, [&](const Side& s) {
+      each_side_of(surface, [&](const SurfaceSide& s) {
         const std::size_t bucket = ((s.first - low) >> shift) - begin;
         if (bucket < size) f(bucket, s);
       });
     };
     end.assign(size + 1, 0);
-    each_here([&](std::size_t bucket, const Side&) { ++end[bucket + 1]; });
+    each_here([&](std::size_t bucket, const SurfaceSide&) { ++end[bucket + 1]; });
     std::partial_sum(end.begin(), end.end(), end.begin());
     sides.resize(end.back());
-    each_here([&](std::size_t bucket, const Side& s) { sides[end[bucket]++] = s; });
+    each_here([&](std::size_t bucket, const SurfaceSide& s) { sides[end[bucket]++] = s; });
     for (std::size_t b = 0, from = 0; b < size; from = end[b++])
       count += count_single(sides.begin() + static_cast<std::ptrdiff_t>(from),
                             sides.begin() + static_cast<std::ptrdiff_t>(end[b]));
