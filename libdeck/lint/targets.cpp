@@ -6,26 +6,6 @@
 #include <utility>
 
 namespace deck::detail {
-namespace {
-
-/// Kinds of elements as references name them, and as people do.
-struct TargetElement {
-  std::string_view kind, name;
-  ElementKind family;
-};
-constexpr TargetElement target_elements[] = {
-    {"shell", "4-node shell", ElementKind::shell4}, {"sh3n", "3-node shell", ElementKind::shell3},
-    {"brick", "solid", ElementKind::solid8},        {"quad", "quad", ElementKind::quad},
-    {"truss", "truss", ElementKind::truss},         {"beam", "beam", ElementKind::beam},
-    {"spring", "spring", ElementKind::spring}};
-
-const TargetElement* target_element(std::string_view kind) {
-  const auto* it = std::find_if(std::begin(target_elements), std::end(target_elements),
-                                [&](const TargetElement& e) { return e.kind == kind; });
-  return it == std::end(target_elements) ? nullptr : it;
-}
-
-}  // namespace
 
 std::string_view kind_name(std::string_view kind) {
   using Name = std::pair<std::string_view, std::string_view>;
@@ -34,7 +14,6 @@ std::string_view kind_name(std::string_view kind) {
       Name{"funct", "/FUNCT"},       Name{"sensor", "/SENSOR"}, Name{"skew", "/SKEW"},
       Name{"frame", "/FRAME"},       Name{"prop", "/PROP"},     Name{"mat", "/MAT"},
       Name{"friction", "/FRICTION"}, Name{"part", "/PART"},     Name{"node", "node"}};
-  if (const TargetElement* element = target_element(kind)) return element->name;
   const auto it =
       std::find_if(names.begin(), names.end(), [&](const Name& n) { return n.first == kind; });
   return it == names.end() ? "/SET" : it->second;
@@ -65,10 +44,6 @@ std::optional<bool> target_exists(const LintContext& c, std::string_view kind, s
   if (kind == "node") {
     if (c.model == nullptr) return std::nullopt;
     return c.model->find_node(id) != no_index;
-  }
-  if (const TargetElement* element = target_element(kind)) {
-    if (c.model == nullptr) return std::nullopt;
-    return c.model->family(element->family).map.find(id) != no_index;
   }
   if (kind_name(kind) == "/SET") return std::nullopt;
   const auto all = c.defined.find(kind);

@@ -2,8 +2,6 @@
 // nothing can be computed with, tied contacts without a side, decks cut short.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "lint/support.hpp"
 
 namespace deck::test {
@@ -35,76 +33,6 @@ TEST(MissingTarget, GroupOfBoundaryConditionIsError678) {
   const Linted bad = lint_example("@/BCS/1 Tx=1 grnod_ID=77\n");
   EXPECT_EQ(message_of(bad, RuleId::DK120), 678) << bad.list();
   EXPECT_NE(bad.find(RuleId::DK120)->message.find("77"), std::string::npos);
-}
-
-TEST(MissingTarget, NodesAndElementsOfTimeHistoriesAreErrors78And69) {
-  const auto history = [](const char* kind, const char* id) {
-    return "/TH/" + std::string(kind) + "/9\nhistory\nDEF\n" +
-           std::string(10 - std::strlen(id), ' ') + id + "         0\n";
-  };
-  EXPECT_EQ(message_of(lint_example(history("NODE", "99")), RuleId::DK120), 78);
-  EXPECT_EQ(message_of(lint_example(history("SHEL", "99")), RuleId::DK120), 69);
-  EXPECT_EQ(message_of(lint_example(history("SHELL", "99")), RuleId::DK120), 69);
-  EXPECT_EQ(message_of(lint_example(history("BRIC", "1")), RuleId::DK120), 69);  // 1 is a shell
-  for (const char* kind : {"NODE", "SHEL"})
-    EXPECT_FALSE(lint_example(history(kind, "1")).fires(RuleId::DK120)) << kind;
-  EXPECT_FALSE(lint_example(history("SHEL", "0")).fires(RuleId::DK120));
-}
-
-TEST(MissingTarget, BoundaryConditionWithoutAGroupIsError678) {
-  EXPECT_EQ(message_of(lint_example("@/BCS/1 Tx=1\n"), RuleId::DK122), 678);
-  EXPECT_EQ(message_of(lint_example("/BCS/1\nlost\n"), RuleId::DK122), 678);
-  EXPECT_FALSE(lint_example("@/BCS/1 Tx=1 grnod_ID=2\n").fires(RuleId::DK122));
-}
-
-TEST(MissingTarget, AddedMassesNameTheirMessage) {
-  const auto mass = [](const char* type, const char* id) {
-    return "/ADMAS/" + std::string(type) + "/9\nmass\n                 1.0" +
-           std::string(10 - std::strlen(id), ' ') + id + "\n";
-  };
-  EXPECT_EQ(message_of(lint_example(mass("0", "99")), RuleId::DK120), 53);
-  EXPECT_EQ(message_of(lint_example(mass("2", "99")), RuleId::DK120), 873);
-  EXPECT_EQ(message_of(lint_example(mass("5", "99")), RuleId::DK120), 78);
-  EXPECT_EQ(message_of(lint_example(mass("6", "99")), RuleId::DK120), 876);
-  EXPECT_EQ(message_of(lint_example(mass("1", "")), RuleId::DK122), 668);
-  for (const char* type : {"0", "1", "2", "5", "6"})
-    EXPECT_FALSE(lint_example(mass(type, "2")).fires(RuleId::DK120)) << type;
-}
-
-TEST(TimeHistory, WithoutAVariableIsError1109) {
-  const std::string ids = "         1         0\n";
-  EXPECT_EQ(message_of(lint_example("/TH/NODE/9\nlost\n" + ids), RuleId::DK136), 1109);
-  EXPECT_EQ(message_of(lint_example("/TH/PART/9\nlost\n\n" + ids), RuleId::DK136), 1109);
-  for (const char* variables : {"DEF", "DX        DY", "          DEF"})
-    EXPECT_FALSE(lint_example("/TH/NODE/9\nhere\n" + std::string(variables) + "\n" + ids)
-                     .fires(RuleId::DK136))
-        << variables;
-}
-
-TEST(ShellProperty, HasAtMostTenIntegrationPoints) {
-  const auto shell = [](const char* kind, const char* n) {
-    return "/PROP/" + std::string(kind) + "/9\nsheet\n        24\n\n        " + n +
-           "                           1.0\n                 1.0                 0.0\n";
-  };
-  EXPECT_EQ(message_of(lint_example(shell("SHELL", "11")), RuleId::DK135), 788);
-  EXPECT_EQ(message_of(lint_example(shell("SH_ORTH", "11")), RuleId::DK135), 33);
-  EXPECT_FALSE(lint_example(shell("SHELL", "10")).fires(RuleId::DK135));
-}
-
-TEST(TiedInterface, StopsWithoutSecondaryNodesOrAMainSurface) {
-  const auto tied = [](const char* sides) {
-    return "/GRNOD/NODE/8\nempty\n/INTER/TYPE2/9\ntied\n" + std::string(sides) + "\n";
-  };
-  const Linted empty = lint_example(tied("         8         1"));
-  EXPECT_EQ(message_of(empty, RuleId::DK172), 1131);
-  EXPECT_TRUE(is_error(empty, RuleId::DK172));
-  const Linted none = lint_example(tied("                   1"));
-  EXPECT_EQ(message_of(none, RuleId::DK182), 1726);
-  EXPECT_TRUE(is_error(none, RuleId::DK182));
-  EXPECT_EQ(message_of(lint_example(tied("         2")), RuleId::DK181), 1725);
-  const Linted whole = lint_example(tied("         2         1"));
-  for (const RuleId rule : {RuleId::DK170, RuleId::DK172, RuleId::DK181, RuleId::DK182})
-    EXPECT_FALSE(whole.fires(rule)) << whole.list();
 }
 
 TEST(MissingTarget, SetStandsForGroup) {

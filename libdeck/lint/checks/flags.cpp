@@ -20,7 +20,7 @@ constexpr FlagRule flag_rules[] = {
     {RuleId::DK207, "Inacti"},    {RuleId::DK208, "Ifric"},    {RuleId::DK209, "Ifiltr"},
     {RuleId::DK210, "Iform"},     {RuleId::DK211, "Irem_gap"}, {RuleId::DK212, "Irem_i2"},
     {RuleId::DK213, "Ithe"},      {RuleId::DK214, "ITIED"},    {RuleId::DK215, "Iedge"},
-    {RuleId::DK216, "Ithe_form"}, {RuleId::DK218, "Idir"},     {RuleId::DK191, "Spotflag"},
+    {RuleId::DK216, "Ithe_form"}, {RuleId::DK218, "Idir"},
 };
 
 /// Values with a rule of their own.
@@ -75,13 +75,12 @@ void check_ibc(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> flag_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK191, check_flag}, {RuleId::DK201, check_flag}, {RuleId::DK202, check_flag},
-      {RuleId::DK203, check_flag}, {RuleId::DK204, check_flag}, {RuleId::DK205, check_flag},
-      {RuleId::DK206, check_flag}, {RuleId::DK207, check_flag}, {RuleId::DK208, check_flag},
-      {RuleId::DK209, check_flag}, {RuleId::DK210, check_flag}, {RuleId::DK211, check_flag},
-      {RuleId::DK212, check_flag}, {RuleId::DK213, check_flag}, {RuleId::DK214, check_flag},
-      {RuleId::DK215, check_flag}, {RuleId::DK216, check_flag}, {RuleId::DK217, check_ibc},
-      {RuleId::DK218, check_flag},
+      {RuleId::DK201, check_flag}, {RuleId::DK202, check_flag}, {RuleId::DK203, check_flag},
+      {RuleId::DK204, check_flag}, {RuleId::DK205, check_flag}, {RuleId::DK206, check_flag},
+      {RuleId::DK207, check_flag}, {RuleId::DK208, check_flag}, {RuleId::DK209, check_flag},
+      {RuleId::DK210, check_flag}, {RuleId::DK211, check_flag}, {RuleId::DK212, check_flag},
+      {RuleId::DK213, check_flag}, {RuleId::DK214, check_flag}, {RuleId::DK215, check_flag},
+      {RuleId::DK216, check_flag}, {RuleId::DK217, check_ibc},  {RuleId::DK218, check_flag},
   };
   return all;
 }

@@ -227,35 +227,13 @@ void check_thickness(const LintContext& c, const Rule& rule, Reporter& r) {
                                     number_text(shells->thickness[e]))));
 }
 
-/// Integration points through the thickness of a shell: both kinds of property have a limit.
-void check_integration_points(const LintContext& c, const Rule& rule, Reporter& r) {
-  constexpr std::int64_t most = 10;
-  for (const Block& block : c.deck.blocks) {
-    if (block.schema == nullptr || block.opaque) continue;
-    const bool plain = block.schema->keyword == "/PROP/SHELL";
-    if (!plain && block.schema->keyword != "/PROP/SH_ORTH") continue;
-    const DecodedBlock d = decode(c.deck, block);
-    const Cell* cell = d.find("N");
-    if (cell == nullptr || cell->integer <= most) continue;
-    Diagnostic* found =
-        r.report(rule, block, cell->span,
-                 fmt::format("N of {} {} is {}; there are at most {} integration points",
-                             block.schema->keyword, block.id.value, cell->integer, most));
-    if (found != nullptr) found->reference = rule.message(plain ? 788 : 33);
-  }
-}
-
 }  // namespace
 
 std::span<const Checked> physics_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK123, check_density},
-      {RuleId::DK124, check_modulus},
-      {RuleId::DK125, check_thickness},
-      {RuleId::DK126, check_no_nodes},
-      {RuleId::DK127, check_rigid_mass},
-      {RuleId::DK134, check_yield},
-      {RuleId::DK135, check_integration_points},
+      {RuleId::DK123, check_density},    {RuleId::DK124, check_modulus},
+      {RuleId::DK125, check_thickness},  {RuleId::DK126, check_no_nodes},
+      {RuleId::DK127, check_rigid_mass}, {RuleId::DK134, check_yield},
   };
   return all;
 }

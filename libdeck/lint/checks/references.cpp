@@ -110,10 +110,9 @@ void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
                     name_of(card), kind_name(side.kind), id));
     note_definition(c, d, side, id);
     if (d == nullptr) return;
-    const bool tied = card.block->schema->keyword == "/INTER/TYPE2";
-    if (secondary && (side.kind != "grnod" || tied)) {
+    if (secondary && side.kind != "grnod") {
       d->severity = Severity::error;
-      d->reference = rule.message(tied ? 1131 : 118);
+      d->reference = rule.message(118);
     }
     if (!secondary && (card.type == 7 || card.type == 19)) d->reference = rule.message(3160);
   });
@@ -238,21 +237,15 @@ void check_no_main(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::string_view main = sides.back().field;
     if (card.given(main) || (card.type == 19 && card.given("surf_IDs"))) continue;
     Diagnostic* d = report_at(r, rule, card, main, name_of(card) + " has no main surface");
-    if (d != nullptr && card.type == 0)
-      d->reference = rule.message(card.block->schema->keyword == "/INTER/TYPE2" ? 1725 : 119);
+    if (d != nullptr && card.type == 0) d->reference = rule.message(119);
   }
 }
 
 void check_side_without_nodes(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const ContactCard& card : c.contacts) {
-    const bool tied = card.block->schema->keyword == "/INTER/TYPE2" && !card.given("surf_IDs");
-    if ((card.type != 10 && !tied) || card.given("grnd_IDs")) continue;
-    Diagnostic* d =
-        report_at(r, rule, card, "grnd_IDs", name_of(card) + " has no secondary node group");
-    if (d == nullptr || !tied) continue;
-    d->severity = Severity::error;
-    d->reference = rule.message(1726);
-  }
+  each(c, rule, [&](const ContactCard& card) {
+    if (!card.given("grnd_IDs"))
+      report_at(r, rule, card, "grnd_IDs", name_of(card) + " has no secondary node group");
+  });
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Ids on boundary conditions, loads, constraints, sensors and time histories: the schemas say which
-// targets the reference solver asks for; here the deck is held against them.
+// Ids on boundary conditions, loads, constraints and sensors: the schemas say which targets the
+// reference solver asks for; here the deck is held against them.
 #include <algorithm>
 #include <string_view>
 #include <vector>
@@ -111,25 +111,6 @@ void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) 
       }
 }
 
-void check_no_variable(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const Block& block : c.deck.blocks) {
-    if (block.schema == nullptr || block.opaque || !block.schema->keyword.starts_with("/TH/"))
-      continue;
-    const auto names_words = [&](const CardSchema& card) {
-      return card.words && card.in_version(block.version);
-    };
-    if (std::none_of(block.schema->cards.begin(), block.schema->cards.end(), names_words)) continue;
-    const DecodedBlock d = decode(c.deck, block);
-    // Variables may begin in a later column; a line of ids begins with one.
-    const bool any = std::any_of(d.cards.begin(), d.cards.end(), [](const DecodedCard& card) {
-      const std::string_view text = card.line.text.substr(0, 100);
-      return card.schema->words || (trim(text.substr(0, 10)).empty() && !trim(text).empty());
-    });
-    if (!any)
-      r.report(rule, block, block.header_span, fmt::format("{} names no variable", block_name(d)));
-  }
-}
-
 /// Ids that are used twice among functions, sensors and axes: one of the two is meant by nobody.
 void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const std::string_view kind : {"funct", "sensor", "skew", "frame"}) {
@@ -154,9 +135,10 @@ void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> target_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK120, check_missing_target},  {RuleId::DK121, check_empty_target},
-      {RuleId::DK122, check_required_target}, {RuleId::DK128, check_twice},
-      {RuleId::DK136, check_no_variable},
+      {RuleId::DK120, check_missing_target},
+      {RuleId::DK121, check_empty_target},
+      {RuleId::DK122, check_required_target},
+      {RuleId::DK128, check_twice},
   };
   return all;
 }
