@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <mutex>
 #include <set>
@@ -47,18 +48,23 @@ struct SchemaSet::Entry {
       : keyword(std::move(name)), source(std::move(file)), text(json) {}
 
   const Schema& get() const {
-    if (!ready_)
-      std::call_once(once_, [this] {
+    if (!ready_.load(std::memory_order_acquire)) {
+      // Not std::call_once: when memory runs out in it, the C library has to load what unwinds its
+      // own frames, finds no memory for that either and ends the process.
+      const std::lock_guard lock(parsing_);
+      if (!ready_.load(std::memory_order_relaxed)) {
         // The built-in files are checked by the tests of the build, so parsing cannot fail here.
         if (auto parsed = detail::parse_schemas(source, text)) schema_ = std::move(parsed->front());
-      });
+        ready_.store(true, std::memory_order_release);
+      }
+    }
     return schema_;
   }
 
  private:
-  mutable std::once_flag once_;
+  mutable std::mutex parsing_;
   mutable Schema schema_;
-  bool ready_ = false;  ///< parsed from the beginning
+  mutable std::atomic<bool> ready_ = false;
 };
 
 const SchemaSet& SchemaSet::built_in() {

@@ -130,10 +130,11 @@ class Drawing {
       said += fmt::format("; {} penetration{}, deepest {:.4g}", t->pairs, t->pairs == 1 ? "" : "s",
                           t->depth);
     out_ += fmt::format(
-        "<g class=\"touch\" data-s=\"{}\" data-m=\"{}\"><title>{}</title>{} class=\"{}\"/><text x=\"{}\" y=\"{}\" "
+        "<g class=\"touch\" data-s=\"{}\" data-m=\"{}\"><title>{}</title>{} class=\"{}\"/><text "
+        "x=\"{}\" y=\"{}\" "
         "text-anchor=\"middle\" class=\"{}\">{}</text></g>\n",
-        t->secondary, t->main, xml_text(said), box, t->pairs > 0 ? "deep" : "near", x + size / 2, y + 16,
-        t->pairs > 0 ? "n" : "m", t->interfaces.size());
+        t->secondary, t->main, xml_text(said), box, t->pairs > 0 ? "deep" : "near", x + size / 2,
+        y + 16, t->pairs > 0 ? "n" : "m", t->interfaces.size());
   }
 
   const HtmlInput& in_;
