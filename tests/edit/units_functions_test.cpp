@@ -54,6 +54,20 @@ TEST(ToUnitsFunctions, BlankScalesOfALoadAreWrittenOutAndThePointsStay) {
   EXPECT_TRUE(after->contains(curve)) << after->main_text();
 }
 
+TEST(ToUnitsFunctions, AZeroScaleAmongOthersOfAListIsWrittenInItsOwnColumns) {
+  const auto w = deck_of("/MAT/LAW36/1\nm\n" + cell("7.8E-06", 20) + "\n" + cell("210.0", 20) +
+                         cell("0.3", 20) + "\n         3\n\n         5         5         5\n" +
+                         cell("2.0", 20) + cell("0.0", 20) + cell("3.0", 20) + "\n" +
+                         cell("1.0", 20) + cell("2.0", 20) + cell("3.0", 20) + "\n" + curve);
+  const Rewrite there = convert(*w, "Mg,mm,s");
+  EXPECT_TRUE(there.refusals.empty());
+  const auto after = w->after(there);
+  ASSERT_TRUE(after);
+  EXPECT_TRUE(
+      after->contains("\n" + cell("2000.0", 20) + cell("1000.0", 20) + cell("3000.0", 20) + "\n"))
+      << after->main_text();
+}
+
 TEST(ToUnitsFunctions, TheDirectionDecidesTheDimensionOfTheScale) {
   for (const auto& [direction, scale] : {std::pair{"X", 0.003}, {"XX", 3.0}, {"yy", 3.0}}) {
     const auto w = deck_of(load("/IMPDISP/1", direction, "3.0") + curve);

@@ -546,6 +546,15 @@ TEST(ToUnits, DummyOfFourMegabytesInWellUnderASecond) {
   EXPECT_EQ(lost, 0u);
 }
 
+TEST(Units, ACarriageReturnAmidACellIsABlankOfTheCell) {
+  const auto w = Whole::text(
+      deck_of("/NODE\n         1        \r       10.0                 2.0                 3.0\n"));
+  const auto after = w->after(convert(*w, "kg,m,ms"));
+  ASSERT_EQ(after->model.nodes.size(), 1U);
+  EXPECT_EQ(after->model.nodes.x[0], 0.01) << after->main_text();
+  EXPECT_EQ(after->model.nodes.y[0], 0.002) << after->main_text();
+}
+
 TEST(Units, EveryCellOfAListIsConverted) {
   const auto deck = Whole::text(
       "#RADIOSS STARTER\n/BEGIN\nx\n      2022         0\n"

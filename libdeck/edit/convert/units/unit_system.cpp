@@ -107,8 +107,11 @@ TextEdit column_edit(const SourceSet& sources, const Line& line, int first, int 
   const std::size_t begin = line.offset + static_cast<std::size_t>(first - 1);
   const auto width = static_cast<std::size_t>(last - first + 1);
   std::size_t end = begin;  // what the line has of the cell, trailing blanks included
-  while (end < bytes.size() && end < begin + width && bytes[end] != '\n' && bytes[end] != '\r')
-    ++end;
+  const auto ends = [&](std::size_t at) {  // a carriage return amid a line is a blank like others
+    if (at >= bytes.size() || bytes[at] == '\n') return true;
+    return bytes[at] == '\r' && (at + 1 == bytes.size() || bytes[at + 1] == '\n');
+  };
+  while (end < begin + width && !ends(end)) ++end;
   const std::string_view old = bytes.substr(begin, end - begin);
   const std::string_view token = trim(old);
   std::size_t right =
@@ -687,6 +690,7 @@ class BlockConverter {
                  std::string note) {
     const Field& f = *cell.field;
     const Line& line = card.line;
+    const UnitConversion::Place place = UnitConversion::place_of(b, card, cell);
     if (card.free_format) {
       const bool there = cell.span.offset + cell.span.length <= line.offset + line.text.size();
       if (!there || line.text.size() + text.size() > detail::line_columns) {
@@ -696,10 +700,10 @@ class BlockConverter {
         return;
       }
       c_.out.edits.push_back({cell.span, text});
-    } else if (static_cast<int>(line.text.size()) >= f.first) {
-      c_.replace_fixed(line, f.first, f.last, text);
+    } else if (static_cast<int>(line.text.size()) >= place.first) {
+      c_.replace_fixed(line, place.first, place.last, text);
     } else {
-      grown_.set(deck_.sources, line.whole(), f.first, f.last, text);
+      grown_.set(deck_.sources, line.whole(), place.first, place.last, text);
     }
     LossEntry entry = loss_entry(deck_, Loss::kept, b, cell.span);
     entry.field = f.name;
