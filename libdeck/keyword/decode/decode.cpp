@@ -348,8 +348,9 @@ void find_decimal_comma(Findings& findings, const FreeCells& cells, const Decode
     if (!laid_out_in_columns(text)) return;
     Span both = at;
     both.length += 1 + behind.length;
+    const std::string number = std::string(whole) + "," + std::string(fraction);
     findings.report(RuleId::DK059, both,
-                    "the comma in " + quoted(std::string(whole) + "," + std::string(fraction)) +
+                    "the comma in " + quoted(std::string_view(number)) +
                         " parts two cells: " + read_as(i) + ", " + read_as(i + 1));
     return;
   }

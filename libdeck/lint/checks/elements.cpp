@@ -8,21 +8,16 @@
 #include <vector>
 
 #include "base/length3.hpp"
+#include "deck/base/point3.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 
 namespace deck::detail {
 namespace {
 
-using Vec = std::array<double, 3>;
+using Vec = Point3<double>;
 
-Vec minus(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec plus(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double length(const Vec& a) { return length3(a[0], a[1], a[2]); }
+double length(const Vec& a) { return length3(a.x, a.y, a.z); }
 
 /// Corners of one element, in the slots of its family.
 struct Corners {
@@ -56,9 +51,9 @@ bool surely_apart(double product2, double a2, double b2) {
 
 /// Half the cross product of the diagonals vanishes: all corners on a line, or a crossed quad.
 bool without_area(const Corners& p) {
-  const Vec a = minus(p[2], p[0]);
-  const Vec b = minus(p.size() > 3 ? p[3] : p[1], p[1]);
-  const Vec side = p.size() > 3 ? b : minus(p[1], p[0]);
+  const Vec a = p[2] - p[0];
+  const Vec b = (p.size() > 3 ? p[3] : p[1]) - p[1];
+  const Vec side = p.size() > 3 ? b : p[1] - p[0];
   const Vec normal = cross(a, side);
   if (surely_apart(dot(normal, normal), dot(a, a), dot(side, side))) return false;
   return length(normal) <= rounding * length(a) * length(side);
@@ -66,10 +61,8 @@ bool without_area(const Corners& p) {
 
 /// The one-point volume of the eight slots vanishes.
 bool without_volume(const Corners& p) {
-  const Vec a = minus(p[6], p[0]), b = minus(p[7], p[1]), c = minus(p[4], p[2]),
-            d = minus(p[5], p[3]);
-  const Vec u = minus(plus(a, b), plus(c, d)), v = plus(plus(a, d), plus(b, c)),
-            w = minus(plus(a, d), plus(b, c));
+  const Vec a = p[6] - p[0], b = p[7] - p[1], c = p[4] - p[2], d = p[5] - p[3];
+  const Vec u = (a + b) - (c + d), v = (a + d) + (b + c), w = (a + d) - (b + c);
   return std::abs(dot(u, cross(v, w))) <= rounding * length(u) * length(v) * length(w);
 }
 
@@ -110,7 +103,9 @@ void check_volume(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_length(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr) return;
-  const auto short_one = [](const Corners& p) { return p[0] == p[1]; };
+  const auto short_one = [](const Corners& p) {
+    return p[0].x == p[1].x && p[0].y == p[1].y && p[0].z == p[1].z;
+  };
   count_bad(c, rule, r, c.model->truss, "truss element", "without length", short_one);
   count_bad(c, rule, r, c.model->beam, "beam", "without length", short_one);
 }
