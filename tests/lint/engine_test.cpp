@@ -101,12 +101,13 @@ TEST(EngineFile, ReadsTheFinalTimeOfSeveralRunsInTurn) {
 TEST(EngineFile, HoldsElementsAgainstTheirOwnKind) {
   Folder folder;
   folder.write("car_0001.rad",
-               "/RUN/car/1\n10.\n/DEL/BRICK\n1\n/DEL/SHELL/1\n1 900\n3 800\n/DEL/SHELL\n2 9\n");
+               "/RUN/car/1\n10.\n/DEL/BRICK\n1\n/DEL/SHELL/1\n1 900\n3 800\n-5 0\n"
+               "/DEL/SHELL\n2 9\n");
   const Linted run =
       lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
-  // Brick 1 and shell 9 do not exist, nor any shell from 3 to 800; of a range some ids may be
-  // missing.
-  EXPECT_EQ(run.count(RuleId::DK804), 3u) << run.list();
+  // Brick 1 and shell 9 do not exist, nor any shell from 3 to 800 or up to 0; of a range some ids
+  // may be missing.
+  EXPECT_EQ(run.count(RuleId::DK804), 4u) << run.list();
 }
 
 TEST(EngineFile, OfALaterRunHasTheTimeSinceTheRunBefore) {
