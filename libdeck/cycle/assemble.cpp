@@ -31,6 +31,48 @@ double force_share(ContactKind kind, const PacketResult& r, std::size_t pair, st
   return role == 0 ? -1.0 : r.weights[role - 1][pair];
 }
 
+/// What a pair gives to the node of one of its roles.
+struct Gift {
+  double share = 0.0;
+  bool secondary = false;  ///< the node is on the secondary side
+  bool conducts = false;
+};
+
+Gift gift_of(const KernelPlan& plan, const PacketResult& r, std::size_t pair, std::size_t role) {
+  const ContactKind kind = plan.card.kind;
+  const bool secondary = role < (kind == ContactKind::edge_edge ? 2u : 1u);
+  return {force_share(kind, r, pair, role), secondary, secondary || plan.card.ithe_form == 1};
+}
+
+/// A triangle has no fourth corner: its third is there twice.
+bool is_repeated(const PairList& pairs, std::size_t pair, std::size_t role) {
+  return role == 4 && !pairs.triangle.empty() && pairs.triangle[pair] != 0;
+}
+
+std::size_t roles_of(const PairList& pairs) { return pairs.kind == ContactKind::edge_edge ? 4 : 5; }
+
+/// Marks what the status bits of a node's pairs mean for it.
+void mark(const KernelPlan& plan, std::int64_t all, std::int64_t secondary, std::size_t n,
+          NodalSums& sums) {
+  if ((all & status_contact) != 0) sums.contact[n] = 1;
+  if ((secondary & (status_gap_closed | status_step_deleted)) != 0) sums.removed[n] = 1;
+  if ((secondary & status_bc_release) != 0)
+    sums.released[n] |= static_cast<std::uint8_t>(plan.card.ibc & 7);
+}
+
+/// Adds what a pair gives to the node of a role to sums: a NodalSums at the node, or one node's.
+template <class Force>
+void give(const PacketResult& r, const Gift& gift, std::size_t pair, const Force& force,
+          double& stiffness) {
+  for (std::size_t c = 0; c < 3; ++c) force(c) += gift.share * r.force[c][pair];
+  stiffness += std::abs(gift.share) * r.k_nodal[pair];
+}
+void give_heat(const PacketResult& r, const Gift& gift, std::size_t pair, std::size_t role,
+               double& heat, double& conductance) {
+  heat += r.heat[role][pair];
+  if (gift.conducts) conductance += std::abs(gift.share) * r.conductance[pair];
+}
+
 struct NodeSum {
   double f[3] = {0.0, 0.0, 0.0};
   double stiffness = 0.0, heat = 0.0, conductance = 0.0;
@@ -40,21 +82,16 @@ struct NodeSum {
 
 NodeSum sum_node(const KernelPlan& plan, const Incidence& incidence, const PacketResult& r,
                  std::size_t node) {
-  const ContactKind kind = plan.card.kind;
   const bool heated = contains(plan.writes, Field::heat);
-  const std::size_t secondary_roles = kind == ContactKind::edge_edge ? 2 : 1;
   NodeSum s;
   for (const std::uint64_t* e = incidence.begin(node); e != incidence.end(node); ++e) {
     const std::size_t pair = *e / 8, role = *e % 8;
-    const double share = force_share(kind, r, pair, role);
-    for (std::size_t c = 0; c < 3; ++c) s.f[c] += share * r.force[c][pair];
-    s.stiffness += std::abs(share) * r.k_nodal[pair];
+    const Gift gift = gift_of(plan, r, pair, role);
+    give(
+        r, gift, pair, [&](std::size_t c) -> double& { return s.f[c]; }, s.stiffness);
     s.all |= r.status[pair];
-    if (role < secondary_roles) s.secondary |= r.status[pair];
-    if (!heated) continue;
-    s.heat += r.heat[role][pair];
-    if (role < secondary_roles || plan.card.ithe_form == 1)
-      s.conductance += std::abs(share) * r.conductance[pair];
+    if (gift.secondary) s.secondary |= r.status[pair];
+    if (heated) give_heat(r, gift, pair, role, s.heat, s.conductance);
   }
   return s;
 }
@@ -64,7 +101,7 @@ NodeSum sum_node(const KernelPlan& plan, const Incidence& incidence, const Packe
 void PacketBuffer::gather(const NodalState& nodes, const PairList& pairs, Field needs) {
   size_ = pairs.size();
   triangle_ = pairs.triangle;
-  const std::size_t roles = pairs.kind == ContactKind::edge_edge ? 4 : 5;
+  const std::size_t roles = roles_of(pairs);
   for (std::size_t role = 0; role < roles; ++role) {
     const auto& index = pairs.node[role];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -106,14 +143,11 @@ PacketView PacketBuffer::view() const {
 }
 
 Incidence::Incidence(const PairList& pairs, std::size_t node_count) {
-  const std::size_t roles = pairs.kind == ContactKind::edge_edge ? 4 : 5;
-  const auto skip = [&](std::size_t pair, std::size_t role) {
-    return role == 4 && !pairs.triangle.empty() && pairs.triangle[pair] != 0;
-  };
+  const std::size_t roles = roles_of(pairs);
   first_.assign(node_count + 1, 0);
   for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
     for (std::size_t role = 0; role < roles; ++role) {
-      if (!skip(pair, role)) ++first_[pairs.node[role][pair] + 1];
+      if (!is_repeated(pairs, pair, role)) ++first_[pairs.node[role][pair] + 1];
     }
   }
   for (std::size_t n = 0; n < node_count; ++n) first_[n + 1] += first_[n];
@@ -121,14 +155,15 @@ Incidence::Incidence(const PairList& pairs, std::size_t node_count) {
   std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
     for (std::size_t role = 0; role < roles; ++role) {
-      if (!skip(pair, role)) entry_[next[pairs.node[role][pair]]++] = pair * 8 + role;
+      if (!is_repeated(pairs, pair, role)) entry_[next[pairs.node[role][pair]]++] = pair * 8 + role;
     }
   }
 }
 
-void NodalSums::resize(std::size_t nodes) {
+void NodalSums::resize(std::size_t nodes, bool heated) {
   for (auto& f : force) f.assign(nodes, 0.0);
-  for (auto* a : {&stiffness, &heat, &conductance}) a->assign(nodes, 0.0);
+  stiffness.assign(nodes, 0.0);
+  for (auto* a : {&heat, &conductance}) a->assign(heated ? nodes : 0, 0.0);
   for (auto* a : {&contact, &removed, &released}) a->assign(nodes, 0);
 }
 
@@ -144,14 +179,26 @@ void assemble(const KernelPlan& plan, const Incidence& incidence, const PacketRe
       sums.stiffness[n] += s.stiffness;
       sums.heat[n] += s.heat;
       sums.conductance[n] += s.conductance;
-      if ((s.all & status_contact) != 0) sums.contact[n] = 1;
-      if ((s.secondary & (status_gap_closed | status_step_deleted)) != 0) sums.removed[n] = 1;
-      if ((s.secondary & status_bc_release) != 0) {
-        sums.released[n] |= static_cast<std::uint8_t>(plan.card.ibc & 7);
-      }
+      mark(plan, s.all, s.secondary, n, sums);
     }
   };
   parallel_items(static_cast<int>(parts), parts, run);
+}
+
+void assemble(const KernelPlan& plan, const PairList& pairs, const PacketResult& r,
+              NodalSums& sums) {
+  const bool heated = contains(plan.writes, Field::heat);
+  for (std::size_t pair = 0; pair < r.size; ++pair)
+    for (std::size_t role = 0; role < roles_of(pairs); ++role) {
+      if (is_repeated(pairs, pair, role)) continue;
+      const std::size_t n = pairs.node[role][pair];
+      const Gift gift = gift_of(plan, r, pair, role);
+      give(
+          r, gift, pair, [&](std::size_t c) -> double& { return sums.force[c][n]; },
+          sums.stiffness[n]);
+      if (heated) give_heat(r, gift, pair, role, sums.heat[n], sums.conductance[n]);
+      mark(plan, r.status[pair], gift.secondary ? r.status[pair] : 0, n, sums);
+    }
 }
 
 StepLimit step_limit(const Totals& t, const NodalSums& sums, const double* mass, double factor,

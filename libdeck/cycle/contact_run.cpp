@@ -4,112 +4,136 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <type_traits>
 
+#include "base/parallel.hpp"
 #include "deck/cycle/sharing.hpp"
-#include "deck/model/interfaces_fields.hpp"
 
 namespace deck::cycle::detail {
 namespace {
 
 constexpr std::size_t most_listed = 20;
 
-/// The nodes of one contact's pairs, numbered on their own, so that the work of a small contact
-/// does not grow with the model.
-class LocalNodes {
- public:
-  /// `pairs` come with nodes of the model and leave with those of this contact.
-  LocalNodes(PairList& pairs, const Coordinates& at, const State& state) {
-    const std::size_t roles = pairs.kind == ContactKind::edge_edge ? 4 : 5;
-    for (std::size_t r = 0; r < roles; ++r)
-      node_.insert(node_.end(), pairs.node[r].begin(), pairs.node[r].end());
-    std::sort(node_.begin(), node_.end());
-    node_.erase(std::unique(node_.begin(), node_.end()), node_.end());
-    for (std::size_t r = 0; r < roles; ++r)
-      for (std::uint32_t& n : pairs.node[r])
-        n = static_cast<std::uint32_t>(std::lower_bound(node_.begin(), node_.end(), n) -
-                                       node_.begin());
-    const std::vector<double>* x[] = {&at.x, &at.y, &at.z};
-    for (std::size_t c = 0; c < 3; ++c) {
-      position_[c] = pick(*x[c]);
-      velocity_[c] = pick(state.velocity[c]);
-    }
-    mass_ = pick(state.mass);
-    temperature_ = pick(state.temperature);
-  }
-  std::size_t size() const { return node_.size(); }
-  NodeIndex global(std::size_t local) const { return node_[local]; }
-  const std::vector<double>& mass() const { return mass_; }
-  const std::array<std::vector<double>, 3>& velocity() const { return velocity_; }
-  NodalState arrays() const {
-    NodalState s;
-    const auto data = [](const std::vector<double>& v) { return v.empty() ? nullptr : v.data(); };
-    for (std::size_t c = 0; c < 3; ++c) {
-      s.position[c] = position_[c].data();
-      s.velocity[c] = data(velocity_[c]);
-    }
-    s.mass = mass_.data();
-    s.temperature = data(temperature_);
-    return s;
-  }
-
- private:
-  std::vector<double> pick(const std::vector<double>& from) const {
-    if (from.empty()) return {};
-    std::vector<double> to(node_.size());
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[node_[i]];
-    return to;
-  }
-  std::vector<NodeIndex> node_;
-  std::array<std::vector<double>, 3> position_, velocity_;
-  std::vector<double> mass_, temperature_;
-};
-
-/// Stiffness, residual penetration, friction memory and ties of the pairs, as remembered.
-PairInputs recall(const ContactPairs& pairs, const ContactCard& card, const ContactMemory& memory) {
+/// Stiffness, residual penetration, friction memory and ties of pairs [begin, end), as remembered.
+/// `known`: what the evaluation before has left of all pairs.
+PairInputs recall(const ContactPairs& pairs, std::size_t begin, std::size_t end,
+                  const ContactCard& card, const ContactMemory& memory,
+                  const std::vector<PairMemory>& known) {
+  const std::size_t count = end - begin;
+  const auto piece = [&](const std::vector<double>& all) {
+    return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(begin),
+                               all.begin() + static_cast<std::ptrdiff_t>(end));
+  };
   PairInputs in;
-  in.k0 = pairs.k0;
-  in.zero.assign(pairs.size(), 0.0);
+  in.k0 = piece(pairs.k0);
+  in.zero.assign(count, 0.0);
   const auto off = [](const std::vector<std::uint8_t>& list, std::uint32_t i) {
     return i < list.size() && list[i] != 0;
   };
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (off(memory.off, pairs.at[i].secondary) || off(memory.main_off, pairs.at[i].main))
-      in.k0[i] = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const CandidatePair at = pairs.at[begin + i];
+    if (off(memory.off, at.secondary) || off(memory.main_off, at.main)) in.k0[i] = 0.0;
+  }
   if (!memory.started) {
-    in.p0 = pairs.p0;
+    in.p0 = piece(pairs.p0);
     return in;
   }
   in.p0 = in.zero;
   if (card.kind == ContactKind::edge_edge) {
-    for (std::size_t i = 0; !memory.used[0].empty() && i < pairs.size(); ++i)
-      in.p0[i] = memory.used[0][pairs.at[i].secondary] + memory.used[1][pairs.at[i].main];
+    for (std::size_t i = 0; !memory.used[0].empty() && i < count; ++i)
+      in.p0[i] =
+          memory.used[0][pairs.at[begin + i].secondary] + memory.used[1][pairs.at[begin + i].main];
   }
-  if (memory.pairs.empty()) return in;
+  if (known.empty()) return in;
   for (auto& a : in.ft) a = in.zero;
   for (auto& a : in.tie) a = in.zero;
-  auto known = memory.pairs.begin();
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    while (known != memory.pairs.end() && known->at < pairs.at[i]) ++known;
-    if (known == memory.pairs.end() || known->at != pairs.at[i]) continue;
-    if (card.kind != ContactKind::edge_edge) in.p0[i] = known->p0;
-    for (std::size_t c = 0; c < 3; ++c) in.ft[c][i] = known->ft[c];
-    for (std::size_t c = 0; c < 8; ++c) in.tie[c][i] = known->tie[c];
+  auto next =
+      std::lower_bound(known.begin(), known.end(), pairs.at[begin],
+                       [](const PairMemory& m, const CandidatePair& p) { return m.at < p; });
+  for (std::size_t i = 0; i < count; ++i) {
+    const CandidatePair at = pairs.at[begin + i];
+    while (next != known.end() && next->at < at) ++next;
+    if (next == known.end() || next->at != at) continue;
+    if (card.kind != ContactKind::edge_edge) in.p0[i] = next->p0;
+    for (std::size_t c = 0; c < 3; ++c) in.ft[c][i] = next->ft[c];
+    for (std::size_t c = 0; c < 8; ++c) in.tie[c][i] = next->tie[c];
   }
   return in;
 }
 
-PairOutcome outcome_of(const ContactPairs& pairs, const PacketResult& r, std::size_t i) {
+/// Some pairs in a row, from their inputs to their results.
+struct Piece {
+  std::size_t begin = 0;
+  PairList list;
+  PairInputs in;
+  PacketBuffer buffer;
+  PacketView view;
+  PacketResult result;
+  std::vector<double> shares;  ///< robust model only
+};
+
+/// Pairs that are evaluated at once, beyond which a piece ends with its secondary item.
+constexpr std::size_t pairs_at_once = 4096;
+
+/// True if pairs of different secondary items can share a force: edges have their ends in common,
+/// and a group of nodes may name one twice.
+bool share_across(const ContactPairs& pairs) {
+  if (pairs.nodes.kind == ContactKind::edge_edge) return true;
+  std::vector<NodeIndex> nodes;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (i == 0 || pairs.at[i].secondary != pairs.at[i - 1].secondary)
+      nodes.push_back(pairs.nodes.node[0][i]);
+  if (!std::is_sorted(nodes.begin(), nodes.end())) std::sort(nodes.begin(), nodes.end());
+  return std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end();
+}
+
+/// Where pieces begin, and the end. All pairs of a secondary item are in one piece, as it leaves
+/// the interface with all of them, and so are pairs that share forces.
+std::vector<std::size_t> bounds_of_pieces(const ContactPairs& pairs, bool shared) {
+  std::vector<std::size_t> bounds{0};
+  if (pairs.size() > pairs_at_once && !(shared && share_across(pairs)))
+    for (std::size_t i = pairs_at_once; i < pairs.size(); ++i) {
+      if (i < bounds.back() + pairs_at_once || pairs.at[i].secondary == pairs.at[i - 1].secondary)
+        continue;
+      bounds.push_back(i);
+    }
+  bounds.push_back(pairs.size());
+  return bounds;
+}
+
+/// Nodes and kinds of pairs [begin, end).
+void take_piece(const PairList& all, std::size_t begin, std::size_t end, PairList& out) {
+  const auto copy = [&](const auto& from, auto& to) {
+    to.clear();
+    if (from.empty()) return;
+    to.assign(from.begin() + static_cast<std::ptrdiff_t>(begin),
+              from.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  out.kind = all.kind;
+  for (std::size_t r = 0; r < all.node.size(); ++r) copy(all.node[r], out.node[r]);
+  copy(all.triangle, out.triangle);
+}
+
+NodalState nodal_state(const RunContext& run) {
+  const auto data = [](const std::vector<double>& v) { return v.empty() ? nullptr : v.data(); };
+  NodalState s;
+  s.position = {run.x.x.data(), run.x.y.data(), run.x.z.data()};
+  for (std::size_t c = 0; c < 3; ++c) s.velocity[c] = data(run.state.velocity[c]);
+  s.mass = run.state.mass.data();
+  s.temperature = data(run.state.temperature);
+  return s;
+}
+
+PairOutcome outcome_of(const CandidatePair& at, const Piece& piece, std::size_t i) {
+  const PacketResult& r = piece.result;
   PairOutcome p;
-  p.at = pairs.at[i];
+  p.at = at;
   for (std::size_t k = 0; k < 4; ++k) p.weights[k] = r.weights[k][i];
   for (std::size_t c = 0; c < 3; ++c) p.force[c] = r.force[c][i];
   p.normal_force = r.normal_force[i];
   p.penetration = r.penetration[i];
   p.gap = r.effective_gap[i];
   p.distance = r.distance[i];
-  p.k0 = pairs.k0[i];
+  p.k0 = piece.view.k0[i];
   p.k_nodal = r.k_nodal[i];
   p.status = r.status[i];
   return p;
@@ -154,21 +178,22 @@ void begin_edge_cycle(const Contact& contact, ContactMemory& m) {
 
 /// Keeps what the next evaluation starts from. The friction memory is that of the pair alone,
 /// before neighbours share a force.
-void remember(const KernelPlan& plan, const ContactPairs& pairs, const PacketView& view,
-              const PacketResult& r, ContactMemory& m) {
+void remember(const KernelPlan& plan, const ContactPairs& pairs, const Piece& piece,
+              ContactMemory& m) {
+  const PacketView& view = piece.view;
+  const PacketResult& r = piece.result;
   const ContactCard& card = plan.card;
   const bool reduced = card.inacti == 5 || card.inacti == 6;
   const bool edges = card.kind == ContactKind::edge_edge;
   const bool rubs = contains(plan.writes, Field::friction_memory);
   const bool ties = contains(plan.writes, Field::tie_record);
-  m.pairs.clear();
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    PairMemory p{pairs.at[i]};
+  for (std::size_t i = 0; i < r.size; ++i) {
+    PairMemory p{pairs.at[piece.begin + i]};
     bool something = false;
     const bool near = kept(plan, view, r, i);
     if (near && reduced && edges) {
-      const double depth = std::max(0.0, pairs.gap[i] - r.distance[i]);
-      const double needs = depth > 0.0 ? edge_residual(card, depth, pairs.gap[i]) : 0.0;
+      const double depth = std::max(0.0, view.gap[i] - r.distance[i]);
+      const double needs = depth > 0.0 ? edge_residual(card, depth, view.gap[i]) : 0.0;
       double& s = m.most[0][p.at.secondary];
       double& t = m.most[1][p.at.main];
       s = std::max(s, needs);
@@ -189,9 +214,19 @@ void remember(const KernelPlan& plan, const ContactPairs& pairs, const PacketVie
   }
 }
 
-void collect_pairs(const KernelPlan& plan, const ContactPairs& pairs, const PacketView& view,
-                   const PacketResult& r, const CycleOptions& options, ContactOutcome& out) {
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
+/// Leaves those with least of their gap, in this order.
+void keep_nearest(std::vector<PairOutcome>& list) {
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return left_of_gap(a) < left_of_gap(b); });
+  if (list.size() > most_listed) list.resize(most_listed);
+}
+
+void collect_pairs(const KernelPlan& plan, const ContactPairs& pairs, const Piece& piece,
+                   const CycleOptions& options, ContactOutcome& out) {
+  const PacketView& view = piece.view;
+  const PacketResult& r = piece.result;
+  for (std::size_t i = 0; i < r.size; ++i) {
+    const CandidatePair at = pairs.at[piece.begin + i];
     const bool near = kept(plan, view, r, i);
     out.pairs_in_reach += near || options.margin == 0.0;
     // Without stiffness: at start-up, or because of this cycle's step or depth.
@@ -201,14 +236,13 @@ void collect_pairs(const KernelPlan& plan, const ContactPairs& pairs, const Pack
     out.gap_closed += (r.status[i] & status_gap_closed) != 0;
     out.pairs_tied += (r.status[i] & status_tied) != 0;
     const bool was_tied = view.tie[0][i] != 0.0;
-    if ((r.status[i] & status_tied) != 0 && !was_tied) out.ties.push_back({pairs.at[i], true});
-    if ((r.status[i] & status_released) != 0) out.ties.push_back({pairs.at[i], false});
+    if ((r.status[i] & status_tied) != 0 && !was_tied) out.ties.push_back({at, true});
+    if ((r.status[i] & status_released) != 0) out.ties.push_back({at, false});
     // A live tie without a force carries the mark 1e-30.
     const bool mark = out.card.kind == ContactKind::tied && size_of(r, i) < 2e-30;
     const double f = mark ? 0.0 : size_of(r, i);
     if (!(f > 0.0 || (near && r.penetration[i] > 0.0))) continue;
-    PairOutcome p = outcome_of(pairs, r, i);
-    p.k0 = view.k0[i];
+    const PairOutcome p = outcome_of(at, piece, i);
     out.pairs_with_force += f > 0.0;
     if (f > out.largest_force) {
       out.largest_force = f;
@@ -217,70 +251,25 @@ void collect_pairs(const KernelPlan& plan, const ContactPairs& pairs, const Pack
     if (left_of_gap(p) < options.near_singular && out.card.kind != ContactKind::tied) {
       ++out.near_singular_count;
       out.near_singular.push_back(p);
-      if (out.near_singular.size() > 50 * most_listed) {
-        std::stable_sort(
-            out.near_singular.begin(), out.near_singular.end(),
-            [](const auto& a, const auto& b) { return left_of_gap(a) < left_of_gap(b); });
-        out.near_singular.resize(most_listed);
-      }
+      if (out.near_singular.size() > 50 * most_listed) keep_nearest(out.near_singular);
     }
     if (options.keep_pairs) out.pairs.push_back(p);
   }
-  std::stable_sort(out.near_singular.begin(), out.near_singular.end(),
-                   [](const auto& a, const auto& b) { return left_of_gap(a) < left_of_gap(b); });
-  if (out.near_singular.size() > most_listed) out.near_singular.resize(most_listed);
 }
 
 /// Secondary nodes and edges that leave the interface after this evaluation, each once.
-void collect_removals(const ContactPairs& pairs, const PacketResult& r, ContactMemory& m,
+void collect_removals(const ContactPairs& pairs, const Piece& piece, ContactMemory& m,
                       ContactOutcome& out) {
-  for (const Removal& gone : out.removed) m.off[gone.secondary] = 1;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
+  const PacketResult& r = piece.result;
+  for (std::size_t i = 0; i < r.size; ++i) {
     if ((r.status[i] & (status_gap_closed | status_step_deleted)) == 0) continue;
-    const std::uint32_t s = pairs.at[i].secondary;
+    const std::uint32_t s = pairs.at[piece.begin + i].secondary;
     if (m.off[s] != 0) continue;
     m.off[s] = 1;
     out.removed.push_back({s, (r.status[i] & status_gap_closed) != 0 ? Removal::Because::mid_surface
                               : r.k_nodal[i] > 0.0                   ? Removal::Because::nodal_step
                                                    : Removal::Because::kinematic_step});
   }
-}
-
-/// The interface-wide limit from the velocity ranges of all nodes of both sides.
-double velocity_limit(const Contact& contact, const ContactCard& card, const State& state) {
-  if (!state.moving) return 1e30;
-  constexpr double big = 1e300;
-  std::array<double, 3> low[2], high[2];
-  for (std::size_t side = 0; side < 2; ++side) {
-    low[side].fill(big);
-    high[side].fill(-big);
-  }
-  const auto add = [&](std::size_t side, NodeIndex n) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      low[side][c] = std::min(low[side][c], state.velocity[c][n]);
-      high[side][c] = std::max(high[side][c], state.velocity[c][n]);
-    }
-  };
-  double least_s = big, least_m = big;
-  for (const SecondaryNode& s : contact.secondary) {
-    add(0, s.node);
-    least_s = std::min(least_s, s.gap);
-  }
-  for (const MainSegment& m : contact.main) {
-    for (const NodeIndex n : m.nodes) add(1, n);
-    least_m = std::min(least_m, m.gap);
-  }
-  for (const ContactEdge& e : contact.secondary_edges) {
-    for (const NodeIndex n : e.nodes) add(0, n);
-    least_s = std::min(least_s, e.gap);
-  }
-  for (const ContactEdge& e : contact.main_edges) {
-    for (const NodeIndex n : e.nodes) add(1, n);
-    least_m = std::min(least_m, e.gap);
-  }
-  if (least_s == big || least_m == big) return 1e30;
-  const double gap = contact.igap == 0 ? card.gapmin : std::max(least_s + least_m, card.gapmin);
-  return velocity_step(gap, low[0], high[0], low[1], high[1]);
 }
 
 /// Forces, steps and accelerations at the nodes of one contact, and into the sums of all.
@@ -294,7 +283,7 @@ void collect_nodes(const LocalNodes& nodes, const NodalSums& sums, ContactOutcom
       f2 += sums.force[c][n] * sums.force[c][n];
     }
     all.stiffness[g] += sums.stiffness[n];
-    if (!all.heat.empty()) {
+    if (!sums.heat.empty()) {
       all.heat[g] += sums.heat[n];
       all.conductance[g] += sums.conductance[n];
     }
@@ -321,21 +310,24 @@ void sum_heat(const PacketResult& r, ContactOutcome& out) {
       (k < secondary ? out.heat_secondary : out.heat_main) += r.heat[k][i];
 }
 
-/// Iadm: the sharpest radius at every node of a pair, depth and angle at secondary nodes.
-void collect_criteria(const KernelPlan& plan, const PairList& pairs, const LocalNodes& nodes,
-                      const PacketView& view, const PacketResult& r, ContactOutcome& out) {
-  if (plan.card.iadm == 0 || plan.card.kind != ContactKind::node_segment) return;
-  std::vector<NodeCriteria> all(nodes.size());
+/// Iadm: the sharpest radius at every node of a pair, depth and angle at secondary nodes. `all` by
+/// node of the contact.
+void add_criteria(const KernelPlan& plan, const Piece& piece, std::vector<NodeCriteria>& all) {
+  const PacketResult& r = piece.result;
   for (std::size_t i = 0; i < r.size; ++i) {
-    if (!kept(plan, view, r, i) || !(r.criteria[0][i] > 0.0)) continue;
+    if (!kept(plan, piece.view, r, i) || !(r.criteria[0][i] > 0.0)) continue;
     for (std::size_t role = 0; role < 5; ++role) {
-      NodeCriteria& c = all[pairs.node[role][i]];
+      NodeCriteria& c = all[piece.list.node[role][i]];
       c.radius = std::min(c.radius, r.criteria[0][i]);
     }
-    NodeCriteria& c = all[pairs.node[0][i]];
+    NodeCriteria& c = all[piece.list.node[0][i]];
     c.penetration = std::max(c.penetration, r.criteria[1][i]);
     if (plan.card.iadm == 2) c.angle = std::min(c.angle, r.criteria[2][i]);
   }
+}
+
+void collect_criteria(const LocalNodes& nodes, std::vector<NodeCriteria>& all,
+                      ContactOutcome& out) {
   for (std::size_t n = 0; n < all.size(); ++n) {
     if (all[n].radius >= 1e30) continue;
     all[n].node = nodes.global(n);
@@ -355,62 +347,10 @@ void collect_releases(const LocalNodes& nodes, const NodalSums& sums,
   }
 }
 
-/// False for cards with values that no arithmetic survives, such as a gap of 1e300.
-bool sane(const ContactCard& card, const Contact& contact) {
-  for (const double v :
-       {card.gapmin, card.stfac, card.viss, card.visf, card.fric, card.drad, contact.max_gap})
-    if (!(std::abs(v) < 1e30)) return false;
-  return true;
-}
-
 /// What the card asks for and this evaluation leaves out.
 void note_gaps(const State& state, ContactOutcome& out) {
   if (out.card.ithe > 0 && !state.heated)
     out.notes.emplace_back("the deck gives no initial temperature: all are 0");
-}
-
-/// Why a curved main side cannot be computed with; empty if it can.
-std::string curvature_problem(const Scene& scene, const Contact& contact, const ContactCard& card) {
-  if (card.kind != ContactKind::node_segment || (card.icurv != 1 && card.icurv != 2)) return {};
-  std::array<std::int64_t, 2> id{};
-  visit_interface(*contact.inter, [&](const auto& inter) {
-    inter.for_each([&](std::string_view name, const auto& e) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(e)>, EffectiveInt>) {
-        if (name == "node_ID1") id[0] = e.value;
-        if (name == "node_ID2") id[1] = e.value;
-      }
-    });
-  });
-  for (int k = 0; k < card.icurv; ++k)
-    if (scene.model->nodes.map.find(id[static_cast<std::size_t>(k)]) == no_index)
-      return "node_ID" + std::to_string(k + 1) + " = " +
-             std::to_string(id[static_cast<std::size_t>(k)]) +
-             " is no node: the curved surface has no place, nothing was evaluated";
-  if (card.icurv == 2 && card.curv_node1 == card.curv_node2)
-    return "node_ID1 and node_ID2 are one point: a cylinder (Icurv = 2) has no axis then, nothing "
-           "was "
-           "evaluated";
-  return {};
-}
-
-/// Before the first evaluation: who takes no part from the beginning.
-void begin(const RunContext& run, const Contact& contact, ContactMemory& m) {
-  const bool edges = contact.kind == deck::ContactKind::edge_edge;
-  m.off.assign(
-      std::max<std::size_t>(1, edges ? contact.secondary_edges.size() : contact.secondary.size()),
-      0);
-  if (edges || contact.type != 7) return;
-  bool drops = false;
-  visit_interface(*contact.inter, [&](const auto& inter) {
-    if constexpr (requires { inter.Irem_i2; }) drops = inter.Irem_i2.value == 1;
-  });
-  if (!drops) return;
-  const std::vector<std::uint8_t> tied = tied_secondary_nodes(*run.scene.model);
-  for (std::size_t i = 0; i < contact.secondary.size(); ++i) {
-    if (tied[contact.secondary[i].node] == 0) continue;
-    m.off[i] = 1;
-    ++m.tied_elsewhere;
-  }
 }
 
 /// Searches the pairs again when the nodes may have come nearer than what was searched.
@@ -438,14 +378,16 @@ void refresh(const RunContext& run, const Contact& contact, const ContactCard& c
 
 }  // namespace
 
-void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in) {
-  const auto data = [](const std::vector<double>& v) { return v.empty() ? nullptr : v.data(); };
+void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in, std::size_t begin) {
+  const auto data = [begin](const std::vector<double>& v) {
+    return v.empty() ? nullptr : v.data() + begin;
+  };
   const auto or_zero = [&](const std::vector<double>& v) {
     return v.empty() ? in.zero.data() : v.data();
   };
-  view.k0 = data(in.k0);
+  view.k0 = in.k0.data();
   view.gap = data(pairs.gap);
-  view.p0 = data(in.p0);
+  view.p0 = in.p0.data();
   for (std::size_t c = 0; c < 3; ++c) view.ft_old[c] = or_zero(in.ft[c]);
   for (std::size_t c = 0; c < 8; ++c) view.tie[c] = or_zero(in.tie[c]);
   view.area = data(pairs.area);
@@ -463,48 +405,6 @@ void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in) {
   view.directed = data(pairs.directed);
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t c = 0; c < 3; ++c) view.normal[k][c] = data(pairs.normal[k][c]);
-}
-
-void SearchedAt::take(const Contact& contact, const Coordinates& x) {
-  for (auto& n : nodes_) n.clear();
-  for (const SecondaryNode& s : contact.secondary) nodes_[0].push_back(s.node);
-  for (const ContactEdge& e : contact.secondary_edges)
-    nodes_[0].insert(nodes_[0].end(), e.nodes.begin(), e.nodes.end());
-  for (const MainSegment& m : contact.main)
-    nodes_[1].insert(nodes_[1].end(), m.nodes.begin(), m.nodes.end());
-  for (const ContactEdge& e : contact.main_edges)
-    nodes_[1].insert(nodes_[1].end(), e.nodes.begin(), e.nodes.end());
-  const std::vector<double>* now[] = {&x.x, &x.y, &x.z};
-  for (std::size_t side = 0; side < 2; ++side) {
-    std::sort(nodes_[side].begin(), nodes_[side].end());
-    nodes_[side].erase(std::unique(nodes_[side].begin(), nodes_[side].end()), nodes_[side].end());
-    for (std::size_t c = 0; c < 3; ++c) {
-      x_[side][c].clear();
-      for (const NodeIndex n : nodes_[side]) x_[side][c].push_back((*now[c])[n]);
-    }
-  }
-}
-
-double SearchedAt::approach(const Coordinates& x) const {
-  const std::vector<double>* now[] = {&x.x, &x.y, &x.z};
-  double sum = 0.0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    double low[2], high[2];
-    for (std::size_t side = 0; side < 2; ++side) {
-      low[side] = std::numeric_limits<double>::infinity();
-      high[side] = -low[side];
-      for (std::size_t i = 0; i < nodes_[side].size(); ++i) {
-        const double moved = (*now[c])[nodes_[side][i]] - x_[side][c][i];
-        if (!std::isfinite(moved)) return std::numeric_limits<double>::infinity();
-        low[side] = std::min(low[side], moved);
-        high[side] = std::max(high[side], moved);
-      }
-      if (nodes_[side].empty()) return 0.0;
-    }
-    const double most = std::max({high[0] - low[1], high[1] - low[0], 0.0});
-    sum += most * most;
-  }
-  return std::sqrt(sum);
 }
 
 NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcome& out,
@@ -552,37 +452,58 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
   const bool edge_gaps = out.card.kind == ContactKind::edge_edge &&
                          (out.card.inacti == 5 || out.card.inacti == 6) && run.remember;
   if (edge_gaps) begin_edge_cycle(contact, m);
-  const PairInputs in = recall(pairs, out.card, m);
-  PairList list = pairs.nodes;
-  const LocalNodes nodes(list, run.x, run.state);
-  PacketBuffer buffer;
-  buffer.gather(nodes.arrays(), list, plan.needs | Field::position);
-  PacketView view = buffer.view();
-  attach(view, pairs, in);
-  view.dt1 = options.dt1;
-  view.dt12 = options.dt12;
-  PacketResult result;
-  evaluate(plan, view, result, static_cast<unsigned>(std::max(1, options.threads)));
-  if (run.remember) remember(plan, pairs, view, result, m);
-  m.started = true;
-  collect_removals(pairs, result, m, out);
-  if (options.model == Model::robust && out.card.kind != ContactKind::tied && out.card.itied == 0)
-    apply_shares(pair_shares(list, result), result);
-  out.totals = totals(plan, view, result);
-  if (out.card.ithe > 0) sum_heat(result, out);
-  collect_pairs(plan, pairs, view, result, options, out);
-  collect_criteria(plan, list, nodes, view, result, out);
+  for (const Removal& gone : out.removed) m.off[gone.secondary] = 1;
+  const bool shared =
+      options.model == Model::robust && out.card.kind != ContactKind::tied && out.card.itied == 0;
+  const int threads = std::max(1, options.threads);
+  const std::vector<PairMemory> known = std::move(m.pairs);
+  m.pairs.clear();
+  const std::vector<std::size_t> bounds = bounds_of_pieces(pairs, shared);
+  const std::size_t pieces = bounds.size() - 1;
+  const LocalNodes nodes(pairs.nodes, run.state.mass);
+  const NodalState at = nodal_state(run);
   NodalSums sums;
-  sums.resize(nodes.size());
-  assemble(plan, Incidence(list, nodes.size()), result, sums,
-           static_cast<unsigned>(std::max(1, options.threads)));
+  sums.resize(nodes.size(), contains(plan.writes, Field::heat));
+  std::vector<NodeCriteria> criteria;
+  if (out.card.iadm != 0 && out.card.kind == ContactKind::node_segment)
+    criteria.resize(nodes.size());
+  RunningTotals totals(plan);
+  const auto work = [&](std::size_t k, Piece& piece) {
+    piece.begin = bounds[k];
+    piece.in = recall(pairs, bounds[k], bounds[k + 1], out.card, m, known);
+    take_piece(pairs.nodes, bounds[k], bounds[k + 1], piece.list);
+    piece.buffer.gather(at, piece.list, plan.needs | Field::position);
+    piece.view = piece.buffer.view();
+    attach(piece.view, pairs, piece.in, piece.begin);
+    piece.view.dt1 = options.dt1;
+    piece.view.dt12 = options.dt12;
+    piece.result.resize(0);  // nothing of the piece before
+    evaluate(plan, piece.view, piece.result, static_cast<unsigned>(pieces > 1 ? 1 : threads));
+    if (shared) piece.shares = pair_shares(piece.list, piece.result);
+    nodes.localise(piece.list);
+  };
+  const auto take = [&](std::size_t, Piece& piece) {
+    if (run.remember) remember(plan, pairs, piece, m);
+    collect_removals(pairs, piece, m, out);
+    if (shared) apply_shares(piece.shares, piece.result);
+    totals.add(piece.view, piece.result);
+    if (out.card.ithe > 0) sum_heat(piece.result, out);
+    collect_pairs(plan, pairs, piece, options, out);
+    if (!criteria.empty()) add_criteria(plan, piece, criteria);
+    assemble(plan, piece.list, piece.result, sums);
+  };
+  run_in_order<Piece>(pieces, threads, work, take);
+  m.started = true;
+  out.totals = totals.all();
+  keep_nearest(out.near_singular);
+  collect_criteria(nodes, criteria, out);
   collect_nodes(nodes, sums, out, all);
   collect_releases(nodes, sums, run.fixed, out);
   out.step = step_limit(out.totals, sums, nodes.mass().data(), step_factor, from_velocity);
   if (out.step.source == StepLimit::Source::nodal)
     out.step_node = nodes.global(out.step.index);
   else if (out.step.source == StepLimit::Source::kinematic)
-    out.step_node = nodes.global(list.node[0][out.step.index]);
+    out.step_node = pairs.nodes.node[0][out.step.index];
   NodeStiffness stiffness;
   for (std::size_t n = 0; n < nodes.size(); ++n)
     if (sums.stiffness[n] > 0.0) stiffness.emplace_back(nodes.global(n), sums.stiffness[n]);

@@ -31,6 +31,30 @@ class SearchedAt {
   std::array<std::array<std::vector<double>, 3>, 2> x_;
 };
 
+/// The nodes of one contact's pairs, numbered on their own in their order, so that the work of a
+/// small contact does not grow with the model.
+class LocalNodes {
+ public:
+  LocalNodes(const PairList& pairs, const std::vector<double>& mass);
+  [[nodiscard]] std::size_t size() const { return node_.size(); }
+  [[nodiscard]] NodeIndex global(std::size_t local) const { return node_[local]; }
+  [[nodiscard]] const std::vector<double>& mass() const { return mass_; }
+  /// `pairs` come with nodes of the model and leave with those of this contact.
+  void localise(PairList& pairs) const;
+
+ private:
+  /// 64 nodes of the model: which of them take part, and how many before them.
+  struct Word {
+    std::uint64_t bits = 0;
+    std::uint32_t before = 0;
+  };
+  static std::uint64_t bit_of(NodeIndex n) { return std::uint64_t{1} << (n % 64); }
+  std::size_t first_word_ = 0;
+  std::vector<Word> words_;
+  std::vector<NodeIndex> node_;
+  std::vector<double> mass_;
+};
+
 struct ContactMemory {
   std::optional<KernelPlan> plan;
   bool started = false;                ///< some evaluation has been done
@@ -53,8 +77,10 @@ struct PairInputs {
   std::array<std::vector<double>, 8> tie;  ///< empty: all 0
 };
 
-/// Points the view at the pairs' own arrays; both outlive it.
-void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in);
+/// Points the view at the pairs' own arrays, from pair `begin` on; `in` starts with that pair. Both
+/// outlive the view.
+void attach(PacketView& view, const ContactPairs& pairs, const PairInputs& in,
+            std::size_t begin = 0);
 
 /// Share of a node's stable step that the solver takes.
 inline constexpr double step_factor = 0.9;
@@ -75,6 +101,15 @@ using NodeStiffness = std::vector<std::pair<NodeIndex, double>>;
 /// Evaluates one contact; returns the stiffness it gives to its nodes, in the order of nodes.
 NodeStiffness run_contact(const RunContext& run, ContactMemory& memory, ContactOutcome& out,
                           NodalSums& all);
+
+/// The interface-wide limit from the velocity ranges of all nodes of both sides.
+double velocity_limit(const Contact& contact, const ContactCard& card, const State& state);
+/// False for cards with values that no arithmetic survives, such as a gap of 1e300.
+bool sane(const ContactCard& card, const Contact& contact);
+/// Why a curved main side cannot be computed with; empty if it can.
+std::string curvature_problem(const Scene& scene, const Contact& contact, const ContactCard& card);
+/// Before the first evaluation: who takes no part from the beginning.
+void begin(const RunContext& run, const Contact& contact, ContactMemory& m);
 
 /// Translations that /BCS fix, by node: 4 X + 2 Y + Z.
 std::vector<std::uint8_t> fixed_translations(const deck::Model& model);

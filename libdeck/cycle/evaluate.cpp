@@ -268,42 +268,52 @@ void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& resu
   evaluate_split(plan, view, view, result, threads);
 }
 
-Totals totals(const KernelPlan& plan, const PacketView& view, const PacketResult& r) {
-  const bool edges = plan.card.kind == ContactKind::edge_edge;
-  Totals all;
-  for (std::size_t begin = 0; begin < r.size; begin += 4096) {
-    Totals t;
-    const std::size_t end = std::min(r.size, begin + 4096);
-    for (std::size_t i = begin; i < end; ++i) {
-      const detail::Vec n{r.normal[0][i], r.normal[1][i], r.normal[2][i]};
-      const detail::Vec f{r.force[0][i], r.force[1][i], r.force[2][i]};
-      const detail::Vec fn = r.normal_force[i] * n;
-      const detail::Vec ft = f - fn;
-      const detail::Vec s = edges ? r.weights[0][i] * detail::at(view.position[0], i) +
-                                        r.weights[1][i] * detail::at(view.position[1], i)
-                                  : detail::at(view.position[0], i);
-      // The solver takes the moment at x_s + pi n, outward.
-      const detail::Vec m = cross(s + r.penetration[i] * n, f);
-      t.normal = {t.normal[0] + fn.x, t.normal[1] + fn.y, t.normal[2] + fn.z};
-      t.tangential = {t.tangential[0] + ft.x, t.tangential[1] + ft.y, t.tangential[2] + ft.z};
-      t.moment = {t.moment[0] + m.x, t.moment[1] + m.y, t.moment[2] + m.z};
-      t.normal_abs += std::abs(r.normal_force[i]);
-      t.total_abs += norm(f);
-      t.elastic_energy += r.elastic_energy[i];
-      t.friction_energy += r.friction_energy[i];
-      t.damping_energy += r.damping_energy[i];
-      // Booked in full, also the main side's share that Ithe_form 0 gives to nobody.
-      if (plan.card.ithe > 0)
-        t.friction_heat += (plan.card.fheats + plan.card.fheatm) * r.friction_heat[i];
-      if (r.dt_kinematic[i] < t.dt_kinematic) {
-        t.dt_kinematic = r.dt_kinematic[i];
-        t.dt_kinematic_pair = i;
-      }
-      if ((r.status[i] & status_contact) != 0) ++t.contacts;
+void RunningTotals::add(const PacketView& view, const PacketResult& r) {
+  constexpr std::size_t pairs_of_a_block = 4096;
+  const ContactCard& card = plan_->card;
+  const bool edges = card.kind == ContactKind::edge_edge;
+  for (std::size_t i = 0; i < r.size; ++i) {
+    Totals& t = block_;
+    const detail::Vec n{r.normal[0][i], r.normal[1][i], r.normal[2][i]};
+    const detail::Vec f{r.force[0][i], r.force[1][i], r.force[2][i]};
+    const detail::Vec fn = r.normal_force[i] * n;
+    const detail::Vec ft = f - fn;
+    const detail::Vec s = edges ? r.weights[0][i] * detail::at(view.position[0], i) +
+                                      r.weights[1][i] * detail::at(view.position[1], i)
+                                : detail::at(view.position[0], i);
+    // The solver takes the moment at x_s + pi n, outward.
+    const detail::Vec m = cross(s + r.penetration[i] * n, f);
+    t.normal = {t.normal[0] + fn.x, t.normal[1] + fn.y, t.normal[2] + fn.z};
+    t.tangential = {t.tangential[0] + ft.x, t.tangential[1] + ft.y, t.tangential[2] + ft.z};
+    t.moment = {t.moment[0] + m.x, t.moment[1] + m.y, t.moment[2] + m.z};
+    t.normal_abs += std::abs(r.normal_force[i]);
+    t.total_abs += norm(f);
+    t.elastic_energy += r.elastic_energy[i];
+    t.friction_energy += r.friction_energy[i];
+    t.damping_energy += r.damping_energy[i];
+    // Booked in full, also the main side's share that Ithe_form 0 gives to nobody.
+    if (card.ithe > 0) t.friction_heat += (card.fheats + card.fheatm) * r.friction_heat[i];
+    if (r.dt_kinematic[i] < t.dt_kinematic) {
+      t.dt_kinematic = r.dt_kinematic[i];
+      t.dt_kinematic_pair = pairs_;
     }
-    all.add(t);
+    if ((r.status[i] & status_contact) != 0) ++t.contacts;
+    if (++pairs_ % pairs_of_a_block != 0) continue;
+    all_.add(block_);
+    block_ = {};
   }
-  return all;
+}
+
+Totals RunningTotals::all() const {
+  Totals sum = all_;
+  sum.add(block_);
+  return sum;
+}
+
+Totals totals(const KernelPlan& plan, const PacketView& view, const PacketResult& r) {
+  RunningTotals sum(plan);
+  sum.add(view, r);
+  return sum.all();
 }
 
 double pair_stiffness(const ContactCard& card, double k_main, double k_secondary, Model model) {

@@ -84,12 +84,10 @@ SceneOutcome CycleRun::evaluate(const Coordinates& x, const State& state,
   const detail::RunContext run{
       scene, x, state, options, remember_, memory_->fixed, memory_->connectivity};
   SceneOutcome out;
-  out.nodes.resize(scene.model->nodes.size());
   // Nodes are many; sums of heat that no contact adds to are not kept.
-  if (std::none_of(memory_->cards.begin(), memory_->cards.end(),
-                   [](const ContactCard& card) { return card.ithe > 0; }))
-    for (std::vector<double>* sums : {&out.nodes.heat, &out.nodes.conductance})
-      std::vector<double>().swap(*sums);
+  out.nodes.resize(scene.model->nodes.size(),
+                   std::any_of(memory_->cards.begin(), memory_->cards.end(),
+                               [](const ContactCard& card) { return card.ithe > 0; }));
   out.contacts.resize(scene.contacts.size());
   std::vector<NodeStiffness> stiffness(scene.contacts.size());
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {

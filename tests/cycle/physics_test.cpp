@@ -287,6 +287,59 @@ TEST(Assembly, IsTheSameForAnyNumberOfThreadsAndConservesMomentum) {
   }
 }
 
+TEST(Assembly, PiecesInPairOrderGiveTheBitsOfTheWhole) {
+  Scene s = grid_scene(9, 80, 0.05, 0.1);  // 6400 pairs: more than one block of totals
+  std::mt19937_64 rng(5);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (std::size_t n = 0; n < s.mass.size(); ++n)
+    for (std::size_t c = 0; c < 3; ++c) {
+      s.v[c][n] = 10.0 * u(rng);
+      s.x[c][n] += 0.01 * u(rng);
+    }
+  const KernelPlan plan = make_plan(rubbing_card(), Model::reference);
+  const auto run = [&](const PairList& pairs, std::size_t begin, PacketResult& r,
+                       RunningTotals& totals) {
+    PacketBuffer buffer;
+    buffer.gather(s.nodes(), pairs, plan.needs | Field::position);
+    PacketView view = buffer.view();
+    view.k0 = s.k0.data() + begin;
+    view.gap = s.gap.data() + begin;
+    view.dt1 = view.dt12 = 1e-5;
+    evaluate(plan, view, r);
+    totals.add(view, r);
+  };
+  PacketResult whole;
+  RunningTotals of_whole(plan);
+  run(s.pairs, 0, whole, of_whole);
+  NodalSums expected;
+  expected.resize(s.mass.size());
+  assemble(plan, Incidence(s.pairs, s.mass.size()), whole, expected);
+
+  RunningTotals of_pieces(plan);
+  NodalSums sums;
+  sums.resize(s.mass.size(), false);
+  const std::size_t bounds[] = {0, 3, 1000, 4096, 4099, 6400};
+  for (std::size_t k = 0; k + 1 < std::size(bounds); ++k) {
+    PairList piece;
+    for (std::size_t r = 0; r < 5; ++r)
+      piece.node[r].assign(s.pairs.node[r].begin() + static_cast<std::ptrdiff_t>(bounds[k]),
+                           s.pairs.node[r].begin() + static_cast<std::ptrdiff_t>(bounds[k + 1]));
+    PacketResult r;
+    run(piece, bounds[k], r, of_pieces);
+    assemble(plan, piece, r, sums);
+  }
+  EXPECT_EQ(sums.force, expected.force);
+  EXPECT_EQ(sums.stiffness, expected.stiffness);
+  EXPECT_EQ(sums.contact, expected.contact);
+  const Totals a = of_whole.all(), b = of_pieces.all();
+  EXPECT_EQ(a.moment, b.moment);
+  EXPECT_EQ(a.tangential, b.tangential);
+  EXPECT_EQ(a.total_abs, b.total_abs);
+  EXPECT_EQ(a.elastic_energy, b.elastic_energy);
+  EXPECT_EQ(a.dt_kinematic_pair, b.dt_kinematic_pair);
+  EXPECT_GT(a.total_abs, 100.0);
+}
+
 TEST(Assembly, OrderOfPairsChangesNoPairForce) {
   std::vector<Pair> pairs = testing::random_pairs(300, 9);
   const auto before = forces(rubbing_card(), pairs, Model::reference);

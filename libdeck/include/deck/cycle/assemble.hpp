@@ -72,7 +72,7 @@ struct NodalSums {
   std::vector<std::uint8_t> contact;   ///< 1 when a pair of the node has a force (Ibag, Iadm)
   std::vector<std::uint8_t> removed;   ///< 1 when the node (edge) is to leave the interface
   std::vector<std::uint8_t> released;  ///< translations to free, 4 X + 2 Y + 1 Z (IBC)
-  void resize(std::size_t nodes);
+  void resize(std::size_t nodes, bool heated = true);
 };
 
 /// Adds a result to the nodes. Each node adds its pairs in pair order, so the sums are the same
@@ -80,6 +80,11 @@ struct NodalSums {
 /// can share it.
 void assemble(const KernelPlan& plan, const Incidence& incidence, const PacketResult& result,
               NodalSums& sums, unsigned threads = 1);
+
+/// The same numbers from one thread and without the lists by node: for results that come piece by
+/// piece, in pair order.
+void assemble(const KernelPlan& plan, const PairList& pairs, const PacketResult& result,
+              NodalSums& sums);
 
 /// What limits the time step of an interface, and by how much.
 struct StepLimit {

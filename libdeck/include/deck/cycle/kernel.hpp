@@ -25,6 +25,20 @@ void evaluate(const KernelPlan& plan, const PacketView& view, PacketResult& resu
 [[nodiscard]] Totals totals(const KernelPlan& plan, const PacketView& view,
                             const PacketResult& result);
 
+/// The same sums of results that come piece by piece: those of one result in any pieces. The plan
+/// outlives it.
+class RunningTotals {
+ public:
+  explicit RunningTotals(const KernelPlan& plan) : plan_(&plan) {}
+  void add(const PacketView& view, const PacketResult& result);
+  [[nodiscard]] Totals all() const;
+
+ private:
+  const KernelPlan* plan_;
+  Totals all_, block_;  ///< full blocks of pairs, and the last one
+  std::size_t pairs_ = 0;
+};
+
 /// Pair stiffness K0 from main and secondary values by Istf (before the 1/2 of the law), clamped
 /// to [Stmin, Stmax] for Istf 2..5. TYPE10: the main value. TYPE11: Istf 0 and 5 in series, Istf 1
 /// two springs of |Stfac| in series, so that the law starts at a quarter of Stfac. The models
