@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace deck::detail {
 namespace {
@@ -15,7 +16,35 @@ std::size_t lines_per_item(const Block& block) {
   return std::max<std::size_t>(grouped, 1);
 }
 
+thread_local std::uint64_t walked = 0;
+
+/// Lines of items of any blocks, in any order and with repetitions, by one walk of a block for all
+/// its items. `block_of` an item, all blocks at `blocks`.
+template <class BlockOf>
+std::vector<Span> spans_by_block(const Deck& deck, std::span<const BulkBlock> blocks,
+                                 std::span<const std::uint32_t> items, const BlockOf& block_of) {
+  std::vector<Span> out(items.size());
+  std::vector<std::size_t> order(items.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair{block_of(items[a]), items[a]} < std::pair{block_of(items[b]), items[b]};
+  });
+  std::vector<std::uint32_t> inside;
+  for (std::size_t at = 0; at < order.size();) {
+    const std::size_t begin = at, block = block_of(items[order[at]]);
+    inside.clear();
+    for (; at < order.size() && block_of(items[order[at]]) == block; ++at)
+      inside.push_back(items[order[at]]);
+    if (block >= blocks.size()) continue;
+    const std::vector<Span> spans = item_spans(deck, blocks[block], inside);
+    for (std::size_t i = 0; i < spans.size(); ++i) out[order[begin + i]] = spans[i];
+  }
+  return out;
+}
+
 }  // namespace
+
+std::uint64_t items_walked() { return walked; }
 
 std::vector<Span> item_spans(const Deck& deck, const BulkBlock& range,
                              std::span<const std::uint32_t> indices) {
@@ -27,6 +56,7 @@ std::vector<Span> item_spans(const Deck& deck, const BulkBlock& range,
     Line line = cursor.next();
     while (line.valid() && line.text.empty()) line = cursor.next();
     if (!line.valid()) break;
+    ++walked;
     for (; next < indices.size() && indices[next] <= i; ++next)
       if (indices[next] == i) out[next] = line.whole();
     for (std::size_t k = 1; k < lines; ++k) cursor.next();
@@ -35,24 +65,25 @@ std::vector<Span> item_spans(const Deck& deck, const BulkBlock& range,
 }
 
 std::vector<Span> node_spans(const Model& model, std::span<const NodeIndex> nodes) {
-  std::vector<Span> out(nodes.size());
-  if (model.deck == nullptr) return out;
-  std::vector<std::size_t> order(nodes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return nodes[a] < nodes[b]; });
-  std::size_t at = 0;
-  for (const BulkBlock& block : model.node_blocks) {
-    while (at < order.size() && nodes[order[at]] < block.first) ++at;
-    std::vector<std::uint32_t> inside;
-    const std::size_t begin = at;
-    for (; at < order.size() && nodes[order[at]] < block.first + block.count; ++at)
-      inside.push_back(nodes[order[at]]);
-    if (inside.empty()) continue;
-    const std::vector<Span> spans = item_spans(*model.deck, block, inside);
-    for (std::size_t i = 0; i < spans.size(); ++i) out[order[begin + i]] = spans[i];
-  }
-  return out;
+  if (model.deck == nullptr) return std::vector<Span>(nodes.size());
+  const std::vector<BulkBlock>& blocks = model.node_blocks;
+  // Ranges ascend; empty blocks share their `first` with the next one.
+  return spans_by_block(*model.deck, blocks, nodes, [&](NodeIndex n) {
+    auto it = std::upper_bound(blocks.begin(), blocks.end(), n,
+                               [](NodeIndex index, const BulkBlock& b) { return index < b.first; });
+    while (it != blocks.begin())
+      if (--it; n < it->first + it->count) return static_cast<std::size_t>(it - blocks.begin());
+    return blocks.size();
+  });
+}
+
+std::vector<Span> element_spans(const Model& model, ElementKind kind,
+                                std::span<const std::uint32_t> elements) {
+  const Elements& family = model.family(kind);
+  if (model.deck == nullptr) return std::vector<Span>(elements.size());
+  return spans_by_block(*model.deck, model.element_blocks, elements, [&](std::uint32_t e) {
+    return e < family.size() ? std::size_t{family.block[e]} : model.element_blocks.size();
+  });
 }
 
 }  // namespace deck::detail

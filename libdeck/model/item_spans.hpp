@@ -18,4 +18,11 @@ std::vector<Span> item_spans(const Deck& deck, const BulkBlock& range,
 /// Model::node_span for many nodes, in any order and with repetitions: every block is walked once.
 std::vector<Span> node_spans(const Model& model, std::span<const NodeIndex> nodes);
 
+/// Model::element_span for many elements of one kind, the same way.
+std::vector<Span> element_spans(const Model& model, ElementKind kind,
+                                std::span<const std::uint32_t> elements);
+
+/// Items that this thread's walks have passed so far: what they cost, for tests.
+std::uint64_t items_walked();
+
 }  // namespace deck::detail

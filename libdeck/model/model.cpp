@@ -64,42 +64,56 @@ void register_id(BuildContext& c, std::map<std::int64_t, std::uint32_t>& map, st
 
 namespace {
 
+/// Items whose id others have, too, as far as they are to be reported, and after them the first of
+/// each id: their lines are found together.
+std::vector<std::uint32_t> duplicates_to_report(BuildContext& c, const IdMap& map,
+                                                const std::vector<std::int64_t>& id) {
+  std::vector<std::uint32_t> list;
+  for (const std::uint32_t i : map.duplicates())
+    if (c.diagnostics.wants(RuleId::DK105)) list.push_back(i);
+  const std::size_t count = list.size();
+  for (std::size_t i = 0; i < count; ++i) list.push_back(map.find(id[list[i]]));
+  return list;
+}
+
 /// Duplicate ids of nodes and elements. Nodes written twice with the same coordinates are legal
 /// decks' most frequent slip, so the message tells the two cases apart.
 void check_duplicates(BuildContext& c) {
   const Model& m = c.model;
-  for (const std::uint32_t n : m.nodes.map.duplicates()) {
-    if (!c.diagnostics.wants(RuleId::DK105)) continue;
-    const std::uint32_t first = m.nodes.map.find(m.nodes.id[n]);
+  const std::vector<std::uint32_t> nodes = duplicates_to_report(c, m.nodes.map, m.nodes.id);
+  const std::vector<Span> lines = node_spans(m, nodes);
+  for (std::size_t i = 0, count = nodes.size() / 2; i < count; ++i) {
+    const NodeIndex n = nodes[i], first = nodes[count + i];
     const bool same = m.nodes.x[n] == m.nodes.x[first] && m.nodes.y[n] == m.nodes.y[first] &&
                       m.nodes.z[n] == m.nodes.z[first];
     Diagnostic d =
         make_diagnostic({RuleId::DK105,
-                         m.node_span(n),
+                         lines[i],
                          "node " + std::to_string(m.nodes.id[n]) + " is defined twice" +
                              (same ? " with the same coordinates" : " with different coordinates"),
                          "/NODE",
                          m.nodes.id[n],
                          {.fix = "remove one of the two lines"}});
-    d.notes.emplace_back(m.node_span(first), "first defined here");
+    d.notes.emplace_back(lines[count + i], "first defined here");
     c.diagnostics.add(std::move(d));
   }
   for (const ElementKind kind :
        {ElementKind::shell4, ElementKind::shell3, ElementKind::solid8, ElementKind::quad,
         ElementKind::tria, ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
     const Elements& family = m.family(kind);
-    for (const std::uint32_t e : family.map.duplicates()) {
-      if (!c.diagnostics.wants(RuleId::DK105)) continue;
+    const std::vector<std::uint32_t> elements = duplicates_to_report(c, family.map, family.id);
+    const std::vector<Span> of = element_spans(m, kind, elements);
+    for (std::size_t i = 0, count = elements.size() / 2; i < count; ++i) {
+      const std::uint32_t e = elements[i];
       const Block* block = m.element_blocks[family.block[e]].block;
       Diagnostic d = make_diagnostic({RuleId::DK105,
-                                      m.element_span(kind, e),
+                                      of[i],
                                       "element " + std::to_string(family.id[e]) + " of " +
                                           std::string(block->keyword) + " is defined twice",
                                       std::string(block->keyword),
                                       family.id[e],
                                       {.fix = "give one of them another id"}});
-      d.notes.emplace_back(m.element_span(kind, family.map.find(family.id[e])),
-                           "first defined here");
+      d.notes.emplace_back(of[count + i], "first defined here");
       c.diagnostics.add(std::move(d));
     }
   }
@@ -196,15 +210,7 @@ const Elements& Model::family(ElementKind kind) const {
 
 Span Model::node_span(NodeIndex n) const {
   if (deck == nullptr || n >= nodes.size()) return {};
-  // Ranges ascend; empty blocks share their `first` with the next one.
-  const auto after =
-      std::upper_bound(node_blocks.begin(), node_blocks.end(), n,
-                       [](NodeIndex index, const BulkBlock& b) { return index < b.first; });
-  for (auto it = after; it != node_blocks.begin();) {
-    --it;
-    if (n < it->first + it->count) return detail::item_spans(*deck, *it, {&n, 1})[0];
-  }
-  return {};
+  return detail::node_spans(*this, {&n, 1})[0];
 }
 
 Span Model::element_span(ElementKind kind, std::uint32_t e) const {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "deck/model/connectivity.hpp"
+#include "model/item_spans.hpp"
 #include "where.hpp"
 
 namespace deck::test {
@@ -202,6 +203,33 @@ TEST(Place, OfANodeAndAnElementIsItsLine) {
   const auto text = [&](Span s) { return std::string(m.deck->sources.text(s).substr(0, 10)); };
   EXPECT_EQ(text(m.node_span(m.nodes.map.find(50))), "        50");
   EXPECT_EQ(text(m.element_span(ElementKind::shell4, m.shell4.map.find(8))), "         8");
+}
+
+TEST(Place, OfRepeatedIdsIsFoundByOneWalkOfEachBlock) {
+  constexpr int many = 400, repeated = 50;
+  std::string nodes, again, shells, shells_again;
+  for (int i = 1; i <= many; ++i) {
+    const std::string line = node(i, i % 20, i / 20, 0);
+    const std::string shell = cells({i, 1, 2, 3, 4});
+    nodes += line;
+    shells += shell;
+    if (i <= many - repeated) continue;
+    again += line;
+    shells_again += shell;
+  }
+  const std::uint64_t before = deck::detail::items_walked();
+  Built b(parts() + "/NODE\n" + nodes + "/SHELL/1\n" + shells + "/NODE\n" + again + "/SHELL/1\n" +
+          shells_again);
+  EXPECT_EQ(b.findings(RuleId::DK105), 2u * repeated);
+  EXPECT_LE(deck::detail::items_walked() - before, 2u * (many + repeated));
+  for (const Diagnostic& d : b.diagnostics().all()) {
+    if (d.rule != RuleId::DK105) continue;
+    const auto id = [&](const Span& s) { return b.model().deck->sources.text(s).substr(0, 10); };
+    ASSERT_EQ(d.notes.size(), 1u);
+    EXPECT_EQ(id(d.span), id(d.notes[0].first));
+    EXPECT_LT(d.notes[0].first.offset, d.span.offset);
+    EXPECT_EQ(id(d.span), cells({d.id}).substr(0, 10));
+  }
 }
 
 TEST(Connectivity, RowsListElementsOnce) {
