@@ -225,6 +225,30 @@ TEST(Inacti3, GroupsOf128CandidatesAddUp) {
   EXPECT_NEAR(x, last ? 9 - 5e-9 : 9.5, 1e-12);
 }
 
+TEST(Inacti3, APairOfTheNextGroupIsMeasuredAfterTheMove) {
+  // A floor, a wall that leans over it, and 127 nodes that are candidates of the floor alone: the
+  // floor's pair of node 501 ends the first group, the wall's begins the second.
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(5, 6, 0, 10).node(6, 6, 10, 10).node(501, 9, 5, 0.25);
+  d.shell_part(1, 2).shell(1, 1, 1, 2, 3, 4).shell(1, 2, 2, 5, 6, 3);
+  std::vector<int> ids;
+  for (int i = 0; i < 127; ++i) {
+    d.node(201 + i, 2 + 0.03 * i, 2, 1.5);
+    ids.push_back(201 + i);
+  }
+  ids.push_back(501);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", ids);
+  const Built b(d.add("@/INTER/TYPE7/1 Gapmin=1 Inacti=3"));
+  const Contact& c = b.contact();
+  ASSERT_EQ(c.candidates, 129u);
+  ASSERT_EQ(c.penetrations.size(), 2u);
+  EXPECT_NEAR(c.penetrations[0].depth, 0.75, 1e-15);
+  // The floor moves the node up to z = 1 and nearer to the wall, whose distance from (x, z) is
+  // (10 (10 - x) - 4 z) / sqrt(116): 6 instead of 9 of these parts.
+  EXPECT_NEAR(c.penetrations[1].depth, 1 - 6 / sqrt(116.0), 1e-8);
+}
+
 TEST(Inacti1, SwitchesTheNodeOff) {
   const Built b(over_quad({{3, 4, 0.4}, {3, 4, 3}}).add("@/INTER/TYPE7/1 Gapmin=1 Inacti=1"));
   const Contact& c = b.contact();
