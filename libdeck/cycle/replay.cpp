@@ -172,6 +172,10 @@ ReplayReport replay(const ContactCard& card, std::string_view csv, const ReplayO
   Table table;
   ReplayReport report;
   if (!table.read(csv, report.error)) return report;
+  if (table.rows() == 0) {
+    report.error = "no states: nothing follows the header line";
+    return report;
+  }
   report.kind = detail::kind_of(table);
   report.error = detail::check_columns(table, report.kind, card);
   if (!report.error.empty()) return report;

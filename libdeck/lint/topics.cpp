@@ -108,6 +108,27 @@ std::string rule_family(const std::string& topic, std::size_t width) {
                      id_text(first));
 }
 
+/// "/INTER": the keywords that begin with it, one line each.
+std::string keywords_below(const std::string& capitals, const SchemaSet& schemas,
+                           std::size_t width) {
+  const std::string above = (capitals.starts_with('/') ? capitals : "/" + capitals) + "/";
+  std::vector<const Schema*> below;
+  for (const Schema* s : contacts_first(schemas))
+    if (in_capitals(s->keyword).starts_with(above)) below.push_back(s);
+  if (below.empty()) return {};
+  std::string list;
+  for (const Schema* s : below) {
+    constexpr std::size_t margin = 29;
+    const std::string text = wrapped(s->doc, margin, width);
+    const std::string head = fmt::format("  {:<{}} ", s->keyword, margin - 3);
+    list += text.size() <= margin           ? head.substr(0, head.find_last_not_of(' ') + 1) + "\n"
+            : head.size() > margin ? fmt::format("  {}\n", s->keyword) + text
+                                   : head + text.substr(margin);
+  }
+  return fmt::format("Keywords that begin with {}\n\n{}\nThe page of one: deck explain {}\n", above,
+                     list, below.front()->keyword);
+}
+
 bool names_message(std::string_view text, const std::string& number) {
   for (std::size_t at = text.find(number); at != text.npos; at = text.find(number, at + 1)) {
     const auto part_of_number = [&](std::size_t i) {
@@ -199,6 +220,11 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
         return s != nullptr && !field_named(*s, topic).empty();
       });
   if (of_contact) return field_everywhere(topic, schemas, width);
+  const std::string below = keywords_below(capitals, schemas, width);
+  if (!below.empty()) {
+    const Schema* own = schemas.find(topic.starts_with('/') ? capitals : "/" + capitals);
+    return own != nullptr ? explain_keyword(*own, {}, width) + "\n" + below : below;
+  }
   if (keyword != nullptr && (topic.starts_with('/') || schemas.find("/" + capitals) != nullptr))
     return explain_keyword(*keyword, {}, width);
   if (std::string page = field_everywhere(topic, schemas, width); !page.empty()) return page;

@@ -57,6 +57,12 @@ TEST(ReplayJudge, EveryRecordedColumnIsComparedNotTheForceAlone) {
   EXPECT_NEAR(wrong.columns[1].max, 1.0 / 3126.0, 1e-12);
 }
 
+TEST(ReplayJudge, AHeaderLineAloneHoldsNoStatesWhateverItsColumns) {
+  EXPECT_EQ(replay(spring(), "interface,node\n").error,
+            "no states: nothing follows the header line");
+  EXPECT_EQ(replay(spring(), table("")).error, "no states: nothing follows the header line");
+}
+
 TEST(ReplayJudge, RowsThatRecordNothingAreCounted) {
   const ReplayReport r =
       replay(spring(), table(state("2", "0,0,0,0") + state("0.4", "0,0,-750,3125")));

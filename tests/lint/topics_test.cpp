@@ -26,6 +26,20 @@ TEST(ExplainTopic, AKeywordIsFoundByItsEnd) {
   EXPECT_TRUE(explain_topic("/default/inter/type7", schemas()).starts_with("/DEFAULT/INTER/TYPE7"));
 }
 
+TEST(Topics, TheBeginningOfAKeywordListsTheKeywordsThatHaveIt) {
+  const std::string page = explain_topic("inter", schemas());
+  EXPECT_TRUE(page.starts_with("Keywords that begin with /INTER/\n\n  /INTER/TYPE7 ")) << page;
+  EXPECT_NE(page.find("\n  /INTER/TYPE19 "), page.npos) << page;
+  EXPECT_EQ(page.find("/TH/INTER"), page.npos) << page;
+  EXPECT_EQ(explain_topic("/INTER", schemas()), page);
+}
+
+TEST(Topics, AKeywordThatOthersContinueListsThemBelowItsPage) {
+  const std::string page = explain_topic("DEFAULT", schemas());
+  EXPECT_TRUE(page.starts_with("/DEFAULT\n")) << page;
+  EXPECT_NE(page.find("\n  /DEFAULT/INTER/TYPE7 "), page.npos) << page;
+}
+
 TEST(ExplainTopic, ASolverMessageLeadsToItsRules) {
   const std::string page = explain_topic("611", schemas());
   EXPECT_TRUE(has(page, "Message 611")) << page;
