@@ -121,7 +121,7 @@ std::string keywords_below(const std::string& capitals, const SchemaSet& schemas
     constexpr std::size_t margin = 29;
     const std::string text = wrapped(s->doc, margin, width);
     const std::string head = fmt::format("  {:<{}} ", s->keyword, margin - 3);
-    list += text.size() <= margin           ? head.substr(0, head.find_last_not_of(' ') + 1) + "\n"
+    list += text.size() <= margin  ? head.substr(0, head.find_last_not_of(' ') + 1) + "\n"
             : head.size() > margin ? fmt::format("  {}\n", s->keyword) + text
                                    : head + text.substr(margin);
   }

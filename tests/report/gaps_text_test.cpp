@@ -1,6 +1,7 @@
 // The text of `deck gaps`: one row per interface, clean ones in one line, nothing wider than asked.
 #include "deck/base/columns.hpp"
 #include "deck/report/gaps.hpp"
+#include "deck/text/rule.hpp"
 #include "report/inspected.hpp"
 
 namespace deck::test {
@@ -33,6 +34,35 @@ TEST(GapsText, HasOneRowPerInterfaceAndCleanOnesInOneLine) {
   EXPECT_NE(text.find("3 clean interfaces: 3, 4, 5\n"), std::string::npos) << text;
   EXPECT_EQ(count_of(text, "TYPE19"), 1u) << text;
   EXPECT_EQ(text.find("reversed"), std::string::npos) << text;
+}
+
+/// The plates, and three interfaces with a side that nothing is on.
+std::string one_sided() {
+  Plates p;
+  p.card =
+      "Gapmin=0.1\n@/INTER/TYPE7/3 grnd_IDs=2 surf_IDm=99\n@/INTER/TYPE7/4 grnd_IDs=99 surf_IDm=1";
+  p.card += "\n/GRNOD/PART/5\nnobody\n        77\n@/INTER/TYPE7/5 grnd_IDs=5 surf_IDm=1";
+  return plates(p);
+}
+
+TEST(GapsText, AContactWithAnEmptySideIsNoCleanOne) {
+  const Inspected d(one_sided());
+  const std::string text = text_of(d);
+  EXPECT_NE(text.find("1 clean interface: 1\n"), std::string::npos) << text;
+  EXPECT_EQ(count_of(text, "main side is empty"), 1u) << text;
+  EXPECT_EQ(count_of(text, "secondary side is empty"), 2u) << text;
+  EXPECT_TRUE(
+      text.starts_with("3 contacts with an empty side. No initial penetration in 1 contact."))
+      << text;
+}
+
+TEST(GapsText, AnEmptySideIsAnErrorUnlessItIsANodeGroupThatIsThere) {
+  const Inspected d(one_sided());
+  std::vector<std::pair<std::int64_t, Severity>> found;
+  for (const Diagnostic& f : d.diagnostics.all())
+    if (f.rule == RuleId::DK172 || f.rule == RuleId::DK173) found.emplace_back(f.id, f.severity);
+  EXPECT_EQ(found, (std::vector<std::pair<std::int64_t, Severity>>{
+                       {3, Severity::error}, {4, Severity::error}, {5, Severity::warning}}));
 }
 
 TEST(GapsText, VerboseShowsEveryInterfaceAndTheRolesAsJsonNamesThem) {

@@ -73,6 +73,11 @@ class Gate:
             self.c.check("%s: a contact that could not be evaluated has not passed" % verb,
                          r.code == 1 and not gate["passed"] and gate["undecided"] == 1, "exit %s, %s" % (r.code, gate))
 
+        mistakes = os.path.join(ROOT, "samples", "every_mistake_0000.rad")
+        for verb in ("gaps", "cycle"):
+            self.expect("%s: a contact whose main surface does not exist is not clean" % verb, 1, verb, mistakes, "--interface", "1")
+            self.expect("%s: --fail-on never leaves it" % verb, 0, verb, mistakes, "--interface", "1", "--fail-on", "never")
+
     def documents(self):
         r = self.run("gaps", DECK, "--max-depth", "0.1", "--json", "-")
         gate = json.loads(r.out)["gate"]

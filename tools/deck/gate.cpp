@@ -161,4 +161,11 @@ GateReport DeckGate::look(Loaded& loaded, const Scene& scene, const SceneView& v
   return report;
 }
 
+bool stops_at_empty_side(const Loaded& loaded) {
+  const auto& all = loaded.diagnostics.all();
+  return std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
+    return d.severity == Severity::error && (d.rule == RuleId::DK172 || d.rule == RuleId::DK173);
+  });
+}
+
 }  // namespace deck::cli

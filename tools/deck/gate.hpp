@@ -43,6 +43,9 @@ Result<void> check_fail_on(const GateOptions& options);
 /// The configuration that holds for a deck: --config, or the nearest .decklint.toml.
 Result<LintConfig> config_of(const GateOptions& options, const std::string& deck_path);
 
+/// True if the solver stops because a side of a contact of the scene has no member.
+bool stops_at_empty_side(const Loaded& loaded);
+
 /// What holds for one deck: the bounds, and what the deck is compared with.
 struct DeckGate {
   Gate gate;

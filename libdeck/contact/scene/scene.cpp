@@ -247,9 +247,40 @@ class Builder {
     detail::set_gaps(c_, contact, card.gapmin);
     contact.drad =
         detail::radiation_distance(card.thermal, card.drad, contact.max_gap, contact.shortest_side);
+    if (c_.options.penetrations) report_empty_sides(contact);
     if (c_.options.penetrations && computable(contact)) detail::find_penetrations(c_, contact);
     if (c_.options.nodal_stiffness && contact.istf >= 2) detail::set_nodal_stiffness(c_, contact);
     c_.scene.contacts.push_back(std::move(contact));
+  }
+
+  /// A contact without pairs is no clean one: the solver stops, but for a node group that is there.
+  void report_empty_sides(const Contact& contact) {
+    const bool edges = contact.kind == ContactKind::edge_edge;
+    if (edges ? contact.main_edges.empty() : contact.main.empty())
+      report_empty_side(contact, RuleId::DK173, "main", Severity::error);
+    if (!(edges ? contact.secondary_edges.empty() : contact.secondary.empty())) return;
+    const InterBase* inter = contact.inter;
+    const std::int64_t group =
+        inter->type == 7    ? static_cast<const InterType7*>(inter)->grnd_IDs.value
+        : inter->type == 10 ? static_cast<const InterType10*>(inter)->grnd_IDs.value
+                            : -1;
+    if (group == 0 && inter->type == 7) return;  // the nodes of the main surface
+    const bool goes_on = group == 0 || (group > 0 && selections_.node_group(group) != nullptr);
+    report_empty_side(contact, RuleId::DK172, "secondary",
+                      goes_on ? Severity::warning : Severity::error);
+  }
+
+  void report_empty_side(const Contact& contact, RuleId rule, const char* side, Severity severity) {
+    const std::string keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
+    Diagnostic d = finding_of(rule, contact.inter->span,
+                              "the " + std::string(side) + " side of " + keyword + " " +
+                                  std::to_string(contact.inter->id) +
+                                  (contact.role == ContactRole::reversed ? " (reversed)" : "") +
+                                  " is empty: nothing was examined");
+    d.severity = severity;
+    d.keyword = keyword;
+    d.id = contact.inter->id;
+    c_.diagnostics.report(std::move(d));
   }
 
   /// False, with a finding, where members are missing or have no place, or the gap is no number.
@@ -288,6 +319,7 @@ class Builder {
     detail::set_edge_gaps(c_, contact, card.gapmin);
     contact.drad =
         detail::radiation_distance(card.thermal, card.drad, contact.max_gap, contact.shortest_side);
+    if (c_.options.penetrations) report_empty_sides(contact);
     if (c_.options.penetrations && computable(contact)) detail::find_edge_penetrations(c_, contact);
     c_.scene.contacts.push_back(std::move(contact));
   }

@@ -21,15 +21,26 @@ const PenetrationRow& row_of(const Scene& scene, const NamedPenetration& p) {
   return scene.contacts[p.contact].penetrations[p.row];
 }
 
+/// The side without members, where there can be no pair; empty: both have some.
+std::string_view empty_side(const Contact& c) {
+  if (c.dropped) return {};
+  const bool edges = c.kind == ContactKind::edge_edge;
+  if (edges ? c.main_edges.empty() : c.main.empty()) return "main";
+  if (edges ? c.secondary_edges.empty() : c.secondary.empty()) return "secondary";
+  return {};
+}
+
 /// What the solver does about the penetrations of contacts, in a few words.
 std::string action_words(const std::vector<const Contact*>& contacts) {
   std::size_t by_action[6] = {}, all = 0;
+  std::string_view side;
   for (const Contact* c : contacts) {
     if (!c->evaluated) return "not evaluated";
+    if (side.empty()) side = empty_side(*c);
     all += c->penetrations.size();
     for (const PenetrationRow& row : c->penetrations) ++by_action[static_cast<int>(row.action)];
   }
-  if (all == 0) return "-";
+  if (all == 0) return side.empty() ? "-" : fmt::format("{} side is empty", side);
   static constexpr const char* words[6] = {
       "nothing",     "nodes switched off", "segments switched off",
       "nodes moved", "gaps reduced",       "edges switched off"};
@@ -92,7 +103,7 @@ class InterfaceTable {
       for (const std::size_t i : list) {
         contacts.push_back(&scene_.contacts[i]);
         totals.push_back(view_.contacts[i]);
-        open = open || !scene_.contacts[i].evaluated;
+        open = open || !scene_.contacts[i].evaluated || !empty_side(scene_.contacts[i]).empty();
       }
       const ContactTotals sum = sum_of(totals);
       if (!options_.verbose && !open && sum.count.pairs == 0) {
@@ -170,13 +181,16 @@ std::string penetration_sentence(const Scene& scene, const SceneView& view) {
   const ContactTotals& t = view.total;
   const auto unknown = static_cast<std::size_t>(std::count_if(
       scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) { return !c.evaluated; }));
-  const std::string open = unknown == 0
-                               ? ""
-                               : fmt::format("{} could not be evaluated, see the findings. ",
-                                             count(unknown, "contact", "contacts"));
+  std::string open = unknown == 0 ? ""
+                                  : fmt::format("{} could not be evaluated, see the findings. ",
+                                                count(unknown, "contact", "contacts"));
+  const auto idle = static_cast<std::size_t>(
+      std::count_if(scene.contacts.begin(), scene.contacts.end(),
+                    [](const Contact& c) { return c.evaluated && !empty_side(c).empty(); }));
+  if (idle > 0) open += fmt::format("{} with an empty side. ", count(idle, "contact", "contacts"));
   if (t.count.pairs == 0)
     return open + fmt::format("No initial penetration in {}.",
-                              count(scene.contacts.size() - unknown, "contact", "contacts"));
+                              count(scene.contacts.size() - unknown - idle, "contact", "contacts"));
   // One figure for the deepest pair, one for the largest share of a gap.
   const PenetrationRow& deepest = row_of(scene, view.penetrations.front());
   std::string text =

@@ -40,7 +40,10 @@ EditContext context_of(const PyDeck& d) {
 DeckPointer read_again(const PyDeck& d, const ChangedFiles& changed) {
   LoadOptions options = d.options;
   options.read.overlay = &changed;
-  auto loaded = load(d.path, options);
+  auto loaded = [&] {
+    const py::gil_scoped_release free;
+    return load(d.path, options);
+  }();
   if (!loaded) raise_error(loaded.error().message);
   return std::make_shared<PyDeck>(d.path, std::move(*loaded), d.options);
 }
