@@ -56,6 +56,44 @@ TEST(GapsText, AContactWithAnEmptySideIsNoCleanOne) {
       << text;
 }
 
+TEST(GapsText, AContactWithoutAGapIsNoCleanOne) {
+  Plates p;
+  p.card = "Gapmin=0.1";
+  std::string deck = plates(p);
+  const Inspected fine(deck);
+  EXPECT_EQ(text_of(fine).find("without a gap"), std::string::npos) << text_of(fine);
+  SmallDeck d;
+  for (int i = 0; i < 2; ++i) {
+    const int n = 4 * i;
+    d.node(n + 1, 0, 0, i).node(n + 2, 1, 0, i).node(n + 3, 1, 1, i).node(n + 4, 0, 1, i);
+    d.shell_part(i + 1, 0).shell(i + 1, i + 1, n + 1, n + 2, n + 3, n + 4);
+  }
+  d.add(
+      "/SURF/PART/1\ns\n         1\n/GRNOD/PART/2\ns\n         2\n@/INTER/TYPE7/1 grnd_IDs=2 "
+      "surf_IDm=1");
+  const std::string text = text_of(Inspected(d.text()));
+  EXPECT_TRUE(
+      text.starts_with("1 contact without a gap (error 785/786). No initial penetration in 0 "
+                       "contacts."))
+      << text;
+  EXPECT_NE(text.find("there is no gap"), std::string::npos) << text;
+}
+
+TEST(GapsText, AContactWithSegmentsWithoutAreaIsNoCleanOne) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 1, 0, 0).node(3, 2, 0, 0).node(4, 3, 0, 0).node(5, 0, 0, 5);
+  d.shell_part(1, 1).shell(1, 1, 1, 2, 3, 4);
+  d.add(
+      "/SURF/PART/1\ns\n         1\n/GRNOD/NODE/2\ns\n         5\n@/INTER/TYPE7/1 grnd_IDs=2 "
+      "surf_IDm=1 Gapmin=1");
+  const std::string text = text_of(Inspected(d.text()));
+  EXPECT_TRUE(
+      text.starts_with("1 contact with main segments without area (error 558). No initial "
+                       "penetration in 1 contact."))
+      << text;
+  EXPECT_NE(text.find("1 segment without area"), std::string::npos) << text;
+}
+
 TEST(GapsText, AnEmptySideIsAnErrorUnlessItIsANodeGroupThatIsThere) {
   const Inspected d(one_sided());
   std::vector<std::pair<std::int64_t, Severity>> found;

@@ -291,7 +291,7 @@ int run(const Options& o) {
       input.processor = processor_name();
     }
     if (!o.html.empty() && written) written = write_html(o, input, view);
-    found = found || stops_at_empty_side(loaded);
+    found = found || stops_before_pairs(loaded, scene);
     if (o.gate.fails_on("never")) found = false;
     found = found || !report.passed();
     print_findings(loaded, o.common);

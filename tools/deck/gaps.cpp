@@ -218,7 +218,7 @@ int run(const Options& o) {
                                                       : view.total.solver_errors > 0;
     found = found && !accepted;
     for (const Contact& c : scene.contacts) found = found || !c.evaluated;
-    found = found || stops_at_empty_side(loaded);
+    found = found || stops_before_pairs(loaded, scene);
     if (o.gate.fails_on("never")) found = false;
     found = found || !report.passed();
     return static_cast<int>(found ? exit_findings : exit_clean);

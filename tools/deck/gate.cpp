@@ -161,10 +161,19 @@ GateReport DeckGate::look(Loaded& loaded, const Scene& scene, const SceneView& v
   return report;
 }
 
-bool stops_at_empty_side(const Loaded& loaded) {
+bool stops_before_pairs(const Loaded& loaded, const Scene& scene) {
   const auto& all = loaded.diagnostics.all();
-  return std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
-    return d.severity == Severity::error && (d.rule == RuleId::DK172 || d.rule == RuleId::DK173);
+  if (std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
+        return d.severity == Severity::error &&
+               (d.rule == RuleId::DK172 || d.rule == RuleId::DK173);
+      }))
+    return true;
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) {
+    if (c.dropped) return false;
+    const bool none = c.kind == ContactKind::edge_edge
+                          ? c.main_edges.empty() || c.secondary_edges.empty()
+                          : c.main.empty() || c.secondary.empty();
+    return c.degenerate_segments > 0 || (!none && !(c.gapmin > 0));
   });
 }
 

@@ -43,8 +43,9 @@ Result<void> check_fail_on(const GateOptions& options);
 /// The configuration that holds for a deck: --config, or the nearest .decklint.toml.
 Result<LintConfig> config_of(const GateOptions& options, const std::string& deck_path);
 
-/// True if the solver stops because a side of a contact of the scene has no member.
-bool stops_at_empty_side(const Loaded& loaded);
+/// True if the solver stops before it looks for pairs: a side of a contact of the scene has no
+/// member, a main segment no area, or the contact no gap.
+bool stops_before_pairs(const Loaded& loaded, const Scene& scene);
 
 /// What holds for one deck: the bounds, and what the deck is compared with.
 struct DeckGate {

@@ -30,17 +30,32 @@ std::string_view empty_side(const Contact& c) {
   return {};
 }
 
+/// True without a gap: nothing can lie within it, and the solver stops (785, 786).
+bool without_gap(const Contact& c) {
+  return !c.dropped && empty_side(c).empty() && !(c.gapmin > 0);
+}
+
+/// Why a contact without penetrations is no clean one; empty: it is.
+std::string obstacle(const Contact& c) {
+  if (const auto side = empty_side(c); !side.empty()) return fmt::format("{} side is empty", side);
+  if (without_gap(c)) return "there is no gap";
+  if (c.degenerate_segments > 0)
+    return fmt::format("{} without area", count(static_cast<std::size_t>(c.degenerate_segments),
+                                                "segment", "segments"));
+  return {};
+}
+
 /// What the solver does about the penetrations of contacts, in a few words.
 std::string action_words(const std::vector<const Contact*>& contacts) {
   std::size_t by_action[6] = {}, all = 0;
-  std::string_view side;
+  std::string why;
   for (const Contact* c : contacts) {
     if (!c->evaluated) return "not evaluated";
-    if (side.empty()) side = empty_side(*c);
+    if (why.empty()) why = obstacle(*c);
     all += c->penetrations.size();
     for (const PenetrationRow& row : c->penetrations) ++by_action[static_cast<int>(row.action)];
   }
-  if (all == 0) return side.empty() ? "-" : fmt::format("{} side is empty", side);
+  if (all == 0) return why.empty() ? "-" : why;
   static constexpr const char* words[6] = {
       "nothing",     "nodes switched off", "segments switched off",
       "nodes moved", "gaps reduced",       "edges switched off"};
@@ -103,7 +118,7 @@ class InterfaceTable {
       for (const std::size_t i : list) {
         contacts.push_back(&scene_.contacts[i]);
         totals.push_back(view_.contacts[i]);
-        open = open || !scene_.contacts[i].evaluated || !empty_side(scene_.contacts[i]).empty();
+        open = open || !scene_.contacts[i].evaluated || !obstacle(scene_.contacts[i]).empty();
       }
       const ContactTotals sum = sum_of(totals);
       if (!options_.verbose && !open && sum.count.pairs == 0) {
@@ -184,10 +199,18 @@ std::string penetration_sentence(const Scene& scene, const SceneView& view) {
   std::string open = unknown == 0 ? ""
                                   : fmt::format("{} could not be evaluated, see the findings. ",
                                                 count(unknown, "contact", "contacts"));
-  const auto idle = static_cast<std::size_t>(
-      std::count_if(scene.contacts.begin(), scene.contacts.end(),
-                    [](const Contact& c) { return c.evaluated && !empty_side(c).empty(); }));
-  if (idle > 0) open += fmt::format("{} with an empty side. ", count(idle, "contact", "contacts"));
+  std::size_t idle = 0;
+  const auto name = [&](const char* what, auto&& of_that_kind) {
+    const auto n = static_cast<std::size_t>(
+        std::count_if(scene.contacts.begin(), scene.contacts.end(),
+                      [&](const Contact& c) { return c.evaluated && of_that_kind(c); }));
+    if (n > 0) open += fmt::format("{} {}. ", count(n, "contact", "contacts"), what);
+    return n;
+  };
+  idle += name("with an empty side", [](const Contact& c) { return !empty_side(c).empty(); });
+  idle += name("without a gap (error 785/786)", without_gap);
+  name("with main segments without area (error 558)",
+       [](const Contact& c) { return c.degenerate_segments > 0; });
   if (t.count.pairs == 0)
     return open + fmt::format("No initial penetration in {}.",
                               count(scene.contacts.size() - unknown - idle, "contact", "contacts"));
