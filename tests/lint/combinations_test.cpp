@@ -51,6 +51,15 @@ TEST(FrictionOverTemperature, IsNamedOnlyWhereAFunctionIsGiven) {
   EXPECT_FALSE(lint_example(heat + " fric_ID=1").fires(RuleId::DK914));
 }
 
+TEST(TieTrigger, ANegativeDtminIsNotCalledBlank) {
+  for (const auto& [cell, said] :
+       {std::pair{"", "dtmin is blank"}, {" dtmin=-1.0", "dtmin is not above 0"}}) {
+    const auto r = lint_example("@/INTER/TYPE7/1 ITIED=1" + std::string(cell));
+    ASSERT_TRUE(r.fires(RuleId::DK915)) << cell;
+    EXPECT_NE(r.find(RuleId::DK915)->message.find(said), std::string::npos) << cell;
+  }
+}
+
 TEST(IncrementalStiffness, OfAFrictionBlockIsThatOfIformTwo) {
   EXPECT_TRUE(lint_example("@/FRICTION/1 Fric=0.2 Iform=2").fires(RuleId::DK295));
   EXPECT_FALSE(lint_example("@/FRICTION/1 Fric=0.2 Iform=1").fires(RuleId::DK295));

@@ -227,7 +227,8 @@ void check_tie_trigger(const LintContext& c, const Rule& rule, Reporter& r) {
     if (!card.given("ITIED") || card.input("dtmin") > 0) return;
     note_field(report_at(r, rule, card, "ITIED",
                          name_of(card) + ": " + card.show("ITIED") +
-                             " never ties anything, because dtmin is blank"),
+                             " never ties anything, because dtmin is " +
+                             (card.given("dtmin") ? "not above 0" : "blank")),
                card, "dtmin");
   });
 }
