@@ -191,9 +191,9 @@ void apply_curvature(const KernelPlan& plan, const PacketView& view, std::size_t
                  {g.normal[0][slot], g.normal[1][slot], g.normal[2][slot]}};
     const std::array<double, 4> h{g.raw[0][slot], g.raw[1][slot], g.raw[2][slot], g.raw[3][slot]};
     if (card.icurv == 1) {
-      sphere(of(card.curv_node1), node, x, gap, c);
+      sphere(to_vec(card.curv_node1), node, x, gap, c);
     } else if (card.icurv == 2) {
-      cylinder(of(card.curv_node1), of(card.curv_node2), node, x, gap, c);
+      cylinder(to_vec(card.curv_node1), to_vec(card.curv_node2), node, x, gap, c);
     } else if (card.icurv == 3 && !is_triangle(view, i) && c.keep) {
       std::array<Vec, 4> nodal;
       for (std::size_t k = 0; k < 4; ++k) nodal[k] = at(view.normal[k], i);

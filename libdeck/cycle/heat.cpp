@@ -18,7 +18,7 @@ struct Plane {
 
 Plane plane_of(const HeatState& s) {
   std::array<Vec, 5> x;
-  for (std::size_t c = 0; c < 5; ++c) x[c] = detail::of(s.position[c]);
+  for (std::size_t c = 0; c < 5; ++c) x[c] = to_vec(s.position[c]);
   const Vec n = cross(x[1] - x[3], x[2] - x[4]);
   const Vec centre = 0.25 * (x[1] + x[2] + x[3] + x[4]);
   const double size = norm(n);
@@ -72,8 +72,8 @@ HeatFlow pair_heat(const ContactCard& card, const HeatState& s) {
 }
 
 double edge_contact_area(const ContactCard& card, const EdgeHeatState& s) {
-  const Vec es = detail::of(s.position[1]) - detail::of(s.position[0]);
-  const Vec em = detail::of(s.position[3]) - detail::of(s.position[2]);
+  const Vec es = to_vec(s.position[1]) - to_vec(s.position[0]);
+  const Vec em = to_vec(s.position[3]) - to_vec(s.position[2]);
   const double ls = norm(es), lm = norm(em);
   if (card.ithe_form != 1) return ls * s.width[0];
   const double both = ls * lm;

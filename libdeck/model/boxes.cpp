@@ -2,8 +2,6 @@
 // groups.
 #include "model/boxes.hpp"
 
-#include <cmath>
-
 #include "base/length3.hpp"
 #include "model/selection/selection_impl.hpp"
 
@@ -15,23 +13,16 @@ using detail::Definition;
 namespace detail {
 namespace {
 
-using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-bool normalise_vector(Vector& v) {
-  const double n = length3(v[0], v[1], v[2]);
+/// Divides by the length, whose squares cannot overflow. False: it has none.
+bool normalise_vector(Vec& v) {
+  const double n = length3(v.x, v.y, v.z);
   if (!(n > 0)) return false;
-  for (double& c : v) c /= n;
+  v = {v.x / n, v.y / n, v.z / n};
   return true;
 }
 
-Vector in_axes(const std::array<double, 9>& axes, const Vector& p) {
-  return {dot({axes[0], axes[1], axes[2]}, p), dot({axes[3], axes[4], axes[5]}, p),
-          dot({axes[6], axes[7], axes[8]}, p)};
+Vec in_axes(const std::array<Vec, 3>& axes, const Vec& p) {
+  return {dot(axes[0], p), dot(axes[1], p), dot(axes[2], p)};
 }
 
 /// On one axis: within the corners, whatever their order; a flat box holds its plane exactly.
@@ -44,7 +35,7 @@ bool between(double x, double from, double to) {
 }  // namespace
 
 bool Box::contains(double x, double y, double z) const {
-  const Vector point{x, y, z};
+  const Vec point{x, y, z};
   switch (type) {
     case Type::none: {
       bool in = false;
@@ -53,19 +44,18 @@ bool Box::contains(double x, double y, double z) const {
       return in;
     }
     case Type::rectangle: {
-      const Vector local = global ? point : in_axes(axes, point);
-      return between(local[0], p[0], q[0]) && between(local[1], p[1], q[1]) &&
-             between(local[2], p[2], q[2]);
+      const Vec local = global ? point : in_axes(axes, point);
+      return between(local.x, p.x, q.x) && between(local.y, p.y, q.y) && between(local.z, p.z, q.z);
     }
     case Type::cylinder: {
-      const Vector axis = minus(q, p), r = minus(point, p);
+      const Vec axis = q - p, r = point - p;
       const double along = dot(r, axis), square = dot(axis, axis);
       if (along < 0 || along > square) return false;
-      const Vector c = cross(r, axis);
+      const Vec c = cross(r, axis);
       return dot(c, c) <= 0.25 * diameter * diameter * square;
     }
     case Type::sphere: {
-      const Vector r = minus(point, p);
+      const Vec r = point - p;
       return dot(r, r) <= 0.25 * diameter * diameter;
     }
   }
@@ -107,39 +97,39 @@ const Box* Selections::Impl::box(std::int64_t id, const Block& from, int missing
 }
 
 /// Rows of `axes` are the axes of skew `id`, with the coordinates the boxes see.
-bool Selections::Impl::skew_axes(std::int64_t id, std::array<double, 9>& axes) {
+bool Selections::Impl::skew_axes(std::int64_t id, std::array<Vec, 3>& axes) {
   const Definition* def = definition("skew", id);
   if (def == nullptr) return false;
   const DecodedBlock d = decode(deck(), *def->block);
-  detail::Vector x{}, y{}, z{};
+  Vec x, y, z;
   if (def->type == "FIX") {
     y = {d.real("X_Y"), d.real("Y_Y"), d.real("Z_Y")};
     z = {d.real("X_Z"), d.real("Y_Z"), d.real("Z_Z")};
     if (const std::int32_t s = def->block->submodel;
         s >= 0 && static_cast<std::size_t>(s) < model->submodel_motions.size()) {
       const AffineMap& motion = model->submodel_motions[static_cast<std::size_t>(s)];
-      y = motion.turn(y);
-      z = motion.turn(z);
+      y = to_vec(motion.turn({y.x, y.y, y.z}));
+      z = to_vec(motion.turn({z.x, z.y, z.z}));
     }
-    x = detail::cross(y, z);
+    x = cross(y, z);
     if (!detail::normalise_vector(y) || !detail::normalise_vector(x)) return false;
   } else if (def->type == "MOV") {
-    std::array<detail::Vector, 3> p;
+    std::array<Vec, 3> p;
     constexpr const char* names[3] = {"N1", "N2", "N3"};
     for (std::size_t i = 0; i < 3; ++i) {
       const NodeIndex n = node(shift(*def->block, "node", d.integer(names[i])));
       if (n == no_index) return false;
-      p[i] = box_point(n);
+      p[i] = to_vec(box_point(n));
     }
-    x = detail::minus(p[1], p[0]);
-    z = detail::cross(x, detail::minus(p[2], p[0]));
-    y = detail::cross(z, x);
+    x = p[1] - p[0];
+    z = cross(x, p[2] - p[0]);
+    y = cross(z, x);
     if (!detail::normalise_vector(x) || !detail::normalise_vector(y)) return false;
   } else {
     return false;
   }
-  z = detail::cross(x, y);
-  axes = {x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]};
+  z = cross(x, y);
+  axes = {x, y, z};
   return true;
 }
 
@@ -175,14 +165,14 @@ void Selections::Impl::fill_box(Box& b, const Definition& def, const DecodedBloc
   };
   // A point from its node if one is named, else from its coordinates.
   const auto point = [&](const char* node_field, const char* x, const char* y, const char* z,
-                         bool use_node) -> detail::Vector {
+                         bool use_node) -> Vec {
     if (use_node) {
       const std::int64_t id = shift(block, "node", d.integer(node_field));
-      if (const NodeIndex n = node(id); n != no_index) return box_point(n);
+      if (const NodeIndex n = node(id); n != no_index) return to_vec(box_point(n));
       fail("node " + std::to_string(id) + " does not exist", "correct the node id", 78);
       return {};
     }
-    return motion.apply({value(x), value(y), value(z)});
+    return to_vec(motion.apply({value(x), value(y), value(z)}));
   };
   const auto blank = [&](std::initializer_list<const char*> fields) {
     for (const char* f : fields)
@@ -211,10 +201,13 @@ void Selections::Impl::fill_box(Box& b, const Definition& def, const DecodedBloc
              "define the skew or use 0 for the global axes", 748);
     } else if (block.submodel >= 0) {
       // Without a skew a box turns with its submodel.
-      const detail::Vector x = motion.turn({1, 0, 0}), y = motion.turn({0, 1, 0}),
-                           z = motion.turn({0, 0, 1});
-      b.axes = {x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]};
-      b.global = b.axes == std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1};
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::array<double, 3> axis{};
+        axis[k] = 1;
+        const std::array<double, 3> turned = motion.turn(axis);
+        b.axes[k] = to_vec(turned);
+        b.global = b.global && turned == axis;
+      }
     }
     if (!b.global) {
       b.p = detail::in_axes(b.axes, b.p);

@@ -3,14 +3,16 @@
 #include <array>
 #include <vector>
 
+#include "base/vec.hpp"
+
 namespace deck::detail {
 
 struct Box {
   enum class Type { none, rectangle, cylinder, sphere } type = Type::none;
   /// Rectangle: the two corners in the axes of the skew. Cylinder: base and end. Sphere: centre.
-  std::array<double, 3> p{}, q{};
-  std::array<double, 9> axes{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< rows: the axes of the skew
-  bool global = true;                                     ///< axes are the global ones
+  Vec p, q;
+  std::array<Vec, 3> axes{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};  ///< of the skew
+  bool global = true;                                                 ///< axes are the global ones
   double diameter = 0;
   std::vector<const Box*> members;  ///< box of boxes
   std::vector<bool> subtracted;     ///< per member: listed with a negative id

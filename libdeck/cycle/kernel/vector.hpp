@@ -20,7 +20,6 @@ std::array<Vec, 4> corners(const View& view, std::size_t i) {
   return {at(view.position[1], i), at(view.position[2], i), at(view.position[3], i),
           at(view.position[4], i)};
 }
-inline Vec of(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
 
 /// The frame that ties ride on: first diagonal, its companion in the surface, the normal.
 struct Frame {

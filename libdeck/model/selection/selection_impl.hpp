@@ -244,7 +244,7 @@ struct Selections::Impl {
   // ------------------------------------------------------------------------------
   const detail::Box* box(std::int64_t id, const Block& from, int missing_number);
   void fill_box(detail::Box& b, const detail::Definition& def, const DecodedBlock& d);
-  bool skew_axes(std::int64_t id, std::array<double, 9>& axes);
+  bool skew_axes(std::int64_t id, std::array<Vec, 3>& axes);
   std::array<double, 3> box_point(NodeIndex n) const;
 
   // ---- sets (sets.cpp, selection_set_views.cpp)
