@@ -11,7 +11,7 @@ export const { chromium } = createRequire(join(WORK, "x.js"))("playwright-core")
 
 let passed = Number(process.env.PASSED ?? 0);
 let failed = Number(process.env.FAILED ?? 0);
-let skipped = 0;
+let skipped = Number(process.env.SKIPPED ?? 0);
 
 export function check(name, ok, why = "") {
   if (ok) passed++;

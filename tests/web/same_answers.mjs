@@ -1,8 +1,9 @@
 // The same answers as the command line's: decks of samples and corpus through verbs of the module in
-// node or in Chromium, byte for byte with the native program.
-//   node same_answers.mjs DECK-PROGRAM ENGINE-FOLDER [--only TEXT] [--verbs a,b] [--sampled] [--times] [--page FILE]
+// node or in a browser, byte for byte with the native program.
+//   node same_answers.mjs DECK-PROGRAM ENGINE-FOLDER [--only TEXT] [--verbs a,b] [--sampled] [--times]
+//     [--page FILE [--firefox]]
 // --sampled: the corpus through lint and gaps only; --page: window.deck of this page, in the browser of
-// tests/browser/support.mjs. Ends with 'N passed, N failed'.
+// tests/browser/support.mjs or in that of $FIREFOX. Ends with 'N passed, N failed'.
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync, existsSync, cpSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -93,9 +94,19 @@ const { run } = await import(resolve(engineFolder, "engine.mjs"));
 
 /** The same call in the page: files go there once a deck, and what a run wrote comes back as base64. */
 async function inBrowser(file) {
-  const { launch, open } = await import("../browser/support.mjs");
-  const browser = await launch();
-  const page = await open(browser, resolve(file));
+  let page;
+  let close;
+  if (rest.includes("--firefox")) {
+    const { openInFirefox } = await import("./firefox.mjs");
+    page = await openInFirefox(process.env.FIREFOX, file);
+    close = page.close;
+    console.log(`Firefox ${page.version}`);
+  } else {
+    const { launch, open } = await import("../browser/support.mjs");
+    const browser = await launch();
+    page = await open(browser, file);
+    close = () => browser.close();
+  }
   let there = null;
   const answer = async (args, files) => {
     if (there !== files) {
@@ -115,9 +126,9 @@ async function inBrowser(file) {
     }, args);
     return { ...r, files: Object.fromEntries(r.files.map(([name, text]) => [name, Buffer.from(text, "base64")])) };
   };
-  return { answer, close: () => browser.close() };
+  return { answer, close };
 }
-const inPage = option("--page") ? await inBrowser(option("--page")) : null;
+const inPage = option("--page") ? await inBrowser(resolve(option("--page"))) : null;
 const answerOf = inPage ? inPage.answer : (args, files) => run(create, code, args, files);
 
 let passed = 0;
