@@ -52,7 +52,8 @@ std::string details(const Diagnostic& d) {
 
 std::optional<Coverage> coverage_of(const LintedDeck& linted) {
   if (linted.deck == nullptr || linted.interfaces == nullptr) return std::nullopt;
-  return deck::coverage_of(*linted.deck, *linted.interfaces);
+  const Deck* const deck = linted.of_interfaces != nullptr ? linted.of_interfaces : linted.deck;
+  return deck::coverage_of(*deck, *linted.interfaces);
 }
 
 std::string SourceRoot::place(std::string_view file) const {

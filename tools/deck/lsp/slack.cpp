@@ -31,8 +31,8 @@ SlackTable SlackTable::of(const Deck& deck, const std::vector<std::uint32_t>& op
   if (deck.blocks.size() > most_blocks) return table;
   for (const std::uint32_t file : open_files) {
     const std::string_view bytes = deck.sources[file].bytes();
-    const std::uint64_t size =
-        std::clamp(bytes.size() / 4 / (deck.blocks.size() + 1), least_slack, most_slack);
+    const std::uint64_t size = std::clamp<std::uint64_t>(
+        bytes.size() / 4 / (deck.blocks.size() + 1), least_slack, most_slack);
     std::vector<Slack> slacks;
     const auto add = [&](std::uint64_t offset) {
       if (offset > 0 && offset < bytes.size() && bytes[offset - 1] == '\n')

@@ -32,13 +32,19 @@ export class Lane {
   private stop: (() => void) | null = null;
   private id = 0;
 
-  get busy(): boolean {
-    return this.stop !== null;
+  protected get started(): boolean {
+    return this.worker !== null;
   }
 
   /** Rejects with Cancelled where it is ended before it is done. */
-  async run(args: string[], files: Files): Promise<Result> {
-    this.cancel();
+  run(args: string[], files: Files): Promise<Result> {
+    // What a machine took is given back at once only with its thread.
+    const stays = args[0] === "lint" || args[0] === "params" || args[0] === "show";
+    return this.ask({ args, files }, () => stays);
+  }
+
+  protected async ask(request: object, stays: (r: Result) => boolean): Promise<Result> {
+    this.halt();
     const id = ++this.id;
     const { code, source } = await engine();
     if (id !== this.id) throw new Cancelled();
@@ -63,28 +69,80 @@ export class Lane {
       worker.onmessage = (e: MessageEvent<{ id: number; result: Result }>) => {
         if (e.data.id !== id) return;
         this.stop = null;
-        // What a machine took is given back at once only with its thread.
-        if (args[0] !== "lint" && args[0] !== "params" && args[0] !== "show") {
+        if (!stays(e.data.result)) {
           worker.terminate();
           if (this.worker === worker) this.worker = null;
         }
         resolve(e.data.result);
       };
-      worker.postMessage({ id, args, files });
+      worker.postMessage({ id, ...request });
     });
   }
 
-  cancel(): void {
+  private halt(): void {
     ++this.id;
     this.stop?.();
     this.stop = null;
+  }
+  protected end(): void {
+    this.worker?.terminate();
+    this.worker = null;
+  }
+
+  cancel(): void {
+    this.halt();
   }
 
   /** Ends the thread as well. */
   close(): void {
     this.cancel();
-    this.worker?.terminate();
-    this.worker = null;
+    this.end();
+  }
+}
+
+/** The thread that keeps a deck: findings of its text after an edit. */
+export class KeptLane extends Lane {
+  private there = new Map<string, Uint8Array>();
+  private before: Promise<unknown> = Promise.resolve();
+  private newest = 0;
+
+  /**
+   * What `deck lint DECK --json -` prints; null where only the command itself can say. A newer text waits for
+   * the one before it and takes the place of those between.
+   */
+  async lint(deck: string, files: Map<string, Uint8Array>): Promise<Uint8Array | null> {
+    const mine = ++this.newest;
+    const last = this.before;
+    let done = () => {};
+    this.before = new Promise<void>((ok) => (done = ok));
+    try {
+      await last;
+      if (mine !== this.newest) throw new Cancelled();
+      return await this.follow(deck, files);
+    } finally {
+      done();
+    }
+  }
+
+  private async follow(deck: string, files: Map<string, Uint8Array>): Promise<Uint8Array | null> {
+    if (!this.started || [...this.there.keys()].some((n) => !files.has(n))) {
+      this.end();
+      this.there.clear();
+    }
+    const changed = Object.fromEntries([...files].filter(([n, b]) => this.there.get(n) !== b));
+    this.there = new Map(files);
+    try {
+      const r = await this.ask({ keep: deck, files: changed }, (x) => x.exitCode === 0);
+      return r.exitCode === 0 ? r.stdout : null;
+    } catch (e) {
+      this.end(); // nobody knows which files arrived
+      throw e;
+    }
+  }
+
+  override cancel(): void {
+    ++this.newest;
+    super.cancel();
   }
 }
 

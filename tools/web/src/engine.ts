@@ -1,5 +1,6 @@
 // The program `deck` as a function over files in memory: every call has a machine of its own, so
-// that nothing of one run is left for the next, whatever became of it.
+// that nothing of one run is left for the next, whatever became of it. Only `Kept` goes on with a
+// deck that it has.
 
 export type Files = Record<string, string | Uint8Array>;
 export interface Result {
@@ -32,6 +33,7 @@ interface FileSystem {
 interface Machine {
   FS: FileSystem;
   callMain(args: string[]): number;
+  ccall(name: string, result: "number", types: ["string"], args: [string]): number;
 }
 export type Factory = (options: object) => Promise<Machine>;
 
@@ -51,17 +53,23 @@ class Sink {
       return length;
     },
   };
+  say(text: string): void {
+    this.add(new TextEncoder().encode(`deck: ${text}\n`));
+  }
   add(bytes: Uint8Array): void {
     this.parts.push(bytes);
     this.size += bytes.length;
   }
-  bytes(): Uint8Array {
+  /** All that was printed since the last call. */
+  take(): Uint8Array {
     const out = new Uint8Array(this.size);
     let at = 0;
     for (const p of this.parts) {
       out.set(p, at);
       at += p.length;
     }
+    this.parts = [];
+    this.size = 0;
     return out;
   }
 }
@@ -105,6 +113,39 @@ function whyStopped(e: unknown): string {
   return `internal error: ${text}`;
 }
 
+/** A machine in an empty folder, with its two outputs. */
+async function start(create: Factory, code: WebAssembly.Module, stdout: Sink, stderr: Sink): Promise<Machine> {
+  const machine = await create({
+    instantiateWasm: (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) => {
+      void WebAssembly.instantiate(code, imports).then(done);
+      return {};
+    },
+    stdin: () => null,
+    print: () => {},
+    printErr: (text: string) => stderr.say(text),
+  });
+  const fs = machine.FS;
+  fs.mkdirTree(HOME);
+  fs.chdir(HOME);
+  [stdout, stderr].forEach((sink, i) => {
+    const device = fs.makedev(80, i);
+    fs.registerDevice(device, sink.operations);
+    fs.mkdev(`/dev/deck${i}`, 0o666, device);
+    fs.close(fs.getStream(i + 1));
+    fs.open(`/dev/deck${i}`, "w"); // the lowest number that is free: the one just closed
+  });
+  return machine;
+}
+
+function put(fs: FileSystem, name: string, bytes: Uint8Array): string {
+  const plain = plainName(name);
+  if (plain === null) throw new Error(`${name}: a file of this name cannot be given`);
+  const slash = plain.lastIndexOf("/");
+  if (slash > 0) fs.mkdirTree(`${HOME}/${plain.slice(0, slash)}`);
+  fs.writeFile(`${HOME}/${plain}`, bytes, { canOwn: false });
+  return plain;
+}
+
 /**
  * Runs `deck` with these arguments (without the program's name) in a folder that holds these files.
  * @param create what emscripten made of the program
@@ -114,43 +155,45 @@ export async function run(create: Factory, code: WebAssembly.Module, args: strin
   const stdout = new Sink();
   const stderr = new Sink();
   const written: Record<string, Uint8Array> = {};
-  const say = (text: string) => stderr.add(new TextEncoder().encode(`deck: ${text}\n`));
   let exitCode = internalError;
   try {
-    const machine = await create({
-      instantiateWasm: (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) => {
-        void WebAssembly.instantiate(code, imports).then(done);
-        return {};
-      },
-      stdin: () => null,
-      print: () => {},
-      printErr: (text: string) => say(text),
-    });
-    const fs = machine.FS;
+    const machine = await start(create, code, stdout, stderr);
     const given = new Map<string, Uint8Array>();
-    fs.mkdirTree(HOME);
     for (const [name, content] of Object.entries(files)) {
-      const plain = plainName(name);
-      if (plain === null) throw new Error(`${name}: a file of this name cannot be given`);
       const bytes = typeof content === "string" ? new TextEncoder().encode(content) : content;
-      const slash = plain.lastIndexOf("/");
-      if (slash > 0) fs.mkdirTree(`${HOME}/${plain.slice(0, slash)}`);
-      fs.writeFile(`${HOME}/${plain}`, bytes, { canOwn: false });
-      given.set(plain, bytes);
+      given.set(put(machine.FS, name, bytes), bytes);
     }
-    fs.chdir(HOME);
-    [stdout, stderr].forEach((sink, i) => {
-      const device = fs.makedev(80, i);
-      fs.registerDevice(device, sink.operations);
-      fs.mkdev(`/dev/deck${i}`, 0o666, device);
-      fs.close(fs.getStream(i + 1));
-      fs.open(`/dev/deck${i}`, "w"); // the lowest number that is free: the one just closed
-    });
     exitCode = machine.callMain(args);
-    collect(fs, HOME, given, written);
+    collect(machine.FS, HOME, given, written);
   } catch (e) {
     exitCode = internalError;
-    say(whyStopped(e));
+    stderr.say(whyStopped(e));
   }
-  return { exitCode, stdout: stdout.bytes(), stderr: stderr.bytes(), files: written };
+  return { exitCode, stdout: stdout.take(), stderr: stderr.take(), files: written };
+}
+
+/** One machine for a deck that is edited: of a text it looks only at what is not as in the last one. */
+export class Kept {
+  private readonly stdout = new Sink();
+  private machine: Machine | null = null;
+
+  constructor(private readonly create: Factory, private readonly code: WebAssembly.Module) {}
+
+  /**
+   * What `deck lint DECK --json -` prints after these files have changed; null: the command is to be asked
+   * itself. After that the machine is gone, and the next call has to bring all files.
+   */
+  async lint(deck: string, changed: Record<string, Uint8Array>): Promise<Uint8Array | null> {
+    try {
+      this.machine ??= await start(this.create, this.code, this.stdout, new Sink());
+      for (const [name, bytes] of Object.entries(changed)) put(this.machine.FS, name, bytes);
+      const printed = this.machine.ccall("deck_lint_again", "number", ["string"], [deck]) === 1;
+      const text = this.stdout.take();
+      if (printed) return text;
+    } catch {
+      // A machine that gave up says nothing more; the command says why.
+    }
+    this.machine = null;
+    return null;
+  }
 }

@@ -2,7 +2,7 @@
 // sent and nothing is kept.
 import { button, h, num, plural, replace } from "../../viewer/src/dom";
 import { drawCards, type Card, type Cell, type Shown } from "./card";
-import { Cancelled, deck, engine, Lane } from "./client";
+import { Cancelled, deck, engine, KeptLane, Lane } from "./client";
 import type { Result } from "./engine";
 import { chosen, dropped, save, type Given } from "./files";
 import { drawFinding, FindingList, type Finding, type LintDocument } from "./findings";
@@ -27,7 +27,7 @@ let main = "";
 let other: Tree | null = null;
 let lint: LintDocument | null = null;
 let place: (Mark & { file: string }) | null = null;
-const lanes = { lint: new Lane(), values: new Lane(), gaps: new Lane(), card: new Lane(), page: new Lane(), cycle: new Lane(), diff: new Lane() };
+const lanes = { kept: new KeptLane(), lint: new Lane(), values: new Lane(), gaps: new Lane(), card: new Lane(), page: new Lane(), cycle: new Lane(), diff: new Lane() };
 
 /* ---- parts of the page ---- */
 
@@ -153,11 +153,13 @@ function tick(): void {
 }
 
 /** null: a newer run took its place, or it was cancelled. */
-async function run(lane: Lane, args: string[], given = tree.all()): Promise<Result | null> {
+const run = (lane: Lane, args: string[], given = tree.all()): Promise<Result | null> => whileBusy(() => lane.run(args, given));
+
+async function whileBusy<T>(work: () => Promise<T>): Promise<T | null> {
   ++running;
   tick();
   try {
-    return await lane.run(args, given);
+    return await work();
   } catch (e) {
     if (!(e instanceof Cancelled)) throw e;
     return null;
@@ -188,24 +190,42 @@ async function refresh(): Promise<void> {
   title.textContent = `${main}${tree.changed().length > 0 ? " (changed)" : ""}`;
   say("");
   drawText();
-  await Promise.all([refreshLint(), refreshValues(), refreshGaps()]);
+  // The findings of the text come first, with the machine to themselves.
+  for (const lane of [lanes.lint, lanes.values, lanes.gaps]) lane.cancel();
+  const state = versions;
+  await refreshText();
+  if (state !== versions) return;
+  await Promise.all([refreshGeometry(), refreshValues(), refreshGaps()]);
   for (const t of tabs) if (t.id === tab) t.open?.();
 }
 
-async function refreshLint(): Promise<void> {
-  for (const more of [[], ["--geometry"]]) {
-    const r = await run(lanes.lint, ["lint", main, ...more, "--json", "-", "-q"]);
-    if (!r) return;
-    const document = parsed<LintDocument>(r);
-    globalThis.document.documentElement.dataset.linted = document ? (more.length > 0 ? "all" : "text") : "failed";
-    if (!document) return;
-    lint = document;
-    list.show(lint.diagnostics);
-    askForMissing();
-    if (list.selected && list.chosen) showFinding(list.selected);
-    else if (!place || !list.chosen) list.pickFirst();
-    if (!list.selected && lint.diagnostics.length === 0) replace(about, h("p", null, "No findings."));
-  }
+/** Larger decks are not kept beside what else a page holds. */
+const mostKept = 64e6;
+
+async function refreshText(): Promise<void> {
+  const files = tree.map();
+  const size = [...files.values()].reduce((sum, b) => sum + b.length, 0);
+  const again = size > mostKept ? null : await whileBusy(async () => ({ stdout: await lanes.kept.lint(main, files) }));
+  if (size <= mostKept && !again) return;
+  const r = again?.stdout ? { exitCode: 0, stdout: again.stdout, stderr: new Uint8Array(), files: {} } : await run(lanes.lint, ["lint", main, "--json", "-", "-q"]);
+  if (r) showLint(r, "text");
+}
+
+async function refreshGeometry(): Promise<void> {
+  const r = await run(lanes.lint, ["lint", main, "--geometry", "--json", "-", "-q"]);
+  if (r) showLint(r, "all");
+}
+
+function showLint(r: Result, linted: string): void {
+  const found = parsed<LintDocument>(r);
+  document.documentElement.dataset.linted = found ? linted : "failed";
+  if (!found) return;
+  lint = found;
+  list.show(lint.diagnostics);
+  askForMissing();
+  if (list.selected && list.chosen) showFinding(list.selected);
+  else if (!place || !list.chosen) list.pickFirst();
+  if (!list.selected && lint.diagnostics.length === 0) replace(about, h("p", null, "No findings."));
 }
 
 function askForMissing(): void {
@@ -244,7 +264,8 @@ function drawText(): void {
   const name = place && tree.get(place.file) ? place.file : main;
   replace(which, ...tree.names.map((n) => h("option", { value: n, selected: n === name }, n)));
   const seen = tree.showable(name);
-  view.show(seen ? tree.text(name) : `${name} is too large to be shown in a page.\n`, seen && place?.file === name ? place : null);
+  if (seen) view.show(tree.text(name), tree.starts(name), place?.file === name ? place : null);
+  else view.show(`${name} is too large to be shown in a page.\n`, [0], null);
 }
 
 function showFinding(f: Finding): void {
@@ -301,7 +322,8 @@ function writeCell(card: Card, cell: Cell, entered: string): string {
 }
 
 function lineOf(file: string, line: number): string {
-  return (tree.text(file).split("\n", line)[line - 1] ?? "").replace(/\r$/, "");
+  const starts = tree.starts(file);
+  return starts[line - 1] === undefined ? "" : tree.text(file).slice(starts[line - 1], starts[line]).replace(/\r?\n?$/, "");
 }
 
 function applyFix(f: Finding): void {

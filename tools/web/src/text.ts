@@ -1,7 +1,7 @@
 // A file as text: only the lines in sight are in the page. One line may be marked, with carets below
 // its columns.
 import { h, replace } from "../../viewer/src/dom";
-import { bytesOf, lineStarts } from "./tree";
+import { bytesOf } from "./tree";
 
 const ROW = 20;
 /** Browsers draw no taller elements; longer files are shown around the line that is asked for. */
@@ -44,11 +44,10 @@ export class TextView {
     return this.text.slice(from, to - 1).replace(/[\r\n]+$/, "");
   }
 
-  show(text: string, mark: Mark | null): void {
-    if (text !== this.text) {
-      this.text = text;
-      this.starts = lineStarts(text);
-    }
+  /** `starts`: where the lines of the text begin. */
+  show(text: string, starts: number[], mark: Mark | null): void {
+    this.text = text;
+    this.starts = starts;
     this.mark = mark;
     const wanted = mark ? mark.line - 1 : 0;
     this.first = this.starts.length <= MOST ? 0 : Math.max(0, Math.min(wanted - MOST / 2, this.starts.length - MOST));

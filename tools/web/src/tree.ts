@@ -69,6 +69,7 @@ export class Tree {
   private files = new Map<string, Uint8Array>();
   private past: Map<string, Uint8Array>[] = [];
   private readonly texts = new WeakMap<Uint8Array, string>();
+  private readonly lines = new WeakMap<Uint8Array, number[]>();
 
   get names(): string[] {
     return [...this.files.keys()];
@@ -78,6 +79,9 @@ export class Tree {
   }
   all(): Files {
     return Object.fromEntries(this.files);
+  }
+  map(): Map<string, Uint8Array> {
+    return new Map(this.files);
   }
   add(files: Map<string, Uint8Array>): void {
     for (const [name, bytes] of files) {
@@ -110,6 +114,13 @@ export class Tree {
     this.texts.set(bytes, text);
     return text;
   }
+  /** Where its lines begin. */
+  starts(name: string): number[] {
+    const bytes = this.files.get(name) as Uint8Array;
+    let known = this.lines.get(bytes);
+    if (!known) this.lines.set(bytes, (known = lineStarts(this.text(name))));
+    return known;
+  }
   /** Text takes twice its bytes here: beyond this size only the program sees it. */
   showable(name: string): boolean {
     const bytes = this.files.get(name) ?? new Uint8Array();
@@ -133,13 +144,26 @@ export class Tree {
     for (const file of new Set(edits.map((e) => e.file))) {
       if (!this.showable(file)) throw new Error(`${file} is too large to be edited in a page`);
       const text = this.text(file);
-      const starts = lineStarts(text);
+      const starts = this.starts(file);
       const at = (line: number, column: number) => Math.min((starts[line - 1] ?? text.length) + column - 1, text.length);
-      const mine = edits.filter((e) => e.file === file).map((e) => ({ from: at(e.line, e.column), to: at(e.end_line, e.end_column), text: e.text }));
-      mine.sort((a, b) => b.from - a.from);
-      let out = text;
-      for (const e of mine) out = out.slice(0, e.from) + latin(new TextEncoder().encode(e.text)) + out.slice(e.to);
-      changed[file] = this.packed(file) ? gzipSync(bytesOf(out)) : bytesOf(out);
+      const mine = edits.filter((e) => e.file === file).map((e) => ({ from: at(e.line, e.column), to: at(e.end_line, e.end_column), by: new TextEncoder().encode(e.text) }));
+      mine.sort((a, b) => a.from - b.from);
+      // Bytes are copied in pieces, and the text that is shown is made of its pieces, too.
+      const before = this.packed(file) ? bytesOf(text) : (this.files.get(file) as Uint8Array);
+      const out = new Uint8Array(mine.reduce((size, e) => size + e.by.length - (e.to - e.from), before.length));
+      let shownText = "";
+      let from = 0;
+      let size = 0;
+      for (const e of [...mine, { from: text.length, to: text.length, by: new Uint8Array() }]) {
+        for (const piece of [before.subarray(from, e.from), e.by]) {
+          out.set(piece, size);
+          size += piece.length;
+        }
+        shownText += text.slice(from, e.from) + latin(e.by);
+        from = e.to;
+      }
+      changed[file] = this.packed(file) ? gzipSync(out) : out;
+      this.texts.set(changed[file], shownText);
     }
     this.change(changed);
   }

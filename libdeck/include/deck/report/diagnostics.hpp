@@ -16,7 +16,8 @@ struct LintedDeck {
   const LintResult* result = nullptr;
   std::string error;  ///< why it could not be read
   const Interfaces* interfaces =
-      nullptr;  ///< nullptr: not formed, so nothing says what was left out
+      nullptr;                          ///< nullptr: not formed, so nothing says what was left out
+  const Deck* of_interfaces = nullptr;  ///< whose blocks they are of, where it is not `deck`
 };
 
 struct HumanOptions {
