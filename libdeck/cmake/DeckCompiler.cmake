@@ -17,6 +17,10 @@ set(DECK_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thread"
 
 add_library(deck_options INTERFACE)
 target_compile_options(deck_options INTERFACE -ffp-contract=off -fno-math-errno)
+if(LIBDECK_UNITY) # g++ tidies its memory only from 1 GB (given in kB) on: the same code, sooner
+  target_compile_options(deck_options INTERFACE
+                         $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
+endif()
 if(DECK_SANITIZE)
   target_compile_options(deck_options INTERFACE -fsanitize=${DECK_SANITIZE}
                          -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)

@@ -44,7 +44,7 @@ void check_mesh_size(const LintContext& c, const Rule& rule, Reporter& r) {
   });
 }
 
-void check_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
+void check_istf_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     const auto istf = card.flag("Istf");
     const bool used = card.type == 11 ? istf != 1 : istf > 1;
@@ -179,7 +179,7 @@ void check_removal(const LintContext& c, const Rule& rule, Reporter& r) {
 std::span<const Checked> ignored_checks() {
   static constexpr Checked all[] = {
       {RuleId::DK265, check_gap_scale},      {RuleId::DK266, check_mesh_size},
-      {RuleId::DK267, check_bounds},         {RuleId::DK269, check_friction_source},
+      {RuleId::DK267, check_istf_bounds},    {RuleId::DK269, check_friction_source},
       {RuleId::DK270, check_second_node},    {RuleId::DK271, check_visf},
       {RuleId::DK272, check_no_friction},    {RuleId::DK273, check_coefficients},
       {RuleId::DK274, check_never_read},     {RuleId::DK275, check_never_read},
