@@ -41,24 +41,28 @@ std::string include_path(std::string_view bytes, std::uint64_t& pos) {
   return std::string(trim(path));
 }
 
-std::vector<std::string> include_candidates(const std::string& written,
-                                            const std::vector<std::string>& directories) {
-  std::vector<std::string> all;
+IncludeCandidates::IncludeCandidates(const std::string& written,
+                                     const std::vector<std::string>& directories) {
   const auto consider = [&](const fs::path& p) {
     std::string text = p.lexically_normal().string();
-    if (std::find(all.begin(), all.end(), text) == all.end()) all.push_back(std::move(text));
+    if (std::find(all_.begin(), all_.end(), text) == all_.end()) all_.push_back(std::move(text));
   };
   const fs::path path(written);
   if (path.is_absolute())
     consider(path);
   else
     for (const std::string& directory : directories) consider(fs::path(directory) / path);
-  for (std::size_t i = 0, places = all.size(); i < places; ++i) {
-    std::error_code bad;
-    std::string packed = all[i] + ".gz";
-    if (fs::is_regular_file(packed, bad)) all.push_back(std::move(packed));
-  }
-  return all;
+  places_ = all_.size();
+}
+
+const std::string* IncludeCandidates::next() {
+  if (at_ == places_ && all_.size() == places_)
+    for (std::size_t i = 0; i < places_; ++i) {
+      std::error_code bad;
+      std::string packed = all_[i] + ".gz";
+      if (fs::is_regular_file(packed, bad)) all_.push_back(std::move(packed));
+    }
+  return at_ < all_.size() ? &all_[at_++] : nullptr;
 }
 
 std::string include_hint(std::string written, bool backslash,

@@ -18,9 +18,20 @@ bool is_include(std::string_view line);
 std::string include_path(std::string_view bytes, std::uint64_t& pos);
 
 /// Candidate places of an include, in the order they are tried, without repetition; at the end the
-/// packed files (".gz") of these names that are on disk.
-std::vector<std::string> include_candidates(const std::string& written,
-                                            const std::vector<std::string>& directories);
+/// packed files (".gz") of these names that are on disk, which are only looked for if none of the
+/// places was taken.
+class IncludeCandidates {
+ public:
+  IncludeCandidates(const std::string& written, const std::vector<std::string>& directories);
+  /// The next one; nullptr: there are no more.
+  const std::string* next();
+  /// What there was so far.
+  const std::vector<std::string>& all() const { return all_; }
+
+ private:
+  std::vector<std::string> all_;
+  std::size_t places_ = 0, at_ = 0;
+};
 
 /// What a path that leads nowhere was probably meant to be; empty: no idea. `backslash`: it was
 /// written with '\\'. Looks into the folders on disk.

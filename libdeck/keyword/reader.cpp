@@ -179,10 +179,9 @@ class Reader {
     // so that it does not pile up in memory.
     if (memory_bytes_ > 8 * limits.map_threshold) limits.map_threshold = 0;
     limits.unpacked_bytes -= std::min(limits.unpacked_bytes, unpacked_bytes_);
-    const std::vector<std::string> places =
-        detail::include_candidates(written, directories(parent));
-    for (const std::string& path : places) {
-      auto source = open_source(path, limits, options_);
+    detail::IncludeCandidates places(written, directories(parent));
+    while (const std::string* path = places.next()) {
+      auto source = open_source(*path, limits, options_);
       if (source)
         if (auto bad = refuse_binary(**source); !bad) source = bad.error();
       if (!source) {
@@ -199,8 +198,9 @@ class Reader {
       return;
     }
     constexpr int most_hints = 20;  // looking for one reads folders
-    const std::string hint =
-        ++hints_ > most_hints ? std::string() : detail::include_hint(written, backslash, places);
+    const std::string hint = ++hints_ > most_hints
+                                 ? std::string()
+                                 : detail::include_hint(written, backslash, places.all());
     report(RuleId::DK004, directive,
            "included file '" + written + "' cannot be read; tried " + tried,
            {.solver =

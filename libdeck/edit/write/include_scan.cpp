@@ -60,13 +60,15 @@ std::vector<IncludeScan::File> IncludeScan::files(const std::string& deck) {
     std::vector<std::string> directories = {fs::path(out[i].path).parent_path().string(),
                                             main_directory};
     directories.insert(directories.end(), include_paths_.begin(), include_paths_.end());
-    for (const std::string& name : written(out[i]))
-      for (const std::string& path : detail::include_candidates(name, directories)) {
-        const auto found = regular_file(path);
+    for (const std::string& name : written(out[i])) {
+      detail::IncludeCandidates places(name, directories);
+      while (const std::string* path = places.next()) {
+        const auto found = regular_file(*path);
         if (!found) continue;
-        if (seen.insert(path).second) out.push_back({path, *found});
+        if (seen.insert(*path).second) out.push_back({*path, *found});
         break;
       }
+    }
   }
   return out;
 }

@@ -142,7 +142,9 @@ Result<void> plan_groups(const BatchOptions& o, BatchTask& task, BatchList& list
       groups.push_back({i});
       continue;
     }
-    files_of_decks.push_back(scan.files(decks[i].path));
+    const auto known = list.files.find(decks[i].path);
+    files_of_decks.push_back(known == list.files.end() ? scan.files(decks[i].path)
+                                                       : std::move(known->second));
     files.push_back(decks[i].path);
     std::set<std::string>& seen = task.seen[decks[i].path];
     for (const IncludeScan::File& f : files_of_decks.back()) {

@@ -119,10 +119,11 @@ bool is_part_of_a_deck(const std::string& path) {
   return keyword;
 }
 
-/// Takes the files out of `found` that are includes; see list_decks.
-std::vector<IncludeFile> take_includes(std::vector<std::string>& found,
-                                       const std::vector<std::string>& named,
-                                       const std::vector<std::string>& include_paths) {
+/// Takes the files out of `found` that are includes; see list_decks. `files`: those of the others.
+std::vector<IncludeFile> take_includes(
+    std::vector<std::string>& found, const std::vector<std::string>& named,
+    const std::vector<std::string>& include_paths,
+    std::map<std::string, std::vector<IncludeScan::File>>& files) {
   std::set<std::string> by_name;
   for (const std::string& path : named) by_name.insert(find_deck(path));
   if (std::all_of(found.begin(), found.end(),
@@ -147,12 +148,14 @@ std::vector<IncludeFile> take_includes(std::vector<std::string>& found,
     const bool needed = !trees[i].empty() && below.contains(trees[i].front().identity) &&
                         includer.contains(trees[i].front().identity);
     const bool include = !by_name.contains(found[i]) && (needed || is_part_of_a_deck(found[i]));
-    if (!include)
+    if (!include) {
       decks.push_back(found[i]);
-    else if (needed)
+      files.emplace(found[i], std::move(trees[i]));
+    } else if (needed) {
       includes.push_back({found[i], "included by " + includer.at(trees[i].front().identity)});
-    else
+    } else {
       includes.push_back({found[i], "has neither the head of a deck nor /BEGIN"});
+    }
   }
   found = std::move(decks);
   return includes;
@@ -176,7 +179,8 @@ Result<BatchList> list_decks(const std::vector<std::string>& given, const std::s
   auto found = expand_decks(named, ending, output);
   if (!found) return found.error();
   BatchList list;
-  if (ending == deck_ending) list.includes = take_includes(*found, named, include_paths);
+  if (ending == deck_ending)
+    list.includes = take_includes(*found, named, include_paths, list.files);
   std::vector<BatchDeck>& decks = list.decks;
   std::vector<fs::path> paths;
   std::error_code ec;

@@ -3,10 +3,12 @@
 // of a divided batch comes to the same answer.
 #pragma once
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "deck/edit/include_scan.hpp"
 #include "deck/text/result.hpp"
 
 namespace deck::cli {
@@ -25,6 +27,8 @@ struct IncludeFile {
 struct BatchList {
   std::vector<BatchDeck> decks;
   std::vector<IncludeFile> includes;  ///< not run
+  /// Files of the include trees that were looked at to tell decks from includes, by deck.
+  std::map<std::string, std::vector<IncludeScan::File>> files = {};
 };
 
 /// The decks in the order given: the arguments, then the lines of `manifest` (empty: none, "-":
