@@ -206,6 +206,13 @@ std::optional<Digits> scaled(std::string_view cell, const UnitFactor& factor) {
   return d->digits.empty() ? std::nullopt : d;
 }
 
+/// True if `text` holds every digit of `d`.
+bool shows_all(std::string_view text, const Digits& d) {
+  const auto shown = parse(text);
+  return shown && shown->negative == d.negative && shown->digits == d.digits &&
+         shown->point == d.point;
+}
+
 std::optional<int> power_of_ten(double ratio) {
   if (!(ratio > 0) || !std::isfinite(ratio)) return std::nullopt;
   const int power = static_cast<int>(std::lround(std::log10(ratio)));
@@ -264,6 +271,11 @@ std::optional<ScaledText> scale_text(std::string_view cell, int width, const Uni
   const RealCell now = read_real(out.text);
   if (now.status != NumberStatus::ok || (now.value == 0 && !result->digits.empty()))
     return std::nullopt;
+  // All digits are there and only the point has moved: it moves back.
+  if (factor.power && shows_all(out.text, *result)) {
+    out.exact = true;
+    return out;
+  }
   const auto back = scaled(out.text, factor.inverse());
   out.exact = back && read_real(print(*back, 400)).value == read_real(cell).value;
   return out;
