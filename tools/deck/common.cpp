@@ -123,11 +123,12 @@ void add_verbose(CommandLine& line, CommonOptions& options, const std::string& w
 
 // ---- loading --------------------------------------------------------------------------------
 
-Result<SchemaSet> load_schemas(const CommonOptions& options) {
+Result<LoadedSchemas> load_schemas(const CommonOptions& options) {
+  if (options.schema_dirs.empty()) return LoadedSchemas();
   SchemaSet set = SchemaSet::built_in();
   for (const std::string& dir : options.schema_dirs)
     if (auto added = set.add_directory(dir); !added) return added.error();
-  return set;
+  return LoadedSchemas(std::move(set));
 }
 
 bool Loaded::incomplete() const {

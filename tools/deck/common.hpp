@@ -60,8 +60,19 @@ void add_common(CommandLine& line, CommonOptions& options, bool with_json = true
 /// Only those that do not need a deck: --json, --quiet, --color, --schemas.
 void add_common_without_decks(CommandLine& line, CommonOptions& options);
 
+/// The built-in schemas themselves, or a set of their own with those of --schemas.
+class LoadedSchemas {
+ public:
+  LoadedSchemas() = default;
+  explicit LoadedSchemas(SchemaSet own) : own_(std::make_shared<SchemaSet>(std::move(own))) {}
+  operator const SchemaSet&() const { return own_ ? *own_ : SchemaSet::built_in(); }
+
+ private:
+  std::shared_ptr<const SchemaSet> own_;
+};
+
 /// Built-in schemas plus those of --schemas. A directory that cannot be used is a usage error.
-Result<SchemaSet> load_schemas(const CommonOptions& options);
+Result<LoadedSchemas> load_schemas(const CommonOptions& options);
 
 /// Adds --require-examined, for verbs whose result is a verdict about contacts.
 void add_require_examined(CommandLine& line, CommonOptions& options);

@@ -84,6 +84,14 @@ Result<std::size_t> EditSet::enter(const Source& source) {
   };
   std::string place;
   if (source.inode() != 0) {
+    // By the same name and still the same file: its place is known.
+    if (const auto known = by_path_.find(source.path()); known != by_path_.end()) {
+      const File& file = files_[known->second];
+      if (file.device != source.device() || file.inode != source.inode() ||
+          file.texts.front() != source.bytes())
+        return changed(file);
+      return known->second;
+    }
     const auto target = detail::follow_links(source.path());
     place = target ? detail::canonical_place(*target) : source.path();
     const auto by_place = by_place_.find(place);
@@ -98,10 +106,12 @@ Result<std::size_t> EditSet::enter(const Source& source) {
         by_place_.emplace(place, found->second);
         file.places.emplace_back(place, source.path());
       }
+      by_path_.emplace(source.path(), found->second);
       return found->second;
     }
     by_identity_.emplace(std::pair{source.device(), source.inode()}, files_.size());
     by_place_.emplace(place, files_.size());
+    by_path_.emplace(source.path(), files_.size());
   }
   File& file = files_.emplace_back();
   file.device = source.device();

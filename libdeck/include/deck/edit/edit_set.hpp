@@ -131,6 +131,7 @@ class EditSet {
   std::vector<Member> decks_;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> by_identity_;
   std::map<std::string, std::size_t> by_place_;
+  std::map<std::string, std::size_t, std::less<>> by_path_;  ///< as opened before
 };
 
 }  // namespace deck
