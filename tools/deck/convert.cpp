@@ -152,6 +152,11 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
     print_error(common, again.error().message);
     return exit_internal;
   }
+  if ((*again)->incomplete()) {
+    print_findings(**again, common);
+    print_error(common, c.now->path + ": not written, a file could be read before, but not again");
+    return exit_input;
+  }
   const int code =
       c.behaviour ? verify(c, **again, step, losses, schemas, common, progress) : exit_clean;
   c.now = std::move(*again);

@@ -27,6 +27,10 @@ Result<std::unique_ptr<Reread>> read_again(const EditContext& context, const Rew
   read.overlay = &out->overlay;
   auto deck = read_deck(main.path(), context.schemas, read);
   if (!deck) return deck.error();
+  if (deck->sources.size() < context.deck.sources.size())
+    return Error{Error::Code::io, main.path() +
+                                      ": a file that it includes could be read before, "
+                                      "but not again; nothing was fixed"};
   out->deck = std::move(*deck);
   ModelOptions build;
   build.threads = options.threads;
