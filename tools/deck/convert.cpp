@@ -452,7 +452,8 @@ int run(const Options& options) {
     print_error(options.common, schemas.error().message);
     return exit_usage;
   }
-  auto steps = make_steps(options.steps);
+  const auto& given = options.common.decks;
+  auto steps = make_steps(options.steps, given.size() > 1 || names_directory(given));
   if (!steps) {
     print_error(options.common, steps.error().message);
     return exit_usage;

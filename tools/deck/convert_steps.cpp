@@ -77,7 +77,7 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
       .heading(group);
 }
 
-Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
+Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps, bool several_decks) {
   std::vector<ConvertStep> all;
   if (!steps.extract.empty())
     all.push_back({"--extract-contacts",
@@ -99,9 +99,10 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps) {
   if (!steps.units.empty()) {
     const auto target = parse_unit_system(steps.units);
     if (!target) return Error{Error::Code::config, "--units: " + target.error().message};
+    const auto rows = several_decks ? make_shared_rows() : nullptr;
     all.push_back({"--units",
-                   [&steps, system = *target](const EditContext& c) {
-                     return to_units(c, system, {steps.partial, steps.keep_working});
+                   [&steps, system = *target, rows](const EditContext& c) {
+                     return to_units(c, system, {steps.partial, steps.keep_working, rows});
                    },
                    "--partial converts what is known and lists the rest"});
   }

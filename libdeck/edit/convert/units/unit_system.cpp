@@ -4,6 +4,7 @@
 #include "deck/edit/unit_system.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <bitset>
 #include <cmath>
 #include <map>
@@ -12,6 +13,7 @@
 #include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
+#include "edit/convert/units/unit_system_rows.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
 #include "edit/convert/version_cards.hpp"
 #include "keyword/line_check.hpp"
@@ -353,10 +355,32 @@ class BlockConverter {
       columns.push_back({&f, factor});
     }
     if (columns.empty()) return;
+    detail::ConvertedRows* const shared =
+        b.body.size() == 1 ? c_.options.shared_rows.get() : nullptr;
+    std::string how;
+    std::string_view bytes;
+    const std::size_t first = c_.out.edits.size(), losses = c_.out.losses.size();
+    if (shared != nullptr) {
+      const Piece& piece = b.body.front();
+      bytes = deck_.sources[piece.file].bytes().substr(piece.begin, piece.end - piece.begin);
+      how = units_text(deck_.begin.input) + units_text(c_.target);
+      for (const Column& column : columns) {
+        const Dimension& d = column.field->dimension;
+        for (const int n :
+             {column.field->first, column.field->last, int{d.mass}, int{d.length}, int{d.time}})
+          how += std::to_string(n) + " ";
+      }
+      if (shared->replay(bytes, how, piece.file, piece.begin, c_.out.edits)) {
+        c_.changed_cells += c_.out.edits.size() - first;
+        return;
+      }
+    }
+    bool plain = true;
     LineCursor cursor(deck_.sources, b);
     for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
       const std::string_view text = line.text.substr(0, detail::line_columns);
       if (text.find(',') != std::string_view::npos || text.find('&') != std::string_view::npos) {
+        plain = false;
         DecodedBlock none;
         none.block = &b;
         convert_card(b, none, decode_line(deck_, b, card, line, nullptr));
@@ -366,6 +390,17 @@ class BlockConverter {
         c_.convert_fixed(b, line, column.field->first, column.field->last, column.field->name,
                          column.factor);
     }
+    // Only what says nothing but its edits.
+    if (shared != nullptr && plain && c_.out.refusals.empty() && c_.out.losses.size() == losses)
+      shared->keep(bytes, how, b.body.front().begin, c_.out.edits, first);
+  }
+
+  /// The factors of a system, exactly.
+  static std::string units_text(const UnitSystem& units) {
+    std::string text;
+    for (const double factor : {units.mass, units.length, units.time})
+      text += std::to_string(std::bit_cast<std::uint64_t>(factor)) + " ";
+    return text;
   }
 
   void convert_cards(const Block& b) {
@@ -839,6 +874,10 @@ void add_notes(UnitConversion& c) {
 }
 
 }  // namespace
+
+std::shared_ptr<detail::ConvertedRows> make_shared_rows() {
+  return std::make_shared<detail::ConvertedRows>();
+}
 
 Result<UnitSystem> parse_unit_system(std::string_view text) {
   UnitSystem units;
