@@ -236,6 +236,24 @@ TEST(Verification, MassThatMovesFromOnePartToAnotherIsNamed) {
   EXPECT_NE(why->find("the mass of part 77 is 0, expected 0.1"), why->npos) << *why;
 }
 
+TEST(Verification, OneValueThatAConversionOfUnitsLeftOutIsNamed) {
+  const auto deck = sample();
+  const Rewrite whole = to_units(deck->context(), *parse_unit_system("kg,m,s"), {true});
+  const std::string text = deck->main_text();
+  const std::size_t height = text.find("\n       101 ") + 1 + 50, density = text.find("7.8e-06"),
+                    gap = deck->interfaces.type7.at(0).Gapmin.span.offset;
+  for (const std::size_t place : {height, density, gap}) {
+    Rewrite faulty = whole;
+    const auto left_out = std::erase_if(faulty.edits, [&](const TextEdit& e) {
+      return e.span.file == 0 && e.span.offset <= place && place < e.span.offset + e.span.length;
+    });
+    ASSERT_EQ(left_out, 1u) << text.substr(place, 20);
+    EXPECT_NE(difference(*deck, *deck->after(faulty), relation_of(faulty.losses)), std::nullopt)
+        << text.substr(place, 20);
+  }
+  EXPECT_EQ(difference(*deck, *deck->after(whole), relation_of(whole.losses)), std::nullopt);
+}
+
 TEST(Verification, WhatIsGivenUpForAnInterfaceIsAccepted) {
   const auto deck = sample();
   const InterType7& inter = deck->interfaces.type7.at(0);
