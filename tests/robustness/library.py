@@ -310,10 +310,10 @@ def times(c, tmp, families, each):
     library(lib, families, each, side=12)
     names = sorted(os.path.join(lib, k) for k in tree(lib) if k.endswith("_0000.rad"))
     best = {}
-    for _ in range(3):
+    for turn in range(3):
         for what in ("copy", "parse", 1, 2):
-            out = os.path.join(tmp, "t-out")
-            shutil.rmtree(out, ignore_errors=True)
+            # Never one that was just removed: ext4 avoids such inodes and looks long for others.
+            out = os.path.join(tmp, "t-out-%d-%s" % (turn, what))
             start = time.monotonic()
             if what == "copy":
                 shutil.copytree(lib, out)
@@ -326,7 +326,8 @@ def times(c, tmp, families, each):
     print("%d decks: copied and parsed once in %.2f s; converted and verified with one job %.2f s (%.2f x), two %.2f s (%.2f x)" % (
         len(names), base, best[1], best[1] / base, best[2], best[2] / base))
     if not c.sanitized:
-        c.check("one job takes at most 3 times what copying and parsing takes", best[1] <= 3 * base, "%.2f" % (best[1] / base))
+        for jobs in (1, 2):
+            c.check("%d jobs take at most 3 times what copying and parsing takes" % jobs, best[jobs] <= 3 * base, "%.2f" % (best[jobs] / base))
 
 
 def first_interfaces(c, directory):
