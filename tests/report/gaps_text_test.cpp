@@ -1,4 +1,6 @@
 // The text of `deck gaps`: one row per interface, clean ones in one line, nothing wider than asked.
+#include <algorithm>
+
 #include "deck/base/columns.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/text/rule.hpp"
@@ -43,6 +45,16 @@ std::string one_sided() {
       "Gapmin=0.1\n@/INTER/TYPE7/3 grnd_IDs=2 surf_IDm=99\n@/INTER/TYPE7/4 grnd_IDs=99 surf_IDm=1";
   p.card += "\n/GRNOD/PART/5\nnobody\n        77\n@/INTER/TYPE7/5 grnd_IDs=5 surf_IDm=1";
   return plates(p);
+}
+
+TEST(Obstacle, NamesTheSideWithoutMembers) {
+  const Inspected d(one_sided());
+  std::vector<std::pair<std::int64_t, std::string_view>> found;
+  for (const Contact& c : d.scene.contacts)
+    found.emplace_back(c.inter->id, to_string(obstacle_of(c)));
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, (std::vector<std::pair<std::int64_t, std::string_view>>{
+                       {1, ""}, {3, "empty_main"}, {4, "empty_secondary"}, {5, "empty_secondary"}}));
 }
 
 TEST(GapsText, AContactWithAnEmptySideIsNoCleanOne) {

@@ -78,6 +78,10 @@ class Gate:
             self.expect("%s: a contact whose main surface does not exist is not clean" % verb, 1, verb, mistakes, "--interface", "1")
             self.expect("%s: --fail-on never leaves it" % verb, 0, verb, mistakes, "--interface", "1", "--fail-on", "never")
 
+        r = self.run("gaps", mistakes, "--interface", "1", "--json", "-")
+        names = [c["obstacle"] for i in json.loads(r.out)["interfaces"] if i["id"] == 1 for c in i["contacts"]]
+        self.c.check("the document names why nothing was examined", names == ["empty_main"], names)
+
     def documents(self):
         r = self.run("gaps", DECK, "--max-depth", "0.1", "--json", "-")
         gate = json.loads(r.out)["gate"]

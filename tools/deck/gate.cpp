@@ -169,11 +169,8 @@ bool stops_before_pairs(const Loaded& loaded, const Scene& scene) {
       }))
     return true;
   return std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) {
-    if (c.dropped) return false;
-    const bool none = c.kind == ContactKind::edge_edge
-                          ? c.main_edges.empty() || c.secondary_edges.empty()
-                          : c.main.empty() || c.secondary.empty();
-    return c.degenerate_segments > 0 || (!none && !(c.gapmin > 0));
+    const Obstacle obstacle = obstacle_of(c);
+    return obstacle == Obstacle::no_gap || obstacle == Obstacle::no_area;
   });
 }
 

@@ -192,7 +192,7 @@ class Builder {
     const bool free_only = i.Iedge.value == 1;
     set_edges(contact.secondary_edges, edges_of_surface(s, free_only));
     set_edges(contact.main_edges, edges_of_surface(m, free_only));
-    contact.dropped = contact.secondary_edges.empty() || contact.main_edges.empty();
+    contact.dropped = contact.secondary_empty() || contact.main_empty();
     if (!contact.dropped) return finish_edges(std::move(contact), card);
     contact.secondary_edges.clear();
     contact.main_edges.clear();
@@ -255,10 +255,9 @@ class Builder {
 
   /// A contact without pairs is no clean one: the solver stops, but for a node group that is there.
   void report_empty_sides(const Contact& contact) {
-    const bool edges = contact.kind == ContactKind::edge_edge;
-    if (edges ? contact.main_edges.empty() : contact.main.empty())
+    if (contact.main_empty())
       report_empty_side(contact, RuleId::DK173, "main", Severity::error);
-    if (!(edges ? contact.secondary_edges.empty() : contact.secondary.empty())) return;
+    if (!contact.secondary_empty()) return;
     const InterBase* inter = contact.inter;
     const std::int64_t group =
         inter->type == 7    ? static_cast<const InterType7*>(inter)->grnd_IDs.value

@@ -67,6 +67,25 @@ double ratio(const PenetrationRow& row) { return row.gap > 0 ? row.depth / row.g
 
 }  // namespace
 
+Obstacle obstacle_of(const Contact& contact) {
+  if (contact.dropped) return Obstacle::none;
+  if (contact.main_empty()) return Obstacle::empty_main;
+  if (contact.secondary_empty()) return Obstacle::empty_secondary;
+  if (!(contact.gapmin > 0)) return Obstacle::no_gap;
+  return contact.degenerate_segments > 0 ? Obstacle::no_area : Obstacle::none;
+}
+
+std::string_view to_string(Obstacle obstacle) {
+  switch (obstacle) {
+    case Obstacle::empty_main: return "empty_main";
+    case Obstacle::empty_secondary: return "empty_secondary";
+    case Obstacle::no_gap: return "no_gap";
+    case Obstacle::no_area: return "no_area";
+    case Obstacle::none: break;
+  }
+  return {};
+}
+
 int on_surface_error(const Contact& contact) {
   if (contact.kind == ContactKind::edge_edge) return 0;
   return detail::on_surface_error(contact.type, contact.itied, contact.fpenmax, contact.inacti);

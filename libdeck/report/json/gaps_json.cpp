@@ -210,7 +210,11 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
         j.field("gapmin_origin", c.gapmin_origin == GapminOrigin::card ? "card" : "derived");
         j.field("gapmin_from", to_string(c.gapmin_origin));
         j.field("inacti", c.inacti).field("candidates", c.candidates);
-        j.field("evaluated", c.evaluated);
+        j.field("evaluated", c.evaluated).key("obstacle");
+        if (const Obstacle o = obstacle_of(c); o == Obstacle::none)
+          j.null();
+        else
+          j.value(to_string(o));
         j.field("removed_pairs", c.removed_pairs).field("max_gap", c.max_gap);
         j.field("shortest_main_side", c.shortest_side).key("totals").begin_object(true);
         write_totals(j, view.contacts[i]);

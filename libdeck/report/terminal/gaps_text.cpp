@@ -21,27 +21,17 @@ const PenetrationRow& row_of(const Scene& scene, const NamedPenetration& p) {
   return scene.contacts[p.contact].penetrations[p.row];
 }
 
-/// The side without members, where there can be no pair; empty: both have some.
-std::string_view empty_side(const Contact& c) {
-  if (c.dropped) return {};
-  const bool edges = c.kind == ContactKind::edge_edge;
-  if (edges ? c.main_edges.empty() : c.main.empty()) return "main";
-  if (edges ? c.secondary_edges.empty() : c.secondary.empty()) return "secondary";
-  return {};
-}
-
-/// True without a gap: nothing can lie within it, and the solver stops (785, 786).
-bool without_gap(const Contact& c) {
-  return !c.dropped && empty_side(c).empty() && !(c.gapmin > 0);
-}
-
-/// Why a contact without penetrations is no clean one; empty: it is.
+/// Why a contact without penetrations is no clean one, in words; empty: it is.
 std::string obstacle(const Contact& c) {
-  if (const auto side = empty_side(c); !side.empty()) return fmt::format("{} side is empty", side);
-  if (without_gap(c)) return "there is no gap";
-  if (c.degenerate_segments > 0)
-    return fmt::format("{} without area", count(static_cast<std::size_t>(c.degenerate_segments),
-                                                "segment", "segments"));
+  switch (obstacle_of(c)) {
+    case Obstacle::empty_main: return "main side is empty";
+    case Obstacle::empty_secondary: return "secondary side is empty";
+    case Obstacle::no_gap: return "there is no gap";
+    case Obstacle::no_area:
+      return fmt::format("{} without area", count(static_cast<std::size_t>(c.degenerate_segments),
+                                                  "segment", "segments"));
+    case Obstacle::none: break;
+  }
   return {};
 }
 
@@ -200,17 +190,18 @@ std::string penetration_sentence(const Scene& scene, const SceneView& view) {
                                   : fmt::format("{} could not be evaluated, see the findings. ",
                                                 count(unknown, "contact", "contacts"));
   std::size_t idle = 0;
-  const auto name = [&](const char* what, auto&& of_that_kind) {
+  const auto name = [&](const char* what, std::initializer_list<Obstacle> obstacles) {
     const auto n = static_cast<std::size_t>(
-        std::count_if(scene.contacts.begin(), scene.contacts.end(),
-                      [&](const Contact& c) { return c.evaluated && of_that_kind(c); }));
+        std::count_if(scene.contacts.begin(), scene.contacts.end(), [&](const Contact& c) {
+          return c.evaluated && std::find(obstacles.begin(), obstacles.end(), obstacle_of(c)) !=
+                                    obstacles.end();
+        }));
     if (n > 0) open += fmt::format("{} {}. ", count(n, "contact", "contacts"), what);
     return n;
   };
-  idle += name("with an empty side", [](const Contact& c) { return !empty_side(c).empty(); });
-  idle += name("without a gap (error 785/786)", without_gap);
-  name("with main segments without area (error 558)",
-       [](const Contact& c) { return c.degenerate_segments > 0; });
+  idle += name("with an empty side", {Obstacle::empty_main, Obstacle::empty_secondary});
+  idle += name("without a gap (error 785/786)", {Obstacle::no_gap});
+  name("with main segments without area (error 558)", {Obstacle::no_area});
   if (t.count.pairs == 0)
     return open + fmt::format("No initial penetration in {}.",
                               count(scene.contacts.size() - unknown - idle, "contact", "contacts"));

@@ -120,6 +120,13 @@ struct Contact {
   /// Positions in `main` of plain segments in more than two solids (solver warning 3062), and of
   /// quadrangular faces of solids whose nodes all belong to a solid without that face.
   std::vector<std::uint32_t> crowded, inside_solids;
+
+  bool main_empty() const {
+    return kind == ContactKind::edge_edge ? main_edges.empty() : main.empty();
+  }
+  bool secondary_empty() const {
+    return kind == ContactKind::edge_edge ? secondary_edges.empty() : secondary.empty();
+  }
 };
 
 struct Scene {

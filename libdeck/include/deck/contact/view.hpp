@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "deck/contact/crossings.hpp"
@@ -68,6 +69,19 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings =
 
 /// The element behind a segment or edge; not valid for carriers without an element.
 ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t element);
+
+/// Why a contact without penetrations is no clean one.
+enum class Obstacle {
+  none,
+  empty_main,       ///< nothing on a side: there can be no pair
+  empty_secondary,  ///< the solver goes on where a node group is there, but empty
+  no_gap,           ///< the solver stops (785, 786)
+  no_area,          ///< a main segment without area: the solver stops (558)
+};
+
+/// The first of them that holds for a contact; none for one that the solver drops.
+Obstacle obstacle_of(const Contact& contact);
+std::string_view to_string(Obstacle obstacle);  ///< its name; empty: none
 
 /// Solver error for a node exactly on a segment: 611, 612, or 0 where the options avoid it.
 int on_surface_error(const Contact& contact);

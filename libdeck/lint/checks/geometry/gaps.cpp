@@ -128,7 +128,7 @@ void check_radiation(const GeometryRun& run, const Contact& c) {
 
 void check_no_gap(const GeometryRun& run, const Contact& c) {
   if (c.gapmin > 0 || c.dropped) return;
-  if (c.kind == ContactKind::edge_edge ? c.main_edges.empty() : c.main.empty()) return;
+  if (c.main_empty()) return;
   Diagnostic* d = run.report(RuleId::DK314, c, gap_field(c),
                              fmt::format("{}: the default gap is {:.6g} ({})", name_of(run, c),
                                          c.gapmin, to_string(c.gapmin_origin)));
