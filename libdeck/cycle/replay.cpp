@@ -189,7 +189,7 @@ ReplayReport replay(const ContactCard& card, std::string_view csv, const ReplayO
   return report;
 }
 
-std::optional<std::string> states_text(std::string_view bytes, std::size_t limit) {
+std::optional<std::string> states_text(std::string_view bytes, std::uint64_t limit) {
   if (!is_gzip(bytes)) return std::string(bytes);
   auto text = gunzip(bytes, limit);
   if (!text) return std::nullopt;

@@ -4,12 +4,12 @@
 #include "deck/edit/unit_system.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <bitset>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "base/bits.hpp"
 #include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
@@ -399,7 +399,7 @@ class BlockConverter {
   static std::string units_text(const UnitSystem& units) {
     std::string text;
     for (const double factor : {units.mass, units.length, units.time})
-      text += std::to_string(std::bit_cast<std::uint64_t>(factor)) + " ";
+      text += std::to_string(bit_cast<std::uint64_t>(factor)) + " ";
     return text;
   }
 

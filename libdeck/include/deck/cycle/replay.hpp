@@ -3,6 +3,7 @@
 #ifndef DECK_CYCLE_REPLAY_HPP_
 #define DECK_CYCLE_REPLAY_HPP_
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -70,7 +71,7 @@ struct ReplayOptions {
 /// The text of a states file: gzip data is inflated, anything else returned as it is. Nothing when
 /// the data is damaged or would exceed `limit` bytes.
 [[nodiscard]] std::optional<std::string> states_text(std::string_view bytes,
-                                                     std::size_t limit = std::size_t{1} << 32);
+                                                     std::uint64_t limit = std::uint64_t{1} << 32);
 
 }  // namespace deck::cycle
 
