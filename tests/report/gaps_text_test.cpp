@@ -53,8 +53,9 @@ TEST(Obstacle, NamesTheSideWithoutMembers) {
   for (const Contact& c : d.scene.contacts)
     found.emplace_back(c.inter->id, to_string(obstacle_of(c)));
   std::sort(found.begin(), found.end());
-  EXPECT_EQ(found, (std::vector<std::pair<std::int64_t, std::string_view>>{
-                       {1, ""}, {3, "empty_main"}, {4, "empty_secondary"}, {5, "empty_secondary"}}));
+  EXPECT_EQ(found,
+            (std::vector<std::pair<std::int64_t, std::string_view>>{
+                {1, ""}, {3, "empty_main"}, {4, "empty_secondary"}, {5, "empty_secondary"}}));
 }
 
 TEST(GapsText, AContactWithAnEmptySideIsNoCleanOne) {

@@ -255,8 +255,7 @@ class Builder {
 
   /// A contact without pairs is no clean one: the solver stops, but for a node group that is there.
   void report_empty_sides(const Contact& contact) {
-    if (contact.main_empty())
-      report_empty_side(contact, RuleId::DK173, "main", Severity::error);
+    if (contact.main_empty()) report_empty_side(contact, RuleId::DK173, "main", Severity::error);
     if (!contact.secondary_empty()) return;
     const InterBase* inter = contact.inter;
     const std::int64_t group =

@@ -77,11 +77,16 @@ Obstacle obstacle_of(const Contact& contact) {
 
 std::string_view to_string(Obstacle obstacle) {
   switch (obstacle) {
-    case Obstacle::empty_main: return "empty_main";
-    case Obstacle::empty_secondary: return "empty_secondary";
-    case Obstacle::no_gap: return "no_gap";
-    case Obstacle::no_area: return "no_area";
-    case Obstacle::none: break;
+    case Obstacle::empty_main:
+      return "empty_main";
+    case Obstacle::empty_secondary:
+      return "empty_secondary";
+    case Obstacle::no_gap:
+      return "no_gap";
+    case Obstacle::no_area:
+      return "no_area";
+    case Obstacle::none:
+      break;
   }
   return {};
 }

@@ -24,13 +24,17 @@ const PenetrationRow& row_of(const Scene& scene, const NamedPenetration& p) {
 /// Why a contact without penetrations is no clean one, in words; empty: it is.
 std::string obstacle(const Contact& c) {
   switch (obstacle_of(c)) {
-    case Obstacle::empty_main: return "main side is empty";
-    case Obstacle::empty_secondary: return "secondary side is empty";
-    case Obstacle::no_gap: return "there is no gap";
+    case Obstacle::empty_main:
+      return "main side is empty";
+    case Obstacle::empty_secondary:
+      return "secondary side is empty";
+    case Obstacle::no_gap:
+      return "there is no gap";
     case Obstacle::no_area:
       return fmt::format("{} without area", count(static_cast<std::size_t>(c.degenerate_segments),
                                                   "segment", "segments"));
-    case Obstacle::none: break;
+    case Obstacle::none:
+      break;
   }
   return {};
 }
@@ -193,8 +197,8 @@ std::string penetration_sentence(const Scene& scene, const SceneView& view) {
   const auto name = [&](const char* what, std::initializer_list<Obstacle> obstacles) {
     const auto n = static_cast<std::size_t>(
         std::count_if(scene.contacts.begin(), scene.contacts.end(), [&](const Contact& c) {
-          return c.evaluated && std::find(obstacles.begin(), obstacles.end(), obstacle_of(c)) !=
-                                    obstacles.end();
+          return c.evaluated &&
+                 std::find(obstacles.begin(), obstacles.end(), obstacle_of(c)) != obstacles.end();
         }));
     if (n > 0) open += fmt::format("{} {}. ", count(n, "contact", "contacts"), what);
     return n;
