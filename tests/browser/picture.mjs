@@ -77,7 +77,7 @@ export async function picture(p, path) {
 
   // Picking and measuring.
   await p.evaluate(() => window.deckReport.viewport.toggleSolid());
-  const spots = await p.evaluate(() => {
+  const pickable = () => p.evaluate(() => {
     const { viewport } = window.deckReport;
     const r = viewport.view.canvas.getBoundingClientRect();
     const out = [];
@@ -89,6 +89,8 @@ export async function picture(p, path) {
       }
     return out;
   });
+  await settled(p);
+  let spots = await pickable();
   if (check("there is something to pick", spots.length > 4)) {
     await p.mouse.click(...spots[0].at);
     await settled(p);
@@ -98,7 +100,9 @@ export async function picture(p, path) {
     const text = readFileSync(path, "utf8").split("\n")[line - 1] ?? "";
     check("and the line of the element", Number(text.slice(0, 10)) === spots[0].id, `${said}: ${text}`);
     await p.keyboard.press("Escape");
+    await settled(p);
     await p.keyboard.press("m");
+    spots = await pickable(); // a row of the page may have come or gone
     await p.mouse.click(...spots[0].at);
     await p.mouse.click(...spots.at(-1).at);
     const measured = await p.$eval("#view .ruler", (e) => e.textContent);

@@ -56,6 +56,7 @@ export async function tablesBehave(p) {
   const before = await titles();
   const menu = "#worst details:has(.columns)";
   await p.click(`${menu} summary`);
+  await p.waitForSelector(`${menu} input`); // the menu is filled by an event of its own
   const boxes = await p.$$eval(`${menu} input`, (b) => b.map((e) => [e.value, e.checked]));
   same("the chooser ticks the columns in sight", boxes.filter((b) => b[1]).length, before.length);
   const off = boxes.find((b) => !b[1])?.[0];
