@@ -7,10 +7,15 @@ file(GLOB loops CONFIGURE_DEPENDS contact/search/*.cpp contact/distance/filtered
      contact/scene/penetrations.cpp cycle/kernel/kernels*.cpp)
 set_property(SOURCE ${loops} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
 
-# Headers of the standard library and of fmt are compiled once for each target.
+# Headers of the standard library and of fmt are compiled once for each target. They are named without
+# a path, so that a compiler cache serves every checkout of the project.
+function(deck_precompile target) # deck_precompile(TARGET [HEADER ...]): those headers, too
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/libdeck/cmake)
+  target_precompile_headers(${target} PRIVATE <precompiled.hpp> ${ARGN})
+endfunction()
 if(LIBDECK_PRECOMPILE)
-  target_precompile_headers(libdeck PRIVATE precompiled.hpp)
-  target_precompile_headers(libdeck_seldom PRIVATE precompiled.hpp)
+  deck_precompile(libdeck)
+  deck_precompile(libdeck_seldom)
   # Other registers, other headers; data.
   set_source_files_properties(cycle/kernel/kernels_avx2.cpp cycle/kernel/kernels_avx512.cpp
     cycle/kernel/kernels_baseline.cpp ${DECK_EMBEDDED} ${DECK_EMBEDDED_VIEWER}
