@@ -5,6 +5,8 @@
 #include <set>
 
 #include "deck/text/number.hpp"
+#include "keyword/decode/parts.hpp"
+#include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
 #include "text/number_scan.hpp"
 
@@ -245,7 +247,14 @@ std::optional<std::pair<std::string, Parameter>> read_definition(Deck& deck, con
   }
   p.file = line.file;
   p.span = line.whole();
-  std::string name(trim(columns(line.text, 1, 10)));
+  // In free format the name is the first cell, and the value the next one.
+  const bool free_format = is_free(line);
+  const FreeCells free = free_format ? split_free(line) : FreeCells();
+  const auto cell = [&](std::size_t i, int first, int last) {
+    if (!free_format) return columns(line.text, first, last);
+    return i < free.size() ? free[i].first : std::string_view();
+  };
+  std::string name(trim(cell(0, 1, 10)));
   if (name.empty()) {
     report_parameter(deck, p.span, "/PARAMETER without a name in columns 1-10");
     return std::nullopt;
@@ -256,18 +265,22 @@ std::optional<std::pair<std::string, Parameter>> read_definition(Deck& deck, con
     p.valid = true;
   } else if (expression) {
     p.expression = std::string(trim(columns(line.text, 11, 100)));
+    if (free_format && free.size() > 1) {
+      const auto behind = static_cast<std::size_t>(free[1].second.offset - line.offset);
+      p.expression = std::string(trim(line.text.substr(behind, line_columns - behind)));
+    }
   } else if (integer) {
-    const IntegerCell cell = read_integer(columns(line.text, 11, 20));
-    p.integer = cell.value;
-    p.real = static_cast<double>(cell.value);
-    p.valid = cell.status == NumberStatus::ok;
-    if (cell.status == NumberStatus::trailing_text) partly_read = std::to_string(cell.value);
+    const IntegerCell number = read_integer(cell(1, 11, 20));
+    p.integer = number.value;
+    p.real = static_cast<double>(number.value);
+    p.valid = number.status == NumberStatus::ok;
+    if (number.status == NumberStatus::trailing_text) partly_read = std::to_string(number.value);
   } else {
-    const RealCell cell = read_real(columns(line.text, 11, 30));
-    p.real = cell.value;
-    p.valid = cell.status == NumberStatus::ok || cell.status == NumberStatus::implicit_exponent;
-    if (cell.status == NumberStatus::trailing_text)
-      if (const auto shown = format_real(cell.value, 24)) partly_read = shown->text;
+    const RealCell number = read_real(cell(1, 11, 30));
+    p.real = number.value;
+    p.valid = number.status == NumberStatus::ok || number.status == NumberStatus::implicit_exponent;
+    if (number.status == NumberStatus::trailing_text)
+      if (const auto shown = format_real(number.value, 24)) partly_read = shown->text;
   }
   if (!partly_read.empty()) {
     report_parameter(deck, p.span,

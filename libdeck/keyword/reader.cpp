@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <set>
 
 #include "deck/text/gzip.hpp"
 #include "deck/text/number.hpp"
@@ -436,8 +437,7 @@ class Reader {
   }
 
   bool in_submodel_without_begin() const {
-    return !submodel_stack_.empty() &&
-           !deck_.submodels[static_cast<std::size_t>(submodel_stack_.back())].units;
+    return !submodel_stack_.empty() && begun_.count(submodel_stack_.back()) == 0;
   }
 
   void check_tail(std::uint32_t file, std::uint64_t from) {
@@ -549,10 +549,26 @@ class Reader {
       deck_.begin = std::move(begin);
       deck_.version = version;
     } else if (!submodel_stack_.empty()) {
-      if (begin.has_input)
-        deck_.submodels[static_cast<std::size_t>(submodel_stack_.back())].units = begin.input;
+      begun_.insert(submodel_stack_.back());
+      // The system that is named alone counts for both.
+      if (begin.has_input || begin.has_working)
+        deck_.submodels[static_cast<std::size_t>(submodel_stack_.back())].units =
+            begin.has_input ? begin.input : begin.working;
     } else if (file == 0) {
       report(RuleId::DK043, header, "a second /BEGIN in the main file");
+    } else {
+      const Begin& main = deck_.begin;
+      const UnitSystem& counts = main.has_input ? main.input : main.working;
+      const UnitSystem& here = begin.has_input ? begin.input : begin.working;
+      if ((begin.has_input || begin.has_working) && !(here == counts))
+        report(RuleId::DK043, header,
+               "the units of /BEGIN in an included file (" + here.mass_code + " " +
+                   here.length_code + " " + here.time_code + ") differ from those of the deck (" +
+                   counts.mass_code + " " + counts.length_code + " " + counts.time_code +
+                   "), which are taken for its values",
+               {.solver = "it takes the units of a /BEGIN for a submodel only",
+                .fix = "put the #include between //SUBMODEL and //ENDSUB, give the blocks of the "
+                       "file a /UNIT, or convert it"});
     }
   }
 
@@ -575,6 +591,7 @@ class Reader {
   fs::path main_directory_;
   std::vector<std::uint32_t> stack_;  // files being read, outermost first
   std::vector<std::int32_t> submodel_stack_;
+  std::set<std::int32_t> begun_;     // submodels with a /BEGIN of their own
   std::vector<int> outer_versions_;  // version outside of every open submodel
   detail::ReaderNotes notes_;
   int hints_ = 0;                     // searched for wrong paths

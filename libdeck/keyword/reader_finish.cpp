@@ -4,6 +4,7 @@
 
 #include "deck/text/number.hpp"
 #include "keyword/blank_units.hpp"
+#include "keyword/decode/parts.hpp"
 #include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
 
@@ -95,8 +96,14 @@ void fill_submodels(Deck& deck, const ReaderNotes& notes) {
       const Line line = cursor.next();
       std::int64_t* const cells[7] = {&s.definitions, &s.nodes,      &s.elements, &s.parts,
                                       &s.materials,   &s.properties, &s.submodels};
-      for (int c = 0; c < 7; ++c)
-        *cells[c] = read_offset(deck, line.columns(10 * c + 1, 10 * c + 10));
+      const bool free_format = is_free(line);
+      const FreeCells free = free_format ? split_free(line) : FreeCells();
+      for (std::size_t c = 0; c < 7; ++c) {
+        const int first = 10 * static_cast<int>(c) + 1;
+        *cells[c] = read_offset(deck, !free_format      ? line.columns(first, first + 9)
+                                      : c < free.size() ? free[c].second
+                                                        : line.columns(101, 101));
+      }
       fit_offsets(deck, s);
       for (int c = 1; c < 7; ++c)
         if (*cells[c] == 0) *cells[c] = s.definitions;
@@ -252,9 +259,16 @@ void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSyste
 }
 
 bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_one) {
-  const std::string_view cells[3] = {trim(columns(line.text, 1, 20)),
-                                     trim(columns(line.text, 21, 40)),
-                                     trim(columns(line.text, 41, 60))};
+  Span spans[3] = {line.columns(1, 20), line.columns(21, 40), line.columns(41, 60)};
+  // The lines of /BEGIN are read before anything else, in their columns.
+  if (blank_is_one && is_free(line)) {
+    const FreeCells free = split_free(line);
+    for (std::size_t i = 0; i < 3; ++i)
+      spans[i] = i < free.size() ? free[i].second : line.columns(101, 101);
+  }
+  const std::string_view cells[3] = {trim(deck.sources.text(spans[0])),
+                                     trim(deck.sources.text(spans[1])),
+                                     trim(deck.sources.text(spans[2]))};
   if (cells[0].empty() && cells[1].empty() && cells[2].empty()) return false;
   units.mass_code = cells[0];
   units.length_code = cells[1];
@@ -273,7 +287,7 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
     if (const RealCell number = read_real(word);
         word.size() < cells[i].size() && number.status == NumberStatus::ok && number.value > 0) {
       *factors[i] = number.value;
-      report(deck, RuleId::DK015, line.columns(20 * i + 1, 20 * i + 20),
+      report(deck, RuleId::DK015, spans[i],
              "'" + std::string(cells[i]) + "' is not a " + names[i] + " unit; it is read as " +
                  std::string(word),
              {.severity = Severity::warning,
@@ -281,7 +295,7 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
               .solver = "it reads the number and drops the rest without a word"});
       continue;
     }
-    report(deck, RuleId::DK015, line.columns(20 * i + 1, 20 * i + 20),
+    report(deck, RuleId::DK015, spans[i],
            "'" + std::string(cells[i]) + "' is not a " + names[i] +
                " unit; expected a prefix and '" + bases[i] + "', or a positive number",
            {.solver = "it stops with an error"});

@@ -28,6 +28,17 @@ const Parameter& parameter(const Deck& d, const char* name) {
   return p ? *p : none;
 }
 
+TEST(Parameters, InFreeFormat) {
+  const Deck d =
+      read(deck_of("/PARAMETER/GLOBAL/REAL/1\nt, u\nA,1.5\n"
+                   "/PARAMETER/GLOBAL/INTEGER/2\nt\n  N , 42\n" +
+                   std::string("/PARAMETER/GLOBAL/REAL_EXPR/3\nt\nE, 2*&A + N\n")));
+  EXPECT_EQ(parameter(d, "A").real, 1.5);
+  EXPECT_EQ(parameter(d, "N").integer, 42);
+  EXPECT_EQ(parameter(d, "E").real, 45);
+  EXPECT_EQ(count(d.diagnostics, RuleId::DK019), 0u);
+}
+
 TEST(Parameters, OfEveryKindAreRead) {
   const Deck d = read(deck_of(real("A", "                 1.5") +
                               "/PARAMETER/GLOBAL/INTEGER/2\nt\n" + cell("N") + "        42\n" +

@@ -604,6 +604,27 @@ TEST(ReaderSubmodel, ItsOwnBeginGivesItsUnitsAndVersionOnlyInside) {
   EXPECT_EQ(d.begin.input.length, 1e-3);
 }
 
+TEST(ReaderSubmodel, OffsetsInFreeFormat) {
+  const Deck d =
+      read(deck_of("/PARAMETER/GLOBAL/INTEGER/1\nt\nparts          7\n"
+                   "//SUBMODEL/1\na\n100,,300, &parts\n/NODE\n//ENDSUB\n"));
+  const Submodel& s = d.submodels.at(0);
+  EXPECT_EQ(s.definitions, 100);
+  EXPECT_EQ(s.nodes, 100);
+  EXPECT_EQ(s.elements, 300);
+  EXPECT_EQ(s.parts, 7);
+  EXPECT_EQ(s.materials, 100);
+}
+
+TEST(ReaderSubmodel, WorkingUnitsAloneCountForItsValues) {
+  const std::string own =
+      "/BEGIN\nsub\n      2024         0\n\n"
+      "                  Mg                   m                   s\n";
+  const Deck d = read(deck_of("//SUBMODEL/1\n\n\n" + own + "/NODE\n//ENDSUB\n/GRNOD/NODE/8\n"));
+  EXPECT_EQ(d.units_of(*block(d, "/NODE"))->length, 1);
+  EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/8"))->length, 1e-3);
+}
+
 TEST(ReaderSubmodel, UnbalancedMarksAreErrors) {
   EXPECT_EQ(count(read(deck_of("//ENDSUB\n")).diagnostics, RuleId::DK035), 1u);
   EXPECT_EQ(count(read(deck_of("//SUBMODEL/1\n\n\n")).diagnostics, RuleId::DK035), 1u);
@@ -623,6 +644,14 @@ TEST(ReaderUnits, UnitBlocksAreFoundWithSubmodelOffsets) {
   EXPECT_EQ(d.units_of(*block(d, "/GRNOD/NODE/5/4"))->mass, 1000);
   EXPECT_EQ(count(d.diagnostics, RuleId::DK015), 0u);
   EXPECT_EQ(d.units.count(14), 1u);
+}
+
+TEST(ReaderUnits, UnitBlocksInFreeFormat) {
+  const Deck d = read(deck_of("/UNIT/3\nt\nMg, m,s\n/UNIT/4\nt\nkg,,lightyear\n/NODE/3\n"));
+  EXPECT_EQ(d.units_of(*block(d, "/NODE/3"))->mass, 1000);
+  EXPECT_EQ(d.units_of(*block(d, "/NODE/3"))->length, 1);
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK015), 1u);
+  EXPECT_EQ(d.sources.text(first(d.diagnostics, RuleId::DK015)->span), "lightyear");
 }
 
 // ---- encrypted ----------------------------------------------------------------------------------

@@ -8,12 +8,42 @@
 #include "keyword/reader.hpp"
 
 namespace deck {
+
+detail::FreeCells detail::split_free(const Line& line) {
+  FreeCells cells;
+  const std::string_view text = line.text.substr(0, line_columns);
+  std::size_t at = 0;
+  const auto blank = [&](std::size_t k) { return static_cast<unsigned char>(text[k]) <= ' '; };
+  bool after_comma = true;
+  while (at <= text.size()) {
+    while (at < text.size() && blank(at)) ++at;
+    const std::size_t begin = at;
+    while (at < text.size() && text[at] != ',' && !blank(at)) ++at;
+    if (at > begin || after_comma)
+      if (begin < text.size() || at > begin)
+        cells.emplace_back(
+            text.substr(begin, at - begin),
+            Span{line.file, static_cast<std::uint32_t>(at - begin), line.offset + begin});
+    while (at < text.size() && blank(at)) ++at;
+    after_comma = at < text.size() && text[at] == ',';
+    if (after_comma) ++at;
+    if (at >= text.size()) break;
+  }
+  return cells;
+}
+
+bool detail::is_free(const Line& line) {
+  return line.text.substr(0, line_columns).find(',') != std::string_view::npos;
+}
+
 namespace {
 
 using detail::Findings;
+using detail::FreeCells;
 using detail::line_columns;
 using detail::LineContext;
 using detail::LineRule;
+using detail::split_free;
 using detail::trim;
 
 std::string quoted(std::string_view text) {
@@ -192,38 +222,13 @@ void check_line(Findings& findings, const Line& line, bool fixed_columns) {
                     "a NUL byte in a data line");
 }
 
-/// Free-format cells: commas and blanks separate, two commas make an empty cell.
-std::vector<std::pair<std::string_view, Span>> split_free(const Line& line) {
-  std::vector<std::pair<std::string_view, Span>> cells;
-  const std::string_view text = line.text.substr(0, line_columns);
-  std::size_t at = 0;
-  const auto blank = [&](std::size_t k) { return static_cast<unsigned char>(text[k]) <= ' '; };
-  bool after_comma = true;
-  while (at <= text.size()) {
-    while (at < text.size() && blank(at)) ++at;
-    const std::size_t begin = at;
-    while (at < text.size() && text[at] != ',' && !blank(at)) ++at;
-    if (at > begin || after_comma)
-      if (begin < text.size() || at > begin)
-        cells.emplace_back(
-            text.substr(begin, at - begin),
-            Span{line.file, static_cast<std::uint32_t>(at - begin), line.offset + begin});
-    while (at < text.size() && blank(at)) ++at;
-    after_comma = at < text.size() && text[at] == ',';
-    if (after_comma) ++at;
-    if (at >= text.size()) break;
-  }
-  return cells;
-}
-
 /// Cards of a single text cell (titles, names).
 bool is_text_card(const CardSchema& card) {
   return card.fields.size() == 1 && card.fields[0].type == FieldType::text;
 }
 
 bool has_comma(const CardSchema& card, const Line& line) {
-  if (is_text_card(card)) return false;
-  return line.text.substr(0, line_columns).find(',') != std::string_view::npos;
+  return !is_text_card(card) && detail::is_free(line);
 }
 
 /// Cells of a list. `limit`: how many there are at most on this line, blank ones included.
@@ -310,8 +315,6 @@ void drop_blank_cell(Findings& findings, const Block& block,
                   {.solver = "it drops the text; the next one goes to the next cell",
                    .fix = "write two commas for the blank columns, or fixed columns"});
 }
-
-using FreeCells = std::vector<std::pair<std::string_view, Span>>;
 
 /// Whether blanks alone part cells of the line, or indent it, as in fixed columns.
 bool laid_out_in_columns(std::string_view text) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "deck/keyword/decode.hpp"
 #include "deck/text/rule.hpp"
@@ -40,6 +41,13 @@ struct LineContext {
   const std::function<std::int64_t(std::string_view)>* value = nullptr;
   int cells = 0;  ///< of a list, on this line; 0: not known
 };
+
+/// Cells of a line in free format, with their places.
+using FreeCells = std::vector<std::pair<std::string_view, Span>>;
+/// Commas and blanks separate, two commas make an empty cell.
+FreeCells split_free(const Line& line);
+/// True if a comma puts the line into free format. Lines of a single text cell never are.
+bool is_free(const Line& line);
 
 DecodedCard decode_in_context(const Deck& deck, const Block& block, const CardSchema& card,
                               const Line& line, Diagnostics* diagnostics,

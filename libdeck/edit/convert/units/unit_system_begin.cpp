@@ -215,6 +215,9 @@ void convert_parameters(UnitConversion& c) {
     for (auto it = first; it != last && why.empty(); ++it)
       if (it->second.type != Parameter::Type::real || !it->second.expression.empty())
         why = "is not a plain real number";
+    for (auto it = first; it != last && why.empty(); ++it)
+      if (c.deck.sources.text(it->second.span).find(',') != std::string_view::npos)
+        why = "stands in a line in free format";
     if (!why.empty()) {
       write_numbers(c, name, uses, why);
       continue;
