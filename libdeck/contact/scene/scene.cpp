@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "contact/rules/gaps.hpp"
+#include "contact/scene/doubts.hpp"
 #include "contact/scene/scene_parts.hpp"
 #include "deck/text/rule.hpp"
 
@@ -74,7 +76,8 @@ Contact make_contact(const Card& card, int type, ContactRole role) {
 
 class Builder {
  public:
-  Builder(SceneContext& context, Selections& selections) : c_(context), selections_(selections) {}
+  Builder(SceneContext& context, Selections& selections)
+      : c_(context), selections_(selections), doubts_(context.model, selections) {}
 
   void build() {
     const Interfaces& all = *c_.scene.interfaces;
@@ -281,8 +284,13 @@ class Builder {
     c_.diagnostics.report(std::move(d));
   }
 
-  /// False, with a finding, where members are missing or have no place, or the gap is no number.
+  /// False, with a finding, where members or their places are not known, or the gap is no number.
   bool computable(Contact& contact) {
+    if (const std::string why = doubts_.about(contact); !why.empty()) {
+      contact.evaluated = false;
+      if (told_.insert(contact.inter).second) report_unevaluated(contact, why, Severity::warning);
+      return false;
+    }
     const Coordinates& x = c_.scene.coordinates;
     NodeIndex lost = no_index;
     const auto look = [&](NodeIndex n) {
@@ -297,18 +305,23 @@ class Builder {
     const bool endless = !std::isfinite(contact.max_gap) || !std::isfinite(contact.gapmin);
     contact.evaluated = lost == no_index && !endless && selections_.complete();
     if (contact.evaluated || (lost == no_index && !endless)) return contact.evaluated;
+    report_unevaluated(contact,
+                       lost == no_index ? std::string("the gap is no finite number")
+                                        : "node " + std::to_string(c_.model.nodes.id[lost]) +
+                                              " has a coordinate that is no finite number",
+                       Severity::error);
+    return false;
+  }
+
+  void report_unevaluated(const Contact& contact, const std::string& why, Severity severity) {
     const std::string keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);
-    Diagnostic d =
-        finding_of(RuleId::DK380, contact.inter->span,
-                   keyword + " " + std::to_string(contact.inter->id) + ": " +
-                       (lost == no_index ? std::string("the gap is no finite number")
-                                         : "node " + std::to_string(c_.model.nodes.id[lost]) +
-                                               " has a coordinate that is no finite number") +
-                       "; the contact was not evaluated");
+    Diagnostic d = finding_of(RuleId::DK380, contact.inter->span,
+                              keyword + " " + std::to_string(contact.inter->id) + ": " + why +
+                                  "; the contact was not evaluated");
+    d.severity = severity;
     d.keyword = keyword;
     d.id = contact.inter->id;
     c_.diagnostics.report(std::move(d));
-    return false;
   }
 
   void finish_edges(Contact contact, const Card& card) {
@@ -324,6 +337,8 @@ class Builder {
 
   SceneContext& c_;
   Selections& selections_;
+  detail::Doubts doubts_;
+  std::set<const InterBase*> told_;  ///< interfaces whose doubt was reported
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/selection/selection_impl.hpp"
+#include "text/columns.hpp"
 
 namespace deck {
 
@@ -54,6 +55,28 @@ const PartElements& Selections::Impl::elements_of_parts(ElementKind kind) {
     part_elements_ready[i] = true;
   }
   return part_elements_cache[i];
+}
+
+void Selections::Impl::report_unread(const Block& block, const Indices& parts) {
+  if (!parts_with_unread) {
+    parts_with_unread.emplace();
+    for (const Block& b : deck().blocks) {
+      if (!detail::is_below(b.header, "/SPHCEL") && !detail::is_below(b.header, "/XELEM")) continue;
+      const auto it = model->part_of_id.find(b.id.value + deck().offset_of(b, "part"));
+      if (it == model->part_of_id.end()) continue;
+      parts_with_unread->resize(model->parts.size(), false);
+      (*parts_with_unread)[it->second] = true;
+    }
+  }
+  if (parts_with_unread->empty()) return;
+  const auto hit = std::find_if(parts.begin(), parts.end(),
+                                [&](std::uint32_t p) { return (*parts_with_unread)[p]; });
+  if (hit == parts.end()) return;
+  report({RuleId::DK164, block.header_span,
+          std::string(block.keyword) + " " + std::to_string(block.id.value) + ": part " +
+              std::to_string(model->parts[*hit].id) +
+              " has particles (/SPHCEL) or strands (/XELEM), which are not evaluated here",
+          std::string(block.keyword), block.id.value});
 }
 
 bool Selections::Impl::is_part_type(std::string_view type) {

@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <unordered_map>
@@ -122,6 +123,10 @@ struct Selections::Impl {
   std::array<PartElements, detail::SetGroup::families> part_elements_cache;
   std::array<bool, detail::SetGroup::families> part_elements_ready{};
   const PartElements& elements_of_parts(ElementKind kind);
+  /// Parts with elements that no family holds (SPH particles, /XELEM); built once.
+  std::optional<std::vector<bool>> parts_with_unread;
+  /// Says of a list of nodes or lines that what these parts have besides is left out (DK164).
+  void report_unread(const Block& block, const detail::Indices& parts);
   std::unique_ptr<detail::ShellCover> shell_cover;
   detail::ShellCover& cover();
   std::unique_ptr<detail::SolidFaces> all_solid_faces;

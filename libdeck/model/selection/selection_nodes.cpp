@@ -135,6 +135,10 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_parts(const Block& block, std:
                                                         const DecodedBlock& d) {
   const std::vector<std::int8_t> tags = part_tags(block, type, id_list(d));
   const bool removes = std::find(tags.begin(), tags.end(), -1) != tags.end();
+  Indices named;
+  for (std::uint32_t p = 0; p < tags.size(); ++p)
+    if (tags[p] != 0) named.push_back(p);
+  report_unread(block, named);
   std::vector<NodeIndex> nodes;
   start_marks();
   // Family by family: a node removed with an earlier family comes back with a later one.

@@ -295,6 +295,7 @@ class ClauseReader {
       found.insert(found.end(), some.begin(), some.end());
     }
     add_parts(found);
+    all_.report_unread(block_, found);
     missing(std::string(kind), absent);
   }
 

@@ -66,7 +66,8 @@ void check_geometry(const LintContext& context, Reporter& reporter, const Geomet
   for (const Diagnostic& d : found.all()) {
     // The check of references says it with the cell and the reason.
     if (d.rule == RuleId::DK172 || d.rule == RuleId::DK173) continue;
-    reporter.report(rule_of(d.rule), d.span, d.message);
+    if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message))
+      out->severity = d.severity;
   }
   const SceneView view = make_view(scene);
   const detail::GeometryRun run{context, reporter, scene, view, chosen.threads};

@@ -1,0 +1,116 @@
+// Finds groups with members that are left out, smoothed sides, and nodes whose transform is not
+// evaluated.
+#include "contact/scene/doubts.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "deck/keyword/place.hpp"
+#include "deck/text/rule_id.hpp"
+#include "text/columns.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// Transforms that become an affine map; all others leave the nodes where they are.
+bool is_evaluated(const DecodedBlock& d) {
+  constexpr std::string_view types[] = {"/TRANSFORM/TRA", "/TRANSFORM/ROT", "/TRANSFORM/SYM",
+                                        "/TRANSFORM/SCA", "/TRANSFORM/MATRIX"};
+  const std::string_view header = d.block->header;
+  if (std::none_of(std::begin(types), std::end(types),
+                   [&](std::string_view t) { return is_below(header, t); }))
+    return false;
+  const bool by_nodes = d.integer("node_ID1") > 0 && d.integer("node_ID2") > 0;
+  return !is_below(header, types[0]) || by_nodes || d.integer("skew_ID") == 0;
+}
+
+}  // namespace
+
+Doubts::Doubts(const Model& model, Selections& selections)
+    : model_(model), selections_(selections) {
+  find_unplaced();
+}
+
+void Doubts::find_unplaced() {
+  const Deck& deck = *model_.deck;
+  for (const Block& block : deck.blocks) {
+    if (!is_below(block.header, "/TRANSFORM")) continue;
+    const DecodedBlock d = decode(deck, block);
+    if (is_evaluated(d)) continue;
+    if (unplaced_.empty()) unplaced_.assign(model_.nodes.size(), false);
+    if (d.integer("SUBMODEL") != 0) {
+      for (const BulkBlock& range : model_.node_blocks)
+        if (range.block->submodel >= 0)
+          std::fill_n(unplaced_.begin() + range.first, range.count, true);
+      continue;
+    }
+    const std::int64_t group = d.integer("GR_NODE") + deck.offset_of(block, "grnod");
+    if (const NodeSet* nodes = selections_.node_group(group))
+      for (const NodeIndex n : nodes->nodes) unplaced_[n] = true;
+  }
+}
+
+void Doubts::find_partial() {
+  const std::vector<Diagnostic>& all = selections_.diagnostics().all();
+  if (looked_at_ == all.size()) return;
+  std::optional<BlockIndex> index;
+  for (; looked_at_ < all.size(); ++looked_at_) {
+    const Diagnostic& d = all[looked_at_];
+    if (d.rule != RuleId::DK164) continue;
+    if (!index) index.emplace(*model_.deck);
+    const std::int64_t b = index->find(d.span.file, d.span.offset);
+    if (b >= 0) partial_.emplace(&model_.deck->blocks[static_cast<std::size_t>(b)], d.message);
+  }
+}
+
+std::string Doubts::partial_group(const Block& inter) {
+  find_partial();
+  if (partial_.empty()) return {};
+  if (!definitions_) definitions_.emplace(*model_.deck);
+  constexpr std::string_view groups[] = {"grnod",  "surf",   "line",   "set",
+                                         "grshel", "grsh3n", "grbric", "grquad",
+                                         "grtria", "grtrus", "grbeam", "grspri"};
+  std::set<const Block*> seen{&inter};
+  std::vector<const Block*> open{&inter};
+  while (!open.empty()) {
+    const Block& block = *open.back();
+    open.pop_back();
+    if (const auto it = partial_.find(&block); it != partial_.end()) return it->second;
+    for (const Reference& r : references_of(*model_.deck, block)) {
+      if (std::find(std::begin(groups), std::end(groups), r.kind) == std::end(groups)) continue;
+      const Block* next = definitions_->find(r.kind, r.id);
+      if (next != nullptr && seen.insert(next).second) open.push_back(next);
+    }
+  }
+  return {};
+}
+
+std::string Doubts::unplaced_node(const Contact& contact) const {
+  if (unplaced_.empty()) return {};
+  NodeIndex found = no_index;
+  const auto look = [&](NodeIndex n) {
+    if (n != no_index && unplaced_[n]) found = n;
+  };
+  for (const SecondaryNode& s : contact.secondary) look(s.node);
+  for (const MainSegment& m : contact.main)
+    for (const NodeIndex n : m.nodes) look(n);
+  for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
+    for (const ContactEdge& e : *edges)
+      for (const NodeIndex n : e.nodes) look(n);
+  if (found == no_index) return {};
+  return "node " + std::to_string(model_.nodes.id[found]) +
+         " is moved by a /TRANSFORM that is not evaluated here";
+}
+
+std::string Doubts::about(const Contact& contact) {
+  const Block* block = contact.inter->block;
+  if (block != nullptr) {
+    if (contact.inter->type == 7 && block->version >= 2026 &&
+        decode(*model_.deck, *block).integer("Ists") != 0)
+      return "with Ists its secondary side is a smoothed surface, which is not evaluated here";
+    if (std::string why = partial_group(*block); !why.empty()) return why;
+  }
+  return unplaced_node(contact);
+}
+
+}  // namespace deck::detail

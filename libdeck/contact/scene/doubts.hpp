@@ -1,0 +1,37 @@
+// What this program does not know about the members of a contact or their places, although the
+// deck is legal: a verdict about such a contact would be invented. Private to the stage.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/scene/scene_parts.hpp"
+#include "deck/keyword/references.hpp"
+
+namespace deck::detail {
+
+class Doubts {
+ public:
+  /// Looks for transforms that are not evaluated here (DK110). Both must outlive this.
+  Doubts(const Model& model, Selections& selections);
+
+  /// Why the contact is not to be judged; empty: everything is known. Its sides must have been
+  /// resolved, so that the findings about their groups are there.
+  std::string about(const Contact& contact);
+
+ private:
+  void find_unplaced();
+  /// Groups with members that are left out (DK164) and what their finding says.
+  void find_partial();
+  std::string partial_group(const Block& inter);
+  std::string unplaced_node(const Contact& contact) const;
+
+  const Model& model_;
+  Selections& selections_;
+  std::optional<Definitions> definitions_;
+  std::size_t looked_at_ = 0;  ///< findings of the selections
+  std::map<const Block*, std::string> partial_;
+  std::vector<bool> unplaced_;  ///< by node; empty: none
+};
+
+}  // namespace deck::detail
