@@ -194,6 +194,37 @@ def not_examined(c, tmp):
                 shutil.rmtree(out)
 
 
+# ---- errors of the deck --------------------------------------------------------------------------
+
+def errors_of_the_deck(c, tmp):
+    """Where the solver stops before it comes to the contacts, no verdict about them is clean."""
+    base = read(SAMPLE["clean_plates"])
+    end = base.rindex(b"/END")
+    inserted = {
+        "whole": b"",
+        "a node of a group": b"/GRNOD/NODE/991\ng\n%10d%10d\n/GRNOD/GRNOD/990\ng\n%10d\n" % (101, 99999, 991),
+        "a property": b"/PART/77\np\n%10d%10d\n" % (88, 1),
+    }
+    for name, lines in inserted.items():
+        data = base[:end] + lines + base[end:]
+        if name == "a node of a group":
+            card = data.index(b"\n", data.index(b"\n", data.index(b"/INTER/TYPE7")) + 1) + 1
+            while data[card:card + 1] == b"#":
+                card = data.index(b"\n", card) + 1
+            data = data[:card] + b"%10d" % 990 + data[card + 10:]
+        path = write(os.path.join(tmp, "e_0000.rad"), data)
+        for verb in ("gaps", "cycle"):
+            r = c.run(verb, path)
+            c.check("%s does not exist: %s" % (name, verb), r.code == int(name != "whole")
+                    and ("The solver stops first: 1 error in the deck" in r.out.decode()) == (name != "whole"), "%d %s" % (r.code, r.text[-400:]))
+            c.check("%s does not exist: %s --fail-on never" % (name, verb), c.run(verb, path, "--fail-on", "never", "--quiet").code == 0)
+        out = os.path.join(tmp, "batch")
+        c.run("batch", "-o", out, "--verb", "gaps", path)
+        entry = json.loads(read(os.path.join(out, "summary.json")))["decks"][0]
+        c.check("%s does not exist: batch" % name, (entry["status"] == "clean") == (name == "whole"), str(entry)[:200])
+        shutil.rmtree(out)
+
+
 # ---- counts --------------------------------------------------------------------------------------
 
 def recount(document):
@@ -388,7 +419,7 @@ def explain(c):
 
 def main():
     c = Checks()
-    steps = (not_a_deck, incomplete, options, not_examined, counts, titles, file_names)
+    steps = (not_a_deck, incomplete, options, not_examined, errors_of_the_deck, counts, titles, file_names)
     for step in steps:
         tmp = tempfile.mkdtemp(prefix="verdicts-")
         try:

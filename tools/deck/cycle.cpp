@@ -278,6 +278,7 @@ int run(const Options& o) {
         written = write_vtk(o, loaded.path, files, paraview_script(files));
       }
     }
+    join_findings(loaded);
     const SceneView view = make_view(scene);
     const GateReport report = gate->look(loaded, scene, view, &steps.last);
     input.view = &view;

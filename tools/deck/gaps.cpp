@@ -159,6 +159,7 @@ int run(const Options& o) {
       };
       scene = build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
     }
+    join_findings(loaded);
     const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
     const SceneView view = make_view(scene, &crossings);
     std::optional<cycle::SceneOutcome> forces;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <climits>
 #include <filesystem>
+#include <utility>
 
 #include "deck/report/gaps.hpp"
 
@@ -161,12 +162,19 @@ GateReport DeckGate::look(Loaded& loaded, const Scene& scene, const SceneView& v
   return report;
 }
 
+void join_findings(Loaded& loaded) {
+  Diagnostics& all = loaded.deck.diagnostics;
+  all.merge(std::exchange(loaded.diagnostics, Diagnostics()));
+  if (loaded.model.selections == nullptr) return;
+  // The scene has reported DK332 itself.
+  for (const Diagnostic& d : loaded.model.selections->diagnostics().all())
+    if (d.severity == Severity::error && d.rule != RuleId::DK332) all.report(d);
+}
+
 bool stops_before_pairs(const Loaded& loaded, const Scene& scene) {
-  const auto& all = loaded.diagnostics.all();
-  if (std::any_of(all.begin(), all.end(), [](const Diagnostic& d) {
-        return d.severity == Severity::error &&
-               (d.rule == RuleId::DK172 || d.rule == RuleId::DK173);
-      }))
+  const auto& all = loaded.deck.diagnostics.all();
+  if (std::any_of(all.begin(), all.end(),
+                  [](const Diagnostic& d) { return d.severity == Severity::error; }))
     return true;
   return std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) {
     const Obstacle obstacle = obstacle_of(c);

@@ -43,8 +43,11 @@ Result<void> check_fail_on(const GateOptions& options);
 /// The configuration that holds for a deck: --config, or the nearest .decklint.toml.
 Result<LintConfig> config_of(const GateOptions& options, const std::string& deck_path);
 
-/// True if the solver stops before it looks for pairs: a side of a contact of the scene has no
-/// member, a main segment no area, or the contact no gap.
+/// Joins what the model and its groups were found to lack to the findings of reading, where
+/// verdicts look for it. To be called behind build_scene(), which resolves the groups of contacts.
+void join_findings(Loaded& loaded);
+/// True if the solver stops before it looks for pairs: an error was found in the deck (a side of a
+/// contact without members among them), a main segment has no area, or a contact no gap.
 bool stops_before_pairs(const Loaded& loaded, const Scene& scene);
 
 /// What holds for one deck: the bounds, and what the deck is compared with.

@@ -7,6 +7,7 @@
 
 #include "deck/base/escape.hpp"
 #include "deck/model/coverage.hpp"
+#include "deck/model/stops.hpp"
 #include "deck/report/cycle.hpp"
 #include "deck/report/gate.hpp"
 #include "deck/report/text_table.hpp"
@@ -403,8 +404,9 @@ const char* to_string(cycle::Removal::Because because) {
 
 std::string cycle_verdict(const CycleInput& input) {
   const Coverage coverage = coverage_of(*input.deck, *input.scene->interfaces);
-  const std::string tail = coverage_tail(coverage);
+  std::string tail = coverage_tail(coverage);
   if (const std::string lead = coverage_lead(coverage); !lead.empty()) return lead + tail;
+  tail = stops_text(*input.deck) + tail;
   const cycle::SceneOutcome& o = *input.outcome;
   const Model& model = *input.scene->model;
   std::size_t pairs = 0, closed = 0, by_step = 0, tied = 0;

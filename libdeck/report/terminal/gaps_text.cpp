@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "deck/base/escape.hpp"
+#include "deck/model/stops.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/gate.hpp"
 #include "deck/report/text_table.hpp"
@@ -234,6 +235,7 @@ std::string gaps_verdict(const Deck& deck, const Scene& scene, const SceneView& 
     if (const std::uint64_t n = view.total.crossed_elements.value_or(0); n > 0)
       text += fmt::format(" {}: an edge of the secondary side passes through a main segment.",
                           count(n, "crossed element", "crossed elements"));
+    text += stops_text(deck);
   }
   return text + coverage_tail(coverage);
 }
