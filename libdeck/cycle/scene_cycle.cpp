@@ -49,27 +49,36 @@ void limit_all(const State& state, const std::vector<NodeStiffness>& by_contact,
   }
 }
 
-}  // namespace
-
-struct CycleRun::Memory {
-  explicit Memory(const Scene& scene) : connectivity(*scene.model) {}
+/// What the contacts of a scene keep between evaluations.
+struct RunMemory {
+  explicit RunMemory(const Scene& scene) : connectivity(*scene.model) {
+    contacts.resize(scene.contacts.size());
+    bool releases = false;
+    for (const Contact& c : scene.contacts) {
+      cards.push_back(make_card(scene, c));
+      releases = releases || cards.back().ibc != 0;
+    }
+    if (releases) fixed = detail::fixed_translations(*scene.model);
+  }
   std::vector<ContactCard> cards;
   std::vector<detail::ContactMemory> contacts;
   std::vector<std::uint8_t> fixed;
   std::optional<StructureStep> structure;
   Connectivity connectivity;
+  SearchMemory* searches = nullptr;
+};
+
+SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
+                          const Coordinates& x, const State& state, const CycleOptions& options);
+
+}  // namespace
+
+struct CycleRun::Memory : RunMemory {
+  using RunMemory::RunMemory;
 };
 
 CycleRun::CycleRun(const Scene& scene, bool remember)
-    : scene_(&scene), remember_(remember), memory_(std::make_unique<Memory>(scene)) {
-  memory_->contacts.resize(scene.contacts.size());
-  bool releases = false;
-  for (const Contact& c : scene.contacts) {
-    memory_->cards.push_back(make_card(scene, c));
-    releases = releases || memory_->cards.back().ibc != 0;
-  }
-  if (releases) memory_->fixed = detail::fixed_translations(*scene.model);
-}
+    : scene_(&scene), remember_(remember), memory_(std::make_unique<Memory>(scene)) {}
 CycleRun::~CycleRun() = default;
 
 std::size_t CycleRun::searches() const {
@@ -80,21 +89,27 @@ std::size_t CycleRun::searches() const {
 
 SceneOutcome CycleRun::evaluate(const Coordinates& x, const State& state,
                                 const CycleOptions& options) {
-  const Scene& scene = *scene_;
+  return evaluate_all(*scene_, *memory_, remember_, x, state, options);
+}
+
+namespace {
+
+SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
+                          const Coordinates& x, const State& state, const CycleOptions& options) {
   const detail::RunContext run{
-      scene, x, state, options, remember_, memory_->fixed, memory_->connectivity};
+      scene, x, state, options, remember, memory.fixed, memory.connectivity, memory.searches};
   SceneOutcome out;
   // Nodes are many; sums of heat that no contact adds to are not kept.
   out.nodes.resize(scene.model->nodes.size(),
-                   std::any_of(memory_->cards.begin(), memory_->cards.end(),
+                   std::any_of(memory.cards.begin(), memory.cards.end(),
                                [](const ContactCard& card) { return card.ithe > 0; }));
   out.contacts.resize(scene.contacts.size());
   std::vector<NodeStiffness> stiffness(scene.contacts.size());
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     ContactOutcome& c = out.contacts[i];
     c.contact = &scene.contacts[i];
-    c.card = memory_->cards[i];
-    stiffness[i] = detail::run_contact(run, memory_->contacts[i], c, out.nodes);
+    c.card = memory.cards[i];
+    stiffness[i] = detail::run_contact(run, memory.contacts[i], c, out.nodes);
     if (options.progress) options.progress(i + 1, scene.contacts.size());
   }
   for (NodeIndex n = 0; n < scene.model->nodes.size(); ++n) {
@@ -106,13 +121,22 @@ SceneOutcome CycleRun::evaluate(const Coordinates& x, const State& state,
     }
   }
   limit_all(state, stiffness, out);
-  if (!memory_->structure) memory_->structure = structure_step(scene);
-  out.structure = *memory_->structure;
+  if (!memory.structure) memory.structure = structure_step(scene);
+  out.structure = *memory.structure;
   return out;
 }
 
+}  // namespace
+
 SceneOutcome run_cycle(const Scene& scene, const State& state, const CycleOptions& options) {
-  return CycleRun(scene, false).evaluate(scene.coordinates, state, options);
+  return detail::run_cycle(scene, state, options, nullptr);
+}
+
+SceneOutcome detail::run_cycle(const Scene& scene, const State& state, const CycleOptions& options,
+                               SearchMemory* searches) {
+  RunMemory memory(scene);
+  memory.searches = searches;
+  return evaluate_all(scene, memory, false, scene.coordinates, state, options);
 }
 
 std::vector<ActedNode> acted_nodes(const State& state, const SceneOutcome& outcome) {

@@ -46,6 +46,7 @@ struct Conversion {
   Overlay changed;  ///< contents that differ from the files on disk
   std::vector<LossEntry> losses;
   std::unique_ptr<Behaviour> behaviour;  ///< of `now`, if it is to be verified
+  SearchMemory* searches;                ///< of all decks of the call
 };
 
 void print_refusals(const CommonOptions& common, const std::vector<std::string>& refusals) {
@@ -89,10 +90,10 @@ LossEntry refused_entry(const std::string& refusal) {
 }
 
 std::unique_ptr<Behaviour> behaviour_of(const Loaded& loaded, const SchemaSet& schemas,
-                                        const CommonOptions& common) {
+                                        const CommonOptions& common, SearchMemory* searches) {
   return std::make_unique<Behaviour>(
       EditContext{loaded.deck, loaded.model, loaded.interfaces, schemas},
-      VerifyOptions{common.thread_count(), common.limits});
+      VerifyOptions{common.thread_count(), common.limits, searches});
 }
 
 /// Compares the deck with what it was before a step. An exit code if it is another one.
@@ -100,7 +101,7 @@ int verify(Conversion& c, const Loaded& again, const ConvertStep& step,
            const std::vector<LossEntry>& losses, const SchemaSet& schemas,
            const CommonOptions& common, Progress& progress) {
   progress.step(c.now->path + ": comparing the result of " + step.option + " with the deck");
-  auto after = behaviour_of(again, schemas, common);
+  auto after = behaviour_of(again, schemas, common, c.searches);
   VerifyRelation relation = relation_of(losses);
   relation.new_ids = step.option == "--renumber";
   relation.extract = step.option == "--extract-contacts";
@@ -143,7 +144,8 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
     return exit_findings;
   }
   if (files->empty()) return exit_clean;
-  if (options.verifies() && !c.behaviour) c.behaviour = behaviour_of(*c.now, schemas, common);
+  if (options.verifies() && !c.behaviour)
+    c.behaviour = behaviour_of(*c.now, schemas, common, c.searches);
   if (c.now->path == "-" && !c.changed.contains("-"))  // it cannot be read twice
     c.changed["-"] = std::string(c.now->deck.sources[0].bytes());
   for (auto& [path, text] : *files) c.changed[path] = std::move(text);
@@ -202,6 +204,7 @@ struct Run {
   Progress progress;
   std::vector<Document> documents = {};
   std::vector<LossEntry> losses = {};
+  SearchMemory searches = SearchMemory();
   bool refused = false;  ///< nothing may be written
 };
 
@@ -353,6 +356,7 @@ int convert(Run& run, const std::string& name, std::unique_ptr<Loaded> loaded, O
   c.now = std::move(loaded);
   c.changed = std::move(overlay);
   c.losses = losses;
+  c.searches = &run.searches;
   int code = exit_clean;
   for (const ConvertStep& step : run.steps) {
     code = apply(c, step, schemas, options, run.progress);

@@ -212,7 +212,7 @@ void find_penetrations(SceneContext& c, Contact& contact) {
     const SearchSides sides(contact, SearchSides::Off::included);
     const bool wide = c.options.candidates || contact.inacti == 3;
     const double margin = sides.margin(x);
-    const auto find = [&](const SearchOptions& o) { return sides.find(x, o); };
+    const auto find = [&](const SearchOptions& o) { return sides.find(x, o, c.searches); };
     search.margin = wide ? margin : 0;
     found = candidates(c.options.accuracy, margin, search, find);
     if (!found.complete && wide) {
@@ -279,7 +279,7 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     search.threads = c.options.threads;
     search.max_pairs = most_pairs(c);
     found = candidates(c.options.accuracy, sides.margin(x), search,
-                       [&](const SearchOptions& o) { return sides.find(x, o); });
+                       [&](const SearchOptions& o) { return sides.find(x, o, c.searches); });
     if (!found.complete || !find_removed(c, contact, sides, removed)) return give_up(c, contact);
   }
   PairJudge judge(c.options.accuracy, c.scene.decisions);

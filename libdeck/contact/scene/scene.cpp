@@ -387,6 +387,12 @@ const char* to_string(ContactRole role) {
 
 Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics& diagnostics,
                   const SceneOptions& options) {
+  return detail::build_scene(model, interfaces, diagnostics, options, nullptr);
+}
+
+Scene detail::build_scene(const Model& model, const Interfaces& interfaces,
+                          Diagnostics& diagnostics, const SceneOptions& options,
+                          SearchMemory* searches) {
   Scene scene;
   scene.model = &model;
   scene.interfaces = &interfaces;
@@ -394,7 +400,7 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics&
   scene.coordinates = {model.nodes.x, model.nodes.y, model.nodes.z};
   if (model.selections == nullptr) return scene;
   Connectivity connectivity(model);
-  SceneContext context{model, connectivity, scene, diagnostics, options};
+  SceneContext context{model, connectivity, scene, diagnostics, options, searches};
   Builder(context, *model.selections).build();
   return scene;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "deck/contact/scene.hpp"
+#include "deck/contact/search_memory.hpp"
 
 namespace deck::detail {
 
@@ -20,8 +21,9 @@ class SearchSides {
   /// Views of the arrays: valid as long as this object and the coordinates.
   NodeSegmentInput nodes(const Coordinates& x) const;
   EdgeEdgeInput edges(const Coordinates& x) const;
-  /// The pairs of either kind.
-  SearchResult find(const Coordinates& x, const SearchOptions& options) const;
+  /// The pairs of either kind; from `memory` if it is given and knows them.
+  SearchResult find(const Coordinates& x, const SearchOptions& options,
+                    SearchMemory* memory = nullptr) const;
   /// The solver's margin beyond the gap, from the mean edge length of the searched sides.
   double margin(const Coordinates& x) const;
 

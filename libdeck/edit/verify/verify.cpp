@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/scene/scene_parts.hpp"
+#include "cycle/contact_run.hpp"
 #include "cycle/state/state_parts.hpp"
 #include "edit/verify/verify_parts.hpp"
 
@@ -40,11 +42,12 @@ Behaviour::Behaviour(const EditContext& context, const VerifyOptions& options)
   scene.candidates = false;
   scene.nodal_stiffness = true;
   scene.limits = options.limits;
-  p.scene = build_scene(context.model, context.interfaces, diagnostics, scene);
+  p.scene =
+      detail::build_scene(context.model, context.interfaces, diagnostics, scene, options.searches);
   p.state = cycle::make_state(p.scene);
   cycle::CycleOptions cycle;
   cycle.threads = options.threads;
-  p.cycle = cycle::run_cycle(p.scene, p.state, cycle);
+  p.cycle = cycle::detail::run_cycle(p.scene, p.state, cycle, options.searches);
   for (std::size_t k = 0; k < detail::verified_kinds.size(); ++k) {
     const ElementKind kind = detail::verified_kinds[k];
     for (std::uint32_t e = 0; e < context.model.family(kind).size(); ++e)

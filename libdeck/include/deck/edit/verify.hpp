@@ -7,6 +7,7 @@
 #include <string>
 
 #include "deck/base/limits.hpp"
+#include "deck/contact/search_memory.hpp"
 #include "deck/edit/rewrite.hpp"
 
 namespace deck {
@@ -14,6 +15,8 @@ namespace deck {
 struct VerifyOptions {
   int threads = 1;
   Limits limits;
+  /// Of decks that share their meshes; may be null.
+  SearchMemory* searches = nullptr;
 };
 
 /// What a deck is at its start: effective values, contacts, forces of the first cycle, nodal
