@@ -5,11 +5,7 @@
 
 namespace deck {
 
-std::string losses_json(const std::vector<LossEntry>& losses) {
-  std::string text;
-  JsonWriter json(text);
-  json.begin_object();
-  write_json_head(json, "deck/losses", 1);
+void write_loss_lists(JsonWriter& json, const std::vector<LossEntry>& losses) {
   constexpr std::pair<Loss, std::string_view> groups[] = {{Loss::kept, "kept"},
                                                           {Loss::approximated, "approximated"},
                                                           {Loss::dropped, "dropped"},
@@ -35,6 +31,14 @@ std::string losses_json(const std::vector<LossEntry>& losses) {
     }
     json.end_array();
   }
+}
+
+std::string losses_json(const std::vector<LossEntry>& losses) {
+  std::string text;
+  JsonWriter json(text);
+  json.begin_object();
+  write_json_head(json, "deck/losses", 1);
+  write_loss_lists(json, losses);
   json.end_object();
   text += '\n';
   return text;

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "edit/verify/verify_parts.hpp"
 
@@ -11,38 +10,51 @@ namespace {
 
 /// One effective value, whatever its type.
 struct NamedValue {
-  std::string name, text;
+  std::string_view name;
+  const std::string* text = nullptr;  ///< of a text
+  std::int64_t integer = 0;           ///< of a number without unit
   double number = 0;
   bool real = false;
   bool written = true;  ///< in the deck, not built into the solver
+
+  std::string shown() const { return text != nullptr ? *text : std::to_string(integer); }
+  bool is_shown_like(const NamedValue& other) const {
+    if (text != nullptr && other.text != nullptr) return *text == *other.text;
+    return text == other.text && integer == other.integer;
+  }
 };
 
 template <class T>
 NamedValue named_value(std::string_view name, const Effective<T>& field) {
-  if constexpr (std::is_same_v<T, std::string>)
-    return {std::string(name), field.value, 0, false};
-  else if constexpr (std::is_same_v<T, double>)
-    return {std::string(name), "", field.value, true, field.origin != Origin::built_in};
-  else
-    return {std::string(name), std::to_string(field.value), 0, false};
+  NamedValue out;
+  out.name = name;
+  if constexpr (std::is_same_v<T, std::string>) {
+    out.text = &field.value;
+  } else if constexpr (std::is_same_v<T, double>) {
+    out.number = field.value;
+    out.real = true;
+    out.written = field.origin != Origin::built_in;
+  } else {
+    out.integer = static_cast<std::int64_t>(field.value);
+  }
+  return out;
 }
 
-std::vector<NamedValue> values_of(const InterBase* inter) {
-  std::vector<NamedValue> out;
-  visit_interface(*inter, [&](const auto& typed) {
+void values_of(const InterBase& inter, std::vector<NamedValue>& out) {
+  out.clear();
+  visit_interface(inter, [&](const auto& typed) {
     typed.for_each(
         [&](std::string_view name, const auto& field) { out.push_back(named_value(name, field)); });
   });
-  return out;
 }
 
-/// The cells of an interface by name.
-std::map<std::string, const Field*, std::less<>> cells_of(const InterBase& inter) {
-  std::map<std::string, const Field*, std::less<>> out;
-  if (inter.block == nullptr || inter.block->schema == nullptr) return out;
+/// The cell of an interface with a name; nullptr: there is none.
+const Field* cell_of(const InterBase& inter, std::string_view name) {
+  if (inter.block == nullptr || inter.block->schema == nullptr) return nullptr;
   for (const CardSchema& card : inter.block->schema->cards)
-    for (const Field& f : card.fields) out.emplace(f.name, &f);
-  return out;
+    for (const Field& f : card.fields)
+      if (f.name == name) return &f;
+  return nullptr;
 }
 
 /// Dimensions that the cell can have: which one depends on flags.
@@ -63,6 +75,7 @@ DeckComparison::Difference DeckComparison::values() const {
   if (by_place && was.size() != now.size())
     return fmt::format("the deck has {} interfaces of TYPE7, 10, 11 and 19, expected {}",
                        now.size(), was.size());
+  std::vector<NamedValue> a, b;
   for (std::size_t i = 0; i < now.size(); ++i) {
     const InterBase* old = by_place ? was[i] : nullptr;
     if (!by_place)
@@ -77,29 +90,27 @@ DeckComparison::Difference DeckComparison::values() const {
     if (old->type != now[i]->type || (!relation.new_ids && old->id != now[i]->id))
       return fmt::format("{} is a TYPE{}, expected TYPE{} and id {}", name, now[i]->type, old->type,
                          old->id);
-    const auto fields = cells_of(*old);
-    const auto a = values_of(old), b = values_of(now[i]);
+    values_of(*old, a);
+    values_of(*now[i], b);
     for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) {
-      const auto found = fields.find(a[k].name);
-      const Field* field = found == fields.end() ? nullptr : found->second;
-      const std::string what = name + " " + a[k].name;
-      if (!a[k].real) {
-        const bool id = field != nullptr && field->type == FieldType::id;
-        if (a[k].text != b[k].text && !(id && relation.new_ids))
-          return fmt::format("{} is {}, expected {}", what, b[k].text, a[k].text);
-        continue;
+      const NamedValue &value_was = a[k], &value_now = b[k];
+      const auto what = [&] { return name + " " + std::string(value_was.name); };
+      if (!value_was.real) {
+        if (value_was.is_shown_like(value_now)) continue;
+        const Field* field = cell_of(*old, value_was.name);
+        if (relation.new_ids && field != nullptr && field->type == FieldType::id) continue;
+        return fmt::format("{} is {}, expected {}", what(), value_now.shown(), value_was.shown());
       }
       // A default that is one of its unit in any: it acts on a function that is not there,
-      // otherwise the conversion has written it out.
-      if (!a[k].written && !b[k].written && a[k].number == b[k].number) continue;
-      Difference first;
-      bool same = false;
-      for (const Dimension& d : dimensions_of(field)) {
-        auto difference = number(what, a[k].number, b[k].number, conversion_factor(from, to, d));
-        same = same || !difference;
-        if (!first) first = std::move(difference);
-      }
-      if (!same) return first;
+      // otherwise the conversion has written it out. Nothing is nothing in every unit.
+      const bool built_in = !value_was.written && !value_now.written;
+      if (value_was.number == value_now.number && (built_in || value_was.number == 0)) continue;
+      const auto dimensions = dimensions_of(cell_of(*old, value_was.name));
+      if (std::none_of(dimensions.begin(), dimensions.end(), [&](const Dimension& d) {
+            return same(value_was.number, value_now.number, conversion_factor(from, to, d));
+          }))
+        return number(what(), value_was.number, value_now.number,
+                      conversion_factor(from, to, dimensions.front()));
     }
   }
   return {};

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <ctime>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -144,6 +145,8 @@ bool Freshness::holds(const Record& record, const std::string& directory, std::u
 // ---- records --------------------------------------------------------------------------------
 
 std::string as_utf8(std::string_view text) {
+  if (std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; }))
+    return std::string(text);
   std::string json;
   append_json_string(json, text);
   return nlohmann::json::parse(json).get<std::string>();
@@ -226,6 +229,87 @@ std::optional<Record> parse_record(std::string_view line) {
   } catch (const std::exception&) {  // a line that was cut off, or not ours
     return std::nullopt;
   }
+}
+
+// ---- messages -------------------------------------------------------------------------------
+
+namespace {
+
+/// Both directions go over the members in one order: visit(Writer) and visit(Reader).
+template <class Visitor, class R>
+void visit_record(Visitor& v, R& r) {
+  v.name(r.deck), v.name(r.result);
+  v.value(r.key), v.value(r.bytes), v.value(r.hash), v.value(r.seconds);
+  for (auto* states : {&r.files, &r.settings, &r.outputs})
+    v.each(*states, [&](auto& f) {
+      v.name(f.path);
+      v.value(f.size), v.value(f.mtime), v.value(f.hash);
+    });
+  v.value(r.written), v.text(r.losses), v.text(r.entry), v.value(r.code);
+}
+
+struct Writer {
+  std::string& out;
+  template <class T>
+  void value(const T& v) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    out.append(reinterpret_cast<const char*>(&v), sizeof v);
+  }
+  void text(const std::string& t) {
+    value(t.size());
+    out += t;
+  }
+  void name(const std::string& t) { text(as_utf8(t)); }
+  template <class List, class F>
+  void each(const List& list, const F& f) {
+    value(list.size());
+    for (const auto& item : list) f(item);
+  }
+};
+
+struct Reader {
+  std::string_view in;
+  bool whole = true;
+  std::string_view take(std::size_t size) {
+    whole = whole && size <= in.size();
+    if (!whole) return {};
+    const std::string_view bytes = in.substr(0, size);
+    in.remove_prefix(size);
+    return bytes;
+  }
+  template <class T>
+  void value(T& v) {
+    if (const std::string_view bytes = take(sizeof v); whole)
+      std::memcpy(&v, bytes.data(), sizeof v);
+  }
+  void text(std::string& t) {
+    std::size_t size = 0;
+    value(size);
+    t = take(size);
+  }
+  void name(std::string& t) { text(t); }
+  template <class List, class F>
+  void each(List& list, const F& f) {
+    std::size_t size = 0;
+    value(size);
+    for (; whole && list.size() < size; f(list.back())) list.emplace_back();
+  }
+};
+
+}  // namespace
+
+void pack(const Record& record, std::string& message) {
+  Writer writer{message};
+  visit_record(writer, record);
+}
+
+std::optional<Record> unpack(std::string_view& message) {
+  Record record;
+  Reader reader{message};
+  visit_record(reader, record);
+  if (!reader.whole) return std::nullopt;
+  message = reader.in;
+  return record;
 }
 
 // ---- identity -------------------------------------------------------------------------------

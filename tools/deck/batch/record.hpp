@@ -52,6 +52,12 @@ std::string record_line(const Record& record);
 /// nullopt: not a record, for example a line that was cut off.
 std::optional<Record> parse_record(std::string_view line);
 
+/// A record on its way from a worker to the process that started it: appends it to `message`.
+void pack(const Record& record, std::string& message);
+/// Takes the first record off a message; nullopt: there is none, or not all of it. Names read as
+/// those of parse_record.
+std::optional<Record> unpack(std::string_view& message);
+
 /// Tells whether finished decks are still finished. Files that many decks include are looked at
 /// once.
 class Freshness {

@@ -210,21 +210,25 @@ struct Journals {
   std::map<std::string, double> seconds;
 };
 
-Journals read_journals_of(const std::string& directory) {
+/// `own`: what the journal of the name `own_name` holds, where that is known.
+Journals read_journals_of(const std::string& directory, const std::string& own_name,
+                          const std::vector<const Record*>& own) {
   Journals out;
+  const auto take = [&](const Record& record) {
+    out.seconds[record.entry] = record.seconds;
+    if (!record.losses.empty()) out.losses[record.entry] = record.losses;
+  };
   std::error_code ec;
   for (auto it = fs::directory_iterator(directory + "/.batch", ec);
        !ec && it != fs::directory_iterator(); it.increment(ec)) {
-    if (it->path().extension() != ".jsonl") continue;
+    if (it->path().extension() != ".jsonl" || it->path().filename() == own_name) continue;
     const auto source = Source::open(it->path().string(), Limits{});
     if (!source) continue;
     std::istringstream in{std::string((*source)->bytes())};
     for (std::string line; std::getline(in, line);)
-      if (auto record = parse_record(line)) {
-        out.seconds[record->entry] = record->seconds;
-        if (!record->losses.empty()) out.losses[record->entry] = std::move(record->losses);
-      }
+      if (const auto record = parse_record(line)) take(*record);
   }
+  for (const Record* record : own) take(*record);
   return out;
 }
 
@@ -263,10 +267,11 @@ Result<std::optional<Summary>> keep_previous(const std::string& directory, const
 
 }  // namespace
 
-Result<void> write_overview(const std::string& directory, const Summary& s) {
+Result<void> write_overview(const std::string& directory, const Summary& s,
+                            const std::string& own_name, const std::vector<const Record*>& own) {
   const std::string suffix = summary_name(s.shard).substr(std::string_view("summary").size());
   const std::string path = directory + "/" + summary_name(s.shard), text = summary_json(s);
-  const Journals journals = read_journals_of(directory);
+  const Journals journals = read_journals_of(directory, own_name, own);
   if (s.verb == "convert")
     if (auto done =
             write_result(directory + "/losses" + suffix, united_losses(journals.losses, s), true);
@@ -473,7 +478,9 @@ std::string Batch::work_on(std::size_t group, Captured& output) const {
       summary_entry(deck.path, status_in(task_, record.code, facts), record.result, record.code,
                     error, facts && facts->verdict ? &*facts->verdict : nullptr,
                     facts ? facts->counts : "{}", facts ? facts->gate : std::nullopt);
-  return record_line(record);
+  std::string message;
+  pack(record, message);
+  return message;
 }
 
 /// Of the decks of a group, in their order.
@@ -481,9 +488,8 @@ std::vector<Record> Batch::records_of(const JobReport& report) const {
   const std::vector<std::size_t>& group = groups_[report.job];
   std::vector<Record> records;
   if (report.answered) {
-    std::istringstream lines(report.message);
-    for (std::string line; std::getline(lines, line);)
-      if (auto record = parse_record(line)) records.push_back(std::move(*record));
+    std::string_view rest = report.message;
+    while (auto record = unpack(rest)) records.push_back(std::move(*record));
     if (records.size() == group.size()) return records;
     records.clear();
   }
@@ -591,18 +597,24 @@ Summary Batch::summary() const {
 }
 
 /// Leaves what holds, and what was written in place and cannot be done again.
-Result<void> Batch::shorten_journal() const {
-  std::string text;
+std::vector<const Record*> Batch::lasting() const {
+  std::vector<const Record*> out;
   for (std::size_t i = 0; i < records_.size(); ++i) {
     if (records_[i].code <= exit_findings) {
-      text += record_line(records_[i]) + "\n";
+      out.push_back(&records_[i]);
       continue;
     }
     const auto last = std::find_if(known_.rbegin(), known_.rend(), [&](const Record& r) {
       return r.written && r.key == key_ && r.deck == as_utf8(decks_[i].path);
     });
-    if (overtaken_.contains(i) && last != known_.rend()) text += record_line(*last) + "\n";
+    if (overtaken_.contains(i) && last != known_.rend()) out.push_back(&*last);
   }
+  return out;
+}
+
+Result<void> Batch::shorten_journal() const {
+  std::string text;
+  for (const Record* r : lasting()) text += record_line(*r) + "\n";
   return write_result(in_directory(".batch/" + label() + ".jsonl"), text, task_.in_place);
 }
 
@@ -628,7 +640,7 @@ int Batch::finish() {
     s.shard = shard_;
     s.all = all_.size();
   }
-  if (auto written = write_overview(o_.directory, s); !written)
+  if (auto written = write_overview(o_.directory, s, label() + ".jsonl", lasting()); !written)
     return fail(written.error().message);
   return report_batch(o_, s, kept_);
 }

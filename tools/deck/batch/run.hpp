@@ -80,6 +80,7 @@ class Batch {
   std::vector<Record> records_of(const JobReport& report) const;
   Result<void> keep(Record record, std::size_t index);
   Summary summary() const;
+  std::vector<const Record*> lasting() const;
   Result<void> shorten_journal() const;
   int finish();
 
@@ -129,8 +130,10 @@ Result<void> make_own_directory(const std::string& path);
 Result<void> write_result(const std::string& path, std::string_view bytes, bool sync);
 
 /// Writes the summary, the overview and, of decks that were converted, their loss report, which the
-/// journals hold.
-Result<void> write_overview(const std::string& directory, const Summary& summary);
+/// journals hold. `own`: the records of the journal `own_name`, which is not read then.
+Result<void> write_overview(const std::string& directory, const Summary& summary,
+                            const std::string& own_name = {},
+                            const std::vector<const Record*>& own = {});
 
 /// Prints the totals and writes the document for --json; the exit code.
 int report_batch(const BatchOptions& options, const Summary& summary, std::size_t kept);

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <filesystem>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
@@ -36,10 +35,13 @@ std::string counts_of(const BatchFrame::Deck& deck) {
 
 /// The lists of a loss report, without what says whose it is.
 std::string loss_lists(const std::vector<LossEntry>& losses) {
-  auto json = nlohmann::ordered_json::parse(losses_json(losses));
-  json.erase("schema");
-  json.erase("tool");
-  return json_line(json);
+  std::string text;
+  JsonWriter json(text);
+  json.begin_object(true);
+  write_loss_lists(json, losses);
+  json.end_object();
+  text.erase(text.find_last_not_of('\n') + 1);
+  return text;
 }
 
 /// What a worker learns while a group is written.
@@ -218,10 +220,11 @@ std::string Batch::write_group(std::size_t group, Captured& output) const {
     const std::string& target = facts ? result : deck.target;
     r.entry = summary_entry(paths[k], status, refused ? "" : target, r.code, error,
                             facts && facts->verdict ? &*facts->verdict : nullptr, counts_of(deck));
-    if (k == 0 && task_.verb.name == "convert") r.losses = loss_lists(frame.losses);
+    if (k == 0 && task_.verb.name == "convert" && !frame.written)
+      r.losses = loss_lists(frame.losses);  // else they were announced
   }
   std::string message;
-  for (const Record& r : records) message += record_line(r) + "\n";
+  for (const Record& r : records) pack(r, message);
   return message;
 }
 

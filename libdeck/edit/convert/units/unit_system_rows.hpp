@@ -1,6 +1,7 @@
 // Blocks of nodes and elements that unit conversion has converted before, for decks that share
 // includes. Private to unit conversion.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -22,6 +23,8 @@ class ConvertedRows {
     for (auto it = first; it != last; ++it) {
       const Block& b = it->second;
       if (b.how != how || b.bytes != bytes) continue;
+      if (const std::size_t all = edits.size() + b.cells.size(); all > edits.capacity())
+        edits.reserve(std::max(all, 2 * edits.capacity()));
       std::size_t at = 0;
       for (const Cell& c : b.cells) {
         edits.push_back({Span{file, c.length, begin + c.offset}, b.texts.substr(at, c.text)});

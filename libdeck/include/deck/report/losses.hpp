@@ -4,10 +4,13 @@
 #include <vector>
 
 #include "deck/edit/rewrite.hpp"
+#include "deck/report/json.hpp"
 
 namespace deck {
 
 /// Schema id "deck/losses": {"kept":[..],"approximated":[..],"dropped":[..],"undecided":[..]}.
 std::string losses_json(const std::vector<LossEntry>& losses);
+/// Only the four lists, as members of the object that is open.
+void write_loss_lists(JsonWriter& json, const std::vector<LossEntry>& losses);
 
 }  // namespace deck
