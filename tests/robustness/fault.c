@@ -4,8 +4,8 @@
  * killed before the call half   like kill, but a write has stored half of its bytes all    every
  * process of the group is killed ERRNO  the call fails with that number; a write stores half of its
  * bytes first DECK_FAULT_MARK=FILE made when it happened (so that the caller knows when N is too
- * large) DECK_FAULT_OPEN=abort:TEXT,hang:TEXT  opening a file whose name has TEXT aborts, or never
- * ends */
+ * large) DECK_FAULT_OPEN=abort:TEXT,hang:TEXT,once:TEXT  opening a file whose name has TEXT
+ * aborts, never ends, or is refused but for the first time */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -102,7 +102,8 @@ ssize_t write(int fd, const void* bytes, size_t size) {
   return real(fd, bytes, size);
 }
 
-static void named(const char* path) {
+/* True if the file must not be opened. */
+static int named(const char* path) {
   const char* at = on_open;
   while (at && *at) {
     const char* colon = strchr(at, ':');
@@ -114,15 +115,20 @@ static void named(const char* path) {
       text[length] = 0;
       if (strstr(path, text)) {
         if (strncmp(at, "abort:", 6) == 0) abort();
+        if (strncmp(at, "once:", 5) == 0) return atomic_fetch_add(counter, 1) > 0;
         for (;;) pause();
       }
     }
     at = colon[1 + length] == ',' ? colon + 2 + length : NULL;
   }
+  return 0;
 }
 
 static int opened(int (*real)(const char*, int, ...), const char* path, int flags, mode_t mode) {
-  if (on_open) named(path);
+  if (on_open && named(path)) {
+    errno = EACCES;
+    return -1;
+  }
   if (now()) {
     if (!fault_errno) end();
     errno = fault_errno;
@@ -144,6 +150,9 @@ WRAP_OPEN(open64)
 
 FILE* fopen(const char* path, const char* mode) {
   REAL("fopen", FILE * function(const char*, const char*));
-  if (on_open) named(path);
+  if (on_open && named(path)) {
+    errno = EACCES;
+    return NULL;
+  }
   return real(path, mode);
 }

@@ -275,6 +275,26 @@ def full_disk(c, tmp, shim, strikes):
         c.check("%s: the errors met calls that touch files (%d)" % (verb, struck), struck >= strikes // 3)
 
 
+def read_once(c, tmp, shim):
+    """An include that can be read when a deck is, but not when its result is: nothing is written, by whatever conversion."""
+    if shim is None or c.sanitized:
+        return c.skip("includes that can be read once", "no preloaded library")
+    lib, out = (os.path.join(tmp, n) for n in ("olib", "oout"))
+    library(lib, 1, 1)
+    deck, before = os.path.join(lib, "family000", "deck00", "car00_0000.rad"), tree(lib)
+    for conversion in (("--version", "2018"), ("--units", "kg,m,s"), ("--renumber", "part+10"), ("--resolve-defaults",)):
+        whole = c.run("convert", deck, *conversion, "-o", out)
+        changed = {os.path.basename(k) for k, v in tree(out).items() if v not in before.values()}
+        shutil.rmtree(out)
+        # What a step changes is in memory; the others are read again.
+        for name in sorted({"mat.inc", "mesh.inc", "inter.inc"} - changed):
+            r = c.run("convert", deck, *conversion, "-o", out, env={"LD_PRELOAD": shim, "DECK_FAULT_OPEN": "once:" + name})
+            c.check("%s: %s can be read once only: nothing is written, and it is said" % (conversion[0], name), whole.code == 0 and r.code == 3 and
+                    not os.path.exists(out) and "could be read before, but not again" in r.text and name in r.text, "%s, %s; %s" % (whole.code, r.code, r.text[-400:]))
+            shutil.rmtree(out, ignore_errors=True)
+    c.check("the decks are as they were", tree(lib) == before)
+
+
 def launchers(c, tmp):
     """Variables that launchers set share the decks out, or mean nothing; the decks written are the same."""
     lib, one, out = (os.path.join(tmp, n) for n in ("llib", "lone", "lout"))
@@ -390,7 +410,9 @@ def main():
         in_place(c, tmp)
         unverified(c, tmp)
         launchers(c, tmp)
-        full_disk(c, tmp, build_shim(tmp), 40 if c.options.all else 8)
+        shim = build_shim(tmp)
+        read_once(c, tmp, shim)
+        full_disk(c, tmp, shim, 40 if c.options.all else 8)
         big = c.options.all
         families, each, kills = (250, 4, 20) if big else (12, 3, 6)
         killed(c, tmp, families, each, kills, ["batch", "-o", "out", ".", "--verb", "convert --units kg,m,s", "--jobs", "2"], "out", "below another directory")
