@@ -290,6 +290,19 @@ TEST(EdgeGap, VariableGapIsTheSumAndAtLeastGapmin) {
   EXPECT_DOUBLE_EQ(pair(b.contact(3)), 0.15);
 }
 
+TEST(NegativeValues, CountAsTheSolverComputesWithThem) {
+  const Built b(beam_and_truss()
+                    .add("@/INTER/TYPE7/1 Igap=-1 Gapmin=0.6")
+                    .add("@/INTER/TYPE7/2 Igap=2 Gapmin=0.2 Gapmax=-1")
+                    .add("@/INTER/TYPE7/3 Igap=3 Gapmin=0.2 %mesh_size=-1"));
+  // Thicknesses count from Igap 1 on: a negative one leaves Gapmin alone.
+  EXPECT_EQ(b.contact(1).igap, 0);
+  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(1), 141), 0.6);
+  // Only 0 means no bound, and the default share.
+  EXPECT_DOUBLE_EQ(pair_gap(b, b.contact(2), 141), 0.2);
+  EXPECT_DOUBLE_EQ(b.contact(3).main.at(0).length, -10);
+}
+
 TEST(RadiationDistance, DefaultsToTheLargerOfGapAndShortestSide) {
   const std::string thermal = " Ithe=1 Gapmin=0.5";
   const Built b(beam_and_truss()

@@ -203,6 +203,7 @@ def errors_of_the_deck(c, tmp):
     inserted = {
         "whole": b"",
         "a node of a group": b"/GRNOD/NODE/991\ng\n%10d%10d\n/GRNOD/GRNOD/990\ng\n%10d\n" % (101, 99999, 991),
+        "a number": b"/FRICTION/9\nf\n         x\n",
         "a property": b"/PART/77\np\n%10d%10d\n" % (88, 1),
     }
     for name, lines in inserted.items():
@@ -217,6 +218,8 @@ def errors_of_the_deck(c, tmp):
             r = c.run(verb, path)
             c.check("%s does not exist: %s" % (name, verb), r.code == int(name != "whole")
                     and ("The solver stops first: 1 error in the deck" in r.out.decode()) == (name != "whole"), "%d %s" % (r.code, r.text[-400:]))
+            unreadable = c.run("params", path, "--quiet").code
+            c.check("%s does not exist: params" % name, unreadable == int(name not in ("whole", "a node of a group")), str(unreadable))
             c.check("%s does not exist: %s --fail-on never" % (name, verb), c.run(verb, path, "--fail-on", "never", "--quiet").code == 0)
         out = os.path.join(tmp, "batch")
         c.run("batch", "-o", out, "--verb", "gaps", path)

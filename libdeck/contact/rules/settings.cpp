@@ -9,7 +9,7 @@ int unless_nothing(int value) { return value == 1000 ? 0 : value; }
 
 }  // namespace
 
-double mesh_fraction_of(double cell) { return cell > 0 ? cell : 0.4; }
+double mesh_fraction_of(double cell) { return cell != 0 ? cell : 0.4; }
 
 void apply(const WhatIf& change, int interface_type, CardSettings& card) {
   if (change.Gapmin) card.gapmin = *change.Gapmin;
@@ -40,7 +40,7 @@ double gap_scale_of(const CardSettings& card, bool edges) {
 }
 
 double gapmax_of(const CardSettings& card, bool edges) {
-  return !edges && card.igap >= 2 && card.gapmax > 0 ? card.gapmax : no_gap_limit;
+  return !edges && card.igap >= 2 && card.gapmax != 0 ? card.gapmax : no_gap_limit;
 }
 
 }  // namespace deck::detail

@@ -350,7 +350,7 @@ detail::CardSettings detail::card_settings(const InterBase& inter) {
       c.gapmin = i.Gap.before_geometry();
     } else {
       c.gapmin = i.Gapmin.before_geometry();
-      c.igap = flag(i.Igap);
+      c.igap = std::max(flag(i.Igap), 0);  // thicknesses count from Igap 1 on
       c.inacti = flag(i.Inacti);
       c.irem_gap = flag(i.Irem_gap);
       // Igap 4 of a TYPE19 overrules the cell.
@@ -368,7 +368,7 @@ detail::CardSettings detail::card_settings(const InterBase& inter) {
         return v.origin == Origin::derived ? written(v) : v.value;
       };
       if (const double scale = of(i.Fscalegap); scale != 0) c.gap_scale = scale;
-      if (const double most = of(i.Gapmax); most > 0) c.gapmax = most;
+      if (const double most = of(i.Gapmax); most != 0) c.gapmax = most;
     }
     if constexpr (requires { i.Fpenmax; }) c.fpenmax = i.Fpenmax.value;
   });

@@ -4,6 +4,7 @@
 
 #include "common.hpp"
 #include "deck/report/params_report.hpp"
+#include "gate.hpp"
 
 namespace {
 
@@ -45,6 +46,7 @@ int run(const Options& options) {
       scene = resolve_geometry(loaded, common);
       input.scene = &scene;
     }
+    report_unreadable_cells(loaded);
     const auto errors = print_findings(loaded, common);
     if (json.wanted()) json.add(params_json(input, options.only));
     ParamsTextOptions text;
