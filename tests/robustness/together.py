@@ -248,6 +248,26 @@ def at_the_same_time(c, tmp):
     c.check("at the same time: nothing is left behind", sorted(tree(work)) == ["car_0000.rad", "mesh.inc"], str(sorted(tree(work))))
 
 
+def other_folders(c, work):
+    """A shared file that lies in another folder than the deck, by a link or by its path: the decks beside it are found."""
+    head, nodes, groups, contact = pieces()
+    for name, line in (("link", "#include mesh.inc\n"), ("path", "#include ../mesh.inc\n")):
+        shutil.rmtree(work, ignore_errors=True)
+        put(work, {"own/car_0000.rad": head + line + groups + contact + "/END\n", "mesh.inc": nodes,
+                   "other_0000.rad": head + "#include mesh.inc\n" + groups + contact + "/END\n"})
+        if name == "link":
+            os.symlink("../mesh.inc", os.path.join(work, "own", "mesh.inc"))
+        before = tree(work)
+        call = [c.program, "convert", "own/car_0000.rad", "--renumber", "node+1", "--in-place", "-q"]
+        run = subprocess.run(call, cwd=work, capture_output=True)
+        c.check("%s: another deck includes the file, nothing is written" % name,
+                run.returncode == 2 and b"other_0000.rad" in run.stderr and tree(work) == before, "%d %s" % (run.returncode, run.stderr[-300:]))
+        run = subprocess.run(call + ["--with-dependents"], cwd=work, capture_output=True)
+        now = tree(work)
+        c.check("%s: with both decks it changes" % name, run.returncode == 0 and now["mesh.inc"] != before["mesh.inc"],
+                "%d %s" % (run.returncode, run.stderr[-300:]))
+
+
 def main():
     c = Checks()
     r = random.Random(20)
@@ -262,6 +282,7 @@ def main():
         for way in ("directory", "dependents", "split"):
             c.check("%s: decks were written in some cases" % way, ways.get((way, True), 0) > 3, str(ways))
         at_the_same_time(c, os.path.join(tmp, "race"))
+        other_folders(c, os.path.join(tmp, "folders"))
     finally:
         shutil.rmtree(tmp, ignore_errors=True)
     for verb in ("convert", "fix", "lint"):

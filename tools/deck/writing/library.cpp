@@ -139,6 +139,13 @@ Result<Dependents> find_dependents(const std::vector<std::string>& decks, const 
     mains.insert(tree.front().identity);
     take(tree);
     roots.insert(root.empty() ? library_root(deck) : root);
+    if (!root.empty()) continue;
+    // Links and paths lead out of the folder: other decks lie beside the files they lead to.
+    for (const IncludeScan::File& f : tree) {
+      std::error_code ec;
+      if (const fs::path real = fs::canonical(f.path, ec); !ec)
+        roots.insert(library_root(real.string()));
+    }
   }
   const std::set<FileIdentity> own = files;
   std::vector<std::pair<std::string, std::vector<IncludeScan::File>>> others;
