@@ -18,6 +18,21 @@ std::size_t lines_per_item(const Block& block) {
 
 thread_local std::uint64_t walked = 0;
 
+/// Calls `take(index, line)` for the items of a block in order, until it returns false.
+template <class Take>
+void walk_items(const Deck& deck, const BulkBlock& range, const Take& take) {
+  LineCursor cursor(deck.sources, *range.block);
+  const std::size_t lines = lines_per_item(*range.block);
+  for (std::uint32_t i = range.first;; ++i) {
+    Line line = cursor.next();
+    while (line.valid() && line.text.empty()) line = cursor.next();
+    if (!line.valid()) break;
+    ++walked;
+    if (!take(i, line)) break;
+    for (std::size_t k = 1; k < lines; ++k) cursor.next();
+  }
+}
+
 /// Lines of items of any blocks, in any order and with repetitions, by one walk of a block for all
 /// its items. `block_of` an item, all blocks at `blocks`.
 template <class BlockOf>
@@ -49,19 +64,24 @@ std::uint64_t items_walked() { return walked; }
 std::vector<Span> item_spans(const Deck& deck, const BulkBlock& range,
                              std::span<const std::uint32_t> indices) {
   std::vector<Span> out(indices.size(), range.block->header_span);
-  LineCursor cursor(deck.sources, *range.block);
-  const std::size_t lines = lines_per_item(*range.block);
   std::size_t next = 0;
-  for (std::uint32_t i = range.first; next < indices.size(); ++i) {
-    Line line = cursor.next();
-    while (line.valid() && line.text.empty()) line = cursor.next();
-    if (!line.valid()) break;
-    ++walked;
-    for (; next < indices.size() && indices[next] <= i; ++next)
-      if (indices[next] == i) out[next] = line.whole();
-    for (std::size_t k = 1; k < lines; ++k) cursor.next();
-  }
+  if (!indices.empty())
+    walk_items(deck, range, [&](std::uint32_t i, const Line& line) {
+      for (; next < indices.size() && indices[next] <= i; ++next)
+        if (indices[next] == i) out[next] = line.whole();
+      return next < indices.size();
+    });
   return out;
+}
+
+void each_item_span(const Deck& deck, const BulkBlock& range,
+                    const std::function<void(std::uint32_t, const Span&)>& take) {
+  std::uint32_t left = range.count;
+  if (left > 0)
+    walk_items(deck, range, [&](std::uint32_t i, const Line& line) {
+      take(i, line.whole());
+      return --left > 0;
+    });
 }
 
 std::vector<Span> node_spans(const Model& model, std::span<const NodeIndex> nodes) {

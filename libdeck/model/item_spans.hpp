@@ -2,6 +2,7 @@
 // Private to the library.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace deck::detail {
 /// header.
 std::vector<Span> item_spans(const Deck& deck, const BulkBlock& range,
                              std::span<const std::uint32_t> indices);
+/// The same for every item that is there, ascending, none of them kept.
+void each_item_span(const Deck& deck, const BulkBlock& range,
+                    const std::function<void(std::uint32_t, const Span&)>& take);
 
 /// Model::node_span for many nodes, in any order and with repetitions: every block is walked once.
 std::vector<Span> node_spans(const Model& model, std::span<const NodeIndex> nodes);

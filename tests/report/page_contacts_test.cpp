@@ -4,7 +4,9 @@
 #include <zlib.h>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -64,6 +66,14 @@ class PageBlock {
       for (std::uint64_t& b : bits) b |= std::uint64_t{byte()} << (8 * plane);
     std::vector<double> out;
     for (const std::uint64_t b : bits) out.push_back(std::bit_cast<double>(b));
+    return out;
+  }
+  std::vector<double> decimals(std::size_t count) {
+    const std::size_t places = u();
+    if (places == 0) return reals(count);
+    std::vector<double> out;
+    for (const std::int64_t n : deltas(count))
+      out.push_back(static_cast<double>(n) / std::pow(10, places - 1));
     return out;
   }
   std::vector<double> palette(std::size_t count) {
@@ -136,7 +146,8 @@ TEST(PageContacts, HoldPairsSidesAndExactCoordinates) {
   for (const std::int64_t n : in.deltas(in.u())) exact.push_back(p.id(n));
   const bool both = wide.pairs.size() == 2;
   EXPECT_EQ(exact, both ? (Ids{1, 2, 3, 4, 5, 6, 9}) : (Ids{1, 2, 3, 4, 9}));
-  const auto x = in.reals(exact.size()), y = in.reals(exact.size()), z = in.reals(exact.size());
+  const auto x = in.decimals(exact.size()), y = in.decimals(exact.size()),
+             z = in.decimals(exact.size());
   EXPECT_EQ((std::vector{x.back(), y.back(), z.back()}), (std::vector{3.0, 4.0, 0.5}));
   EXPECT_EQ(x[1], 10.0);
   // Pairs and their distances in 255ths of the reach.
@@ -150,12 +161,13 @@ TEST(PageContacts, HoldPairsSidesAndExactCoordinates) {
   EXPECT_EQ(in.byte(), static_cast<unsigned>(255 * (0.5 / wide.reach)));
   for (std::size_t k = 1; k < pairs; ++k) EXPECT_GT(in.byte(), 0u);
   // The secondary side: nodes and gaps; the main side: corners and thicknesses.
-  const Contact& c = p.page.scene.contacts[0];
+  const Contact& c = p.b.scene.contacts[0];
+  const detail::PlainSides& plain = wide.plain;
   ASSERT_EQ(in.u(), 2u);
   const Ids side = in.deltas(2);
   for (std::size_t k = 0; k < 2; ++k)
     EXPECT_EQ(p.id(side[k]), p.b.model.node_id(c.secondary[k].node));
-  EXPECT_EQ(in.palette(2), (std::vector{c.secondary[0].gap, c.secondary[1].gap}));
+  EXPECT_EQ(in.palette(2), plain.half_thickness);
   ASSERT_EQ(in.u(), 2u);
   Ids corners;
   for (const std::int64_t n : in.deltas(8)) corners.push_back(p.id(n));
@@ -164,10 +176,10 @@ TEST(PageContacts, HoldPairsSidesAndExactCoordinates) {
   // Owners of the segments (kind, id, part), of the node that has pairs, its place, lengths.
   for (int k = 0; k < 2 * 3 + 3 + 2; ++k) in.u();
   EXPECT_EQ(in.reals(1),
-            (std::vector{c.secondary[static_cast<std::size_t>(secondary.front())].length}));
+            (std::vector{plain.secondary_length[static_cast<std::size_t>(secondary.front())]}));
   std::vector<double> lengths;
   for (const std::int64_t m : std::set<std::int64_t>(main.begin(), main.end()))
-    lengths.push_back(c.main[static_cast<std::size_t>(m)].length);
+    lengths.push_back(plain.main_length[static_cast<std::size_t>(m)]);
   EXPECT_EQ(in.reals(lengths.size()), lengths);
   EXPECT_TRUE(in.done());
 }
@@ -189,9 +201,8 @@ TEST(PageContacts, ReachFollowsTheThicknessWhereItIsMoreThanTheGap) {
   for (const double gap : {0.01, 0.2}) {
     Page p(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=" + std::to_string(gap)));
     p.collect();
-    const auto& c = p.page.scene.contacts.at(0);
     double most = 0;
-    for (const SecondaryNode& s : c.secondary) most = std::max(most, s.gap);
+    for (const double half : p.page.contacts[0].plain.half_thickness) most = std::max(most, half);
     EXPECT_DOUBLE_EQ(p.page.contacts[0].reach - p.page.contacts[0].margin, 3 * (most + 1.0)) << gap;
   }
 }
@@ -230,14 +241,87 @@ TEST(PageContacts, TheCardHasWhatWasAskedForInstead) {
   EXPECT_EQ(p.contacts().at(0)["card"]["Irem_gap"], 2);
 }
 
-TEST(PageContacts, OfTiedInterfacesKeepTheirOwnGap) {
+TEST(PageContacts, OfTiedInterfacesKnowNoThicknessAndNoLimit) {
   Page tied(plates("@/INTER/TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1"));
   tied.collect();
   EXPECT_EQ(tied.contacts().at(0)["gapmin"], 1.0);
-  EXPECT_EQ(tied.page.scene.contacts.at(0).igap, tied.b.scene.contacts.at(0).igap);
-  Page gap(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1"));
-  gap.collect();
-  EXPECT_EQ(gap.page.scene.contacts.at(0).igap, 3) << "unscaled half thicknesses";
+  const detail::PlainSides& none = tied.page.contacts.at(0).plain;
+  EXPECT_EQ(none.half_thickness, (std::vector{0.0, 0.0}));
+  EXPECT_EQ(none.secondary_length, (std::vector{0.0, 0.0}));
+  EXPECT_EQ(none.main_length, (std::vector{0.0, 0.0}));
+}
+
+/// What the sides of a contact have with Igap 3 and without a factor.
+TEST(PageContacts, SidesAreThoseOfASceneWithUnscaledVariableGaps) {
+  for (const char* card : {"@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1",
+                           "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Igap=2 Fscalegap=0.5",
+                           "@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Igap=3 Fscalegap=0.5",
+                           "@/INTER/TYPE11/1 line_IDs=1 line_IDm=1",
+                           "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=1 Igap=2"}) {
+    Page p(plates(card).group("/LINE/SURF/1", {1}));
+    p.collect();
+    SceneOptions options;
+    options.penetrations = false;
+    WhatIf w;
+    w.interface_id = 1;
+    w.Igap = 3;
+    w.Fscalegap = 1;
+    options.what_if = {w};
+    Diagnostics unused;
+    const Scene scene = build_scene(p.b.model, *p.b.scene.interfaces, unused, options);
+    ASSERT_EQ(scene.contacts.size(), p.page.contacts.size()) << card;
+    for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+      const Contact& c = scene.contacts[i];
+      const detail::PlainSides& plain = p.page.contacts[i].plain;
+      EXPECT_EQ(plain.shortest_side, c.shortest_side) << card;
+      std::vector<double> gaps, secondary, main;
+      for (const SecondaryNode& s : c.secondary) {
+        gaps.push_back(s.gap);
+        secondary.push_back(s.length);
+      }
+      for (const MainSegment& m : c.main) main.push_back(m.length);
+      for (const ContactEdge& e : c.secondary_edges) secondary.push_back(e.length);
+      for (const ContactEdge& e : c.main_edges) main.push_back(e.length);
+      EXPECT_EQ(plain.half_thickness, gaps) << card;
+      EXPECT_EQ(plain.secondary_length, secondary) << card;
+      EXPECT_EQ(plain.main_length, main) << card;
+    }
+  }
+}
+
+TEST(PageContacts, CoordinatesAreThoseOfTheDeckWhereverTheSceneHasMovedNodes) {
+  Page p(plates("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1 Inacti=3"));
+  p.collect();
+  ASSERT_NE(p.b.scene.coordinates.z, p.b.model.nodes.z) << "Inacti 3 has moved a node";
+  EXPECT_EQ(p.page.start(p.b.scene).z, p.b.model.nodes.z);
+}
+
+TEST(PageStream, DecimalsComeBackToTheLastBit) {
+  const std::vector<std::vector<double>> lists{
+      {},        {0, -1, 1e9, 12345.678, -0.1, 0.3, 1.0 / 1024}, {0.1 + 0.2}, {-0.0, 1}, {1e300, 1},
+      {1.0 / 3}, {std::numeric_limits<double>::quiet_NaN(), 1}};
+  for (const auto& list : lists) {
+    detail::ByteStream out;
+    out.decimals(list);
+    PageBlock in(std::move(out).text());
+    const std::vector<double> back = in.decimals(list.size());
+    ASSERT_EQ(back.size(), list.size());
+    for (std::size_t i = 0; i < list.size(); ++i)
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(back[i]), std::bit_cast<std::uint64_t>(list[i]))
+          << list[i];
+    EXPECT_TRUE(in.done());
+  }
+}
+
+TEST(PageStream, FewValuesAreNumberedInTheirOrder) {
+  const std::vector<double> list{2, 2, 0, -0.0, 2, std::numeric_limits<double>::quiet_NaN(), 0};
+  detail::ByteStream out;
+  out.palette(list, [](double v) { return v; });
+  PageBlock in(std::move(out).text());
+  const std::vector<double> back = in.palette(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i)
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(back[i]), std::bit_cast<std::uint64_t>(list[i])) << i;
+  EXPECT_TRUE(in.done());
 }
 
 TEST(PageForces, NodesHaveForceStiffnessAndStep) {
@@ -247,9 +331,10 @@ TEST(PageForces, NodesHaveForceStiffnessAndStep) {
   a.force = {1.5, -2.5, 3.5};
   a.stiffness = 7;
   a.dt = 0.25;
-  detail::use_nodes({a}, p.nodes);
+  const std::array acted{a};
+  detail::use_nodes(acted, p.nodes);
   p.nodes.number();
-  const PageBlock block(detail::cycle_block(cycle::SceneOutcome{}, {a}, p.nodes));
+  const PageBlock block(detail::cycle_block(cycle::SceneOutcome{}, acted, p.nodes));
   const Json page = Json::parse(block.bytes());
   EXPECT_EQ(page["nodes"], Json::parse("[[0,1.5,-2.5,3.5,7.0,0.25]]"));
 }

@@ -133,7 +133,7 @@ Result<void> write_html(const Options& o, const CycleInput& cycle, const SceneVi
   input.view = &view;
   input.only = o.only;
   input.cycle = cycle.outcome;
-  input.state = cycle.state;
+  input.acted = acted_in_page(*cycle.state, *cycle.outcome);
   input.effects = &cycle;
   input.threads = cycle.options.threads;
   auto page = gaps_html(input);

@@ -83,13 +83,13 @@ Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& sce
   cycle_options.threads = scene_options.threads;
   cycle_options.keep_pairs = true;
   cycle::State state = cycle::make_state(scene);
-  const cycle::SceneOutcome forces = cycle::run_cycle(scene, state, cycle_options);
-  // The page asks for masses only, and nodes may be many.
-  state.velocity = {};
-  std::vector<double>().swap(state.temperature);
+  cycle::SceneOutcome forces = cycle::run_cycle(scene, state, cycle_options);
   HtmlInput input = page_input(loaded, scene, view, scene_options);
   input.cycle = &forces;
-  input.state = &state;
+  input.acted = acted_in_page(state, forces);
+  // Nodes may be many, and the page asks for no more of them.
+  state = {};
+  forces.nodes = {};
   input.crossings = &crossings;
   input.earlier = gate.earlier;
   auto page = gaps_html(input);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "contact/scene/scene_parts.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 constexpr double never = 1e30;  // as long as it gets
 
 /// Length of the shortest truss, beam or spring at a node; infinity if there is none.
-double shortest_line_element(SceneContext& c, NodeIndex node) {
+double shortest_line_element(const Surroundings& c, NodeIndex node) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
     const Elements& family = c.model.family(kind);
@@ -20,15 +21,35 @@ double shortest_line_element(SceneContext& c, NodeIndex node) {
       const NodeIndex* n = family.of(e);
       if (n[0] != node && n[1] != node) continue;
       if (n[0] == no_index || n[1] == no_index) continue;
-      const double l = distance(c.scene.coordinates, n[0], n[1]);
+      const double l = distance(c.coordinates, n[0], n[1]);
       if (l > 0) shortest = std::min(shortest, l);
     }
   }
   return shortest;
 }
 
+/// What the mesh limits a gap to with Igap 3: of a segment whose shortest side is known, of an
+/// edge, and of all nodes of the segments.
+double segment_limit(const Surroundings& c, const MainSegment& m, double side, double fraction) {
+  for (const NodeIndex n : m.nodes) side = std::min(side, shortest_line_element(c, n));
+  return fraction * std::min(side, never);
+}
+double edge_limit(const Surroundings& c, const ContactEdge& e, double fraction) {
+  double limit = distance(c.coordinates, e.nodes[0], e.nodes[1]);
+  for (const NodeIndex n : e.nodes) limit = std::min(limit, shortest_line_element(c, n));
+  return fraction * limit;
+}
+template <class LengthAt>
+std::vector<double> node_limits(std::size_t nodes, const std::vector<MainSegment>& main,
+                                const LengthAt& length_at) {
+  std::vector<double> out(nodes, never);
+  for (std::size_t i = 0; i < main.size(); ++i)
+    for (const NodeIndex n : main[i].nodes) out[n] = std::min(out[n], length_at(i));
+  return out;
+}
+
 /// Half thickness of the thickest shell at each node, 0: none.
-const std::vector<double>& shell_half_thickness(SceneContext& c) {
+const std::vector<double>& shell_half_thickness(const Surroundings& c) {
   std::vector<double>& half = c.shells.half_thickness;
   if (!half.empty()) return half;
   half.assign(c.model.nodes.size(), 0);
@@ -45,7 +66,7 @@ const std::vector<double>& shell_half_thickness(SceneContext& c) {
 }
 
 /// Half thickness of the thickest thing attached to a node, before Fscalegap.
-double node_half_thickness(SceneContext& c, NodeIndex node) {
+double node_half_thickness(const Surroundings& c, NodeIndex node) {
   double half = shell_half_thickness(c)[node];
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
     const Elements& family = c.model.family(kind);
@@ -86,6 +107,7 @@ EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges) 
 
 void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   const Coordinates& x = c.scene.coordinates;
+  const Surroundings around{c.model, c.connectivity, c.shells, x};
   const NodeArrays arrays{x.x, x.y, x.z};
   const bool variable = contact.igap != 0;
   const double scale = contact.gap_scale;
@@ -101,9 +123,7 @@ void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
           m.element);
     if (variable && shell) m.gap = segment_gap(m.thickness, scale);
     if (contact.igap == 3) {
-      double l = side;
-      for (const NodeIndex n : m.nodes) l = std::min(l, shortest_line_element(c, n));
-      m.length = contact.mesh_fraction * std::min(l, never);
+      m.length = segment_limit(around, m, side, contact.mesh_fraction);
       extremes.longest_main = std::max(extremes.longest_main, m.length);
     }
     extremes.thickest_main = std::max(extremes.thickest_main, m.gap);
@@ -116,13 +136,11 @@ void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   contact.gapmin = gapmin.value;
   contact.gapmin_origin = gapmin.origin;
   std::vector<double> node_length;
-  if (contact.igap == 3) {
-    node_length.assign(x.x.size(), never);
-    for (const MainSegment& m : contact.main)
-      for (const NodeIndex n : m.nodes) node_length[n] = std::min(node_length[n], m.length);
-  }
+  if (contact.igap == 3)
+    node_length = node_limits(x.x.size(), contact.main,
+                              [&](std::size_t i) { return contact.main[i].length; });
   for (SecondaryNode& s : contact.secondary) {
-    if (variable) s.gap = node_gap(node_half_thickness(c, s.node), scale);
+    if (variable) s.gap = node_gap(node_half_thickness(around, s.node), scale);
     if (contact.igap == 3) {
       s.length = node_length[s.node];
       extremes.longest_secondary = std::max(extremes.longest_secondary, s.length);
@@ -135,15 +153,12 @@ void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
 
 void set_edge_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   const Coordinates& x = c.scene.coordinates;
+  const Surroundings around{c.model, c.connectivity, c.shells, x};
   const bool variable = contact.igap != 0;
   const auto set_side = [&](std::vector<ContactEdge>& edges, double& thickest) {
     for (ContactEdge& e : edges) {
       if (variable) e.gap = edge_gap(std::max(e.shell, e.section));
-      if (contact.igap == 3) {
-        double limit = distance(x, e.nodes[0], e.nodes[1]);
-        for (const NodeIndex n : e.nodes) limit = std::min(limit, shortest_line_element(c, n));
-        e.length = contact.mesh_fraction * limit;
-      }
+      if (contact.igap == 3) e.length = edge_limit(around, e, contact.mesh_fraction);
       thickest = std::max(thickest, e.gap);
     }
   };
@@ -160,6 +175,40 @@ void set_edge_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   contact.gap_rule =
       PairGap::from_igap(contact.igap, contact.gapmin, std::numeric_limits<double>::infinity());
   contact.max_gap = largest_edge_gap(contact.gapmin, extremes);
+}
+
+PlainSides plain_sides(const Surroundings& around, const Contact& contact) {
+  const Coordinates& x = around.coordinates;
+  const NodeArrays arrays{x.x, x.y, x.z};
+  const double fraction = contact.mesh_fraction;
+  const bool variable = contact.type != 10;
+  PlainSides out;
+  if (contact.kind == ContactKind::edge_edge) {
+    for (const auto& [edges, lengths] : {std::pair{&contact.secondary_edges, &out.secondary_length},
+                                         std::pair{&contact.main_edges, &out.main_length}})
+      for (const ContactEdge& e : *edges) lengths->push_back(edge_limit(around, e, fraction));
+    out.shortest_side =
+        shortest_of_both(edge_side(x, contact.main_edges), edge_side(x, contact.secondary_edges));
+    return out;
+  }
+  double shortest = std::numeric_limits<double>::infinity();
+  out.main_length.reserve(contact.main.size());
+  for (const MainSegment& m : contact.main) {
+    const double side = shortest_side(arrays, m.nodes);
+    shortest = std::min(shortest, side);
+    out.main_length.push_back(variable ? segment_limit(around, m, side, fraction) : 0);
+  }
+  out.shortest_side = std::isfinite(shortest) ? shortest : 0;
+  out.half_thickness.reserve(contact.secondary.size());
+  for (const SecondaryNode& s : contact.secondary)
+    out.half_thickness.push_back(variable ? node_half_thickness(around, s.node) : 0);
+  out.secondary_length.assign(contact.secondary.size(), 0);
+  if (!variable) return out;
+  const std::vector<double> limits =
+      node_limits(x.x.size(), contact.main, [&](std::size_t i) { return out.main_length[i]; });
+  for (std::size_t i = 0; i < contact.secondary.size(); ++i)
+    out.secondary_length[i] = limits[contact.secondary[i].node];
+  return out;
 }
 
 }  // namespace deck::detail

@@ -31,6 +31,14 @@ struct SceneContext {
   ShellsAtNodes shells = {};
 };
 
+/// A model with its nodes at some place.
+struct Surroundings {
+  const Model& model;
+  Connectivity& connectivity;
+  ShellsAtNodes& shells;
+  const Coordinates& coordinates;
+};
+
 inline Vec at(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
 /// Distance of two nodes.
 inline double distance(const Coordinates& c, NodeIndex a, NodeIndex b) {
@@ -77,6 +85,15 @@ void set_nodal_stiffness(SceneContext& context, Contact& contact);
 // gaps.cpp
 void set_gaps(SceneContext& context, Contact& contact, double gapmin_input);
 void set_edge_gaps(SceneContext& context, Contact& contact, double gapmin_input);
+/// What the items of a contact bring to gaps before any factor, and what Igap 3 would limit them
+/// to, whatever Igap its card has; a TYPE10 knows neither: all are 0. Parallel to the contact's
+/// lists.
+struct PlainSides {
+  std::vector<double> half_thickness;  ///< of secondary nodes; edges have theirs themselves
+  std::vector<double> secondary_length, main_length;
+  double shortest_side = 0;  ///< as Contact::shortest_side, with the nodes where `around` has them
+};
+PlainSides plain_sides(const Surroundings& around, const Contact& contact);
 /// What default gaps are formed of: thickness of the main shells; of one side of a line contact.
 ThicknessSamples shell_thickness(const Contact& contact);
 EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "contact/scene/scene_parts.hpp"
 #include "contact/scene/sides.hpp"
@@ -21,26 +22,34 @@ constexpr std::size_t pairs_at_most = 3000000;
 constexpr std::size_t penetrations_kept = 200000;  // per contact where all pairs are too many
 constexpr double reach_factors[] = {3, 2, 1.5, 1.1};
 
+double thickness_of(const MainSegment& m) {
+  return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3 ? m.thickness : 0.0;
+}
+double thickness_of(const ContactEdge& e) { return std::max(e.shell, e.section); }
+
 /// Largest gap that the interface has, could have by thickness, or would have by default.
-double expected_gap(const Contact& contact, const Contact& plain) {
+double expected_gap(const Contact& contact, const PlainSides& plain) {
   double s = 0, m = 0;
-  for (const SecondaryNode& n : plain.secondary) s = std::max(s, n.gap);
-  for (const MainSegment& n : plain.main) m = std::max(m, n.gap);
-  for (const ContactEdge& n : plain.secondary_edges) s = std::max(s, n.gap);
-  for (const ContactEdge& n : plain.main_edges) m = std::max(m, n.gap);
+  if (contact.type != 10) {
+    for (const double half : plain.half_thickness) s = std::max(s, node_gap(half, 1));
+    for (const MainSegment& n : contact.main) m = std::max(m, segment_gap(thickness_of(n), 1));
+    for (const ContactEdge& n : contact.secondary_edges) s = std::max(s, edge_gap(thickness_of(n)));
+    for (const ContactEdge& n : contact.main_edges) m = std::max(m, edge_gap(thickness_of(n)));
+  }
   return std::max({contact.max_gap, contact.gapmin, s + m});
 }
 
-PageContact wide_pairs(const Contact& contact, const Contact& plain, const Coordinates& x,
-                       int threads, std::size_t limit) {
+PageContact wide_pairs(const Contact& contact, PlainSides plain, const Coordinates& x, int threads,
+                       std::size_t limit) {
   PageContact page;
-  const SearchSides sides(plain, SearchSides::Off::included);
+  page.plain = std::move(plain);
+  const SearchSides sides(contact, SearchSides::Off::included);
   if (!sides.edge_pairs()) page.margin = sides.margin(x);
   if (!std::isfinite(page.margin)) page.margin = 0;
   SearchOptions search;
   search.threads = threads;
   search.max_pairs = limit;
-  const double gap = expected_gap(contact, plain);
+  const double gap = expected_gap(contact, page.plain);
   for (const double factor : reach_factors) {
     // Every reach includes what the solver's own search has found.
     if (contact.candidates > limit) break;
@@ -102,7 +111,7 @@ std::vector<NodeLine> node_places(const Model& model, const Deck& deck,
   for (const BulkBlock& range : model.node_blocks) {
     LineCursor cursor(deck.sources, *range.block);
     std::uint32_t file = Span::no_file;
-    std::uint64_t at = 0, line_number = 1;
+    std::uint64_t at = 0, line_number = 1, given_back = 0;
     NodeIndex node = range.first;
     while (wanted != order.end() && nodes[*wanted] < node) ++wanted;
     for (Line line = cursor.next();
@@ -110,15 +119,21 @@ std::vector<NodeLine> node_places(const Model& model, const Deck& deck,
          line = cursor.next()) {
       if (line.text.find_first_not_of(' ') == std::string_view::npos) continue;
       const NodeIndex here = node++;
-      if (nodes[*wanted] != here) continue;
-      if (line.file != file || line.offset < at) {
+      const bool another = line.file != file || line.offset < at;
+      if (nodes[*wanted] != here && !another && line.offset - at < given_back_at_once) continue;
+      if (another) {
         file = line.file;
         line_number = deck.sources[file].position(line.offset).line;
+        given_back = line.offset;
       } else {
         const std::string_view between = deck.sources[file].bytes().substr(at, line.offset - at);
         line_number += static_cast<std::uint64_t>(std::count(between.begin(), between.end(), '\n'));
       }
       at = line.offset;
+      if (at - given_back >= given_back_at_once) {
+        deck.sources[file].release(given_back, at);
+        given_back = at;
+      }
       for (; wanted != order.end() && nodes[*wanted] == here; ++wanted)
         places[*wanted] = {file, line_number};
     }
@@ -179,23 +194,23 @@ class Writer {
   std::string run() {
     exact_coordinates();
     for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
-      const Contact& plain = page_.scene.contacts[i];
+      const Contact& c = input_.scene->contacts[i];
       const PageContact& wide = page_.contacts[i];
-      const bool edge_pairs = plain.kind == ContactKind::edge_edge;
-      const std::size_t s = edge_pairs ? plain.secondary_edges.size() : plain.secondary.size();
-      const std::size_t m = edge_pairs ? plain.main_edges.size() : plain.main.size();
-      if (input_.scene->contacts[i].irem_gap == 2) {  // removal along the mesh looks at all items
+      const bool edge_pairs = c.kind == ContactKind::edge_edge;
+      const std::size_t s = edge_pairs ? c.secondary_edges.size() : c.secondary.size();
+      const std::size_t m = edge_pairs ? c.main_edges.size() : c.main.size();
+      if (c.irem_gap == 2) {  // removal along the mesh looks at all items
         secondary_ = everything(s);
         main_ = everything(m);
       } else {
         secondary_ = distinct(wide.pairs, &CandidatePair::secondary, s);
         main_ = distinct(wide.pairs, &CandidatePair::main, m);
       }
-      pairs(plain, wide);
+      pairs(c, wide);
       if (!edge_pairs)
-        node_segment(plain);
+        node_segment(c, wide.plain);
       else
-        edges(plain);
+        edges(c, wide.plain);
     }
     return std::move(out_).text();
   }
@@ -219,7 +234,7 @@ class Writer {
     const auto use = [&](NodeIndex n) { wanted[nodes_[n]] = 1; };
     std::vector<std::uint8_t> movable(model_.nodes.size(), 0);
     for (std::size_t i = 0; i < page_.contacts.size(); ++i) {
-      const Contact& c = page_.scene.contacts[i];
+      const Contact& c = input_.scene->contacts[i];
       for (const CandidatePair& p : page_.contacts[i].pairs) {
         if (c.kind == ContactKind::node_segment) {
           use(c.secondary[p.secondary].node);
@@ -229,7 +244,7 @@ class Writer {
           for (const NodeIndex n : c.main_edges[p.main].nodes) use(n);
         }
       }
-      const bool measured = input_.scene->contacts[i].irem_gap == 2 || can_be_moved(c, movable);
+      const bool measured = c.irem_gap == 2 || can_be_moved(c, movable);
       for (const SecondaryNode& n : c.secondary) movable[n.node] = 1;
       if (!measured) continue;
       for (const MainSegment& m : c.main)
@@ -248,14 +263,14 @@ class Writer {
       values.clear();
       for (std::uint32_t n = 0; n < wanted.size(); ++n)
         if (wanted[n]) values.push_back((*axis)[nodes_.list()[n]]);
-      out_.f64(values);
+      out_.decimals(values);
     }
   }
 
-  template <class Items, class Value>
-  void selected(const std::vector<std::uint32_t>& positions, const Items& items, Value value) {
+  void selected(const std::vector<std::uint32_t>& positions, const std::vector<double>& of_all) {
     std::vector<double> values;
-    for (const std::uint32_t p : positions) values.push_back(value(items[p]));
+    values.reserve(positions.size());
+    for (const std::uint32_t p : positions) values.push_back(of_all[p]);
     out_.f64(values);
   }
 
@@ -279,34 +294,32 @@ class Writer {
     }
   }
 
-  void node_segment(const Contact& c) {
+  void node_segment(const Contact& c, const PlainSides& plain) {
     Delta n;
     out_.u(c.secondary.size());
     for (const SecondaryNode& s : c.secondary) out_.s(n(nodes_[s.node]));
-    out_.palette(c.secondary, [](const SecondaryNode& s) { return s.gap; });
+    out_.palette(plain.half_thickness, [](double half) { return node_gap(half, 1); });
     Delta corner;
     out_.u(c.main.size());
     for (const MainSegment& m : c.main)
       for (const NodeIndex i : m.nodes) out_.s(corner(nodes_[i]));
-    out_.palette(c.main, [](const MainSegment& m) {
-      return m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3 ? m.thickness : 0.0;
-    });
+    out_.palette(c.main, [](const MainSegment& m) { return thickness_of(m); });
     owners(c.main, [&](const MainSegment& m) { return owner(model_, m.carrier, m.element); });
     std::vector<NodeIndex> paired;
     for (const std::uint32_t s : secondary_) paired.push_back(c.secondary[s].node);
     owners(paired, [&](NodeIndex node) { return owner_of_node(model_, connectivity_, node); });
     places(paired);
-    selected(secondary_, c.secondary, [](const SecondaryNode& s) { return s.length; });
-    selected(main_, c.main, [](const MainSegment& m) { return m.length; });
+    selected(secondary_, plain.secondary_length);
+    selected(main_, plain.main_length);
   }
 
-  void edges(const Contact& c) {
+  void edges(const Contact& c, const PlainSides& plain) {
     const auto side = [&](const std::vector<ContactEdge>& edges) {
       Delta n;
       out_.u(edges.size());
       for (const ContactEdge& e : edges)
         for (const NodeIndex i : e.nodes) out_.s(n(nodes_[i]));
-      out_.palette(edges, [](const ContactEdge& e) { return std::max(e.shell, e.section); });
+      out_.palette(edges, [](const ContactEdge& e) { return thickness_of(e); });
     };
     side(c.secondary_edges);
     side(c.main_edges);
@@ -316,25 +329,25 @@ class Writer {
     std::vector<NodeIndex> first;
     for (const std::uint32_t s : secondary_) first.push_back(c.secondary_edges[s].nodes[0]);
     places(first);
-    selected(secondary_, c.secondary_edges, [](const ContactEdge& e) { return e.length; });
-    selected(main_, c.main_edges, [](const ContactEdge& e) { return e.length; });
+    selected(secondary_, plain.secondary_length);
+    selected(main_, plain.main_length);
   }
 
   /// Pairs, and for each a byte: its distance in 255ths of the reach, rounded down, so that the
   /// page need not look at pairs that are too far for a gap.
-  void pairs(const Contact& plain, const PageContact& wide) {
+  void pairs(const Contact& c, const PageContact& wide) {
     Delta s, m;
     out_.u(wide.pairs.size());
     for (const CandidatePair& p : wide.pairs) out_.s(s(p.secondary));
     for (const CandidatePair& p : wide.pairs) out_.s(m(p.main));
     for (const CandidatePair& p : wide.pairs) {
-      const double share = wide.reach > 0 ? 255 * (distance(plain, p) / wide.reach) : 0;
+      const double share = wide.reach > 0 ? 255 * (distance(c, p) / wide.reach) : 0;
       out_.byte(share >= 255 ? 255u : share > 0 ? static_cast<unsigned>(share) : 0u);
     }
   }
 
   double distance(const Contact& c, const CandidatePair& pair) const {
-    const Coordinates& x = page_.scene.coordinates;
+    const Coordinates& x = page_.start(*input_.scene);
     const auto at = [&](NodeIndex n) { return Point3<double>{x.x[n], x.y[n], x.z[n]}; };
     if (c.kind == ContactKind::edge_edge) {
       const auto& s = c.secondary_edges[pair.secondary].nodes;
@@ -363,36 +376,29 @@ class Writer {
 PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes) {
   PageContacts page;
   const Scene& scene = *input.scene;
-  SceneOptions options;
-  options.threads = input.threads;
-  options.candidates = options.penetrations = false;
-  options.only = input.only;
-  // Igap 3 with factor 1 makes the sides' gaps their unscaled half thicknesses and fills the
-  // limits.
-  for (const InterBase* inter : scene.interfaces->ordered) {
-    if (inter->type == 10) continue;
-    WhatIf w;
-    w.interface_id = inter->id;
-    for (const WhatIf& given : input.what_if)
-      if (given.interface_id == inter->id && given.mesh_size) w.mesh_size = given.mesh_size;
-    w.Igap = 3;
-    w.Fscalegap = 1;
-    options.what_if.push_back(w);
+  const Nodes& nodes_of_deck = scene.model->nodes;
+  if (scene.coordinates.x != nodes_of_deck.x || scene.coordinates.y != nodes_of_deck.y ||
+      scene.coordinates.z != nodes_of_deck.z)
+    page.before_moves = {nodes_of_deck.x, nodes_of_deck.y, nodes_of_deck.z};
+  const Coordinates& start = page.start(scene);
+  std::vector<PlainSides> plain;
+  {
+    Connectivity connectivity(*scene.model);
+    ShellsAtNodes shells;
+    for (const Contact& c : scene.contacts)
+      plain.push_back(plain_sides({*scene.model, connectivity, shells, start}, c));
   }
-  Diagnostics unused;
-  page.scene = build_scene(*scene.model, *scene.interfaces, unused, options);
   std::size_t left = pairs_per_page;
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const Contact& plain = page.scene.contacts[i];
+    const Contact& c = scene.contacts[i];
     const std::size_t share = left / (scene.contacts.size() - i);
-    page.contacts.push_back(wide_pairs(scene.contacts[i], plain, page.scene.coordinates,
-                                       input.threads,
+    page.contacts.push_back(wide_pairs(c, std::move(plain[i]), start, input.threads,
                                        std::clamp(4 * share, pairs_at_least, pairs_at_most)));
     left -= std::min(left, page.contacts.back().pairs.size());
-    for (const SecondaryNode& s : plain.secondary) nodes.use(s.node);
-    for (const MainSegment& m : plain.main)
+    for (const SecondaryNode& s : c.secondary) nodes.use(s.node);
+    for (const MainSegment& m : c.main)
       for (const NodeIndex n : m.nodes) nodes.use(n);
-    for (const auto* side : {&plain.secondary_edges, &plain.main_edges})
+    for (const auto* side : {&c.secondary_edges, &c.main_edges})
       for (const ContactEdge& e : *side)
         for (const NodeIndex n : e.nodes) nodes.use(n);
   }
@@ -406,16 +412,17 @@ std::string contacts_block(const HtmlInput& input, const PageContacts& page,
 
 namespace {
 
-void write_default_gap(JsonWriter& j, const Contact& plain, const Coordinates& x) {
+void write_default_gap(JsonWriter& j, const Contact& c, const PlainSides& plain,
+                       const Coordinates& x) {
   const auto side = [&](const ThicknessSamples& t, double shortest) {
     j.begin_array(true).value(t.count).value(t.sum).value(t.smallest).value(t.largest);
     j.value(shortest).end_array();
   };
   j.key("default").begin_array();
-  if (plain.kind == ContactKind::node_segment) {
-    side(shell_thickness(plain), plain.shortest_side);
+  if (c.kind == ContactKind::node_segment) {
+    side(shell_thickness(c), plain.shortest_side);
   } else {
-    for (const auto* edges : {&plain.main_edges, &plain.secondary_edges}) {
+    for (const auto* edges : {&c.main_edges, &c.secondary_edges}) {
       const EdgeSide s = edge_side(x, *edges);
       side(s.thickness, s.shortest);
     }
@@ -447,12 +454,14 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
   j.key("contacts").begin_array();
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const Contact& c = scene.contacts[i];
-    const Contact& plain = page.scene.contacts[i];
     const PageContact& wide = page.contacts[i];
+    const PlainSides& plain = wide.plain;
     const bool edges = c.kind == ContactKind::edge_edge;
     double longest_main = 0, longest_node = 0;
-    for (const MainSegment& m : plain.main) longest_main = std::max(longest_main, m.length);
-    for (const SecondaryNode& s : plain.secondary) longest_node = std::max(longest_node, s.length);
+    if (!edges) {
+      for (const double l : plain.main_length) longest_main = std::max(longest_main, l);
+      for (const double l : plain.secondary_length) longest_node = std::max(longest_node, l);
+    }
     j.begin_object();
     j.field("interface", static_cast<std::int64_t>(std::find(order.begin(), order.end(), c.inter) -
                                                    order.begin()));
@@ -475,7 +484,7 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
     write_totals(j, input.view->contacts[i]);
     j.end_object();
     write_card(j, *c.inter, input.what_if);
-    write_default_gap(j, plain, page.scene.coordinates);
+    write_default_gap(j, c, plain, page.start(scene));
     j.end_object();
   }
   j.end_array();

@@ -55,15 +55,7 @@ void write_contact(JsonWriter& j, const cycle::ContactOutcome& c) {
   j.end_array().end_object();
 }
 
-/// Nodes with their forces, in the order of the mesh unless there are too many.
-void write_nodes(JsonWriter& j, std::vector<cycle::ActedNode> all, const PageNodes& nodes) {
-  if (all.size() > most_nodes) {
-    std::stable_sort(all.begin(), all.end(),
-                     [](const cycle::ActedNode& a, const cycle::ActedNode& b) {
-                       return size_of(a.force) > size_of(b.force);
-                     });
-    all.resize(most_nodes);
-  }
+void write_nodes(JsonWriter& j, std::span<const cycle::ActedNode> all, const PageNodes& nodes) {
   j.key("nodes").begin_array(true);
   for (const cycle::ActedNode& n : all) {
     j.begin_array(true).value(nodes[n.node]);
@@ -77,12 +69,12 @@ void write_nodes(JsonWriter& j, std::vector<cycle::ActedNode> all, const PageNod
 
 }  // namespace
 
-void use_nodes(const std::vector<cycle::ActedNode>& acted, PageNodes& nodes) {
+void use_nodes(std::span<const cycle::ActedNode> acted, PageNodes& nodes) {
   for (const cycle::ActedNode& n : acted) nodes.use(n.node);
 }
 
-std::string cycle_block(const cycle::SceneOutcome& outcome,
-                        const std::vector<cycle::ActedNode>& acted, const PageNodes& nodes) {
+std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycle::ActedNode> acted,
+                        const PageNodes& nodes) {
   std::string out;
   JsonWriter j(out);
   j.begin_object(true);
@@ -97,3 +89,14 @@ std::string cycle_block(const cycle::SceneOutcome& outcome,
 }
 
 }  // namespace deck::detail
+
+std::vector<deck::cycle::ActedNode> deck::acted_in_page(const cycle::State& state,
+                                                        const cycle::SceneOutcome& outcome) {
+  std::vector<cycle::ActedNode> all = cycle::acted_nodes(state, outcome);
+  if (all.size() <= detail::most_nodes) return all;
+  std::stable_sort(all.begin(), all.end(),
+                   [](const cycle::ActedNode& a, const cycle::ActedNode& b) {
+                     return detail::size_of(a.force) > detail::size_of(b.force);
+                   });
+  return {all.begin(), all.begin() + detail::most_nodes};
+}

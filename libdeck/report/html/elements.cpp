@@ -12,31 +12,36 @@ namespace {
 
 struct ElementPlace {
   std::uint32_t file = 0;
-  std::uint64_t line = 0;  ///< 0: not known
+  std::uint32_t line = 0;  ///< 0: not known, or beyond what 32 bits count
 };
 
 /// Lines of all elements of a family, block by block.
 std::vector<ElementPlace> element_places(const Model& model, const Elements& family) {
   std::vector<ElementPlace> out(family.size());
-  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> of_block;
-  for (std::uint32_t e = 0; e < family.size(); ++e) of_block[family.block[e]].push_back(e);
-  for (const auto& [block, items] : of_block) {
-    const std::vector<Span> spans = item_spans(*model.deck, model.element_blocks[block], items);
+  std::vector<std::uint8_t> wanted(model.element_blocks.size(), 0);
+  for (const std::uint32_t block : family.block)
+    if (block < wanted.size()) wanted[block] = 1;
+  for (std::size_t b = 0; b < wanted.size(); ++b) {
+    if (wanted[b] == 0) continue;
     Span last;
-    std::uint64_t line = 0;
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      const Span& s = spans[i];
-      if (!s.valid()) continue;
+    std::uint64_t line = 0, given_back = 0;
+    each_item_span(*model.deck, model.element_blocks[b], [&](std::uint32_t e, const Span& s) {
+      if (e >= out.size() || family.block[e] != b) return;
       const auto& source = model.deck->sources[s.file];
       if (line == 0 || s.file != last.file || s.offset < last.offset) {
         line = source.position(s.offset).line;
+        given_back = s.offset;
       } else {
         const std::string_view between = source.bytes().substr(last.offset, s.offset - last.offset);
         line += static_cast<std::uint64_t>(std::count(between.begin(), between.end(), '\n'));
       }
       last = s;
-      out[items[i]] = {s.file, line};
-    }
+      if (s.offset - given_back >= given_back_at_once) {
+        source.release(given_back, s.offset);
+        given_back = s.offset;
+      }
+      out[e] = {s.file, line <= UINT32_MAX ? static_cast<std::uint32_t>(line) : 0};
+    });
   }
   return out;
 }
@@ -58,10 +63,9 @@ std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh
           found != places.end() ? found->second
                                 : places[static_cast<int>(g.kind)] = element_places(model, family);
       Delta file, line;
-      for (const MeshFace& f : g.faces) out.s(file(place[f.element].file));
-      for (const MeshFace& f : g.faces)
-        out.s(line(static_cast<std::int64_t>(place[f.element].line)));
-      out.palette(g.faces, [&](const MeshFace& f) { return own_thickness(family, f.element); });
+      for (const std::uint32_t e : g.element) out.s(file(place[e].file));
+      for (const std::uint32_t e : g.element) out.s(line(std::int64_t{place[e].line}));
+      out.palette(g.element, [&](std::uint32_t e) { return own_thickness(family, e); });
     }
   return std::move(out).text();
 }

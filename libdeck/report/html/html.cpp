@@ -148,9 +148,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
   const std::vector<detail::MeshPart> mesh = detail::collect_mesh(model, nodes);
   detail::PageContacts page = detail::collect_contacts(in, nodes);
   if (in.crossings != nullptr) detail::use_nodes(*in.crossings, nodes);
-  std::vector<cycle::ActedNode> acted;
-  if (in.cycle != nullptr && in.state != nullptr) acted = cycle::acted_nodes(*in.state, *in.cycle);
-  detail::use_nodes(acted, nodes);
+  detail::use_nodes(in.acted, nodes);
   nodes.number();
 
   std::string out =
@@ -175,7 +173,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
             detail::packed_text(detail::touches_drawing(in, touches)));
   add_block(out, "deck-contacts", "application/octet-stream",
             detail::contacts_block(in, page, nodes));
-  page = {};  // a scene of its own; meshes are large, too
+  page = {};  // meshes are large, too
   add_block(out, "deck-mesh", "application/octet-stream", detail::mesh_block(model, mesh, nodes));
   add_block(out, "deck-elements", "application/octet-stream", detail::elements_block(model, mesh));
   if (in.earlier != nullptr)
@@ -186,7 +184,7 @@ Result<std::string> gaps_html(const HtmlInput& in) {
               detail::crossings_block(model, *in.crossings, nodes));
   if (in.cycle != nullptr)
     add_block(out, "deck-cycle", "application/octet-stream",
-              detail::cycle_block(*in.cycle, acted, nodes));
+              detail::cycle_block(*in.cycle, in.acted, nodes));
   if (in.effects != nullptr)
     add_block(out, "cycle-json", "application/json",
               detail::script_safe(cycle_json(*in.effects, false)));

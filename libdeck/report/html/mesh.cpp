@@ -17,6 +17,7 @@ struct SolidFace {
   std::array<NodeIndex, 4> key{no_index, no_index, no_index, no_index};
   std::array<NodeIndex, 4> nodes{};
   int corners = 0;
+  int face = 0;
   std::uint32_t element = 0;
 };
 
@@ -24,6 +25,7 @@ struct SolidFace {
 SolidFace solid_face_of(const NodeIndex* slots, int face, std::uint32_t element) {
   SolidFace f;
   f.element = element;
+  f.face = face;
   for (const int slot : slots_of_face[face]) {
     const NodeIndex n = slots[slot];
     const auto end = f.nodes.begin() + f.corners;
@@ -60,6 +62,21 @@ std::vector<SolidFace> outer_faces(const Elements& family,
   return out;
 }
 
+/// Calls `use(node)` for every corner of every face of a group, in order.
+template <class Use>
+void each_corner(const Model& model, const MeshGroup& g, const Use& use) {
+  const Elements& family = model.family(g.kind);
+  for (std::size_t i = 0; i < g.element.size(); ++i) {
+    const NodeIndex* n = family.of(g.element[i]);
+    SolidFace solid;
+    if (!g.face.empty()) {
+      solid = solid_face_of(n, g.face[i], g.element[i]);
+      n = solid.nodes.data();
+    }
+    for (int k = 0; k < g.corners; ++k) use(n[k]);
+  }
+}
+
 constexpr std::size_t large_part = 100000;  // nodes from which the coarser grid is used
 
 bool complete(const NodeIndex* nodes, int n) {
@@ -91,19 +108,15 @@ class Collector {
 
  private:
   void add(std::uint32_t part, ElementKind kind, int corners, const NodeIndex* n,
-           std::uint32_t element) {
+           std::uint32_t element, int face = -1) {
     auto& groups = parts_[std::min<std::size_t>(part, model_.parts.size())];
     auto it = std::find_if(groups.begin(), groups.end(), [&](const MeshGroup& g) {
       return g.kind == kind && g.corners == corners;
     });
-    if (it == groups.end()) it = groups.insert(groups.end(), MeshGroup{kind, corners, {}});
-    MeshFace face;
-    face.element = element;
-    for (int k = 0; k < corners; ++k) {
-      face.nodes[static_cast<std::size_t>(k)] = n[k];
-      nodes_.use(n[k]);
-    }
-    it->faces.push_back(face);
+    if (it == groups.end()) it = groups.insert(groups.end(), MeshGroup{kind, corners, {}, {}});
+    for (int k = 0; k < corners; ++k) nodes_.use(n[k]);
+    it->element.push_back(element);
+    if (face >= 0) it->face.push_back(static_cast<std::uint8_t>(face));
   }
 
   void shells(const Elements& family) {
@@ -123,7 +136,8 @@ class Collector {
     for (std::size_t p = 0; p < of_part.size(); ++p) {
       if (of_part[p].empty()) continue;
       for (const SolidFace& f : outer_faces(family, of_part[p]))
-        add(static_cast<std::uint32_t>(p), family.kind, f.corners, f.nodes.data(), f.element);
+        add(static_cast<std::uint32_t>(p), family.kind, f.corners, f.nodes.data(), f.element,
+            f.face);
     }
   }
 
@@ -151,8 +165,7 @@ class PartWriter {
   void write(const MeshPart& part) {
     order_.clear();
     for (const MeshGroup& g : part.groups)
-      for (const MeshFace& f : g.faces)
-        for (int k = 0; k < g.corners; ++k) local(f.nodes[static_cast<std::size_t>(k)]);
+      each_corner(model_, g, [&](NodeIndex node) { local(node); });
     out_.u(part.part == no_index ? 0 : part.part + 1);
     positions();
     std::uint32_t next = 0;
@@ -160,15 +173,14 @@ class PartWriter {
     for (const MeshGroup& g : part.groups) {
       out_.u(static_cast<std::uint64_t>(g.kind));
       out_.u(static_cast<std::uint64_t>(g.corners));
-      out_.u(g.faces.size());
-      for (const MeshFace& f : g.faces)
-        for (int k = 0; k < g.corners; ++k) {
-          const std::uint32_t i = local_[nodes_[f.nodes[static_cast<std::size_t>(k)]]];
-          out_.u(next - i);
-          if (i == next) ++next;
-        }
+      out_.u(g.element.size());
+      each_corner(model_, g, [&](NodeIndex node) {
+        const std::uint32_t i = local_[nodes_[node]];
+        out_.u(next - i);
+        if (i == next) ++next;
+      });
       Delta id;
-      for (const MeshFace& f : g.faces) out_.s(id(model_.family(g.kind).id[f.element]));
+      for (const std::uint32_t e : g.element) out_.s(id(model_.family(g.kind).id[e]));
     }
     for (const std::uint32_t n : order_) local_[n] = no_index;
   }

@@ -1,10 +1,13 @@
 // The steps that write the HTML report, one per file. Private to the stage.
 #pragma once
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "contact/scene/scene_parts.hpp"
 #include "deck/report/html.hpp"
 #include "deck/report/json.hpp"
 #include "report/html/stream.hpp"
@@ -39,14 +42,11 @@ class PageNodes {
 };
 
 // html_mesh.cpp — the picture
-struct MeshFace {
-  std::array<NodeIndex, 4> nodes{};  ///< `corners` of them
-  std::uint32_t element = no_index;  ///< in its family
-};
 struct MeshGroup {
   ElementKind kind{};
-  int corners = 0;  ///< 2, 3 or 4
-  std::vector<MeshFace> faces;
+  int corners = 0;                     ///< 2, 3 or 4
+  std::vector<std::uint32_t> element;  ///< of each face or line, in its family
+  std::vector<std::uint8_t> face;      ///< of solids: which of the six
 };
 struct MeshPart {
   std::uint32_t part = no_index;  ///< index into Model::parts, no_index: none
@@ -57,6 +57,9 @@ std::vector<MeshPart> collect_mesh(const Model& model, PageNodes& nodes);
 std::string mesh_block(const Model& model, const std::vector<MeshPart>& mesh,
                        const PageNodes& nodes);
 
+/// Bytes of a file that are walked before their pages are given back.
+constexpr std::uint64_t given_back_at_once = std::uint64_t{8} << 20;
+
 // elements.cpp — what is said about an element that is picked
 std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh);
 
@@ -66,10 +69,15 @@ struct PageContact {
   double reach = 0;                  ///< largest gap for which the pairs are complete
   double margin = 0;                 ///< of the solver's search beyond the gap
   bool complete = true;  ///< false: too many pairs; only the deepest penetrations, reach 0
+  PlainSides plain;
 };
 struct PageContacts {
-  Scene scene;  ///< the same contacts with unscaled half thicknesses as gaps, nothing acted upon
-  std::vector<PageContact> contacts;  ///< parallel to the scene's
+  std::vector<PageContact> contacts;        ///< parallel to the scene's
+  std::optional<Coordinates> before_moves;  ///< where Inacti 3 has moved nodes of the scene
+  /// All nodes where the deck has them.
+  const Coordinates& start(const Scene& scene) const {
+    return before_moves ? *before_moves : scene.coordinates;
+  }
 };
 PageContacts collect_contacts(const HtmlInput& input, PageNodes& nodes);
 std::string contacts_block(const HtmlInput& input, const PageContacts& page,
@@ -96,9 +104,9 @@ void write_interfaces(JsonWriter& json, const HtmlInput& input);
 void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);
 
 // html_cycle.cpp — forces, energies and time steps of the first cycle
-void use_nodes(const std::vector<cycle::ActedNode>& acted, PageNodes& nodes);
-std::string cycle_block(const cycle::SceneOutcome& outcome,
-                        const std::vector<cycle::ActedNode>& acted, const PageNodes& nodes);
+void use_nodes(std::span<const cycle::ActedNode> acted, PageNodes& nodes);
+std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycle::ActedNode> acted,
+                        const PageNodes& nodes);
 
 // html_crossings.cpp — crossed elements
 void use_nodes(const std::vector<Crossing>& crossings, PageNodes& nodes);

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <new>
-
-#include "base/bits.hpp"
 
 namespace deck::detail {
 
@@ -23,6 +22,35 @@ void ByteStream::f64(std::span<const double> values) {
             static_cast<char>(bit_cast<std::uint64_t>(values[from + i]) >> (8 * plane) & 0xff);
       if (bytes_.size() >= enough) pack();
     }
+}
+
+void ByteStream::decimals(std::span<const double> values) {
+  // Powers of ten and whole numbers below 2^51 are exact, so that one division rounds once.
+  constexpr double largest = 2251799813685248.0;
+  constexpr int most = 15;
+  double power = 1;
+  int count = 0;
+  const auto fits = [&](double v) {
+    const double n = std::nearbyint(v * power);
+    return std::abs(n) < largest && n / power == v && (n != 0 || !std::signbit(v));
+  };
+  for (const double v : values)
+    while (count <= most && !fits(v)) {
+      power *= 10;
+      ++count;
+    }
+  if (count > most || !std::all_of(values.begin(), values.end(), fits)) {
+    u(0);
+    f64(values);
+    return;
+  }
+  u(static_cast<std::uint64_t>(count) + 1);
+  std::int64_t last = 0;
+  for (const double v : values) {
+    const auto n = static_cast<std::int64_t>(std::nearbyint(v * power));
+    s(n - last);
+    last = n;
+  }
 }
 
 struct PackedText::State {

@@ -10,6 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/bits.hpp"
+
 namespace deck::detail {
 
 /// Bytes that are packed (zlib, level 9) and written as base64 piece by piece as they come.
@@ -53,22 +55,31 @@ class ByteStream {
   /// Doubles as eight planes of bytes: first all lowest bytes, last all highest ones.
   void f64(std::span<const double> values);
   void f64(double value) { f64(std::span(&value, 1)); }
+  /// Doubles as a deck writes them: how many decimals, plus 1, and differences of whole numbers of
+  /// which each is `n / 10^decimals` to the last bit; 0 and byte planes where they are no such.
+  void decimals(std::span<const double> values);
   /// Few distinct values, one index per item.
   template <class Items, class Value>
   void palette(const Items& items, Value value) {
-    std::unordered_map<double, std::uint32_t> number;
+    const auto bits = [&](const auto& item) {
+      return bit_cast<std::uint64_t>(double{value(item)});
+    };
+    std::unordered_map<std::uint64_t, std::uint32_t> number;
     std::vector<double> values;
-    std::vector<std::uint32_t> index;
-    for (const auto& item : items) {
-      const double v = value(item);
-      const auto [it, fresh] = number.emplace(v, static_cast<std::uint32_t>(values.size()));
-      if (fresh) values.push_back(v);
-      index.push_back(it->second);
-    }
+    std::uint64_t last = 0;  // neighbours are mostly alike
+    for (const auto& item : items)
+      if (const std::uint64_t v = bits(item); values.empty() || v != last)
+        if (number.emplace(last = v, static_cast<std::uint32_t>(values.size())).second)
+          values.push_back(bit_cast<double>(v));
     u(values.size());
     f64(values);
-    if (values.size() > 1)
-      for (const std::uint32_t i : index) u(i);
+    if (values.size() <= 1) return;
+    std::uint32_t at = 0;
+    last = bit_cast<std::uint64_t>(values[0]);
+    for (const auto& item : items) {
+      if (const std::uint64_t v = bits(item); v != last) at = number.find(last = v)->second;
+      u(at);
+    }
   }
   /// All of it, packed, as text.
   std::string text() && {

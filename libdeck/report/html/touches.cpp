@@ -169,7 +169,7 @@ std::vector<Touch> detail::collect_touches(const HtmlInput& in, const PageContac
   };
   Connectivity connectivity(model);
   for (std::size_t i = 0; i < page.contacts.size(); ++i) {
-    const Contact& c = page.scene.contacts[i];
+    const Contact& c = in.scene->contacts[i];
     const bool edges = c.kind == ContactKind::edge_edge;
     // Parts of items, each looked up once.
     std::vector<int> of_secondary(edges ? c.secondary_edges.size() : c.secondary.size(), -2),

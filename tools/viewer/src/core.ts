@@ -2,7 +2,7 @@
 // (../wasm). Numbers go in and out in the order of the structs of ../wasm/what_if.cpp.
 import { unzlibSync } from "fflate";
 import packed from "../wasm/rules.wasm";
-import type { ContactData, Contacts } from "./data";
+import { lengths as limitsOf, type ContactData, type Contacts } from "./data";
 import type { ContactMeta, Meta, Overrides, Samples } from "./meta";
 
 interface Exports {
@@ -56,22 +56,22 @@ export interface Setting {
 
 /** What is done about a penetration. */
 export interface Outcome {
-  action: Action;
-  gap0: number | null;
-  p0: number | null;
-  movedBy: [number, number, number] | null;
+  readonly action: Action;
+  readonly gap0: number | null;
+  readonly p0: number | null;
+  readonly movedBy: [number, number, number] | null;
 }
 
 export interface Row extends Outcome {
-  contact: number;
-  secondary: number;
-  main: number;
-  depth: number;
-  gap: number;
-  distance: number;
-  normal: [number, number, number];
-  onSurface: boolean;
-  weight: number; // edges: weight of the first secondary node
+  readonly contact: number;
+  readonly secondary: number;
+  readonly main: number;
+  readonly depth: number;
+  readonly gap: number;
+  readonly distance: number;
+  readonly normal: [number, number, number];
+  readonly onSurface: boolean;
+  readonly weight: number; // edges: weight of the first secondary node
 }
 
 const rowSize = 17;
@@ -84,30 +84,55 @@ function text(address: number): string {
 }
 const actions = [0, 1, 2, 3, 4, 5].map((i) => text(rules.action_text(i)) as Action);
 
-function rowOf(contact: number, v: Float64Array, at: number): Row {
-  const action = actions[v[at + 9]];
-  const hasGap0 = v[at + 10] !== 0;
-  return {
-    contact,
-    secondary: v[at],
-    main: v[at + 1],
-    depth: v[at + 2],
-    gap: v[at + 3],
-    distance: v[at + 4],
-    normal: [v[at + 5], v[at + 6], v[at + 7]],
-    onSurface: v[at + 8] !== 0,
-    action,
-    gap0: hasGap0 ? v[at + 11] : null,
-    p0: hasGap0 ? v[at + 12] : null,
-    movedBy: action === "node-moved" ? [v[at + 13], v[at + 14], v[at + 15]] : null,
-    weight: v[at + 16],
-  };
+/** A row as the rules wrote it: there can be half a million, so nothing is copied. */
+class WrittenRow implements Row {
+  constructor(
+    readonly contact: number,
+    private readonly v: Float64Array,
+    private readonly at: number,
+  ) {}
+  get secondary(): number {
+    return this.v[this.at];
+  }
+  get main(): number {
+    return this.v[this.at + 1];
+  }
+  get depth(): number {
+    return this.v[this.at + 2];
+  }
+  get gap(): number {
+    return this.v[this.at + 3];
+  }
+  get distance(): number {
+    return this.v[this.at + 4];
+  }
+  get normal(): [number, number, number] {
+    return [this.v[this.at + 5], this.v[this.at + 6], this.v[this.at + 7]];
+  }
+  get onSurface(): boolean {
+    return this.v[this.at + 8] !== 0;
+  }
+  get action(): Action {
+    return actions[this.v[this.at + 9]];
+  }
+  get gap0(): number | null {
+    return this.v[this.at + 10] !== 0 ? this.v[this.at + 11] : null;
+  }
+  get p0(): number | null {
+    return this.v[this.at + 10] !== 0 ? this.v[this.at + 12] : null;
+  }
+  get movedBy(): [number, number, number] | null {
+    return this.action === "node-moved" ? [this.v[this.at + 13], this.v[this.at + 14], this.v[this.at + 15]] : null;
+  }
+  get weight(): number {
+    return this.v[this.at + 16];
+  }
 }
 
 /** What Inacti and Fpenmax would do about a penetration on its own. */
 export function outcomeOf(row: Row, inacti: number, fpenmax: number): Outcome {
   rules.act(inacti, fpenmax, row.depth, row.gap, Number(row.onSurface));
-  return rowOf(row.contact, new Float64Array(rules.memory.buffer, rules.exchange(), rowSize), 0);
+  return new WrittenRow(row.contact, new Float64Array(rules.memory.buffer, rules.exchange(), rowSize).slice(), 0);
 }
 
 /** The solver's error for a node exactly on a segment; 0: none. */
@@ -139,7 +164,7 @@ export interface Raw {
 export function evaluated(contact: number, { head, rows: out }: Raw): Evaluated {
   const [igap, inacti, irem, fpenmax, scale, gapmin, from, gapmax, maxGap, drad, reached, uncertain, count] = head;
   const rows: Row[] = [];
-  for (let i = 0; i < count; i++) rows.push(rowOf(contact, out, i * rowSize));
+  for (let i = 0; i < count; i++) rows.push(new WrittenRow(contact, out, i * rowSize));
   return { setting: { igap, inacti, irem, fpenmax, scale, gapmin, gapminFrom: text(rules.origin_text(from)), gapmax, maxGap, drad }, rows, reached, uncertain: uncertain !== 0 };
 }
 
@@ -155,49 +180,69 @@ export function largestMove({ rows }: Raw): number {
 export class Core {
   private readonly wasm = start();
 
-  constructor(meta: Meta, data: Contacts) {
+  constructor(private readonly meta: Meta, data: Contacts) {
     const n = data.exactNode.length;
     // One more for nodes without exact coordinates, which no pair has: the solver's rules only ask
     // whether they are there.
-    const xyz = new Float64Array(3 * (n + 1));
-    [data.x, data.y, data.z].forEach((axis, k) => xyz.set(axis, k * (n + 1)));
-    this.wasm.nodes(n + 1, this.put(xyz));
+    const [address, xyz] = this.reals(3 * (n + 1));
+    [data.x, data.y, data.z].forEach((axis, k) => {
+      xyz.set(axis, k * (n + 1));
+      xyz[k * (n + 1) + n] = 0;
+    });
+    this.wasm.nodes(n + 1, address);
     const position = (nodes: Uint32Array) => {
-      const out = new Uint32Array(nodes.length);
+      const address = this.wasm.room(nodes.byteLength);
+      const out = new Uint32Array(this.wasm.memory.buffer, address, nodes.length);
       for (let i = 0; i < out.length; i++) {
         const at = data.exactOf[nodes[i]];
         out[i] = at < 0 ? n : at;
       }
-      return out;
+      return address;
     };
     meta.contacts.forEach((c, i) => this.add(c, meta.interfaces[c.interface].type, data.contacts[i], position));
   }
 
-  private add(c: ContactMeta, interfaceType: number, d: ContactData, position: (nodes: Uint32Array) => Uint32Array): void {
+  private add(c: ContactMeta, interfaceType: number, d: ContactData, position: (nodes: Uint32Array) => number): void {
     const edges = c.kind === "edge_edge";
     const card = c.card;
     const none: Samples = [0, 0, null, null, 0];
     // JSON has no infinity.
     const samples = ([count, sum, smallest, largest, shortest]: Samples) => [count, sum, smallest ?? Infinity, largest ?? -Infinity, shortest];
-    const lengths = (listed: Int32Array, length: Float64Array) => {
-      const out = new Float64Array(listed.length);
-      for (let i = 0; i < out.length; i++) out[i] = listed[i] < 0 ? Infinity : length[listed[i]];
-      return out;
-    };
+    const lengths = [d.secondaryListed, d.mainListed].map((list) => this.wasm.room(8 * list.length));
     this.send([
       Number(edges), c.type, interfaceType, c.shortest_side, c.longest_main, c.longest_node, c.reach, c.margin,
       card.Gapmin, card.Igap, card.Inacti, card.Irem_gap, card.Fscalegap, card.Gapmax, card.Fpenmax,
       Number(card.thermal), card.Drad, card.Edge_scale_gap,
       ...samples(c.default[0]), ...samples(c.default[1] ?? none),
       d.secondaryListed.length, d.mainListed.length, d.pairMain.length,
-      this.put(position(d.secondaryNode)), this.put(position(d.mainNode)),
+      position(d.secondaryNode), position(d.mainNode),
       this.put(d.secondaryThickness), this.put(d.mainThickness),
-      this.put(lengths(d.secondaryListed, d.secondaryLength)), this.put(lengths(d.mainListed, d.mainLength)),
+      ...lengths,
       this.put(d.pairSecondary), this.put(d.pairMain), this.put(d.pairClass),
     ]);
     this.wasm.contact();
+    this.missing.push(() => {
+      ([[d.secondaryListed, d.secondaryLength], [d.mainListed, d.mainLength]] as const).forEach(([listed, length], k) => {
+        const out = new Float64Array(this.wasm.memory.buffer, lengths[k], listed.length);
+        const of = limitsOf(length);
+        for (let i = 0; i < out.length; i++) out[i] = listed[i] < 0 ? Infinity : of[listed[i]];
+      });
+    });
   }
 
+  /** By contact: writes the mesh-size limits, which only Igap 3 and removal along the mesh look at; null: they are there. */
+  private readonly missing: ((() => void) | null)[] = [];
+  private complete(contact: number, change: Overrides): void {
+    const card = this.meta.contacts[contact].card;
+    if ([0, 1, 2, 1000].includes(change.Igap ?? card.Igap) && card.Irem_gap !== 2) return;
+    this.missing[contact]?.();
+    this.missing[contact] = null;
+  }
+
+  private reals(count: number): [number, Float64Array] {
+    const address = this.wasm.room(8 * count);
+    return [address, new Float64Array(this.wasm.memory.buffer, address, count)];
+  }
   private put(list: Uint8Array | Uint32Array | Float64Array): number {
     const address = this.wasm.room(list.byteLength);
     const bytes = new Uint8Array(list.buffer, list.byteOffset, list.byteLength);
@@ -215,6 +260,7 @@ export class Core {
 
   /** `moved`: how far the contacts before have moved a node; without pairs there are no rows. */
   evaluate(contact: number, change: Overrides, moved: number, withPairs: boolean): Raw {
+    this.complete(contact, change);
     const { Gapmin, Fscalegap, Gapmax, Fpenmax, Igap, Inacti } = change;
     this.send([Gapmin, Fscalegap, Gapmax, Fpenmax, Igap, Inacti].map((v) => v ?? NaN));
     this.wasm.evaluate(contact, moved, Number(withPairs));

@@ -1,6 +1,6 @@
 // The blocks of the page (see libdeck/report/html/*.cpp for the writers) and what they hold.
 import { unzlibSync } from "fflate";
-import { fromBase64, Reader } from "./decode/reader";
+import { fromBase64, fromPlanes, Reader } from "./decode/reader";
 import type { ContactMeta, Crossed, Cycle, Earlier, Meta } from "./meta";
 
 export const kindNames = ["shell", "sh3n", "solid", "quad", "tria", "truss", "beam", "spring"];
@@ -21,8 +21,8 @@ function owners(r: Reader, n: number): Owners {
   let part = 0;
   for (let i = 0; i < n; i++) {
     out.kind[i] = r.u();
-    out.id[i] = id += r.s();
-    part += r.s();
+    out.id[i] = id += r.small();
+    part += r.small();
     out.part[i] = part - 1;
   }
   return out;
@@ -55,11 +55,20 @@ export interface ContactData {
   mainListed: Int32Array;
   file: Int32Array; // by listed position: where the (first) node is defined
   line: Float64Array;
-  secondaryLength: Float64Array; // by listed position: mesh-size limits of Igap 3
-  mainLength: Float64Array;
+  /** Mesh-size limits of Igap 3 by listed position, as planes of bytes: see lengths(). */
+  secondaryLength: Uint8Array;
+  mainLength: Uint8Array;
   pairSecondary: Uint32Array;
   pairMain: Uint32Array;
   pairClass: Uint8Array; // distance in 255ths of the reach, rounded down
+}
+
+const limits = new WeakMap<Uint8Array, Float64Array>();
+/** Mesh-size limits of one side, made when first asked for. */
+export function lengths(planes: Uint8Array): Float64Array {
+  let found = limits.get(planes);
+  if (!found) limits.set(planes, (found = fromPlanes(planes)));
+  return found;
 }
 
 export interface Contacts {
@@ -84,14 +93,16 @@ export function readMesh(bytes: Uint8Array): Mesh {
     const position = new Float32Array(3 * count);
     for (let axis = 0; axis < 3; axis++) {
       const [base, step] = r.f64(2);
-      let q = 0;
+      const steps = r.deltas(count);
+      let [least, most] = [low[axis], high[axis]];
       for (let i = 0; i < count; i++) {
-        q += r.s();
-        const v = base + q * step;
+        const v = base + steps[i] * step;
         position[3 * i + axis] = v;
-        if (v < low[axis]) low[axis] = v;
-        if (v > high[axis]) high[axis] = v;
+        if (v < least) least = v;
+        if (v > most) most = v;
       }
+      low[axis] = least;
+      high[axis] = most;
     }
     const groups: MeshPart["groups"] = [];
     let next = 0;
@@ -163,11 +174,11 @@ function readContact(r: Reader, meta: ContactMeta): ContactData {
   let file = 0;
   let line = 0;
   for (let i = 0; i < sn; i++) {
-    d.file[i] = file += r.s();
-    d.line[i] = line += r.s();
+    d.file[i] = file += r.small();
+    d.line[i] = line += r.small();
   }
-  d.secondaryLength = r.f64(sn);
-  d.mainLength = r.f64(mn);
+  d.secondaryLength = r.bytes(8 * sn);
+  d.mainLength = r.bytes(8 * mn);
   return d;
 }
 
@@ -177,7 +188,7 @@ export function readContacts(bytes: Uint8Array, meta: Meta, nodes: number): Cont
   const exactNode = r.deltas32(count);
   const exactOf = new Int32Array(nodes).fill(-1);
   for (let i = 0; i < count; i++) exactOf[exactNode[i]] = i;
-  const [x, y, z] = [r.f64(count), r.f64(count), r.f64(count)];
+  const [x, y, z] = [r.decimals(count), r.decimals(count), r.decimals(count)];
   return { exactNode, exactOf, x, y, z, contacts: meta.contacts.map((c) => readContact(r, c)) };
 }
 

@@ -26,9 +26,10 @@ struct HtmlInput {
   std::vector<WhatIf> what_if;     ///< what the scene was built with
   std::vector<std::int64_t> only;  ///< what SceneOptions::only was
   const EarlierGaps* earlier = nullptr;
-  /// Forces of the first cycle with their pairs (CycleOptions::keep_pairs); may be nullptr.
+  /// Forces of the first cycle with their pairs (CycleOptions::keep_pairs), sums at nodes are not
+  /// looked at; may be nullptr.
   const cycle::SceneOutcome* cycle = nullptr;
-  const cycle::State* state = nullptr;  ///< of `cycle`: what its nodes weigh
+  std::vector<cycle::ActedNode> acted;  ///< of `cycle`: acted_in_page()
   /// Makes the page that of `deck cycle --html`: the document of `deck cycle --json` stands in it,
   /// effects and what they cost come first. May be nullptr.
   const CycleInput* effects = nullptr;
@@ -38,6 +39,11 @@ struct HtmlInput {
 
 /// True if the viewer was built in (npm was there at build time); if not, why in `reason`.
 bool html_available(std::string* reason = nullptr);
+
+/// What the page shows of the nodes that contact acts on: all in the order of the mesh, of more
+/// than 100 000 those with the largest forces, these first.
+std::vector<cycle::ActedNode> acted_in_page(const cycle::State& state,
+                                            const cycle::SceneOutcome& outcome);
 
 /// The page: of `deck gaps`, or of `deck cycle` where `effects` is given. Error (config): the
 /// viewer was not built in.

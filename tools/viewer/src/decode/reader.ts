@@ -28,6 +28,18 @@ export function fromBase64(text: string): Uint8Array {
   return out;
 }
 
+/** Doubles from the planes of their bytes, lowest first. */
+export function fromPlanes(b: Uint8Array): Float64Array {
+  const n = b.length / 8;
+  const out = new Float64Array(n);
+  const words = new Uint32Array(out.buffer);
+  for (let i = 0; i < n; i++) {
+    words[2 * i] = b[i] | (b[n + i] << 8) | (b[2 * n + i] << 16) | (b[3 * n + i] << 24);
+    words[2 * i + 1] = b[4 * n + i] | (b[5 * n + i] << 8) | (b[6 * n + i] << 16) | (b[7 * n + i] << 24);
+  }
+  return out;
+}
+
 export class Reader {
   private at = 0;
   constructor(private readonly b: Uint8Array) {}
@@ -48,43 +60,92 @@ export class Reader {
     const v = this.u();
     return v % 2 === 0 ? v / 2 : -(v + 1) / 2;
   }
+  /** The same; fast where it has one byte. */
+  small(): number {
+    const c = this.b[this.at];
+    if (c >= 0x80) return this.s();
+    this.at++;
+    return (c >> 1) ^ -(c & 1);
+  }
   bytes(n: number): Uint8Array {
     return this.b.subarray(this.at, (this.at += n));
   }
   f64(n: number): Float64Array {
-    const bytes = new Uint8Array(8 * n);
+    return fromPlanes(this.bytes(8 * n));
+  }
+  /** `n` whole numbers as they stand, signed ones with the sign in the lowest bit; most have one byte. */
+  private whole<T extends Uint32Array | Float64Array>(out: T): T {
     const b = this.b;
     let at = this.at;
-    for (let plane = 0; plane < 8; plane++) for (let k = plane; k < bytes.length; k += 8) bytes[k] = b[at++];
-    this.at = at;
-    return new Float64Array(bytes.buffer);
-  }
-  deltas32(n: number): Uint32Array {
-    const out = new Uint32Array(n);
-    const b = this.b;
-    let v = 0;
-    for (let i = 0; i < n; i++) {
-      // Most differences have one byte.
-      const c = b[this.at];
-      if (c < 0x80) {
-        this.at++;
-        v += (c >> 1) ^ -(c & 1);
-      } else v += this.s();
+    for (let i = 0; i < out.length; i++) {
+      let v = b[at++];
+      if (v >= 0x80) {
+        v &= 0x7f;
+        let c;
+        let scale = 128;
+        do {
+          c = b[at++];
+          v += (c & 0x7f) * scale;
+          scale *= 128;
+        } while (c >= 0x80);
+      }
       out[i] = v;
     }
+    this.at = at;
+    return out;
+  }
+  deltas32(n: number): Uint32Array {
+    // A difference can be twice as large as a number, and then it has no place among 32 bits.
+    const b = this.b;
+    const out = new Uint32Array(n);
+    let at = this.at;
+    let last = 0;
+    for (let i = 0; i < n; i++) {
+      const c = b[at];
+      if (c < 0x80) {
+        at++;
+        last += (c >> 1) ^ -(c & 1);
+      } else if (b[at + 1] < 0x80) {
+        const v = (c & 0x7f) | (b[at + 1] << 7);
+        at += 2;
+        last += (v >> 1) ^ -(v & 1);
+      } else {
+        this.at = at;
+        last += this.s();
+        at = this.at;
+      }
+      out[i] = last;
+    }
+    this.at = at;
     return out;
   }
   deltas(n: number): Float64Array {
-    const out = new Float64Array(n);
-    let v = 0;
-    for (let i = 0; i < n; i++) out[i] = v += this.s();
+    const out = this.whole(new Float64Array(n));
+    let last = 0;
+    for (let i = 0; i < n; i++) {
+      const v = out[i];
+      // Above 2^31 there are no bits to ask.
+      if (v < 2147483648) last += (v >>> 1) ^ -(v & 1);
+      else last += v % 2 === 0 ? v / 2 : -(v + 1) / 2;
+      out[i] = last;
+    }
+    return out;
+  }
+  /** Doubles as whole numbers over a power of ten, or by byte planes. */
+  decimals(n: number): Float64Array {
+    const places = this.u();
+    if (places === 0) return this.f64(n);
+    let power = 1;
+    for (let k = 1; k < places; k++) power *= 10;
+    const out = this.deltas(n);
+    for (let i = 0; i < n; i++) out[i] /= power;
     return out;
   }
   /** Numbers counted backwards from the lowest that has not occurred yet, `next`: 0 is that one. */
   backwards(n: number, next: number): Uint32Array {
-    const out = new Uint32Array(n);
+    const out = this.whole(new Uint32Array(n));
     for (let i = 0; i < n; i++) {
-      const back = this.u();
+      const back = out[i];
       out[i] = next - back;
       if (back === 0) next++;
     }
@@ -95,7 +156,10 @@ export class Reader {
     const values = this.f64(this.u());
     const out = new Float64Array(n);
     if (values.length === 1) out.fill(values[0]);
-    if (values.length > 1) for (let i = 0; i < n; i++) out[i] = values[this.u()];
+    if (values.length > 1) {
+      this.whole(out);
+      for (let i = 0; i < n; i++) out[i] = values[out[i]];
+    }
     return out;
   }
 }

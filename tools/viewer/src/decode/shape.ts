@@ -71,7 +71,8 @@ function area(x: Float32Array, index: ArrayLike<number>): number {
     const [a, b, c] = [3 * index[t], 3 * index[t + 1], 3 * index[t + 2]];
     const [ux, uy, uz] = [x[b] - x[a], x[b + 1] - x[a + 1], x[b + 2] - x[a + 2]];
     const [vx, vy, vz] = [x[c] - x[a], x[c + 1] - x[a + 1], x[c + 2] - x[a + 2]];
-    sum += Math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx);
+    const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+    sum += Math.sqrt(nx * nx + ny * ny + nz * nz);
   }
   return sum / 2;
 }
@@ -92,7 +93,9 @@ export function cluster(x: Float32Array, index: ArrayLike<number>, cell: number)
     for (let found = slots[at]; ; found = slots[(at = (at + 1) & (room - 1))]) {
       if (found < 0) {
         slots[at] = found = left;
-        where.set([a, b, c], 3 * left);
+        where[3 * left] = a;
+        where[3 * left + 1] = b;
+        where[3 * left + 2] = c;
         vertex[left++] = i;
       } else if (where[3 * found] !== a || where[3 * found + 1] !== b || where[3 * found + 2] !== c) continue;
       of[i] = found;

@@ -1,5 +1,6 @@
 // Values per page node for the coloured surface.
 import { pairGap } from "../core";
+import { lengths } from "../data";
 import { num } from "../dom";
 import { ofCycle, type ContourKind } from "../look";
 import type { Hit, Report } from "../report";
@@ -63,9 +64,10 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
     const secondaries = data.secondaryNode.length / perSecondary;
     const gsTop = thickest(gs);
     const gmTop = thickest(gm);
+    const limits = lengths(data.mainLength);
     for (let m = 0; m < mains; m++) {
       const at = data.mainListed[m];
-      const length = at >= 0 ? data.mainLength[at] : Infinity;
+      const length = at >= 0 ? limits[at] : Infinity;
       const gap = pairGap(s, gsTop, gm[m], meta.longest_node || Infinity, length);
       const nodes = data.mainNode.subarray(width * m, width * m + width);
       const v = kind === "gap" ? gap : gap / shortestSide(position, nodes);
