@@ -100,7 +100,7 @@ export class Evaluator {
         ? needed <= meta.reach
         : sameGaps(meta, setting) && meta.totals.pairs === this.data.contacts[i].pairMain.length;
     }
-    const tally = new Tally();
+    const tally = new Tally(this.data.exactOf.length);
     tally.add(meta, this.data.contacts[i], result);
     result.totals = tally.totals();
     return result;
@@ -123,23 +123,34 @@ export function ratioOf(row: Row): number {
 /** Counts rows, and the nodes and edges among them once each, also over several contacts. */
 export class Tally {
   private readonly t = emptyTotals();
-  private readonly nodes = new Set<number>();
+  /** By page node: 1 counted, 2 counted as on a segment, 4 as one for which the solver stops. */
+  private marks = new Uint8Array(0);
+  private readonly counted = [0, 0, 0, 0, 0];
   private readonly edges = new Set<number>();
-  private readonly onNodes = new Set<number>();
   private readonly onEdges = new Set<number>();
-  private readonly stopped = new Set<number>();
+
+  constructor(private readonly pageNodes: number) {}
+
+  private node(n: number, mark: 1 | 2 | 4): void {
+    if (this.marks.length === 0) this.marks = new Uint8Array(this.pageNodes);
+    if ((this.marks[n] & mark) !== 0) return;
+    this.marks[n] |= mark;
+    this.counted[mark]++;
+  }
 
   add(meta: ContactMeta, data: ContactData, result: Result): void {
     const stops = onSurfaceError(meta, result.setting.fpenmax, result.setting.inacti) !== 0;
     const isEdge = meta.kind === "edge_edge";
     for (const row of result.rows) {
       const item = isEdge ? edgeKey(data.secondaryNode[2 * row.secondary], data.secondaryNode[2 * row.secondary + 1]) : data.secondaryNode[row.secondary];
-      (isEdge ? this.edges : this.nodes).add(item);
+      if (isEdge) this.edges.add(item);
+      else this.node(item, 1);
       this.t.pairs++;
       if (row.onSurface) {
         this.t.on_segment.pairs++;
-        (isEdge ? this.onEdges : this.onNodes).add(item);
-        if (stops && !isEdge) this.stopped.add(item);
+        if (isEdge) this.onEdges.add(item);
+        else this.node(item, 2);
+        if (stops && !isEdge) this.node(item, 4);
       }
       if (row.action !== "none") this.t.acted++;
       this.t.max_depth = Math.max(this.t.max_depth, row.depth);
@@ -150,8 +161,8 @@ export class Tally {
   totals(): Totals {
     const { t } = this;
     return {
-      ...t, nodes: this.nodes.size, edges: this.edges.size, solver_errors: this.stopped.size,
-      on_segment: { nodes: this.onNodes.size, edges: this.onEdges.size, pairs: t.on_segment.pairs },
+      ...t, nodes: this.counted[1], edges: this.edges.size, solver_errors: this.counted[4],
+      on_segment: { nodes: this.counted[2], edges: this.onEdges.size, pairs: t.on_segment.pairs },
     };
   }
 }

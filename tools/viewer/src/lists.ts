@@ -29,17 +29,22 @@ export function partPairs(report: Report, hits: Hit[]): PairRow[] {
     else groups.set(k, [x]);
   }
   return [...groups.values()]
-    .map((list) => ({
-      secondary: list[0].secondaryPart,
-      main: list[0].mainPart,
-      pairs: list.length,
-      nodes: new Set(list.filter((x) => x.nodes[1] === 0).map((x) => x.nodes[0])).size,
-      edges: new Set(list.filter((x) => x.nodes[1] !== 0).map((x) => [...x.nodes].sort((a, b) => a - b).join("-"))).size,
-      max: list[0].depth,
-      mean: list.reduce((s, x) => s + x.depth, 0) / list.length,
-      p95: list[Math.floor(list.length / 20)].depth, // deepest first
-      ratio: list.reduce((m, x) => Math.max(m, x.ratio), 0),
-    }))
+    .map((list) => {
+      const nodes = new Set<number>();
+      const edges = new Set<string>();
+      let [sum, ratio] = [0, 0];
+      for (const x of list) {
+        const [a, b] = x.nodes;
+        if (b === 0) nodes.add(a);
+        else edges.add(a < b ? `${a}-${b}` : `${b}-${a}`);
+        sum += x.depth;
+        ratio = Math.max(ratio, x.ratio);
+      }
+      return {
+        secondary: list[0].secondaryPart, main: list[0].mainPart, pairs: list.length, nodes: nodes.size, edges: edges.size, max: list[0].depth,
+        mean: sum / list.length, p95: list[Math.floor(list.length / 20)].depth /* deepest first */, ratio,
+      };
+    })
     .sort((a, b) => b.max - a.max || report.partId(a.secondary) - report.partId(b.secondary));
 }
 

@@ -59,6 +59,8 @@ function build(model: Model & { beside: boolean }, software: boolean): void {
   look.dark = matchMedia("(prefers-color-scheme: dark)").matches;
   document.documentElement.dataset.theme = look.dark ? "dark" : "light";
 
+  let tell = (): void => {};
+  const pictured = new Promise<void>((done) => (tell = done));
   const viewport = new Viewport(report, look, changeLook, model.shapes, software);
   const fly = (x: Hit) => viewport.open(x);
   const stem = fileName(meta.deck.path).replace(/\.rad$/i, "");
@@ -95,7 +97,7 @@ function build(model: Model & { beside: boolean }, software: boolean): void {
   const nav = h("nav", { "aria-label": "Sections" },
     ...([["effects", "Effects"], ["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["notes", "About"]] as const)
       .map(([id, name]) => h("a", { href: `#${id}` }, name)));
-  const left = h("div", { class: "left", id: "tables" }, nav, doc && effectsSection(report, doc, `${stem}_effects.svg`), doc && cycleSection(report), verdict(report), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`), distribution(report, look), list.element, crossedSection(report, (points) => viewport.openPoints(points)), !doc && cycleSection(report), notChecked(report));
+  const left = h("div", { class: "left", id: "tables" }, nav, doc && effectsSection(report, doc, `${stem}_effects.svg`), doc && cycleSection(report), verdict(report), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, crossedSection(report, (points) => viewport.openPoints(points)), !doc && cycleSection(report), notChecked(report));
   for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
   const divider = h("div", { class: "divider", role: "separator", "aria-orientation": "vertical", "aria-label": "Width of the tables", "aria-valuemin": 25, "aria-valuemax": 80, "aria-valuenow": 53, tabindex: 0 });
   const right = h("aside", { class: "right" }, viewport.element, detail(report, fly));
@@ -127,6 +129,7 @@ function build(model: Model & { beside: boolean }, software: boolean): void {
       times.picture = performance.now() - started;
       times.pictureSinceNavigation = performance.now();
       document.documentElement.dataset.ready = "true";
+      setTimeout(tell);
     });
   });
   (window as unknown as Record<string, unknown>).deckReport = { report, viewport, times, beside: model.beside, whatIf: (id: number, o: Overrides) => evaluateFor(report, id, o), csv: () => csv(report, report.hits), grnod: () => grnodBlock(report.filtered, meta.free_group_id, "initial penetrations") };

@@ -40,6 +40,24 @@ class Found implements Hit {
   }
 }
 
+/** By depth, which is no less than 0, the deepest first; what is equally deep keeps its order. */
+export function deepestFirst<T extends { depth: number }>(list: T[]): T[] {
+  if (list.length < 2000) return [...list].sort((a, b) => b.depth - a.depth);
+  // The bits of such numbers ascend as the numbers do: four passes of 16 bits each.
+  const words = new Uint16Array(Float64Array.from(list, (x) => x.depth).buffer);
+  let order = Uint32Array.from(list, (_, i) => i);
+  let next = new Uint32Array(order.length);
+  const start = new Uint32Array(65537);
+  for (let w = 0; w < 4; w++) {
+    start.fill(0);
+    for (let i = 0; i < order.length; i++) start[65536 - words[4 * i + w]]++;
+    for (let k = 0; k < 65536; k++) start[k + 1] += start[k];
+    for (let i = 0; i < order.length; i++) next[start[65535 - words[4 * order[i] + w]]++] = order[i];
+    [order, next] = [next, order];
+  }
+  return Array.from(order, (i) => list[i]);
+}
+
 export interface Solved {
   interfaceId: number;
   role: string;
@@ -161,12 +179,22 @@ export class Report {
   }
   totals(which: "base" | "now", inter: number | null): Totals {
     const list = which === "base" ? this.base : this.results;
-    const tally = new Tally();
-    this.meta.contacts.forEach((c, i) => {
-      if (inter === null || c.interface === inter) tally.add(c, this.data.contacts[i], list[i]);
-    });
-    return tally.totals();
+    const known = this.sums.get(list) ?? new Map<number | null, Totals>();
+    this.sums.set(list, known);
+    let found = known.get(inter);
+    if (!found) {
+      const own = this.meta.contacts.flatMap((c, i) => (inter === null || c.interface === inter ? [i] : []));
+      if (own.length === 1) found = list[own[0]].totals;
+      else {
+        const tally = new Tally(this.mesh.nodeId.length);
+        for (const i of own) tally.add(this.meta.contacts[i], this.data.contacts[i], list[i]);
+        found = tally.totals();
+      }
+      known.set(inter, found);
+    }
+    return found;
   }
+  private readonly sums = new WeakMap<Result[], Map<number | null, Totals>>();
 
   // ---- names --------------------------------------------------------------------------------
 
@@ -343,7 +371,7 @@ export class Report {
         this.hits.push(hit);
       }
     });
-    this.hits.sort((a, b) => b.depth - a.depth || a.contact - b.contact);
+    this.hits = deepestFirst(this.hits); // those of a contact follow one another
     this.findPrefix();
     // The earlier report has one row per node, so only its deepest row can be compared.
     if (this.earlierRows) {

@@ -5,7 +5,8 @@ import { loadTouches } from "./data";
 import { save } from "./exports";
 import type { Report } from "./report";
 
-export function touchesSection(report: Report, name: string): HTMLElement {
+/** `pictured`: the first picture is there. */
+export function touchesSection(report: Report, name: string, pictured: Promise<void>): HTMLElement {
   const frame = h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Who touches whom" });
   const count = h("span", { class: "muted count" });
   let drawing: SVGElement | null = null;
@@ -20,11 +21,12 @@ export function touchesSection(report: Report, name: string): HTMLElement {
     if (cell) report.setFilter({ pair: pairOf(cell) });
   });
 
+  const keyOf = (secondary: number, main: number) => (secondary + 1) * 2 ** 26 + main + 1;
   /** Pairs and deepest by part pair, at the settings under test. */
   const penetrating = () => {
-    const found = new Map<string, { pairs: number; depth: number }>();
+    const found = new Map<number, { pairs: number; depth: number }>();
     for (const x of report.hits) {
-      const key = `${[x.secondaryPart, x.mainPart]}`;
+      const key = keyOf(x.secondaryPart, x.mainPart);
       const t = found.get(key);
       if (!t) found.set(key, { pairs: 1, depth: x.depth }); // deepest first
       else t.pairs++;
@@ -35,7 +37,7 @@ export function touchesSection(report: Report, name: string): HTMLElement {
     const deep = penetrating();
     count.textContent = `${plural(report.meta.touches.length, "part pair", "part pairs")}, ${deep.size} penetrating`;
     for (const cell of drawing?.querySelectorAll<SVGElement>(".touch") ?? []) {
-      const t = deep.get(`${pairOf(cell)}`);
+      const t = deep.get(keyOf(...pairOf(cell)));
       cell.querySelector("rect")!.setAttribute("class", t ? "deep" : "near");
       cell.querySelector("text")!.setAttribute("class", t ? "n" : "m");
       cell.querySelector("title")!.textContent = `${cell.dataset.near}${t ? `; ${plural(t.pairs, "penetration", "penetrations")}, deepest ${num(t.depth)}` : ""}`;
@@ -59,7 +61,7 @@ export function touchesSection(report: Report, name: string): HTMLElement {
   new IntersectionObserver((seen, watch) => {
     if (!seen.some((s) => s.isIntersecting)) return;
     watch.disconnect();
-    drawn();
+    void pictured.then(drawn);
   }).observe(section);
   return section;
 }
