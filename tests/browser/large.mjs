@@ -47,6 +47,34 @@ export async function largeModel(browser, scratch, timings) {
     out.near = view.drawnTriangles;
     return out;
   });
+  // At rest it is drawn in slices that hold nothing up, and nothing of them is seen in the picture.
+  const sliced = await p.evaluate(() => {
+    const { view } = window.deckReport.viewport;
+    const { times, url } = view.inSlices();
+    const triangles = view.drawnTriangles;
+    const whole = view.picture();
+    return { same: url === whole, bytes: url.length, times, triangles, whole: view.drawnTriangles };
+  });
+  check("the picture at rest comes in several slices", sliced.times.length > 3 && sliced.triangles === sliced.whole, JSON.stringify(sliced));
+  check("and is the picture that is drawn at once, pixel by pixel", sliced.same && sliced.bytes > 20000, JSON.stringify(sliced));
+  // While it comes, the one before stays; a movement meanwhile is drawn at once.
+  const between = await p.evaluate(async () => {
+    const { view } = window.deckReport.viewport;
+    const frame = () => new Promise((done) => requestAnimationFrame(done));
+    while (!view.resting) await frame();
+    view.request();
+    await frame();
+    await frame();
+    const out = { resting: view.resting, frames: view.frames };
+    view.control.rotate(30, 0);
+    for (let i = 0; i < 4; i++) await frame();
+    out.moved = view.frames - out.frames;
+    while (!view.resting) await frame();
+    out.triangles = view.drawnTriangles;
+    return out;
+  });
+  check("a picture in slices gives way to a movement and comes afterwards", !between.resting && between.moved > 0 && between.triangles > 4 * drawn.moving, JSON.stringify(between));
+  timings.slices = { median_ms: Math.round(median(sliced.times)), longest_ms: Math.round(Math.max(...sliced.times)), count: sliced.times.length };
   const hits = await p.evaluate(() => window.deckReport.report.hits.length);
   check("the first picture has a tenth of the triangles at most", drawn.first > 1000 && drawn.first < drawn.all / 10, JSON.stringify(drawn));
   check("and so have the pictures of a movement", drawn.moving > 1000 && drawn.moving < drawn.all / 10, JSON.stringify(drawn));

@@ -311,6 +311,27 @@ async function pictures() {
   check("nothing is left of the progress", (await p.$(".unpacking")) === null);
   quiet("without an inflater", p);
   await old.close();
+  // Where nothing penetrates, who touches whom can be in sight before the picture is there.
+  const watched = await browser.newContext();
+  await watched.addInitScript(() => {
+    window.IntersectionObserver = class {
+      constructor(f) {
+        this.f = f;
+      }
+      observe() {
+        queueMicrotask(() => this.f([{ isIntersecting: true }], this));
+      }
+      disconnect() {}
+    };
+    new MutationObserver(() => {
+      if (document.documentElement.dataset.ready && window.early === undefined) window.early = document.querySelector("#touches svg.tw") !== null;
+    }).observe(document, { subtree: true, attributes: true, childList: true });
+  });
+  p = await open(watched, page("clean", sample("clean_plates")));
+  await p.waitForSelector("#touches svg.tw");
+  same("the first picture does not wait for the drawing of who touches whom", await p.evaluate(() => window.early), false);
+  quiet("clean plates", p);
+  await watched.close();
   p = await open(browser, page("solids", sample("solid_and_skin")));
   await section(p);
   quiet("section planes", p);
@@ -438,11 +459,18 @@ async function sled() {
     const size = statSync(file).size;
     check(`${name}: at most 12 MB`, size <= 12 * 2 ** 20, `${size}`);
     const p = await open(browser, file);
+    await settled(p);
     const info = await p.evaluate(() => {
       const { times, report, viewport } = window.deckReport;
       return { ...times, verified: report.verified, pairs: report.hits.length, calls: viewport.view.drawCalls, frame: viewport.view.measure(6), moving: viewport.view.measure(6, true), segments: report.meta.contacts.reduce((n, c) => n + c.main, 0) };
     });
-    timings[name] = { megabytes: +(size / 1e6).toFixed(2), decoded_ms: Math.round(info.decoded), evaluated_ms: Math.round(info.evaluated), tables_ms: Math.round(info.tables), picture_ms: Math.round(info.pictureSinceNavigation), frame_ms: +info.frame.toFixed(1), frame_moving_ms: +info.moving.toFixed(1), draw_calls: info.calls, segments: info.segments };
+    const slices = await p.evaluate(() => {
+      const { view } = window.deckReport.viewport;
+      const { times, url } = view.inSlices();
+      return { same: url === view.picture(), times: times.sort((a, b) => a - b) };
+    });
+    check(`${name}: in slices it is the same picture`, slices.same && slices.times.length > 0);
+    timings[name] = { slice_ms: Math.round(slices.times[slices.times.length >> 1]), slices: slices.times.length, megabytes: +(size / 1e6).toFixed(2), decoded_ms: Math.round(info.decoded), evaluated_ms: Math.round(info.evaluated), tables_ms: Math.round(info.tables), picture_ms: Math.round(info.pictureSinceNavigation), frame_ms: +info.frame.toFixed(1), frame_moving_ms: +info.moving.toFixed(1), draw_calls: info.calls, segments: info.segments };
     check(`${name}: recomputed in the page as in the program`, info.verified);
     same(`${name}: penetrations of the JSON`, info.pairs, json.summary.pairs);
     // Shared machines stall: three tries, the best counts.

@@ -9,7 +9,9 @@ import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { CameraControl, directions } from "./camera";
 import { Parts3D, type Look, type Part3D } from "./parts3d";
 import { Section, type Cut } from "./section";
-import { arrowGeometry, coneAt, discTexture, thickLines, thinLines } from "./shapes";
+import { Marked } from "./marked";
+import { Slices } from "./slices";
+import { arrowGeometry, discTexture, thinLines } from "./shapes";
 import type { Shape } from "../decode/shape";
 import type { Hit, Report } from "../report";
 
@@ -43,6 +45,7 @@ export class View3D {
   onRest: () => void = () => {};
   frames = 0;
   private readonly renderer: WebGLRenderer;
+  private readonly slices: Slices;
   private readonly scene = new Scene();
   private readonly head = new DirectionalLight("#ffffff", 1.7);
   private readonly sky = new HemisphereLight("#ffffff", "#aab4c0", 1.7);
@@ -52,7 +55,7 @@ export class View3D {
   private arrowList: Arrow[] = [];
   private arrows: InstancedMesh | null = null;
   private arrowsOn = true;
-  private readonly selection: (LineSegments2 | Points | Mesh)[] = [];
+  private readonly marked: Marked;
   private readonly disc: CanvasTexture;
   readonly section: Section;
   private dark = false;
@@ -67,11 +70,14 @@ export class View3D {
   ) {
     this.renderer = new WebGLRenderer({ antialias: !this.software, stencil: true, preserveDrawingBuffer: false, powerPreference: "high-performance" });
     this.renderer.localClippingEnabled = true;
+    this.renderer.info.autoReset = false; // a picture may have several slices
+    this.slices = new Slices(this.renderer, this.scene);
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("aria-label", "3D view of the model. Keys: see the list of shortcuts");
     container.prepend(this.canvas);
     this.disc = discTexture();
+    this.marked = new Marked(report, this.scene, this.disc, container);
     this.parts = new Parts3D(report.mesh, shapes);
     for (const p of this.parts.parts) this.partOf.set(p.data.part, p);
     this.section = new Section(this.parts);
@@ -93,8 +99,12 @@ export class View3D {
     new ResizeObserver(() => this.resize()).observe(container);
   }
 
-  /** Draws a frame when the browser is ready for one. */
+  /** Draws a frame when the browser is ready for one: something has changed. */
   request(): void {
+    this.slices.stop();
+    this.goOn();
+  }
+  private goOn(): void {
     if (this.pending) return;
     this.pending = true;
     requestAnimationFrame((now) => {
@@ -105,20 +115,23 @@ export class View3D {
 
   /** Drawn in full, and no flight goes on. */
   get resting(): boolean {
-    return !this.pending && this.finish === 0 && !this.control.flying;
+    return !this.pending && this.finish === 0 && !this.control.flying && !this.slices.drawing;
   }
-
   private lastDraw = 0;
   private slow = 0;
   private coarse = false;
   /** While the view moves, machines that are too slow for it draw fewer pixels, fewer triangles and no lines. */
   setCoarse(on: boolean): void {
-    if (this.coarse === on) return;
-    this.coarse = on;
-    if (this.arrows) this.arrows.visible = this.arrowsOn && !on;
-    for (const l of this.crossed) l.visible = !on;
-    this.dots?.geometry.setDrawRange(0, this.mostDots);
+    if (this.coarse === on && !this.slices.drawing) return;
+    this.slices.stop();
+    this.setDetail(on);
     this.size();
+  }
+  private setDetail(coarse: boolean): void {
+    this.coarse = coarse;
+    if (this.arrows) this.arrows.visible = this.arrowsOn && !coarse;
+    for (const l of this.crossed) l.visible = !coarse;
+    this.dots?.geometry.setDrawRange(0, this.mostDots);
   }
 
   /** Rows are deepest first. */
@@ -155,10 +168,49 @@ export class View3D {
 
   private readonly frustum = new Frustum();
   private render(): void {
+    this.choose();
+    this.renderer.render(this.scene, this.control.camera);
+  }
+  private choose(): void {
     const { camera } = this.control;
+    this.renderer.info.reset();
     this.frustum.setFromProjectionMatrix(new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
     this.parts.show(this.coarse, this.software, (at) => this.control.pixel(at), (s) => this.frustum.intersectsSphere(s), this.control.target);
-    this.renderer.render(this.scene, camera);
+  }
+
+  /** The next slice of the picture at rest; false: there are none, it is drawn at once. */
+  private slice(): boolean {
+    const { camera } = this.control;
+    if (!this.slices.drawing) {
+      const coarse = this.coarse;
+      this.setDetail(false);
+      this.scaleArrows();
+      this.choose();
+      if (!this.slices.start(camera)) {
+        if (coarse) this.size();
+        return false;
+      }
+    }
+    const ratio = Math.min(window.devicePixelRatio, 2);
+    this.slices.next(camera, Math.floor(this.container.clientWidth * ratio), Math.floor(this.container.clientHeight * ratio), ratio);
+    if (!this.slices.drawing) {
+      this.size();
+      this.slices.show();
+    }
+    return true;
+  }
+
+  /** The picture at rest as it is drawn on a slow machine, but at once: what each slice took, and the picture. */
+  inSlices(): { times: number[]; url: string } {
+    const times: number[] = [];
+    this.setCoarse(false);
+    this.control.update(performance.now());
+    do {
+      const start = performance.now();
+      if (!this.slice()) this.render();
+      times.push(performance.now() - start);
+    } while (this.slices.drawing);
+    return { times, url: this.canvas.toDataURL("image/png") };
   }
 
   private draw(now: number): void {
@@ -180,10 +232,17 @@ export class View3D {
     } else if (this.due || this.finish === 0) {
       if (!this.control.dragging) this.slow = 0;
       this.due = false;
-      this.setCoarse(false);
+      if (this.software) {
+        const sliced = this.slice();
+        if (this.slices.drawing) return this.goOn();
+        if (sliced) return this.drawnAt(again);
+      } else this.setCoarse(false);
     }
     this.scaleArrows();
     this.render();
+    this.drawnAt(again);
+  }
+  private drawnAt(again: boolean): void {
     this.frames++;
     this.onFrame();
     if (again) this.request();
@@ -238,9 +297,10 @@ export class View3D {
     const key = `${w}x${h}@${window.devicePixelRatio}`;
     if (w === 0 || h === 0 || key === this.sized) return;
     this.sized = key;
+    this.slices.stop();
     this.size();
     this.control.camera.aspect = w / h;
-    for (const s of [...this.selection, ...this.crossed]) if (s instanceof LineSegments2) s.material.resolution.set(w, h);
+    for (const s of [...this.marked.selection, ...this.crossed]) if (s instanceof LineSegments2) s.material.resolution.set(w, h);
     if (this.frames === 0) return;
     this.control.update(performance.now());
     this.render();
@@ -352,7 +412,7 @@ export class View3D {
     }
     if (edges && edges.length > 0) {
       const many = edges.length > 6 * mostThickLines;
-      const draw = (x: Float32Array, color: string, width: number) => (many ? thinLines(x, color) : this.lines(x, color, width));
+      const draw = (x: Float32Array, color: string, width: number) => (many ? thinLines(x, color) : this.marked.lines(x, color, width));
       this.crossed.push(draw(outlines!, this.dark ? "#ffb454" : "#b45309", 1.5), draw(edges, this.dark ? "#ff6b81" : "#c1123f", 4));
       for (const l of this.crossed) this.scene.add(l);
     }
@@ -365,73 +425,13 @@ export class View3D {
     this.control.fly(s.center, Math.max(s.radius * 2.4, 1e-9));
   }
 
-  /** Outline of the main side, the node or edge, the way out, and the residual distance. */
   setSelected(hit: Hit | null): void {
-    for (const s of this.selection.splice(0)) {
-      this.scene.remove(s);
-      s.geometry.dispose();
-    }
     if (!hit) this.control.cut = null;
-    if (hit) {
-      const d = this.report.data;
-      const at = (n: number) => new Vector3(d.x[d.exactOf[n]], d.y[d.exactOf[n]], d.z[d.exactOf[n]]);
-      const main = this.report.mainNodes(hit.row).map(at);
-      const secondary = this.report.secondaryNodes(hit.row).map(at);
-      const point = new Vector3(...this.report.point(hit.row));
-      const foot = point.clone().addScaledVector(new Vector3(...hit.row.normal), -hit.row.distance);
-      const out = point.clone().addScaledVector(new Vector3(...hit.row.normal), hit.row.depth);
-      const loop = main.length > 2 ? main.flatMap((p, i) => [p, main[(i + 1) % main.length]]) : main;
-      this.addLines(loop, this.dark ? "#ffb454" : "#c2410c", 3);
-      if (secondary.length === 2) this.addLines(secondary, this.dark ? "#7cc7ff" : "#1d4ed8", 4);
-      if (!hit.row.onSurface) {
-        this.addLines([foot, point], this.dark ? "#ffffff" : "#111827", 2.5);
-        this.addLines([point, out], this.dark ? "#7cc7ff" : "#1d4ed8", 2.5);
-        this.addTip(point, out, this.dark ? "#7cc7ff" : "#1d4ed8");
-      }
-      const dot = new BufferGeometry().setFromPoints([point]);
-      for (const [size, color] of [[17, this.dark ? "#0b0f14" : "#ffffff"], [12, this.dark ? "#7cc7ff" : "#1d4ed8"]] as const) {
-        const p = new Points(dot, new PointsMaterial({ size, color, sizeAttenuation: false, map: this.disc, alphaTest: 0.3, depthTest: false, transparent: true }));
-        p.renderOrder = 8;
-        p.frustumCulled = false;
-        this.scene.add(p);
-        this.selection.push(p);
-      }
-    }
+    this.marked.select(hit, this.dark);
     this.request();
   }
-
-  private readonly lines = (x: Float32Array, color: string, width: number) => thickLines(x, color, width, this.container.clientWidth, this.container.clientHeight);
-
-  private addLines(points: Vector3[], color: string, width: number): void {
-    const positions = Float32Array.from(points.flatMap((p) => p.toArray()));
-    if (!positions.every(Number.isFinite)) return; // beyond what a picture can hold
-    const lines = this.lines(positions, color, width);
-    this.scene.add(lines);
-    this.selection.push(lines);
-  }
-
-  /** Head of the depth arrow. */
-  private addTip(from: Vector3, to: Vector3, color: string): void {
-    const length = from.distanceTo(to);
-    if (!(length > 0) || !Number.isFinite(length)) return;
-    const cone = coneAt(from, to, color);
-    this.scene.add(cone);
-    this.selection.push(cone);
-  }
-
-  private readonly rule: (LineSegments2 | Points)[] = [];
-  /** Line between measured points. */
   setRule(points: Vector3[]): void {
-    for (const old of this.rule.splice(0)) {
-      this.scene.remove(old);
-      old.geometry.dispose();
-    }
-    const dots = new Points(new BufferGeometry().setFromPoints(points), new PointsMaterial({ size: 11, color: this.dark ? "#f7f" : "#a0a", sizeAttenuation: false, map: this.disc, alphaTest: 0.3, depthTest: false, transparent: true }));
-    dots.frustumCulled = false;
-    dots.renderOrder = 9;
-    this.rule.push(dots);
-    if (points.length === 2) this.rule.push(this.lines(Float32Array.from(points.flatMap((p) => p.toArray())), this.dark ? "#ff77ff" : "#aa00aa", 2.5));
-    this.scene.add(...this.rule);
+    this.marked.measure(points, this.dark);
     this.request();
   }
 
