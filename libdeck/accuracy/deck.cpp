@@ -116,18 +116,18 @@ std::vector<PairSample> scene_pairs(const Scene& scene, std::size_t limit, int t
 
 namespace {
 
-using PairKey = std::array<std::uint32_t, 3>;
+using PairIndices = std::array<std::uint32_t, 3>;
 
 // The pairs in contact, with their distances.
-std::map<PairKey, double> pairs_in_contact(const Scene& scene) {
-  std::map<PairKey, double> out;
+std::map<PairIndices, double> pairs_in_contact(const Scene& scene) {
+  std::map<PairIndices, double> out;
   for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
     for (const PenetrationRow& row : scene.contacts[c].penetrations)
       if (row.in_contact) out[{c, row.secondary, row.main}] = row.distance;
   return out;
 }
 
-void compare(const std::map<PairKey, double>& got, const std::map<PairKey, double>& want,
+void compare(const std::map<PairIndices, double>& got, const std::map<PairIndices, double>& want,
              TierResult& row) {
   for (const auto& [key, distance] : want) {
     const auto found = got.find(key);
@@ -149,7 +149,7 @@ void compare(const std::map<PairKey, double>& got, const std::map<PairKey, doubl
 
 void measure_gaps(const std::function<Scene(Accuracy)>& run, int repeats, AccuracyReport& report) {
   std::erase_if(report.tiers, [](const TierResult& t) { return t.what == "gaps"; });
-  std::map<PairKey, double> truth;
+  std::map<PairIndices, double> truth;
   double pairs = 1.0;  // the exact ones, so that times can be compared
   for (const Accuracy accuracy :
        {Accuracy::exact, Accuracy::robust, Accuracy::reference, Accuracy::fast}) {

@@ -15,25 +15,23 @@
 namespace deck {
 namespace {
 
-using cycle::ContactCard;
-using cycle::ContactKind;
 using cycle::KernelPlan;
 using cycle::PacketResult;
 using cycle::PacketView;
 
 /// A card that differs in one effect, and in which words.
 struct Other {
-  ContactCard card;
+  cycle::ContactCard card;
   std::string says;
 };
 
-void no_friction(ContactCard& c) {
+void no_friction(cycle::ContactCard& c) {
   c.fric = 0.0;
   c.ifric = 0;
   c.fric_id = c.fric_orthotropic = false;
   c.fct_idf.reset();
 }
-void no_heat_left(ContactCard& c) {
+void no_heat_left(cycle::ContactCard& c) {
   const bool conducts = c.kthe != 0.0 || c.fct_idk, radiates = c.frad != 0.0 && c.drad > 0.0;
   if (!conducts && !radiates && c.fheats == 0.0 && c.fheatm == 0.0) c.ithe = 0;
 }
@@ -42,112 +40,114 @@ void no_heat_left(ContactCard& c) {
 struct Switch {
   const char* name;
   const char* off;
-  void (*take)(ContactCard&);
+  void (*take)(cycle::ContactCard&);
   const char* on;
-  void (*give)(ContactCard&);
+  void (*give)(cycle::ContactCard&);
   bool edges = true;  ///< edge contacts have it, too
 };
 
 /// Effects inside the pair loop. What is given has the values named; only the time counts.
 const Switch switches[] = {
-    {"gap-reduction", "Inacti = 0", [](ContactCard& c) { c.inacti = 0; }, "Inacti = 6",
-     [](ContactCard& c) { c.inacti = 6; }},
-    {"fixed-stiffness", "Istf = 0", [](ContactCard& c) { c.istf = 0; }, "Istf = 1",
-     [](ContactCard& c) { c.istf = 1; }, false},
-    {"normal-damping", "VISs = 0", [](ContactCard& c) { c.viss = 0.0; }, "VISs = 0.05",
-     [](ContactCard& c) { c.viss = 0.05; }},
+    {"gap-reduction", "Inacti = 0", [](cycle::ContactCard& c) { c.inacti = 0; }, "Inacti = 6",
+     [](cycle::ContactCard& c) { c.inacti = 6; }},
+    {"fixed-stiffness", "Istf = 0", [](cycle::ContactCard& c) { c.istf = 0; }, "Istf = 1",
+     [](cycle::ContactCard& c) { c.istf = 1; }, false},
+    {"normal-damping", "VISs = 0", [](cycle::ContactCard& c) { c.viss = 0.0; }, "VISs = 0.05",
+     [](cycle::ContactCard& c) { c.viss = 0.05; }},
     {"friction-viscous", "no friction", no_friction, "Fric = 0.2, Iform = 1",
-     [](ContactCard& c) {
+     [](cycle::ContactCard& c) {
        c.fric = 0.2;
        c.iform = 1;
      }},
     {"friction-incremental", "no friction", no_friction, "Fric = 0.2, Iform = 2",
-     [](ContactCard& c) {
+     [](cycle::ContactCard& c) {
        c.fric = 0.2;
        c.iform = 2;
      }},
-    {"friction-law", "Ifric = 0", [](ContactCard& c) { c.ifric = 0; }, "Fric = 0.2, Ifric = 2",
-     [](ContactCard& c) {
+    {"friction-law", "Ifric = 0", [](cycle::ContactCard& c) { c.ifric = 0; },
+     "Fric = 0.2, Ifric = 2",
+     [](cycle::ContactCard& c) {
        if (c.fric == 0.0) c.fric = 0.2;
        c.ifric = 2;
        c.c = {1e-6, -1e-3, 1e-6, -1e-3, 1e-2, -1e-2};
      },
      false},
-    {"friction-temperature", "fct_IDF = 0", [](ContactCard& c) { c.fct_idf.reset(); },
+    {"friction-temperature", "fct_IDF = 0", [](cycle::ContactCard& c) { c.fct_idf.reset(); },
      "Ithe = 1, a function fct_IDF",
-     [](ContactCard& c) {
+     [](cycle::ContactCard& c) {
        c.ithe = 1;
        c.fct_idf = cycle::Curve{{0.0, 1000.0}, {1.0, 2.0}};
      },
      false},
-    {"friction-filter", "Ifiltr = 0", [](ContactCard& c) { c.ifiltr = 0; },
+    {"friction-filter", "Ifiltr = 0", [](cycle::ContactCard& c) { c.ifiltr = 0; },
      "Fric = 0.2, Ifiltr = 1, Xfreq = 0.3",
-     [](ContactCard& c) {
+     [](cycle::ContactCard& c) {
        if (c.fric == 0.0) c.fric = 0.2;
        c.ifiltr = 1;
        c.xfreq = 0.3;
      },
      false},
-    {"orthotropic-friction", "no directions", [](ContactCard& c) { c.fric_orthotropic = false; },
-     nullptr, nullptr, false},
+    {"orthotropic-friction", "no directions",
+     [](cycle::ContactCard& c) { c.fric_orthotropic = false; }, nullptr, nullptr, false},
     {"part-pair-friction", "fric_ID = 0",
-     [](ContactCard& c) {
+     [](cycle::ContactCard& c) {
        c.fric_id = c.fric_orthotropic = false;
        if (c.fric == 0.0) c.fric = 0.2;
      },
      nullptr, nullptr},
     {"heat-conduction", "Kthe = 0",
-     [](ContactCard& c) {
+     [](cycle::ContactCard& c) {
        c.kthe = 0.0;
        c.fct_idk.reset();
        no_heat_left(c);
      },
      "Ithe = 1, Kthe = 1",
-     [](ContactCard& c) {
+     [](cycle::ContactCard& c) {
        c.ithe = c.ithe_form = 1;
        c.kthe = 1.0;
      }},
     {"radiation", "Frad = 0",
-     [](ContactCard& c) {
+     [](cycle::ContactCard& c) {
        c.frad = c.drad = 0.0;
        no_heat_left(c);
      },
      "Ithe = 1, Frad = 1e-8, Drad = Gapmin",
-     [](ContactCard& c) {
+     [](cycle::ContactCard& c) {
        c.ithe = c.ithe_form = 1;
        c.frad = 1e-8;
        c.drad = std::max(c.gapmin, 1e-300);
      }},
     {"friction-heat", "Fheats = Fheatm = 0",
-     [](ContactCard& c) {
+     [](cycle::ContactCard& c) {
        c.fheats = c.fheatm = 0.0;
        no_heat_left(c);
      },
      "Ithe = 1, Fric = 0.2, Fheats = 0.5",
-     [](ContactCard& c) {
+     [](cycle::ContactCard& c) {
        c.ithe = c.ithe_form = 1;
        if (c.fric == 0.0) c.fric = 0.2;
        c.fheats = 0.5;
      },
      false},
-    {"curvature", "Icurv = 0", [](ContactCard& c) { c.icurv = 0; }, "Icurv = 3",
-     [](ContactCard& c) { c.icurv = 3; }, false},
-    {"adaptivity-criteria", "Iadm = 0", [](ContactCard& c) { c.iadm = 0; }, "Iadm = 2",
-     [](ContactCard& c) { c.iadm = 2; }, false},
-    {"time-step-deletion", "dtmin = 0", [](ContactCard& c) { c.dtmin = 0.0; }, "dtmin = 1e-300",
-     [](ContactCard& c) {
+    {"curvature", "Icurv = 0", [](cycle::ContactCard& c) { c.icurv = 0; }, "Icurv = 3",
+     [](cycle::ContactCard& c) { c.icurv = 3; }, false},
+    {"adaptivity-criteria", "Iadm = 0", [](cycle::ContactCard& c) { c.iadm = 0; }, "Iadm = 2",
+     [](cycle::ContactCard& c) { c.iadm = 2; }, false},
+    {"time-step-deletion", "dtmin = 0", [](cycle::ContactCard& c) { c.dtmin = 0.0; },
+     "dtmin = 1e-300",
+     [](cycle::ContactCard& c) {
        c.dtmin = 1e-300;
        c.itied = 0;
      }},
-    {"tie-on-time-step", "ITIED = 0", [](ContactCard& c) { c.itied = 0; },
+    {"tie-on-time-step", "ITIED = 0", [](cycle::ContactCard& c) { c.itied = 0; },
      "ITIED = 1, dtmin = 1e-300",
-     [](ContactCard& c) {
+     [](cycle::ContactCard& c) {
        c.itied = 1;
        c.dtmin = 1e-300;
      },
      false},
-    {"boundary-release", "IBC = 000", [](ContactCard& c) { c.ibc = 0; }, "IBC = 111",
-     [](ContactCard& c) { c.ibc = 7; }, false},
+    {"boundary-release", "IBC = 000", [](cycle::ContactCard& c) { c.ibc = 0; }, "IBC = 111",
+     [](cycle::ContactCard& c) { c.ibc = 7; }, false},
 };
 
 bool rubs(const std::vector<cycle::EffectState>& account) {
@@ -167,8 +167,8 @@ std::string outside_the_loop(const std::string& name) {
 }
 
 /// The card to hold against, or why there is none.
-std::optional<Other> other_card(const ContactCard& card, const cycle::EffectState& e, bool friction,
-                                std::string& why_not) {
+std::optional<Other> other_card(const cycle::ContactCard& card, const cycle::EffectState& e,
+                                bool friction, std::string& why_not) {
   const auto* s = std::find_if(std::begin(switches), std::end(switches),
                                [&](const Switch& w) { return e.name == w.name; });
   if (s == std::end(switches)) {
@@ -180,7 +180,8 @@ std::optional<Other> other_card(const ContactCard& card, const cycle::EffectStat
     s->take(out.card);
     return out;
   }
-  if (card.kind == ContactKind::tied || (card.kind == ContactKind::edge_edge && !s->edges))
+  if (card.kind == cycle::ContactKind::tied ||
+      (card.kind == cycle::ContactKind::edge_edge && !s->edges))
     why_not = "contacts of this kind have no such effect";
   else if (s->give == nullptr)
     why_not = "needs a /FRICTION, which the deck does not name here";
@@ -196,7 +197,7 @@ std::optional<Other> other_card(const ContactCard& card, const cycle::EffectStat
 }
 
 /// Everything that can run together. Deletion and a tie exclude each other; the tie is more work.
-Other everything(const ContactCard& card) {
+Other everything(const cycle::ContactCard& card) {
   Other out{card, {}};
   const std::vector<cycle::EffectState> account = cycle::effect_plan(card);
   const bool friction = rubs(account);
@@ -218,11 +219,11 @@ Other everything(const ContactCard& card) {
 /// The packet of one contact with all arrays that any loop could ask for.
 class Packet {
  public:
-  Packet(const Scene& scene, const Contact& contact, const ContactCard& card,
+  Packet(const Scene& scene, const Contact& contact, const cycle::ContactCard& card,
          const cycle::State& state, const cycle::CycleOptions& options, double margin,
          std::size_t most) {
-    ContactCard wide = card;
-    if (card.kind != ContactKind::tied && card.ithe == 0) {
+    cycle::ContactCard wide = card;
+    if (card.kind != cycle::ContactKind::tied && card.ithe == 0) {
       wide.ithe = 1;
       wide.drad = 0.0;  // finds no pair more
     }
@@ -294,7 +295,7 @@ double change_of(const PacketResult& a, const PacketResult& b) {
 /// One loop, ready to run.
 class Loop {
  public:
-  Loop(const ContactCard& card, const cycle::CycleOptions& options, bool flags,
+  Loop(const cycle::ContactCard& card, const cycle::CycleOptions& options, bool flags,
        const PacketView& view)
       : view_(view) {
     cycle::PlanOptions how = options.plan;
@@ -347,7 +348,7 @@ Race race(Loop& a, Loop& b, const EffectCostOptions& how) {
 
 /// A loop that has shown that it gives the same answer in both ways; nothing: it does not, or the
 /// packet lacks what it needs.
-std::optional<Loop> proven(const ContactCard& card, const cycle::CycleOptions& options,
+std::optional<Loop> proven(const cycle::ContactCard& card, const cycle::CycleOptions& options,
                            const PacketView& view, std::string& why_not) {
   Loop composed(card, options, false, view), flags(card, options, true, view);
   if (!composed.can_run() || !flags.can_run()) {
@@ -371,7 +372,7 @@ class Measure {
         view_(view),
         per_pair_(1.0 / static_cast<double>(view.size)) {}
 
-  void run(const ContactCard& card, ContactCost& out) {
+  void run(const cycle::ContactCard& card, ContactCost& out) {
     std::optional<Loop> base = proven(card, options_, view_, out.problem);
     if (!base) return;
     const PacketResult first = base->result();
@@ -396,8 +397,8 @@ class Measure {
   }
 
  private:
-  void effect(const ContactCard& card, const cycle::EffectState& e, bool friction, Loop& base,
-              EffectCost& out) {
+  void effect(const cycle::ContactCard& card, const cycle::EffectState& e, bool friction,
+              Loop& base, EffectCost& out) {
     const std::optional<Other> other = other_card(card, e, friction, out.why_not);
     if (!other) return;
     std::optional<Loop> loop = proven(other->card, options_, view_, out.why_not);
@@ -438,7 +439,7 @@ std::vector<ContactCost> measure_effects(const Scene& scene, const cycle::State&
       cost.problem = "not active at this time";
       continue;
     }
-    const ContactCard& card = outcome.contacts[i].card;
+    const cycle::ContactCard& card = outcome.contacts[i].card;
     // In gaps; a deck that starts without contact still has neighbours.
     for (const double further : {0.0, 1.0, 4.0}) {
       cost.margin = further * contact.max_gap;

@@ -20,6 +20,8 @@ target_compile_options(deck_options INTERFACE -ffp-contract=off -fno-math-errno)
 if(LIBDECK_UNITY) # g++ tidies its memory only from 1 GB (given in kB) on: the same code, sooner
   target_compile_options(deck_options INTERFACE
                          $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
+  # Other builds check the text of formats against the arguments.
+  target_compile_definitions(deck_options INTERFACE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:FMT_CONSTEVAL=>)
 endif()
 if(DECK_SANITIZE)
   target_compile_options(deck_options INTERFACE -fsanitize=${DECK_SANITIZE}

@@ -5,10 +5,8 @@
 #include "deck/report/accuracy.hpp"
 #include "processor.hpp"
 
+namespace deck::cli::verb_accuracy {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
@@ -140,3 +138,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_accuracy

@@ -23,10 +23,9 @@
 #include "writing/changes.hpp"
 #include "writing/library.hpp"
 
+namespace deck::cli::verb_convert {
 namespace {
 
-using namespace deck;
-using namespace deck::cli;
 namespace fs = std::filesystem;
 
 struct Options {
@@ -568,3 +567,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_convert

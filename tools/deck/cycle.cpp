@@ -17,10 +17,8 @@
 #include "gate.hpp"
 #include "processor.hpp"
 
+namespace deck::cli::verb_cycle {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
@@ -381,3 +379,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_cycle

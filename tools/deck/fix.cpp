@@ -15,10 +15,8 @@
 #include "writing/fix_page.hpp"
 #include "writing/library.hpp"
 
+namespace deck::cli::verb_fix {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
@@ -418,3 +416,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_fix

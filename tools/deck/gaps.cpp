@@ -17,10 +17,8 @@
 #include "deck/text/gzip.hpp"
 #include "gate.hpp"
 
+namespace deck::cli::verb_gaps {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
@@ -283,3 +281,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_gaps

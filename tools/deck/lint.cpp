@@ -18,10 +18,8 @@
 #include "writing/changes.hpp"
 #include "writing/library.hpp"
 
+namespace deck::cli::verb_lint {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
@@ -494,3 +492,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_lint

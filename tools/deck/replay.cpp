@@ -6,10 +6,8 @@
 #include "deck/cycle/adapter.hpp"
 #include "deck/report/cycle.hpp"
 
+namespace deck::cli::verb_replay {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
@@ -118,3 +116,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_replay

@@ -56,7 +56,7 @@ constexpr CardLayout mandatory[3] = {{{{"SSID", ""},
                                        {"SFMT", "1"},
                                        {"FSF", "1"},
                                        {"VSF", "1"}}}};
-constexpr CardLayout optional_cards[] = {
+constexpr CardLayout optional_layouts[] = {
     {{{"SOFT", "0"},
       {"SOFSCL", "0.1"},
       {"LCIDAB", "0"},
@@ -489,7 +489,7 @@ class Reader {
       ++c.mandatory;
       line = next_data();
     }
-    for (const CardLayout& layout : optional_cards) {
+    for (const CardLayout& layout : optional_layouts) {
       if (line.number == 0) break;
       card(c, layout, line);
       line = next_data();

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t most_rows = 100000;   // per contact, largest force first
 constexpr std::size_t most_nodes = 100000;  // largest force first
 
-const char* name_of(cycle::StepLimit::Source source) {
+const char* because_of(cycle::StepLimit::Source source) {
   switch (source) {
     case cycle::StepLimit::Source::kinematic:
       return "closing speed";
@@ -27,15 +27,15 @@ double size_of(const std::array<double, 3>& f) {
   return std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
 }
 
-void write_step(JsonWriter& j, std::string_view name, double dt) {
+void step_field(JsonWriter& j, std::string_view name, double dt) {
   j.key(name);
   dt < 1e30 ? j.value(dt) : j.null();
 }
 
 void write_contact(JsonWriter& j, const cycle::ContactOutcome& c) {
   j.begin_object(true).field("active", c.active).field("complete", c.complete);
-  write_step(j, "dt", c.step.dt);
-  j.field("because", name_of(c.step.source)).field("with_force", c.pairs_with_force);
+  step_field(j, "dt", c.step.dt);
+  j.field("because", because_of(c.step.source)).field("with_force", c.pairs_with_force);
   j.field("force", c.totals.total_abs).field("largest", c.largest_force);
   j.field("acceleration", c.largest_acceleration).field("elastic", c.totals.elastic_energy);
   std::vector<const cycle::PairOutcome*> rows;
@@ -78,8 +78,8 @@ std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycl
   std::string out;
   JsonWriter j(out);
   j.begin_object(true);
-  write_step(j, "structure_dt", outcome.structure.dt);
-  write_step(j, "contact_dt", outcome.contact_dt);
+  step_field(j, "structure_dt", outcome.structure.dt);
+  step_field(j, "contact_dt", outcome.contact_dt);
   j.key("contacts").begin_array(true);
   for (const cycle::ContactOutcome& c : outcome.contacts) write_contact(j, c);
   j.end_array();

@@ -158,7 +158,7 @@ void write_steps(JsonWriter& j, const CycleInput& input) {
   j.end_array().end_object();
 }
 
-const char* name_of(cycle::StepLimit::Source source) {
+const char* source_name(cycle::StepLimit::Source source) {
   switch (source) {
     case cycle::StepLimit::Source::kinematic:
       return "kinematic";
@@ -199,7 +199,7 @@ void write_contact(JsonWriter& j, const CycleInput& input, const cycle::ContactO
   j.key("heat").begin_object(true).field("secondary", o.heat_secondary);
   j.field("main", o.heat_main).end_object();
   write_step(j, "dt_contact", o.step.dt);
-  j.field("dt_because", name_of(o.step.source));
+  j.field("dt_because", source_name(o.step.source));
   write_node(j, model, "dt_node", o.step_node);
   j.key("largest_pair");
   o.largest_force > 0 ? write_pair(j, model, c, o.largest) : static_cast<void>(j.null());
@@ -292,7 +292,7 @@ std::string cycle_json(const CycleInput& input, bool all, const TextDrain& drain
   j.key("dt").begin_object();
   write_step(j, "structure", o.structure.dt);
   write_step(j, "contact", o.contact_dt);
-  j.field("because", name_of(o.contact_dt_source)).key("limiting");
+  j.field("because", source_name(o.contact_dt_source)).key("limiting");
   if (o.limiting_contact == SIZE_MAX) {
     j.null();
   } else {

@@ -27,9 +27,9 @@ std::vector<std::pair<std::string_view, double>> by_role(const ParamsInput& in,
   return out;
 }
 
-std::string text_of(std::int64_t v) { return std::to_string(v); }
-std::string text_of(double v) { return shortest(v); }
-std::string text_of(const std::string& v) { return v; }
+std::string cell_text(std::int64_t v) { return std::to_string(v); }
+std::string cell_text(double v) { return shortest(v); }
+std::string cell_text(const std::string& v) { return v; }
 
 Tone tone_of(Origin origin) {
   switch (origin) {
@@ -47,7 +47,7 @@ Tone tone_of(Origin origin) {
 }
 
 /// Interfaces that are in the deck but not evaluated here.
-std::vector<const Block*> others(const ParamsInput& in) {
+std::vector<const Block*> not_evaluated(const ParamsInput& in) {
   std::vector<const Block*> out;
   for (const Block& b : in.deck->blocks) {
     if (!b.header.starts_with("/INTER/")) continue;
@@ -158,11 +158,11 @@ template bool changed_on_card(const ParamsInput&, const InterBase&, std::string_
 template <class T>
 std::string effective_text(const ParamsInput& in, const InterBase& inter, std::string_view name,
                            const Effective<T>& e) {
-  if (e.origin != Origin::geometry) return text_of(e.value);
-  std::string value = inter.resolved ? text_of(e.value) : "from geometry";
+  if (e.origin != Origin::geometry) return cell_text(e.value);
+  std::string value = inter.resolved ? cell_text(e.value) : "from geometry";
   const auto values = by_role(in, inter, name);
   for (std::size_t i = 1; i < values.size(); ++i)
-    value += fmt::format(", {} {}", values[i].first, text_of(values[i].second));
+    value += fmt::format(", {} {}", values[i].first, cell_text(values[i].second));
   return value;
 }
 template std::string effective_text(const ParamsInput&, const InterBase&, std::string_view,
@@ -183,7 +183,7 @@ TextTable params_table(const ParamsInput& in, const InterBase& inter,
     t.for_each([&](std::string_view name, const auto& e) {
       if (!wanted(in, inter, name, e, options)) return;
       table.row({std::string(name),
-                 e.has_input ? text_of(e.input) : std::string("-"),
+                 e.has_input ? cell_text(e.input) : std::string("-"),
                  {effective_text(in, inter, name, e),
                   e.origin == Origin::card ? Tone::bold : Tone::plain},
                  {to_string(e.origin), tone_of(e.origin)},
@@ -308,7 +308,7 @@ std::string params_csv(const ParamsInput& in, const ParamsTextOptions& options) 
         const Position p = e.span.valid() ? in.deck->sources.position(e.span) : Position{};
         out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_cell(in.path), inter->id,
                            inter->type, csv_cell(inter->title), name,
-                           e.has_input ? csv_cell(text_of(e.input)) : "",
+                           e.has_input ? csv_cell(cell_text(e.input)) : "",
                            csv_cell(effective_text(in, *inter, name, e)), to_string(e.origin),
                            e.span.valid() ? csv_cell(in.deck->sources[e.span.file].path()) : "",
                            e.span.valid() ? std::to_string(p.line) : "",
@@ -393,7 +393,7 @@ std::string params_json(const ParamsInput& in, const std::vector<std::int64_t>& 
   }
   json.end_array();
   json.key("not_evaluated").begin_array();
-  for (const Block* b : others(in)) {
+  for (const Block* b : not_evaluated(in)) {
     json.begin_object(true).field("keyword", keyword_of(*b));
     json.field("id", b->id.value).key("source");
     write_json_place(json, *in.deck, b->header_span);

@@ -6,7 +6,7 @@
 namespace deck {
 namespace {
 
-constexpr const char* kHead =
+constexpr const char* kScriptHead =
     R"~(# Opens the files of this folder in ParaView, coloured and with arrows:
 #   paraview --script=open.py     or File > Load State, or: pvpython open.py (writes open.png)
 # Made for paraview.simple of ParaView 5.9 and later.
@@ -78,7 +78,7 @@ VtkFile paraview_script(const std::vector<VtkFile>& files) {
   // Of a series only the collections: they hold its files.
   const bool series = std::any_of(files.begin(), files.end(),
                                   [](const VtkFile& f) { return ends(f.name, ".pvd"); });
-  std::string out = kHead;
+  std::string out = kScriptHead;
   for (const VtkFile& f : files) {
     if (series && !ends(f.name, ".pvd")) continue;
     const std::string name = "\"" + f.name + "\"";

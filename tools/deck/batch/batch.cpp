@@ -12,10 +12,8 @@
 #include "batch/summary.hpp"
 #include "writing/library.hpp"
 
+namespace deck::cli::verb_batch {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 const std::vector<std::string> verbs_of_a_batch = {"lint",  "params",  "gaps",
                                                    "cycle", "convert", "fix"};
@@ -258,3 +256,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_batch

@@ -8,10 +8,8 @@
 #include "deck/lint/topics.hpp"
 #include "help/completion_table.hpp"
 
+namespace deck::cli::verb_completion {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   std::string shell;
@@ -281,3 +279,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_completion

@@ -4,10 +4,8 @@
 #include "deck/base/escape.hpp"
 #include "deck/lint/topics.hpp"
 
+namespace deck::cli::verb_explain {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
@@ -61,3 +59,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_explain

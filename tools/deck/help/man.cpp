@@ -5,10 +5,8 @@
 #include "deck/report/json.hpp"
 #include "help/completion_table.hpp"
 
+namespace deck::cli::verb_man {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   std::string verb, directory;
@@ -205,3 +203,4 @@ const VerbRegistration registration{
     {"man", 900, "Man pages", "  deck man lint | man -l -\n  deck man --directory man1\n", setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_man

@@ -3,10 +3,8 @@
 #include "common.hpp"
 #include "deck/report/diagnostics.hpp"
 
+namespace deck::cli::verb_rules {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 int run(const CommonOptions& common) {
   if (!common.json.empty())
@@ -28,3 +26,4 @@ const VerbRegistration registration{{"rules", 80, "All rules of deck lint",
                                      "  deck rules\n  deck rules --json rules.json\n", setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_rules

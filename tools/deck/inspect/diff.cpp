@@ -6,10 +6,8 @@
 #include "deck/contact/view.hpp"
 #include "deck/model/coverage.hpp"
 
+namespace deck::cli::verb_diff {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
@@ -134,3 +132,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_diff

@@ -6,10 +6,8 @@
 #include "deck/report/params_report.hpp"
 #include "gate.hpp"
 
+namespace deck::cli::verb_params {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
@@ -103,3 +101,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_params

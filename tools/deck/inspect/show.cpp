@@ -4,10 +4,8 @@
 #include "common.hpp"
 #include "deck/report/show.hpp"
 
+namespace deck::cli::verb_show {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
@@ -68,3 +66,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_show

@@ -7,10 +7,8 @@
 #include "common.hpp"
 #include "lsp/server.hpp"
 
+namespace deck::cli::verb_lsp {
 namespace {
-
-using namespace deck;
-using namespace deck::cli;
 
 struct Options {
   CommonOptions common;
@@ -56,3 +54,4 @@ const VerbRegistration registration{
      setup}};
 
 }  // namespace
+}  // namespace deck::cli::verb_lsp

@@ -93,7 +93,7 @@ std::uint64_t View::block_end(const Block& block) const {
   std::uint64_t end = block.header_span.offset + block.header_span.length;
   LineCursor cursor(deck.sources, block);
   // Long blocks are looked at from their end.
-  for (const Piece& p : block.body)
+  for (const deck::Piece& p : block.body)
     if (p.file == block.header_span.file) end = std::max(end, p.end);
   const std::string_view bytes = deck.sources[block.header_span.file].bytes();
   while (end > block.header_span.offset) {

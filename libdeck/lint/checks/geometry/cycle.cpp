@@ -12,7 +12,7 @@ namespace {
 using cycle::InterfaceSummary;
 using cycle::PairOutcome;
 
-std::string node_text(const Model& model, NodeIndex n) {
+std::string node_name(const Model& model, NodeIndex n) {
   return n == no_index ? std::string("?") : std::to_string(model.node_id(n));
 }
 
@@ -43,7 +43,7 @@ void report_force(const GeometryRun& run, const Contact& contact, const Interfac
       count_text(s.pairs_with_force, "pair"), s.force_sum, s.largest_pair_force);
   if (s.acceleration_node != no_index)
     message += fmt::format("; node {} starts with an acceleration of {:.4g}",
-                           node_text(run.model(), s.acceleration_node), s.largest_acceleration);
+                           node_name(run.model(), s.acceleration_node), s.largest_acceleration);
   if (s.elastic_energy > 0) message += fmt::format("; stored energy {:.4g}", s.elastic_energy);
   Diagnostic* d = run.report(RuleId::DK401, contact, "Inacti", std::move(message));
   if (d != nullptr && s.acceleration_node != no_index)
@@ -68,7 +68,7 @@ void report_step(const GeometryRun& run, const Contact& contact, const Interface
       summary_name(s), s.contact_dt, element_of(s.contact_dt_source),
       s.contact_dt_node == no_index
           ? std::string()
-          : fmt::format(" at node {}", node_text(run.model(), s.contact_dt_node)),
+          : fmt::format(" at node {}", node_name(run.model(), s.contact_dt_node)),
       s.structure_dt, s.structure_dt / s.contact_dt);
   Diagnostic* d = run.report(RuleId::DK402, contact, "Stfac", std::move(message));
   if (d != nullptr && s.contact_dt_node != no_index)
@@ -142,7 +142,7 @@ void report_deletion(const GeometryRun& run, const Contact& contact, const Inter
                   summary_name(s), s.contact_dt, element_of(s.contact_dt_source),
                   s.contact_dt_node == no_index
                       ? std::string()
-                      : fmt::format(" at node {}", node_text(run.model(), s.contact_dt_node)),
+                      : fmt::format(" at node {}", node_name(run.model(), s.contact_dt_node)),
                   deletion.dt));
   if (d != nullptr) d->notes.emplace_back(deletion.place, "the time step of /DT/INTER/DEL");
 }
