@@ -49,6 +49,8 @@ void limit_all(const State& state, const std::vector<NodeStiffness>& by_contact,
   }
 }
 
+}  // namespace
+
 /// What the contacts of a scene keep between evaluations.
 struct RunMemory {
   explicit RunMemory(const Scene& scene) : connectivity(*scene.model) {
@@ -67,6 +69,8 @@ struct RunMemory {
   Connectivity connectivity;
   SearchMemory* searches = nullptr;
 };
+
+namespace {
 
 SceneOutcome evaluate_all(const Scene& scene, RunMemory& memory, bool remember,
                           const Coordinates& x, const State& state, const CycleOptions& options);
