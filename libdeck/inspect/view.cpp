@@ -373,7 +373,7 @@ class Viewer {
     if (kind == "grnod") {
       if (const NodeSet* s = selections_.node_group(id)) count("nodes", s->nodes.size());
     } else if (kind == "surf") {
-      if (const Surface* s = selections_.surface(id)) {
+      if (const auto s = selections_.outline(id)) {
         count("segments", s->segments.size());
         count("nodes", selections_.nodes_of(s->segments).size());
       }

@@ -29,7 +29,7 @@ std::size_t selection_size(const LintContext& c, std::string_view kind, std::int
     return s ? s->nodes.size() : 0;
   }
   if (kind == "surf") {
-    const Surface* s = c.selections->surface(id);
+    const auto s = c.selections->outline(id);
     return s ? (s->analytical ? 1 : s->segments.size()) : 0;
   }
   const LineSet* s = c.selections->line(id);

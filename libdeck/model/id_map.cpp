@@ -1,5 +1,7 @@
-// Finds the index of an id: in a table where ids lie close, else in a sorted list.
+// Finds the index of an id: by counting where ids do nothing else, in a table where they lie close,
+// else in a sorted list.
 #include <algorithm>
+#include <limits>
 
 #include "deck/model/model.hpp"
 
@@ -10,6 +12,21 @@ namespace {
 // the smaller of the two as well as the faster.
 constexpr std::uint64_t entries_per_id = 4;
 
+/// Each id is one above the one before, and there is one more behind the last.
+bool count_up(const std::vector<std::int64_t>& ids) {
+  if (ids.front() >
+      std::numeric_limits<std::int64_t>::max() - static_cast<std::int64_t>(ids.size()))
+    return false;
+  const std::int64_t first = ids.front();
+  std::uint64_t differences = 0;
+  for (std::size_t i = 0; i < ids.size() && differences == 0;) {
+    // Many at once without a branch.
+    for (const std::size_t end = std::min(ids.size(), i + 1024); i < end; ++i)
+      differences |= static_cast<std::uint64_t>(ids[i]) - static_cast<std::uint64_t>(first) - i;
+  }
+  return differences == 0;
+}
+
 }  // namespace
 
 void IdMap::build(const std::vector<std::int64_t>& ids) {
@@ -18,6 +35,12 @@ void IdMap::build(const std::vector<std::int64_t>& ids) {
   sorted_.clear();
   duplicates_.clear();
   if (ids.empty()) return;
+  if (count_up(ids)) {
+    // The list says where the ids begin and, without an index, where they have ended.
+    base_ = ids.front();
+    sorted_ = {{base_, 0}, {base_ + static_cast<std::int64_t>(ids.size()), no_index}};
+    return;
+  }
   const auto [low, high] = std::minmax_element(ids.begin(), ids.end());
   const std::uint64_t range =
       static_cast<std::uint64_t>(*high) - static_cast<std::uint64_t>(*low);  // exact modulo 2^64
@@ -53,6 +76,11 @@ std::uint32_t IdMap::find(std::int64_t id) const {
   if (!dense_.empty()) {
     const std::uint64_t at = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(base_);
     return at < dense_.size() ? dense_[static_cast<std::size_t>(at)] : no_index;
+  }
+  if (!sorted_.empty() && sorted_.back().second == no_index) {
+    const std::uint64_t at = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(base_);
+    const auto count = static_cast<std::uint64_t>(sorted_.back().first - base_);
+    return at < count ? static_cast<std::uint32_t>(at) : no_index;
   }
   const auto it = std::lower_bound(sorted_.begin(), sorted_.end(), id,
                                    [](const std::pair<std::int64_t, std::uint32_t>& entry,

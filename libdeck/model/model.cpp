@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/parallel.hpp"
 #include "deck/model/selection.hpp"
 #include "model/bulk/bulk.hpp"
 #include "model/item_spans.hpp"
@@ -223,7 +224,7 @@ Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagn
                   const ModelOptions& options) {
   Model model;
   model.deck = &deck;
-  detail::BuildContext context{deck, diagnostics, model};
+  detail::BuildContext context{deck, diagnostics, model, effective_threads(options.threads)};
   detail::check_units(context);
   detail::read_run_options(context);
   detail::read_nodes(deck, detail::node_blocks(deck), model.nodes, model.node_blocks, diagnostics,

@@ -33,6 +33,7 @@ struct BuildContext {
   const Deck& deck;
   Diagnostics& diagnostics;
   Model& model;
+  int threads = 1;
 
   /// The block's own id with its submodel's offset for `kind`.
   std::int64_t own_id(const Block& block, std::string_view kind) const {

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <unordered_map>
 
 #include "base/length3.hpp"
+#include "base/parallel.hpp"
 #include "deck/text/number.hpp"
 #include "model/item_spans.hpp"
 #include "model/model_build.hpp"
@@ -110,9 +112,15 @@ void merge_connection_nodes(BuildContext& c) {
 void check_coordinates(BuildContext& c) {
   constexpr double largest = 1e75;  // products of four lengths stay in range
   const Nodes& nodes = c.model.nodes;
+  const auto fits = [](double v) { return std::abs(v) <= largest; };
+  std::atomic<bool> all_fit{true};
+  parallel_parts(c.threads, nodes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (const auto* axis : {&nodes.x, &nodes.y, &nodes.z})
+      if (!std::all_of(axis->data() + begin, axis->data() + end, fits)) all_fit = false;
+  });
+  if (all_fit) return;
   std::vector<NodeIndex> shown;
   for (NodeIndex n = 0; n < nodes.size(); ++n) {
-    const auto fits = [](double v) { return std::abs(v) <= largest; };
     if (fits(nodes.x[n]) && fits(nodes.y[n]) && fits(nodes.z[n])) continue;
     const bool finite =
         std::isfinite(nodes.x[n]) && std::isfinite(nodes.y[n]) && std::isfinite(nodes.z[n]);

@@ -1,7 +1,9 @@
 // Parts and what they refer to: property, material, subset; findings where one of them is missing,
 // and the checks of elements against their parts.
 #include <algorithm>
+#include <mutex>
 
+#include "base/parallel.hpp"
 #include "model/model_build.hpp"
 
 namespace deck::detail {
@@ -15,6 +17,14 @@ struct PartTally {
 void tally(std::vector<PartTally>& all, std::uint32_t part, std::uint32_t element) {
   PartTally& t = all[part];
   if (t.count++ == 0) t.first = element;
+}
+
+/// Tallies of other elements.
+void add(std::vector<PartTally>& all, const std::vector<PartTally>& others) {
+  for (std::size_t p = 0; p < all.size(); ++p) {
+    all[p].count += others[p].count;
+    all[p].first = std::min(all[p].first, others[p].first);
+  }
 }
 
 std::string plural(std::uint32_t n, const char* what) {
@@ -34,21 +44,30 @@ double own_thickness(const Elements& shells, std::size_t e) {
 void check_shells(BuildContext& c, const Elements& shells, const char* what) {
   const Model& m = c.model;
   std::vector<PartTally> thin(m.parts.size()), collapsed(m.parts.size());
-  for (std::size_t e = 0; e < shells.size(); ++e) {
-    const std::uint32_t p = shells.part[e];
-    if (p == no_index) continue;
-    const auto index = static_cast<std::uint32_t>(e);
-    const NodeIndex* n = shells.of(e);
-    if (shells.width == 4 && n[2] == n[3]) tally(collapsed, p, index);
-    const Part& part = m.parts[p];
-    if (part.prop == no_index || own_thickness(shells, e) != 0) continue;
-    const Property& prop = m.properties[part.prop];
+  std::vector<char> needs_own(m.parts.size(), 0);  // no thickness but that of the element
+  for (std::size_t p = 0; p < m.parts.size(); ++p) {
+    if (m.parts[p].prop == no_index) continue;
+    const Property& prop = m.properties[m.parts[p].prop];
     // Stacks add up their plies, void shells may do without, an encrypted property hides it.
     const bool free =
         prop.number == 17 || prop.number == 51 || prop.number == 52 || prop.number == 0;
-    if (prop.thickness == 0 && !free && prop.block != nullptr && !prop.block->opaque)
-      tally(thin, p, index);
+    needs_own[p] = prop.thickness == 0 && !free && prop.block != nullptr && !prop.block->opaque;
   }
+  std::mutex mutex;
+  parallel_parts(c.threads, shells.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    std::vector<PartTally> own_thin(m.parts.size()), own_collapsed(m.parts.size());
+    for (std::size_t e = begin; e < end; ++e) {
+      const std::uint32_t p = shells.part[e];
+      if (p == no_index) continue;
+      const auto index = static_cast<std::uint32_t>(e);
+      const NodeIndex* n = shells.of(e);
+      if (shells.width == 4 && n[2] == n[3]) tally(own_collapsed, p, index);
+      if (needs_own[p] != 0 && own_thickness(shells, e) == 0) tally(own_thin, p, index);
+    }
+    const std::lock_guard lock(mutex);
+    add(thin, own_thin);
+    add(collapsed, own_collapsed);
+  });
   for (std::size_t p = 0; p < m.parts.size(); ++p) {
     const Part& part = m.parts[p];
     if (thin[p].count > 0 && c.diagnostics.wants(RuleId::DK106)) {
@@ -75,8 +94,10 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
 /// Elements whose block header names a part that does not exist, one finding per block header id.
 void check_orphans(BuildContext& c, const Elements& family, const char* what) {
   std::map<std::int64_t, std::pair<std::uint32_t, const Block*>> missing;
-  for (std::size_t e = 0; e < family.size(); ++e) {
-    if (family.part[e] != no_index) continue;
+  for (auto at = family.part.begin();; ++at) {
+    at = std::find(at, family.part.end(), no_index);
+    if (at == family.part.end()) break;
+    const auto e = static_cast<std::size_t>(at - family.part.begin());
     const Block* block = c.model.element_blocks[family.block[e]].block;
     auto& entry = missing[c.own_id(*block, "part")];
     if (entry.first++ == 0) entry.second = block;
@@ -116,9 +137,14 @@ void link_parts(BuildContext& c) {
   Model& m = c.model;
   std::vector<std::uint8_t> used(m.parts.size());  // bit 0: any element, bit 1: other than springs
   for (const Elements* f :
-       {&m.shell4, &m.shell3, &m.solid8, &m.quad, &m.tria, &m.truss, &m.beam, &m.spring})
-    for (const std::uint32_t p : f->part)
-      if (p != no_index) used[p] |= f->kind == ElementKind::spring ? 1 : 3;
+       {&m.shell4, &m.shell3, &m.solid8, &m.quad, &m.tria, &m.truss, &m.beam, &m.spring}) {
+    std::uint32_t last = no_index;  // elements of a part mostly follow each other
+    for (const std::uint32_t p : f->part) {
+      if (p == last || p == no_index) continue;
+      used[p] |= f->kind == ElementKind::spring ? 1 : 3;
+      last = p;
+    }
+  }
   if (m.parts.empty() && !m.nodes.id.empty())
     report(c.diagnostics, {RuleId::DK111, c.deck.begin.span, "the deck has no part"});
   for (std::size_t i = 0; i < m.parts.size(); ++i) {

@@ -510,6 +510,31 @@ TEST(IdMap, FindsEveryIdHoweverTheyAreSpread) {
   }
 }
 
+TEST(IdMap, IdsThatCountUpNeedNoTable) {
+  for (const std::int64_t first : {std::int64_t{-3}, std::int64_t{1}, std::int64_t{1} << 40}) {
+    std::vector<std::int64_t> ids(3000);
+    std::iota(ids.begin(), ids.end(), first);
+    IdMap map;
+    map.build(ids);
+    for (std::uint32_t i = 0; i < ids.size(); ++i) ASSERT_EQ(map.find(ids[i]), i);
+    for (const std::int64_t other : {first - 1, first + 3000, first - 3000, std::int64_t{-4}})
+      EXPECT_EQ(map.find(other), no_index) << first;
+    EXPECT_TRUE(map.duplicates().empty());
+    for (const std::size_t at : {std::size_t{1}, std::size_t{1500}, std::size_t{2999}}) {
+      std::vector<std::int64_t> twice = ids;  // one comes again, where another stood
+      twice[at] = first;
+      map.build(twice);
+      EXPECT_EQ(map.find(first), 0u);
+      EXPECT_EQ(map.find(ids[at]), no_index) << at;
+      EXPECT_EQ(map.duplicates(), std::vector<std::uint32_t>{static_cast<std::uint32_t>(at)});
+    }
+  }
+  IdMap map;
+  map.build({std::numeric_limits<std::int64_t>::max()});
+  EXPECT_EQ(map.find(std::numeric_limits<std::int64_t>::max()), 0u);
+  EXPECT_EQ(map.find(std::numeric_limits<std::int64_t>::min()), no_index);
+}
+
 TEST(IdMap, HandlesTheEndsOfTheRange) {
   constexpr std::int64_t low = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t high = std::numeric_limits<std::int64_t>::max();

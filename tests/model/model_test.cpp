@@ -240,7 +240,60 @@ TEST(Connectivity, RowsListElementsOnce) {
   const auto row = rows.row(m.nodes.map.find(5));
   EXPECT_EQ(std::vector<std::uint32_t>(row.begin(), row.end()),
             (std::vector<std::uint32_t>{0, 1, 2}));
-  EXPECT_EQ(connect_parts(m.shell4, m.parts.size()).row(0).size(), 2u);
+}
+
+TEST(Connectivity, ElementsOfAPartAreRuns) {
+  Built b(parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) + cells({2, 2, 3, 6, 5}) +
+          "/SHELL/2\n" + cells({3, 4, 5, 8, 7}) + "/SHELL/9\n" + cells({5, 4, 5, 8, 7}) +
+          "/SHELL/1\n" + cells({4, 5, 6, 9, 8}));
+  const Model& m = b.model();
+  const PartElements parts = connect_parts(m.shell4, m.parts.size());
+  const auto runs = [&](std::size_t part) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+    for (const ElementRun& run : parts.row(part)) out.emplace_back(run.first, run.end);
+    return out;
+  };
+  using Runs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  EXPECT_EQ(runs(0), (Runs{{0, 2}, {4, 5}}));
+  EXPECT_EQ(runs(1), (Runs{{2, 3}}));
+  EXPECT_TRUE(runs(2).empty());
+}
+
+TEST(Model, FindingsAboutElementsAreTheSameForAnyNumberOfThreads) {
+  std::string text = parts() + "/PROP/SHELL/9\nno thickness\n\n\n" + cells({0, 0}).substr(0, 20) +
+                     "                   0\n/PART/9\np\n" + cells({9, 1}) + "/NODE\n";
+  constexpr std::int64_t count = 9000;  // above what is worth a thread
+  for (std::int64_t i = 0; i <= 2 * count; ++i)
+    text += node(i + 1, static_cast<double>(i), i % 2 == 0 ? 0 : 1, i == 2 * count ? 1e80 : 0);
+  for (const std::int64_t part : {1, 9}) {
+    text += "/SHELL/" + std::to_string(part) + "\n";
+    for (std::int64_t i = 1; i <= count; ++i)
+      text += cells({part * count + i, i, i + 1, i + 3, i % 1000 == 700 ? i + 3 : i + 2});
+  }
+  const auto deck = read_deck_text("test_0000.rad", deck_text(text), SchemaSet::built_in());
+  ASSERT_TRUE(deck);
+  std::vector<std::string> expected;
+  for (const int threads : {1, 2, 3, 7}) {
+    Diagnostics found;
+    ModelOptions options;
+    options.threads = threads;
+    const Model m = build_model(*deck, SchemaSet::built_in(), found, options);
+    std::vector<std::string> messages;
+    for (const Diagnostic& d : found.all())
+      messages.push_back(std::string(deck->sources.text(d.span)) + d.message);
+    if (threads == 1) expected = messages;
+    EXPECT_EQ(messages, expected) << threads;
+  }
+  const auto has = [&](const std::string& part) {
+    for (const std::string& m : expected)
+      if (m.find(part) != std::string::npos) return true;
+    return false;
+  };
+  EXPECT_TRUE(has("9000 shells of part 9 have no thickness")) << expected.size();
+  EXPECT_TRUE(has("first is element 81001"));
+  EXPECT_TRUE(has("9 shells of part 1 have the same third and fourth node"));
+  EXPECT_TRUE(has("first is element 9700"));
+  EXPECT_TRUE(has("node 18001: Z is 1e+80"));
 }
 
 /// Every id of the groups of a real deck resolves without a finding about groups.

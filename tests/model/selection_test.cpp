@@ -165,6 +165,76 @@ TEST(Surface, NegativePartReversesTheNormal) {
   EXPECT_EQ(b.surface(1), (std::vector<Ids>{{4, 5, 2, 1}, {6, 3, 2, 2}}));
 }
 
+/// An outline, asked first or last, has the segments of the surface, wherever a piece begins.
+void expect_outline(const std::string& blocks, std::int64_t id, bool by_elements) {
+  Built first(blocks), last(blocks);
+  const auto outline = first.selections().outline(id);
+  ASSERT_TRUE(outline);
+  EXPECT_EQ(outline->segments.held_by_elements(), by_elements);
+  const Surface* surface = last.selections().surface(id);
+  ASSERT_NE(surface, nullptr);
+  const auto same = [](const Segment& a, const Segment& b) {
+    return a.nodes == b.nodes && a.carrier == b.carrier && a.element == b.element;
+  };
+  const auto expect_same = [&](const SegmentList& list) {
+    ASSERT_EQ(list.size(), surface->segments.size());
+    std::vector<Segment> room;
+    for (std::size_t begin = 0; begin <= list.size(); ++begin)
+      for (std::size_t end = begin; end <= list.size(); ++end) {
+        const auto some = list.some(begin, end, room);
+        EXPECT_TRUE(std::equal(some.begin(), some.end(), surface->segments.begin() + begin,
+                               surface->segments.begin() + end, same))
+            << begin << " " << end;
+      }
+  };
+  expect_same(outline->segments);
+  expect_same(last.selections().outline(id)->segments);
+  const Surface* again = first.selections().surface(id);
+  ASSERT_NE(again, nullptr);
+  EXPECT_EQ(again->title, surface->title);
+  EXPECT_EQ(again->span.offset, surface->span.offset);
+  expect_same({first.model(), again->segments});
+  first.selections().resolve_all();
+  last.selections().resolve_all();
+  EXPECT_EQ(first.selections().diagnostics().counts(), last.selections().diagnostics().counts());
+}
+
+TEST(Surface, OutlineHasTheSegmentsOfTheSurface) {
+  const std::string shells = parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) +
+                             "/SHELL/2\n" + cells({2, 2, 3, 6, 5}) + "/SHELL/1\n" +
+                             cells({3, 4, 5, 8, 7}) + cells({4, 5, 6, 9, 8}) + "/SH3N/3\n" +
+                             cells({1, 1, 2, 5}) + cells({2, 2, 6, 5});
+  const auto of = [](const Ids& parts) { return "/SURF/PART/1\ntitle\n" + cells(parts); };
+  expect_outline(shells + of({2, 3}), 1, true);
+  expect_outline(shells + of({1, -3}), 1, true);
+  expect_outline(shells + of({-1, 9}), 1, true);
+  expect_outline(shells + of({9}), 1, true);
+  expect_outline(shells + of({1, 2}), 1, false);  // the order is that of the ids: 1 2 3 4
+  expect_outline(shells + "/SHELL/3\n" + cells({9, 1, 2, 5, 77}) + of({3}), 1, false);
+  expect_outline(shells + of({1}) + "/SURF/SURF/2\ns\n" + cells({1}), 2, false);
+  const std::string bricks = "/BRICK/4\n" + cells({1, 1, 2, 5, 4, 11, 12, 15, 14});
+  expect_outline(shells + bricks + of({1, 4}), 1, false);
+  expect_outline(shells + bricks + "/SURF/PART/EXT/1\ns\n" + cells({1}), 1, true);
+  Built none(shells + of({1}));
+  EXPECT_FALSE(none.selections().outline(2));
+}
+
+TEST(Surface, AnOutlineCountsAsHeld) {
+  const std::string blocks = parts() + grid_nodes() + "/SHELL/1\n" + cells({1, 1, 2, 5, 4}) +
+                             cells({2, 2, 3, 6, 5}) + "/SURF/PART/1\ns\n" + cells({1});
+  for (const std::size_t room : {1, 2}) {
+    Limits limits;
+    limits.selection_bytes = room * sizeof(Segment);
+    Built b(blocks);
+    b.selections().set_limits(limits);
+    const auto outline = b.selections().outline(1);
+    ASSERT_TRUE(outline);
+    EXPECT_EQ(outline->segments.size(), room == 2 ? 2u : 0u);
+    EXPECT_EQ(b.selections().surface(1)->segments.size(), outline->segments.size());
+    EXPECT_EQ(b.selections().complete(), room == 2);
+  }
+}
+
 TEST(Surface, PlainSegmentsKeepTheirOrderAndComeFirst) {
   Built b(parts() + quads() + "/SURF/SEG/1\ns\n" + cells({1, 5, 6, 9, 8}) + cells({2, 1, 2, 5}) +
           "/SURF/PART/2\np\n" + cells({1}) + "/SURF/SURF/3\nu\n" + cells({2, 1}));

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "deck/model/connectivity.hpp"
 
 namespace deck {
@@ -21,32 +22,46 @@ class Connectivity {
   std::span<const std::uint32_t> elements(ElementKind kind, NodeIndex node) {
     const Elements& family = model_.family(kind);
     if (family.size() == 0) return {};
+    prepare(kind);
+    return rows_[static_cast<std::size_t>(kind)].row(node);
+  }
+  /// From now on elements(kind, ...) may be asked by several threads.
+  void prepare(ElementKind kind) {
+    const Elements& family = model_.family(kind);
     NodeElements& rows = rows_[static_cast<std::size_t>(kind)];
-    if (rows.first.empty()) rows = connect_nodes(family, model_.nodes.size(), 0, true);
-    return rows.row(node);
+    if (family.size() > 0 && rows.first.empty())
+      rows = connect_nodes(family, model_.nodes.size(), 0, true);
   }
   /// The smallest of elements(kind, node), no_index: there is none. A fifth of the memory and time
   /// of the whole rows, where nothing else is wanted.
   std::uint32_t first(ElementKind kind, NodeIndex node) {
     const Elements& family = model_.family(kind);
     if (family.size() == 0) return no_index;
+    prepare_first(kind);
+    return first_[static_cast<std::size_t>(kind)][node];
+  }
+  /// From now on first(kind, ...) may be asked by several threads.
+  void prepare_first(ElementKind kind, int threads = 1) {
+    const Elements& family = model_.family(kind);
     std::vector<std::uint32_t>& first = first_[static_cast<std::size_t>(kind)];
-    if (first.empty()) first = first_elements(family);
-    return first[node];
+    if (family.size() > 0 && first.empty()) first = first_elements(family, threads);
   }
 
  private:
-  std::vector<std::uint32_t> first_elements(const Elements& family) const {
+  std::vector<std::uint32_t> first_elements(const Elements& family, int threads) const {
     std::vector<std::uint32_t> out(model_.nodes.size(), no_index);
-    for (auto e = static_cast<std::uint32_t>(family.size()); e-- > 0;) {
-      const auto take = [&](const NodeIndex* nodes, int count) {
-        for (int i = 0; i < count; ++i)
-          if (nodes[i] != no_index) out[nodes[i]] = e;
-      };
-      take(family.of(e), family.width);
-      if (!family.extra.empty() && family.extra[e] != no_index)
-        take(family.extra_nodes.data() + family.extra[e], extra_node_count(family.shape[e]));
-    }
+    // Every thread writes to nodes of its own.
+    parallel_parts(threads, out.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (auto e = static_cast<std::uint32_t>(family.size()); e-- > 0;) {
+        const auto take = [&](const NodeIndex* nodes, int count) {
+          for (int i = 0; i < count; ++i)
+            if (nodes[i] - begin < end - begin) out[nodes[i]] = e;  // no_index: too large
+        };
+        take(family.of(e), family.width);
+        if (!family.extra.empty() && family.extra[e] != no_index)
+          take(family.extra_nodes.data() + family.extra[e], extra_node_count(family.shape[e]));
+      }
+    });
     return out;
   }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "base/pages.hpp"
+#include "base/parallel.hpp"
 #include "contact/rules/gaps.hpp"
 #include "contact/scene/doubts.hpp"
 #include "contact/scene/scene_parts.hpp"
@@ -77,7 +79,10 @@ Contact make_contact(const Card& card, int type, ContactRole role) {
 class Builder {
  public:
   Builder(SceneContext& context, Selections& selections)
-      : c_(context), selections_(selections), doubts_(context.model, selections) {}
+      : c_(context),
+        selections_(selections),
+        threads_(effective_threads(context.options.threads)),
+        doubts_(context.model, selections) {}
 
   void build() {
     const Interfaces& all = *c_.scene.interfaces;
@@ -148,11 +153,11 @@ class Builder {
   void type7(const InterType7& i) {
     const Card card = card_for(i);
     Contact contact = make_contact(card, 7, ContactRole::primary);
-    const Surface* surface = selections_.surface(i.surf_IDm.value);
+    const auto surface = selections_.outline(i.surf_IDm.value);
     if (i.grnd_IDs.value != 0) {
       if (const NodeSet* group = selections_.node_group(i.grnd_IDs.value))
         set_secondary(contact, group->nodes);
-    } else if (surface != nullptr) {
+    } else if (surface) {
       set_secondary(contact, selections_.nodes_of(surface->segments));
     }
     finish_nodes(std::move(contact), card, surface);
@@ -163,7 +168,7 @@ class Builder {
     Contact contact = make_contact(card, 10, ContactRole::primary);
     if (const NodeSet* group = selections_.node_group(i.grnd_IDs.value))
       set_secondary(contact, group->nodes);
-    finish_nodes(std::move(contact), card, selections_.surface(i.surf_IDm.value));
+    finish_nodes(std::move(contact), card, selections_.outline(i.surf_IDm.value));
   }
 
   void type11(const InterType11& i) {
@@ -184,7 +189,7 @@ class Builder {
     const std::int64_t from = role == ContactRole::primary ? s : m;
     const std::int64_t to = role == ContactRole::primary ? m : s;
     set_secondary(contact, nodes_of_surface(from));
-    finish_nodes(std::move(contact), card, selections_.surface(to));
+    finish_nodes(std::move(contact), card, selections_.outline(to));
   }
 
   void type19_edges(const InterType19& i) {
@@ -212,8 +217,8 @@ class Builder {
   std::vector<NodeIndex> nodes_of_surface(std::int64_t id) {
     if (!selections_.is_plain("surf", id))
       if (const SetGeneral* set = selections_.set(id)) return set->nodes;
-    const Surface* surface = selections_.surface(id);
-    return surface == nullptr ? std::vector<NodeIndex>{} : selections_.nodes_of(surface->segments);
+    const auto surface = selections_.outline(id);
+    return surface ? selections_.nodes_of(surface->segments) : std::vector<NodeIndex>{};
   }
 
   std::vector<Edge> edges_of_surface(std::int64_t id, bool free_only) {
@@ -224,8 +229,8 @@ class Builder {
                               : selections_.edges_of(surface->segments, free_only);
   }
 
-  static void set_secondary(Contact& contact, const std::vector<NodeIndex>& nodes) {
-    contact.secondary.reserve(nodes.size());
+  void set_secondary(Contact& contact, const std::vector<NodeIndex>& nodes) const {
+    make_room(contact.secondary, nodes.size(), threads_);
     for (const NodeIndex n : nodes) {
       if (n == no_index) continue;
       SecondaryNode s;
@@ -244,8 +249,9 @@ class Builder {
     }
   }
 
-  void finish_nodes(Contact contact, const Card& card, const Surface* surface) {
-    if (surface != nullptr) detail::make_main_segments(c_, surface->segments, contact);
+  void finish_nodes(Contact contact, const Card& card,
+                    const std::optional<SurfaceOutline>& surface) {
+    if (surface) detail::make_main_segments(c_, surface->segments, contact);
     detail::set_main_stiffness(c_, contact);
     detail::set_gaps(c_, contact, card.gapmin);
     contact.drad =
@@ -284,6 +290,27 @@ class Builder {
     c_.diagnostics.report(std::move(d));
   }
 
+  /// The last node of the items that has no place; no_index: all have one.
+  template <class Items, class EachNodeOf>
+  NodeIndex last_lost(const Coordinates& x, const Items& items,
+                      const EachNodeOf& each_node_of) const {
+    std::vector<NodeIndex> parts(static_cast<std::size_t>(threads_), no_index);
+    parallel_parts(
+        threads_, items.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+          NodeIndex lost = no_index;
+          for (std::size_t i = begin; i < end; ++i)
+            each_node_of(items[i], [&](NodeIndex n) {
+              if (!std::isfinite(x.x[n]) || !std::isfinite(x.y[n]) || !std::isfinite(x.z[n]))
+                lost = n;
+            });
+          parts[part] = lost;
+        });
+    NodeIndex last = no_index;
+    for (const NodeIndex n : parts)
+      if (n != no_index) last = n;
+    return last;
+  }
+
   /// False, with a finding, where members or their places are not known, or the gap is no number.
   bool computable(Contact& contact) {
     if (const std::string why = doubts_.about(contact); !why.empty()) {
@@ -293,15 +320,18 @@ class Builder {
     }
     const Coordinates& x = c_.scene.coordinates;
     NodeIndex lost = no_index;
-    const auto look = [&](NodeIndex n) {
-      if (!std::isfinite(x.x[n]) || !std::isfinite(x.y[n]) || !std::isfinite(x.z[n])) lost = n;
+    const auto look = [&](const auto& items, const auto& each_node_of) {
+      const NodeIndex last = last_lost(x, items, each_node_of);
+      if (last != no_index) lost = last;
     };
-    for (const SecondaryNode& s : contact.secondary) look(s.node);
-    for (const MainSegment& m : contact.main)
-      for (const NodeIndex n : m.nodes) look(n);
+    look(contact.secondary, [](const SecondaryNode& s, const auto& f) { f(s.node); });
+    look(contact.main, [](const MainSegment& m, const auto& f) {
+      for (const NodeIndex n : m.nodes) f(n);
+    });
     for (const auto* edges : {&contact.secondary_edges, &contact.main_edges})
-      for (const ContactEdge& e : *edges)
-        for (const NodeIndex n : e.nodes) look(n);
+      look(*edges, [](const ContactEdge& e, const auto& f) {
+        for (const NodeIndex n : e.nodes) f(n);
+      });
     const bool endless = !std::isfinite(contact.max_gap) || !std::isfinite(contact.gapmin);
     contact.evaluated = lost == no_index && !endless && selections_.complete();
     if (contact.evaluated || (lost == no_index && !endless)) return contact.evaluated;
@@ -337,9 +367,19 @@ class Builder {
 
   SceneContext& c_;
   Selections& selections_;
+  int threads_;
   detail::Doubts doubts_;
   std::set<const InterBase*> told_;  ///< interfaces whose doubt was reported
 };
+
+void copy_coordinates(const Nodes& nodes, Coordinates& out, int threads) {
+  const std::vector<double>* const from[] = {&nodes.x, &nodes.y, &nodes.z};
+  std::vector<double>* const to[] = {&out.x, &out.y, &out.z};
+  for (std::size_t k = 0; k < 3; ++k) {
+    make_room(*to[k], nodes.size(), threads);
+    to[k]->assign(from[k]->begin(), from[k]->end());
+  }
+}
 
 }  // namespace
 
@@ -397,7 +437,7 @@ Scene detail::build_scene(const Model& model, const Interfaces& interfaces,
   scene.model = &model;
   scene.interfaces = &interfaces;
   scene.limits = options.limits;
-  scene.coordinates = {model.nodes.x, model.nodes.y, model.nodes.z};
+  copy_coordinates(model.nodes, scene.coordinates, effective_threads(options.threads));
   if (model.selections == nullptr) return scene;
   Connectivity connectivity(model);
   SceneContext context{model, connectivity, scene, diagnostics, options, searches};

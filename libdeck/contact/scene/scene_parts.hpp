@@ -57,12 +57,25 @@ Scene build_scene(const Model& model, const Interfaces& interfaces, Diagnostics&
 // segments.cpp — clean-up, orientation, carriers (reference solver: surface clean-up)
 /// Turns surface segments into main segments: repairs repeated nodes, finds carriers of plain
 /// segments, orients faces of single solids outward, notes degenerate ones.
-void make_main_segments(SceneContext& context, const std::vector<Segment>& segments,
-                        Contact& contact);
+void make_main_segments(SceneContext& context, const SegmentList& segments, Contact& contact);
 
 // thickness.cpp — sections and materials of elements
 /// Contact thickness of a shell (kind shell4 or shell3).
 double gap_thickness(const Model& model, ElementKind kind, std::uint32_t e);
+/// The same for many shells of a kind.
+class ShellThickness {
+ public:
+  ShellThickness(const Model& model, ElementKind kind);
+  double operator()(std::uint32_t e) const;
+
+ private:
+  struct OfPart {
+    double contact = 0, property = 0;
+  };
+  const Elements* family_;
+  bool own_;
+  std::vector<OfPart> of_part_;
+};
 /// Thickness that enters main stiffness of TYPE7/10: the part thickness does not count.
 double stiffness_thickness(const Model& model, ElementKind kind, std::uint32_t e);
 double young_of(const Model& model, ElementKind kind, std::uint32_t e);

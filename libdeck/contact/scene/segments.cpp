@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pages.hpp"
+#include "base/parallel.hpp"
 #include "contact/scene/scene_parts.hpp"
 #include "model/faces.hpp"
 
@@ -143,46 +145,95 @@ bool degenerate(const Coordinates& c, const Quad& n) {
   return dot(sum, a1) == 0 && dot(sum, a3) == 0;
 }
 
+/// Some main segments in a row, and what there is to say about them: positions in `main`.
+struct Piece {
+  std::vector<Segment> room;
+  std::vector<MainSegment> main;
+  std::vector<std::uint32_t> degenerate, no_carrier, crowded, inside_solids;
+  int repaired = 0, reoriented = 0;
+
+  void clear() {
+    for (auto* list : {&degenerate, &no_carrier, &crowded, &inside_solids}) list->clear();
+    main.clear();
+    repaired = reoriented = 0;
+  }
+};
+
+void add_segment(SceneContext& c, int type, const Segment& segment, Piece& out) {
+  MainSegment m;
+  m.nodes = segment.nodes;
+  m.carrier = segment.carrier;
+  m.element = segment.element;
+  if (std::find(m.nodes.begin(), m.nodes.end(), no_index) != m.nodes.end()) return;
+  const auto here = static_cast<std::uint32_t>(out.main.size());
+  out.repaired += repair(m.nodes);
+  bool outward = false, inside = false;
+  std::uint32_t solid = m.element;
+  if (segment.carrier == Carrier::none) {
+    const Solids found = solids_of(c, m.nodes);
+    solid = found.best;
+    outward = found.count == 1;
+    if (found.count > 2) out.crowded.push_back(here);
+    if (found.best != no_index) {
+      m.carrier = Carrier::solid;
+      m.element = found.best;
+    }
+    if (const Shell shell = shell_of(c, m.nodes); shell.element != no_index) {
+      m.carrier = shell.kind == ElementKind::shell4 ? Carrier::shell4 : Carrier::shell3;
+      m.element = shell.element;
+    }
+    if (m.carrier == Carrier::none) out.no_carrier.push_back(here);
+  } else if (segment.carrier == Carrier::solid) {
+    outward = solids_of(c, m.nodes).count == 1;
+    inside = !outward && inside_a_solid(c, m.nodes);
+  }
+  if (inside) out.inside_solids.push_back(here);
+  if (outward && solid != no_index) out.reoriented += orient_outward(c, solid, m.nodes);
+  if (type == 7 && degenerate(c.scene.coordinates, m.nodes)) out.degenerate.push_back(here);
+  out.main.push_back(m);
+}
+
+/// What add_segment() looks for around nodes is formed now: threads only read.
+void prepare(SceneContext& c, const SegmentList& segments) {
+  const auto any = [&](Carrier carrier) {
+    return segments.find([&](const Segment& s) { return s.carrier == carrier; }).has_value();
+  };
+  if (segments.held_by_elements()) return;
+  const bool plain = any(Carrier::none);
+  if (plain || any(Carrier::solid)) c.connectivity.prepare(ElementKind::solid8);
+  if (!plain) return;
+  c.connectivity.prepare(ElementKind::shell4);
+  c.connectivity.prepare(ElementKind::shell3);
+}
+
 }  // namespace
 
-void make_main_segments(SceneContext& c, const std::vector<Segment>& segments, Contact& contact) {
-  contact.main.reserve(segments.size());
-  for (const Segment& segment : segments) {
-    MainSegment m;
-    m.nodes = segment.nodes;
-    m.carrier = segment.carrier;
-    m.element = segment.element;
-    if (std::find(m.nodes.begin(), m.nodes.end(), no_index) != m.nodes.end()) continue;
-    contact.repaired_segments += repair(m.nodes);
-    bool outward = false, inside = false;
-    std::uint32_t solid = m.element;
-    if (segment.carrier == Carrier::none) {
-      const Solids found = solids_of(c, m.nodes);
-      solid = found.best;
-      outward = found.count == 1;
-      if (found.count > 2)
-        contact.crowded.push_back(static_cast<std::uint32_t>(contact.main.size()));
-      if (found.best != no_index) {
-        m.carrier = Carrier::solid;
-        m.element = found.best;
-      }
-      if (const Shell shell = shell_of(c, m.nodes); shell.element != no_index) {
-        m.carrier = shell.kind == ElementKind::shell4 ? Carrier::shell4 : Carrier::shell3;
-        m.element = shell.element;
-      }
-      if (m.carrier == Carrier::none)
-        contact.no_carrier.push_back(static_cast<std::uint32_t>(contact.main.size()));
-    } else if (segment.carrier == Carrier::solid) {
-      outward = solids_of(c, m.nodes).count == 1;
-      inside = !outward && inside_a_solid(c, m.nodes);
-    }
-    if (inside) contact.inside_solids.push_back(static_cast<std::uint32_t>(contact.main.size()));
-    if (outward && solid != no_index)
-      contact.reoriented_segments += orient_outward(c, solid, m.nodes);
-    if (contact.type == 7 && degenerate(c.scene.coordinates, m.nodes))
-      contact.degenerate.push_back(static_cast<std::uint32_t>(contact.main.size()));
-    contact.main.push_back(m);
-  }
+void make_main_segments(SceneContext& c, const SegmentList& segments, Contact& contact) {
+  const int threads = effective_threads(c.options.threads);
+  constexpr std::size_t at_once = 1024;
+  prepare(c, segments);
+  make_room(contact.main, segments.size(), threads);
+  run_in_order<Piece>((segments.size() + at_once - 1) / at_once, threads,
+                      [&](std::size_t k, Piece& out) {
+                        out.clear();
+                        const std::size_t end = std::min(segments.size(), (k + 1) * at_once);
+                        for (const Segment& segment : segments.some(k * at_once, end, out.room))
+                          add_segment(c, contact.type, segment, out);
+                      },
+                      [&](std::size_t, Piece& in) {
+                        const auto before = static_cast<std::uint32_t>(contact.main.size());
+                        const auto append = [&](std::vector<std::uint32_t>& all,
+                                                const std::vector<std::uint32_t>& some) {
+                          for (const std::uint32_t i : some) all.push_back(before + i);
+                        };
+                        append(contact.degenerate, in.degenerate);
+                        append(contact.no_carrier, in.no_carrier);
+                        append(contact.crowded, in.crowded);
+                        append(contact.inside_solids, in.inside_solids);
+                        contact.repaired_segments += in.repaired;
+                        contact.reoriented_segments += in.reoriented;
+                        contact.main.insert(contact.main.end(), in.main.begin(), in.main.end());
+                      });
   contact.degenerate_segments = static_cast<int>(contact.degenerate.size());
 }
 

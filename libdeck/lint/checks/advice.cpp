@@ -29,8 +29,8 @@ void each_secondary_node(Selections& selections, const ContactCard& card, F&& f)
       for (const Edge& e : set->edges) nodes(e.nodes);
   if (card.type == 19)
     for (const std::string_view field : {"surf_IDs", "surf_IDm"})
-      if (const Surface* set = selections.surface(id(field)))
-        for (const Segment& s : set->segments) nodes(s.nodes);
+      if (const auto set = selections.outline(id(field)))
+        set->segments.each([&](const Segment& s) { nodes(s.nodes); });
 }
 
 void check_inacti3(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -164,14 +164,19 @@ void check_void(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr || c.selections == nullptr) return;
   for (const ContactCard& card : c.contacts) {
     if (card.type == 0 || card.type == 11 || card.flag("Istf") == 1) continue;
-    const Surface* s = c.selections->surface(static_cast<std::int64_t>(card.value("surf_IDm")));
-    if (s == nullptr) continue;
+    const auto s = c.selections->outline(static_cast<std::int64_t>(card.value("surf_IDm")));
+    if (!s) continue;
     std::set<std::uint32_t> parts;
-    for (const Segment& g : s->segments) {
-      if (g.element == no_index) continue;
-      if (g.carrier == Carrier::shell4) parts.insert(c.model->shell4.part[g.element]);
-      if (g.carrier == Carrier::shell3) parts.insert(c.model->shell3.part[g.element]);
-    }
+    std::uint32_t last = no_index;  // segments of a part mostly follow each other
+    s->segments.each([&](const Segment& g) {
+      if (g.element == no_index) return;
+      const Elements* shells = g.carrier == Carrier::shell4   ? &c.model->shell4
+                               : g.carrier == Carrier::shell3 ? &c.model->shell3
+                                                              : nullptr;
+      if (shells == nullptr || shells->part[g.element] == last) return;
+      last = shells->part[g.element];
+      parts.insert(last);
+    });
     for (const std::uint32_t p : parts) {
       if (p == no_index) continue;
       const Part& part = c.model->parts[p];

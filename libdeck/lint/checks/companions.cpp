@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,10 +16,10 @@ namespace {
 
 using SurfaceSide = std::pair<NodeIndex, NodeIndex>;  // smaller node first
 
-/// Calls f for the sides of a surface's segments.
+/// Calls f for the sides of some segments.
 template <class F>
-void each_side_of(const Surface& surface, F&& f) {
-  for (const Segment& s : surface.segments)
+void each_side_of(std::span<const Segment> segments, F&& f) {
+  for (const Segment& s : segments)
     for (std::size_t k = 0; k < 4; ++k) {
       const SurfaceSide side = std::minmax(s.nodes[k], s.nodes[(k + 1) % 4]);
       if (side.first != side.second && side.second != no_index) f(side);
@@ -38,28 +39,80 @@ std::size_t count_single(Iterator from, Iterator to) {
   return count;
 }
 
+/// The nodes of some segments lie between these two.
+struct NodeRange {
+  NodeIndex low = no_index, high = 0;
+  void add(NodeIndex n) {
+    low = std::min(low, n);
+    high = std::max(high, n);
+  }
+};
+
+/// A surface piece by piece, with the nodes of each piece: those that lie elsewhere are not read.
+class SurfacePieces {
+ public:
+  explicit SurfacePieces(const SegmentList& segments) : segments_(segments) {
+    segments.each_piece([&](std::size_t, std::span<const Segment> piece) {
+      NodeRange& here = ranges_.emplace_back();
+      for (const Segment& s : piece)
+        for (const NodeIndex n : s.nodes)
+          if (n != no_index) here.add(n);
+      if (here.low > here.high) return;
+      all_.add(here.low);
+      all_.add(here.high);
+    });
+  }
+  const NodeRange& all() const { return all_; }
+
+  /// How many pieces are read in all where their nodes are looked at `width` at a time.
+  std::size_t readings(std::uint64_t width) const {
+    std::size_t count = 0;
+    for (const NodeRange& r : ranges_)
+      if (r.low <= r.high) count += (r.high - all_.low) / width - (r.low - all_.low) / width + 1;
+    return count;
+  }
+  std::size_t count() const { return ranges_.size(); }
+
+  /// Calls f(side) for the sides of the pieces that have nodes in low ... high.
+  template <class F>
+  void each_side_near(const NodeRange& nodes, F&& f) {
+    constexpr std::size_t size = SegmentList::piece_size;
+    for (std::size_t i = 0; i < ranges_.size(); ++i)
+      if (ranges_[i].low <= nodes.high && nodes.low <= ranges_[i].high)
+        each_side_of(segments_.some(i * size, std::min(segments_.size(), (i + 1) * size), room_),
+                     f);
+  }
+
+ private:
+  const SegmentList& segments_;
+  std::vector<NodeRange> ranges_;
+  NodeRange all_;
+  std::vector<Segment> room_;
+};
+
 /// Sides that belong to one segment only: the border of the surface. Linear in the segments: sides
 /// go into buckets by their smaller node, so many buckets at a time that little memory is needed.
-std::size_t count_free_edges(const Surface& surface) {
-  constexpr std::size_t buckets_at_once = 1 << 21;
-  NodeIndex low = no_index, high = 0;
-  for (const Segment& s : surface.segments)
-    for (const NodeIndex n : s.nodes) {
-      if (n == no_index) continue;
-      low = std::min(low, n);
-      high = std::max(high, n);
-    }
+std::size_t count_free_edges(const SegmentList& surface) {
+  SurfacePieces pieces(surface);
+  const auto [low, high] = pieces.all();
   if (low > high) return 0;
   int shift = 0;  // not many more buckets than segments
-  while ((high - low) >> shift > 4 * surface.segments.size()) ++shift;
+  while ((high - low) >> shift > 4 * surface.size()) ++shift;
   const std::size_t buckets = ((high - low) >> shift) + std::size_t{1};
+  // Few where that hardly needs more readings: they stay in the caches.
+  constexpr std::size_t few = 1 << 18, many = 1 << 21;
+  const std::size_t at_once =
+      pieces.readings(std::uint64_t{few} << shift) <= 2 * pieces.count() ? few : many;
   std::size_t count = 0;
   std::vector<std::uint32_t> end;  // of each bucket, at last
   std::vector<SurfaceSide> sides;  // bucket by bucket
-  for (std::size_t begin = 0; begin < buckets; begin += buckets_at_once) {
-    const std::size_t size = std::min(buckets_at_once, buckets - begin);
+  for (std::size_t begin = 0; begin < buckets; begin += at_once) {
+    const std::size_t size = std::min(at_once, buckets - begin);
+    const NodeRange here{static_cast<NodeIndex>(low + (begin << shift)),
+                         static_cast<NodeIndex>(std::min<std::uint64_t>(
+                             high, low + ((std::uint64_t{begin} + size) << shift) - 1))};
     const auto each_here = [&](auto&& f) {
-      each_side_of(surface, [&](const SurfaceSide& s) {
+      pieces.each_side_near(here, [&](const SurfaceSide& s) {
         const std::size_t bucket = ((s.first - low) >> shift) - begin;
         if (bucket < size) f(bucket, s);
       });
@@ -85,8 +138,8 @@ void check_edge_companion(const LintContext& c, const Rule& rule, Reporter& r) {
   const ContactCard* first = nullptr;
   std::size_t interfaces = 0, free = 0;
   each(c, rule, [&](const ContactCard& card) {
-    const Surface* s = c.selections->surface(static_cast<std::int64_t>(card.value("surf_IDm")));
-    const std::size_t n = s == nullptr ? 0 : count_free_edges(*s);
+    const auto s = c.selections->outline(static_cast<std::int64_t>(card.value("surf_IDm")));
+    const std::size_t n = s ? count_free_edges(s->segments) : 0;
     if (n == 0) return;
     if (first == nullptr) {
       first = &card;
@@ -136,38 +189,38 @@ std::vector<bool> rigid_nodes(const LintContext& c) {
 }
 
 /// Shortest side of a surface; 0: it has none.
-double shortest_side(const Model& model, const Surface& surface) {
+double shortest_side(const Model& model, const SegmentList& surface) {
   const auto& x = model.nodes;
   double least = 0;
-  for (const Segment& s : surface.segments)
+  surface.each([&](const Segment& s) {
     for (std::size_t k = 0; k < 4; ++k) {
       const NodeIndex a = s.nodes[k], b = s.nodes[(k + 1) % 4];
       if (a == b || a == no_index || b == no_index) continue;
       const double length = length3(x.x[a] - x.x[b], x.y[a] - x.y[b], x.z[a] - x.z[b]);
       if (length > 0 && (least == 0 || length < least)) least = length;
     }
+  });
   return least;
 }
 
 /// A node of either side that follows a rigid body; no_index: none.
 NodeIndex rigid_side(const LintContext& c, const ContactCard& card, const std::vector<bool>& rigid,
-                     const Surface& main) {
+                     const SegmentList& main) {
   const auto first = [&](const auto& nodes) {
     for (const NodeIndex n : nodes)
       if (n != no_index && rigid[n]) return n;
     return no_index;
   };
-  const auto of_surface = [&](const Surface& surface) {
-    for (const Segment& s : surface.segments)
-      if (const NodeIndex n = first(s.nodes); n != no_index) return n;
-    return no_index;
+  const auto of_surface = [&](const SegmentList& surface) {
+    const auto found = surface.find([&](const Segment& s) { return first(s.nodes) != no_index; });
+    return found ? first(found->nodes) : no_index;
   };
   const auto id = [&](std::string_view field) {
     return static_cast<std::int64_t>(card.value(field));
   };
   NodeIndex found = no_index;
   if (card.type == 19) {
-    if (const Surface* s = c.selections->surface(id("surf_IDs"))) found = of_surface(*s);
+    if (const auto s = c.selections->outline(id("surf_IDs"))) found = of_surface(s->segments);
   } else if (const NodeSet* set = c.selections->node_group(id("grnd_IDs"))) {
     found = first(set->nodes);
   }
@@ -189,12 +242,13 @@ std::vector<Ties> ties_of(const LintContext& c) {
       return c.resolved(*card.block, kind, static_cast<std::int64_t>(card.value(field)));
     };
     const NodeSet* nodes = c.selections->node_group(id("grnd_IDs", "grnod"));
-    const Surface* main = c.selections->surface(id("surf_IDm", "surf"));
-    if (nodes == nullptr || main == nullptr) continue;
+    const auto main = c.selections->outline(id("surf_IDm", "surf"));
+    if (nodes == nullptr || !main) continue;
     out.push_back({&card, nodes, std::vector<bool>(c.model->nodes.size(), false)});
-    for (const Segment& s : main->segments)
+    main->segments.each([&](const Segment& s) {
       for (const NodeIndex n : s.nodes)
         if (n != no_index) out.back().on_main[n] = true;
+    });
   }
   return out;
 }
@@ -204,8 +258,8 @@ NodeIndex pushed_tied_node(const LintContext& c, const ContactCard& card, const 
   const auto id = [&](std::string_view field) {
     return static_cast<std::int64_t>(card.value(field));
   };
-  const Surface* main = c.selections->surface(id("surf_IDm"));
-  if (main == nullptr) return no_index;
+  const auto main = c.selections->outline(id("surf_IDm"));
+  if (!main) return no_index;
   std::vector<bool> secondary(c.model->nodes.size(), false);
   const auto mark = [&](const auto& nodes) {
     for (const NodeIndex n : nodes)
@@ -215,14 +269,14 @@ NodeIndex pushed_tied_node(const LintContext& c, const ContactCard& card, const 
     const NodeSet* group = c.selections->node_group(id("grnd_IDs"));
     if (group == nullptr) return no_index;
     mark(group->nodes);
-  } else if (const Surface* other = c.selections->surface(id("surf_IDs"))) {
-    for (const Segment& s : other->segments) mark(s.nodes);
+  } else if (const auto other = c.selections->outline(id("surf_IDs"))) {
+    other->segments.each([&](const Segment& s) { mark(s.nodes); });
   }
   const auto met = [&](const Segment& s) {
     return std::any_of(s.nodes.begin(), s.nodes.end(),
                        [&](NodeIndex n) { return n != no_index && tie.on_main[n]; });
   };
-  if (std::none_of(main->segments.begin(), main->segments.end(), met)) return no_index;
+  if (!main->segments.find(met)) return no_index;
   for (const NodeIndex n : tie.nodes->nodes)
     if (n != no_index && secondary[n]) return n;
   return no_index;
@@ -268,12 +322,12 @@ void check_rigid_gap(const LintContext& c, const Rule& rule, Reporter& r) {
     const double gap = card.input("Gapmin");
     // With a variable gap Gapmin is only its floor.
     if (!(gap > 0) || card.flag("Igap") != 0) return;
-    const Surface* main = c.selections->surface(static_cast<std::int64_t>(card.value("surf_IDm")));
-    if (main == nullptr) return;
-    const double side = shortest_side(*c.model, *main);
+    const auto main = c.selections->outline(static_cast<std::int64_t>(card.value("surf_IDm")));
+    if (!main) return;
+    const double side = shortest_side(*c.model, main->segments);
     if (!(gap < small * side)) return;
     if (rigid.empty()) rigid = rigid_nodes(c);
-    const NodeIndex n = rigid_side(c, card, rigid, *main);
+    const NodeIndex n = rigid_side(c, card, rigid, main->segments);
     if (n == no_index) return;
     report_at(
         r, rule, card, "Gapmin",

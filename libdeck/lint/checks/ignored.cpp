@@ -151,12 +151,13 @@ void check_type10_penetration(const LintContext& c, const Rule& rule, Reporter& 
 bool share_nodes(const LintContext& c, const ContactCard& card) {
   const NodeSet* group =
       c.selections->node_group(static_cast<std::int64_t>(card.value("grnd_IDs")));
-  const Surface* main = c.selections->surface(static_cast<std::int64_t>(card.value("surf_IDm")));
-  if (c.model == nullptr || group == nullptr || main == nullptr) return true;
+  const auto main = c.selections->outline(static_cast<std::int64_t>(card.value("surf_IDm")));
+  if (c.model == nullptr || group == nullptr || !main) return true;
   std::vector<bool> on_main(c.model->nodes.size(), false);
-  for (const Segment& s : main->segments)
+  main->segments.each([&](const Segment& s) {
     for (const NodeIndex n : s.nodes)
       if (n != no_index) on_main[n] = true;
+  });
   return std::any_of(group->nodes.begin(), group->nodes.end(),
                      [&](NodeIndex n) { return n != no_index && on_main[n]; });
 }

@@ -190,9 +190,8 @@ bool searched(const LintContext& c, const std::vector<bool>& thin) {
           return true;
       }
       if (f.field->ref != "surf" || card.inter == nullptr) continue;
-      const Surface* s = c.selections->surface(id);
-      if (s != nullptr &&
-          std::any_of(s->segments.begin(), s->segments.end(), [&](const Segment& g) {
+      const auto s = c.selections->outline(id);
+      if (s && s->segments.find([&](const Segment& g) {
             return (card.type == 19 || g.carrier == Carrier::none) && all_thin(g.nodes);
           }))
         return true;

@@ -121,8 +121,8 @@ void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_analytical(const LintContext& c, const Rule& rule, Reporter& r) {
   each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
     if (side.kind != "surf") return;
-    const Surface* s = c.selections->surface(id);
-    if (s == nullptr || !s->analytical) return;
+    const auto s = c.selections->outline(id);
+    if (!s || !s->analytical) return;
     note_definition(c,
                     report_at(r, rule, card, side.field,
                               fmt::format("{} of {}: surface {} is analytical and has no segments",

@@ -1,11 +1,10 @@
 // Cuts bulk blocks into chunks, reads them in parallel and joins the arrays.
 #include "model/bulk/bulk.hpp"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <string>
 
+#include "base/pages.hpp"
 #include "base/parallel.hpp"
 #include "deck/text/rule.hpp"
 #include "model/bulk/bulk_read.hpp"
@@ -95,19 +94,9 @@ class ProblemReporter {
   Diagnostics& diagnostics_;
 };
 
-/// Asks for large pages behind an array that is about to be filled: a page fault for every 4 KiB
-/// costs a tenth of the whole reading time. A hint; nothing depends on it.
-template <class T>
-void prefer_large_pages(const std::vector<T>& vector) {
-  constexpr std::uintptr_t large = 2 << 20;
-  const auto address = reinterpret_cast<std::uintptr_t>(vector.data());
-  const std::uintptr_t begin = (address + large - 1) / large * large;
-  const std::uintptr_t end = (address + vector.capacity() * sizeof(T)) / large * large;
-  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-}
-
 /// Room for everything, judged by the chunks read so far. Reserved memory that is not used costs
-/// nothing but address space; growing by doubling would cost a copy of everything.
+/// nothing but address space; growing by doubling would cost a copy of everything, and a page fault
+/// for every 4 KiB a tenth of the whole reading time.
 struct Room {
   std::uint64_t total = 0, done = 0;
   template <class... Vectors>

@@ -3,6 +3,7 @@
 #include "deck/model/selection.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "model/selection/selection_impl.hpp"
 
@@ -17,6 +18,14 @@ namespace detail {
 void normalise(Indices& v) {
   if (!std::is_sorted(v.begin(), v.end())) std::sort(v.begin(), v.end());
   v.erase(std::unique(v.begin(), v.end()), v.end());
+}
+
+void append(Indices& v, std::span<const ElementRun> runs) {
+  for (const ElementRun& run : runs) {
+    const std::size_t have = v.size();
+    v.resize(have + run.size());
+    std::iota(v.begin() + static_cast<std::ptrdiff_t>(have), v.end(), run.first);
+  }
 }
 
 const std::vector<FamilyName>& family_names() {
@@ -235,6 +244,7 @@ Selections::~Selections() = default;
 
 const NodeSet* Selections::node_group(std::int64_t id) { return impl_->node_group(id); }
 const Surface* Selections::surface(std::int64_t id) { return impl_->surface(id); }
+std::optional<SurfaceOutline> Selections::outline(std::int64_t id) { return impl_->outline(id); }
 const LineSet* Selections::line(std::int64_t id) { return impl_->line(id); }
 const SetGeneral* Selections::set(std::int64_t id) { return impl_->set(id); }
 
@@ -268,11 +278,12 @@ std::vector<Edge> Selections::edges_of(const std::vector<Segment>& segments, boo
   return impl_->edges_of(segments, free_only);
 }
 
-std::vector<NodeIndex> Selections::nodes_of(const std::vector<Segment>& segments) const {
+std::vector<NodeIndex> Selections::nodes_of(const SegmentList& segments) const {
   impl_->start_marks();
   std::vector<NodeIndex> nodes;
-  for (const Segment& s : segments)
+  segments.each([&](const Segment& s) {
     for (const NodeIndex n : s.nodes) impl_->mark(n, nodes);
+  });
   impl_->sort_nodes(nodes);
   return nodes;
 }
@@ -282,7 +293,7 @@ void Selections::resolve_all() {
     for (const std::int64_t id : ids(name.group)) impl_->element_group(name, id);
   for (const std::int64_t id : ids("grpart")) impl_->part_group(id);
   for (const std::int64_t id : ids("grnod")) impl_->node_group(id);
-  for (const std::int64_t id : ids("surf")) impl_->surface(id);
+  for (const std::int64_t id : ids("surf")) impl_->outline(id);
   for (const std::int64_t id : ids("line")) impl_->line(id);
   for (const std::int64_t id : ids("set")) impl_->set(id);
   for (const std::int64_t id : ids("box")) {

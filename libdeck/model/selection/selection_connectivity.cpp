@@ -6,17 +6,17 @@
 namespace deck {
 namespace {
 
-/// Calls f(row, element) for all elements in order; twice, to count and to fill.
-template <class Visit>
-IndexRows fill_rows(std::size_t rows, Visit visit) {
-  IndexRows out;
-  out.first.assign(rows + 1, 0);
-  visit([&](std::uint32_t row, std::uint32_t) { ++out.first[row + 1]; });
-  for (std::size_t i = 0; i < rows; ++i) out.first[i + 1] += out.first[i];
-  out.entries.resize(out.first[rows]);
-  std::vector<std::uint32_t> next(out.first.begin(), out.first.end() - (rows > 0 ? 1 : 0));
-  visit([&](std::uint32_t row, std::uint32_t element) { out.entries[next[row]++] = element; });
-  return out;
+/// Lists of the rows, row after row, and where each begins. Calls visit(f) twice, to count and to
+/// fill; visit calls f(row, entry) for all entries in order.
+template <class Entry, class Visit>
+void fill_rows(std::size_t rows, std::vector<std::uint32_t>& first, std::vector<Entry>& entries,
+               Visit visit) {
+  first.assign(rows + 1, 0);
+  visit([&](std::uint32_t row, const Entry&) { ++first[row + 1]; });
+  for (std::size_t i = 0; i < rows; ++i) first[i + 1] += first[i];
+  entries.resize(first[rows]);
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  visit([&](std::uint32_t row, const Entry& entry) { entries[next[row]++] = entry; });
 }
 
 }  // namespace
@@ -37,7 +37,8 @@ int extra_node_count(SolidShape shape) {
 NodeElements connect_nodes(const Elements& family, std::size_t node_count, int slots,
                            bool mid_nodes) {
   const int width = slots > 0 ? std::min(slots, family.width) : family.width;
-  return fill_rows(node_count, [&](auto&& emit) {
+  NodeElements out;
+  fill_rows(node_count, out.first, out.entries, [&](auto&& emit) {
     for (std::uint32_t e = 0; e < family.size(); ++e) {
       const NodeIndex* n = family.of(e);
       for (int i = 0; i < width; ++i)
@@ -51,13 +52,21 @@ NodeElements connect_nodes(const Elements& family, std::size_t node_count, int s
           emit(mid[i], e);
     }
   });
+  return out;
 }
 
 PartElements connect_parts(const Elements& family, std::size_t part_count) {
-  return fill_rows(part_count, [&](auto&& emit) {
-    for (std::uint32_t e = 0; e < family.size(); ++e)
-      if (family.part[e] != no_index) emit(family.part[e], e);
+  PartElements out;
+  fill_rows(part_count, out.first, out.runs, [&](auto&& emit) {
+    const auto count = static_cast<std::uint32_t>(family.size());
+    for (ElementRun run; run.first < count; run.first = run.end) {
+      const std::uint32_t part = family.part[run.first];
+      run.end = run.first + 1;
+      while (run.end < count && family.part[run.end] == part) ++run.end;
+      if (part != no_index) emit(part, run);
+    }
   });
+  return out;
 }
 
 }  // namespace deck

@@ -214,7 +214,7 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
     const auto tags = part_tags(block, def.type, id_list(d));
     const PartElements& rows = elements_of_parts(name.kind);
     for (std::size_t p = 0; p < tags.size(); ++p)
-      if (tags[p] > 0) out.insert(out.end(), rows.row(p).begin(), rows.row(p).end());
+      if (tags[p] > 0) detail::append(out, rows.row(p));
   } else if (def.type == "BOX" || def.type == "BOX2") {
     const IdList list = id_list(d);
     out = elements_in_boxes(block, list.positive, name.kind, def.type == "BOX2", 798);

@@ -45,6 +45,8 @@ struct DefinitionTable {
 using Indices = std::vector<std::uint32_t>;
 /// Sorts and removes repetitions.
 void normalise(Indices& v);
+/// Adds the elements of the runs behind the others.
+void append(Indices& v, std::span<const ElementRun> runs);
 
 /// How elements of a family name themselves in groups.
 struct FamilyName {
@@ -57,6 +59,8 @@ struct FamilyName {
 };
 const std::vector<FamilyName>& family_names();
 const FamilyName& family_name(ElementKind kind);
+/// The segment of a shell.
+Segment shell_segment(const Elements& shells, std::uint32_t e, bool reversed);
 /// Nodes that carry the element: for beams and springs without the orientation nodes.
 int carrying_nodes(ElementKind kind);
 
@@ -107,6 +111,7 @@ struct Selections::Impl {
 
   std::map<std::int64_t, NodeSet> node_groups;
   std::map<std::int64_t, Surface> surfaces;
+  std::map<std::int64_t, std::vector<ShellRun>> run_surfaces;  ///< see outline()
   std::map<std::int64_t, LineSet> lines;
   std::map<std::int64_t, SetGeneral> sets;
   std::map<std::int64_t, detail::SetState> set_states;
@@ -133,8 +138,8 @@ struct Selections::Impl {
   detail::SolidFaces& solid_faces();
   std::unique_ptr<detail::KeyTable> tetra_faces;             ///< faces of 10-node tetrahedra
   std::vector<std::pair<std::uint32_t, int>> tetra_face_of;  ///< solid and face per key
-  std::vector<std::uint32_t> stamp;                          ///< per node, see mark()
-  std::uint32_t generation = 0;
+  std::vector<std::uint8_t> stamp;                           ///< per node, see mark()
+  std::uint8_t generation = 0;
 
   /// Position of each node in the reference solver's internal order, which is that of the ids;
   /// empty if nodes are written in that order.
@@ -154,6 +159,7 @@ struct Selections::Impl {
   template <class List>
   void keep(List& list, const Block& block) {
     if (!hold(list.size(), sizeof(typename List::value_type), block)) List().swap(list);
+    if (list.capacity() / 2 > list.size()) list.shrink_to_fit();
   }
 
   Impl(const Model& m, const SchemaSet& s, const Limits& l);
@@ -222,13 +228,15 @@ struct Selections::Impl {
   std::vector<Segment> resolve_surface(const detail::Definition& def, const DecodedBlock& d,
                                        bool& analytical);
   std::vector<Segment> segments_by_nodes(const Block& block, const DecodedBlock& d);
-  std::vector<Segment> segments_of_parts(const detail::Definition& def, const DecodedBlock& d);
+  /// `tags`: see part_tags().
+  std::vector<Segment> segments_of_parts(const detail::Definition& def,
+                                         const std::vector<std::int8_t>& tags);
   std::vector<Segment> segments_in_boxes(const detail::Definition& def, const DecodedBlock& d);
   std::vector<Segment> segments_of_groups(const detail::Definition& def, const DecodedBlock& d);
   std::vector<Segment> segments_of_surfaces(const Block& block, const DecodedBlock& d);
   std::vector<Segment> difference_of_surfaces(const Block& block, const DecodedBlock& d);
-  void add_shells(const Elements& shells, Carrier carrier, std::span<const std::uint32_t> members,
-                  bool reversed, std::vector<Segment>& out) const;
+  void add_shells(const Elements& shells, const detail::Indices& members, bool reversed,
+                  std::vector<Segment>& out) const;
   void add_solids(const Block& block, std::string_view option, detail::Indices solids,
                   std::vector<Segment>& out);
   /// Cuts a plain triangle that lies on the face of a 10-node tetrahedron.
@@ -236,6 +244,17 @@ struct Selections::Impl {
   void sort_segments(std::vector<Segment>& segments) const;
   const std::vector<Segment>* listed_surface(const Block& block, const detail::IdRef& ref,
                                              std::vector<detail::IdRef>& missing);
+
+  // ---- surfaces by runs of elements (selection_runs.cpp)
+  // ------------------------------------------------------------------
+  std::optional<SurfaceOutline> outline(std::int64_t id);
+  /// Runs that name the segments of segments_of_parts() in the order of sort_segments(); nullopt:
+  /// they do not.
+  std::optional<std::vector<ShellRun>> shell_runs(const std::vector<std::int8_t>& tags);
+  /// Counts the segments as held, sorts them and keeps the surface.
+  const Surface& finish_surface(Surface surface, const Block& block);
+  /// The surface that outline() has found before, with its segments; nullptr: it has not.
+  const Surface* surface_of_runs(std::int64_t id, const Block& block);
 
   // ---- lines (selection_lines.cpp)
   // ------------------------------------------------------------------

@@ -148,15 +148,22 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_parts(const Block& block, std:
     const Elements& family = model->family(kind);
     if (family.size() == 0) continue;
     const PartElements& rows = elements_of_parts(kind);
+    const auto add = [&](std::size_t p, std::vector<NodeIndex>& out) {
+      for (const ElementRun& run : rows.row(p))
+        for (std::uint32_t e = run.first; e < run.end; ++e) add_element_nodes(family, e, out);
+    };
+    std::size_t most = nodes.size();
     for (std::size_t p = 0; p < tags.size(); ++p)
       if (tags[p] > 0)
-        for (const std::uint32_t e : rows.row(p)) add_element_nodes(family, e, nodes);
+        for (const ElementRun& run : rows.row(p)) most += run.size() * std::size_t{8};
+    nodes.reserve(std::min(most, model->nodes.size()));  // growing would copy
+    for (std::size_t p = 0; p < tags.size(); ++p)
+      if (tags[p] > 0) add(p, nodes);
     if (!removes) continue;
     std::vector<NodeIndex> gone;
     start_marks();
     for (std::size_t p = 0; p < tags.size(); ++p)
-      if (tags[p] < 0)
-        for (const std::uint32_t e : rows.row(p)) add_element_nodes(family, e, gone);
+      if (tags[p] < 0) add(p, gone);
     std::erase_if(nodes, [&](NodeIndex n) { return stamp[n] == generation; });
     // The marks of what is left were overwritten or outdated: set them anew.
     start_marks();
@@ -222,21 +229,21 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_groups(const Block& block, con
 
 std::vector<NodeIndex> Selections::Impl::nodes_of_surfaces(const Block& block,
                                                            const DecodedBlock& d) {
-  std::vector<const Surface*> all;
+  std::vector<SegmentList> all;
   std::vector<IdRef> missing;
   for (const IdRef& ref : id_list(d).positive) {
-    const Surface* s = surface(ref.id);
-    if (s == nullptr)
-      missing.push_back(ref);
+    if (const auto s = outline(ref.id))
+      all.push_back(s->segments);
     else
-      all.push_back(s);
+      missing.push_back(ref);
   }
   report_missing(RuleId::DK151, block, "surface", missing, 193);
   std::vector<NodeIndex> nodes;
   start_marks();
-  for (const Surface* s : all)
-    for (const Segment& segment : s->segments)
+  for (const SegmentList& segments : all)
+    segments.each([&](const Segment& segment) {
       for (const NodeIndex n : segment.nodes) mark(n, nodes);
+    });
   return nodes;
 }
 

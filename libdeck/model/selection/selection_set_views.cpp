@@ -51,13 +51,12 @@ std::vector<Segment> Selections::Impl::group_segments(const SetGroup& group) {
     const bool four = kind == ElementKind::shell4;
     const Indices& members = four ? shells4 : shells3;
     const Indices turned = common(members, four ? group.reversed4 : group.reversed3);
-    const Carrier carrier = detail::family_name(kind).carrier;
     if (turned.empty()) {
-      add_shells(shells, carrier, members, false, out);
+      add_shells(shells, members, false, out);
       continue;
     }
-    add_shells(shells, carrier, without(members, turned), false, out);
-    add_shells(shells, carrier, turned, true, out);
+    add_shells(shells, without(members, turned), false, out);
+    add_shells(shells, turned, true, out);
   }
   return out;
 }

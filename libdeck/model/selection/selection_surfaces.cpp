@@ -49,15 +49,14 @@ const Surface* Selections::Impl::surface(std::int64_t id) {
     keep(view.segments, block);
     return &set_surfaces.emplace(id, std::move(view)).first->second;
   }
+  if (const Surface* s = surface_of_runs(id, *def->block)) return s;
   if (recursive("surf", id, *def->block, 189)) return nullptr;
   const auto guard = open.emplace("surf", id).first;
   const DecodedBlock d = decode(deck(), *def->block);
   Surface s{id, d.title, {}, false, def->block->header_span};
   s.segments = resolve_surface(*def, d, s.analytical);
   open.erase(guard);
-  keep(s.segments, *def->block);
-  sort_segments(s.segments);
-  return &surfaces.emplace(id, std::move(s)).first->second;
+  return &finish_surface(std::move(s), *def->block);
 }
 
 std::vector<Segment> Selections::Impl::resolve_surface(const Definition& def, const DecodedBlock& d,
@@ -65,7 +64,7 @@ std::vector<Segment> Selections::Impl::resolve_surface(const Definition& def, co
   const Block& block = *def.block;
   const std::string_view type = def.type;
   if (type == "SEG") return segments_by_nodes(block, d);
-  if (is_part_type(type)) return segments_of_parts(def, d);
+  if (is_part_type(type)) return segments_of_parts(def, part_tags(block, type, id_list(d)));
   if (type == "BOX" || type == "BOX2") return segments_in_boxes(def, d);
   if (type == "GRSHEL" || type == "GRSH3N" || type == "GRTRIA" || type == "GRBRIC")
     return segments_of_groups(def, d);
@@ -165,21 +164,13 @@ void Selections::Impl::add_plain_segment(const Segment& s, std::vector<Segment>&
     out.push_back({pieces[static_cast<std::size_t>(i)], s.carrier, s.element});
 }
 
-void Selections::Impl::add_shells(const Elements& shells, Carrier carrier,
-                                  std::span<const std::uint32_t> members, bool reversed,
+void Selections::Impl::add_shells(const Elements& shells, const Indices& members, bool reversed,
                                   std::vector<Segment>& out) const {
   if (out.size() + members.size() > out.capacity())
     out.reserve(std::max(out.size() + members.size(), 3 * out.size() / 2));
   for (const std::uint32_t e : members) {
-    const NodeIndex* n = shells.of(e);
-    Segment s{{n[0], n[1], n[2], shells.width == 4 ? n[3] : n[2]}, carrier, e};
-    if (std::find(s.nodes.begin(), s.nodes.end(), no_index) != s.nodes.end()) continue;
-    if (reversed) {
-      // A quadrangle is turned as one even where its last two nodes coincide.
-      s.nodes = shells.width == 4 ? std::array<NodeIndex, 4>{n[3], n[2], n[1], n[0]}
-                                  : std::array<NodeIndex, 4>{n[2], n[1], n[0], n[0]};
-    }
-    out.push_back(s);
+    const Segment s = detail::shell_segment(shells, e, reversed);
+    if (std::find(s.nodes.begin(), s.nodes.end(), no_index) == s.nodes.end()) out.push_back(s);
   }
 }
 
@@ -250,8 +241,7 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
 }
 
 std::vector<Segment> Selections::Impl::segments_of_parts(const Definition& def,
-                                                         const DecodedBlock& d) {
-  const auto tags = part_tags(*def.block, def.type, id_list(d));
+                                                         const std::vector<std::int8_t>& tags) {
   std::vector<Segment> out;
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
     const Elements& shells = model->family(kind);
@@ -259,14 +249,16 @@ std::vector<Segment> Selections::Impl::segments_of_parts(const Definition& def,
     const PartElements& rows = elements_of_parts(kind);
     for (std::size_t p = 0; p < tags.size(); ++p) {
       if (tags[p] == 0) continue;
-      add_shells(shells, detail::family_name(kind).carrier, rows.row(p), tags[p] < 0, out);
+      Indices members;
+      detail::append(members, rows.row(p));
+      add_shells(shells, members, tags[p] < 0, out);
     }
   }
   Indices solids;
   if (model->solid8.size() > 0) {
     const PartElements& rows = elements_of_parts(ElementKind::solid8);
     for (std::size_t p = 0; p < tags.size(); ++p)
-      if (tags[p] != 0) solids.insert(solids.end(), rows.row(p).begin(), rows.row(p).end());
+      if (tags[p] != 0) detail::append(solids, rows.row(p));
   }
   add_solids(*def.block, def.option, std::move(solids), out);
   return out;
@@ -279,14 +271,13 @@ std::vector<Segment> Selections::Impl::segments_in_boxes(const Definition& def,
   std::vector<Segment> out;
   for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
     const Elements& shells = model->family(kind);
-    const Carrier carrier = detail::family_name(kind).carrier;
     const Indices plain = elements_in_boxes(*def.block, list.positive, kind, any_node, 800);
     Indices reversed = elements_in_boxes(*def.block, list.negative, kind, any_node, 800);
     std::erase_if(reversed, [&](std::uint32_t e) {
       return std::binary_search(plain.begin(), plain.end(), e);
     });
-    add_shells(shells, carrier, plain, false, out);
-    add_shells(shells, carrier, reversed, true, out);
+    add_shells(shells, plain, false, out);
+    add_shells(shells, reversed, true, out);
   }
   Indices solids = elements_in_boxes(*def.block, list.positive, ElementKind::solid8, any_node, 800);
   const Indices more =
@@ -317,7 +308,7 @@ std::vector<Segment> Selections::Impl::segments_of_groups(const Definition& def,
       else if (kind == ElementKind::solid8)
         solids.insert(solids.end(), group->begin(), group->end());
       else
-        add_shells(model->family(kind), name.carrier, *group, reversed, out);
+        add_shells(model->family(kind), *group, reversed, out);
     }
   };
   collect(list.positive, false);

@@ -263,9 +263,7 @@ class ClauseReader {
       const auto kind = static_cast<ElementKind>(k);
       if (all_.model->family(kind).size() == 0) continue;
       const PartElements& rows = all_.elements_of_parts(kind);
-      for (const std::uint32_t p : state_.parts)
-        group().elements[k].insert(group().elements[k].end(), rows.row(p).begin(),
-                                   rows.row(p).end());
+      for (const std::uint32_t p : state_.parts) append(group().elements[k], rows.row(p));
       normalise(group().elements[k]);
     }
   }
