@@ -166,7 +166,7 @@ ContactPairs detail::make_pairs(const Scene& scene, const deck::Contact& contact
   search.threads = threads;
   search.max_pairs = scene.limits.pair_bytes / bytes_of_a_pair;
   {
-    const SearchSides sides(contact, SearchSides::Off::left_out);
+    const SearchSides sides(contact, SearchSides::Off::left_out, threads);
     SearchResult found = sides.find(x, search, searches);
     out.complete = found.complete;
     out.at = std::move(found.pairs);

@@ -159,7 +159,7 @@ int run(const Options& o) {
     }
     join_findings(loaded);
     const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
-    const SceneView view = make_view(scene, &crossings);
+    const SceneView view = make_view(scene, &crossings, scene_options.threads);
     std::optional<cycle::SceneOutcome> forces;
     if (gate->gate.needs_forces()) {
       cycle::CycleOptions cycle_options;

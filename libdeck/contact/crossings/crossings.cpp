@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/pages.hpp"
 #include "base/parallel.hpp"
 #include "contact/crossings/crossings_exact.hpp"
 #include "contact/search/box_tree.hpp"
@@ -89,7 +90,9 @@ class SegmentTree {
     std::iota(order_.begin(), order_.end(), 0U);
     sweep::put_in_order(
         order_, [&](std::uint32_t i) { return box_of(i); }, threads);
-    std::vector<BoxBlock> blocks((count + width - 1) / width);
+    std::vector<BoxBlock> blocks;
+    make_room(blocks, (count + width - 1) / width, threads);
+    blocks.resize((count + width - 1) / width);
     parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin * width; i < std::min(count, end * width); ++i)
         blocks[i / width].set(i % width, box_of(order_[i]));
@@ -229,15 +232,27 @@ std::vector<std::uint32_t> bearers_of(const Bearers& bearers, const Contact& con
   std::sort(out.begin(), out.end());
   return out;
 }
-std::vector<Bearers> bearers(const Model& model, const std::vector<std::uint8_t>& marks) {
+
+std::vector<Bearers> bearers(const Model& model, const std::vector<std::uint8_t>& marks,
+                             int threads) {
   std::vector<Bearers> out;
+  std::vector<std::vector<std::uint32_t>> parts(static_cast<std::size_t>(threads));
   for (const ElementKind kind : families_with_edges) {
     Bearers all{&model.family(kind), {}};
-    for (std::uint32_t e = 0; e < all.family->size(); ++e) {
-      bool any = false;
-      marked_edges(*all.family, e, marks, [&](const auto&) { any = true; });
-      if (any) all.elements.push_back(e);
-    }
+    parallel_parts(threads, all.family->size(),
+                   [&](std::size_t part, std::size_t begin, std::size_t end) {
+                     std::vector<std::uint32_t>& elements = parts[part];
+                     elements.clear();
+                     for (auto e = static_cast<std::uint32_t>(begin); e < end; ++e) {
+                       bool any = false;
+                       marked_edges(*all.family, e, marks, [&](const auto&) { any = true; });
+                       if (any) elements.push_back(e);
+                     }
+                   });
+    all.elements = std::move(parts[0]);
+    for (std::size_t part = 1; part < parts.size(); ++part)
+      all.elements.insert(all.elements.end(), parts[part].begin(), parts[part].end());
+    parts[0].clear();
     if (!all.elements.empty()) out.push_back(std::move(all));
   }
   return out;
@@ -289,7 +304,7 @@ std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
     for (const SecondaryNode& s : contact.secondary) marks[s.node] = value;
   };
   for (const Contact& c : scene.contacts) mark(c, 1);
-  std::vector<Bearers> all = bearers(*scene.model, marks);
+  std::vector<Bearers> all = bearers(*scene.model, marks, threads);
   if (scene.contacts.size() > 2)  // else most of them belong to every contact
     for (Bearers& b : all) find_rows(b, scene.model->nodes.size());
   for (const Contact& c : scene.contacts) mark(c, 0);

@@ -209,10 +209,13 @@ void find_penetrations(SceneContext& c, Contact& contact) {
   Candidates found;
   RemovalLists removed;
   {
-    const SearchSides sides(contact, SearchSides::Off::included);
+    const SearchSides sides(contact, SearchSides::Off::included, c.options.threads);
     const bool wide = c.options.candidates || contact.inacti == 3;
     const double margin = sides.margin(x);
-    const auto find = [&](const SearchOptions& o) { return sides.find(x, o, c.searches); };
+    KeptSearch kept;
+    const auto find = [&](const SearchOptions& o) {
+      return c.searches != nullptr ? sides.find(x, o, c.searches) : sides.find(x, o, kept);
+    };
     search.margin = wide ? margin : 0;
     found = candidates(c.options.accuracy, margin, search, find);
     if (!found.complete && wide) {
@@ -272,7 +275,7 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
   Candidates found;
   RemovalLists removed;
   {
-    const SearchSides sides(contact, SearchSides::Off::included);
+    const SearchSides sides(contact, SearchSides::Off::included, c.options.threads);
     SearchOptions search;
     search.gap = contact.gap_rule;
     search.drad = contact.drad;

@@ -1,55 +1,80 @@
 // Copies what the pair search reads out of the items of a contact.
 #include "contact/scene/sides.hpp"
 
-#include <algorithm>
+#include <atomic>
+
+#include "base/pages.hpp"
+#include "base/parallel.hpp"
+#include "contact/search/margin.hpp"
+#include "contact/search/sweep.hpp"
 
 namespace deck::detail {
 
-SearchSides::SearchSides(const Contact& contact, Off off)
-    : kind_(contact.kind),
+struct KeptSearch::Nodes {
+  Nodes(const NodeSegmentInput& in, const SearchOptions& o)
+      : input(in), options(o), sweep(input, options, effective_threads(o.threads)) {}
+  NodeSegmentInput input;
+  SearchOptions options;
+  sweep::NodeSweep sweep;  // looks at both
+};
+
+KeptSearch::KeptSearch() = default;
+KeptSearch::~KeptSearch() = default;
+
+SearchSides::SearchSides(const Contact& contact, Off off, int threads)
+    : threads_(effective_threads(threads)),
+      kind_(contact.kind),
       // Removal along the mesh reads them whatever the gap rule is.
       lengths_(contact.gap_rule.rule == GapRule::sum_limited || contact.irem_gap == 2) {
   const auto active = [&](bool is_off, double stiffness) {
     return is_off && off == Off::left_out ? 0.0 : stiffness;
   };
-  const auto reserve = [&](Side& side, std::size_t count) {
-    for (std::vector<double>* a : {&side.gap, &side.stiffness}) a->reserve(count);
-    if (lengths_) side.length.reserve(count);
-  };
   if (edge_pairs()) {
     const std::vector<ContactEdge>* lists[] = {&contact.secondary_edges, &contact.main_edges};
-    for (std::size_t k = 0; k < 2; ++k) {
-      reserve(sides_[k], lists[k]->size());
-      edges_[k].reserve(lists[k]->size());
-      for (const ContactEdge& e : *lists[k]) {
-        edges_[k].push_back(e.nodes);
-        add(sides_[k], e.gap, e.length, active(e.off, e.stiffness));
-      }
-    }
-  } else {
-    reserve(sides_[0], contact.secondary.size());
-    nodes_.reserve(contact.secondary.size());
-    for (const SecondaryNode& s : contact.secondary) {
-      nodes_.push_back(s.node);
-      add(sides_[0], s.gap, s.length, active(s.off, s.multiplier));
-    }
-    reserve(sides_[1], contact.main.size());
-    segments_.reserve(contact.main.size());
-    for (const MainSegment& m : contact.main) {
-      segments_.push_back(m.nodes);
-      add(sides_[1], m.gap, m.length, active(m.off, m.stiffness));
-    }
+    for (std::size_t k = 0; k < 2; ++k)
+      fill(
+          sides_[k], *lists[k], edges_[k],
+          [&](const ContactEdge& e) { return active(e.off, e.stiffness); },
+          [](const ContactEdge& e) { return e.nodes; });
+    return;
   }
-  // Stiffness only says who takes part; mostly all do.
-  for (Side& side : sides_)
-    if (std::find(side.stiffness.begin(), side.stiffness.end(), 0.0) == side.stiffness.end())
-      std::vector<double>().swap(side.stiffness);
+  fill(
+      sides_[0], contact.secondary, nodes_,
+      [&](const SecondaryNode& s) { return active(s.off, s.multiplier); },
+      [](const SecondaryNode& s) { return s.node; });
+  fill(
+      sides_[1], contact.main, segments_,
+      [&](const MainSegment& m) { return active(m.off, m.stiffness); },
+      [](const MainSegment& m) { return m.nodes; });
 }
 
-void SearchSides::add(Side& side, double gap, double length, double stiffness) {
-  side.gap.push_back(gap);
-  if (lengths_) side.length.push_back(length);
-  side.stiffness.push_back(stiffness);
+template <class Item, class Out, class Active, class As>
+void SearchSides::fill(Side& side, const std::vector<Item>& items, std::vector<Out>& out,
+                       const Active& active, const As& as) const {
+  const std::size_t count = items.size();
+  const auto each = [&](const auto& f) {
+    parallel_parts(threads_, count, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) f(i);
+    });
+  };
+  const auto size = [&](auto& array) {
+    make_room(array, count, threads_);
+    array.resize(count);
+  };
+  size(out);
+  size(side.gap);
+  if (lengths_) size(side.length);
+  std::atomic<bool> some_off{false};
+  each([&](std::size_t i) {
+    out[i] = as(items[i]);
+    side.gap[i] = items[i].gap;
+    if (lengths_) side.length[i] = items[i].length;
+    if (active(items[i]) == 0.0) some_off.store(true, std::memory_order_relaxed);
+  });
+  // Stiffness only says who takes part; mostly all do.
+  if (!some_off) return;
+  size(side.stiffness);
+  each([&](std::size_t i) { side.stiffness[i] = active(items[i]); });
 }
 
 NodeSegmentInput SearchSides::nodes(const Coordinates& x) const {
@@ -70,10 +95,19 @@ SearchResult SearchSides::find(const Coordinates& x, const SearchOptions& option
                       : find_node_segment_pairs(nodes(x), options);
 }
 
+/// Of edges nothing is kept: their lists are short.
+SearchResult SearchSides::find(const Coordinates& x, const SearchOptions& options,
+                               KeptSearch& kept) const {
+  if (edge_pairs()) return find(x, options);
+  if (kept.nodes_ == nullptr) kept.nodes_ = std::make_unique<KeptSearch::Nodes>(nodes(x), options);
+  kept.nodes_->options = options;
+  return sweep::find(kept.nodes_->sweep, options);
+}
+
 double SearchSides::margin(const Coordinates& x) const {
   const NodeArrays at{x.x, x.y, x.z};
   return edge_pairs() ? candidate_margin(at, edges_[0], edges_[1])
-                      : candidate_margin(at, segments_);
+                      : candidate_margin(at, segments_, threads_);
 }
 
 }  // namespace deck::detail

@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "deck/contact/scene.hpp"
@@ -10,12 +11,25 @@
 
 namespace deck::detail {
 
+/// What a search has built, for the next one on the same sides that differs in margin and form
+/// only.
+class KeptSearch {
+ public:
+  KeptSearch();
+  ~KeptSearch();
+
+ private:
+  friend class SearchSides;
+  struct Nodes;
+  std::unique_ptr<Nodes> nodes_;
+};
+
 class SearchSides {
  public:
   /// What start-up switched off (Inacti, Fpenmax) takes part or not.
   enum class Off : bool { included, left_out };
 
-  SearchSides(const Contact& contact, Off off);
+  SearchSides(const Contact& contact, Off off, int threads = 1);
 
   bool edge_pairs() const { return kind_ == ContactKind::edge_edge; }
   /// Views of the arrays: valid as long as this object and the coordinates.
@@ -24,6 +38,8 @@ class SearchSides {
   /// The pairs of either kind; from `memory` if it is given and knows them.
   SearchResult find(const Coordinates& x, const SearchOptions& options,
                     SearchMemory* memory = nullptr) const;
+  /// The same; `kept` is for these sides at these coordinates alone.
+  SearchResult find(const Coordinates& x, const SearchOptions& options, KeptSearch& kept) const;
   /// The solver's margin beyond the gap, from the mean edge length of the searched sides.
   double margin(const Coordinates& x) const;
 
@@ -32,8 +48,13 @@ class SearchSides {
     std::vector<double> gap, length,
         stiffness;  ///< length, stiffness: empty where they say nothing
   };
-  void add(Side& side, double gap, double length, double stiffness);
+  /// Fills the arrays of a side: active(item) says that it takes part, as(item) what stands in
+  /// `out`.
+  template <class Item, class Out, class Active, class As>
+  void fill(Side& side, const std::vector<Item>& items, std::vector<Out>& out, const Active& active,
+            const As& as) const;
 
+  int threads_;
   ContactKind kind_;
   bool lengths_;
   std::vector<std::uint32_t> nodes_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.hpp"
 #include "contact/scene/scene_parts.hpp"
 
 namespace deck::detail {
@@ -49,11 +50,11 @@ bool solid_holds(const Elements& solids, std::uint32_t e, NodeIndex n) {
 
 void set_main_stiffness(SceneContext& c, Contact& contact) {
   const double f = contact.factor;
-  for (MainSegment& m : contact.main) {
+  const auto set = [&](MainSegment& m) {
     m.stiffness = f < 0 ? std::fabs(f) : 0;
     if (m.element == no_index) {
       m.stiffness = 0;
-      continue;
+      return;
     }
     if (m.carrier == Carrier::solid) {
       const Coordinates& x = c.scene.coordinates;
@@ -69,7 +70,11 @@ void set_main_stiffness(SceneContext& c, Contact& contact) {
       const double t = stiffness_thickness(c.model, kind, m.element);
       m.stiffness = f < 0 ? std::fabs(f) : f * shell_stiffness(c.model, kind, m.element, t);
     }
-  }
+  };
+  parallel_parts(effective_threads(c.options.threads), contact.main.size(),
+                 [&](std::size_t, std::size_t begin, std::size_t end) {
+                   for (std::size_t i = begin; i < end; ++i) set(contact.main[i]);
+                 });
 }
 
 void set_edge_stiffness(SceneContext& c, std::vector<ContactEdge>& edges, const Contact& contact) {

@@ -6,6 +6,8 @@
 #include <map>
 #include <optional>
 
+#include "base/pages.hpp"
+#include "base/parallel.hpp"
 #include "contact/rules/actions.hpp"
 #include "contact/scene/element_names.hpp"
 
@@ -105,6 +107,23 @@ std::uint64_t distinct(std::vector<T>& items) {
   return items.size();
 }
 
+/// The same for nodes: many of them are counted where they lie.
+std::uint64_t distinct_nodes(std::vector<NodeIndex>& nodes) {
+  constexpr std::size_t worth_it = 4096, bits_per_node = 64;
+  if (nodes.size() < worth_it) return distinct(nodes);
+  const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end());
+  const NodeIndex first = *low;
+  const std::size_t range = *high - first + std::size_t{1};
+  if (range / bits_per_node > nodes.size()) return distinct(nodes);
+  std::vector<bool> known(range, false);
+  std::uint64_t count = 0;
+  for (const NodeIndex n : nodes) {
+    count += !known[n - first];
+    known[n - first] = true;
+  }
+  return count;
+}
+
 /// Counts rows, and the nodes and edges among them once each.
 class Tally {
  public:
@@ -141,7 +160,7 @@ class Tally {
       if (edge[1] < edge[0]) std::swap(edge[0], edge[1]);
       edges.push_back(edge);
     }
-    ItemCounts counts() { return {pairs, distinct(nodes), distinct(edges)}; }
+    ItemCounts counts() { return {pairs, distinct_nodes(nodes), distinct(edges)}; }
   };
   Items all_, on_segment_, stopped_;
   ContactTotals totals_;
@@ -210,32 +229,39 @@ PartPair part_pair(const Scene& scene, const SceneView& view, std::int64_t secon
 
 }  // namespace
 
-SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings) {
+SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, int threads) {
+  threads = effective_threads(threads);
   SceneView view;
   struct Place {
     double depth = 0;
     std::uint32_t contact = 0, row = 0;
   };
   std::vector<Place> places;  // deepest first, then by contact and row
-  Tally all;
-  for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
-    const Contact& contact = scene.contacts[c];
-    Tally tally;
-    for (std::uint32_t r = 0; r < contact.penetrations.size(); ++r) {
-      places.push_back({contact.penetrations[r].depth, c, r});
-      tally.add(contact, contact.penetrations[r]);
-      all.add(contact, contact.penetrations[r]);
+  const auto order_places = [&] {
+    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
+      for (std::uint32_t r = 0; r < scene.contacts[c].penetrations.size(); ++r)
+        places.push_back({scene.contacts[c].penetrations[r].depth, c, r});
+    std::stable_sort(places.begin(), places.end(),
+                     [](const Place& a, const Place& b) { return a.depth > b.depth; });
+  };
+  const auto count = [&] {
+    Tally all;
+    for (const Contact& contact : scene.contacts) {
+      Tally tally;
+      for (const PenetrationRow& row : contact.penetrations) {
+        tally.add(contact, row);
+        all.add(contact, row);
+      }
+      view.contacts.push_back(tally.totals());
     }
-    view.contacts.push_back(tally.totals());
-  }
-  view.total = all.totals();
+    view.total = all.totals();
+  };
+  parallel_items(threads, 2, [&](std::size_t i) { i == 0 ? order_places() : count(); });
   if (crossings != nullptr) {
     view.total.crossed_elements = crossings->size();
     for (ContactTotals& t : view.contacts) t.crossed_elements = 0;
     for (const Crossing& x : *crossings) ++*view.contacts[x.contact].crossed_elements;
   }
-  std::stable_sort(places.begin(), places.end(),
-                   [](const Place& a, const Place& b) { return a.depth > b.depth; });
   // Rows are named in their own order, which is that of the mesh.
   std::vector<std::uint32_t> in_order(places.size());
   std::vector<std::size_t> first_of_contact;
@@ -251,15 +277,28 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings) 
         c.penetrations.empty() ? 0 : std::max(c.secondary.size(), c.secondary_edges.size()), 0);
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> pairs;
   Connectivity connectivity(*scene.model);
+  // A few names need no array over all nodes and families; many need most of them.
+  constexpr std::size_t many = 4096;
+  const int namers = places.size() < many ? 1 : threads;
+  if (namers > 1)
+    for (const ElementKind kind : families_in_view) connectivity.prepare_first(kind, namers);
+  make_room(view.penetrations, places.size(), threads);
   view.penetrations.resize(places.size());
-  for (const std::uint32_t i : in_order)
-    view.penetrations[i] = named(scene, connectivity, places[i].contact, places[i].row);
+  parallel_parts(namers, in_order.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Place& place = places[in_order[k]];
+      view.penetrations[in_order[k]] = named(scene, connectivity, place.contact, place.row);
+    }
+  });
+  auto last = pairs.end();  // rows of a pair of parts mostly follow each other
   for (std::uint32_t i = 0; i < places.size(); ++i) {
     const NamedPenetration& p = view.penetrations[i];
     std::uint8_t& known = seen[p.contact][scene.contacts[p.contact].penetrations[p.row].secondary];
     if (known == 0) view.deepest_per_node.push_back(i);
     known = 1;
-    pairs[{p.secondary_element.part, p.main_element.part}].push_back(i);
+    const std::pair parts(p.secondary_element.part, p.main_element.part);
+    if (last == pairs.end() || last->first != parts) last = pairs.try_emplace(parts).first;
+    last->second.push_back(i);
   }
   for (const auto& [parts, list] : pairs)
     view.part_pairs.push_back(part_pair(scene, view, parts.first, parts.second, list));

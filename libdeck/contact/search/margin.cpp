@@ -1,7 +1,11 @@
 // Search margins of the reference solver.
-#include "deck/contact/search.hpp"
+#include "contact/search/margin.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "base/parallel.hpp"
 
 namespace deck {
 namespace {
@@ -20,11 +24,28 @@ constexpr double kMarginFactor = static_cast<double>(0.2F);
 
 double candidate_margin(const NodeArrays& nodes,
                         std::span<const std::array<std::uint32_t, 4>> segments) {
+  return candidate_margin(nodes, segments, 1);
+}
+
+double candidate_margin(const NodeArrays& nodes,
+                        std::span<const std::array<std::uint32_t, 4>> segments, int threads) {
   if (segments.empty()) return 0.0;
   double sum = 0.0;
-  for (const auto& s : segments) {
-    for (std::size_t k = 0; k < 4; ++k) sum += edge_length(nodes, s[k], s[(k + 1) % 4]);
-  }
+  // Lengths take time, their sum has an order.
+  constexpr std::size_t at_once = 1024;
+  using Lengths = std::vector<double>;
+  run_in_order<Lengths>(
+      (segments.size() + at_once - 1) / at_once, threads,
+      [&](std::size_t piece, Lengths& out) {
+        out.clear();
+        const std::size_t first = piece * at_once;
+        for (const auto& s : segments.subspan(first, std::min(at_once, segments.size() - first)))
+          for (std::size_t k = 0; k < 4; ++k)
+            out.push_back(edge_length(nodes, s[k], s[(k + 1) % 4]));
+      },
+      [&](std::size_t, const Lengths& lengths) {
+        for (const double length : lengths) sum += length;
+      });
   return kMarginFactor * (sum / (4.0 * static_cast<double>(segments.size())));
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/pages.hpp"
 #include "base/parallel.hpp"
 #include "contact/search/box_order.hpp"
 #include "contact/search/sweep.hpp"
@@ -76,10 +77,13 @@ void NodeSweep::pack(int threads) {
   constexpr std::size_t kWidth = PointBlock::kWidth;
   const NodeSegmentInput& in = *input;
   const std::size_t leaf_count = (items.size() + kWidth - 1) / kWidth;
+  make_room(points, leaf_count, threads);
   points.resize(leaf_count);
   reach.resize(leaf_count);
   nodes.resize(items.size());
-  std::vector<BoxBlock> blocks((leaf_count + kWidth - 1) / kWidth);
+  std::vector<BoxBlock> blocks;
+  make_room(blocks, (leaf_count + kWidth - 1) / kWidth, threads);
+  blocks.resize((leaf_count + kWidth - 1) / kWidth);
   parallel_parts(threads, blocks.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     const std::size_t last = std::min(leaf_count, end * kWidth);
     for (std::size_t i = begin * kWidth; i < last; ++i) {
@@ -157,12 +161,15 @@ std::size_t NodeSweep::bytes() const {
 }  // namespace sweep
 
 SearchResult find_node_segment_pairs(const NodeSegmentInput& in, const SearchOptions& options) {
-  const sweep::NodeSweep w(in, options, effective_threads(options.threads));
+  return sweep::find(sweep::NodeSweep(in, options, effective_threads(options.threads)), options);
+}
+
+SearchResult sweep::find(const NodeSweep& w, const SearchOptions& options) {
   SearchResult result;
   result.structure_bytes = w.bytes();
   sweep::run([&w](std::size_t begin, std::size_t end,
                   sweep::Sink& sink) { sweep::kernels().nodes(w, begin, end, sink); },
-             w.segments.size(), in.secondary.size(), options, result);
+             w.segments.size(), w.input->secondary.size(), options, result);
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -113,6 +114,9 @@ struct NodeSweep {
   void pack(int threads);
   bool serves_well() const;
 };
+// The pairs of `w`, whose options are `options`.
+SearchResult find(const NodeSweep& w, const SearchOptions& options);
+
 struct EdgeSweep {
   const EdgeEdgeInput* input = nullptr;
   const SearchOptions* options = nullptr;
@@ -194,9 +198,14 @@ bool is_coherent(std::span<const std::uint32_t> ids, const BoxOf& box_of) {
 // Positions of everything whose stiffness is not 0.
 inline std::vector<std::uint32_t> active(std::size_t count, std::span<const double> stiffness) {
   std::vector<std::uint32_t> ids;
+  if (stiffness.empty()) {
+    ids.resize(count);
+    std::iota(ids.begin(), ids.end(), 0U);
+    return ids;
+  }
   ids.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    if (stiffness.empty() || stiffness[i] != 0.0) ids.push_back(static_cast<std::uint32_t>(i));
+    if (stiffness[i] != 0.0) ids.push_back(static_cast<std::uint32_t>(i));
   }
   return ids;
 }

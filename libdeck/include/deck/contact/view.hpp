@@ -64,8 +64,9 @@ struct SceneView {
 
 /// Forms all views; this is where penetrations are counted, for every medium. `crossings` is what
 /// find_crossings gave for the scene. Costs time in proportion to the penetrations, not to the
-/// model.
-SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings = nullptr);
+/// model. The same view for any number of threads.
+SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings = nullptr,
+                    int threads = 1);
 
 /// The element behind a segment or edge; not valid for carriers without an element.
 ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t element);

@@ -1,0 +1,135 @@
+// Contacts and their view are the same for any number of threads.
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "contact/small_deck.hpp"
+#include "deck/contact/crossings.hpp"
+
+namespace deck::test {
+namespace {
+
+/// Two sheets of n by n nodes that cross here and there. Lower one: shells of two thicknesses, some
+/// with one of their own, triangles, and the same as plain segments; bars between upper nodes.
+SmallDeck crossing_sheets(int n) {
+  SmallDeck d;
+  std::vector<int> upper;
+  std::vector<std::vector<int>> plain;
+  const auto id = [n](int i, int j) { return 1 + i * n + j; };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      d.node(id(i, j), i, j, 0.002 * ((5 * i + j) % 7));
+      upper.push_back(n * n + id(i, j));
+    }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      d.node(n * n + id(i, j), i + 0.3, j + 0.4, 0.01 * ((7 * i + 3 * j) % 31) - 0.02);
+  d.shell_part(1, 0.5).shell_part(2, 0.7).shell_part(3, 0.2).truss_part(4, 0.01);
+  int e = 0;
+  for (int i = 0; i + 1 < n; ++i)
+    for (int j = 0; j + 1 < n; ++j) {
+      const int a = id(i, j), b = id(i + 1, j), c = id(i + 1, j + 1), f = id(i, j + 1);
+      const int part = i < n / 2 ? 1 : 2;
+      if (j % 9 == 8) {
+        d.shell3(part, ++e, a, b, c);
+        d.shell3(part, ++e, a, c, f);
+      } else {
+        d.shell(part, ++e, a, b, c, f, j % 5 == 4 ? 0.31 : 0);
+      }
+      plain.push_back({a, b, c, f});
+    }
+  for (int i = 0; i + 1 < n; ++i)
+    for (int j = 0; j + 1 < n; ++j) {
+      const int m = n * n;
+      d.shell(3, ++e, m + id(i, j), m + id(i + 1, j), m + id(i + 1, j + 1), m + id(i, j + 1));
+      if (j % 11 == 3) d.bar("TRUSS", 4, ++e, m + id(i, j), m + id(i + 1, j));
+    }
+  d.group("/SURF/PART/1", {1, -2}).group("/GRNOD/NODE/2", upper);
+  return d.segments("/SURF/SEG/3", plain);
+}
+
+auto values(const MainSegment& m) {
+  return std::tuple(m.nodes, m.carrier, m.element, m.stiffness, m.gap, m.thickness, m.length);
+}
+auto values(const SecondaryNode& s) {
+  return std::tuple(s.node, s.gap, s.length, s.nodal_stiffness);
+}
+auto values(const PenetrationRow& p) {
+  return std::tuple(p.secondary, p.main, p.depth, p.gap, p.action);
+}
+auto values(const ElementName& e) { return std::tuple(e.kind, e.index, e.id, e.part); }
+auto values(const NamedPenetration& p) {
+  return std::tuple(p.contact, p.row, p.secondary, p.main, values(p.secondary_element),
+                    values(p.main_element), p.at);
+}
+auto values(const ItemCounts& c) { return std::tuple(c.pairs, c.nodes, c.edges); }
+auto values(const PartPair& p) {
+  return std::tuple(p.secondary, p.main, values(p.count), p.max_depth, p.mean_depth, p.p95_depth,
+                    p.worst);
+}
+auto values(const Crossing& c) {
+  return std::tuple(c.contact, c.edge, c.edge_kind, c.edge_element, c.main);
+}
+
+template <class Item>
+void expect_same(const std::vector<Item>& a, const std::vector<Item>& b, const char* what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    ASSERT_TRUE(values(a[i]) == values(b[i])) << what << " " << i;
+}
+
+TEST(Threads, ASceneAndItsViewAreTheSameForAnyNumber) {
+  const SmallDeck d = crossing_sheets(72)
+                          .add("@/INTER/TYPE7/1 Igap=1 Istf=4 Gapmin=0.1")
+                          .add("@/INTER/TYPE7/2 surf_IDm=3 Igap=3 Inacti=6")
+                          .add("@/INTER/TYPE7/3 surf_IDm=3 Inacti=3 Gapmin=0.05");
+  SceneOptions options;
+  options.nodal_stiffness = true;
+  Built one(d, options);
+  const std::vector<Crossing> crossings = find_crossings(one.scene, 1);
+  const SceneView view = make_view(one.scene, &crossings);
+  EXPECT_GT(view.penetrations.size(), 8192u);
+  EXPECT_FALSE(crossings.empty());
+  for (const int threads : {2, 3, 7}) {
+    options.threads = threads;
+    const Built many(d, options);
+    ASSERT_EQ(one.scene.contacts.size(), many.scene.contacts.size());
+    for (std::size_t k = 0; k < one.scene.contacts.size(); ++k) {
+      const Contact &a = one.scene.contacts[k], &b = many.scene.contacts[k];
+      EXPECT_GT(a.main.size(), 4096u);  // fewer are not worth a thread
+      expect_same(a.main, b.main, "main");
+      expect_same(a.secondary, b.secondary, "secondary");
+      expect_same(a.penetrations, b.penetrations, "penetrations");
+      EXPECT_EQ(std::tie(a.gapmin, a.max_gap, a.shortest_side, a.candidates, a.removed_pairs),
+                std::tie(b.gapmin, b.max_gap, b.shortest_side, b.candidates, b.removed_pairs));
+      EXPECT_EQ(std::tie(a.degenerate, a.no_carrier, a.crowded, a.inside_solids),
+                std::tie(b.degenerate, b.no_carrier, b.crowded, b.inside_solids));
+    }
+    const std::vector<Crossing> crossed = find_crossings(many.scene, threads);
+    expect_same(crossings, crossed, "crossings");
+    const SceneView other = make_view(many.scene, &crossed, threads);
+    expect_same(view.penetrations, other.penetrations, "named");
+    EXPECT_EQ(view.deepest_per_node, other.deepest_per_node);
+    expect_same(view.part_pairs, other.part_pairs, "part pairs");
+    EXPECT_EQ(values(view.total.count), values(other.total.count));
+  }
+}
+
+TEST(Threads, ANodeWithoutAPlaceIsTheSameOneForAnyNumber) {
+  SmallDeck d = crossing_sheets(72);
+  for (const int threads : {1, 3}) {
+    SceneOptions options;
+    options.threads = threads;
+    Built b(SmallDeck(d).add("@/INTER/TYPE7/1 Gapmin=0.1"), options);
+    for (const NodeIndex lost : {100u, 3000u, 72u * 72u - 1}) b.model.nodes.x[lost] = NAN;
+    b.diagnostics = Diagnostics();
+    b.build(options);
+    EXPECT_FALSE(b.contact().evaluated);
+    ASSERT_EQ(b.diagnostics.all().size(), 1u);
+    EXPECT_NE(b.diagnostics.all()[0].message.find("node 5184 has a coordinate"), std::string::npos)
+        << b.diagnostics.all()[0].message;
+  }
+}
+
+}  // namespace
+}  // namespace deck::test
