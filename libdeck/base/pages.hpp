@@ -1,5 +1,5 @@
-// Large arrays get their memory before they are filled, by all threads: otherwise the one that fills
-// them asks the system page by page. Hints only: nothing depends on them.
+// Large arrays get their memory before they are filled, by all threads: otherwise the one that
+// fills them asks the system page by page. Hints only: nothing depends on them.
 #pragma once
 #include <cstddef>
 #include <vector>
