@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "deck/base/columns.hpp"
+#include "deck/report/cycle.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/text/rule.hpp"
 #include "report/inspected.hpp"
@@ -67,6 +68,21 @@ TEST(GapsText, AContactWithAnEmptySideIsNoCleanOne) {
   EXPECT_TRUE(
       text.starts_with("3 contacts with an empty side. No initial penetration in 1 contact."))
       << text;
+}
+
+TEST(CycleVerdict, AContactWithAnEmptySideIsNotOneWithoutForce) {
+  const Inspected d(one_sided());
+  const cycle::State state = cycle::make_state(d.scene, {});
+  const cycle::SceneOutcome outcome = cycle::run_cycle(d.scene, state, {});
+  CycleInput input;
+  input.deck = &d.deck;
+  input.scene = &d.scene;
+  input.state = &state;
+  input.outcome = &outcome;
+  const std::string verdict = cycle_verdict(input);
+  EXPECT_TRUE(verdict.starts_with(
+      "3 contacts with an empty side. No contact force at the start in 1 contact."))
+      << verdict;
 }
 
 TEST(GapsText, AContactWithoutAGapIsNoCleanOne) {

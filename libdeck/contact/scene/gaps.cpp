@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/pages.hpp"
+#include "base/parallel.hpp"
 #include "contact/scene/scene_parts.hpp"
 
 namespace deck::detail {
@@ -52,22 +54,31 @@ std::vector<double> node_limits(std::size_t nodes, const std::vector<MainSegment
 const std::vector<double>& shell_half_thickness(const Surroundings& c) {
   std::vector<double>& half = c.shells.half_thickness;
   if (!half.empty()) return half;
+  make_room(half, c.model.nodes.size(), c.threads);
   half.assign(c.model.nodes.size(), 0);
-  for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
-    const Elements& family = c.model.family(kind);
-    for (std::uint32_t e = 0; e < family.size(); ++e) {
-      const double own = 0.5 * gap_thickness(c.model, kind, e);
-      const NodeIndex* n = family.of(e);
-      for (int i = 0; i < family.width; ++i)
-        if (n[i] != no_index) half[n[i]] = std::max(half[n[i]], own);
+  // Every thread writes to nodes of its own; most elements lie among those of one thread.
+  parallel_parts(c.threads, half.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    const auto mine = [&](NodeIndex n) { return n >= begin && n < end; };  // never no_index
+    for (const ElementKind kind : {ElementKind::shell4, ElementKind::shell3}) {
+      const Elements& family = c.model.family(kind);
+      for (std::uint32_t e = 0; e < family.size(); ++e) {
+        const NodeIndex* n = family.of(e);
+        const NodeIndex* const last = n + family.width;
+        if (std::none_of(n, last, mine)) continue;
+        const double own = 0.5 * gap_thickness(c.model, kind, e);
+        for (; n < last; ++n)
+          if (mine(*n)) half[*n] = std::max(half[*n], own);
+      }
     }
-  }
+  });
   return half;
 }
 
-/// Half thickness of the thickest thing attached to a node, before Fscalegap.
-double node_half_thickness(const Surroundings& c, NodeIndex node) {
-  double half = shell_half_thickness(c)[node];
+/// Half thickness of the thickest thing attached to a node, before Fscalegap; `shells` is
+/// shell_half_thickness().
+double node_half_thickness(const Surroundings& c, const std::vector<double>& shells,
+                           NodeIndex node) {
+  double half = shells[node];
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring}) {
     const Elements& family = c.model.family(kind);
     for (const std::uint32_t e : c.connectivity.elements(kind, node)) {
@@ -81,6 +92,33 @@ double node_half_thickness(const Surroundings& c, NodeIndex node) {
     }
   }
   return half;
+}
+
+/// What a gap is bounded by, over some items.
+struct Extremes {
+  double shortest = std::numeric_limits<double>::infinity();
+  SideExtremes sides;
+  void add(const Extremes& other) {
+    shortest = std::min(shortest, other.shortest);
+    for (double SideExtremes::*const most :
+         {&SideExtremes::thickest_main, &SideExtremes::thickest_secondary,
+          &SideExtremes::longest_main, &SideExtremes::longest_secondary})
+      sides.*most = std::max(sides.*most, other.sides.*most);
+  }
+};
+
+/// Calls set(item, extremes) for all items on several threads; the extremes of all.
+template <class Item, class Set>
+Extremes set_each(int threads, std::vector<Item>& items, const Set& set) {
+  std::vector<Extremes> parts(static_cast<std::size_t>(threads));
+  parallel_parts(threads, items.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    Extremes found;  // of this thread alone: neighbours in `parts` share a cache line
+    for (std::size_t i = begin; i < end; ++i) set(items[i], found);
+    parts[part] = found;
+  });
+  Extremes all;
+  for (const Extremes& part : parts) all.add(part);
+  return all;
 }
 
 }  // namespace
@@ -107,15 +145,16 @@ EdgeSide edge_side(const Coordinates& x, const std::vector<ContactEdge>& edges) 
 
 void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   const Coordinates& x = c.scene.coordinates;
-  const Surroundings around{c.model, c.connectivity, c.shells, x};
+  const int threads = effective_threads(c.options.threads);
+  const Surroundings around{c.model, c.connectivity, c.shells, x, threads};
   const NodeArrays arrays{x.x, x.y, x.z};
   const bool variable = contact.igap != 0;
   const double scale = contact.gap_scale;
-  double shortest = std::numeric_limits<double>::infinity();
-  SideExtremes extremes;
-  for (MainSegment& m : contact.main) {
+  for (const ElementKind kind : {ElementKind::truss, ElementKind::beam, ElementKind::spring})
+    if (variable) c.connectivity.prepare(kind);
+  const auto set_segment = [&](MainSegment& m, Extremes& found) {
     const double side = shortest_side(arrays, m.nodes);
-    shortest = std::min(shortest, side);
+    found.shortest = std::min(found.shortest, side);
     const bool shell = m.carrier == Carrier::shell4 || m.carrier == Carrier::shell3;
     if (shell && m.element != no_index)
       m.thickness = gap_thickness(
@@ -124,10 +163,12 @@ void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
     if (variable && shell) m.gap = segment_gap(m.thickness, scale);
     if (contact.igap == 3) {
       m.length = segment_limit(around, m, side, contact.mesh_fraction);
-      extremes.longest_main = std::max(extremes.longest_main, m.length);
+      found.sides.longest_main = std::max(found.sides.longest_main, m.length);
     }
-    extremes.thickest_main = std::max(extremes.thickest_main, m.gap);
-  }
+    found.sides.thickest_main = std::max(found.sides.thickest_main, m.gap);
+  };
+  const Extremes of_main = set_each(threads, contact.main, set_segment);
+  const double shortest = of_main.shortest;
   contact.shortest_side = std::isfinite(shortest) ? shortest : 0;
   const DefaultGap gapmin = gapmin_input > 0
                                 ? DefaultGap{gapmin_input, GapminOrigin::card}
@@ -139,16 +180,20 @@ void set_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
   if (contact.igap == 3)
     node_length = node_limits(x.x.size(), contact.main,
                               [&](std::size_t i) { return contact.main[i].length; });
-  for (SecondaryNode& s : contact.secondary) {
-    if (variable) s.gap = node_gap(node_half_thickness(around, s.node), scale);
+  const std::vector<double>* const shells =
+      variable && !contact.secondary.empty() ? &shell_half_thickness(around) : nullptr;
+  const auto set_node = [&](SecondaryNode& s, Extremes& found) {
+    if (variable) s.gap = node_gap(node_half_thickness(around, *shells, s.node), scale);
     if (contact.igap == 3) {
       s.length = node_length[s.node];
-      extremes.longest_secondary = std::max(extremes.longest_secondary, s.length);
+      found.sides.longest_secondary = std::max(found.sides.longest_secondary, s.length);
     }
-    extremes.thickest_secondary = std::max(extremes.thickest_secondary, s.gap);
-  }
+    found.sides.thickest_secondary = std::max(found.sides.thickest_secondary, s.gap);
+  };
+  Extremes all = set_each(threads, contact.secondary, set_node);
+  all.add(of_main);
   contact.gap_rule = PairGap::from_igap(contact.igap, contact.gapmin, contact.gapmax);
-  contact.max_gap = largest_gap(contact.igap, contact.gapmin, contact.gapmax, extremes);
+  contact.max_gap = largest_gap(contact.igap, contact.gapmin, contact.gapmax, all.sides);
 }
 
 void set_edge_gaps(SceneContext& c, Contact& contact, double gapmin_input) {
@@ -200,8 +245,10 @@ PlainSides plain_sides(const Surroundings& around, const Contact& contact) {
   }
   out.shortest_side = std::isfinite(shortest) ? shortest : 0;
   out.half_thickness.reserve(contact.secondary.size());
+  const std::vector<double>* const shells =
+      variable && !contact.secondary.empty() ? &shell_half_thickness(around) : nullptr;
   for (const SecondaryNode& s : contact.secondary)
-    out.half_thickness.push_back(variable ? node_half_thickness(around, s.node) : 0);
+    out.half_thickness.push_back(variable ? node_half_thickness(around, *shells, s.node) : 0);
   out.secondary_length.assign(contact.secondary.size(), 0);
   if (!variable) return out;
   const std::vector<double> limits =

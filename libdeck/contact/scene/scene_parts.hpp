@@ -37,6 +37,7 @@ struct Surroundings {
   Connectivity& connectivity;
   ShellsAtNodes& shells;
   const Coordinates& coordinates;
+  int threads = 1;
 };
 
 inline Vec at(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
@@ -62,20 +63,6 @@ void make_main_segments(SceneContext& context, const SegmentList& segments, Cont
 // thickness.cpp — sections and materials of elements
 /// Contact thickness of a shell (kind shell4 or shell3).
 double gap_thickness(const Model& model, ElementKind kind, std::uint32_t e);
-/// The same for many shells of a kind.
-class ShellThickness {
- public:
-  ShellThickness(const Model& model, ElementKind kind);
-  double operator()(std::uint32_t e) const;
-
- private:
-  struct OfPart {
-    double contact = 0, property = 0;
-  };
-  const Elements* family_;
-  bool own_;
-  std::vector<OfPart> of_part_;
-};
 /// Thickness that enters main stiffness of TYPE7/10: the part thickness does not count.
 double stiffness_thickness(const Model& model, ElementKind kind, std::uint32_t e);
 double young_of(const Model& model, ElementKind kind, std::uint32_t e);

@@ -37,22 +37,6 @@ double gap_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
   return stiffness_thickness(model, kind, e);
 }
 
-ShellThickness::ShellThickness(const Model& model, ElementKind kind)
-    : family_(&model.family(kind)), own_(!model.intthick_v5 && !family_->thickness.empty()) {
-  of_part_.reserve(model.parts.size());
-  for (const Part& part : model.parts)
-    of_part_.push_back({model.intthick_v5 ? 0 : part.thickness,
-                        part.prop == no_index ? 0 : model.properties[part.prop].thickness});
-}
-
-double ShellThickness::operator()(std::uint32_t e) const {
-  const std::uint32_t p = family_->part[e];
-  const OfPart part = p == no_index ? OfPart{} : of_part_[p];
-  if (part.contact != 0) return part.contact;
-  const double own = own_ && e < family_->thickness.size() ? family_->thickness[e] : 0;
-  return own != 0 ? own : part.property;
-}
-
 double stiffness_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
   if (const double t = own_thickness(model, kind, e); t != 0) return t;
   const Property* p = property_of(model, kind, e);

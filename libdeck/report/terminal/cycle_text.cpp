@@ -9,6 +9,7 @@
 #include "deck/model/coverage.hpp"
 #include "deck/model/stops.hpp"
 #include "deck/report/cycle.hpp"
+#include "deck/report/gaps.hpp"
 #include "deck/report/gate.hpp"
 #include "deck/report/text_table.hpp"
 #include "report/accuracy_decisions.hpp"
@@ -444,12 +445,16 @@ std::string cycle_verdict(const CycleInput& input) {
     removal += fmt::format(" Not evaluated: {} contact{}, see below.", open, open == 1 ? "" : "s");
   if (pairs == 0 && closed == 0 && open == static_cast<std::ptrdiff_t>(o.contacts.size()))
     return "Nothing was evaluated." + removal + tail;
-  if (pairs == 0 && closed == 0)
-    return fmt::format("No contact force {} in {} contact{}.{}{}", when, o.contacts.size(),
-                       o.contacts.size() == 1 ? "" : "s", removal, tail);
-  std::string text = fmt::format("{} pair{} push{} {}; largest nodal force {:.4g} at {}.", pairs,
-                                 pairs == 1 ? "" : "s", pairs == 1 ? "es" : "", when,
-                                 o.largest_nodal_force, node_text(model, o.force_node));
+  const ObstacleText obstacles = obstacle_text(*input.scene);
+  if (pairs == 0 && closed == 0) {
+    const std::size_t examined = o.contacts.size() - obstacles.unexamined;
+    return fmt::format("{}No contact force {} in {} contact{}.{}{}", obstacles.sentences, when,
+                       examined, examined == 1 ? "" : "s", removal, tail);
+  }
+  std::string text =
+      fmt::format("{}{} pair{} push{} {}; largest nodal force {:.4g} at {}.", obstacles.sentences,
+                  pairs, pairs == 1 ? "" : "s", pairs == 1 ? "es" : "", when, o.largest_nodal_force,
+                  node_text(model, o.force_node));
   text += removal;
   if (worst != nullptr && worst->acceleration_node != no_index)
     text += fmt::format(" Largest acceleration {:.4g}: node {}, interface {}.",

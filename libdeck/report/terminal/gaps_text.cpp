@@ -194,19 +194,9 @@ std::string penetration_sentence(const Scene& scene, const SceneView& view) {
   std::string open = unknown == 0 ? ""
                                   : fmt::format("{} could not be evaluated, see the findings. ",
                                                 count(unknown, "contact", "contacts"));
-  std::size_t idle = 0;
-  const auto name = [&](const char* what, std::initializer_list<Obstacle> obstacles) {
-    const auto n = static_cast<std::size_t>(
-        std::count_if(scene.contacts.begin(), scene.contacts.end(), [&](const Contact& c) {
-          return c.evaluated &&
-                 std::find(obstacles.begin(), obstacles.end(), obstacle_of(c)) != obstacles.end();
-        }));
-    if (n > 0) open += fmt::format("{} {}. ", count(n, "contact", "contacts"), what);
-    return n;
-  };
-  idle += name("with an empty side", {Obstacle::empty_main, Obstacle::empty_secondary});
-  idle += name("without a gap (error 785/786)", {Obstacle::no_gap});
-  name("with main segments without area (error 558)", {Obstacle::no_area});
+  const ObstacleText obstacles = obstacle_text(scene);
+  const std::size_t idle = obstacles.unexamined;
+  open += obstacles.sentences;
   if (t.count.pairs == 0)
     return open + fmt::format("No initial penetration in {}.",
                               count(scene.contacts.size() - unknown - idle, "contact", "contacts"));
@@ -226,6 +216,23 @@ std::string penetration_sentence(const Scene& scene, const SceneView& view) {
 }
 
 }  // namespace
+
+ObstacleText obstacle_text(const Scene& scene) {
+  ObstacleText out;
+  const auto name = [&](const char* what, std::initializer_list<Obstacle> obstacles) {
+    const auto n = static_cast<std::size_t>(
+        std::count_if(scene.contacts.begin(), scene.contacts.end(), [&](const Contact& c) {
+          return c.evaluated &&
+                 std::find(obstacles.begin(), obstacles.end(), obstacle_of(c)) != obstacles.end();
+        }));
+    if (n > 0) out.sentences += fmt::format("{} {}. ", count(n, "contact", "contacts"), what);
+    return n;
+  };
+  out.unexamined += name("with an empty side", {Obstacle::empty_main, Obstacle::empty_secondary});
+  out.unexamined += name("without a gap (error 785/786)", {Obstacle::no_gap});
+  name("with main segments without area (error 558)", {Obstacle::no_area});
+  return out;
+}
 
 std::string gaps_verdict(const Deck& deck, const Scene& scene, const SceneView& view) {
   const Coverage coverage = coverage_of(deck, *scene.interfaces);

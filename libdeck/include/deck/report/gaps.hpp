@@ -37,6 +37,13 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
 /// why there is no verdict. The same words in every medium.
 std::string gaps_verdict(const Deck& deck, const Scene& scene, const SceneView& view);
 
+/// What keeps evaluated contacts of a scene from being judged (obstacle_of).
+struct ObstacleText {
+  std::string sentences;       ///< "1 contact with an empty side. "; empty: nothing
+  std::size_t unexamined = 0;  ///< contacts without any pair for that reason
+};
+ObstacleText obstacle_text(const Scene& scene);
+
 /// The document of `deck gaps --json`. With `all`, every secondary node and main segment; with
 /// `crossings`, what find_crossings gave for the scene.
 std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scene,
