@@ -536,6 +536,35 @@ TEST_F(ReaderInclude, TheSameFileTwiceInARowIsNoCycle) {
   EXPECT_EQ(d.sources.size(), 3u);
 }
 
+/// A /BEGIN of an included file; `units` of its values, empty: none.
+std::string own_begin(const std::string& units) {
+  return "/BEGIN\nsub\n       100         0\n" + units + "\n" + units + "\n";
+}
+constexpr const char* metres = "                  Mg                   m                   s";
+constexpr const char* millimetres = "                  kg                  mm                  ms";
+
+TEST_F(ReaderInclude, ItsOtherUnitsAreNamedOutsideOfSubmodels) {
+  const auto findings = [&](const std::string& body) {
+    const Deck d = read_file(file("m_0000.rad", deck_of(body)));
+    return count(d.diagnostics, RuleId::DK043);
+  };
+  file("metres.inc", own_begin(metres) + "/NODE\n");
+  file("millimetres.inc", own_begin(millimetres) + "/NODE\n");
+  file("none.inc", own_begin("") + "/NODE\n");
+  EXPECT_EQ(findings("#include metres.inc\n"), 1u);
+  EXPECT_EQ(findings("#include millimetres.inc\n#include none.inc\n"), 0u);
+  EXPECT_EQ(findings("//SUBMODEL/1\n\n\n#include metres.inc\n//ENDSUB\n"), 0u);
+}
+
+TEST_F(ReaderInclude, ABeginWithoutUnitsGivesASubmodelItsVersion) {
+  file("mesh.inc", "/GRNOD/NODE/7\n");
+  const Deck d = read_file(file("m_0000.rad", deck_of("//SUBMODEL/1\n\n\n" + own_begin("") +
+                                                      "#include mesh.inc\n//ENDSUB\n"
+                                                      "/GRNOD/NODE/8\n")));
+  EXPECT_EQ(block(d, "/GRNOD/NODE/7")->version, 100);
+  EXPECT_EQ(block(d, "/GRNOD/NODE/8")->version, 2024);
+}
+
 TEST_F(ReaderInclude, InheritsTheVersionUnlessItHasItsOwnBegin) {
   file("plain.inc", "/GRNOD/NODE/1\n");
   file("own.inc", begin("100") + "/GRNOD/NODE/2\n#include plain2.inc\n");
