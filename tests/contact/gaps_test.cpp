@@ -290,6 +290,20 @@ TEST(EdgeGap, VariableGapIsTheSumAndAtLeastGapmin) {
   EXPECT_DOUBLE_EQ(pair(b.contact(3)), 0.15);
 }
 
+TEST(LargestGap, IsTheSumOfTheThickestOfBothSides) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 8, 0).node(4, 0, 8, 0);
+  for (int i = 0; i < 4; ++i) d.node(11 + i, 6.0 * (i == 1 || i == 2), 6.0 * (i > 1), 9);
+  d.shell_part(1, 2).shell_part(2, 1).shell(1, 1, 1, 2, 3, 4).shell(2, 2, 11, 12, 13, 14);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/PART/2", {2}).group("/SURF/PART/3", {1, 2});
+  const Built b(d.add("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Igap=1 Gapmin=0.1")
+                    .add("@/INTER/TYPE7/2 grnd_IDs=2 surf_IDm=1 Igap=3 Gapmin=0.1 %mesh_size=0.1")
+                    .add("@/INTER/TYPE7/3 grnd_IDs=2 surf_IDm=3 Igap=3 Gapmin=0.1 %mesh_size=0.1"));
+  EXPECT_DOUBLE_EQ(b.contact(1).max_gap, 1.0 + 0.5);
+  EXPECT_DOUBLE_EQ(b.contact(2).max_gap, 1.0 + 0.5);  // free nodes know no limit
+  EXPECT_DOUBLE_EQ(b.contact(3).max_gap, 0.8 + 0.6);
+}
+
 TEST(NegativeValues, CountAsTheSolverComputesWithThem) {
   const Built b(beam_and_truss()
                     .add("@/INTER/TYPE7/1 Igap=-1 Gapmin=0.6")
