@@ -94,7 +94,8 @@ class SurfacePieces {
 /// go into buckets by their smaller node, so many buckets at a time that little memory is needed.
 std::size_t count_free_edges(const SegmentList& surface) {
   SurfacePieces pieces(surface);
-  const auto [low, high] = pieces.all();
+  const NodeRange all = pieces.all();
+  const NodeIndex low = all.low, high = all.high;
   if (low > high) return 0;
   int shift = 0;  // not many more buckets than segments
   while ((high - low) >> shift > 4 * surface.size()) ++shift;

@@ -7,7 +7,6 @@
 
 #include "deck/base/escape.hpp"
 #include "deck/model/coverage.hpp"
-#include "deck/model/stops.hpp"
 #include "deck/report/cycle.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/gate.hpp"

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "deck/base/escape.hpp"
-#include "deck/model/stops.hpp"
+#include "deck/model/coverage.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/gate.hpp"
 #include "deck/report/text_table.hpp"

@@ -1,5 +1,6 @@
 // What a verdict covers: how many interfaces were examined, which ones are of a type that is not,
-// and whether all included files were there. Every medium that says "clean" says this too.
+// whether all included files were there, and whether the solver comes to its contacts at all. Every
+// medium that says "clean" says this too.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -34,5 +35,8 @@ std::string not_examined_text(const Coverage& coverage);
 std::string coverage_lead(const Coverage& coverage);
 /// What is added to a verdict: " Not examined: ...", or nothing.
 std::string coverage_tail(const Coverage& coverage);
+/// " The solver stops first: 2 errors in the deck ..." where Deck::diagnostics has errors that are
+/// the solver's own as well; else empty. Empty sides of contacts are left out: verdicts name them.
+std::string stops_text(const Deck& deck);
 
 }  // namespace deck
