@@ -3,6 +3,7 @@ import glob
 import json
 import os
 import pickle
+import re
 import subprocess
 import threading
 
@@ -26,10 +27,13 @@ def command(*args):
     return json.loads(run.stdout)
 
 
-def same(a, b, without=("gate", "compared")):  # of the gate on the command line
+def same(module, program, without=("gate", "compared")):  # of the gate on the command line
     for key in without:
-        a.pop(key, None), b.pop(key, None)
-    assert a == b
+        module.pop(key, None), program.pop(key, None)
+    # What stops the solver before it comes to contacts stands in the findings of the module.
+    program["verdict"] = re.sub(r" The solver stops first: \d+ errors? in the deck \('deck lint' explains\)\.", "",
+                                program["verdict"])
+    assert module == program
 
 
 @pytest.fixture(scope="module")
