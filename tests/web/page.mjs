@@ -283,6 +283,15 @@ if (large) {
   })), sorted(asRows(nativeFindings(dirname(large), basename(large)))));
   await shot(p, "dummy");
 
+  const protocol = await browser.newBrowserCDPSession();
+  const processor = async () => (await protocol.send("SystemInfo.getProcessInfo")).processInfo.filter((i) => i.type === "renderer").reduce((sum, i) => sum + i.cpuTime, 0);
+  const whole = []; // the same deck from nothing, what a fast or slow machine takes
+  for (let i = 0; i < 3; ++i) {
+    const before = await processor();
+    await p.evaluate(([name, text]) => window.deck(["lint", name], { [name]: text }), [basename(large), readFileSync(large, "latin1")]);
+    whole.push(1000 * ((await processor()) - before));
+  }
+
   // A cell is written: from the key to the findings in the list. Processor time of the page with its threads,
   // as nobody knows what else the machine does; the best counts. Runs for other views wait meanwhile.
   await p.click("#tab-values");
@@ -294,8 +303,6 @@ if (large) {
       if (!message.args) window.post.call(this, message, ...more);
     };
   });
-  const protocol = await browser.newBrowserCDPSession();
-  const processor = async () => (await protocol.send("SystemInfo.getProcessInfo")).processInfo.filter((i) => i.type === "renderer").reduce((sum, i) => sum + i.cpuTime, 0);
   const write = (value) => p.evaluate((written) => new Promise((ok) => {
     const root = document.documentElement;
     delete root.dataset.linted;
@@ -318,8 +325,8 @@ if (large) {
     await p.waitForTimeout(100);
   }
   const told = (list) => `best ${Math.min(...list).toFixed(0)} ms, median ${list.sort((x, y) => x - y)[list.length >> 1].toFixed(0)} ms, longest ${Math.max(...list).toFixed(0)} ms`;
-  console.log(`findings of the dummy after an edit, processor time: ${told(used)}; by the clock: ${told(passes)}`);
-  check("findings of a 4 MB deck follow an edit with 100 ms of processor time", used[0] <= 100, `${used[0]} ms`);
+  console.log(`findings of the dummy after an edit, processor time: ${told(used)}; by the clock: ${told(passes)}; from nothing, processor time: ${told(whole)}`);
+  check("findings of a 4 MB deck follow an edit with half of the processor time that they take from nothing", 2 * used[0] <= whole[0], `${used[0]} ms of ${whole[0]} ms`);
   await p.evaluate(() => (Worker.prototype.postMessage = window.post));
   await p.click('button:has-text("Cancel")');
   await write("100.");
