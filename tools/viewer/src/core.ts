@@ -23,14 +23,21 @@ interface Exports {
   origin_text(origin: number): number;
 }
 
-const compiled = new WebAssembly.Module(unzlibSync(packed) as Uint8Array<ArrayBuffer>);
+let compiled: WebAssembly.Module | null = null;
+/** The compiled rules, which can be given from thread to thread. */
+export const compiledRules = (): WebAssembly.Module => (compiled ??= new WebAssembly.Module(unzlibSync(packed) as Uint8Array<ArrayBuffer>));
+/** Those of another thread: then they are not compiled here. */
+export function useRules(module: WebAssembly.Module): void {
+  compiled = module;
+}
 function start(): Exports {
-  const wasm = new WebAssembly.Instance(compiled).exports as unknown as Exports;
+  const wasm = new WebAssembly.Instance(compiledRules()).exports as unknown as Exports;
   wasm.initialize();
   return wasm;
 }
+let own: Exports | null = null;
 /** For rules that need no data. */
-const rules = start();
+const rules = (): Exports => (own ??= start());
 
 export type Action =
   | "none"
@@ -77,25 +84,25 @@ export interface Row extends Outcome {
 const rowSize = 17;
 
 function text(address: number): string {
-  const bytes = new Uint8Array(rules.memory.buffer);
+  const bytes = new Uint8Array(rules().memory.buffer);
   let out = "";
   for (let i = address; bytes[i] !== 0; i++) out += String.fromCharCode(bytes[i]);
   return out;
 }
-const actions = [0, 1, 2, 3, 4, 5].map((i) => text(rules.action_text(i)) as Action);
+let names: Action[] | null = null;
+const actionOf = (i: number): Action => (names ??= [0, 1, 2, 3, 4, 5].map((k) => text(rules().action_text(k)) as Action))[i];
 
 /** A row as the rules wrote it: there can be half a million, so nothing is copied. */
 class WrittenRow implements Row {
+  readonly secondary: number; // these two are asked for everywhere
+  readonly main: number;
   constructor(
     readonly contact: number,
     private readonly v: Float64Array,
     private readonly at: number,
-  ) {}
-  get secondary(): number {
-    return this.v[this.at];
-  }
-  get main(): number {
-    return this.v[this.at + 1];
+  ) {
+    this.secondary = v[at];
+    this.main = v[at + 1];
   }
   get depth(): number {
     return this.v[this.at + 2];
@@ -113,7 +120,7 @@ class WrittenRow implements Row {
     return this.v[this.at + 8] !== 0;
   }
   get action(): Action {
-    return actions[this.v[this.at + 9]];
+    return actionOf(this.v[this.at + 9]);
   }
   get gap0(): number | null {
     return this.v[this.at + 10] !== 0 ? this.v[this.at + 11] : null;
@@ -131,18 +138,18 @@ class WrittenRow implements Row {
 
 /** What Inacti and Fpenmax would do about a penetration on its own. */
 export function outcomeOf(row: Row, inacti: number, fpenmax: number): Outcome {
-  rules.act(inacti, fpenmax, row.depth, row.gap, Number(row.onSurface));
-  return new WrittenRow(row.contact, new Float64Array(rules.memory.buffer, rules.exchange(), rowSize).slice(), 0);
+  rules().act(inacti, fpenmax, row.depth, row.gap, Number(row.onSurface));
+  return new WrittenRow(row.contact, new Float64Array(rules().memory.buffer, rules().exchange(), rowSize).slice(), 0);
 }
 
 /** The solver's error for a node exactly on a segment; 0: none. */
 export function onSurfaceError(meta: ContactMeta, fpenmax: number, inacti: number): number {
-  return meta.kind === "edge_edge" ? 0 : rules.on_surface_error(meta.type, meta.itied, fpenmax, inacti);
+  return meta.kind === "edge_edge" ? 0 : rules().on_surface_error(meta.type, meta.itied, fpenmax, inacti);
 }
 
 /** Pair gap from what the two sides bring. */
 export function pairGap(s: Setting, gs: number, gm: number, ls: number, lm: number): number {
-  return rules.pair_gap(s.igap, s.gapmin, s.gapmax, gs, gm, ls, lm);
+  return rules().pair_gap(s.igap, s.gapmin, s.gapmax, gs, gm, ls, lm);
 }
 
 /** One contact at its settings. */
@@ -165,14 +172,14 @@ export function evaluated(contact: number, { head, rows: out }: Raw): Evaluated 
   const [igap, inacti, irem, fpenmax, scale, gapmin, from, gapmax, maxGap, drad, reached, uncertain, count] = head;
   const rows: Row[] = [];
   for (let i = 0; i < count; i++) rows.push(new WrittenRow(contact, out, i * rowSize));
-  return { setting: { igap, inacti, irem, fpenmax, scale, gapmin, gapminFrom: text(rules.origin_text(from)), gapmax, maxGap, drad }, rows, reached, uncertain: uncertain !== 0 };
+  return { setting: { igap, inacti, irem, fpenmax, scale, gapmin, gapminFrom: text(rules().origin_text(from)), gapmax, maxGap, drad }, rows, reached, uncertain: uncertain !== 0 };
 }
 
 /** How far the rows of a contact move a node at most. */
 export function largestMove({ rows }: Raw): number {
   let most = 0;
   for (let at = 0; at < rows.length; at += rowSize)
-    if (actions[rows[at + 9]] === "node-moved") most = Math.max(most, Math.hypot(rows[at + 13], rows[at + 14], rows[at + 15]));
+    if (actionOf(rows[at + 9]) === "node-moved") most = Math.max(most, Math.hypot(rows[at + 13], rows[at + 14], rows[at + 15]));
   return most;
 }
 

@@ -110,8 +110,8 @@ export function readMesh(bytes: Uint8Array): Mesh {
       const kind = r.u();
       const corners = r.u();
       const items = r.u();
-      const vertex = r.backwards(items * corners, next);
-      for (let i = 0; i < vertex.length; i++) if (vertex[i] >= next) next = vertex[i] + 1;
+      const [vertex, unused] = r.backwards(items * corners, next);
+      next = unused;
       groups.push({ kind, corners, count: items, vertex, element: r.deltas(items) });
     }
     parts.push({ part, node, position, groups });
@@ -215,8 +215,12 @@ export async function unpack(ids: string[]): Promise<void> {
 export async function inflateText(text: string): Promise<Uint8Array> {
   const packed = fromBase64(text);
   if (typeof DecompressionStream === "undefined") return unzlibSync(packed);
-  const stream = new Blob([packed as Uint8Array<ArrayBuffer>]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+  // Written to it at once: the bytes of a Blob would come in small pieces by way of the browser's own process.
+  const { readable, writable } = new DecompressionStream("deflate");
+  const writer = writable.getWriter();
+  const written = Promise.all([writer.write(packed as Uint8Array<ArrayBuffer>), writer.close()]);
+  const [bytes] = await Promise.all([new Response(readable).arrayBuffer(), written]);
+  return new Uint8Array(bytes);
 }
 
 export function loadMeta(): Meta {

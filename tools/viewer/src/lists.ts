@@ -168,12 +168,13 @@ function ticks(top: number): number[] {
 }
 
 function histogram(report: Report, look: Look, field: "depth" | "ratio", title: string): HTMLElement {
-  const values = report.around(field).map((x) => x[field]);
-  const all = report.hits.reduce((m, x) => Math.max(m, x[field]), 0);
+  const values = report.around(field);
+  let all = 0;
+  for (const x of report.hits) if (x[field] > all) all = x[field];
   const top = field === "ratio" ? Math.max(1, all) : all || 1;
   const bins = 24;
   const count = new Array<number>(bins).fill(0);
-  for (const v of values) count[Math.min(bins - 1, Math.floor((v / top) * bins))]++;
+  for (const x of values) count[Math.min(bins - 1, Math.floor((x[field] / top) * bins))]++;
   const most = Math.max(...count, 1);
   const [w, hgt, x0, y0, x1, y1] = [360, 176, 38, 10, 350, 142];
   const x = (v: number) => x0 + (x1 - x0) * (v / top);

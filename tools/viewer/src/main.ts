@@ -1,4 +1,5 @@
 // The page: reads its data, builds the sections, wires keys and exports.
+import { begun } from "./decode/begun";
 import { crossedSection } from "./scene/crossed";
 import { cycleSection } from "./cycle";
 import { loadCrossed, loadCycle, loadEarlier, loadMeta, unpack } from "./data";
@@ -17,22 +18,25 @@ import { openMenu, rowItems } from "./menu";
 import { ViewState } from "./state";
 import { touchesSection } from "./touches";
 import { Report, type Hit } from "./report";
+import type { WebGLRenderer } from "three";
 import { drawsInSoftware } from "./scene/machine";
+import { readyToDraw } from "./scene/ready";
 import { Viewport } from "./scene/viewport";
 
 const started = performance.now();
 
-/** Decodes the data beside the page, which shows how far it is, then builds. */
+/** Decodes the data beside the page, which shows how far it is and makes ready to draw, then builds. */
 async function start(): Promise<void> {
   const bar = h("progress", { max: 1, value: 0, "aria-label": "Unpacking" });
   const said = h("span", null, "Unpacking the model …");
   const wait = h("div", { class: "unpacking", role: "status" }, bar, said);
   document.body.prepend(wait);
   const software = drawsInSoftware();
-  const model = loadModel(software, (done, next) => {
+  const model = loadModel(begun, software, (done, next) => {
     bar.value = done;
     said.textContent = next;
   });
+  const machine = matchMedia(telephone).matches ? null : readyToDraw(software);
   try {
     await unpack(["deck-earlier", "deck-cycle", "deck-crossed"]);
   } catch {
@@ -41,10 +45,19 @@ async function start(): Promise<void> {
   const ready = await model;
   await new Promise((painted) => setTimeout(painted));
   wait.remove();
-  build(ready, software);
+  build(ready, software, machine);
 }
 
-function build(model: Model & { beside: boolean }, software: boolean): void {
+const telephone = "(max-width: 600px)";
+const oneColumn = "(max-width: 1100px)";
+
+/** Once what was done so far is on the screen. */
+function onceShown(then: () => void): void {
+  if (document.hidden) setTimeout(then);
+  else requestAnimationFrame(() => setTimeout(then));
+}
+
+function build(model: Model & { beside: boolean }, software: boolean, machine: WebGLRenderer | null): void {
   const times: Record<string, number> = { decoded: performance.now() - started };
   const meta = loadMeta();
   const report = new Report(meta, model.mesh, model.contacts, loadEarlier(), loadCycle(), loadCrossed(), model.base);
@@ -59,23 +72,9 @@ function build(model: Model & { beside: boolean }, software: boolean): void {
   look.dark = matchMedia("(prefers-color-scheme: dark)").matches;
   document.documentElement.dataset.theme = look.dark ? "dark" : "light";
 
-  let tell = (): void => {};
-  const pictured = new Promise<void>((done) => (tell = done));
-  const viewport = new Viewport(report, look, changeLook, model.shapes, software);
+  const viewport = new Viewport(report, look, changeLook, model.shapes, software, machine);
   const fly = (x: Hit) => viewport.open(x);
-  const stem = fileName(meta.deck.path).replace(/\.rad$/i, "");
-  const exports = exportMenu(report, [
-    { label: "Node ids, one per line", run: () => save(`${stem}_nodes.txt`, plainNodes(report.filtered)) },
-    { label: "Node ids to the clipboard", run: () => void copyText(plainNodes(report.filtered)) },
-    { label: "/GRNOD/NODE block", hint: "A node group for the deck, with an id that is free", run: () => save(`${stem}_grnod.inc`, grnodBlock(report.filtered, meta.free_group_id, "initial penetrations")) },
-    { label: "Marked nodes (Tcl)", hint: "*createmark and *entitysetcreate, for HyperMesh", run: () => save(`${stem}_nodes.tcl`, tclMarks(report.filtered, "initial penetrations")) },
-    { label: "List (CSV), the columns in sight", run: () => save(`${stem}_list.csv`, list.table.csv()) },
-    { label: "Table (CSV), all columns", run: () => save(`${stem}_penetrations.csv`, csv(report, report.filtered)) },
-    { label: "Changed cards", hint: "Cards of all interfaces with settings under test", run: () => save(`${stem}_cards.inc`, allChangedCards(report)) },
-    { label: "Picture (PNG)", run: () => viewport.savePicture() },
-  ], "export");
   let state: ViewState | null = null;
-  const list = listSection(report, fly, exports, () => state?.note());
   // Choosing a row flies there: the picture follows the list.
   report.on("selection", () => report.selected && fly(report.selected));
 
@@ -94,11 +93,7 @@ function build(model: Model & { beside: boolean }, software: boolean): void {
       button("", "sun", () => changeLook({ dark: !look.dark }), { "aria-label": "Dark or light (t)", title: "Dark or light (t)", class: "tool" }),
       button("", "print", () => window.print(), { "aria-label": "Print", title: "Print", class: "tool" }),
       button("", "help", () => help.showModal(), { "aria-label": "Keys (?)", title: "Keys (?)", class: "tool" })));
-  const nav = h("nav", { "aria-label": "Sections" },
-    ...([["effects", "Effects"], ["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["notes", "About"]] as const)
-      .map(([id, name]) => h("a", { href: `#${id}` }, name)));
-  const left = h("div", { class: "left", id: "tables" }, nav, doc && effectsSection(report, doc, `${stem}_effects.svg`), doc && cycleSection(report), verdict(report), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, crossedSection(report, (points) => viewport.openPoints(points)), !doc && cycleSection(report), notChecked(report));
-  for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
+  const left = h("div", { class: "left", id: "tables" });
   const divider = h("div", { class: "divider", role: "separator", "aria-orientation": "vertical", "aria-label": "Width of the tables", "aria-valuemin": 25, "aria-valuemax": 80, "aria-valuenow": 53, tabindex: 0 });
   const right = h("aside", { class: "right" }, viewport.element, detail(report, fly));
   const split = h("div", { class: "split" }, left, divider, right);
@@ -106,33 +101,73 @@ function build(model: Model & { beside: boolean }, software: boolean): void {
   document.getElementById("static")?.remove();
   document.body.append(app);
   dragDivider(divider, split);
-  // Sections are scrolled to; the address belongs to the state of the page.
-  nav.addEventListener("click", (e) => {
-    const link = (e.target as Element).closest("a");
-    if (!link) return;
-    e.preventDefault();
-    document.querySelector(link.hash)?.scrollIntoView();
-  });
-  state = new ViewState(report, viewport, look, changeLook, { list: list.table }, (can) => (undo.disabled = !can));
-  const linked = state.open();
-  viewport.onRest = () => state!.note();
+  viewport.onRest = () => state?.note();
   viewport.onMenu = (p, x, y) => openMenu(p.hit ? rowItems(report, p.hit) : viewport.itemsOf(p), x, y);
-  keys(report, viewport, list.table, help, look, changeLook, () => state!.undo());
-  printing(report, viewport);
 
-  // Tables first; the picture comes with the next frame.
-  times.tables = performance.now() - started;
-  requestAnimationFrame(() => {
-    setTimeout(() => {
-      if (matchMedia("(max-width: 600px)").matches && !linked) viewport.offer();
-      else viewport.start();
-      times.picture = performance.now() - started;
-      times.pictureSinceNavigation = performance.now();
-      document.documentElement.dataset.ready = "true";
-      setTimeout(tell);
+  let tell = (): void => {};
+  const pictured = new Promise<void>((done) => (tell = done));
+  /** Sections, keys and what the address asks for; true: it does. */
+  const tables = (): boolean => {
+    const stem = fileName(meta.deck.path).replace(/\.rad$/i, "");
+    const exports = exportMenu(report, [
+      { label: "Node ids, one per line", run: () => save(`${stem}_nodes.txt`, plainNodes(report.filtered)) },
+      { label: "Node ids to the clipboard", run: () => void copyText(plainNodes(report.filtered)) },
+      { label: "/GRNOD/NODE block", hint: "A node group for the deck, with an id that is free", run: () => save(`${stem}_grnod.inc`, grnodBlock(report.filtered, meta.free_group_id, "initial penetrations")) },
+      { label: "Marked nodes (Tcl)", hint: "*createmark and *entitysetcreate, for HyperMesh", run: () => save(`${stem}_nodes.tcl`, tclMarks(report.filtered, "initial penetrations")) },
+      { label: "List (CSV), the columns in sight", run: () => save(`${stem}_list.csv`, list.table.csv()) },
+      { label: "Table (CSV), all columns", run: () => save(`${stem}_penetrations.csv`, csv(report, report.filtered)) },
+      { label: "Changed cards", hint: "Cards of all interfaces with settings under test", run: () => save(`${stem}_cards.inc`, allChangedCards(report)) },
+      { label: "Picture (PNG)", run: () => viewport.savePicture() },
+    ], "export");
+    const list = listSection(report, fly, exports, () => state?.note());
+    const nav = h("nav", { "aria-label": "Sections" },
+      ...([["effects", "Effects"], ["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["notes", "About"]] as const)
+        .map(([id, name]) => h("a", { href: `#${id}` }, name)));
+    const sections = [nav, doc && effectsSection(report, doc, `${stem}_effects.svg`), doc && cycleSection(report), verdict(report), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, crossedSection(report, (points) => viewport.openPoints(points)), !doc && cycleSection(report), notChecked(report)];
+    left.append(...sections.filter((s) => !!s));
+    for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
+    // Sections are scrolled to; the address belongs to the state of the page.
+    nav.addEventListener("click", (e) => {
+      const link = (e.target as Element).closest("a");
+      if (!link) return;
+      e.preventDefault();
+      document.querySelector(link.hash)?.scrollIntoView();
     });
-  });
+    state = new ViewState(report, viewport, look, changeLook, { list: list.table }, (can) => (undo.disabled = !can));
+    const linked = state.open();
+    keys(report, viewport, list.table, help, look, changeLook, () => state!.undo());
+    printing(report, viewport);
+    times.tables = performance.now() - started;
+    return linked;
+  };
+  const picture = (offer: boolean) => {
+    if (offer) viewport.offer();
+    else viewport.start();
+    times.picture = performance.now() - started;
+    times.pictureSinceNavigation = performance.now();
+  };
+  const ready = () => {
+    viewport.goOn();
+    document.documentElement.dataset.ready = "true";
+    setTimeout(tell);
+  };
   (window as unknown as Record<string, unknown>).deckReport = { report, viewport, times, beside: model.beside, whatIf: (id: number, o: Overrides) => evaluateFor(report, id, o), csv: () => csv(report, report.hits), grnod: () => grnodBlock(report.filtered, meta.free_group_id, "initial penetrations") };
+
+  if (!matchMedia(oneColumn).matches && !location.hash.includes("=")) {
+    // The picture first; the tables come once it is seen.
+    picture(false);
+    onceShown(() => {
+      tables();
+      ready();
+    });
+    return;
+  }
+  // The tables stand above the picture, or the address says what is seen of it.
+  const linked = tables();
+  onceShown(() => {
+    picture(matchMedia(telephone).matches && !linked);
+    ready();
+  });
 }
 
 /** For scripts: rows of all contacts with other settings of one interface, named as in the JSON. */

@@ -44,8 +44,13 @@ class Found implements Hit {
 export function deepestFirst<T extends { depth: number }>(list: T[]): T[] {
   if (list.length < 2000) return [...list].sort((a, b) => b.depth - a.depth);
   // The bits of such numbers ascend as the numbers do: four passes of 16 bits each.
-  const words = new Uint16Array(Float64Array.from(list, (x) => x.depth).buffer);
-  let order = Uint32Array.from(list, (_, i) => i);
+  const depth = new Float64Array(list.length);
+  let order = new Uint32Array(list.length);
+  for (let i = 0; i < order.length; i++) {
+    depth[i] = list[i].depth;
+    order[i] = i;
+  }
+  const words = new Uint16Array(depth.buffer);
   let next = new Uint32Array(order.length);
   const start = new Uint32Array(65537);
   for (let w = 0; w < 4; w++) {
@@ -55,7 +60,9 @@ export function deepestFirst<T extends { depth: number }>(list: T[]): T[] {
     for (let i = 0; i < order.length; i++) next[start[65535 - words[4 * order[i] + w]]++] = order[i];
     [order, next] = [next, order];
   }
-  return Array.from(order, (i) => list[i]);
+  const out = list.slice();
+  for (let i = 0; i < out.length; i++) out[i] = list[order[i]];
+  return out;
 }
 
 export interface Solved {
@@ -246,7 +253,12 @@ export class Report {
   commonPrefix = "";
   private findPrefix(): void {
     const parts = new Set<number>();
-    for (const x of this.hits) parts.add(x.secondaryPart).add(x.mainPart);
+    let [a, b] = [-1, -1];
+    for (const x of this.hits) {
+      if (x.secondaryPart === a && x.mainPart === b) continue; // as those before it
+      [a, b] = [x.secondaryPart, x.mainPart];
+      parts.add(a).add(b);
+    }
     this.commonPrefix = commonStart([...parts].filter((p) => p >= 0).map((p) => this.meta.parts[p].title));
   }
   partId(part: number): number {

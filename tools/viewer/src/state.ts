@@ -40,7 +40,7 @@ export class ViewState {
   open(): boolean {
     const text = location.hash.slice(1);
     if (text.includes("=")) this.apply(text);
-    this.now = this.text();
+    this.now = withoutCamera(this.text()); // the first view is nothing to undo, and stands in the address once it is drawn
     return text.includes("=");
   }
 

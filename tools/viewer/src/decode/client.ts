@@ -1,35 +1,61 @@
 // Asks a thread for the model. The thread's source lies in the page, which is one file.
+import { useRules } from "../core";
 import { blockText } from "../data";
 import { decode, type Blocks, type Model } from "./model";
 import source from "./worker.ts?text";
 
-const inThread = (blocks: Blocks, say: (done: number, next: string) => void): Promise<Model> =>
-  new Promise((done, failed) => {
-    const address = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
-    const worker = new Worker(address);
-    const end = () => {
-      worker.terminate();
-      URL.revokeObjectURL(address);
-    };
-    worker.onerror = (e) => {
-      end();
-      failed(new Error(e.message));
-    };
-    worker.onmessage = (e: MessageEvent<{ done: number; next: string } | { model: Model } | { failed: string }>) => {
-      if ("done" in e.data) return say(e.data.done, e.data.next);
-      end();
-      if ("model" in e.data) done(e.data.model);
-      else failed(new Error(e.data.failed));
-    };
-    worker.postMessage(blocks);
-  });
+type Say = (done: number, next: string) => void;
+
+/** A thread that has begun to decode the page's blocks; it wants to know whether the machine draws slowly. */
+class Thread {
+  private readonly address = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
+  private readonly worker: Worker;
+  private say: Say = () => {};
+  private readonly model: Promise<Model>;
+
+  constructor(blocks: Blocks) {
+    this.worker = new Worker(this.address);
+    this.model = new Promise((done, failed) => {
+      this.worker.onerror = (e) => failed(new Error(e.message));
+      this.worker.onmessage = (e: MessageEvent<{ done: number; next: string } | { model: Model; rules: WebAssembly.Module } | { failed: string }>) => {
+        if ("done" in e.data) return this.say(e.data.done, e.data.next);
+        if ("failed" in e.data) return failed(new Error(e.data.failed));
+        useRules(e.data.rules);
+        done(e.data.model);
+      };
+    });
+    // Whoever asks hears of it.
+    this.model.catch(() => {}).finally(() => {
+      this.worker.terminate();
+      URL.revokeObjectURL(this.address);
+    });
+    this.worker.postMessage(blocks);
+  }
+
+  finish(coarse: boolean, say: Say): Promise<Model> {
+    this.say = say;
+    this.worker.postMessage(coarse);
+    return this.model;
+  }
+}
+
+const blocks = (): Blocks => ({ meta: blockText("deck-meta")!, mesh: blockText("deck-mesh")!, contacts: blockText("deck-contacts")! });
+
+/** Begins to decode; null: the browser gives the page no thread. */
+export function begin(): Thread | null {
+  try {
+    return new Thread(blocks());
+  } catch {
+    return null;
+  }
+}
 
 /** The model, and whether a thread made it: where the browser gives the page none, it is decoded here. */
-export async function loadModel(coarse: boolean, say: (done: number, next: string) => void): Promise<Model & { beside: boolean }> {
-  const blocks = { meta: blockText("deck-meta")!, mesh: blockText("deck-mesh")!, contacts: blockText("deck-contacts")!, coarse };
+export async function loadModel(begun: Thread | null, coarse: boolean, say: Say): Promise<Model & { beside: boolean }> {
   try {
-    return { ...(await inThread(blocks, say)), beside: true };
+    if (begun) return { ...(await begun.finish(coarse, say)), beside: true };
   } catch {
-    return { ...(await decode(blocks, say)), beside: false };
+    // The same here.
   }
+  return { ...(await decode(blocks(), () => coarse, say)), beside: false };
 }

@@ -10,7 +10,6 @@ export interface Blocks {
   meta: string;
   mesh: string;
   contacts: string;
-  coarse: boolean; // the machine draws slowly
 }
 
 export interface Model {
@@ -20,8 +19,8 @@ export interface Model {
   base: Raw[];
 }
 
-/** `say`: share of the work that is done, 0 to 1, and what comes next. */
-export async function decode(blocks: Blocks, say: (done: number, next: string) => void): Promise<Model> {
+/** `coarse`: whether the machine draws slowly, asked for late; `say`: share of the work that is done, 0 to 1, and what comes next. */
+export async function decode(blocks: Blocks, coarse: () => boolean | Promise<boolean>, say: (done: number, next: string) => void): Promise<Model> {
   const meta = JSON.parse(blocks.meta) as Meta;
   const mesh = readMesh(await inflateText(blocks.mesh));
   say(0.3, "Reading the contacts …");
@@ -29,7 +28,7 @@ export async function decode(blocks: Blocks, say: (done: number, next: string) =
   say(0.5, "Evaluating the contacts …");
   const base = new Evaluator(meta, contacts).rawBase();
   say(0.75, "Preparing the picture …");
-  const shapes = shapesOf(mesh, blocks.coarse);
+  const shapes = shapesOf(mesh, await coarse());
   say(1, "Building the tables …");
   return { mesh, shapes, contacts, base };
 }

@@ -73,63 +73,38 @@ export class Reader {
   f64(n: number): Float64Array {
     return fromPlanes(this.bytes(8 * n));
   }
-  /** `n` whole numbers as they stand, signed ones with the sign in the lowest bit; most have one byte. */
-  private whole<T extends Uint32Array | Float64Array>(out: T): T {
+  // The loops below are the time that a page of a million elements needs, so each reads numbers of up to four bytes itself.
+  /** Sums of differences, signed with the sign in the lowest bit; most have one byte. */
+  private sums<T extends Uint32Array | Float64Array>(out: T): T {
     const b = this.b;
     let at = this.at;
+    let last = 0;
     for (let i = 0; i < out.length; i++) {
       let v = b[at++];
       if (v >= 0x80) {
-        v &= 0x7f;
-        let c;
-        let scale = 128;
-        do {
-          c = b[at++];
-          v += (c & 0x7f) * scale;
-          scale *= 128;
-        } while (c >= 0x80);
+        let c = b[at++];
+        v = (v & 0x7f) | ((c & 0x7f) << 7);
+        if (c >= 0x80) v |= ((c = b[at++]) & 0x7f) << 14;
+        if (c >= 0x80) v |= ((c = b[at++]) & 0x7f) << 21;
+        if (c >= 0x80) {
+          // There are no bits for it.
+          this.at = at - 4;
+          out[i] = last += this.s();
+          at = this.at;
+          continue;
+        }
       }
-      out[i] = v;
+      out[i] = last += (v >> 1) ^ -(v & 1);
     }
     this.at = at;
     return out;
   }
+  /** Below 2^32 each; a difference can be twice as large. */
   deltas32(n: number): Uint32Array {
-    // A difference can be twice as large as a number, and then it has no place among 32 bits.
-    const b = this.b;
-    const out = new Uint32Array(n);
-    let at = this.at;
-    let last = 0;
-    for (let i = 0; i < n; i++) {
-      const c = b[at];
-      if (c < 0x80) {
-        at++;
-        last += (c >> 1) ^ -(c & 1);
-      } else if (b[at + 1] < 0x80) {
-        const v = (c & 0x7f) | (b[at + 1] << 7);
-        at += 2;
-        last += (v >> 1) ^ -(v & 1);
-      } else {
-        this.at = at;
-        last += this.s();
-        at = this.at;
-      }
-      out[i] = last;
-    }
-    this.at = at;
-    return out;
+    return this.sums(new Uint32Array(n));
   }
   deltas(n: number): Float64Array {
-    const out = this.whole(new Float64Array(n));
-    let last = 0;
-    for (let i = 0; i < n; i++) {
-      const v = out[i];
-      // Above 2^31 there are no bits to ask.
-      if (v < 2147483648) last += (v >>> 1) ^ -(v & 1);
-      else last += v % 2 === 0 ? v / 2 : -(v + 1) / 2;
-      out[i] = last;
-    }
-    return out;
+    return this.sums(new Float64Array(n));
   }
   /** Doubles as whole numbers over a power of ten, or by byte planes. */
   decimals(n: number): Float64Array {
@@ -142,24 +117,35 @@ export class Reader {
     return out;
   }
   /** Numbers counted backwards from the lowest that has not occurred yet, `next`: 0 is that one. */
-  backwards(n: number, next: number): Uint32Array {
-    const out = this.whole(new Uint32Array(n));
+  backwards(n: number, next: number): [Uint32Array, number] {
+    const b = this.b;
+    const out = new Uint32Array(n);
+    let at = this.at;
     for (let i = 0; i < n; i++) {
-      const back = out[i];
-      out[i] = next - back;
-      if (back === 0) next++;
+      let v = b[at++];
+      if (v >= 0x80) {
+        let c = b[at++];
+        v = (v & 0x7f) | ((c & 0x7f) << 7);
+        if (c >= 0x80) v |= ((c = b[at++]) & 0x7f) << 14;
+        if (c >= 0x80) v |= ((c = b[at++]) & 0x7f) << 21;
+        if (c >= 0x80) {
+          this.at = at - 4;
+          v = this.u();
+          at = this.at;
+        }
+      }
+      out[i] = next - v;
+      if (v === 0) next++;
     }
-    return out;
+    this.at = at;
+    return [out, next];
   }
   /** Values by index into a list of distinct ones. */
   palette(n: number): Float64Array {
     const values = this.f64(this.u());
     const out = new Float64Array(n);
     if (values.length === 1) out.fill(values[0]);
-    if (values.length > 1) {
-      this.whole(out);
-      for (let i = 0; i < n; i++) out[i] = values[out[i]];
-    }
+    if (values.length > 1) for (let i = 0; i < n; i++) out[i] = values[this.u()];
     return out;
   }
 }

@@ -50,15 +50,23 @@ function indices(part: MeshPart): Pick<Shape, "index" | "triangleElement" | "wir
 function extent(x: Float32Array): Pick<Shape, "low" | "high" | "radius"> {
   const low: Shape["low"] = [Infinity, Infinity, Infinity];
   const high: Shape["high"] = [-Infinity, -Infinity, -Infinity];
-  for (let i = 0; i < x.length; i += 3)
-    for (let k = 0; k < 3; k++) {
-      if (x[i + k] < low[k]) low[k] = x[i + k];
-      if (x[i + k] > high[k]) high[k] = x[i + k];
+  for (let k = 0; k < 3; k++) {
+    let [least, most] = [low[k], high[k]];
+    for (let i = k; i < x.length; i += 3) {
+      const v = x[i];
+      if (v < least) least = v;
+      if (v > most) most = v;
     }
+    low[k] = least;
+    high[k] = most;
+  }
   const [a, b, c] = low.map((v, k) => (v + high[k]) / 2);
   let most = 0;
   for (let i = 0; i < x.length; i += 3) {
-    const d = (x[i] - a) ** 2 + (x[i + 1] - b) ** 2 + (x[i + 2] - c) ** 2;
+    const u = x[i] - a;
+    const v = x[i + 1] - b;
+    const w = x[i + 2] - c;
+    const d = u * u + v * v + w * w;
     if (d > most) most = d;
   }
   return { low, high, radius: Math.sqrt(most) };
@@ -67,45 +75,100 @@ function extent(x: Float32Array): Pick<Shape, "low" | "high" | "radius"> {
 /** Area of the triangles. */
 function area(x: Float32Array, index: ArrayLike<number>): number {
   let sum = 0;
+  // Lists in brackets would be made anew for each of a million triangles until the browser has compiled the loop.
   for (let t = 0; t < index.length; t += 3) {
-    const [a, b, c] = [3 * index[t], 3 * index[t + 1], 3 * index[t + 2]];
-    const [ux, uy, uz] = [x[b] - x[a], x[b + 1] - x[a + 1], x[b + 2] - x[a + 2]];
-    const [vx, vy, vz] = [x[c] - x[a], x[c + 1] - x[a + 1], x[c + 2] - x[a + 2]];
-    const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+    const a = 3 * index[t];
+    const b = 3 * index[t + 1];
+    const c = 3 * index[t + 2];
+    const ux = x[b] - x[a];
+    const uy = x[b + 1] - x[a + 1];
+    const uz = x[b + 2] - x[a + 2];
+    const vx = x[c] - x[a];
+    const vy = x[c + 1] - x[a + 1];
+    const vz = x[c + 2] - x[a + 2];
+    const nx = uy * vz - uz * vy;
+    const ny = uz * vx - ux * vz;
+    const nz = ux * vy - uy * vx;
     sum += Math.sqrt(nx * nx + ny * ny + nz * nz);
   }
   return sum / 2;
 }
 
+function grown<T extends Uint32Array | Int32Array>(list: T): T {
+  const out = new (list.constructor as new (n: number) => T)(2 * list.length);
+  out.set(list);
+  return out;
+}
+
+/** Cells of a grid, numbered as they come. The table grows with them, so that it stays close to the processor. */
+class Cells {
+  count = 0;
+  private slots = new Int32Array(4096).fill(-1);
+  private where = new Int32Array(3 * 2048);
+
+  /** Number of a cell: `count` before the call, if it is new. */
+  of(a: number, b: number, c: number): number {
+    const { where } = this;
+    let at = this.hash(a, b, c);
+    for (let found = this.slots[at]; found >= 0; found = this.slots[(at = (at + 1) & (this.slots.length - 1))])
+      if (where[3 * found] === a && where[3 * found + 1] === b && where[3 * found + 2] === c) return found;
+    if (2 * this.count === this.slots.length) {
+      this.grow();
+      return this.of(a, b, c);
+    }
+    this.slots[at] = this.count;
+    where[3 * this.count] = a;
+    where[3 * this.count + 1] = b;
+    where[3 * this.count + 2] = c;
+    return this.count++;
+  }
+  private hash(a: number, b: number, c: number): number {
+    return (Math.imul(a, 73856093) ^ Math.imul(b, 19349663) ^ Math.imul(c, 83492791)) & (this.slots.length - 1);
+  }
+  private grow(): void {
+    this.where = grown(this.where);
+    this.slots = new Int32Array(2 * this.slots.length).fill(-1);
+    const { where, slots } = this;
+    for (let i = 0; i < this.count; i++) {
+      let at = this.hash(where[3 * i], where[3 * i + 1], where[3 * i + 2]);
+      while (slots[at] >= 0) at = (at + 1) & (slots.length - 1);
+      slots[at] = i;
+    }
+  }
+}
+
 /** Vertices that share a cell of the grid become one, the first; triangles that collapse are left out. */
 export function cluster(x: Float32Array, index: ArrayLike<number>, cell: number): Coarse {
   const n = x.length / 3;
-  let room = 64;
-  while (room < 2 * n) room *= 2;
-  const slots = new Int32Array(room).fill(-1);
+  const cells = new Cells();
   const of = new Uint32Array(n);
-  const vertex = new Uint32Array(n);
-  const where = new Int32Array(3 * n); // of those that are left
-  let left = 0;
+  let vertex = new Uint32Array(1024);
+  let last = -1; // neighbours mostly share a cell
+  let [la, lb, lc] = [0, 0, 0];
   for (let i = 0; i < n; i++) {
-    const [a, b, c] = [Math.floor(x[3 * i] / cell), Math.floor(x[3 * i + 1] / cell), Math.floor(x[3 * i + 2] / cell)];
-    let at = (Math.imul(a, 73856093) ^ Math.imul(b, 19349663) ^ Math.imul(c, 83492791)) & (room - 1);
-    for (let found = slots[at]; ; found = slots[(at = (at + 1) & (room - 1))]) {
-      if (found < 0) {
-        slots[at] = found = left;
-        where[3 * left] = a;
-        where[3 * left + 1] = b;
-        where[3 * left + 2] = c;
-        vertex[left++] = i;
-      } else if (where[3 * found] !== a || where[3 * found + 1] !== b || where[3 * found + 2] !== c) continue;
-      of[i] = found;
-      break;
+    const a = Math.floor(x[3 * i] / cell) | 0;
+    const b = Math.floor(x[3 * i + 1] / cell) | 0;
+    const c = Math.floor(x[3 * i + 2] / cell) | 0;
+    if (last < 0 || a !== la || b !== lb || c !== lc) {
+      const before = cells.count;
+      last = cells.of(a, b, c);
+      la = a;
+      lb = b;
+      lc = c;
+      if (last === before) {
+        if (last === vertex.length) vertex = grown(vertex);
+        vertex[last] = i;
+      }
     }
+    of[i] = last;
   }
+  const left = cells.count;
   const out = left > 65535 ? new Uint32Array(index.length) : new Uint16Array(index.length);
   let m = 0;
   for (let t = 0; t < index.length; t += 3) {
-    const [a, b, c] = [of[index[t]], of[index[t + 1]], of[index[t + 2]]];
+    const a = of[index[t]];
+    const b = of[index[t + 1]];
+    const c = of[index[t + 2]];
     if (a === b || b === c || c === a) continue;
     out[m] = a;
     out[m + 1] = b;

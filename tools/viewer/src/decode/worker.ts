@@ -1,4 +1,5 @@
 // The thread that decodes the model beside the page: blocks in, typed arrays out, which change hands.
+import { compiledRules } from "../core";
 import { decode, type Blocks } from "./model";
 
 /** Memory behind all arrays of a value, each once. */
@@ -12,10 +13,14 @@ function memory(value: unknown, found = new Set<ArrayBuffer>()): Set<ArrayBuffer
 }
 
 const post = postMessage as (message: unknown, transfer?: ArrayBuffer[]) => void;
-onmessage = async (event: MessageEvent<Blocks>) => {
+let tell: (coarse: boolean) => void = () => {};
+const coarse = new Promise<boolean>((done) => (tell = done));
+
+onmessage = async (event: MessageEvent<Blocks | boolean>) => {
+  if (typeof event.data === "boolean") return tell(event.data);
   try {
-    const model = await decode(event.data, (done, next) => post({ done, next }));
-    post({ model }, [...memory(model)]);
+    const model = await decode(event.data, () => coarse, (done, next) => post({ done, next }));
+    post({ model, rules: compiledRules() }, [...memory(model)]);
   } catch (e) {
     post({ failed: String(e) });
   }

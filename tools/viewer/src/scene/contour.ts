@@ -31,18 +31,24 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
   const scale = (top: number) => (t: number) => num(t * top, 3);
   const pick = kind === "ratio" ? (x: Hit) => x.ratio : kind === "gap" ? (x: Hit) => x.row.gap : (x: Hit) => x.depth;
   if (kind === "none" || kind === "depth" || kind === "ratio") {
-    const top = hits.reduce((m, x) => Math.max(m, pick(x)), 0) || 1;
+    let top = 0;
+    for (const x of hits) {
+      const v = pick(x);
+      if (v > top) top = v;
+    }
+    top ||= 1;
     const of = (x: Hit) => pick(x) / top;
     if (kind === "none") return { values: null, top, of, tick: scale(top) };
     const values = new Float32Array(n).fill(NaN);
     for (const x of hits) {
-      const v = of(x);
+      const v = pick(x) / top;
       const { secondaryNode, mainNode } = report.data.contacts[x.contact];
-      const [few, many] = report.isEdge(x.row) ? [2, 2] : [1, 4];
-      for (let k = 0; k < few + many; k++) {
-        const node = k < few ? secondaryNode[few * x.row.secondary + k] : mainNode[many * x.row.main + k - few];
-        if (!(values[node] >= v)) values[node] = v;
-      }
+      const { secondary, main } = x.row;
+      const edge = report.isEdge(x.row);
+      const few = edge ? 2 : 1;
+      const many = edge ? 2 : 4;
+      for (let i = few * secondary; i < few * secondary + few; i++) if (!(values[secondaryNode[i]] >= v)) values[secondaryNode[i]] = v;
+      for (let i = many * main; i < many * main + many; i++) if (!(values[mainNode[i]] >= v)) values[mainNode[i]] = v;
     }
     return { values, top, of, tick: scale(top) };
   }

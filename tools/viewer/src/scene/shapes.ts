@@ -1,5 +1,5 @@
 // Shapes that the 3D view draws many times: the arrow of a force or depth, the dot of a node.
-import { BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, CylinderGeometry, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Vector3 } from "three";
+import { BufferAttribute, BufferGeometry, CanvasTexture, Color, ConeGeometry, CylinderGeometry, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, PointsMaterial, Vector3 } from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
@@ -24,6 +24,10 @@ export function discTexture(): CanvasTexture {
   g.fill();
   return new CanvasTexture(canvas);
 }
+
+/** Dots of the colours of their vertices. */
+export const dotMaterial = (disc: CanvasTexture): PointsMaterial =>
+  new PointsMaterial({ size: 8, sizeAttenuation: false, map: disc, alphaTest: 0.3, vertexColors: true, transparent: true });
 
 /** Lines one pixel wide, before everything else. */
 export function thinLines(positions: Float32Array, color: string): LineSegments {

@@ -2,8 +2,8 @@
 // Frames are drawn on demand only.
 import {
   BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, Frustum, HemisphereLight,
-  InstancedMesh, LineSegments, Matrix4, Mesh, MeshLambertMaterial, Points, PointsMaterial, Quaternion, Raycaster, Scene,
-  Sphere, Vector2, Vector3, WebGLRenderer,
+  InstancedMesh, LineSegments, Matrix4, Mesh, MeshLambertMaterial, Points, Quaternion, Raycaster, Scene,
+  Sphere, Vector2, Vector3, type WebGLRenderer,
 } from "three";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { CameraControl, directions } from "./camera";
@@ -11,7 +11,7 @@ import { Parts3D, type Look, type Part3D } from "./parts3d";
 import { Section, type Cut } from "./section";
 import { Marked } from "./marked";
 import { Slices } from "./slices";
-import { arrowGeometry, discTexture, thinLines } from "./shapes";
+import { arrowGeometry, discTexture, dotMaterial, thinLines } from "./shapes";
 import type { Shape } from "../decode/shape";
 import type { Hit, Report } from "../report";
 
@@ -44,7 +44,6 @@ export class View3D {
   /** Drawn, and nothing moves. */
   onRest: () => void = () => {};
   frames = 0;
-  private readonly renderer: WebGLRenderer;
   private readonly slices: Slices;
   private readonly scene = new Scene();
   private readonly head = new DirectionalLight("#ffffff", 1.7);
@@ -61,16 +60,13 @@ export class View3D {
   private dark = false;
   private readonly partOf = new Map<number, Part3D>();
 
-  /** Throws where there is no WebGL. */
   constructor(
     private readonly report: Report,
     shapes: Shape[],
     readonly software: boolean,
+    private readonly renderer: WebGLRenderer,
     private readonly container: HTMLElement,
   ) {
-    this.renderer = new WebGLRenderer({ antialias: !this.software, stencil: true, preserveDrawingBuffer: false, powerPreference: "high-performance" });
-    this.renderer.localClippingEnabled = true;
-    this.renderer.info.autoReset = false; // a picture may have several slices
     this.slices = new Slices(this.renderer, this.scene);
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
@@ -147,10 +143,15 @@ export class View3D {
     this.frames++;
     this.onFrame();
     this.seen.copy(this.control.camera.matrixWorld);
-    if (this.coarse) this.later();
+    if (this.coarse) this.finish = -1;
     this.skip = this.pending;
   }
+  /** The picture at rest may follow. */
+  afterFirst(): void {
+    if (this.finish < 0) this.later();
+  }
 
+  /** Timer of the full picture; 0: none is due, -1: it waits for the page. */
   private finish = 0;
   private due = false;
   private skip = false;
@@ -356,10 +357,7 @@ export class View3D {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(position, 3));
     geometry.setAttribute("color", new BufferAttribute(color, 3));
-    this.dots = new Points(
-      geometry,
-      new PointsMaterial({ size: 8, sizeAttenuation: false, map: this.disc, alphaTest: 0.3, vertexColors: true, transparent: true }),
-    );
+    this.dots = new Points(geometry, dotMaterial(this.disc));
     this.dots.frustumCulled = false;
     this.dots.renderOrder = 3;
     geometry.setDrawRange(0, this.mostDots);

@@ -1,6 +1,6 @@
 // Around the 3D view: tool bar, legend, list of parts, axes, and what is known about the selection.
 // Over 600 lines: every control of the view acts on the one state that it shares with the others.
-import { Color, Vector3 } from "three";
+import { Color, Vector3, type WebGLRenderer } from "three";
 import { colorAt, cssColor, mapNames, type MapName } from "./colormap";
 import { contourOf, type Contour } from "./contour";
 import { segmentOf } from "./crossed";
@@ -13,6 +13,7 @@ import type { Shape } from "../decode/shape";
 import { elementKey, type Look as PartLook, type Part3D } from "./parts3d";
 import type { Cut } from "./section";
 import type { Hit, Report } from "../report";
+import { machineFor } from "./ready";
 import { View3D, type Arrow, type Picked } from "./view3d";
 
 const mostArrowsAtFirst = 400;
@@ -50,6 +51,7 @@ export class Viewport {
     private readonly changeLook: (change: Partial<Look>) => void,
     private readonly shapes: Shape[],
     private readonly software: boolean,
+    private readonly machine: WebGLRenderer | null,
   ) {
     this.element.append(this.legend, this.tip, this.label, this.segmentTag, this.ruler, this.partList, this.clipPanel, this.axes);
   }
@@ -70,7 +72,7 @@ export class Viewport {
   /** Makes the 3D view; without WebGL a note takes its place. */
   start(): void {
     try {
-      this.view = new View3D(this.report, this.shapes, this.software, this.element);
+      this.view = new View3D(this.report, this.shapes, this.software, this.machine ?? machineFor(this.software), this.element);
     } catch {
       this.element.classList.add("no-webgl");
       replace(this.element, h("p", { class: "note" }, "There is no WebGL here, so there is no picture. All tables and lists work."));
@@ -112,6 +114,11 @@ export class Viewport {
     this.refresh();
     if (this.later) this.state = this.later;
     view.drawFirst();
+  }
+
+  /** The page is complete: after the first picture comes the one at rest. */
+  goOn(): void {
+    this.view?.afterFirst();
   }
 
   // ---- tool bar -----------------------------------------------------------------------------
@@ -511,7 +518,8 @@ export class Viewport {
       const data = this.report.data.contacts[x.contact];
       const { secondary, main } = x.row;
       const edge = this.report.isEdge(x.row);
-      const [few, many] = edge ? [2, 2] : [1, 4];
+      const few = edge ? 2 : 1;
+      const many = edge ? 2 : 4;
       if (!edge) node[data.secondaryNode[secondary]] = 1;
       for (let k = 0; k < few; k++) touched[data.secondaryNode[few * secondary + k]] = 1;
       for (let k = 0; k < many; k++) touched[data.mainNode[many * main + k]] = 1;
