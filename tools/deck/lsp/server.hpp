@@ -74,7 +74,10 @@ class Server {
   std::optional<Clock::time_point> next_due() const;
   void start_analysis(OpenDeck& deck);
   void start_geometry(OpenDeck& deck);
+  std::vector<OpenDeck*> decks_with(const std::string& path);
   void publish(OpenDeck& deck);
+  bool says_of_now(const OpenDeck& deck) const;
+  Json with_others(const OpenDeck& deck, const std::string& path, const Json& own);
   void typed(const std::string& path, std::uint64_t line);
   void cursor_at(const std::string& path, std::uint64_t line);
   void release_typing(bool saved = false);

@@ -56,7 +56,7 @@ void Server::did_change(const Json& params) {
     one_place = true;
   }
   document->version = d.value("version", document->version + 1);
-  workspace_.changed();
+  workspace_.changed(path);
   if (one_place) typed(path, line);
   schedule(path);
 }
@@ -71,7 +71,7 @@ void Server::did_close(const Json& params) {
     analysts_.erase(gone.path);
     if (const auto it = analysing_.find(gone.path); it != analysing_.end()) *it->second = true;
     if (const auto it = examining_.find(gone.path); it != examining_.end()) it->second->stop = true;
-    for (const std::string& file : gone.published)
+    for (const auto& [file, list] : gone.published)
       notify("textDocument/publishDiagnostics",
              {{"uri", workspace_.uri(file)}, {"diagnostics", Json::array()}});
   }
@@ -83,6 +83,9 @@ void Server::did_save(const Json& params) {
   release_typing(true);
   OpenDeck* deck = workspace_.deck_of(path);
   if (deck == nullptr) return;
+  // Engine files count as they are on disk: what was read of one is old now.
+  if (deck->syntax->deck.sources[deck->syntax->file_of(path)].bytes() != workspace_.text(path))
+    workspace_.changed(path);
   schedule(path, true);
   if (geometry_on_save_) start_geometry(*deck);
 }

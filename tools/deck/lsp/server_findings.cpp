@@ -29,9 +29,17 @@ std::string full_message(const Diagnostic& d) {
 // ---- when ------------------------------------------------------------------------------------
 
 void Server::schedule(const std::string& path, bool now) {
-  const OpenDeck* deck = workspace_.deck_of(path);
-  if (deck == nullptr) return;
-  due_[deck->path] = Clock::now() + std::chrono::milliseconds(now ? 0 : delay_ms_);
+  if (workspace_.deck_of(path) == nullptr) return;
+  for (const OpenDeck* deck : decks_with(path))
+    due_[deck->path] = Clock::now() + std::chrono::milliseconds(now ? 0 : delay_ms_);
+}
+
+/// A file may be included by several decks that are open.
+std::vector<OpenDeck*> Server::decks_with(const std::string& path) {
+  std::vector<OpenDeck*> out;
+  for (auto& [root, deck] : workspace_.decks())
+    if (deck.syntax != nullptr && deck.syntax->file_of(path) != Span::no_file) out.push_back(&deck);
+  return out;
 }
 
 std::optional<Server::Clock::time_point> Server::next_due() const {
@@ -152,6 +160,28 @@ std::optional<std::uint64_t> line_now(const LineTable& lines, std::string_view t
 
 }  // namespace
 
+/// True where the findings of the deck are those of the text as it is.
+bool Server::says_of_now(const OpenDeck& deck) const {
+  return deck.semantics != nullptr && workspace_.current(deck) &&
+         deck.semantics->syntax->generation == deck.syntax->generation;
+}
+
+/// What a deck says of a file, and what the other open decks that include it say beyond that.
+Json Server::with_others(const OpenDeck& deck, const std::string& path, const Json& own) {
+  Json out = own;
+  std::set<std::string> said;
+  const auto is_new = [&](const Json& f) {
+    return said.insert(f.at("range").dump() + f.value("code", "") + f.at("message").dump()).second;
+  };
+  for (const auto& [root, other] : workspace_.decks()) {
+    const auto list = other.published.find(path);
+    if (&other == &deck || list == other.published.end() || !says_of_now(other)) continue;
+    if (said.empty()) std::for_each(own.begin(), own.end(), is_new);
+    std::copy_if(list->second.begin(), list->second.end(), std::back_inserter(out), is_new);
+  }
+  return out;
+}
+
 void Server::publish(OpenDeck& deck) {
   std::map<std::string, Json> by_file;
   // What has no place stands in the first line of the main file; 1: an error, 2: a warning.
@@ -166,9 +196,7 @@ void Server::publish(OpenDeck& deck) {
   const Semantics* s = deck.semantics.get();
   // Findings of an earlier text would point at wrong lines; those of the present one are on their
   // way.
-  if (s != nullptr && (deck.syntax == nullptr || s->syntax->generation != deck.syntax->generation ||
-                       deck.syntax->generation != workspace_.generation()))
-    return;
+  if (s != nullptr && !says_of_now(deck)) return;
   if (s != nullptr && s->refusal.empty()) {
     for (const Diagnostic& d : s->lint.diagnostics) {
       if (held_back(deck, d)) continue;
@@ -194,7 +222,7 @@ void Server::publish(OpenDeck& deck) {
   }
   if (s != nullptr && !s->config_error.empty()) about_the_deck(1, s->config_error);
   // Files that had findings and have none now, and open files, which learn that all is well.
-  for (const std::string& file : deck.published) by_file.try_emplace(file, Json::array());
+  for (const auto& [file, list] : deck.published) by_file.try_emplace(file, Json::array());
   if (deck.syntax != nullptr)
     for (std::uint32_t f = 0; f < deck.syntax->deck.sources.size(); ++f)
       if (const std::string& path = deck.syntax->deck.sources[f].path();
@@ -202,8 +230,8 @@ void Server::publish(OpenDeck& deck) {
         by_file.try_emplace(path, Json::array());
   deck.published.clear();
   for (auto& [path, list] : by_file) {
-    if (!list.empty()) deck.published.insert(path);
-    Json params = {{"uri", workspace_.uri(path)}, {"diagnostics", std::move(list)}};
+    Json params = {{"uri", workspace_.uri(path)}, {"diagnostics", with_others(deck, path, list)}};
+    if (!list.empty()) deck.published.emplace(path, std::move(list));
     if (const Document* d = workspace_.find(path)) params["version"] = d->version;
     notify("textDocument/publishDiagnostics", std::move(params));
   }
@@ -236,9 +264,9 @@ void Server::release_typing(bool saved) {
   if (saved) typing_.before.clear();
   if (!typing_.active) return;
   typing_.active = false;
-  if (OpenDeck* deck = workspace_.deck_of(typing_.path);
-      deck != nullptr && deck->semantics != nullptr)
-    publish(*deck);
+  if (workspace_.deck_of(typing_.path) == nullptr) return;
+  for (OpenDeck* deck : decks_with(typing_.path))
+    if (deck->semantics != nullptr) publish(*deck);
 }
 
 bool Server::held_back(const OpenDeck& deck, const Diagnostic& d) const {

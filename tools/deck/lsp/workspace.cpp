@@ -32,7 +32,7 @@ bool has_starter_name(const fs::path& path) {
 
 Document& Workspace::open(const std::string& path, std::string uri, std::int64_t version,
                           std::string text) {
-  changed();
+  shown_or_hidden(path);
   Document& d = documents_[path];
   d.uri = std::move(uri);
   d.version = version;
@@ -44,8 +44,23 @@ Document& Workspace::open(const std::string& path, std::string uri, std::int64_t
   return d;
 }
 
+/// Where an include could not be read, or the file is in no folder yet, any deck may mean it.
+void Workspace::shown_or_hidden(const std::string& path) {
+  const auto complete = [](const auto& entry) {
+    if (entry.second.syntax == nullptr) return false;
+    const auto& found = entry.second.syntax->deck.diagnostics.all();
+    return std::none_of(found.begin(), found.end(),
+                        [](const Diagnostic& d) { return d.rule == RuleId::DK004; });
+  };
+  std::error_code ec;
+  if (fs::exists(path, ec) && std::all_of(decks_.begin(), decks_.end(), complete))
+    changed(path);
+  else
+    changed();
+}
+
 void Workspace::close(const std::string& path) {
-  changed();
+  shown_or_hidden(path);
   documents_.erase(path);
   texts_.erase(path);
   roots_.erase(path);
@@ -149,8 +164,16 @@ OpenDeck* Workspace::deck_of(const std::string& path) {
   return syntax != nullptr && syntax->file_of(path) != Span::no_file ? &deck : nullptr;
 }
 
+bool Workspace::current(const OpenDeck& deck) const {
+  return deck.syntax != nullptr && everything_ <= deck.syntax->generation &&
+         std::none_of(touched_.begin(), touched_.end(), [&](const auto& file) {
+           return file.second > deck.syntax->generation &&
+                  deck.syntax->file_of(file.first) != Span::no_file;
+         });
+}
+
 const std::shared_ptr<const Syntax>& Workspace::refresh(OpenDeck& deck) {
-  if (deck.syntax != nullptr && deck.syntax->generation == generation_) return deck.syntax;
+  if (current(deck)) return deck.syntax;
   ReadOptions read;
   read.include_paths = settings_.include_paths;
   read.limits = settings_.limits;

@@ -9,6 +9,7 @@
 
 #include "deck/edit/include_scan.hpp"
 #include "lsp/analysis.hpp"
+#include "lsp/rpc.hpp"
 
 namespace deck::lsp {
 
@@ -25,8 +26,8 @@ struct OpenDeck {
   std::shared_ptr<const Semantics> semantics;  ///< of this or an earlier text
   std::shared_ptr<const Geometry> geometry;    ///< of the text last saved
   bool fragment = false;  ///< no deck includes the file: it stands for itself, without findings
-  std::set<std::string> published;  ///< files with findings at the client
-  std::optional<Cursor> cursor;     ///< in a file of the deck
+  std::map<std::string, Json> published;  ///< its findings at the client, by file
+  std::optional<Cursor> cursor;           ///< in a file of the deck
 };
 
 /// Texts and decks. For one thread.
@@ -50,9 +51,10 @@ class Workspace {
   const std::map<std::string, std::string>& texts() const { return texts_; }
   /// The client's name of a file, whether it is open or not.
   std::string uri(const std::string& path) const;
-  /// An open text or a file changed: what was read is old.
-  void changed() { ++generation_; }
-  std::uint64_t generation() const { return generation_; }
+  /// Files changed, nobody knows which: whatever was read is old.
+  void changed() { everything_ = ++generation_; }
+  /// The text of one file changed: decks without it stay as they are.
+  void changed(const std::string& path) { touched_[path] = ++generation_; }
 
   // ---- decks
   /// The deck of a document, of the text as it is now; nullptr: it cannot be read at all.
@@ -60,6 +62,8 @@ class Workspace {
   std::map<std::string, OpenDeck>& decks() { return decks_; }
   /// Reads a deck again if its text has changed.
   const std::shared_ptr<const Syntax>& refresh(OpenDeck& deck);
+  /// True where the deck was read and none of its files has changed since.
+  bool current(const OpenDeck& deck) const;
   /// Forgets decks of which no file is open; they are given back.
   std::vector<OpenDeck> forget_closed();
 
@@ -68,6 +72,8 @@ class Workspace {
   /// A deck around a file that none includes: its lines follow no /BEGIN of their own.
   std::string frame_of(const std::string& path);
   bool reaches(const std::string& root, const std::string& path);
+  /// A file begins or ceases to be open.
+  void shown_or_hidden(const std::string& path);
   std::vector<std::string> candidates(const std::string& path) const;
 
   const SchemaSet* schemas_ = nullptr;
@@ -77,7 +83,8 @@ class Workspace {
   std::map<std::string, std::string> texts_;
   std::map<std::string, OpenDeck> decks_;     ///< by main file
   std::map<std::string, std::string> roots_;  ///< document -> main file
-  std::uint64_t generation_ = 1;
+  std::uint64_t generation_ = 1, everything_ = 1;
+  std::map<std::string, std::uint64_t> touched_;  ///< generation in which a file changed last
 };
 
 }  // namespace deck::lsp
