@@ -123,6 +123,42 @@ TEST(GapsText, AContactWithSegmentsWithoutAreaIsNoCleanOne) {
   EXPECT_NE(text.find("1 segment without area"), std::string::npos) << text;
 }
 
+TEST(GapsText, AContactWithSegmentsWithoutElementIsNoCleanOne) {
+  Plates p;
+  p.card = "Gapmin=0.1\n/SURF/SEG/8\nloose\n         1         1         2         6         5\n";
+  p.card += "@/INTER/TYPE7/3 grnd_IDs=2 surf_IDm=8 Gapmin=0.1";
+  const Inspected d(plates(p));
+  EXPECT_EQ(to_string(obstacle_of(d.scene.contacts.back())), "no_element");
+  const std::string text = text_of(d);
+  EXPECT_TRUE(
+      text.starts_with("1 contact with segments or edges without element (error 481/482). "))
+      << text;
+  EXPECT_NE(text.find("segments or edges without element"), std::string::npos) << text;
+}
+
+TEST(GapsText, AContactWithoutStiffnessOnTheMainSideIsNoCleanOne) {
+  const auto of_void = [](const std::string& flags) {
+    SmallDeck d;
+    d.add("/MAT/VOID/9\nempty\n               1e-06                 0.0                 0.3");
+    d.add("/PROP/VOID/9\nskin\n                 1.0");
+    d.add("/PART/9\nskin\n         9         9         0");
+    d.node(1, 0, 0, 0).node(2, 1, 0, 0).node(3, 1, 1, 0).node(4, 0, 1, 0).node(5, 0.5, 0.5, 0.1);
+    d.add("/SHELL/9\n         1         1         2         3         4");
+    d.group("/SURF/PART/1", {9}).group("/GRNOD/NODE/2", {5});
+    d.add("@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=0.2 " + flags);
+    return text_of(Inspected(d.text()));
+  };
+  const std::string weak = of_void("Istf=4");
+  EXPECT_TRUE(
+      weak.starts_with("1 contact without stiffness on the main side. No initial "
+                       "penetration in 0 contacts."))
+      << weak;
+  EXPECT_NE(weak.find("main side has no stiffness"), std::string::npos) << weak;
+  // A stiffness that the card gives needs no material.
+  const std::string given = of_void("Istf=1 Stfac=5");
+  EXPECT_TRUE(given.starts_with("1 initial penetration on 1 node")) << given;
+}
+
 TEST(GapsText, AnEmptySideIsAnErrorUnlessItIsANodeGroupThatIsThere) {
   const Inspected d(one_sided());
   std::vector<std::pair<std::int64_t, Severity>> found;

@@ -421,6 +421,18 @@ def overview(c, tmp):
     c.check("the page says what the gate said", gates == ["failed", "passed", "-"], str(gates))
     c.run("batch", "-o", "linted", ".", "--verb", "lint --no-config", cwd=work)
     states = {os.path.basename(d["deck"]): (d["status"], d["counts"]) for d in summary(os.path.join(work, "linted"))["decks"] if d["counts"]}
+    # The solver goes on where a node group has no node; nothing was examined then.
+    hollow = os.path.join(tmp, "hollow_0000.rad")
+    plates = read(os.path.join(work, "clean_plates_0000.rad"))
+    card = plates[plates.index(b"/INTER/TYPE7/1"):plates.index(b"/END")].replace(b"TYPE7/1", b"TYPE7/2")
+    nobody = b"/GRNOD/PART/77\nnobody\n        77\n" + card.replace(b"         2         1         4", b"        77         1         4")
+    for name, text, status in (("all contacts", plates.replace(card.replace(b"TYPE7/2", b"TYPE7/1"), nobody), "not-examined"),
+                               ("one of two contacts", plates.replace(b"/END", nobody + b"/END"), "findings")):
+        with open(hollow, "wb") as f:
+            f.write(text)
+        r = c.run("batch", "-o", "hollow", "hollow_0000.rad", cwd=tmp)
+        got = summary(os.path.join(tmp, "hollow"))["decks"][0]
+        c.check("a deck is not clean where %s have an empty side" % name, got["status"] == status and r.code == 0, "%s, exit %s" % (got, r.code))
     c.check("a deck with warnings only is not clean", all((s == "clean") == (n["errors"] + n["warnings"] == 0) for s, n in states.values()), str(states))
 
 

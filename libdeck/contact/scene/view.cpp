@@ -69,12 +69,28 @@ double ratio(const PenetrationRow& row) { return row.gap > 0 ? row.depth / row.g
 
 }  // namespace
 
+namespace {
+
+bool without_element(const Contact& contact) {
+  const auto lone = [](const ContactEdge& e) { return e.carrier == Carrier::none; };
+  return !contact.no_carrier.empty() ||
+         std::any_of(contact.main_edges.begin(), contact.main_edges.end(), lone) ||
+         std::any_of(contact.secondary_edges.begin(), contact.secondary_edges.end(), lone);
+}
+
+}  // namespace
+
 Obstacle obstacle_of(const Contact& contact) {
   if (contact.dropped) return Obstacle::none;
   if (contact.main_empty()) return Obstacle::empty_main;
   if (contact.secondary_empty()) return Obstacle::empty_secondary;
   if (!(contact.gapmin > 0)) return Obstacle::no_gap;
-  return contact.degenerate_segments > 0 ? Obstacle::no_area : Obstacle::none;
+  if (contact.degenerate_segments > 0) return Obstacle::no_area;
+  if (without_element(contact)) return Obstacle::no_element;
+  const bool idle = contact.kind == ContactKind::node_segment &&
+                    std::all_of(contact.main.begin(), contact.main.end(),
+                                [](const MainSegment& m) { return m.stiffness == 0; });
+  return idle ? Obstacle::no_stiffness : Obstacle::none;
 }
 
 std::string_view to_string(Obstacle obstacle) {
@@ -87,6 +103,10 @@ std::string_view to_string(Obstacle obstacle) {
       return "no_gap";
     case Obstacle::no_area:
       return "no_area";
+    case Obstacle::no_element:
+      return "no_element";
+    case Obstacle::no_stiffness:
+      return "no_stiffness";
     case Obstacle::none:
       break;
   }

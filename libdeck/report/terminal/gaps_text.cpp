@@ -34,6 +34,10 @@ std::string obstacle(const Contact& c) {
     case Obstacle::no_area:
       return fmt::format("{} without area", count(static_cast<std::size_t>(c.degenerate_segments),
                                                   "segment", "segments"));
+    case Obstacle::no_element:
+      return "segments or edges without element";
+    case Obstacle::no_stiffness:
+      return "main side has no stiffness";
     case Obstacle::none:
       break;
   }
@@ -230,7 +234,9 @@ ObstacleText obstacle_text(const Scene& scene) {
   };
   out.unexamined += name("with an empty side", {Obstacle::empty_main, Obstacle::empty_secondary});
   out.unexamined += name("without a gap (error 785/786)", {Obstacle::no_gap});
+  out.unexamined += name("without stiffness on the main side", {Obstacle::no_stiffness});
   name("with main segments without area (error 558)", {Obstacle::no_area});
+  name("with segments or edges without element (error 481/482)", {Obstacle::no_element});
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <type_traits>
+#include <utility>
 
 #include "deck/report/json.hpp"
 
@@ -33,6 +34,8 @@ class Facts : public nlohmann::json_sax<Json> {
     if (depth_ == 1) section_ = name;
     if (depth_ == 2) member_ = name;
     if (depth_ == 3) inner_ = name;
+    // interfaces[].contacts[].obstacle
+    obstacle_ = depth_ == 5 && section_ == "interfaces" && name == "obstacle";
     return true;
   }
   bool parse_error(std::size_t, const std::string&, const Json::exception&) override {
@@ -44,6 +47,7 @@ class Facts : public nlohmann::json_sax<Json> {
   std::optional<std::uint64_t> examined;
   std::optional<bool> gate;
   bool others = false;
+  std::size_t free = 0, stuck = 0;  ///< contacts without and with an obstacle
 
  private:
   bool open() {
@@ -60,6 +64,7 @@ class Facts : public nlohmann::json_sax<Json> {
   }
   template <class T>
   bool scalar(const T& value) {
+    if (std::exchange(obstacle_, false)) ++(std::is_same_v<T, string_t> ? stuck : free);
     if (depth_ == 2 && section_ == "summary") counts[member_] = value;
     if (depth_ == 3 && section_ == "summary" && counts[member_].is_object())
       counts[member_][inner_] = value;
@@ -72,6 +77,7 @@ class Facts : public nlohmann::json_sax<Json> {
     return true;
   }
   int depth_ = 0;
+  bool obstacle_ = false;
   std::string section_, member_, inner_;
 };
 
@@ -125,6 +131,8 @@ std::optional<DocumentFacts> document_facts(std::string_view document) {
                        facts.others,
                        some("errors") || some("warnings"),
                        some("pairs"),
+                       facts.stuck > 0,
+                       facts.stuck > 0 && facts.free == 0,
                        facts.gate};
 }
 

@@ -17,6 +17,8 @@ struct DocumentFacts {
   bool others = false;                    ///< "not_examined" lists something
   bool errors = false;                    ///< "summary" counts errors or warnings
   bool penetrations = false;              ///< "summary" counts penetrating pairs
+  bool obstacles = false;                 ///< contacts name an "obstacle"
+  bool nothing = false;                   ///< all contacts do
   std::optional<bool> gate;               ///< "passed" of member "gate"; nullopt: none was set
 };
 /// nullopt: not JSON.

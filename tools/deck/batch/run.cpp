@@ -68,8 +68,9 @@ std::vector<std::string> settings_of(const BatchTask& task, const std::string& d
 /// lets pass. Lint has rules for decks without any contact.
 std::string_view status_in(const BatchTask& task, int code,
                            const std::optional<DocumentFacts>& facts) {
+  if (facts && code == exit_clean && facts->nothing) return "not-examined";
   if (!facts || code > exit_findings || facts->examined.value_or(1) > 0)
-    return code == exit_clean && facts && (facts->errors || facts->penetrations)
+    return code == exit_clean && facts && (facts->errors || facts->penetrations || facts->obstacles)
                ? status_of(exit_findings)
                : status_of(code);
   const bool lint = task.verb.name == "lint";

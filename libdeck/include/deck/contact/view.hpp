@@ -78,6 +78,8 @@ enum class Obstacle {
   empty_secondary,  ///< the solver goes on where a node group is there, but empty
   no_gap,           ///< the solver stops (785, 786)
   no_area,          ///< a main segment without area: the solver stops (558)
+  no_element,       ///< a segment or edge that belongs to no element: the solver stops (481, 482)
+  no_stiffness,     ///< no main segment has stiffness: the solver searches none of them
 };
 
 /// The first of them that holds for a contact; none for one that the solver drops.
