@@ -23,6 +23,11 @@ bool selection_exists(const LintContext& c, std::string_view kind, std::int64_t 
   return c.selections->is_plain(kind, id) || c.selections->where("set", id).has_value();
 }
 
+std::string selection_name(const LintContext& c, std::string_view kind, std::int64_t id) {
+  const std::string_view name = c.selections->is_plain(kind, id) ? kind_name(kind) : "/SET";
+  return std::string(name) + " " + std::to_string(id);
+}
+
 std::size_t selection_size(const LintContext& c, std::string_view kind, std::int64_t id) {
   if (kind == "grnod") {
     const NodeSet* s = c.selections->node_group(id);

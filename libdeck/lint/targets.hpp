@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "deck/lint/lint.hpp"
@@ -14,6 +15,9 @@ std::string_view kind_name(std::string_view kind);
 
 /// A /GRNOD, /SURF or /LINE (`kind` "grnod", "surf", "line"), or a /SET in its place.
 bool selection_exists(const LintContext& c, std::string_view kind, std::int64_t id);
+
+/// "/GRNOD 5" where there is one, else "/SET 5".
+std::string selection_name(const LintContext& c, std::string_view kind, std::int64_t id);
 
 /// Nodes, segments or edges of such a selection.
 std::size_t selection_size(const LintContext& c, std::string_view kind, std::int64_t id);

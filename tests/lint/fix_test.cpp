@@ -47,6 +47,15 @@ TEST_P(EveryFix, RemovesItsFinding) {
   EXPECT_LT(after.count(rule.id), before.count(rule.id)) << fixed(before, true);
 }
 
+TEST_P(EveryFix, EndsLinesAsTheFileDoes) {
+  std::string text = example_deck(find_rule(GetParam())->bad, SchemaSet::built_in()).main;
+  for (std::size_t at = text.find('\n'); at != text.npos; at = text.find('\n', at + 2))
+    text.insert(at, "\r");
+  const std::string after = fixed(lint_text(text), true);
+  for (std::size_t at = after.find('\n'); at != after.npos; at = after.find('\n', at + 1))
+    ASSERT_TRUE(at > 0 && after[at - 1] == '\r') << after.substr(0, at + 1);
+}
+
 TEST_P(EveryFix, SafeOnesLeaveTheEffectiveValuesAlone) {
   const Rule& rule = *find_rule(GetParam());
   const Linted before = lint_example(rule.bad);

@@ -63,6 +63,27 @@ TEST(MissingTarget, FunctionSensorSkewAndNodeAreLookedFor) {
   }
 }
 
+TEST(MissingTarget, AxesOfABoxAndPartsOfAFrictionDirectionAreLookedFor) {
+  const auto box = [](int skew) {
+    return "/BOX/RECTA/7\nb\n                    " + std::string(9, ' ') + std::to_string(skew) +
+           "\n                 0.0                 0.0                 0.0\n"
+           "                 1.0                 1.0                 1.0\n";
+  };
+  const Linted unknown = lint_example(box(5));
+  EXPECT_EQ(message_of(unknown, RuleId::DK120), 748) << unknown.list();
+  EXPECT_FALSE(lint_example(box(0)).fires(RuleId::DK120));
+  EXPECT_FALSE(lint_example("@/SKEW/MOV/5 N1=1 N2=2 N3=4\n" + box(5)).fires(RuleId::DK120));
+  const auto direction = [](int part, int skew) {
+    const auto cell = [](int id) { return std::string(9, ' ') + std::to_string(id); };
+    return "/FRIC_ORIENT/7\no\n         0" + cell(part) +
+           "\n                 1.0                 0.0                 0.0" + cell(skew) + "\n";
+  };
+  const Linted part = lint_example(direction(9, 0)), skew = lint_example(direction(1, 9));
+  EXPECT_EQ(message_of(part, RuleId::DK120), 1642) << part.list();
+  EXPECT_EQ(message_of(skew, RuleId::DK120), 184) << skew.list();
+  EXPECT_FALSE(lint_example(direction(1, 0)).fires(RuleId::DK120));
+}
+
 TEST(MissingTarget, TableStandsForFunctionOfMaterial) {
   const std::string card = "@/MAT/LAW76/5 Rho_I=1.0 E=2.0 Nu=0.3 TAB_ID1=9\n";
   const Linted bad = lint_example(card);
@@ -123,6 +144,39 @@ TEST(SymmetricInterface, EmptySurfacesAreErrors118And119) {
   EXPECT_EQ(message_of(first, RuleId::DK172), 118) << first.list();
   const Linted second = lint_example(empty + "surf_ID1=2 surf_ID2=3\n");
   EXPECT_EQ(message_of(second, RuleId::DK173), 119) << second.list();
+}
+
+TEST(EmptySide, IsCalledByTheNameOfItsSetAndWhatTheSetHasInstead) {
+  const std::string set = "/SET/GENERAL/8\ncorners\nNODE               1         2\n@/INTER/";
+  const Linted main = lint_example(set + "TYPE7/1 grnd_IDs=2 surf_IDm=8\n");
+  ASSERT_NE(main.find(RuleId::DK173), nullptr) << main.list();
+  EXPECT_EQ(
+      main.find(RuleId::DK173)->message,
+      "the main side of /INTER/TYPE7 1, /SET 8, is empty: the set has nodes, and no segments");
+  // All nodes of the secondary surface meet the main one, but it is the main one of the second
+  // contact.
+  const Linted second = lint_example(set + "TYPE19/1 surf_IDs=8 surf_IDm=1\n");
+  ASSERT_NE(second.find(RuleId::DK172), nullptr) << second.list();
+  EXPECT_TRUE(is_error(second, RuleId::DK172));
+  EXPECT_TRUE(second.find(RuleId::DK172)->message.ends_with("and no segments"));
+}
+
+TEST(MissingTitle, OfAGroupCostsItsFirstMembers) {
+  const std::string use = "@/INTER/TYPE7/1 grnd_IDs=8\n";
+  const Linted bad = lint_example("/GRNOD/NODE/8\n         1         2\n         3\n" + use);
+  EXPECT_TRUE(bad.fires(RuleId::DK048)) << bad.list();
+  for (const char* title : {"row 1 2", "12", "1.5 2.5", ""}) {
+    const Linted good =
+        lint_example("/GRNOD/NODE/8\n" + std::string(title) + "\n         3\n" + use);
+    EXPECT_FALSE(good.fires(RuleId::DK048)) << title << good.list();
+  }
+}
+
+TEST(UnknownKeyword, WithZerosBeforeItsNumberMeansTheNumber) {
+  const Linted run = lint_example("/INTER/TYPE07/9\nexample\n         2         1\n");
+  ASSERT_NE(run.find(RuleId::DK040), nullptr) << run.list();
+  EXPECT_TRUE(run.find(RuleId::DK040)->message.ends_with("did you mean /INTER/TYPE7?"))
+      << run.list();
 }
 
 std::string material(const char* keyword, const char* density, const char* modulus) {

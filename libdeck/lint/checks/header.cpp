@@ -14,6 +14,14 @@ namespace {
 
 /// The known keyword closest to an unknown one, if it is close.
 std::string_view closest_keyword(const LintContext& c, std::string_view keyword) {
+  // A number with zeros before it means the number.
+  if (const std::size_t zero = keyword.find("TYPE0"); zero != keyword.npos) {
+    std::string plain(keyword);
+    plain.erase(zero + 4,
+                std::min(plain.find_first_not_of('0', zero + 4), plain.size()) - zero - 4);
+    if (const Schema* s = c.schemas.match(plain); s != nullptr && s->keyword == plain)
+      return s->keyword;
+  }
   std::string_view best;
   std::size_t distance = keyword.size() < 8 ? 2 : 3;
   for (const Schema* s : c.schemas.all()) {
@@ -83,6 +91,22 @@ void check_obsolete(const LintContext& c, const Rule& rule, Reporter& r) {
       r.report(rule, b, b.header_span, "/INTER/TYPE4 no longer exists");
 }
 
+void check_lagrange(const LintContext& c, const Rule& rule, Reporter& r) {
+  constexpr std::string_view front = "/INTER/LAGMUL/";
+  constexpr std::array<std::string_view, 4> allowed = {"TYPE2", "TYPE7", "TYPE16", "TYPE17"};
+  for (const Block& b : c.deck.blocks) {
+    if (!b.header.starts_with(front)) continue;
+    const std::string_view rest = std::string_view(b.header).substr(front.size());
+    const std::string_view type = trim(rest.substr(0, std::min(rest.find('/'), rest.size())));
+    if (!type.starts_with("TYPE") ||
+        std::find(allowed.begin(), allowed.end(), type) != allowed.end())
+      continue;
+    r.report(rule, b, b.header_span,
+             fmt::format("{}{}: only types 2, 7, 16 and 17 work with Lagrange multipliers", front,
+                         type));
+  }
+}
+
 void check_two_dimensional(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr || !c.model->two_dimensional) return;
   constexpr std::array<std::string_view, 4> allowed = {"/INTER/TYPE1", "/INTER/TYPE2",
@@ -124,6 +148,19 @@ void check_title(const LintContext& c, const Rule& rule, Reporter& r) {
     if (!title.valid() || count_numbers(title.text) < 2) continue;
     r.report(rule, *card.block, title.whole(),
              "the title of " + name_of(card) + " consists of numbers; is the title line missing?");
+  }
+  // Ids in the place of the title would be missing in the group.
+  for (const Block& b : c.deck.blocks) {
+    if (b.schema == nullptr || !b.schema->has_title || b.version < 51 || b.opaque ||
+        (b.schema->kind != "grnod" && b.schema->kind != "surf" && b.schema->kind != "line"))
+      continue;
+    const Line title = LineCursor(c.deck.sources, b).next();
+    if (!title.valid() || title.text.find_first_not_of("-0123456789 \t\r") != title.text.npos ||
+        count_numbers(title.text) < 2)
+      continue;
+    r.report(rule, b, title.whole(),
+             fmt::format("the title of {} {} consists of numbers; is the title line missing?",
+                         b.schema->keyword, b.id.value));
   }
 }
 
@@ -171,15 +208,11 @@ void check_old_layout(const LintContext& c, const Rule& rule, Reporter& r) {
 
 std::span<const Checked> header_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK040, check_unknown},
-      {RuleId::DK041, check_lower_case},
-      {RuleId::DK042, check_engine},
-      {RuleId::DK044, check_obsolete},
-      {RuleId::DK045, check_two_dimensional},
-      {RuleId::DK046, check_newer_keyword},
-      {RuleId::DK047, check_next_version_field},
-      {RuleId::DK048, check_title},
-      {RuleId::DK049, check_missing_id},
+      {RuleId::DK040, check_unknown},         {RuleId::DK041, check_lower_case},
+      {RuleId::DK042, check_engine},          {RuleId::DK044, check_obsolete},
+      {RuleId::DK045, check_two_dimensional}, {RuleId::DK094, check_lagrange},
+      {RuleId::DK046, check_newer_keyword},   {RuleId::DK047, check_next_version_field},
+      {RuleId::DK048, check_title},           {RuleId::DK049, check_missing_id},
       {RuleId::DK050, check_old_layout},
   };
   return all;

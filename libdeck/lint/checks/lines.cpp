@@ -116,7 +116,10 @@ void check_second_line(const LintContext& c, const Rule& rule, Reporter& r) {
     if (missing) {
       Span at = card.decoded.cards[1].line.whole();
       at.length = 0;
-      d->fix = Fix{"insert a blank second line", false, {{at, "\n"}}};
+      // As the line before it ends.
+      const std::string_view before = c.deck.sources[at.file].bytes().substr(0, at.offset);
+      const char* const end = before.ends_with("\r\n") ? "\r\n" : "\n";
+      d->fix = Fix{"insert a blank second line", false, {{at, end}}};
     }
   });
 }

@@ -99,15 +99,24 @@ void note_definition(const LintContext& c, Diagnostic* d, const Side& side, std:
     d->notes.emplace_back(*at, "it is defined here");
 }
 
+/// A set of which a side takes nothing but its nodes.
+bool has_nodes_only(const LintContext& c, std::string_view kind, std::int64_t id) {
+  return kind != "grnod" && !c.selections->is_plain(kind, id) && selection_size(c, "grnod", id) > 0;
+}
+
 void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
   const bool secondary = rule.id == RuleId::DK172;
   each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
     if (side.secondary != secondary || id < 0 || !selection_exists(c, side.kind, id)) return;
     if (selection_size(c, side.kind, id) != 0) return;
-    Diagnostic* d = report_at(
-        r, rule, card, side.field,
-        fmt::format("the {} side of {}, {} {}, is empty", secondary ? "secondary" : "main",
-                    name_of(card), kind_name(side.kind), id));
+    Diagnostic* d =
+        report_at(r, rule, card, side.field,
+                  fmt::format("the {} side of {}, {}, is empty{}", secondary ? "secondary" : "main",
+                              name_of(card), selection_name(c, side.kind, id),
+                              has_nodes_only(c, side.kind, id)
+                                  ? ": the set has nodes, and no " +
+                                        std::string(side.kind == "surf" ? "segments" : "edges")
+                                  : ""));
     note_definition(c, d, side, id);
     if (d == nullptr) return;
     if (secondary && side.kind != "grnod") {

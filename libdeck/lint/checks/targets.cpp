@@ -84,8 +84,8 @@ void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
                   return;
                 Diagnostic* found =
                     r.report(rule, *d.block, cell.span,
-                             fmt::format("{} of {} is {}, and {} {} is empty", cell.field->name,
-                                         block_name(d), id, kind_name(kind), id));
+                             fmt::format("{} of {} is {}, and {} is empty", cell.field->name,
+                                         block_name(d), id, selection_name(c, kind, id)));
                 set_message(found, message_id);
                 if (found == nullptr) return;
                 const bool plain = c.selections->is_plain(kind, id);
@@ -111,9 +111,10 @@ void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) 
       }
 }
 
-/// Ids that are used twice among functions, sensors and axes: one of the two is meant by nobody.
-void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const std::string_view kind : {"funct", "sensor", "skew", "frame"}) {
+/// Ids that are used twice among entities of these kinds: one of the two is meant by nobody.
+void report_twice(const LintContext& c, const Rule& rule, Reporter& r,
+                  std::initializer_list<std::string_view> kinds) {
+  for (const std::string_view kind : kinds) {
     const auto all = c.defined.find(kind);
     if (all == c.defined.end()) continue;
     const Block* first = nullptr;
@@ -131,14 +132,21 @@ void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
+void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
+  report_twice(c, rule, r, {"funct", "sensor", "skew", "frame"});
+}
+
+void check_friction_twice(const LintContext& c, const Rule& rule, Reporter& r) {
+  report_twice(c, rule, r, {"friction"});
+}
+
 }  // namespace
 
 std::span<const Checked> target_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK120, check_missing_target},
-      {RuleId::DK121, check_empty_target},
-      {RuleId::DK122, check_required_target},
-      {RuleId::DK128, check_twice},
+      {RuleId::DK120, check_missing_target},  {RuleId::DK121, check_empty_target},
+      {RuleId::DK122, check_required_target}, {RuleId::DK128, check_twice},
+      {RuleId::DK191, check_friction_twice},
   };
   return all;
 }
