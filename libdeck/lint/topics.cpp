@@ -42,7 +42,24 @@ const Schema* keyword_named(const SchemaSet& schemas, std::string_view name) {
     if (in_capitals(s->keyword).ends_with(wanted) &&
         (best == nullptr || s->keyword.size() < best->keyword.size()))
       best = s;
-  return best;
+  if (best != nullptr) return best;
+  for (const Schema* s : schemas.all())
+    if (std::any_of(s->aliases.begin(), s->aliases.end(),
+                    [&](const std::string& a) { return in_capitals(a).ends_with(wanted); }))
+      return s;
+  return nullptr;
+}
+
+/// A header as it stands in a deck, with ids behind the keyword: "/INTER/TYPE7/3".
+const Schema* header_named(const SchemaSet& schemas, std::string_view header) {
+  while (header.starts_with('/')) {
+    const std::size_t slash = header.rfind('/');
+    const bool ids = header.find_first_not_of("0123456789", slash + 1) == header.npos;
+    if (slash == 0 || !ids) return nullptr;
+    header = header.substr(0, slash);
+    if (const Schema* s = schemas.find(in_capitals(header))) return s;
+  }
+  return nullptr;
 }
 
 /// Name of a field as the schema spells it; empty: there is none.
@@ -147,6 +164,7 @@ bool names_message(std::string_view text, const std::string& number) {
 /// A message of the reference solver by its number.
 std::string solver_message(const std::string& digits, const SchemaSet& schemas, std::size_t width) {
   const int number = static_cast<int>(read_integer(digits).value);
+  if (number == 0) return {};
   std::string rules, cells;
   for (const Rule& r : all_rules()) {
     const auto own = std::find_if(r.messages.begin(), r.messages.end(),
@@ -165,7 +183,7 @@ std::string solver_message(const std::string& digits, const SchemaSet& schemas, 
     for (const CardSchema& card : s->cards)
       for (const Field& f : card.fields) {
         const auto says = [&](const std::optional<int>& n, const char* why) {
-          if (n && *n == number && number != 0)
+          if (n && *n == number)
             cells += wrapped(fmt::format("{}.{}: {}", s->keyword, f.name, why), 2, width);
         };
         says(f.missing, "what the id names does not exist");
@@ -206,7 +224,7 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
   if (const Rule* rule = find_rule(capitals)) return explain_rule(*rule, schemas, width);
   if (width == 0) width = usual_page_width;
   if (std::string page = rule_family(capitals, width); !page.empty()) return page;
-  if (capitals.find_first_not_of("0123456789") == std::string::npos && capitals.size() < 6)
+  if (capitals.find_first_not_of("0123456789") == std::string::npos && capitals.size() < 7)
     return solver_message(capitals, schemas, width);
   if (const auto dot = topic.rfind('.'); dot != topic.npos)
     if (const Schema* s = keyword_named(schemas, topic.substr(0, dot)))
@@ -228,6 +246,7 @@ std::string explain_topic(std::string_view topic, const SchemaSet& schemas, std:
   if (keyword != nullptr && (topic.starts_with('/') || schemas.find("/" + capitals) != nullptr))
     return explain_keyword(*keyword, {}, width);
   if (std::string page = field_everywhere(topic, schemas, width); !page.empty()) return page;
+  if (keyword == nullptr) keyword = header_named(schemas, topic);
   return keyword != nullptr ? explain_keyword(*keyword, {}, width) : std::string();
 }
 

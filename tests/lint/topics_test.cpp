@@ -47,6 +47,24 @@ TEST(ExplainTopic, ASolverMessageLeadsToItsRules) {
   EXPECT_TRUE(explain_topic("99999", schemas()).empty());
 }
 
+TEST(ExplainTopic, AMessageOfTheReaderIsFoundAndNoneHasTheNumberZero) {
+  EXPECT_TRUE(has(explain_topic("100201", schemas()), "DK001:"));
+  EXPECT_TRUE(explain_topic("0", schemas()).empty());
+  EXPECT_TRUE(explain_topic("000", schemas()).empty());
+}
+
+TEST(ExplainTopic, AHeaderOfADeckIsItsKeyword) {
+  const std::string page = explain_topic("/INTER/TYPE7", schemas());
+  EXPECT_EQ(explain_topic("/INTER/TYPE7/3", schemas()), page);
+  EXPECT_EQ(explain_topic("/inter/type7/3/1", schemas()), page);
+  EXPECT_TRUE(explain_topic("/INTER/TYPE99/3", schemas()).empty());
+  EXPECT_TRUE(explain_topic("/INTER/TYPE7/x", schemas()).empty());
+}
+
+TEST(ExplainTopic, AKeywordIsFoundByTheEndOfItsOtherName) {
+  EXPECT_TRUE(explain_topic("plas_johns", schemas()).starts_with("/MAT/LAW2"));
+}
+
 TEST(ExplainTopic, APrefixListsItsRules) {
   const std::string page = explain_topic("dk1", schemas());
   EXPECT_TRUE(has(page, "DK101 ") || has(page, "DK105 ")) << page;
