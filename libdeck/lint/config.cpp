@@ -118,6 +118,9 @@ Result<bool> read_bound(std::string_view name, const toml::node& node, const std
   const auto number = node.value<double>();
   if (!node.is_number() || !(*number >= 0))
     return config_error(path, line_of(node), "'" + std::string(name) + "' is a number, 0 or more");
+  // Nothing would ever be beyond a share of more than the whole: 30 % is 0.3.
+  if (*number > 1 && name != "max-depth")
+    return config_error(path, line_of(node), "'" + std::string(name) + "' is a share from 0 to 1");
   *bound = *number;
   return true;
 }

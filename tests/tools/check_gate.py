@@ -104,11 +104,18 @@ class Gate:
                            ("two levels", ("gaps", DECK, "--fail-on", "error,never")),
                            ("new without anything to compare with", ("gaps", DECK, "--fail-on", "new")),
                            ("a negative bound", ("gaps", DECK, "--max-depth", "-1")),
+                           ("a ratio in percent, which nothing would exceed", ("gaps", DECK, "--max-ratio", "28")),
+                           ("never beside --fail-on-penetration", ("gaps", DECK, "--fail-on-penetration", "--fail-on", "never")),
+                           ("two results in one file", ("gaps", DECK, "--csv", "x.out", "--json", "./x.out")),
+                           ("two results on standard output", ("params", DECK, "--csv", "-", "--json", "-")),
                            ("bounds for lint without --geometry", ("lint", DECK, "--max-depth", "1")),
                            ("a file to compare with that is no such document", ("gaps", DECK, "--compare", DECK))):
             r = self.run(*args)
             self.c.check("%s is wrong usage" % name, r.code == 2 and r.err.strip(), "exit %s" % r.code)
-        for text in ("[gate]\nmax-depth = \"deep\"\n", "[gate]\nmax-count = -1\n", "[gate]\nmaxdepth = 1\n", "[gate]\nfail-on = [\"old\"]\n",
+        self.c.check("nothing was written then", not os.path.exists(os.path.join(self.folder, "x.out")))
+        r = self.run("gaps", DECK, "--csv", os.devnull, "--json", os.devnull)
+        self.c.check("a device takes more than one result", r.code == 0, r.err.decode())
+        for text in ("[gate]\nmax-depth = \"deep\"\n", "[gate]\nmax-ratio = 28\n", "[gate]\nmax-count = -1\n", "[gate]\nmaxdepth = 1\n", "[gate]\nfail-on = [\"old\"]\n",
                      "[[gate.interface]]\nmax-depth = 1\n", "[[gate.part-pair]]\nmatch = \"1\"\nmax-depth = 1\n", "gate = 1\n"):
             write(os.path.join(self.folder, "bad.toml"), text)
             r = self.run("gaps", DECK, "--config", "bad.toml")

@@ -182,7 +182,7 @@ void remember_read(const std::string& path);
 Result<void> check_output(const std::string& path, const OutputRules& rules = {},
                           std::optional<std::string_view> bytes = std::nullopt);
 /// The same for the files named on a command line, before the work begins; "" and "-" are none.
-/// Says what is wrong and returns exit_usage, or exit_clean.
+/// Nor may two outputs go to one place. Says what is wrong and returns exit_usage, or exit_clean.
 int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths);
 /// The same for files with their contents.
 Result<void> check_outputs(const std::vector<OutputFile>& files, const OutputRules& rules);

@@ -181,7 +181,13 @@ int run(const Options& o) {
     print_error(o.common, fits.error().message);
     return exit_usage;
   }
-  if (const int bad = check_outputs(o.common, {o.html}); bad != exit_clean) return bad;
+  if (o.fail && (o.gate.fails_on("never") || o.gate.fails_on("error"))) {
+    print_error(o.common,
+                "--fail-on-force and --fail-on " + o.gate.level() + " contradict one another");
+    return exit_usage;
+  }
+  if (const int bad = check_outputs(o.common, {o.common.json, o.html}); bad != exit_clean)
+    return bad;
   JsonOutput json(o.common, "deck/cycle", 1);
   bool first = true;
   options.keep_pairs = (o.all && json.wanted()) || !o.vtk.empty() || !o.html.empty();

@@ -270,7 +270,8 @@ int run(const Options& o) {
     print_error(o.common, wrong);
     return exit_usage;
   }
-  if (const int bad = check_outputs(o.common, {o.html}); bad != exit_clean) return bad;
+  if (const int bad = check_outputs(o.common, {o.common.json, o.html}); bad != exit_clean)
+    return bad;
   const auto schemas = load_schemas(o.common);
   if (!schemas) {
     print_error(o.common, schemas.error().message);

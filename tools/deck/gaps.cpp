@@ -104,11 +104,17 @@ int run(const Options& o) {
     print_error(o.common, legal.error().message);
     return exit_usage;
   }
+  if (o.fail && (o.gate.fails_on("never") || o.gate.fails_on("error"))) {
+    print_error(o.common, "--fail-on-penetration and --fail-on " + o.gate.level() +
+                              " contradict one another");
+    return exit_usage;
+  }
   if ((!o.html.empty() || !o.svg.empty()) && o.common.decks.size() > 1) {
     print_error(o.common, "--html and --svg take one deck at a time");
     return exit_usage;
   }
-  if (const int bad = check_outputs(o.common, {o.csv, o.html, o.svg, o.write_baseline});
+  if (const int bad =
+          check_outputs(o.common, {o.common.json, o.csv, o.html, o.svg, o.write_baseline});
       bad != exit_clean)
     return bad;
   SceneOptions scene_options;

@@ -55,8 +55,9 @@ void add_gate(CommandLine& line, GateOptions& o) {
   gate.option("--max-depth", o.max_depth, "Deepest penetration, in the deck's units")
       .number(0, 1e300)
       .value("X");
-  gate.option("--max-ratio", o.max_ratio, "Largest share of the gap that is penetrated")
-      .number(0, 1e300)
+  gate.option("--max-ratio", o.max_ratio,
+              "Largest share of the gap that is penetrated: 0.3 is 30 %")
+      .number(0, 1)
       .value("R");
   gate.option("--max-count", o.max_count, "Penetrating nodes and edges of the deck, each once")
       .range(0, INT_MAX)
@@ -193,7 +194,8 @@ bool stops_before_pairs(const Loaded& loaded, const Scene& scene) {
     return true;
   return std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) {
     const Obstacle obstacle = obstacle_of(c);
-    return obstacle == Obstacle::no_gap || obstacle == Obstacle::no_area;
+    return obstacle == Obstacle::no_gap || obstacle == Obstacle::no_area ||
+           obstacle == Obstacle::no_element;
   });
 }
 

@@ -52,7 +52,8 @@ void report_unreadable_cells(Loaded& loaded);
 /// verdicts look for it. To be called behind build_scene(), which resolves the groups of contacts.
 void join_findings(Loaded& loaded);
 /// True if the solver stops before it looks for pairs: an error was found in the deck (a side of a
-/// contact without members among them), a main segment has no area, or a contact no gap.
+/// contact without members among them), a main segment has no area, a segment or edge no element,
+/// or a contact no gap.
 bool stops_before_pairs(const Loaded& loaded, const Scene& scene);
 
 /// What holds for one deck: the bounds, and what the deck is compared with.

@@ -8,8 +8,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "common.hpp"
 #include "deck/text/gzip.hpp"
@@ -119,11 +121,23 @@ Result<void> check_output(const std::string& path, const OutputRules& rules,
 }
 
 int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths) {
-  for (const std::string& path : paths)
+  std::set<std::string> named;
+  for (const std::string& path : paths) {
     if (auto allowed = check_output(path); !allowed) {
       print_error(options, allowed.error().message);
       return exit_usage;
     }
+    struct stat status {};
+    const bool device = path != "-" && stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
+    if (path.empty() || device) continue;
+    std::error_code ec;
+    if (named.insert(std::filesystem::absolute(path, ec).lexically_normal().string()).second)
+      continue;
+    print_error(options, "two outputs go to " +
+                             (path == "-" ? std::string("standard output") : path) +
+                             "; name another file for one of them");
+    return exit_usage;
+  }
   return exit_clean;
 }
 

@@ -31,7 +31,8 @@ int run(const Options& options) {
     print_error(common, "--csv FILE takes one deck at a time");
     return exit_usage;
   }
-  if (const int bad = check_outputs(common, {options.csv}); bad != exit_clean) return bad;
+  if (const int bad = check_outputs(common, {common.json, options.csv}); bad != exit_clean)
+    return bad;
   JsonOutput json(common, "deck/params", 1);
   const int code = for_each_deck(common, Stage::interfaces, [&](Loaded& loaded) {
     if (auto known = check_interfaces(loaded, options.only, "--interface"); !known) {
