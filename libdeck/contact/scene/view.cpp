@@ -67,10 +67,6 @@ namespace {
 
 double ratio(const PenetrationRow& row) { return row.gap > 0 ? row.depth / row.gap : 0; }
 
-}  // namespace
-
-namespace {
-
 bool without_element(const Contact& contact) {
   const auto lone = [](const ContactEdge& e) { return e.carrier == Carrier::none; };
   return !contact.no_carrier.empty() ||
