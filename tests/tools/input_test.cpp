@@ -114,6 +114,8 @@ TEST_F(Input, EveryWrongCommandLineIsAnErrorOfOneForm) {
            Case{"gaps --threads 5000 x", "--threads: '5000' is not a whole number from 0 to 1024"},
            Case{"gaps --threads a x", "--threads: 'a' is not a whole number from 0 to 1024"},
            Case{"gaps x --threads", "--threads needs a value: N"},
+           Case{"lint x --format json --format sarif",
+                "--format takes one value, and is given more than once"},
            Case{"lint --color AUTO x",
                 "'AUTO' is none of auto, always, never; did you mean 'auto'?"},
            Case{"fix x --strategy movenodes", "did you mean 'move-nodes'?"},

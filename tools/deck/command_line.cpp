@@ -245,6 +245,9 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && option != nullptr)
     return option->nonpositional() ? name + " " + value + " is missing"
                                    : (value.empty() ? name : value) + " is missing";
+  if (text.find(": At Most 1 required") != text.npos && option != nullptr &&
+      option->nonpositional())
+    return name + " takes one value, and is given more than once";
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && option != nullptr)
     return option->nonpositional() ? name + " needs a value: " + value : "expected " + value;
   return text;
