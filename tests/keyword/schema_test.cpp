@@ -15,6 +15,7 @@
 
 #include "base/embedded.hpp"
 #include "keyword/schema_json.hpp"
+#include "where.hpp"
 
 namespace deck {
 namespace {
@@ -48,6 +49,19 @@ TEST(BuiltInSchemas, EveryFileLoadsAndNoneIsLost) {
   EXPECT_GT(files, 20u);
   EXPECT_GT(set.all().size(), 500u);
   EXPECT_EQ(set.all().size(), SchemaSet::built_in().all().size());
+}
+
+TEST(BuiltInSchemas, TheTextIsThatOfTheFileByteForByte) {
+  const auto compare = [](const std::vector<detail::EmbeddedFile>& files, const char* folder) {
+    for (const auto& file : files) {
+      std::ifstream in(test::source_dir() / "schemas" / folder / file.name, std::ios::binary);
+      const std::string text{std::istreambuf_iterator<char>(in), {}};
+      ASSERT_FALSE(text.empty()) << file.name;
+      EXPECT_TRUE(file.text == text) << file.name;
+    }
+  };
+  compare(detail::embedded_schemas(), "keywords");
+  compare(detail::embedded_rules(), "rules");
 }
 
 TEST(BuiltInSchemas, ParsingOnFirstUseGivesWhatParsingAtOnceGives) {

@@ -48,7 +48,7 @@ if (options.cpp)
   writeFileSync(
     options.cpp,
     `// Generated from tools/viewer; do not edit.
-#include "report/html/parts.hpp"
+#include "report/html/viewer_bundle.hpp"
 #if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Woverlength-strings"
 #endif

@@ -11,15 +11,9 @@
 #include "deck/report/html.hpp"
 #include "deck/report/json.hpp"
 #include "report/html/stream.hpp"
+#include "report/html/viewer_bundle.hpp"
 
 namespace deck::detail {
-
-/// The viewer as compiled in (generated at build): script and style sheet; empty script: none,
-/// and `missing` says why.
-struct ViewerBundle {
-  std::string_view script, style, missing;
-};
-const ViewerBundle& viewer_bundle();
 
 /// JSON as it may stand in a script element: '<' occurs in it only inside strings.
 std::string script_safe(std::string_view json);
