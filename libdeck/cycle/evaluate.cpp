@@ -7,48 +7,24 @@
 
 #include "base/parallel.hpp"
 #include "cycle/curvature.hpp"
-#include "cycle/kernel/block.hpp"
+#include "cycle/kernel/effects.hpp"
 #include "cycle/kernel/vector.hpp"
 #include "deck/cycle/kernel.hpp"
 
 namespace deck::cycle {
 namespace detail {
-namespace {
-
-/// Weight of a filter: how much of the new force enters.
-double filter_weight(const KernelPlan& plan, const PacketView& view) {
-  const ContactCard& card = plan.card;
-  if (card.ifiltr <= 0 || card.xfreq == 0.0) return 1.0;
-  const double turn = 2.0 * std::numbers::pi;
-  if (card.ifiltr == 1) return card.xfreq;
-  if (card.ifiltr == 2) return turn / card.xfreq;
-  return std::max(1.0, turn * card.xfreq * view.dt12);  // as in the solver: never below 1
-}
-
-}  // namespace
 
 Constants make_constants(const KernelPlan& plan, const PacketView& view) {
   const ContactCard& card = plan.card;
   Constants k;
   k.card = &plan.card;
-  if (card.kind == ContactKind::node_segment && card.istf == 1) {
-    k.kappa_fixed = std::abs(card.stfac);
-  }
-  k.inacti_share = card.inacti == 6 ? 0.05 : 0.0;
-  k.xi = card.viss;
-  k.quadratic = card.viss != 0.0 ? 0.32 : 0.0;
-  const bool rubs =
-      (plan.effects & (bit(Effect::friction_viscous) | bit(Effect::friction_incremental))) != 0;
-  if (card.iform != 2) k.zeta = card.visf != 0.0 ? card.visf : (rubs ? 1.0 : 0.0);
-  k.zeta2 = k.zeta * k.zeta;
-  if ((plan.effects & bit(Effect::friction_pairs)) != 0 && view.visf2 != nullptr) k.zeta = 0.0;
-  k.mu = card.fric;
-  k.alpha = filter_weight(plan, view);
   k.reach = card.ithe > 0 && card.kind == ContactKind::node_segment ? card.drad : 0.0;
   k.dt1 = view.dt1;
   k.inverse_dt1 = view.dt1 != 0.0 ? 1.0 / view.dt1 : 0.0;
   k.dt12 = view.dt12;
-  if (card.dtmin > 0.0 && card.itied == 0) k.delete_below = card.dtmin;
+  AllEffects::each([&]<class E>() {
+    if ((plan.effects & bit(E::effect)) != 0) E::prepare(plan, view, k);
+  });
   return k;
 }
 
@@ -103,48 +79,12 @@ void evaluate_range(const KernelPlan& plan, const PacketView& view, const Packet
   }
 }
 
-/// Effects outside the composition, on finished pairs.
-void evaluate_rest(const KernelPlan& plan, const PacketView& view, std::size_t begin,
-                   std::size_t end, PacketResult& out) {
-  const ContactCard& card = plan.card;
-  if (card.kind == ContactKind::edge_edge && card.ithe > 0)
-    detail::apply_edge_heat(plan, view, begin, end, out);
-  if (card.kind != ContactKind::tied && card.dtmin > 0.0 && card.itied == 0)
-    detail::apply_step_deletion(plan, view, begin, end, out);
-  if (card.kind != ContactKind::node_segment) return;
-  if (card.itied != 0) detail::apply_time_step_tie(plan, view, begin, end, out);
-  if (card.ithe > 0) detail::apply_heat(plan, view, begin, end, out);
-  if (card.iadm != 0) detail::apply_criteria(plan, view, begin, end, out);
-  if (card.ibc == 0) return;
-  for (std::size_t i = begin; i < end; ++i) {
-    if (out.penetration[i] != 0.0) out.status[i] |= status_bc_release;
-  }
-}
-
 /// Copies of short arrays, each filled up to one pack with its last value.
 class PaddedView {
  public:
   PaddedView(const PacketView& view, std::size_t width) : view_(view), width_(width) {
     const std::size_t n = view.size;
-    for (auto* group : {&view_.position, &view_.velocity}) {
-      for (auto& role : *group) pad(role, n);
-    }
-    pad(view_.mass, n);
-    for (const double** p : {&view_.k0, &view_.gap, &view_.p0, &view_.area, &view_.conductivity,
-                             &view_.fric, &view_.visf2, &view_.directed, &view_.allowance}) {
-      *p = pad(*p, n);
-    }
-    pad(view_.ft_old, n);
-    pad(view_.tie, n);
-    pad(view_.temperature, n);
-    pad(view_.edge_width, n);
-    pad(view_.edge_conductivity, n);
-    pad(view_.c, n);
-    pad(view_.c2, n);
-    pad(view_.ortho_mu, n);
-    pad(view_.ortho_direction, n);
-    for (auto& axis : view_.ortho_axis) pad(axis, n);
-    for (auto& corner : view_.normal) pad(corner, n);
+    PacketView::each_array(view_, [&](auto& arrays) { pad(arrays, n); });
     if (view.triangle != nullptr) {
       triangle_.assign(width, view.triangle[n - 1]);
       std::copy(view.triangle, view.triangle + n, triangle_.begin());
@@ -155,15 +95,15 @@ class PaddedView {
   [[nodiscard]] const PacketView& view() const { return view_; }
 
  private:
-  const double* pad(const double* p, std::size_t n) {
-    if (p == nullptr) return nullptr;
-    store_.emplace_back(width_, p[n - 1]);
-    std::copy(p, p + n, store_.back().begin());
-    return store_.back().data();
+  void pad(const double*& p, std::size_t n) {
+    if (p == nullptr) return;
+    std::vector<double>& own = store_.emplace_back(width_, p[n - 1]);
+    std::copy(p, p + n, own.begin());
+    p = own.data();
   }
-  template <std::size_t N>
-  void pad(std::array<const double*, N>& arrays, std::size_t n) {
-    for (const double*& p : arrays) p = pad(p, n);
+  template <class T, std::size_t N>
+  void pad(std::array<T, N>& arrays, std::size_t n) {
+    for (auto& a : arrays) pad(a, n);
   }
 
   PacketView view_;
@@ -174,22 +114,7 @@ class PaddedView {
 
 void shrink(PacketResult& out, std::size_t n) {
   out.size = n;
-  const auto cut = [n](auto& arrays) {
-    for (auto& a : arrays) a.resize(n);
-  };
-  cut(out.weights);
-  cut(out.force);
-  cut(out.normal);
-  cut(out.ft);
-  cut(out.tie);
-  cut(out.heat);
-  cut(out.criteria);
-  for (auto* a : {&out.normal_force, &out.k_nodal, &out.penetration, &out.distance,
-                  &out.effective_gap, &out.p0, &out.elastic_energy, &out.friction_energy,
-                  &out.damping_energy, &out.friction_heat, &out.conductance, &out.dt_kinematic}) {
-    a->resize(n);
-  }
-  out.status.resize(n);
+  PacketResult::each_array(out, [n](auto& array, Field, auto) { array.resize(n); });
 }
 
 void evaluate_split(const KernelPlan& plan, const PacketView& view, const PacketView& wide,
@@ -202,7 +127,9 @@ void evaluate_split(const KernelPlan& plan, const PacketView& view, const Packet
   };
   const auto run = [&](std::size_t part) {
     evaluate_range(plan, view, wide, bound(part), bound(part + 1), out);
-    evaluate_rest(plan, view, bound(part), bound(part + 1), out);
+    for (const detail::LateEffect* e : plan.late) {
+      e->apply(plan, view, bound(part), bound(part + 1), out);
+    }
   };
   parallel_items(static_cast<int>(parts), parts, run);
 }

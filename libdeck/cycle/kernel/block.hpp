@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "deck/cycle/card.hpp"
 #include "deck/cycle/packet.hpp"
@@ -15,24 +17,7 @@ namespace deck::cycle::detail {
 
 inline constexpr std::size_t kBlock = 64;  ///< pairs per block; a multiple of every pack width
 
-/// Numbers of the law, from the card and the step.
-struct Constants {
-  const ContactCard* card = nullptr;
-  double kappa_fixed = 0.0;   ///< initial stiffness where it is fixed; elsewhere it is K0 / 2
-  double inacti_share = 0.0;  ///< Inacti 6 leaves 5 % of the remaining gap
-  double xi = 0.0;            ///< VISs
-  double quadratic = 0.0;     ///< factor of the quadratic damping, 0.32 with damping
-  double zeta = 0.0;          ///< VISF, 0 for Iform 2 and where pairs have their own
-  double zeta2 = 0.0;         ///< its square
-  double mu = 0.0;
-  double alpha = 1.0;  ///< filter weight; Iform 2: of the step
-  double reach = 0.0;  ///< pairs are kept to max(gap, reach): radiation distance
-  double dt1 = 0.0;
-  double inverse_dt1 = 0.0;
-  double dt12 = 0.0;
-  double delete_below = -1.0;  ///< contact time step at which a pair is deleted; -1 never
-  bool filtered_work = false;
-};
+struct Constants;  // effects.hpp
 
 /// Geometry of a block: one slot per pair.
 struct alignas(64) GeometryBlock {
@@ -82,6 +67,19 @@ void mark_kept(const PacketView& view, std::size_t begin, std::size_t n, int wid
                const GeometryBlock& block, PacketResult& out);
 void force_tied_block(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                       std::size_t n, int width, const GeometryBlock& block, PacketResult& out);
+/// The account of a plan: rows, each a decision and the field behind it.
+using Account = std::vector<EffectState>;
+
+/// An effect outside the pair loop, on finished pairs [begin, end).
+struct LateEffect {
+  bool (*called_for)(const ContactCard& card);
+  Field needs, writes;
+  void (*apply)(const KernelPlan& plan, const PacketView& view, std::size_t begin, std::size_t end,
+                PacketResult& out);
+};
+/// All of them, in the order in which they act.
+std::span<const LateEffect> late_effects();
+
 void apply_step_deletion(const KernelPlan& plan, const PacketView& view, std::size_t begin,
                          std::size_t end, PacketResult& out);
 void apply_time_step_tie(const KernelPlan& plan, const PacketView& view, std::size_t begin,

@@ -1,238 +1,46 @@
-// The effects inside the pair loop, one struct each: the arrays it needs, what it does to the
-// state of a pack of pairs, what it writes. Order of application: gap reduction, relative
-// velocity, time step, elastic, damping, friction, energies.
+// The effects inside the pair loop, one struct each, which is the one home of an effect: when a
+// card calls for it, the arrays it needs and writes, its constants, its row in the account of a
+// plan, and what it does to a pack of pairs in each stage of the loop. Those of the normal force
+// are in a file of their own; `AllEffects` at the end lists all.
 #ifndef DECK_CYCLE_EFFECTS_HPP_
 #define DECK_CYCLE_EFFECTS_HPP_
 
-#include <cmath>
+#include <numbers>
+#include <string>
 
-#include "cycle/kernel/block.hpp"
-#include "cycle/kernel/pack.hpp"
-#include "deck/cycle/kernel.hpp"
+#include "cycle/kernel/effects_normal.hpp"
 
 namespace deck::cycle::detail {
 
-/// Law of a pack of pairs while it passes through the effects. Signs: normal from main towards
-/// secondary, fn negative when pressing, vn negative when approaching.
-template <class V>
-struct PairState {
-  using M = decltype(V::fill(0.0) < V::fill(0.0));
-  // From geometry and packet.
-  V gap, penetration, distance, k0;
-  Vec3<V> n;
-  std::array<V, 4> raw, weight;
-  // After gap reduction.
-  V p0, pi, ge, d;  ///< d = ge - pi, the distance left to the singularity
-  V rho;            ///< d / ge
-  // Rates.
-  Vec3<V> v, vt;
-  V vn, mass, dt_kin;
-  // Law.
-  V kappa, k_sec, k_tan, a, c, fn, k_nodal;
-  M active, gap_closed, step_deleted;
-  // Friction.
-  V mu, zeta2;
-  Vec3<V> ft, ft_keep;
-  V slip_heat;
-  // Energies.
-  V e_elastic, e_friction, e_damping;
-};
-
-// Distance, relative to the gap, below which the robust law continues linearly.
-inline constexpr double kRobustFloor = 1e-8;
-// The solver drops a node when less than this share of its gap is left (double precision).
-inline constexpr double kClosed = 1e-10;
-
-/// Inacti 5 and 6: the penetration found at start is taken off the gap and slowly given back.
-struct GapReduction {
-  static constexpr Field needs = Field::residual_penetration;
-  static constexpr Field writes = Field::residual_penetration;
-  template <Model M, ContactKind K, class V>
-  static void apply(const Constants& k, const PacketView& view, std::size_t i, PairState<V>& s) {
-    const V zero = V::fill(0.0);
-    s.p0 = V::load(view.p0 + i);
-    if constexpr (K == ContactKind::node_segment) {
-      const V now = s.penetration + k.inacti_share * (s.gap - s.penetration);
-      s.p0 = min(s.p0, 0.95 * s.p0 + 0.05 * now);
-    }
-    s.pi = max(zero, s.penetration - s.p0);
-    s.ge = s.gap - s.p0;
-    s.k0 = select(s.pi == zero, zero, s.k0);
-    if constexpr (M == Model::robust) {
-      // A gap used up within rounding has no law left.
-      s.k0 = select(s.ge > 1e-14 * s.gap, s.k0, zero);
-    }
-  }
-};
-
-/// Elastic normal force, hyperbolic in the remaining distance: F = kappa ge pi / d.
-struct Elastic {
-  static constexpr Field needs = Field::position | Field::stiffness | Field::gap;
-  static constexpr Field writes = Field::force | Field::nodal_stiffness | Field::weights;
-
-  /// Remaining distance and share; the reference subtracts, the robust model measured d. Edges
-  /// work with nine tenths of the gap: their singularity sits at a tenth of it.
-  template <Model M, ContactKind K, class V>
-  static void remaining(PairState<V>& s) {
-    const V zero = V::fill(0.0);
-    if constexpr (K == ContactKind::edge_edge) s.k0 = select(s.pi == zero, zero, s.k0);
-    if constexpr (M == Model::reference) {
-      if constexpr (K == ContactKind::edge_edge) s.ge = 0.9 * s.ge;
-      s.d = s.ge - s.pi;
-      s.rho = s.d / s.ge;
-    } else {
-      s.d = select(s.pi > zero, s.distance, s.ge);
-      if constexpr (K == ContactKind::edge_edge) {
-        s.d = s.d - 0.1 * s.ge;
-        s.ge = 0.9 * s.ge;
-      }
-      s.rho = ratio_or_one(s.d, s.ge);
-    }
-    s.gap_closed = (s.rho < V::fill(kClosed)) & (s.k0 > zero);
-    s.k0 = select(s.gap_closed, zero, s.k0);
-    if constexpr (K == ContactKind::edge_edge) s.pi = select(s.gap_closed, zero, s.pi);
-    if constexpr (M == Model::robust) s.rho = max(s.rho, V::fill(kRobustFloor));
-  }
-  template <class V>
-  static V ratio_or_one(const V& num, const V& den) {
-    return select(den > V::fill(0.0), num / den, V::fill(1.0));
-  }
-
-  /// `fixed`: Istf 1, the same stiffness for every pair that is on.
-  template <Model M, class V>
-  static void apply(const Constants& k, bool fixed, PairState<V>& s) {
-    const V zero = V::fill(0.0);
-    s.kappa = fixed ? select(s.k0 != zero, V::fill(k.kappa_fixed), zero) : 0.5 * s.k0;
-    if constexpr (M == Model::reference) {
-      const V phi = s.ge / max(V::fill(1e-10), s.d);
-      s.k_sec = s.kappa * phi;
-      s.k_tan = s.k_sec * phi;
-      s.fn = -(s.k_sec * s.pi);
-    } else {
-      const V phi = 1.0 / s.rho;
-      const V floor_d = s.rho * s.ge;  // >= d; differs from it only in the linear branch
-      s.k_sec = s.kappa * phi;
-      s.k_tan = s.k_sec * phi;
-      s.fn = -(s.k_sec * (s.ge - floor_d) + s.k_tan * max(zero, floor_d - s.d));
-    }
-  }
-};
-
-/// Stored energy, exact potential of the law: kappa ge^2 (rho - 1 - ln rho).
-struct ElasticEnergy {
-  static constexpr Field needs = Elastic::needs;
-  static constexpr Field writes = Field::elastic_energy;
-  template <Model M, ContactKind K, class V>
-  static void apply(PairState<V>& s) {
-    const V zero = V::fill(0.0);
-    V value;
-    if constexpr (M == Model::reference) {
-      const V log_rho = map(max(s.rho, V::fill(1e-30)), [](double r) { return std::log(r); });
-      value = s.kappa * s.ge * s.ge * (s.rho - V::fill(1.0) - log_rho);
-    } else {
-      // With u = 1 - rho: -u - log1p(-u); a series where the two terms cancel.
-      const V u = 1.0 - s.rho;
-      const V shape = map(u, [](double x) {
-        if (x < 0.03) {
-          double sum = 0.0;
-          for (int p = 9; p >= 2; --p) sum = sum * x + 1.0 / p;
-          return x * x * sum;
-        }
-        return -x - std::log1p(-x);
-      });
-      const V beyond = max(zero, s.rho * s.ge - s.d);
-      value = s.kappa * s.ge * s.ge * shape + (-s.fn) * beyond - 0.5 * (s.k_tan * beyond * beyond);
-    }
-    s.e_elastic = select(s.kappa != zero, value, zero);
-  }
-};
-
-/// Relative velocity of a pair and the mass that damping and viscous friction work with.
-struct Rates {
-  static constexpr Field needs = Field::velocity | Field::step_times;
-  static constexpr Field writes = Field::kinematic_step | Field::status;
-
-  /// The mass of the secondary node; between edges the smaller of both weighted means.
-  template <ContactKind K>
-  static constexpr Field mass_needs() {
-    return K == ContactKind::node_segment ? Field::mass_secondary
-                                          : Field::mass_secondary | Field::mass_main;
-  }
-
-  template <ContactKind K, class V>
-  static void gather(const PacketView& view, std::size_t i, PairState<V>& s) {
-    if constexpr (K == ContactKind::edge_edge) {
-      s.v = (s.weight[0] * load3<V>(view.velocity[0], i) +
-             s.weight[1] * load3<V>(view.velocity[1], i)) -
-            (s.weight[2] * load3<V>(view.velocity[2], i) +
-             s.weight[3] * load3<V>(view.velocity[3], i));
-      std::array<V, 4> m;
-      four_times([&](auto c) DECK_INLINE { m[c] = V::load(view.mass[c] + i); });
-      s.mass =
-          min(s.weight[0] * m[0] + s.weight[1] * m[1], s.weight[2] * m[2] + s.weight[3] * m[3]);
-    } else {
-      Vec3<V> main = s.raw[0] * load3<V>(view.velocity[1], i);
-      four_times([&](auto c) DECK_INLINE {
-        if (c != 0) main = main + s.raw[c] * load3<V>(view.velocity[c + 1], i);
-      });
-      s.v = load3<V>(view.velocity[0], i) - main;
-      s.mass = V::load(view.mass[0] + i);
-    }
-    s.vn = dot(s.n, s.v);
-  }
-
-  /// Half the time to the mid-surface; pairs at or below dtmin are switched off.
-  template <class V>
-  static void limit(const Constants& k, PairState<V>& s) {
-    const V zero = V::fill(0.0);
-    s.dt_kin = 0.5 * s.d / max(V::fill(1e-30), -s.vn);
-    s.step_deleted = (s.dt_kin <= V::fill(k.delete_below)) & (s.k0 != zero);
-    s.k0 = select(s.step_deleted, zero, s.k0);
-    s.dt_kin = select(s.k0 != zero, s.dt_kin, V::fill(1e30));
-  }
-};
-
-/// Normal dashpot relative to sqrt(2 k M), stiffer and with a quadratic term on approach.
-struct Damping {
-  static constexpr Field needs = Rates::needs;
-  static constexpr Field writes = Field::damping_energy;
-  template <Model M, ContactKind K, class V>
-  static void apply(const Constants& k, PairState<V>& s) {
-    const V zero = V::fill(0.0);
-    s.a = 2.0 * (s.k_sec * s.mass);
-    V quad;
-    if constexpr (M == Model::reference) {
-      s.a = select(s.vn < zero, s.a / max(V::fill(1e-10), s.rho), s.a);
-      quad = k.quadratic * (s.mass * max(zero, -s.vn)) / max(V::fill(1e-10), s.d);
-    } else {
-      s.a = select(s.vn < zero, s.a / s.rho, s.a);
-      const V room = s.rho * s.ge;
-      quad = select(room > zero, k.quadratic * (s.mass * max(zero, -s.vn)) / room, zero);
-    }
-    s.c = select(s.k0 != zero, k.xi * sqrt(s.a) + quad, zero);
-    const V elastic = s.fn;
-    if constexpr (K == ContactKind::node_segment) {
-      s.fn = s.fn + s.c * s.vn;  // may pull, as in the solver
-    } else {
-      s.fn = s.fn + min(s.c * s.vn, -s.fn);  // between edges it never does
-    }
-    if constexpr (M == Model::robust) {
-      s.e_damping = k.dt1 * ((s.fn - elastic) * s.vn);
-    } else {
-      s.e_damping = zero;  // the reference books no damping work here
-    }
-    const V root = k.zeta * sqrt(s.a);
-    s.k_nodal = max(s.k_tan + k.inverse_dt1 * s.c, k.inverse_dt1 * root);
-  }
-};
-
-/// What both friction forms share: the sliding velocity, the limit and the work.
-struct Friction {
-  static constexpr Field needs = Rates::needs;
+/// What both friction forms share: the sliding velocity, the coefficient of the card, the limit and
+/// the work.
+struct Friction : PairEffect {
+  static constexpr Field needs(ContactKind) { return Field::velocity | Field::step_times; }
   static constexpr Field writes = Field::friction_energy;
-  template <class V>
-  static void slide(PairState<V>& s) {
+  static void prepare(const KernelPlan& plan, const PacketView&, Constants& k) {
+    const ContactCard& card = plan.card;
+    k.mu = card.fric;
+    if (card.iform != 2 && card.visf == 0.0) k.zeta = k.zeta2 = 1.0;
+  }
+  static void account(const ContactCard& card, int iform, const char* name,
+                      std::vector<EffectState>& out) {
+    const bool rubbing = rubs(card);
+    const bool on = rubbing && (card.iform == 2) == (iform == 2);
+    out.push_back({name, on, rubbing ? "Iform" : "Fric",
+                   rubbing        ? field_text("Iform", card.iform)
+                   : card.fric_id ? "fric_ID"
+                                  : field_text("Fric", card.fric)});
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void slide(const At& at, PairState<V>& s) {
     s.vt = s.v - s.vn * s.n;
+    s.mu = V::fill(at.k.mu);
+    s.zeta2 = V::fill(at.k.zeta2);
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void store(const At& at, const PairState<V>& s, PacketResult& out) {
+    s.e_friction.store(out.friction_energy.data() + at.i);
+    s.slip_heat.store(out.friction_heat.data() + at.i);
   }
   template <class V>
   static V limit(const PairState<V>& s) {
@@ -241,11 +49,17 @@ struct Friction {
 };
 
 /// Iform 1: a dashpot zeta sqrt(A) on the sliding velocity, limited by mu |Fn|.
-struct FrictionViscous {
-  static constexpr Field needs = Friction::needs;
-  static constexpr Field writes = Friction::writes;
-  template <Model M, class V>
-  static void apply(const Constants& k, PairState<V>& s) {
+struct FrictionViscous : Friction {
+  static constexpr Effect effect = Effect::friction_viscous;
+  static constexpr const char* name = "friction_viscous";
+  static bool called_for(const ContactCard& card, const PlanOptions&) {
+    return rubs(card) && card.iform != 2;
+  }
+  static void account(const ContactCard& card, std::vector<EffectState>& out) {
+    Friction::account(card, 1, "friction-viscous", out);
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void tangential(const At& at, PairState<V>& s) {
     const V v2 = dot(s.vt, s.vt);
     const V ct2 = s.zeta2 * s.a;
     const V stick2 = ct2 * v2;
@@ -259,23 +73,56 @@ struct FrictionViscous {
       factor = select(slips, cap / select(slips, speed, V::fill(1.0)), ct);
     }
     s.ft = factor * s.vt;
-    s.slip_heat = k.dt1 * (factor * v2);
+    s.slip_heat = at.k.dt1 * (factor * v2);
   }
 };
+
+/// How much of the new force a filter lets in (Iform 2: of the step); 1 without one.
+inline double filter_weight(const ContactCard& card, double dt12) {
+  if (card.ifiltr <= 0 || card.xfreq == 0.0) return 1.0;
+  const double turn = 2.0 * std::numbers::pi;
+  if (card.ifiltr == 1) return card.xfreq;
+  if (card.ifiltr == 2) return turn / card.xfreq;
+  const double cut = turn * card.xfreq * dt12;
+  return cut > 1.0 ? cut : 1.0;  // as in the solver: never below 1
+}
+
+/// What is remembered of the tangential force.
+template <class V>
+void store_memory(const PairState<V>& s, std::size_t i, PacketResult& out) {
+  s.ft_keep.x.store(out.ft[0].data() + i);
+  s.ft_keep.y.store(out.ft[1].data() + i);
+  s.ft_keep.z.store(out.ft[2].data() + i);
+}
 
 /// Iform 2: a spring on the sliding path, limited by mu |Fn|; its force is remembered. The spring
 /// is K0, twice the stiffness that the normal force starts with (edges: the stabilised stiffness),
 /// and the filter scales its step.
-struct FrictionIncremental {
-  static constexpr Field needs = Friction::needs | Field::friction_memory;
+struct FrictionIncremental : Friction {
+  static constexpr Effect effect = Effect::friction_incremental;
+  static constexpr const char* name = "friction_incremental";
+  static constexpr Field needs(ContactKind kind) {
+    return Friction::needs(kind) | Field::friction_memory;
+  }
   static constexpr Field writes = Friction::writes | Field::friction_memory;
-  template <Model M, ContactKind K, class V>
-  static void apply(const Constants& k, const PacketView& view, std::size_t i, PairState<V>& s) {
+  static bool called_for(const ContactCard& card, const PlanOptions&) {
+    return rubs(card) && card.iform == 2;
+  }
+  static void prepare(const KernelPlan& plan, const PacketView& view, Constants& k) {
+    Friction::prepare(plan, view, k);
+    k.alpha = filter_weight(plan.card, view.dt12);
+  }
+  static void account(const ContactCard& card, std::vector<EffectState>& out) {
+    Friction::account(card, 2, "friction-incremental", out);
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void tangential(const At& at, PairState<V>& s) {
+    const Constants& k = at.k;
     const V zero = V::fill(0.0), one = V::fill(1.0);
     const V cap = Friction::limit(s);
     const V spring = K == ContactKind::edge_edge ? s.k_nodal : s.k0;
     const V step = (K == ContactKind::edge_edge ? k.dt12 : k.alpha * k.dt12) * spring;
-    Vec3<V> trial = load3<V>(view.ft_old, i) + step * s.v;
+    Vec3<V> trial = load3<V>(at.view.ft_old, at.i) + step * s.v;
     trial = trial - dot(trial, s.n) * s.n;
     const V size2 = dot(trial, trial);
     V beta;
@@ -290,12 +137,51 @@ struct FrictionIncremental {
     const V lost = dot(trial - s.ft, s.ft);
     s.slip_heat = select(spring != zero, lost / select(spring != zero, spring, one), zero);
   }
+  template <Model M, ContactKind K, class At, class V>
+  static void store(const At& at, const PairState<V>& s, PacketResult& out) {
+    Friction::store<M, K>(at, s, out);
+    store_memory(s, at.i, out);
+  }
+};
+
+/// fric_ID: coefficient and tangential damping of a pair of parts.
+struct FrictionPairs : PairEffect {
+  static constexpr Effect effect = Effect::friction_pairs;
+  static constexpr const char* name = "friction_pairs";
+  static constexpr Field needs(ContactKind) { return Field::pair_friction; }
+  static bool called_for(const ContactCard& card, const PlanOptions&) {
+    return rubs(card) && card.fric_id;
+  }
+  static void prepare(const KernelPlan&, const PacketView& view, Constants& k) {
+    if (view.visf2 != nullptr) k.zeta = 0.0;
+  }
+  static void account(const ContactCard& card, std::vector<EffectState>& out) {
+    out.push_back(
+        {"part-pair-friction", card.fric_id, "fric_ID", card.fric_id ? "fric_ID" : "fric_ID = 0"});
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void coefficient(const At& at, PairState<V>& s) {
+    if (at.view.fric != nullptr) s.mu = V::load(at.view.fric + at.i);
+    if (at.view.visf2 != nullptr) s.zeta2 = V::load(at.view.visf2 + at.i);
+    if (at.on.has(Effect::friction_viscous)) {
+      s.k_nodal = max(s.k_nodal, at.k.inverse_dt1 * sqrt(s.zeta2 * s.a));
+    }
+  }
 };
 
 /// Ifric 1..4: mu from contact pressure (normal force over the whole segment) and sliding speed.
-struct FrictionLaw {
-  static constexpr Field needs = Field::position;
-  static constexpr Field writes = Field::none;
+struct FrictionLaw : PairEffect {
+  static constexpr Effect effect = Effect::friction_law;
+  static constexpr const char* name = "friction_law";
+  static constexpr Field needs(ContactKind) { return Field::position; }
+  static bool called_for(const ContactCard& card, const PlanOptions&) {
+    return rubs(card) && card.ifric > 0 && card.kind != ContactKind::edge_edge;
+  }
+  static void account(const ContactCard& card, std::vector<EffectState>& out) {
+    out.push_back({"friction-law", called_for(card, {}), "Ifric",
+                   card.kind == ContactKind::edge_edge ? "edge contacts use a constant coefficient"
+                                                       : field_text("Ifric", card.ifric)});
+  }
   template <class V>
   static V area(const PacketView& view, std::size_t i) {
     const Vec3<V> d13 = load3<V>(view.position[3], i) - load3<V>(view.position[1], i);
@@ -307,13 +193,15 @@ struct FrictionLaw {
   static double pressure(double fn, double area) {
     return M == Model::robust && !(area > 0.0) ? 0.0 : -fn / area;
   }
-  template <Model M, class V>
-  static void apply(const PacketView& view, std::size_t i, const ContactCard& card, bool pairs,
-                    PairState<V>& s) {
-    const V whole = area<V>(view, i);
+  template <Model M, ContactKind K, class At, class V>
+  static void coefficient(const At& at, PairState<V>& s) {
+    const PacketView& view = at.view;
+    const ContactCard& card = *at.k.card;
+    const bool pairs = at.on.has(Effect::friction_pairs);
+    const V whole = area<V>(view, at.i);
     const V speed = sqrt(max(V::fill(1e-30), dot(s.vt, s.vt)));
     for (int l = 0; l < V::width; ++l) {
-      const std::size_t pair = i + static_cast<std::size_t>(l);
+      const std::size_t pair = at.i + static_cast<std::size_t>(l);
       std::array<double, 6> c = card.c;
       for (std::size_t q = 0; pairs && q < 6; ++q) {
         if (view.c[q] != nullptr) c[q] = view.c[q][pair];
@@ -327,14 +215,36 @@ struct FrictionLaw {
 /// fct_IDF: mu scaled by a function of the mean temperature of both sides. AscaleF is inert. With
 /// Ithe_form 1 the solver weights the corners as another pair of its packet does; here they have
 /// the weights of their own pair.
-struct FrictionTemperature {
-  static constexpr Field needs = Field::temperature;
-  static constexpr Field writes = Field::none;
-  template <class V>
-  static void apply(const PacketView& view, std::size_t i, const ContactCard& card,
-                    PairState<V>& s) {
+struct FrictionTemperature : PairEffect {
+  static constexpr Effect effect = Effect::friction_temperature;
+  static constexpr const char* name = "friction_temperature";
+  static constexpr Field needs(ContactKind) { return Field::temperature; }
+  static bool called_for(const ContactCard& card, const PlanOptions&) {
+    return rubs(card) && card.ithe && card.fct_idf && !card.fric_id &&
+           card.kind != ContactKind::edge_edge;
+  }
+  static void account(const ContactCard& card, std::vector<EffectState>& out) {
+    out.push_back(
+        {"friction-temperature", called_for(card, {}),
+         card.fct_idf && !card.ithe ? "Ithe" : "fct_IDF",
+         !card.fct_idf  ? "fct_IDF = 0"
+         : !card.ithe   ? "fct_IDF acts with heat exchange only: Ithe = 0"
+         : card.fric_id ? "fct_IDF does nothing beside fric_ID"
+         : card.ithe_form == 1
+             ? "fct_IDF; with Ithe_form 1 the solver weights the main side as another pair, here "
+               "as its own"
+             : "fct_IDF"});
+    out.push_back({"friction-temperature-scale", false, "AscaleF",
+                   card.ascalef != 1.0
+                       ? field_text("AscaleF", card.ascalef) + ": the solver never applies it"
+                       : "AscaleF = 1"});
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void coefficient(const At& at, PairState<V>& s) {
+    const PacketView& view = at.view;
+    const ContactCard& card = *at.k.card;
     for (int l = 0; l < V::width; ++l) {
-      const std::size_t pair = i + static_cast<std::size_t>(l);
+      const std::size_t pair = at.i + static_cast<std::size_t>(l);
       double main = card.tint;
       if (card.ithe_form == 1) {
         main = 0.0;
@@ -364,9 +274,22 @@ void orthotropic_slip(const ContactCard& card, const PacketView& view, std::size
 /// Orthotropic coefficients of a pair of parts: the sticking force of the chosen form is brought
 /// back to an ellipse whose axes follow the segment. The viscous form (Iform 1) gives a sliding
 /// pair under pressure the opposite sign, as in the solver: it is pushed along.
-struct FrictionOrthotropic {
-  static constexpr Field needs = Field::position | Field::pair_friction;
+struct FrictionOrthotropic : PairEffect {
+  static constexpr Effect effect = Effect::friction_orthotropic;
+  static constexpr const char* name = "friction_orthotropic";
+  static constexpr Field needs(ContactKind) { return Field::position | Field::pair_friction; }
   static constexpr Field writes = Field::friction_energy;
+  static bool called_for(const ContactCard& card, const PlanOptions&) {
+    return rubs(card) && card.fric_id && card.fric_orthotropic &&
+           card.kind != ContactKind::edge_edge;
+  }
+  static void account(const ContactCard& card, std::vector<EffectState>& out) {
+    const bool on = card.fric_id && card.fric_orthotropic && card.kind == ContactKind::node_segment;
+    out.push_back({"orthotropic-friction", on, "fric_ID",
+                   !card.fric_id ? "fric_ID = 0"
+                   : on          ? "directions in /FRICTION"
+                                 : "no directions in /FRICTION"});
+  }
 
   /// Pairs with a direction; null: all are.
   template <class V>
@@ -375,9 +298,17 @@ struct FrictionOrthotropic {
     return flag != V::fill(0.0);
   }
 
-  template <Model M, class V>
-  static void apply(const Constants& k, bool incremental, const PacketView& view, std::size_t i,
-                    PairState<V>& s) {
+  /// The ellipse is the limit of directed pairs: the form itself only sticks.
+  template <Model M, ContactKind K, class At, class V>
+  static void coefficient(const At& at, PairState<V>& s) {
+    s.mu = select(directed<V>(at.view, at.i), V::fill(1e30), s.mu);
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void tangential(const At& at, PairState<V>& s) {
+    const Constants& k = at.k;
+    const PacketView& view = at.view;
+    const std::size_t i = at.i;
+    const bool incremental = at.on.has(Effect::friction_incremental);
     const Vec3<V> trial = s.ft;
     const V area = k.card->ifric > 0 ? FrictionLaw::area<V>(view, i) : V::fill(1.0);
     for (int l = 0; l < V::width; ++l) {
@@ -407,18 +338,65 @@ struct FrictionOrthotropic {
 };
 
 /// Ifiltr with Iform 1: the tangential force is smoothed with the last one, after its limit.
-struct Filter {
-  static constexpr Field needs = Field::friction_memory;
+struct Filter : PairEffect {
+  static constexpr Effect effect = Effect::filter;
+  static constexpr const char* name = "filter";
+  static constexpr Field needs(ContactKind) { return Field::friction_memory; }
   static constexpr Field writes = Field::friction_memory;
-  template <class V>
-  static void apply(const Constants& k, const PacketView& view, std::size_t i, PairState<V>& s) {
+  static bool called_for(const ContactCard& card, const PlanOptions&) {
+    return rubs(card) && card.iform != 2 && has_frequency(card);
+  }
+  static bool has_frequency(const ContactCard& card) {
+    return card.kind == ContactKind::node_segment && card.ifiltr > 0 && card.xfreq != 0.0;
+  }
+  static void prepare(const KernelPlan& plan, const PacketView& view, Constants& k) {
+    k.alpha = filter_weight(plan.card, view.dt12);
+  }
+  static void account(const ContactCard& card, std::vector<EffectState>& out) {
+    const bool whole = card.ifiltr == 3 || (card.ifiltr == 1 && card.xfreq >= 1.0);
+    out.push_back({"friction-filter", rubs(card) && has_frequency(card) && !whole,
+                   card.ifiltr > 0 && card.ifiltr != 3 ? "Xfreq" : "Ifiltr", reason(card)});
+  }
+  /// Why a filter does nothing, or what it does instead of smoothing.
+  static std::string reason(const ContactCard& card) {
+    if (card.kind == ContactKind::edge_edge) return "no filter between edges";
+    if (card.ifiltr <= 0) return "Ifiltr = 0";
+    if (card.xfreq == 0.0) return field_text("Xfreq", 0.0);
+    if (card.ifiltr == 3) return "Ifiltr = 3: the solver's weight is never below 1";
+    const std::string text = field_text("Xfreq", card.xfreq);
+    if (card.ifiltr == 1 && card.xfreq >= 1.0) return text + ": a weight of 1";
+    if (card.iform != 2) return text;
+    return text + ", scales the spring of Iform 2 and smooths nothing";
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void tangential(const At& at, PairState<V>& s) {
+    const Constants& k = at.k;
     const V one = V::fill(1.0);
-    const Vec3<V> old = load3<V>(view.ft_old, i);
+    const Vec3<V> old = load3<V>(at.view.ft_old, at.i);
     s.ft = (k.alpha * one) * s.ft + ((1.0 - k.alpha) * one) * old;
     s.ft_keep = s.ft;
     s.slip_heat = k.dt1 * dot(s.ft, s.vt);
   }
+  template <Model M, ContactKind K, class At, class V>
+  static void store(const At& at, const PairState<V>& s, PacketResult& out) {
+    store_memory(s, at.i, out);
+  }
 };
+
+/// Effects as a list that code can go over.
+template <class... E>
+struct EffectList {
+  /// f<E>() for each of them, in order.
+  template <class F>
+  static constexpr void each(F&& f) {
+    (f.template operator()<E>(), ...);
+  }
+};
+
+/// All of them, in the order in which they act within a stage.
+using AllEffects = EffectList<Elastic, FixedStiffness, GapReduction, ElasticEnergy, Damping,
+                              FrictionViscous, FrictionIncremental, FrictionPairs,
+                              FrictionTemperature, FrictionLaw, FrictionOrthotropic, Filter>;
 
 }  // namespace deck::cycle::detail
 

@@ -4,31 +4,9 @@
 #include <algorithm>
 
 namespace deck::cycle {
-namespace {
-
-template <class Arrays>
-void resize_all(Arrays& arrays, std::size_t n) {
-  for (auto& a : arrays) a.assign(n, {});
-}
-
-}  // namespace
-
 void PacketResult::resize(std::size_t n) {
   size = n;
-  resize_all(weights, n);
-  resize_all(force, n);
-  resize_all(normal, n);
-  resize_all(ft, n);
-  resize_all(tie, n);
-  resize_all(heat, n);
-  resize_all(criteria, n);
-  for (auto* a :
-       {&normal_force, &k_nodal, &penetration, &distance, &effective_gap, &p0, &elastic_energy,
-        &friction_energy, &damping_energy, &friction_heat, &conductance}) {
-    a->assign(n, 0.0);
-  }
-  dt_kinematic.assign(n, 1e30);
-  status.assign(n, 0);
+  each_array(*this, [n](auto& array, Field, auto value) { array.assign(n, value); });
   dirty_ = Field::none;
 }
 
@@ -40,18 +18,11 @@ void PacketResult::prepare(std::size_t n, Field writes) {
     dirty_ = static_cast<Field>(~0u);
     return;
   }
-  const auto clear = [&](Field group, double value, auto&... arrays) {
-    if (contains(dirty_, group) && !contains(writes, group)) (arrays.assign(n, value), ...);
-  };
-  clear(Field::residual_penetration, 0.0, p0);
-  clear(Field::friction_memory, 0.0, ft[0], ft[1], ft[2]);
-  clear(Field::elastic_energy, 0.0, elastic_energy);
-  clear(Field::friction_energy, 0.0, friction_energy, friction_heat);
-  clear(Field::damping_energy, 0.0, damping_energy);
-  clear(Field::kinematic_step, 1e30, dt_kinematic);
-  clear(Field::heat, 0.0, heat[0], heat[1], heat[2], heat[3], heat[4], conductance);
-  clear(Field::criteria, 0.0, criteria[0], criteria[1], criteria[2]);
-  clear(Field::tie_record, 0.0, tie[0], tie[1], tie[2], tie[3], tie[4], tie[5], tie[6], tie[7]);
+  each_array(*this, [&](auto& array, Field group, auto value) {
+    if (group != Field::none && contains(dirty_, group) && !contains(writes, group)) {
+      array.assign(n, value);
+    }
+  });
   dirty_ = writes;
 }
 

@@ -48,20 +48,13 @@ std::vector<std::string> needed_columns(const std::string& kind) {
 }
 
 /// Points at rows from `first` on.
-template <std::size_t N>
-std::array<const double*, N> shifted(std::array<const double*, N> p, std::size_t first) {
-  for (const double*& q : p) {
-    if (q != nullptr) q += first;
-  }
-  return p;
+void shift(const double*& p, std::size_t first) {
+  if (p != nullptr) p += first;
 }
-template <std::size_t N, std::size_t M>
-std::array<std::array<const double*, N>, M> shifted(std::array<std::array<const double*, N>, M> p,
-                                                    std::size_t first) {
-  for (auto& q : p) q = shifted(q, first);
-  return p;
+template <class T, std::size_t N>
+void shift(std::array<T, N>& arrays, std::size_t first) {
+  for (T& a : arrays) shift(a, first);
 }
-const double* shifted(const double* p, std::size_t first) { return p ? p + first : nullptr; }
 
 template <std::size_t N>
 bool all_there(const std::array<const double*, N>& columns) {
@@ -285,25 +278,7 @@ void States::take_own_friction(const Table& t, const RecordedDeck& deck, std::st
 PacketView States::rows(std::size_t first, std::size_t n) const {
   PacketView v = view_;
   v.size = n;
-  v.position = shifted(v.position, first);
-  v.velocity = shifted(v.velocity, first);
-  v.mass = shifted(v.mass, first);
-  v.temperature = shifted(v.temperature, first);
-  v.k0 = shifted(v.k0, first);
-  v.gap = shifted(v.gap, first);
-  v.p0 = shifted(v.p0, first);
-  v.ft_old = shifted(v.ft_old, first);
-  v.tie = shifted(v.tie, first);
-  v.normal = shifted(v.normal, first);
-  v.allowance = shifted(v.allowance, first);
-  v.fric = shifted(v.fric, first);
-  v.visf2 = shifted(v.visf2, first);
-  v.c = shifted(v.c, first);
-  v.directed = shifted(v.directed, first);
-  v.ortho_mu = shifted(v.ortho_mu, first);
-  v.c2 = shifted(v.c2, first);
-  v.ortho_direction = shifted(v.ortho_direction, first);
-  v.ortho_axis = shifted(v.ortho_axis, first);
+  PacketView::each_array(v, [first](auto& arrays) { shift(arrays, first); });
   v.triangle = triangle_.empty() ? nullptr : triangle_.data() + first;
   return v;
 }

@@ -100,6 +100,26 @@ struct ContactCard {
   int idel = 0;
 };
 
+/// Effects inside the pair loop that a card may call for, as bits of a composition. The account of
+/// a plan names those that have a row in this order. Each is at home in cycle/kernel/effects.hpp.
+enum class Effect : std::uint32_t {
+  elastic = 1u << 0,
+  gap_reduction = 1u << 1,
+  damping = 1u << 2,
+  friction_viscous = 1u << 3,
+  friction_incremental = 1u << 4,
+  elastic_energy = 1u << 5,
+  // Only in the generic kernel:
+  friction_law = 1u << 6,
+  friction_temperature = 1u << 7,
+  filter = 1u << 8,
+  friction_orthotropic = 1u << 9,
+  friction_pairs = 1u << 10,
+  fixed_stiffness = 1u << 11,  ///< Istf 1 of node-segment pairs
+};
+using EffectSet = std::uint32_t;
+constexpr EffectSet bit(Effect e) { return static_cast<EffectSet>(e); }
+
 /// One line of the account of a plan: an effect, whether it runs, and which field decided.
 struct EffectState {
   std::string name;

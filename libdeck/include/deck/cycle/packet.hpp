@@ -85,6 +85,16 @@ struct PacketView {
   /// Icurv 3: how far beyond the gap weights are formed; null: from the pair's nodal normals.
   const double* allowance = nullptr;
   std::array<std::array<const double*, 3>, 4> normal{};  ///< nodal normals of the corners
+
+  /// f(arrays) for every member but `triangle`: a pointer, or std::arrays of such. The one list of
+  /// what a kernel reads; what shifts, pads or copies a view goes over it.
+  template <class View, class F>
+  static void each_array(View& v, F&& f) {
+    f(v.position), f(v.velocity), f(v.mass), f(v.k0), f(v.gap), f(v.p0), f(v.ft_old), f(v.tie);
+    f(v.temperature), f(v.area), f(v.conductivity), f(v.edge_width), f(v.edge_conductivity);
+    f(v.fric), f(v.visf2), f(v.c), f(v.directed), f(v.ortho_mu), f(v.c2), f(v.ortho_direction);
+    f(v.ortho_axis), f(v.allowance), f(v.normal);
+  }
 };
 
 /// Bits of PacketResult::status.
@@ -143,6 +153,31 @@ struct PacketResult {
   void resize(std::size_t n);
   /// As resize, but leaves to the kernel what it overwrites anyway, and alone what is 0 already.
   void prepare(std::size_t n, Field writes);
+
+  /// f(vector, group, value) for every array: the group of optional arrays it belongs to (none:
+  /// every kernel writes it), and its value where nothing was written. The one list of results.
+  template <class Result, class F>
+  static void each_array(Result& r, F&& f) {
+    const auto all = [&](auto& arrays, Field group) {
+      for (auto& a : arrays) f(a, group, 0.0);
+    };
+    all(r.weights, Field::none), all(r.force, Field::none), all(r.normal, Field::none);
+    for (auto* a : {&r.normal_force, &r.k_nodal, &r.penetration, &r.distance, &r.effective_gap}) {
+      f(*a, Field::none, 0.0);
+    }
+    f(r.status, Field::none, std::int64_t{0});
+    f(r.p0, Field::residual_penetration, 0.0);
+    all(r.ft, Field::friction_memory);
+    f(r.elastic_energy, Field::elastic_energy, 0.0);
+    f(r.friction_energy, Field::friction_energy, 0.0);
+    f(r.friction_heat, Field::friction_energy, 0.0);
+    f(r.damping_energy, Field::damping_energy, 0.0);
+    f(r.dt_kinematic, Field::kinematic_step, 1e30);
+    all(r.heat, Field::heat);
+    f(r.conductance, Field::heat, 0.0);
+    all(r.criteria, Field::criteria);
+    all(r.tie, Field::tie_record);
+  }
 
  private:
   Field dirty_ = Field::none;  ///< optional groups that the last kernel wrote

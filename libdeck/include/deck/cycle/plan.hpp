@@ -41,28 +41,9 @@ struct PlanOptions {
   Isa isa = Isa::automatic;
 };
 
-/// Effects inside the pair loop, as bits of a composition.
-enum class Effect : std::uint32_t {
-  elastic = 1u << 0,
-  gap_reduction = 1u << 1,
-  damping = 1u << 2,
-  friction_viscous = 1u << 3,
-  friction_incremental = 1u << 4,
-  elastic_energy = 1u << 5,
-  // Only in the generic kernel:
-  friction_law = 1u << 6,
-  friction_temperature = 1u << 7,
-  friction_pairs = 1u << 8,
-  filter = 1u << 9,
-  friction_orthotropic = 1u << 10,
-  fixed_stiffness = 1u << 11,  ///< Istf 1 of node-segment pairs
-};
-using EffectSet = std::uint32_t;
-constexpr EffectSet bit(Effect e) { return static_cast<EffectSet>(e); }
-
 namespace detail {
 struct KernelTable;
-struct Constants;
+struct LateEffect;
 }  // namespace detail
 
 /// A chosen kernel. Cheap to copy; holds no reference to the card it was made from.
@@ -77,6 +58,7 @@ struct KernelPlan {
   std::string isa;                   ///< "baseline" or "avx2"
   std::vector<EffectState> account;  ///< every effect, on or off, and why
   const detail::KernelTable* table = nullptr;
+  std::vector<const detail::LateEffect*> late;  ///< effects on finished pairs, in their order
 };
 
 /// Chooses the kernel for a card. Never fails: a card without any force gives a plan whose
