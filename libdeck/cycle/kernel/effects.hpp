@@ -7,6 +7,7 @@
 
 #include <numbers>
 #include <string>
+#include <type_traits>
 
 #include "cycle/kernel/effects_normal.hpp"
 
@@ -383,7 +384,7 @@ struct Filter : PairEffect {
   }
 };
 
-/// Effects as a list that code can go over.
+/// Effects as a list that code can go over, and that runs a stage of those that are on.
 template <class... E>
 struct EffectList {
   /// f<E>() for each of them, in order.
@@ -391,7 +392,53 @@ struct EffectList {
   static constexpr void each(F&& f) {
     (f.template operator()<E>(), ...);
   }
+  template <Model M, ContactKind K, class At, class V>
+  static void gap(const At& at, PairState<V>& s) {
+    ((at.on.has(E::effect) ? E::template gap<M, K>(at, s) : void()), ...);
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void rates(const At& at, PairState<V>& s) {
+    ((at.on.has(E::effect) ? E::template rates<M, K>(at, s) : void()), ...);
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void stiffness(const At& at, PairState<V>& s) {
+    ((at.on.has(E::effect) ? E::template stiffness<M, K>(at, s) : void()), ...);
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void normal(const At& at, PairState<V>& s) {
+    ((at.on.has(E::effect) ? E::template normal<M, K>(at, s) : void()), ...);
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void slide(const At& at, PairState<V>& s) {
+    ((at.on.has(E::effect) ? E::template slide<M, K>(at, s) : void()), ...);
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void coefficient(const At& at, PairState<V>& s) {
+    ((at.on.has(E::effect) ? E::template coefficient<M, K>(at, s) : void()), ...);
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void tangential(const At& at, PairState<V>& s) {
+    ((at.on.has(E::effect) ? E::template tangential<M, K>(at, s) : void()), ...);
+  }
+  template <Model M, ContactKind K, class At, class V>
+  static void store(const At& at, const PairState<V>& s, PacketResult& out) {
+    ((at.on.has(E::effect) ? E::template store<M, K>(at, s, out) : void()), ...);
+  }
 };
+
+/// The effects of a list that are in a set.
+template <EffectSet Set, class Chosen, class... Rest>
+struct Choose {
+  using List = Chosen;
+};
+template <EffectSet Set, class... Chosen, class E, class... Rest>
+struct Choose<Set, EffectList<Chosen...>, E, Rest...> {
+  using More = std::conditional_t<(Set & bit(E::effect)) != 0, EffectList<Chosen..., E>,
+                                  EffectList<Chosen...>>;
+  using List = typename Choose<Set, More, Rest...>::List;
+};
+template <EffectSet Set, class... E>
+typename Choose<Set, EffectList<>, E...>::List those_in(EffectList<E...>);
 
 /// All of them, in the order in which they act within a stage.
 using AllEffects = EffectList<Elastic, FixedStiffness, GapReduction, ElasticEnergy, Damping,

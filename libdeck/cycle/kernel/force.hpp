@@ -10,11 +10,13 @@ namespace deck::cycle::detail {
 /// Effects known at compile time.
 template <EffectSet Set>
 struct FixedEffects {
+  using List = decltype(those_in<Set>(AllEffects{}));
   static constexpr bool has(Effect e) { return (Set & bit(e)) != 0; }
 };
 
 /// Effects known at run time.
 struct RuntimeEffects {
+  using List = AllEffects;
   EffectSet set;
   [[nodiscard]] bool has(Effect e) const { return (set & bit(e)) != 0; }
 };
@@ -46,10 +48,10 @@ void pass_on(const PairState<V>& s, std::size_t i, PacketResult& out) {
 
 /// The pair's own results; effects add theirs.
 template <ContactKind K, class V>
-void store_pair(const PairState<V>& s, bool rubs, std::size_t i, PacketResult& out) {
+void store_pair(const PairState<V>& s, bool sliding, std::size_t i, PacketResult& out) {
   const V zero = V::fill(0.0);
   Vec3<V> f = s.fn * s.n;
-  if (rubs) f = f + s.ft;
+  if (sliding) f = f + s.ft;
   f.x.store(out.force[0].data() + i);
   f.y.store(out.force[1].data() + i);
   f.z.store(out.force[2].data() + i);
@@ -63,14 +65,6 @@ void store_pair(const PairState<V>& s, bool rubs, std::size_t i, PacketResult& o
              out.status.data() + i);
 }
 
-/// Calls f<E>() for the effects that run.
-template <class Effects, class F>
-void for_those_on(const Effects& on, F&& f) {
-  AllEffects::each([&]<class E>() DECK_INLINE {
-    if (on.has(E::effect)) f.template operator()<E>();
-  });
-}
-
 // Flattened for the same reason as the geometry.
 template <class V, Model M, ContactKind K, class Effects>
 DECK_FLATTEN void force_block(const Effects& on, const Constants& shared, const PacketView& view,
@@ -78,7 +72,8 @@ DECK_FLATTEN void force_block(const Effects& on, const Constants& shared, const 
                               PacketResult& out) {
   // Copies: results are stored in between, and could be these numbers for all the compiler knows.
   const Constants k = shared;
-  const bool rubs = on.has(Effect::friction_viscous) || on.has(Effect::friction_incremental);
+  using List = typename Effects::List;
+  const bool sliding = on.has(Effect::friction_viscous) || on.has(Effect::friction_incremental);
   const std::size_t last = view.size - V::width;
   for (std::size_t slot = 0, i = begin; slot < n; slot += V::width, i += V::width) {
     if (i > last) i = last;  // the last pack steps back, see pack_start
@@ -88,17 +83,17 @@ DECK_FLATTEN void force_block(const Effects& on, const Constants& shared, const 
     pass_on(s, i, out);
     s.pi = s.penetration;
     s.ge = s.gap;
-    for_those_on(on, [&]<class E>() DECK_INLINE { E::template gap<M, K>(at, s); });
+    List::template gap<M, K>(at, s);
     Elastic::remaining<M, K>(s);
-    for_those_on(on, [&]<class E>() DECK_INLINE { E::template rates<M, K>(at, s); });
-    for_those_on(on, [&]<class E>() DECK_INLINE { E::template stiffness<M, K>(at, s); });
-    for_those_on(on, [&]<class E>() DECK_INLINE { E::template normal<M, K>(at, s); });
-    for_those_on(on, [&]<class E>() DECK_INLINE { E::template slide<M, K>(at, s); });
-    for_those_on(on, [&]<class E>() DECK_INLINE { E::template coefficient<M, K>(at, s); });
-    for_those_on(on, [&]<class E>() DECK_INLINE { E::template tangential<M, K>(at, s); });
-    if (rubs) s.e_friction = k.dt1 * dot(s.v, s.ft);
-    store_pair<K>(s, rubs, i, out);
-    for_those_on(on, [&]<class E>() DECK_INLINE { E::template store<M, K>(at, s, out); });
+    List::template rates<M, K>(at, s);
+    List::template stiffness<M, K>(at, s);
+    List::template normal<M, K>(at, s);
+    List::template slide<M, K>(at, s);
+    List::template coefficient<M, K>(at, s);
+    List::template tangential<M, K>(at, s);
+    if (sliding) s.e_friction = k.dt1 * dot(s.v, s.ft);
+    store_pair<K>(s, sliding, i, out);
+    List::template store<M, K>(at, s, out);
   }
 }
 
