@@ -311,5 +311,30 @@ TEST(Needs, WhatNoEffectAskedForMayLieOnUnmappedPages) {
   }
 }
 
+TEST(Result, UsedAgainHoldsNothingOfTheKernelBefore) {
+  const Packet packet(testing::random_pairs(200, 34, false));
+  ContactCard much, little;
+  much.fric = 0.3;
+  much.iform = 2;
+  much.inacti = 6;
+  much.ithe = much.ithe_form = 1;
+  much.kthe = 10.0;
+  little.viss = 0.0;
+  const PacketView view = packet.view(1e-5, 1e-5);
+  PacketResult used, fresh;
+  evaluate(make_plan(much), view, used);
+  const KernelPlan plan = make_plan(little, Model::reference, {.energies = false});
+  evaluate(plan, view, used);
+  evaluate(plan, view, fresh);
+  std::vector<double> a, b;
+  PacketResult::each_array(
+      used, [&](const auto& x, Field, auto) { a.insert(a.end(), x.begin(), x.end()); });
+  PacketResult::each_array(
+      fresh, [&](const auto& x, Field, auto) { b.insert(b.end(), x.begin(), x.end()); });
+  EXPECT_EQ(a, b);
+  for (const double step : fresh.dt_kinematic) ASSERT_EQ(step, 1e30) << "no rates, no limit";
+  for (const double energy : fresh.elastic_energy) ASSERT_EQ(energy, 0.0);
+}
+
 }  // namespace
 }  // namespace deck::cycle
