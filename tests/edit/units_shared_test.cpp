@@ -24,6 +24,12 @@ Rewrite shared_units(const Whole& w, const std::shared_ptr<detail::ConvertedRows
   return to_units(w.context(), *parse_unit_system("kg,m,s"), options);
 }
 
+std::vector<std::string> said(const Rewrite& rewrite) {
+  std::vector<std::string> out;
+  for (const LossEntry& e : rewrite.losses) out.push_back(e.keyword + " " + e.note);
+  return out;
+}
+
 /// The text after converting `before` and then `deck` with what was remembered.
 std::string after_another(const std::string& before, const std::string& deck,
                           bool* alike = nullptr) {
@@ -31,8 +37,7 @@ std::string after_another(const std::string& before, const std::string& deck,
   const auto first = Whole::text(before), second = Whole::text(deck);
   (void)shared_units(*first, rows);
   const Rewrite with = shared_units(*second, rows), without = shared_units(*second, nullptr);
-  if (alike != nullptr)
-    *alike = with.notes == without.notes && with.losses.size() == without.losses.size();
+  if (alike != nullptr) *alike = with.notes == without.notes && said(with) == said(without);
   return second->after(with)->main_text();
 }
 std::string alone(const std::string& deck) {
@@ -47,6 +52,24 @@ TEST(SharedRows, TheSameBlockGetsTheSameTextAndReport) {
   EXPECT_EQ(after_another(deck_of(metric, two_nodes), deck, &alike), alone(deck));
   EXPECT_TRUE(alike);
   EXPECT_NE(alone(deck).find("0.0125"), std::string::npos);
+}
+
+TEST(SharedRows, ABlockIsOneEditAndCountsItsCells) {
+  const auto rows = make_shared_rows();
+  const auto w = Whole::text(deck_of(metric, two_nodes));
+  const Rewrite with = shared_units(*w, rows), without = shared_units(*w, nullptr);
+  EXPECT_LT(with.edits.size(), without.edits.size());
+  EXPECT_EQ(said(with), said(without));
+  EXPECT_EQ(w->after(with)->main_text(), w->after(without)->main_text());
+}
+
+TEST(SharedRows, AFileThatIsIncludedTwiceIsChangedOnce) {
+  const std::string main = deck_of(metric, "#include rows.inc\n#include rows.inc\n");
+  const auto w =
+      Whole::read("memory_0000.rad", {{"memory_0000.rad", main}, {"rows.inc", two_nodes}});
+  const auto rows = make_shared_rows();
+  for (int turn = 0; turn < 2; ++turn)
+    EXPECT_EQ(w->after(shared_units(*w, rows))->files, w->after(shared_units(*w, nullptr))->files);
 }
 
 TEST(SharedRows, TheSameBlockInOtherUnitsIsConvertedByThem) {

@@ -27,6 +27,7 @@
 #include "deck/text/similar_file.hpp"
 #include "writing/frame.hpp"
 #include "writing/library.hpp"
+#include "writing/meshes.hpp"
 
 namespace deck::cli {
 
@@ -249,6 +250,11 @@ Result<Deck> read_settled(const std::string& path, const SchemaSet& schemas,
 
 }  // namespace
 
+MeshMemory*& shared_meshes() {
+  static MeshMemory* meshes = nullptr;
+  return meshes;
+}
+
 void observe_loading(std::function<void(const Deck&)> observer) {
   load_observer() = std::move(observer);
 }
@@ -292,7 +298,7 @@ Result<std::unique_ptr<Loaded>> load(const std::string& given, const SchemaSet& 
   ModelOptions build;
   build.threads = options.thread_count();
   build.limits = read.limits;
-  loaded->model = build_model(loaded->deck, schemas, loaded->diagnostics, build);
+  loaded->model = build_model(loaded->deck, schemas, loaded->diagnostics, build, shared_meshes());
   loaded->model.selections->set_limits(options.limits);
   if (stage == Stage::model) return loaded;
   loaded->interfaces = read_interfaces(loaded->deck, loaded->model, loaded->diagnostics);

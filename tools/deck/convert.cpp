@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -22,6 +23,7 @@
 #include "deck/text/number.hpp"
 #include "writing/changes.hpp"
 #include "writing/library.hpp"
+#include "writing/meshes.hpp"
 
 namespace deck::cli::verb_convert {
 namespace {
@@ -418,6 +420,10 @@ int convert_one(Run& run, const std::string& path, const SchemaSet& schemas) {
   return wrong ? exit_usage : exit_input;
 }
 
+bool names_several(const std::vector<std::string>& given) {
+  return given.size() > 1 || names_directory(given);
+}
+
 int check(const Options& options) {
   const auto refuse = [&](std::string_view why) {
     print_error(options.common, why);
@@ -456,7 +462,8 @@ int run(const Options& options) {
     return exit_usage;
   }
   const auto& given = options.common.decks;
-  auto steps = make_steps(options.steps, given.size() > 1 || names_directory(given));
+  // A report lists every cell that changed, so that rows are not changed as a whole.
+  auto steps = make_steps(options.steps, names_several(given) && options.report.empty());
   if (!steps) {
     print_error(options.common, steps.error().message);
     return exit_usage;
@@ -540,6 +547,8 @@ Action setup(CommandLine& line) {
   return [options] {
     options->write.read_back = options->verifies();
     options->common.rewrites = options->write.in_place;
+    std::optional<SharedMeshes> meshes;
+    if (names_several(options->common.decks)) meshes.emplace();
     return run(*options);
   };
 }

@@ -5,6 +5,9 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "contact/distance/filtered_decisions.hpp"
@@ -12,6 +15,7 @@
 #include "contact/rules/removal.hpp"
 #include "contact/scene/scene_parts.hpp"
 #include "contact/scene/sides.hpp"
+#include "contact/search/memory_store.hpp"
 #include "deck/text/rule.hpp"
 
 namespace deck::detail {
@@ -80,17 +84,6 @@ bool find_removed(const SceneContext& c, const Contact& contact, const SearchSid
 
 Point3<double> point(const Coordinates& c, NodeIndex n) { return {c.x[n], c.y[n], c.z[n]}; }
 
-/// Candidates of a contact: what the solver's search gives, and what only an exact distance finds.
-struct Candidates {
-  std::vector<CandidatePair> pairs;  // both, sorted
-  std::vector<CandidatePair> extra;  // the second kind: not counted as candidates
-  bool complete = true;
-
-  bool is_counted(const CandidatePair& pair) const {
-    return !std::binary_search(extra.begin(), extra.end(), pair);
-  }
-};
-
 /// Runs `find` in the form that the accuracy needs. Exact decisions need both: the reference
 /// distance of a very obtuse segment can be far too large, and its round-off can hide a touch.
 template <class Find>
@@ -122,17 +115,13 @@ enum class Judging : bool {
   in_turn  ///< one by one
 };
 
-/// The verdicts of some pairs in a row: those with a penetration or a difference.
-struct JudgedPairs {
-  std::vector<PairVerdict> verdicts;
-  DecisionReport report;
-};
-
 /// For all pairs that were not removed, in order: before(pair), which says whether to go on, and
 /// act(verdict) where judge(judge, pair) gave a penetration or a difference. False: it was ended.
+/// With `learned` the verdicts are kept there, too.
 template <class Before, class Judge, class Act>
 bool judge_in_order(SceneContext& c, const Candidates& found, const RemovalLists& removed,
-                    Judging judging, const Before& before, const Judge& judge, const Act& act) {
+                    Judging judging, const Before& before, const Judge& judge, const Act& act,
+                    JudgedPairs* learned = nullptr) {
   const bool ahead = judging == Judging::ahead;
   const std::size_t at_once = ahead ? 4096 : 1;
   std::atomic<bool> ended{false};
@@ -161,6 +150,11 @@ bool judge_in_order(SceneContext& c, const Candidates& found, const RemovalLists
     DecisionReport& all = c.scene.decisions;
     all.fallback += in.report.fallback;
     all.exact += in.report.exact;
+    if (learned != nullptr) {
+      learned->report.fallback += in.report.fallback;
+      learned->report.exact += in.report.exact;
+      learned->verdicts.insert(learned->verdicts.end(), in.verdicts.begin(), in.verdicts.end());
+    }
     auto next = in.verdicts.begin();
     each(piece, [&](const CandidatePair& pair) {
       if (ahead && !before(pair)) {
@@ -176,6 +170,27 @@ bool judge_in_order(SceneContext& c, const Candidates& found, const RemovalLists
   const std::size_t pieces = (found.pairs.size() + at_once - 1) / at_once;
   run_in_order<JudgedPairs>(pieces, ahead ? c.options.threads : 1, work, take);
   return !ended;
+}
+
+/// The same with verdicts that are known.
+template <class Before, class Act>
+bool follow_in_order(SceneContext& c, const JudgedContact& known, const RemovalLists& removed,
+                     const Before& before, const Act& act) {
+  DecisionReport& all = c.scene.decisions;
+  all.fallback += known.judged.report.fallback;
+  all.exact += known.judged.report.exact;
+  auto next = known.judged.verdicts.begin();
+  for (const CandidatePair& pair : known.found.pairs) {
+    if (is_removed(removed, pair)) continue;
+    if (!before(pair)) return false;
+    ++all.pairs;
+    if (next == known.judged.verdicts.end() || next->row.secondary != pair.secondary ||
+        next->row.main != pair.main)
+      continue;
+    PairVerdict verdict = *next++;
+    act(verdict);
+  }
+  return true;
 }
 
 std::uint64_t count_removed(const Candidates& found, const RemovalLists& removed) {
@@ -196,6 +211,44 @@ void note(SceneContext& c, PairJudge& judge, const PairVerdict& verdict,
   judge.note(d);
 }
 
+/// What was judged of a contact in scenes before, where places, sides and gaps were the same.
+class KnownContact {
+ public:
+  /// `search` with the margin that is searched first. With `memory` null nothing is known.
+  template <class Input>
+  KnownContact(SearchMemory* memory, const Input& input, const SearchOptions& search,
+               const SceneContext& c, const Contact& contact, double margin)
+      : memory_(memory) {
+    if (memory_ == nullptr) return;
+    bytes_.emplace(
+        input, search,
+        std::array{static_cast<std::uint64_t>(c.options.accuracy), word(margin),
+                   static_cast<std::uint64_t>(search.max_pairs), c.scene.limits.pair_bytes,
+                   static_cast<std::uint64_t>(contact.irem_gap),
+                   static_cast<std::uint64_t>(contact.igap), word(contact.max_gap),
+                   word(contact.shortest_side)});
+    if (const auto* known = memory_->store().contacts.find(*bytes_)) known_ = *known;
+    ++(known_ ? memory_->store().hits : memory_->store().misses);
+  }
+  /// nullptr: not known.
+  const JudgedContact* get() const { return known_.get(); }
+  bool learns() const { return memory_ != nullptr && known_ == nullptr; }
+  void keep(Candidates found, JudgedPairs judged) {
+    auto all = std::make_shared<JudgedContact>();
+    all->found = std::move(found);
+    all->judged = std::move(judged);
+    const std::size_t bytes = all->bytes();
+    memory_->store().contacts.keep(*bytes_, std::move(all), bytes);
+  }
+
+ private:
+  static std::uint64_t word(double v) { return bit_cast<std::uint64_t>(v); }
+
+  SearchMemory* memory_;
+  std::optional<SearchBytes<8>> bytes_;
+  std::shared_ptr<const JudgedContact> known_;
+};
+
 }  // namespace
 
 void find_penetrations(SceneContext& c, Contact& contact) {
@@ -206,24 +259,28 @@ void find_penetrations(SceneContext& c, Contact& contact) {
   search.drad = contact.drad;
   search.threads = c.options.threads;
   search.max_pairs = most_pairs(c);
-  Candidates found;
-  RemovalLists removed;
-  {
-    const SearchSides sides(contact, SearchSides::Off::included, c.options.threads);
-    const bool wide = c.options.candidates || contact.inacti == 3;
-    const double margin = sides.margin(x);
+  std::optional<SearchSides> sides(std::in_place, contact, SearchSides::Off::included,
+                                   c.options.threads);
+  const bool wide = c.options.candidates || contact.inacti == 3;
+  const double margin = sides->margin(x);
+  search.margin = wide ? margin : 0;
+  // Inacti 3 moves nodes, of later pairs as well.
+  KnownContact known(contact.inacti == 3 ? nullptr : c.searches, sides->nodes(x), search, c,
+                     contact, margin);
+  Candidates own;
+  if (known.get() == nullptr) {
     KeptSearch kept;
-    const auto find = [&](const SearchOptions& o) {
-      return c.searches != nullptr ? sides.find(x, o, c.searches) : sides.find(x, o, kept);
-    };
-    search.margin = wide ? margin : 0;
-    found = candidates(c.options.accuracy, margin, search, find);
-    if (!found.complete && wide) {
+    const auto find = [&](const SearchOptions& o) { return sides->find(x, o, kept); };
+    own = candidates(c.options.accuracy, margin, search, find);
+    if (!own.complete && wide) {
       search.margin = 0;
-      found = candidates(c.options.accuracy, margin, search, find);
+      own = candidates(c.options.accuracy, margin, search, find);
     }
-    if (!found.complete || !find_removed(c, contact, sides, removed)) return give_up(c, contact);
   }
+  const Candidates& found = known.get() != nullptr ? known.get()->found : own;
+  RemovalLists removed;
+  if (!found.complete || !find_removed(c, contact, *sides, removed)) return give_up(c, contact);
+  if (!known.learns()) sides.reset();
   PairJudge judge(c.options.accuracy, c.scene.decisions);
   // The solver measures a whole group of candidates before it acts on any of them.
   CandidateGroup group;
@@ -253,48 +310,57 @@ void find_penetrations(SceneContext& c, Contact& contact) {
     act_on_group();
     return rows_fit(c, contact);
   };
-  const auto judge_pair = [&](PairJudge& own, const CandidatePair& pair) {
+  const auto judge_pair = [&](PairJudge& by, const CandidatePair& pair) {
     const SecondaryNode& s = contact.secondary[pair.secondary];
     const MainSegment& m = contact.main[pair.main];
     const std::array<Point3<double>, 4> corners{point(x, m.nodes[0]), point(x, m.nodes[1]),
                                                 point(x, m.nodes[2]), point(x, m.nodes[3])};
     const double gap = contact.gap_rule(s.gap, m.gap, s.length, m.length);
-    return own.judge(point(x, s.node), corners, m.nodes[2] == m.nodes[3], gap);
+    return by.judge(point(x, s.node), corners, m.nodes[2] == m.nodes[3], gap);
   };
-  // Inacti 3 moves nodes of later pairs.
-  if (!judge_in_order(c, found, removed, contact.inacti == 3 ? Judging::in_turn : Judging::ahead,
-                      before, judge_pair,
-                      [&](const PairVerdict& verdict) { verdicts.push_back(verdict); }))
-    return give_up(c, contact);
+  const auto take = [&](const PairVerdict& verdict) { verdicts.push_back(verdict); };
+  JudgedPairs learned;
+  const bool whole =
+      known.get() != nullptr
+          ? follow_in_order(c, *known.get(), removed, before, take)
+          : judge_in_order(c, found, removed,
+                           contact.inacti == 3 ? Judging::in_turn : Judging::ahead, before,
+                           judge_pair, take, known.learns() ? &learned : nullptr);
+  if (!whole) return give_up(c, contact);
   act_on_group();
+  if (known.learns()) known.keep(std::move(own), std::move(learned));
 }
 
 void find_edge_penetrations(SceneContext& c, Contact& contact) {
   if (contact.main_edges.empty() || contact.secondary_edges.empty()) return;
   const Coordinates& x = c.scene.coordinates;
-  Candidates found;
+  SearchOptions search;
+  search.gap = contact.gap_rule;
+  search.drad = contact.drad;
+  search.threads = c.options.threads;
+  search.max_pairs = most_pairs(c);
+  std::optional<SearchSides> sides(std::in_place, contact, SearchSides::Off::included,
+                                   c.options.threads);
+  const double margin = sides->margin(x);
+  KnownContact known(c.searches, sides->edges(x), search, c, contact, margin);
+  Candidates own;
+  if (known.get() == nullptr)
+    own = candidates(c.options.accuracy, margin, search,
+                     [&](const SearchOptions& o) { return sides->find(x, o); });
+  const Candidates& found = known.get() != nullptr ? known.get()->found : own;
   RemovalLists removed;
-  {
-    const SearchSides sides(contact, SearchSides::Off::included, c.options.threads);
-    SearchOptions search;
-    search.gap = contact.gap_rule;
-    search.drad = contact.drad;
-    search.threads = c.options.threads;
-    search.max_pairs = most_pairs(c);
-    found = candidates(c.options.accuracy, sides.margin(x), search,
-                       [&](const SearchOptions& o) { return sides.find(x, o, c.searches); });
-    if (!found.complete || !find_removed(c, contact, sides, removed)) return give_up(c, contact);
-  }
+  if (!found.complete || !find_removed(c, contact, *sides, removed)) return give_up(c, contact);
+  if (!known.learns()) sides.reset();
   PairJudge judge(c.options.accuracy, c.scene.decisions);
   contact.removed_pairs = count_removed(found, removed);
   const auto before = [&](const CandidatePair& pair) {
     contact.candidates += found.is_counted(pair);
     return rows_fit(c, contact);
   };
-  const auto judge_pair = [&](PairJudge& own, const CandidatePair& pair) {
+  const auto judge_pair = [&](PairJudge& by, const CandidatePair& pair) {
     const ContactEdge& s = contact.secondary_edges[pair.secondary];
     const ContactEdge& m = contact.main_edges[pair.main];
-    return own.judge(
+    return by.judge(
         {point(x, s.nodes[0]), point(x, s.nodes[1]), point(x, m.nodes[0]), point(x, m.nodes[1])},
         contact.gap_rule(s.gap, m.gap, s.length, m.length));
   };
@@ -309,13 +375,17 @@ void find_edge_penetrations(SceneContext& c, Contact& contact) {
     if (verdict.differs) note(c, judge, verdict, verdict.row);
     if (verdict.is_row()) contact.penetrations.push_back(verdict.row);
   };
-  if (!judge_in_order(c, found, removed, Judging::ahead, before, judge_pair, act) ||
-      !rows_fit(c, contact))
-    return give_up(c, contact);
+  JudgedPairs learned;
+  const bool whole = known.get() != nullptr
+                         ? follow_in_order(c, *known.get(), removed, before, act)
+                         : judge_in_order(c, found, removed, Judging::ahead, before, judge_pair,
+                                          act, known.learns() ? &learned : nullptr);
+  if (!whole || !rows_fit(c, contact)) return give_up(c, contact);
   // The store is per edge, so the gap left is known only now.
   for (PenetrationRow& row : contact.penetrations)
     finish_edge_row(row, contact.secondary_edges[row.secondary].stored_penetration,
                     contact.main_edges[row.main].stored_penetration);
+  if (known.learns()) known.keep(std::move(own), std::move(learned));
 }
 
 }  // namespace deck::detail

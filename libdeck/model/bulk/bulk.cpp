@@ -7,6 +7,7 @@
 #include "base/pages.hpp"
 #include "base/parallel.hpp"
 #include "deck/text/rule.hpp"
+#include "model/bulk/bulk_memory.hpp"
 #include "model/bulk/bulk_read.hpp"
 
 namespace deck::detail {
@@ -150,17 +151,34 @@ void extend_ranges(const Chunk& chunk, const std::vector<std::uint32_t>& counts,
 
 // ---- nodes --------------------------------------------------------------------------------------
 
-/// The nodes of a chunk. The arrays are longer than `size`: one check per node instead of four.
-struct NodeSink {
-  std::vector<std::int64_t> id;
-  std::vector<double> x, y, z;
-  std::size_t size = 0;
-  std::vector<std::uint32_t> counts;  // per segment
+/// What one chunk brings. The arrays of NodeRows are longer than its size while it is read: one
+/// check per node instead of four.
+template <class Rows>
+struct ChunkRows : Rows {
   std::vector<Problem> problems;
+  std::optional<ChunkBytes> bytes;    ///< where rows are remembered
+  std::shared_ptr<const Rows> known;  ///< instead of own rows
 
+  const Rows& rows() const { return known != nullptr ? *known : *this; }
+  /// True if the rows are known: nothing has to be read.
+  bool recall(KnownRows<Rows>* memory, const Deck& deck, const std::vector<BlockPlan>& plans,
+              const Chunk& chunk, std::uint64_t list, std::uint64_t first_block) {
+    problems.clear();
+    known = nullptr;
+    if (memory == nullptr) return false;
+    bytes.emplace(deck, plans, chunk, list, first_block);
+    known = memory->find(*bytes);
+    return known != nullptr;
+  }
+  /// What has findings or parameters is not the same in every deck.
+  void remember(KnownRows<Rows>* memory) const {
+    if (memory != nullptr && known == nullptr && problems.empty()) memory->keep(*bytes, *this);
+  }
+};
+
+struct NodeSink : ChunkRows<NodeRows> {
   void clear(const Chunk& chunk) {
     size = 0;
-    problems.clear();
     counts.assign(chunk.segments.size(), 0);
   }
   void item(const BlockPlan& plan, std::uint32_t segment, Item& item) {
@@ -188,18 +206,10 @@ struct NodeSink {
 
 // ---- elements -----------------------------------------------------------------------------------
 
-struct ElementSink {
-  const Nodes* known = nullptr;
+struct ElementSink : ChunkRows<ElementRows> {
+  const Nodes* nodes_there = nullptr;
   const Chunk* chunk = nullptr;
   std::uint32_t first_range = 0;
-  std::vector<std::int64_t> id;
-  std::vector<std::uint32_t> part, block, extra;
-  std::vector<NodeIndex> nodes, extra_nodes;
-  std::vector<double> thickness;
-  std::vector<SolidShape> shape;
-  std::vector<std::uint32_t> counts;  // per segment
-  std::vector<bool> thick;            // per segment: an element has its own thickness
-  std::vector<Problem> problems;
 
   void clear(const Chunk& next) {
     chunk = &next;
@@ -211,7 +221,6 @@ struct ElementSink {
     extra_nodes.clear();
     thickness.clear();
     shape.clear();
-    problems.clear();
     counts.assign(next.segments.size(), 0);
     thick.assign(next.segments.size(), false);
   }
@@ -255,7 +264,7 @@ struct ElementSink {
       found[n] = no_index;
       if (written == 0 && n >= static_cast<std::size_t>(format.required)) continue;
       if (written != 0)
-        found[n] = known->map.find(written > 0 ? written + plan.node_offset : written);
+        found[n] = nodes_there->map.find(written > 0 ? written + plan.node_offset : written);
       if (found[n] == no_index) item.count(at.card, unknown_node);
     }
     for (std::size_t n = cells.size(); n < max_nodes; ++n) found[n] = no_index;
@@ -299,7 +308,7 @@ void report_thickness(const Block& block, Diagnostics& diagnostics) {
   diagnostics.add(std::move(d));
 }
 
-void append_elements(const ElementSink& from, Elements& to, Room& room, std::uint64_t bytes) {
+void append_elements(const ElementRows& from, Elements& to, Room& room, std::uint64_t bytes) {
   const std::size_t have = to.size(), more = from.id.size();
   room.make(bytes, more, to.id, to.part, to.block);
   // Slots per element instead of elements.
@@ -368,7 +377,8 @@ int element_width(ElementKind kind) {
 }
 
 void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes& nodes,
-                std::vector<BulkBlock>& ranges, Diagnostics& diagnostics, int threads) {
+                std::vector<BulkBlock>& ranges, Diagnostics& diagnostics, int threads,
+                MeshMemory* meshes) {
   const std::vector<BlockPlan> plans = plan_blocks(deck, blocks);
   const std::vector<Chunk> chunks = cut_chunks(deck, plans, chunk_bytes);
   const std::size_t first_range = ranges.size();
@@ -378,29 +388,33 @@ void read_nodes(const Deck& deck, const std::vector<const Block*>& blocks, Nodes
   Room room;
   for (const Chunk& chunk : chunks) room.total += chunk.bytes;
   ProblemReporter reporter(deck, plans, nullptr, diagnostics);
+  KnownRows<NodeRows>* const memory = meshes != nullptr ? &meshes->store().nodes : nullptr;
   run_in_order<NodeSink>(
       chunks.size(), threads,
       [&](std::size_t k, NodeSink& out) {
+        if (out.recall(memory, deck, plans, chunks[k], 0, 0)) return;
         out.clear(chunks[k]);
         read_chunk(deck, plans, chunks[k], out);
       },
       [&](std::size_t k, NodeSink& out) {
         reporter.report(chunks[k], out.problems);
+        out.remember(memory);
         release(deck, chunks[k]);
+        const NodeRows& rows = out.rows();
         const Block& block = *plans[chunks[k].segments.front().plan].block;
-        if (!indices_left(nodes.size(), out.size, block, diagnostics)) return;
-        extend_ranges(chunks[k], out.counts, nodes.size(), first_range, ranges);
-        room.make(chunks[k].bytes, out.size, nodes.id, nodes.x, nodes.y, nodes.z);
-        append(nodes.id, out.id, out.size);
-        append(nodes.x, out.x, out.size);
-        append(nodes.y, out.y, out.size);
-        append(nodes.z, out.z, out.size);
+        if (!indices_left(nodes.size(), rows.size, block, diagnostics)) return;
+        extend_ranges(chunks[k], rows.counts, nodes.size(), first_range, ranges);
+        room.make(chunks[k].bytes, rows.size, nodes.id, nodes.x, nodes.y, nodes.z);
+        append(nodes.id, rows.id, rows.size);
+        append(nodes.x, rows.x, rows.size);
+        append(nodes.y, rows.y, rows.size);
+        append(nodes.z, rows.z, rows.size);
       });
   nodes.map.build(nodes.id);
 }
 
 void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Model& model,
-                   Diagnostics& diagnostics, int threads) {
+                   Diagnostics& diagnostics, int threads, MeshMemory* meshes) {
   for (const ElementKind kind : all_kinds) {
     family_of(model, kind).kind = kind;
     family_of(model, kind).width = element_width(kind);
@@ -425,10 +439,14 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
     rooms[static_cast<std::size_t>(chunk.kind)].total += chunk.bytes;
   std::vector<bool> reported(plans.size(), false);
   ProblemReporter reporter(deck, plans, &model.nodes, diagnostics);
+  // Which nodes there are decides what an element refers to.
+  const std::uint64_t list = meshes != nullptr ? meshes->store().number_of(model.nodes.id) : 0;
+  KnownRows<ElementRows>* const memory = list != 0 ? &meshes->store().elements : nullptr;
   run_in_order<ElementSink>(
       chunks.size(), threads,
       [&](std::size_t k, ElementSink& out) {
-        out.known = &model.nodes;
+        if (out.recall(memory, deck, plans, chunks[k], list, first_range)) return;
+        out.nodes_there = &model.nodes;
         out.first_range = first_range;
         out.clear(chunks[k]);
         read_chunk(deck, plans, chunks[k], out);
@@ -436,10 +454,12 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
       [&](std::size_t k, ElementSink& out) {
         const Chunk& chunk = chunks[k];
         reporter.report(chunk, out.problems);
+        out.remember(memory);
         release(deck, chunk);
+        const ElementRows& rows = out.rows();
         for (std::size_t s = 0; s < chunk.segments.size(); ++s) {
           const std::uint32_t p = chunk.segments[s].plan;
-          if (!out.thick[s] || reported[p] || plans[p].length == 1 ||
+          if (!rows.thick[s] || reported[p] || plans[p].length == 1 ||
               chunk.kind != ElementKind::shell4)
             continue;
           reported[p] = true;
@@ -447,9 +467,9 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
         }
         Elements& family = family_of(model, chunk.kind);
         const Block& block = *plans[chunk.segments.front().plan].block;
-        if (!indices_left(family.size(), out.id.size(), block, diagnostics)) return;
-        extend_ranges(chunk, out.counts, family.size(), first_range, model.element_blocks);
-        append_elements(out, family, rooms[static_cast<std::size_t>(chunk.kind)], chunk.bytes);
+        if (!indices_left(family.size(), rows.id.size(), block, diagnostics)) return;
+        extend_ranges(chunk, rows.counts, family.size(), first_range, model.element_blocks);
+        append_elements(rows, family, rooms[static_cast<std::size_t>(chunk.kind)], chunk.bytes);
       });
   for (const ElementKind kind : all_kinds)
     family_of(model, kind).map.build(family_of(model, kind).id);

@@ -279,10 +279,11 @@ class BlockConverter {
   void convert(const Block& b) {
     const UnitConversion::OpenShare share(c_, b);
     const auto before = c_.out.edits.size();
+    united_ = 0;
     convert_block(b);
     for (TextEdit& e : grown_.finish(deck_.sources)) c_.out.edits.push_back(std::move(e));
     grown_ = {};
-    if (const auto values = c_.out.edits.size() - before; values > 0) {
+    if (const auto values = c_.out.edits.size() - before + united_; values > 0) {
       LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
       entry.note = std::to_string(values) + (values == 1 ? " value" : " values") + " converted";
       c_.out.losses.push_back(std::move(entry));
@@ -370,8 +371,9 @@ class BlockConverter {
              {column.field->first, column.field->last, int{d.mass}, int{d.length}, int{d.time}})
           how += std::to_string(n) + " ";
       }
-      if (shared->replay(bytes, how, piece.file, piece.begin, c_.out.edits)) {
-        c_.changed_cells += c_.out.edits.size() - first;
+      if (const auto cells = shared->replay(bytes, how, piece.file, piece.begin, c_.out.edits)) {
+        c_.changed_cells += *cells;
+        united_ = *cells - (c_.out.edits.size() - first);
         return;
       }
     }
@@ -391,8 +393,11 @@ class BlockConverter {
                          column.factor);
     }
     // Only what says nothing but its edits.
-    if (shared != nullptr && plain && c_.out.refusals.empty() && c_.out.losses.size() == losses)
+    if (shared != nullptr && plain && c_.out.refusals.empty() && c_.out.losses.size() == losses) {
+      const std::size_t cells = c_.out.edits.size();
       shared->keep(bytes, how, b.body.front().begin, c_.out.edits, first);
+      united_ = cells - c_.out.edits.size();
+    }
   }
 
   /// The factors of a system, exactly.
@@ -836,6 +841,7 @@ class BlockConverter {
   const Deck& deck_;
   bool own_units_ = false;
   detail::UnitFactors from_working_{{}, {}};
+  std::size_t united_ = 0;         // cells of this block beyond one for each of its edits
   CellEdits grown_;                // cells behind the end of their line
   std::set<const Cell*> brought_;  // of this block: blank is 1 and has to be said
   std::set<std::string> absent_;   // the same, where the block has no line for the cell

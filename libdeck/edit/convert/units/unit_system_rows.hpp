@@ -1,69 +1,82 @@
 // Blocks of nodes and elements that unit conversion has converted before, for decks that share
-// includes. Private to unit conversion.
+// includes: one edit each instead of one per cell. Private to unit conversion.
 #pragma once
-#include <algorithm>
 #include <cstdint>
-#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
+#include "base/known_inputs.hpp"
 #include "deck/text/diagnostic.hpp"
 
 namespace deck::detail {
 
 class ConvertedRows {
  public:
-  /// Appends the edits of a block with these bytes, which begins at `begin` of `file`; false: there
-  /// was none. `how` says which columns got which factors.
-  bool replay(std::string_view bytes, std::string_view how, std::uint32_t file, std::uint64_t begin,
-              std::vector<TextEdit>& edits) const {
-    const auto [first, last] = blocks_.equal_range(std::hash<std::string_view>()(bytes));
+  /// Appends the edit of a block with these bytes, which begins at `begin` of `file`, and returns
+  /// how many cells it changes; nullopt: there was none. `how` says which columns got which
+  /// factors.
+  std::optional<std::size_t> replay(std::string_view bytes, std::string_view how,
+                                    std::uint32_t file, std::uint64_t begin,
+                                    std::vector<TextEdit>& edits) const {
+    const auto [first, last] = blocks_.equal_range(mark_of(bytes));
     for (auto it = first; it != last; ++it) {
       const Block& b = it->second;
       if (b.how != how || b.bytes != bytes) continue;
-      if (const std::size_t all = edits.size() + b.cells.size(); all > edits.capacity())
-        edits.reserve(std::max(all, 2 * edits.capacity()));
-      std::size_t at = 0;
-      for (const Cell& c : b.cells) {
-        edits.push_back({Span{file, c.length, begin + c.offset}, b.texts.substr(at, c.text)});
-        at += c.text;
-      }
-      return true;
+      if (b.cells > 0) edits.push_back({Span{file, b.length, begin + b.offset}, b.text});
+      return b.cells;
     }
-    return false;
+    return std::nullopt;
   }
 
-  /// Remembers the edits from `first` on, all of them in the block. Beyond a bound of memory
-  /// nothing more is.
+  /// Makes one edit of those from `first` on, if they are in the order of the block, and
+  /// remembers it. Beyond a bound of memory nothing more is remembered.
   void keep(std::string_view bytes, std::string_view how, std::uint64_t begin,
-            const std::vector<TextEdit>& edits, std::size_t first) {
+            std::vector<TextEdit>& edits, std::size_t first) {
     constexpr std::size_t most = std::size_t{64} << 20;
+    if (bytes.size() > std::numeric_limits<std::uint32_t>::max() / 2) return;
+    Block b{{}, std::string(how), {}, 0, 0, edits.size() - first};
+    if (b.cells > 0) {
+      const std::uint64_t from = edits[first].span.offset;
+      std::uint64_t at = from;
+      b.text.reserve(bytes.size());
+      for (std::size_t i = first; i < edits.size(); ++i) {
+        const Span& span = edits[i].span;
+        if (span.offset < at) return;
+        b.text += bytes.substr(at - begin, span.offset - at);
+        b.text += edits[i].text;
+        at = span.offset + span.length;
+      }
+      b.offset = from - begin;
+      b.length = static_cast<std::uint32_t>(at - from);
+      const std::uint32_t file = edits[first].span.file;
+      edits.resize(first);
+      edits.push_back({Span{file, b.length, from}, b.text});
+    }
     if (bytes.size() > most - held_) return;
     held_ += bytes.size();
-    Block b{std::string(bytes), std::string(how), {}, {}};
-    b.cells.reserve(edits.size() - first);
-    for (std::size_t i = first; i < edits.size(); ++i) {
-      const TextEdit& e = edits[i];
-      b.cells.push_back({e.span.offset - begin, static_cast<std::uint32_t>(e.span.length),
-                         static_cast<std::uint32_t>(e.text.size())});
-      b.texts += e.text;
-    }
-    blocks_.emplace(std::hash<std::string_view>()(bytes), std::move(b));
+    b.bytes = bytes;
+    blocks_.emplace(mark_of(bytes), std::move(b));
   }
 
  private:
-  struct Cell {
-    std::uint64_t offset;
-    std::uint32_t length, text;
-  };
+  static std::uint64_t mark_of(std::string_view bytes) {
+    const InputBytes piece = std::as_bytes(std::span<const char>(bytes.data(), bytes.size()));
+    return deck::input_mark({&piece, 1}) ^ bytes.size();
+  }
+
+  /// One edit from the first cell that changes to the last.
   struct Block {
-    std::string bytes, how;
-    std::vector<Cell> cells;
-    std::string texts;  ///< of all cells, one after the other
+    std::string bytes, how, text;
+    std::uint64_t offset;
+    std::uint32_t length;
+    std::size_t cells;
   };
-  std::unordered_multimap<std::size_t, Block> blocks_;
+  std::unordered_multimap<std::uint64_t, Block> blocks_;
   std::size_t held_ = 0;
 };
 

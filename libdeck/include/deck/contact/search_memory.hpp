@@ -1,11 +1,9 @@
-// Remembers what pair searches found: decks of a library share their meshes, and a search over the
-// same arrays need not be done twice.
+// Remembers what pair searches found and how their pairs were judged: decks of a library share
+// their meshes, and what follows from the same arrays need not be computed twice.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
+#include <memory>
 
 #include "deck/contact/search.hpp"
 
@@ -17,32 +15,24 @@ namespace deck {
 /// fits. For one thread at a time.
 class SearchMemory {
  public:
-  /// Keeps the searches used last, up to `bytes` with their inputs.
-  explicit SearchMemory(std::size_t bytes = std::size_t{64} << 20) : room_(bytes) {}
+  /// Keeps what was used last, up to `bytes` of searches and of judged contacts with their inputs.
+  explicit SearchMemory(std::size_t bytes = std::size_t{32} << 20);
+  ~SearchMemory();
+  SearchMemory(const SearchMemory&) = delete;
+  SearchMemory& operator=(const SearchMemory&) = delete;
 
   /// As find_node_segment_pairs and find_edge_edge_pairs; of a hit only `pairs` is filled.
   SearchResult find(const NodeSegmentInput& input, const SearchOptions& options);
   SearchResult find(const EdgeEdgeInput& input, const SearchOptions& options);
 
-  std::size_t hits() const { return hits_; }      ///< searches answered from memory
-  std::size_t misses() const { return misses_; }  ///< searches done
+  std::size_t hits() const;    ///< searches, and lists of judged pairs, answered from memory
+  std::size_t misses() const;  ///< those done
+
+  struct Store;  ///< private to the library
+  Store& store() { return *store_; }
 
  private:
-  struct Entry {
-    std::uint64_t mark = 0, used = 0;  ///< of its input, and when
-    std::vector<std::byte> input;
-    std::vector<CandidatePair> pairs;
-    std::size_t bytes() const {
-      return sizeof(Entry) + input.size() + pairs.size() * sizeof(CandidatePair);
-    }
-  };
-  using Pieces = std::span<const std::span<const std::byte>>;
-  template <class Search>
-  SearchResult answer(Pieces input, const SearchOptions& options, const Search& search);
-  void keep(std::uint64_t mark, Pieces input, const SearchResult& result);
-
-  std::size_t room_, bytes_ = 0, hits_ = 0, misses_ = 0;
-  std::vector<Entry> entries_;
+  std::unique_ptr<Store> store_;
 };
 
 }  // namespace deck
