@@ -159,10 +159,11 @@ double thickness_of(const Model& m, const Elements& shells, std::size_t e) {
 
 /// Nodes of shells with a thickness below zero.
 std::vector<bool> thin_nodes(const Model& m) {
-  std::vector<bool> out(m.nodes.size(), false);
+  std::vector<bool> out;
   for (const Elements* shells : {&m.shell4, &m.shell3})
     for (std::size_t e = 0; e < shells->size(); ++e) {
       if (!(thickness_of(m, *shells, e) < 0)) continue;
+      out.resize(m.nodes.size(), false);
       const NodeIndex* n = shells->of(e);
       for (int i = 0; i < shells->width; ++i)
         if (n[i] < out.size()) out[n[i]] = true;
@@ -206,7 +207,7 @@ void check_thickness(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Property& p : m.properties)
     if (p.thickness < 0 && p.block != nullptr) below.push_back(&p);
   const std::vector<bool> thin = thin_nodes(m);
-  const bool any = std::find(thin.begin(), thin.end(), true) != thin.end();
+  const bool any = !thin.empty();
   if (below.empty() && !any) return;
   const Severity severity = any && searched(c, thin) ? Severity::error : Severity::warning;
   const auto report = [&](Diagnostic* d) {
