@@ -11,6 +11,7 @@ the repository so that nobody needs to run it to use them.
 Every line is built from (column, width, name, value) cells and preceded by a comment line naming the
 columns, the way pre-processors write decks. every_mistake_0000.rad is written by hand and is not
 touched."""
+import argparse
 import math
 import os
 import sys
@@ -634,20 +635,25 @@ def sheets(n, out):
 
 
 def main():
-    if len(sys.argv) > 1 and sys.argv[1] == "--sheets":
-        if len(sys.argv) != 4 or not sys.argv[2].isdigit() or int(sys.argv[2]) < 1:
-            sys.exit("generate.py --sheets N FILE: N is the number of shells along each edge")
-        if sys.argv[3] == "-":
-            sheets(int(sys.argv[2]), sys.stdout)
+    parser = argparse.ArgumentParser(description="Writes the sample decks beside this script.")
+    parser.add_argument("--check", action="store_true", help="write nothing; end with 1 where a file differs")
+    parser.add_argument("--sheets", nargs=2, metavar=("N", "FILE"), help="two wavy sheets of N by N shells into FILE ('-': standard output) instead")
+    options = parser.parse_args()
+    if options.sheets:
+        count, path = options.sheets
+        if not count.isdigit() or int(count) < 1:
+            parser.error("--sheets: N is the number of shells along each edge, not " + count)
+        if path == "-":
+            sheets(int(count), sys.stdout)
             return 0
-        with open(sys.argv[3], "w", newline="\n") as f:
-            sheets(int(sys.argv[2]), f)
+        with open(path, "w", newline="\n") as f:
+            sheets(int(count), f)
         return 0
     different = 0
     for build in ALL:
         for name, text in build().items():
             path = os.path.join(HERE, name)
-            if "--check" in sys.argv:
+            if options.check:
                 same = os.path.exists(path) and open(path, newline="").read() == text
                 different += not same
                 if not same:
