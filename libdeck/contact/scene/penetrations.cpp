@@ -249,16 +249,22 @@ class KnownContact {
   std::shared_ptr<const JudgedContact> known_;
 };
 
-}  // namespace
-
-void find_penetrations(SceneContext& c, Contact& contact) {
-  if (contact.main.empty() || contact.secondary.empty()) return;
-  const Coordinates& x = c.scene.coordinates;
+/// What the start looks for, nodes and edges alike; without margin.
+SearchOptions search_of(const SceneContext& c, const Contact& contact) {
   SearchOptions search;
   search.gap = contact.gap_rule;
   search.drad = contact.drad;
   search.threads = c.options.threads;
   search.max_pairs = most_pairs(c);
+  return search;
+}
+
+}  // namespace
+
+void find_penetrations(SceneContext& c, Contact& contact) {
+  if (contact.main.empty() || contact.secondary.empty()) return;
+  const Coordinates& x = c.scene.coordinates;
+  SearchOptions search = search_of(c, contact);
   std::optional<SearchSides> sides(std::in_place, contact, SearchSides::Off::included,
                                    c.options.threads);
   const bool wide = c.options.candidates || contact.inacti == 3;
@@ -334,11 +340,7 @@ void find_penetrations(SceneContext& c, Contact& contact) {
 void find_edge_penetrations(SceneContext& c, Contact& contact) {
   if (contact.main_edges.empty() || contact.secondary_edges.empty()) return;
   const Coordinates& x = c.scene.coordinates;
-  SearchOptions search;
-  search.gap = contact.gap_rule;
-  search.drad = contact.drad;
-  search.threads = c.options.threads;
-  search.max_pairs = most_pairs(c);
+  const SearchOptions search = search_of(c, contact);
   std::optional<SearchSides> sides(std::in_place, contact, SearchSides::Off::included,
                                    c.options.threads);
   const double margin = sides->margin(x);
