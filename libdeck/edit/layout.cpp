@@ -95,8 +95,15 @@ std::string new_card(const Schema& schema, std::string_view header, int version,
                      std::string_view title) {
   std::string out = std::string(header) + "\n";
   if (schema.has_title && version >= 51) out += std::string(title) + "\n";
-  for (const CardSchema& card : schema.cards) {
-    if (!card.in_version(version) || !stands_without_values(card.when) || card.optional) continue;
+  bool absent = false;  // the group that the card is of: it stands or falls with its first one
+  for (std::size_t i = 0; i < schema.cards.size(); ++i) {
+    const CardSchema& card = schema.cards[i];
+    const bool of_group = card.repeat == Repeat::group;
+    const bool goes_on = of_group && i > 0 && schema.cards[i - 1].repeat == Repeat::group &&
+                         schema.cards[i - 1].count == card.count;
+    if (!goes_on) absent = of_group && card.optional;
+    if (!card.in_version(version) || !stands_without_values(card.when) || card.optional || absent)
+      continue;
     int last = 0;
     for (const Field& f : card.fields)
       if (f.in_version(version) && stands_without_values(f.when)) last = std::max(last, f.last);

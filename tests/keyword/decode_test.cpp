@@ -415,6 +415,48 @@ TEST(Decode, GroupsLookAtTheCellsOfTheirOwnRound) {
   EXPECT_EQ(count(broken.findings, RuleId::DK029), 1u);
 }
 
+/// DK029 of a /FRICTION whose pairs are these lines.
+std::vector<std::string> cut_short(const std::string& pairs, const char* keyword = "/FRICTION/5",
+                                   int before = 3) {
+  std::string text = std::string(keyword) + "\nt\n";
+  for (int i = 0; i < before; ++i) text += "\n";
+  const Deck deck = read(deck_of(text + pairs));
+  std::vector<std::string> out;
+  for (const Block& b : deck.blocks) {
+    if (!b.header.starts_with("/FRIC")) continue;
+    Diagnostics findings;
+    decode(deck, b, &findings);
+    for (const Diagnostic& d : findings.all())
+      if (d.rule == RuleId::DK029) {
+        out.push_back(d.message);
+        EXPECT_EQ(d.notes.size(), d.message.find("second") == std::string::npos ? 1u : 2u);
+      }
+  }
+  return out;
+}
+
+TEST(Decode, AFrictionThatEndsAmidAPairSaysSo) {
+  const std::string pair = cells({{30, "1"}, {40, "2"}}),
+                    two = cells({{30, "1"}, {40, "2"}, {60, "1"}});
+  const std::string values = "                 0.1\n", blank = "\n";
+  using ::testing::ElementsAre;
+  using ::testing::IsEmpty;
+  EXPECT_THAT(cut_short(""), IsEmpty());
+  EXPECT_THAT(cut_short(pair + values + blank), IsEmpty());
+  EXPECT_THAT(cut_short(pair + values + blank + blank), IsEmpty()) << "no pair, a blank line";
+  EXPECT_THAT(cut_short(pair), ElementsAre(HasSubstr("its line 'coefficients of the pair'")));
+  EXPECT_THAT(cut_short(pair + values), ElementsAre(HasSubstr("its line 'friction of the pair'")));
+  EXPECT_THAT(cut_short(pair + values + blank + pair + values),
+              ElementsAre(HasSubstr("its line 'friction of the pair'")));
+  EXPECT_THAT(cut_short(two + values + blank),
+              ElementsAre(HasSubstr("its line 'coefficients of the second direction'")));
+  EXPECT_THAT(cut_short(two + values + blank + values),
+              ElementsAre(HasSubstr("its line 'friction of the second direction'")));
+  EXPECT_THAT(cut_short(two + values + blank + values + blank), IsEmpty());
+  EXPECT_THAT(cut_short(cells({{20, "1"}}), "/FRIC_ORIENT/5", 0),
+              ElementsAre(HasSubstr("its line 'first direction'")));
+}
+
 TEST(Decode, AGroupWithoutAMemberInThisVersionEnds) {
   const Decoded d("/X/NEWGROUP/5\nt\n         1\n         2\n", "2019");
   EXPECT_TRUE(d.result.cards.empty());

@@ -166,7 +166,8 @@ class BlockDecoder {
     return number.status == NumberStatus::ok ? number.value : value_of(card.count, once, once);
   }
 
-  void report_missing(const CardSchema& card) {
+  /// `round`: the first card of what repeats and is cut short.
+  void report_missing(const CardSchema& card, const DecodedCard* round = nullptr) {
     missing_.push_back(&card);
     if (!findings_.wants(RuleId::DK029)) return;
     std::string why;
@@ -181,6 +182,14 @@ class BlockDecoder {
     for (const Condition& c : card.when)
       if (const Cell* cause = out_.find(c.field))
         d->notes.emplace_back(cause->span, c.field + " asks for the line");
+    if (round != nullptr)
+      d->notes.emplace_back(round->line.whole(), "what is cut short begins here");
+  }
+
+  /// True if a round has a line with text: blank lines at the end of a block begin none.
+  bool says_something(std::size_t round) const {
+    return std::any_of(out_.cards.begin() + static_cast<std::ptrdiff_t>(round), out_.cards.end(),
+                       [](const DecodedCard& card) { return !trim(card.line.text).empty(); });
   }
 
   /// Cards that repeat. True if they take all lines to the end of the block.
@@ -197,7 +206,8 @@ class BlockDecoder {
         if (!holds(card, once, round)) continue;
         const Line line = cursor_.next();
         if (!line.valid()) {
-          if ((counted || out_.cards.size() > round) && !card.optional) report_missing(card);
+          if ((counted || says_something(round)) && !card.optional)
+            report_missing(card, out_.cards.size() > round ? &out_.cards[round] : nullptr);
           return true;
         }
         add(card, line, once, round, static_cast<int>(std::min<std::int64_t>(number, 1 << 30)));
