@@ -41,6 +41,10 @@ std::size_t selection_size(const LintContext& c, std::string_view kind, std::int
   return s ? s->edges.size() : 0;
 }
 
+bool selection_is_empty(const LintContext& c, std::string_view kind, std::int64_t id) {
+  return selection_size(c, kind, id) == 0 && c.selections->complete();
+}
+
 std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id) {
   if (kind == "grnod" || kind == "surf" || kind == "line") {
     if (c.selections == nullptr) return std::nullopt;

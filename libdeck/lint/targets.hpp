@@ -22,6 +22,9 @@ std::string selection_name(const LintContext& c, std::string_view kind, std::int
 /// Nodes, segments or edges of such a selection.
 std::size_t selection_size(const LintContext& c, std::string_view kind, std::int64_t id);
 
+/// Not where members were left out (DK332): nobody knows then.
+bool selection_is_empty(const LintContext& c, std::string_view kind, std::int64_t id);
+
 /// Whether the entity exists; nothing: it cannot be said (no model, or a kind nobody counts).
 std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id);
 

@@ -200,7 +200,7 @@ class Builder {
     const bool free_only = i.Iedge.value == 1;
     set_edges(contact.secondary_edges, edges_of_surface(s, free_only));
     set_edges(contact.main_edges, edges_of_surface(m, free_only));
-    contact.dropped = contact.secondary_empty() || contact.main_empty();
+    contact.dropped = selections_.complete() && (contact.secondary_empty() || contact.main_empty());
     if (!contact.dropped) return finish_edges(std::move(contact), card);
     contact.secondary_edges.clear();
     contact.main_edges.clear();
@@ -263,7 +263,9 @@ class Builder {
   }
 
   /// A contact without pairs is no clean one: the solver stops, but for a node group that is there.
+  /// Where members were left out (DK332), nobody knows whether a side is empty.
   void report_empty_sides(const Contact& contact) {
+    if (!selections_.complete()) return;
     if (contact.main_empty()) report_empty_side(contact, RuleId::DK173, "main", Severity::error);
     if (!contact.secondary_empty()) return;
     const InterBase* inter = contact.inter;

@@ -108,7 +108,7 @@ void check_empty(const LintContext& c, const Rule& rule, Reporter& r) {
   const bool secondary = rule.id == RuleId::DK172;
   each_side(c, [&](const ContactCard& card, const Side& side, std::int64_t id) {
     if (side.secondary != secondary || id < 0 || !selection_exists(c, side.kind, id)) return;
-    if (selection_size(c, side.kind, id) != 0) return;
+    if (!selection_is_empty(c, side.kind, id)) return;
     Diagnostic* d =
         report_at(r, rule, card, side.field,
                   fmt::format("the {} side of {}, {}, is empty{}", secondary ? "secondary" : "main",

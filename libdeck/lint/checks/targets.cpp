@@ -80,7 +80,7 @@ void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
   each_demand(c, &Field::empty,
               [&](const DecodedBlock& d, const Cell& cell, std::int64_t id, int message_id) {
                 const std::string_view kind = cell.field->ref;
-                if (id <= 0 || !selection_exists(c, kind, id) || selection_size(c, kind, id) != 0)
+                if (id <= 0 || !selection_exists(c, kind, id) || !selection_is_empty(c, kind, id))
                   return;
                 Diagnostic* found =
                     r.report(rule, *d.block, cell.span,

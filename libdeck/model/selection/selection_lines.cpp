@@ -29,7 +29,7 @@ const LineSet* Selections::Impl::line(std::int64_t id) {
   LineSet l{id, d.title, resolve_line(*def, d), def->block->header_span};
   open.erase(guard);
   keep(l.edges, *def->block);
-  if (l.edges.empty())
+  if (l.edges.empty() && all_held)
     report({RuleId::DK154, l.span,
             std::string(def->block->keyword) + " " + std::to_string(id) + " has no edge",
             std::string(def->block->keyword), id});

@@ -47,7 +47,7 @@ const NodeSet* Selections::Impl::node_group(std::int64_t id) {
   NodeSet group{id, d.title, resolve_nodes(*def, d), def->block->header_span};
   open.erase(key);
   keep(group.nodes, *def->block);
-  if (group.nodes.empty())
+  if (group.nodes.empty() && all_held)
     report({RuleId::DK153, group.span,
             std::string(def->block->keyword) + " " + std::to_string(id) + " has no node",
             std::string(def->block->keyword), id});
