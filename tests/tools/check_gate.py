@@ -73,6 +73,14 @@ class Gate:
             self.c.check("%s: a contact that could not be evaluated has not passed" % verb,
                          r.code == 1 and not gate["passed"] and gate["undecided"] == 1, "exit %s, %s" % (r.code, gate))
 
+        # Of members that were left out for want of memory nobody knows whether they are none.
+        box = os.path.join(ROOT, "samples", "crash_box_0000.rad")
+        for args in (("gaps", box), ("cycle", box), ("lint", box), ("lint", box, "--geometry")):
+            r = self.run(*args, "--max-memory", "1b", "--no-config")
+            text = (r.out + r.err).decode()
+            self.c.check("%s: a group beyond --max-memory is not called empty" % " ".join(args[::2]),
+                         r.code == 1 and "DK332" in text and not re.search(r"is empty|has no (node|edge)|no edges|No initial penetration in [1-9]", text), text[-900:])
+
         mistakes = os.path.join(ROOT, "samples", "every_mistake_0000.rad")
         for verb in ("gaps", "cycle"):
             self.expect("%s: a contact whose main surface does not exist is not clean" % verb, 1, verb, mistakes, "--interface", "1")
@@ -177,6 +185,17 @@ class Gate:
         self.c.check("a baseline knows its decks from any directory", r.code == 0, r.text[-300:])
         shutil.copyfile(self.deck, os.path.join(self.folder, "other_0000.rad"))
         self.expect("a deck that is not in the baseline has nothing accepted", 1, "gaps", "other_0000.rad", "--baseline", "base.json", rules=["DK374"])
+        for args in (("gaps", "--fail-on", "never"), ("cycle",), ("lint", "--geometry")):
+            write(os.path.join(self.folder, ".decklint.toml"), "[gate]\nbaseline = \"base.json\"\n")
+            notes = [self.run(*args, deck, *more).err.decode() for deck, more in
+                     (("other_0000.rad", ()), (DECK, ()), ("other_0000.rad", ("--quiet",)))]
+            self.c.check("%s says that a baseline holds nothing of a deck, and of which it does" % args[0],
+                         ["note: " in n for n in notes] == [True, False, False] and
+                         "other_0000.rad: note: base.json holds nothing of this deck, but of %s" % DECK in notes[0].replace(self.folder + "/", ""), str(notes))
+        os.remove(os.path.join(self.folder, ".decklint.toml"))
+        self.run("lint", DECK, "--write-baseline", "lint.json", "--quiet")
+        notes = [self.run("lint", deck, "--baseline", "lint.json").err.decode() for deck in ("other_0000.rad", DECK)]
+        self.c.check("so says lint", "note: lint.json holds nothing of this deck" in notes[0] and DECK in notes[0] and not notes[1], str(notes))
         self.expect("several decks have one baseline", 0, "gaps", DECK, "other_0000.rad", "--write-baseline", "both.json")
         self.expect("of which each has its own", 0, "gaps", "other_0000.rad", DECK, "--baseline", "both.json")
         self.expect("a bound counts all the same", 1, "gaps", DECK, "--baseline", "base.json", "--max-depth", "0.1", rules=["DK370"])

@@ -206,6 +206,7 @@ int run(const Options& o) {
       print_error(o.common, gate.error().message);
       return static_cast<int>(exit_usage);
     }
+    gate->note_baseline(o.common, loaded.path);
     options.dead.clear();
     for (const std::string& text : o.gone) {
       auto dead = parse_gone(loaded.model, text);

@@ -152,6 +152,7 @@ int run(const Options& o) {
       print_error(o.common, gate.error().message);
       return static_cast<int>(exit_usage);
     }
+    gate->note_baseline(o.common, loaded.path);
     Scene scene;
     {
       Progress progress(!o.common.quiet);

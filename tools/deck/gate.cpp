@@ -147,6 +147,25 @@ Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
   return out;
 }
 
+void note_not_in_baseline(const CommonOptions& options, const std::string& deck_path,
+                          const std::string& baseline, const std::vector<std::string>& held) {
+  if (options.quiet) return;
+  constexpr std::size_t most = 5;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(held.size(), most); ++i)
+    names += (i == 0 ? "" : ", ") + held[i];
+  if (held.size() > most) names += " and " + std::to_string(held.size() - most) + " more";
+  print_messages(terminal_text(deck_path + ": note: " + baseline + " holds nothing of this deck" +
+                               (held.empty() ? "" : ", but of " + names) +
+                               ": everything counts as new") +
+                 "\n");
+}
+
+void DeckGate::note_baseline(const CommonOptions& options, const std::string& deck_path) const {
+  if (baseline && earlier && earlier->deck_path.empty())
+    note_not_in_baseline(options, deck_path, earlier->path, earlier->decks);
+}
+
 GateReport DeckGate::look(Loaded& loaded, const Scene& scene, const SceneView& view,
                           const cycle::SceneOutcome* forces) const {
   GateReport report;

@@ -62,10 +62,15 @@ struct DeckGate {
   bool baseline = false;  ///< `earlier` is what was accepted
   std::optional<EarlierGaps> earlier;
 
+  /// Says so where the baseline is one of other decks.
+  void note_baseline(const CommonOptions& options, const std::string& deck_path) const;
   /// Looks, and adds what it finds to the deck's findings. `forces` may be nullptr.
   GateReport look(Loaded& loaded, const Scene& scene, const SceneView& view,
                   const cycle::SceneOutcome* forces) const;
 };
+/// Says that a baseline holds nothing of a deck, but of `held`, so that everything counts as new.
+void note_not_in_baseline(const CommonOptions& options, const std::string& deck_path,
+                          const std::string& baseline, const std::vector<std::string>& held);
 /// How a deck is called in a baseline that lies at `path`: relative to it.
 std::string name_in_baseline(const std::string& deck_path, const std::string& path);
 Result<DeckGate> gate_of(const GateOptions& options, const LintConfig& config,

@@ -84,11 +84,17 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
   remember_read(baseline);
   const auto parsed = parse_baseline(*text, baseline);
   if (!parsed) return parsed.error();
-  if (const auto* entries = parsed->find(job.path))
-    for (const auto& [key, entry] : *entries) {
-      out.baseline.emplace(key, entry.count);
-      job.baseline_names.emplace(key, std::pair(entry.rule, entry.entity));
-    }
+  const auto* entries = parsed->find(job.path);
+  if (entries == nullptr) {
+    std::vector<std::string> held;
+    for (const auto& [deck, unused] : parsed->decks) held.push_back(deck);
+    note_not_in_baseline(options.common, job.path, baseline, held);
+    return out;
+  }
+  for (const auto& [key, entry] : *entries) {
+    out.baseline.emplace(key, entry.count);
+    job.baseline_names.emplace(key, std::pair(entry.rule, entry.entity));
+  }
   return out;
 }
 
@@ -195,6 +201,7 @@ class Run {
     // Without --geometry nothing is held against the gate.
     auto gate = options_.geometry ? gate_of(options_.gate, *config, path) : DeckGate{};
     if (!gate) return usage(gate.error().message);
+    gate->note_baseline(common_, path);
     const auto lint = lint_options(options_, *config, *job);
     if (!lint) return usage(lint.error().message);
     auto loaded = load(path, schemas_, common_, Stage::interfaces);

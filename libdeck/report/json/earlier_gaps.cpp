@@ -1,4 +1,5 @@
 // Reads an earlier `deck gaps --json` for comparison.
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -62,19 +63,18 @@ Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
                                       std::string_view deck_path, bool strict) {
   const Json all = Json::parse(json.begin(), json.end(), nullptr, false);
   if (all.is_discarded()) return wrong(path, "this is not JSON");
+  EarlierGaps out;
   const Json* document = is_gaps(all) ? &all : nullptr;
+  if (document != nullptr) out.decks.push_back(deck_path_of(all));
   if (document == nullptr && all.is_object() && all.contains("decks") && all["decks"].is_array()) {
     for (const Json& d : all["decks"]) {
       if (!is_gaps(d)) continue;
-      if (document == nullptr) document = &d;
-      if (deck_path_of(d) == deck_path) {
-        document = &d;
-        break;
-      }
+      out.decks.push_back(deck_path_of(d));
+      const bool first = std::count(out.decks.begin(), out.decks.end(), deck_path) == 1;
+      if (document == nullptr || (out.decks.back() == deck_path && first)) document = &d;
     }
   }
   if (document == nullptr) return wrong(path, "there is no list \"interfaces\"");
-  EarlierGaps out;
   out.path = std::move(path);
   if (strict && deck_path_of(*document) != deck_path) return out;
   out.deck_path = deck_path_of(*document);

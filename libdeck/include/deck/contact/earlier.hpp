@@ -19,9 +19,10 @@ struct EarlierGaps {
     double depth = 0, gap = 0;                ///< lengths, also for edges
     std::optional<std::array<double, 3>> at;  ///< as NamedPenetration::at; old documents lack it
   };
-  std::string path;       ///< of the JSON file, as given
-  std::string deck_path;  ///< of the deck it describes
-  std::vector<Row> rows;  ///< deepest row of every secondary node or edge
+  std::string path;                ///< of the JSON file, as given
+  std::string deck_path;           ///< of the deck it describes; empty: the file holds others only
+  std::vector<std::string> decks;  ///< of which the file holds anything, in its order
+  std::vector<Row> rows;           ///< deepest row of every secondary node or edge
 };
 
 /// Depths that differ by less than this share of them are the same: what another order of the same
