@@ -93,6 +93,9 @@ std::string text_kind(const Deck& deck, std::string_view head) {
   if (const std::string first = lower(line);
       first.starts_with("begin bulk") || first.starts_with("cend") || first.starts_with("sol "))
     return "a deck of Nastran (it begins with " + shown + ")";
+  if (!deck.blocks.empty() && small.find("\n/begin\n") != std::string::npos)
+    return "one whose keywords are not in capitals: it has " +
+           std::string(deck.blocks.front().header.substr(0, 60)) + "; write /BEGIN and so on";
   if (!deck.blocks.empty())
     return "a part of one: it has " + std::string(deck.blocks.front().header.substr(0, 60)) +
            ", but neither '#RADIOSS STARTER' nor /BEGIN; if it is an include file, name the deck "

@@ -94,7 +94,7 @@ Result<std::unique_ptr<Source>> Source::open(const std::string& path, const Limi
   if (file.fd < 0) return io_error(path, system_reason(errno));
   struct stat info {};
   if (::fstat(file.fd, &info) != 0) return io_error(path, system_reason(errno));
-  if (S_ISDIR(info.st_mode)) return io_error(path, "is a directory, not a deck");
+  if (S_ISDIR(info.st_mode)) return io_error(path, "is a directory, not a file");
   if (!S_ISREG(info.st_mode))
     return io_error(path, "is not a regular file (FIFO, socket or device)");
   source->device_ = info.st_dev;

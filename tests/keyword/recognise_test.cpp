@@ -38,6 +38,7 @@ TEST(StarterDeck, IsNoneOfThese) {
       {"#RADIOSS STARTER\n\n# nothing\n/END\n", "no keyword"},
       {"dear all,\nthis is a letter\n", "without a keyword"},
       {"/NODE\n         1\n", "part of one"},
+      {"#radioss starter\n/begin\nrun\n      2022         0\n/node\n/end\n", "not in capitals"},
       {"ab\x01\x02\x03\x04\x05\x06\x07\n\x10\x11\x12\n", "binary"},
   };
   for (const auto& [text, what] : files)

@@ -146,7 +146,14 @@ CommandLine::CommandLine(CommandLine&&) noexcept = default;
 
 template <class T>
 Option CommandLine::option(const std::string& names, T& target, const std::string& help) {
-  return Option(app_->add_option(names, target, help));
+  CLI::Option* const option = app_->add_option(names, target, help);
+  if constexpr (std::is_unsigned_v<T>)  // the parser takes "-1" for the largest number
+    option->check(CLI::Validator(
+        [](const std::string& text) {
+          return text.starts_with('-') ? "'" + text + "' is below 0" : std::string();
+        },
+        ""));
+  return Option(option);
 }
 template Option CommandLine::option(const std::string&, std::string&, const std::string&);
 template Option CommandLine::option(const std::string&, int&, const std::string&);

@@ -188,6 +188,9 @@ int check_outputs(const CommonOptions& options, const std::vector<std::string>& 
 Result<void> check_outputs(const std::vector<OutputFile>& files, const OutputRules& rules);
 /// Writes bytes to standard output ("-") or atomically to a file.
 Result<void> write_output(const std::string& path, std::string_view bytes);
+/// To be called last. False, said once, if not everything could be written to standard output. (A
+/// reader that went away ends the program by SIGPIPE, as it ends others, unless that is ignored.)
+bool finish_standard_output();
 /// Makes a document and returns what of it has not left through the drain.
 using MakeText = std::function<std::string(const TextDrain&)>;
 /// The same for a document that is written while it is made.

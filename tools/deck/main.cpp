@@ -82,9 +82,5 @@ int main(int argc, char** argv) {
   } catch (...) {
     std::fputs("deck: internal error of unknown kind\n", stderr);
   }
-  if ((std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && code != exit_internal) {
-    std::fputs("deck: error: standard output cannot be written\n", stderr);
-    code = exit_usage;
-  }
-  return code;
+  return finish_standard_output() || code == exit_internal ? code : static_cast<int>(exit_usage);
 }

@@ -155,15 +155,35 @@ Result<void> check_outputs(const std::vector<OutputFile>& files, const OutputRul
 
 namespace {
 
+/// True once it was said that standard output cannot be written.
+bool& told_of_standard_output() {
+  static bool told = false;
+  return told;
+}
+
+std::string no_standard_output() {
+  return std::string("cannot write standard output: ") + std::strerror(errno);
+}
+
 Result<void> write_standard_output(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
-      std::fflush(stdout) != 0)
-    return Error{Error::Code::io,
-                 std::string("cannot write standard output: ") + std::strerror(errno)};
-  return {};
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() &&
+      std::fflush(stdout) == 0)
+    return {};
+  told_of_standard_output() = true;
+  return Error{Error::Code::io, no_standard_output()};
 }
 
 }  // namespace
+
+bool finish_standard_output() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  if (!told_of_standard_output())
+    std::fputs(errno == 0 ? "deck: error: cannot write standard output\n"
+                          : ("deck: error: " + no_standard_output() + "\n").c_str(),
+               stderr);
+  return false;
+}
 
 Result<void> write_output(const std::string& path, std::string_view bytes) {
   if (path == "-") return write_standard_output(bytes);

@@ -180,6 +180,18 @@ int run(const BatchOptions& o) {
   if (!shard) return usage(shard.error().message);
   auto task = parse_task(o, verbs());
   if (!task) return usage(task.error().message);
+  // Other verbs are the first word behind the program.
+  if (!o.common.decks.empty()) {
+    const std::string& first = o.common.decks.front();
+    std::error_code ec;
+    if (std::find(verbs_of_a_batch.begin(), verbs_of_a_batch.end(), first) !=
+            verbs_of_a_batch.end() &&
+        !std::filesystem::exists(first, ec))
+      return usage("'" + first +
+                   "' is taken for a deck, and there is none of that name; the verb "
+                   "is named with --verb " +
+                   first);
+  }
   auto list =
       list_decks(o.common.decks, o.manifest, task->ending, o.directory, o.common.include_paths);
   if (!list) return usage(list.error().message);
