@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "deck/contact/join_findings.hpp"
 #include "deck/report/gaps.hpp"
 
 namespace deck::cli {
@@ -182,28 +183,8 @@ GateReport DeckGate::look(Loaded& loaded, const Scene& scene, const SceneView& v
   return report;
 }
 
-void report_unreadable_cells(Loaded& loaded) {
-  constexpr std::string_view kinds[] = {
-      "inter",  "default_inter", "friction", "grnod",  "surf",   "line",   "set",       "box",
-      "skew",   "grshel",        "grsh3n",   "grbric", "grquad", "grtria", "grtrus",    "grbeam",
-      "grspri", "grpart",        "part",     "prop",   "mat",    "subset", "transform", "unit"};
-  Diagnostics found;
-  for (const Block& b : loaded.deck.blocks)
-    if (b.schema != nullptr && !b.schema->bulk && !b.opaque &&
-        std::find(std::begin(kinds), std::end(kinds), b.schema->kind) != std::end(kinds))
-      decode(loaded.deck, b, &found);
-  for (const Diagnostic& d : found.all())
-    if (d.severity == Severity::error) loaded.diagnostics.report(d);
-}
-
 void join_findings(Loaded& loaded) {
-  report_unreadable_cells(loaded);
-  Diagnostics& all = loaded.deck.diagnostics;
-  all.merge(std::exchange(loaded.diagnostics, Diagnostics()));
-  if (loaded.model.selections == nullptr) return;
-  // The scene has reported DK332 itself.
-  for (const Diagnostic& d : loaded.model.selections->diagnostics().all())
-    if (d.severity == Severity::error && d.rule != RuleId::DK332) all.report(d);
+  join_findings(loaded.deck, loaded.model, std::exchange(loaded.diagnostics, Diagnostics()));
 }
 
 bool stops_before_pairs(const Loaded& loaded, const Scene& scene) {

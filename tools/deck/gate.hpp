@@ -43,13 +43,7 @@ Result<void> check_fail_on(const GateOptions& options);
 /// The configuration that holds for a deck: --config, or the nearest .decklint.toml.
 Result<LintConfig> config_of(const GateOptions& options, const std::string& deck_path);
 
-/// Adds what cannot be read in the cells that contacts depend on (interfaces, groups, parts,
-/// properties, materials ...) to the findings: there 0 stands, and every value looks like one that
-/// was meant. Errors only; 'deck lint' has the rest.
-void report_unreadable_cells(Loaded& loaded);
-
-/// Joins what cells, the model and its groups were found to lack to the findings of reading, where
-/// verdicts look for it. To be called behind build_scene(), which resolves the groups of contacts.
+/// deck::join_findings with what was found since reading.
 void join_findings(Loaded& loaded);
 /// True if the solver stops before it looks for pairs: an error was found in the deck (a side of a
 /// contact without members among them), a main segment has no area, a segment or edge no element,

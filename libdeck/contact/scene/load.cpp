@@ -20,6 +20,7 @@ LoadedDeck& LoadedDeck::operator=(LoadedDeck&&) noexcept = default;
 LoadedDeck::~LoadedDeck() = default;
 
 const Deck& LoadedDeck::deck() const { return parts_->deck; }
+Deck& LoadedDeck::deck() { return parts_->deck; }
 const Model& LoadedDeck::model() const { return parts_->model; }
 const Interfaces& LoadedDeck::interfaces() const { return parts_->interfaces; }
 const Diagnostics& LoadedDeck::findings() const { return parts_->findings; }

@@ -32,6 +32,7 @@ class LoadedDeck {
   ~LoadedDeck();
 
   const Deck& deck() const;
+  Deck& deck();  ///< for join_findings(); what was made of it refers to it
   const Model& model() const;
   const Interfaces& interfaces() const;
   /// What reading and building had to say; that of the deck itself is in deck().diagnostics.

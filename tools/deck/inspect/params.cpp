@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "common.hpp"
+#include "deck/contact/join_findings.hpp"
 #include "deck/report/params_report.hpp"
 #include "gate.hpp"
 
@@ -45,7 +46,7 @@ int run(const Options& options) {
       scene = resolve_geometry(loaded, common);
       input.scene = &scene;
     }
-    report_unreadable_cells(loaded);
+    report_unreadable_cells(loaded.deck, loaded.diagnostics);
     const auto errors = print_findings(loaded, common);
     if (json.wanted()) json.add(params_json(input, options.only));
     ParamsTextOptions text;

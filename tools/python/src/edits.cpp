@@ -66,7 +66,7 @@ void take(PyEdit& edit, const PyDeck& now, const Rewrite& rewrite) {
 }
 
 void must_be_whole(const PyDeck& d) {
-  if (incomplete(d))
+  if (d.incomplete)
     raise_error(d.path + ": the include tree is not complete", &d.loaded.deck(),
                 &d.loaded.deck().diagnostics.all());
 }

@@ -1,6 +1,8 @@
 // libdeck._native: a deck, its arrays and the effective values of its interfaces.
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "deck/keyword/recognise.hpp"
 #include "deck/lint/geometry.hpp"
 #include "deck/lint/lint.hpp"
@@ -50,8 +52,8 @@ void raise_error(const std::string& message, const Deck* deck,
   throw py::error_already_set();
 }
 
-bool incomplete(const PyDeck& d) {
-  const auto& counts = d.loaded.deck().diagnostics.counts();
+bool lacks_includes(const Deck& deck) {
+  const auto& counts = deck.diagnostics.counts();
   return counts.contains(RuleId::DK004) || counts.contains(RuleId::DK005) ||
          counts.contains(RuleId::DK006);
 }
@@ -185,7 +187,7 @@ PYBIND11_MODULE(_native, m) {
               out.emplace_back(d.loaded.deck().sources[static_cast<std::uint32_t>(i)].path());
             return out;
           })
-      .def_property_readonly("incomplete", &incomplete)
+      .def_readonly("incomplete", &PyDeck::incomplete)
       .def("nodes",
            [](const DeckPointer& d) {
              const Nodes& n = d->loaded.model().nodes;
@@ -211,9 +213,14 @@ PYBIND11_MODULE(_native, m) {
            })
       .def("fields", &interface_fields)
       .def("findings",
-           [](const PyDeck& d) {
+           [](PyDeck& d) {
+             const Diagnostics read = [&] {  // a verdict may hold them
+               const py::gil_scoped_release free;
+               const std::lock_guard one(d.mutex);
+               return std::as_const(d.loaded).deck().diagnostics;
+             }();
              py::list out;
-             for (const Diagnostics* list : {&d.loaded.deck().diagnostics, &d.loaded.findings()})
+             for (const Diagnostics* list : {&read, &d.loaded.findings()})
                for (const Diagnostic& f : list->all()) out.append(finding_of(d.loaded.deck(), f));
              return out;
            })

@@ -15,13 +15,20 @@ namespace deck::python {
 
 namespace py = pybind11;
 
+/// True if a file of the include tree could not be read.
+bool lacks_includes(const Deck& deck);
+
 /// A deck in Python. Arrays over it have it as their base, so that it lives as long as they do.
 struct PyDeck {
   PyDeck(std::string deck_path, LoadedDeck&& read, LoadOptions how)
-      : path(std::move(deck_path)), loaded(std::move(read)), options(std::move(how)) {}
+      : path(std::move(deck_path)),
+        loaded(std::move(read)),
+        options(std::move(how)),
+        incomplete(lacks_includes(loaded.deck())) {}
   std::string path;
   LoadedDeck loaded;
   LoadOptions options;
+  bool incomplete;  ///< lacks_includes
   /// Groups are resolved on demand, by one thread at a time. Locked without the interpreter's lock.
   std::mutex mutex;
 };
@@ -63,9 +70,6 @@ py::array member_view(const std::vector<Row>& rows, T Row::*member, const py::ob
     return view_of<T>(rows.empty() ? nullptr : &(first->*member), {n}, {step}, owner);
   }
 }
-
-/// True if a file of the include tree could not be read.
-bool incomplete(const PyDeck& d);
 
 void bind_results(py::module_& m);
 void bind_edits(py::module_& m);

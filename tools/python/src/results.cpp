@@ -1,5 +1,9 @@
 // libdeck._native: gaps and first-cycle forces, as JSON text and as arrays over the scene.
+#include <algorithm>
+#include <utility>
+
 #include "deck/contact/crossings.hpp"
+#include "deck/contact/join_findings.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/contact/what_if_text.hpp"
 #include "deck/cycle/scene_cycle.hpp"
@@ -17,8 +21,37 @@ struct PyScene {
   Scene scene;
   SceneView view;
   std::vector<Crossing> crossings;
+  Diagnostics joined;  ///< of reading and of all that was found on the way to the contacts
 };
 using ScenePointer = std::shared_ptr<PyScene>;
+
+/// Verdicts look for what stops the solver in the findings of the deck: while this lives, those of
+/// the way to its contacts are among them. Under the deck's mutex.
+class Joined {
+ public:
+  explicit Joined(const PyScene& s) : own_(s.deck->loaded.deck().diagnostics), kept_(own_) {
+    own_ = s.joined;
+  }
+  ~Joined() { own_ = std::move(kept_); }
+  Joined(const Joined&) = delete;
+  Joined& operator=(const Joined&) = delete;
+
+ private:
+  Diagnostics& own_;
+  Diagnostics kept_;
+};
+
+/// Each finding once: contacts are built when a deck is loaded, too.
+Diagnostics once(const Diagnostics& first, const Diagnostics& second) {
+  Diagnostics out = first;
+  for (const Diagnostic& d : second.all())
+    if (std::none_of(first.all().begin(), first.all().end(), [&](const Diagnostic& o) {
+          return o.rule == d.rule && o.span.file == d.span.file && o.span.offset == d.span.offset &&
+                 o.message == d.message;
+        }))
+      out.report(d);
+  return out;
+}
 
 /// One force evaluation.
 struct PyCycle {
@@ -68,6 +101,10 @@ ScenePointer contacts_of(const DeckPointer& deck, const std::vector<std::int64_t
   out->scene = loaded.scene(findings, options);
   if (!forces) out->crossings = find_crossings(out->scene, options.threads);
   out->view = make_view(out->scene, forces ? nullptr : &out->crossings);
+  Deck& read = deck->loaded.deck();
+  Diagnostics own = read.diagnostics;
+  join_findings(read, loaded.model(), once(loaded.findings(), findings));
+  out->joined = std::exchange(read.diagnostics, std::move(own));
   return out;
 }
 
@@ -198,12 +235,18 @@ py::dict force_arrays(const CyclePointer& r, std::size_t k) {
 std::string gaps_text_of(const PyScene& s, bool all) {
   const py::gil_scoped_release free;
   const std::lock_guard one(s.deck->mutex);
+  const Joined joined(s);
   return gaps_json(s.deck->path, s.deck->loaded.deck(), s.scene, s.view, all, &s.crossings);
 }
 
-std::string cycle_text_of(const PyCycle& r, bool all) {
+std::string gaps_verdict_of(const PyScene& s) {
   const py::gil_scoped_release free;
-  const std::lock_guard one(r.contacts->deck->mutex);
+  const std::lock_guard one(s.deck->mutex);
+  const Joined joined(s);
+  return gaps_verdict(s.deck->loaded.deck(), s.scene, s.view);
+}
+
+CycleInput input_of(const PyCycle& r) {
   CycleInput input;
   input.path = r.contacts->deck->path;
   input.deck = &r.contacts->deck->loaded.deck();
@@ -211,7 +254,21 @@ std::string cycle_text_of(const PyCycle& r, bool all) {
   input.state = &r.state;
   input.outcome = &r.outcome;
   input.options = r.options;
-  return cycle_json(input, all);
+  return input;
+}
+
+std::string cycle_text_of(const PyCycle& r, bool all) {
+  const py::gil_scoped_release free;
+  const std::lock_guard one(r.contacts->deck->mutex);
+  const Joined joined(*r.contacts);
+  return cycle_json(input_of(r), all);
+}
+
+std::string cycle_verdict_of(const PyCycle& r) {
+  const py::gil_scoped_release free;
+  const std::lock_guard one(r.contacts->deck->mutex);
+  const Joined joined(*r.contacts);
+  return cycle_verdict(input_of(r));
 }
 
 }  // namespace
@@ -224,8 +281,7 @@ void bind_results(py::module_& m) {
       .def("secondary", &secondary_arrays)
       .def("main", &main_arrays)
       .def("penetrations", &penetration_arrays)
-      .def("verdict",
-           [](const PyScene& s) { return gaps_verdict(s.deck->loaded.deck(), s.scene, s.view); })
+      .def("verdict", &gaps_verdict_of)
       .def("coordinates", [](const ScenePointer& s) {
         const py::object owner = py::cast(s);
         const Coordinates& x = s->scene.coordinates;
@@ -240,16 +296,7 @@ void bind_results(py::module_& m) {
       .def("main", [](const PyCycle& r, std::size_t k) { return main_arrays(r.contacts, k); })
       .def("pairs", &force_arrays)
       .def("mass", [](const CyclePointer& r) { return view_of(r->state.mass, py::cast(r)); })
-      .def("verdict", [](const PyCycle& r) {
-        CycleInput input;
-        input.path = r.contacts->deck->path;
-        input.deck = &r.contacts->deck->loaded.deck();
-        input.scene = &r.contacts->scene;
-        input.state = &r.state;
-        input.outcome = &r.outcome;
-        input.options = r.options;
-        return cycle_verdict(input);
-      });
+      .def("verdict", &cycle_verdict_of);
   m.def("gaps", [](const DeckPointer& deck, const std::vector<std::int64_t>& only,
                    const std::string& accuracy, const std::vector<std::string>& what_if) {
     return contacts_of(deck, only, accuracy, what_if, false);
