@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <regex>
 #include <set>
 
@@ -42,6 +43,21 @@ TEST(FreeEdges, AreSidesOfOneSegmentHoweverFarApartTheirNodesAre) {
         << apart;
     EXPECT_EQ(said({leaves[0], leaves[0]}), "") << apart;
   }
+}
+
+TEST(FreeEdges, AreCountedAroundANodeOfManySides) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0);
+  std::vector<std::vector<int>> fan;
+  for (int n = 2; n <= 7; ++n) {
+    d.node(n, std::cos(n), std::sin(n), 0);
+    if (n > 2) fan.push_back({1, n - 1, n, n});
+  }
+  d.segments("/SURF/SEG/1", fan).group("/GRNOD/NODE/2", {1});
+  const Linted run = lint_text(d.add("@/INTER/TYPE7/1 Gapmin=1").text());
+  const Diagnostic* found = run.find(RuleId::DK916);
+  ASSERT_NE(found, nullptr);
+  EXPECT_THAT(found->message, testing::HasSubstr(" 7 free edges")) << "five outside, two spokes";
 }
 
 class EveryRule : public testing::TestWithParam<std::string> {

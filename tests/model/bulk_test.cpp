@@ -122,6 +122,19 @@ TEST(BulkNodes, FreeFormatParametersTabsAndOddSpellingsAreReadAsDecodeReadsThem)
   EXPECT_EQ(b.findings.all().size(), 1u);
 }
 
+TEST(BulkNodes, TwoLinesTogetherAsLongAsTheOneBeforeStayTwo) {
+  const std::string longer =
+      "         1                 1.5                 -2.                 3.\n";
+  const std::string shorter = "         2                 2.5\n";
+  const std::string rest = "         3                 3.5    -4.5\n";
+  ASSERT_EQ(shorter.size() + rest.size(), longer.size());
+  const Bulk b = bulk("/NODE\n" + longer + shorter + rest + longer);
+  EXPECT_THAT(b.model.nodes.id, ElementsAre(1, 2, 3, 1));
+  EXPECT_THAT(b.model.nodes.x, ElementsAre(1.5, 2.5, 3.5, 1.5));
+  EXPECT_THAT(b.model.nodes.y, ElementsAre(-2, 0, -4.5, -2));
+  EXPECT_TRUE(b.findings.all().empty());
+}
+
 TEST(BulkNodes, TheLastLineNeedsNoNewline) {
   auto deck = read_deck_text("x", banner + begin() + "/NODE\n         5                  2.",
                              SchemaSet::built_in());

@@ -11,6 +11,8 @@
 #include <memory>
 #include <random>
 
+#include "text/number_scan.hpp"
+
 namespace deck {
 namespace {
 
@@ -145,6 +147,29 @@ TEST(ReadReal, AgreesWithFromCharsOnRandomSpellings) {
     ASSERT_EQ(std::bit_cast<std::uint64_t>(r.value), std::bit_cast<std::uint64_t>(reference(text)))
         << cell;
   }
+}
+
+TEST(ReadReal, PlainSpellingsGiveTheSameByTheShortWay) {
+  std::mt19937_64 random(11);
+  std::size_t plain = 0;
+  for (int i = 0; i < 300000; ++i) {
+    const std::size_t width = 16 + random() % 9, first = 20;
+    const std::size_t count = random() % (width + 1), point = random() % (count + 1);
+    std::string line(first, "9- "[random() % 3]);  // what stands in front of the cell
+    line.append(width, ' ');
+    for (std::size_t k = 0; k < count; ++k)
+      line[line.size() - 1 - k] = k == point ? '.' : static_cast<char>('0' + random() % 10);
+    if (count < width && random() % 2) line[line.size() - 1 - count] = '-';
+    if (random() % 4 == 0) line[first + random() % width] = "0. -+e\n\t"[random() % 8];
+    const std::string_view cell = std::string_view(line).substr(first);
+    double value = 0;
+    if (!detail::scan_plain_real(cell.data(), cell.data() + width, value)) continue;
+    ++plain;
+    const RealCell r = detail::scan_real<detail::Blanks::spaces>(cell.data(), cell.data() + width);
+    ASSERT_EQ(r.status, NumberStatus::ok) << cell;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(r.value), std::bit_cast<std::uint64_t>(value)) << cell;
+  }
+  EXPECT_GT(plain, 100000u);
 }
 
 TEST(ReadReal, NeverLooksOutsideTheCell) {

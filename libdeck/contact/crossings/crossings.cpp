@@ -307,7 +307,8 @@ std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
   std::vector<Bearers> all = bearers(*scene.model, marks, threads);
   if (scene.contacts.size() > 2)  // else most of them belong to every contact
     for (Bearers& b : all) find_rows(b, scene.model->nodes.size());
-  for (const Contact& c : scene.contacts) mark(c, 0);
+  const bool alone = scene.contacts.size() == 1;  // its marks are there already
+  if (!alone) std::fill(marks.begin(), marks.end(), std::uint8_t{0});
   std::vector<Crossing> out;
   std::set<SpotKey> seen;
   for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
@@ -315,10 +316,10 @@ std::vector<Crossing> find_crossings(const Scene& scene, int threads) {
     if (contact.main.empty() || contact.secondary.empty()) continue;
     const auto segment_of = [&](std::uint32_t i) { return contact.main[i].nodes; };
     const SegmentTree tree(nodes, contact.main.size(), segment_of, threads);
-    mark(contact, 1);
+    if (!alone) mark(contact, 1);
     std::vector<Crossing> found;
     for (const Bearers& b : all) cross(b, marks, nodes, contact, tree, threads, found);
-    mark(contact, 0);
+    if (!alone) mark(contact, 0);
     // Of the elements that have an edge the first one stays.
     std::stable_sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
       return std::tie(a.edge, a.main) < std::tie(b.edge, b.main);

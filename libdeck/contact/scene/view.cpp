@@ -287,11 +287,6 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
   }
   for (std::uint32_t i = 0; i < places.size(); ++i)
     in_order[first_of_contact[places[i].contact] + places[i].row] = i;
-  std::vector<std::vector<std::uint8_t>> seen;  // by contact and secondary item
-  for (const Contact& c : scene.contacts)
-    seen.emplace_back(
-        c.penetrations.empty() ? 0 : std::max(c.secondary.size(), c.secondary_edges.size()), 0);
-  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> pairs;
   Connectivity connectivity(*scene.model);
   // A few names need no array over all nodes and families; many need most of them.
   constexpr std::size_t many = 4096;
@@ -306,18 +301,32 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
       view.penetrations[in_order[k]] = named(scene, connectivity, place.contact, place.row);
     }
   });
-  auto last = pairs.end();  // rows of a pair of parts mostly follow each other
-  for (std::uint32_t i = 0; i < places.size(); ++i) {
-    const NamedPenetration& p = view.penetrations[i];
-    std::uint8_t& known = seen[p.contact][scene.contacts[p.contact].penetrations[p.row].secondary];
-    if (known == 0) view.deepest_per_node.push_back(i);
-    known = 1;
-    const std::pair parts(p.secondary_element.part, p.main_element.part);
-    if (last == pairs.end() || last->first != parts) last = pairs.try_emplace(parts).first;
-    last->second.push_back(i);
-  }
-  for (const auto& [parts, list] : pairs)
-    view.part_pairs.push_back(part_pair(scene, view, parts.first, parts.second, list));
+  const auto find_deepest = [&] {
+    std::vector<std::vector<std::uint8_t>> seen;  // by contact and secondary item
+    for (const Contact& c : scene.contacts)
+      seen.emplace_back(
+          c.penetrations.empty() ? 0 : std::max(c.secondary.size(), c.secondary_edges.size()), 0);
+    for (std::uint32_t i = 0; i < places.size(); ++i) {
+      const Place& p = places[i];
+      std::uint8_t& known =
+          seen[p.contact][scene.contacts[p.contact].penetrations[p.row].secondary];
+      if (known == 0) view.deepest_per_node.push_back(i);
+      known = 1;
+    }
+  };
+  const auto pair_parts = [&] {
+    std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> pairs;
+    auto last = pairs.end();  // rows of a pair of parts mostly follow each other
+    for (std::uint32_t i = 0; i < places.size(); ++i) {
+      const NamedPenetration& p = view.penetrations[i];
+      const std::pair parts(p.secondary_element.part, p.main_element.part);
+      if (last == pairs.end() || last->first != parts) last = pairs.try_emplace(parts).first;
+      last->second.push_back(i);
+    }
+    for (const auto& [parts, list] : pairs)
+      view.part_pairs.push_back(part_pair(scene, view, parts.first, parts.second, list));
+  };
+  parallel_items(threads, 2, [&](std::size_t i) { i == 0 ? find_deepest() : pair_parts(); });
   std::stable_sort(view.part_pairs.begin(), view.part_pairs.end(),
                    [](const PartPair& a, const PartPair& b) { return a.max_depth > b.max_depth; });
   return view;

@@ -1,8 +1,9 @@
 // What belongs beside a contact: edges that TYPE7 does not see, the recommended friction, radiation
 // factors that emissivities can give. One finding per deck or per interface, never per element.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,13 +27,32 @@ void each_side_of(std::span<const Segment> segments, F&& f) {
     }
 }
 
-/// Sides in [from, to) that occur once. Sorts them.
-template <class Iterator>
-std::size_t count_single(Iterator from, Iterator to) {
+/// Sides whose smaller nodes are close to each other. Most nodes are the smaller one of few sides:
+/// those are held here, further ones together with the further ones of other buckets.
+struct SideBucket {
+  std::array<SurfaceSide, 3> side;
+  std::uint32_t held = 0, again = 0;  ///< again: bit k if side[k] has come more than once
+
+  /// False: there is no room for it.
+  bool add(const SurfaceSide& s) {
+    for (std::uint32_t k = 0; k < held; ++k)
+      if (side[k] == s) {
+        again |= 1U << k;
+        return true;
+      }
+    if (held == side.size()) return false;
+    side[held++] = s;
+    return true;
+  }
+  std::size_t single() const { return held - static_cast<std::size_t>(std::popcount(again)); }
+};
+
+/// Sides that occur once. Sorts them.
+std::size_t count_single(std::vector<SurfaceSide>& sides) {
   std::size_t count = 0;
-  std::sort(from, to);
-  for (auto i = from; i != to;) {
-    const auto j = std::find_if(i, to, [&](const SurfaceSide& s) { return s != *i; });
+  std::sort(sides.begin(), sides.end());
+  for (auto i = sides.begin(); i != sides.end();) {
+    const auto j = std::find_if(i, sides.end(), [&](const SurfaceSide& s) { return s != *i; });
     count += j - i == 1;
     i = j;
   }
@@ -105,27 +125,21 @@ std::size_t count_free_edges(const SegmentList& surface) {
   const std::size_t at_once =
       pieces.readings(std::uint64_t{few} << shift) <= 2 * pieces.count() ? few : many;
   std::size_t count = 0;
-  std::vector<std::uint32_t> end;  // of each bucket, at last
-  std::vector<SurfaceSide> sides;  // bucket by bucket
+  std::vector<SideBucket> here;
+  std::vector<SurfaceSide> further;
   for (std::size_t begin = 0; begin < buckets; begin += at_once) {
     const std::size_t size = std::min(at_once, buckets - begin);
-    const NodeRange here{static_cast<NodeIndex>(low + (begin << shift)),
-                         static_cast<NodeIndex>(std::min<std::uint64_t>(
-                             high, low + ((std::uint64_t{begin} + size) << shift) - 1))};
-    const auto each_here = [&](auto&& f) {
-      pieces.each_side_near(here, [&](const SurfaceSide& s) {
-        const std::size_t bucket = ((s.first - low) >> shift) - begin;
-        if (bucket < size) f(bucket, s);
-      });
-    };
-    end.assign(size + 1, 0);
-    each_here([&](std::size_t bucket, const SurfaceSide&) { ++end[bucket + 1]; });
-    std::partial_sum(end.begin(), end.end(), end.begin());
-    sides.resize(end.back());
-    each_here([&](std::size_t bucket, const SurfaceSide& s) { sides[end[bucket]++] = s; });
-    for (std::size_t b = 0, from = 0; b < size; from = end[b++])
-      count += count_single(sides.begin() + static_cast<std::ptrdiff_t>(from),
-                            sides.begin() + static_cast<std::ptrdiff_t>(end[b]));
+    here.assign(size, {});
+    further.clear();
+    pieces.each_side_near({static_cast<NodeIndex>(low + (begin << shift)),
+                           static_cast<NodeIndex>(std::min<std::uint64_t>(
+                               high, low + ((std::uint64_t{begin} + size) << shift) - 1))},
+                          [&](const SurfaceSide& s) {
+                            const std::size_t bucket = ((s.first - low) >> shift) - begin;
+                            if (bucket < size && !here[bucket].add(s)) further.push_back(s);
+                          });
+    for (const SideBucket& bucket : here) count += bucket.single();
+    count += count_single(further);
   }
   return count;
 }

@@ -267,7 +267,9 @@ struct ElementSink : ChunkRows<ElementRows> {
         found[n] = nodes_there->map.find(written > 0 ? written + plan.node_offset : written);
       if (found[n] == no_index) item.count(at.card, unknown_node);
     }
-    for (std::size_t n = cells.size(); n < max_nodes; ++n) found[n] = no_index;
+    // What is behind them is no_index but for cells of another block.
+    for (std::size_t n = cells.size(); n < used; ++n) found[n] = no_index;
+    used = cells.size();
     item.required = static_cast<std::uint8_t>(format.required);
   }
 
@@ -292,7 +294,13 @@ struct ElementSink : ChunkRows<ElementRows> {
       item.count(0, sh3n_columns);
   }
 
-  std::array<NodeIndex, max_nodes> found{};
+  std::array<NodeIndex, max_nodes> found = no_nodes();
+  std::size_t used = 0;  // entries of `found` that the element before has filled
+  static std::array<NodeIndex, max_nodes> no_nodes() {
+    std::array<NodeIndex, max_nodes> all{};
+    all.fill(no_index);
+    return all;
+  }
 };
 
 /// The reference solver converts an own thickness only in the first shell after a change of units.

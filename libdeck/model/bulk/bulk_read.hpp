@@ -68,8 +68,10 @@ inline constexpr Unclean outside_cells = Unclean{1} << 31;
 /// Cells of a line that has no blanks at its end. Unclean cells are left to inspect_line().
 inline Unclean read_cells(const CardPlan& plan, const char* line, std::uint32_t size, Cells& out) {
   Unclean unclean = 0;
-  for (std::size_t i = 0; i < plan.cells.size(); ++i) {
-    const CellPlan& cell = plan.cells[i];
+  const CellPlan* const cells = plan.cells.data();
+  const std::size_t count = plan.cells.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const CellPlan cell = cells[i];
     if (cell.first >= size) {
       out.integer[i] = 0;
       out.real[i] = 0;
@@ -78,6 +80,7 @@ inline Unclean read_cells(const CardPlan& plan, const char* line, std::uint32_t 
     const char* const first = line + cell.first;
     const char* const last = line + std::min(cell.last, size);
     if (cell.real) {
+      if (last - first >= 16 && scan_plain_real(first, last, out.real[i])) continue;
       const RealCell r = scan_real<Blanks::spaces>(first, last);
       out.real[i] = r.value;
       // Subnormal numbers have a finding of their own.
@@ -127,6 +130,7 @@ void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chu
                 Sink& sink) {
   Item item;
   std::size_t card = 0;
+  std::array<std::uint32_t, max_cards> usual{};  // size of the line of that card before
   for (std::uint32_t s = 0; s < chunk.segments.size(); ++s) {
     const TextSegment& segment = chunk.segments[s];
     const BlockPlan& plan = plans[segment.plan];
@@ -149,20 +153,33 @@ void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chu
     };
     while (p < end) {
       const char* const start = p;
-      const void* const nl = std::memchr(p, '\n', static_cast<std::size_t>(end - p));
-      const char* stop = nl == nullptr ? end : static_cast<const char*>(nl);
-      p = stop + 1;
-      if (*start == '#' || *start == '$') continue;
-      while (stop != start && is_blank(stop[-1])) --stop;
-      const auto size = static_cast<std::uint32_t>(std::min<std::ptrdiff_t>(stop - start, 1 << 30));
-      item.text[card] = {start, size};
-      if (stop == start && card == 0) {
-        item.count(0, blank_line);
-        flush(1);
-        continue;
+      const bool comment = *start == '#' || *start == '$';
+      // Most lines are as long as the one before: no line end is looked for where they are clean up
+      // to one, for then there is none in between.
+      if (const std::uint32_t size = usual[card];
+          !comment && size > 0 && end - start > static_cast<std::ptrdiff_t>(size) &&
+          start[size] == '\n' && !is_blank(start[size - 1]) &&
+          read_cells(cards[card], start, size, item.line[card]) == 0) {
+        item.text[card] = {start, size};
+        p = start + size + 1;
+      } else {
+        const void* const nl = std::memchr(p, '\n', static_cast<std::size_t>(end - p));
+        const char* stop = nl == nullptr ? end : static_cast<const char*>(nl);
+        p = stop + 1;
+        if (comment) continue;
+        while (stop != start && is_blank(stop[-1])) --stop;
+        const auto length =
+            static_cast<std::uint32_t>(std::min<std::ptrdiff_t>(stop - start, 1 << 30));
+        item.text[card] = {start, length};
+        usual[card] = length;
+        if (stop == start && card == 0) {
+          item.count(0, blank_line);
+          flush(1);
+          continue;
+        }
+        const Unclean unclean = read_cells(cards[card], start, length, item.line[card]);
+        if (unclean != 0) inspect_line(deck, plan, card, segment.file, unclean, item);
       }
-      const Unclean unclean = read_cells(cards[card], start, size, item.line[card]);
-      if (unclean != 0) inspect_line(deck, plan, card, segment.file, unclean, item);
       if (++card < cards.size()) continue;
       card = 0;
       sink.item(plan, s, item);

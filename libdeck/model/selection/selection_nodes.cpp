@@ -139,6 +139,16 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_parts(const Block& block, std:
   for (std::uint32_t p = 0; p < tags.size(); ++p)
     if (tags[p] != 0) named.push_back(p);
   report_unread(block, named);
+  // mark() for all of them, in a loop that keeps what it needs in registers.
+  const auto mark_all = [&](const NodeIndex* n, const NodeIndex* end, std::vector<NodeIndex>& out) {
+    std::uint8_t* const stamps = stamp.data();
+    const std::uint8_t now = generation;
+    for (; n != end; ++n) {
+      if (*n == no_index || stamps[*n] == now) continue;
+      stamps[*n] = now;
+      out.push_back(*n);
+    }
+  };
   std::vector<NodeIndex> nodes;
   start_marks();
   // Family by family: a node removed with an earlier family comes back with a later one.
@@ -148,9 +158,15 @@ std::vector<NodeIndex> Selections::Impl::nodes_of_parts(const Block& block, std:
     const Elements& family = model->family(kind);
     if (family.size() == 0) continue;
     const PartElements& rows = elements_of_parts(kind);
+    const bool all_slots = family.extra.empty() && detail::carrying_nodes(kind) == family.width;
     const auto add = [&](std::size_t p, std::vector<NodeIndex>& out) {
-      for (const ElementRun& run : rows.row(p))
+      for (const ElementRun& run : rows.row(p)) {
+        if (all_slots) {
+          mark_all(family.of(run.first), family.of(run.end), out);
+          continue;
+        }
         for (std::uint32_t e = run.first; e < run.end; ++e) add_element_nodes(family, e, out);
+      }
     };
     std::size_t most = nodes.size();
     for (std::size_t p = 0; p < tags.size(); ++p)
