@@ -90,6 +90,18 @@ TEST_F(CommandLine, UnknownVerbNamesTheClosestOne) {
   EXPECT_NE(err().find("did you mean 'params'"), std::string::npos);
 }
 
+TEST_F(CommandLine, AnOptionIsNotTheValueOfTheOneBeforeIt) {
+  write(dir_ / "a_0000.rad", std::string(begin) + "/END\n");
+  EXPECT_EQ(deck("gaps a_0000.rad --json --threads 1"), 2);
+  EXPECT_NE(err().find("--json needs a value: FILE; '--threads' is an option"), std::string::npos)
+      << err();
+  EXPECT_EQ(deck("gaps a_0000.rad --json -q"), 2);
+  EXPECT_EQ(deck("lint a_0000.rad -o --threads=1"), 2);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "--threads"));
+  EXPECT_EQ(deck("gaps a_0000.rad --json ./--threads"), 0) << err();
+  EXPECT_TRUE(std::filesystem::exists(dir_ / "--threads"));
+}
+
 TEST_F(CommandLine, HelpAndVersionAreZero) {
   EXPECT_EQ(deck("--help"), 0);
   EXPECT_NE(out().find("Exit codes"), std::string::npos);

@@ -260,6 +260,24 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
   return text;
 }
 
+/// The parser gives an option the next word, whatever it is: "--json --threads 1" would write a
+/// file
+/// "--threads". Says so; empty: no value is the name of an option of the same verb.
+std::string swallowed(const CLI::App& app, const CLI::App& verb) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (!option->nonpositional()) continue;
+    for (const std::string& word : option->results())
+      if (word.size() > 1 && word.starts_with('-') &&
+          verb.get_option_no_throw(word.substr(0, word.find('='))) != nullptr)
+        return fmt::format("{} needs a value: {}; '{}' is an option (./{} if it is a file's name)",
+                           option->get_name(), value_name(option), word, word);
+  }
+  for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (group->get_name().empty())
+      if (std::string text = swallowed(*group, verb); !text.empty()) return text;
+  return {};
+}
+
 }  // namespace
 
 int wrong_usage(const std::string& verb, std::string_view message) {
@@ -276,6 +294,8 @@ Result<void> CommandLine::parse(std::vector<std::string> words) {
   } catch (const CLI::ParseError& e) {
     return Error{Error::Code::config, what_is_wrong(*app_, e)};
   }
+  if (std::string text = swallowed(*app_, *app_); !text.empty())
+    return Error{Error::Code::config, std::move(text)};
   return {};
 }
 
@@ -436,6 +456,8 @@ int run_program(int argc, char** argv, const std::string& version) {
     std::fputs(app.help().c_str(), stderr);
     return exit_usage;
   }
+  if (const std::string text = swallowed(*chosen.front(), *chosen.front()); !text.empty())
+    return wrong_usage(chosen.front()->get_name(), text);
   return actions.at(chosen.front())();
 }
 
