@@ -214,7 +214,7 @@ inline bool scan_plain_real(const char* p, const char* end, double& value) {
   if ((front & (front + 1)) != 0) return false;
   others[point / 8] ^= std::uint64_t{'.' ^ ' '} << (point % 8 * 8);
   // Signs are as good as random: no branch on them.
-  const int sign = std::max(0, std::popcount(front) - 1);
+  const int sign = std::max(0, std::countr_zero(front + 1) - 1);
   const bool negative = end[sign - 16] == '-';
   others[sign / 8] ^= static_cast<std::uint64_t>(negative) * ('-' ^ ' ') << (sign % 8 * 8);
   if ((others[0] | others[1]) != 0) return false;

@@ -2,7 +2,6 @@
 // factors that emissivities can give. One finding per deck or per interface, never per element.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -31,7 +30,7 @@ void each_side_of(std::span<const Segment> segments, F&& f) {
 /// those are held here, further ones together with the further ones of other buckets.
 struct SideBucket {
   std::array<SurfaceSide, 3> side;
-  std::uint32_t held = 0, again = 0;  ///< again: bit k if side[k] has come more than once
+  std::uint32_t held = 0, again = 0;  ///< again: bit k of three if side[k] has come more than once
 
   /// False: there is no room for it.
   bool add(const SurfaceSide& s) {
@@ -44,7 +43,7 @@ struct SideBucket {
     side[held++] = s;
     return true;
   }
-  std::size_t single() const { return held - static_cast<std::size_t>(std::popcount(again)); }
+  std::size_t single() const { return held - (again & 1) - (again >> 1 & 1) - (again >> 2); }
 };
 
 /// Sides that occur once. Sorts them.

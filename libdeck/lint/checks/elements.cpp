@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,13 +31,13 @@ struct Corners {
 /// Rounding of products of coordinates differences, as a share of the product of their lengths.
 constexpr double rounding = 1e-13;
 
-/// Corners of an element; false: one of its nodes is missing.
-bool corners_of(const Model& m, const Elements& family, std::size_t e, Corners& out) {
-  const NodeIndex* n = family.of(e);
-  out.count = static_cast<std::size_t>(family.width);
-  for (std::size_t i = 0; i < out.count; ++i) {
-    if (n[i] >= m.nodes.size()) return false;
-    out.at[i] = {m.nodes.x[n[i]], m.nodes.y[n[i]], m.nodes.z[n[i]]};
+/// Corners of an element of `width` nodes; false: one of its nodes is missing.
+template <class Width>
+bool corners_of(const Nodes& nodes, const NodeIndex* n, Width width, Corners& out) {
+  out.count = width;
+  for (std::size_t i = 0; i < width; ++i) {
+    if (n[i] >= nodes.size()) return false;
+    out.at[i] = {nodes.x[n[i]], nodes.y[n[i]], nodes.z[n[i]]};
   }
   return true;
 }
@@ -72,12 +73,19 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
                std::string_view what, std::string_view lack, Bad&& bad) {
   const Model& m = *c.model;
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> found;  // part: count, first
-  Corners p;
-  for (std::size_t e = 0; e < family.size(); ++e) {
-    if (!corners_of(m, family, e, p) || !bad(p)) continue;
-    auto& [count, first] = found[family.part[e]];
-    if (count++ == 0) first = static_cast<std::uint32_t>(e);
-  }
+  const auto walk = [&](auto width) {
+    Corners p;
+    for (std::size_t e = 0, size = family.size(); e < size; ++e) {
+      if (!corners_of(m.nodes, family.of(e), width, p) || !bad(p)) continue;
+      auto& [count, first] = found[family.part[e]];
+      if (count++ == 0) first = static_cast<std::uint32_t>(e);
+    }
+  };
+  // The loop that most decks spend their time in knows its width.
+  if (family.width == 4)
+    walk(std::integral_constant<std::size_t, 4>());
+  else
+    walk(static_cast<std::size_t>(family.width));
   for (const auto& [part, tally] : found) {
     const std::string of = part == no_index ? "" : " of part " + std::to_string(m.parts[part].id);
     r.report(rule, m.element_span(family.kind, tally.second),
@@ -89,7 +97,8 @@ void count_bad(const LintContext& c, const Rule& rule, Reporter& r, const Elemen
 void check_area(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr) return;
   const auto each_family = [&](const Elements& family, std::string_view what) {
-    count_bad(c, rule, r, family, what, "without area", without_area);
+    count_bad(c, rule, r, family, what, "without area",
+              [](const Corners& p) { return without_area(p); });
   };
   each_family(c.model->shell4, "shell");
   each_family(c.model->shell3, "triangular shell");
