@@ -38,7 +38,7 @@ if(LIBDECK_WERROR)
                          # g++ 12 sees copies that overlap or end outside in std::string + literal
                          # (GCC bug 105651).
                          $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds>)
-else() # looking for them is a tenth of the compiler's work, and nobody reads them
+else() # nobody reads them
   target_compile_options(deck_warnings INTERFACE -w)
 endif()
 
