@@ -260,9 +260,8 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
   return text;
 }
 
-/// The parser gives an option the next word, whatever it is: "--json --threads 1" would write a
-/// file
-/// "--threads". Says so; empty: no value is the name of an option of the same verb.
+/// The parser gives an option the next word, whatever it is: "--json --threads 1" would write into
+/// a file of that name. Says so; empty: no value is the name of an option of the same verb.
 std::string swallowed(const CLI::App& app, const CLI::App& verb) {
   for (const CLI::Option* option : app.get_options()) {
     if (!option->nonpositional()) continue;
