@@ -182,15 +182,27 @@ class VersionRewriter {
     VersionRewriter* findings;          ///< this or nullptr
   };
 
+  /// True if the line is missing in the old block, too: a round that ends amid its lines.
+  static bool cut_short(const Compose& compose, const NewLine& line) {
+    if (line.card->repeat != Repeat::group || !line.card->in_version(compose.block.version))
+      return false;
+    const std::vector<DecodedCard>& old = compose.decoded.cards;
+    const auto begun = std::find_if(old.begin(), old.end(), [&](const DecodedCard& card) {
+      return card.schema->repeat == Repeat::group && card.round == line.round;
+    });
+    return begun != old.end() && holds(line.card->when, compose.decoded, &*begun);
+  }
+
   /// The lines of the new layout, in order, as far as the old block goes. What follows the last
   /// line that is there: a new line right behind it is needed, so that the block is complete;
-  /// behind a missing one nothing is.
+  /// behind a missing one, or one that the old block lacks as well, nothing is.
   std::vector<NewLine> plan(const Compose& compose) const {
     std::vector<NewLine> plan = *compose.lines;
     std::size_t last = plan.size();
     while (last > 0 && (plan[last - 1].old == nullptr || plan[last - 1].old->missing())) --last;
     if (last == 0) return {};
-    while (last < plan.size() && plan[last].old == nullptr) ++last;
+    while (last < plan.size() && plan[last].old == nullptr && !cut_short(compose, plan[last]))
+      ++last;
     while (last > 0 && plan[last - 1].old == nullptr && plan[last - 1].card->optional &&
            text_of(compose, plan[last - 1]).empty())
       --last;
