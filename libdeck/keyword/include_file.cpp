@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "deck/base/paths.hpp"
 #include "deck/text/similar_file.hpp"
 #include "keyword/reader.hpp"
 
@@ -43,15 +44,14 @@ std::string include_path(std::string_view bytes, std::uint64_t& pos) {
 
 IncludeCandidates::IncludeCandidates(const std::string& written,
                                      const std::vector<std::string>& directories) {
-  const auto consider = [&](const fs::path& p) {
-    std::string text = p.lexically_normal().string();
+  const auto consider = [&](std::string text) {
     if (std::find(all_.begin(), all_.end(), text) == all_.end()) all_.push_back(std::move(text));
   };
-  const fs::path path(written);
-  if (path.is_absolute())
-    consider(path);
+  if (written.starts_with('/'))
+    consider(normal_path(written));
   else
-    for (const std::string& directory : directories) consider(fs::path(directory) / path);
+    for (const std::string& directory : directories)
+      consider(normal_path(directory.empty() ? written : directory + '/' + written));
   places_ = all_.size();
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "deck/base/paths.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/model/coverage.hpp"
 #include "lint/attach_fixes.hpp"
@@ -258,11 +259,7 @@ Diagnostic* Reporter::report(const Rule& rule, const Block& block, Span span, st
   return d;
 }
 
-std::string finding_file(const std::string& path) {
-  std::error_code ec;
-  const std::filesystem::path absolute = std::filesystem::absolute(path, ec);
-  return (ec ? std::filesystem::path(path) : absolute).lexically_normal().string();
-}
+std::string finding_file(const std::string& path) { return absolute_path(path); }
 
 std::string fingerprint(const Deck& deck, const Diagnostic& d) {
   std::uint64_t hash = fnv1a(0xcbf29ce484222325ULL, id_text(d.rule));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "deck/base/paths.hpp"
+
 namespace deck::detail {
 
 Place place_of(const LintedDeck& linted, const Span& span) {
@@ -61,8 +63,7 @@ std::string SourceRoot::place(std::string_view file) const {
   if (root_.empty())
     while (file.starts_with("./")) file.remove_prefix(2);
   if (root_.empty() || file == "-") return std::string(file);
-  std::error_code ec;
-  const fs::path whole = fs::absolute(file, ec).lexically_normal();
+  const fs::path whole = absolute_path(std::string(file));
   const fs::path relative = whole.lexically_relative(root_);
   const bool below = !relative.empty() && *relative.begin() != "..";
   return (below ? relative : whole).generic_string();

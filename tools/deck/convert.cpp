@@ -12,6 +12,7 @@
 #include "common.hpp"
 #include "convert_steps.hpp"
 #include "deck/base/escape.hpp"
+#include "deck/base/paths.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/edit/changed_values.hpp"
 #include "deck/edit/from_json.hpp"
@@ -226,7 +227,7 @@ std::vector<fs::path> document_names(const Run& run) {
     return !relative.empty() && *relative.begin() != "..";
   };
   for (const auto& [deck, text, below_root] : run.documents) {
-    places.push_back(fs::absolute(deck == "-" ? "stdin" : without_gz(deck)).lexically_normal());
+    places.push_back(absolute_path(deck == "-" ? "stdin" : without_gz(deck)));
     places.back().replace_extension(".json");
     names.push_back(places.back().filename());
     if (places.size() == 1) shared = places.back().parent_path();
@@ -312,8 +313,7 @@ int add_document(Run& run, const Conversion& c, const SchemaSet& schemas) {
       made.deck == "-" ? "stdin.json" : fs::path(without_gz(made.deck)).stem().string() + ".json";
   if (!run.changes.root().empty())
     made.below_root = name =
-        (fs::absolute(made.deck).lexically_normal().parent_path().lexically_relative(
-             run.changes.root()) /
+        (fs::path(parent_path(absolute_path(made.deck))).lexically_relative(run.changes.root()) /
          name)
             .lexically_normal();
   if (BatchFrame* frame = batch_frame()) frame->decks[made.deck].target = name.string();
@@ -380,7 +380,7 @@ void unite(std::vector<LossEntry>& losses) {
                       std::string, std::string, std::string, Loss>>
       seen;
   std::erase_if(losses, [&](const LossEntry& e) {
-    const std::string file = fs::path(e.file).lexically_normal().string();
+    const std::string file = normal_path(e.file);
     return !seen.emplace(file, e.line, e.keyword, e.id, e.field, e.old_text, e.new_text, e.note,
                          e.loss)
                 .second;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "deck/base/paths.hpp"
 #include "deck/contact/join_findings.hpp"
 #include "deck/report/gaps.hpp"
 
@@ -29,10 +30,8 @@ Result<EarlierGaps> read_earlier(const std::string& path, const std::string& dec
 std::string name_in_baseline(const std::string& deck_path, const std::string& path) {
   namespace fs = std::filesystem;
   if (deck_path == "-") return deck_path;
-  std::error_code ec;
-  return fs::absolute(deck_path, ec)
-      .lexically_normal()
-      .lexically_relative(fs::absolute(path, ec).lexically_normal().parent_path())
+  return fs::path(absolute_path(deck_path))
+      .lexically_relative(parent_path(absolute_path(path)))
       .generic_string();
 }
 

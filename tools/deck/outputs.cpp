@@ -14,6 +14,7 @@
 #include <set>
 
 #include "common.hpp"
+#include "deck/base/paths.hpp"
 #include "deck/text/gzip.hpp"
 
 namespace deck::cli {
@@ -130,9 +131,7 @@ int check_outputs(const CommonOptions& options, const std::vector<std::string>& 
     struct stat status {};
     const bool device = path != "-" && stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
     if (path.empty() || device) continue;
-    std::error_code ec;
-    if (named.insert(std::filesystem::absolute(path, ec).lexically_normal().string()).second)
-      continue;
+    if (named.insert(absolute_path(path)).second) continue;
     print_error(options, "two outputs go to " +
                              (path == "-" ? std::string("standard output") : path) +
                              "; name another file for one of them");

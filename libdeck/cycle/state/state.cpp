@@ -18,29 +18,8 @@ namespace {
 
 using deck::detail::at;
 
-double distance(const Coordinates& x, NodeIndex a, NodeIndex b) {
-  const Vec d = at(x, b) - at(x, a);
-  return std::sqrt(dot(d, d));
-}
-
 bool complete(const NodeIndex* n, int count) {
   return std::find(n, n + count, no_index) == n + count;
-}
-
-int corners_of(ElementKind kind) {
-  switch (kind) {
-    case ElementKind::shell4:
-      return 4;
-    case ElementKind::shell3:
-      return 3;
-    case ElementKind::solid8:
-      return 8;
-    case ElementKind::truss:
-    case ElementKind::beam:
-      return 2;
-    default:
-      return 0;
-  }
 }
 
 /// Shares of a triangle's corners: their angles (measured on the reference solver's masses).
@@ -56,11 +35,12 @@ std::array<double, 4> corner_shares(const Coordinates& x, const NodeIndex* n) {
 
 void add_shells(const Scene& scene, ElementKind kind, std::vector<double>& mass) {
   const Elements& family = scene.model->family(kind);
-  const int corners = corners_of(kind);
+  const int corners = kind == ElementKind::shell4 ? 4 : 3;
+  const detail::ElementMasses mass_of(scene, kind);
   for (std::uint32_t e = 0; e < family.size(); ++e) {
     const NodeIndex* n = family.of(e);
     if (!complete(n, corners)) continue;
-    const double m = detail::element_mass(scene, kind, e);
+    const double m = mass_of(e);
     const std::array<double, 4> share = kind == ElementKind::shell4
                                             ? std::array<double, 4>{0.25, 0.25, 0.25, 0.25}
                                             : corner_shares(scene.coordinates, n);
@@ -71,11 +51,12 @@ void add_shells(const Scene& scene, ElementKind kind, std::vector<double>& mass)
 /// Shares of a solid's mass: the eight slots, and the mid-side nodes where the shape has some.
 void add_solids(const Scene& scene, std::vector<double>& mass) {
   const Elements& family = scene.model->solid8;
+  const detail::ElementMasses mass_of(scene, ElementKind::solid8);
   for (std::uint32_t e = 0; e < family.size(); ++e) {
     const NodeIndex* n = family.of(e);
     if (!complete(n, 8)) continue;
     const SolidShape shape = family.shape[e];
-    const double m = detail::element_mass(scene, ElementKind::solid8, e);
+    const double m = mass_of(e);
     const bool has_extra = e < family.extra.size() && family.extra[e] != no_index;
     double slot = 0.125, middle = 0.0;
     int middles = 0;
@@ -105,10 +86,11 @@ void add_solids(const Scene& scene, std::vector<double>& mass) {
 void add_lines(const Scene& scene, std::vector<double>& mass) {
   for (const ElementKind kind : {ElementKind::truss, ElementKind::beam}) {
     const Elements& family = scene.model->family(kind);
+    const detail::ElementMasses mass_of(scene, kind);
     for (std::uint32_t e = 0; e < family.size(); ++e) {
       const NodeIndex* n = family.of(e);
       if (!complete(n, 2)) continue;
-      const double half = 0.5 * detail::element_mass(scene, kind, e);
+      const double half = 0.5 * mass_of(e);
       mass[n[0]] += half;
       mass[n[1]] += half;
     }
@@ -345,21 +327,6 @@ void try_velocity(const Scene& scene, const PartVelocity& wish, State& state) {
 }
 
 }  // namespace
-
-double detail::element_mass(const Scene& scene, ElementKind kind, std::uint32_t e) {
-  const Elements& family = scene.model->family(kind);
-  const NodeIndex* n = family.of(e);
-  const int corners = corners_of(kind);
-  if (corners == 0 || !complete(n, corners)) return 0;
-  const double density = density_of(*scene.model, kind, e);
-  if (kind == ElementKind::solid8)
-    return density * solid_volume(scene.coordinates, family.shape[e], n);
-  if (corners > 2)
-    return density * deck::detail::stiffness_thickness(*scene.model, kind, e) *
-           shell_area(scene.coordinates, kind, n);
-  return density * deck::detail::section_area(*scene.model, kind, e) *
-         distance(scene.coordinates, n[0], n[1]);
-}
 
 State make_state(const Scene& scene, const std::vector<PartVelocity>& velocities) {
   State state;

@@ -9,8 +9,6 @@
 
 namespace deck::cycle::detail {
 
-/// Density of the material of an element's part; 0 where there is none.
-double density_of(const deck::Model& model, ElementKind kind, std::uint32_t e);
 /// The part that an element of a contact carrier belongs to.
 std::uint32_t part_of(const deck::Model& model, Carrier carrier, std::uint32_t element);
 
@@ -28,11 +26,59 @@ std::vector<Conductivity> conductivities(const deck::Model& model);
 double shell_area(const Coordinates& x, ElementKind kind, const NodeIndex* n);
 /// Volume from the eight slots; the one-point rule makes tetrahedra 1.5 times larger than they are.
 double solid_volume(const Coordinates& x, SolidShape shape, const NodeIndex* slots);
-/// Mass of one shell, solid, truss or beam, by the formulas of make_state; 0 where a corner is
-/// missing, and of other kinds.
-double element_mass(const Scene& scene, ElementKind kind, std::uint32_t e);
-/// What one element allows as time step (see structure_step); 1e30: any.
-double element_step(const Scene& scene, ElementKind kind, std::uint32_t e);
+/// What the parts of a model give the elements of one kind; looked up once, asked for every
+/// element.
+class OfParts {
+ public:
+  struct Row {
+    double density = 0.0;  ///< of the material, of any law
+    double young = 0.0, bulk = 0.0;
+    double thickness = 0.0, section = 0.0;  ///< of the property
+    bool moving = false;                    ///< has a material that is neither void nor rigid
+  };
+  explicit OfParts(const deck::Model& model);
+  /// Of a part index; of no_index, zeros.
+  const Row& operator[](std::uint32_t part) const {
+    return part < rows_.size() - 1 ? rows_[part] : rows_.back();
+  }
+
+ private:
+  std::vector<Row> rows_;  ///< one a part, and zeros
+};
+
+/// Masses of the shells, solids, trusses or beams of a scene, by the formulas of make_state.
+class ElementMasses {
+ public:
+  ElementMasses(const Scene& scene, ElementKind kind);
+  /// 0 where a corner is missing, and of other kinds.
+  double operator()(std::uint32_t e) const;
+
+ private:
+  const Scene& scene_;
+  ElementKind kind_;
+  const Elements& family_;
+  OfParts parts_;
+  std::size_t own_thicknesses_;  ///< how many elements have one that counts
+};
+
+/// What the elements of one kind allow as time step (see structure_step).
+class ElementSteps {
+ public:
+  ElementSteps(const Scene& scene, ElementKind kind);
+  /// 1e30: any.
+  double operator()(std::uint32_t e) const;
+
+ private:
+  double shell4(std::uint32_t e) const;
+  double shell3(std::uint32_t e) const;
+  double solid(std::uint32_t e) const;
+  double line(std::uint32_t e) const;
+
+  const Scene& scene_;
+  ElementKind kind_;
+  const Elements& family_;
+  OfParts parts_;
+};
 /// Masses of springs: what their property gives, where its Ileng is 1 times their length.
 class SpringMasses {
  public:

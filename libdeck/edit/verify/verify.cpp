@@ -20,9 +20,9 @@ std::vector<double> part_masses(const Scene& scene) {
   std::vector<double> mass(model.parts.size());
   for (const ElementKind kind : detail::verified_kinds) {
     const Elements& family = model.family(kind);
+    const cycle::detail::ElementMasses mass_of(scene, kind);
     for (std::uint32_t e = 0; e < family.size(); ++e)
-      if (const std::uint32_t part = family.part[e]; part != no_index)
-        mass[part] += cycle::detail::element_mass(scene, kind, e);
+      if (const std::uint32_t part = family.part[e]; part != no_index) mass[part] += mass_of(e);
   }
   const cycle::detail::SpringMasses spring_masses(model);
   for (std::uint32_t e = 0; e < model.spring.size(); ++e)
@@ -50,8 +50,9 @@ Behaviour::Behaviour(const EditContext& context, const VerifyOptions& options)
   p.cycle = cycle::detail::run_cycle(p.scene, p.state, cycle, options.searches);
   for (std::size_t k = 0; k < detail::verified_kinds.size(); ++k) {
     const ElementKind kind = detail::verified_kinds[k];
-    for (std::uint32_t e = 0; e < context.model.family(kind).size(); ++e)
-      p.steps[k].push_back(cycle::detail::element_step(p.scene, kind, e));
+    const cycle::detail::ElementSteps step(p.scene, kind);
+    p.steps[k].resize(context.model.family(kind).size());
+    for (std::uint32_t e = 0; e < p.steps[k].size(); ++e) p.steps[k][e] = step(e);
   }
   p.part_mass = part_masses(p.scene);
   const Nodes& nodes = context.model.nodes;

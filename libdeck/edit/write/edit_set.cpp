@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "deck/base/paths.hpp"
 #include "deck/text/edits.hpp"
 #include "deck/text/gzip.hpp"
 #include "edit/write/tree.hpp"
@@ -168,7 +169,7 @@ void EditSet::propose(std::size_t deck, const Deck& now, const ChangedFiles& cha
     // A deck from memory stands where its document does.
     const std::string& place =
         now.sources[0].inode() != 0 || changed.empty() ? now.sources[0].path() : member.name;
-    folder = fs::absolute(place).lexically_normal().parent_path().lexically_relative(root_);
+    folder = fs::path(parent_path(absolute_path(place))).lexically_relative(root_);
   }
   const auto layout = detail::lay_out(now, folder);
   if (!layout) {
@@ -282,7 +283,7 @@ std::vector<std::string> EditSet::folders() const {
       if (file == member.file_of.end()) continue;
       one_place = one_place || files.emplace(relative, file->second).first->second != file->second;
     }
-    above.push_back(fs::absolute(member.main).lexically_normal().parent_path());
+    above.push_back(parent_path(absolute_path(member.main)));
     for (fs::path p = target.parent_path(); !p.empty(); p = p.parent_path())
       above.back() = above.back().parent_path();
     if (above.size() == 1) shared = above.back();
@@ -313,8 +314,7 @@ Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
       const Use* use = use_of(d, path);
       if (use == nullptr) return Error{Error::Code::internal, path + " was not read before"};
       const File& file = files_[member.file_of.at(path)];
-      const std::string target =
-          (fs::path(directory) / folder[d] / relative).lexically_normal().string();
+      const std::string target = normal_path((fs::path(directory) / folder[d] / relative).string());
       const auto [it, is_new] = targets.try_emplace(target, &file, use);
       if (is_new) continue;
       const auto& [other, other_use] = it->second;

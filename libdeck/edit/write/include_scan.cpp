@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "deck/base/paths.hpp"
 #include "deck/text/source.hpp"
 #include "keyword/include_file.hpp"
 
@@ -53,12 +54,11 @@ std::vector<IncludeScan::File> IncludeScan::files(const std::string& deck) {
   std::set<std::string> seen;
   const auto identity = regular_file(deck);
   if (!identity) return out;
-  const std::string main_directory = fs::path(deck).parent_path().string();
+  const std::string main_directory(parent_path(deck));
   out.push_back({deck, *identity});
-  seen.insert(fs::path(deck).lexically_normal().string());
+  seen.insert(normal_path(deck));
   for (std::size_t i = 0; i < out.size() && out.size() < 10000; ++i) {
-    std::vector<std::string> directories = {fs::path(out[i].path).parent_path().string(),
-                                            main_directory};
+    std::vector<std::string> directories = {std::string(parent_path(out[i].path)), main_directory};
     directories.insert(directories.end(), include_paths_.begin(), include_paths_.end());
     for (const std::string& name : written(out[i])) {
       detail::IncludeCandidates places(name, directories);

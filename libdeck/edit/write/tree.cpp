@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "deck/base/paths.hpp"
+
 namespace deck::detail {
 namespace {
 
@@ -34,14 +36,15 @@ std::vector<fs::path> relative_places(const Deck& deck, Layout& layout) {
       layout.outside.push_back(opened);
       continue;
     }
-    const auto opened_below = [&](const fs::path& directory) {
-      const std::string found = (directory / written).lexically_normal().string();
+    const auto opened_below = [&](std::string_view directory) {
+      const std::string found =
+          normal_path(directory.empty() ? e.written : std::string(directory) + '/' + e.written);
       return found == opened || (deck.sources[e.file].packed() && found + ".gz" == opened);
     };
-    const bool from_main = !opened_below(fs::path(deck.sources[e.parent].path()).parent_path()) &&
-                           opened_below(main.parent_path());
+    const bool from_main = !opened_below(parent_path(deck.sources[e.parent].path())) &&
+                           opened_below(parent_path(deck.sources[0].path()));
     const fs::path base = from_main ? fs::path() : place[e.parent].parent_path();
-    place[e.file] = (base / written).lexically_normal();
+    place[e.file] = normal_path((base / written).native());
     known[e.file] = true;
   }
   return place;
@@ -57,7 +60,7 @@ Result<Layout> lay_out(const Deck& deck, const std::optional<fs::path>& folder) 
   // Files above the main file's directory: the main file moves down into directories of the same
   // names, so that ".." leads where it should.
   fs::path prefix = folder.value_or(fs::path());
-  fs::path dir = fs::absolute(deck.sources[0].path()).lexically_normal().parent_path();
+  fs::path dir = parent_path(absolute_path(deck.sources[0].path()));
   for (int i = 0; i < up && !folder; ++i) {
     if (!dir.has_relative_path())
       return Error{Error::Code::config,
@@ -67,7 +70,7 @@ Result<Layout> lay_out(const Deck& deck, const std::optional<fs::path>& folder) 
   }
   for (std::uint32_t f = 0; f < places.size(); ++f) {
     if (places[f].empty()) continue;
-    const fs::path target = (prefix / places[f]).lexically_normal();
+    const fs::path target = normal_path((prefix / places[f]).native());
     if (climbs(target) > 0)
       return Error{Error::Code::config, deck.sources[f].path() +
                                             " lies above the directory whose tree is written; " +

@@ -7,6 +7,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "deck/base/paths.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/report/json.hpp"
 #include "keyword/deck_json_cells.hpp"
@@ -32,24 +33,24 @@ std::vector<std::string> places(const Deck& deck) {
     if (written.is_absolute() || !known[e.parent]) continue;
     const std::string& opened = deck.sources[e.file].path();
     const fs::path beside = fs::path(deck.sources[e.parent].path()).parent_path() / written;
-    const bool from_main = beside.lexically_normal().string() != opened &&
-                           (main.parent_path() / written).lexically_normal().string() == opened;
+    const bool from_main = normal_path(beside.native()) != opened &&
+                           normal_path((main.parent_path() / written).native()) == opened;
     const fs::path base = from_main ? fs::path() : place[e.parent].parent_path();
-    place[e.file] = (base / written).lexically_normal();
+    place[e.file] = normal_path((base / written).native());
     known[e.file] = true;
   }
   // Files above the main file: it moves down into directories of the names it stands in.
   std::ptrdiff_t up = 0;
   for (const fs::path& p : place) up = std::max(up, std::count(p.begin(), p.end(), fs::path("..")));
   fs::path prefix;
-  fs::path dir = fs::absolute(main).lexically_normal().parent_path();
+  fs::path dir = parent_path(absolute_path(main.native()));
   for (std::ptrdiff_t i = 0; i < up; ++i, dir = dir.parent_path()) {
     const fs::path name = dir.has_relative_path() ? dir.filename() : fs::path("up");
     prefix = prefix.empty() ? name : name / prefix;
   }
   std::vector<std::string> out(place.size());
   for (std::size_t f = 0; f < place.size(); ++f)
-    if (known[f]) out[f] = (prefix / place[f]).lexically_normal().generic_string();
+    if (known[f]) out[f] = normal_path((prefix / place[f]).native());
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "batch/ranks.hpp"
 #include "batch/run.hpp"
 #include "batch/summary.hpp"
+#include "deck/base/paths.hpp"
 #include "writing/library.hpp"
 
 namespace deck::cli::verb_batch {
@@ -147,7 +148,7 @@ Result<void> plan_groups(const BatchOptions& o, BatchTask& task, BatchList& list
     std::set<std::string>& seen = task.seen[decks[i].path];
     for (const IncludeScan::File& f : files_of_decks.back()) {
       files.push_back(f.path);
-      seen.insert(normal_path(f.path));
+      seen.insert(absolute_path(f.path));
     }
   }
   task.frame_root = common_root(directories, files);

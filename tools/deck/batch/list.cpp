@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "deck/base/paths.hpp"
 #include "deck/edit/include_scan.hpp"
 #include "deck/text/gzip.hpp"
 #include "deck/text/number.hpp"
@@ -186,7 +187,7 @@ Result<BatchList> list_decks(const std::vector<std::string>& given, const std::s
   std::error_code ec;
   for (const std::string& path : *found) {
     decks.push_back({path, {}});
-    paths.push_back(fs::absolute(path, ec).lexically_normal());
+    paths.push_back(absolute_path(path));
   }
   const auto names = result_names(paths);
   for (std::size_t i = 0; i < decks.size(); ++i) decks[i].result = names[i] + ".json";

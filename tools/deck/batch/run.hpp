@@ -116,8 +116,6 @@ class Batch {
   int journal_ = -1, lock_ = -1;
 };
 
-/// Absolute, without . and .. and //.
-std::string normal_path(const std::string& path);
 /// Runs a verb as `deck VERB ... DECK...` would; its output goes where standard output goes.
 int run_verb(const BatchTask& task, const std::vector<std::string>& decks);
 /// The first line of what a program says on standard error.

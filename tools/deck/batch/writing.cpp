@@ -13,6 +13,7 @@
 
 #include "batch/json.hpp"
 #include "batch/run.hpp"
+#include "deck/base/paths.hpp"
 #include "deck/report/json.hpp"
 #include "deck/report/losses.hpp"
 #include "deck/text/source.hpp"
@@ -54,7 +55,7 @@ struct Notes {
 std::vector<FileState> settled(const Notes& notes, const std::vector<FileState>& read) {
   std::vector<FileState> out;
   for (const FileState& f : read) {
-    const auto found = notes.written.find(normal_path(f.path));
+    const auto found = notes.written.find(absolute_path(f.path));
     out.push_back(found == notes.written.end() ? f : found->second);
     out.back().path = f.path;
   }
@@ -62,11 +63,6 @@ std::vector<FileState> settled(const Notes& notes, const std::vector<FileState>&
 }
 
 }  // namespace
-
-std::string normal_path(const std::string& path) {
-  std::error_code ec;
-  return fs::absolute(path, ec).lexically_normal().string();
-}
 
 std::string Batch::intent_path(std::size_t group) const {
   return in_directory(".batch/" + label() + "." + decks_[groups_[group].front()].result +
@@ -113,19 +109,20 @@ std::string Batch::write_group(std::size_t group, Captured& output) const {
       const auto seen = task_.seen.find(path);
       if (seen == task_.seen.end()) continue;
       for (const FileState& f : notes.read[path])
-        if (!seen->second.contains(normal_path(f.path)))
+        if (!seen->second.contains(absolute_path(f.path)))
           return Error{Error::Code::config, f.path + ", a file of " + path +
                                                 ", was not there when the decks were grouped by "
                                                 "what they share; run the same command again"};
     }
+    const std::string directory(parent_path(absolute_path(o_.directory + "/index.html")));
     for (const OutputFile& f : files) {
-      const fs::path place = fs::path(f.path).lexically_normal();
-      if (!task_.in_place && place.parent_path() == fs::path(o_.directory).lexically_normal() &&
-          (place.filename() == "index.html" || place.filename() == "summary.json" ||
-           place.filename() == "losses.json"))
+      const std::string place = absolute_path(f.path);
+      const std::string_view name = std::string_view(place).substr(place.rfind('/') + 1);
+      if (!task_.in_place && parent_path(place) == directory &&
+          (name == "index.html" || name == "summary.json" || name == "losses.json"))
         return Error{Error::Code::config,
                      f.path + " is a file of the batch itself; give the deck another name"};
-      notes.written[normal_path(f.path)] = {f.path, f.bytes.size(), 0, content_hash(f.bytes)};
+      notes.written[place] = {f.path, f.bytes.size(), 0, content_hash(f.bytes)};
     }
     complete();
     // In place this is the record, should the writer be killed as soon as it has written.
@@ -296,7 +293,7 @@ std::vector<Record> Batch::settle_intent(const std::string& path) const {
 
 void Batch::settle_intents() {
   for (const Record& r : known_)
-    for (const FileState& f : r.outputs) written_.emplace(normal_path(f.path), f.hash);
+    for (const FileState& f : r.outputs) written_.emplace(absolute_path(f.path), f.hash);
   std::set<fs::path> intents;
   std::error_code ec;
   for (auto it = fs::directory_iterator(in_directory(".batch"), ec);
@@ -310,7 +307,7 @@ void Batch::settle_intents() {
     // Closing a file that this process has locked would give the lock up: its own is not asked for.
     if (owner != label() && is_at_work(in_directory(".batch/" + owner + ".lock"))) continue;
     for (Record& r : settle_intent(intent.string())) {
-      for (const FileState& f : r.outputs) written_.emplace(normal_path(f.path), f.hash);
+      for (const FileState& f : r.outputs) written_.emplace(absolute_path(f.path), f.hash);
       // In place, a conversion that came to its end must not be done twice, and one that did not
       // was none. Fixes find nothing to do.
       bool done = !task_.in_place;
@@ -331,7 +328,7 @@ void Batch::settle_intents() {
 
 bool Batch::is_ours(const std::string& path) const {
   const auto state = file_state(path);
-  return state && written_.contains({normal_path(path), state->hash});
+  return state && written_.contains({absolute_path(path), state->hash});
 }
 
 void Batch::remove_leftovers() const {
@@ -340,23 +337,23 @@ void Batch::remove_leftovers() const {
   // A group of decks has one result; which groups there are may have been another time's guess.
   for (const Record& r : records_) {
     results.insert(r.result);
-    for (const FileState& f : r.outputs) outputs.insert(normal_path(f.path));
+    for (const FileState& f : r.outputs) outputs.insert(absolute_path(f.path));
   }
   std::set<std::string> ours;
   for (const BatchDeck& d : decks_) ours.insert(as_utf8(d.path));
   for (const Record& r : known_)  // of other shards
     if (listed.contains(r.deck) && !ours.contains(r.deck)) {
       results.insert(r.result);
-      for (const FileState& f : r.outputs) outputs.insert(normal_path(f.path));
+      for (const FileState& f : r.outputs) outputs.insert(absolute_path(f.path));
     }
   Freshness freshness;
-  const std::string root = normal_path(o_.directory) + "/";
+  const std::string root = absolute_path(o_.directory) + "/";
   for (const Record& r : known_) {
     if (!r.result.empty() && !results.contains(r.result) && r.result.find('/') == std::string::npos)
       if (const auto now = file_state(in_directory(r.result)); now && now->hash == r.hash)
         unlink(in_directory(r.result).c_str());
     for (const FileState& f : r.outputs) {
-      const std::string path = normal_path(f.path);
+      const std::string path = absolute_path(f.path);
       if (outputs.contains(path) || !path.starts_with(root) || !freshness.unchanged(f)) continue;
       unlink(path.c_str());
       std::error_code ec;  // directories that are empty now

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "deck/base/escape.hpp"
+#include "deck/base/paths.hpp"
 
 namespace deck::lsp {
 namespace {
@@ -150,7 +151,7 @@ std::string path_of_uri(std::string_view uri) {
     }
   }
   if (path.find('\0') != path.npos) return {};
-  return std::filesystem::path(path).lexically_normal().string();
+  return normal_path(path);
 }
 
 std::string uri_of_path(std::string_view path) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "deck/base/paths.hpp"
 #include "deck/text/gzip.hpp"
 
 namespace deck::lsp {
@@ -86,16 +87,15 @@ bool Workspace::reaches(const std::string& root, const std::string& path) {
   if (std::error_code ec; starter_of_engine_file(path) == root && fs::exists(root, ec)) return true;
   IncludeScan scan(settings_.include_paths);
   const auto files = scan.files(root);
-  return std::any_of(files.begin(), files.end(), [&](const IncludeScan::File& f) {
-    return fs::path(f.path).lexically_normal() == path;
-  });
+  return std::any_of(files.begin(), files.end(),
+                     [&](const IncludeScan::File& f) { return normal_path(f.path) == path; });
 }
 
 /// Starter decks beside and above the file and in the folders of the client.
 std::vector<std::string> Workspace::candidates(const std::string& path) const {
   std::vector<std::string> out;
   const auto consider = [&](const fs::path& p) {
-    const std::string text = p.lexically_normal().string();
+    const std::string text = normal_path(p.native());
     if (out.size() < most_candidates && has_starter_name(p) &&
         std::find(out.begin(), out.end(), text) == out.end())
       out.push_back(text);

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "deck/base/escape.hpp"
+#include "deck/base/paths.hpp"
 #include "writing/library.hpp"
 
 namespace deck::cli {
@@ -118,7 +119,7 @@ Result<void> Changes::read_back(const std::vector<OutputFile>& files) const {
   if (!choice_.read_back) return {};
   Overlay overlay;
   for (const OutputFile& f : files) {
-    overlay.insert_or_assign(fs::path(f.path).lexically_normal().string(), std::string(f.bytes));
+    overlay.insert_or_assign(normal_path(f.path), std::string(f.bytes));
     overlay.insert_or_assign(f.path, std::string(f.bytes));  // a main file is opened as it is named
   }
   ReadOptions read;
@@ -128,7 +129,7 @@ Result<void> Changes::read_back(const std::vector<OutputFile>& files) const {
     const std::string main =
         choice_.in_place
             ? set_.main_path(d)
-            : (fs::path(choice_.directory) / set_.main_target(d)).lexically_normal().string();
+            : normal_path((fs::path(choice_.directory) / set_.main_target(d)).native());
     const auto deck = read_deck(main, SchemaSet::built_in(), read);
     if (!deck) return deck.error();
     if (const std::string why = set_.read_back_difference(d, *deck); !why.empty())

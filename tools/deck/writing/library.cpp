@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "deck/base/paths.hpp"
 #include "deck/keyword/engine_file.hpp"
 #include "deck/text/gzip.hpp"
 
@@ -16,8 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path absolute_of(const std::string& path) {
-  std::error_code ec;
-  fs::path out = fs::absolute(path, ec).lexically_normal();
+  fs::path out = absolute_path(path);
   return out.has_filename() ? out : out.parent_path();  // "models/" is models
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "deck/base/paths.hpp"
 #include "deck/contact/resolve.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/model/interfaces.hpp"
@@ -19,10 +20,6 @@
 
 namespace deck::detail {
 namespace {
-
-std::string normal(const std::string& path) {
-  return std::filesystem::path(path).lexically_normal().generic_string();
-}
 
 std::string quoted_names(const std::vector<std::string>& names) {
   return names.empty() ? "none" : fmt::format("\"{}\"", fmt::join(names, "\", \""));
@@ -62,7 +59,7 @@ class Checker {
     headers_.resize(deck_.sources.size());
     stretches_.resize(deck_.sources.size());
     for (std::uint32_t f = 0; f < deck_.sources.size(); ++f)
-      source_of_.emplace(normal(deck_.sources[f].path()), f);
+      source_of_.emplace(normal_path(deck_.sources[f].path()), f);
     for (std::size_t b = 0; b < deck_.blocks.size(); ++b) {
       const Block& block = deck_.blocks[b];
       const Source& source = deck_.sources[block.header_span.file];
@@ -80,7 +77,7 @@ class Checker {
   // ---- files --------------------------------------------------------------------------------
 
   void file(const Json& json, const Path& path) {
-    const auto it = source_of_.find(normal(json["path"].get<std::string>()));
+    const auto it = source_of_.find(normal_path(json["path"].get<std::string>()));
     if (it == source_of_.end()) fail({&path, "path"}, "no #include of the deck leads to this file");
     source_ = it->second;
     latin1_ = is_latin1(json, path);
@@ -115,7 +112,7 @@ class Checker {
     for (const IncludeEdge& e : deck_.includes) {
       if (e.parent != source_ || e.directive.offset < begin || e.directive.offset >= at_) continue;
       const std::string& found = deck_.sources[e.file].path();
-      if (normal(found) != normal(target))
+      if (normal_path(found) != normal_path(target))
         fail(path, fmt::format("\"{}\", but the line includes \"{}\"", target, found));
       return;
     }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "deck/base/paths.hpp"
 #include "edit/convert/json/check.hpp"
 #include "edit/convert/json/file_writer.hpp"
 #include "keyword/deck_json_cells.hpp"
@@ -41,8 +42,7 @@ std::vector<DeckFile> read_document(const Json& root, const SchemaSet& schemas,
     const Path path{&files, {}, i};
     if (is_external(list[i], path)) continue;
     out.push_back(write_file(list[i], path, schemas, options, losses));
-    const std::filesystem::path name(out.back().path);
-    if (!names.insert(name.lexically_normal().string()).second)
+    if (!names.insert(normal_path(out.back().path)).second)
       fail({&path, "path"}, "a second file of that name");
   }
   if (out.empty()) fail(files, "no file with content");

@@ -1,0 +1,54 @@
+// Paths taken from their text are those of std::filesystem.
+#include "deck/base/paths.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+
+namespace deck {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A path of a few parts, with everything that cancels out. Not separators alone, of which the
+/// standard library keeps two.
+std::string random_path(std::mt19937& random) {
+  static const std::vector<std::string> parts{"a", "bc", ".", "..", "..", "", ".d", "..e", "f."};
+  std::string path = random() % 3 == 0 ? "/" : "";
+  for (std::size_t n = random() % 7; n > 0; --n) {
+    path += parts[random() % parts.size()];
+    if (n > 1 || random() % 3 == 0) path += '/';
+  }
+  return path.find_first_not_of('/') == path.npos ? path.substr(0, 1) : path;
+}
+
+TEST(Paths, NormalOnesAreThoseOfTheStandardLibrary) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 200000; ++i) {
+    const std::string path = random_path(random);
+    ASSERT_EQ(normal_path(path), fs::path(path).lexically_normal().string()) << path;
+  }
+}
+
+TEST(Paths, AbsoluteOnesStartFromTheWorkingDirectory) {
+  std::mt19937 random(8);
+  for (int i = 0; i < 2000; ++i) {
+    const std::string path = random_path(random);
+    std::error_code failed;
+    const fs::path whole = fs::absolute(path, failed);
+    ASSERT_EQ(absolute_path(path), (failed ? fs::path(path) : whole).lexically_normal().string())
+        << path;
+  }
+}
+
+TEST(Paths, ParentsOfNormalOnesAreThoseOfTheStandardLibrary) {
+  std::mt19937 random(9);
+  for (int i = 0; i < 20000; ++i) {
+    const std::string path = normal_path(random_path(random));
+    ASSERT_EQ(parent_path(path), fs::path(path).parent_path().string()) << path;
+  }
+}
+
+}  // namespace
+}  // namespace deck
