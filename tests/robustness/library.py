@@ -89,6 +89,26 @@ def as_by_hand(c, tmp):
     c.check("to JSON and back: every byte", r.code == 0 and b.code == 0 and decks_of(both[1]) == tree(lib), r.text[-200:] + b.text[-200:])
 
 
+def own_names(c, tmp):
+    """An include of the name of a result of the batch is refused, however the directory is written."""
+    lib = os.path.join(tmp, "nlib")
+    library(lib, 1, 1)
+    deck = os.path.join(lib, "deck_0000.rad")
+    with open(os.path.join(lib, "family000", "deck00", "car00_0000.rad")) as f:
+        text = f.read().replace("../common/mat.inc", "summary.json").replace("../common/", "family000/common/")
+    with open(deck, "w") as f:
+        f.write(text)
+    os.rename(os.path.join(lib, "family000", "common", "mat.inc"), os.path.join(lib, "summary.json"))
+    os.mkdir(os.path.join(tmp, "x"))
+    for written in ("nout", "nout/", "./nout//", "x/../nout"):
+        out = os.path.join(tmp, written)
+        r = c.run("batch", "-o", out, deck, "--verb", "convert --units kg,m,s")
+        with open(os.path.join(tmp, "nout", "summary.json")) as f:
+            summary = f.read()
+        c.check("-o %s: the summary is the batch's own" % written, r.code != 0 and "a file of the batch itself" in r.text and
+                summary.startswith("{"), "%s %s" % (r.code, r.text[-300:]))
+
+
 def divided(c, tmp):
     """Shards keep decks that share files together, and merge into the same bytes."""
     lib, one, out = (os.path.join(tmp, n) for n in ("dlib", "one", "parts"))
@@ -405,6 +425,7 @@ def main():
     tmp = tempfile.mkdtemp(prefix="deck-library-")
     try:
         as_by_hand(c, tmp)
+        own_names(c, tmp)
         divided(c, tmp)
         together_or_not(c, tmp)
         in_place(c, tmp)
