@@ -1,7 +1,9 @@
 // Several decks of one call, files that others work on, and outputs over decks: nobody's bytes are
 // lost.
 #include <sys/stat.h>
+#include <sys/xattr.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tools/command_line.hpp"
@@ -164,6 +166,48 @@ TEST_F(Together, AnotherDeckInTheDirectoryIsReplacedOnlyOnRequest) {
   EXPECT_EQ(deck("convert a/a_0000.rad -o out --overwrite"), 0) << err();
   EXPECT_EQ(read(dir_ / "out/a/a_0000.rad"), main_deck(""));
   EXPECT_EQ(deck("convert a/a_0000.rad -o out"), 0) << "the same bytes are no obstacle" << err();
+}
+
+/// Whether the file system keeps what an output was made from.
+bool has_attributes(const fs::path& directory) {
+  const std::string path = (directory / "probe").string();
+  write(path, "x");
+  return setxattr(path.c_str(), "user.libdeck.probe", "x", 1, 0) == 0;
+}
+
+TEST_F(Together, AResultThatNobodyChangedIsMadeAnew) {
+  const int again = has_attributes(dir_) ? 0 : 2;
+  ASSERT_EQ(deck("convert a/a_0000.rad -o out"), 0) << err();
+  write(dir_ / "a/a_0000.rad", main_deck("/TITLE\nnewer\n"));
+  EXPECT_EQ(deck("convert a/a_0000.rad -o out"), again) << err();
+  EXPECT_EQ(read(dir_ / "out/a/a_0000.rad"), main_deck(again == 0 ? "/TITLE\nnewer\n" : ""));
+}
+
+TEST_F(Together, AResultThatSomebodyChangedIsNotReplaced) {
+  ASSERT_EQ(deck("convert a/a_0000.rad -o out"), 0) << err();
+  const std::string edited = main_deck("/TITLE\nby hand\n");
+  // Written into the file, as some editors do: its attributes stay.
+  std::fstream(dir_ / "out/a/a_0000.rad", std::ios::in | std::ios::out) << edited;
+  fs::resize_file(dir_ / "out/a/a_0000.rad", edited.size());
+  write(dir_ / "a/a_0000.rad", main_deck("/TITLE\nnewer\n"));
+  EXPECT_EQ(deck("convert a/a_0000.rad -o out"), 2);
+  EXPECT_NE(err().find("--overwrite"), std::string::npos) << err();
+  EXPECT_EQ(read(dir_ / "out/a/a_0000.rad"), edited);
+}
+
+TEST_F(Together, TheResultOfAnotherDeckIsNotReplaced) {
+  ASSERT_EQ(deck("convert a/a_0000.rad -o out"), 0) << err();
+  const std::string made = read(dir_ / "out/a/a_0000.rad");
+  write(dir_ / "x/a/a_0000.rad", main_deck("/TITLE\nanother\n"));
+  write(dir_ / "x/common/x.inc", contact);
+  EXPECT_EQ(deck("convert x/a/a_0000.rad -o out"), 2);
+  EXPECT_EQ(read(dir_ / "out/a/a_0000.rad"), made);
+}
+
+TEST_F(Together, AResultThatIsReadIsNotReplaced) {
+  ASSERT_EQ(deck("convert a/a_0000.rad -o out"), 0) << err();
+  EXPECT_EQ(deck("convert a/a_0000.rad out/a/a_0000.rad -o out --units kg,m,s"), 2);
+  EXPECT_EQ(read(dir_ / "out/a/a_0000.rad"), main_deck(""));
 }
 
 TEST_F(Together, AnotherDeckOfTheCallIsNotTheTarget) {

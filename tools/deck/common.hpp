@@ -178,9 +178,11 @@ void remember_read(const SourceSet& sources);
 void remember_read(const Source& source);
 void remember_read(const std::string& path);
 /// Error: the path is an existing file that the rules protect. Without `bytes` what will be written
-/// is not known yet; a file that holds it already is no obstacle.
+/// is not known yet; a file that holds it already is no obstacle, nor, in a tree of decks, one that
+/// was made from the same `origin` and that nobody has changed since.
 Result<void> check_output(const std::string& path, const OutputRules& rules = {},
-                          std::optional<std::string_view> bytes = std::nullopt);
+                          std::optional<std::string_view> bytes = std::nullopt,
+                          std::string_view origin = {});
 /// The same for the files named on a command line, before the work begins; "" and "-" are none.
 /// Nor may two outputs go to one place. Says what is wrong and returns exit_usage, or exit_clean.
 int check_outputs(const CommonOptions& options, const std::vector<std::string>& paths);

@@ -525,8 +525,10 @@ Action setup(CommandLine& line) {
               "Directory to write to; made if missing. The include tree keeps its relative "
               "names. With --to json also FILE.json")
       .value("DIR");
-  line.flag("--overwrite", options->write.overwrite,
-            "With -o: replace decks and includes that lie in DIR already and differ");
+  line.flag(
+      "--overwrite", options->write.overwrite,
+      "With -o: replace decks and includes that lie in DIR already and differ (results of the "
+      "same files that nobody has changed since are made anew without it)");
   line.flag("--in-place", options->write.in_place, "Change the files of the deck");
   line.flag("--backup{.orig}", options->write.backup_suffix,
             "With --in-place: keep the old file under its name plus .orig (--backup=SUFFIX); a "

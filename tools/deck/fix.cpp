@@ -334,8 +334,10 @@ Action setup(CommandLine& line) {
   line.flag("--backup", o.backup,
             "With --in-place: keep each old file as FILE.orig (a backup is never replaced: then "
             "FILE.orig.2)");
-  line.flag("--overwrite", o.write.overwrite,
-            "With -o: replace decks and includes that lie in DIR already and differ");
+  line.flag(
+      "--overwrite", o.write.overwrite,
+      "With -o: replace decks and includes that lie in DIR already and differ (results of the "
+      "same files that nobody has changed since are made anew without it)");
   add_dependent_options(line, o.write);
   line.option("--html", o.html,
               "Write a report with the deck as it is fixed, compared with before, to FILE")

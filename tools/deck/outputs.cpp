@@ -95,7 +95,7 @@ void remember_read(const std::string& path) {
 }
 
 Result<void> check_output(const std::string& path, const OutputRules& rules,
-                          std::optional<std::string_view> bytes) {
+                          std::optional<std::string_view> bytes, std::string_view origin) {
   struct stat status {};
   if (path.empty() || path == "-") return {};
   const auto look = rules.follow_links ? stat : lstat;
@@ -111,6 +111,7 @@ Result<void> check_output(const std::string& path, const OutputRules& rules,
                                               : "this call reads it, as " + read->second);
   }
   if (rules.overwrite || (rules.ours && rules.ours(path))) return {};
+  if (rules.deck_tree && is_unchanged_output(path, origin)) return {};
   if (!file_looks_like_deck(path)) return {};
   if (bytes && holds(path, static_cast<std::uint64_t>(status.st_size), *bytes)) return {};
   if (rules.deck_tree)
@@ -148,7 +149,7 @@ Result<void> write_outputs(const std::vector<OutputFile>& files, const OutputRul
 
 Result<void> check_outputs(const std::vector<OutputFile>& files, const OutputRules& rules) {
   for (const OutputFile& f : files)
-    if (auto allowed = check_output(f.path, rules, f.bytes); !allowed) return allowed;
+    if (auto allowed = check_output(f.path, rules, f.bytes, f.origin); !allowed) return allowed;
   return {};
 }
 

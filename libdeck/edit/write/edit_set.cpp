@@ -330,7 +330,9 @@ Result<EditSet::Plan> EditSet::tree(const std::string& directory) const {
   }
   for (const auto& [target, source] : targets) {
     const std::string& text = source.first->texts[source.second->text];
+    const std::string& from = source.second->path;
     plan.files.push_back({target, as_written(plan, text, has_gz_name(target))});
+    if (from != "-") plan.files.back().origin = absolute_path(from);
   }
   plan.outside.assign(outside.begin(), outside.end());
   return plan;

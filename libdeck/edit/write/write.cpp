@@ -184,6 +184,7 @@ class Transaction {
     std::string_view bytes;
     WritePieces pieces;
     std::optional<FileRead> read;
+    std::string origin;
     struct stat old {
     }, fresh{};
     bool exists = false, special = false, placed = false;
@@ -232,6 +233,7 @@ Result<void> Transaction::prepare(const OutputFile& file) {
   entry.bytes = file.bytes;
   entry.pieces = file.pieces;
   entry.read = file.read;
+  entry.origin = file.origin;
   // Before links are followed: those of /proc (/dev/stdout) lead to no path.
   entry.special = options_.follow_links && stat(file.path.c_str(), &entry.old) == 0 &&
                   !S_ISREG(entry.old.st_mode) && !S_ISDIR(entry.old.st_mode);
@@ -291,6 +293,7 @@ Result<void> Transaction::write_new(Entry& entry) {
     close(fd);
     return written;
   }
+  if (!entry.pieces) note_origin(fd, entry.origin, entry.bytes);
   if (options_.sync && !flush(fd)) return fail("cannot flush");
   if (fstat(fd, &entry.fresh) != 0) return fail("cannot look at");
   if (close(fd) != 0) return io_error("cannot close", entry.given, errno);

@@ -59,4 +59,9 @@ Result<void> flush_directory(const std::string& path);
 /// "what path: the system's reason"
 Error io_error(const std::string& what, const std::string& path, int code);
 
+// origin.cpp
+/// Notes on the open file that it was made from `origin`, and of which bytes it consists; nothing
+/// where the file system keeps no such notes. See deck::is_unchanged_output.
+void note_origin(int fd, std::string_view origin, std::string_view bytes);
+
 }  // namespace deck::detail

@@ -8,12 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "deck/base/hash.hpp"
 #include "deck/text/result.hpp"
 
 namespace deck::cli {
-
-/// XXH64, the hash of that name with seed 0: not cryptographic, several bytes per cycle.
-std::uint64_t content_hash(std::string_view bytes);
 
 /// A file as it was when it was read.
 struct FileState {

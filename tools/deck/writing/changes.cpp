@@ -154,8 +154,10 @@ Result<std::string> Changes::diff() {
 Result<void> Changes::write(bool list) {
   BatchFrame* frame = batch_frame();
   if (auto settled = settle(); !settled) return settled.error();
-  const auto plan = choice_.in_place ? set_.in_place() : set_.tree(choice_.directory);
+  auto plan = choice_.in_place ? set_.in_place() : set_.tree(choice_.directory);
   if (!plan) return plan.error();
+  if (frame != nullptr)  // a batch keeps a record of its own
+    for (OutputFile& f : plan->files) f.origin.clear();
   if (auto same = read_back(plan->files); !same) return same;
   if (choice_.in_place) {
     if (auto announced = announce(plan->files); !announced) return announced;
