@@ -183,32 +183,6 @@ Model& Model::operator=(Model&& other) noexcept {
   return *this;
 }
 
-Elements& Model::family(ElementKind kind) {
-  return const_cast<Elements&>(static_cast<const Model*>(this)->family(kind));
-}
-
-const Elements& Model::family(ElementKind kind) const {
-  switch (kind) {
-    case ElementKind::shell4:
-      return shell4;
-    case ElementKind::shell3:
-      return shell3;
-    case ElementKind::solid8:
-      return solid8;
-    case ElementKind::quad:
-      return quad;
-    case ElementKind::tria:
-      return tria;
-    case ElementKind::truss:
-      return truss;
-    case ElementKind::beam:
-      return beam;
-    case ElementKind::spring:
-      return spring;
-  }
-  return shell4;
-}
-
 Span Model::node_span(NodeIndex n) const {
   if (deck == nullptr || n >= nodes.size()) return {};
   return detail::node_spans(*this, {&n, 1})[0];

@@ -7,57 +7,59 @@
 namespace deck::detail {
 namespace {
 
-const Part* part_of(const Model& model, ElementKind kind, std::uint32_t e) {
-  const std::uint32_t p = model.family(kind).part[e];
+const Part* part_of(const Model& model, const Elements& family, std::uint32_t e) {
+  const std::uint32_t p = family.part[e];
   return p == no_index ? nullptr : &model.parts[p];
 }
-const Property* property_of(const Model& model, ElementKind kind, std::uint32_t e) {
-  const Part* part = part_of(model, kind, e);
+const Property* property_of(const Model& model, const Elements& family, std::uint32_t e) {
+  const Part* part = part_of(model, family, e);
   return part == nullptr || part->prop == no_index ? nullptr : &model.properties[part->prop];
 }
-const Material* material_of(const Model& model, ElementKind kind, std::uint32_t e) {
-  const Part* part = part_of(model, kind, e);
+const Material* material_of(const Model& model, const Elements& family, std::uint32_t e) {
+  const Part* part = part_of(model, family, e);
   return part == nullptr || part->mat == no_index ? nullptr : &model.materials[part->mat];
 }
-double own_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
-  const auto& t = model.family(kind).thickness;
-  return model.intthick_v5 || e >= t.size() ? 0 : t[e];
+double stiffness_thickness(const Model& model, const Elements& family, std::uint32_t e) {
+  if (!model.intthick_v5 && e < family.thickness.size())
+    if (const double own = family.thickness[e]; own != 0) return own;
+  const Property* p = property_of(model, family, e);
+  return p == nullptr ? 0 : p->thickness;
 }
 
 }  // namespace
 
 double part_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
-  const Part* part = part_of(model, kind, e);
+  const Part* part = part_of(model, model.family(kind), e);
   return part == nullptr ? 0 : part->thickness;
 }
 
 double gap_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
+  const Elements& family = model.family(kind);
   if (!model.intthick_v5)
-    if (const double t = part_thickness(model, kind, e); t != 0) return t;
-  return stiffness_thickness(model, kind, e);
+    if (const Part* part = part_of(model, family, e); part != nullptr && part->thickness != 0)
+      return part->thickness;
+  return stiffness_thickness(model, family, e);
 }
 
 double stiffness_thickness(const Model& model, ElementKind kind, std::uint32_t e) {
-  if (const double t = own_thickness(model, kind, e); t != 0) return t;
-  const Property* p = property_of(model, kind, e);
-  return p == nullptr ? 0 : p->thickness;
+  return stiffness_thickness(model, model.family(kind), e);
 }
 
 double young_of(const Model& model, ElementKind kind, std::uint32_t e) {
-  const Material* m = material_of(model, kind, e);
+  const Material* m = material_of(model, model.family(kind), e);
   return m == nullptr ? 0 : m->young;
 }
 
 double bulk_of(const Model& model, std::uint32_t solid) {
-  const Material* m = material_of(model, ElementKind::solid8, solid);
+  const Material* m = material_of(model, model.solid8, solid);
   if (m == nullptr) return 0;
-  const Property* p = property_of(model, ElementKind::solid8, solid);
+  const Property* p = property_of(model, model.solid8, solid);
   if (p == nullptr || p->icontrol != 1) return m->bulk;
   return 2 * m->bulk * (m->law == 1 ? 5 : m->law == 62 ? 100 : 1);
 }
 
 double section_area(const Model& model, ElementKind kind, std::uint32_t e) {
-  const Property* p = property_of(model, kind, e);
+  const Property* p = property_of(model, model.family(kind), e);
   return p == nullptr ? 0 : p->area;
 }
 
@@ -66,7 +68,7 @@ double section_thickness(const Model& model, ElementKind kind, std::uint32_t e) 
 }
 
 double spring_stiffness(const Model& model, std::uint32_t spring) {
-  const Property* p = property_of(model, ElementKind::spring, spring);
+  const Property* p = property_of(model, model.spring, spring);
   if (p == nullptr) return 0;
   const auto& k = p->stiffness;
   if (p->number == 8 || p->number == 13 || p->number == 23)

@@ -261,13 +261,21 @@ struct Model : ModelData {
   Model(Model&& other) noexcept;
   Model& operator=(Model&& other) noexcept;
 
-  Elements& family(ElementKind kind);
-  const Elements& family(ElementKind kind) const;
+  Elements& family(ElementKind kind) { return this->*families[static_cast<std::size_t>(kind)]; }
+  const Elements& family(ElementKind kind) const {
+    return this->*families[static_cast<std::size_t>(kind)];
+  }
   /// Node id for people; "?" problems never occur because indices are valid by construction.
   std::int64_t node_id(NodeIndex n) const { return n == no_index ? 0 : nodes.id[n]; }
   /// The line that defines a node or element (re-read from the source when a person asks).
   Span node_span(NodeIndex n) const;
   Span element_span(ElementKind kind, std::uint32_t e) const;
+
+ private:
+  /// By kind.
+  static constexpr Elements ModelData::*families[] = {
+      &ModelData::shell4, &ModelData::shell3, &ModelData::solid8, &ModelData::quad,
+      &ModelData::tria,   &ModelData::truss,  &ModelData::beam,   &ModelData::spring};
 };
 
 struct ModelOptions {
