@@ -1,6 +1,10 @@
 // Number cells without a function call: the inner loops of read_real(), read_integer() and of the
 // bulk reader. Eight digits at a time in one register; never reads outside [p, end).
 #pragma once
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -174,30 +178,75 @@ inline IntegerCell scan_integer(const char* p, const char* end) {
   return {whole, p == end ? NumberStatus::ok : NumberStatus::trailing_text};
 }
 
+/// Up to eight digits behind blanks, up to the last of eight columns. 0: they are nothing else, and
+/// this is the value.
+inline std::uint64_t unlike_digits(const char* p, std::uint64_t& value) {
+  const std::uint64_t x = load8(p) ^ (' ' * every_byte);  // 0 of a blank, 0x10 ... 0x19 of a digit
+  const std::uint64_t marks = x >> 4 & every_byte;        // 1 of a digit
+  const std::uint64_t digits = x & 0x0f * every_byte;
+  value = value_of_digits(digits);
+  return (x & ~(marks * 0x1f)) | ((digits + 0x06 * every_byte) & 0x10 * every_byte) |
+         ((marks & ~(marks >> 8)) ^ std::uint64_t{1} << 56);
+}
+
 /// The spelling ids have in practice: blanks, then one to eight digits up to the last column of a
 /// cell of eight or more columns. False: use scan_integer().
 inline bool scan_plain_integer(const char* p, const char* end, std::uint64_t& value) {
-  const std::uint64_t x = load8(end - 8);
-  const std::uint64_t digits = x ^ ('0' * every_byte);
-  const std::uint64_t stop = not_digits(digits);
-  if (stop == 0) {
-    value = value_of_digits(digits);
-  } else {
-    const int bits = 64 - std::countl_zero(stop);  // width of the blanks in front, 8 … 64
-    if (bits == 64) return false;
-    if (((x ^ (' ' * every_byte)) << (64 - bits)) != 0) return false;
-    value = value_of_digits((digits >> bits) << bits);
-  }
+  if (unlike_digits(end - 8, value) != 0) return false;
   for (end -= 8; p != end; ++p)
     if (*p != ' ') return false;
   return true;
 }
 
-/// The spelling coordinates have in practice: blanks, perhaps a minus, then digits and one point up
-/// to the last column of a cell of sixteen or more columns, all of them in its last sixteen. The
-/// value is that of scan_real(). False: use scan_real().
-inline bool scan_plain_real(const char* p, const char* end, double& value) {
-  const std::uint64_t text[2] = {load8(end - 16), load8(end - 8)};
+/// The same for a cell of ten columns. 0: this is the value.
+inline std::uint64_t unlike_id(const char* p, std::uint64_t& value) {
+  std::uint16_t front;
+  std::memcpy(&front, p, 2);
+  return unlike_digits(p + 2, value) | (front ^ 0x2020u);
+}
+
+/// A real in sixteen columns as scan_plain_real() takes it.
+#if defined(__SSE2__) && defined(__x86_64__)
+inline bool scan_sixteen(const char* p, double& value) {
+  const __m128i text = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+  const __m128i numbers = _mm_xor_si128(text, _mm_set1_epi8('0'));
+  const __m128i is_digit = _mm_cmpeq_epi8(_mm_min_epu8(numbers, _mm_set1_epi8(9)), numbers);
+  // Bit k: column k.
+  const auto columns = [](__m128i m) { return static_cast<std::uint32_t>(_mm_movemask_epi8(m)); };
+  const auto columns_of = [&](char c) { return columns(_mm_cmpeq_epi8(text, _mm_set1_epi8(c))); };
+  const std::uint32_t others = columns(is_digit) ^ 0xffff;
+  const std::uint32_t points = columns_of('.'), blanks = columns_of(' '), minus = columns_of('-');
+  const std::uint32_t bad = (others ^ (points | blanks | minus)) | (points & (points - 1)) |
+                            (blanks & (blanks + 1)) | (minus & ~(blanks + 1));
+  if (bad != 0 || points == 0 || others == 0xffff) return false;
+  const int point = std::countr_zero(points);
+  // The digits in front of the point move up to those behind it.
+  alignas(32) static constexpr unsigned char before_point[32] = {
+      0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff,
+      0xff, 0xff, 0xff, 0xff, 0xff, 0,    0,    0,    0,    0,    0,
+      0,    0,    0,    0,    0,    0,    0,    0,    0,    0};
+  const __m128i moved =
+      _mm_loadu_si128(reinterpret_cast<const __m128i*>(before_point + 15 - point));
+  const __m128i apart = _mm_and_si128(is_digit, numbers);
+  const __m128i digits =
+      _mm_or_si128(_mm_and_si128(moved, _mm_slli_si128(apart, 1)), _mm_andnot_si128(moved, apart));
+  // Numbers of two, four and eight digits.
+  const __m128i two = _mm_add_epi16(
+      _mm_mullo_epi16(_mm_and_si128(digits, _mm_set1_epi16(0xff)), _mm_set1_epi16(10)),
+      _mm_srli_epi16(digits, 8));
+  const __m128i four = _mm_madd_epi16(two, _mm_set1_epi32(1 << 16 | 100));
+  const __m128i eight =
+      _mm_madd_epi16(_mm_packs_epi32(four, four), _mm_set1_epi32(1 << 16 | 10000));
+  const auto halves = static_cast<std::uint64_t>(_mm_cvtsi128_si64(eight));
+  const std::uint64_t mantissa = (halves & 0xffffffff) * 100000000 + (halves >> 32);
+  value =
+      with_sign(static_cast<double>(static_cast<std::int64_t>(mantissa)) / power_of_ten[15 - point],
+                minus != 0);
+  return true;
+}
+#else
+inline bool scan_sixteen(const char* p, double& value) {
+  const std::uint64_t text[2] = {load8(p), load8(p + 8)};
   std::uint64_t digits[2], others[2];  // others: what is no digit, as difference to a blank
   std::uint32_t marks = 0;             // bit k: no digit in column k
   for (int h = 0; h < 2; ++h) {
@@ -215,11 +264,9 @@ inline bool scan_plain_real(const char* p, const char* end, double& value) {
   others[point / 8] ^= std::uint64_t{'.' ^ ' '} << (point % 8 * 8);
   // Signs are as good as random: no branch on them.
   const int sign = std::max(0, std::countr_zero(front + 1) - 1);
-  const bool negative = end[sign - 16] == '-';
+  const bool negative = p[sign] == '-';
   others[sign / 8] ^= static_cast<std::uint64_t>(negative) * ('-' ^ ' ') << (sign % 8 * 8);
   if ((others[0] | others[1]) != 0) return false;
-  for (const char* const last = end - 16; p != last; ++p)
-    if (*p != ' ') return false;
   // The digits in front of the point move up to those behind it.
   const auto close = [](std::uint64_t x, int at) {
     return x + (x & ((std::uint64_t{1} << (8 * at)) - 1)) * 0xff;
@@ -234,6 +281,24 @@ inline bool scan_plain_real(const char* p, const char* end, double& value) {
       value_of_digits(digits[0]) * 100000000 + value_of_digits(digits[1]);
   value = with_sign(static_cast<double>(mantissa) / power_of_ten[15 - point], negative);
   return true;
+}
+#endif
+
+/// The spelling coordinates have in practice: blanks, perhaps a minus, then digits and one point up
+/// to the last column of a cell of sixteen or more columns, all of them in its last sixteen. The
+/// value is that of scan_real(). False: use scan_real().
+inline bool scan_plain_real(const char* p, const char* end, double& value) {
+  if (!scan_sixteen(end - 16, value)) return false;
+  for (const char* const last = end - 16; p != last; ++p)
+    if (*p != ' ') return false;
+  return true;
+}
+
+/// The same for a cell of twenty columns.
+inline bool scan_plain_twenty(const char* p, double& value) {
+  std::uint32_t front;
+  std::memcpy(&front, p, 4);
+  return front == 0x20202020u && scan_sixteen(p + 4, value);
 }
 
 }  // namespace deck::detail

@@ -314,8 +314,8 @@ std::string random_deck(std::uint64_t seed, int items, bool wrong_nodes) {
 
 /// Reads the blocks by decode() alone, one line after the other.
 struct Slow {
-  std::vector<std::int64_t> node_id, element_id;
-  std::vector<double> x;
+  std::vector<std::int64_t> node_id, element_id, element_cells;
+  std::vector<double> x, y, z;
   Diagnostics findings{1 << 30};
 };
 
@@ -337,7 +337,14 @@ Slow by_decode(const Deck& deck) {
       if (++k < active.size()) continue;
       k = 0;
       (block.keyword == "/NODE" ? out.node_id : out.element_id).push_back(id);
-      if (block.keyword == "/NODE") out.x.push_back(card.cells[1].real);
+      if (block.keyword == "/NODE") {
+        out.x.push_back(card.cells[1].real);
+        out.y.push_back(card.cells[2].real);
+        out.z.push_back(card.cells[3].real);
+      } else {
+        for (std::size_t c = 1; c < card.cells.size(); ++c)
+          out.element_cells.push_back(card.cells[c].integer);
+      }
     }
   }
   return out;
@@ -371,6 +378,88 @@ TEST(BulkAgainstDecode, ValuesAndFindingsAreTheSame) {
       if (d.rule < RuleId::DK029) b.push_back(fast.deck.sources.where(d.span) + d.message);
     EXPECT_EQ(a, b);
   }
+}
+
+/// Ids of ten columns, then reals of twenty, as programs write them; in some lines with other
+/// characters among them.
+std::string nearly_even_line(std::mt19937_64& random, std::size_t ids, std::size_t reals,
+                             std::uint64_t largest) {
+  std::string line;
+  for (std::size_t i = 0; i < ids; ++i) {
+    const std::string id = std::to_string(random() % largest + 1);
+    line += std::string(10 - id.size(), ' ') + id;
+  }
+  for (std::size_t i = 0; i < reals; ++i) {
+    const std::uint64_t size[] = {10, 100000, 10000000};
+    char cell[64];
+    std::snprintf(cell, sizeof cell, "%20.*f", static_cast<int>(random() % 8),
+                  (static_cast<double>(random() % 2000001) / 1e6 - 1) *
+                      static_cast<double>(size[random() % 3]));
+    line += cell;
+  }
+  if (random() % 3 == 0) {
+    constexpr std::string_view odd("  0019-+.eEd/:,;\t\r\n\0#$&\x80\xb0\xff", 26);
+    for (std::size_t n = random() % 3; n < 3; ++n)
+      line[random() % line.size()] = odd[random() % odd.size()];
+  }
+  if (random() % 40 == 0) line.resize(random() % line.size());
+  return line + (random() % 40 == 0 ? "  \r\n" : "\n");
+}
+
+TEST(BulkAgainstDecode, LinesAsLongAsTheOneBeforeAreTakenByColumnsOnlyIfTheyAreEven) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    std::mt19937_64 random(seed);
+    std::string body = "/NODE\n";
+    for (int i = 0; i < 200; ++i)
+      body += nearly_even_line(random, 1, 3, random() % 2 ? 99999999 : 9999999999);
+    for (const char* keyword : {"/SHELL/1\n", "/SHELL/2\n", "/TRUSS/1\n", "/SH3N/1\n"}) {
+      const std::size_t ids = keyword[1] == 'T' ? 3 : keyword[3] == '3' ? 4 : 5;
+      body += keyword;
+      for (int i = 0; i < 100; ++i) body += nearly_even_line(random, ids, 0, 99999999);
+    }
+    const std::string text = deck_of(body);
+    const Deck deck = read(text);
+    const Slow slow = by_decode(deck);
+    const Bulk fast(read(text), 1, 1 << 30);
+    const Nodes& nodes = fast.model.nodes;
+    ASSERT_EQ(nodes.id, slow.node_id) << seed;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      ASSERT_EQ(bits(nodes.x[i]), bits(slow.x[i])) << seed << ' ' << i;
+      ASSERT_EQ(bits(nodes.y[i]), bits(slow.y[i])) << seed << ' ' << i;
+      ASSERT_EQ(bits(nodes.z[i]), bits(slow.z[i])) << seed << ' ' << i;
+    }
+    for (const auto& [rule, n] : slow.findings.counts())
+      EXPECT_EQ(count(fast.findings, rule), n) << id_text(rule) << " seed " << seed;
+  }
+}
+
+TEST(BulkAgainstDecode, NodesOfEvenLinesAreThoseOfTheirCells) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    std::mt19937_64 random(seed);
+    std::string body = nodes(50) + "/SHELL/1\n";
+    for (int i = 0; i < 300; ++i) body += nearly_even_line(random, 5, 0, 50);
+    const std::string text = deck_of(body);
+    const Deck deck = read(text);
+    const Slow slow = by_decode(deck);
+    const Bulk fast(read(text));
+    const Elements& shells = fast.model.shell4;
+    ASSERT_EQ(shells.id, slow.element_id) << seed;
+    const std::size_t cells = slow.element_cells.size() / shells.size();
+    for (std::size_t e = 0; e < shells.size(); ++e)
+      for (std::size_t n = 0; n < 4; ++n) {
+        const std::int64_t id = slow.element_cells[e * cells + n];
+        ASSERT_EQ(shells.of(e)[n], id >= 1 && id <= 50 ? static_cast<NodeIndex>(id - 1) : no_index)
+            << seed << ' ' << e;
+      }
+  }
+}
+
+TEST(BulkElements, AThicknessStaysWithItsElementWhateverTheOthersHave) {
+  const std::string plain = ids({1, 1, 2, 3, 4}), front = plain.substr(0, 50);
+  const std::string thick = front + std::string(30, ' ') + "                 2.5\n";
+  const Bulk b = bulk("/PART/1\nt\n" + nodes(4) + "/SHELL/1\n" + plain + plain + thick + plain +
+                      thick + plain + "/SHELL/1\n" + thick + plain);
+  EXPECT_THAT(b.model.shell4.thickness, ElementsAre(0, 0, 2.5, 0, 2.5, 0, 2.5, 0));
 }
 
 TEST(BulkAgainstDecode, CountsDoNotDependOnHowManyMessagesAreKept) {

@@ -172,6 +172,51 @@ TEST(ReadReal, PlainSpellingsGiveTheSameByTheShortWay) {
   EXPECT_GT(plain, 100000u);
 }
 
+TEST(ReadReal, TheShortWayForTwentyColumnsTakesTheSame) {
+  std::mt19937_64 random(13);
+  std::size_t plain = 0;
+  for (int i = 0; i < 300000; ++i) {
+    std::string cell(20, ' ');
+    const std::size_t count = random() % 18, point = random() % (count + 1);
+    for (std::size_t k = 0; k < count; ++k)
+      cell[19 - k] = k == point ? '.' : static_cast<char>('0' + random() % 10);
+    if (random() % 2) cell[19 - count] = '-';
+    if (random() % 3 == 0) cell[random() % 20] = static_cast<char>(random());
+    double value = 0, expected = 0;
+    const bool taken = detail::scan_plain_twenty(cell.data(), value);
+    ASSERT_EQ(taken, detail::scan_plain_real(cell.data(), cell.data() + 20, expected)) << cell;
+    if (!taken) continue;
+    ++plain;
+    const RealCell r = detail::scan_real<detail::Blanks::spaces>(cell.data(), cell.data() + 20);
+    ASSERT_EQ(r.status, NumberStatus::ok) << cell;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(r.value), std::bit_cast<std::uint64_t>(value)) << cell;
+  }
+  EXPECT_GT(plain, 100000u);
+}
+
+TEST(ReadInteger, TheShortWayTakesBlanksAndUpToEightDigitsAndNothingElse) {
+  std::mt19937_64 random(17);
+  std::size_t plain = 0;
+  for (int i = 0; i < 1000000; ++i) {
+    std::string cell(10, ' ');
+    for (std::size_t k = random() % 11; k > 0; --k)
+      cell[10 - k] = static_cast<char>('0' + random() % 10);
+    if (random() % 3 == 0) cell[random() % 10] = static_cast<char>(random());
+    if (random() % 6 == 0) cell[random() % 10] = " 0-+/:\t\r"[random() % 8];
+    const std::size_t first = cell.find_first_not_of(' ');
+    const bool expected = first != std::string::npos && first >= 2 &&
+                          cell.find_first_not_of("0123456789", first) == std::string::npos;
+    std::uint64_t value = 0, other = 0;
+    ASSERT_EQ(detail::unlike_id(cell.data(), value) == 0, expected) << cell;
+    ASSERT_EQ(detail::scan_plain_integer(cell.data(), cell.data() + 10, other), expected) << cell;
+    if (!expected) continue;
+    ++plain;
+    ASSERT_EQ(value, std::stoull(cell));
+    ASSERT_EQ(other, value);
+  }
+  EXPECT_GT(plain, 300000u);
+}
+
 TEST(ReadReal, NeverLooksOutsideTheCell) {
   // Exact-size heap copies, so that a sanitizer sees a byte too many; without one the digits that
   // stand around the cell must not change the value.

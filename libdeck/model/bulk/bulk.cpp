@@ -2,6 +2,7 @@
 #include "model/bulk/bulk.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "base/pages.hpp"
@@ -206,18 +207,34 @@ struct NodeSink : ChunkRows<NodeRows> {
 
 // ---- elements -----------------------------------------------------------------------------------
 
+/// Finds nodes by their ids; most stand where they would if all ids counted up.
+class NodeFinder {
+ public:
+  NodeFinder() = default;
+  explicit NodeFinder(const Nodes& nodes)
+      : nodes_(&nodes),
+        unique_(nodes.map.duplicates().empty() ? nodes.size() : 0),
+        first_(nodes.size() > 0 ? nodes.id.front() : 0) {}
+
+  NodeIndex operator()(std::int64_t id) const {
+    const std::uint64_t at = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(first_);
+    return at < unique_ && nodes_->id[at] == id ? static_cast<NodeIndex>(at) : nodes_->map.find(id);
+  }
+
+ private:
+  const Nodes* nodes_ = nullptr;
+  std::uint64_t unique_ = 0;  ///< how many there are, if each id is there once
+  std::int64_t first_ = 0;
+};
+
 struct ElementSink : ChunkRows<ElementRows> {
-  const Nodes* nodes_there = nullptr;
-  const Chunk* chunk = nullptr;
-  std::uint32_t first_range = 0;
+  NodeFinder node;
 
   void clear(const Chunk& next) {
-    chunk = &next;
-    id.clear();
-    part.clear();
-    block.clear();
+    size = 0;
+    width = static_cast<std::size_t>(element_width(next.kind));
+    nodes.resize(std::max(nodes.size(), id.size() * width));
     extra.clear();
-    nodes.clear();
     extra_nodes.clear();
     thickness.clear();
     shape.clear();
@@ -226,27 +243,34 @@ struct ElementSink : ChunkRows<ElementRows> {
   }
 
   void item(const BlockPlan& plan, std::uint32_t segment, Item& item) {
+    if (size == id.size()) grow();
     const ItemPlan& where = *plan.item;
     const std::int64_t written = item.integer(where.id);
     if (written <= 0) item.count(0, bad_id);
-    id.push_back(written > 0 ? written + plan.id_offset : written);
-    part.push_back(plan.part);
-    block.push_back(first_range + chunk->segments[segment].plan);
+    id[size] = written > 0 ? written + plan.id_offset : written;
     ++counts[segment];
     ElementFormat format = plan.format;
     if (format.shape == SolidShape::brick8 && format.kind == ElementKind::solid8)
       format = degenerate_brick(where, item, format);
     find_nodes(plan, format, item);
+    NodeIndex* const slots = nodes.data() + size * width;
     if (format.kind == ElementKind::solid8)
-      store_solid(format);
+      store_solid(format, slots);
     else
-      nodes.insert(nodes.end(), found.begin(), found.begin() + element_width(format.kind));
+      for (std::size_t n = 0; n < width; ++n) slots[n] = found[n];
     if (where.thickness.present &&
         (format.kind == ElementKind::shell4 || format.kind == ElementKind::shell3))
       store_thickness(plan, segment, item);
+    ++size;
   }
 
  private:
+  void grow() {
+    const std::size_t room = std::max<std::size_t>(2 * size, 4096);
+    id.resize(room);
+    nodes.resize(room * width);
+  }
+
   /// /BRICK with nodes 5-8 absent is a tetra, with nodes 7-8 absent a penta.
   static ElementFormat degenerate_brick(const ItemPlan& where, const Item& item,
                                         ElementFormat format) {
@@ -263,8 +287,7 @@ struct ElementSink : ChunkRows<ElementRows> {
       const std::int64_t written = item.integer(at);
       found[n] = no_index;
       if (written == 0 && n >= static_cast<std::size_t>(format.required)) continue;
-      if (written != 0)
-        found[n] = nodes_there->map.find(written > 0 ? written + plan.node_offset : written);
+      if (written != 0) found[n] = node(written > 0 ? written + plan.node_offset : written);
       if (found[n] == no_index) item.count(at.card, unknown_node);
     }
     // What is behind them is no_index but for cells of another block.
@@ -273,8 +296,8 @@ struct ElementSink : ChunkRows<ElementRows> {
     item.required = static_cast<std::uint8_t>(format.required);
   }
 
-  void store_solid(const ElementFormat& format) {
-    for (const std::uint8_t slot : slots_of(format.shape)) nodes.push_back(found[slot]);
+  void store_solid(const ElementFormat& format, NodeIndex* slots) {
+    for (const std::uint8_t slot : slots_of(format.shape)) *slots++ = found[slot];
     shape.push_back(format.shape);
     const std::size_t corners = format.shape == SolidShape::tetra10 ? 4 : 8;
     const std::size_t all = format.shape == SolidShape::tetra10   ? 10
@@ -287,6 +310,8 @@ struct ElementSink : ChunkRows<ElementRows> {
 
   void store_thickness(const BlockPlan& plan, std::uint32_t segment, Item& item) {
     const double written = item.real(plan.item->thickness);
+    if (written == 0 && !std::signbit(written)) return;
+    thickness.resize(size, 0.0);
     thickness.push_back(written * plan.length);
     if (written == 0) return;
     thick[segment] = true;
@@ -316,18 +341,22 @@ void report_thickness(const Block& block, Diagnostics& diagnostics) {
   diagnostics.add(std::move(d));
 }
 
-void append_elements(const ElementRows& from, Elements& to, Room& room, std::uint64_t bytes) {
-  const std::size_t have = to.size(), more = from.id.size();
-  room.make(bytes, more, to.id, to.part, to.block);
+void append_elements(const Chunk& chunk, const std::vector<BlockPlan>& plans,
+                     std::uint32_t first_block, const ElementRows& from, Elements& to, Room& room) {
+  const std::size_t have = to.size(), more = from.size;
+  room.make(chunk.bytes, more, to.id, to.part, to.block);
   // Slots per element instead of elements.
-  if (to.nodes.size() + from.nodes.size() > to.nodes.capacity()) {
-    to.nodes.reserve(to.id.capacity() * static_cast<std::size_t>(to.width));
+  if (to.nodes.size() + more * from.width > to.nodes.capacity()) {
+    to.nodes.reserve(to.id.capacity() * from.width);
     prefer_large_pages(to.nodes);
   }
-  append(to.id, from.id);
-  append(to.part, from.part);
-  append(to.block, from.block);
-  append(to.nodes, from.nodes);
+  append(to.id, from.id, more);
+  for (std::size_t s = 0; s < chunk.segments.size(); ++s) {
+    const std::uint32_t plan = chunk.segments[s].plan;
+    to.part.insert(to.part.end(), from.counts[s], plans[plan].part);
+    to.block.insert(to.block.end(), from.counts[s], first_block + plan);
+  }
+  append(to.nodes, from.nodes, more * from.width);
   if (to.kind == ElementKind::solid8) {
     if (have + more > to.shape.capacity()) {
       to.shape.reserve(to.id.capacity());
@@ -447,6 +476,7 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
     rooms[static_cast<std::size_t>(chunk.kind)].total += chunk.bytes;
   std::vector<bool> reported(plans.size(), false);
   ProblemReporter reporter(deck, plans, &model.nodes, diagnostics);
+  const NodeFinder node(model.nodes);
   // Which nodes there are decides what an element refers to.
   const std::uint64_t list = meshes != nullptr ? meshes->store().number_of(model.nodes.id) : 0;
   KnownRows<ElementRows>* const memory = list != 0 ? &meshes->store().elements : nullptr;
@@ -454,8 +484,7 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
       chunks.size(), threads,
       [&](std::size_t k, ElementSink& out) {
         if (out.recall(memory, deck, plans, chunks[k], list, first_range)) return;
-        out.nodes_there = &model.nodes;
-        out.first_range = first_range;
+        out.node = node;
         out.clear(chunks[k]);
         read_chunk(deck, plans, chunks[k], out);
       },
@@ -475,9 +504,10 @@ void read_elements(const Deck& deck, const std::vector<const Block*>& blocks, Mo
         }
         Elements& family = family_of(model, chunk.kind);
         const Block& block = *plans[chunk.segments.front().plan].block;
-        if (!indices_left(family.size(), rows.id.size(), block, diagnostics)) return;
+        if (!indices_left(family.size(), rows.size, block, diagnostics)) return;
         extend_ranges(chunk, rows.counts, family.size(), first_range, model.element_blocks);
-        append_elements(rows, family, rooms[static_cast<std::size_t>(chunk.kind)], chunk.bytes);
+        append_elements(chunk, plans, first_range, rows, family,
+                        rooms[static_cast<std::size_t>(chunk.kind)]);
       });
   for (const ElementKind kind : all_kinds)
     family_of(model, kind).map.build(family_of(model, kind).id);

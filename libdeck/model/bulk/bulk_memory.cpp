@@ -23,12 +23,23 @@ std::uint64_t MeshMemory::Store::number_of(const std::vector<std::int64_t>& ids)
 
 namespace detail {
 
+namespace {
+
+template <class T>
+std::vector<T> head(const std::vector<T>& all, std::size_t size) {
+  return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(size)};
+}
+
+}  // namespace
+
 NodeRows NodeRows::trimmed() const {
-  const auto head = [&](const auto& all) {
-    return std::decay_t<decltype(all)>(all.begin(),
-                                       all.begin() + static_cast<std::ptrdiff_t>(size));
-  };
-  return {head(id), head(x), head(y), head(z), size, counts};
+  return {head(id, size), head(x, size), head(y, size), head(z, size), size, counts};
+}
+
+ElementRows ElementRows::trimmed() const {
+  return {
+      head(id, size), extra, head(nodes, size * width), extra_nodes, thickness, shape, size, width,
+      counts,         thick};
 }
 
 ChunkBytes::ChunkBytes(const Deck& deck, const std::vector<BlockPlan>& plans, const Chunk& chunk,

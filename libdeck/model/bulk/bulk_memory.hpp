@@ -24,21 +24,23 @@ struct NodeRows {
   NodeRows trimmed() const;
 };
 
-/// The elements of a chunk.
+/// The elements of a chunk; part and block are those of their segment. The arrays of ids and nodes
+/// may be longer than `size` says.
 struct ElementRows {
   std::vector<std::int64_t> id;
-  std::vector<std::uint32_t> part, block, extra;
+  std::vector<std::uint32_t> extra;
   std::vector<NodeIndex> nodes, extra_nodes;
-  std::vector<double> thickness;
+  std::vector<double> thickness;  ///< up to the last element that has its own
   std::vector<SolidShape> shape;
+  std::size_t size = 0, width = 0;
   std::vector<std::uint32_t> counts;  ///< per segment
   std::vector<bool> thick;            ///< per segment: an element has its own thickness
 
   std::size_t bytes() const {
-    return id.size() * 16 + (extra.size() + nodes.size() + extra_nodes.size()) * 4 +
-           thickness.size() * 8 + shape.size() + counts.size() * 5;
+    return size * (8 + 4 * width) + (extra.size() + extra_nodes.size()) * 4 + thickness.size() * 8 +
+           shape.size() + counts.size() * 5;
   }
-  ElementRows trimmed() const { return *this; }
+  ElementRows trimmed() const;
 };
 
 /// What decides about the arrays of a chunk. Valid as long as the deck.

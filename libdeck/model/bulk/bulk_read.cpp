@@ -1,6 +1,8 @@
 // Reads the lines of one chunk and reports what is wrong with the others.
 #include "model/bulk/bulk_read.hpp"
 
+#include <algorithm>
+
 #include "keyword/reader.hpp"
 
 namespace deck::detail {
@@ -64,6 +66,26 @@ RuleId bulk_rule_id(std::size_t rule) {
   constexpr RuleId own[] = {RuleId::DK036, RuleId::DK037, RuleId::DK038, RuleId::DK029,
                             RuleId::DK101};
   return rule < blank_line ? line_rule_ids[rule] : own[rule - blank_line];
+}
+
+void UsualLine::look_at(const CardPlan& plan) {
+  auto cell = plan.cells.begin();
+  std::uint32_t at = 0;
+  const auto count = [&](bool real, std::uint32_t width) {
+    const auto begin = cell;
+    while (cell != plan.cells.end() && cell->real == real && cell->first == at &&
+           cell->last == at + width && at + width <= size) {
+      ++cell;
+      at += width;
+    }
+    return static_cast<std::uint32_t>(cell - begin);
+  };
+  ids = count(false, 10);
+  reals = count(true, 20);
+  const bool whole = at == size && std::all_of(cell, plan.cells.end(), [&](const CellPlan& behind) {
+                       return behind.first >= size;
+                     });
+  layout = whole ? even : uneven;
 }
 
 int node_of_cell(const ItemPlan& plan, std::size_t card, std::size_t cell) {

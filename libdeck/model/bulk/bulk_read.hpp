@@ -104,6 +104,30 @@ inline Unclean read_cells(const CardPlan& plan, const char* line, std::uint32_t 
   return clean ? unclean : unclean | outside_cells;
 }
 
+/// What the lines of a card look like that are as long as the one before, if that was clean: ids of
+/// ten columns and then reals of twenty up to the end, or in another way.
+struct UsualLine {
+  std::uint32_t size = 0;  ///< 0: there was none
+  std::uint32_t ids = 0, reals = 0;
+  enum { not_looked_at, even, uneven } layout = not_looked_at;
+
+  void look_at(const CardPlan& plan);
+};
+
+/// The cells of an even line; those behind its end stay. False: use read_cells().
+inline bool read_even_line(const UsualLine& usual, const char* p, Cells& out) {
+  std::uint64_t unlike = 0;
+  for (std::uint32_t i = 0; i < usual.ids; ++i, p += 10) {
+    std::uint64_t id;
+    unlike |= unlike_id(p, id);
+    out.integer[i] = static_cast<std::int64_t>(id);
+  }
+  if (unlike != 0) return false;
+  for (std::uint32_t i = 0; i < usual.reals; ++i, p += 20)
+    if (!scan_plain_twenty(p, out.real[usual.ids + i])) return false;
+  return true;
+}
+
 /// Reads the unclean cells of a line and finds out what is wrong with it, both as decode_line()
 /// does; by decode_line() itself where the line has commas or parameters.
 void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std::uint32_t file,
@@ -130,11 +154,14 @@ void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chu
                 Sink& sink) {
   Item item;
   std::size_t card = 0;
-  std::array<std::uint32_t, max_cards> usual{};  // size of the line of that card before
+  std::array<UsualLine, max_cards> usual_lines{};
+  const ItemPlan* usual_plan = nullptr;
   for (std::uint32_t s = 0; s < chunk.segments.size(); ++s) {
     const TextSegment& segment = chunk.segments[s];
     const BlockPlan& plan = plans[segment.plan];
     const std::vector<CardPlan>& cards = plan.item->cards;
+    if (usual_plan != plan.item.get()) usual_lines = {};
+    usual_plan = plan.item.get();
     const char* const data = deck.sources[segment.file].bytes().data();
     const char* p = data + segment.begin;
     const char* const end = data + segment.end;
@@ -156,10 +183,18 @@ void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chu
       const bool comment = *start == '#' || *start == '$';
       // Most lines are as long as the one before: no line end is looked for where they are clean up
       // to one, for then there is none in between.
-      if (const std::uint32_t size = usual[card];
-          !comment && size > 0 && end - start > static_cast<std::ptrdiff_t>(size) &&
-          start[size] == '\n' && !is_blank(start[size - 1]) &&
-          read_cells(cards[card], start, size, item.line[card]) == 0) {
+      UsualLine& usual = usual_lines[card];
+      const auto as_usual = [&](std::uint32_t size) {
+        if (comment || size == 0 || end - start <= static_cast<std::ptrdiff_t>(size) ||
+            start[size] != '\n')
+          return false;
+        if (usual.layout == UsualLine::not_looked_at) usual.look_at(cards[card]);
+        if (usual.layout == UsualLine::even && read_even_line(usual, start, item.line[card]))
+          return true;
+        return !is_blank(start[size - 1]) &&
+               read_cells(cards[card], start, size, item.line[card]) == 0;
+      };
+      if (const std::uint32_t size = usual.size; as_usual(size)) {
         item.text[card] = {start, size};
         p = start + size + 1;
       } else {
@@ -171,14 +206,17 @@ void read_chunk(const Deck& deck, const std::vector<BlockPlan>& plans, const Chu
         const auto length =
             static_cast<std::uint32_t>(std::min<std::ptrdiff_t>(stop - start, 1 << 30));
         item.text[card] = {start, length};
-        usual[card] = length;
+        usual = {};
         if (stop == start && card == 0) {
           item.count(0, blank_line);
           flush(1);
           continue;
         }
         const Unclean unclean = read_cells(cards[card], start, length, item.line[card]);
-        if (unclean != 0) inspect_line(deck, plan, card, segment.file, unclean, item);
+        if (unclean != 0)
+          inspect_line(deck, plan, card, segment.file, unclean, item);
+        else
+          usual.size = length;
       }
       if (++card < cards.size()) continue;
       card = 0;
