@@ -33,7 +33,8 @@ constexpr double rounding = 1e-13;
 
 /// Corners of an element of `width` nodes; false: one of its nodes is missing.
 template <class Width>
-bool corners_of(const Nodes& nodes, const NodeIndex* n, Width width, Corners& out) {
+[[gnu::always_inline]] inline bool corners_of(const Nodes& nodes, const NodeIndex* n, Width width,
+                                              Corners& out) {
   out.count = width;
   for (std::size_t i = 0; i < width; ++i) {
     if (n[i] >= nodes.size()) return false;
@@ -51,7 +52,8 @@ bool surely_apart(double product2, double a2, double b2) {
 }
 
 /// Half the cross product of the diagonals vanishes: all corners on a line, or a crossed quad.
-bool without_area(const Corners& p) {
+/// Inlined where all shells are walked over, as corners_of(): corners stay in registers.
+[[gnu::always_inline]] inline bool without_area(const Corners& p) {
   const Vec a = p[2] - p[0];
   const Vec b = (p.size() > 3 ? p[3] : p[1]) - p[1];
   const Vec side = p.size() > 3 ? b : p[1] - p[0];
@@ -160,8 +162,11 @@ void check_property_kind(const LintContext& c, const Rule& rule, Reporter& r) {
       {&m.truss, "trusses"}, {&m.beam, "beams"},    {&m.spring, "springs"}};
   for (const auto& [family, what] : families) {
     std::vector<bool> said(m.parts.size(), false);
+    std::uint32_t last = no_index;  // elements of a part mostly follow each other
     for (std::size_t e = 0; e < family->size(); ++e) {
       const std::uint32_t p = family->part[e];
+      if (p == last) continue;
+      last = p;
       if (p == no_index || m.parts[p].prop == no_index || said[p]) continue;
       said[p] = true;
       const Property& prop = m.properties[m.parts[p].prop];

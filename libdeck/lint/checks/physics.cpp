@@ -160,7 +160,10 @@ double thickness_of(const Model& m, const Elements& shells, std::size_t e) {
 /// Nodes of shells with a thickness below zero.
 std::vector<bool> thin_nodes(const Model& m) {
   std::vector<bool> out;
-  for (const Elements* shells : {&m.shell4, &m.shell3})
+  const bool by_property = std::any_of(m.properties.begin(), m.properties.end(),
+                                       [](const Property& p) { return p.thickness < 0; });
+  for (const Elements* shells : {&m.shell4, &m.shell3}) {
+    if (!by_property && shells->thickness.empty()) continue;
     for (std::size_t e = 0; e < shells->size(); ++e) {
       if (!(thickness_of(m, *shells, e) < 0)) continue;
       out.resize(m.nodes.size(), false);
@@ -168,6 +171,7 @@ std::vector<bool> thin_nodes(const Model& m) {
       for (int i = 0; i < shells->width; ++i)
         if (n[i] < out.size()) out[n[i]] = true;
     }
+  }
   return out;
 }
 

@@ -116,9 +116,9 @@ void Selections::Impl::sort_nodes(std::vector<NodeIndex>& nodes) const {
     std::vector<bool> in(all, false);
     for (const NodeIndex n : nodes) in[n] = true;
     if (static_cast<std::size_t>(std::count(in.begin(), in.end(), true)) == nodes.size()) {
-      nodes.clear();
-      for (NodeIndex n = 0; n < all; ++n)
-        if (in[n]) nodes.push_back(n);
+      auto next = nodes.begin();
+      for (NodeIndex n = 0; next != nodes.end(); ++n)
+        if (in[n]) *next++ = n;
       return;
     }
   }

@@ -5,6 +5,18 @@
 #include "model/selection/selection_impl.hpp"
 
 namespace deck {
+namespace {
+
+/// Shell `e` of these nodes.
+Segment segment_of(const NodeIndex* n, bool quadrangle, Carrier carrier, std::uint32_t e,
+                   bool reversed) {
+  if (!reversed) return {{n[0], n[1], n[2], quadrangle ? n[3] : n[2]}, carrier, e};
+  // A quadrangle is turned as one even where its last two nodes coincide.
+  if (quadrangle) return {{n[3], n[2], n[1], n[0]}, carrier, e};
+  return {{n[2], n[1], n[0], n[0]}, carrier, e};
+}
+
+}  // namespace
 
 std::span<const Segment> SegmentList::some(std::size_t begin, std::size_t end,
                                            std::vector<Segment>& room) const {
@@ -14,21 +26,18 @@ std::span<const Segment> SegmentList::some(std::size_t begin, std::size_t end,
                               [](std::size_t at, const ShellRun& r) { return at < r.end; });
   for (std::size_t at = begin; at < end; ++run) {
     const Elements& shells = model_->family(run->kind);
+    const Carrier carrier = detail::family_name(run->kind).carrier;
+    const bool quadrangles = shells.width == 4, reversed = run->reversed;
     const std::size_t start = run == runs_->begin() ? 0 : (run - 1)->end;
-    for (const std::size_t stop = std::min(end, run->end); at < stop; ++at)
-      room[at - begin] = detail::shell_segment(
-          shells, run->first + static_cast<std::uint32_t>(at - start), run->reversed);
+    auto e = run->first + static_cast<std::uint32_t>(at - start);
+    for (const std::size_t stop = std::min(end, run->end); at < stop; ++at, ++e)
+      room[at - begin] = segment_of(shells.of(e), quadrangles, carrier, e, reversed);
   }
   return room;
 }
 
 Segment detail::shell_segment(const Elements& shells, std::uint32_t e, bool reversed) {
-  const NodeIndex* n = shells.of(e);
-  const Carrier carrier = family_name(shells.kind).carrier;
-  if (!reversed) return {{n[0], n[1], n[2], shells.width == 4 ? n[3] : n[2]}, carrier, e};
-  // A quadrangle is turned as one even where its last two nodes coincide.
-  if (shells.width == 4) return {{n[3], n[2], n[1], n[0]}, carrier, e};
-  return {{n[2], n[1], n[0], n[0]}, carrier, e};
+  return segment_of(shells.of(e), shells.width == 4, family_name(shells.kind).carrier, e, reversed);
 }
 
 std::optional<std::vector<ShellRun>> Selections::Impl::shell_runs(
