@@ -462,6 +462,58 @@ TEST(BulkElements, AThicknessStaysWithItsElementWhateverTheOthersHave) {
   EXPECT_THAT(b.model.shell4.thickness, ElementsAre(0, 0, 2.5, 0, 2.5, 0, 2.5, 0));
 }
 
+TEST(BulkElements, CellsBehindTheEndOfALineAreThoseOfNoOtherLine) {
+  // Free format holds more cells in as many columns.
+  const std::string even = ids({1, 1, 2, 3, 4}), free = "2,1,2,3,4,,30.0,2.5";
+  const Bulk shells = bulk("/PART/1\nt\n" + nodes(4) + "/SHELL/1\n2,1,2,3,4,,30.0," +
+                           std::string(50 - free.size(), ' ') + "2.5\n" + even + even);
+  EXPECT_THAT(shells.model.shell4.thickness, ElementsAre(2.5, 0, 0));
+  // A brick as long as the tetrahedron before it has four nodes, too.
+  const std::string brick = ids({1, 1, 2, 3, 4, 5, 6, 7, 8}), tetra = ids({2, 1, 2, 3, 5});
+  const Bulk solids = bulk(nodes(8) + "/BRICK/1\n" + brick + brick + "/TETRA4/1\n" + tetra + tetra +
+                           "/BRICK/1\n" + tetra);
+  ASSERT_EQ(solids.model.solid8.size(), 5u);
+  EXPECT_EQ(solids.model.solid8.shape[0], SolidShape::brick8);
+  EXPECT_EQ(solids.model.solid8.shape[4], SolidShape::tetra4);
+}
+
+TEST(BulkElements, NodesAreFoundHoweverTheirIdsAreSpread) {
+  for (const std::int64_t step : {1, 2, 1000000}) {
+    for (const bool twice : {false, true}) {
+      std::string body = "/NODE\n";
+      for (std::int64_t i = 0; i < 20; ++i) body += ids({5 + i * step});
+      if (twice) body += ids({5 + 3 * step}) + ids({5 + 20 * step});
+      body += "/TRUSS/1\n";
+      for (std::int64_t id = 3; id < 30; ++id) body += ids({id, 5 + (id - 4) * step, 5 + 4 * step});
+      const Bulk b = bulk(body);
+      const Nodes& nodes = b.model.nodes;
+      ASSERT_EQ(b.model.truss.size(), 27u);
+      for (std::size_t e = 0; e < 27; ++e) {
+        const std::int64_t id = 5 + (static_cast<std::int64_t>(e) - 1) * step;
+        const auto at = std::find(nodes.id.begin(), nodes.id.end(), id);
+        EXPECT_EQ(b.model.truss.of(e)[0], at == nodes.id.end() || id <= 0
+                                              ? no_index
+                                              : static_cast<NodeIndex>(at - nodes.id.begin()))
+            << step << ' ' << twice << ' ' << e;
+        EXPECT_EQ(b.model.truss.of(e)[1], 4u);
+      }
+    }
+  }
+  // Of two nodes of one id it is the first, even if the other stands where counting ends up.
+  const Bulk twice =
+      bulk("/NODE\n" + ids({5}) + ids({7}) + ids({7}) + "/TRUSS/1\n" + ids({1, 5, 7}));
+  EXPECT_EQ(twice.model.truss.of(0)[1], 1u);
+  // The offset of a submodel makes no id of what is none.
+  const Bulk shifted =
+      bulk("/NODE\n" + ids({99}) + ids({100}) + "//SUBMODEL/1\n\n" + ids({100, 100}) + "/NODE\n" +
+           ids({1}) + "/TRUSS/1\n" + ids({1, 0, 1}) + ids({2, -1, 1}) + "//ENDSUB\n");
+  ASSERT_EQ(shifted.model.truss.size(), 2u);
+  for (const std::size_t e : {0, 1}) {
+    EXPECT_EQ(shifted.model.truss.of(e)[0], no_index);
+    EXPECT_EQ(shifted.model.truss.of(e)[1], 2u);
+  }
+}
+
 TEST(BulkAgainstDecode, CountsDoNotDependOnHowManyMessagesAreKept) {
   for (std::uint64_t seed = 100; seed < 130; ++seed) {
     const std::string text = deck_of(random_deck(seed, 60, true));

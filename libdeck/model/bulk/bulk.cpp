@@ -217,11 +217,24 @@ class NodeFinder {
         first_(nodes.size() > 0 ? nodes.id.front() : 0) {}
 
   NodeIndex operator()(std::int64_t id) const {
-    const std::uint64_t at = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(first_);
-    return at < unique_ && nodes_->id[at] == id ? static_cast<NodeIndex>(at) : nodes_->map.find(id);
+    NodeIndex n = no_index;
+    return there(id, n) ? n : nodes_->map.find(id);
+  }
+  /// Nodes of `count` cells; false: some are not where they would be.
+  bool row(const std::int64_t* written, std::size_t count, std::int64_t offset,
+           NodeIndex* out) const {
+    for (std::size_t n = 0; n < count; ++n)
+      if (written[n] <= 0 || !there(written[n] + offset, out[n])) return false;
+    return true;
   }
 
  private:
+  bool there(std::int64_t id, NodeIndex& n) const {
+    const std::uint64_t at = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(first_);
+    n = static_cast<NodeIndex>(at);
+    return at < unique_ && nodes_->id[at] == id;
+  }
+
   const Nodes* nodes_ = nullptr;
   std::uint64_t unique_ = 0;  ///< how many there are, if each id is there once
   std::int64_t first_ = 0;
@@ -252,12 +265,16 @@ struct ElementSink : ChunkRows<ElementRows> {
     ElementFormat format = plan.format;
     if (format.shape == SolidShape::brick8 && format.kind == ElementKind::solid8)
       format = degenerate_brick(where, item, format);
-    find_nodes(plan, format, item);
+    item.required = static_cast<std::uint8_t>(format.required);
     NodeIndex* const slots = nodes.data() + size * width;
-    if (format.kind == ElementKind::solid8)
-      store_solid(format, slots);
-    else
-      for (std::size_t n = 0; n < width; ++n) slots[n] = found[n];
+    if (format.kind == ElementKind::solid8 || where.nodes_in_row != width ||
+        !node.row(item.line[0].integer + where.nodes[0].cell, width, plan.node_offset, slots)) {
+      find_nodes(plan, format, item);
+      if (format.kind == ElementKind::solid8)
+        store_solid(format, slots);
+      else
+        for (std::size_t n = 0; n < width; ++n) slots[n] = found[n];
+    }
     if (where.thickness.present &&
         (format.kind == ElementKind::shell4 || format.kind == ElementKind::shell3))
       store_thickness(plan, segment, item);
@@ -293,7 +310,6 @@ struct ElementSink : ChunkRows<ElementRows> {
     // What is behind them is no_index but for cells of another block.
     for (std::size_t n = cells.size(); n < used; ++n) found[n] = no_index;
     used = cells.size();
-    item.required = static_cast<std::uint8_t>(format.required);
   }
 
   void store_solid(const ElementFormat& format, NodeIndex* slots) {

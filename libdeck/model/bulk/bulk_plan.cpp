@@ -133,6 +133,12 @@ std::shared_ptr<const ItemPlan> make_item_plan(const Schema& schema, int version
             {static_cast<std::uint8_t>(c), static_cast<std::uint8_t>(k), true});
     }
   }
+  const std::vector<CellAt>& nodes = plan->nodes;
+  std::size_t row = 0;
+  while (row < nodes.size() && nodes[row].present && nodes[row].card == 0 &&
+         nodes[row].cell == nodes[0].cell + row)
+    ++row;
+  if (row == nodes.size()) plan->nodes_in_row = row;
   return plan;
 }
 

@@ -41,7 +41,8 @@ struct CellAt {
 struct ItemPlan {
   std::vector<CardPlan> cards;
   CellAt id, thickness, coordinate[3];
-  std::vector<CellAt> nodes;  ///< N1, N2, …
+  std::vector<CellAt> nodes;     ///< N1, N2, …
+  std::size_t nodes_in_row = 0;  ///< all of them where they are cells of the first card in a row
 };
 
 /// nullptr if the schema is not one the fast path can follow (too many cells, text cells).
