@@ -109,6 +109,36 @@ std::size_t name_length(std::string_view header, std::string_view name) {
 
 }  // namespace
 
+void note_lint_markers(Deck& deck, std::uint32_t file, std::uint64_t end) {
+  if (deck.lint_markers.size() <= file) deck.lint_markers.resize(file + std::size_t{1});
+  LintMarkers& known = deck.lint_markers[file];
+  const std::string_view bytes = deck.sources[file].bytes();
+  constexpr std::size_t before = lint_marker.size() - 1;
+  // Decks hold few colons, which are looked for first.
+  static_assert(lint_marker[before] == ':');
+  for (std::uint64_t at = known.searched; at < end; ++at) {
+    const void* const hit = std::memchr(bytes.data() + at, ':', end - at);
+    if (hit == nullptr) break;
+    at = static_cast<std::uint64_t>(static_cast<const char*>(hit) - bytes.data());
+    if (at >= before && bytes.substr(at - before, lint_marker.size()) == lint_marker)
+      known.offsets.push_back(at - before);
+  }
+  known.searched = std::max(known.searched, end);
+}
+
+void note_lint_markers(Deck& deck, std::uint32_t file) {
+  constexpr std::uint64_t at_once = 8 << 20;
+  const Source& source = deck.sources[file];
+  const std::uint64_t size = source.bytes().size();
+  note_lint_markers(deck, file, 0);
+  for (std::uint64_t at = deck.lint_markers[file].searched; at < size;) {
+    const std::uint64_t end = std::min(at + at_once, size);
+    note_lint_markers(deck, file, end);
+    source.release(at, end);
+    at = end;
+  }
+}
+
 void parse_header(const SchemaSet& schemas, Block& block) {
   block.header = without_comment(block.header, block.version);
   const std::string_view header = block.header;

@@ -5,6 +5,8 @@
 
 #include <filesystem>
 
+#include "keyword/reader.hpp"
+
 namespace deck {
 namespace {
 
@@ -83,6 +85,7 @@ EngineFiles read_engine_files(Deck& deck, const Limits& limits) {
       continue;
     }
     const std::uint32_t file = deck.sources.add(std::move(*source));
+    detail::note_lint_markers(deck, file);
     out.files.push_back(cut(deck.sources[file], file, number));
   }
   return out;

@@ -61,6 +61,7 @@ class Reader {
     check_banner();
     stack_.push_back(0);
     scan(0, newest_version);
+    detail::note_lint_markers(deck_, 0);
     stack_.pop_back();
     if (!submodel_stack_.empty()) notes_.unclosed_submodel = submodel_stack_.back();
     detail::finish_deck(deck_, notes_, options_);
@@ -249,6 +250,7 @@ class Reader {
     deck_.includes.push_back({file, parent, directive, std::move(written)});
     stack_.push_back(file);
     scan(file, version);
+    detail::note_lint_markers(deck_, file);
     stack_.pop_back();
   }
 
@@ -293,13 +295,15 @@ class Reader {
   /// Position of the next line of [pos, size) that is a header or begins with '#'; `size` if there
   /// is none. In bulk data neither '/' nor '#' occurs, so most lines are never looked at one by
   /// one.
-  /// `released` says how far the pages of the file were given back on the way.
-  static std::uint64_t next_candidate(const Source& source, std::uint64_t pos,
-                                      std::uint64_t& released) {
+  /// `released` says how far the pages of the file were given back on the way; comments for
+  /// `deck lint` are noted before that.
+  std::uint64_t next_candidate(std::uint32_t file, std::uint64_t pos, std::uint64_t& released) {
+    const Source& source = deck_.sources[file];
     const char* const data = source.bytes().data();
     const std::uint64_t size = source.bytes().size();
     constexpr std::uint64_t window = 32 * 1024;
     while (pos < size) {
+      detail::note_lint_markers(deck_, file, pos);
       const std::uint64_t length = std::min(window, size - pos);
       const void* const slash = std::memchr(data + pos, '/', length);
       const std::uint64_t until =
@@ -327,6 +331,7 @@ class Reader {
       if (nl == nullptr) return size;
       pos = static_cast<std::uint64_t>(static_cast<const char*>(nl) - data) + 1;
     }
+    detail::note_lint_markers(deck_, file, size);
     return size;
   }
 
@@ -345,7 +350,7 @@ class Reader {
         report_headless(file, begin, end);
     };
     std::uint64_t run = 0, released = 0;
-    for (std::uint64_t pos = 0; (pos = next_candidate(source, pos, released)) < size;) {
+    for (std::uint64_t pos = 0; (pos = next_candidate(file, pos, released)) < size;) {
       const std::uint64_t end = std::min<std::uint64_t>(bytes.find('\n', pos), size);
       const std::uint64_t next = std::min(end + 1, size);
       if (bytes[pos] == '#') {

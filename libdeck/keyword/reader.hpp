@@ -16,6 +16,11 @@ void parse_header(const SchemaSet& schemas, Block& block);
 /// Adds a finding of reading.
 void report(Deck& deck, RuleId rule, Span span, std::string message, Case particular = {});
 
+/// Looks for lint_marker in the bytes of a file up to `end` that were not looked at before.
+void note_lint_markers(Deck& deck, std::uint32_t file, std::uint64_t end);
+/// The same for all that is left; pages of a mapped file are given back on the way.
+void note_lint_markers(Deck& deck, std::uint32_t file);
+
 /// Bytes [begin, end) of a file, cut to a length that a message can show.
 inline Span make_span(std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
   constexpr std::uint64_t longest = 1 << 20;

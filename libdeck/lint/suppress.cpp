@@ -3,37 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
 
 #include "lint/context.hpp"
 
 namespace deck::detail {
 namespace {
-
-constexpr std::string_view marker = "decklint:";
-constexpr std::uint64_t searched_at_once = 8 << 20;
-
-/// Next place of the marker at or behind `from`; npos: none. Decks hold few colons, which are
-/// looked for first. Pages of a mapped file that were looked through are given back.
-std::uint64_t next_marker(const Source& source, std::uint64_t from) {
-  const std::string_view bytes = source.bytes();
-  constexpr std::size_t before = marker.size() - 1;
-  for (std::uint64_t at = from; at < bytes.size();) {
-    const std::uint64_t stop =
-        std::min<std::uint64_t>((at / searched_at_once + 1) * searched_at_once, bytes.size());
-    while (at < stop) {
-      const void* const hit = std::memchr(bytes.data() + at, ':', stop - at);
-      if (hit == nullptr) break;
-      const auto colon = static_cast<std::uint64_t>(static_cast<const char*>(hit) - bytes.data());
-      if (colon >= from + before && bytes.substr(colon - before, marker.size()) == marker)
-        return colon - before;
-      at = colon + 1;
-    }
-    source.release(stop - 1 - (stop - 1) % searched_at_once, stop);
-    at = stop;
-  }
-  return std::string_view::npos;
-}
 
 /// "ignore[DK1,DK203] reason=text" behind the marker; false: not understood.
 bool parse(std::string_view text, Suppression& out) {
@@ -72,11 +46,10 @@ std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& i
   const Rule& unknown = rule_of(RuleId::DK092);
   const Rule& malformed = rule_of(RuleId::DK093);
   for (std::uint32_t file = 0; file < deck.sources.size(); ++file) {
-    const Source& source = deck.sources[file];
-    const std::string_view bytes = source.bytes();
-    for (std::uint64_t at = 0; at < bytes.size();) {
-      const std::uint64_t offset = next_marker(source, at);
-      if (offset == std::string_view::npos) break;
+    const std::string_view bytes = deck.sources[file].bytes();
+    std::uint64_t at = 0;  // behind the line of the one before
+    for (const std::uint64_t offset : deck.lint_markers[file].offsets) {
+      if (offset < at) continue;
       const auto before = offset == 0 ? std::string_view::npos : bytes.rfind('\n', offset - 1);
       const std::uint64_t begin = before == std::string_view::npos ? 0 : before + 1;
       const std::uint64_t stop = std::min<std::uint64_t>(bytes.find('\n', offset), bytes.size());
@@ -87,7 +60,8 @@ std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& i
       s.file = file;
       const std::string_view line = trim(bytes.substr(begin, stop - begin));
       s.span = {file, static_cast<std::uint32_t>(line.size()), begin};
-      if (!parse(bytes.substr(offset + marker.size(), stop - offset - marker.size()), s)) {
+      if (!parse(bytes.substr(offset + lint_marker.size(), stop - offset - lint_marker.size()),
+                 s)) {
         reporter.report(malformed, s.span, "this suppression comment cannot be read");
         continue;
       }

@@ -77,6 +77,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size >= 8 && deck::detail::scan_plain_integer(cell.data(), cell.data() + size, plain)) {
     require(integer.status == deck::NumberStatus::ok);
     require(static_cast<std::uint64_t>(integer.value) == plain);
+    std::uint64_t id = 0;
+    require(size != 10 || (deck::detail::unlike_id(cell.data(), id) == 0 && id == plain));
+  }
+  double coordinate = 0;
+  if (size >= 16 && deck::detail::scan_plain_real(cell.data(), cell.data() + size, coordinate)) {
+    require(real.status == deck::NumberStatus::ok);
+    require(coordinate == real.value && std::signbit(coordinate) == std::signbit(real.value));
+    require(size != 20 || deck::detail::scan_plain_twenty(cell.data(), coordinate));
   }
   double value = 0;
   if (size >= 8) std::memcpy(&value, data, 8);

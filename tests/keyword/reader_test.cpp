@@ -1,6 +1,8 @@
 // The walk through a deck: blocks, headers, /BEGIN, includes, submodels, ends.
 #include <gmock/gmock.h>
 
+#include <random>
+
 #include "deck/text/gzip.hpp"
 #include "keyword/reading.hpp"
 
@@ -61,6 +63,35 @@ TEST(ReaderBlocks, HeadersAreFoundOnBothSidesOfEveryWindow) {
     ASSERT_EQ(d.blocks.size(), 3u) << shift;
     EXPECT_EQ(d.blocks[2].header, "/GRNOD/NODE/7");
     EXPECT_THAT(lines(d, d.blocks[2]), ElementsAre("t", "         5"));
+  }
+}
+
+TEST(ReaderBlocks, CommentsForLintAreFoundWhereverWindowsMeet) {
+  std::mt19937_64 random(5);
+  for (int k = 0; k < 40; ++k) {
+    std::string body;
+    for (int i = 0; i < 3000; ++i) {
+      constexpr std::string_view lines[] = {"/NODE\n",
+                                            "# decklint: ignore[DK1]\n",
+                                            "#decklint:\n",
+                                            "  text: 1 / 2 # 3\n",
+                                            "decklint:decklint:",
+                                            "/decklint:/\n",
+                                            "#include_decklint :\n"};
+      if (random() % 4 != 0)
+        body += std::string(random() % 200, '1') + '\n';
+      else
+        body += lines[random() % std::size(lines)];
+    }
+    const Deck deck = read(deck_of(body) + "# decklint:");
+    const std::string_view bytes = deck.sources[0].bytes();
+    ASSERT_EQ(deck.lint_markers.size(), 1u);
+    const LintMarkers& found = deck.lint_markers[0];
+    ASSERT_EQ(found.searched, bytes.size());
+    std::vector<std::uint64_t> expected;
+    for (std::size_t at = 0; (at = bytes.find(lint_marker, at)) != bytes.npos; ++at)
+      expected.push_back(at);
+    ASSERT_EQ(found.offsets, expected) << k;
   }
 }
 
@@ -356,6 +387,21 @@ TEST_F(ReaderInclude, IsSearchedBesideTheIncludingFileThenBesideTheMainFile) {
   EXPECT_EQ(d.parent_of(2), 1u);
   EXPECT_EQ(d.parent_of(3), 1u);
   EXPECT_EQ(d.includes[1].written, "inner.inc");
+}
+
+TEST_F(ReaderInclude, CommentsForLintAreFoundInEveryFileToItsEnd) {
+  file("b.inc", "# decklint: b\n#enddata\n$decklint: behind\n");
+  file("a.inc", "/NODE\n#include b.inc\n# decklint: a\n/END\n# decklint: behind\n");
+  const Deck d = read_file(
+      file("m_0000.rad", deck_of("# decklint: m\n#include a.inc\n# decklint: m\n") + "#decklint:"));
+  ASSERT_EQ(d.sources.size(), 3u);
+  ASSERT_EQ(d.lint_markers.size(), 3u);
+  for (std::uint32_t f = 0; f < 3; ++f) {
+    EXPECT_EQ(d.lint_markers[f].searched, d.sources[f].bytes().size());
+    EXPECT_EQ(d.lint_markers[f].offsets.size(), f == 0 ? 3u : 2u);
+    for (const std::uint64_t at : d.lint_markers[f].offsets)
+      EXPECT_TRUE(d.sources[f].bytes().substr(at).starts_with(lint_marker));
+  }
 }
 
 TEST_F(ReaderInclude, ExtraFoldersAreSearchedLast) {

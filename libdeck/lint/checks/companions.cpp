@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -27,23 +28,35 @@ void each_side_of(std::span<const Segment> segments, F&& f) {
 }
 
 /// Sides whose smaller nodes are close to each other. Most nodes are the smaller one of few sides:
-/// those are held here, further ones together with the further ones of other buckets.
+/// those are held here, further ones together with the further ones of other buckets. A `Side` is
+/// the larger node alone where all have the same smaller one.
+template <class Side>
 struct SideBucket {
-  std::array<SurfaceSide, 3> side;
-  std::uint32_t held = 0, again = 0;  ///< again: bit k of three if side[k] has come more than once
+  std::array<Side, 3> side;
+  std::uint16_t held = 0, again = 0;  ///< again: bit k of three if side[k] has come more than once
 
   /// False: there is no room for it.
   bool add(const SurfaceSide& s) {
-    for (std::uint32_t k = 0; k < held; ++k)
-      if (side[k] == s) {
-        again |= 1U << k;
+    for (std::uint16_t k = 0; k < held; ++k)
+      if (side[k] == kept(s)) {
+        again = static_cast<std::uint16_t>(again | 1U << k);
         return true;
       }
     if (held == side.size()) return false;
-    side[held++] = s;
+    side[held++] = kept(s);
     return true;
   }
-  std::size_t single() const { return held - (again & 1) - (again >> 1 & 1) - (again >> 2); }
+  std::size_t single() const {
+    return std::size_t{held} - (again & 1U) - (again >> 1 & 1U) - (again >> 2);
+  }
+
+ private:
+  static Side kept(const SurfaceSide& s) {
+    if constexpr (std::is_same_v<Side, NodeIndex>)
+      return s.second;
+    else
+      return s;
+  }
 };
 
 /// Sides that occur once. Sorts them.
@@ -109,22 +122,17 @@ class SurfacePieces {
   std::vector<Segment> room_;
 };
 
-/// Sides that belong to one segment only: the border of the surface. Linear in the segments: sides
-/// go into buckets by their smaller node, so many buckets at a time that little memory is needed.
-std::size_t count_free_edges(const SegmentList& surface) {
-  SurfacePieces pieces(surface);
-  const NodeRange all = pieces.all();
-  const NodeIndex low = all.low, high = all.high;
-  if (low > high) return 0;
-  int shift = 0;  // not many more buckets than segments
-  while ((high - low) >> shift > 4 * surface.size()) ++shift;
+/// As count_free_edges(), with 2^shift nodes a bucket.
+template <class Side>
+std::size_t count_free_edges(SurfacePieces& pieces, int shift) {
+  const NodeIndex low = pieces.all().low, high = pieces.all().high;
   const std::size_t buckets = ((high - low) >> shift) + std::size_t{1};
   // Few where that hardly needs more readings: they stay in the caches.
   constexpr std::size_t few = 1 << 18, many = 1 << 21;
   const std::size_t at_once =
       pieces.readings(std::uint64_t{few} << shift) <= 2 * pieces.count() ? few : many;
   std::size_t count = 0;
-  std::vector<SideBucket> here;
+  std::vector<SideBucket<Side>> here;
   std::vector<SurfaceSide> further;
   for (std::size_t begin = 0; begin < buckets; begin += at_once) {
     const std::size_t size = std::min(at_once, buckets - begin);
@@ -137,10 +145,22 @@ std::size_t count_free_edges(const SegmentList& surface) {
                             const std::size_t bucket = ((s.first - low) >> shift) - begin;
                             if (bucket < size && !here[bucket].add(s)) further.push_back(s);
                           });
-    for (const SideBucket& bucket : here) count += bucket.single();
+    for (const SideBucket<Side>& bucket : here) count += bucket.single();
     count += count_single(further);
   }
   return count;
+}
+
+/// Sides that belong to one segment only: the border of the surface. Linear in the segments: sides
+/// go into buckets by their smaller node, so many buckets at a time that little memory is needed.
+std::size_t count_free_edges(const SegmentList& surface) {
+  SurfacePieces pieces(surface);
+  const NodeRange all = pieces.all();
+  if (all.low > all.high) return 0;
+  int shift = 0;  // not many more buckets than segments
+  while ((all.high - all.low) >> shift > 4 * surface.size()) ++shift;
+  return shift == 0 ? count_free_edges<NodeIndex>(pieces, shift)
+                    : count_free_edges<SurfaceSide>(pieces, shift);
 }
 
 void check_edge_companion(const LintContext& c, const Rule& rule, Reporter& r) {

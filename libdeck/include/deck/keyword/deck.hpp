@@ -135,8 +135,18 @@ struct ReadOptions {
   const std::map<std::string, std::string>* overlay = nullptr;
 };
 
+/// What a comment that is meant for `deck lint` begins with, behind its '#' or '$'.
+inline constexpr std::string_view lint_marker = "decklint:";
+
+/// Where lint_marker stands in a file.
+struct LintMarkers {
+  std::uint64_t searched = 0;          ///< up to this byte it was looked for: all, once it was read
+  std::vector<std::uint64_t> offsets;  ///< of its first bytes, ascending
+};
+
 struct Deck {
   SourceSet sources;
+  std::vector<LintMarkers> lint_markers;  ///< by file
   std::vector<IncludeEdge> includes;
   std::vector<Block> blocks;  ///< in reading order, main deck only up to /END
   std::vector<Submodel> submodels;
