@@ -249,7 +249,7 @@ if (existsSync(findingsFolder)) {
       await idle(p, 45000);
     } catch {
       await p.click('button:has-text("Cancel")');
-      await p.waitForFunction(() => document.documentElement.dataset.busy === "false", null, { timeout: 10000 });
+      await p.waitForFunction(() => document.documentElement.dataset.busy === "false");
     }
     const said = await p.evaluate(() => document.querySelector(".verdict-line").textContent + document.querySelector(".trouble").textContent + document.querySelector(".count").textContent);
     check(`${basename(path)} ends with an answer or a message`, said.length > 0);
@@ -269,11 +269,29 @@ if (existsSync(findingsFolder)) {
 const large = corpus("EuroSID_II/EuroSID_II_0000.rad");
 if (large) {
   const p = await open(browser, PAGE);
-  await p.setInputFiles("#files", [large]);
-  await p.waitForFunction(() => document.documentElement.dataset.busy === "true");
-  await p.click('button:has-text("Cancel")');
-  await p.waitForFunction(() => document.documentElement.dataset.busy === "false", null, { timeout: 5000 });
-  check("cancel ends all work at once, and says so", (await p.textContent(".trouble")).includes("Cancelled"));
+  // The button is pressed as soon as a run begins: while the text is looked at, before any other run, and
+  // again once those others go on.
+  for (const during of ["the first run", "the runs after it"]) {
+    await p.reload();
+    await p.waitForFunction(() => document.documentElement.dataset.ready === "true");
+    await p.evaluate((first) => {
+      const root = document.documentElement;
+      window.begunAfter = null;
+      delete root.dataset.linted;
+      new MutationObserver((seen) => {
+        if (window.begunAfter !== null) window.begunAfter += seen.filter((m) => m.attributeName === "data-busy" && m.oldValue === "false").length;
+        else if (root.dataset.busy === "true" && (first || root.dataset.linted)) {
+          window.begunAfter = 0;
+          [...document.querySelectorAll("button")].find((b) => b.textContent === "Cancel").click();
+        }
+      }).observe(root, { attributes: true, attributeOldValue: true });
+    }, during === "the first run");
+    await p.setInputFiles("#files", [large]);
+    await p.waitForFunction(() => window.begunAfter !== null && document.documentElement.dataset.busy === "false");
+    await p.waitForTimeout(200);
+    check(`cancel during ${during} ends all work, and says so`, (await p.textContent(".trouble")).includes("Cancelled"));
+    same(`cancel during ${during} lets nothing begin after it`, await p.evaluate(() => window.begunAfter), 0);
+  }
   await p.reload();
   await p.waitForFunction(() => document.documentElement.dataset.ready === "true");
   await give(p, [large]);

@@ -170,6 +170,7 @@ async function whileBusy<T>(work: () => Promise<T>): Promise<T | null> {
 }
 
 function stopAll(): void {
+  ++turns;
   for (const lane of Object.values(lanes)) lane.cancel();
   say("Cancelled. What is shown may be out of date; “Undo”, another change or another file starts again.");
 }
@@ -183,19 +184,23 @@ function parsed<T>(r: Result): T | null {
   }
 }
 
+/** The chain of runs that goes on: a newer text and "Cancel" end the one before, also between two of its runs. */
+let turns = 0;
+
 /** All that follows the text. */
 async function refresh(): Promise<void> {
   ++versions;
+  const turn = ++turns;
   undo.disabled = !tree.canUndo;
   title.textContent = `${main}${tree.changed().length > 0 ? " (changed)" : ""}`;
   say("");
   drawText();
   // The findings of the text come first, with the machine to themselves.
   for (const lane of [lanes.lint, lanes.values, lanes.gaps]) lane.cancel();
-  const state = versions;
   await refreshText();
-  if (state !== versions) return;
+  if (turn !== turns) return;
   await Promise.all([refreshGeometry(), refreshValues(), refreshGaps()]);
+  if (turn !== turns) return;
   for (const t of tabs) if (t.id === tab) t.open?.();
 }
 
