@@ -313,8 +313,12 @@ void finish_deck(Deck& deck, ReaderNotes& notes, const ReadOptions& options) {
             .fix = "start the deck with /BEGIN, run name, version and units"});
   else
     drop_before_begin(deck, notes);
-  if (!deck.end_seen)
-    report(deck, RuleId::DK010, make_span(0, main_size, main_size), "the main file has no /END");
+  if (!deck.end_seen) {
+    const bool open_line = main_size > 0 && deck.sources[0].bytes().back() != '\n';
+    report(deck, RuleId::DK010, make_span(0, main_size, main_size),
+           open_line ? "the main file has no /END and ends amid a line: is it complete?"
+                     : "the main file has no /END");
+  }
   read_parameters(deck, options.limits);
   resolve_header_parameters(deck);
   fill_submodels(deck, notes);

@@ -187,6 +187,20 @@ Diagnostic with_edit(Span span, std::string text, bool safe = true) {
   return d;
 }
 
+TEST(MissingEnd, IsAppendedSafelyOnlyBehindAWholeLine) {
+  const std::string deck = "#RADIOSS STARTER\n/BEGIN\nx\n      2020         0\n/NODE\n         1";
+  const Linted whole = lint_text(deck + "\n"), cut = lint_text(deck);
+  const auto fixed = [](const Linted& r, bool unsafe) {
+    return apply_fixes(r.deck->sources, r.result.diagnostics, unsafe).files;
+  };
+  ASSERT_EQ(fixed(whole, false).size(), 1u) << whole.list();
+  EXPECT_EQ(fixed(whole, false).front().text, deck + "\n/END\n");
+  EXPECT_TRUE(fixed(cut, false).empty());
+  ASSERT_EQ(fixed(cut, true).size(), 1u) << cut.list();
+  EXPECT_EQ(fixed(cut, true).front().text, deck + "\n/END\n");
+  EXPECT_NE(cut.find(RuleId::DK010)->message.find("amid a line"), std::string::npos);
+}
+
 TEST(ApplyFixes, ComeToAnEndOnEverySample) {
   for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "samples")) {
     if (!entry.path().string().ends_with("_0000.rad")) continue;

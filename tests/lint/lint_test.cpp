@@ -307,6 +307,30 @@ TEST(InterfaceId, IsNotTheCommentBehindTheHeader) {
   EXPECT_FALSE(run.fires(RuleId::DK179)) << run.list();
 }
 
+TEST(MissingId, ShowsWhatStandsInItsPlace) {
+  for (const std::string id : {"-1", "1.5", "left"}) {
+    const Linted r = lint_text("#RADIOSS STARTER\n/BEGIN\nx\n      2020         0\n/SURF/PART/" + id +
+                               "\ntitle\n         1\n/END\n");
+    const Diagnostic* d = r.find(RuleId::DK049);
+    ASSERT_NE(d, nullptr) << id << '\n' << r.list();
+    EXPECT_EQ(d->message, "'" + id + "' in the header of /SURF/PART is no id");
+    EXPECT_EQ(r.deck->sources.text(d->span), id);
+  }
+}
+
+TEST(MissingId, IsAlsoAWrittenZeroButNoParameter) {
+  const auto fires = [](const std::string& id) {
+    return lint_text("#RADIOSS STARTER\n/BEGIN\nx\n      2020         0\n/PARAMETER/GLOBAL/INT/1\n"
+                     "one\none                1\n/SURF/PART/" +
+                     id + "\ntitle\n         1\n/END\n")
+        .fires(RuleId::DK049);
+  };
+  EXPECT_TRUE(fires("0"));
+  EXPECT_TRUE(fires("000"));
+  EXPECT_FALSE(fires("001"));
+  EXPECT_FALSE(fires("&one"));
+}
+
 TEST(BlankLine, StopsTheSolverAmongElementsAndNotAmongNodes) {
   const Linted shells = lint_example(
       "/SHELL/1\n         9         1         2         3         4\n\n"

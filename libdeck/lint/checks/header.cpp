@@ -166,11 +166,27 @@ void check_title(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_missing_id(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& b : c.deck.blocks) {
-    if (b.schema == nullptr || !b.schema->has_id || b.id.present) continue;
+    if (b.schema == nullptr || !b.schema->has_id) continue;
     if (b.schema->kind.empty() || b.schema->kind == "other" || b.schema->kind == "parameter")
       continue;
     if (b.schema->bulk) continue;
-    r.report(rule, b, b.header_span, b.schema->keyword + " without an id");
+    const std::string& keyword = b.schema->keyword;
+    if (b.id.present) {
+      // An interface keeps its zero.
+      if (b.id.value == 1 && c.text(b.id.span).find_first_not_of('0') == std::string_view::npos)
+        r.report(rule, b, b.id.span, "the id in the header of " + keyword + " is 0");
+      continue;
+    }
+    const std::string_view after = b.header.substr(b.keyword.size());
+    const std::string_view field = after.substr(std::min<std::size_t>(1, after.size()));
+    const std::string_view text = trim(field.substr(0, field.find('/')));
+    if (text.empty())
+      r.report(rule, b, b.header_span, keyword + " without an id");
+    else
+      r.report(rule, b,
+               Span{b.header_span.file, static_cast<std::uint32_t>(text.size()),
+                    b.header_span.offset + static_cast<std::size_t>(text.data() - b.header.data())},
+               fmt::format("'{}' in the header of {} is no id", clipped(text), keyword));
   }
 }
 
