@@ -230,6 +230,34 @@ check("the policy allows nothing by default and no connections", policy.includes
   await p.close();
 }
 
+// ---- files that come late, again or not at all --------------------------------------------------
+
+{
+  const p = await open(browser, PAGE);
+  await p.evaluate(() => {
+    const read = File.prototype.arrayBuffer;
+    window.late = new Promise((ok) => (window.goOn = ok));
+    File.prototype.arrayBuffer = async function () {
+      if (this.name.startsWith("late")) await window.late;
+      if (this.name.startsWith("gone")) throw new Error("it went away");
+      return read.call(this);
+    };
+  });
+  const deckText = readFileSync(sample("clean_plates"));
+  const named = (name) => ({ name, mimeType: "text/plain", buffer: deckText });
+  await p.setInputFiles("#files", [named("gone_0000.rad")]);
+  await p.waitForFunction(() => document.querySelector(".trouble").textContent !== "");
+  same("a file that cannot be read is named", await p.textContent(".trouble"), "gone_0000.rad cannot be read: it went away");
+  await p.setInputFiles("#files", [named("late_0000.rad")]);
+  await give(p, [named("soon_0000.rad")]);
+  await p.evaluate(() => window.goOn());
+  await p.waitForTimeout(200);
+  await idle(p);
+  check("what was chosen last is shown, however long the one before takes", (await p.textContent(".deck-name")).includes("soon_0000.rad"), await p.textContent(".deck-name"));
+  same("the same file can be chosen again", await p.$$eval("input[type=file]", (all) => all.map((i) => i.value)), ["", "", ""]);
+  await p.close();
+}
+
 // ---- hostile decks ------------------------------------------------------------------------------
 
 const hostile = [];

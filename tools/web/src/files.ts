@@ -4,7 +4,13 @@ export interface Given {
   bytes: Uint8Array;
 }
 
-const bytesOf = async (file: File) => new Uint8Array(await file.arrayBuffer());
+async function bytesOf(file: File): Promise<Uint8Array> {
+  try {
+    return new Uint8Array(await file.arrayBuffer());
+  } catch (e) {
+    throw new Error(`${file.name} cannot be read: ${e instanceof Error ? e.message : String(e)}`);
+  }
+}
 
 async function walk(entry: FileSystemEntry, out: Given[]): Promise<void> {
   if (entry.isFile) {

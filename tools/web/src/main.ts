@@ -415,27 +415,44 @@ function placed(given: Map<string, Uint8Array>): Map<string, Uint8Array> {
   }));
 }
 
-async function open(given: Given[]): Promise<void> {
-  say("");
+let openings = 0;
+
+/** What was chosen or dropped last is what is shown; what cannot be read is said. */
+async function arrive(coming: Promise<Given[]>, then: (given: Given[]) => void): Promise<void> {
+  const mine = ++openings;
   try {
-    const unpacked = unpack(given);
-    if (unpacked.size === 0) return;
-    const asked = placed(unpacked);
-    const answers = main !== "" && [...asked.keys()].some((n) => !unpacked.has(n) || missingNames().includes(n));
-    if (answers) tree.add(asked);
-    else {
-      tree = new Tree();
-      tree.add(unpacked);
-      other = null;
-      place = null;
-      list.reset();
-      main = tree.roots()[0];
-      gapsOf = -1;
-    }
-    start();
+    const given = await coming;
+    if (mine === openings) then(given);
   } catch (e) {
-    say(e instanceof Error ? e.message : String(e));
+    if (mine === openings) say(e instanceof Error ? e.message : String(e));
   }
+}
+
+function open(given: Given[]): void {
+  say("");
+  const unpacked = unpack(given);
+  if (unpacked.size === 0) return;
+  const asked = placed(unpacked);
+  const answers = main !== "" && [...asked.keys()].some((n) => !unpacked.has(n) || missingNames().includes(n));
+  if (answers) tree.add(asked);
+  else {
+    tree = new Tree();
+    tree.add(unpacked);
+    other = null;
+    place = null;
+    list.reset();
+    main = tree.roots()[0];
+    gapsOf = -1;
+  }
+  start();
+}
+
+function compareWith(given: Given[]): void {
+  const unpacked = unpack(given);
+  if (unpacked.size === 0) return;
+  other = new Tree();
+  other.add(unpacked);
+  void openDiff();
 }
 
 function start(): void {
@@ -460,13 +477,11 @@ which.addEventListener("change", () => {
   list.chosen = true;
   drawText();
 });
-files.addEventListener("change", () => void chosen(files.files as FileList).then(open));
-folder.addEventListener("change", () => void chosen(folder.files as FileList).then(open));
-second.addEventListener("change", () => void chosen(second.files as FileList).then((given) => {
-  other = new Tree();
-  other.add(unpack(given));
-  return openDiff();
-}));
+for (const [input, then] of [[files, open], [folder, open], [second, compareWith]] as const)
+  input.addEventListener("change", () => {
+    void arrive(chosen(input.files as FileList), then);
+    input.value = ""; // or the same file, changed on disk, could not be chosen again
+  });
 addEventListener("dragover", (e) => {
   e.preventDefault();
   document.documentElement.dataset.drag = "true";
@@ -477,12 +492,7 @@ addEventListener("dragleave", (e) => {
 addEventListener("drop", (e) => {
   e.preventDefault();
   delete document.documentElement.dataset.drag;
-  if (e.dataTransfer) void dropped(e.dataTransfer).then((given) => {
-    if (tab !== "diff" || main === "") return open(given);
-    other = new Tree();
-    other.add(unpack(given));
-    return openDiff();
-  });
+  if (e.dataTransfer) void arrive(dropped(e.dataTransfer), (given) => (tab === "diff" && main !== "" ? compareWith(given) : open(given)));
 });
 addEventListener("keydown", (e) => {
   const busyTyping = e.target instanceof HTMLInputElement || e.target instanceof HTMLSelectElement;
