@@ -16,7 +16,8 @@ Fix missing_end(const Deck& deck) {
   const bool open_line = !bytes.empty() && bytes.back() != '\n';
   Fix fix;
   fix.title = "append /END";
-  // A deck that was cut off amid a line would be made to look whole: that is for a person to decide.
+  // A deck that was cut off amid a line would be made to look whole: that is for a person to
+  // decide.
   fix.safe = !open_line;
   fix.edits.push_back({Span{0, 0, bytes.size()}, (open_line ? eol : "") + "/END" + eol});
   return fix;

@@ -309,8 +309,8 @@ TEST(InterfaceId, IsNotTheCommentBehindTheHeader) {
 
 TEST(MissingId, ShowsWhatStandsInItsPlace) {
   for (const std::string id : {"-1", "1.5", "left"}) {
-    const Linted r = lint_text("#RADIOSS STARTER\n/BEGIN\nx\n      2020         0\n/SURF/PART/" + id +
-                               "\ntitle\n         1\n/END\n");
+    const Linted r = lint_text("#RADIOSS STARTER\n/BEGIN\nx\n      2020         0\n/SURF/PART/" +
+                               id + "\ntitle\n         1\n/END\n");
     const Diagnostic* d = r.find(RuleId::DK049);
     ASSERT_NE(d, nullptr) << id << '\n' << r.list();
     EXPECT_EQ(d->message, "'" + id + "' in the header of /SURF/PART is no id");
@@ -320,9 +320,10 @@ TEST(MissingId, ShowsWhatStandsInItsPlace) {
 
 TEST(MissingId, IsAlsoAWrittenZeroButNoParameter) {
   const auto fires = [](const std::string& id) {
-    return lint_text("#RADIOSS STARTER\n/BEGIN\nx\n      2020         0\n/PARAMETER/GLOBAL/INT/1\n"
-                     "one\none                1\n/SURF/PART/" +
-                     id + "\ntitle\n         1\n/END\n")
+    return lint_text(
+               "#RADIOSS STARTER\n/BEGIN\nx\n      2020         0\n/PARAMETER/GLOBAL/INT/1\n"
+               "one\none                1\n/SURF/PART/" +
+               id + "\ntitle\n         1\n/END\n")
         .fires(RuleId::DK049);
   };
   EXPECT_TRUE(fires("0"));
