@@ -1,38 +1,40 @@
 // Applies the edits of a conversion to the files of a deck; entries of its loss report.
 #include "deck/edit/rewrite.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include "deck/text/edits.hpp"
 #include "keyword/reader.hpp"
 
 namespace deck {
 
 Result<ChangedFiles> apply_edits(const SourceSet& sources, const std::vector<TextEdit>& edits) {
-  // A file included twice is two sources with the same path; its edits are made once.
-  std::map<std::string_view, std::uint32_t> first_of;
   std::vector<std::vector<const TextEdit*>> by_source(sources.size());
-  std::vector<bool> is_copy;
-  for (std::uint32_t f = 0; f < sources.size(); ++f)
-    is_copy.push_back(!first_of.emplace(sources[f].path(), f).second);
   for (const TextEdit& e : edits) by_source[e.span.file].push_back(&e);
+  // A file included twice is two sources with one path. Every copy has to become the same text: a
+  // copy that no edit is meant for would change with the others.
+  std::map<std::string_view, std::vector<std::uint32_t>> copies_of;
+  for (std::uint32_t f = 0; f < sources.size(); ++f) copies_of[sources[f].path()].push_back(f);
   ChangedFiles changed;
-  for (const bool copies : {false, true}) {
-    for (std::uint32_t file = 0; file < sources.size(); ++file) {
-      if (is_copy[file] != copies || by_source[file].empty()) continue;
+  for (const auto& [path, copies] : copies_of) {
+    if (std::all_of(copies.begin(), copies.end(),
+                    [&](std::uint32_t f) { return by_source[f].empty(); }))
+      continue;
+    std::optional<std::string> agreed;
+    for (const std::uint32_t file : copies) {
       auto text = apply_edit_pointers(sources[file], std::move(by_source[file]));
       if (!text) return text.error();
-      if (*text == sources[file].bytes()) continue;
-      const std::string& path = sources[file].path();
-      const auto it = changed.find(path);
-      if (it == changed.end()) {
-        changed.emplace(path, std::move(*text));
-        continue;
-      }
-      if (it->second == *text) continue;
-      return Error{Error::Code::config,
-                   path +
-                       " is included more than once and would have to become two different "
-                       "files; give the second include a file of its own"};
+      if (agreed && *agreed != *text)
+        return Error{Error::Code::config,
+                     std::string(path) +
+                         " is included more than once and would have to become two different "
+                         "files; give the second include a file of its own, or flatten the deck "
+                         "first"};
+      agreed = std::move(*text);
     }
+    if (*agreed != sources[copies.front()].bytes())
+      changed.emplace(std::string(path), std::move(*agreed));
   }
   return changed;
 }

@@ -33,7 +33,9 @@ std::string_view header_reference(const Block& b) {
   for (const std::string_view k : materials)
     if (detail::is_below(b.header, k)) return "mat";
   if (detail::is_below(b.header, "/MOVE_FUNCT")) return "funct";
-  if (detail::is_below(b.header, "/XELEM") || detail::is_below(b.header, "/SPHCEL")) return "part";
+  constexpr std::string_view parts[] = {"/XELEM", "/SPHCEL", "/XREF", "/SPH/RESERVE"};
+  for (const std::string_view k : parts)
+    if (detail::is_below(b.header, k)) return "part";
   const bool element = b.schema != nullptr && b.schema->bulk && b.schema->kind != "node";
   return element ? "part" : std::string_view();
 }

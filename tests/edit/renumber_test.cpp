@@ -241,6 +241,36 @@ TEST(Renumber, NodesAndGroupsOfRigidBodiesAndLoadsFollow) {
   EXPECT_FALSE(after->contains("        52\n"));
 }
 
+TEST(Renumber, ReferenceGeometryFollowsItsPartAndNodesAndKeepsItsCount) {
+  // Nitrs is 10 and looks like a node; title, count, nodes.
+  const auto w = Whole::text(plates()
+                                 .add("/XREF/1\nat rest\n        10\n"
+                                      "        20                 1.0")
+                                 .add("/SPH/RESERVE/2\n        10")
+                                 .text());
+  const auto after = w->after(numbered(*w, {"node+1000", "part+50"}, true));
+  EXPECT_TRUE(after->contains("/XREF/51\nat rest\n        10\n      1020 ")) << after->main_text();
+  EXPECT_TRUE(after->contains("/SPH/RESERVE/52\n"));
+}
+
+TEST(Renumber, SpringGroupOfAnActivationIsNoNodeGroup) {
+  const auto w = Whole::text(plates().add("@/ACTIV/1 grspr_ID=52 grshel_ID=52\n").text());
+  EXPECT_EQ(w->after(numbered(*w, {"grnod+5"}))->main_text(), [&] {
+    std::string text = w->main_text();
+    for (std::size_t at = 0; (at = text.find("/GRNOD/PART/2", at)) != std::string::npos; ++at)
+      text.replace(at, 13, "/GRNOD/PART/7");
+    return text;
+  }());
+}
+
+/// Their first line looks like a title and holds values.
+TEST(Renumber, BlocksWithoutTitleAreNotSkippedOver) {
+  for (const char* block : {"/DFS/DETLINE/1", "/INISTA", "/SPH/RESERVE/1"}) {
+    const auto w = Whole::text(plates().add(std::string(block) + "\n        10").text());
+    EXPECT_EQ(numbered(*w, {"node+1000"}).refusals.size(), 1u) << block;
+  }
+}
+
 TEST(Renumber, NumbersThatNoIdHasAreNoReasonToRefuse) {
   const auto w = Whole::text(plates().add("/RBODY/9\nr\n        77         0").text());
   EXPECT_TRUE(numbered(*w, {"node+1000", "part+1000"}).refusals.empty());

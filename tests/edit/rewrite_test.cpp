@@ -59,6 +59,21 @@ TEST(ApplyEditsOfADeck, RefuseTwoDifferentContentsForOneFile) {
   EXPECT_NE(both.error().message.find("part"), std::string::npos);
 }
 
+/// An edit meant for what one include holds would change the others with it.
+TEST(ApplyEditsOfADeck, RefuseAFileOfWhichOneCopyIsToStay) {
+  SourceSet sources;
+  sources.add(Source::from_bytes("main", "M"));
+  for (int copy = 0; copy < 3; ++copy) sources.add(Source::from_bytes("part", "abc"));
+  for (const std::uint32_t copy : {1u, 2u, 3u}) {
+    const auto one = apply_edits(sources, {{Span{copy, 1, 0}, "X"}});
+    ASSERT_FALSE(one.ok()) << copy;
+    EXPECT_NE(one.error().message.find("part"), std::string::npos);
+  }
+  // Replaced by what stands there: nothing changes anywhere.
+  const Span same{1, 0, 1};
+  EXPECT_TRUE(apply_edits(sources, {{same, std::string(sources.text(same))}})->empty());
+}
+
 TEST(Overlay, IsReadInsteadOfTheFile) {
   const std::string path = (test::source_dir() / "samples/include_tree_0000.rad").string();
   const auto deck = read_deck(path, SchemaSet::built_in());

@@ -51,6 +51,12 @@ TEST(Material, FabricTakesTheLargerDirectionWithoutLateralContraction) {
   EXPECT_TRUE(m.known);
 }
 
+/// E1, B1, E2, B2: the second modulus stands behind the softening of the first.
+TEST(Material, FabricWithSofteningTakesTheLargerModulus) {
+  EXPECT_DOUBLE_EQ(moduli("FABR_A", reals({1e-6}) + reals({4, 0.5, 6, 0.5})).young, 6);
+  EXPECT_DOUBLE_EQ(moduli("FABR_A", reals({1e-6}) + reals({4, 9, 2, 9})).young, 4);
+}
+
 TEST(Material, FoamHasNoShellModulus) {
   const Moduli m = moduli("FOAM_PLAS", reals({1e-6}) + reals({3}));
   EXPECT_EQ(m.young, 0);

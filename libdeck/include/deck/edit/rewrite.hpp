@@ -54,7 +54,8 @@ struct Rewrite {
 using ChangedFiles = std::map<std::string, std::string>;
 
 /// Applies edits. A file that the deck includes twice is changed once: equal edits through both
-/// includes are one. Error: edits that overlap or contradict each other.
+/// includes are one. Error: edits that overlap, or that would make of one file two: every include
+/// of it has to ask for the same text.
 Result<ChangedFiles> apply_edits(const SourceSet& sources, const std::vector<TextEdit>& edits);
 /// The same for a whole rewrite: with new_text, that is the main file's content.
 Result<ChangedFiles> apply_rewrite(const SourceSet& sources, const Rewrite& rewrite);
