@@ -12,9 +12,12 @@
 
 #include "deck/keyword/decode.hpp"
 #include "deck/keyword/references.hpp"
+#include "deck/model/connectivity.hpp"
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
+#include "inspect/element_cells.hpp"
 #include "inspect/match.hpp"
+#include "keyword/decode/implied_one.hpp"
 
 namespace deck {
 
@@ -164,15 +167,27 @@ class Differ {
     Span span;
     Dimension dimension;
     std::string ref;
+    bool counts = false;  ///< its default is a number that other units change
   };
 
   static DiffValue value_of(std::int64_t v) { return v; }
   static DiffValue value_of(double v) { return v; }
   static DiffValue value_of(const std::string& v) { return v; }
 
+  /// Some axis of a function is scaled by the field of that name.
+  static bool is_scale(const Schema& schema, std::string_view name) {
+    for (const CardSchema& card : schema.cards)
+      for (const Field& f : card.fields)
+        for (const Axis& axis : f.axes)
+          if (std::find(axis.scales.begin(), axis.scales.end(), name) != axis.scales.end())
+            return true;
+    return false;
+  }
+
   std::vector<FieldValue> fields_of(const DiffSide& side, const InterBase& inter) const {
     std::vector<FieldValue> out;
     const DecodedBlock d = decode(*side.deck, *inter.block);
+    const detail::ImpliedOnes ones = detail::implied_ones(d);
     visit_interface(inter, [&](const auto& t) {
       t.for_each([&](std::string_view name, const auto& e) {
         FieldValue f;
@@ -187,6 +202,10 @@ class Differ {
         if (const Field* field = inter.block->schema->find_field(name)) {
           f.ref = field->type == FieldType::id ? field->ref : "";
           if (field->type == FieldType::real) f.dimension = dimension_of(*field, d);
+          const Cell* cell = d.find(name);
+          const bool scale = !field->unit_for.empty() || is_scale(*inter.block->schema, name);
+          f.counts = scale ? ones.cells.contains(cell) || ones.absent.contains(field->name)
+                           : detail::ordinary_default(*field).has_value();
         }
         out.push_back(std::move(f));
       });
@@ -228,9 +247,11 @@ class Differ {
       const DiffValue effective = in_first_units(fb[i].effective, fb[i].dimension);
       // Values from the mesh are sums that may have another order.
       if (same_value(fa[i].effective, effective, fa[i].ref, true)) continue;
-      // A built-in bound such as 1e30 is that in every unit system.
+      // A built-in bound such as 1e30 is that in every unit system, and what nothing is measured by
+      // is 1 in all of them.
       const bool on_card = fa[i].why == "card" || fb[i].why == "card";
-      if (!on_card && fa[i].effective == fb[i].effective) continue;
+      const bool counts = fa[i].counts || fb[i].counts;
+      if (!on_card && !counts && fa[i].effective == fb[i].effective) continue;
       Change& c = add(ChangeKind::changed, a, &b, fa[i].name);
       if (fa[i].has_input) c.old_value = fa[i].input;
       if (fb[i].has_input) c.new_value = input;
@@ -272,6 +293,39 @@ class Differ {
     }
   }
 
+  /// The number that counts, in working units. Blank may be 1 in the units of the block; other
+  /// defaults are in working units already, and matter where these differ.
+  double real_of(const Deck& deck, const DecodedBlock& d, const Cell& cell, bool one) const {
+    Cell c = cell;
+    if (c.real == 0 && one) c.real = 1;
+    if (c.real != 0 || !other_units_) return working_value(deck, d, c);
+    return detail::ordinary_default(*c.field).value_or(0);
+  }
+
+  /// Scales whose line is missing are 1 as well.
+  void absent_ones(const DiffSide& side, const DecodedBlock& d, const detail::ImpliedOnes& ones,
+                   bool rounded, Contents& out) const {
+    for (const CardSchema& card : d.block->schema->cards) {
+      if (ones.absent.empty() || !card.in_version(d.block->version)) continue;
+      for (const Field& f : card.fields) {
+        if (!ones.absent.contains(f.name) || f.type != FieldType::real ||
+            !f.in_version(d.block->version) || !holds(card.when, d) || !holds(f.when, d))
+          continue;
+        Cell one;
+        one.field = &f;
+        one.real = 1;
+        const double x = working_value(*side.deck, d, one);
+        CellKey key{card.name, 0, f.name, 0};
+        CellValue v;
+        v.span = d.block->header_span;
+        v.rounded = rounded;
+        v.value = &side == &b_ ? in_first_units(x, dimension_of(f, d)) : DiffValue(x);
+        out.order.push_back(key);
+        out.cells.emplace(std::move(key), std::move(v));
+      }
+    }
+  }
+
   Contents contents_of(const DiffSide& side, const Block& block) const {
     Contents out;
     const Deck& deck = *side.deck;
@@ -283,6 +337,7 @@ class Differ {
     const DecodedBlock d = decode(deck, block);
     const UnitSystem* units = deck.units_of(block);
     const bool rounded = other_units_ || (units != nullptr && !(*units == deck.begin.working));
+    const detail::ImpliedOnes ones = detail::implied_ones(d);
     for (const DecodedCard& card : d.cards) {
       const bool list = card.schema->repeat == Repeat::ids;
       std::map<std::string, int> which;
@@ -299,7 +354,7 @@ class Differ {
         CellValue v;
         v.span = cell.span;
         if (f.type == FieldType::real) {
-          const double x = working_value(deck, d, cell);
+          const double x = real_of(deck, d, cell, ones.cells.contains(&cell));
           if (x == 0) continue;  // the same as blank
           v.rounded = rounded;
           v.value = &side == &b_ ? in_first_units(x, dimension_of(f, d, &card)) : DiffValue(x);
@@ -319,6 +374,7 @@ class Differ {
       if (!block.schema->layout_known() && card.cells.empty() && !card.missing())
         words_of(card.line, out);
     }
+    absent_ones(side, d, ones, rounded, out);
     for (const Line& line : d.extra) words_of(line, out);
     return out;
   }
@@ -584,6 +640,7 @@ class Differ {
     }
     for (NodeIndex m = 0; m < nb.size(); ++m)
       if (used[m] == 0) gained.push_back(nb.id[m]);
+    tolerances();
     if (lost.empty() && gained.empty()) return;
     Change& c = loose(ChangeKind::changed, "node", "/NODE", 0);
     c.field = "nodes";
@@ -591,6 +648,39 @@ class Differ {
     c.new_value = static_cast<std::int64_t>(nb.size());
     c.lost = std::move(lost);
     c.gained = std::move(gained);
+  }
+
+  struct Tolerance {
+    double length = 0;  ///< in working units of the first deck
+    Span place;
+  };
+
+  /// Within these distances /CNODE merges its nodes with others.
+  std::vector<Tolerance> tolerances_of(const DiffSide& side) const {
+    std::vector<Tolerance> out;
+    for (const Block& b : side.deck->blocks) {
+      constexpr std::string_view keyword = "/CNODE/";
+      if (!b.header.starts_with(keyword)) continue;
+      const double x = read_real(b.header.substr(keyword.size())).value;
+      const UnitSystem* units = side.deck->units_of(b);
+      out.push_back(
+          {x * conversion_factor(units == nullptr ? units_a_ : *units, units_a_, length_dimension),
+           b.header_span});
+    }
+    return out;
+  }
+
+  void tolerances() {
+    const auto ta = tolerances_of(a_), tb = tolerances_of(b_);
+    for (std::size_t i = 0; i < ta.size() && i < tb.size(); ++i) {
+      if (same_number(ta[i].length, tb[i].length, true)) continue;
+      Change& c = loose(ChangeKind::changed, "node", "/CNODE", 0);
+      c.field = "tolerance";
+      c.old_value = ta[i].length;
+      c.new_value = tb[i].length;
+      c.a = ta[i].place;
+      c.b = tb[i].place;
+    }
   }
 
   struct PartElements {
@@ -614,6 +704,8 @@ class Differ {
       const auto it = part_to_a.find(id);
       return it == part_to_a.end() ? id : it->second;
     };
+    const detail::ElementCells cells_a = detail::element_cells(*a_.deck, *a_.model);
+    const detail::ElementCells cells_b = detail::element_cells(*b_.deck, *b_.model);
     for (const ElementKind kind : detail::all_families) {
       const char* keyword = detail::keyword_of_family(kind);
       const Elements& fa = a_.model->family(kind);
@@ -628,7 +720,8 @@ class Differ {
         if (f == no_index || part_a(fa, e) != part_b(fb, f)) {
           p.lost.push_back(fa.id[e]);
           if (f != no_index) parts[{part_b(fb, f), keyword}].gained.push_back(fb.id[f]);
-        } else if (!same_element(fa, e, fb, f)) {
+        } else if (!same_element(fa, e, fb, f) ||
+                   !same_cells(cells_of(cells_a, kind, e), cells_of(cells_b, kind, f))) {
           p.altered.push_back(fa.id[e]);
         }
       }
@@ -660,10 +753,43 @@ class Differ {
                     std::uint32_t f) const {
     for (int i = 0; i < fa.width; ++i)
       if (to_b(fa.of(e)[i]) != fb.of(f)[i]) return false;
+    if (!fa.shape.empty() && (fa.shape[e] != fb.shape[f] || !same_mid_nodes(fa, e, fb, f)))
+      return false;
     const auto thickness = [](const Elements& x, std::uint32_t i) {
       return i < x.thickness.size() ? x.thickness[i] : 0;
     };
     return same_number(thickness(fa, e) * length_, thickness(fb, f), other_units_);
+  }
+
+  bool same_mid_nodes(const Elements& fa, std::uint32_t e, const Elements& fb,
+                      std::uint32_t f) const {
+    const auto mid = [](const Elements& x, std::uint32_t i) {
+      return x.extra.empty() || x.extra[i] == no_index ? nullptr
+                                                       : x.extra_nodes.data() + x.extra[i];
+    };
+    const NodeIndex *x = mid(fa, e), *y = mid(fb, f);
+    for (int i = 0; i < extra_node_count(fa.shape[e]); ++i)
+      if ((x == nullptr ? no_index : to_b(x[i])) != (y == nullptr ? no_index : y[i])) return false;
+    return true;
+  }
+
+  using RowCells = std::vector<detail::ElementCell>;
+
+  static const RowCells& cells_of(const detail::ElementCells& all, ElementKind kind,
+                                  std::uint32_t e) {
+    static const RowCells none;
+    const auto& of_kind = all[static_cast<std::size_t>(kind)];
+    const auto it = of_kind.find(e);
+    return it == of_kind.end() ? none : it->second;
+  }
+
+  /// Angles and directions have no dimension.
+  bool same_cells(const RowCells& x, const RowCells& y) const {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                      [&](const detail::ElementCell& u, const detail::ElementCell& v) {
+                        return u.field->name == v.field->name && u.real == v.real &&
+                               same_id(u.field->ref, u.id, v.id);
+                      });
   }
 
   // ---- penetrations ---------------------------------------------------------------------------

@@ -16,6 +16,7 @@
 #include "edit/convert/units/unit_system_rows.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
 #include "edit/convert/version_cards.hpp"
+#include "keyword/decode/implied_one.hpp"
 #include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
 
@@ -263,15 +264,6 @@ bool worth_decoding(const Schema& s) {
   return false;
 }
 
-/// The number that blank means, if it is one that a model could notice: no bound like 1e30 and no
-/// nothing like 1e-30.
-std::optional<double> ordinary_default(const Field& f) {
-  const RealCell value = read_real(f.default_text);
-  if (value.status != NumberStatus::ok) return std::nullopt;
-  const double size = std::fabs(value.value);
-  return size > 1e-20 && size < 1e20 ? std::optional(value.value) : std::nullopt;
-}
-
 class BlockConverter {
  public:
   explicit BlockConverter(UnitConversion& c) : c_(c), deck_(c.deck) {}
@@ -335,7 +327,7 @@ class BlockConverter {
     if (only == nullptr || b.schema->opaque_tail || b.schema->has_title) return nullptr;
     for (const Field& f : only->fields)
       if (!f.dimension_when.empty() || !f.dimension_known || f.ref == "funct" ||
-          ordinary_default(f))
+          detail::ordinary_default(f))
         return nullptr;
     return only;
   }
@@ -415,7 +407,8 @@ class BlockConverter {
     for (const DecodedCard& card : d.cards) {
       if (card.missing()) continue;
       for (const Cell& cell : card.cells) function_use(b, d, card, cell);
-      for (const Cell& cell : card.cells) reference_value(d, card, cell);
+      for (const Cell& cell : card.cells)
+        if (detail::measures(d, card, cell)) brought_.insert(&cell);
     }
     for (const DecodedCard& card : d.cards)
       if (!card.missing()) convert_card(b, d, card);
@@ -489,13 +482,10 @@ class BlockConverter {
           scaled = scaled || name[0] != 'A';
           continue;
         }
-        const Cell* scale = beside(d, card, cell, name);
-        if (scale != nullptr) brought_.insert(scale);
-        scaled = scaled || scale != nullptr;
-        if (scale == nullptr && has_field(b, name)) {
-          absent_.insert(name);
-          scaled = true;
-        }
+        const detail::AxisScale scale = detail::axis_scale(d, card, cell, name);
+        if (scale.cell != nullptr) brought_.insert(scale.cell);
+        if (scale.absent) absent_.insert(name);
+        scaled = scaled || scale.counts();
       }
       Dimension points;
       if (axis.scales.empty()) {
@@ -546,41 +536,6 @@ class BlockConverter {
       return b.schema != nullptr && b.schema->keyword == "/FUNCT" &&
              b.id.value + deck_.offset_of(b, "funct") == id;
     });
-  }
-
-  /// The cell `name` that goes with `cell`: on its line, in its round, at its place of a list, or
-  /// the only one of the block.
-  static const Cell* beside(const DecodedBlock& d, const DecodedCard& card, const Cell& cell,
-                            std::string_view name) {
-    std::vector<const Cell*> found;
-    std::size_t place = 0, before = 0;
-    for (const DecodedCard& other : d.cards)
-      for (const Cell& c : other.cells) {
-        if (&c == &cell) place = before;
-        if (c.field->name == cell.field->name) ++before;
-        if (c.field->name != name) continue;
-        if (&other == &card && card.schema->repeat != Repeat::ids) return &c;
-        found.push_back(&c);
-      }
-    if (found.size() == 1) return found.front();
-    return place < found.size() ? found[place] : nullptr;
-  }
-
-  static bool has_field(const Block& b, std::string_view name) {
-    for (const CardSchema& card : b.schema->cards)
-      if (card.in_version(b.version))
-        for (const Field& f : card.fields)
-          if (f.name == name && f.in_version(b.version)) return true;
-    return false;
-  }
-
-  /// A reference value that is 1 where it is blank, as far as something is measured by it.
-  void reference_value(const DecodedBlock& d, const DecodedCard& card, const Cell& cell) {
-    for (const std::string& name : cell.field->unit_for) {
-      const Cell* user = beside(d, card, cell, name);
-      if (user != nullptr && (user->real != 0 || user->integer != 0 || user->parameter))
-        brought_.insert(&cell);
-    }
   }
 
   // ---- cells ----------------------------------------------------------------------------------
@@ -635,7 +590,7 @@ class BlockConverter {
     Dimension physical = dimension_of(f, d, &card);
     if (!f.over.empty() && holds(f.over_when, d, &card)) {
       // The number counts times that of the scale: where the scale's number changes, it does not.
-      const Cell* scale = beside(d, card, cell, f.over);
+      const Cell* scale = detail::cell_beside(d, card, cell, f.over);
       if (scale != nullptr &&
           (brought_.contains(scale) || scale->parameter || (!scale->blank() && scale->real != 0)))
         physical = minus(physical, dimension_of(*scale->field, d, &card));
@@ -710,7 +665,7 @@ class BlockConverter {
   void write_default(const Block& b, const DecodedCard& card, const Cell& cell,
                      const Dimension& dimension) {
     const Field& f = *cell.field;
-    const auto value = ordinary_default(f);
+    const auto value = detail::ordinary_default(f);
     const UnitFactor factor = from_working_.of(dimension);
     if (!value || factor.one()) return;
     const bool whole = f.default_text.find_first_of(".eE") == std::string::npos;
