@@ -97,6 +97,11 @@ double ContactCard::input(std::string_view name) const {
   return f && f->has_input ? f->input : 0;
 }
 
+bool ContactCard::bounds(std::string_view name) const {
+  constexpr double none = 1e20;
+  return given(name) && std::abs(input(name)) < none;
+}
+
 Span ContactCard::span(std::string_view name) const {
   const FieldView* f = find(name);
   return f && f->span.valid() ? f->span : block->header_span;

@@ -87,7 +87,7 @@ TEST(ResolveDefaults, OldVersionsWithoutTheCellAreUndecided) {
       open_text(deck_of_version(110, card("/DEFAULT/INTER/TYPE7", 0, 140, {{"Irem_gap", "2"}}) +
                                          card("/INTER/TYPE7", 1, 110, {{"surf_IDm", "1"}})));
   ASSERT_EQ(before->interfaces.type7.at(0).Irem_gap.value, 2);
-  const auto open = losses_of(resolve_defaults(before->context()), Loss::undecided);
+  const auto open = losses_of(resolve_defaults(before->context(), {true}), Loss::undecided);
   ASSERT_EQ(open.size(), 1u);
   EXPECT_EQ(open[0].field, "Irem_gap");
   EXPECT_EQ(open[0].new_text, "2");
@@ -97,7 +97,7 @@ TEST(ResolveDefaults, EdgesOfType19StayWithTheDefaultCard) {
   const auto before =
       open_text(deck_of_version(2022, card("/DEFAULT/INTER/TYPE19", 0, 2022, {{"Iedge", "1"}}) +
                                           card("/INTER/TYPE19", 1, 2022, {{"surf_IDm", "1"}})));
-  const auto open = losses_of(resolve_defaults(before->context()), Loss::undecided);
+  const auto open = losses_of(resolve_defaults(before->context(), {true}), Loss::undecided);
   ASSERT_EQ(open.size(), 1u);
   EXPECT_EQ(open[0].field, "Iedge");
 }
@@ -153,7 +153,11 @@ TEST(ResolveDefaults, ParameterOfZeroIsUndecided) {
       2022, "/PARAMETER/GLOBAL/INTEGER/1\np\ni                  0\n" + defaults_7 +
                 card("/INTER/TYPE7", 1, 2022, {{"surf_IDm", "1"}, {"Istf", "&i"}})));
   ASSERT_EQ(before->interfaces.type7.at(0).Istf.value, 4);
-  const Rewrite r = resolve_defaults(before->context());
+  const Rewrite refused = resolve_defaults(before->context());
+  EXPECT_TRUE(refused.edits.empty());
+  ASSERT_EQ(refused.refusals.size(), 1u);
+  EXPECT_THAT(refused.refusals[0], HasSubstr("/INTER/TYPE7/1 Istf: the parameter is 0"));
+  const Rewrite r = resolve_defaults(before->context(), {true});
   const auto open = losses_of(r, Loss::undecided);
   ASSERT_EQ(open.size(), 1u);
   EXPECT_EQ(open[0].old_text, "&i");
@@ -203,7 +207,7 @@ TEST(ResolveDefaultsProperty, RandomCardsInForeignUnitsKeepEveryBit) {
       text += card(keyword, 1, version, values);
     }
     const auto before = open_text(text + "/END\n");
-    const Rewrite r = resolve_defaults(before->context());
+    const Rewrite r = resolve_defaults(before->context(), {true});
     ASSERT_TRUE(r.refusals.empty()) << joined(r.refusals);
     const auto after = applied(*before, r);
     auto old_values = effective_values(*before), new_values = effective_values(*after);

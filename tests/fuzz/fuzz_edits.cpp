@@ -127,7 +127,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       renumbered(*whole, h / 7);
       break;
     case 3: {
-      const Rewrite r = resolve_defaults(whole->context());
+      const Rewrite r = resolve_defaults(whole->context(), {true});
       const auto again = applied(*whole, r);
       if (again && only_kept(r)) same_values(*whole, *again, "default values written out");
       break;

@@ -226,5 +226,14 @@ TEST(RuleTable, FamiliesFollowTheLeadingDigit) {
   EXPECT_FALSE(known_selector("DK7"));
 }
 
+/// 1e30 is what the solver itself takes for "no bound"; writing it down changes nothing.
+TEST(BoundsOfContacts, ThatBoundNothingAreNoFinding) {
+  const auto fires = [](const char* card, RuleId rule) { return lint_example(card).fires(rule); };
+  EXPECT_FALSE(fires("@/INTER/TYPE7/1 Igap=1000 Gapmin=1.0 Gapmax=1e30", RuleId::DK265));
+  EXPECT_TRUE(fires("@/INTER/TYPE7/1 Igap=1000 Gapmin=1.0 Gapmax=1e3", RuleId::DK265));
+  EXPECT_FALSE(fires("@/INTER/TYPE7/1 Istf=4 Stmax=1e30", RuleId::DK296));
+  EXPECT_TRUE(fires("@/INTER/TYPE7/1 Istf=4 Stmax=1e3", RuleId::DK296));
+}
+
 }  // namespace
 }  // namespace deck::test

@@ -265,7 +265,7 @@ TEST_F(Convert, IdsOfAllLsDynaFilesOfACallAreDifferent) {
 }
 
 TEST_F(ConvertTwoFiles, ExtractionRefusesAnIdThatIsNoInterface) {
-  EXPECT_EQ(deck("convert m_0000.rad --extract-contacts 77 -o x"), 1);
+  EXPECT_EQ(deck("convert m_0000.rad --extract-contacts 77 -o x"), 2);
   EXPECT_NE(err().find("77"), std::string::npos);
   EXPECT_EQ(deck("convert m_0000.rad --extract-contacts seven -o x"), 2);
 }
@@ -273,6 +273,13 @@ TEST_F(ConvertTwoFiles, ExtractionRefusesAnIdThatIsNoInterface) {
 TEST_F(ConvertTwoFiles, WrongOptionsOfConversionsAreWrongUsage) {
   EXPECT_EQ(deck("convert m_0000.rad --units kg,mm -o x"), 2);
   EXPECT_EQ(deck("convert m_0000.rad --renumber nodes -o x"), 2);
+  EXPECT_EQ(deck("convert m_0000.rad --version 2027 -o x"), 2);
+  EXPECT_NE(err().find("110 to 140 and 2017 to 2026"), std::string::npos) << err();
+  // No option makes these ids possible.
+  EXPECT_EQ(deck("convert m_0000.rad --renumber inter-5000 -o x"), 2);
+  EXPECT_EQ(err().find("--partial"), std::string::npos) << err();
+  EXPECT_EQ(deck("convert - --version 2022 --in-place < m_0000.rad"), 2);
+  EXPECT_EQ(out(), "");
   EXPECT_EQ(deck("convert m_0000.rad --allow-loss -o x"), 2);
   EXPECT_EQ(deck("convert m_0000.rad --to json --diff"), 2);
   EXPECT_EQ(deck("convert m_0000.rad --backup -o x"), 2);

@@ -141,6 +141,11 @@ TEST_F(FixCommand, WrongUsageIsTwoAndMissingInputThree) {
   EXPECT_EQ(deck("fix nowhere_0000.rad --strategy inacti"), 3);
 }
 
+TEST_F(FixCommand, ShowingExcludesWritingInPlace) {
+  EXPECT_EQ(deck("fix too_close_0000.rad --strategy inacti --diff --in-place"), 2);
+  EXPECT_EQ(read(dir_ / "too_close_0000.rad"), too_close_);
+}
+
 TEST_F(FixCommand, ThePatchAppliesWithGit) {
   for (const char* strategy : {move, "--strategy reduce-gap --min-gap 10%"}) {
     write(dir_ / "too_close_0000.rad", too_close_);

@@ -134,8 +134,8 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
     print_refusals(common, rewrite.refusals);
     for (const std::string& r : rewrite.refusals) c.losses.push_back(refused_entry(r));
     print_error(common, c.now->path + ": " + step.option + " was not done; nothing was written" +
-                            (step.way_out.empty() ? "" : ". " + step.way_out));
-    return exit_findings;
+                            (step.way_out.empty() || rewrite.misasked ? "" : ". " + step.way_out));
+    return rewrite.misasked ? exit_usage : exit_findings;
   }
   if (!common.quiet)
     for (const std::string& note : rewrite.notes)
@@ -433,6 +433,9 @@ int check(const Options& options) {
                      (options.write.diff ? 1 : 0);
   if (places > 1) return refuse("-o, --in-place and --diff exclude one another");
   const bool only_standard_input = options.common.decks == std::vector<std::string>{"-"};
+  if (options.write.in_place &&
+      std::count(options.common.decks.begin(), options.common.decks.end(), std::string("-")) > 0)
+    return refuse("standard input cannot be rewritten; without --in-place the deck is printed");
   if (places == 0 && options.to == "rad" && options.from != "lsdyna" && !only_standard_input)
     return refuse("say where to write: -o DIR, --in-place, or --diff to look at it first");
   if (options.to == "json" && (options.write.in_place || options.write.diff))

@@ -55,7 +55,8 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
       .heading(group)
       .value("N");
   line.flag("--allow-loss", steps.allow_loss,
-            "With --version: drop values that the other version has no cell for")
+            "With --version: drop values that the other version has no cell for. With "
+            "--resolve-defaults: leave to the default card what the card has no cell for")
       .heading(group);
   line.option("--units", steps.units,
               "Unit system to write, mass,length,time: kg,mm,ms or Mg,mm,s or numbers (factors "
@@ -89,7 +90,14 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps, bool seve
     all.push_back({"--expand-type19", [](const EditContext& c) { return expand_type19(c); }, ""});
   if (steps.resolve_defaults)
     all.push_back(
-        {"--resolve-defaults", [](const EditContext& c) { return resolve_defaults(c); }, ""});
+        {"--resolve-defaults",
+         [&steps](const EditContext& c) { return resolve_defaults(c, {steps.allow_loss}); },
+         "--allow-loss leaves these cells to the default card and writes the others"});
+  if (steps.version != 0 && !is_target_version(steps.version))
+    return Error{Error::Code::config,
+                 "--version " + std::to_string(steps.version) +
+                     ": no version that can be written; 110 to 140 and 2017 to " +
+                     std::to_string(newest_version) + " are"};
   if (steps.version != 0)
     all.push_back({"--version",
                    [&steps](const EditContext& c) {
@@ -118,8 +126,8 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps, bool seve
                    [renumbering](const EditContext& c) { return renumber(c, renumbering); },
                    "--partial renumbers what is known and lists the rest"});
   }
-  if (steps.allow_loss && steps.version == 0)
-    return Error{Error::Code::config, "--allow-loss goes with --version"};
+  if (steps.allow_loss && steps.version == 0 && !steps.resolve_defaults)
+    return Error{Error::Code::config, "--allow-loss goes with --version or --resolve-defaults"};
   if (steps.keep_working && steps.units.empty())
     return Error{Error::Code::config, "--keep-working-units goes with --units"};
   if (steps.partial && steps.units.empty() && steps.renumber.empty())

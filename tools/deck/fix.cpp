@@ -253,6 +253,8 @@ std::string wrong_usage(const Options& o) {
   if (std::string why; !o.html.empty() && !html_available(&why))
     return "--html: this build has no viewer: " + why;
   if (o.write.in_place && !o.write.directory.empty()) return "--in-place and -o exclude each other";
+  if (o.write.in_place && o.write.diff)
+    return "--in-place and --diff exclude each other: --diff shows what would be written";
   if (o.backup && !o.write.in_place) return "--backup needs --in-place";
   if (o.write.overwrite && o.write.directory.empty()) return "--overwrite needs -o";
   if (!share(o.max_moved)) return "--max-moved needs a share like 10% or 0.1";

@@ -316,6 +316,7 @@ Rewrite extract_contacts(const EditContext& context, std::span<const std::int64_
     out.refusals.push_back(context.deck.sources[0].path() + ":1:1: no contact interface " +
                            std::to_string(id) + " of type 7, 10, 11 or 19; the deck has " +
                            (have.empty() ? "none" : have + (all.size() > 20 ? ", ..." : "")));
+    out.misasked = true;
   }
   if (ids.empty())
     out.refusals.push_back(context.deck.sources[0].path() + ":1:1: no interface was named");

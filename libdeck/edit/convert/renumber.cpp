@@ -467,7 +467,9 @@ class Renumbering {
 Rewrite renumber(const EditContext& context, const RenumberOptions& options) {
   Rewrite out;
   out.refusals = detail::unread_files(context.deck);
+  const std::size_t unread = out.refusals.size();
   IdSpaces spaces = detail::collect_spaces(context, options, out.refusals);
+  out.misasked = out.refusals.size() > unread;
   if (!out.refusals.empty()) return out;
   return Renumbering(context, options, std::move(spaces)).run();
 }

@@ -253,12 +253,17 @@ class Resolver {
 
 }  // namespace
 
-Rewrite resolve_defaults(const EditContext& context) {
+Rewrite resolve_defaults(const EditContext& context, const ResolveOptions& options) {
   Rewrite out;
   LineEdits lines(context.deck.sources);
   for (const InterBase* inter : context.interfaces.ordered)
     Resolver(context, *inter, lines, out).run();
   lines.finish(out.edits);
+  for (const LossEntry& e : out.losses)
+    if (e.loss == Loss::undecided && !options.allow_loss)
+      out.refusals.push_back(e.file + ":" + std::to_string(e.line) + ": " + e.keyword + "/" +
+                             std::to_string(e.id) + " " + e.field + ": " + e.note);
+  if (!out.refusals.empty()) out.edits.clear();
   return out;
 }
 

@@ -60,7 +60,8 @@ class VersionRewriter {
 
   bool accepted() {
     const Begin& begin = c_.deck.begin;
-    if (target_ < oldest_target || !is_known_version(target_))
+    out_.misasked = !is_target_version(target_);
+    if (out_.misasked)
       out_.refusals.push_back(c_.deck.sources[0].path() + ":1:1: " + number(target_) +
                               " is no version that can be written; 110 to 140 and 2017 to " +
                               number(newest_version) + " are");
@@ -495,6 +496,10 @@ class VersionRewriter {
 };
 
 }  // namespace
+
+bool is_target_version(int version) {
+  return version >= oldest_target && is_known_version(version);
+}
 
 Rewrite to_version(const EditContext& context, int version, const VersionOptions& options) {
   return VersionRewriter(context, version, options).run();

@@ -165,13 +165,13 @@ void check_half_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     // Edges have the series stiffness, Istf 5, by default.
     const auto istf = card.flag("Istf");
-    if (istf < 2 || istf > 5 || !(card.given("Stmin") || card.given("Stmax"))) return;
+    if (istf < 2 || istf > 5 || !(card.bounds("Stmin") || card.bounds("Stmax"))) return;
     if (first != nullptr) {
       ++others;
       return;
     }
     first = &card;
-    field = card.given("Stmax") ? "Stmax" : "Stmin";
+    field = card.bounds("Stmax") ? "Stmax" : "Stmin";
   });
   if (first == nullptr) return;
   note_field(

@@ -14,7 +14,7 @@ void ignored(const LintContext& c, const Rule& rule, Reporter& r, const ContactC
              std::initializer_list<std::string_view> fields, std::string_view cause,
              const std::string& reason, bool safe) {
   for (const std::string_view field : fields) {
-    if (!card.given(field)) continue;
+    if (!card.bounds(field)) continue;
     const FieldView* f = card.find(field);
     if (f == nullptr || f->field == nullptr) continue;  // not on this card
     Diagnostic* d = report_at(

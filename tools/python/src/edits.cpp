@@ -81,7 +81,8 @@ EditPointer convert_deck(const DeckPointer& d, const std::vector<std::int64_t>& 
     steps.emplace_back([&](const EditContext& c) { return extract_contacts(c, extract); });
   if (flat) steps.emplace_back([](const EditContext& c) { return flatten(c); });
   if (expand) steps.emplace_back([](const EditContext& c) { return expand_type19(c); });
-  if (resolve) steps.emplace_back([](const EditContext& c) { return resolve_defaults(c); });
+  if (resolve)
+    steps.emplace_back([&](const EditContext& c) { return resolve_defaults(c, {allow_loss}); });
   if (version != 0)
     steps.emplace_back([&](const EditContext& c) { return to_version(c, version, {allow_loss}); });
   if (!units.empty()) {

@@ -5,6 +5,12 @@
 
 namespace deck {
 
+struct ResolveOptions {
+  /// Write the rest although a default card stays in force for what is undecided. Without it that
+  /// is a refusal: the deck would go on depending on the card.
+  bool allow_loss = false;
+};
+
 /// Fills every cell of /INTER/TYPE7, 10, 11 and 19 whose effective value comes from a default card
 /// or is built in and is not zero. Effective values stay the same to the last bit. Cells that hold
 /// a value already are not touched, except where the meaning of their unit changes (Stfac, once
@@ -14,6 +20,6 @@ namespace deck {
 /// text of the cell's width gives the value back exactly; `undecided` where a default card is at
 /// work and the card has no cell for the value (Iedge of TYPE19, cells newer than the deck's
 /// version, a parameter that is 0).
-Rewrite resolve_defaults(const EditContext& context);
+Rewrite resolve_defaults(const EditContext& context, const ResolveOptions& options = {});
 
 }  // namespace deck

@@ -11,6 +11,9 @@ struct VersionOptions {
   bool allow_loss = false;
 };
 
+/// The versions that decks can be written in: 110 to 140 and 2017 on.
+bool is_target_version(int version);
+
 /// Changes the version number of every /BEGIN to `version` (110 … 2026) and every block whose
 /// layout differs between its own version and that one: cells that both have keep their text, cells
 /// that only the old one has are blanked, lines are inserted, removed and moved as the new layout

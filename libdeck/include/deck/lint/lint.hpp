@@ -49,6 +49,8 @@ struct ContactCard {
   double input(std::string_view name) const;
   /// The card has a non-zero value there.
   bool given(std::string_view name) const { return input(name) != 0; }
+  /// The value bounds something: 1e30 and its like are the solver's own "no bound", written out.
+  bool bounds(std::string_view name) const;
   /// Columns of the field, or the header where the card has none.
   Span span(std::string_view name) const;
   /// "Gapmin = 1.5" as written on the card, or with the effective value where the cell is blank.
