@@ -47,7 +47,7 @@ struct Rewrite {
   std::vector<LossEntry> losses;
   std::vector<std::string> notes;  ///< for people, one line each ("length: factor 0.001")
   std::vector<std::string>
-      refusals;  ///< "file:line:column: why"; not empty: nothing may be written
+      refusals;           ///< "file:line:column: why"; not empty: nothing may be written
   bool misasked = false;  ///< the refusals are about what was asked for, which no deck has to cure
 };
 
