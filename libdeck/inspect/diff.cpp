@@ -295,10 +295,11 @@ class Differ {
 
   /// The number that counts, in working units. Blank may be 1 in the units of the block; other
   /// defaults are in working units already, and matter where these differ.
-  double real_of(const Deck& deck, const DecodedBlock& d, const Cell& cell, bool one) const {
+  double real_of(const Deck& deck, const DecodedBlock& d, const DecodedCard& card, const Cell& cell,
+                 bool one) const {
     Cell c = cell;
     if (c.real == 0 && one) c.real = 1;
-    if (c.real != 0 || !other_units_) return working_value(deck, d, c);
+    if (c.real != 0 || !other_units_) return working_value(deck, d, c, &card);
     return detail::ordinary_default(*c.field).value_or(0);
   }
 
@@ -354,7 +355,7 @@ class Differ {
         CellValue v;
         v.span = cell.span;
         if (f.type == FieldType::real) {
-          const double x = real_of(deck, d, cell, ones.cells.contains(&cell));
+          const double x = real_of(deck, d, card, cell, ones.cells.contains(&cell));
           if (x == 0) continue;  // the same as blank
           v.rounded = rounded;
           v.value = &side == &b_ ? in_first_units(x, dimension_of(f, d, &card)) : DiffValue(x);

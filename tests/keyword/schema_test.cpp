@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "base/embedded.hpp"
+#include "deck/keyword/decode.hpp"
 #include "keyword/schema_json.hpp"
 #include "where.hpp"
 
@@ -431,6 +432,37 @@ TEST_F(SchemaDirectory, ErrorsNameTheFile) {
   ASSERT_FALSE(added);
   EXPECT_THAT(added.error().message, HasSubstr("wrong.json: /cards: expected a list"));
   EXPECT_EQ(added.error().code, Error::Code::config);
+}
+
+/// Each row of a list has a flag of its own that says what its value is.
+TEST_F(SchemaDirectory, TheRowOfAValueDecidesOnItsUnit) {
+  write("hose.json", R"({"keyword": "/HOSE", "kind": "other", "title": false, "cards": [
+    {"name": "row", "repeat": "rows", "fields": [
+      {"name": "share", "cols": [1, 10], "type": "int"},
+      {"name": "size", "cols": [11, 30], "type": "real", "dim_when": [
+        {"when": [{"field": "share", "in": [0]}], "dim": [0, 2, 0]},
+        {"when": [{"field": "share", "in": [1]}], "dim": [0, 0, 0]}]}]}]})");
+  SchemaSet set = SchemaSet::built_in();
+  ASSERT_TRUE(set.add_directory(dir_.string()));
+  const std::string units = "                  kg                   m                   s\n";
+  const auto deck =
+      read_deck_text("hose_0000.rad",
+                     "#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0\n" + units + units +
+                         "/UNIT/8\nu\n                  kg                  mm"
+                         "                   s\n/HOSE/3/8\n"
+                         "         0                 4.0\n"
+                         "         1                 4.0\n/END\n",
+                     set);
+  ASSERT_TRUE(deck.ok());
+  const auto hose = std::find_if(deck->blocks.begin(), deck->blocks.end(),
+                                 [](const Block& b) { return b.keyword == "/HOSE"; });
+  ASSERT_NE(hose, deck->blocks.end());
+  const DecodedBlock d = decode(*deck, *hose);
+  ASSERT_EQ(d.cards.size(), 2u);
+  for (const auto& [row, expected] : {std::pair(0, 4e-6), std::pair(1, 4.0)}) {
+    const DecodedCard& card = d.cards[static_cast<std::size_t>(row)];
+    EXPECT_DOUBLE_EQ(working_value(*deck, d, card.cells.at(1), &card), expected) << row;
+  }
 }
 
 TEST_F(SchemaDirectory, AMissingDirectoryIsAnIoError) {

@@ -301,13 +301,14 @@ Dimension dimension_of(const Field& field, const DecodedBlock& block, const Deco
   return field.dimension;
 }
 
-double working_value(const Deck& deck, const DecodedBlock& block, const Cell& cell) {
+double working_value(const Deck& deck, const DecodedBlock& block, const Cell& cell,
+                     const DecodedCard* card) {
   const UnitSystem* units = deck.units_of(*block.block);
   if (units == nullptr || cell.field == nullptr) return cell.real;
   const Field& f = *cell.field;
-  const bool own = f.solver_dimension && holds(f.solver_when, block);
+  const bool own = f.solver_dimension && holds(f.solver_when, block, card);
   return cell.real * conversion_factor(*units, deck.begin.working,
-                                       own ? *f.solver_dimension : dimension_of(f, block));
+                                       own ? *f.solver_dimension : dimension_of(f, block, card));
 }
 
 }  // namespace deck

@@ -62,8 +62,9 @@ bool holds(const std::vector<Condition>& when, const DecodedBlock& block,
 /// Dimension of a field in a given block (resolves Field::dimension_when), `card` being its line.
 Dimension dimension_of(const Field& field, const DecodedBlock& block,
                        const DecodedCard* card = nullptr);
-/// Value of a real cell in working units.
-double working_value(const Deck& deck, const DecodedBlock& block, const Cell& cell);
+/// Value of a real cell in working units; `card`: its line, where that decides on the dimension.
+double working_value(const Deck& deck, const DecodedBlock& block, const Cell& cell,
+                     const DecodedCard* card = nullptr);
 
 /// Cells of one line. Free format if the line holds a comma (titles never are). Conditions of cells
 /// can look at this line only: where they test another field they count as true.
