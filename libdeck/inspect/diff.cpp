@@ -344,7 +344,10 @@ class Differ {
       std::map<std::string, int> which;
       for (const Cell& cell : card.cells) {
         const Field& f = *cell.field;
-        if (list && &f == &card.schema->fields.back()) {
+        const bool ordered = f.type == FieldType::real || f.type == FieldType::text ||
+                             f.ref == "funct" || f.ref == "table";
+        const int place = which[f.name]++;
+        if (list && !ordered && &f == &card.schema->fields.back()) {
           const std::int64_t sign = cell.integer < 0 ? -1 : 1;
           if (cell.integer != 0)
             out.lists[f.name].emplace_back(
@@ -368,7 +371,7 @@ class Differ {
           v.ref = f.type == FieldType::id ? f.ref : "";
           v.value = cell.integer + (v.ref.empty() ? 0 : sign * deck.offset_of(block, f.ref));
         }
-        CellKey key{card.schema->name, card.round, f.name, which[f.name]++};
+        CellKey key{card.schema->name, card.round, f.name, place};
         out.order.push_back(key);
         out.cells.emplace(std::move(key), std::move(v));
       }

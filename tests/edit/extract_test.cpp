@@ -197,6 +197,29 @@ TEST(Extract, FrictionFunctionsSensorsAndDefaultsComeAlong) {
   EXPECT_TRUE(small->contains("/DEFAULT/INTER/TYPE7\n"));
 }
 
+/// /MOVE_FUNCT changes the function of its id; a cell that names a function may name a table.
+TEST(Extract, FunctionsComeWithWhatMovesThemAndTablesWithTheirFunctions) {
+  const auto ramp = [](const char* id) {
+    return std::string("/FUNCT/") + id +
+           "\nramp\n                 0.0                 0.0\n"
+           "                 1.0                 1.0";
+  };
+  const auto move = [](const char* id) {
+    return std::string("/MOVE_FUNCT/") + id + "\nmove\n                 1.0                 2.0";
+  };
+  const std::string more = ramp("4") + "\n" + ramp("5") + "\n" + ramp("8") + "\n" + move("4") +
+                           "\n" + move("5") +
+                           "\n/TABLE/1/6\ntable\n         1\n         8\n"
+                           "/TABLE/1/7\nunused\n         1\n         5";
+  const auto w =
+      Whole::text(plates().add(more).add("@/INTER/TYPE7/1 fct_IDF=4 fct_IDK=6 Ithe=1").text());
+  const auto small = w->after(extract(*w, {1}));
+  for (const char* kept : {"/FUNCT/4\n", "/MOVE_FUNCT/4\n", "/TABLE/1/6\n", "/FUNCT/8\n"})
+    EXPECT_TRUE(small->contains(kept)) << kept;
+  for (const char* gone : {"/FUNCT/5\n", "/MOVE_FUNCT/5\n", "/TABLE/1/7\n"})
+    EXPECT_FALSE(small->contains(gone)) << gone;
+}
+
 TEST(Extract, TransformationsOfKeptNodesStay) {
   const auto w = Whole::text(
       plates()

@@ -263,6 +263,13 @@ TEST(Renumber, SpringGroupOfAnActivationIsNoNodeGroup) {
   }());
 }
 
+TEST(Renumber, BoundaryConditionOfTheAleGridHasATitle) {
+  const auto w =
+      Whole::text(plates().add("/ALE/BCS/1\ngrid\n   111 000         0        52").text());
+  const auto after = w->after(numbered(*w, {"grnod+5"}));
+  EXPECT_TRUE(after->contains("grid\n   111 000         0        57\n")) << after->main_text();
+}
+
 /// Their first line looks like a title and holds values.
 TEST(Renumber, BlocksWithoutTitleAreNotSkippedOver) {
   for (const char* block : {"/DFS/DETLINE/1", "/INISTA", "/SPH/RESERVE/1"}) {

@@ -327,6 +327,60 @@ TEST(ToUnits, StiffnessThatTheCardDoesNotNameFollowsTheWorkingUnits) {
   EXPECT_EQ(kept->interfaces.type7.at(1).Stfac.value, -3);
 }
 
+/// The solver brings these numbers to working units by a power that is not their own: without mass,
+/// as a force, as a pressure. They arrive as before only if the number follows that power.
+TEST(ToUnits, WhatTheSolverScalesByAnotherPowerFollowsThatPower) {
+  const auto w = Whole::text(
+      deck_of("/MAT/LAW4/1\nhydro\n              7.8E-6\n"
+              "               210.0                 0.3\n"
+              "                 0.2                 0.3                 0.5\n\n"
+              "                 0.1                 1.0                 1.0              1500.0\n"
+              "                0.25\n"
+              "/MAT/LAW14/3\ncompso\n              1.5E-6\n"
+              "                40.0                10.0                10.0\n\n"
+              "                 4.0                 4.0                 4.0\n"
+              "                 8.0                 8.0                 8.0\n\n"
+              "/MAT/LAW44/4\ncowper\n              7.8E-6\n"
+              "               210.0                 0.3\n"
+              "                 0.2                 0.3                 0.5                0.75\n",
+              "2022"));
+  const auto kept = w->after(convert(*w, "g,cm,ms", {.partial = false, .keep_working = true}));
+  const auto value = [](const Whole& deck, const char* keyword, const char* field) {
+    for (const Block& b : deck.deck.blocks)
+      if (b.schema != nullptr && b.header.starts_with(keyword))
+        return decode(deck.deck, b).real(field);
+    return -1.0;
+  };
+  EXPECT_DOUBLE_EQ(value(*kept, "/MAT/LAW4", "RHOCP"), 0.25 * 10);
+  EXPECT_DOUBLE_EQ(value(*kept, "/MAT/LAW14", "SIGMA_T1"), 8.0 * 1000 / 10);
+  EXPECT_DOUBLE_EQ(value(*kept, "/MAT/LAW44", "C_HARD"), 0.75 * 1000 * 10);
+}
+
+/// Curves of a table stand at strain rates, in the units of time; the table is not read.
+TEST(ToUnits, TableWithRatesIsRefusedWhereTimeChanges) {
+  const auto w =
+      Whole::text(deck_of("/MAT/LAW76/1\nsamp\n              1.2E-6\n"
+                          "                 2.0                 0.3\n"
+                          "         0         6         0\n"
+                          "                 1.0                 1.0                 1.0\n"
+                          "/TABLE/1/6\ntable\n         2\n"
+                          "         7                               0.0                 1.0\n"
+                          "         7                             0.001                 1.0\n"
+                          "/FUNCT/7\nramp\n                 0.0                 0.0\n"
+                          "                 1.0                 1.0\n",
+                          "2022"));
+  const Rewrite r = convert(*w, "kg,mm,s");
+  ASSERT_FALSE(r.refusals.empty());
+  EXPECT_NE(r.refusals[0].find("TAB_ID2: an abscissa of this table"), std::string::npos)
+      << r.refusals[0];
+  EXPECT_TRUE(convert(*w, "g,mm,ms").refusals.empty());
+}
+
+TEST(ToUnits, ATimeSensorByItsNumberIsTheSame) {
+  const auto w = Whole::text(deck_of("/SENSOR/TYPE0/7\nlate\n                 5.0\n", "2022"));
+  EXPECT_TRUE(w->after(convert(*w, "kg,m,s"))->contains("               0.005"));
+}
+
 TEST(ToUnits, ParameterOfOneDimensionIsConvertedAtItsDefinition) {
   const std::string body =
       "/PARAMETER/GLOBAL/REAL/1\np\ngap                        2.5\n"

@@ -207,6 +207,25 @@ TEST(DeckDiff, EveryCellOfAnElementCounts) {
             nullptr);
 }
 
+/// A curve, its scale and its rate go together by their place.
+TEST(DeckDiff, ListsOfValuesAndFunctionsCountByPlace) {
+  const auto law = [](const char* functions, const char* scales, const char* rates) {
+    return with(std::string("/MAT/LAW36/9\nm\n              7.8e-9\n"
+                            "            210000.0                 0.3\n"
+                            "         2\n\n         0\n") +
+                functions + "\n" + scales + "\n" + rates);
+  };
+  const char* const ids = "        17        18";
+  const char* const scales = "                 0.0                 2.0";
+  const char* const rates = "                 0.0                 0.1";
+  const std::string deck = law(ids, scales, rates);
+  EXPECT_TRUE(compared(deck, deck).equal());
+  EXPECT_FALSE(compared(deck, law("        18        17", scales, rates)).equal());
+  EXPECT_FALSE(compared(deck, law(ids, "                 2.0                 0.0", rates)).equal());
+  EXPECT_FALSE(
+      compared(deck, law(ids, scales, "                 0.0                 0.9")).equal());
+}
+
 TEST(DeckDiff, TheToleranceOfNodesThatMergeCounts) {
   const auto deck = [](const char* tolerance) {
     return with(std::string("/CNODE/") + tolerance +

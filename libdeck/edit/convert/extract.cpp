@@ -52,6 +52,19 @@ bool ItemLines::next() {
 
 namespace {
 
+/// The number in the header of blocks of which the schemas do not say that it is an id:
+/// /FAIL/X/mat_ID, /TABLE/type/id.
+std::int64_t own_id(const Block& b) {
+  constexpr std::string_view table = "/TABLE/";
+  if (b.header.starts_with(table)) {
+    const auto slash = b.header.find('/', table.size());
+    if (slash == std::string_view::npos) return 0;
+    const std::string_view rest = b.header.substr(slash + 1);
+    return read_integer(rest.substr(0, rest.find('/'))).value;
+  }
+  return b.id.present ? b.id.value : read_integer(b.header.substr(b.header.rfind('/') + 1)).value;
+}
+
 constexpr std::string_view selection_kinds[] = {"grnod",  "grshel", "grsh3n", "grtria",
                                                 "grbric", "grquad", "grtrus", "grbeam",
                                                 "grspri", "surf",   "line",   "set"};
@@ -98,6 +111,10 @@ Extraction::Extraction(const EditContext& c, std::span<const std::int64_t> inter
   for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
     const Block& b = deck_.blocks[i];
     if (b.schema == nullptr || b.schema->kind.empty() || b.schema->bulk) continue;
+    // A table goes by where a function would: a cell may name either.
+    if (detail::is_below(b.header, "/TABLE"))
+      definitions_.emplace(std::pair{std::string("funct"), own_id(b) + deck_.offset_of(b, "funct")},
+                           i);
     definitions_.emplace(std::pair{b.schema->kind, b.id.value + deck_.offset_of(b, b.schema->kind)},
                          i);
   }
@@ -455,6 +472,17 @@ void Extraction::transforms() {
   }
 }
 
+/// What changes a function under the function's own id.
+void Extraction::functions() {
+  for (std::size_t i = 0; i < deck_.blocks.size(); ++i) {
+    const Block& b = deck_.blocks[i];
+    if (!detail::is_below(b.header, "/MOVE_FUNCT")) continue;
+    const auto it =
+        definitions_.find(std::pair{std::string("funct"), own_id(b) + deck_.offset_of(b, "funct")});
+    if (it != definitions_.end() && block_kept[it->second] != 0) keep_block(i);
+  }
+}
+
 /// What belongs to a material under the material's own id.
 void Extraction::materials() {
   constexpr std::string_view by_material[] = {"/HEAT/MAT", "/EOS",          "/THERM_STRESS/MAT",
@@ -467,12 +495,8 @@ void Extraction::materials() {
     if (!std::any_of(std::begin(by_material), std::end(by_material),
                      [&](std::string_view k) { return detail::is_below(b.header, k); }))
       continue;
-    // The schemas do not say that this id is a material's.
-    const auto last = b.header.rfind('/');
-    const std::int64_t id =
-        b.id.present ? b.id.value : read_integer(b.header.substr(last + 1)).value;
     const auto it =
-        definitions_.find(std::pair{std::string("mat"), id + deck_.offset_of(b, "mat")});
+        definitions_.find(std::pair{std::string("mat"), own_id(b) + deck_.offset_of(b, "mat")});
     const bool kept = it != definitions_.end() && block_kept[it->second] != 0;
     if (kept) keep_block(i);
     if (!detail::is_below(b.header, "/HEAT/MAT")) continue;
@@ -552,6 +576,7 @@ void Extraction::run() {
     scan_elements();
     transforms();
     materials();
+    functions();
     drain();
   }
   // Nodes that were merged are needed together.

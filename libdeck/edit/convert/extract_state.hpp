@@ -94,6 +94,7 @@ class Extraction {
   void scan_elements();
   void transforms();
   void materials();
+  void functions();
   void submodel_frames();
   std::uint64_t size() const;
 

@@ -28,6 +28,13 @@ PointFactors factors_of(const UnitConversion& c, const Use& use) {
   return {c.factors.of(use.points.front()), c.factors.of(use.points.back())};
 }
 
+/// An abscissa of a table behind the first one, such as a strain rate, has other numbers.
+bool middle_changes(const UnitConversion& c, const Use& use) {
+  for (std::size_t axis = 1; axis + 1 < use.points.size(); ++axis)
+    if (!c.factors.of(use.points[axis]).one()) return true;
+  return false;
+}
+
 std::vector<const Block*> definitions(const Deck& deck, std::int64_t id) {
   std::vector<const Block*> found;
   for (const Block& b : deck.blocks)
@@ -167,9 +174,15 @@ void convert_function(UnitConversion& c, std::int64_t id, const std::vector<cons
   if (!between) return;
   // Uses that want the same points, in the order of the deck.
   std::vector<std::vector<const Use*>> groups;
+  const bool is_table = definitions(c.deck, id).empty();
   bool as_they_are = has_tables(c.deck);  // a table may use the points
   for (const Use* use : uses) {
     const PointFactors factors = factors_of(c, *use);
+    if (is_table && middle_changes(c, *use)) {
+      c.undecided(*use->block, use->span, use->field,
+                  "an abscissa of this table has units, and tables are not read");
+      continue;
+    }
     if (factors.one()) {
       as_they_are = true;
       continue;
