@@ -208,12 +208,14 @@ std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t
   if (!rule.messages.empty())
     solver += fmt::format(" ({} {})", severity_name(rule.messages.front().severity),
                           rule.messages.front().number);
-  out += section(heading::solver, solver, width) + section(heading::fix, rule.fix, width);
+  out += section(heading::solver, solver, width);
+  if (!rule.source.empty()) out += section(heading::source, rule.source, width);
+  out += section(heading::fix, rule.fix, width);
   if (!rule.bad.empty())
     out += fmt::format("{}\n{}\n{}\n{}\n", heading::bad,
                        indented(example_text(rule.bad, schemas), card_width), heading::good,
                        indented(example_text(rule.good, schemas), card_width));
-  out += section(heading::ignore, rule.ignore, width);
+  if (!rule.ignore.empty()) out += section(heading::ignore, rule.ignore, width);
   out += "Suppress it for one block with a comment in or above the block:\n";
   out += fmt::format("  # decklint: ignore[{}] reason=...\n", id_text(rule.id));
   return out;

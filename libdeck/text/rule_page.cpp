@@ -44,16 +44,24 @@ RuleId id_of(std::string_view name) {
   return static_cast<RuleId>(whole_number(name.substr(2, 3)).value_or(0));
 }
 
+/// What a source of `known_from` begins with.
+bool is_source(std::string_view text) {
+  constexpr std::string_view kinds[] = {"run ", "record ", "listing ", "specification ", "manual "};
+  return std::any_of(std::begin(kinds), std::end(kinds),
+                     [&](std::string_view kind) { return text.starts_with(kind); });
+}
+
 struct Section {
   std::string_view heading;
   std::string Rule::*text;
+  bool optional = false;
   bool example = false;
 };
 constexpr Section sections[] = {
-    {heading::problem, &Rule::problem}, {heading::why, &Rule::why},
-    {heading::solver, &Rule::solver},   {heading::fix, &Rule::fix},
-    {heading::bad, &Rule::bad, true},   {heading::good, &Rule::good, true},
-    {heading::ignore, &Rule::ignore},
+    {heading::problem, &Rule::problem},     {heading::why, &Rule::why},
+    {heading::solver, &Rule::solver},       {heading::fix, &Rule::fix},
+    {heading::bad, &Rule::bad, true, true}, {heading::good, &Rule::good, true, true},
+    {heading::ignore, &Rule::ignore, true},
 };
 
 class PageReader {
@@ -65,7 +73,7 @@ class PageReader {
     if (rule_.id == RuleId::none) return error("a page of a rule is called DKnnn.md");
     read_front_matter();
     for (const Section& section : sections) {
-      if (section.example && next_heading() != section.heading) continue;
+      if (section.optional && next_heading() != section.heading) continue;
       read_section(section);
     }
     skip_blank();
@@ -122,14 +130,14 @@ class PageReader {
       fail("a page has an id, a title, a severity and found_by");
   }
 
-  /// Calls f(item) for the items between commas; false: one of them is none.
+  /// Calls f(item) for the items of a list; false: f refused one of them.
   template <class F>
-  static bool each_item(std::string_view list, F&& f) {
+  static bool each_item(std::string_view list, F&& f, char separator = ',') {
     while (true) {
-      const auto comma = std::min(list.find(','), list.size());
-      if (!f(trimmed(list.substr(0, comma)))) return false;
-      if (comma == list.size()) return true;
-      list.remove_prefix(comma + 1);
+      const auto end = std::min(list.find(separator), list.size());
+      if (!f(trimmed(list.substr(0, end)))) return false;
+      if (end == list.size()) return true;
+      list.remove_prefix(end + 1);
     }
   }
 
@@ -159,6 +167,10 @@ class PageReader {
         if (severity && number) rule_.messages.push_back({*number, *severity});
         return severity && number;
       });
+    if (key == "known_from") {
+      rule_.source = value;
+      return each_item(value, is_source, ';');
+    }
     if (key == "fixable") {
       rule_.fixable = value == "safe" ? Fixable::safe : Fixable::unsafe;
       return value == "safe" || value == "unsafe";

@@ -12,6 +12,7 @@ namespace heading {
 inline constexpr std::string_view problem = "What is wrong";
 inline constexpr std::string_view why = "Why it matters";
 inline constexpr std::string_view solver = "What the reference solver does";
+inline constexpr std::string_view source = "Known from";  ///< in `deck explain` only
 inline constexpr std::string_view fix = "How to fix";
 inline constexpr std::string_view bad = "Fires on";
 inline constexpr std::string_view good = "Stays silent on";

@@ -48,6 +48,8 @@ TEST(RulePage, ThatBreaksTheFormIsRefusedWithItsLine) {
       {"found_by: geometry", "found_by: someone", 5},
       {"message: warning", "messages: warning", 6},
       {"types: 7", "types: seven", 7},
+      {"types: 7, ", "known_from: hearsay\ntypes: 7, ", 7},
+      {"types: 7, ", "known_from: run of a tube; hearsay\ntypes: 7, ", 7},
       {"## Why it matters", "## Why", 14},
   };
   ASSERT_TRUE(detail::parse_rule_page("DK301.md", page()));
@@ -64,12 +66,27 @@ TEST(RulePage, WithoutASectionAnExampleOrAnEndIsRefused) {
     return !detail::parse_rule_page("DK301.md", text);
   };
   EXPECT_TRUE(refused(""));
-  EXPECT_TRUE(refused(page().substr(0, page().find("## When to ignore"))));
+  EXPECT_TRUE(refused(page().substr(0, page().find("## How to fix"))));
   EXPECT_TRUE(refused(replaced(page(), "title: \"initial penetrations\"\n", "")));
   EXPECT_TRUE(refused(page() + "\n## More\n"));
   const auto good = page().find("## Stays silent on"), ignore = page().find("## When to ignore");
   EXPECT_TRUE(refused(page().substr(0, good) + page().substr(ignore))) << "one example only";
   EXPECT_TRUE(refused(page().substr(0, page().rfind("```")))) << "a fence that stays open";
+}
+
+TEST(RulePage, MayLeaveOutWhenToIgnore) {
+  const auto rule =
+      detail::parse_rule_page("DK301.md", page().substr(0, page().find("## When to ignore")));
+  ASSERT_TRUE(rule) << rule.error().message;
+  EXPECT_EQ(rule->ignore, "");
+}
+
+TEST(RulePage, NamesTheSourcesOfWhatItSaysAboutTheSolver) {
+  const auto rule = detail::parse_rule_page(
+      "DK301.md",
+      replaced(page(), "types: 7", "known_from: run of a tube; manual /INTER/TYPE7\ntypes: 7"));
+  ASSERT_TRUE(rule) << rule.error().message;
+  EXPECT_EQ(rule->source, "run of a tube; manual /INTER/TYPE7");
 }
 
 TEST(RulePage, IsNamedByItsNumber) {

@@ -165,7 +165,8 @@ std::string rules_json() {
         .field("fixable", fix_name(r.fixable))
         .field("problem", r.problem)
         .field("why", r.why)
-        .field("reference_behaviour", r.solver);
+        .field("reference_behaviour", r.solver)
+        .field("known_from", r.source);
     json.key("reference");
     if (!r.messages.empty())
       json.begin_object(true)

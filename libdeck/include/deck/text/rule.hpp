@@ -36,10 +36,11 @@ struct Rule {
   std::string problem;  ///< what is wrong
   std::string why;      ///< why it matters, formula
   std::string solver;   ///< what the reference solver does with it
+  std::string source;   ///< what shows that it does: a run, a record, ...; empty: no claim is made
   /// The reference solver's messages for it; the first one is the rule. Empty: it has none.
   std::vector<ReferenceMessage> messages;
   std::string fix;     ///< how to repair it
-  std::string ignore;  ///< when the finding may be ignored
+  std::string ignore;  ///< when the finding may be ignored; empty: never
   Fixable fixable = Fixable::no;
   std::string bad, good;
   /// Numbers of the interface types that it is true for ("19": for some part of a TYPE19); empty:
