@@ -108,26 +108,24 @@ class Reader {
       report(RuleId::DK001, make_span(0, 0, end),
              "the first line is '#RADIOSS STARTER' behind a UTF-8 byte order mark (bytes EF BB BF, "
              "which editors do not show)",
-             {.solver = "official builds stop at once: the line does not begin with the banner",
+             {.solver = "Official builds stop: the line does not begin with the banner.",
               .fix = "remove the mark: save the file as UTF-8 without BOM"});
     else if (!trim(first).starts_with("#RADIOSS STARTER"))
-      report(
-          RuleId::DK001, make_span(0, 0, end), "the first line is not '#RADIOSS STARTER'",
-          {.solver = "official builds stop at once; open-reader builds take the line for a comment",
-           .fix = "put '#RADIOSS STARTER' in the first line"});
+      report(RuleId::DK001, make_span(0, 0, end), "the first line is not '#RADIOSS STARTER'",
+             {.fix = "Put '#RADIOSS STARTER' in the first line."});
   }
 
   /// True if the file starts with the mark, which hides what its first line is.
   bool check_byte_order_mark(std::uint32_t file) {
     if (!deck_.sources[file].bytes().starts_with(byte_order_mark)) return false;
-    report(RuleId::DK033, make_span(file, 0, byte_order_mark.size()),
-           "the file starts with a UTF-8 byte order mark",
-           {.solver =
-                file == 0
-                    ? "it takes the three bytes for the start of the first line, so the banner is "
-                      "not found"
-                    : "it takes the three bytes for the start of the first line: a keyword there "
-                      "is none, and its block is dropped"});
+    report(
+        RuleId::DK033, make_span(file, 0, byte_order_mark.size()),
+        "the file starts with a UTF-8 byte order mark",
+        {.solver = file == 0
+                       ? "It takes the three bytes as the start of the first line, so it does not "
+                         "find the banner."
+                       : "It takes the three bytes as the start of the first line: it ignores a "
+                         "keyword there and its block."});
     return true;
   }
 
@@ -164,8 +162,7 @@ class Reader {
     if (static_cast<int>(stack_.size()) > depth) {
       report(RuleId::DK006, directive,
              "includes are nested deeper than " + std::to_string(depth) + " levels; '" + written +
-                 "' was not read",
-             {.solver = "it stops at about 10 levels"});
+                 "' was not read");
       return;
     }
     if (static_cast<int>(deck_.sources.size()) >= options_.limits.files) {
@@ -217,14 +214,15 @@ class Reader {
     unpacked_bytes_ += source.bytes().size();
     if (deck_.sources[0].packed() || has_gz_name(deck_.sources[0].path())) return;
     const bool other_name = has_gz_name(source.path()) && !has_gz_name(written);
-    report(RuleId::DK378, directive,
-           other_name ? "'" + written + "' is not there; '" + source.path() +
-                            "', packed with gzip, was read for it"
-                      : "the included file '" + written + "' is packed with gzip; it was unpacked",
-           {.solver = other_name ? "it does not find the file and stops with an error"
-                                 : "it takes the packed bytes for lines of the deck",
-            .fix = "unpack the file before a run (gunzip " + source.path() + ")" +
-                   (other_name ? "" : " and name it without .gz")});
+    report(
+        RuleId::DK378, directive,
+        other_name ? "'" + written + "' is not there; '" + source.path() +
+                         "', packed with gzip, was read for it"
+                   : "the included file '" + written + "' is packed with gzip; it was unpacked",
+        {.solver = other_name ? "Not known. It would not find the file."
+                              : "Not known. It would take the packed bytes as lines of the deck.",
+         .fix = "unpack the file before a run (gunzip " + source.path() + ")" +
+                (other_name ? "" : " and name it without .gz")});
   }
 
   void enter(std::unique_ptr<Source> source, std::string written, Span directive,
@@ -395,18 +393,35 @@ class Reader {
   void check_header_blanks(std::uint32_t file, std::uint64_t begin, std::uint64_t slash,
                            std::string_view header, int version) {
     if (version < 51) return;  // the title stands in the header
-    std::uint64_t at = slash;
-    if (begin == slash) {
-      std::size_t inner = 1;
-      while (inner < header.size() && !(header[inner] == '/' && is_blank(header[inner - 1])))
-        ++inner;
-      if (inner >= header.size()) return;
-      at = slash + inner;
+    const std::string shown(header.substr(0, 60));
+    if (begin != slash) {
+      report(RuleId::DK052, make_span(file, begin, slash), "a blank before " + shown);
+      return;
     }
-    std::uint64_t blank = at;
-    while (blank > begin && is_blank(deck_.sources[file].bytes()[blank - 1])) --blank;
-    report(RuleId::DK052, make_span(file, blank, at),
-           "a blank before a slash of " + std::string(header.substr(0, 60)));
+    std::size_t inner = 1;
+    while (inner < header.size() && !(header[inner] == '/' && is_blank(header[inner - 1]))) ++inner;
+    // Before an id the solver reads over it.
+    if (header.find_first_not_of("0123456789/ \t", std::min(inner, header.size())) ==
+        std::string_view::npos)
+      return;
+    std::size_t blank = inner;
+    while (is_blank(header[blank - 1])) --blank;
+    report(RuleId::DK052, make_span(file, slash + blank, slash + inner),
+           "a blank before a slash of " + shown,
+           {.severity = Severity::warning, .message = 0, .solver = "Not known."});
+  }
+
+  /// A line of numbers only: it has the form of a card.
+  static bool is_data(std::string_view line) {
+    bool any = false;
+    for (std::size_t at = 0; (at = line.find_first_not_of(" \t\r,", at)) != line.npos;) {
+      const std::size_t end = std::min(line.find_first_of(" \t\r,", at), line.size());
+      const NumberStatus status = read_real(line.substr(at, end - at)).status;
+      if (status != NumberStatus::ok && status != NumberStatus::implicit_exponent) return false;
+      any = true;
+      at = end;
+    }
+    return any;
   }
 
   /// Lines of an included file that stand before its first keyword.
@@ -415,7 +430,9 @@ class Reader {
     if (!text.valid()) return;
     const std::string_view bytes = deck_.sources[file].bytes();
     std::uint64_t lines = 0;
-    for (Span at = text; at.valid(); at = first_text(file, at.offset + at.length, end)) ++lines;
+    bool data = false;
+    for (Span at = text; at.valid(); at = first_text(file, at.offset + at.length, end), ++lines)
+      data = data || is_data(bytes.substr(at.offset, at.length));
     const bool keyword_behind_mark = text.offset == 0 && bytes.starts_with(byte_order_mark) &&
                                      trim(bytes.substr(byte_order_mark.size(), 1)).starts_with('/');
     std::string message = std::to_string(lines) + (lines == 1 ? " line" : " lines") +
@@ -425,6 +442,12 @@ class Reader {
                  std::string(deck_.blocks[static_cast<std::size_t>(open_block_)].header) +
                  " of the including file";
     if (keyword_behind_mark) message += ": a byte order mark hides the keyword of the first line";
+    if (!data && !keyword_behind_mark) {
+      report(RuleId::DK051, text, std::move(message),
+             {.severity = Severity::info,
+              .fix = "Nothing to do if the lines are remarks; make them comments to be clear."});
+      return;
+    }
     report(RuleId::DK051, text, std::move(message),
            {.fix = keyword_behind_mark
                        ? "save the file without byte order mark"
@@ -438,7 +461,7 @@ class Reader {
     report(RuleId::DK012, make_span(file, from, end),
            "a keyword line of " + std::to_string(end - slash) + " characters; " +
                std::to_string(header_columns) + " are read",
-           {.solver = "it drops the text silently", .fix = "shorten the line"});
+           {.solver = "It ignores the text silently.", .fix = "shorten the line"});
   }
 
   bool in_submodel_without_begin() const {
@@ -448,10 +471,10 @@ class Reader {
   void check_tail(std::uint32_t file, std::uint64_t from) {
     const Span text = first_text(file, from, deck_.sources[file].bytes().size());
     if (!text.valid()) return;
-    report(RuleId::DK011, text,
-           file == 0 ? "text after /END in the main file" : "text after /END in an included file",
-           {.solver = file == 0 ? "it stops reading at /END: nothing below exists for it"
-                                : "it skips the rest of this file"});
+    report(
+        RuleId::DK011, text,
+        file == 0 ? "text after /END in the main file" : "text after /END in an included file",
+        {.solver = file == 0 ? "It stops reading at /END." : "It ignores the rest of this file."});
   }
 
   // ---- headers ------------------------------------------------------------------------------

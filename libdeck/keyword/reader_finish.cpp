@@ -15,17 +15,22 @@ constexpr std::size_t no_block = static_cast<std::size_t>(-1);
 
 void drop_before_begin(Deck& deck, ReaderNotes& notes) {
   if (notes.before_begin.empty()) return;
+  // One file for Starter and Engine: its Engine part ends with /END/ENGINE.
+  std::size_t engine_part = 0;
+  for (const std::size_t i : notes.before_begin)
+    if (deck.blocks[i].header == "/END/ENGINE") engine_part = i + 1;
   std::vector<Block> kept;
   std::vector<std::size_t> place(deck.blocks.size(), no_block);
   std::size_t k = 0;
   for (std::size_t i = 0; i < deck.blocks.size(); ++i) {
     if (k < notes.before_begin.size() && notes.before_begin[k] == i) {
       ++k;
-      report(deck, RuleId::DK002, deck.blocks[i].header_span,
-             std::string(deck.blocks[i].header) + " stands before /BEGIN",
-             {.severity = Severity::warning,
-              .solver = "it ignores everything before /BEGIN except /PARAMETER",
-              .fix = "move the block behind /BEGIN"});
+      if (i >= engine_part)
+        report(deck, RuleId::DK002, deck.blocks[i].header_span,
+               std::string(deck.blocks[i].header) + " stands before /BEGIN",
+               {.severity = Severity::warning,
+                .solver = "It ignores everything before /BEGIN except /PARAMETER.",
+                .fix = "Move the block after /BEGIN."});
       continue;
     }
     place[i] = kept.size();
@@ -309,8 +314,7 @@ void finish_deck(Deck& deck, ReaderNotes& notes, const ReadOptions& options) {
     report(deck, RuleId::DK002, make_span(0, 0, 0),
            "no /BEGIN: version and units are unknown; version " + std::to_string(newest_version) +
                " is assumed",
-           {.solver = "it ignores everything before /BEGIN, that is the whole deck",
-            .fix = "start the deck with /BEGIN, run name, version and units"});
+           {.fix = "Start the deck with /BEGIN, run name, version and units."});
   else
     drop_before_begin(deck, notes);
   if (!deck.end_seen) {

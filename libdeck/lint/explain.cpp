@@ -204,11 +204,8 @@ std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t
   }
   out += "\n\n" + section(heading::problem, rule.problem, width) +
          section(heading::why, rule.why, width);
-  std::string solver = rule.solver;
-  if (!rule.messages.empty())
-    solver += fmt::format(" ({} {})", severity_name(rule.messages.front().severity),
-                          rule.messages.front().number);
-  out += section(heading::solver, solver, width);
+  const auto message = rule.messages.empty() ? std::nullopt : std::optional(rule.messages.front());
+  out += section(heading::solver, detail::with_message(rule.solver, message), width);
   if (!rule.source.empty()) out += section(heading::source, rule.source, width);
   out += section(heading::fix, rule.fix, width);
   if (!rule.bad.empty())

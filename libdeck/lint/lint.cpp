@@ -132,6 +132,17 @@ struct Pool {
     });
   }
 
+  /// While an include is missing, what seems to be absent may be in it: such findings are left out.
+  /// Returns how many of which rule.
+  std::map<std::string, std::uint64_t> drop_absences() {
+    std::map<std::string, std::uint64_t> out;
+    for (const Diagnostic& d : kept)
+      if (rule_of(d.rule).absence) ++out[std::string(id_text(d.rule))];
+    std::erase_if(kept, [](const Diagnostic& d) { return rule_of(d.rule).absence; });
+    std::erase_if(dropped, [](const auto& of) { return rule_of(of.first).absence; });
+    return out;
+  }
+
   /// In a card whose lines are shifted every value is read from the wrong cell: what the values of
   /// that card would be accused of is left out until the lines are right.
   void drop_consequences(const BlockIndex& index) {
@@ -299,8 +310,16 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
   pool.sort_and_unite();
   pool.drop_consequences(index);
 
+  const auto& missing = deck.diagnostics.counts();
+  std::map<std::string, std::uint64_t> absences;
+  if (missing.count(RuleId::DK004) > 0 || missing.count(RuleId::DK006) > 0)
+    absences = pool.drop_absences();
+
   LintResult result;
   result.not_checked = not_checked(input, options, pool.kept);
+  if (!absences.empty())
+    result.not_checked.push_back({"what seems to be absent: " + joined(absences),
+                                  "a file that could not be read may hold it"});
   FileIgnores file_ignores(deck, options);
   const auto hidden = [&](const Diagnostic& d) {
     if (file_ignores.ignore(d)) return true;

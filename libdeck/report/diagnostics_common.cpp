@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "deck/base/paths.hpp"
+#include "text/rule_page.hpp"
 
 namespace deck::detail {
 
@@ -40,15 +41,9 @@ const char* severity_name(Severity severity) {
 
 std::string details(const Diagnostic& d) {
   std::string out;
-  if (!d.reference_behaviour.empty() || d.reference) {
-    out += "Reference solver: " +
-           (d.reference_behaviour.empty() ? std::string("reports it") : d.reference_behaviour);
-    if (d.reference)
-      out += " (" + std::string(severity_name(d.reference->severity)) + " " +
-             std::to_string(d.reference->number) + ")";
-    out += ".";
-  }
-  if (!d.help.empty()) out += (out.empty() ? "" : " ") + std::string("Fix: ") + d.help + ".";
+  if (!d.reference_behaviour.empty())
+    out += "Reference solver: " + with_message(d.reference_behaviour, d.reference);
+  if (!d.help.empty()) out += (out.empty() ? "" : " ") + std::string("Fix: ") + d.help;
   return out;
 }
 

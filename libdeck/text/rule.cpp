@@ -48,6 +48,21 @@ ReferenceMessage Rule::message(int number) const {
   return it != messages.end() ? *it : ReferenceMessage{number, severity()};
 }
 
+namespace {
+
+/// As a sentence: a capital letter first, a full stop last. Names of fields and of the program
+/// stay as they are.
+std::string sentence(std::string text) {
+  if (text.empty()) return text;
+  const std::string_view word = std::string_view(text).substr(0, text.find(' '));
+  if (text[0] >= 'a' && text[0] <= 'z' && word != "deck" && word.find('_') == word.npos)
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  if (std::string_view(".!?").find(text.back()) == std::string_view::npos) text += '.';
+  return text;
+}
+
+}  // namespace
+
 Diagnostic finding_of(RuleId id, Span span, std::string message, Case particular) {
   const Rule& rule = rule_of(id);
   Diagnostic d;
@@ -58,8 +73,9 @@ Diagnostic finding_of(RuleId id, Span span, std::string message, Case particular
          "a severity that the page does not name");
   d.span = span;
   d.message = std::move(message);
-  d.reference_behaviour = particular.solver.empty() ? rule.solver : std::move(particular.solver);
-  d.help = particular.fix.empty() ? rule.fix : std::move(particular.fix);
+  d.reference_behaviour =
+      sentence(particular.solver.empty() ? rule.solver : std::move(particular.solver));
+  d.help = sentence(particular.fix.empty() ? rule.fix : std::move(particular.fix));
   if (particular.message) {
     if (*particular.message != 0) d.reference = rule.message(*particular.message);
   } else if (!rule.messages.empty()) {

@@ -171,6 +171,10 @@ class PageReader {
       rule_.source = value;
       return each_item(value, is_source, ';');
     }
+    if (key == "if_include_missing") {
+      rule_.absence = true;
+      return value == "hidden";
+    }
     if (key == "fixable") {
       rule_.fixable = value == "safe" ? Fixable::safe : Fixable::unsafe;
       return value == "safe" || value == "unsafe";
@@ -264,6 +268,15 @@ class PageReader {
 };
 
 }  // namespace
+
+std::string with_message(std::string text, const std::optional<ReferenceMessage>& message) {
+  if (!message) return text;
+  const char* const severity = message->severity == Severity::error     ? "error "
+                               : message->severity == Severity::warning ? "warning "
+                                                                        : "info ";
+  if (text.ends_with('.')) text.pop_back();
+  return text + " (" + severity + std::to_string(message->number) + ").";
+}
 
 Result<Rule> parse_rule_page(std::string_view name, std::string_view text) {
   return PageReader(name, text).read();

@@ -1,5 +1,7 @@
 // The form of a page in schemas/rules. Private to the library.
 #pragma once
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "deck/text/result.hpp"
@@ -18,6 +20,9 @@ inline constexpr std::string_view bad = "Fires on";
 inline constexpr std::string_view good = "Stays silent on";
 inline constexpr std::string_view ignore = "When to ignore";
 }  // namespace heading
+
+/// What the solver does, with the message in front of the last full stop: "It stops (error 79)."
+std::string with_message(std::string text, const std::optional<ReferenceMessage>& message);
 
 /// The rule of the page `name` ("DK203.md"); an error says the line that breaks the form.
 Result<Rule> parse_rule_page(std::string_view name, std::string_view text);

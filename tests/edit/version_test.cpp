@@ -150,9 +150,10 @@ TEST(ToVersion, TextInBlankColumnsDoesNotBecomeAValue) {
   EXPECT_TRUE(r.refusals.empty());
   const auto then = applied(*before, r);
   EXPECT_EQ(then->interfaces.type7.at(0).dtmin.value, 0);
-  const auto kept = losses_of(r, Loss::kept);
-  EXPECT_TRUE(
-      std::any_of(kept.begin(), kept.end(), [](const LossEntry& l) { return l.field == "dtmin"; }));
+  const auto dropped = losses_of(r, Loss::dropped);
+  ASSERT_EQ(dropped.size(), 1u);
+  EXPECT_EQ(dropped[0].field, "dtmin");
+  EXPECT_EQ(dropped[0].old_text, "0.7");
 }
 
 TEST(ToVersion, FreeFormatLinesGetTheNewColumns) {
@@ -185,7 +186,17 @@ TEST(ToVersion, TextThatMeantNothingDoesNotBecomeACell) {
   const auto there = applied(*open_text(text), r);
   EXPECT_EQ(decode(there->deck, there->deck.blocks[1]).integer("Ipos"), 0);
   EXPECT_EQ(decode(there->deck, there->deck.blocks[1]).integer("N"), 3);
-  EXPECT_EQ(losses_of(r, Loss::kept).size(), 3u);  // the version, the text, the block
+  EXPECT_EQ(losses_of(r, Loss::kept).size(), 2u);  // the version, the block
+  EXPECT_EQ(losses_of(r, Loss::dropped).size(), 1u);
+}
+
+TEST(ToVersion, AFlagThatNoSolverReadsIsDroppedWithoutARefusal) {
+  const std::string head = "/PROP/SHELL/1\np\n        24\n\n         3";
+  const Rewrite r = rewrite_of(deck_of_version(2022, head + "         1\n"), 2026);
+  EXPECT_TRUE(r.refusals.empty()) << joined(r.refusals);
+  const auto dropped = losses_of(r, Loss::dropped);
+  ASSERT_EQ(dropped.size(), 1u);
+  EXPECT_EQ(dropped[0].field, "Istrain");
 }
 
 TEST(ToVersion, SensorStopLineIsReadAsBeforeAfterGoingUpAndDown) {

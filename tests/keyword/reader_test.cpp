@@ -113,6 +113,16 @@ TEST(ReaderBlocks, EverythingBeforeBeginButParametersIsDropped) {
   EXPECT_EQ(d.submodels[0].nodes, 0);
 }
 
+TEST(ReaderBlocks, AnEnginePartBeforeBeginIsPartOfACommonFile) {
+  const std::string engine = "/RUN/car/1\n1.0\n/TFILE\n0.1\n";
+  std::string deck = deck_of("/TITLE\nt\n");
+  deck.insert(deck.find("/BEGIN"), engine + "/END/ENGINE\n");
+  EXPECT_EQ(count(read(deck).diagnostics, RuleId::DK002), 0u);
+  std::string other = deck_of("/TITLE\nt\n");
+  other.insert(other.find("/BEGIN"), engine);
+  EXPECT_EQ(count(read(other).diagnostics, RuleId::DK002), 2u);
+}
+
 TEST(ReaderBlocks, WithoutBeginAllBlocksStayAndOneErrorSaysSo) {
   const Deck d = read(banner + "/NODE\n         1\n/END\n");
   EXPECT_NE(block(d, "/NODE"), nullptr);
@@ -357,7 +367,7 @@ TEST(ReaderHeader, AHashBehindABlankStartsAComment) {
   EXPECT_NE(block(end, "/GRNOD/NODE/1"), nullptr);
 }
 
-TEST(ReaderHeader, ABlankBeforeASlashIsAnErrorThatPointsAtTheBlank) {
+TEST(ReaderHeader, ABlankAtItsBeginningIsAnErrorInsideTheKeywordAWarningBeforeTheIdNothing) {
   const Deck d = read(deck_of(" /GRNOD/NODE/7\nt\n/GRNOD /NODE/8\nt\n/GRNOD/NODE/9  \nt\n"));
   ASSERT_EQ(count(d.diagnostics, RuleId::DK052), 2u);
   const auto& all = d.diagnostics.all();
@@ -366,7 +376,13 @@ TEST(ReaderHeader, ABlankBeforeASlashIsAnErrorThatPointsAtTheBlank) {
   EXPECT_EQ(d.sources.text(all[1].span), " ");
   EXPECT_EQ(all[0].severity, Severity::error);
   EXPECT_EQ(all[0].reference->number, 760);
+  EXPECT_EQ(all[1].severity, Severity::warning);
+  EXPECT_EQ(all[1].reference, std::nullopt);
   EXPECT_EQ(d.blocks.size(), 4u);
+  const Deck harmless = read(deck_of("/GRNOD/NODE    /         2\nt\n"));
+  EXPECT_EQ(count(harmless.diagnostics, RuleId::DK052), 0u);
+  ASSERT_EQ(harmless.blocks.size(), 2u);
+  EXPECT_EQ(harmless.blocks[1].id.value, 2);
 }
 
 // ---- includes -----------------------------------------------------------------------------------
@@ -455,6 +471,16 @@ TEST_F(ReaderInclude, LinesBeforeItsFirstKeywordAreDroppedAndCounted) {
   EXPECT_EQ(d.sources.position(f->span).line, 2u);
   EXPECT_THAT(f->message, HasSubstr("2 lines"));
   EXPECT_THAT(f->message, HasSubstr("/NODE"));
+}
+
+TEST_F(ReaderInclude, WordsBeforeItsFirstKeywordAreAnInfoNumbersAWarning) {
+  file("licence.inc", "Copyright 2024 of somebody\nAll rights 1 2 3\n/GRNOD/NODE/5\nt\n");
+  file("data.inc", "some words\n         2                 1.0               2.5-3\n");
+  const Deck d =
+      read_file(file("m_0000.rad", deck_of("#include licence.inc\n/NODE\n#include data.inc\n")));
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK051), 2u);
+  EXPECT_EQ(first(d.diagnostics, RuleId::DK051)->severity, Severity::info);
+  EXPECT_EQ(d.diagnostics.all().back().severity, Severity::warning);
 }
 
 TEST_F(ReaderInclude, WithoutAnyKeywordLeavesTheBlockOfTheIncludingFileOpen) {

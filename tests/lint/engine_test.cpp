@@ -110,6 +110,35 @@ TEST(EngineFile, HoldsElementsAgainstTheirOwnKind) {
   EXPECT_EQ(run.count(RuleId::DK804), 4u) << run.list();
 }
 
+TEST(EngineFile, MayHaveACardThatIsNotFilledIn) {
+  Folder folder;
+  folder.write("car_0001.rad", "/RUN/car/1\n10.\n/DEL/SHELL/1\n0 0\n/DEL/INTER\n0\n");
+  const Linted run =
+      lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
+  EXPECT_FALSE(run.fires(RuleId::DK804)) << run.list();
+}
+
+TEST(EngineFile, WithAnotherNameOrNumberInItsRunIsAnInfo) {
+  Folder folder;
+  folder.write("car_0001.rad", "/RUN/bus/2\n10.\n");
+  const Linted run =
+      lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
+  for (const RuleId rule : {RuleId::DK801, RuleId::DK802}) {
+    ASSERT_TRUE(run.fires(rule)) << run.list();
+    EXPECT_EQ(run.find(rule)->severity, Severity::info);
+  }
+}
+
+TEST(EngineFile, WithAnIntervalLongerThanTheRunWritesItsFirstState) {
+  Folder folder;
+  folder.write("car_0001.rad", "/RUN/car/1\n4.\n/ANIM/DT\n0. 5.\n/H3D/DT\n7. 1.\n");
+  const Linted run =
+      lint_file(folder.write("car_0000.rad", example_deck("", SchemaSet::built_in()).main));
+  ASSERT_EQ(run.count(RuleId::DK805), 2u) << run.list();
+  EXPECT_EQ(run.find(RuleId::DK805)->severity, Severity::info);
+  EXPECT_EQ(run.result.warnings, 1u) << run.list();
+}
+
 TEST(EngineFile, OfALaterRunHasTheTimeSinceTheRunBefore) {
   Folder folder;
   folder.write("car_0001.rad", "/RUN/car/1\n10.\n");

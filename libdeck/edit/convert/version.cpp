@@ -91,6 +91,11 @@ class VersionRewriter {
     out_.losses.push_back(std::move(entry));
     return out_.losses.back();
   }
+  /// Text that had no effect goes without a refusal.
+  void removed(const Block& block, Span span, std::string_view field, std::string_view text,
+               const std::string& why) {
+    report(Loss::dropped, block, span, field, text, "removed: " + why).without_effect = true;
+  }
 
   void undecided(const Block& block, Span span, std::string_view field, std::string_view text,
                  const std::string& why) {
@@ -254,9 +259,8 @@ class VersionRewriter {
   void remove_extra(const Block& block, const DecodedBlock& decoded) {
     for (const Line& line : decoded.extra) {
       if (trim(line.text).empty()) continue;
-      report(Loss::kept, block, line.whole(), "", trim(line.text),
-             "removed: the line has no meaning in version " + number(block.version) +
-                 " and would get one");
+      removed(block, line.whole(), "", trim(line.text),
+              "the line has no meaning in version " + number(block.version) + " and would get one");
       lines_.remove(line, out_.edits);
     }
   }
@@ -346,9 +350,9 @@ class VersionRewriter {
     if (stray.empty() || (field.type != FieldType::text && is_zero_text(stray))) return;
     put_cell(text, field.first, field.last, "");
     if (compose.findings == nullptr) return;
-    compose.findings->report(
-        Loss::kept, block, old.line.columns(field.first, field.last), field.name, stray,
-        "removed: it has no meaning in version " + number(block.version) + " and would get one");
+    compose.findings->removed(
+        block, old.line.columns(field.first, field.last), field.name, stray,
+        "it has no meaning in version " + number(block.version) + " and would get one");
   }
 
   void carry(const Compose& compose, const Field& field, const Cell& cell,
@@ -402,8 +406,7 @@ class VersionRewriter {
     const Field& field = *cell.field;
     if (field.ignored) {
       if (cell.integer != 0)
-        report(Loss::kept, block, cell.span, field.name, cell.text,
-               "removed: the reference solver does not use it");
+        removed(block, cell.span, field.name, cell.text, "the reference solver does not use it");
       return;
     }
     if (is_default(block, cell)) return;

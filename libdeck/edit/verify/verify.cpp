@@ -67,7 +67,7 @@ VerifyRelation relation_of(const std::vector<LossEntry>& losses) {
   VerifyRelation r;
   for (const LossEntry& e : losses) {
     r.rounded = r.rounded || e.loss == Loss::approximated;
-    if (e.loss != Loss::dropped && e.loss != Loss::undecided) continue;
+    if ((e.loss != Loss::dropped && e.loss != Loss::undecided) || e.without_effect) continue;
     if (e.keyword.starts_with("/INTER/")) r.lossy.insert(e.id);
     r.lossy_defaults = r.lossy_defaults || e.keyword.starts_with("/DEFAULT/INTER");
   }

@@ -89,7 +89,7 @@ void report_number(Findings& findings, const Cell& cell) {
       keep((is_hexadecimal(cell) ? ", a hexadecimal number; it is read as "
                                  : ": text follows the number; it is read as ") +
                (real ? shown(cell.real) : std::to_string(cell.integer)),
-           {.solver = "it reads the same without a word"});
+           {.solver = "It reads the same, silently."});
       break;
     case LineRule::range:
       keep(": the number is out of range", {.message = real ? 100104 : 100103});
@@ -199,7 +199,7 @@ void check_gaps(Findings& findings, const CardSchema& card, int version, const L
           detail::id_of(rule), line.columns(first, last),
           text + " stands in columns that version " + std::to_string(version) + " leaves blank",
           {.severity = zero ? Severity::info : Severity::warning,
-           .solver = "it drops the text",
+           .solver = "It ignores the text.",
            .fix = "delete it, or check whether the card was written for another input version"});
   });
 }
@@ -210,7 +210,7 @@ void check_line(Findings& findings, const Line& line, bool fixed_columns) {
         RuleId::DK012,
         line.columns(line_columns + 1,
                      static_cast<int>(std::min<std::size_t>(line.text.size(), 1 << 20))),
-        "text beyond column 100: " + quoted(tail), {.solver = "it drops the text silently"});
+        "text beyond column 100: " + quoted(tail), {.solver = "It ignores the text silently."});
   const std::string_view text = line.text.substr(0, line_columns);
   if (const auto tab = text.find('\t'); fixed_columns && tab != std::string_view::npos)
     findings.report(RuleId::DK013,
@@ -312,7 +312,7 @@ void drop_blank_cell(Findings& findings, const Block& block,
                   "text " + quoted(cell->first) + " of this free-format line falls on columns " +
                       std::to_string(first) + "-" + std::to_string(last) + ", which version " +
                       std::to_string(block.version) + " leaves blank",
-                  {.solver = "it drops the text; the next one goes to the next cell",
+                  {.solver = "It ignores the text; the next one goes to the next cell.",
                    .fix = "write two commas for the blank columns, or fixed columns"});
 }
 

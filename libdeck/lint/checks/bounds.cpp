@@ -55,7 +55,8 @@ void check_block(const LintContext& c, const Rule& rule, Reporter& r, const Bloc
           r.report(rule, block, cell.span,
                    fmt::format("{} of {} {} is {}; legal: {}", cell.field->name,
                                block.schema->keyword, block.id.value, clipped(cell.text), legal));
-      if (d != nullptr && !cell.field->doc.empty()) d->help += " (" + cell.field->doc + ")";
+      if (d != nullptr && !cell.field->doc.empty())
+        d->help += " " + cell.field->name + ": " + cell.field->doc + ".";
     }
 }
 

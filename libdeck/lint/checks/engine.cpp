@@ -170,6 +170,7 @@ void check_ranges(const LintContext& c, const Rule& rule, Reporter& r, const Eng
       const IntegerCell first = read_integer(c.text(cells[i]));
       const IntegerCell last = read_integer(c.text(cells[i + 1]));
       if (first.status != NumberStatus::ok || last.status != NumberStatus::ok ||
+          (first.value == 0 && last.value == 0) ||  // a card that is not filled in
           std::any_of(list.families.begin(), list.families.end(), [&](const Elements* family) {
             return ids.any_between(family, first.value, last.value);
           }))
@@ -197,7 +198,7 @@ void check_ids(const LintContext& c, const Rule& rule, Reporter& r) {
           const std::string name = clipped(b.keyword);
           if (id.status != NumberStatus::ok)
             r.report(rule, cell, fmt::format("'{}' in {} is no id", clipped(c.text(cell)), name));
-          else if (!list->ranges && !exists(c, *list, id.value))
+          else if (!list->ranges && id.value != 0 && !exists(c, *list, id.value))
             r.report(
                 rule, cell,
                 fmt::format("{} names {} {}, which does not exist", name, list->what, id.value));
@@ -223,10 +224,15 @@ void check_outputs(const LintContext& c, const Rule& rule, Reporter& r) {
         r.report(rule, b.lines[0],
                  fmt::format("{} begins at {}, the run ends at {}", clipped(b.keyword),
                              number_text(n[0]), number_text(*end)));
-      else if (interval > *end - begin)
-        r.report(rule, b.lines[0],
-                 fmt::format("{} writes every {}, the run takes {}", clipped(b.keyword),
-                             number_text(interval), number_text(*end - begin)));
+      else if (interval > *end - begin) {
+        Diagnostic* d =
+            r.report(rule, b.lines[0],
+                     fmt::format("{} writes every {}, the run takes {}", clipped(b.keyword),
+                                 number_text(interval), number_text(*end - begin)));
+        if (d == nullptr) continue;
+        d->severity = Severity::info;
+        d->reference_behaviour = "It writes the state at the start of the run only.";
+      }
     }
     begin = *end;
   });

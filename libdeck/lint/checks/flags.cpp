@@ -44,7 +44,7 @@ void check_block(const Rule& rule, std::string_view field, const DecodedBlock& b
                                fmt::format("{} of {} {} is {}; legal values are {}", f.name,
                                            block.block->schema->keyword, block.block->id.value,
                                            cell.integer, list_of(f.values)));
-      if (d != nullptr && !f.doc.empty()) d->help += " (" + f.doc + ")";
+      if (d != nullptr && !f.doc.empty()) d->help += " " + f.name + ": " + f.doc + ".";
     }
 }
 

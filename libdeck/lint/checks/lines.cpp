@@ -112,7 +112,7 @@ void check_second_line(const LintContext& c, const Rule& rule, Reporter& r) {
                               "110 on only; this deck is of version {}",
                               name_of(card), card.block->version));
     if (d == nullptr) return;
-    if (!missing) d->help = "delete the line, or raise the version in /BEGIN";
+    if (!missing) d->help = "Delete the line, or raise the version in /BEGIN.";
     if (missing) {
       Span at = card.decoded.cards[1].line.whole();
       at.length = 0;
@@ -163,11 +163,11 @@ void check_extra(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_shift(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const ContactCard& card : c.contacts) {
+  each(c, rule, [&](const ContactCard& card) {
     const auto flags = flags_card(card.decoded);
-    if (!flags || !flags->card->line.valid() || flags->card->free_format) continue;
-    if (looks_like_flags(flags->card->line) == Look::yes) continue;
-    if (second_line_missing(card) || second_line_extra(card)) continue;
+    if (!flags || !flags->card->line.valid() || flags->card->free_format) return;
+    if (looks_like_flags(flags->card->line) == Look::yes) return;
+    if (second_line_missing(card) || second_line_extra(card)) return;
     const auto& cards = card.decoded.cards;
     const std::size_t i = flags->index;
     const bool above = i > 0 && looks_like_flags(cards[i - 1].line) == Look::yes;
@@ -175,7 +175,7 @@ void check_shift(const LintContext& c, const Rule& rule, Reporter& r) {
                       : card.decoded.extra.empty() ? Line{}
                                                    : card.decoded.extra.front();
     const bool below = looks_like_flags(next) == Look::yes;
-    if (!above && !below && looks_like_flags(flags->card->line) == Look::maybe) continue;
+    if (!above && !below && looks_like_flags(flags->card->line) == Look::maybe) return;
     std::string message = fmt::format("the line read as '{}' of {} does not look like it: ",
                                       flags->card->schema->name, name_of(card));
     message += above   ? "the one above does, so a line is missing further up"
@@ -184,7 +184,7 @@ void check_shift(const LintContext& c, const Rule& rule, Reporter& r) {
     Diagnostic* d = r.report(rule, *card.block, flags->card->line.whole(), std::move(message));
     for (const Optional& o : optional_cards(card))
       if (o.present && above) note_field(d, card, o.flag);
-  }
+  });
 }
 
 /// Versions up to 100 read heat before adaptive meshing, later ones after it.

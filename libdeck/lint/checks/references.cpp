@@ -88,7 +88,7 @@ void check_kind(const LintContext& c, const Rule& rule, Reporter& r) {
       d->notes.emplace_back(
           *at, std::string(kind_name(other)) + " " + std::to_string(id) + " is defined here");
     if (side.kind == "grnod" && other == "surf")
-      d->help = fmt::format("define a /GRNOD/SURF of surface {} and refer to that", id);
+      d->help = fmt::format("Define a /GRNOD/SURF of surface {} and refer to that.", id);
   });
 }
 
@@ -152,7 +152,7 @@ void negative_reference(Reporter& r, const Rule& rule, const ContactCard& card,
   if (f.field->ref != "funct" && f.field->ref != "friction") return;
   d->severity = Severity::warning;
   d->reference.reset();
-  d->reference_behaviour = "it goes on without a word, as if no id were given";
+  d->reference_behaviour = "It continues silently, as if no id were given.";
 }
 
 void check_negative(const LintContext& c, const Rule& rule, Reporter& r) {

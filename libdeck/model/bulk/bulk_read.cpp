@@ -155,9 +155,10 @@ void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
           "a blank line in " + std::string(plan.block->header),
           {.severity = element ? Severity::error : Severity::warning,
            .message = element ? 760 : 0,
-           .solver = element
-                         ? "it takes the line for an element without nodes, and crashes or hangs"
-                         : "it takes the line for an item with id 0"});
+           .solver =
+               element
+                   ? "It takes the line as an element without nodes, and crashes or does not end."
+                   : "It takes the line as an item with id 0."});
     return;
   }
   const DecodedCard card =

@@ -195,7 +195,7 @@ bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const B
             std::string(from.keyword),
             from.id.value,
             {.message = number,
-             .solver = "it resolves the references level by level",
+             .solver = "It resolves the references level by level.",
              .fix = "flatten the references"}});
     return true;
   }

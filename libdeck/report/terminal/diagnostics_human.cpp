@@ -10,6 +10,7 @@
 #include "deck/report/text_table.hpp"
 #include "report/diagnostics_common.hpp"
 #include "report/terminal/words.hpp"
+#include "text/rule_page.hpp"
 
 namespace deck {
 namespace {
@@ -164,11 +165,7 @@ class Human {
         out += fmt::format("{} {}={} {}{}:{} {}\n", gutter, c_.blue, c_.off, c_.bold, label, c_.off,
                            terminal_text(text));
     };
-    std::string solver = d.reference_behaviour;
-    if (d.reference)
-      solver += fmt::format("{}({} {})", solver.empty() ? "" : " ",
-                            detail::severity_name(d.reference->severity), d.reference->number);
-    note("solver", solver);
+    note("solver", detail::with_message(d.reference_behaviour, d.reference));
     note("help", d.help);
     for (const auto& [span, text] : d.notes)
       note("note", text + (span.valid() ? " --> " + deck_.deck->sources.where(span) : ""));

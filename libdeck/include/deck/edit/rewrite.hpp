@@ -31,7 +31,8 @@ enum class Loss : std::uint8_t {
 /// One line of the loss report.
 struct LossEntry {
   Loss loss = Loss::kept;
-  std::string file;  ///< as in the deck
+  bool without_effect = false;  ///< dropped, but the solver did not use it
+  std::string file;             ///< as in the deck
   std::uint64_t line = 0;
   std::uint64_t column = 0, end_column = 0;  ///< of a value that changed; 0: not told
   std::string keyword;                       ///< "/INTER/TYPE7"

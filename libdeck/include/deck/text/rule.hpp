@@ -36,16 +36,18 @@ struct Rule {
   std::string problem;  ///< what is wrong
   std::string why;      ///< why it matters, formula
   std::string solver;   ///< what the reference solver does with it
-  std::string source;   ///< what shows that it does: a run, a record, ...; empty: no claim is made
   /// The reference solver's messages for it; the first one is the rule. Empty: it has none.
   std::vector<ReferenceMessage> messages;
   std::string fix;     ///< how to repair it
   std::string ignore;  ///< when the finding may be ignored; empty: never
   Fixable fixable = Fixable::no;
+  bool absence = false;  ///< says that something is absent, which a missing include may hold
   std::string bad, good;
   /// Numbers of the interface types that it is true for ("19": for some part of a TYPE19); empty:
   /// it is not about interfaces of these types.
   std::vector<int> types;
+  /// What shows that the solver does what `solver` says: a run, a record, ...; empty: no claim.
+  std::string source;
 
   Severity severity() const { return severities.front(); }
   /// The solver's message of that number; it is on the page.

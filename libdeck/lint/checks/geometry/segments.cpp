@@ -96,7 +96,12 @@ void check_duplicates(const GeometryRun& run, const Contact& c) {
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i].first == sorted[i - 1].first) twice.push_back(sorted[i].second);
   std::sort(twice.begin(), twice.end());
-  about_segments(run, RuleId::DK326, c, twice, "repeat another one");
+  Diagnostic* d = about_segments(run, RuleId::DK326, c, twice, "repeat another one");
+  const auto of_solids = [&](std::uint32_t i) { return c.main[i].carrier == Carrier::solid; };
+  if (d != nullptr && std::all_of(twice.begin(), twice.end(), of_solids))
+    d->help =
+        "Write /EXT instead of /ALL in the surface: its solids touch, and the inner faces count "
+        "twice.";
 }
 
 void check_dropped(const GeometryRun& run, const Contact& c) {
