@@ -59,8 +59,9 @@ void check_subset_children(BuildContext& c) {
                                    std::to_string(child) + ", which does not exist",
                                std::string(block.keyword),
                                id,
-                               {.solver = "it ignores the entry",
-                                .fix = "define the subset or remove it from the list"}});
+                               {.message = 0,
+                                .solver = "Not known.",
+                                .fix = "Define the subset or remove it from the list."}});
   }
 }
 
