@@ -184,6 +184,26 @@ std::string field_page(const Schema& schema, std::string_view field, std::size_t
   return out;
 }
 
+/// "run error 79; manual /RBODY" in words.
+std::string sources_text(std::string_view sources) {
+  constexpr std::pair<std::string_view, std::string_view> words[] = {
+      {"run ", "run of the solver: "},
+      {"record ", "recorded values of the solver: "},
+      {"listing ", "listing of a public deck: "},
+      {"specification ", "notes on the solver: "},
+      {"manual ", "manual: "}};
+  std::string out;
+  while (!sources.empty()) {
+    const std::string_view item = sources.substr(0, sources.find(';'));
+    sources.remove_prefix(std::min(item.size() + 1, sources.size()));
+    const std::string_view text = item.substr(std::min(item.find_first_not_of(' '), item.size()));
+    for (const auto& [kind, word] : words)
+      if (text.starts_with(kind))
+        out += fmt::format("{}{}{}", out.empty() ? "" : "; ", word, text.substr(kind.size()));
+  }
+  return out + ".";
+}
+
 }  // namespace
 
 std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t width) {
@@ -206,7 +226,7 @@ std::string explain_rule(const Rule& rule, const SchemaSet& schemas, std::size_t
          section(heading::why, rule.why, width);
   const auto message = rule.messages.empty() ? std::nullopt : std::optional(rule.messages.front());
   out += section(heading::solver, detail::with_message(rule.solver, message), width);
-  if (!rule.source.empty()) out += section(heading::source, rule.source, width);
+  if (!rule.source.empty()) out += section(heading::source, sources_text(rule.source), width);
   out += section(heading::fix, rule.fix, width);
   if (!rule.bad.empty())
     out += fmt::format("{}\n{}\n{}\n{}\n", heading::bad,

@@ -523,7 +523,7 @@ TEST_F(ReaderInclude, AWrongPathComesWithAHint) {
   EXPECT_THAT(help("#include Sub\\none.inc"), HasSubstr("'Sub/none.inc'"));
   EXPECT_THAT(help("#include nowhere.inc"), HasSubstr("--include-path"));
   EXPECT_THAT(help("#include Sub/Mehs.inc"),
-              HasSubstr("did you mean '" + (dir_ / "Sub/Mesh.inc").string()));
+              HasSubstr("Did you mean '" + (dir_ / "Sub/Mesh.inc").string()));
   EXPECT_EQ(help("#include Sub/Mesh.inc"), "(found)");
   EXPECT_EQ(help("#include Sub\\Mesh.inc"), "(found)");
   const Deck d = read_file(file("m_0000.rad", deck_of("#include Sub\\Mesh.inc\n")));

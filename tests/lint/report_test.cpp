@@ -28,7 +28,7 @@ TEST(HumanReport, PointsAtTheCell) {
   EXPECT_NE(text.find("         2         1         7\n"), std::string::npos) << text;
   EXPECT_NE(text.find("                             ^\n"), std::string::npos) << text;
   EXPECT_NE(text.find("= solver: "), std::string::npos);
-  EXPECT_NE(text.find("= help: write one of the legal values"), std::string::npos);
+  EXPECT_NE(text.find("= help: Write one of the legal values"), std::string::npos);
   EXPECT_NE(text.find("0 errors, 1 warning"), std::string::npos);
   EXPECT_NE(text.find("not checked:"), std::string::npos);
   EXPECT_EQ(text.find('\x1b'), std::string::npos) << "no colours unless asked for";

@@ -224,7 +224,7 @@ TEST(BulkElements, UnknownNodesAreErrorsAtTheirColumns) {
   EXPECT_EQ(b.deck.sources.position(f.span).column, 31u);
   EXPECT_EQ(f.id, 1);
   EXPECT_THAT(f.message, HasSubstr("/SHELL 1: N3 names node 99"));
-  EXPECT_THAT(b.findings.all()[1].help, HasSubstr("write N4 = N3"));
+  EXPECT_THAT(b.findings.all()[1].help, HasSubstr("Write N4 = N3"));
   EXPECT_EQ(b.findings.all()[2].id, 3);
 }
 
