@@ -47,10 +47,10 @@ TEST(RulePage, ThatBreaksTheFormIsRefusedWithItsLine) {
       {"severity: warning", "severity: loud", 4},
       {"found_by: geometry", "found_by: someone", 5},
       {"message: warning", "messages: warning", 6},
-      {"types: 7", "types: seven", 7},
-      {"types: 7, ", "known_from: hearsay\ntypes: 7, ", 7},
-      {"types: 7, ", "known_from: run of a tube; hearsay\ntypes: 7, ", 7},
-      {"## Why it matters", "## Why", 14},
+      {"types: 7", "types: seven", 8},
+      {"types: 7, ", "known_from: hearsay\ntypes: 7, ", 8},
+      {"types: 7, ", "known_from: run of a tube; hearsay\ntypes: 7, ", 8},
+      {"## Why it matters", "## Why", 15},
   };
   ASSERT_TRUE(detail::parse_rule_page("DK301.md", page()));
   for (const auto& [from, to, line] : breaks) {
