@@ -162,10 +162,18 @@ void check_extra(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
+/// True if the line of the release flags has cells in the columns that are blank in most types.
+bool has_cells_behind(const CardSchema& flags, int version) {
+  return std::any_of(flags.fields.begin(), flags.fields.end(), [&](const Field& f) {
+    return f.in_version(version) && f.first > 10 && f.first <= 30;
+  });
+}
+
 void check_shift(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     const auto flags = flags_card(card.decoded);
     if (!flags || !flags->card->line.valid() || flags->card->free_format) return;
+    if (has_cells_behind(*flags->card->schema, card.block->version)) return;
     if (looks_like_flags(flags->card->line) == Look::yes) return;
     if (second_line_missing(card) || second_line_extra(card)) return;
     const auto& cards = card.decoded.cards;
