@@ -81,7 +81,7 @@ constexpr std::pair<RuleId, RuleId> says_more[] = {
 bool certain(const SchemaSet& schemas, const Diagnostic& d) {
   const bool columns = d.rule == RuleId::DK027 || d.rule == RuleId::DK028;
   const bool lines = d.rule == RuleId::DK029 || d.rule == RuleId::DK030;
-  const bool header = d.rule == RuleId::DK049 || d.rule == RuleId::DK109;
+  const bool header = d.rule == RuleId::DK049;
   if ((!columns && !lines && !header) || d.keyword.empty()) return true;
   const Schema* s = schemas.match(d.keyword);
   if (s == nullptr) return true;
