@@ -197,12 +197,13 @@ void link_parts(BuildContext& c) {
     const bool named =
         part.mat_id != 0 && part.prop != no_index && !spring && m.properties[part.prop].number != 0;
     if (part.mat == no_index && ((used[i] & 2) != 0 || named) && !(spring && part.mat_id == 0))
-      report(c.diagnostics, {RuleId::DK103, part.span,
-                             "part " + std::to_string(part.id) +
-                                 ((used[i] & 2) != 0 ? " has elements and refers to material "
-                                                     : " refers to material ") +
-                                 std::to_string(part.mat_id) + ", which does not exist",
-                             "/PART", part.id});
+      report(c.diagnostics,
+             {RuleId::DK103, part.span,
+              "part " + std::to_string(part.id) +
+                  (part.mat_id == 0 ? " has elements and names no material"
+                                    : " refers to material " + std::to_string(part.mat_id) +
+                                          ", which does not exist"),
+              "/PART", part.id});
     if (part.subset_id > 0 && m.subset_children.count(part.subset_id) == 0)
       report(c.diagnostics, {RuleId::DK108,
                              part.span,

@@ -28,8 +28,10 @@ TEST(Part, MissingPropertyIsMessage178) {
 
 TEST(Part, MissingMaterialIsMessage179IfThereAreElementsOrAPropertyOfShells) {
   const std::string prop = "/PROP/VOID/1\np\n" + reals({1});
-  Built used(quad() + prop + "/PART/1\np\n" + cells({1, 9}));
-  EXPECT_EQ(used.message(RuleId::DK103), 179);
+  for (const int material : {9, 0}) {
+    Built used(quad() + prop + "/PART/1\np\n" + cells({1, material}));
+    EXPECT_EQ(used.message(RuleId::DK103), 179) << material;
+  }
   Built empty(grid_nodes() + prop + "/PART/1\np\n" + cells({1, 9}));
   EXPECT_EQ(empty.findings(RuleId::DK103), 0u);
   Built shells(parts() + grid_nodes() + "/PART/7\np\n" + cells({1, 9}));
