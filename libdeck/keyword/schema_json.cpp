@@ -459,9 +459,10 @@ void settle_older_decks(Schema& schema, bool unread) {
 }
 
 Schema schema_of(const Json& json, const Path& path, std::string_view source) {
-  expect_object(json, path,
-                {"$schema", "keyword", "aliases", "kind", "id", "title", "unit", "unique",
-                 "unknown_unit", "bulk", "opaque_tail", "full_layout", "from", "older", "doc", "cards"});
+  expect_object(
+      json, path,
+      {"$schema", "keyword", "aliases", "kind", "id", "title", "unit", "unique", "unknown_unit",
+       "bulk", "opaque_tail", "full_layout", "from", "older", "doc", "cards"});
   Schema schema;
   schema.source = source;
   require(json, path, "keyword");

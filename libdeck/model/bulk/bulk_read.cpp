@@ -171,9 +171,9 @@ void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
            .message = !element ? 0
                       : spring ? 681
                                : 760,
-           .solver =
-               spring    ? "It takes the line as a spring between node 0 and node 0, and stops."
-               : element ? "It takes the line as an element without nodes, and crashes or does not "
+           .solver = spring ? "It takes the line as a spring between node 0 and node 0, and stops."
+                     : element
+                         ? "It takes the line as an element without nodes, and crashes or does not "
                            "end."
                          : "It takes the line as an item with id 0."});
     return;
