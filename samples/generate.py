@@ -334,8 +334,9 @@ def tied_layer():
 def variable_gap():
     d = Deck("variable_gap", "variable gaps and /DEFAULT/INTER")
     d.note("""A folded strip in self contact. /DEFAULT/INTER/TYPE7 sets Istf 4, Igap 3 and Inacti 6, so a 0 on a card
-              is not nothing. Interface 1 inherits all three. Interface 2 says Igap 2 itself and scales the gap.
-              Interface 3 writes 1000 where it really means: no.""")
+              is not nothing. Its blank lines count: without them the solver reads none of the values.
+              Interface 1 inherits all three. Interface 2 says Igap 2 itself and scales the gap. Interface 3 writes
+              1000 where it really means: no.""")
     d.elastic(1, "steel")
     d.shell_prop(1, "sheet", 1.6)
     d.shell_prop(2, "doubler", 2.4)
@@ -356,9 +357,10 @@ def variable_gap():
     d.ids("/SURF/PART/1", "fold", [1])
     d.ids("/GRNOD/PART/1", "fold", [1])
     d.ids("/GRNOD/PART/2", "doubler", [2])
-    d.raw("/DEFAULT/INTER/TYPE7\n")
-    d.raw(cells((21, 30, "Istf", 4), (41, 50, "Igap", 3), (61, 70, "Ibag", 0), (71, 80, "Idel", 2)))
-    d.raw(cells((81, 90, "Irem_gap", 2), (91, 100, "Irem_i2", 0)))
+    blank = "# blank line\n\n"
+    d.raw("/DEFAULT/INTER/TYPE7\n" + blank)
+    d.raw(cells((21, 30, "Istf", 4), (41, 50, "Igap", 3), (61, 70, "Ibag", 0), (71, 80, "Idel", 2)) + blank)
+    d.raw(cells((81, 90, "Irem_gap", 2), (91, 100, "Irem_i2", 0)) + blank)
     d.raw(cells((31, 40, "Inacti", 6)))
     d.raw(cells((41, 50, "Iform", 2)))
     d.type7(1, "self contact, all from /DEFAULT", 1, 1, Istf=0, Igap=0, Idel=0, mesh=0.4, Irem_gap=0, Irem_i2=0,

@@ -79,6 +79,7 @@ std::string ordered_line(const Deck& deck, const Block& block, const DecodedCard
 
 std::string card_heading(const CardSchema& card, int version) {
   if (!card.in_version(version)) return {};
+  if (card.blank()) return "# blank line";  // it looks as if it could go
   std::string head = "#";
   for (const Field& f : card.fields) {
     if (!f.in_version(version)) continue;
@@ -107,7 +108,7 @@ std::string new_card(const Schema& schema, std::string_view header, int version,
     int last = 0;
     for (const Field& f : card.fields)
       if (f.in_version(version) && stands_without_values(f.when)) last = std::max(last, f.last);
-    if (last == 0) continue;
+    if (last == 0 && !card.blank()) continue;
     out += card_heading(card, version) + "\n" + std::string(static_cast<std::size_t>(last), ' ') +
            "\n";
   }

@@ -44,7 +44,7 @@ std::string render_card(const Schema& schema, std::string_view header, int versi
   for (const CardSchema& card : schema.cards) {
     if (!card.in_version(version)) continue;
     if (!std::all_of(card.when.begin(), card.when.end(), holds)) continue;
-    std::string head = "#", line;
+    std::string head = card.blank() ? "" : "#", line;
     bool any = false;
     for (const Field& f : card.fields) {
       if (!f.in_version(version)) continue;
@@ -60,7 +60,7 @@ std::string render_card(const Schema& schema, std::string_view header, int versi
       }
     }
     if (card.repeat != Repeat::once && !any) continue;
-    pending += head + "\n" + line + "\n";
+    pending += head + (head.empty() ? "" : "\n") + line + "\n";
     if (card.optional && !any) continue;
     out += pending;
     pending.clear();

@@ -375,9 +375,9 @@ void read_count(const Json& json, const Path& path, CardSchema& card) {
 }
 
 CardSchema card_of(const Json& json, const Path& path) {
-  expect_object(
-      json, path,
-      {"name", "doc", "versions", "when", "repeat", "count", "per_line", "optional", "fields"});
+  expect_object(json, path,
+                {"name", "doc", "versions", "when", "repeat", "count", "per_line", "optional",
+                 "blank", "fields"});
   CardSchema card;
   require(json, path, "name");
   read(json, path, "name", card.name);
@@ -398,10 +398,15 @@ CardSchema card_of(const Json& json, const Path& path) {
   }
   read_count(json, path, card);
   read(json, path, "optional", card.optional);
+  bool blank = false;
+  read(json, path, "blank", blank);
+  if (blank && json.contains("fields")) fail(at(path, "fields"), "a blank line has no fields");
+  if (blank) return card;
   require(json, path, "fields");
   const auto here = at(path, "fields");
   for (const auto& item : expect_array(json["fields"], here))
     card.fields.push_back(field_of(item, at(here, card.fields.size())));
+  if (card.fields.empty()) fail(here, "the list is empty; a line that holds nothing is \"blank\"");
   return card;
 }
 

@@ -21,6 +21,12 @@ const Friction* Interfaces::friction(std::int64_t id) const {
   return nullptr;
 }
 
+const DefaultInter* Interfaces::defaults_of(int type) const {
+  for (const DefaultInter& d : defaults)
+    if (d.type == type) return &d;
+  return nullptr;
+}
+
 namespace detail {
 namespace {
 
@@ -144,11 +150,9 @@ std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnosti
     const std::string_view number = std::string_view(keyword).substr(default_prefix.size());
     int type = 0;
     std::from_chars(number.data(), number.data() + number.size(), type);
-    if (block.submodel >= 0 || block.header_span.file != 0) {
+    if (block.submodel >= 0) {
       report_default(diagnostics, block, RuleId::DK503,
-                     keyword +
-                         (block.submodel >= 0 ? " inside a submodel" : " in an included file") +
-                         " has no effect");
+                     keyword + " inside a submodel has no effect");
       continue;
     }
     const auto earlier =

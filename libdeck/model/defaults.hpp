@@ -7,8 +7,8 @@
 
 namespace deck::detail {
 
-/// The default cards that the reference solver honours: of the main file, outside submodels, the
-/// first of each type. Reports the others.
+/// The default blocks that the reference solver honours: outside submodels, the first of each type,
+/// wherever it stands. Reports the others.
 std::vector<DefaultInter> read_defaults(const Deck& deck, Diagnostics& diagnostics);
 
 /// All /FRICTION with their effective values, in deck order.

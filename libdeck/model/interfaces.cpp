@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <map>
 
 #include "deck/text/rule.hpp"
 #include "model/defaults.hpp"
@@ -49,7 +48,7 @@ class Rules {
 
   void apply(InterType7& t) const {
     default_flag(t.Istf, "Istf", nothing);
-    default_flag(t.Irem_i2, "Irem_i2", model_.implicit ? 1 : 3);
+    tied_nodes(t.Irem_i2);
     default_flag(t.Ibag, "Ibag", nothing);
     common_flags(t);
     airbag(t.Ibag);
@@ -79,8 +78,7 @@ class Rules {
   void apply(InterType11& t) const {
     if (t.line_IDm.value == 0 && t.line_IDs.value != 0) self_contact(t.line_IDm, t.line_IDs);
     default_flag(t.Istf, "Istf", 5);
-    // The line contact has no main-only stiffness.
-    if (t.Istf.value == nothing) settle<std::int64_t>(t.Istf, 5);
+    nothing_means(t.Istf, 5);  // the line contact has no main-only stiffness
     common_flags(t);
     stiffness_bounds(t, t.Istf.value != 1);
     mesh_fraction(t);
@@ -103,7 +101,8 @@ class Rules {
     t.Iedge.value = 0;
     t.Iedge.origin = Origin::built_in;
     default_flag(t.Iedge, "Iedge", 2);
-    default_flag(t.Irem_i2, "Irem_i2", model_.implicit ? 1 : 3);
+    nothing_means(t.Iedge, 2);
+    tied_nodes(t.Irem_i2);
     default_flag(t.Ibag, "Ibag", nothing);
     common_flags(t);
     if (t.Igap.value == 4) settle<std::int64_t>(t.Irem_gap, 2);
@@ -131,9 +130,26 @@ class Rules {
     }
   }
 
+  /// What the solver makes of a value. One of the default block still comes from there: a card that
+  /// is to do without the block has to say it.
+  static void overrule(EffectiveInt& e, std::int64_t value) {
+    e.value = value;
+    if (e.origin == Origin::card) e.origin = Origin::derived;
+  }
+
+  /// What 1000 comes to in a flag that has no "nothing".
+  static void nothing_means(EffectiveInt& e, std::int64_t value) {
+    if (e.value == nothing) overrule(e, value);
+  }
+
+  void tied_nodes(EffectiveInt& irem_i2) const {
+    default_flag(irem_i2, "Irem_i2", model_.implicit ? 1 : 3);
+    nothing_means(irem_i2, 3);
+  }
+
   /// Only 0, 1, 2 and their negatives delete; a negative sign keeps orphan nodes.
   static void deletion(EffectiveInt& idel, std::int64_t none) {
-    if (std::abs(flag(idel)) > 2) settle(idel, none);
+    if (std::abs(flag(idel)) > 2) overrule(idel, none);
   }
 
   template <class Inter>
@@ -143,6 +159,8 @@ class Rules {
     default_flag(t.Inacti, "Inacti", nothing);
     default_flag(t.Iform, "Iform", 1);
     default_flag(t.Irem_gap, "Irem_gap", 1);
+    nothing_means(t.Iform, 1);
+    nothing_means(t.Irem_gap, 1);
     deletion(t.Idel, nothing);
   }
 
@@ -277,21 +295,6 @@ void check_smoothing(const InterfaceCard& card, const InterBase& inter, Diagnost
   diagnostics.add(std::move(d));
 }
 
-/// A default card behind interfaces of its type, which do not see it.
-void report_too_early(const DefaultInter& defaults, const std::vector<const Block*>& interfaces,
-                      Diagnostics& diagnostics) {
-  if (interfaces.empty() || !diagnostics.wants(RuleId::DK508)) return;
-  const std::string keyword = "TYPE" + std::to_string(defaults.type);
-  Diagnostic d = finding_of(
-      RuleId::DK508, defaults.span,
-      "this default card stands after " + std::to_string(interfaces.size()) + " " + keyword +
-          " interface" + (interfaces.size() == 1 ? "" : "s") + ", which it does not change",
-      {.fix = "put /DEFAULT/INTER/" + keyword + " in front of the interfaces, or delete it"});
-  d.keyword = "/DEFAULT/INTER/" + keyword;
-  d.notes.emplace_back(interfaces.front()->header_span, "the first of these interfaces");
-  diagnostics.add(std::move(d));
-}
-
 }  // namespace
 
 Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
@@ -299,18 +302,11 @@ Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& di
   out.defaults = detail::read_defaults(deck, diagnostics);
   out.frictions = detail::read_frictions(deck);
   std::vector<std::pair<int, std::size_t>> order;
-  // Measured: a default card does nothing for the interfaces that stand before it.
-  std::map<int, const DefaultInter*> in_force;
-  std::map<int, std::vector<const Block*>> too_early;
   for (const Block& block : deck.blocks) {
-    for (const DefaultInter& d : out.defaults)
-      if (d.span == block.header_span) in_force[d.type] = &d;
     const int type = type_of(block);
     if (type == 0) continue;
     const InterfaceCard card(deck, block);
-    const auto given = in_force.find(type);
-    if (given == in_force.end()) too_early[type].push_back(&block);
-    const Rules rules(model, out, given == in_force.end() ? nullptr : given->second);
+    const Rules rules(model, out, out.defaults_of(type));
     out.each_list([&]<class Inter>(std::vector<Inter>& list) {
       if (Inter::traits.type != type) return;
       order.emplace_back(type, list.size());
@@ -318,7 +314,6 @@ Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& di
     });
     if (type == 7) check_smoothing(card, out.type7.back(), diagnostics);
   }
-  for (const DefaultInter& d : out.defaults) report_too_early(d, too_early[d.type], diagnostics);
   // Only now do the lists stay where they are.
   for (const auto& [type, i] : order)
     out.each_list([&, type = type, i = i]<class Inter>(std::vector<Inter>& list) {

@@ -202,6 +202,15 @@ TEST(ExpandType19, DefaultCardOfType19IsWrittenOut) {
   expect_same_scene(*before, *after, "default card of TYPE19");
 }
 
+TEST(ExpandType19, AScaledGapOfTheDefaultCardIsRefused) {
+  // The solver stops at the TYPE19 and would not stop at what it is expanded to.
+  const auto before = open_text(
+      with("@/DEFAULT/INTER/TYPE19 Igap=2\n@/INTER/TYPE19/5 surf_IDs=1 surf_IDm=2 Gapmin=1.0"));
+  const Rewrite r = expand_type19(before->context());
+  ASSERT_EQ(r.refusals.size(), 1u);
+  EXPECT_THAT(r.refusals[0], HasSubstr("1181"));
+}
+
 TEST(ExpandType19, SetsAreReferredToAsSets) {
   const auto before = open_text(with(
       "/SET/GENERAL/41\nset\nPART               1\n/SET/GENERAL/42\nset\nPART               2\n"
@@ -289,7 +298,7 @@ TEST(ExpandType19, ForeignUnitsAndParametersKeepTheirValues) {
   std::string text = with(
       "/PARAMETER/GLOBAL/REAL/1\ng\ngap                     0.001\n/UNIT/3\nm\n"
       "                  kg                   m                   s\n"
-      "/DEFAULT/INTER/TYPE19\n                             1\n\n\n\n");
+      "/DEFAULT/INTER/TYPE19\n\n                             1\n\n\n\n\n\n");
   const auto end = text.find("/END");
   text.insert(end,
               "/INTER/TYPE19/5/3\nt\n         1         2\n\n\n"

@@ -38,6 +38,8 @@ def schemas():
         for one in data if isinstance(data, list) else data.get("schemas", [data]):
             for name in [one["keyword"], *one.get("aliases", [])]:
                 found[name] = one
+            for card in one.get("cards", []):
+                card.setdefault("fields", [])  # of a blank line
     return found
 
 

@@ -182,19 +182,67 @@ TEST(InterLagmulLayout, BlankLinesMoveWithTheVersion) {
   }
 }
 
+/// The lines of a default block: names of their cells with their last columns, "-" for a blank one.
+std::vector<std::string> default_lines(int type, int version, const Values& values = {}) {
+  std::vector<std::string> out;
+  for (const auto& card : schema("/DEFAULT/INTER/TYPE" + std::to_string(type)).cards) {
+    if (!card.in_version(version) || !holds(card.when, values)) continue;
+    std::string line;
+    for (const auto& field : card.fields) {
+      if (!field.in_version(version)) continue;
+      EXPECT_EQ(field.last - field.first, 9) << field.name;
+      line += (line.empty() ? "" : " ") + field.name + " " + std::to_string(field.last);
+    }
+    out.push_back(card.blank() ? "-" : line);
+  }
+  return out;
+}
+
 TEST(DefaultInterLayout, LinesPerTypeAndVersion) {
-  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE7", 140), 4u);
-  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE11", 140), 3u);
-  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE19", 140), 3u);
-  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE19", 2018), 3u);
-  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE19", 2020), 4u);
-  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE2", 140), 1u);
-  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE2", 140, {{"Spotflag", 27}}), 2u);
-  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE24", 140), 3u);
-  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE24", 2017), 4u);
-  EXPECT_EQ(lines("/DEFAULT/INTER/TYPE25", 2018), 3u);
-  EXPECT_FALSE(schema("/DEFAULT/INTER/TYPE7").has_title);
-  EXPECT_FALSE(schema("/DEFAULT/INTER/TYPE7").has_id);
+  const std::string tie = "Ignore 30 Spotflag 40 Isearch 60 Idel 70";
+  const std::string t7 = "Istf 30 Igap 50 Ibag 70 Idel 80", removal = "Irem_gap 90 Irem_i2 100";
+  const std::string t11 = "Istf 30 Igap 50 Idel 80",
+                    t11_new = "Istf 30 Igap 50 Irem_gap 70 Idel 80";
+  const std::string edge = "Istf 30 Igap 50 Iedge 60 Ibag 70 Idel 80";
+  const std::string gap24 = "Igap0 50 Ipen0 60", t25 = "Istf 30 Igap 50 Irem_i2 60 Idel 80";
+  for (const int version : versions_from(51)) {
+    SCOPED_TRACE(version);
+    EXPECT_THAT(default_lines(2, version), ElementsAre("-", tie));
+    EXPECT_THAT(default_lines(2, version, {{"Spotflag", 27}}), ElementsAre("-", tie, "Istf 70"));
+    EXPECT_THAT(default_lines(7, version),
+                ElementsAre("-", t7, "-", removal, "-", "Inacti 40", "Iform 50"));
+    EXPECT_THAT(default_lines(11, version),
+                ElementsAre("-", version < 2020 ? t11 : t11_new, "Iform 90", "-", "Inacti 40"));
+    if (version < 2020)
+      EXPECT_THAT(default_lines(19, version),
+                  ElementsAre("-", (version < 2018 ? t7 : edge) + " Icurv 90", "-", "-", "-",
+                              "Inacti 40", "Iform 50"));
+    else
+      EXPECT_THAT(default_lines(19, version),
+                  ElementsAre("-", edge, "-", removal, "-", "Inacti 40", "Iform 50"));
+    EXPECT_THAT(default_lines(24, version),
+                ElementsAre("-",
+                            version < 2017   ? "Istf 30"
+                            : version < 2018 ? "Istf 30 Idel 80"
+                                             : "Istf 30 Irem_i2 60 Idel 80",
+                            version < 2017 ? "-" : "Iedge 40", gap24, "-", "Inacti 40", "-"));
+    EXPECT_THAT(default_lines(25, version),
+                ElementsAre("-",
+                            version < 2019   ? t11
+                            : version < 2021 ? t25
+                                             : t25 + " Iedge 90",
+                            "-", version < 2019 ? "Igap0 50" : "Igap0 50 Ishape 60", "-",
+                            "Inacti 40", "-"));
+  }
+}
+
+TEST(DefaultInterLayout, HasNoTitleAndNoIdAndIsKnownInEveryVersion) {
+  for (const int type : {2, 7, 11, 19, 24, 25}) {
+    const Schema& s = schema("/DEFAULT/INTER/TYPE" + std::to_string(type));
+    EXPECT_FALSE(s.has_title) << type;
+    EXPECT_FALSE(s.has_id) << type;
+    EXPECT_EQ(s.from, 0) << type;
+  }
 }
 
 TEST(FrictionLayout, ThreeLinesThenGroupsOfThreeOrFive) {

@@ -548,5 +548,103 @@ TEST(BuiltInLayouts, PhasesOfLaw51HaveAsManyLinesAsTheirVersionKnows) {
   EXPECT_TRUE(b.extra.empty());
 }
 
+// ---- lines without content ----------------------------------------------------------------------
+
+/// `text` so that it ends in `column`, behind `line`.
+std::string to(int column, const std::string& text, std::string line = {}) {
+  line.resize(static_cast<std::size_t>(column) - text.size(), ' ');
+  return line + text;
+}
+
+/// What is found about a default block of these lines.
+Diagnostics found_in(int type, const std::vector<std::string>& lines,
+                     const std::string& version = "2024") {
+  std::string text = "/DEFAULT/INTER/TYPE" + std::to_string(type) + "\n";
+  for (const std::string& line : lines) text += line + "\n";
+  const Deck deck = read(deck_of(text, version));
+  Diagnostics found;
+  decode(deck, *block(deck, "/DEFAULT/INTER/TYPE" + std::to_string(type)), &found);
+  return found;
+}
+
+const std::string flags_7 = to(80, "2", to(50, "3", to(30, "4"))), removal = to(90, "2"),
+                  inacti = to(40, "6"), iform = to(50, "2");
+
+TEST(BlankLines, ACompleteDefaultBlockSaysNothing) {
+  EXPECT_TRUE(found_in(7, {"", flags_7, "", removal, "", inacti, iform}).all().empty());
+  EXPECT_TRUE(found_in(7, {"0", flags_7, "", removal, "0.0  0", inacti, iform}).all().empty());
+  EXPECT_TRUE(found_in(11, {"", flags_7, to(90, "2"), "", inacti}).all().empty());
+  EXPECT_TRUE(found_in(19, {"", flags_7, "", "", "", inacti, iform}, "140").all().empty());
+  EXPECT_TRUE(found_in(2, {"", to(40, "27"), to(70, "3")}).all().empty());
+  EXPECT_TRUE(found_in(24, {"", to(30, "1"), "", "", "", inacti}, "140").all().empty());
+}
+
+TEST(BlankLines, WithoutThemADefaultBlockIsAnErrorAndNothingElse) {
+  const Diagnostics found = found_in(7, {flags_7, removal, inacti, iform});
+  ASSERT_EQ(found.all().size(), 1u);
+  const Diagnostic& d = found.all()[0];
+  EXPECT_EQ(d.rule, RuleId::DK511);
+  EXPECT_EQ(d.severity, Severity::error);
+  EXPECT_THAT(d.message,
+              HasSubstr("lacks 3 lines without content, so its values are lost: Istf = 4, "));
+  ASSERT_TRUE(d.fix);
+  EXPECT_TRUE(d.fix->safe);
+}
+
+TEST(BlankLines, AnyOfThemCanBeTheOnesThatAreMissing) {
+  using Lines = std::vector<std::string>;
+  for (const Lines& lines :
+       {Lines{"", flags_7, removal, inacti, iform}, Lines{flags_7, "", removal, "", inacti, iform},
+        Lines{"", flags_7, "", removal, inacti, iform}, Lines{flags_7}})
+    EXPECT_EQ(count(found_in(7, lines), RuleId::DK511), 1u);
+  EXPECT_EQ(count(found_in(11, {flags_7, to(90, "2"), inacti}), RuleId::DK511), 1u);
+  EXPECT_EQ(count(found_in(19, {flags_7, inacti, iform}, "2017"), RuleId::DK511), 1u);
+  EXPECT_EQ(count(found_in(2, {to(40, "27"), to(70, "3")}), RuleId::DK511), 1u);
+  EXPECT_EQ(count(found_in(24, {to(80, "1", to(30, "1")), to(40, "1")}), RuleId::DK511), 1u);
+}
+
+TEST(BlankLines, WhatIsReadInsteadIsSaid) {
+  const Diagnostics found = found_in(25, {to(30, "4"), to(60, "2", to(50, "1")), inacti});
+  ASSERT_EQ(count(found, RuleId::DK511), 1u);
+  EXPECT_THAT(found.all()[0].message,
+              HasSubstr("Igap0 = 1, Ishape = 2, Inacti = 6; read instead: Igap = 1, Irem_i2 = 2"));
+}
+
+TEST(BlankLines, OtherMistakesAreNotTakenForIt) {
+  // A title, a value in a wrong column, too few and too many lines.
+  const Diagnostics title = found_in(7, {"defaults", flags_7, "", removal, "", inacti, iform});
+  EXPECT_EQ(count(title, RuleId::DK511), 0u);
+  EXPECT_EQ(count(title, RuleId::DK028), 1u);
+  const Diagnostics column = found_in(7, {"", flags_7, "", removal, "", to(60, "6"), iform});
+  EXPECT_EQ(count(column, RuleId::DK511), 0u);
+  EXPECT_EQ(count(column, RuleId::DK028), 1u);
+  const Diagnostics few = found_in(7, {"", flags_7, "", removal});
+  EXPECT_EQ(count(few, RuleId::DK511), 0u);
+  EXPECT_GT(count(few, RuleId::DK029), 0u);
+  const Diagnostics many = found_in(11, {"", flags_7, to(90, "2"), "", inacti, iform});
+  EXPECT_EQ(count(many, RuleId::DK511), 0u);
+  EXPECT_EQ(count(many, RuleId::DK030), 1u);
+}
+
+TEST(BlankLines, CommentsDoNotStandForThem) {
+  EXPECT_EQ(count(found_in(7, {"# 1", flags_7, "$", removal, "#", inacti, iform}), RuleId::DK511),
+            1u);
+}
+
+TEST(BlankLines, AStretchWithoutFieldTakesACellInFreeFormat) {
+  const Deck deck = read(deck_of("/DEFAULT/INTER/TYPE7\n\n,4,,3,,1,2\n\n,2,1\n\n,6\n,2\n"));
+  const DecodedBlock b = decode(deck, *block(deck, "/DEFAULT/INTER/TYPE7"));
+  for (const auto& [field, value] :
+       std::initializer_list<std::pair<const char*, std::int64_t>>{{"Istf", 4},
+                                                                   {"Igap", 3},
+                                                                   {"Ibag", 1},
+                                                                   {"Idel", 2},
+                                                                   {"Irem_gap", 2},
+                                                                   {"Irem_i2", 1},
+                                                                   {"Inacti", 6},
+                                                                   {"Iform", 2}})
+    EXPECT_EQ(b.integer(field), value) << field;
+}
+
 }  // namespace
 }  // namespace deck

@@ -313,7 +313,7 @@ TEST(SchemaLoader, RefusesOverlapOnlyWithinTheSameVersion) {
 
 TEST(SchemaLoader, RefusesConditionsOnUnknownOrLaterFields) {
   const std::string flag = R"({"name":"a","fields":[{"name":"f","cols":[1,10],"type":"int"}]})";
-  const std::string late = R"({"name":"b","when":[{"field":"f","in":[1]}],"fields":[]})";
+  const std::string late = R"({"name":"b","when":[{"field":"f","in":[1]}],"blank":true})";
   EXPECT_EQ(error_of(with_cards(flag + "," + late)), "accepted");
   EXPECT_THAT(error_of(with_cards(late + "," + flag)), HasSubstr("no earlier card"));
   EXPECT_THAT(error_of(with_cards(late)), HasSubstr("integer field \"f\""));
@@ -322,7 +322,7 @@ TEST(SchemaLoader, RefusesConditionsOnUnknownOrLaterFields) {
   EXPECT_THAT(error_of(with_cards(newer + "," + late)), HasSubstr("in version 41"));
   const std::string real = R"({"name":"a","fields":[{"name":"f","cols":[1,10],"type":"real"}]})";
   EXPECT_THAT(error_of(with_cards(real + "," + late)), HasSubstr("integer field \"f\""));
-  const std::string nothing = R"({"name":"b","when":[{"field":"f"}],"fields":[]})";
+  const std::string nothing = R"({"name":"b","when":[{"field":"f"}],"blank":true})";
   EXPECT_THAT(error_of(with_cards(flag + "," + nothing)), HasSubstr("tests nothing"));
 }
 
@@ -333,10 +333,17 @@ TEST(SchemaLoader, RefusesAmbiguousNamesAndMisplacedRepetition) {
       R"({"name":"i","repeat":"ids","fields":[{"name":"i","cols":[1,10],"type":"int"}]})";
   EXPECT_EQ(error_of(with_cards(one + "," + ids)), "accepted");
   EXPECT_THAT(error_of(with_cards(ids + "," + one)), HasSubstr("nothing can follow card 0"));
-  EXPECT_THAT(error_of(with_cards(R"({"name":"i","repeat":"ids","fields":[]})")),
+  EXPECT_THAT(error_of(with_cards(R"({"name":"i","repeat":"ids","blank":true})")),
               HasSubstr("exactly one field"));
-  EXPECT_THAT(error_of(with_cards(R"({"name":"i","repeat":"often","fields":[]})")),
+  EXPECT_THAT(error_of(with_cards(R"({"name":"i","repeat":"often","blank":true})")),
               HasSubstr("is not rows, ids, words or group"));
+}
+
+TEST(SchemaLoader, ABlankLineHasNoFieldsAndALineWithoutFieldsIsBlank) {
+  EXPECT_EQ(error_of(with_cards(R"({"name":"b","blank":true})")), "accepted");
+  EXPECT_THAT(error_of(with_cards(R"({"name":"b","fields":[]})")), HasSubstr("\"blank\""));
+  EXPECT_THAT(error_of(with_cards(R"({"name":"b","blank":true,"fields":[]})")),
+              HasSubstr("a blank line has no fields"));
 }
 
 TEST(SchemaLoader, AFileWithAnErrorLeavesTheSetAsItWas) {

@@ -58,6 +58,8 @@ TEST_P(EveryFix, EndsLinesAsTheFileDoes) {
 
 TEST_P(EveryFix, SafeOnesLeaveTheEffectiveValuesAlone) {
   const Rule& rule = *find_rule(GetParam());
+  // What it is about is that values have no effect; the fix gives it back to them.
+  if (rule.id == RuleId::DK511) return;
   const Linted before = lint_example(rule.bad);
   const std::string text = fixed(before);
   const SchemaSet& schemas = SchemaSet::built_in();

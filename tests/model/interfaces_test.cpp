@@ -63,10 +63,10 @@ Model airbag_model() {
 }
 
 constexpr const char* default7 =
-    "/DEFAULT/INTER/TYPE7\n"
-    "                             4                   1                   1         2\n"
+    "/DEFAULT/INTER/TYPE7\n\n"
+    "                             4                   1                   1         2\n\n"
     "                                                                                         2"
-    "         1\n"
+    "         1\n\n"
     "                                       6\n"
     "                                                 2\n";
 
@@ -91,7 +91,7 @@ TEST(InterfaceFlags, ImplicitRunsRemoveTiedNodes) {
   EXPECT_EQ(Read(Type7Text{}.str(), 2022, std::move(m)).all.type7.at(0).Irem_i2.value, 1);
 }
 
-TEST(InterfaceFlags, DefaultCardInFrontFillsBlankFlags) {
+TEST(InterfaceFlags, DefaultCardFillsBlankFlags) {
   const Read r(default7 + Type7Text{}.str(), 2022, airbag_model());
   const InterType7& t = r.all.type7.at(0);
   EXPECT_EQ(t.Istf.value, 4);
@@ -115,14 +115,57 @@ TEST(InterfaceFlags, CardWinsOverDefaultCard) {
   EXPECT_EQ(r.all.type7.at(0).Istf.origin, Origin::card);
 }
 
-TEST(InterfaceFlags, DefaultCardBehindTheInterfaceIsReportedAndDoesNothing) {
+TEST(InterfaceFlags, ThePlaceOfTheDefaultCardIsOfNoConsequence) {
   const Read r(Type7Text{}.str() + default7);
-  EXPECT_EQ(r.all.type7.at(0).Istf.value, 1000);
-  EXPECT_TRUE(r.found(RuleId::DK508));
+  EXPECT_EQ(r.all.type7.at(0).Istf.value, 4);
+  EXPECT_EQ(r.all.type7.at(0).Istf.origin, Origin::default_block);
+}
+
+TEST(InterfaceFlags, DefaultCardWithoutItsBlankLinesDoesNothing) {
+  const Read r("/DEFAULT/INTER/TYPE7\n" + with(at(30, "4"), 50, "3") + "\n" + at(90, "2") + "\n" +
+               at(40, "6") + "\n" + at(50, "2") + "\n" + Type7Text{}.str());
+  const InterType7& t = r.all.type7.at(0);
+  for (const auto* e : {&t.Istf, &t.Igap, &t.Inacti}) EXPECT_EQ(e->value, 1000);
+  EXPECT_EQ(t.Irem_gap.value, 1);
+  EXPECT_EQ(t.Iform.value, 1);
+}
+
+TEST(InterfaceFlags, TextOnTheBlankLinesCountsForNothing) {
+  const Read r("/DEFAULT/INTER/TYPE7\nmy defaults\n" + at(30, "4") + "\n         1\n" +
+               at(90, "2") + "\n# no line\n0\n" + at(40, "6") + "\n" + Type7Text{}.str());
+  EXPECT_EQ(r.all.type7.at(0).Istf.value, 4);
+  EXPECT_EQ(r.all.type7.at(0).Irem_gap.value, 2);
+  EXPECT_EQ(r.all.type7.at(0).Inacti.value, 6);
+  EXPECT_EQ(r.all.type7.at(0).Iform.value, 1);
+}
+
+TEST(InterfaceFlags, DefaultCardFillsFlagsThatTheVersionHasNoCellFor) {
+  const Read r(default7 + std::string("/INTER/TYPE7/5\nt\n         1         2\n\n\n\n\n\n"), 110);
+  EXPECT_EQ(r.all.type7.at(0).Irem_gap.value, 2);
+  EXPECT_EQ(r.all.type7.at(0).Irem_i2.value, 1);
+}
+
+TEST(InterfaceFlags, NothingIsOneWhereAFlagHasNoNothing) {
+  // Irem_gap and Irem_i2 at the end of the bounds, Iform behind them, all 1000.
+  const std::string block = "/DEFAULT/INTER/TYPE7\n\n\n\n" + with(at(90, "1000"), 100, "1000") +
+                            "\n\n\n" + at(50, "1000") + "\n";
+  for (const bool card : {false, true}) {
+    Type7Text text;
+    if (card) {
+      text.bounds = with(at(90, "1000"), 100, "1000");
+      text.friction = at(50, "1000");
+    }
+    const Read r((card ? std::string(default7) : block) + text.str());
+    const InterType7& t = r.all.type7.at(0);
+    EXPECT_EQ(t.Irem_gap.value, 1);
+    EXPECT_EQ(t.Irem_i2.value, 3);
+    EXPECT_EQ(t.Iform.value, 1);
+    EXPECT_EQ(t.Iform.origin, card ? Origin::derived : Origin::default_block);
+  }
 }
 
 TEST(InterfaceFlags, SecondDefaultCardIsAnErrorAndTheFirstOneStands) {
-  const Read r(std::string(default7) + "/DEFAULT/INTER/TYPE7\n" + at(30, "2") + "\n\n\n\n" +
+  const Read r(std::string(default7) + "/DEFAULT/INTER/TYPE7\n\n" + at(30, "2") + "\n\n\n\n\n\n" +
                Type7Text{}.str());
   EXPECT_EQ(r.all.type7.at(0).Istf.value, 4);
   ASSERT_TRUE(r.found(RuleId::DK504));
@@ -139,6 +182,12 @@ TEST(InterfaceFlags, DefaultCardInsideASubmodelIsIgnored) {
 TEST(InterfaceFlags, DefaultOfOneTypeLeavesOthersAlone) {
   const Read r(std::string(default7) + "/INTER/TYPE11/6\nlines\n         1\n\n\n\n\n");
   EXPECT_EQ(r.all.type11.at(0).Igap.value, 1000);
+  EXPECT_EQ(r.all.type11.at(0).Istf.value, 5);
+}
+
+TEST(InterfaceFlags, NothingOnALineContactsCardBeatsTheDefaultCard) {
+  const Read r("/DEFAULT/INTER/TYPE11\n\n" + at(30, "4") + "\n\n\n\n/INTER/TYPE11/6\nlines\n" +
+               with("         1         2", 30, "1000") + "\n\n\n\n\n");
   EXPECT_EQ(r.all.type11.at(0).Istf.value, 5);
 }
 
@@ -488,7 +537,7 @@ TEST(Type19, EdgeSelectionOfTheCardIsNotRead) {
   const Read r(text);
   EXPECT_EQ(r.all.type19.at(0).Iedge.value, 2);
   EXPECT_EQ(r.all.type19.at(0).Iedge.input, 1);
-  const Read with_default("/DEFAULT/INTER/TYPE19\n" + at(60, "1") + "\n\n\n\n" + text);
+  const Read with_default("/DEFAULT/INTER/TYPE19\n\n" + at(60, "1") + "\n\n\n\n\n\n" + text);
   EXPECT_EQ(with_default.all.type19.at(0).Iedge.value, 1);
   EXPECT_EQ(with_default.all.type19.at(0).Iedge.origin, Origin::default_block);
 }

@@ -24,7 +24,7 @@ def described():
         with open(os.path.join(folder, name), encoding="utf-8") as f:
             document = json.load(f)
         for s in document.get("schemas", [document]):
-            fields = [f for card in s.get("cards", []) for f in card["fields"]]
+            fields = [f for card in s.get("cards", []) for f in card.get("fields", [])]
             open_units = any(f.get("dim_unknown") or (f.get("ref") in ("funct", "table") and not f.get("axes")) for f in fields)
             if (not s.get("opaque_tail") or s.get("full_layout")) and not open_units:
                 known.update([s["keyword"]] + s.get("aliases", []))

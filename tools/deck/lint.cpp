@@ -453,8 +453,9 @@ Action setup(CommandLine& line) {
             "Also check geometry and first cycle (rules DK3, DK4): penetrations, gaps against the "
             "mesh, segments, contact forces and time step at the start");
   line.flag("--fix", o.fix,
-            "Apply safe fixes: the reference solver does the same with the deck. Decks are fixed "
-            "together: a file that they share only as all of them want it");
+            "Apply safe fixes: the reference solver does the same with the deck (DK511 apart: the "
+            "values of a default block come into force). Decks are fixed together: a file that "
+            "they share only as all of them want it");
   line.flag("--unsafe-fixes", o.unsafe_fixes, "Apply the other fixes too");
   line.flag("--diff", o.diff,
             "Print the fixes as a patch (findings on standard error), write nothing");

@@ -396,9 +396,9 @@ detail::CardSettings detail::card_settings(const InterBase& inter) {
       c.inacti = flag(i.Inacti);
       c.irem_gap = flag(i.Irem_gap);
       // Igap 4 of a TYPE19 overrules the cell.
-      if (i.Irem_gap.origin == Origin::derived) {
+      if (i.Irem_gap.origin == Origin::derived && i.Igap.value == 4) {
         const auto cell = static_cast<int>(written(i.Irem_gap));
-        c.irem_gap = cell == 0 ? 1 : cell;
+        c.irem_gap = cell == 2 ? 2 : 1;
       }
       c.mesh_fraction = mesh_fraction_of(i.mesh_size.value);
       c.thermal = i.Ithe.value > 0;

@@ -91,6 +91,13 @@ class Resolver {
       return;
     }
     const Cell* cell = cell_of(*f);
+    if (inter_.type == 19 && name == "Igap" && e.origin == Origin::default_block &&
+        cell_for(e.value) == "2") {
+      report(Loss::undecided, {}, name, "", "2",
+             "from the default card the solver stops at it (error 1181), on the interface it does "
+             "not: write it there if it is meant");
+      return;
+    }
     if (cell != nullptr && cell->parameter) {
       report(Loss::undecided, cell->span, name, std::string(cell->text), cell_for(e.value),
              "the parameter is 0, so a default is at work; give it the value");

@@ -123,6 +123,12 @@ class Expander {
                     " has other lines; convert the deck to a newer version first");
       return false;
     }
+    if (i_.Igap.value == 2 && i_.Igap.origin == Origin::default_block) {
+      undecided("Igap", "2",
+                "the solver stops at the default card's Igap 2 (error 1181); write Igap on the "
+                "interface");
+      return false;
+    }
     for (const std::int64_t id : {s_, m_})
       for (const char* kind : {"grnod", "line"})
         if (is_set(id) && selections().is_plain(kind, id)) {
@@ -228,10 +234,9 @@ class Expander {
   /// Iform of the default card or the built-in one: the effective value may come from /FRICTION.
   std::int64_t default_iform() const {
     if (i_.Iform.origin != Origin::derived) return i_.Iform.value;
-    for (const DefaultInter& d : c_.interfaces.defaults)
-      if (d.type == 19)
-        if (const auto* given = d.find("Iform")) return given->value;
-    return 1;
+    const DefaultInter* defaults = c_.interfaces.defaults_of(19);
+    const auto* given = defaults != nullptr ? defaults->find("Iform") : nullptr;
+    return given != nullptr ? given->value : 1;
   }
 
   /// Stfac is a stiffness, converted with its unit, once Istf 1 stands on the card.
@@ -282,9 +287,9 @@ class Expander {
 
   /// What the solver would take for a flag without a cell.
   std::int64_t fallback(const Schema& schema, int type, const std::string& field) const {
-    for (const DefaultInter& d : c_.interfaces.defaults)
-      if (d.type == type)
-        if (const auto* given = d.find(field)) return given->value;
+    const DefaultInter* defaults = c_.interfaces.defaults_of(type);
+    if (const auto* given = defaults != nullptr ? defaults->find(field) : nullptr)
+      return given->value;
     if (field == "Irem_i2" && c_.model.implicit) return 1;
     const Field* f = schema.find_field(field);
     return f == nullptr ? 0 : static_cast<std::int64_t>(detail::default_number(*f));

@@ -449,23 +449,22 @@ class VersionRewriter {
   /// What the solver fills in for a cell of an interface that is 0 or missing: its default card, as
   /// far as that has the cell in this version, or the built-in value.
   double default_at(const Block& block, const Field& field, int version) const {
-    const Block* card = nullptr;
-    const DefaultInter* in_force = nullptr;
-    for (const DefaultInter& d : c_.interfaces.defaults)
-      if (inter_of_.at(&block)->type == d.type) in_force = &d;
-    for (const Block& b : c_.deck.blocks) {
-      if (&b == &block) break;
-      if (in_force != nullptr && b.header_span == in_force->span) card = &b;
-    }
-    if (card == nullptr || card->schema == nullptr) return default_of(field);
-    const auto* given = in_force->find(field.name);
-    const int layout = std::max(version, card->schema->from);
-    for (const CardSchema& c : card->schema->cards)
-      if (given != nullptr && c.in_version(layout))
-        for (const Field& f : c.fields)
-          if (f.name == field.name && f.in_version(layout))
-            return static_cast<double>(given->value);
-    return default_of(field);
+    const auto* given = given_default(*inter_of_.at(&block), field.name, version);
+    return given != nullptr ? static_cast<double>(given->value) : default_of(field);
+  }
+
+  /// The value of the default block, if its layout of that version has the cell.
+  const EffectiveInt* given_default(const InterBase& inter, const std::string& field,
+                                    int version) const {
+    const DefaultInter* defaults = c_.interfaces.defaults_of(inter.type);
+    const auto* given = defaults != nullptr ? defaults->find(field) : nullptr;
+    if (given == nullptr) return nullptr;
+    for (const Block& b : c_.deck.blocks)
+      if (b.header_span == defaults->span)
+        for (const CardSchema& card : b.schema->cards)
+          for (const Field& f : card.fields)
+            if (f.name == field && card.in_version(version) && f.in_version(version)) return given;
+    return nullptr;
   }
 
   // ---- keywords of which not every column is known --------------------------------------------

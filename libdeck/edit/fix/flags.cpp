@@ -186,11 +186,8 @@ Result<PenetrationFix> set_inacti(const EditContext& context, const InactiOption
       continue;
     }
     // A 0 on the card asks for the /DEFAULT/INTER of that type; 1000 is the 0 that does not.
-    const bool has_default =
-        std::any_of(context.interfaces.defaults.begin(), context.interfaces.defaults.end(),
-                    [&](const DefaultInter& d) {
-                      return d.type == inter->type && d.find("Inacti") != nullptr;
-                    });
+    const DefaultInter* defaults = context.interfaces.defaults_of(inter->type);
+    const bool has_default = defaults != nullptr && defaults->find("Inacti") != nullptr;
     const int written = effective != 0 ? effective : has_default ? 1000 : 0;
     add_change(fix, *inter, edits, *place, std::to_string(written), inacti_in_effect(*inter),
                effective);

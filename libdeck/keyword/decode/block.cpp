@@ -248,6 +248,8 @@ class BlockDecoder {
 }  // namespace
 
 DecodedBlock decode(const Deck& deck, const Block& block, Diagnostics* diagnostics) {
+  if (diagnostics != nullptr && detail::report_missing_blank_lines(deck, block, *diagnostics))
+    diagnostics = nullptr;
   return BlockDecoder(deck, block, diagnostics).run();
 }
 

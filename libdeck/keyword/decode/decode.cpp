@@ -180,8 +180,19 @@ Cell read_cell(const Deck& deck, Findings& findings, const Field& field, std::st
   return cell;
 }
 
+/// Text on a line that holds nothing.
+void check_blank(Findings& findings, const Line& line) {
+  const std::string_view text = trim(line.text);
+  if (text.find_first_not_of("0.+-, ") == std::string_view::npos) return;
+  findings.report(RuleId::DK028, line.whole(),
+                  "text " + quoted(text) + " stands on a line without content",
+                  {.solver = "It reads nothing on this line, but the line counts.",
+                   .fix = "Move the value to its line. Leave the line itself: it counts."});
+}
+
 /// Text outside every cell of this version: between cells, and after the last one.
 void check_gaps(Findings& findings, const CardSchema& card, int version, const Line& line) {
+  if (card.blank()) return check_blank(findings, line);
   const detail::ColumnMap map(card, version);
   detail::for_each_gap_text(map, line.text, [&](int first, int last, bool after, bool zero) {
     if (after && zero) return;
@@ -228,7 +239,7 @@ bool is_text_card(const CardSchema& card) {
 }
 
 bool has_comma(const CardSchema& card, const Line& line) {
-  return !is_text_card(card) && detail::is_free(line);
+  return !card.blank() && !is_text_card(card) && detail::is_free(line);
 }
 
 /// Cells of a list. `limit`: how many there are at most on this line, blank ones included.

@@ -53,4 +53,8 @@ DecodedCard decode_in_context(const Deck& deck, const Block& block, const CardSc
                               const Line& line, Diagnostics* diagnostics,
                               const LineContext& context);
 
+/// Reports a /DEFAULT/INTER that was written without its lines without content (DK511). True: it
+/// was, and what else could be said of its lines would be a consequence.
+bool report_missing_blank_lines(const Deck& deck, const Block& block, Diagnostics& diagnostics);
+
 }  // namespace deck::detail

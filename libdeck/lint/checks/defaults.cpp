@@ -26,23 +26,49 @@ bool honoured(const LintContext& c, const DecodedBlock& block) {
                      [&](const DefaultInter& d) { return d.span == block.span(); });
 }
 
-/// Interfaces whose field takes its value from this cell.
-std::vector<const ContactCard*> takers(const LintContext& c, const DecodedBlock& block,
-                                       const Cell& cell) {
-  std::vector<const ContactCard*> out;
-  const int type = type_of(block.block->schema->keyword);
-  for (const ContactCard& card : c.contacts) {
-    if (card.type != type) continue;
-    const FieldView* f = card.find(cell.field->name);
-    if (f != nullptr && f->origin == Origin::default_block) out.push_back(&card);
+/// An interface that takes values of a default block although it is not evaluated here.
+struct OtherTaker {
+  std::string_view keyword;
+  int type;                ///< of the block
+  std::string_view flags;  ///< with blanks around each; empty: all
+};
+constexpr OtherTaker other_takers[] = {
+    {"/INTER/TYPE2", 2, ""},
+    {"/INTER/LAGMUL/TYPE2", 2, " Isearch "},
+    {"/INTER/LAGDT/TYPE7", 7, " Istf Igap Ibag Idel Inacti Iform "},
+    {"/INTER/TYPE24", 24, ""},
+    {"/INTER/TYPE25", 25, ""},
+};
+
+enum class Takes : std::uint8_t { no, yes, unknown };
+
+/// Whether a 0 of the interface takes this value.
+Takes takes(const ContactCard& card, int type, const Field& flag) {
+  if (card.type != 0) {
+    const FieldView* f = card.type == type ? card.find(flag.name) : nullptr;
+    return f != nullptr && f->origin == Origin::default_block ? Takes::yes : Takes::no;
   }
-  return out;
+  for (const OtherTaker& other : other_takers) {
+    if (other.type != type || card.block->schema->keyword != other.keyword) continue;
+    if (!other.flags.empty() && other.flags.find(" " + flag.name + " ") == other.flags.npos)
+      return Takes::no;
+    // TYPE2 calls it by another name than its default block.
+    std::string_view name = flag.name;
+    if (type == 2 && name == "Idel") name = "Idel2";
+    if (card.block->schema->find_field(name) == nullptr) return Takes::unknown;
+    return card.given(name) ? Takes::no : Takes::yes;
+  }
+  return Takes::no;
 }
 
-/// Types whose interfaces this program types: only there it is known who takes a default.
-bool typed(const DecodedBlock& block) {
+/// Interfaces whose flag takes its value from this cell, or may take it.
+std::vector<const ContactCard*> takers(const LintContext& c, const DecodedBlock& block,
+                                       const Cell& cell, Takes how) {
+  std::vector<const ContactCard*> out;
   const int type = type_of(block.block->schema->keyword);
-  return type == 7 || type == 11 || type == 19;
+  for (const ContactCard& card : c.contacts)
+    if (takes(card, type, *cell.field) == how) out.push_back(&card);
+  return out;
 }
 
 void check_overrides(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -51,7 +77,7 @@ void check_overrides(const LintContext& c, const Rule& rule, Reporter& r) {
     for (const DecodedCard& card : block.cards)
       for (const Cell& cell : card.cells) {
         if (cell.integer == 0 || cell.field->ignored) continue;
-        const auto who = takers(c, block, cell);
+        const auto who = takers(c, block, cell, Takes::yes);
         if (who.empty()) continue;
         std::string ids;
         constexpr std::size_t shown = 8;
@@ -67,13 +93,14 @@ void check_overrides(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_unused_defaults(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& block : c.defaults) {
-    if (!honoured(c, block) || !typed(block)) continue;
+    if (!honoured(c, block)) continue;
     bool any = false, used = false;
     for (const DecodedCard& card : block.cards)
       for (const Cell& cell : card.cells) {
         if (cell.integer == 0 || cell.field->ignored) continue;
         any = true;
-        used = used || !takers(c, block, cell).empty();
+        used = used || !takers(c, block, cell, Takes::yes).empty() ||
+               !takers(c, block, cell, Takes::unknown).empty();
       }
     if (any && !used)
       r.report(rule, *block.block, block.span(),
@@ -100,17 +127,21 @@ void check_range(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_no_such_default(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& b : c.deck.blocks)
-    if (b.header.starts_with("/DEFAULT/INTER/") && b.schema != nullptr &&
+    if (b.header.starts_with("/DEFAULT/INTER") && b.schema != nullptr &&
         b.schema->keyword == "/DEFAULT")
       r.report(rule, b, b.header_span,
-               "there are no defaults for " + std::string(b.header.substr(15)));
+               "there are no defaults for " +
+                   (b.header.size() > 15 ? std::string(b.header.substr(15)) : "all types at once"));
 }
 
 void check_all_zero(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const DecodedBlock& block : c.defaults) {
     bool any = false;
-    for (const DecodedCard& card : block.cards)
-      for (const Cell& cell : card.cells) any = any || cell.integer != 0;
+    const auto look_at = [&](const Line& line) {
+      any = any || line.text.find_first_not_of("0.+-, \t") != std::string_view::npos;
+    };
+    for (const DecodedCard& card : block.cards) look_at(card.line);
+    for (const Line& line : block.extra) look_at(line);
     if (!any)
       r.report(rule, *block.block, block.span(),
                block.block->schema->keyword + " changes nothing: every field is 0");
@@ -130,13 +161,28 @@ void check_ignored_field(const LintContext& c, const Rule& rule, Reporter& r) {
         }
 }
 
+void check_scaled_edge_gap(const LintContext& c, const Rule& rule, Reporter& r) {
+  each(c, rule, [&](const ContactCard& card) {
+    const FieldView* igap = card.find("Igap");
+    if (igap == nullptr || igap->origin != Origin::default_block || igap->value != 2) return;
+    Diagnostic* d = report_at(r, rule, card, "Igap",
+                              name_of(card) + ": Igap = 2 from /DEFAULT/INTER/TYPE19, which its " +
+                                  "edge part does not have");
+    if (d == nullptr) return;
+    if (const EffectiveInt* given = c.interfaces->defaults_of(19)->find("Igap"))
+      d->notes.emplace_back(given->span, "it comes from here");
+    fix_field(d, c, card, "Igap", "2", false, "write Igap 2");
+  });
+}
+
 }  // namespace
 
 std::span<const Checked> default_checks() {
   static constexpr Checked all[] = {
-      {RuleId::DK501, check_overrides}, {RuleId::DK502, check_unused_defaults},
-      {RuleId::DK505, check_range},     {RuleId::DK506, check_no_such_default},
-      {RuleId::DK507, check_all_zero},  {RuleId::DK509, check_ignored_field},
+      {RuleId::DK501, check_overrides},       {RuleId::DK502, check_unused_defaults},
+      {RuleId::DK505, check_range},           {RuleId::DK506, check_no_such_default},
+      {RuleId::DK507, check_all_zero},        {RuleId::DK509, check_ignored_field},
+      {RuleId::DK512, check_scaled_edge_gap},
   };
   return all;
 }

@@ -114,6 +114,8 @@ struct CardSchema {
   std::vector<Field> fields;
   std::string doc;
   bool in_version(int version) const { return version >= from && version <= until; }
+  /// The line holds nothing, but a line of the block is taken for it.
+  bool blank() const { return fields.empty(); }
 };
 
 struct Schema {

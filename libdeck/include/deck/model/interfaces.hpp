@@ -164,11 +164,13 @@ struct Interfaces {
   std::vector<InterType10> type10;
   std::vector<InterType11> type11;
   std::vector<InterType19> type19;
-  std::vector<DefaultInter> defaults;  ///< honoured ones only
+  std::vector<DefaultInter> defaults;  ///< honoured ones only, at most one of a type
   std::vector<Friction> frictions;
   /// All interfaces in deck order.
   std::vector<const InterBase*> ordered;
   const Friction* friction(std::int64_t id) const;
+  /// The default block that interfaces of this type take; nullptr if there is none.
+  const DefaultInter* defaults_of(int type) const;
 
   Interfaces() = default;
   Interfaces(Interfaces&&) = default;

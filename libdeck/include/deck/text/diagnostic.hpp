@@ -27,7 +27,8 @@ struct TextEdit {
   std::string text;
 };
 
-/// A proposed repair. Safe fixes keep what the reference solver does with the deck.
+/// A proposed repair. Safe fixes keep what the reference solver does with the deck; that of DK511
+/// alone gives values back the effect that the deck states.
 struct Fix {
   std::string title;
   bool safe = false;
