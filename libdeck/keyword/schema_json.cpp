@@ -307,6 +307,19 @@ void read_range(const Json& json, const Path& path, Field& field) {
     fail(path, "a text field has no range");
 }
 
+void read_words(const Json& json, const Path& path, Field& field) {
+  const auto it = json.find("words");
+  if (it == json.end()) return;
+  const auto here = at(path, "words");
+  if (field.type != FieldType::text) fail(here, "only text fields have a list of words");
+  Condition legal;
+  legal.field = field.name;
+  for (const auto& word : expect_array(*it, here))
+    legal.words.push_back(text_of(word, at(here, legal.words.size())));
+  if (legal.words.empty()) fail(here, "the list is empty");
+  field.solver_when.push_back(std::move(legal));
+}
+
 /// Message numbers of the reference solver about the target of an id.
 void read_target(const Json& json, const Path& path, Field& field) {
   const std::pair<const char*, std::optional<int>*> keys[] = {
@@ -321,12 +334,11 @@ void read_target(const Json& json, const Path& path, Field& field) {
 }
 
 Field field_of(const Json& json, const Path& path) {
-  expect_object(
-      json, path,
-      {"name",    "cols",    "type",        "ref",      "versions",   "when",   "values",
-       "min",     "max",     "min_open",    "max_open", "missing",    "empty",  "required",
-       "default", "dim",     "dim_unknown", "dim_when", "solver_dim", "axes",   "unit_for",
-       "over",    "ignored", "doc",         "manual",   "help",       "help_of"});
+  expect_object(json, path,
+                {"name",    "cols",  "type",        "ref",      "versions",   "when",  "values",
+                 "min",     "max",   "min_open",    "max_open", "missing",    "empty", "required",
+                 "default", "dim",   "dim_unknown", "dim_when", "solver_dim", "axes",  "unit_for",
+                 "over",    "words", "ignored",     "doc",      "manual",     "help",  "help_of"});
   Field field;
   require(json, path, "name");
   read(json, path, "name", field.name);
@@ -347,6 +359,7 @@ Field field_of(const Json& json, const Path& path) {
   read_dimension(json, path, field);
   read_axes(json, path, field);
   read_relations(json, path, field);
+  read_words(json, path, field);
   read(json, path, "ignored", field.ignored);
   read(json, path, "doc", field.doc);
   read(json, path, "manual", field.from_manual);

@@ -15,6 +15,7 @@ struct Checked {
 
 std::span<const Checked> header_checks();       // keywords, titles, versions
 std::span<const Checked> target_checks();       // ids of loads
+std::span<const Checked> history_checks();      // time histories
 std::span<const Checked> physics_checks();      // density, stiffness, mass
 std::span<const Checked> element_checks();      // elements, functions
 std::span<const Checked> reference_checks();    // what interfaces refer to

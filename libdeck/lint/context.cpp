@@ -220,7 +220,7 @@ LintContext build_context(const LintInput& input, Diagnostics& sink) {
       context.defaults.push_back(std::move(decoded));
     } else if (keyword == "/FRICTION") {
       context.frictions.push_back(std::move(decoded));
-    } else if (asks_for_targets(*block.schema)) {
+    } else if (!keyword.starts_with("/TH/") && asks_for_targets(*block.schema)) {
       context.loads.push_back(std::move(decoded));
     }
   }

@@ -9,14 +9,29 @@ namespace deck::detail {
 
 std::string_view kind_name(std::string_view kind) {
   using Name = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Name, 12> names = {
+  static constexpr std::array<Name, 14> names = {
       Name{"grnod", "/GRNOD"},       Name{"surf", "/SURF"},     Name{"line", "/LINE"},
       Name{"funct", "/FUNCT"},       Name{"sensor", "/SENSOR"}, Name{"skew", "/SKEW"},
       Name{"frame", "/FRAME"},       Name{"prop", "/PROP"},     Name{"mat", "/MAT"},
-      Name{"friction", "/FRICTION"}, Name{"part", "/PART"},     Name{"node", "node"}};
+      Name{"friction", "/FRICTION"}, Name{"part", "/PART"},     Name{"node", "node"},
+      Name{"subset", "/SUBSET"},     Name{"inter", "/INTER"}};
+  if (element_kind(kind)) return kind;
   const auto it =
       std::find_if(names.begin(), names.end(), [&](const Name& n) { return n.first == kind; });
   return it == names.end() ? "/SET" : it->second;
+}
+
+std::optional<ElementKind> element_kind(std::string_view kind) {
+  using Name = std::pair<std::string_view, ElementKind>;
+  static constexpr std::array<Name, 8> names = {
+      Name{"shell", ElementKind::shell4}, Name{"sh3n", ElementKind::shell3},
+      Name{"brick", ElementKind::solid8}, Name{"quad", ElementKind::quad},
+      Name{"tria", ElementKind::tria},    Name{"truss", ElementKind::truss},
+      Name{"beam", ElementKind::beam},    Name{"spring", ElementKind::spring}};
+  const auto it =
+      std::find_if(names.begin(), names.end(), [&](const Name& n) { return n.first == kind; });
+  if (it == names.end()) return std::nullopt;
+  return it->second;
 }
 
 bool selection_exists(const LintContext& c, std::string_view kind, std::int64_t id) {
@@ -53,6 +68,10 @@ std::optional<bool> target_exists(const LintContext& c, std::string_view kind, s
   if (kind == "node") {
     if (c.model == nullptr) return std::nullopt;
     return c.model->find_node(id) != no_index;
+  }
+  if (const auto family = element_kind(kind)) {
+    if (c.model == nullptr) return std::nullopt;
+    return c.model->family(*family).map.find(id) != no_index;
   }
   if (kind_name(kind) == "/SET") return std::nullopt;
   const auto all = c.defined.find(kind);

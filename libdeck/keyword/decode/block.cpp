@@ -132,9 +132,11 @@ class BlockDecoder {
       return true;
     }
     if (card.words) {
-      for (LineCursor ahead = cursor_;; cursor_ = ahead) {
+      // The first line is one of words, whatever it begins with.
+      bool first = true;
+      for (LineCursor ahead = cursor_;; cursor_ = ahead, first = false) {
         const Line line = ahead.next();
-        if (!line.valid() || !begins_with_word(line.text)) return true;
+        if (!line.valid() || (!first && !begins_with_word(line.text))) return true;
         add(card, line, once, once);
       }
     }

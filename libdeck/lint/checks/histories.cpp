@@ -1,0 +1,220 @@
+// Time histories (/TH/...): the variables they ask for and the objects they name. The schemas hold
+// the variables of every keyword and the solver's message for an object that is missing.
+#include <algorithm>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "keyword/words.hpp"
+#include "lint/check.hpp"
+#include "lint/check_tables.hpp"
+#include "lint/targets.hpp"
+
+namespace deck::detail {
+namespace {
+
+std::vector<DecodedBlock> histories_of(const LintContext& c) {
+  std::vector<DecodedBlock> out;
+  for (const Block& block : c.deck.blocks)
+    if (!block.opaque && block.schema != nullptr && block.schema->keyword.starts_with("/TH/"))
+      out.push_back(decode(c.deck, block));
+  return out;
+}
+
+std::string history_name(const DecodedBlock& d) {
+  return fmt::format("{} {}", d.block->schema->keyword, d.block->id.value);
+}
+
+/// A cell that fixed columns do not tell: the line has a comma, or a parameter stands for the word.
+bool open_word(const DecodedCard& card, const Cell& cell) {
+  return card.line.text.find(',') != std::string_view::npos || cell.text.starts_with('&');
+}
+
+enum class Word { known, possible, unknown };
+
+/// The list of a manual can be older than the solver: a word is unknown only if no history has it
+/// and it does not shorten a word of this one (groups are named so: FN for FNX, FNY, FNZ).
+Word judge(const LintContext& c, const Schema& schema, std::string_view text) {
+  constexpr std::size_t shortest_group = 2;
+  if (has_word(schema, text)) return Word::known;
+  const auto words = legal_words(schema);
+  if (text.size() >= shortest_group &&
+      std::any_of(words.begin(), words.end(),
+                  [&](const std::string& word) { return word.starts_with(text); }))
+    return Word::possible;
+  const auto all = c.schemas.all();
+  return std::any_of(
+             all.begin(), all.end(),
+             [&](const Schema* s) { return s->keyword.starts_with("/TH/") && has_word(*s, text); })
+             ? Word::possible
+             : Word::unknown;
+}
+
+/// Calls f(card, cell) for the words of a history that are not blank.
+template <class F>
+void each_word(const DecodedBlock& d, F&& f) {
+  for (const DecodedCard& card : d.cards)
+    if (card.schema->words)
+      for (const Cell& cell : card.cells)
+        if (!cell.blank()) f(card, cell);
+}
+
+void check_variable(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const DecodedBlock& d : histories_of(c)) {
+    const Schema& schema = *d.block->schema;
+    if (legal_words(schema).empty()) continue;
+    each_word(d, [&](const DecodedCard& card, const Cell& cell) {
+      if (open_word(card, cell)) return;
+      const Word word = judge(c, schema, cell.text);
+      if (word == Word::known) return;
+      const bool sure = word == Word::unknown;
+      Diagnostic* found =
+          r.report(rule, *d.block, cell.span,
+                   fmt::format("'{}' {} variable of {}", cell.text,
+                               sure ? "is no" : "is no documented", schema.keyword));
+      if (found == nullptr || sure) return;
+      found->severity = Severity::warning;
+      found->reference.reset();
+    });
+  }
+}
+
+void check_no_variable(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const DecodedBlock& d : histories_of(c)) {
+    const Schema& schema = *d.block->schema;
+    const bool described = std::any_of(
+        schema.cards.begin(), schema.cards.end(),
+        [&](const CardSchema& card) { return card.words && card.in_version(d.block->version); });
+    if (!described) continue;
+    bool any = false;
+    each_word(d, [&](const DecodedCard& card, const Cell& cell) {
+      any = any || legal_words(schema).empty() || open_word(card, cell) ||
+            judge(c, schema, cell.text) != Word::unknown;
+    });
+    if (!any)
+      r.report(rule, *d.block, d.block->header_span,
+               fmt::format("{} asks for no variable", history_name(d)));
+  }
+}
+
+/// First id of the list of a history; 0 asks for all objects.
+std::int64_t first_id(const DecodedBlock& d) {
+  for (const DecodedCard& card : d.cards)
+    for (const Cell& cell : card.cells)
+      if (cell.field->type == FieldType::id) return cell.integer;
+  return 0;
+}
+
+bool history_target_exists(const LintContext& c, std::string_view kind, std::int64_t id) {
+  // A frame may stand where a skew is asked for.
+  return target_exists(c, kind, id).value_or(true) ||
+         (kind == "skew" && target_exists(c, "frame", id).value_or(true));
+}
+
+class MissingObjects {
+ public:
+  MissingObjects(const LintContext& c, const Rule& rule, Reporter& r) : c_(c), rule_(rule), r_(r) {}
+
+  void check(const DecodedBlock& d) {
+    int zeros = 0;
+    Span first_zero;
+    const bool all = first_id(d) == 0;
+    for (const DecodedCard& card : d.cards) {
+      const bool list = card.schema->repeat == Repeat::ids;
+      if (list && all) continue;
+      for (const Cell& cell : card.cells) {
+        if (cell.field->type != FieldType::id || !cell.field->missing) continue;
+        const bool unresolved = cell.parameter && cell.integer == 0;
+        const bool first = &cell == card.cells.data();
+        if (cell.integer == 0 && list && cell.field->ref == "part") {
+          if (zeros++ == 0) first_zero = cell.span;
+        } else if (unresolved || (cell.integer == 0 && (list || !first))) {
+          continue;
+        } else {
+          check_cell(d, card, cell);
+        }
+      }
+    }
+    if (zeros > 0)
+      report(d, first_zero, true, 1610,
+             fmt::format("{} cell{} of {} hold{} 0, and no part has that id", zeros,
+                         zeros == 1 ? "" : "s", history_name(d), zeros == 1 ? "s" : ""));
+  }
+
+ private:
+  void check_cell(const DecodedBlock& d, const DecodedCard& card, const Cell& cell) {
+    const std::string_view kind = cell.field->ref;
+    const std::int64_t id = c_.resolved(*d.block, kind, cell.integer);
+    const bool known = (kind == "node" || element_kind(kind)) ? c_.model != nullptr : true;
+    if (!known || (id != 0 && history_target_exists(c_, kind, id))) return;
+    const bool placed = cell.span.valid() && cell.span.length > 0;
+    const Span span = placed ? cell.span : card.line.whole();
+    std::string text =
+        id == 0 ? fmt::format("a line of {} names no {}", history_name(d), kind_name(kind))
+                : fmt::format("{} names {} {}, which does not exist", history_name(d),
+                              kind_name(kind), id);
+    if (id == 0 && !cell.text.empty()) text += fmt::format(": '{}' is read as 0", cell.text);
+    report(d, span, card.schema->repeat == Repeat::ids, *cell.field->missing, std::move(text));
+  }
+
+  /// The solver warns of what is missing in a list of objects and stops in a list of lines.
+  void report(const DecodedBlock& d, Span span, bool warning, int message, std::string text) {
+    Diagnostic* found = r_.report(rule_, *d.block, span, std::move(text));
+    if (found == nullptr) return;
+    if (warning) found->severity = Severity::warning;
+    if (message == 0)
+      found->reference.reset();
+    else
+      found->reference = ReferenceMessage{message, found->severity};
+  }
+
+  const LintContext& c_;
+  const Rule& rule_;
+  Reporter& r_;
+};
+
+void check_missing_object(const LintContext& c, const Rule& rule, Reporter& r) {
+  MissingObjects objects(c, rule, r);
+  for (const DecodedBlock& d : histories_of(c)) objects.check(d);
+}
+
+/// Parts and subsets belong to one history only.
+void check_two_histories(const LintContext& c, const Rule& rule, Reporter& r) {
+  const std::vector<DecodedBlock> histories = histories_of(c);
+  std::map<std::pair<std::string_view, std::int64_t>, const Cell*> seen;
+  std::map<const Cell*, const DecodedBlock*> block_of;
+  for (const DecodedBlock& d : histories) {
+    const std::string_view keyword = d.block->schema->keyword;
+    if ((keyword != "/TH/PART" && keyword != "/TH/SUBS") || first_id(d) == 0) continue;
+    for (const DecodedCard& card : d.cards)
+      for (const Cell& cell : card.cells) {
+        if (cell.field->type != FieldType::id || cell.integer == 0) continue;
+        const std::string_view kind = cell.field->ref;
+        const std::int64_t id = c.resolved(*d.block, kind, cell.integer);
+        if (!target_exists(c, kind, id).value_or(false)) continue;
+        const auto [it, fresh] = seen.emplace(std::pair{kind, id}, &cell);
+        if (fresh) block_of.emplace(&cell, &d);
+        const DecodedBlock* other = block_of.at(it->second);
+        if (other == &d) continue;
+        Diagnostic* found = r.report(rule, *d.block, cell.span,
+                                     fmt::format("{} {} is in {} and in {}", kind_name(kind), id,
+                                                 history_name(*other), history_name(d)));
+        if (found != nullptr) found->notes.emplace_back(it->second->span, "the other one is here");
+      }
+  }
+}
+
+}  // namespace
+
+std::span<const Checked> history_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK650, check_variable},
+      {RuleId::DK651, check_no_variable},
+      {RuleId::DK652, check_missing_object},
+      {RuleId::DK653, check_two_histories},
+  };
+  return all;
+}
+
+}  // namespace deck::detail
