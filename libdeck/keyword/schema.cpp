@@ -157,6 +157,8 @@ const Schema* SchemaSet::match(std::string_view header) const {
   };
   header = trim(header);
   if (header.empty() || header.front() != '/') return nullptr;
+  // "/ SHELL/1" is no keyword: the solver looks for the name right behind the slash.
+  if (header.size() > 1 && blank(header[1])) return nullptr;
   const Entry* best = nullptr;
   std::string prefix;
   for (std::size_t begin = 1; begin <= header.size();) {
