@@ -1,5 +1,5 @@
-// The legal words of a keyword with lists of words (the variables of a time history). A schema keeps
-// them as the condition under which the solver takes the cell. Private to the library.
+// The legal words of a keyword with lists of words (the variables of a time history). A schema
+// keeps them as the condition under which the solver takes the cell. Private to the library.
 #pragma once
 #include <span>
 #include <string>
