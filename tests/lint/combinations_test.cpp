@@ -36,6 +36,26 @@ TEST(FilterFactor, IsNoneWithoutAFrequency) {
   EXPECT_FALSE(fires("Ifiltr=1 Xfreq=1.0"));
 }
 
+TEST(DefaultBlock, IsTakenByContactsThatAreNotEvaluatedToo) {
+  const Linted lagrange = lint_example("@/DEFAULT/INTER/TYPE7 Irem_gap=2\n@/INTER/LAGDT/TYPE7/1");
+  EXPECT_TRUE(lagrange.fires(RuleId::DK502)) << "it has no Irem_gap";
+  const std::string tie = "@/DEFAULT/INTER/TYPE2 Idel=2\n/INTER/TYPE2/1\ntie\n         2         1";
+  const Linted tied = lint_example(tie);
+  ASSERT_TRUE(tied.fires(RuleId::DK501)) << "TYPE2 calls it Idel2";
+  EXPECT_NE(tied.find(RuleId::DK501)->message.find("Idel = 2 applies to 1 interface"),
+            std::string::npos);
+  EXPECT_FALSE(lint_example(tie + std::string(40, ' ') + "         1").fires(RuleId::DK501));
+  EXPECT_FALSE(lint_example("@/DEFAULT/INTER/TYPE24 Istf=4\n/INTER/TYPE24/1\nt\n         1")
+                   .fires(RuleId::DK502))
+      << "nobody knows the card";
+}
+
+TEST(DefaultBlock, OfAnIncludeHolds) {
+  EXPECT_FALSE(lint_example("#include defaults.inc\n@/INTER/TYPE7/1\n@file defaults.inc\n"
+                            "@/DEFAULT/INTER/TYPE7 Inacti=6")
+                   .fires(RuleId::DK503));
+}
+
 TEST(TitleLength, ThatTheSolverKeepsIsAHundredCharacters) {
   for (const std::size_t n : {100u, 101u})
     EXPECT_EQ(lint_example("/INTER/TYPE10/1\n" + std::string(n, 't') + "\n         2         1\n")

@@ -186,8 +186,8 @@ void check_blank(Findings& findings, const Line& line) {
   if (text.find_first_not_of("0.+-, ") == std::string_view::npos) return;
   findings.report(RuleId::DK028, line.whole(),
                   "text " + quoted(text) + " stands on a line without content",
-                  {.solver = "it reads nothing on this line, but the line counts",
-                   .fix = "move the value to its line; leave the line itself, it counts"});
+                  {.solver = "It reads nothing on this line, but the line counts.",
+                   .fix = "Move the value to its line. Leave the line itself: it counts."});
 }
 
 /// Text outside every cell of this version: between cells, and after the last one.
@@ -440,7 +440,7 @@ DecodedCard detail::decode_in_context(const Deck& deck, const Block& block, cons
     return out;
   }
   // Where a schema describes only the cells that matter here, the other columns are not blank.
-  const bool complete = block.schema == nullptr || block.schema->layout_known();
+  const bool complete = block.schema == nullptr || !block.schema->opaque_tail;
   if (findings.on() && complete) check_gaps(findings, card, block.version, line);
   for_each_field(card, block.version, out, context, [&](const Field& f) {
     out.cells.push_back(read_cell(deck, findings, f, detail::columns(line.text, f.first, f.last),

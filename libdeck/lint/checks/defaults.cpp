@@ -53,7 +53,8 @@ Takes takes(const ContactCard& card, int type, const Field& flag) {
     if (!other.flags.empty() && other.flags.find(" " + flag.name + " ") == other.flags.npos)
       return Takes::no;
     // TYPE2 calls it by another name than its default block.
-    const std::string_view name = type == 2 && flag.name == "Idel" ? "Idel2" : flag.name;
+    std::string_view name = flag.name;
+    if (type == 2 && name == "Idel") name = "Idel2";
     if (card.block->schema->find_field(name) == nullptr) return Takes::unknown;
     return card.given(name) ? Takes::no : Takes::yes;
   }

@@ -175,9 +175,6 @@ class MissingObjects {
 };
 
 void check_missing_object(const LintContext& c, const Rule& rule, Reporter& r) {
-  // What seems to be absent may be in an include that could not be read.
-  const auto& read = c.deck.diagnostics.counts();
-  if (read.count(RuleId::DK004) > 0 || read.count(RuleId::DK006) > 0) return;
   MissingObjects objects(c, rule, r);
   for (const DecodedBlock& d : histories_of(c)) objects.check(d);
 }
