@@ -233,6 +233,12 @@ Result<void> read_key(std::string_view key, const toml::node& node, LintConfig& 
     config.baseline = (fs::path(config.path).parent_path() / *text).string();
     return {};
   }
+  if (key == "geometry") {
+    config.geometry = node.value_exact<bool>();
+    if (!config.geometry)
+      return config_error(config.path, line_of(node), "'geometry' is true or false");
+    return {};
+  }
   if (key == "severity") return read_severity(node, config);
   if (key == "gate") return read_gate(node, config);
   if (key == "per-file-ignores") {

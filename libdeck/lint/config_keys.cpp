@@ -16,6 +16,8 @@ const std::vector<ConfigKey>& config_keys() {
       {"", "baseline", R"("lint-baseline.json")", "none",
        "findings that are known and accepted: a file of 'deck lint --write-baseline', relative to "
        "this one"},
+      {"", "geometry", "false", "as far as it is quick",
+       "look at geometry (rules DK3, DK4): true however large the deck is, false not at all"},
       {"severity", "DK9", R"("warning")", "that of the rule",
        "severity of rules: \"error\", \"warning\" or \"info\"; the longest selector that fits "
        "wins"},

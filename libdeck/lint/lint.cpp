@@ -205,9 +205,10 @@ std::vector<NotChecked> engine_not_checked(const EngineFiles* engine) {
   return out;
 }
 
+/// `out` holds what the extra checks left out.
 std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& options,
-                                    const std::vector<Diagnostic>& found) {
-  std::vector<NotChecked> out;
+                                    const std::vector<Diagnostic>& found,
+                                    std::vector<NotChecked> out) {
   std::map<std::string, std::uint64_t> unknown, opaque;
   for (const Block& b : input.deck.blocks) {
     if (b.opaque)
@@ -234,9 +235,6 @@ std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& o
     out.push_back({"references between entities", "the model was not built"});
   if (input.interfaces == nullptr)
     out.push_back({"effective values of the interfaces", "they were not formed"});
-  if (input.extra_checks.empty())
-    out.push_back({"geometry: penetrations, gaps against mesh size, contact time step",
-                   "needs the contact model; --geometry builds it"});
   for (NotChecked& n : engine_not_checked(input.engine)) out.push_back(std::move(n));
   const auto off = std::count_if(all_rules().begin(), all_rules().end(),
                                  [&](const Rule& r) { return !enabled(options, r.id); });
@@ -287,6 +285,25 @@ std::string fingerprint(const Deck& deck, const Diagnostic& d) {
   return fmt::format("{:016x}", hash);
 }
 
+namespace {
+
+/// Skipped where no rule wants to know what they find.
+std::vector<NotChecked> run_extra_checks(const LintInput& input, const LintOptions& options,
+                                         const LintContext& context, Reporter& reporter) {
+  const bool wanted = std::any_of(all_rules().begin(), all_rules().end(), [&](const Rule& r) {
+    return (r.stage == RuleStage::extra || r.stage == RuleStage::gate) && enabled(options, r.id);
+  });
+  std::vector<NotChecked> out;
+  if (!wanted) return out;
+  if (input.extra_checks.empty())
+    out.push_back({std::string(geometry_rules), "switched off (--no-geometry)"});
+  for (const ExtraCheck& check : input.extra_checks)
+    for (NotChecked& n : check(context, reporter)) out.push_back(std::move(n));
+  return out;
+}
+
+}  // namespace
+
 LintResult run_lint(const LintInput& input, const LintOptions& options) {
   const Deck& deck = input.deck;
   Pool pool{input.schemas};
@@ -299,7 +316,7 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
   const LintContext context = detail::build_context(input, own);
   for (const auto& [rule, check] : detail::all_checks())
     if (enabled(options, rule)) check(context, rule_of(rule), reporter);
-  for (const auto& check : input.extra_checks) check(context, reporter);
+  std::vector<NotChecked> left_out = run_extra_checks(input, options, context, reporter);
   // Groups that no contact uses have findings too.
   if (input.selections != nullptr) input.selections->resolve_all();
   if (input.selections != nullptr) pool.take(input.selections->diagnostics(), options);
@@ -316,7 +333,7 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
     absences = pool.drop_absences();
 
   LintResult result;
-  result.not_checked = not_checked(input, options, pool.kept);
+  result.not_checked = not_checked(input, options, pool.kept, std::move(left_out));
   if (!absences.empty())
     result.not_checked.push_back({"what seems to be absent: " + joined(absences),
                                   "a file that could not be read may hold it"});

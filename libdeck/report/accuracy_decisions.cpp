@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "deck/report/text_table.hpp"
@@ -112,7 +113,8 @@ std::string decisions_text(const Scene& scene, std::size_t rows, bool color, std
     const Sides s = sides_of(c, d);
     table.row({std::to_string(c.inter->id), ids_text(*scene.model, s.secondary, '-'),
                ids_text(*scene.model, s.main, ' '), verdict(d), fmt::format("{}", d.gap),
-               fmt::format("{}", d.exact_distance), fmt::format("{}", d.solver_distance),
+               fmt::format("{}", d.exact_distance),
+               std::isnan(d.solver_distance) ? "no number" : fmt::format("{}", d.solver_distance),
                to_string(d.action)});
   }
   if (shown > 0) out += table.fitted(width, color, 2, 2);

@@ -103,6 +103,10 @@ Result<std::unique_ptr<Source>> Source::open(const std::string& path, const Limi
   const auto limit = std::min<std::uint64_t>(limits.total_bytes, SIZE_MAX / 2);
   if (bytes > limit) return limit_error(path, bytes, limit);
   const auto size = static_cast<std::size_t>(bytes);
+  if (char first = 0; size == 0)  // those of /proc have no size, and contents all the same
+    if (const ssize_t n = ::read(file.fd, &first, 1); n != 0)
+      return io_error(path, n < 0 ? system_reason(errno)
+                                  : "is not a regular file (the system makes it as it is read)");
   if (size <= limits.map_threshold) {
     if (auto r = read_sized(file.fd, path, size, source->storage_); !r) return r.error();
     source->bytes_ = source->storage_;

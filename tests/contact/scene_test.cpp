@@ -168,5 +168,34 @@ TEST(Scene, SamePenetrationsWithAndWithoutCandidateCount) {
   EXPECT_GT(with.contact().candidates, without.contact().candidates);
 }
 
+/// Shells whose nodes all lie at one place, and their contact with themselves.
+SmallDeck at_one_place(int shells) {
+  SmallDeck d;
+  for (int n = 1; n <= 4 * shells; ++n) d.node(n, 50, 0.1, -7);
+  d.shell_part(1, 2);
+  for (int e = 0; e < shells; ++e) d.shell(1, 1 + e, 4 * e + 1, 4 * e + 2, 4 * e + 3, 4 * e + 4);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/PART/2", {1}).group("/LINE/SURF/1", {1});
+  return d;
+}
+
+TEST(NodesAtOnePlace, AreDecidedWithoutAnyArithmeticAndReportedOnce) {
+  for (const char* card : {"@/INTER/TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1",
+                           "@/INTER/TYPE11/1 line_IDs=1 line_IDm=1 Gapmin=1"}) {
+    const Built b(at_one_place(10).add(card));
+    ASSERT_EQ(b.scene.contacts.size(), 1u);
+    EXPECT_GE(b.contact().penetrations.size(), 360u) << card;
+    EXPECT_EQ(b.scene.decisions.fallback, 0u) << card;
+    EXPECT_EQ(b.scene.decisions.exact, 0u) << card;
+    for (const PenetrationRow& r : b.contact().penetrations) EXPECT_TRUE(r.on_surface);
+    ASSERT_EQ(b.diagnostics.counts().count(RuleId::DK336), 1u) << card;
+    EXPECT_EQ(b.diagnostics.counts().at(RuleId::DK336), 1u) << card;
+    for (const Diagnostic& d : b.diagnostics.all())
+      if (d.rule == RuleId::DK336)
+        EXPECT_NE(d.message.find("40 nodes at one place (50, 0.1, -7), 1 and 40 among them"),
+                  std::string::npos)
+            << d.message;
+  }
+}
+
 }  // namespace
 }  // namespace deck::test

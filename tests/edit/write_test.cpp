@@ -5,11 +5,16 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
+#include <array>
+
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 #include <thread>
 
 namespace deck {
@@ -106,6 +111,69 @@ TEST_F(AtomicWriting, OtherNamesOfAHardLinkKeepTheOldBytes) {
   ASSERT_TRUE(write_file_atomic(at("a.rad"), "new"));
   EXPECT_EQ(get("a.rad"), "new");
   EXPECT_EQ(get("b.rad"), "old");
+}
+
+/// Sets an attribute; false: the file system keeps none.
+bool set(const std::string& path, const char* name, std::string_view value) {
+  return setxattr(path.c_str(), name, value.data(), value.size(), 0) == 0;
+}
+std::string get_attribute(const std::string& path, const char* name) {
+  std::array<char, 256> value{};
+  const ssize_t size = getxattr(path.c_str(), name, value.data(), value.size());
+  return size < 0 ? "none" : std::string(value.data(), static_cast<std::size_t>(size));
+}
+
+/// An access list of the kernel's form: user 1234 may read and write, the owning group nothing.
+std::string access_list() {
+  struct Entry {
+    std::uint16_t tag, bits;
+    std::uint32_t id;
+  };
+  constexpr std::uint32_t nobody = 0xffffffff;
+  const Entry entries[] = {
+      {1, 6, nobody}, {2, 6, 1234}, {4, 0, nobody}, {16, 6, nobody}, {32, 0, nobody}};
+  std::string out(4 + sizeof entries, '\0');
+  out[0] = 2;
+  std::memcpy(out.data() + 4, entries, sizeof entries);
+  return out;
+}
+
+TEST_F(AtomicWriting, AReplacedFileKeepsItsAccessListAndItsAttributes) {
+  put("a.rad", "old");
+  if (!set(at("a.rad"), "user.deck.test", "kept") ||
+      !set(at("a.rad"), "system.posix_acl_access", access_list()))
+    GTEST_SKIP() << "this file system keeps no attributes";
+  ASSERT_TRUE(write_file_atomic(at("a.rad"), "new"));
+  EXPECT_EQ(get("a.rad"), "new");
+  EXPECT_EQ(get_attribute(at("a.rad"), "user.deck.test"), "kept");
+  EXPECT_EQ(get_attribute(at("a.rad"), "system.posix_acl_access"), access_list());
+}
+
+TEST_F(AtomicWriting, AReplacedFileGetsNoAccessListOfItsDirectory) {
+  put("a.rad", "old");
+  if (!set(dir_.string(), "system.posix_acl_default", access_list()))
+    GTEST_SKIP() << "this file system keeps no access lists";
+  ASSERT_TRUE(write_file_atomic(at("a.rad"), "new"));
+  EXPECT_EQ(get_attribute(at("a.rad"), "system.posix_acl_access"), "none");
+}
+
+TEST_F(AtomicWriting, NoLinkBelowTheDirectoryLeadsElsewhere) {
+  put("precious", "old");
+  fs::create_directories(dir_ / "out");
+  fs::create_directories(dir_ / "home");
+  fs::create_symlink("../precious", dir_ / "out/mesh.inc");
+  fs::create_symlink("../home", dir_ / "out/parts");
+  WriteOptions options;
+  options.make_directories = true;
+  options.below = at("out");
+  const auto link = write_file_atomic(at("out/mesh.inc"), "new", options);
+  ASSERT_FALSE(link);
+  EXPECT_NE(link.error().message.find("out/mesh.inc is a symbolic link"), std::string::npos)
+      << link.error().message;
+  EXPECT_FALSE(write_file_atomic(at("out/parts/a.inc"), "new", options));
+  EXPECT_EQ(get("precious"), "old");
+  EXPECT_TRUE(fs::is_empty(dir_ / "home"));
+  EXPECT_TRUE(write_file_atomic(at("out/other/a.inc"), "new", options));
 }
 
 TEST_F(AtomicWriting, ABackupIsNeverReplacedAndTheNextOneGetsANumber) {

@@ -21,7 +21,8 @@ LintResult lint(fuzz::Whole& whole, bool geometry) {
   LintInput input{whole.deck, SchemaSet::built_in(), &whole.model, &whole.interfaces, &selections};
   input.earlier = {&whole.diagnostics, &selections.diagnostics()};
   if (geometry)
-    input.extra_checks.push_back([](const LintContext& c, Reporter& r) { check_geometry(c, r); });
+    input.extra_checks.push_back(
+        [](const LintContext& c, Reporter& r) { return check_geometry(c, r); });
   return run_lint(input, {});
 }
 

@@ -12,7 +12,7 @@ class EveryGeometryRule : public testing::TestWithParam<std::string> {
   const Rule& rule() const { return *find_rule(GetParam()); }
 };
 
-std::vector<std::string> geometry_rules() {
+std::vector<std::string> rules_with_examples() {
   std::vector<std::string> ids;
   for (const Rule& r : all_rules())
     if (r.stage == RuleStage::extra && id_number(r.id) / 100 == 3 && !r.bad.empty())
@@ -55,7 +55,7 @@ TEST_P(EveryGeometryRule, IsNotCheckedUnlessAskedFor) {
   EXPECT_FALSE(lint_example(rule().bad).fires(rule().id));
 }
 
-INSTANTIATE_TEST_SUITE_P(Rules, EveryGeometryRule, testing::ValuesIn(geometry_rules()),
+INSTANTIATE_TEST_SUITE_P(Rules, EveryGeometryRule, testing::ValuesIn(rules_with_examples()),
                          [](const auto& test) { return test.param; });
 
 TEST(GeometryRules, ThereAreExamplesForAllButTheOverflow) {
@@ -203,7 +203,38 @@ TEST(CrossedElements, OneFindingPerTwoPartsHoweverManyInterfacesHaveThem) {
 
 TEST(GeometryRules, SameFindingsForAnyNumberOfThreads) {
   const std::string_view text = "@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=1 Gapmin=6 Inacti=6\n";
-  EXPECT_EQ(lint_geometry(text, 1).list(), lint_geometry(text, 2).list());
+  EXPECT_EQ(lint_geometry(text, {.threads = 1}).list(), lint_geometry(text, {.threads = 2}).list());
+}
+
+std::vector<std::string> not_checked(const Linted& run) {
+  std::vector<std::string> out;
+  for (const NotChecked& n : run.result.not_checked) out.push_back(n.what);
+  return out;
+}
+
+TEST(QuickLook, SaysThatItLeavesOutALargeModel) {
+  const std::string_view text = "@/INTER/TYPE7/1 Gapmin=4\n";
+  const Linted small = lint_geometry(text, {.quick = QuickLook{}});
+  EXPECT_TRUE(small.fires(RuleId::DK301)) << small.list();
+  const Linted large = lint_geometry(text, {.quick = QuickLook{.items = 10}});
+  EXPECT_FALSE(large.fires(RuleId::DK301)) << large.list();
+  EXPECT_EQ(not_checked(large).front(), geometry_rules);
+  EXPECT_EQ(not_checked(small).size() + 1, not_checked(large).size());
+}
+
+TEST(QuickLook, SaysThatItLeavesOutAContactWithManyPairs) {
+  const std::string_view text = "@/INTER/TYPE7/1 Gapmin=4\n";
+  const Linted run = lint_geometry(text, {.quick = QuickLook{.pair_bytes = 1}});
+  EXPECT_FALSE(run.fires(RuleId::DK390)) << run.list();
+  EXPECT_EQ(not_checked(run).front(), "/INTER/TYPE7 1: penetrations and forces");
+  GeometryOptions all;
+  all.limits.pair_bytes = 1;
+  EXPECT_TRUE(lint_geometry(text, all).fires(RuleId::DK390)) << "where all is asked for";
+}
+
+TEST(QuickLook, NeedsNoContactInADeckWithoutAny) {
+  const Linted run = lint_geometry("@bare\n", {.quick = QuickLook{.items = 0}});
+  EXPECT_NE(not_checked(run).front(), geometry_rules);
 }
 
 TEST(GeometryRules, CanBeSuppressedLikeAnyOther) {

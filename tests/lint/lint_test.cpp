@@ -257,14 +257,34 @@ TEST(ExtraChecks, ReportThroughTheEngine) {
   ASSERT_TRUE(deck);
   LintInput input{*deck, SchemaSet::built_in()};
   input.extra_checks.push_back([](const LintContext& c, Reporter& r) {
-    ASSERT_EQ(c.contacts.size(), 1u);
-    r.report(rule_of(RuleId::DK390), *c.contacts[0].block, c.contacts[0].block->header_span,
+    r.report(rule_of(RuleId::DK390), *c.contacts.at(0).block, c.contacts[0].block->header_span,
              "many");
+    return std::vector<NotChecked>{{"the rest", "it is large"}};
   });
   const LintResult result = run_lint(input);
   ASSERT_EQ(result.counts.count(RuleId::DK390), 1u);
   for (const NotChecked& n : result.not_checked)
     EXPECT_EQ(n.what.find("geometry"), std::string::npos);
+  EXPECT_EQ(result.not_checked.at(0).what, "the rest");
+}
+
+TEST(ExtraChecks, AreNotRunWhereNoRuleOfTheirsIsWanted) {
+  const ExampleDeck example = example_deck("@/INTER/TYPE7/1\n", SchemaSet::built_in());
+  auto deck = read_deck_text("x", example.main, SchemaSet::built_in());
+  ASSERT_TRUE(deck);
+  LintInput input{*deck, SchemaSet::built_in()};
+  int runs = 0;
+  input.extra_checks.push_back([&](const LintContext&, Reporter&) {
+    ++runs;
+    return std::vector<NotChecked>{};
+  });
+  LintOptions options;
+  options.select = {"DK1", "DK2"};
+  run_lint(input, options);
+  EXPECT_EQ(runs, 0);
+  options.select = {"DK1", "DK401"};
+  run_lint(input, options);
+  EXPECT_EQ(runs, 1);
 }
 
 TEST(ShiftedCard, KeepsWhatStopsTheSolver) {

@@ -108,7 +108,7 @@ inline Linted lint_example(std::string_view example, const LintOptions& options 
 }
 
 /// Lints a deck with the geometry checks.
-inline Linted lint_geometry_of(Deck deck, int threads = 1) {
+inline Linted lint_geometry_of(Deck deck, const GeometryOptions& geometry = {}) {
   const SchemaSet& schemas = SchemaSet::built_in();
   Linted out;
   out.deck = std::make_unique<Deck>(std::move(deck));
@@ -120,20 +120,20 @@ inline Linted lint_geometry_of(Deck deck, int threads = 1) {
       *out.deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces},
       {},        &engine};
   input.extra_checks.push_back(
-      [&](const LintContext& c, Reporter& r) { check_geometry(c, r, {.threads = threads}); });
+      [&](const LintContext& c, Reporter& r) { return check_geometry(c, r, geometry); });
   out.result = run_lint(input);
   return out;
 }
 
 /// Lints an example with the geometry checks.
-inline Linted lint_geometry(std::string_view example, int threads = 1) {
+inline Linted lint_geometry(std::string_view example, const GeometryOptions& geometry = {}) {
   const SchemaSet& schemas = SchemaSet::built_in();
   const ExampleDeck written = example_deck(example, schemas);
   Folder folder;
   for (const auto& [name, text] : written.files) folder.write(name, text);
   auto deck = read_deck(folder.write("deck_0000.rad", written.main), schemas);
   if (!deck) throw std::runtime_error(deck.error().message);
-  return lint_geometry_of(std::move(*deck), threads);
+  return lint_geometry_of(std::move(*deck), geometry);
 }
 
 }  // namespace deck::test

@@ -63,11 +63,13 @@ def test_effective_values_are_those_of_the_command_line(path):
 @pytest.mark.parametrize("path", DECKS, ids=os.path.basename)
 def test_findings_are_those_of_the_command_line(path, tmp_path):
     # Without a configuration file in sight, as in the module.
-    run = subprocess.run([PROGRAM, "lint", "--geometry", "--format", "json", path], capture_output=True, cwd=tmp_path)
-    told = json.loads(run.stdout)["diagnostics"]
-    mine = libdeck.load(path).lint(geometry=True)
-    assert [(d["rule"], d["file"], d["line"], d["column"], d["message"]) for d in told] == \
-           [(f.rule, f.file, f.line, f.column, f.message) for f in mine]
+    for options, geometry in (([], True), (["--no-geometry"], False)):
+        run = subprocess.run([PROGRAM, "lint", *options, "--format", "json", path], capture_output=True, cwd=tmp_path)
+        told = json.loads(run.stdout)["diagnostics"]
+        mine = libdeck.load(path).lint(geometry=geometry)
+        assert [(d["rule"], d["file"], d["line"], d["column"], d["message"]) for d in told] == \
+               [(f.rule, f.file, f.line, f.column, f.message) for f in mine]
+    assert {f.rule for f in libdeck.load(path).lint()} == {f.rule for f in libdeck.load(path).lint(geometry=True)}
 
 
 def test_arrays_say_what_the_json_says(box):
@@ -205,6 +207,37 @@ def test_unknown_names_are_errors(box):
         box.elements("shells")
     with pytest.raises(AttributeError, match="cycle"):
         box.gaps().contacts[0].pairs
+
+
+@pytest.mark.parametrize("bad", [{"dt": float("nan")}, {"dt": float("inf")}, {"dt": -1.0}, {"time": float("nan")},
+                                 {"velocities": {1: (float("nan"), 0, 0)}}, {"velocities": {1: (float("inf"), 0, 0)}},
+                                 {"velocities": {1: (0, 0)}}, {"velocities": {1: "fast"}}], ids=str)
+def test_numbers_that_are_none_are_refused(box, bad):
+    with pytest.raises(ValueError):
+        box.cycle(**bad)
+
+
+@pytest.mark.parametrize("bad", [{"min_gap": float("nan")}, {"max_moved": float("inf")}, {"fpenmax": float("nan")},
+                                 {"max_displacement": float("nan")}, {"max_displacement": 0.0}], ids=str)
+def test_bounds_of_a_repair_that_are_none_are_refused(box, bad):
+    with pytest.raises(ValueError):
+        box.fix("move-nodes", **bad)
+
+
+@pytest.mark.parametrize("name", ["Deck", "Scene", "Cycle", "Edit"])
+def test_native_objects_are_made_by_the_library_only(name):
+    with pytest.raises(TypeError):
+        kind = getattr(libdeck._native, name)
+        kind.__new__(kind)
+
+
+def test_an_edit_is_written_through_no_link(box, tmp_path):
+    (tmp_path / "home").write_text("precious")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / os.path.basename(BOX)).symlink_to(tmp_path / "home")
+    with pytest.raises(libdeck.DeckError, match="symbolic link"):
+        box.convert(renumber="node+1").write(tmp_path / "out", overwrite=True)
+    assert (tmp_path / "home").read_text() == "precious"
 
 
 def test_threads_may_share_a_deck(box):

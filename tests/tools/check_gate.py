@@ -75,7 +75,7 @@ class Gate:
 
         # Of members that were left out for want of memory nobody knows whether they are none.
         box = os.path.join(ROOT, "samples", "crash_box_0000.rad")
-        for args in (("gaps", box), ("cycle", box), ("lint", box), ("lint", box, "--geometry")):
+        for args in (("gaps", box), ("cycle", box), ("lint", box)):
             r = self.run(*args, "--max-memory", "1b", "--no-config")
             text = (r.out + r.err).decode()
             self.c.check("%s: a group beyond --max-memory is not called empty" % " ".join(args[::2]),
@@ -99,9 +99,9 @@ class Gate:
         self.c.check("JSON tells what was passed", json.loads(r.out)["gate"] == {"passed": True, "undecided": 0, "findings": []})
         r = self.run("gaps", DECK, "--json", "-")
         self.c.check("without a gate JSON has none", json.loads(r.out)["gate"] is None and json.loads(r.out)["compared"] is None)
-        r = self.run("lint", DECK, "--geometry", "--max-depth", "0.1", "--fail-on", "never", "--format", "json",
+        r = self.run("lint", DECK, "--max-depth", "0.1", "--fail-on", "never", "--format", "json",
                      *[a for f in ("sarif", "junit", "gitlab", "github") for a in ("-o", "%s=out.%s" % (f, f))])
-        self.c.check("lint --geometry ends with 1 beyond a bound", r.code == 1)
+        self.c.check("lint ends with 1 beyond a bound", r.code == 1)
         self.c.check("lint: json has the finding", any(d["rule"] == "DK370" for d in json.loads(r.out)["diagnostics"]))
         for f in ("sarif", "junit", "gitlab", "github"):
             with open(os.path.join(self.folder, "out." + f)) as g:
@@ -116,7 +116,8 @@ class Gate:
                            ("never beside --fail-on-penetration", ("gaps", DECK, "--fail-on-penetration", "--fail-on", "never")),
                            ("two results in one file", ("gaps", DECK, "--csv", "x.out", "--json", "./x.out")),
                            ("two results on standard output", ("params", DECK, "--csv", "-", "--json", "-")),
-                           ("bounds for lint without --geometry", ("lint", DECK, "--max-depth", "1")),
+                           ("bounds for lint with --no-geometry", ("lint", DECK, "--max-depth", "1", "--no-geometry")),
+                           ("--geometry beside --no-geometry", ("lint", DECK, "--geometry", "--no-geometry")),
                            ("a file to compare with that is no such document", ("gaps", DECK, "--compare", DECK))):
             r = self.run(*args)
             self.c.check("%s is wrong usage" % name, r.code == 2 and r.err.strip(), "exit %s" % r.code)
@@ -185,7 +186,7 @@ class Gate:
         self.c.check("a baseline knows its decks from any directory", r.code == 0, r.text[-300:])
         shutil.copyfile(self.deck, os.path.join(self.folder, "other_0000.rad"))
         self.expect("a deck that is not in the baseline has nothing accepted", 1, "gaps", "other_0000.rad", "--baseline", "base.json", rules=["DK374"])
-        for args in (("gaps", "--fail-on", "never"), ("cycle",), ("lint", "--geometry")):
+        for args in (("gaps", "--fail-on", "never"), ("cycle",), ("lint",)):
             write(os.path.join(self.folder, ".decklint.toml"), "[gate]\nbaseline = \"base.json\"\n")
             notes = [self.run(*args, deck, *more).err.decode() for deck, more in
                      (("other_0000.rad", ()), (DECK, ()), ("other_0000.rad", ("--quiet",)))]
@@ -205,7 +206,7 @@ class Gate:
         self.expect("what is deeper than accepted stops", 1, "gaps", DECK, "--baseline", "base.json", rules=["DK375"])
         write(os.path.join(self.folder, ".decklint.toml"), "[gate]\nbaseline = \"base.json\"\n")
         self.expect("[gate] baseline: the same", 1, "gaps", DECK, rules=["DK375"])
-        self.expect("[gate] baseline: lint --geometry, too", 1, "lint", DECK, "--geometry", "--fail-on", "never", rules=["DK375"])
+        self.expect("[gate] baseline: lint, too", 1, "lint", DECK, "--fail-on", "never", rules=["DK375"])
         write(self.deck, lifted(self.text, 105, "1.0"))
         self.expect("what is less deep passes", 0, "gaps", DECK)
         os.remove(os.path.join(self.folder, ".decklint.toml"))
@@ -223,7 +224,7 @@ class Gate:
             git("checkout", "-q", "-b", branch, "main")
             write(self.deck, lifted(self.text, 101, z))
             git("commit", "-qam", branch)
-            for command in (("gaps", DECK), ("lint", DECK, "--geometry", "--fail-on", "never")):
+            for command in (("gaps", DECK), ("lint", DECK, "--fail-on", "never")):
                 r = self.run(*command)
                 self.c.check("a change that makes a gap %s: deck %s ends with %d" % (branch, command[0], code), r.code == code,
                              "exit %s: %s" % (r.code, r.err.decode()))

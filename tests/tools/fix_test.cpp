@@ -42,6 +42,15 @@ TEST_F(FixCommand, PenetrationsThatRemainAreOne) {
   EXPECT_NE(out().find("--min-gap"), std::string::npos);
 }
 
+TEST_F(FixCommand, ADeckWithErrorsIsNotRepaired) {
+  std::string text = too_close_;
+  const std::string z = "                 0.0\n";
+  text.replace(text.find(z, text.find("/NODE")), z.size(), "                 nan\n");
+  write(dir_ / "nan_0000.rad", text);
+  EXPECT_EQ(deck("fix nan_0000.rad --strategy reduce-gap"), 1) << out() << err();
+  EXPECT_NE(err().find("DK025"), std::string::npos) << err();
+}
+
 TEST_F(FixCommand, ASecondRunCountsWhatTheReportSaysWasMovedBefore) {
   const std::string command =
       "fix too_close_0000.rad --strategy move-nodes --in-place --json fix.json";

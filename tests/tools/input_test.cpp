@@ -61,6 +61,46 @@ TEST_F(Input, ARewrittenPackedDeckIsPackedAgain) {
   EXPECT_THAT(out(), Not(HasSubstr(".gz")));
 }
 
+TEST_F(Input, AFileThatTheSystemMakesIsNoEmptyInclude) {
+  write(dir_ / "x_0000.rad", "#RADIOSS STARTER\n#include /proc/self/environ\n");
+  EXPECT_EQ(deck("lint x_0000.rad --no-config"), 3);
+  EXPECT_THAT(out(), HasSubstr("the system makes it as it is read"));
+}
+
+TEST_F(Input, ALineOfAFileOutsideTheFolderThatIsNoDeckIsNotShown) {
+  write(dir_ / "secret", "password = 1\n");
+  write(dir_ / "d/secret", "password = 2\n");
+  write(dir_ / "more.inc",
+        "/NODE\n         x                 0.0                 0.0           0.0\n");
+  write(dir_ / "d/x_0000.rad",
+        sample_.substr(0, sample_.rfind("/END")) +
+            "#include ../secret\n#include secret\n#include ../more.inc\n/END\n");
+  deck("lint d/x_0000.rad --no-config --per-rule 0 -v");
+  EXPECT_THAT(out(), HasSubstr("secret:1:1"));
+  EXPECT_THAT(out(), Not(HasSubstr("password = 1")));
+  EXPECT_THAT(out(), HasSubstr("password = 2"));
+  EXPECT_THAT(out(), HasSubstr("         x                 0.0")) << "it holds a keyword";
+}
+
+TEST_F(Input, LintLooksAtGeometryUnlessItIsToldNotTo) {
+  write(dir_ / "x_0000.rad", sample_);
+  for (const char* options : {"", " --geometry"}) {
+    deck(std::string("lint x_0000.rad --no-config") + options);
+    EXPECT_THAT(out(), HasSubstr("[DK301]")) << options;
+    EXPECT_THAT(out(), Not(HasSubstr("geometry:"))) << options;
+  }
+  const auto is_off = [&](const std::string& options) {
+    deck("lint x_0000.rad " + options);
+    EXPECT_THAT(out(), Not(HasSubstr("[DK301]"))) << options;
+    EXPECT_THAT(out(), HasSubstr("geometry: penetrations")) << options;
+  };
+  is_off("--no-config --no-geometry");
+  write(dir_ / ".decklint.toml", "geometry = false\n");
+  is_off("");
+  deck("lint x_0000.rad --geometry");
+  EXPECT_THAT(out(), HasSubstr("[DK301]")) << "an option goes before the file";
+}
+
 TEST_F(Input, ADirectoryHasItsPackedDecksOnce) {
   write(dir_ / "models/a_0000.rad.gz", gzip(sample_));
   write(dir_ / "models/b_0000.rad", sample_);

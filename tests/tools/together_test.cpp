@@ -88,9 +88,9 @@ TEST_F(Together, ASuppressionThatAnotherDeckNeedsStays) {
     EXPECT_EQ(shared(), suppressed) << option << err();
   }
   // Alone, only the unsafe fix touches an include.
-  deck("lint a/a_0000.rad --no-config --select DK091,DK170 --fix");
+  deck("lint a/a_0000.rad --root a --no-config --select DK091,DK170 --fix");
   EXPECT_EQ(shared(), suppressed);
-  deck("lint a/a_0000.rad --no-config --select DK091,DK170 --unsafe-fixes");
+  deck("lint a/a_0000.rad --root a --no-config --select DK091,DK170 --unsafe-fixes");
   EXPECT_EQ(shared(), contact) << out() << err();
 }
 
@@ -168,6 +168,52 @@ TEST_F(Together, AnotherDeckInTheDirectoryIsReplacedOnlyOnRequest) {
   EXPECT_EQ(deck("convert a/a_0000.rad -o out"), 0) << "the same bytes are no obstacle" << err();
 }
 
+TEST_F(Together, WhateverLiesInTheDirectoryIsReplacedOnlyOnRequest) {
+  for (const char* edited :
+       {"         1                 0.0                 0.0                 0.0\n",
+        "//SUBMODEL/1\n", "# only notes\n", "by hand\n", ""}) {
+    write(dir_ / "out/common/x.inc", edited);
+    EXPECT_EQ(deck("convert a/a_0000.rad -o out"), 2) << edited;
+    EXPECT_EQ(read(dir_ / "out/common/x.inc"), edited);
+  }
+}
+
+TEST_F(Together, NoLinkInTheDirectoryIsFollowed) {
+  write(dir_ / "home/notes", "precious\n");
+  fs::create_directories(dir_ / "out/common");
+  fs::create_symlink("../../home/notes", dir_ / "out/common/x.inc");
+  EXPECT_EQ(deck("convert a/a_0000.rad -o out --overwrite"), 2);
+  EXPECT_NE(err().find("out/common/x.inc is a symbolic link"), std::string::npos) << err();
+  fs::remove_all(dir_ / "out/common");
+  fs::create_directory_symlink("../home", dir_ / "out/common");
+  EXPECT_EQ(deck("convert a/a_0000.rad -o out"), 2);
+  EXPECT_EQ(deck("convert a/a_0000.rad --to json -o out/common/x_0000.json"), 0) << err();
+  EXPECT_EQ(deck("gaps a/a_0000.rad --vtk out"), 0) << err();
+  EXPECT_EQ(read(dir_ / "home/notes"), "precious\n");
+}
+
+TEST_F(Together, AListThatCannotBePrintedLeavesNoDoubtThatDecksWereWritten) {
+  const std::string command = "cd '" + dir_.string() + "' && '" + binary().string() +
+                              "' convert a/a_0000.rad --root a --renumber inter+10 --in-place "
+                              "> /dev/full 2> stderr";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_NE(shared().find("/INTER/TYPE10/12"), std::string::npos) << shared();
+  EXPECT_NE(err().find("the decks were written"), std::string::npos) << err();
+}
+
+TEST_F(Together, ADeckInAnotherFolderThatIncludesTheFileIsFoundWithoutGit) {
+  EXPECT_EQ(deck("convert a/a_0000.rad --units kg,m,s --in-place"), 2);
+  EXPECT_NE(err().find("b/b_0000.rad"), std::string::npos) << err();
+  EXPECT_NE(err().find("were looked for below " + fs::canonical(dir_).string() + ";"),
+            std::string::npos)
+      << err();
+  EXPECT_EQ(shared(), contact);
+  EXPECT_EQ(deck("convert a/a_0000.rad --units kg,m,s --in-place --root a"), 0) << err();
+  EXPECT_EQ(err().find("were looked for"), std::string::npos) << err();
+  EXPECT_NE(shared(), contact);
+}
+
 /// Whether the file system keeps what an output was made from.
 bool has_attributes(const fs::path& directory) {
   const std::string path = (directory / "probe").string();
@@ -239,7 +285,7 @@ TEST_F(Together, AReadingVerbLeavesAnInterruptedRewritingAlone) {
     EXPECT_EQ(shared(), contact) << call;
     EXPECT_TRUE(fs::exists(note) && fs::exists(temporary)) << call;
   }
-  ASSERT_EQ(deck("convert a/a_0000.rad --units Mg,mm,s --in-place"), 0) << err();
+  ASSERT_EQ(deck("convert a/a_0000.rad --root a --units Mg,mm,s --in-place"), 0) << err();
   EXPECT_NE(err().find("was finished: 1 file"), std::string::npos) << err();
   EXPECT_EQ(shared(), "/TITLE\nnew\n");
   EXPECT_FALSE(fs::exists(note) || fs::exists(temporary));

@@ -50,7 +50,7 @@ TOUR = {
         "gaps worse_0000.rad --compare old.json --fail-on new,worse --worst 1",
         "gaps better_0000.rad --compare old.json --fail-on new,worse --worst 1",
         "cycle samples/too_close_0000.rad --max-dt-loss 0.1",
-        "lint samples/too_close_0000.rad --geometry --max-depth 0.3 --select DK37",
+        "lint samples/too_close_0000.rad --max-depth 0.3 --select DK37",
     ],
     "cycle": [
         "cycle samples/crash_box_0000.rad",
@@ -66,7 +66,7 @@ TOUR = {
         "lint alike_0000.rad --select DK201",
         "lint alike_0000.rad --select DK201 --no-group --per-rule 2",
         "lint wide_0000.rad",
-        "lint samples/crash_box_0000.rad --geometry --select DK30,DK32",
+        "lint samples/crash_box_0000.rad --select DK30,DK32",
     ],
     "params": [
         "params samples/tied_layer_0000.rad",

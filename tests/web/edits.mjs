@@ -1,4 +1,4 @@
-// The deck that the page keeps: after random edits its findings are what `deck lint` prints of the
+// The deck that the page keeps: after random edits its findings are what `deck lint --no-geometry` prints of the
 // same text, byte for byte.
 //   node edits.mjs DECK-PROGRAM ENGINE-FOLDER [--edits N] [--times]      Ends with 'N passed, N failed'.
 import { spawnSync } from "node:child_process";
@@ -66,7 +66,7 @@ for (const path of decks) {
     const got = await kept.lint(main, changed);
     const used = process.cpuUsage(started);
     if (i > 0) times.push((used.user + used.system) / 1000);
-    const expected = spawnSync(deck, ["lint", main, "--json", "-", "-q"], { cwd: folder, maxBuffer: 1 << 30 });
+    const expected = spawnSync(deck, ["lint", main, "--no-geometry", "--json", "-", "-q"], { cwd: folder, maxBuffer: 1 << 30 });
     const ok = got ? expected.stdout.equals(Buffer.from(got)) : expected.status > 1;
     if (ok) ++passed;
     else {

@@ -433,8 +433,10 @@ std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options,
   for (const Diagnostics* list : {&loaded.deck.diagnostics, &loaded.diagnostics}) {
     for (const Diagnostic& d : list->all()) {
       if (d.severity == Severity::error) ++errors;
-      // What a verdict calls not evaluated is explained in any case.
-      if (errors_only && d.severity != Severity::error && d.rule != RuleId::DK380) continue;
+      // What a verdict calls not evaluated, or what makes it wrong, is explained in any case.
+      const bool vital = d.severity == Severity::error || d.rule == RuleId::DK334 ||
+                         d.rule == RuleId::DK336 || d.rule == RuleId::DK380;
+      if (errors_only && !vital) continue;
       if (shown == limit) {
         ++hidden;
         continue;

@@ -167,8 +167,10 @@ void print_note(std::string_view note);
 
 /// What an output may replace. Never a file that the call has read.
 struct OutputRules {
-  bool overwrite = false;  ///< a file that looks like a deck or an include, too
-  bool deck_tree = false;  ///< decks are written: --overwrite is the way out
+  bool overwrite = false;  ///< whatever is there
+  /// Decks are written: no file that differs is replaced, and --overwrite is the way out. Else
+  /// none that looks like a deck or an include.
+  bool deck_tree = false;
   bool follow_links = true;
   std::function<bool(const std::string&)> ours = {};  ///< files that may be replaced all the same
 };
@@ -190,6 +192,8 @@ int check_outputs(const CommonOptions& options, const std::vector<std::string>& 
 Result<void> check_outputs(const std::vector<OutputFile>& files, const OutputRules& rules);
 /// Writes bytes to standard output ("-") or atomically to a file.
 Result<void> write_output(const std::string& path, std::string_view bytes);
+/// Decks were written: what goes wrong with standard output from now on says so.
+void remember_written();
 /// To be called last. False, said once, if not everything could be written to standard output. (A
 /// reader that went away ends the program by SIGPIPE, as it ends others, unless that is ignored.)
 bool finish_standard_output();

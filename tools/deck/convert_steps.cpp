@@ -223,7 +223,7 @@ int convert_lsdyna(const ConvertSteps& steps, const std::string& directory,
   }
   OutputRules rules;
   rules.overwrite = true;
-  if (auto done = write_outputs(outputs, rules); !done) {
+  if (auto done = write_outputs(outputs, rules, {"", true, true, true, directory}); !done) {
     print_error(common, done.error().message);
     return exit_usage;
   }

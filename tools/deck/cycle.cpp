@@ -119,7 +119,7 @@ Result<void> write_vtk(const Options& o, std::string_view path, const std::vecto
   std::vector<OutputFile> files;
   for (const VtkFile& f : vtk) files.push_back({(directory / f.name).string(), f.bytes});
   if (script) files.push_back({(directory / script->name).string(), script->bytes});
-  return write_outputs(files);
+  return write_outputs(files, {}, {"", true, true, true, o.vtk});
 }
 
 /// Writes the page: the report of `deck gaps` with the effects and their costs first.

@@ -56,7 +56,7 @@ class FixRun {
   Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks, deck_ending); }
 
   int one(Loaded& loaded) {
-    print_findings(loaded, o_.common);
+    const bool errors = print_findings(loaded, o_.common) > 0;
     if (loaded.incomplete()) {
       print_error(o_.common, loaded.path + ": not fixed, the include tree is not complete");
       return exit_input;
@@ -92,7 +92,8 @@ class FixRun {
     if (json_.wanted())
       documents_.push_back(fix_json(loaded.path, loaded.deck, whole, written, fixed->fixes));
     texts_ += report(whole, fixed->fixes, changed, loaded.path);
-    return whole.complete ? exit_clean : exit_findings;
+    // A deck that the solver does not take is not repaired, whatever was done about its contacts.
+    return whole.complete && !errors ? exit_clean : exit_findings;
   }
 
   /// Writes what the decks want together, and says what was done.

@@ -56,7 +56,7 @@ Result<void> write_vtk(const Options& o, const Loaded& loaded, const Scene& scen
   for (const VtkFile& f : written) files.push_back({(directory / f.name).string(), f.bytes});
   const VtkFile script = paraview_script(written);
   files.push_back({(directory / script.name).string(), script.bytes});
-  return write_outputs(files);
+  return write_outputs(files, {}, {"", true, true, true, o.vtk});
 }
 
 /// What page and drawing are made from.

@@ -28,11 +28,24 @@ struct Options {
   std::vector<std::string> select, ignore;
   std::string baseline, write_baseline;
   GateOptions gate;
-  bool geometry = false, fix = false, unsafe_fixes = false, diff = false, ruler = false;
+  bool geometry = false, no_geometry = false, fix = false, unsafe_fixes = false, diff = false,
+       ruler = false;
   bool changed = false, init = false, show_config = false;
   WriteChoice write;
   int per_rule = -1;  ///< not given: 10, or all with -v
 };
+
+/// How much of the geometry is looked at.
+enum class Geometry : std::uint8_t { none, quick, all };
+
+/// A gate is held against the whole deck.
+Geometry geometry_of(const Options& options, const LintConfig& config) {
+  if (options.no_geometry) return Geometry::none;
+  if (options.geometry || options.gate.given()) return Geometry::all;
+  if (config.geometry) return *config.geometry ? Geometry::all : Geometry::none;
+  const bool gate = config.gate.any() || !config.compare.empty() || !config.accepted.empty();
+  return gate ? Geometry::all : Geometry::quick;
+}
 
 constexpr std::initializer_list<const char*> formats = {"human",  "json",  "sarif",
                                                         "github", "junit", "gitlab"};
@@ -99,7 +112,7 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
 }
 
 LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptions& options,
-                       const Options& command, const DeckGate& gate) {
+                       const Options& command, Geometry geometry, const DeckGate& gate) {
   LintInput input{loaded.deck,
                   schemas,
                   &loaded.model,
@@ -108,11 +121,13 @@ LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptio
                   {&loaded.diagnostics},
                   {},
                   &loaded.engine};
-  if (command.geometry)
+  if (geometry != Geometry::none)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
-      check_geometry(context, reporter,
-                     {command.common.thread_count(), command.common.limits, &gate.gate,
-                      gate.earlier ? &*gate.earlier : nullptr});
+      return check_geometry(
+          context, reporter,
+          {command.common.thread_count(), command.common.limits,
+           geometry == Geometry::quick ? std::optional(QuickLook{}) : std::nullopt, &gate.gate,
+           gate.earlier ? &*gate.earlier : nullptr});
     });
   return run_lint(input, options);
 }
@@ -185,8 +200,10 @@ class Run {
     for (const std::string& o : options_.outputs) files.push_back(o.substr(o.find('=') + 1));
     if (const int bad = check_outputs(common_, files); bad != exit_clean) return bad;
     if (auto legal = check_fail_on(options_.gate); !legal) return usage(legal.error().message);
-    if (options_.gate.given() && !options_.geometry)
-      return usage("the bounds of the gate need --geometry");
+    if (options_.geometry && options_.no_geometry)
+      return usage("--geometry and --no-geometry exclude each other");
+    if (options_.gate.given() && options_.no_geometry)
+      return usage("the bounds of the gate need geometry; leave out --no-geometry");
     auto schemas = load_schemas(common_);
     if (!schemas) return usage(schemas.error().message);
     schemas_ = std::move(*schemas);
@@ -198,8 +215,9 @@ class Run {
     job->path = path;
     const auto config = config_of(options_.gate, path);
     if (!config) return usage(config.error().message);
-    // Without --geometry nothing is held against the gate.
-    auto gate = options_.geometry ? gate_of(options_.gate, *config, path) : DeckGate{};
+    const Geometry geometry = geometry_of(options_, *config);
+    // Without geometry nothing is held against the gate.
+    auto gate = geometry == Geometry::none ? DeckGate{} : gate_of(options_.gate, *config, path);
     if (!gate) return usage(gate.error().message);
     gate->note_baseline(common_, path);
     const auto lint = lint_options(options_, *config, *job);
@@ -212,7 +230,7 @@ class Run {
       code = loaded.error().code == Error::Code::config ? exit_usage : exit_input;
     } else {
       job->loaded = std::move(*loaded);
-      job->result = lint_loaded(*job->loaded, schemas_, *lint, options_, *gate);
+      job->result = lint_loaded(*job->loaded, schemas_, *lint, options_, geometry, *gate);
       const std::string given = options_.gate.level();
       const std::string fail_on = !given.empty()             ? given
                                   : !config->fail_on.empty() ? config->fail_on
@@ -391,7 +409,11 @@ int init(const Options& options) {
 
 /// For every deck, or for one in the current directory.
 int show_config(const Options& options) {
-  const GivenSettings given{options.select, options.ignore, options.baseline, options.gate};
+  const std::optional<bool> geometry = options.no_geometry ? std::optional(false)
+                                       : options.geometry  ? std::optional(true)
+                                                           : std::nullopt;
+  const GivenSettings given{options.select, options.ignore, options.baseline, options.gate,
+                            geometry};
   const std::vector<std::string>& decks = options.common.decks;
   for (const std::string& deck : decks.empty() ? std::vector<std::string>{"-"} : decks) {
     const auto config = config_of(options.gate, deck);
@@ -450,8 +472,10 @@ Action setup(CommandLine& line) {
   add_require_examined(line, o.common);
   add_gate_with_config(line, o.gate, "an error", "an error or a warning");
   line.flag("--geometry", o.geometry,
-            "Also check geometry and first cycle (rules DK3, DK4): penetrations, gaps against the "
-            "mesh, segments, contact forces and time step at the start");
+            "Check geometry and first cycle (rules DK3, DK4) however large the deck is: "
+            "penetrations, gaps against the mesh, segments, contact forces and time step at the "
+            "start. By default a deck that would take long is left out, and the report says so");
+  line.flag("--no-geometry", o.no_geometry, "Do not check geometry and first cycle");
   line.flag("--fix", o.fix,
             "Apply safe fixes: the reference solver does the same with the deck (DK511 apart: the "
             "values of a default block come into force). Decks are fixed together: a file that "

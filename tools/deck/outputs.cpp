@@ -112,13 +112,13 @@ Result<void> check_output(const std::string& path, const OutputRules& rules,
   }
   if (rules.overwrite || (rules.ours && rules.ours(path))) return {};
   if (rules.deck_tree && is_unchanged_output(path, origin)) return {};
-  if (!file_looks_like_deck(path)) return {};
+  if (!rules.deck_tree && !file_looks_like_deck(path)) return {};
   if (bytes && holds(path, static_cast<std::uint64_t>(status.st_size), *bytes)) return {};
   if (rules.deck_tree)
     return Error{Error::Code::config,
                  path +
-                     " is a deck or a part of one already, and another one; nothing was "
-                     "written. Name another directory, or add --overwrite to replace it"};
+                     " is there already, with other contents; nothing was written. Name another "
+                     "directory, or add --overwrite to replace it"};
   return refused(path, "it begins as a deck");
 }
 
@@ -161,8 +161,16 @@ bool& told_of_standard_output() {
   return told;
 }
 
+/// True once decks were written.
+bool& wrote_decks() {
+  static bool wrote = false;
+  return wrote;
+}
+
 std::string no_standard_output() {
-  return std::string("cannot write standard output: ") + std::strerror(errno);
+  return std::string("cannot write standard output") +
+         (errno == 0 ? "" : std::string(": ") + std::strerror(errno)) +
+         (wrote_decks() ? "; the decks were written" : "");
 }
 
 Result<void> write_standard_output(std::string_view bytes) {
@@ -175,13 +183,13 @@ Result<void> write_standard_output(std::string_view bytes) {
 
 }  // namespace
 
+void remember_written() { wrote_decks() = true; }
+
 bool finish_standard_output() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
   if (!told_of_standard_output())
-    std::fputs(errno == 0 ? "deck: error: cannot write standard output\n"
-                          : ("deck: error: " + no_standard_output() + "\n").c_str(),
-               stderr);
+    std::fputs(("deck: error: " + no_standard_output() + "\n").c_str(), stderr);
   return false;
 }
 

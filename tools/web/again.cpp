@@ -1,5 +1,6 @@
-// `deck lint` of a deck that a page edits again and again: what an edit did not touch is not looked
-// at once more. The page calls it by name; the files lie in the folder that it runs in.
+// `deck lint --no-geometry` of a deck that a page edits again and again: what an edit did not touch
+// is not looked at once more. The page calls it by name; the files lie in the folder that it runs
+// in.
 #include <emscripten/emscripten.h>
 
 #include <atomic>
@@ -19,7 +20,8 @@ namespace {
 
 using namespace deck;
 
-/// The document of `deck lint PATH --json -`; empty: the command itself has to say why not.
+/// The document of `deck lint PATH --no-geometry --json -`; empty: the command itself has to say
+/// why not.
 std::string lint_again(const std::string& path) {
   static const auto schemas = cli::load_schemas({});
   static lsp::Analyst analyst;

@@ -2,6 +2,7 @@
 // leave a doubt.
 #include "contact/distance/filtered_decisions.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "contact/distance/exact.hpp"
@@ -75,6 +76,17 @@ bool all_finite(const std::array<P, N>& x, const P& p, double gap) {
   return finite && std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
+/// Nodes at one place, bit for bit: their distance is 0 without any arithmetic.
+bool is_same(const P& a, const P& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+bool is_at_corner(const P& p, const std::array<P, 4>& corners) {
+  return std::any_of(corners.begin(), corners.end(), [&](const P& c) { return is_same(p, c); });
+}
+
+bool share_an_end(const std::array<P, 4>& x) {
+  return is_same(x[0], x[2]) || is_same(x[0], x[3]) || is_same(x[1], x[2]) || is_same(x[1], x[3]);
+}
+
 PairVerdict plain_verdict(const PenetrationRow& row) {
   PairVerdict out;
   out.in_contact = out.solver_acts = row.depth > 0;
@@ -123,7 +135,10 @@ PairVerdict PairJudge::judge(const P& p, const std::array<P, 4>& corners, bool t
   const PenetrationRow solver = measured_row<Form::reference>(p, corners, triangle, gap);
   if (accuracy_ == Accuracy::reference) return plain_verdict(solver);
   bool closer = false, touching = false;
-  if (accuracy_ == Accuracy::exact && all_finite(corners, p, gap)) {
+  if (is_at_corner(p, corners)) {
+    ++counters_.pairs;
+    closer = touching = gap > 0;
+  } else if (accuracy_ == Accuracy::exact && all_finite(corners, p, gap)) {
     ++counters_.pairs, ++counters_.double_double, ++counters_.exact;
     closer = gap > 0 && exact_compare_distance(p, corners, triangle, gap) < 0;
     touching = closer && exact_compare_distance(p, corners, triangle, 0.0) == 0;
@@ -141,7 +156,10 @@ PairVerdict PairJudge::judge(const std::array<P, 4>& x, double gap) {
   const PenetrationRow solver = measured_row<Form::reference>(x, gap);
   if (accuracy_ == Accuracy::reference) return plain_verdict(solver);
   bool closer = false, touching = false;
-  if (accuracy_ == Accuracy::exact && all_finite(x, x[0], gap)) {
+  if (share_an_end(x)) {
+    ++counters_.pairs;
+    closer = touching = gap > 0;
+  } else if (accuracy_ == Accuracy::exact && all_finite(x, x[0], gap)) {
     ++counters_.pairs, ++counters_.double_double, ++counters_.exact;
     closer = gap > 0 && exact_compare_distance(x[0], x[1], x[2], x[3], gap) < 0;
     touching = closer && exact_compare_distance(x[0], x[1], x[2], x[3], 0.0) == 0;

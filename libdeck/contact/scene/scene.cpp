@@ -258,6 +258,7 @@ class Builder {
         detail::radiation_distance(card.thermal, card.drad, contact.max_gap, contact.shortest_side);
     if (c_.options.penetrations) report_empty_sides(contact);
     if (c_.options.penetrations && computable(contact)) detail::find_penetrations(c_, contact);
+    detail::report_one_place(c_, contact);
     if (c_.options.nodal_stiffness && contact.istf >= 2) detail::set_nodal_stiffness(c_, contact);
     c_.scene.contacts.push_back(std::move(contact));
   }
@@ -364,6 +365,7 @@ class Builder {
         detail::radiation_distance(card.thermal, card.drad, contact.max_gap, contact.shortest_side);
     if (c_.options.penetrations) report_empty_sides(contact);
     if (c_.options.penetrations && computable(contact)) detail::find_edge_penetrations(c_, contact);
+    detail::report_one_place(c_, contact);
     c_.scene.contacts.push_back(std::move(contact));
   }
 

@@ -75,6 +75,10 @@ double part_thickness(const Model& model, ElementKind kind, std::uint32_t e);
 double solid_volume(const Coordinates& x, const NodeIndex* slots);
 double spring_stiffness(const Model& model, std::uint32_t spring);
 
+// one_place.cpp
+/// Reports (DK336) where many secondary nodes that touch the main side lie at one place.
+void report_one_place(SceneContext& context, const Contact& contact);
+
 // stiffness.cpp
 void set_main_stiffness(SceneContext& context, Contact& contact);
 void set_edge_stiffness(SceneContext& context, std::vector<ContactEdge>& edges,

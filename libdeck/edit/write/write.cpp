@@ -19,6 +19,7 @@
 #include <thread>
 #include <tuple>
 
+#include "deck/base/paths.hpp"
 #include "deck/text/source.hpp"
 #include "edit/write/rename.hpp"
 #include "edit/write/write_plan.hpp"
@@ -227,8 +228,26 @@ Result<void> Transaction::make_directories(const std::string& directory) {
   return {};
 }
 
+/// A link on the way from `directory` to the file would lead it elsewhere.
+Result<void> check_way(const std::string& directory, const std::string& path) {
+  fs::path at = absolute_path(directory);
+  for (const fs::path& part : fs::path(absolute_path(path)).lexically_relative(at)) {
+    at /= part;
+    std::error_code ec;
+    const fs::file_status status = fs::symlink_status(at, ec);
+    if (fs::exists(status) && !fs::is_directory(status) && !fs::is_regular_file(status))
+      return Error{Error::Code::config,
+                   at.string() +
+                       (fs::is_symlink(status) ? " is a symbolic link" : " is no regular file") +
+                       "; nothing was written. Remove it, or name another directory"};
+  }
+  return {};
+}
+
 Result<void> Transaction::prepare(const OutputFile& file) {
   Entry entry;
+  if (!options_.below.empty())
+    if (auto clear = check_way(options_.below, file.path); !clear) return clear;
   entry.given = file.path;
   entry.bytes = file.bytes;
   entry.pieces = file.pieces;
@@ -288,6 +307,10 @@ Result<void> Transaction::write_new(Entry& entry) {
       if (fchown(fd, entry.old.st_uid, entry.old.st_gid) != 0 && errno != EPERM && errno != EINVAL)
         return fail("cannot set the owner of");
     if (fchmod(fd, entry.old.st_mode & 07777) != 0) return fail("cannot set the mode of");
+    if (auto kept = keep_attributes(entry.target, fd); !kept) {
+      close(fd);
+      return kept;
+    }
   }
   if (auto written = write_contents(fd, entry.bytes, entry.pieces, entry.given); !written) {
     close(fd);

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 #include <tuple>
 
 #include "deck/report/gaps.hpp"
@@ -36,6 +38,14 @@ double number(const Json& object, const char* key) {
 
 std::int64_t whole(const Json& v) { return v.is_number_integer() ? v.get<std::int64_t>() : 0; }
 
+/// A document of `gaps --all` is large, and little of it is compared: the rest is not kept.
+bool is_compared(int, Json::parse_event_t event, Json& parsed) {
+  static const std::set<std::string, std::less<>> keys = {
+      "at",   "contacts",   "deck", "decks",    "depth",       "edge",         "gap", "id",
+      "node", "interfaces", "path", "pair_gap", "penetration", "penetrations", "role"};
+  return event != Json::parse_event_t::key || keys.contains(parsed.get_ref<std::string&>());
+}
+
 EarlierGaps::Row row_of(const Json& p) {
   EarlierGaps::Row row;
   const auto edge = p.find("edge");
@@ -61,7 +71,7 @@ EarlierGaps::Row row_of(const Json& p) {
 
 Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
                                       std::string_view deck_path, bool strict) {
-  const Json all = Json::parse(json.begin(), json.end(), nullptr, false);
+  const Json all = Json::parse(json.begin(), json.end(), is_compared, false);
   if (all.is_discarded()) return wrong(path, "this is not JSON");
   EarlierGaps out;
   const Json* document = is_gaps(all) ? &all : nullptr;

@@ -7,6 +7,7 @@
 
 #include "deck/base/columns.hpp"
 #include "deck/base/escape.hpp"
+#include "deck/base/paths.hpp"
 #include "deck/report/text_table.hpp"
 #include "report/diagnostics_common.hpp"
 #include "report/terminal/words.hpp"
@@ -117,6 +118,18 @@ class Human {
   }
 
  private:
+  /// False for a file outside the deck's folder that holds no keyword: an #include can name any
+  /// file of this machine, and its lines are not for the log of a build.
+  bool is_of_deck(std::uint32_t file) const {
+    const Deck& deck = *deck_.deck;
+    const auto folder = [&](std::uint32_t f) {
+      return std::string(parent_path(absolute_path(deck.sources[f].path()))) + "/";
+    };
+    return folder(file).starts_with(folder(0)) ||
+           std::any_of(deck.blocks.begin(), deck.blocks.end(),
+                       [&](const Block& b) { return b.header_span.file == file; });
+  }
+
   const char* color(Severity s) const {
     return s == Severity::error ? c_.error : s == Severity::warning ? c_.warning : c_.info;
   }
@@ -157,8 +170,7 @@ class Human {
     } else {
       out += fmt::format("{}{}-->{} {}:{}:{}\n{}\n", gutter, c_.blue, c_.off,
                          terminal_text(at.file), at.line, at.column, bar);
-      out += card(d, at, number, bar);
-      out += bar + "\n";
+      if (is_of_deck(d.span.file)) out += card(d, at, number, bar) + bar + "\n";
     }
     const auto note = [&](std::string_view label, const std::string& text) {
       if (!text.empty())

@@ -113,6 +113,8 @@ Result<void> plan_groups(const BatchOptions& o, BatchTask& task, BatchList& list
   if (task.in_place) {
     auto dependents = find_dependents(paths, task.root, o.common.include_paths);
     if (!dependents) return dependents.error();
+    if (const std::string where = dependents->where(); !where.empty() && !o.common.quiet)
+      print_note(where);
     if (task.with_dependents && !dependents->decks.empty()) {
       paths.insert(paths.end(), dependents->decks.begin(), dependents->decks.end());
       auto more = list_decks(paths, "", task.ending, o.directory, o.common.include_paths);

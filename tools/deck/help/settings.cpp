@@ -45,6 +45,11 @@ class Settings {
     else
       add_key("fail-on", config_.fail_on.empty() ? "" : in_quotes(config_.fail_on));
     one("baseline", given_.baseline, config_.baseline, "--baseline");
+    if (given_.geometry)
+      add("geometry", *given_.geometry ? "true" : "false",
+          *given_.geometry ? "--geometry" : "--no-geometry");
+    else
+      add_key("geometry", !config_.geometry ? "" : *config_.geometry ? "true" : "false");
     table("severity");
     for (const auto& [selector, severity] : config_.severity)
       add_key("severity." + selector, in_quotes(severity == Severity::error     ? "error"

@@ -1,6 +1,7 @@
 // The settings of lint and of the gate as people ask for them: a file to begin with, and what holds
 // for a deck and where it comes from.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct GivenSettings {
   std::vector<std::string> select, ignore;
   std::string baseline;
   GateOptions gate;
+  std::optional<bool> geometry;  ///< --geometry, --no-geometry
 };
 
 /// Every setting, its value and its origin: an option, a line of the configuration, or the default.

@@ -152,9 +152,12 @@ std::shared_ptr<const Geometry> examine(
   gate.on_fresh = gate.on_worse = false;  // there is no earlier run here
   LintInput input{*deck,       schemas, &model, &interfaces, model.selections.get(),
                   {&findings}, {},      &engine};
-  input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
-    check_geometry(context, reporter, {settings.threads, settings.limits, &gate, nullptr});
-  });
+  const bool wanted = !config || config->geometry.value_or(true);
+  if (wanted)
+    input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
+      return check_geometry(context, reporter,
+                            {settings.threads, settings.limits, std::nullopt, &gate, nullptr});
+    });
   LintResult result = run_lint(input, *options);
   for (Diagnostic& d : result.diagnostics) {
     const RuleStage stage = rule_of(d.rule).stage;

@@ -16,9 +16,9 @@ constexpr std::size_t most_content = std::size_t{2} << 30;
 std::optional<std::size_t> content_length(std::string_view header) {
   constexpr std::string_view name = "content-length:";
   while (!header.empty()) {
-    const auto end = std::min(header.find("\r\n"), header.size());
+    const auto end = std::min(header.find('\n'), header.size());
     std::string_view line = header.substr(0, end);
-    header.remove_prefix(std::min(end + 2, header.size()));
+    header.remove_prefix(std::min(end + 1, header.size()));
     std::string lower(line.substr(0, name.size()));
     for (char& c : lower)
       if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
@@ -31,6 +31,17 @@ std::optional<std::size_t> content_length(std::string_view header) {
     return n;
   }
   return std::nullopt;
+}
+
+/// Where the message begins, behind the empty line that ends a header; npos: it is not there yet.
+/// Some clients end lines with LF alone.
+std::size_t end_of_header(std::string_view text) {
+  for (auto at = text.find('\n'); at != text.npos; at = text.find('\n', at + 1)) {
+    const std::string_view rest = text.substr(at + 1, 2);
+    if (rest.starts_with('\n')) return at + 2;
+    if (rest == "\r\n") return at + 3;
+  }
+  return text.npos;
 }
 
 }  // namespace
@@ -51,13 +62,20 @@ bool Connection::fill() {
 }
 
 std::optional<std::string> Connection::read() {
-  std::size_t end = 0;
-  while ((end = buffer_.find("\r\n\r\n", begin_)) == buffer_.npos) {
-    if (buffer_.size() - begin_ > most_header || !fill()) return std::nullopt;
+  const auto unreadable = [&]() -> std::optional<std::string> {
+    write({{"jsonrpc", "2.0"},
+           {"id", nullptr},
+           {"error", {{"code", -32700}, {"message", "a header without Content-Length"}}}});
+    return std::nullopt;
+  };
+  std::size_t size = 0;
+  while ((size = end_of_header(std::string_view(buffer_).substr(begin_))) == buffer_.npos) {
+    if (buffer_.size() - begin_ > most_header) return unreadable();
+    if (!fill()) return std::nullopt;
   }
-  const auto length = content_length(std::string_view(buffer_).substr(begin_, end - begin_));
-  if (!length) return std::nullopt;
-  begin_ = end + 4;
+  const auto length = content_length(std::string_view(buffer_).substr(begin_, size));
+  if (!length) return unreadable();
+  begin_ += size;
   while (buffer_.size() - begin_ < *length)
     if (!fill()) return std::nullopt;
   std::string content = buffer_.substr(begin_, *length);

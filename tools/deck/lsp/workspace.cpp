@@ -120,9 +120,10 @@ std::vector<std::string> Workspace::candidates(const std::string& path) const {
 
 std::string Workspace::root_of(const std::string& path, bool& fragment) {
   fragment = false;
+  if (is_main_file(texts_.at(path))) return path;
   for (auto& [root, deck] : decks_)
     if (!deck.fragment && root != path && reaches(root, path)) return root;
-  if (is_main_file(texts_.at(path)) || has_starter_name(path)) return path;
+  if (has_starter_name(path)) return path;
   if (const std::string starter = starter_of_engine_file(path);
       !starter.empty() && reaches(starter, path))
     return starter;

@@ -22,7 +22,7 @@ void add_dependent_options(CommandLine& line, WriteChoice& choice) {
   const std::string group = "Decks that share files, with --in-place";
   line.option("--root", choice.root,
               "Where to look for other decks that include the same files (default: the git work "
-              "tree, else the folder of the deck)")
+              "tree, else the deepest folder that holds the deck and its includes)")
       .heading(group)
       .value("DIR");
   line.flag("--with-dependents", choice.with_dependents,
@@ -75,6 +75,8 @@ Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& 
   } else if ((choice_.in_place || choice_.diff) && ending == deck_ending) {
     auto dependents = find_dependents(*all, choice_.root, common_.include_paths);
     if (!dependents) return dependents.error();
+    if (const std::string where = dependents->where(); !where.empty() && !common_.quiet)
+      print_note(where);
     if (choice_.with_dependents)
       all->insert(all->end(), dependents->decks.begin(), dependents->decks.end());
     else
@@ -164,6 +166,7 @@ Result<void> Changes::write(bool list) {
     WriteOptions options;
     options.backup_suffix = choice_.backup_suffix;
     if (auto done = write_files_atomic(plan->files, options); !done) return done;
+    if (!plan->files.empty()) remember_written();
   } else {
     OutputRules rules;
     rules.deck_tree = true;
@@ -173,8 +176,9 @@ Result<void> Changes::write(bool list) {
     for (std::size_t d = 0; frame != nullptr && d < names_.size(); ++d)
       frame->decks[names_[d]].target = set_.main_target(d);
     if (auto announced = announce(plan->files); !announced) return announced;
-    WriteOptions options{"", true, true, frame == nullptr};
+    WriteOptions options{"", true, true, frame == nullptr, choice_.directory};
     if (auto done = write_outputs(plan->files, rules, options); !done) return done;
+    remember_written();
     for (const std::string& path : plan->outside)
       print_note(path + " is included by its absolute path and was not copied");
   }
@@ -188,7 +192,7 @@ Result<void> Changes::write_documents(const std::vector<OutputFile>& files, bool
   if (BatchFrame* frame = batch_frame(); frame != nullptr) rules.ours = frame->ours;
   if (auto allowed = check_outputs(files, rules); !allowed) return allowed;
   if (auto announced = announce(files); !announced) return announced;
-  WriteOptions options{"", true, true, batch_frame() == nullptr};
+  WriteOptions options{"", true, true, batch_frame() == nullptr, choice_.directory};
   if (auto done = write_outputs(files, rules, options); !done) return done;
   if (BatchFrame* frame = batch_frame(); frame != nullptr) frame->written = true;
   if (list) list_files(files);

@@ -50,11 +50,12 @@ std::string find_deck(const std::string& given) {
 }
 
 Result<std::vector<std::string>> files_below(const std::string& directory, std::string_view ending,
-                                             const std::string& output) {
+                                             const std::string& output,
+                                             fs::directory_options closed) {
   std::vector<std::string> found;
   const fs::path results = output.empty() ? fs::path() : absolute_of(output);
   std::error_code ec;
-  for (auto it = fs::recursive_directory_iterator(directory, ec);
+  for (auto it = fs::recursive_directory_iterator(directory, closed, ec);
        !ec && it != fs::recursive_directory_iterator(); it.increment(ec)) {
     const std::string name = it->path().filename().string();
     std::error_code status;
@@ -114,14 +115,54 @@ std::string common_root(const std::vector<std::string>& directories,
   return root ? root->string() : std::string();
 }
 
-std::string library_root(const std::string& deck) {
-  const fs::path folder = absolute_of(deck).parent_path();
+namespace {
+
+/// Empty: the file is in none.
+fs::path git_work_tree(const fs::path& file) {
   std::error_code ec;
-  for (fs::path dir = folder; !dir.empty(); dir = dir.parent_path()) {
-    if (fs::exists(dir / ".git", ec)) return dir.string();
+  for (fs::path dir = file.parent_path(); !dir.empty(); dir = dir.parent_path()) {
+    if (fs::exists(dir / ".git", ec)) return dir;
     if (dir == dir.parent_path()) break;
   }
-  return folder.string();
+  return {};
+}
+
+/// Adds where other decks may lie that include a file of this tree. Where only the root of the file
+/// system holds all of it, the folder of each file is taken: nobody searches a whole disk.
+void add_roots(const std::vector<IncludeScan::File>& tree, Dependents& out) {
+  std::vector<std::string> folders;
+  for (const IncludeScan::File& f : tree) {
+    std::error_code ec;
+    // Links and paths lead out of the folder: other decks lie beside the files they lead to.
+    for (const fs::path& path : {absolute_of(f.path), fs::canonical(f.path, ec)}) {
+      if (path.empty()) continue;
+      if (const fs::path work_tree = git_work_tree(path); !work_tree.empty())
+        out.roots.insert(work_tree.string());
+      else
+        folders.push_back(path.parent_path().string());
+    }
+  }
+  const std::string shared = common_root(folders, {});
+  if (fs::path(shared).has_relative_path()) folders = {shared};
+  for (const std::string& folder : folders) {
+    out.roots.insert(folder);
+    out.guessed = out.guessed || tree.size() > 1;
+  }
+}
+
+}  // namespace
+
+std::string library_root(const std::string& deck) {
+  const fs::path file = absolute_of(deck), work_tree = git_work_tree(file);
+  return (work_tree.empty() ? file.parent_path() : work_tree).string();
+}
+
+std::string Dependents::where() const {
+  if (!guessed) return {};
+  std::string list;
+  for (const std::string& root : roots) list += (list.empty() ? "" : ", ") + root;
+  return "other decks that include these files were looked for below " + list +
+         "; --root DIR names another place";
 }
 
 Result<Dependents> find_dependents(const std::vector<std::string>& decks, const std::string& root,
@@ -132,25 +173,20 @@ Result<Dependents> find_dependents(const std::vector<std::string>& decks, const 
   const auto take = [&](const std::vector<IncludeScan::File>& tree) {
     for (const IncludeScan::File& f : tree) files.insert(f.identity);
   };
-  std::set<std::string> roots;
+  if (!root.empty()) out.roots.insert(root);
   for (const std::string& deck : decks) {
     const auto tree = scan.files(deck);
     if (tree.empty()) continue;
     mains.insert(tree.front().identity);
     take(tree);
-    roots.insert(root.empty() ? library_root(deck) : root);
-    if (!root.empty()) continue;
-    // Links and paths lead out of the folder: other decks lie beside the files they lead to.
-    for (const IncludeScan::File& f : tree) {
-      std::error_code ec;
-      if (const fs::path real = fs::canonical(f.path, ec); !ec)
-        roots.insert(library_root(real.string()));
-    }
+    if (root.empty()) add_roots(tree, out);
   }
   const std::set<FileIdentity> own = files;
   std::vector<std::pair<std::string, std::vector<IncludeScan::File>>> others;
-  for (const std::string& directory : roots) {
-    const auto below = files_below(directory, deck_ending);
+  for (const std::string& directory : out.roots) {
+    const auto below = files_below(
+        directory, deck_ending, {},
+        root.empty() ? fs::directory_options::skip_permission_denied : fs::directory_options::none);
     if (!below) return below.error();
     for (const std::string& deck : *below) {
       auto tree = scan.files(deck);

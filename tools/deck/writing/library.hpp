@@ -1,8 +1,10 @@
 // Decks on disk as a library: which lie below a directory, which share files, and what directory
 // holds all of them.
 #pragma once
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,9 +21,10 @@ std::string find_deck(const std::string& given);
 
 /// All files below a directory whose names end so, packed (".gz") ones included where
 /// the plain one is not there as well, sorted; hidden directories and `output`, where
-/// results go, are passed over.
-Result<std::vector<std::string>> files_below(const std::string& directory, std::string_view ending,
-                                             const std::string& output = {});
+/// results go, are passed over. `closed`: what is done about directories that may not be read.
+Result<std::vector<std::string>> files_below(
+    const std::string& directory, std::string_view ending, const std::string& output = {},
+    std::filesystem::directory_options closed = std::filesystem::directory_options::none);
 
 /// `given` with every directory replaced by the decks below it, and every pattern (* ? [ ]) that no
 /// file is called by those that it matches. Error: a directory without a deck, a pattern that
@@ -38,12 +41,17 @@ std::string common_root(const std::vector<std::string>& directories,
 /// The git work tree that holds a file, else its folder.
 std::string library_root(const std::string& deck);
 
-/// The decks below `root` that are not among `decks` and include one of their files.
+/// The decks below `roots` that are not among `decks` and include one of their files.
 struct Dependents {
+  std::set<std::string> roots;
+  bool guessed = false;  ///< some of `roots` are neither given nor git work trees
+  /// Where was looked, for people; empty: where they expect it.
+  std::string where() const;
   std::vector<std::string> decks;              ///< sorted; those that follow from others included
   std::map<FileIdentity, std::string> shared;  ///< file of `decks` -> a deck that includes it, too
 };
-/// `root` empty: library_root of each deck.
+/// `root` empty: the git work trees of the files; for files in none the deepest folder that holds
+/// those of their deck.
 Result<Dependents> find_dependents(const std::vector<std::string>& decks, const std::string& root,
                                    const std::vector<std::string>& include_paths);
 

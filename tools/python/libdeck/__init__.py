@@ -435,8 +435,10 @@ class Deck:
         """The document of ``deck params --json``."""
         return _json.loads(self._native.params_json())
 
-    def lint(self, geometry: bool = False, select: Iterable[str] = (), ignore: Iterable[str] = ()) -> List[Finding]:
-        """All findings, sorted by file, line, column and rule. No configuration file is read."""
+    def lint(self, geometry: bool = True, select: Iterable[str] = (), ignore: Iterable[str] = ()) -> List[Finding]:
+        """All findings, sorted by file, line, column and rule; ``geometry=False`` without those of rules DK3 and DK4.
+
+        No configuration file is read."""
         document = _json.loads(self._native.lint_json(geometry, list(select), list(ignore)))
         known = Finding.__dataclass_fields__
         return [Finding(**{k: v for k, v in f.items() if k in known}) for f in document["diagnostics"]]

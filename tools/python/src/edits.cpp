@@ -1,4 +1,5 @@
 // libdeck._native: conversions and repairs of a deck, kept in memory until somebody writes them.
+#include <cmath>
 #include <functional>
 #include <map>
 
@@ -137,6 +138,12 @@ EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
                      std::optional<double> max_displacement,
                      const std::vector<std::int64_t>& lock) {
   must_be_whole(*d);
+  const auto share = [](double x) { return x >= 0 && x <= 1; };
+  must_be(share(min_gap), "min_gap is a share from 0 to 1");
+  must_be(share(max_moved), "max_moved is a share from 0 to 1");
+  must_be(!fpenmax || share(*fpenmax), "fpenmax is a share from 0 to 1");
+  must_be(!max_displacement || (*max_displacement > 0 && std::isfinite(*max_displacement)),
+          "max_displacement is a finite length above 0");
   FixOptions base;
   base.threads = d->options.threads;
   base.interfaces = interfaces;
@@ -217,6 +224,7 @@ std::vector<std::string> write_tree(const PyEdit& edit, const std::string& direc
   }
   WriteOptions options;
   options.make_directories = true;
+  options.below = directory;
   const auto done = [&] {
     const py::gil_scoped_release free;
     return write_files_atomic(plan->files, options);

@@ -123,7 +123,7 @@ std::string lint_text(PyDeck& d, bool geometry, const std::vector<std::string>& 
                   {}};
   if (geometry)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
-      check_geometry(context, reporter, {d.options.threads, d.options.read.limits});
+      return check_geometry(context, reporter, {d.options.threads, d.options.read.limits});
     });
   LintOptions options;
   options.select = select;
@@ -244,4 +244,9 @@ PYBIND11_MODULE(_native, m) {
   m.def("load", &load_deck);
   bind_results(m);
   bind_edits(m);
+  // An object that Python makes by itself would lead nowhere.
+  const py::cpp_function none([](const py::args&, const py::kwargs&) {
+    throw py::type_error("only libdeck makes these objects");
+  });
+  for (const char* name : {"Deck", "Scene", "Cycle", "Edit"}) m.attr(name).attr("__new__") = none;
 }

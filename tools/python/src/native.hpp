@@ -74,4 +74,9 @@ py::array member_view(const std::vector<Row>& rows, T Row::*member, const py::ob
 void bind_results(py::module_& m);
 void bind_edits(py::module_& m);
 
+/// ValueError where it is not so.
+inline void must_be(bool so, const char* what) {
+  if (!so) throw py::value_error(what);
+}
+
 }  // namespace deck::python

@@ -1,5 +1,6 @@
 // libdeck._native: gaps and first-cycle forces, as JSON text and as arrays over the scene.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "deck/contact/crossings.hpp"
@@ -109,7 +110,13 @@ ScenePointer contacts_of(const DeckPointer& deck, const std::vector<std::int64_t
 }
 
 std::array<double, 3> velocity_of(const py::handle& value) {
-  return value.cast<std::array<double, 3>>();
+  try {
+    const auto v = value.cast<std::array<double, 3>>();
+    if (std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); })) return v;
+  } catch (const py::cast_error&) {  // the message of which says nothing about velocities
+  }
+  throw py::value_error("a velocity is three finite numbers, not " +
+                        py::repr(value).cast<std::string>());
 }
 
 CyclePointer forces_of(const DeckPointer& deck, const std::vector<std::int64_t>& only,
@@ -117,6 +124,8 @@ CyclePointer forces_of(const DeckPointer& deck, const std::vector<std::int64_t>&
                        double time, const py::dict& velocities) {
   if (model != "reference" && model != "robust")
     throw py::value_error("model is 'reference' or 'robust', not '" + model + "'");
+  must_be(dt >= 0 && std::isfinite(dt), "dt is a finite time, 0 or more");
+  must_be(std::isfinite(time), "time is a finite number");
   std::vector<cycle::PartVelocity> given;
   for (const auto& [part, velocity] : velocities) {
     const auto id = part.cast<std::int64_t>();

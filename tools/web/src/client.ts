@@ -39,7 +39,7 @@ export class Lane {
   /** Rejects with Cancelled where it is ended before it is done. */
   run(args: string[], files: Files): Promise<Result> {
     // What a machine took is given back at once only with its thread.
-    const stays = args[0] === "lint" || args[0] === "params" || args[0] === "show";
+    const stays = (args[0] === "lint" && args.includes("--no-geometry")) || args[0] === "params" || args[0] === "show";
     return this.ask({ args, files }, () => stays);
   }
 

@@ -180,7 +180,7 @@ export class Kept {
   constructor(private readonly create: Factory, private readonly code: WebAssembly.Module) {}
 
   /**
-   * What `deck lint DECK --json -` prints after these files have changed; null: the command is to be asked
+   * What `deck lint DECK --no-geometry --json -` prints after these files have changed; null: the command is to be asked
    * itself. After that the machine is gone, and the next call has to bring all files.
    */
   async lint(deck: string, changed: Record<string, Uint8Array>): Promise<Uint8Array | null> {

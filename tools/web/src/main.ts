@@ -212,7 +212,7 @@ async function refreshText(): Promise<void> {
   const size = [...files.values()].reduce((sum, b) => sum + b.length, 0);
   const again = size > mostKept ? null : await whileBusy(async () => ({ stdout: await lanes.kept.lint(main, files) }));
   if (size <= mostKept && !again) return;
-  const r = again?.stdout ? { exitCode: 0, stdout: again.stdout, stderr: new Uint8Array(), files: {} } : await run(lanes.lint, ["lint", main, "--json", "-", "-q"]);
+  const r = again?.stdout ? { exitCode: 0, stdout: again.stdout, stderr: new Uint8Array(), files: {} } : await run(lanes.lint, ["lint", main, "--no-geometry", "--json", "-", "-q"]);
   if (r) showLint(r, "text");
 }
 

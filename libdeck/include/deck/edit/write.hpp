@@ -44,11 +44,15 @@ struct WriteOptions {
   bool follow_links = true;
   bool sync = true;  ///< flush files and directories to the disk; false: survives a kill of the
                      ///< process, but not surely a loss of power
+  /// Not empty: all files go below this directory. Where a link stands in place of a file or of a
+  /// directory below it, or something else that is no regular file, nothing is written.
+  std::string below = {};
 };
 
 /// Puts one file in place in one step. At any moment, also after a kill, the path holds the old
-/// bytes or the new ones, whole. A replaced file keeps its permissions and, where allowed, its
-/// owner; a symbolic link stays one and the file it leads to is replaced; devices and pipes are
+/// bytes or the new ones, whole. A replaced file keeps its permissions, its
+/// access list and other extended attributes (what cannot be kept is an error) and, where allowed,
+/// its owner; a symbolic link stays one and the file it leads to is replaced; devices and pipes are
 /// written through; a file that may not be written is not replaced either. Error: the system's
 /// reason. The old file is then as it was and nothing is left beside it, unless all that failed is
 /// flushing the directory at the end. A kill can leave a hidden file, see is_temporary_of.

@@ -39,6 +39,7 @@ struct LintConfig {
   std::vector<std::string> select, ignore;
   std::string fail_on;
   std::string baseline;
+  std::optional<bool> geometry;  ///< nullopt: as far as it is quick
   std::map<std::string, Severity> severity;
   std::vector<std::pair<std::string, std::vector<std::string>>> per_file_ignores;
   Gate gate;

@@ -1,27 +1,38 @@
 // Geometry in lint: builds the contacts of the deck and reports the rules DK3xx — penetrations,
 // gaps against the mesh, segments that cannot work — and DK4xx: forces and time step of the first
-// cycle. Costs more than all other rules together, so it
-// runs only where it is asked for.
+// cycle.
 #pragma once
+#include <optional>
+#include <vector>
+
 #include "deck/contact/scene.hpp"
 #include "deck/lint/gate.hpp"
 #include "deck/lint/lint.hpp"
 
 namespace deck {
 
-/// A check for LintInput::extra_checks:
-///
-///   input.extra_checks.push_back([](const LintContext& c, Reporter& r) { check_geometry(c, r); });
-///
+/// How much is looked at where nobody asks for all of it. Counts that are known from the deck
+/// decide, no clock: a deck has the same findings on every machine.
+struct QuickLook {
+  std::uint64_t items = 1'000'000;  ///< nodes, elements and members of the sides of all contacts
+  std::uint64_t pair_bytes = std::uint64_t{64} << 20;  ///< see Limits::pair_bytes
+};
+
 struct GeometryOptions {
   int threads = 1;  ///< changes no finding
   Limits limits = {};
-  const Gate* gate = nullptr;  ///< what passes over it is reported, too
+  std::optional<QuickLook> quick = {};  ///< nullopt: all is looked at
+  const Gate* gate = nullptr;           ///< what passes over it is reported, too
   const EarlierGaps* earlier = nullptr;
 };
 
-/// Does nothing where the context has no model or interfaces.
-void check_geometry(const LintContext& context, Reporter& reporter,
-                    const GeometryOptions& options = {});
+/// A check for LintInput::extra_checks; returns what the quick look left out. Does nothing where
+/// the context has no model or interfaces.
+///
+///   input.extra_checks.push_back(
+///       [](const LintContext& c, Reporter& r) { return check_geometry(c, r); });
+///
+std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& reporter,
+                                       const GeometryOptions& options = {});
 
 }  // namespace deck

@@ -110,9 +110,20 @@ struct LintOptions {
   int diagnostics_per_rule = Limits{}.diagnostics_per_rule;
 };
 
+struct NotChecked {
+  std::string what, why;
+};
+
+/// What the rules DK3 and DK4 look at, in a list of what was not checked.
+inline constexpr std::string_view geometry_rules =
+    "geometry: penetrations, gaps against mesh size, contact time step";
+
+/// Reports rules of RuleStage::extra (geometry), and returns what it did not look at.
+using ExtraCheck = std::function<std::vector<NotChecked>(const LintContext&, Reporter&)>;
+
 /// Input of a run. `earlier` are the collectors of the model, the selections and the interfaces;
 /// what reading said is taken from the deck itself. `extra_checks` is where later stages (geometry)
-/// hook in: each reports rules of RuleStage::extra.
+/// hook in.
 struct LintInput {
   const Deck& deck;
   const SchemaSet& schemas;
@@ -120,12 +131,8 @@ struct LintInput {
   const Interfaces* interfaces = nullptr;
   Selections* selections = nullptr;
   std::vector<const Diagnostics*> earlier = {};
-  std::vector<std::function<void(const LintContext&, Reporter&)>> extra_checks = {};
+  std::vector<ExtraCheck> extra_checks = {};
   const EngineFiles* engine = nullptr;  ///< those beside the deck; nullptr: not looked for
-};
-
-struct NotChecked {
-  std::string what, why;
 };
 
 struct LintResult {

@@ -155,9 +155,13 @@ cycle::SceneOutcome check_cycle(const GeometryRun& run) {
   options.threads = run.threads;
   cycle::SceneOutcome outcome = cycle::run_cycle(run.scene, cycle::make_state(run.scene), options);
   for (const cycle::ContactOutcome& c : outcome.contacts)
-    if (!c.complete && c.contact->evaluated && !c.notes.empty())
-      run.report(RuleId::DK381, *c.contact, gap_field(*c.contact),
-                 fmt::format("{}: {}", name_of(run, *c.contact), c.notes.back()));
+    if (!c.complete && c.contact->evaluated && !c.notes.empty()) {
+      if (run.left_out != nullptr)
+        run.left_out->push_back(too_many_pairs(name_of(run, *c.contact), "forces"));
+      else
+        run.report(RuleId::DK381, *c.contact, gap_field(*c.contact),
+                   fmt::format("{}: {}", name_of(run, *c.contact), c.notes.back()));
+    }
   const DeletionStep deletion = deletion_step(run.context);
   for (const InterfaceSummary& s : cycle::summarize(run.scene, outcome)) {
     const Contact* contact = contact_of(outcome, s);

@@ -16,6 +16,8 @@ struct GeometryRun {
   const Scene& scene;
   const SceneView& view;
   int threads = 1;
+  /// Takes contacts that are too large for a quick look; nullptr: those are findings.
+  std::vector<NotChecked>* left_out = nullptr;
 
   const Model& model() const { return *scene.model; }
   /// The card of a contact; nullptr never happens for contacts of this deck.
@@ -33,6 +35,8 @@ inline std::string_view gap_field(const Contact& contact) { return traits_of(*co
 std::string nodes_text(const Model& model, const MainSegment& segment);
 /// "element 7 of part 2", or "no element".
 std::string element_text(const ElementName& element);
+/// For GeometryRun::left_out. `what` of the contact was not looked at.
+NotChecked too_many_pairs(const std::string& contact, std::string_view what);
 /// "1 segment", "3 segments"
 std::string count_text(std::size_t n, std::string_view one);
 /// `list` with at most five items, then how many more.

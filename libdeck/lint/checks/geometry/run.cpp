@@ -52,36 +52,103 @@ std::string list_text(const std::vector<std::int64_t>& list) {
   return out;
 }
 
+namespace {
+
+std::uint64_t segments_of(Selections& selections, std::int64_t surface) {
+  const auto outline = selections.outline(surface);
+  return outline ? outline->segments.size() : 0;
+}
+
+std::uint64_t edges_of(Selections& selections, std::int64_t id) {
+  const LineSet* line = selections.line(id);
+  return line == nullptr ? 0 : line->edges.size();
+}
+
+/// Members of the sides of an interface.
+std::uint64_t members_of(Selections& selections, const InterBase& inter) {
+  std::uint64_t out = 0;
+  visit_interface(inter, [&](const auto& i) {
+    if constexpr (requires { i.line_IDs; })
+      out = edges_of(selections, i.line_IDs.value) + edges_of(selections, i.line_IDm.value);
+    else if constexpr (requires { i.surf_IDs; })  // both ways round, and edges
+      out = 4 *
+            (segments_of(selections, i.surf_IDs.value) + segments_of(selections, i.surf_IDm.value));
+    else {
+      const NodeSet* group = selections.node_group(i.grnd_IDs.value);
+      out = segments_of(selections, i.surf_IDm.value) + (group ? group->nodes.size() : 0);
+    }
+  });
+  return out;
+}
+
+/// What the contacts of a model and what they are made from count up to.
+std::uint64_t items_of(const LintContext& context) {
+  const Model& m = *context.model;
+  std::uint64_t out = m.nodes.size();
+  for (const Elements* e :
+       {&m.shell4, &m.shell3, &m.solid8, &m.quad, &m.tria, &m.truss, &m.beam, &m.spring})
+    out += e->size();
+  for (const InterBase* inter : context.interfaces->ordered)
+    out += members_of(*context.selections, *inter);
+  return out;
+}
+
+}  // namespace
+
+NotChecked too_many_pairs(const std::string& contact, std::string_view what) {
+  return {fmt::format("{}: {}", contact, what),
+          "too many pairs are within its gap for a quick look; --geometry looks at them all"};
+}
+
 }  // namespace detail
 
-void check_geometry(const LintContext& context, Reporter& reporter, const GeometryOptions& chosen) {
-  if (context.model == nullptr || context.interfaces == nullptr) return;
+std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& reporter,
+                                       const GeometryOptions& chosen) {
+  std::vector<NotChecked> left_out;
+  if (context.model == nullptr || context.interfaces == nullptr || context.selections == nullptr ||
+      context.interfaces->ordered.empty())
+    return left_out;
+  if (const std::uint64_t items = chosen.quick ? detail::items_of(context) : 0;
+      chosen.quick && items > chosen.quick->items)
+    return {{std::string(geometry_rules),
+             fmt::format("the model and the sides of its contacts have {} nodes, elements and "
+                         "segments, more than {}; --geometry looks at all of them",
+                         items, chosen.quick->items)}};
   Diagnostics found;
   SceneOptions options;
   options.threads = chosen.threads;
   options.limits = chosen.limits;
+  if (chosen.quick)
+    options.limits.pair_bytes = std::min(options.limits.pair_bytes, chosen.quick->pair_bytes);
   options.candidates = false;
   options.nodal_stiffness = true;  // the forces of Istf 2 to 5 need it
   const Scene scene = build_scene(*context.model, *context.interfaces, found, options);
   for (const Diagnostic& d : found.all()) {
     // The check of references says it with the cell and the reason.
     if (d.rule == RuleId::DK172 || d.rule == RuleId::DK173) continue;
+    if (chosen.quick && d.rule == RuleId::DK390) {
+      left_out.push_back(
+          detail::too_many_pairs(fmt::format("{} {}", d.keyword, d.id), "penetrations and forces"));
+      continue;
+    }
     if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message))
       out->severity = d.severity;
   }
   const SceneView view = make_view(scene);
-  const detail::GeometryRun run{context, reporter, scene, view, chosen.threads};
+  const detail::GeometryRun run{context, reporter,       scene,
+                                view,    chosen.threads, chosen.quick ? &left_out : nullptr};
   detail::check_penetrations(run);
   detail::check_gaps(run);
   detail::check_segments(run);
   detail::check_manual_geometry(run);
   const cycle::SceneOutcome forces = detail::check_cycle(run);
-  if (chosen.gate == nullptr) return;
+  if (chosen.gate == nullptr) return left_out;
   for (const Diagnostic& d : check_gate(*chosen.gate, scene, view, &forces, chosen.earlier))
     if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message)) {
       out->keyword = d.keyword;
       out->id = d.id;
     }
+  return left_out;
 }
 
 }  // namespace deck
