@@ -131,8 +131,12 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
           detail::too_many_pairs(fmt::format("{} {}", d.keyword, d.id), "penetrations and forces"));
       continue;
     }
-    if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message))
+    if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message)) {
       out->severity = d.severity;
+      out->keyword = d.keyword;
+      out->id = d.id;
+      out->notes = d.notes;
+    }
   }
   const SceneView view = make_view(scene);
   const detail::GeometryRun run{context, reporter,       scene,
