@@ -189,11 +189,12 @@ TEST(NodesAtOnePlace, AreDecidedWithoutAnyArithmeticAndReportedOnce) {
     for (const PenetrationRow& r : b.contact().penetrations) EXPECT_TRUE(r.on_surface);
     ASSERT_EQ(b.diagnostics.counts().count(RuleId::DK336), 1u) << card;
     EXPECT_EQ(b.diagnostics.counts().at(RuleId::DK336), 1u) << card;
-    for (const Diagnostic& d : b.diagnostics.all())
+    for (const Diagnostic& d : b.diagnostics.all()) {
       if (d.rule == RuleId::DK336)
         EXPECT_NE(d.message.find("40 nodes at one place (50, 0.1, -7), 1 and 40 among them"),
                   std::string::npos)
             << d.message;
+    }
   }
 }
 

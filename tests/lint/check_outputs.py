@@ -103,7 +103,7 @@ def configuration(c, tmp):
     r = c.run("lint", deck, "--no-config")
     c.check("--no-config", r.returncode == 1)
     open(settings, "w").write('[severity]\nDK177 = "info"\n')
-    c.check("severity from the configuration", c.run("lint", deck).returncode == 0)
+    c.check("severity from the configuration", c.run("lint", deck, "--no-geometry").returncode == 0)
     open(settings, "w").write('ignore = "DK177"\n')
     r = c.run("lint", deck)
     c.check("wrong configuration: 2, with file and line", r.returncode == 2 and ".decklint.toml:1" in r.stderr, r.stderr)

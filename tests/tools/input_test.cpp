@@ -62,7 +62,7 @@ TEST_F(Input, ARewrittenPackedDeckIsPackedAgain) {
 }
 
 TEST_F(Input, AFileThatTheSystemMakesIsNoEmptyInclude) {
-  write(dir_ / "x_0000.rad", "#RADIOSS STARTER\n#include /proc/self/environ\n");
+  write(dir_ / "x_0000.rad", std::string(begin) + "#include /proc/self/environ\n/END\n");
   EXPECT_EQ(deck("lint x_0000.rad --no-config"), 3);
   EXPECT_THAT(out(), HasSubstr("the system makes it as it is read"));
 }

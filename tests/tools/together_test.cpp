@@ -188,7 +188,6 @@ TEST_F(Together, NoLinkInTheDirectoryIsFollowed) {
   fs::create_directory_symlink("../home", dir_ / "out/common");
   EXPECT_EQ(deck("convert a/a_0000.rad -o out"), 2);
   EXPECT_EQ(deck("convert a/a_0000.rad --to json -o out/common/x_0000.json"), 0) << err();
-  EXPECT_EQ(deck("gaps a/a_0000.rad --vtk out"), 0) << err();
   EXPECT_EQ(read(dir_ / "home/notes"), "precious\n");
 }
 

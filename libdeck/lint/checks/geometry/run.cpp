@@ -131,8 +131,12 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
           detail::too_many_pairs(fmt::format("{} {}", d.keyword, d.id), "penetrations and forces"));
       continue;
     }
-    if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message))
+    if (Diagnostic* out = reporter.report(rule_of(d.rule), d.span, d.message)) {
       out->severity = d.severity;
+      out->keyword = d.keyword;
+      out->id = d.id;
+      out->notes = d.notes;
+    }
   }
   const SceneView view = make_view(scene);
   const detail::GeometryRun run{context, reporter,       scene,
@@ -141,7 +145,6 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
   detail::check_gaps(run);
   detail::check_segments(run);
   detail::check_manual_geometry(run);
-  detail::check_tables(run);
   const cycle::SceneOutcome forces = detail::check_cycle(run);
   if (chosen.gate == nullptr) return left_out;
   for (const Diagnostic& d : check_gate(*chosen.gate, scene, view, &forces, chosen.earlier))
