@@ -437,9 +437,10 @@ def units_and_parameters():
 def solid_and_skin():
     d = Deck("solid_and_skin", "solids, and shells on their skin")
     d.note("""A block of eight bricks with shells on a quarter of its top, a tetrahedron above it.
-              Surface 1 is the outside of the bricks only (no thickness, solid stiffness); surface 2 also lists the
-              skin, and there the shell replaces the brick face. The tip of the tetrahedron is 0.05 mm inside the default gap
-              of interface 1 (a tenth of the shortest side: 0.5 mm) and outside the gap of interface 2.""")
+              Surface 1 is the outside of the bricks as a group of solids (no thickness, solid stiffness). The solver loses the
+              face under the shell there, and with it the contact: the tip of the tetrahedron, 0.45 mm above that face, is inside
+              the default gap of interface 1 (a tenth of the shortest side: 0.5 mm), and no penetration is found (DK063).
+              Surface 2 names the parts of the bricks and of the skin; there the shell replaces the brick face.""")
     d.elastic(1, "steel")
     d.elastic(2, "rubber", 1.1e-6, 0.005, 0.45)
     d.solid_prop(1, "solid")

@@ -1,5 +1,4 @@
-// What the deck says about nodes besides contact: fixed translations, ties of other interfaces, and
-// elements that are gone.
+// What the deck says about nodes besides contact: fixed translations, and elements that are gone.
 #include <algorithm>
 
 #include "cycle/contact_run.hpp"
@@ -82,15 +81,6 @@ std::vector<std::uint8_t> fixed_translations(const deck::Model& model) {
       if (n != no_index) fixed[n] |= code;
   });
   return fixed;
-}
-
-std::vector<std::uint8_t> tied_secondary_nodes(const deck::Model& model) {
-  std::vector<std::uint8_t> tied(model.nodes.size(), 0);
-  each_group(model, "/INTER/TYPE2", "grnd_IDs", [&](const DecodedBlock&, const NodeSet& nodes) {
-    for (const NodeIndex n : nodes.nodes)
-      if (n != no_index) tied[n] = 1;
-  });
-  return tied;
 }
 
 void follow_dead_elements(const RunContext& run, const Contact& contact, int idel,

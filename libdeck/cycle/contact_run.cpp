@@ -14,6 +14,11 @@ namespace {
 
 constexpr std::size_t most_listed = 20;
 
+/// True if a tie of another interface holds the pair already.
+bool held(const ContactMemory& memory, CandidatePair at) {
+  return std::binary_search(memory.tied_elsewhere.begin(), memory.tied_elsewhere.end(), at);
+}
+
 /// Stiffness, residual penetration, friction memory and ties of pairs [begin, end), as remembered.
 /// `known`: what the evaluation before has left of all pairs.
 PairInputs recall(const ContactPairs& pairs, std::size_t begin, std::size_t end,
@@ -32,7 +37,8 @@ PairInputs recall(const ContactPairs& pairs, std::size_t begin, std::size_t end,
   };
   for (std::size_t i = 0; i < count; ++i) {
     const CandidatePair at = pairs.at[begin + i];
-    if (off(memory.off, at.secondary) || off(memory.main_off, at.main)) in.k0[i] = 0.0;
+    if (off(memory.off, at.secondary) || off(memory.main_off, at.main) || held(memory, at))
+      in.k0[i] = 0.0;
   }
   if (!memory.started) {
     in.p0 = piece(pairs.p0);
@@ -354,6 +360,17 @@ void note_gaps(const State& state, ContactOutcome& out) {
     out.notes.emplace_back("the deck gives no initial temperature: all are 0");
 }
 
+/// Pairs within reach that Irem_i2 = 1 leaves out.
+void note_held(const ContactMemory& m, ContactOutcome& out) {
+  if (m.tied_elsewhere.empty()) return;
+  const auto count = std::count_if(m.candidates.at.begin(), m.candidates.at.end(),
+                                   [&](const CandidatePair& at) { return held(m, at); });
+  if (count > 0)
+    out.notes.push_back(std::to_string(count) + (count == 1 ? " pair lies" : " pairs lie") +
+                        " around a tie of /INTER/TYPE2 and " + (count == 1 ? "is" : "are") +
+                        " left out (Irem_i2 = 1)");
+}
+
 /// Searches the pairs again when the nodes may have come nearer than what was searched.
 void refresh(const RunContext& run, const Contact& contact, const ContactCard& card,
              ContactMemory& m) {
@@ -432,14 +449,11 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
     return refuse(why);
   out.active = is_active(out.card, options.time);
   if (m.off.empty()) begin(run, contact, m);
-  if (m.tied_elsewhere > 0)
-    out.notes.push_back(std::to_string(m.tied_elsewhere) +
-                        (m.tied_elsewhere == 1 ? " secondary node is" : " secondary nodes are") +
-                        " tied by /INTER/TYPE2 and left out of this interface (Irem_i2 = 1)");
   if (!out.active) return {};
   follow_dead_elements(run, contact, out.card.idel, m, out.removed);
   refresh(run, contact, out.card, m);
   const ContactPairs& pairs = m.candidates;
+  note_held(m, out);
   out.complete = pairs.complete;
   if (!pairs.complete)
     out.notes.emplace_back(

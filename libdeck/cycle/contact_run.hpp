@@ -62,7 +62,7 @@ struct ContactMemory {
   std::vector<PairMemory> pairs;       ///< in the order of the search
   std::vector<std::uint8_t> off;       ///< by secondary node or edge: out of the interface for good
   std::vector<std::uint8_t> main_off;  ///< by main segment or edge, Idel
-  std::size_t tied_elsewhere = 0;      ///< secondary nodes out because of Irem_i2
+  std::vector<CandidatePair> tied_elsewhere;  ///< Irem_i2: pairs that are dropped, sorted
   /// Inacti 5, 6 between edges: what is taken off now, and the most that pairs of this cycle allow.
   std::array<std::vector<double>, 2> used, most;
   ContactPairs candidates;
@@ -119,8 +119,10 @@ void begin(const RunContext& run, const Contact& contact, ContactMemory& m);
 
 /// Translations that /BCS fix, by node: 4 X + 2 Y + Z.
 std::vector<std::uint8_t> fixed_translations(const deck::Model& model);
-/// Secondary nodes of all /INTER/TYPE2, by node.
-std::vector<std::uint8_t> tied_secondary_nodes(const deck::Model& model);
+/// Pairs that a tie (/INTER/TYPE2) holds already, sorted: those of a tied node with segments that
+/// share a corner with the one it is tied to, and those of segments at a tied node with the corners
+/// of that one.
+std::vector<CandidatePair> pairs_around_ties(const RunContext& run, const Contact& contact);
 
 /// Idel: takes out main segments and edges whose elements are gone at this time, and secondary
 /// nodes (edges) without any element left; those go into `removed`.

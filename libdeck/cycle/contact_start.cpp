@@ -116,18 +116,12 @@ void begin(const RunContext& run, const Contact& contact, ContactMemory& m) {
   m.off.assign(
       std::max<std::size_t>(1, edges ? contact.secondary_edges.size() : contact.secondary.size()),
       0);
-  if (edges || contact.type != 7) return;
+  if (edges) return;
   bool drops = false;
   visit_interface(*contact.inter, [&](const auto& inter) {
     if constexpr (requires { inter.Irem_i2; }) drops = inter.Irem_i2.value == 1;
   });
-  if (!drops) return;
-  const std::vector<std::uint8_t> tied = tied_secondary_nodes(*run.scene.model);
-  for (std::size_t i = 0; i < contact.secondary.size(); ++i) {
-    if (tied[contact.secondary[i].node] == 0) continue;
-    m.off[i] = 1;
-    ++m.tied_elsewhere;
-  }
+  if (drops) m.tied_elsewhere = pairs_around_ties(run, contact);
 }
 
 void SearchedAt::take(const Contact& contact, const Coordinates& x) {

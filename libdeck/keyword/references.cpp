@@ -63,14 +63,16 @@ class References {
   void cells(const DecodedBlock& d) {
     const std::string& keyword = block_.schema->keyword;
     if (block_.schema->kind == "set") return clauses(d);
-    const std::size_t range = keyword.ends_with("/GENE")       ? 2
-                              : keyword.ends_with("/GEN_INCR") ? 3
-                                                               : 1;
+    const bool rows = keyword.ends_with("/GEN_INCR");
     std::vector<const Cell*> list;
-    for (const DecodedCard& card : d.cards)
+    for (const DecodedCard& card : d.cards) {
+      const bool range = rows && card.cells.size() == 3 && card.cells[0].integer != 0 &&
+                         card.cells[1].integer != 0;
       for (const Cell& c : card.cells)
-        if (c.field->type == FieldType::id && c.integer != 0) list.push_back(&c);
-    if (range > 1) return ranges(list, list.empty() ? "" : list[0]->field->ref, range, "range");
+        if (rows ? range : c.field->type == FieldType::id && c.integer != 0) list.push_back(&c);
+    }
+    if (rows || keyword.ends_with("/GENE"))
+      return ranges(list, list.empty() ? "" : list[0]->field->ref, rows ? 3 : 2, "range");
     for (const Cell* c : list) {
       std::string_view kind = c->field->ref;
       // From 2026 on a smoothed surface may stand in the place of the node group.

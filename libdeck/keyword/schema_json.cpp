@@ -414,10 +414,25 @@ void check_keyword(const std::string& keyword, const Path& path) {
   if (!good) fail(path, fmt::format("\"{}\" is not a keyword like /INTER/TYPE7", keyword));
 }
 
+/// What a deck older than the keyword is read with: the oldest layout, so what that has is there in
+/// all versions before; or nothing. The one place that decides this.
+void settle_older_decks(Schema& schema, bool unread) {
+  const auto settle = [&](int& from, int until) {
+    if (unread)
+      from = std::max(from, schema.from);
+    else if (from <= schema.from && until >= schema.from)
+      from = 0;
+  };
+  for (CardSchema& card : schema.cards) {
+    settle(card.from, card.until);
+    for (Field& field : card.fields) settle(field.from, field.until);
+  }
+}
+
 Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   expect_object(json, path,
                 {"$schema", "keyword", "aliases", "kind", "id", "title", "unit", "bulk",
-                 "opaque_tail", "full_layout", "from", "doc", "cards"});
+                 "opaque_tail", "full_layout", "from", "older", "doc", "cards"});
   Schema schema;
   schema.source = source;
   require(json, path, "keyword");
@@ -441,12 +456,19 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   if (schema.full_layout && !schema.opaque_tail)
     fail(at(path, "full_layout"), "a schema without opaque_tail describes everything anyway");
   if (json.contains("from")) schema.from = version_of(json["from"], at(path, "from"));
+  std::string older = "oldest layout";
+  read(json, path, "older", older);
+  const bool unread = older == "unread";
+  if (!unread && json.contains("older")) fail(at(path, "older"), "the only value is \"unread\"");
+  if (unread && schema.from == 0)
+    fail(at(path, "older"), "\"from\" must say which decks are older");
   read(json, path, "doc", schema.doc);
   if (json.contains("cards")) {
     const auto here = at(path, "cards");
     for (const auto& item : expect_array(json["cards"], here))
       schema.cards.push_back(card_of(item, at(here, schema.cards.size())));
   }
+  settle_older_decks(schema, unread);
   if (const auto wrong = check_schema(schema); !wrong.empty()) throw Wrong{path.text() + wrong};
   return schema;
 }

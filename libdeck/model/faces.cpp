@@ -145,8 +145,14 @@ void ShellCover::select(const std::vector<std::uint32_t>& shells4,
 }
 
 bool ShellCover::hides(const Face& face) const {
+  const CoverShell shell = on(face);
+  return shell.element != no_index &&
+         (shell.four ? stamp4_ : stamp3_)[shell.element] == generation_;
+}
+
+CoverShell ShellCover::on(const Face& face) const {
   const std::uint32_t key = table_.find(node_key(face.nodes.data(), face.corners));
-  if (key == no_index) return false;
+  if (key == no_index) return {};
   const bool four = face.corners == 4;
   const Entry* best = nullptr;
   std::pair<std::ptrdiff_t, std::uint32_t> best_place;
@@ -161,7 +167,7 @@ bool ShellCover::hides(const Face& face) const {
       best_place = place;
     }
   }
-  return best != nullptr && (four ? stamp4_ : stamp3_)[best->element] == generation_;
+  return best != nullptr ? CoverShell{four, best->element} : CoverShell{};
 }
 
 SolidFaces::SolidFaces(const Elements& solids, const std::vector<std::uint32_t>& ranks)
@@ -207,6 +213,18 @@ bool SolidFaces::interior(std::uint32_t solid, int f, const Face& face, bool aga
   return false;
 }
 
+bool SolidFaces::covered(const FaceQuery& query, std::uint32_t solid, const Face& face) const {
+  // Faces of 10-node tetrahedra are not held against shells.
+  if (solids_->shape[solid] == SolidShape::tetra10) return false;
+  if (!query.by_part_place) return query.cover->hides(face);
+  const CoverShell shell = query.cover->on(face);
+  if (shell.element == no_index) return false;
+  const std::uint32_t place = query.cover->part_of(shell);
+  if (place >= stamp_.size() || stamp_[place] != generation_) return false;
+  if (query.lost != nullptr) query.lost->push_back({solid, shell});
+  return true;
+}
+
 std::vector<Segment> SolidFaces::segments(const FaceQuery& query) {
   std::vector<Segment> out;
   const auto& members = *query.solids;
@@ -220,9 +238,7 @@ std::vector<Segment> SolidFaces::segments(const FaceQuery& query) {
       if (ends_[e * std::size_t{6} + static_cast<std::size_t>(f)] == no_index) continue;
       const Face face = solid_face(solids_->of(e), f);
       if (!all && interior(e, f, face, query.against_all)) continue;
-      // Faces of 10-node tetrahedra are not held against shells.
-      const bool covered = query.cover != nullptr && solids_->shape[e] != SolidShape::tetra10;
-      if (covered && query.cover->hides(face)) continue;
+      if (query.cover != nullptr && covered(query, e, face)) continue;
       append_face(*solids_, e, f, face, out);
     }
   }

@@ -50,6 +50,12 @@ class KeyTable {
   std::vector<Slot> slots_;
 };
 
+/// A shell, and which of the two kinds.
+struct CoverShell {
+  bool four = false;
+  std::uint32_t element = no_index;  ///< no_index: none
+};
+
 /// Shells that lie on faces of solids. A selected shell replaces the face under it: 4-node shells
 /// those of four nodes, 3-node shells triangles. Where several shells have the same nodes only one
 /// decides: the first in the list of elements at the first node of the face, which holds those that
@@ -61,6 +67,11 @@ class ShellCover {
   /// Forgets the previous selection.
   void select(const std::vector<std::uint32_t>& shells4, const std::vector<std::uint32_t>& shells3);
   bool hides(const Face& face) const;
+  /// The shell that decides.
+  CoverShell on(const Face& face) const;
+  std::uint32_t part_of(const CoverShell& shell) const {
+    return (shell.four ? shell4_ : shell3_)->part[shell.element];
+  }
 
  private:
   struct Entry {
@@ -78,6 +89,12 @@ class ShellCover {
   std::uint32_t generation_ = 0;
 };
 
+/// A face that is left out although nothing is there in its place.
+struct LostFace {
+  std::uint32_t solid;
+  CoverShell shell;
+};
+
 /// Which faces of a group of solids are wanted.
 struct FaceQuery {
   const std::vector<std::uint32_t>* solids = nullptr;  ///< indices, ascending
@@ -86,6 +103,10 @@ struct FaceQuery {
   /// Solids (ascending) whose faces are all wanted although exterior_only is set; may be nullptr.
   const std::vector<std::uint32_t>* all_faces_of = nullptr;
   const ShellCover* cover = nullptr;  ///< shells that replace faces; may be nullptr
+  /// /SURF/GRBRIC: whether a shell replaces a face does not depend on the shell. With k the place
+  /// of its part among all parts, the face is left out if the k-th solid of the model is a member.
+  bool by_part_place = false;
+  std::vector<LostFace>* lost = nullptr;  ///< takes the faces left out for that
 };
 
 /// All faces of all solids, hashed once. A face is interior, and left out, where one other solid
@@ -111,6 +132,7 @@ class SolidFaces {
     return against_all || stamp_[solid] == generation_;
   }
   bool interior(std::uint32_t solid, int f, const Face& face, bool against_all) const;
+  bool covered(const FaceQuery& query, std::uint32_t solid, const Face& face) const;
   const Elements* solids_;
   std::vector<std::uint32_t> ends_;   ///< per solid and face: key that ends it; no_index: no face
   std::vector<std::uint32_t> first_;  ///< per key: owner

@@ -227,13 +227,25 @@ std::int32_t find_submodel(const Deck& deck, std::int64_t id) {
 
 void missing_target(BuildContext& c, const DecodedBlock& d, const std::string& what,
                     std::int64_t id) {
-  report(c.diagnostics, {RuleId::DK110,
-                         d.span(),
+  const std::string that =
+      id == 0 ? " names no " + what + " to move"
+              : " moves " + what + " " + std::to_string(id) + ", which does not exist";
+  report(c.diagnostics,
+         {RuleId::DK110,
+          d.span(),
+          std::string(d.block->keyword) + " " + std::to_string(d.block->id.value) + that,
+          std::string(d.block->keyword),
+          d.block->id.value,
+          {.fix = "correct the id"}});
+}
+
+void two_targets(BuildContext& c, const DecodedBlock& d) {
+  const Cell* const cell = d.find("SUBMODEL");
+  report(c.diagnostics, {RuleId::DK062, cell->span,
                          std::string(d.block->keyword) + " " + std::to_string(d.block->id.value) +
-                             " moves " + what + " " + std::to_string(id) + ", which does not exist",
-                         std::string(d.block->keyword),
-                         d.block->id.value,
-                         {.fix = "correct the id"}});
+                             " names node group " + std::to_string(d.integer("GR_NODE")) +
+                             " and submodel " + std::to_string(cell->integer),
+                         std::string(d.block->keyword), d.block->id.value});
 }
 
 }  // namespace
@@ -245,6 +257,7 @@ void apply_submodel_transforms(BuildContext& c) {
     TransformReader reader(c, block);
     const std::int64_t id = reader.submodel();
     if (id == 0) continue;
+    if (reader.group() != 0) two_targets(c, reader.decoded());
     const std::int32_t target = find_submodel(c.deck, id);
     if (target < 0) {
       missing_target(c, reader.decoded(), "submodel", id);

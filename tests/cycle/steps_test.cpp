@@ -249,13 +249,38 @@ TEST(Criteria, ATrianglesLastCornerCountsTwiceInTheNormalsOfIadm) {
   }
 }
 
-TEST(IremI2, LeavesOutNodesThatAnotherInterfaceTies) {
+TEST(IremI2, DropsThePairsOfATiedNodeWithTheSegmentsAroundItsTie) {
   for (const int flag : {1, 3}) {
     SmallDeck d = over(0.5, std::string(plain) + " Irem_i2=" + std::to_string(flag));
     d.add("/INTER/TYPE2/9\nt\n         3         1").group("/GRNOD/NODE/3", {11, 12});
     const Built b(d, Stepped::scene_options());
     const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), {});
     EXPECT_EQ(r.contacts.at(0).pairs_with_force, flag == 1 ? 2u : 4u);
+  }
+}
+
+TEST(IremI2, KeepsThePairsOfATiedNodeWithOtherSegments) {
+  // The nodes are tied to a plate of its own, on the other side.
+  for (const int flag : {1, 3}) {
+    SmallDeck d = over(0.5, std::string(plain) + " Irem_i2=" + std::to_string(flag));
+    d.node(21, 0, 0, 2).node(22, 10, 0, 2).node(23, 10, 10, 2).node(24, 0, 10, 2);
+    d.shell_part(3, 1.0).shell(3, 9, 21, 22, 23, 24).group("/SURF/PART/3", {3});
+    d.add("/INTER/TYPE2/9\nt\n         3         3").group("/GRNOD/NODE/3", {11, 12});
+    const Built b(d, Stepped::scene_options());
+    const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), {});
+    EXPECT_EQ(r.contacts.at(0).pairs_with_force, 4u) << flag;
+  }
+}
+
+TEST(IremI2, DropsThePairsOfSegmentsAtATiedNodeWithTheCornersOfItsTie) {
+  // Node 1 of the main side is tied to the plate of the secondary nodes.
+  for (const int flag : {1, 3}) {
+    SmallDeck d = over(0.5, std::string(plain) + " Irem_i2=" + std::to_string(flag));
+    d.add("/INTER/TYPE2/9\nt\n         3         2").group("/GRNOD/NODE/3", {1});
+    d.group("/SURF/PART/2", {2});
+    const Built b(d, Stepped::scene_options());
+    const SceneOutcome r = run_cycle(b.scene, make_state(b.scene), {});
+    EXPECT_EQ(r.contacts.at(0).pairs_with_force, flag == 1 ? 0u : 4u);
   }
 }
 

@@ -15,6 +15,7 @@
 
 #include "base/embedded.hpp"
 #include "deck/keyword/decode.hpp"
+#include "keyword/older_decks.hpp"
 #include "keyword/schema_json.hpp"
 #include "where.hpp"
 
@@ -275,6 +276,28 @@ TEST(SchemaLoader, ReportsFileAndPathOfWhatIsWrong) {
   EXPECT_THAT(error_of(R"({"schemas":[{"keyword":"/A"},{"keyword":"/B","x":1}]})"),
               HasSubstr("/schemas/1: unknown key"));
   EXPECT_THAT(error_of(R"({"schemas":[],"x":1})"), HasSubstr("unknown key \"x\""));
+}
+
+TEST(SchemaLoader, DecksBeforeTheFirstLayoutAreReadWithIt) {
+  const std::string cards =
+      R"("doc":"d","from":2018,"cards":[{"name":"c","versions":[2018,null],"fields":[)"
+      R"({"name":"f","cols":[1,10],"type":"int","versions":[2018,2020]},)"
+      R"({"name":"g","cols":[11,20],"type":"int","versions":[2021,null]}]}]})";
+  SchemaSet set;
+  ASSERT_TRUE(set.add_json("t", R"({"keyword":"/OLD",)" + cards));
+  ASSERT_TRUE(set.add_json("t", R"({"keyword":"/UNREAD","older":"unread",)" + cards));
+  const Schema& old = *set.find("/OLD");
+  const Schema& unread = *set.find("/UNREAD");
+  for (const int version : {51, 2017, 2018}) {
+    EXPECT_TRUE(detail::reads_lines(old, version));
+    EXPECT_TRUE(old.cards[0].in_version(version));
+    EXPECT_TRUE(old.cards[0].fields[0].in_version(version));
+    EXPECT_FALSE(old.cards[0].fields[1].in_version(version));
+    EXPECT_EQ(detail::reads_lines(unread, version), version >= 2018);
+    EXPECT_EQ(unread.cards[0].in_version(version), version >= 2018);
+  }
+  EXPECT_THAT(error_of(R"({"keyword":"/A","older":"unread"})"), HasSubstr("/older: \"from\""));
+  EXPECT_THAT(error_of(R"({"keyword":"/A","from":90,"older":"oldest"})"), HasSubstr("/older"));
 }
 
 TEST(SchemaLoader, RefusesWrongFields) {

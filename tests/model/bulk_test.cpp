@@ -250,13 +250,22 @@ TEST(BulkElements, OwnThicknessIsKeptInWorkingUnits) {
   EXPECT_EQ(count(b.findings, RuleId::DK039), 1u);
 }
 
-TEST(BulkElements, TriangleThicknessLeftOfColumn91IsNamed) {
+TEST(BulkElements, TriangleThicknessIsWhatStandsInColumns91To100) {
   const std::string head = ids({1, 1, 2, 3}).substr(0, 40) + std::string(40, ' ');
-  const Bulk b =
-      bulk(nodes(3) + "/SH3N/1\n" + head + "1.5\n" + head + std::string(17, ' ') + "1.5\n");
-  EXPECT_THAT(b.model.shell3.thickness, ElementsAre(1.5, 1.5));
-  EXPECT_EQ(count(b.findings, RuleId::DK038), 1u);
+  const auto line = [&](const std::string& behind_80) { return head + behind_80 + "\n"; };
+  const Bulk b = bulk(nodes(3) + "/SH3N/1\n" + line(std::string(17, ' ') + "1.5") + line("1.25") +
+                      line("     1.2500000000000") + line("          2.5"));
+  EXPECT_THAT(b.model.shell3.thickness, ElementsAre(1.5, 0.0, 0.0, 2.5));
+  EXPECT_EQ(count(b.findings, RuleId::DK038), 2u);
   EXPECT_EQ(b.deck.sources.position(first(b.findings, RuleId::DK038)->span).column, 81u);
+}
+
+TEST(BulkElements, AngleOfATriangleEndsInColumn90) {
+  const std::string head = ids({1, 1, 2, 3}).substr(0, 40);
+  const std::string phi = std::string(46, ' ') + "45.0";
+  const Bulk b = bulk(nodes(3) + "/SH3N/1\n" + head + phi + "       2.5\n" + head + phi + "\n");
+  EXPECT_THAT(b.model.shell3.thickness, ElementsAre(2.5, 0.0));
+  EXPECT_EQ(count(b.findings, RuleId::DK038), 0u);
 }
 
 TEST(BulkElements, AnUnfinishedElementAtTheEndOfABlockIsLeftOutAndNamed) {

@@ -48,23 +48,27 @@ inline std::string node(std::int64_t id, double x, double y, double z) {
 }
 
 /// A deck with the given blocks between /BEGIN and /END.
-inline std::string deck_text(const std::string& blocks, const char* input_units = "kg mm ms") {
+inline std::string deck_text(const std::string& blocks, const char* input_units = "kg mm ms",
+                             int version = 2024) {
   std::string mass, length, time;
   const std::string units = input_units;
   const auto a = units.find(' '), b = units.rfind(' ');
   char line[96];
   std::snprintf(line, sizeof line, "%20s%20s%20s\n", units.substr(0, a).c_str(),
                 units.substr(a + 1, b - a - 1).c_str(), units.substr(b + 1).c_str());
-  return "#RADIOSS STARTER\n/BEGIN\ntest\n      2024         0\n" + std::string(line) +
+  char begin[32];
+  std::snprintf(begin, sizeof begin, "%10d         0\n", version);
+  return "#RADIOSS STARTER\n/BEGIN\ntest\n" + std::string(begin) + std::string(line) +
          "                  kg                  mm                  ms\n" + blocks + "/END\n";
 }
 
 /// A deck read and built. Stays at its address.
 class Built {
  public:
-  explicit Built(const std::string& blocks, const char* input_units = "kg mm ms")
+  explicit Built(const std::string& blocks, const char* input_units = "kg mm ms",
+                 int version = 2024)
       : deck_(std::make_unique<Result<Deck>>(read_deck_text(
-            "test_0000.rad", deck_text(blocks, input_units), SchemaSet::built_in()))),
+            "test_0000.rad", deck_text(blocks, input_units, version), SchemaSet::built_in()))),
         model_(build_model(**deck_, SchemaSet::built_in(), diagnostics_)) {}
 
   Model& model() { return model_; }

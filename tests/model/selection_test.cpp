@@ -56,6 +56,29 @@ TEST(NodeGroup, RangesWithIncrement) {
   EXPECT_EQ(b.group(5), (Ids{1, 5, 9}));
 }
 
+TEST(NodeGroup, RangesWithIncrementAreOneALine) {
+  Built b(quads() + "/GRNOD/GEN_INCR/5\ng\n" + cells({1, 3, 2, 5, 9, 1}) + cells({6, 7, 1}) +
+          cells({8, 9}));
+  EXPECT_EQ(b.group(5), (Ids{1, 3, 6, 7}));
+}
+
+TEST(NodeGroup, RangesWithIncrementAreNotReadBefore2019) {
+  const std::string group = "/GRNOD/GEN_INCR/5\ng\n" + cells({1, 9, 4});
+  EXPECT_EQ(Built(quads() + group, "kg mm ms", 2019).group(5).size(), 3u);
+  Built old(quads() + group, "kg mm ms", 2018);
+  EXPECT_TRUE(old.group(5).empty());
+  EXPECT_EQ(old.message(RuleId::DK153), 690);
+}
+
+TEST(ElementGroup, RangesAreNotReadBefore2018) {
+  const std::string groups = "/GRSHEL/GENE/5\ng\n" + cells({1, 100}) + "/GRNOD/GRSHEL/6\ng\n" +
+                             cells({5}) + "/GRNOD/GENE/7\ng\n" + cells({1, 3});
+  EXPECT_FALSE(Built(quads() + groups, "kg mm ms", 2018).group(6).empty());
+  Built old(quads() + groups, "kg mm ms", 2017);
+  EXPECT_TRUE(old.group(6).empty());
+  EXPECT_EQ(old.group(7), (Ids{1, 2, 3}));
+}
+
 TEST(NodeGroup, NegativeGroupIsRemovedAfterAllPositiveOnes) {
   Built b(quads() + "/GRNOD/NODE/1\na\n" + cells({1, 2, 3}) + "/GRNOD/NODE/2\nb\n" +
           cells({2, 3, 4}) + "/GRNOD/NODE/3\nc\n" + cells({3}) + "/GRNOD/GRNOD/4\nd\n" +
@@ -310,6 +333,26 @@ TEST(SolidFaces, ExteriorOfAGroupOrOfTheWholeModel) {
           "/SURF/GRBRIC/EXT/1\ns\n" + cells({1}) + "/SURF/GRBRIC/FREE/2\ns\n" + cells({1}));
   EXPECT_EQ(b.surface(1).size(), 6u);
   EXPECT_EQ(b.surface(2).size(), 5u);
+}
+
+TEST(SolidFaces, AGroupLosesTheFaceUnderAShellByThePlaceOfItsPart) {
+  // The cubes 1 (part 4) and 2 (part 5); the shell's part is the k-th of the deck.
+  const auto deck = [](int part, const std::string& group) {
+    return parts() + cube_nodes() + cubes() + "/SHELL/" + std::to_string(part) + "\n" +
+           cells({7, 101, 102, 105, 104}) + "/GRBRIC/PART/1\ne\n" + group +
+           "/SURF/GRBRIC/EXT/1\ns\n" + cells({1}) + "/SURF/GRBRIC/FREE/2\ns\n" + cells({1}) +
+           "/SURF/PART/EXT/3\ns\n" + cells({4, 5});
+  };
+  Built second(deck(2, cells({4, 5})));  // the second solid is in the group
+  EXPECT_EQ(second.surface(1).size(), 9u);
+  EXPECT_EQ(second.surface(2).size(), 9u);
+  EXPECT_EQ(second.surface(3).size(), 10u);
+  EXPECT_EQ(second.findings(RuleId::DK063), 2u);
+  Built not_in_it(deck(2, cells({4})));
+  EXPECT_EQ(not_in_it.surface(1).size(), 6u);
+  Built no_such_solid(deck(3, cells({4, 5})));
+  EXPECT_EQ(no_such_solid.surface(1).size(), 10u);
+  EXPECT_EQ(no_such_solid.findings(RuleId::DK063), 0u);
 }
 
 TEST(SolidFaces, SolidsWithoutExtOrAllAreMessage1104) {

@@ -93,6 +93,43 @@ TEST(Transform, MissingGroupAndNodeAreReported) {
   EXPECT_EQ(missing.message(RuleId::DK110), 694);
 }
 
+/// Nodes 101 of submodel 4 and a transform that names the submodel.
+std::string submodel_and(const std::string& transform) {
+  return grid_nodes() + "//SUBMODEL/4\nsub\n" + cells({0, 100}) + "/NODE\n" + node(1, 1, 0, 0) +
+         "//ENDSUB\n" + transform;
+}
+
+TEST(Transform, ScaleAndMirrorImageOfASubmodelExistFrom2026On) {
+  const std::string scale = "/TRANSFORM/SCA/1\nt\n" + head(0, {2, 2, 2}, {0, 0, 4});
+  const std::string mirror =
+      "/TRANSFORM/SYM/1\nt\n" + head(0, {20, 0, 0}, {0, 0, 4}) + "          " + reals({25, 0, 0});
+  const std::string move = "/TRANSFORM/TRA/1\nt\n" + head(0, {1, 0, 0}, {0, 0, 4});
+  for (const std::string& transform : {scale, mirror}) {
+    Built now(submodel_and(transform), "kg mm ms", 2026);
+    EXPECT_EQ(now.findings(RuleId::DK110), 0u);
+    EXPECT_NE(now.model().nodes.x[now.model().nodes.map.find(101)], 1);
+    Built before(submodel_and(transform), "kg mm ms", 2025);
+    expect_at(before, 101, 1, 0, 0);
+    EXPECT_EQ(before.message(RuleId::DK110), 1865);
+  }
+  Built moved(submodel_and(move), "kg mm ms", 100);
+  expect_at(moved, 101, 2, 0, 0);
+  Built ignored(submodel_and(move), "kg mm ms", 90);
+  expect_at(ignored, 101, 1, 0, 0);
+}
+
+TEST(Transform, WhereTheVersionHasNoSubmodelTheGroupMoves) {
+  Built b(submodel_and(all_nodes() + "/TRANSFORM/SCA/1\nt\n" + head(1, {2, 2, 2}, {0, 0, 4})),
+          "kg mm ms", 2025);
+  expect_at(b, 9, 40, 40, 0);
+  EXPECT_EQ(b.findings(RuleId::DK062), 0u);
+}
+
+TEST(Transform, OfAGroupAndASubmodelIsMessage914) {
+  Built b(submodel_and(all_nodes() + "/TRANSFORM/TRA/1\nt\n" + head(1, {1, 0, 0}, {0, 0, 4})));
+  EXPECT_EQ(b.message(RuleId::DK062), 914);
+}
+
 TEST(Transform, TypeThatIsNotEvaluatedSaysSo) {
   Built b(grid_nodes() + all_nodes() + "/TRANSFORM/POSITION/1\nt\n" + cells({1, 1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(b.findings(RuleId::DK110), 1u);

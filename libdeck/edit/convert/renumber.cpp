@@ -321,12 +321,16 @@ class Renumbering {
   void ranges(const Block& b, const DecodedBlock& d, std::size_t group) {
     std::vector<Place> places;
     std::string_view kind;
-    for (const DecodedCard& card : d.cards)
+    for (const DecodedCard& card : d.cards) {
+      // One triple a line.
+      const bool range = group == 3 && card.cells.size() == 3 && card.cells[0].integer != 0 &&
+                         card.cells[1].integer != 0;
       for (const Cell& c : card.cells)
-        if (c.field->type == FieldType::id && c.integer != 0) {
+        if (group == 3 ? range : c.field->type == FieldType::id && c.integer != 0) {
           places.emplace_back(&card, &c);
-          kind = c.field->ref;
+          if (c.field->type == FieldType::id) kind = c.field->ref;
         }
+    }
     grouped(b, kind, places, group);
   }
 

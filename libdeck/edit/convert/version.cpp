@@ -8,6 +8,7 @@
 #include "deck/text/number.hpp"
 #include "edit/convert/version_cards.hpp"
 #include "edit/convert/version_layout.hpp"
+#include "keyword/older_decks.hpp"
 #include "text/columns.hpp"
 
 namespace deck {
@@ -153,6 +154,12 @@ class VersionRewriter {
       return;
     }
     const Schema& schema = *block.schema;
+    if (!detail::reads_lines(schema, target_) && detail::reads_lines(schema, block.version)) {
+      undecided(block, block.header_span, "", "",
+                "a deck of version " + number(target_) +
+                    " gets none of its lines; list the ids another way first");
+      return;
+    }
     if (target_ < schema.from && block.version >= schema.from)
       report(Loss::kept, block, {}, "", "",
              schema.keyword + " is newer than version " + number(target_) +

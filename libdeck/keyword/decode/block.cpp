@@ -6,6 +6,7 @@
 #include "keyword/deck_json_cells.hpp"
 #include "keyword/decode/parts.hpp"
 #include "keyword/line_check.hpp"
+#include "keyword/older_decks.hpp"
 #include "keyword/reader.hpp"
 
 namespace deck {
@@ -222,6 +223,7 @@ class BlockDecoder {
     for (Line line = cursor_.next(); line.valid(); line = cursor_.next())
       out_.extra.push_back(line);
     if (!findings_.on() || schema.opaque_tail || schema.cards.empty()) return;
+    if (!detail::reads_lines(schema, block_.version)) return;  // DK060 says so
     // One finding for all of them: a text that lost its comment mark has many lines.
     const auto blank = [](const Line& line) { return trim(line.text).empty(); };
     const auto first = std::find_if_not(out_.extra.begin(), out_.extra.end(), blank);

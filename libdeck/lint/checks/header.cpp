@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "deck/base/spelling.hpp"
+#include "keyword/older_decks.hpp"
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 
@@ -121,10 +122,34 @@ void check_two_dimensional(const LintContext& c, const Rule& rule, Reporter& r) 
 
 void check_newer_keyword(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& b : c.deck.blocks)
-    if (b.schema != nullptr && b.schema->from > b.version)
+    if (b.schema != nullptr && b.schema->from > b.version && reads_lines(*b.schema, b.version))
       r.report(rule, b, b.header_span,
-               b.schema->keyword + " exists from version " + std::to_string(b.schema->from) +
-                   " on; this deck is of version " + std::to_string(b.version));
+               fmt::format("{} came with version {}, and its lines are read as in that version; "
+                           "this deck is of version {}",
+                           b.schema->keyword, b.schema->from, b.version));
+}
+
+void check_unread_keyword(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const Block& b : c.deck.blocks)
+    if (b.schema != nullptr && !reads_lines(*b.schema, b.version))
+      r.report(rule, b, b.header_span,
+               fmt::format("{} {}: decks before version {} get none of its lines; this deck is of "
+                           "version {}",
+                           b.schema->keyword, b.id.value, b.schema->from, b.version));
+}
+
+/// A triple of /GEN_INCR without its third number.
+void check_increment(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const Block& b : c.deck.blocks) {
+    if (b.schema == nullptr || !b.schema->keyword.ends_with("/GEN_INCR")) continue;
+    for (const DecodedCard& card : decode(c.deck, b).cards) {
+      if (card.cells.size() < 3 || card.cells[2].integer != 0 || trim(card.line.text).empty())
+        continue;
+      r.report(rule, b, card.line.whole(),
+               fmt::format("{} {}: the range {} to {} has no increment", b.schema->keyword,
+                           b.id.value, card.cells[0].integer, card.cells[1].integer));
+    }
+  }
 }
 
 /// Numbers on a line, cut at blanks; 0: something else stands there.
@@ -227,7 +252,8 @@ std::span<const Checked> header_checks() {
       {RuleId::DK040, check_unknown},         {RuleId::DK041, check_lower_case},
       {RuleId::DK042, check_engine},          {RuleId::DK044, check_obsolete},
       {RuleId::DK045, check_two_dimensional}, {RuleId::DK094, check_lagrange},
-      {RuleId::DK046, check_newer_keyword},   {RuleId::DK047, check_next_version_field},
+      {RuleId::DK046, check_newer_keyword},   {RuleId::DK060, check_unread_keyword},
+      {RuleId::DK061, check_increment},       {RuleId::DK047, check_next_version_field},
       {RuleId::DK048, check_title},           {RuleId::DK049, check_missing_id},
       {RuleId::DK050, check_old_layout},
   };

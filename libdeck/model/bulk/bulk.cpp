@@ -325,14 +325,14 @@ struct ElementSink : ChunkRows<ElementRows> {
   }
 
   void store_thickness(const BlockPlan& plan, std::uint32_t segment, Item& item) {
+    if (plan.format.kind == ElementKind::shell3 && sh3n_thickness_left(item.text[0]))
+      item.count(0, sh3n_columns);
     const double written = item.real(plan.item->thickness);
     if (written == 0 && !std::signbit(written)) return;
     thickness.resize(size, 0.0);
     thickness.push_back(written * plan.length);
     if (written == 0) return;
     thick[segment] = true;
-    if (plan.format.kind == ElementKind::shell3 && sh3n_left_columns(item.text[0]))
-      item.count(0, sh3n_columns);
   }
 
   std::array<NodeIndex, max_nodes> found = no_nodes();

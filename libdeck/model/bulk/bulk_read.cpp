@@ -95,6 +95,18 @@ int node_of_cell(const ItemPlan& plan, std::size_t card, std::size_t cell) {
   return -1;
 }
 
+bool sh3n_left_columns(std::string_view line) {
+  if (line.find(',') != std::string_view::npos) return false;
+  const std::string_view left = columns(line, 81, 90);
+  if (left.find_first_not_of("0. ") == std::string_view::npos) return false;
+  const auto filled = [&](std::size_t column) {
+    return line.size() >= column && !is_blank(line[column - 1]);
+  };
+  // A number that ends in column 90 is the angle in its own columns, 71-90, unless another stands
+  // there already.
+  return filled(91) || !filled(90) || (!trim(columns(line, 61, 80)).empty() && !filled(80));
+}
+
 void inspect_line(const Deck& deck, const BlockPlan& plan, std::size_t card, std::uint32_t file,
                   Unclean unclean, Item& item) {
   const CardPlan& layout = plan.item->cards[card];
@@ -169,7 +181,8 @@ void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
                        " is not positive");
   if (problem.counts[sh3n_columns] > 0 && diagnostics.wants(bulk_rule_id(sh3n_columns)))
     report_problem(diagnostics, plan, problem, sh3n_columns, line.columns(81, 90),
-                   place_of(plan, problem) + ": the thickness begins left of column 91");
+                   place_of(plan, problem) + ": the thickness begins left of column 91; \"" +
+                       std::string(trim(columns(line.text, 91, 100))) + "\" is read of it");
   if (problem.counts[unknown_node] > 0 && nodes != nullptr)
     report_unknown_nodes(plan, problem, card, *nodes, diagnostics);
   if (problem.counts[incomplete] > 0 && diagnostics.wants(bulk_rule_id(incomplete)))

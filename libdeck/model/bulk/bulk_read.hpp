@@ -140,11 +140,11 @@ void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
 /// Number of the node (0 = N1) in this cell; -1: another cell.
 int node_of_cell(const ItemPlan& plan, std::size_t card, std::size_t cell);
 
-/// Text in columns 81-90 of a /SH3N line with a thickness: official tables read 91-110.
-inline bool sh3n_left_columns(std::string_view line) {
-  for (std::size_t c = 80; c < std::min<std::size_t>(line.size(), 90); ++c)
-    if (static_cast<unsigned char>(line[c]) > ' ') return true;
-  return false;
+bool sh3n_left_columns(std::string_view line);
+/// True if a number in columns 81-90 of a /SH3N line is meant as the thickness, or its beginning:
+/// manuals let it begin in column 81, and the solver reads 91-100.
+inline bool sh3n_thickness_left(std::string_view line) {
+  return line.size() > 80 && sh3n_left_columns(line);
 }
 
 /// Reads the lines of a chunk and calls sink.item(plan, segment, item) for every item;

@@ -156,12 +156,26 @@ IdList Selections::Impl::id_list(const DecodedBlock& d) const {
   return list;
 }
 
-std::vector<std::int64_t> Selections::Impl::raw_values(const DecodedBlock& d) const {
-  std::vector<std::int64_t> values;
-  for (const DecodedCard& card : d.cards)
-    for (const Cell& cell : card.cells)
-      if (cell.integer != 0) values.push_back(cell.integer);
-  return values;
+std::vector<detail::IdRange> Selections::Impl::id_ranges(const DecodedBlock& d,
+                                                         std::string_view kind) const {
+  const std::int64_t offset = deck().offset_of(*d.block, kind);
+  std::vector<detail::IdRange> out;
+  std::int64_t first = 0;
+  for (const DecodedCard& card : d.cards) {
+    if (card.schema->repeat == Repeat::rows) {  // one triple a line
+      std::int64_t v[3] = {};
+      for (std::size_t i = 0; i < std::min<std::size_t>(card.cells.size(), 3); ++i)
+        v[i] = card.cells[i].integer;
+      if (v[2] > 0) out.push_back({v[0] + offset, v[1] + offset, v[2]});
+      continue;
+    }
+    for (const Cell& cell : card.cells) {  // pairs, across lines
+      if (cell.integer == 0) continue;
+      if (first != 0) out.push_back({first + offset, cell.integer + offset, 1});
+      first = first != 0 ? 0 : cell.integer;
+    }
+  }
+  return out;
 }
 
 void Selections::Impl::report_missing(RuleId rule, const Block& block, const std::string& what,

@@ -223,19 +223,11 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
     std::erase_if(out,
                   [&](std::uint32_t e) { return std::binary_search(gone.begin(), gone.end(), e); });
   } else if (def.type == "GENE" || def.type == "GEN_INCR") {
-    const bool increments = def.type == "GEN_INCR";
-    const auto values = raw_values(d);
-    const std::int64_t offset = deck().offset_of(block, name.id_kind);
-    const std::size_t step = increments ? 3 : 2;
-    for (std::size_t i = 0; i + step <= values.size(); i += step) {
-      const std::int64_t first = values[i] + offset, last = values[i + 1] + offset;
-      const std::int64_t increment = increments ? values[i + 2] : 1;
+    for (const detail::IdRange& range : id_ranges(d, name.id_kind)) {
       // A pair counts only if it ascends.
-      if (increment <= 0 || last < first || (!increments && last == first)) continue;
+      if (def.type == "GENE" && range.last == range.first) continue;
       for (std::uint32_t e = 0; e < family.size(); ++e)
-        if (family.id[e] >= first && family.id[e] <= last &&
-            (family.id[e] - first) % increment == 0)
-          out.push_back(e);
+        if (range.holds(family.id[e])) out.push_back(e);
       if (!fits(out.size(), sizeof out[0], block)) break;
     }
   } else if (def.type == name.keyword) {
@@ -317,17 +309,9 @@ Indices Selections::Impl::resolve_part_group(const Definition& def, const Decode
     for (std::uint32_t p = 0; p < tags.size(); ++p)
       if (tags[p] > 0) out.push_back(p);
   } else if (def.type == "GENE" || def.type == "GEN_INCR") {
-    const auto values = raw_values(d);
-    const std::int64_t offset = deck().offset_of(block, "part");
-    const std::size_t step = def.type == "GENE" ? 2 : 3;
-    for (std::size_t i = 0; i + step <= values.size(); i += step) {
-      const std::int64_t increment = step == 3 ? values[i + 2] : 1;
-      for (std::uint32_t p = 0; p < model->parts.size() && increment > 0; ++p) {
-        const std::int64_t id = model->parts[p].id - offset;
-        if (id >= values[i] && id <= values[i + 1] && (id - values[i]) % increment == 0)
-          out.push_back(p);
-      }
-    }
+    for (const detail::IdRange& range : id_ranges(d, "part"))
+      for (std::uint32_t p = 0; p < model->parts.size(); ++p)
+        if (range.holds(model->parts[p].id)) out.push_back(p);
   } else if (def.type == "GRPART") {
     std::vector<IdRef> missing;
     const auto collect = [&](const std::vector<IdRef>& refs, Indices& into) {

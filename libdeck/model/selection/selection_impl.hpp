@@ -26,6 +26,13 @@ struct IdRef {
   std::int64_t id = 0;  ///< above 0, submodel offset applied
   Span span;
 };
+/// Ids first, first + increment … up to last, submodel offset applied.
+struct IdRange {
+  std::int64_t first = 0, last = 0, increment = 1;
+  bool holds(std::int64_t id) const {
+    return id >= first && id <= last && (id - first) % increment == 0;
+  }
+};
 /// An id list: positive ids first, whatever their order on the card.
 struct IdList {
   std::vector<IdRef> positive, negative;
@@ -172,8 +179,8 @@ struct Selections::Impl {
   std::int64_t shift(const Block& block, std::string_view kind, std::int64_t id) const;
   /// Ids of the block's list; their kind is that of the schema's field.
   detail::IdList id_list(const DecodedBlock& d) const;
-  /// Values as written, zeros and blanks skipped, no offset: for ranges.
-  std::vector<std::int64_t> raw_values(const DecodedBlock& d) const;
+  /// Ranges of /GENE (pairs) and /GEN_INCR (triples) with an increment above 0.
+  std::vector<detail::IdRange> id_ranges(const DecodedBlock& d, std::string_view kind) const;
   void report(detail::Finding f) { detail::report(found, std::move(f)); }
   /// Members of a list that do not exist, in one finding per list.
   void report_missing(RuleId rule, const Block& block, const std::string& what,
@@ -190,8 +197,7 @@ struct Selections::Impl {
   const NodeSet* node_group(std::int64_t id);
   std::vector<NodeIndex> resolve_nodes(const detail::Definition& def, const DecodedBlock& d);
   std::vector<NodeIndex> nodes_by_id(const detail::Definition& def, const DecodedBlock& d);
-  std::vector<NodeIndex> nodes_of_ranges(const Block& block, const DecodedBlock& d,
-                                         bool increments);
+  std::vector<NodeIndex> nodes_of_ranges(const DecodedBlock& d);
   std::vector<NodeIndex> nodes_of_parts(const Block& block, std::string_view type,
                                         const DecodedBlock& d);
   std::vector<NodeIndex> nodes_in_boxes(const Block& block, const DecodedBlock& d);
@@ -239,6 +245,8 @@ struct Selections::Impl {
                   std::vector<Segment>& out) const;
   void add_solids(const Block& block, std::string_view option, detail::Indices solids,
                   std::vector<Segment>& out);
+  /// Faces that /SURF/GRBRIC leaves out under shells that are not in the surface.
+  void report_lost_faces(const Block& block, const std::vector<detail::LostFace>& lost);
   /// Cuts a plain triangle that lies on the face of a 10-node tetrahedron.
   void add_plain_segment(const Segment& s, std::vector<Segment>& out);
   void sort_segments(std::vector<Segment>& segments) const;

@@ -62,7 +62,7 @@ std::vector<NodeIndex> Selections::Impl::resolve_nodes(const Definition& def,
   if (type == "NODE" || type == "NODENS") {
     nodes = nodes_by_id(def, d);
   } else if (type == "GENE" || type == "GEN_INCR") {
-    nodes = nodes_of_ranges(block, d, type == "GEN_INCR");
+    nodes = nodes_of_ranges(d);
   } else if (is_part_type(type)) {
     nodes = nodes_of_parts(block, type, d);
   } else if (type == "BOX" || type == "BOX2") {
@@ -97,26 +97,18 @@ std::vector<NodeIndex> Selections::Impl::nodes_by_id(const Definition& def, cons
   return nodes;
 }
 
-std::vector<NodeIndex> Selections::Impl::nodes_of_ranges(const Block& block, const DecodedBlock& d,
-                                                         bool increments) {
-  const std::vector<std::int64_t> values = raw_values(d);
-  const std::int64_t offset = deck().offset_of(block, "node");
-  const std::size_t step = increments ? 3 : 2;
+std::vector<NodeIndex> Selections::Impl::nodes_of_ranges(const DecodedBlock& d) {
   std::vector<NodeIndex> nodes;
   start_marks();
-  for (std::size_t i = 0; i + step <= values.size(); i += step) {
-    const std::int64_t first = values[i] + offset, last = values[i + 1] + offset;
-    const std::int64_t increment = increments ? values[i + 2] : 1;
-    if (increment <= 0 || last < first) continue;
+  for (const detail::IdRange& r : id_ranges(d, "node")) {
+    if (r.last < r.first) continue;
     // Ids or nodes are visited, whichever are fewer: a range may span millions of unused ids.
-    if ((last - first) / increment < static_cast<std::int64_t>(model->nodes.size())) {
-      for (std::int64_t id = first; id <= last; id += increment) mark(node(id), nodes);
+    if ((r.last - r.first) / r.increment < static_cast<std::int64_t>(model->nodes.size())) {
+      for (std::int64_t id = r.first; id <= r.last; id += r.increment) mark(node(id), nodes);
       continue;
     }
-    for (NodeIndex n = 0; n < model->nodes.size(); ++n) {
-      const std::int64_t id = model->nodes.id[n];
-      if (id >= first && id <= last && (id - first) % increment == 0) mark(n, nodes);
-    }
+    for (NodeIndex n = 0; n < model->nodes.size(); ++n)
+      if (r.holds(model->nodes.id[n])) mark(n, nodes);
   }
   return nodes;
 }

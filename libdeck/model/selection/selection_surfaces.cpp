@@ -236,8 +236,43 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
     query.cover = &cover();
   }
   query.against_all = option == "FREE";
+  std::vector<detail::LostFace> lost;
+  if (block.schema->keyword.starts_with("/SURF/GRBRIC") && query.exterior_only &&
+      model->shell4.size() + model->shell3.size() > 0) {
+    query.cover = &cover();
+    query.by_part_place = true;
+    query.lost = &lost;
+  }
   const auto faces = solid_faces().segments(query);
   out.insert(out.end(), faces.begin(), faces.end());
+  if (!lost.empty()) report_lost_faces(block, lost);
+}
+
+void Selections::Impl::report_lost_faces(const Block& block,
+                                         const std::vector<detail::LostFace>& lost) {
+  const auto [solid, shell] = lost.front();
+  const Elements& shells = shell.four ? model->shell4 : model->shell3;
+  const std::int64_t skin = model->parts[shells.part[shell.element]].id;
+  const std::uint32_t part = model->solid8.part[solid];
+  const std::string body =
+      part == no_index ? "the solids" : "part " + std::to_string(model->parts[part].id);
+  Diagnostic d = detail::make_diagnostic(
+      {RuleId::DK063,
+       block.header_span,
+       std::string(block.keyword) + " " + std::to_string(block.id.value) + " lacks " +
+           (lost.size() == 1 ? "1 face" : std::to_string(lost.size()) + " faces") +
+           " of its solids; first is the face of solid " + std::to_string(model->solid8.id[solid]) +
+           " under shell " + std::to_string(shells.id[shell.element]) + " of part " +
+           std::to_string(skin),
+       std::string(block.keyword),
+       block.id.value,
+       {.fix = "name " + body + " in a /SURF/PART/EXT; with part " + std::to_string(skin) +
+               " beside it the shells take the place of the faces"}});
+  d.notes.emplace_back(model->element_span(ElementKind::solid8, solid), "the solid");
+  d.notes.emplace_back(
+      model->element_span(shell.four ? ElementKind::shell4 : ElementKind::shell3, shell.element),
+      "the shell");
+  found.report(std::move(d));
 }
 
 std::vector<Segment> Selections::Impl::segments_of_parts(const Definition& def,

@@ -112,11 +112,12 @@ std::string lasting_lines(const CycleInput& input) {
   return out;
 }
 
-/// Iadm: the nodes with the sharpest radius.
+/// Iadm: the nodes with the sharpest radius. The last column is below 1 where the normals of a
+/// segment and of its corner differ by more than Angladm.
 std::string criteria_table(const CycleInput& input, const CycleTextOptions& options) {
   const Model& model = *input.scene->model;
-  TextTable table =
-      make_table({">interface", ">node", ">radius", ">penetration / (Padm gap)", ">angle"});
+  TextTable table = make_table(
+      {">interface", ">node", ">radius", ">penetration / (Padm gap)", ">cos / cos Angladm"});
   for (const cycle::ContactOutcome& o : input.outcome->contacts) {
     std::vector<cycle::NodeCriteria> list = o.criteria;
     std::stable_sort(list.begin(), list.end(),

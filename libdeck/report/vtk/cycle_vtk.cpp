@@ -125,7 +125,7 @@ std::string nodes_file(const CycleInput& input) {
   const std::map<NodeIndex, cycle::NodeCriteria> figures = criteria_of(*input.outcome);
   const cycle::NodalSums& sums = input.outcome->nodes;
   std::vector<double> force, force_size, acceleration, stiffness, mass, dt, heat;
-  std::vector<double> radius, relative, angle;
+  std::vector<double> radius, relative, cosine_ratio;
   std::vector<std::int64_t> removed, released, node;
   for (NodeIndex n = 0; n < sums.stiffness.size(); ++n) {
     const auto known = figures.find(n);
@@ -141,7 +141,7 @@ std::string nodes_file(const CycleInput& input) {
     const cycle::NodeCriteria& figure = known != figures.end() ? known->second : none;
     radius.push_back(figure.radius);
     relative.push_back(figure.penetration);
-    angle.push_back(figure.angle < 1e30 ? figure.angle : 0.0);
+    cosine_ratio.push_back(figure.angle < 1e30 ? figure.angle : 0.0);
     released.push_back(sums.released[n]);
     force.insert(force.end(), f.begin(), f.end());
     force_size.push_back(length(f));
@@ -164,7 +164,7 @@ std::string nodes_file(const CycleInput& input) {
   out.point_data("released", released);
   out.point_data("radius", radius);
   out.point_data("relative_penetration", relative);
-  out.point_data("angle", angle);
+  out.point_data("cosine_ratio", cosine_ratio);
   out.point_data("node", node);
   return out.document();
 }
