@@ -44,6 +44,11 @@ Result<std::unique_ptr<Source>> open_source(const std::string& path, const Limit
   return Source::open_text(path, limits);
 }
 
+/// Official builds take "# RADIOSS" as well (listing of a public deck).
+bool is_banner(std::string_view line) {
+  return line.starts_with('#') && trim(line.substr(1)).starts_with("RADIOSS");
+}
+
 class Reader {
  public:
   Reader(const SchemaSet& schemas, const ReadOptions& options)
@@ -110,7 +115,7 @@ class Reader {
              "which editors do not show)",
              {.solver = "Official builds stop: the line does not begin with the banner.",
               .fix = "remove the mark: save the file as UTF-8 without BOM"});
-    else if (!trim(first).starts_with("#RADIOSS STARTER"))
+    else if (!is_banner(trim(first)))
       report(RuleId::DK001, make_span(0, 0, end), "the first line is not '#RADIOSS STARTER'",
              {.fix = "Put '#RADIOSS STARTER' in the first line."});
   }

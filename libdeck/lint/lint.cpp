@@ -67,7 +67,7 @@ void override_severity(const LintOptions& options, Diagnostic& d) {
     }
 }
 
-/// Where two findings stand at one place and one says more, the other is left out.
+/// Where one finding lies within another that says more, it is left out.
 constexpr std::pair<RuleId, RuleId> says_more[] = {
     {RuleId::DK047, RuleId::DK027},
     {RuleId::DK047, RuleId::DK028},
@@ -75,16 +75,20 @@ constexpr std::pair<RuleId, RuleId> says_more[] = {
     {RuleId::DK241, RuleId::DK030},
 };
 
-/// False for findings about columns that the schema of the keyword leaves open: properties and
-/// materials are described as far as contact needs them, other keywords by their name only.
+/// False for findings about what the schema of the keyword leaves open: text outside the cells and
+/// missing lines where it does not describe every cell, surplus lines of properties and materials,
+/// which are described as far as contact needs them, and of keywords that it knows by name only.
 bool certain(const SchemaSet& schemas, const Diagnostic& d) {
-  const bool columns = d.rule == RuleId::DK027 || d.rule == RuleId::DK028 ||
-                       d.rule == RuleId::DK029 || d.rule == RuleId::DK030 ||
-                       d.rule == RuleId::DK049 || d.rule == RuleId::DK109;
-  if (!columns || d.keyword.empty()) return true;
+  const bool columns = d.rule == RuleId::DK027 || d.rule == RuleId::DK028;
+  const bool lines = d.rule == RuleId::DK029 || d.rule == RuleId::DK030;
+  const bool header = d.rule == RuleId::DK049 || d.rule == RuleId::DK109;
+  if ((!columns && !lines && !header) || d.keyword.empty()) return true;
   const Schema* s = schemas.match(d.keyword);
   if (s == nullptr) return true;
-  if (d.rule == RuleId::DK109 || d.rule == RuleId::DK049) return s->kind != "other";
+  if (header) return s->kind != "other";
+  // /BEGIN is read before the version is known, by no layout.
+  if (columns || d.rule == RuleId::DK029)
+    return s->layout_known() && s->kind != "engine" && s->keyword != "/BEGIN";
   return !s->opaque_tail && s->kind != "prop" && s->kind != "mat" && s->kind != "other";
 }
 
@@ -120,15 +124,21 @@ struct Pool {
     drop_lesser();
   }
 
-  /// `kept` is sorted by place.
   void drop_lesser() {
-    std::set<std::tuple<std::uint32_t, std::uint64_t, RuleId>> lesser;
+    struct Larger {
+      RuleId lesser;
+      Span span;
+    };
+    std::vector<Larger> all;
     for (const Diagnostic& d : kept)
       for (const auto& [more, less] : says_more)
-        if (d.rule == more) lesser.emplace(d.span.file, d.span.offset, less);
-    if (lesser.empty()) return;
+        if (d.rule == more) all.push_back({less, d.span});
+    if (all.empty()) return;
     std::erase_if(kept, [&](const Diagnostic& d) {
-      return lesser.count({d.span.file, d.span.offset, d.rule}) > 0;
+      return std::any_of(all.begin(), all.end(), [&](const Larger& l) {
+        return d.rule == l.lesser && d.span.file == l.span.file && d.span.offset >= l.span.offset &&
+               d.span.offset + d.span.length <= l.span.offset + l.span.length;
+      });
     });
   }
 

@@ -19,6 +19,8 @@ std::string_view family_of(RuleId id) {
       return "cost and stability";
     case 5:
       return "defaults";
+    case 6:
+      return "messages of the listing";
     case 8:
       return "Starter and Engine";
     case 9:
@@ -44,7 +46,7 @@ const std::vector<detail::Checked>& detail::all_checks() {
          {header_checks(), target_checks(), physics_checks(), element_checks(), reference_checks(),
           friction_checks(), flag_checks(), value_checks(), line_checks(), combination_checks(),
           ignored_checks(), manual_checks(), difference_checks(), companion_checks(),
-          default_checks(), advice_checks(), engine_checks(), bound_checks()})
+          default_checks(), advice_checks(), engine_checks(), bound_checks(), listing_checks()})
       out.insert(out.end(), table.begin(), table.end());
     std::sort(out.begin(), out.end(),
               [](const Checked& a, const Checked& b) { return a.id < b.id; });

@@ -166,9 +166,13 @@ class BlockDecoder {
     return number.status == NumberStatus::ok ? number.value : value_of(card.count, once, once);
   }
 
-  /// `round`: the first card of what repeats and is cut short.
+  /// `round`: the first card of what repeats and is cut short. Lines at the end of a property, a
+  /// load or another block without a list mean the same whether they are blank or not there: one
+  /// remark for all of them.
   void report_missing(const CardSchema& card, const DecodedCard* round = nullptr) {
     missing_.push_back(&card);
+    const bool remark = round == nullptr && block_.schema->opaque_tail;
+    if (remark && missing_.size() > 1) return;
     if (!findings_.wants(RuleId::DK029)) return;
     std::string why;
     for (const Condition& c : card.when) {
@@ -176,9 +180,12 @@ class BlockDecoder {
       why +=
           " (present because " + c.field + " = " + std::to_string(cause ? cause->integer : 0) + ")";
     }
+    Case particular;
+    if (remark) particular.severity = Severity::info;
     Diagnostic* d = findings_.keep(
         RuleId::DK029, block_.header_span,
-        std::string(block_.keyword) + " ends before its line '" + card.name + "'" + why);
+        std::string(block_.keyword) + " ends before its line '" + card.name + "'" + why,
+        std::move(particular));
     for (const Condition& c : card.when)
       if (const Cell* cause = out_.find(c.field))
         d->notes.emplace_back(cause->span, c.field + " asks for the line");

@@ -206,9 +206,14 @@ void check_next_version_field(const LintContext& c, const Rule& rule, Reporter& 
             });
         if (shared) continue;
         const bool later = f.from > card.block->version;
-        r.report(rule, *card.block, span,
-                 fmt::format("'{}' stands where version {} has {}; version {} has no field there",
-                             text, later ? f.from : f.until, f.name, card.block->version));
+        Diagnostic* d = r.report(
+            rule, *card.block, span,
+            fmt::format("'{}' stands where version {} has {}; version {} has no field there", text,
+                        later ? f.from : f.until, f.name, card.block->version));
+        const bool between = std::any_of(
+            line.schema->fields.begin(), line.schema->fields.end(),
+            [&](const Field& g) { return g.in_version(card.block->version) && g.first > f.last; });
+        if (d != nullptr && !between) d->reference = rule.message(100213);
       }
     }
 }

@@ -61,27 +61,29 @@ class Human {
   /// Errors first; rules in the order in which they first occur, their findings together where
   /// there are more than a few.
   std::string findings() {
+    using Kind = std::pair<RuleId, Severity>;
     std::vector<const Diagnostic*> all;
-    std::map<RuleId, std::vector<const Diagnostic*>> of_rule;
+    std::map<Kind, std::vector<const Diagnostic*>> of_kind;
     for (const Diagnostic& d : deck_.result->diagnostics) {
       all.push_back(&d);
-      of_rule[d.rule].push_back(&d);
+      of_kind[{d.rule, d.severity}].push_back(&d);
     }
     std::stable_sort(all.begin(), all.end(), [](const Diagnostic* a, const Diagnostic* b) {
       return rank(a->severity) < rank(b->severity);
     });
     std::string out;
-    std::map<RuleId, int> shown;
+    std::map<Kind, int> shown;
     std::map<RuleId, std::uint64_t> hidden = deck_.result->dropped;
     for (const Diagnostic* d : all) {
-      const auto& alike = of_rule[d->rule];
-      int& n = shown[d->rule];
-      if (options_.group && alike.size() > most_alike) {
+      const auto& alike = of_kind[{d->rule, d->severity}];
+      int& n = shown[{d->rule, d->severity}];
+      if (options_.group && folds(*d, alike.size())) {
         if (n++ > 0) continue;
-        std::vector<const Diagnostic*> others;
-        std::copy_if(all.begin(), all.end(), std::back_inserter(others),
-                     [&](const Diagnostic* x) { return x != d && x->rule == d->rule; });
-        out += one(*d, group(others, hidden[d->rule]));
+        out += folded(*d, alike.size() + hidden[d->rule]);
+        hidden.erase(d->rule);
+      } else if (options_.group && alike.size() > most_alike) {
+        if (n++ > 0) continue;
+        out += one(*d, group({alike.begin() + 1, alike.end()}, hidden[d->rule]));
         hidden.erase(d->rule);
       } else if (options_.per_rule > 0 && n >= options_.per_rule) {
         ++hidden[d->rule];
@@ -119,6 +121,26 @@ class Human {
  private:
   const char* color(Severity s) const {
     return s == Severity::error ? c_.error : s == Severity::warning ? c_.warning : c_.info;
+  }
+
+  /// True if the findings of that kind are one line: remarks, of which a deck can have hundreds.
+  static bool folds(const Diagnostic& d, std::size_t alike) {
+    return d.severity == Severity::info && alike > most_alike;
+  }
+
+  /// All findings of a kind in a line with their number, and the place of the first.
+  std::string folded(const Diagnostic& first, std::uint64_t count) const {
+    std::string out = fmt::format("{}{}[{}]{}{}: {} places: {}{}", color(first.severity),
+                                  detail::severity_name(first.severity), id_text(first.rule),
+                                  c_.off, c_.bold, count, rule_of(first.rule).title, c_.off);
+    if (first.reference)
+      out += fmt::format(" (solver: {} {})", detail::severity_name(first.reference->severity),
+                         first.reference->number);
+    const detail::Place at = detail::place_of(deck_, first.span);
+    return out +
+           fmt::format("\n {}-->{} {}, the first of them; -v shows all\n\n", c_.blue, c_.off,
+                       terminal_text(at.known ? fmt::format("{}:{}:{}", at.file, at.line, at.column)
+                                              : at.file));
   }
 
   /// The other findings of a rule, a line each; `dropped` more were not kept.

@@ -61,6 +61,20 @@ void report_short_side(const GeometryRun& run, const Contact& c, const ShortSide
   d->notes.emplace_back(model.node_span(worst.a), "one end of it");
 }
 
+/// The largest gap and the shortest side are not at the same place: the reference warns all the
+/// same.
+void report_apart(const GeometryRun& run, const Contact& c) {
+  if (c.kind != ContactKind::node_segment || c.igap == 0) return;
+  if (!(c.shortest_side > 0) || !(c.max_gap > 0.5 * c.shortest_side)) return;
+  Diagnostic* d = run.report(RuleId::DK310, c, gap_field(c),
+                             fmt::format("{}: the largest gap {:.6g} is more than half of the "
+                                         "shortest main side {:.6g}, which is at another place",
+                                         name_of(run, c), c.max_gap, c.shortest_side));
+  if (d == nullptr) return;
+  d->severity = Severity::info;
+  d->reference = rule_of(RuleId::DK310).message(477);
+}
+
 /// The reference compares the largest gap with the shortest side of the whole surface; here both
 /// are taken at the same place.
 void check_short_sides(const GeometryRun& run, const Contact& c) {
@@ -80,6 +94,8 @@ void check_short_sides(const GeometryRun& run, const Contact& c) {
     const MainSegment& m = c.main[worst.item];
     report_short_side(run, c, worst, " of segment " + nodes_text(model, m),
                       carrier_name(model, m.carrier, m.element), c.main.size(), "segment");
+  } else {
+    report_apart(run, c);
   }
   // Of lines both sides count.
   for (const bool main : {true, false}) {

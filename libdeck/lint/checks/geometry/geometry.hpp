@@ -42,6 +42,7 @@ void check_penetrations(const GeometryRun& run);     // rules_geometry_penetrati
 void check_segments(const GeometryRun& run);         // rules_geometry_segments.cpp
 void check_gaps(const GeometryRun& run);             // rules_geometry_gaps.cpp
 void check_manual_geometry(const GeometryRun& run);  // rules_geometry_manual.cpp
+void check_tables(const GeometryRun& run);           // tables.cpp
 /// Also gives the forces that it evaluated.
 cycle::SceneOutcome check_cycle(const GeometryRun& run);
 

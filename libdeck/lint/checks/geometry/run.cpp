@@ -75,6 +75,7 @@ void check_geometry(const LintContext& context, Reporter& reporter, const Geomet
   detail::check_gaps(run);
   detail::check_segments(run);
   detail::check_manual_geometry(run);
+  detail::check_tables(run);
   const cycle::SceneOutcome forces = detail::check_cycle(run);
   if (chosen.gate == nullptr) return;
   for (const Diagnostic& d : check_gate(*chosen.gate, scene, view, &forces, chosen.earlier))

@@ -1,0 +1,197 @@
+// What the solver replaces or cannot find and says in its listing only: integration points of
+// shells, formulations of triangles, vent holes, options of the Engine file, the reference state.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "deck/base/paths.hpp"
+#include "lint/check.hpp"
+#include "lint/check_tables.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// Blocks of a keyword, by the keyword of their schema.
+template <class F>
+void each_block(const LintContext& c, std::string_view keyword, F&& f) {
+  for (const Block& b : c.deck.blocks)
+    if (b.schema != nullptr && !b.opaque && b.schema->keyword == keyword) f(b);
+}
+
+/// Parts of the model that have shell elements.
+std::vector<bool> parts_with_shells(const Model& m) {
+  std::vector<bool> out(m.parts.size(), false);
+  for (const Elements* family : {&m.shell4, &m.shell3}) {
+    std::uint32_t last = no_index;  // elements of a part come one after the other
+    for (const std::uint32_t part : family->part) {
+      if (part == last) continue;
+      last = part;
+      if (part != no_index) out[part] = true;
+    }
+  }
+  return out;
+}
+
+/// Shell properties whose N is a number of integration points, not of layers.
+bool has_integration_points(const Property& p) { return p.number == 1 || p.number == 9; }
+
+/// Calls f(property, material, decoded property) for every pair that shell elements have.
+template <class F>
+void each_shell_pair(const LintContext& c, F&& f) {
+  if (c.model == nullptr) return;
+  const Model& m = *c.model;
+  const std::vector<bool> has_shells = parts_with_shells(m);
+  std::map<std::uint32_t, std::set<std::uint32_t>> pairs;
+  for (std::size_t i = 0; i < m.parts.size(); ++i) {
+    const Part& p = m.parts[i];
+    if (has_shells[i] && p.prop != no_index && p.mat != no_index) pairs[p.prop].insert(p.mat);
+  }
+  for (const auto& [prop, materials] : pairs) {
+    const Property& p = m.properties[prop];
+    if (!has_integration_points(p) || p.block == nullptr || p.block->opaque) continue;
+    const DecodedBlock d = decode(c.deck, *p.block);
+    for (const std::uint32_t mat : materials) f(p, m.materials[mat], d);
+  }
+}
+
+/// The columns of a cell, or the header where its line is missing.
+Span place_of(const DecodedBlock& d, std::string_view field) {
+  const Cell* cell = d.find(field);
+  return cell != nullptr && cell->span.valid() ? cell->span : d.block->header_span;
+}
+
+void check_global_integration(const LintContext& c, const Rule& rule, Reporter& r) {
+  std::set<std::pair<const Property*, int>> seen;  // one finding per property and law
+  each_shell_pair(c, [&](const Property& p, const Material& mat, const DecodedBlock& d) {
+    const bool has_it = mat.law <= 1 || mat.law == 91 || mat.law == 136;
+    if (has_it || d.integer("N") != 0 || !seen.emplace(&p, mat.law).second) return;
+    Diagnostic* found =
+        r.report(rule, *p.block, place_of(d, "N"),
+                 fmt::format("{} {} has N = 0, which law {} of material {} does not have; three "
+                             "integration points are used",
+                             p.type, p.id, mat.law, mat.id));
+    if (found != nullptr) found->notes.emplace_back(mat.span, "the material");
+  });
+}
+
+void check_elastic_shells(const LintContext& c, const Rule& rule, Reporter& r) {
+  each_shell_pair(c, [&](const Property& p, const Material& mat, const DecodedBlock& d) {
+    if (mat.law != 1 || d.integer("N") <= 1) return;
+    r.report(rule, *p.block, place_of(d, "N"),
+             fmt::format("{} {} has N = {} and the elastic material {}: it is integrated globally",
+                         p.type, p.id, d.integer("N"), mat.id));
+  });
+}
+
+void check_plain_triangles(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr) return;
+  std::int64_t shell = 0, triangle = 0;
+  Span defaults;
+  each_block(c, "/DEF_SHELL", [&](const Block& b) {
+    const DecodedBlock d = decode(c.deck, b);
+    shell = d.integer("Ishell");
+    triangle = d.integer("Ish3n");
+    defaults = place_of(d, "Ish3n");
+  });
+  if (triangle != 1) return;
+  static constexpr int numbers[] = {1, 9, 10, 11, 16, 17, 51};
+  for (const Property& p : c.model->properties) {
+    if (std::find(std::begin(numbers), std::end(numbers), p.number) == std::end(numbers) ||
+        p.block == nullptr || p.block->opaque || p.block->schema->find_field("Ishell") == nullptr)
+      continue;
+    const DecodedBlock d = decode(c.deck, *p.block);
+    const std::int64_t own = d.integer("Ishell");
+    const std::int64_t used = own == 0 && p.number != 51 ? shell : own;
+    if (used != 4 || d.integer("Ish3n") != 0) continue;
+    Diagnostic* found = r.report(rule, *p.block, place_of(d, "Ish3n"),
+                                 fmt::format("{} {} has Ishell = 4 and no Ish3n: its triangles are "
+                                             "plain C0 triangles",
+                                             p.type, p.id));
+    if (found != nullptr) found->notes.emplace_back(defaults, "the default of the triangles");
+  }
+}
+
+/// Vent holes and porous surfaces are rounds of their block, each with its surface or its area.
+void check_vents(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const Block& b : c.deck.blocks) {
+    if (b.schema == nullptr || b.opaque || !b.schema->keyword.starts_with("/MONVOL/")) continue;
+    if (b.schema->find_field("Avent") == nullptr) continue;
+    const DecodedBlock d = decode(c.deck, b);
+    int place = 0;
+    for (const DecodedCard& card : d.cards) {
+      const Cell *surface = nullptr, *area = nullptr;
+      for (const Cell& cell : card.cells) {
+        const std::string_view name = cell.field->name;
+        if (name == "surf_IDv") surface = &cell;
+        if (name == "Avent") area = &cell;
+      }
+      if (surface == nullptr || area == nullptr) continue;
+      ++place;
+      if (surface->integer != 0 || surface->parameter || area->real != 0) continue;
+      r.report(rule, b, area->span.valid() ? area->span : b.header_span,
+               fmt::format("vent hole {} of {} has no surface and the area 0", place,
+                           clipped(b.header)));
+    }
+  }
+}
+
+/// True if the Starter finds no Engine file where it looks for one. A deck whose name does not end
+/// in _0000.rad is no deck that is run.
+bool engine_file_missing(const LintContext& c) {
+  return c.engine != nullptr && !c.engine->run.empty() && c.engine->files.empty() &&
+         c.engine->unread.empty();
+}
+
+void check_engine_file(const LintContext& c, const Rule& rule, Reporter& r) {
+  if (c.model == nullptr || !engine_file_missing(c)) return;
+  const auto report = [&](Span place, int message, const std::string& what) {
+    Diagnostic* d =
+        r.report(rule, place, fmt::format("there is no {}_0001.rad: {}", c.engine->run, what));
+    if (d != nullptr) d->reference = rule.message(message);
+  };
+  const auto shapes = [&](SolidShape shape) {
+    const Elements& solids = c.model->solid8;
+    const auto it = std::find(solids.shape.begin(), solids.shape.end(), shape);
+    if (it == solids.shape.end()) return Span();
+    return c.model->element_span(
+        ElementKind::solid8, static_cast<std::uint32_t>(std::distance(solids.shape.begin(), it)));
+  };
+  if (const Span at = shapes(SolidShape::tetra4); at.valid())
+    report(at, 1589, "the time steps of 4-node tetrahedra are listed without /DT1/BRICK");
+  if (const Span at = shapes(SolidShape::tetra10); at.valid())
+    report(at, 1606, "the time steps of 10-node tetrahedra are listed without /DT1TET10");
+  each_block(c, "/AMS", [&](const Block& b) {
+    if (decode(c.deck, b).integer("grpart_ID") == 0)
+      report(b.header_span, 1570, "/AMS scales the masses of all parts");
+  });
+}
+
+void check_reference_file(const LintContext& c, const Rule& rule, Reporter& r) {
+  each_block(c, "/REFSTA", [&](const Block& b) {
+    const DecodedBlock d = decode(c.deck, b);
+    const Cell* name = d.find("RSFILE");
+    if (name == nullptr || name->blank()) return;
+    const std::string file(name->text);
+    const std::string folder(parent_path(absolute_path(c.deck.sources[0].path())));
+    std::error_code ec;
+    if (std::filesystem::exists(file.starts_with('/') ? file : folder + "/" + file, ec)) return;
+    r.report(rule, b, name->span,
+             fmt::format("the reference state file '{}' is not there", clipped(file)));
+  });
+}
+
+}  // namespace
+
+std::span<const Checked> listing_checks() {
+  static constexpr Checked all[] = {
+      {RuleId::DK600, check_global_integration}, {RuleId::DK601, check_elastic_shells},
+      {RuleId::DK602, check_plain_triangles},    {RuleId::DK603, check_vents},
+      {RuleId::DK604, check_engine_file},        {RuleId::DK605, check_reference_file},
+  };
+  return all;
+}
+
+}  // namespace deck::detail
