@@ -440,7 +440,7 @@ DecodedCard detail::decode_in_context(const Deck& deck, const Block& block, cons
     return out;
   }
   // Where a schema describes only the cells that matter here, the other columns are not blank.
-  const bool complete = block.schema == nullptr || !block.schema->opaque_tail;
+  const bool complete = block.schema == nullptr || block.schema->layout_known();
   if (findings.on() && complete) check_gaps(findings, card, block.version, line);
   for_each_field(card, block.version, out, context, [&](const Field& f) {
     out.cells.push_back(read_cell(deck, findings, f, detail::columns(line.text, f.first, f.last),
