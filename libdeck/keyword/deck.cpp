@@ -101,6 +101,19 @@ bool all_digits(std::string_view s) {
   return !s.empty() && std::all_of(s.begin(), s.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
+/// Without a number in its header an object has number 1, except for these: an interface keeps a
+/// written 0, and nothing can refer to a part, group or curve without a number.
+bool keeps_zero(const Block& block) {
+  static constexpr std::string_view nameless[] = {"part", "surf",   "line", "box",
+                                                  "set",  "subset", "funct"};
+  if (block.schema == nullptr) return false;
+  const std::string_view kind = block.schema->kind;
+  if (kind == "inter") return block.id.present;
+  return block.schema->bulk ||
+         std::find(std::begin(nameless), std::end(nameless), kind) != std::end(nameless) ||
+         kind.starts_with("gr");
+}
+
 /// Length of `name` if `header` starts with it as whole header fields, else 0.
 std::size_t name_length(std::string_view header, std::string_view name) {
   if (!header.starts_with(name)) return 0;
@@ -206,10 +219,7 @@ void parse_header(const SchemaSet& schemas, Block& block) {
     }
     const bool parameter =
         block.id.span.length > 0 && header[block.id.span.offset - block.header_span.offset] == '&';
-    // An interface keeps a written 0; every other object without a number becomes number 1.
-    const bool keeps_zero =
-        block.id.present && block.schema != nullptr && block.schema->kind == "inter";
-    if (block.id.value == 0 && !parameter && !keeps_zero) block.id.value = 1;
+    if (block.id.value == 0 && !parameter && !keeps_zero(block)) block.id.value = 1;
   }
   // The formats up to 51 have no unit field; before 51 the title stands in the header.
   if (block.version < 51) {

@@ -390,12 +390,21 @@ class Reader {
     source.release(released, size);
   }
 
+  /// A blank before the number in a header does no harm; elsewhere the solver reads another
+  /// keyword.
   void check_header_blanks(std::uint32_t file, std::uint64_t begin, std::uint64_t slash,
                            std::string_view header, int version) {
     if (version < 51) return;  // the title stands in the header
     const std::string shown(header.substr(0, 60));
     if (begin != slash) {
       report(RuleId::DK052, make_span(file, begin, slash), "a blank before " + shown);
+      return;
+    }
+    if (header.size() > 1 && is_blank(header[1])) {
+      report(
+          RuleId::DK052, make_span(file, slash + 1, slash + header.find_first_not_of(" \t", 1)),
+          "a blank after the first slash of " + shown,
+          {.message = 0, .solver = "It does not know the keyword and reads nothing of the block."});
       return;
     }
     std::size_t inner = 1;

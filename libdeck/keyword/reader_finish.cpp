@@ -159,11 +159,15 @@ void fill_begin_units(Deck& deck, const ReaderNotes& notes) {
   Begin& begin = deck.begin;
   const bool units_in_begin = begin.has_input || begin.has_working;
   const Block* global = nullptr;
+  std::string missing = "LENGTH MASS TIME";
   if (!units_in_begin)
     for (const Block& b : deck.blocks)
       if (is_global_unit(b)) {
         read_global_unit(deck, b);
         global = &b;
+        const std::string_view name = b.header.substr(6, b.header.find('/', 6) - 6);
+        if (const auto at = missing.find(trim(name)); at != std::string::npos)
+          missing.erase(at, trim(name).size());
       }
   if (!begin.has_input && begin.has_working) begin.input = begin.working;
   if (begin.has_input && !begin.has_working) begin.working = begin.input;
@@ -177,6 +181,11 @@ void fill_begin_units(Deck& deck, const ReaderNotes& notes) {
                                    " count up to version 90 only",
            {.solver =
                 global == nullptr ? "it stops with an error" : "it stops with an error, or hangs"});
+  else if (const auto lacks = trim(missing); global != nullptr && !lacks.empty())
+    report(deck, RuleId::DK016, begin.span,
+           "there is no /UNIT/" + std::string(lacks.substr(0, lacks.find(' '))) +
+               ", which a deck of version " + std::to_string(deck.version) + " needs",
+           {.solver = "it stops with an error", .fix = "write /UNIT/LENGTH, MASS and TIME"});
   else if (!(begin.input == begin.working))
     report(deck, RuleId::DK017, begin.span,
            "input units differ from working units: every value is converted");
@@ -246,7 +255,8 @@ void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSyste
     if ((other.*cell.code).empty()) {
       report(
           deck, RuleId::DK015, begin,
-          what + " is blank, and so is that of the other one; here it is taken for 1 in kg, m, s",
+          what +
+              " is blank or 0, and so is that of the other one; here it is taken for 1 in kg, m, s",
           {.severity = Severity::warning,
            .message = 0,
            .solver = "it goes on; with which unit is open"});
@@ -255,13 +265,22 @@ void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSyste
     units.*cell.code = other.*cell.code;
     units.*cell.factor = other.*cell.factor;
     report(deck, RuleId::DK015, begin,
-           what + " is blank; '" + units.*cell.code + "' of the other one is taken",
+           what + " is blank or 0; '" + units.*cell.code + "' of the other one is taken",
            {.severity = Severity::warning,
             .message = 0,
             .solver = "it goes on with the unit of the other system",
             .fix = "write all three units of both lines"});
   }
 }
+
+namespace {
+
+bool is_zero(std::string_view cell) {
+  const RealCell number = read_real(cell);
+  return number.status == NumberStatus::ok && number.value == 0;
+}
+
+}  // namespace
 
 bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_one) {
   Span spans[3] = {line.columns(1, 20), line.columns(21, 40), line.columns(41, 60)};
@@ -279,11 +298,16 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
   units.length_code = cells[1];
   units.time_code = cells[2];
   double* const factors[3] = {&units.mass, &units.length, &units.time};
+  std::string* const codes[3] = {&units.mass_code, &units.length_code, &units.time_code};
   constexpr char bases[3] = {'g', 'm', 's'};
   constexpr const char* names[3] = {"mass", "length", "time"};
   for (int i = 0; i < 3; ++i) {
     if (blank_is_one && cells[i].find_first_not_of("0.+-") == std::string_view::npos) continue;
     if (cells[i].empty()) continue;  // the other system says what is meant
+    if (is_zero(cells[i])) {         // counts as blank
+      *codes[i] = {};
+      continue;
+    }
     if (const auto factor = unit_factor(cells[i], bases[i])) {
       *factors[i] = *factor;
       continue;

@@ -22,6 +22,23 @@ bool Condition::holds(std::int64_t value) const {
   return (!min || value >= *min) && (!max || value <= *max);
 }
 
+std::optional<int> Schema::stops_without_unit() const {
+  constexpr int of_mesh = 643, of_others = 659;
+  // Of these kinds the solver looks every unit system up, also where no cell has a dimension.
+  static constexpr std::string_view always[] = {"inter", "friction", "box",  "surf",  "mat",
+                                                "prop",  "sensor",   "skew", "frame", "inivel"};
+  if (unknown_unit) return unknown_unit;
+  if (std::find(std::begin(always), std::end(always), kind) != std::end(always)) return of_others;
+  const auto converted = [](const Dimension& d) { return d.mass != 0 || d.length != 0 || d.time; };
+  for (const auto& card : cards)
+    for (const auto& field : card.fields)
+      if (bulk || converted(field.dimension) || !field.dimension_when.empty() ||
+          (field.type == FieldType::real && !field.dimension_known))
+        return bulk ? of_mesh : of_others;
+  if (cards.empty() || !layout_known()) return std::nullopt;
+  return 0;
+}
+
 const Field* Schema::find_field(std::string_view name) const {
   // A field may be listed once per layout; the newest one speaks for the keyword.
   const Field* best = nullptr;

@@ -307,17 +307,25 @@ void read_range(const Json& json, const Path& path, Field& field) {
     fail(path, "a text field has no range");
 }
 
-void read_words(const Json& json, const Path& path, Field& field) {
-  const auto it = json.find("words");
-  if (it == json.end()) return;
-  const auto here = at(path, "words");
-  if (field.type != FieldType::text) fail(here, "only text fields have a list of words");
-  Condition legal;
-  legal.field = field.name;
-  for (const auto& word : expect_array(*it, here))
-    legal.words.push_back(text_of(word, at(here, legal.words.size())));
-  if (legal.words.empty()) fail(here, "the list is empty");
-  field.solver_when.push_back(std::move(legal));
+int message_of(const Json& json, const Path& path) {
+  const int message = small_of(json, path);
+  if (message < 0) fail(path, "a message number is not negative");
+  return message;
+}
+
+/// The texts that are legal, and the message about a cell that is not.
+void read_legal(const Json& json, const Path& path, Field& field) {
+  if (json.contains("words")) {
+    const auto here = at(path, "words");
+    if (field.type != FieldType::text) fail(here, "only text fields have a list of words");
+    for (const auto& item : expect_array(json["words"], here))
+      field.words.push_back(text_of(item, at(here, field.words.size())));
+    if (field.words.empty()) fail(here, "the list is empty");
+  }
+  if (!json.contains("wrong")) return;
+  if (field.words.empty() && field.type != FieldType::flag)
+    fail(at(path, "wrong"), "only flags and texts with \"words\" can be wrong");
+  field.wrong = message_of(json["wrong"], at(path, "wrong"));
 }
 
 /// Message numbers of the reference solver about the target of an id.
@@ -328,17 +336,20 @@ void read_target(const Json& json, const Path& path, Field& field) {
     const auto it = json.find(key);
     if (it == json.end()) continue;
     if (field.type != FieldType::id) fail(at(path, key), "only ids have a target");
-    *out = small_of(*it, at(path, key));
-    if (**out < 0) fail(at(path, key), "a message number is not negative");
+    *out = message_of(*it, at(path, key));
   }
+  read(json, path, "acts_on", field.acts_on);
+  if (field.acts_on && field.type != FieldType::id)
+    fail(at(path, "acts_on"), "only ids have a target");
 }
 
 Field field_of(const Json& json, const Path& path) {
   expect_object(json, path,
-                {"name",    "cols",  "type",        "ref",      "versions",   "when",  "values",
-                 "min",     "max",   "min_open",    "max_open", "missing",    "empty", "required",
-                 "default", "dim",   "dim_unknown", "dim_when", "solver_dim", "axes",  "unit_for",
-                 "over",    "words", "ignored",     "doc",      "manual",     "help",  "help_of"});
+                {"name",   "cols",        "type",     "ref",        "versions", "when",
+                 "values", "min",         "max",      "min_open",   "max_open", "missing",
+                 "empty",  "required",    "words",    "wrong",      "acts_on",  "default",
+                 "dim",    "dim_unknown", "dim_when", "solver_dim", "axes",     "unit_for",
+                 "over",   "ignored",     "doc",      "manual",     "help",     "help_of"});
   Field field;
   require(json, path, "name");
   read(json, path, "name", field.name);
@@ -355,11 +366,11 @@ Field field_of(const Json& json, const Path& path) {
   read_versions(json, path, field.from, field.until);
   if (json.contains("when")) field.when = conditions_of(json["when"], at(path, "when"));
   read_range(json, path, field);
+  read_legal(json, path, field);
   read(json, path, "default", field.default_text);
   read_dimension(json, path, field);
   read_axes(json, path, field);
   read_relations(json, path, field);
-  read_words(json, path, field);
   read(json, path, "ignored", field.ignored);
   read(json, path, "doc", field.doc);
   read(json, path, "manual", field.from_manual);
@@ -434,8 +445,8 @@ void check_keyword(const std::string& keyword, const Path& path) {
 
 Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   expect_object(json, path,
-                {"$schema", "keyword", "aliases", "kind", "id", "title", "unit", "bulk",
-                 "opaque_tail", "full_layout", "from", "doc", "cards"});
+                {"$schema", "keyword", "aliases", "kind", "id", "title", "unit", "unique",
+                 "unknown_unit", "bulk", "opaque_tail", "full_layout", "from", "doc", "cards"});
   Schema schema;
   schema.source = source;
   require(json, path, "keyword");
@@ -453,6 +464,9 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   read(json, path, "id", schema.has_id);
   read(json, path, "title", schema.has_title);
   read(json, path, "unit", schema.has_unit);
+  read(json, path, "unique", schema.unique);
+  if (json.contains("unknown_unit"))
+    schema.unknown_unit = message_of(json["unknown_unit"], at(path, "unknown_unit"));
   read(json, path, "bulk", schema.bulk);
   read(json, path, "opaque_tail", schema.opaque_tail);
   read(json, path, "full_layout", schema.full_layout);

@@ -28,7 +28,7 @@ std::span<const std::string> legal_words(const Schema& schema) {
   for (const CardSchema& card : schema.cards)
     if (card.words)
       for (const Field& field : card.fields)
-        if (!field.solver_when.empty()) return field.solver_when.front().words;
+        if (!field.words.empty()) return field.words;
   return {};
 }
 

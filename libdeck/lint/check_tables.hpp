@@ -23,6 +23,7 @@ std::span<const Checked> friction_checks();     // pairs of parts of a /FRICTION
 std::span<const Checked> flag_checks();         // legal values of flags
 std::span<const Checked> value_checks();        // ranges of numbers
 std::span<const Checked> bound_checks();        // what schemas allow elsewhere
+std::span<const Checked> code_checks();         // directions and digits of loads
 std::span<const Checked> line_checks();         // optional lines
 std::span<const Checked> combination_checks();  // fields that contradict
 std::span<const Checked> ignored_checks();      // fields without effect

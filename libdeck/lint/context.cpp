@@ -160,7 +160,8 @@ void collect_numbers(const Deck& deck, const Block& block, std::unordered_set<st
 bool asks_for_targets(const Schema& schema) {
   for (const CardSchema& card : schema.cards)
     for (const Field& f : card.fields)
-      if (f.missing || f.empty || f.required || f.ref == "funct") return true;
+      if (f.missing || f.empty || f.required || f.wrong || f.acts_on || f.ref == "funct")
+        return true;
   return false;
 }
 

@@ -80,11 +80,11 @@ constexpr std::pair<RuleId, RuleId> says_more[] = {
 bool certain(const SchemaSet& schemas, const Diagnostic& d) {
   const bool columns = d.rule == RuleId::DK027 || d.rule == RuleId::DK028 ||
                        d.rule == RuleId::DK029 || d.rule == RuleId::DK030 ||
-                       d.rule == RuleId::DK049 || d.rule == RuleId::DK109;
+                       d.rule == RuleId::DK049;
   if (!columns || d.keyword.empty()) return true;
   const Schema* s = schemas.match(d.keyword);
   if (s == nullptr) return true;
-  if (d.rule == RuleId::DK109 || d.rule == RuleId::DK049) return s->kind != "other";
+  if (d.rule == RuleId::DK049) return s->kind != "other";
   return !s->opaque_tail && s->kind != "prop" && s->kind != "mat" && s->kind != "other";
 }
 

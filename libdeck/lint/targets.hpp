@@ -31,4 +31,8 @@ bool selection_is_empty(const LintContext& c, std::string_view kind, std::int64_
 /// Whether the entity exists; nothing: it cannot be said (no model, or a kind nobody counts).
 std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id);
 
+/// The field that names what the block acts on, where the solver passes over the block and checks
+/// nothing of it: its target is 0, or there is none and no such block has any. Else nullptr.
+const Field* acts_on_nothing(const LintContext& c, const DecodedBlock& d);
+
 }  // namespace deck::detail

@@ -53,7 +53,7 @@ void register_id(BuildContext& c, std::map<std::int64_t, std::uint32_t>& map, st
                            "id " + std::to_string(id) + " is above the largest id " +
                                std::to_string(detail::largest_id),
                            std::string(block.keyword), id});
-  if (map.emplace(id, index).second) return;
+  if (map.emplace(id, index).second || id == 0) return;
   if (!c.diagnostics.wants(RuleId::DK100)) return;
   Diagnostic d =
       make_diagnostic({RuleId::DK100, block.header_span,
@@ -120,25 +120,13 @@ void check_duplicates(BuildContext& c) {
   }
 }
 
-/// True if a unit system could change a value of the block.
-bool has_dimensions(const Schema& schema) {
-  return schema.opaque_tail ||
-         std::any_of(schema.cards.begin(), schema.cards.end(), [](const CardSchema& card) {
-           return std::any_of(card.fields.begin(), card.fields.end(), [](const Field& f) {
-             return f.type == FieldType::real && (!f.dimension.dimensionless() ||
-                                                  !f.dimension_known || !f.dimension_when.empty());
-           });
-         });
-}
-
 /// Blocks whose header names a unit system that is not defined.
 void check_units(BuildContext& c) {
   for (const Block& block : c.deck.blocks) {
-    // Keywords known by name only may carry other numbers in their header (/ADMAS/type/id).
-    if (block.schema == nullptr || block.schema->cards.empty()) continue;
-    if (c.deck.units_of(block) != nullptr) continue;
-    const bool bulk = block.schema->bulk;
-    const bool stops = bulk || has_dimensions(*block.schema);
+    if (block.schema == nullptr || c.deck.units_of(block) != nullptr) continue;
+    const std::optional<int> message = block.schema->stops_without_unit();
+    if (!message) continue;
+    const bool stops = *message != 0;
     report(c.diagnostics,
            {RuleId::DK109,
             block.unit_id.span,
@@ -147,11 +135,9 @@ void check_units(BuildContext& c) {
             std::string(block.keyword),
             block.id.value,
             {.severity = stops ? Severity::error : Severity::warning,
-             .message = !stops ? 0
-                        : bulk ? 643
-                               : 659,
+             .message = *message,
              .solver = stops ? "it stops with an error; here the values are taken in working units"
-                             : "it goes on: the block has no value with a unit"}});
+                             : "it goes on: it does not look the unit system up here"}});
   }
 }
 

@@ -41,9 +41,38 @@ double own_thickness(const Elements& shells, std::size_t e) {
   return e < shells.thickness.size() ? shells.thickness[e] : 0;
 }
 
+/// A node twice among neighbours, other than third and fourth. Opposite corners that are one node
+/// leave no area, which another rule says.
+bool names_node_twice(const NodeIndex* n) { return n[0] == n[1] || n[1] == n[2] || n[0] == n[3]; }
+
+void report_node_twice(BuildContext& c, const Elements& family, const char* what, std::int64_t part,
+                       const PartTally& found, int message) {
+  report(c.diagnostics,
+         {RuleId::DK136,
+          c.model.element_span(family.kind, found.first),
+          plural(found.count, what) + " of part " + std::to_string(part) +
+              (found.count == 1 ? " names" : " name") + " a node twice; first is element " +
+              std::to_string(family.id[found.first]),
+          "/PART",
+          part,
+          {.message = message}});
+}
+
+void check_springs(BuildContext& c) {
+  const Model& m = c.model;
+  std::vector<PartTally> twice(m.parts.size());
+  for (std::size_t e = 0; e < m.spring.size(); ++e) {
+    const NodeIndex* n = m.spring.of(e);
+    if (n[0] == n[1] && n[0] != no_index && m.spring.part[e] != no_index)
+      tally(twice, m.spring.part[e], static_cast<std::uint32_t>(e));
+  }
+  for (std::size_t p = 0; p < m.parts.size(); ++p)
+    if (twice[p].count > 0) report_node_twice(c, m.spring, "spring", m.parts[p].id, twice[p], 681);
+}
+
 void check_shells(BuildContext& c, const Elements& shells, const char* what) {
   const Model& m = c.model;
-  std::vector<PartTally> thin(m.parts.size()), collapsed(m.parts.size());
+  std::vector<PartTally> thin(m.parts.size()), collapsed(m.parts.size()), twice(m.parts.size());
   std::vector<char> needs_own(m.parts.size(), 0);  // no thickness but that of the element
   for (std::size_t p = 0; p < m.parts.size(); ++p) {
     if (m.parts[p].prop == no_index) continue;
@@ -55,18 +84,21 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
   }
   std::mutex mutex;
   parallel_parts(c.threads, shells.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    std::vector<PartTally> own_thin(m.parts.size()), own_collapsed(m.parts.size());
+    std::vector<PartTally> own_thin(m.parts.size()), own_collapsed(m.parts.size()),
+        own_twice(m.parts.size());
     for (std::size_t e = begin; e < end; ++e) {
       const std::uint32_t p = shells.part[e];
       if (p == no_index) continue;
       const auto index = static_cast<std::uint32_t>(e);
       const NodeIndex* n = shells.of(e);
       if (shells.width == 4 && n[2] == n[3]) tally(own_collapsed, p, index);
+      if (shells.width == 4 && names_node_twice(n)) tally(own_twice, p, index);
       if (needs_own[p] != 0 && own_thickness(shells, e) == 0) tally(own_thin, p, index);
     }
     const std::lock_guard lock(mutex);
     add(thin, own_thin);
     add(collapsed, own_collapsed);
+    add(twice, own_twice);
   });
   for (std::size_t p = 0; p < m.parts.size(); ++p) {
     const Part& part = m.parts[p];
@@ -81,6 +113,7 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
       d.notes.emplace_back(m.properties[part.prop].span, "the property");
       c.diagnostics.add(std::move(d));
     }
+    if (twice[p].count > 0) report_node_twice(c, shells, what, part.id, twice[p], 22);
     if (collapsed[p].count > 0)
       report(c.diagnostics,
              {RuleId::DK107, m.element_span(shells.kind, collapsed[p].first),
@@ -159,12 +192,17 @@ void link_parts(BuildContext& c) {
     if (const auto it = m.material_of_id.find(part.mat_id); it != m.material_of_id.end())
       part.mat = it->second;
     const bool spring = part.prop != no_index && is_spring_property(m.properties[part.prop].number);
-    if (part.mat == no_index && (used[i] & 2) != 0 && !(spring && part.mat_id == 0))
-      report(c.diagnostics,
-             {RuleId::DK103, part.span,
-              "part " + std::to_string(part.id) + " has elements and refers to material " +
-                  std::to_string(part.mat_id) + ", which does not exist",
-              "/PART", part.id});
+    // Without elements a part may do without a material; one that a shell, solid or beam part names
+    // has to exist all the same.
+    const bool named =
+        part.mat_id != 0 && part.prop != no_index && !spring && m.properties[part.prop].number != 0;
+    if (part.mat == no_index && ((used[i] & 2) != 0 || named) && !(spring && part.mat_id == 0))
+      report(c.diagnostics, {RuleId::DK103, part.span,
+                             "part " + std::to_string(part.id) +
+                                 ((used[i] & 2) != 0 ? " has elements and refers to material "
+                                                     : " refers to material ") +
+                                 std::to_string(part.mat_id) + ", which does not exist",
+                             "/PART", part.id});
     if (part.subset_id > 0 && m.subset_children.count(part.subset_id) == 0)
       report(c.diagnostics, {RuleId::DK108,
                              part.span,
@@ -188,6 +226,7 @@ void check_elements(BuildContext& c) {
   check_orphans(c, m.spring, "spring");
   check_shells(c, m.shell4, "shell");
   check_shells(c, m.shell3, "triangular shell");
+  check_springs(c);
 }
 
 }  // namespace deck::detail

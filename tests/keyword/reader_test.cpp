@@ -333,12 +333,16 @@ TEST(ReaderHeader, IdsBeyondTheLimitAreErrors) {
   EXPECT_EQ(count(d.diagnostics, RuleId::DK054), 2u);
 }
 
-TEST(ReaderHeader, AnInterfaceKeepsAWrittenZeroAndOtherObjectsBecomeNumberOne) {
-  const Deck d = read(deck_of("/INTER/TYPE7/0\nt\n/INTER/TYPE11\nt\n/GRNOD/PART/0\nt\n"));
+TEST(ReaderHeader, WithoutANumberAMaterialBecomesNumberOneAndAGroupHasNone) {
+  const Deck d = read(
+      deck_of("/INTER/TYPE7/0\nt\n/INTER/TYPE11\nt\n/GRNOD/PART/0\nt\n/MAT/VOID/x\nt\n/SHELL/x\n"
+              "/FUNCT\nt\n"));
   EXPECT_EQ(block(d, "/INTER/TYPE7/0")->id.value, 0);
   EXPECT_TRUE(block(d, "/INTER/TYPE7/0")->id.present);
   EXPECT_EQ(block(d, "/INTER/TYPE11")->id.value, 1);
-  EXPECT_EQ(block(d, "/GRNOD/PART/0")->id.value, 1);
+  EXPECT_EQ(block(d, "/MAT/VOID/x")->id.value, 1);
+  for (const char* header : {"/GRNOD/PART/0", "/SHELL/x", "/FUNCT"})
+    EXPECT_EQ(block(d, header)->id.value, 0) << header;
 }
 
 TEST(ReaderHeader, TheFirstNumberOfAnAddedMassIsItsType) {
@@ -383,6 +387,9 @@ TEST(ReaderHeader, ABlankAtItsBeginningIsAnErrorInsideTheKeywordAWarningBeforeTh
   EXPECT_EQ(count(harmless.diagnostics, RuleId::DK052), 0u);
   ASSERT_EQ(harmless.blocks.size(), 2u);
   EXPECT_EQ(harmless.blocks[1].id.value, 2);
+  const Deck unknown = read(deck_of("/ GRNOD/NODE/2\nt\n"));
+  ASSERT_EQ(count(unknown.diagnostics, RuleId::DK052), 1u);
+  EXPECT_EQ(first(unknown.diagnostics, RuleId::DK052)->severity, Severity::error);
 }
 
 // ---- includes -----------------------------------------------------------------------------------

@@ -19,14 +19,49 @@ bool is_error(const Linted& run, RuleId rule) {
 }
 
 TEST(MissingTarget, GroupOfImposedMotionIsError53) {
+  const std::string good = "@/IMPVEL/9 funct_IDT=1 Dir=Y grnod_ID=2\n";
   for (const char* keyword : {"IMPVEL", "IMPACC"}) {
-    const std::string card = "@/" + std::string(keyword) + "/1 funct_IDT=1 Dir=X grnod_ID=";
+    const std::string card = good + "@/" + std::string(keyword) + "/1 funct_IDT=1 Dir=X grnod_ID=";
     const Linted bad = lint_example(card + "77\n");
     EXPECT_EQ(message_of(bad, RuleId::DK120), 53) << bad.list();
     EXPECT_FALSE(lint_example(card + "2\n").fires(RuleId::DK120));
   }
-  const Linted bad = lint_example("@/IMPDISP/1 Ifunct=1 DIR=X Gnod_id=77\n");
+  const Linted bad = lint_example(good + "@/IMPDISP/1 Ifunct=1 DIR=X Gnod_id=77\n");
   EXPECT_EQ(message_of(bad, RuleId::DK120), 53) << bad.list();
+}
+
+TEST(MissingTarget, ImposedMotionOfNoNodesIsPassedOver) {
+  for (const char* block : {"@/IMPVEL/1 funct_IDT=99 Dir=Q grnod_ID=77\n",
+                            "@/IMPVEL/9 funct_IDT=1 Dir=Y grnod_ID=2\n"
+                            "@/IMPVEL/1 funct_IDT=99 Dir=Q\n"}) {
+    const Linted run = lint_example(block);
+    EXPECT_TRUE(run.fires(RuleId::DK138)) << run.list();
+    EXPECT_FALSE(run.fires(RuleId::DK120)) << run.list();
+    EXPECT_FALSE(run.fires(RuleId::DK135)) << run.list();
+  }
+}
+
+TEST(Wall, NeedsTwoPointsApart) {
+  EXPECT_EQ(message_of(lint_example("@/RWALL/PLANE/1 grnd_ID1=2 XM=1.0 XM1=1.0\n"), RuleId::DK137),
+            167);
+  for (const char* card : {"@/RWALL/PLANE/1 grnd_ID1=2 ZM1=1.0\n", "@/RWALL/SPHER/1 grnd_ID1=2\n"})
+    EXPECT_FALSE(lint_example(card).fires(RuleId::DK137)) << card;
+}
+
+TEST(Code, OfADirectionOrAFixedFreedomIsOneOfTheLegalOnes) {
+  const auto message = [](const std::string& card) {
+    return message_of(lint_example(card), RuleId::DK135);
+  };
+  for (const char* dir : {"y", "Q", "XY"}) {
+    const std::string cell = " Dir=" + std::string(dir) + " grnod_ID=2\n";
+    EXPECT_EQ(message("@/IMPVEL/1" + cell), 164) << dir;
+    EXPECT_EQ(message("@/CLOAD/1" + cell), 149) << dir;
+  }
+  EXPECT_EQ(message("@/CLOAD/1 grnod_ID=2\n"), 149) << "a blank direction";
+  EXPECT_EQ(message("/BCS/1\nfixed\n   112 111         0         2\n"), 1051);
+  EXPECT_EQ(message("/BCS/1\nfixed\n   11  111         0         2\n"), 0);
+  EXPECT_EQ(message("/BCS/1\nfixed\n   XYZ 111         0         2\n"), 0);
+  EXPECT_EQ(message("@/IMPVEL/1 Dir=ZZ grnod_ID=2\n"), 0);
 }
 
 TEST(MissingTarget, GroupOfBoundaryConditionIsError678) {
@@ -251,12 +286,40 @@ TEST(RigidBody, NeedsMassFromElementsOrCard) {
   EXPECT_FALSE(lint_example(node + "@/RBODY/1 node_ID=21 grnd_ID=2\n").fires(RuleId::DK127));
 }
 
-TEST(TwoOfAKind, FunctionsSensorsAndSkewsNeedDifferentIds) {
+TEST(RigidBody, WithoutAMainNodeGetsOneAndStillNeedsMass) {
+  const Linted good = lint_example("@/RBODY/1 grnd_ID=2\n");
+  EXPECT_FALSE(good.fires(RuleId::DK122) || good.fires(RuleId::DK127)) << good.list();
+  EXPECT_EQ(message_of(lint_example("@/RBODY/1 Ispher=1\n"), RuleId::DK127), 274);
+}
+
+TEST(RigidBody, WithAnInertiaOfItsOwnNeedsNoMass) {
+  const std::string body =
+      "/NODE\n"
+      "        21                 5.0                 5.0                 9.0\n"
+      "        22                 5.0                 6.0                 9.0\n"
+      "/GRNOD/NODE/7\nloose\n        22\n@/RBODY/1 node_ID=21 grnd_ID=7 Ispher=1 ";
+  EXPECT_FALSE(lint_example(body + "Jxx=1 Jyy=1 Jzz=1\n").fires(RuleId::DK127));
+  EXPECT_TRUE(lint_example(body + "Jxy=1 Jyz=1 Jxz=1\n").fires(RuleId::DK127));
+  EXPECT_TRUE(lint_example(body + "Jxx=1 Jyy=1 Jzz=1 Jxy=2\n").fires(RuleId::DK127));
+}
+
+TEST(TwoOfAKind, NeedDifferentIdsWhereTheSolverSaysSo) {
   for (const char* block :
        {"/SENSOR/TIME/1\nagain\n                 1.0\n", "/FUNCT/1\nagain\n                 0.0\n",
+        "/TH/NODE/1\na\nDX\n         1\n/TH/NODE/1\nb\nDX\n         1\n",
+        "/TH/GAUGE/1\na\nDEF\n/TH/GAUGE/1\nb\nDEF\n", "/GAUGE/1\na\n/GAUGE/1\nb\n",
+        "/RWALL/PLANE/1\na\n/RWALL/SPHER/1\nb\n", "/SUBSET/1\na\n/ASSEMBLY/1\nb\n",
+        "@/IMPVEL/1 Dir=X grnod_ID=2\n@/IMPVEL/1 Dir=Y grnod_ID=2\n",
         "@/SKEW/MOV/3 N1=1 N2=2 N3=4\n@/SKEW/MOV/3 N1=1 N2=2 N3=4\n"}) {
     const Linted bad = lint_example(block);
     EXPECT_EQ(message_of(bad, RuleId::DK128), 79) << block << bad.list();
+  }
+  for (const char* block :
+       {"@/BCS/1 Tx=1 grnod_ID=2\n@/BCS/1 Ty=1 grnod_ID=2\n",
+        "@/IMPVEL/1 Dir=X grnod_ID=2\n@/IMPDISP/1 DIR=Y Gnod_id=2\n",
+        "/TH/NODE/1\na\nDX\n         1\n/TH/GAUGE/1\nb\nDEF\n", "/SECT\na\n/SECT/x\nb\n"}) {
+    const Linted good = lint_example(block);
+    EXPECT_FALSE(good.fires(RuleId::DK128)) << block << good.list();
   }
 }
 

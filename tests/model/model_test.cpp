@@ -26,12 +26,14 @@ TEST(Part, MissingPropertyIsMessage178) {
   EXPECT_EQ(b.message(RuleId::DK102), 178);
 }
 
-TEST(Part, MissingMaterialIsMessage179OnlyIfThereAreElements) {
+TEST(Part, MissingMaterialIsMessage179IfThereAreElementsOrAPropertyOfShells) {
   const std::string prop = "/PROP/VOID/1\np\n" + reals({1});
   Built used(quad() + prop + "/PART/1\np\n" + cells({1, 9}));
   EXPECT_EQ(used.message(RuleId::DK103), 179);
   Built empty(grid_nodes() + prop + "/PART/1\np\n" + cells({1, 9}));
   EXPECT_EQ(empty.findings(RuleId::DK103), 0u);
+  Built shells(parts() + grid_nodes() + "/PART/7\np\n" + cells({1, 9}));
+  EXPECT_EQ(shells.message(RuleId::DK103), 179);
 }
 
 TEST(Part, SpringsNeedNoMaterial) {
@@ -69,6 +71,18 @@ TEST(Part, ASpringPropertyExcusesAMaterialThatIsNotNamedNotOneThatIsMissing) {
 TEST(Part, SecondDefinitionIsReported) {
   Built b(parts() + "/PART/1\np\n" + cells({1, 1}));
   EXPECT_EQ(b.findings(RuleId::DK100), 1u);
+}
+
+TEST(Element, ThatNamesANodeTwiceIsMessage22Or681) {
+  const auto message = [](const std::string& element) {
+    Built b(parts() + grid_nodes() + element);
+    return b.message(RuleId::DK136);
+  };
+  EXPECT_EQ(message("/SHELL/1\n" + cells({1, 1, 1, 2, 4})), 22);
+  EXPECT_EQ(message("/SHELL/1\n" + cells({1, 1, 2, 5, 1})), 22);
+  EXPECT_EQ(message("/SHELL/1\n" + cells({1, 1, 2, 5, 5})), 0) << "a triangle";
+  EXPECT_EQ(message("/SPRING/1\n" + cells({1, 1, 1})), 681);
+  EXPECT_EQ(message("/SPRING/1\n" + cells({1, 1, 2})), 0);
 }
 
 TEST(ModelFindings, CarryKeywordAndIdOfTheirBlock) {
@@ -185,15 +199,19 @@ TEST(Unit, UnknownUnitSystemIsOneFindingMessage643ForNodesAnd659Elsewhere) {
   EXPECT_EQ(g.message(RuleId::DK109), 659);
 }
 
-TEST(Unit, UnknownUnitSystemOfABlockWithoutDimensionsIsAWarning) {
+TEST(Unit, UnknownUnitSystemIsAnErrorWhereTheSolverLooksItUp) {
   const auto severity = [](const std::string& deck) {
     Built b(grid_nodes() + deck);
     for (const Diagnostic& d : b.diagnostics().all())
       if (d.rule == RuleId::DK109) return d.severity;
     return Severity::info;
   };
-  EXPECT_EQ(severity("/GRNOD/NODE/1/5\ng\n" + cells({1})), Severity::warning);
-  EXPECT_EQ(severity("/SKEW/FIX/1/5\ns\n"), Severity::error);
+  for (const char* block : {"/GRNOD/NODE/1/5\ng\n", "/BCS/1/5\nb\n", "/PART/1/5\np\n",
+                            "/ADMAS/0/1/5\na\n", "/TRANSFORM/TRA/1/5\nt\n", "/DAMP/1/5\nd\n"})
+    EXPECT_EQ(severity(block), Severity::warning) << block;
+  for (const char* block : {"/SKEW/FIX/1/5\ns\n", "/SURF/SEG/1/5\ns\n", "/GRAV/1/5\ng\n",
+                            "/RWALL/SPHER/1/5\nw\n", "/INTER/TYPE24/1/5\ni\n", "/CONVEC/1/5\nc\n"})
+    EXPECT_EQ(severity(block), Severity::error) << block;
 }
 
 TEST(Place, OfANodeAndAnElementIsItsLine) {

@@ -207,13 +207,23 @@ void check_curves(const LintContext& c, const Rule& rule, Reporter& r) {
   }
 }
 
+void check_table(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const Block& block : c.deck.blocks) {
+    if (block.schema == nullptr || block.schema->keyword != "/TABLE" || block.opaque) continue;
+    LineCursor cursor(c.deck.sources, block);
+    cursor.next();  // the title
+    if (!cursor.next().valid())
+      r.report(rule, block, block.header_span, std::string(block.header) + " has no data");
+  }
+}
+
 }  // namespace
 
 std::span<const Checked> element_checks() {
   static constexpr Checked all[] = {
       {RuleId::DK129, check_property_kind}, {RuleId::DK130, check_area},
       {RuleId::DK131, check_volume},        {RuleId::DK132, check_length},
-      {RuleId::DK133, check_curves},
+      {RuleId::DK133, check_curves},        {RuleId::DK140, check_table},
   };
   return all;
 }

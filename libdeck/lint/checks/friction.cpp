@@ -68,15 +68,26 @@ void check_repeated(const LintContext& c, const Rule& rule, Reporter& r) {
 
 void check_incomplete(const LintContext& c, const Rule& rule, Reporter& r) {
   each_pair(c, [&](const DecodedBlock& block, const DecodedCard& card) {
-    for (const std::string_view n : {"1", "2"}) {
-      const Cell* group = cell_of(card, "grpart_ID" + std::string(n));
-      const Cell* part = cell_of(card, "part_ID" + std::string(n));
-      if ((group != nullptr && group->integer != 0) || (part != nullptr && part->integer != 0))
-        continue;
-      r.report(rule, *block.block, card.line.whole(),
-               fmt::format("a pair of {} has neither grpart_ID{} nor part_ID{}",
-                           friction_name(block), n, n));
+    const auto given = [&](const std::string& side) {
+      const Cell* group = cell_of(card, "grpart_ID" + side);
+      const Cell* part = cell_of(card, "part_ID" + side);
+      return (group != nullptr && group->integer != 0) || (part != nullptr && part->integer != 0);
+    };
+    const bool first = given("1"), second = given("2");
+    if (first && second) return;
+    if (!first && !second) {
+      Diagnostic* d = r.report(rule, *block.block, card.line.whole(),
+                               "a pair of " + friction_name(block) + " names no parts");
+      if (d == nullptr) return;
+      d->severity = Severity::warning;
+      d->reference.reset();
+      d->reference_behaviour = "it goes on without a word";
+      return;
     }
+    const char* side = first ? "2" : "1";
+    r.report(rule, *block.block, card.line.whole(),
+             fmt::format("a pair of {} has neither grpart_ID{} nor part_ID{}", friction_name(block),
+                         side, side));
   });
 }
 

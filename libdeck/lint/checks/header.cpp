@@ -112,10 +112,13 @@ void check_two_dimensional(const LintContext& c, const Rule& rule, Reporter& r) 
   constexpr std::array<std::string_view, 4> allowed = {"/INTER/TYPE1", "/INTER/TYPE2",
                                                        "/INTER/TYPE3", "/INTER/TYPE5"};
   for (const Block& b : c.deck.blocks) {
-    if (b.schema == nullptr || b.schema->kind != "inter") continue;
-    if (std::find(allowed.begin(), allowed.end(), b.schema->keyword) != allowed.end()) continue;
-    if (b.schema->keyword == "/INTER/SUB") continue;
-    r.report(rule, b, b.header_span, b.schema->keyword + " in a two-dimensional analysis (/ANALY)");
+    // An unknown type is an interface, too.
+    const bool unknown = b.schema == nullptr && b.keyword.starts_with("/INTER/");
+    if (!unknown && (b.schema == nullptr || b.schema->kind != "inter")) continue;
+    const std::string keyword = unknown ? clipped(b.keyword) : b.schema->keyword;
+    if (std::find(allowed.begin(), allowed.end(), keyword) != allowed.end()) continue;
+    if (keyword == "/INTER/SUB") continue;
+    r.report(rule, b, b.header_span, keyword + " in a two-dimensional analysis (/ANALY)");
   }
 }
 
@@ -173,7 +176,8 @@ void check_missing_id(const LintContext& c, const Rule& rule, Reporter& r) {
     const std::string& keyword = b.schema->keyword;
     if (b.id.present) {
       // An interface keeps its zero.
-      if (b.id.value == 1 && c.text(b.id.span).find_first_not_of('0') == std::string_view::npos)
+      if (b.schema->kind != "inter" &&
+          c.text(b.id.span).find_first_not_of('0') == std::string_view::npos)
         r.report(rule, b, b.id.span, "the id in the header of " + keyword + " is 0");
       continue;
     }

@@ -21,8 +21,8 @@ bool needs_density(int law) {
 
 /// Laws that need this modulus.
 bool needs_modulus(int law, std::string_view field) {
-  static constexpr std::array isotropic = {1,  2,  3,  4,  22, 23, 27, 32, 36, 43, 44, 48, 52,
-                                           57, 60, 63, 64, 65, 66, 71, 73, 74, 76, 78, 84, 87};
+  static constexpr std::array isotropic = {1,  2,  4,  22, 23, 27, 32, 36, 43, 44, 48, 52, 57,
+                                           60, 63, 64, 65, 66, 71, 73, 74, 76, 78, 84, 87};
   static constexpr std::array orthotropic = {15, 19, 25};
   const auto has = [law](const auto& laws) {
     return std::find(laws.begin(), laws.end(), law) != laws.end();
@@ -126,23 +126,32 @@ bool has_other_masses(const LintContext& c) {
   });
 }
 
+/// The inertia on the card, with its products, is one that a body can have.
+bool has_inertia(const DecodedBlock& d) {
+  const double xx = d.real("Jxx"), yy = d.real("Jyy"), zz = d.real("Jzz");
+  const double xy = d.real("Jxy"), yz = d.real("Jyz"), xz = d.real("Jxz");
+  const double det = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  return xx > 0 && xx * yy > xy * xy && det > 0;
+}
+
 void check_rigid_mass(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.model == nullptr || c.selections == nullptr || c.model->rbodies.empty()) return;
   if (has_other_masses(c)) return;
   const MassiveNodes massive(*c.model);
   for (const DecodedBlock& d : c.loads) {
-    if (d.block->schema->keyword != "/RBODY" || d.real("Mass") > 0) continue;
+    if (d.block->schema->keyword != "/RBODY" || d.real("Mass") > 0 || has_inertia(d)) continue;
     const std::int64_t group = c.resolved(*d.block, "grnod", d.integer("grnd_ID"));
     const std::int64_t main = c.resolved(*d.block, "node", d.integer("node_ID"));
     const NodeIndex centre = c.model->find_node(main);
-    if (centre == no_index || massive(centre)) continue;
+    // Without a main node the solver adds one.
+    if (main != 0 && (centre == no_index || massive(centre))) continue;
     const NodeSet* set = group > 0 ? c.selections->node_group(group) : nullptr;
     if (group > 0 && set == nullptr) continue;  // DK120 says so
     if (set != nullptr && std::any_of(set->nodes.begin(), set->nodes.end(), massive)) continue;
     const Cell* cell = d.find("grnd_ID");
     r.report(rule, *d.block,
              cell != nullptr && cell->span.valid() ? cell->span : d.block->header_span,
-             fmt::format("/RBODY {} has no mass: {}", d.block->id.value,
+             fmt::format("/RBODY {} has neither mass nor inertia: {}", d.block->id.value,
                          set == nullptr || set->nodes.empty()
                              ? "it has no secondary node"
                              : "no element with a density touches its nodes"));

@@ -32,6 +32,7 @@ std::vector<Side> sides_of(const ContactCard& card) {
     if (card.given("surf_IDs")) return {{"surf_IDs", "surf", true}, {"surf_IDm", "surf", false}};
     return {{"grnd_IDs", "grnod", true}, {"surf_IDm", "surf", false}};
   }
+  if (keyword == "/INTER/TYPE12") return {{"surf_IDm", "surf", false}};
   if (keyword == "/INTER/TYPE3") return {{"surf_ID1", "surf", true}, {"surf_ID2", "surf", false}};
   return {};
 }

@@ -1,7 +1,9 @@
 // Ids on boundary conditions, loads, constraints and sensors: the schemas say which targets the
 // reference solver asks for; here the deck is held against them.
 #include <algorithm>
+#include <map>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lint/check.hpp"
@@ -29,7 +31,8 @@ void set_message(Diagnostic* d, int message) {
 /// Calls f(block, cell, id, message) for every id whose field has the given demand.
 template <class F>
 void each_demand(const LintContext& c, std::optional<int> Field::*demand, F&& f) {
-  for (const DecodedBlock& d : c.loads)
+  for (const DecodedBlock& d : c.loads) {
+    if (acts_on_nothing(c, d) != nullptr) continue;  // DK138 says so
     for (const DecodedCard& card : d.cards)
       for (const Cell& cell : card.cells) {
         if (cell.field->type != FieldType::id) continue;
@@ -38,6 +41,7 @@ void each_demand(const LintContext& c, std::optional<int> Field::*demand, F&& f)
         if (demand == &Field::missing && !message && cell.field->ref == "funct") message = 0;
         if (message) f(d, cell, c.resolved(*d.block, cell.field->ref, cell.integer), *message);
       }
+  }
 }
 
 /// Tables stand where functions are asked for. Their number follows that of their kind
@@ -73,6 +77,22 @@ void check_missing_target(const LintContext& c, const Rule& rule, Reporter& r) {
                                          id - offset, offset);
                 set_message(r.report(rule, *d.block, cell.span, std::move(message)), message_id);
               });
+}
+
+void check_acts_on_nothing(const LintContext& c, const Rule& rule, Reporter& r) {
+  for (const DecodedBlock& d : c.loads) {
+    const Field* field = acts_on_nothing(c, d);
+    if (field == nullptr) continue;
+    const Cell* cell = d.find(field->name);
+    const bool placed = cell != nullptr && cell->span.valid();
+    r.report(
+        rule, *d.block, placed ? cell->span : d.block->header_span,
+        cell == nullptr || cell->integer == 0
+            ? fmt::format("{} of {} names no {}", field->name, block_name(d), kind_name(field->ref))
+            : fmt::format("{} of {} is {}, and there is no {} or /SET of that id", field->name,
+                          block_name(d), c.resolved(*d.block, field->ref, cell->integer),
+                          kind_name(field->ref)));
+  }
 }
 
 void check_empty_target(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -111,33 +131,45 @@ void check_required_target(const LintContext& c, const Rule& rule, Reporter& r) 
       }
 }
 
-/// Ids that are used twice among entities of these kinds: one of the two is meant by nobody.
-void report_twice(const LintContext& c, const Rule& rule, Reporter& r,
-                  std::initializer_list<std::string_view> kinds) {
-  for (const std::string_view kind : kinds) {
-    const auto all = c.defined.find(kind);
-    if (all == c.defined.end()) continue;
-    const Block* first = nullptr;
-    std::int64_t last = 0;
-    for (const auto& [id, block] : all->second) {
-      if (first == nullptr || id != last) {
-        first = block;
-        last = id;
-        continue;
-      }
-      Diagnostic* d = r.report(rule, *block, block->header_span,
-                               fmt::format("{} {} is defined twice", kind_name(kind), id));
-      if (d != nullptr) d->notes.emplace_back(first->header_span, "first defined here");
-    }
-  }
+/// "/TH/NODE": the names of a header, up to its id.
+std::string_view names_of(const Block& block) {
+  if (!block.id.span.valid()) return block.keyword;
+  const std::string_view names =
+      block.header.substr(0, block.id.span.offset - block.header_span.offset);
+  return names.substr(0, names.find_last_not_of("/ ") + 1);
+}
+
+/// Which blocks share their ids: the schema says it, "th/*" stands for one family a kind of /TH.
+std::string id_family(const Block& block) {
+  const std::string& name = block.schema->unique;
+  return name.ends_with("/*") ? std::string(names_of(block)) : name;
 }
 
 void check_twice(const LintContext& c, const Rule& rule, Reporter& r) {
-  report_twice(c, rule, r, {"funct", "sensor", "skew", "frame"});
+  std::map<std::pair<std::string, std::int64_t>, const Block*> first;
+  for (const Block& block : c.deck.blocks) {
+    const Schema* s = block.schema;
+    if (s == nullptr || s->unique.empty() || !block.id.present || block.id.value == 0) continue;
+    const std::int64_t id = c.resolved(block, s->kind, block.id.value);
+    const auto [it, fresh] = first.try_emplace({id_family(block), id}, &block);
+    if (fresh) continue;
+    Diagnostic* d = r.report(rule, block, block.header_span,
+                             fmt::format("the id {} of {} is used twice", id, names_of(block)));
+    if (d != nullptr) d->notes.emplace_back(it->second->header_span, "first used here");
+  }
 }
 
 void check_friction_twice(const LintContext& c, const Rule& rule, Reporter& r) {
-  report_twice(c, rule, r, {"friction"});
+  const auto all = c.defined.find("friction");
+  if (all == c.defined.end()) return;
+  std::map<std::int64_t, const Block*> first;
+  for (const auto& [id, block] : all->second) {
+    const auto [it, fresh] = first.try_emplace(id, block);
+    if (fresh) continue;
+    Diagnostic* d = r.report(rule, *block, block->header_span,
+                             fmt::format("/FRICTION {} is defined twice", id));
+    if (d != nullptr) d->notes.emplace_back(it->second->header_span, "first defined here");
+  }
 }
 
 }  // namespace
@@ -146,7 +178,7 @@ std::span<const Checked> target_checks() {
   static constexpr Checked all[] = {
       {RuleId::DK120, check_missing_target},  {RuleId::DK121, check_empty_target},
       {RuleId::DK122, check_required_target}, {RuleId::DK128, check_twice},
-      {RuleId::DK191, check_friction_twice},
+      {RuleId::DK138, check_acts_on_nothing}, {RuleId::DK191, check_friction_twice},
   };
   return all;
 }

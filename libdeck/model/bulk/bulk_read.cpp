@@ -147,18 +147,22 @@ void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
   const Line line{trim_right(bytes.substr(problem.offset, nl - problem.offset)), file,
                   problem.offset};
   if (problem.counts[blank_line] > 0) {
-    const bool element =
-        !plan.item->nodes.empty() && data_follows(deck, *plan.block, file, problem.offset);
+    // At the end of a block it is an item as well, but only for springs that matters.
+    const bool spring = plan.block->schema->kind == "spring";
+    const bool element = !plan.item->nodes.empty() &&
+                         (spring || data_follows(deck, *plan.block, file, problem.offset));
     if (diagnostics.wants(bulk_rule_id(blank_line)))
       report_problem(
           diagnostics, plan, problem, blank_line, {file, 0, problem.offset},
           "a blank line in " + std::string(plan.block->header),
           {.severity = element ? Severity::error : Severity::warning,
-           .message = element ? 760 : 0,
-           .solver =
-               element
-                   ? "It takes the line as an element without nodes, and crashes or does not end."
-                   : "It takes the line as an item with id 0."});
+           .message = !element ? 0
+                      : spring ? 681
+                               : 760,
+           .solver = !element ? "It takes the line as an item with id 0."
+                     : spring ? "It takes the line as a spring from node 0 to node 0, and stops."
+                              : "It takes the line as an element without nodes, and crashes or "
+                                "does not end."});
     return;
   }
   const DecodedCard card =

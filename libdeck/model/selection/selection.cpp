@@ -86,6 +86,7 @@ Selections::Impl::Impl(const Model& m, const SchemaSet& s, const Limits& l)
     auto& table = tables[kind];
     auto& list = table.by_id[id];
     if (list.empty()) table.order.push_back(id);
+    if (!list.empty() && id == 0) continue;
     if (!list.empty() && !(kind == "set" && def.type == "COLLECT")) {
       Diagnostic d = detail::make_diagnostic(
           {RuleId::DK167, block.header_span,

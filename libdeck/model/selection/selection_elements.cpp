@@ -207,7 +207,7 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
         out.push_back(e);
       }
     }
-    report_missing(RuleId::DK168, block, "element", missing, 0);
+    report_missing(RuleId::DK168, block, "element", missing, 70);
     return out;
   }
   if (is_part_type(def.type)) {

@@ -75,12 +75,16 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
   }
   const detail::IdList list = id_list(d);
   if (type == "LINE") {
+    std::vector<IdRef> missing;
     for (const IdRef& ref : list.positive) {
       if (recursive("line", ref.id, block, 176)) continue;
-      if (const LineSet* l = line(ref.id);
-          l != nullptr && fits(out.size() + l->edges.size(), sizeof(Edge), block))
+      const LineSet* l = line(ref.id);
+      if (l == nullptr)
+        missing.push_back(ref);
+      else if (fits(out.size() + l->edges.size(), sizeof(Edge), block))
         out.insert(out.end(), l->edges.begin(), l->edges.end());
     }
+    report_missing(RuleId::DK139, block, "line", missing, 180);
     return out;
   }
   if (type == "SURF" || type == "EDGE") {

@@ -89,6 +89,13 @@ struct Field {
   /// begin with '|' and stand as they are (figures, without the '|').
   std::vector<std::string> help;
   std::string help_of;  ///< keyword whose field of the same name has the rest of the help
+  /// For ids: the solver passes over the whole block where this one is 0, or where no block of the
+  /// kind has a target.
+  bool acts_on = false;
+  std::vector<std::string> words;  ///< legal texts of a text cell (empty: any)
+  /// The solver stops with this message (0: number not known) at a cell that is not legal: a flag
+  /// other than 0 and 1, a text that is none of `words`.
+  std::optional<int> wrong;
   bool in_version(int version) const { return version >= from && version <= until; }
 };
 
@@ -136,8 +143,17 @@ struct Schema {
   std::string doc;
   std::vector<CardSchema> cards;
   std::string source;  ///< file name the schema came from
+  /// Keywords with the same text here share their ids: the solver stops (error 79) where one is
+  /// used twice. Empty: ids may repeat, or other tables take care of them.
+  std::string unique;
+  /// The solver stops with this message where the header names a unit system that does not exist;
+  /// 0: it goes on. Without a value: see stops_without_unit().
+  std::optional<int> unknown_unit;
 
   const Field* find_field(std::string_view name) const;
+  /// Message with which the solver stops at a unit system that does not exist; 0: it goes on. If
+  /// the schema does not say so, cells with a dimension decide. nullopt: not known.
+  std::optional<int> stops_without_unit() const;
   /// True if no line and no column of the block has a meaning that the cards do not tell.
   bool layout_known() const { return !opaque_tail || full_layout; }
 };
