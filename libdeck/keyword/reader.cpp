@@ -400,24 +400,29 @@ class Reader {
   void check_header_blanks(std::uint32_t file, std::uint64_t begin, std::uint64_t slash,
                            std::string_view header, int version) {
     if (version < 51) return;  // the title stands in the header
-    const auto complain = [&](std::uint64_t from, std::uint64_t to) {
-      report(RuleId::DK052, make_span(file, from, to),
-             "a blank amid the keyword of " + std::string(header.substr(0, 60)));
-    };
-    if (begin != slash) return complain(begin, slash);
-    for (std::size_t at = 0; at < header.size();
-         at = std::min(header.find('/', at + 1), header.size())) {
-      const std::string_view rest = header.substr(at + 1);
-      const std::string_view field = rest.substr(0, rest.find('/'));
-      const std::string_view name = trim(field);
-      if (name.empty() || (name[0] >= '0' && name[0] <= '9') || name[0] == '&') return;
-      if (is_blank(field.front()))
-        return complain(slash + at + 1,
-                        slash + at + 1 + static_cast<std::size_t>(name.data() - field.data()));
-      std::size_t blank = at;
-      while (blank > 0 && is_blank(header[blank - 1])) --blank;
-      if (blank < at) return complain(slash + blank, slash + at);
+    const std::string shown(header.substr(0, 60));
+    if (begin != slash) {
+      report(RuleId::DK052, make_span(file, begin, slash), "a blank before " + shown);
+      return;
     }
+    if (header.size() > 1 && is_blank(header[1])) {
+      report(
+          RuleId::DK052, make_span(file, slash + 1, slash + header.find_first_not_of(" \t", 1)),
+          "a blank after the first slash of " + shown,
+          {.message = 0, .solver = "It does not know the keyword and reads nothing of the block."});
+      return;
+    }
+    std::size_t inner = 1;
+    while (inner < header.size() && !(header[inner] == '/' && is_blank(header[inner - 1]))) ++inner;
+    // Before an id the solver reads over it.
+    if (header.find_first_not_of("0123456789/ \t", std::min(inner, header.size())) ==
+        std::string_view::npos)
+      return;
+    std::size_t blank = inner;
+    while (is_blank(header[blank - 1])) --blank;
+    report(RuleId::DK052, make_span(file, slash + blank, slash + inner),
+           "a blank before a slash of " + shown,
+           {.severity = Severity::warning, .message = 0, .solver = "Not known."});
   }
 
   /// A line of numbers only: it has the form of a card.

@@ -371,19 +371,25 @@ TEST(ReaderHeader, AHashBehindABlankStartsAComment) {
   EXPECT_NE(block(end, "/GRNOD/NODE/1"), nullptr);
 }
 
-TEST(ReaderHeader, ABlankAmidAKeywordIsAnErrorThatPointsAtTheBlank) {
-  const Deck d =
-      read(deck_of(" /GRNOD/NODE/7\nt\n/GRNOD /NODE/8\nt\n/GRNOD/NODE/9  \nt\n/ GRNOD/NODE/6\nt\n"
-                   "/GRNOD/NODE   /    5\nt\n"));
-  ASSERT_EQ(count(d.diagnostics, RuleId::DK052), 3u) << "before the id a blank does no harm";
+TEST(ReaderHeader, ABlankAtItsBeginningIsAnErrorInsideTheKeywordAWarningBeforeTheIdNothing) {
+  const Deck d = read(deck_of(" /GRNOD/NODE/7\nt\n/GRNOD /NODE/8\nt\n/GRNOD/NODE/9  \nt\n"));
+  ASSERT_EQ(count(d.diagnostics, RuleId::DK052), 2u);
   const auto& all = d.diagnostics.all();
   EXPECT_EQ(d.sources.where(all[0].span), "test_0000.rad:7:1");
   EXPECT_EQ(d.sources.where(all[1].span), "test_0000.rad:9:7");
   EXPECT_EQ(d.sources.text(all[1].span), " ");
   EXPECT_EQ(all[0].severity, Severity::error);
   EXPECT_EQ(all[0].reference->number, 760);
-  EXPECT_EQ(d.sources.where(all[2].span), "test_0000.rad:13:2");
-  EXPECT_EQ(d.blocks.size(), 6u);
+  EXPECT_EQ(all[1].severity, Severity::warning);
+  EXPECT_EQ(all[1].reference, std::nullopt);
+  EXPECT_EQ(d.blocks.size(), 4u);
+  const Deck harmless = read(deck_of("/GRNOD/NODE    /         2\nt\n"));
+  EXPECT_EQ(count(harmless.diagnostics, RuleId::DK052), 0u);
+  ASSERT_EQ(harmless.blocks.size(), 2u);
+  EXPECT_EQ(harmless.blocks[1].id.value, 2);
+  const Deck unknown = read(deck_of("/ GRNOD/NODE/2\nt\n"));
+  ASSERT_EQ(count(unknown.diagnostics, RuleId::DK052), 1u);
+  EXPECT_EQ(first(unknown.diagnostics, RuleId::DK052)->severity, Severity::error);
 }
 
 // ---- includes -----------------------------------------------------------------------------------

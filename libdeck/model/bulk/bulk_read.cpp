@@ -171,11 +171,10 @@ void report_problem(const Deck& deck, const BlockPlan& plan, std::uint32_t file,
            .message = !element ? 0
                       : spring ? 681
                                : 760,
-           .solver = spring ? "It takes the line as a spring between node 0 and node 0, and stops."
-                     : element
-                         ? "It takes the line as an element without nodes, and crashes or does not "
-                           "end."
-                         : "It takes the line as an item with id 0."});
+           .solver = !element ? "It takes the line as an item with id 0."
+                     : spring ? "It takes the line as a spring from node 0 to node 0, and stops."
+                              : "It takes the line as an element without nodes, and crashes or "
+                                "does not end."});
     return;
   }
   const DecodedCard card =

@@ -187,14 +187,16 @@ void Selections::Impl::report_missing(RuleId rule, const Block& block, const std
   for (std::size_t i = 0; i < std::min(shown, missing.size()); ++i)
     ids += (i > 0 ? ", " : "") + std::to_string(missing[i].id);
   if (missing.size() > shown) ids += " and " + std::to_string(missing.size() - shown) + " more";
-  found.add(detail::make_diagnostic(
+  Diagnostic d = detail::make_diagnostic(
       {rule,
        missing.front().span,
        std::string(block.keyword) + " " + std::to_string(block.id.value) + " lists " + what + " " +
            ids + (missing.size() == 1 ? ", which does not exist" : ", which do not exist"),
        std::string(block.keyword),
        block.id.value,
-       {.message = number}}));
+       {.message = number}});
+  if (number == 0) d.severity = Severity::warning;  // the solver goes on
+  found.add(std::move(d));
 }
 
 bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const Block& from,

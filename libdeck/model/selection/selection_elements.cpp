@@ -207,7 +207,8 @@ Indices Selections::Impl::resolve_elements(const FamilyName& name, const Definit
         out.push_back(e);
       }
     }
-    report_missing(RuleId::DK168, block, "element", missing, 70);
+    // In a deck without elements of the kind the solver does not look for them.
+    report_missing(RuleId::DK168, block, "element", missing, family.size() > 0 ? 70 : 0);
     return out;
   }
   if (is_part_type(def.type)) {
