@@ -12,5 +12,6 @@ struct EmbeddedFile {
 
 const std::vector<EmbeddedFile>& embedded_schemas();  // schemas/keywords/*.json
 const std::vector<EmbeddedFile>& embedded_rules();    // schemas/rules/*.md
+const std::vector<EmbeddedFile>& embedded_limits();   // schemas/limits/*.json
 
 }  // namespace deck::detail

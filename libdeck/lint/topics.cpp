@@ -10,6 +10,7 @@
 #include "deck/base/spelling.hpp"
 #include "deck/lint/rule.hpp"
 #include "deck/text/number.hpp"
+#include "lint/limits.hpp"
 
 namespace deck {
 namespace {
@@ -179,7 +180,13 @@ std::string solver_message(const std::string& digits, const SchemaSet& schemas, 
     if (!r.solver.empty()) rules += wrapped("Solver: " + r.solver, 2, width);
     if (!r.fix.empty()) rules += wrapped("Fix: " + r.fix, 2, width);
   }
-  for (const Schema* s : contacts_first(schemas))
+  for (const Schema* s : contacts_first(schemas)) {
+    for (const detail::Limit* limit : detail::limits_of(*s))
+      if (limit->message == number)
+        cells +=
+            wrapped(fmt::format("{}{}{}: {}", s->keyword, limit->of.field.empty() ? "" : ".",
+                                limit->of.field, limit->says.empty() ? "its value" : limit->says),
+                    2, width);
     for (const CardSchema& card : s->cards)
       for (const Field& f : card.fields) {
         const auto says = [&](const std::optional<int>& n, const char* why) {
@@ -190,9 +197,10 @@ std::string solver_message(const std::string& digits, const SchemaSet& schemas, 
         says(f.empty, "what the id names has no member");
         says(f.required, "the cell is 0 or blank");
       }
+  }
   if (rules.empty() && cells.empty()) return {};
   std::string out = fmt::format("Message {} of the reference solver\n", digits) + rules;
-  if (!cells.empty()) out += "\nCells for which it stops with this message\n" + cells;
+  if (!cells.empty()) out += "\nCells of which it says this\n" + cells;
   return out;
 }
 

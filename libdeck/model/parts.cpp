@@ -159,11 +159,14 @@ void link_parts(BuildContext& c) {
     if (const auto it = m.material_of_id.find(part.mat_id); it != m.material_of_id.end())
       part.mat = it->second;
     const bool spring = part.prop != no_index && is_spring_property(m.properties[part.prop].number);
-    if (part.mat == no_index && (used[i] & 2) != 0 && !(spring && part.mat_id == 0))
+    const bool needed = (used[i] & 2) != 0 && !spring;
+    if (part.mat == no_index && (part.mat_id != 0 || needed))
       report(c.diagnostics,
              {RuleId::DK103, part.span,
-              "part " + std::to_string(part.id) + " has elements and refers to material " +
-                  std::to_string(part.mat_id) + ", which does not exist",
+              "part " + std::to_string(part.id) +
+                  (part.mat_id == 0 ? " has elements and names no material"
+                                    : " refers to material " + std::to_string(part.mat_id) +
+                                          ", which does not exist"),
               "/PART", part.id});
     if (part.subset_id > 0 && m.subset_children.count(part.subset_id) == 0)
       report(c.diagnostics, {RuleId::DK108,

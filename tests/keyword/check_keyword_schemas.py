@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Validates schemas/keywords/*.json, and the examples of tools/docs/schemas.md, against
-schemas/keyword.schema.json, as 2020-12 and as draft-7.
+schemas/keyword.schema.json, as 2020-12 and as draft-7; schemas/limits/*.json against
+schemas/limits.schema.json, and against the cells of the keywords they name.
 
 Prints every violation with file and JSON path, then "N passed, 0 failed"; exit code 1 on failure.
 Some deliberately wrong documents must be refused as well, so that a lax schema is noticed.
@@ -92,10 +93,39 @@ def check(validator_class, schema):
     return passed, failed
 
 
+def check_limits():
+    """Returns (passed, failed) of the tables of limits."""
+    validator = jsonschema.Draft202012Validator(
+        json.loads((ROOT / "schemas/limits.schema.json").read_text(encoding="utf-8")))
+    cells = {}
+    for file in (ROOT / "schemas/keywords").glob("*.json"):
+        family = json.loads(file.read_text(encoding="utf-8"))
+        for keyword in family.get("schemas", [family]):
+            cells[keyword["keyword"]] = {field["name"]: field["type"] for card in keyword.get("cards", [])
+                                         for field in card.get("fields", [])}
+    passed = failed = 0
+    for file in sorted((ROOT / "schemas/limits").glob("*.json")):
+        table = json.loads(file.read_text(encoding="utf-8"))
+        wrong = [f"/{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in validator.iter_errors(table)]
+        for number, limit in enumerate(table["limits"]):
+            for keyword in limit["keywords"]:
+                for name in limit.get("of", []) + [test["field"] for test in limit.get("when", [])]:
+                    if cells.get(keyword, {}).get(name, "text") == "text":
+                        wrong.append(f"/limits/{number}: {keyword} has no number '{name}'")
+        for line in wrong:
+            print(f"{file.name}: {line}")
+        failed += bool(wrong)
+        passed += not wrong
+    if not passed + failed:
+        print("no limits found")
+        failed += 1
+    return passed, failed
+
+
 def main():
     schema = json.loads((ROOT / "schemas/keyword.schema.json").read_text(encoding="utf-8"))
     counts = [check(cls, schema) for cls in (jsonschema.Draft202012Validator,
-                                             jsonschema.Draft7Validator)]
+                                             jsonschema.Draft7Validator)] + [check_limits()]
     passed, failed = (sum(column) for column in zip(*counts))
     print(f"{passed} passed, {failed} failed")
     return 1 if failed else 0

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "lint/check_tables.hpp"
+#include "lint/limits.hpp"
 #include "lint/support.hpp"
 #include "text/rule_page.hpp"
 #include "where.hpp"
@@ -140,12 +141,19 @@ TEST(Rules, AreAllReportedBySomeSource) {
 /// cell.
 std::set<int> messages_of_cells() {
   std::set<int> out;
+  for (const detail::Limit& limit : detail::all_limits()) out.insert(limit.message);
   for (const Schema* schema : SchemaSet::built_in().all())
     for (const CardSchema& card : schema->cards)
       for (const Field& f : card.fields)
         for (const auto& number : {f.missing, f.empty, f.required})
           if (number) out.insert(*number);
   return out;
+}
+
+/// Rules whose messages stand in the schemas.
+bool is_of_cells(RuleId rule) {
+  const int number = id_number(rule);
+  return (number >= 120 && number <= 122) || (number >= 640 && number <= 642);
 }
 
 /// What is wrong with a finding, compared with its page.
@@ -156,7 +164,7 @@ std::string disagreement(const Diagnostic& d) {
     return "its severity is not on the page";
   if (!d.reference) {
     const bool other_case = d.severity != page.severity();
-    const bool of_cell = id_number(d.rule) >= 120 && id_number(d.rule) <= 122;
+    const bool of_cell = is_of_cells(d.rule);
     // An element that breaks off has no message; a card does.
     const bool named = page.messages.empty() || other_case || of_cell || d.rule == RuleId::DK110 ||
                        d.rule == RuleId::DK029;
@@ -165,7 +173,7 @@ std::string disagreement(const Diagnostic& d) {
   for (const ReferenceMessage& m : page.messages)
     if (m.number == d.reference->number && m.severity == d.reference->severity) return "";
   static const std::set<int> of_cells = messages_of_cells();
-  const bool of_cell = id_number(d.rule) >= 120 && id_number(d.rule) <= 122;
+  const bool of_cell = is_of_cells(d.rule);
   return of_cell && of_cells.count(d.reference->number) > 0
              ? ""
              : "message " + std::to_string(d.reference->number) + " is not on the page";

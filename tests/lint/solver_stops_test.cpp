@@ -196,14 +196,25 @@ TEST(MaterialWithoutDensity, ZeroNegativeBlankAndTextAreErrors683) {
   EXPECT_FALSE(lint_example(material("VOID", "0.0", "")).fires(RuleId::DK123));
 }
 
-TEST(MaterialWithoutStiffness, ZeroNegativeAndBlankAreErrors683) {
-  for (const char* law : {"ELAST", "PLAS_JOHNS", "PLAS_TAB"}) {
+TEST(MaterialWithoutStiffness, StopsTheSolverWithTheMessageOfItsLaw) {
+  const std::pair<const char*, int> laws[] = {
+      {"ELAST", 683}, {"RIGID", 683}, {"PLAS_JOHNS", 276}, {"PLAS_TAB", 276}, {"LAW106", 276}};
+  for (const auto& [law, number] : laws) {
     for (const char* modulus : {"0.0", "-210.0", ""}) {
       const Linted bad = lint_example(material(law, "1e-9", modulus));
-      EXPECT_EQ(message_of(bad, RuleId::DK124), 683) << law << " " << modulus << bad.list();
+      EXPECT_EQ(message_of(bad, RuleId::DK124), number) << law << " " << modulus << bad.list();
+      EXPECT_TRUE(is_error(bad, RuleId::DK124)) << law;
     }
     EXPECT_FALSE(lint_example(material(law, "1e-9", "210.0")).fires(RuleId::DK124));
   }
+}
+
+TEST(MaterialWithoutStiffness, IsAWarningWhereNobodySawTheSolverStopAndNothingForAFluid) {
+  const Linted other = lint_example(material("LAW66", "1e-9", "0.0"));
+  ASSERT_TRUE(other.fires(RuleId::DK124)) << other.list();
+  EXPECT_FALSE(is_error(other, RuleId::DK124));
+  EXPECT_EQ(message_of(other, RuleId::DK124), 0);
+  EXPECT_FALSE(lint_example(material("HYDPLA", "1e-9", "0.0")).fires(RuleId::DK124));
 }
 
 TEST(NegativeThickness, IsAnErrorWhereContactLooksForTheShell) {

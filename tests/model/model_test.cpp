@@ -26,11 +26,15 @@ TEST(Part, MissingPropertyIsMessage178) {
   EXPECT_EQ(b.message(RuleId::DK102), 178);
 }
 
-TEST(Part, MissingMaterialIsMessage179OnlyIfThereAreElements) {
+TEST(Part, MissingMaterialIsMessage179WithAndWithoutElementsNoMaterialOnlyWith) {
   const std::string prop = "/PROP/VOID/1\np\n" + reals({1});
-  Built used(quad() + prop + "/PART/1\np\n" + cells({1, 9}));
+  for (const std::string& mesh : {quad(), grid_nodes()}) {
+    Built missing(mesh + prop + "/PART/1\np\n" + cells({1, 9}));
+    EXPECT_EQ(missing.message(RuleId::DK103), 179) << mesh;
+  }
+  Built used(quad() + prop + "/PART/1\np\n" + cells({1, 0}));
   EXPECT_EQ(used.message(RuleId::DK103), 179);
-  Built empty(grid_nodes() + prop + "/PART/1\np\n" + cells({1, 9}));
+  Built empty(grid_nodes() + prop + "/PART/1\np\n" + cells({1, 0}));
   EXPECT_EQ(empty.findings(RuleId::DK103), 0u);
 }
 

@@ -4,6 +4,7 @@
 
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
+#include "lint/limits.hpp"
 
 namespace deck::detail {
 namespace {
@@ -44,13 +45,23 @@ std::string legal_instead(const Cell& cell) {
   return list_of(f.values);
 }
 
+/// The solver says something of this value itself, and rules of their own report it.
+bool solver_speaks(const Schema& schema, const Cell& cell) {
+  const double value =
+      cell.field->type == FieldType::real ? cell.real : static_cast<double>(cell.integer);
+  return std::any_of(all_limits().begin(), all_limits().end(), [&](const Limit& limit) {
+    return limit.keyword == schema.keyword && limit.of.field == cell.field->name &&
+           limit.when.empty() && !limit.sum && limit.not_a.empty() && limit.of.holds(value);
+  });
+}
+
 void check_block(const LintContext& c, const Rule& rule, Reporter& r, const Block& block) {
   const DecodedBlock decoded = decode(c.deck, block);
   for (const DecodedCard& card : decoded.cards)
     for (const Cell& cell : card.cells) {
       if (cell.field == nullptr || !bounded(*cell.field)) continue;
       const std::string legal = legal_instead(cell);
-      if (legal.empty()) continue;
+      if (legal.empty() || solver_speaks(*block.schema, cell)) continue;
       Diagnostic* d =
           r.report(rule, block, cell.span,
                    fmt::format("{} of {} {} is {}; legal: {}", cell.field->name,

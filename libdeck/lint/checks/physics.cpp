@@ -19,11 +19,12 @@ bool needs_density(int law) {
   return law > 0 && std::find(without.begin(), without.end(), law) == without.end();
 }
 
-/// Laws that need this modulus.
-bool needs_modulus(int law, std::string_view field) {
-  static constexpr std::array isotropic = {1,  2,  3,  4,  22, 23, 27, 32, 36, 43, 44, 48, 52,
-                                           57, 60, 63, 64, 65, 66, 71, 73, 74, 76, 78, 84, 87};
-  static constexpr std::array orthotropic = {15, 19, 25};
+/// Laws that compute with this modulus, of which nobody has seen the solver stop without it. Where
+/// it does, the schema has a limit.
+bool computes_with(int law, std::string_view field) {
+  static constexpr std::array isotropic = {22, 23, 27, 32, 43, 44, 48, 52, 57, 60, 63,
+                                           64, 65, 66, 71, 73, 74, 76, 78, 84, 87};
+  static constexpr std::array orthotropic = {15, 25};
   const auto has = [law](const auto& laws) {
     return std::find(laws.begin(), laws.end(), law) != laws.end();
   };
@@ -32,7 +33,7 @@ bool needs_modulus(int law, std::string_view field) {
 
 void check_not_positive(const LintContext& c, const Rule& rule, Reporter& r,
                         std::initializer_list<std::string_view> fields,
-                        bool (*wanted)(int, std::string_view)) {
+                        bool (*wanted)(int, std::string_view), bool stops = true) {
   if (c.model == nullptr) return;
   for (const Material& m : c.model->materials) {
     if (m.block == nullptr || m.block->opaque) continue;
@@ -43,9 +44,13 @@ void check_not_positive(const LintContext& c, const Rule& rule, Reporter& r,
       const Cell* cell = d.find(field);
       if (cell != nullptr && (cell->real > 0 || cell->parameter)) continue;
       const bool placed = cell != nullptr && cell->span.valid();
-      r.report(rule, *m.block, placed ? cell->span : m.block->header_span,
-               fmt::format("{} of {} {} is {}", field, m.type, m.id,
-                           placed && !cell->blank() ? std::string(trim(cell->text)) : "blank"));
+      Diagnostic* found =
+          r.report(rule, *m.block, placed ? cell->span : m.block->header_span,
+                   fmt::format("{} of {} {} is {}", field, m.type, m.id,
+                               placed && !cell->blank() ? std::string(trim(cell->text)) : "blank"));
+      if (found == nullptr || stops) continue;
+      found->severity = Severity::warning;
+      found->reference.reset();
     }
   }
 }
@@ -56,7 +61,8 @@ void check_density(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_modulus(const LintContext& c, const Rule& rule, Reporter& r) {
-  check_not_positive(c, rule, r, {"E", "E11", "E22"}, needs_modulus);
+  check_limits(c, rule, r);
+  check_not_positive(c, rule, r, {"E", "E11", "E22"}, computes_with, false);
 }
 
 /// First cell of the third line of LAW2: a, or SIG_Y where Iflag is 1. Found by name where the

@@ -26,6 +26,11 @@ void set_message(Diagnostic* d, int message) {
     d->reference.reset();
 }
 
+/// Laws and properties cannot do without the curves they name; the others have their own numbers.
+int missing_curve(const Schema& schema) {
+  return schema.kind == "mat" ? 126 : schema.kind == "prop" ? 127 : 0;
+}
+
 /// Calls f(block, cell, id, message) for every id whose field has the given demand.
 template <class F>
 void each_demand(const LintContext& c, std::optional<int> Field::*demand, F&& f) {
@@ -34,8 +39,8 @@ void each_demand(const LintContext& c, std::optional<int> Field::*demand, F&& f)
       for (const Cell& cell : card.cells) {
         if (cell.field->type != FieldType::id) continue;
         std::optional<int> message = cell.field->*demand;
-        // Laws and properties cannot do without the curves they name.
-        if (demand == &Field::missing && !message && cell.field->ref == "funct") message = 0;
+        if (demand == &Field::missing && !message && cell.field->ref == "funct")
+          message = missing_curve(*d.block->schema);
         if (message) f(d, cell, c.resolved(*d.block, cell.field->ref, cell.integer), *message);
       }
 }
