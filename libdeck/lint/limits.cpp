@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/embedded.hpp"
+#include "deck/lint/rule.hpp"
 
 namespace deck::detail {
 namespace {
@@ -39,7 +40,8 @@ Limit limit_of(const Json& json, std::string keyword, std::string field) {
   const bool error = json.contains("error"), warning = json.contains("warning");
   out.severity = error ? Severity::error : warning ? Severity::warning : Severity::info;
   out.message = json.value(error ? "error" : warning ? "warning" : "info", 0);
-  out.rule = json.value("rule", error ? "DK640" : warning ? "DK641" : "DK642");
+  const RuleId general = error ? RuleId::DK640 : warning ? RuleId::DK641 : RuleId::DK642;
+  out.rule = json.value("rule", std::string(id_text(general)));
   out.says = json.value("says", "");
   out.fix = json.value("fix", "");
   out.known_from = json.value("known_from", "");

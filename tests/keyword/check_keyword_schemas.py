@@ -102,7 +102,7 @@ def check_limits():
         family = json.loads(file.read_text(encoding="utf-8"))
         for keyword in family.get("schemas", [family]):
             cells[keyword["keyword"]] = {field["name"]: field["type"] for card in keyword.get("cards", [])
-                                         for field in card["fields"]}
+                                         for field in card.get("fields", [])}
     passed = failed = 0
     for file in sorted((ROOT / "schemas/limits").glob("*.json")):
         table = json.loads(file.read_text(encoding="utf-8"))

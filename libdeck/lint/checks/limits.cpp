@@ -110,7 +110,8 @@ std::string message_of(const DecodedBlock& d, const Limit& limit, const Reading&
                             : clipped(at.cell->text));
   if (const std::string also = circumstances(d, limit, at.card); !also.empty())
     out += ", with " + also;
-  out += "; legal: " + (limit.not_a.empty() ? legal_instead(limit.of) : "a " + limit.not_a);
+  if (limit.severity == Severity::error)
+    out += "; legal: " + (limit.not_a.empty() ? legal_instead(limit.of) : "a " + limit.not_a);
   if (!limit.says.empty()) out += " (" + limit.says + ")";
   return out;
 }
