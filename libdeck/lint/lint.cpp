@@ -136,8 +136,10 @@ struct Pool {
     if (all.empty()) return;
     std::erase_if(kept, [&](const Diagnostic& d) {
       return std::any_of(all.begin(), all.end(), [&](const Larger& l) {
-        return d.rule == l.lesser && d.span.file == l.span.file && d.span.offset >= l.span.offset &&
-               d.span.offset + d.span.length <= l.span.offset + l.span.length;
+        if (d.rule != l.lesser || d.span.file != l.span.file) return false;
+        const bool within = d.span.offset >= l.span.offset &&
+                            d.span.offset + d.span.length <= l.span.offset + l.span.length;
+        return within || d.span.offset == l.span.offset;
       });
     });
   }

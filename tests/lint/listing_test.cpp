@@ -92,6 +92,62 @@ TEST(BlankColumns, AreKnownOfEveryKeywordDescribedInFull) {
             ":30");
 }
 
+TEST(BlankColumns, OfBeginAreNoFinding) {
+  const auto run = lint_example(
+      "@deck\n#RADIOSS STARTER\n/BEGIN\nrun\n      2022         0                   1\n"
+      "                  kg                  mm                  ms\n"
+      "                  kg                  mm                  ms\n/END\n");
+  EXPECT_FALSE(run.fires(RuleId::DK028)) << run.list();
+}
+
+TEST(ShortBlocks, AreOneRemarkWhereBlankLinesWouldSayTheSame) {
+  const auto run = lint_example("/PROP/TYPE25/5\nspring\n                 1.0\n");
+  ASSERT_EQ(run.count(RuleId::DK029), 1u) << run.list();
+  EXPECT_EQ(run.find(RuleId::DK029)->severity, Severity::info);
+}
+
+TEST(ValuesOfOtherVersions, AreOneFindingWithTheMessageOfTheirPlace) {
+  const auto run = lint_example("@version 110\n/INTER/TYPE7/1\nlater\n         2         1\n" +
+                                std::string(49, ' ') + "0.5\n\n                 1.0\n\n\n");
+  const Diagnostic* d = run.find(RuleId::DK047);
+  ASSERT_NE(d, nullptr) << run.list();
+  ASSERT_TRUE(d->reference);
+  EXPECT_EQ(d->reference->number, 100213);  // nothing is read behind it
+  EXPECT_FALSE(run.fires(RuleId::DK028)) << run.list();
+}
+
+TEST(TheFirstLine, MayHaveABlankInTheBanner) {
+  const auto run = lint_example(
+      "@deck\n# RADIOSS \n/BEGIN\nrun\n      2022         0\n"
+      "                  kg                  mm                  ms\n"
+      "                  kg                  mm                  ms\n"
+      "/END\n");
+  EXPECT_FALSE(run.fires(RuleId::DK001)) << run.list();
+}
+
+TEST(VentHoles, OfAnAirbagAreCounted) {
+  const auto run = lint_example(R"(/MONVOL/AIRBAG/1
+bag
+         1
+                   0                   0                   0                   0                   0
+                                     0.1          0.00010135                   0         0         0
+               1.667             520.275                   0                   0
+         0
+         2
+         0                  50                   0                   0
+               1e+30                   0                   0         0                   0         0
+         0         0         0                             0                   0                   0
+         0         0         0                             0                   0                   0
+         0                   0                   0                   0
+               1e+30                   0                   0         0                   0         0
+         0         0         0                             0                   0                   0
+         0         0         0                             0                   0                   0
+)");
+  ASSERT_EQ(run.count(RuleId::DK603), 1u) << run.list();
+  EXPECT_EQ(run.find(RuleId::DK603)->message,
+            "vent hole 2 of /MONVOL/AIRBAG/1 has no surface and the area 0");
+}
+
 TEST(ManyRemarksOfAKind, AreOneLineWithTheirNumber) {
   const auto run = lint_example(sheet(5, 3, 1) + sheet(6, 3, 1) + sheet(7, 3, 1));
   ASSERT_EQ(run.count(RuleId::DK601), 4u) << run.list();  // and the sheets of the example

@@ -132,8 +132,8 @@ void check_vents(const LintContext& c, const Rule& rule, Reporter& r) {
       ++place;
       if (surface->integer != 0 || surface->parameter || area->real != 0) continue;
       r.report(rule, b, area->span.valid() ? area->span : b.header_span,
-               fmt::format("vent hole {} of {} {} has no surface and the area 0", place,
-                           b.schema->keyword, b.id.value));
+               fmt::format("vent hole {} of {} has no surface and the area 0", place,
+                           clipped(b.header)));
     }
   }
 }
