@@ -82,9 +82,9 @@ TEST(Element, ThatNamesANodeTwiceIsMessage22Or681) {
   };
   EXPECT_EQ(message("/SHELL/1\n" + cells({1, 1, 1, 2, 4})), 22);
   EXPECT_EQ(message("/SHELL/1\n" + cells({1, 1, 2, 5, 1})), 22);
-  EXPECT_EQ(message("/SHELL/1\n" + cells({1, 1, 2, 5, 5})), 0) << "a triangle";
+  EXPECT_EQ(message("/SHELL/1\n" + cells({1, 1, 2, 5, 5})), -1) << "a triangle";
   EXPECT_EQ(message("/SPRING/1\n" + cells({1, 1, 1})), 681);
-  EXPECT_EQ(message("/SPRING/1\n" + cells({1, 1, 2})), 0);
+  EXPECT_EQ(message("/SPRING/1\n" + cells({1, 1, 2})), -1);
 }
 
 TEST(ModelFindings, CarryKeywordAndIdOfTheirBlock) {
