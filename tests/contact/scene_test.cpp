@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/small_deck.hpp"
+#include "deck/text/rule_id.hpp"
 
 namespace deck::test {
 namespace {
@@ -190,10 +191,10 @@ TEST(NodesAtOnePlace, AreDecidedWithoutAnyArithmeticAndReportedOnce) {
     ASSERT_EQ(b.diagnostics.counts().count(RuleId::DK336), 1u) << card;
     EXPECT_EQ(b.diagnostics.counts().at(RuleId::DK336), 1u) << card;
     for (const Diagnostic& d : b.diagnostics.all()) {
-      if (d.rule == RuleId::DK336)
-        EXPECT_NE(d.message.find("40 nodes at one place (50, 0.1, -7), 1 and 40 among them"),
-                  std::string::npos)
-            << d.message;
+      if (d.rule != RuleId::DK336) continue;
+      EXPECT_NE(d.message.find("40 nodes at one place (50, 0.1, -7), 1 and 40 among them"),
+                std::string::npos)
+          << d.message;
     }
   }
 }
