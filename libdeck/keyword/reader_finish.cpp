@@ -321,7 +321,7 @@ bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_o
                  std::string(word),
              {.severity = Severity::warning,
               .message = 0,
-              .solver = "it reads the number and drops the rest without a word"});
+              .solver = "it reads the number and ignores the rest silently"});
       continue;
     }
     report(deck, RuleId::DK015, spans[i],

@@ -150,7 +150,7 @@ TEST(Renumber, RangesStayRanges) {
 TEST(Renumber, IdsWithoutABlankBetweenThemAreSeenInUndescribedText) {
   const std::string node = "/NODE\n1000000101                 0.0                 0.0\n";
   for (const char* ids : {"10000001011000000102", "         010000001019"}) {
-    const auto w = Whole::text(plates().add(node + "/RBE3/1\nx\n" + ids + "\n").text());
+    const auto w = Whole::text(plates().add(node + "/MPC/1\nx\n" + ids + "\n").text());
     const Rewrite r = numbered(*w, {"node+5"});
     ASSERT_FALSE(r.refusals.empty()) << ids;
     EXPECT_NE(r.refusals[0].find("1000000101 may be the node"), std::string::npos) << r.refusals[0];

@@ -44,11 +44,11 @@ TEST_F(FixCommand, PenetrationsThatRemainAreOne) {
 
 TEST_F(FixCommand, ADeckWithErrorsIsNotRepaired) {
   std::string text = too_close_;
-  const std::string z = "                 0.0\n";
-  text.replace(text.find(z, text.find("/NODE")), z.size(), "                 nan\n");
-  write(dir_ / "nan_0000.rad", text);
-  EXPECT_EQ(deck("fix nan_0000.rad --strategy reduce-gap"), 1) << out() << err();
-  EXPECT_NE(err().find("DK025"), std::string::npos) << err();
+  const auto material = text.find("\n/MAT/");
+  text.insert(text.find('\n', material + 1), "7");  // no part has this one
+  write(dir_ / "stops_0000.rad", text);
+  EXPECT_EQ(deck("fix stops_0000.rad --strategy reduce-gap"), 1) << out() << err();
+  EXPECT_NE(err().find("DK103"), std::string::npos) << err();
 }
 
 TEST_F(FixCommand, ASecondRunCountsWhatTheReportSaysWasMovedBefore) {

@@ -81,7 +81,7 @@ void check_incomplete(const LintContext& c, const Rule& rule, Reporter& r) {
       if (d == nullptr) return;
       d->severity = Severity::warning;
       d->reference.reset();
-      d->reference_behaviour = "it goes on without a word";
+      d->reference_behaviour = "It continues silently.";
       return;
     }
     const char* side = first ? "2" : "1";

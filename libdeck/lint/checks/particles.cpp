@@ -8,7 +8,7 @@
 namespace deck::detail {
 namespace {
 
-/// Most boundaries that a particle may lie in without a word of the solver.
+/// Most boundaries that a particle may lie in before the solver warns.
 constexpr int most_boundaries = 2;
 
 void check_corners(const LintContext& c, const Rule& rule, Reporter& r) {
