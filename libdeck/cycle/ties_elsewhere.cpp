@@ -20,7 +20,7 @@ struct Tie {
 };
 
 /// Search distance of a tie without one on its card: root mean square of the edges.
-double mean_edge(const Nodes& nodes, const std::vector<Corners>& segments) {
+double mean_edge(const deck::Nodes& nodes, const std::vector<Corners>& segments) {
   double sum = 0.0;
   for (const Corners& s : segments)
     for (std::size_t k = 0; k < 4; ++k) {
@@ -33,8 +33,8 @@ double mean_edge(const Nodes& nodes, const std::vector<Corners>& segments) {
 }
 
 /// The nearest segment within the search distance for every node that has one.
-void find_ties(const Nodes& nodes, const NodeSet& group, const Surface& surface, double distance,
-               int threads, std::vector<Tie>& out) {
+void find_ties(const deck::Nodes& nodes, const NodeSet& group, const Surface& surface,
+               double distance, int threads, std::vector<Tie>& out) {
   std::vector<Corners> segments;
   for (const Segment& s : surface.segments) segments.push_back(s.nodes);
   NodeSegmentInput input;

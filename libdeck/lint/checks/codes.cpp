@@ -10,7 +10,7 @@ namespace deck::detail {
 namespace {
 
 /// What is legal, where the cell is not; empty: it is.
-std::string legal_instead(const Cell& cell) {
+std::string legal_codes(const Cell& cell) {
   const Field& f = *cell.field;
   const std::string_view text = trim(cell.text);
   if (f.type == FieldType::flag)  // of letters the solver says nothing
@@ -25,7 +25,7 @@ void check_codes(const LintContext& c, const Rule& rule, Reporter& r) {
     for (const DecodedCard& card : d.cards)
       for (const Cell& cell : card.cells) {
         if (!cell.field->wrong || card.missing()) continue;
-        const std::string legal = legal_instead(cell);
+        const std::string legal = legal_codes(cell);
         if (legal.empty()) continue;
         Diagnostic* found = r.report(
             rule, *d.block, cell.span.valid() ? cell.span : d.block->header_span,
