@@ -267,7 +267,7 @@ def main():
         put(source, two_file_deck())
         copy = ("convert", os.path.join(source, "car_0000.rad"), "-o", ".", "-q")
         rewriting(c, s, tmp, "convert to an empty directory", copy, {})
-        rewriting(c, s, tmp, "convert over older files", copy, {"car_0000.rad": b"# older\n" * 1000, "part.inc": b"# older part\n"})
+        rewriting(c, s, tmp, "convert over older files", (*copy, "--overwrite"), {"car_0000.rad": b"# older\n" * 1000, "part.inc": b"# older part\n"})
         if b"--backup" in c.run("convert", "--help").out:
             rewriting(c, s, tmp, "convert --in-place --backup", ("convert", "car_0000.rad", "--units", "Mg,mm,s", "--in-place", "--backup", "-q"),
                       split_deck("crash_box", b"/GRNOD"), repeatable=False)

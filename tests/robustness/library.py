@@ -102,6 +102,7 @@ def own_names(c, tmp):
     os.mkdir(os.path.join(tmp, "x"))
     for written in ("nout", "nout/", "./nout//", "x/../nout"):
         out = os.path.join(tmp, written)
+        shutil.rmtree(os.path.join(tmp, "nout"), ignore_errors=True)
         r = c.run("batch", "-o", out, deck, "--verb", "convert --units kg,m,s")
         with open(os.path.join(tmp, "nout", "summary.json")) as f:
             summary = f.read()
