@@ -99,7 +99,7 @@ def main():
             print("%-14s %4d pages" % (kind, count))
     for p in problems:
         print("FAILED  " + p)
-    print("%d pages, %d problems" % (len(glob.glob(os.path.join(ROOT, "schemas", "rules", "*.md"))), len(problems)))
+    print("%d passed, %d failed" % (len(glob.glob(os.path.join(ROOT, "schemas", "rules", "*.md"))) - len({p.split(":")[0] for p in problems}), len(problems)))
     sys.exit(1 if problems else 0)
 
 
