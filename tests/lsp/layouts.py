@@ -14,9 +14,13 @@ def schema(kind):
     return next(s for s in found if s["keyword"] == "/INTER/TYPE%d" % kind)
 
 
-def holds(item, version):
+def holds(item, version, oldest):
+    """Whether a cell or card is there. What the oldest layout has is there in older decks too."""
     first, last = (item.get("versions") or [None, None])
-    return (first or 0) <= version <= (last or 9999)
+    first, last = first or 0, last or 9999
+    if first <= oldest <= last:
+        first = 0
+    return first <= version <= last
 
 
 def holds_for(condition, value):
@@ -37,7 +41,7 @@ def wanted(cards):
 def deck(kind, version):
     """(text, [(line from 0, card, {column: names})])"""
     s = schema(kind)
-    cards = [c for c in s["cards"] if holds(c, version)]
+    cards = [c for c in s["cards"] if holds(c, version, s["from"])]
     flags = wanted(cards)
     lines = ["#RADIOSS STARTER", "/BEGIN", "run", "%10d%10d" % (version, 0)]
     lines += ["%20s%20s%20s" % ("kg", "mm", "ms")] * 2
@@ -48,7 +52,7 @@ def deck(kind, version):
     for card in cards:
         text, columns = [" "] * 100, {}
         for f in card["fields"]:
-            if not holds(f, version):
+            if not holds(f, version, s["from"]):
                 continue
             first, last = f["cols"]
             for c in range(first, last + 1):

@@ -49,6 +49,7 @@ function list(field) {
 function lines(cards, comments) {
   const [card, ...rest] = cards;
   const generic = [...comments, { include: "#values" }];
+  if (card?.blank) return [...comments, { begin: `${dataLine}.*\\n?`, end: "(?=^/)", patterns: lines(rest, comments) }];
   if (!card || card.when || !card.fields) return generic;
   const fields = card.fields.filter(newest);
   if (fields.length === 0 || fields.some((f) => f.when)) return generic;

@@ -120,7 +120,8 @@ std::string lint_text(PyDeck& d, bool geometry, const std::vector<std::string>& 
                   &l.interfaces(),
                   l.model().selections.get(),
                   {&l.findings()},
-                  {}};
+                  {},
+                  &d.engine};
   if (geometry)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
       return check_geometry(context, reporter, {d.options.threads, d.options.read.limits});
@@ -183,8 +184,8 @@ PYBIND11_MODULE(_native, m) {
           "files",
           [](const PyDeck& d) {
             std::vector<std::string> out;
-            for (std::size_t i = 0; i < d.loaded.deck().sources.size(); ++i)
-              out.emplace_back(d.loaded.deck().sources[static_cast<std::uint32_t>(i)].path());
+            for (std::uint32_t i = 0; i < d.files; ++i)
+              out.emplace_back(d.loaded.deck().sources[i].path());
             return out;
           })
       .def_readonly("incomplete", &PyDeck::incomplete)
