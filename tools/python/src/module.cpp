@@ -120,7 +120,8 @@ std::string lint_text(PyDeck& d, bool geometry, const std::vector<std::string>& 
                   &l.interfaces(),
                   l.model().selections.get(),
                   {&l.findings()},
-                  {}};
+                  {},
+                  &d.engine};
   if (geometry)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
       return check_geometry(context, reporter, {d.options.threads, d.options.read.limits});
@@ -179,14 +180,13 @@ PYBIND11_MODULE(_native, m) {
   py::class_<PyDeck, DeckPointer>(m, "Deck")
       .def_readonly("path", &PyDeck::path)
       .def_property_readonly("version", [](const PyDeck& d) { return d.loaded.deck().version; })
-      .def_property_readonly(
-          "files",
-          [](const PyDeck& d) {
-            std::vector<std::string> out;
-            for (std::size_t i = 0; i < d.loaded.deck().sources.size(); ++i)
-              out.emplace_back(d.loaded.deck().sources[static_cast<std::uint32_t>(i)].path());
-            return out;
-          })
+      .def_property_readonly("files",
+                             [](const PyDeck& d) {
+                               std::vector<std::string> out;
+                               for (std::uint32_t i = 0; i < d.files; ++i)
+                                 out.emplace_back(d.loaded.deck().sources[i].path());
+                               return out;
+                             })
       .def_readonly("incomplete", &PyDeck::incomplete)
       .def("nodes",
            [](const DeckPointer& d) {

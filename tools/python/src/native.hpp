@@ -4,12 +4,14 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #include "deck/deck.hpp"
+#include "deck/keyword/engine_file.hpp"
 
 namespace deck::python {
 
@@ -24,10 +26,14 @@ struct PyDeck {
       : path(std::move(deck_path)),
         loaded(std::move(read)),
         options(std::move(how)),
+        files(loaded.deck().sources.size()),
+        engine(read_engine_files(loaded.deck(), options.read.limits)),
         incomplete(lacks_includes(loaded.deck())) {}
   std::string path;
   LoadedDeck loaded;
   LoadOptions options;
+  std::uint32_t files;  ///< how many sources are the deck's own
+  EngineFiles engine;  ///< the Engine files beside the deck, for lint
   bool incomplete;  ///< lacks_includes
   /// Groups are resolved on demand, by one thread at a time. Locked without the interpreter's lock.
   std::mutex mutex;
