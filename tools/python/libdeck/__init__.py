@@ -435,8 +435,9 @@ class Deck:
         """The document of ``deck params --json``."""
         return _json.loads(self._native.params_json())
 
-    def lint(self, geometry: bool = True, select: Iterable[str] = (), ignore: Iterable[str] = ()) -> List[Finding]:
+    def lint(self, geometry: Optional[bool] = None, select: Iterable[str] = (), ignore: Iterable[str] = ()) -> List[Finding]:
         """All findings, sorted by file, line, column and rule; ``geometry=False`` without those of rules DK3 and DK4.
+        By default interfaces with very many pairs are left out, as ``deck lint`` does; ``geometry=True`` looks at all.
 
         No configuration file is read."""
         document = _json.loads(self._native.lint_json(geometry, list(select), list(ignore)))

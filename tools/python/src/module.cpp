@@ -1,6 +1,7 @@
 // libdeck._native: a deck, its arrays and the effective values of its interfaces.
 #include <fmt/format.h>
 
+#include <optional>
 #include <utility>
 
 #include "deck/keyword/recognise.hpp"
@@ -109,7 +110,9 @@ DeckPointer load_deck(const std::string& path, int threads,
   return std::make_shared<PyDeck>(path, std::move(*loaded), options);
 }
 
-std::string lint_text(PyDeck& d, bool geometry, const std::vector<std::string>& select,
+/// `geometry`: nothing, a quick look (as `deck lint` without an option) or all.
+std::string lint_text(PyDeck& d, std::optional<bool> geometry,
+                      const std::vector<std::string>& select,
                       const std::vector<std::string>& ignore) {
   const py::gil_scoped_release free;
   const std::lock_guard one(d.mutex);
@@ -122,9 +125,11 @@ std::string lint_text(PyDeck& d, bool geometry, const std::vector<std::string>& 
                   {&l.findings()},
                   {},
                   &d.engine};
-  if (geometry)
+  if (geometry.value_or(true))
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
-      return check_geometry(context, reporter, {d.options.threads, d.options.read.limits});
+      return check_geometry(context, reporter,
+                            {d.options.threads, d.options.read.limits,
+                             geometry ? std::nullopt : std::optional(QuickLook{})});
     });
   LintOptions options;
   options.select = select;
