@@ -2,7 +2,7 @@
 // column that is silently never read.
 // Over 600 lines: one short function a key of the format, and the checks of what the keys say
 // together.
-#include "keyword/schema_json.hpp"
+#include "keyword/schema/json.hpp"
 
 #include <fmt/format.h>
 

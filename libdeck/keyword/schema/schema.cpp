@@ -1,5 +1,5 @@
 // SchemaSet: the table of keywords and aliases, and the search for the longest one that begins a
-// header. Reading the JSON is in schema_json.cpp.
+// header. Reading the JSON is in json.cpp.
 #include "deck/keyword/schema.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 
 #include "base/embedded.hpp"
 #include "deck/text/source.hpp"
-#include "keyword/schema_json.hpp"
+#include "keyword/schema/json.hpp"
 
 namespace deck {
 
