@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "cycle/adapter_parts.hpp"
+#include "cycle/adapter/parts.hpp"
 #include "deck/cycle/sharing.hpp"
 
 namespace deck::cycle::detail {

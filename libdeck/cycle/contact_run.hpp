@@ -1,7 +1,5 @@
 // One contact in one evaluation, and what it remembers until the next. Private to the stage.
-#ifndef DECK_CYCLE_CONTACT_RUN_HPP_
-#define DECK_CYCLE_CONTACT_RUN_HPP_
-
+#pragma once
 #include <optional>
 #include <utility>
 #include <vector>
@@ -130,5 +128,3 @@ void follow_dead_elements(const RunContext& run, const Contact& contact, int ide
                           ContactMemory& memory, std::vector<Removal>& removed);
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_CONTACT_RUN_HPP_

@@ -1,7 +1,5 @@
 // Curved main sides (Icurv 1 to 3) on top of the facet geometry.
-#ifndef DECK_CYCLE_CURVATURE_HPP_
-#define DECK_CYCLE_CURVATURE_HPP_
-
+#pragma once
 #include <cstddef>
 
 #include "deck/cycle/card.hpp"
@@ -16,5 +14,3 @@ double bicubic_allowance(const PacketView& view, std::size_t i);
 double curvature_allowance(const ContactCard& card, const PacketView& view, std::size_t i);
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_CURVATURE_HPP_

@@ -1,8 +1,24 @@
-// What of a keyword line is the header. Private to the library.
+// What of a keyword line is the header, and what is wrong with its form. Private to the library.
 #pragma once
+#include <cstddef>
+#include <cstdint>
 #include <string_view>
 
+#include "deck/keyword/deck.hpp"
+
 namespace deck::detail {
+
+/// The line buffer of the reference solver, counted from the first slash.
+inline constexpr std::size_t header_columns = 202;
+
+/// Bytes [begin, end) of a keyword line. Only blanks stand before `slash`.
+struct HeaderPlace {
+  std::uint32_t file;
+  std::uint64_t begin, slash, end;
+};
+/// Reports text behind the last column (DK012) and blanks at which the solver reads another keyword
+/// (DK052). `header` is the line from the slash on, without its comment.
+void check_header_line(Deck& deck, const HeaderPlace& place, std::string_view header, int version);
 
 /// The header without its comment: a '#' behind a blank starts one. Before version 51 the header
 /// holds the title, which may contain anything.

@@ -1,6 +1,5 @@
 // One pass over the bytes of every file: only header lines and directives are looked at, everything
 // else becomes part of the block that is open. What needs the whole deck is in reader_finish.cpp.
-// Over 600 lines: the walk and what it opens, skips and reports are one state machine.
 #include "keyword/reader.hpp"
 
 #include <algorithm>
@@ -10,14 +9,15 @@
 
 #include "deck/text/gzip.hpp"
 #include "deck/text/number.hpp"
-#include "keyword/blank_units.hpp"
 #include "keyword/header_line.hpp"
 #include "keyword/include_file.hpp"
+#include "text/number_scan.hpp"
 
 namespace deck {
 namespace {
 
-using detail::columns;
+using detail::header_columns;
+using detail::is_blank;
 using detail::longest_path;
 using detail::make_span;
 using detail::starts_with_nocase;
@@ -25,15 +25,9 @@ using detail::trim;
 using detail::trim_right;
 namespace fs = std::filesystem;
 
-bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20; }
-
-constexpr std::size_t header_columns = 202;  // the line buffer of the reference solver
-constexpr int deepest_include = 250;         // the walk is recursive; more would endanger the stack
+constexpr int deepest_include = 250;  // the walk is recursive; more would endanger the stack
 constexpr std::uint64_t release_step = 8 << 20;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-
-constexpr int known_versions[] = {2026, 2025, 2024, 2023, 2022, 2021, 2020, 2019, 2018, 2017,
-                                  140,  130,  120,  110,  100,  90,   51,   44,   42,   41};
 
 /// The text of the file, or of what the overlay says it holds.
 Result<std::unique_ptr<Source>> open_source(const std::string& path, const Limits& limits,
@@ -57,8 +51,8 @@ class Reader {
   }
 
   Result<Deck> read(std::unique_ptr<Source> main) {
-    if (auto bad = refuse_empty(*main); !bad) return bad.error();
-    if (auto bad = refuse_binary(*main); !bad) return bad.error();
+    if (auto bad = detail::refuse_empty(*main); !bad) return bad.error();
+    if (auto bad = detail::refuse_binary(*main); !bad) return bad.error();
     deck_.total_bytes = main->bytes().size();
     if (main->packed()) unpacked_bytes_ = main->bytes().size();
     main_directory_ = directory_of(main->path());
@@ -76,29 +70,6 @@ class Reader {
  private:
   void report(RuleId rule, Span span, std::string message, Case particular = {}) {
     detail::report(deck_, rule, span, std::move(message), std::move(particular));
-  }
-
-  // ---- what is no deck ----------------------------------------------------------------------
-
-  static Result<void> refuse_empty(const Source& source) {
-    const std::string_view bytes = source.bytes();
-    if (!std::all_of(bytes.begin(), bytes.end(), [](char c) { return is_blank(c); })) return {};
-    return Error{Error::Code::syntax, source.path() + ": is empty (" +
-                                          std::to_string(bytes.size()) +
-                                          " bytes of nothing but blanks); expected a Starter "
-                                          "deck with /BEGIN … /END"};
-  }
-
-  static Result<void> refuse_binary(const Source& source) {
-    const std::string_view head = source.bytes().substr(0, 4096);
-    if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff"))
-      return Error{Error::Code::syntax,
-                   source.path() + ": is UTF-16 text; save it as UTF-8 or ASCII"};
-    const auto nul = static_cast<std::size_t>(std::count(head.begin(), head.end(), '\0'));
-    if (nul * 10 <= head.size()) return {};
-    return Error{Error::Code::syntax, source.path() + ": is a binary file (" + std::to_string(nul) +
-                                          " NUL bytes in the first " + std::to_string(head.size()) +
-                                          "); expected the text of a Starter deck"};
   }
 
   void check_banner() {
@@ -187,7 +158,7 @@ class Reader {
     while (const std::string* path = places.next()) {
       auto source = open_source(*path, limits, options_);
       if (source)
-        if (auto bad = refuse_binary(**source); !bad) source = bad.error();
+        if (auto bad = detail::refuse_binary(**source); !bad) source = bad.error();
       if (!source) {
         tried += (tried.empty() ? "" : "; ") + source.error().message;
         continue;
@@ -380,8 +351,7 @@ class Reader {
       const std::string_view line =
           trim_right(bytes.substr(slash, std::min<std::uint64_t>(end - slash, header_columns)));
       const std::string_view header = detail::without_comment(line, version);
-      if (end - slash > header_columns) check_header_tail(file, slash, end);
-      check_header_blanks(file, pos, slash, header, version);
+      detail::check_header_line(deck_, {file, pos, slash, end}, header, version);
       pos = next;
       if (line == "/END") {  // with a comment it is none
         open_block_ = -1;
@@ -393,36 +363,6 @@ class Reader {
     }
     keep_lines(run, size);
     source.release(released, size);
-  }
-
-  /// A blank before the number in a header does no harm; elsewhere the solver reads another
-  /// keyword.
-  void check_header_blanks(std::uint32_t file, std::uint64_t begin, std::uint64_t slash,
-                           std::string_view header, int version) {
-    if (version < 51) return;  // the title stands in the header
-    const std::string shown(header.substr(0, 60));
-    if (begin != slash) {
-      report(RuleId::DK052, make_span(file, begin, slash), "a blank before " + shown);
-      return;
-    }
-    if (header.size() > 1 && is_blank(header[1])) {
-      report(
-          RuleId::DK052, make_span(file, slash + 1, slash + header.find_first_not_of(" \t", 1)),
-          "a blank after the first slash of " + shown,
-          {.message = 0, .solver = "It does not know the keyword and reads nothing of the block."});
-      return;
-    }
-    std::size_t inner = 1;
-    while (inner < header.size() && !(header[inner] == '/' && is_blank(header[inner - 1]))) ++inner;
-    // Before an id the solver reads over it.
-    if (header.find_first_not_of("0123456789/ \t", std::min(inner, header.size())) ==
-        std::string_view::npos)
-      return;
-    std::size_t blank = inner;
-    while (is_blank(header[blank - 1])) --blank;
-    report(RuleId::DK052, make_span(file, slash + blank, slash + inner),
-           "a blank before a slash of " + shown,
-           {.severity = Severity::warning, .message = 0, .solver = "Not known."});
   }
 
   /// A line of numbers only: it has the form of a card.
@@ -468,16 +408,6 @@ class Reader {
                        : "repeat the keyword line (and title) at the top of the included file"});
   }
 
-  void check_header_tail(std::uint32_t file, std::uint64_t slash, std::uint64_t end) {
-    const std::uint64_t from = slash + header_columns;
-    const std::string_view tail = deck_.sources[file].bytes().substr(from, end - from);
-    if (std::all_of(tail.begin(), tail.end(), is_blank)) return;
-    report(RuleId::DK012, make_span(file, from, end),
-           "a keyword line of " + std::to_string(end - slash) + " characters; " +
-               std::to_string(header_columns) + " are read",
-           {.solver = "It ignores the text silently.", .fix = "shorten the line"});
-  }
-
   bool in_submodel_without_begin() const {
     return !submodel_stack_.empty() && begun_.count(submodel_stack_.back()) == 0;
   }
@@ -511,7 +441,7 @@ class Reader {
     block.version = version;
     if (!submodel_stack_.empty()) block.submodel = submodel_stack_.back();
     if (header == "/BEGIN" || header.starts_with("/BEGIN/")) {
-      read_begin(file, block.header_span, next, version);
+      take_begin(block.header_span, next, version);
       block.version = version;
     } else if (header.starts_with("//SUBMODEL")) {
       open_submodel(block.header_span, version);
@@ -563,30 +493,10 @@ class Reader {
   }
 
   /// /BEGIN is needed before anything else can be read: its four lines are read on the spot.
-  void read_begin(std::uint32_t file, Span header, std::uint64_t pos, int& version) {
-    Line lines[4];
-    begin_lines(file, pos, lines);
+  void take_begin(Span header, std::uint64_t pos, int& version) {
     ++notes_.begin_count;
-    Begin begin;
-    begin.span = header;
-    begin.run_name = std::string(trim(lines[0].text));
-    const std::string_view cell = columns(lines[1].text, 1, 10);
-    begin.version_span = lines[1].valid() ? lines[1].columns(1, 10) : header;
-    const IntegerCell number = read_integer(cell);
-    begin.version_written = static_cast<int>(std::clamp<std::int64_t>(number.value, 0, 99999));
-    begin.version_known = is_known_version(begin.version_written);
+    Begin begin = detail::read_begin(deck_, header, pos);
     version = begin.version_known ? begin.version_written : newest_version;
-    begin.has_input = detail::read_units(deck_, lines[2], begin.input);
-    begin.has_working = detail::read_units(deck_, lines[3], begin.working);
-    if (begin.has_input)
-      detail::fill_blank_units(deck_, header, begin.input, begin.working, "input system");
-    if (begin.has_working)
-      detail::fill_blank_units(deck_, header, begin.working, begin.input, "working system");
-    if (!begin.version_known)
-      report(RuleId::DK003, begin.version_span,
-             "input version " + std::string(trim(cell).empty() ? "(blank)" : trim(cell)) +
-                 " is unknown; the columns of version " + std::to_string(newest_version) +
-                 " are assumed");
     if (notes_.begin_count == 1) {
       deck_.begin = std::move(begin);
       deck_.version = version;
@@ -596,7 +506,7 @@ class Reader {
       if (begin.has_input || begin.has_working)
         deck_.submodels[static_cast<std::size_t>(submodel_stack_.back())].units =
             begin.has_input ? begin.input : begin.working;
-    } else if (file == 0) {
+    } else if (header.file == 0) {
       report(RuleId::DK043, header, "a second /BEGIN in the main file");
     } else {
       const Begin& main = deck_.begin;
@@ -611,19 +521,6 @@ class Reader {
                {.solver = "it takes the units of a /BEGIN for a submodel only",
                 .fix = "put the #include between //SUBMODEL and //ENDSUB, give the blocks of the "
                        "file a /UNIT, or convert it"});
-    }
-  }
-
-  /// The first four data lines behind /BEGIN, as far as there are any.
-  void begin_lines(std::uint32_t file, std::uint64_t pos, Line (&lines)[4]) const {
-    const std::string_view bytes = deck_.sources[file].bytes();
-    for (int have = 0; have < 4 && pos < bytes.size();) {
-      const auto nl = std::min(bytes.find('\n', pos), bytes.size());
-      const std::string_view text = bytes.substr(pos, std::min<std::size_t>(nl - pos, 100));
-      const bool comment = text.starts_with('#') || text.starts_with('$');
-      if (!comment && trim(text).starts_with('/')) break;
-      if (!comment) lines[have++] = {trim_right(text), file, pos};
-      pos = nl + 1;
     }
   }
 
@@ -643,11 +540,6 @@ class Reader {
 };
 
 }  // namespace
-
-bool is_known_version(int version) {
-  return std::find(std::begin(known_versions), std::end(known_versions), version) !=
-         std::end(known_versions);
-}
 
 Result<Deck> read_deck(const std::string& path, const SchemaSet& schemas,
                        const ReadOptions& options) {

@@ -27,6 +27,14 @@ inline Span make_span(std::uint32_t file, std::uint64_t begin, std::uint64_t end
   return {file, static_cast<std::uint32_t>(end - begin < longest ? end - begin : longest), begin};
 }
 
+/// Errors for a file that nobody can mean as a deck: nothing but blanks; UTF-16 or binary data.
+Result<void> refuse_empty(const Source& source);
+Result<void> refuse_binary(const Source& source);
+
+/// Reads the four lines of the /BEGIN at `header`; they are looked for from `pos` on. Reports an
+/// unknown version (DK003) and unreadable units (DK015).
+Begin read_begin(Deck& deck, Span header, std::uint64_t pos);
+
 /// Three unit codes in columns 1-20, 21-40, 41-60 (DK015 for unreadable ones). False: all blank.
 /// `blank_is_one`: in a /UNIT block a blank or 0 cell means the factor 1.
 bool read_units(Deck& deck, const Line& line, UnitSystem& units, bool blank_is_one = false);

@@ -5,6 +5,8 @@
 #include <array>
 
 #include "deck/base/escape.hpp"
+#include "keyword/reader.hpp"
+#include "text/number_scan.hpp"
 
 namespace deck {
 namespace {
@@ -104,6 +106,26 @@ std::string text_kind(const Deck& deck, std::string_view head) {
 }
 
 }  // namespace
+
+Result<void> detail::refuse_empty(const Source& source) {
+  const std::string_view bytes = source.bytes();
+  if (!std::all_of(bytes.begin(), bytes.end(), detail::is_blank)) return {};
+  return Error{Error::Code::syntax, source.path() + ": is empty (" + std::to_string(bytes.size()) +
+                                        " bytes of nothing but blanks); expected a Starter deck "
+                                        "with /BEGIN … /END"};
+}
+
+Result<void> detail::refuse_binary(const Source& source) {
+  const std::string_view head = source.bytes().substr(0, head_bytes);
+  if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff"))
+    return Error{Error::Code::syntax,
+                 source.path() + ": is UTF-16 text; save it as UTF-8 or ASCII"};
+  const auto nul = static_cast<std::size_t>(std::count(head.begin(), head.end(), '\0'));
+  if (nul * 10 <= head.size()) return {};
+  return Error{Error::Code::syntax, source.path() + ": is a binary file (" + std::to_string(nul) +
+                                        " NUL bytes in the first " + std::to_string(head.size()) +
+                                        "); expected the text of a Starter deck"};
+}
 
 std::string no_starter_deck(const Deck& deck) {
   const std::string_view bytes = deck.sources[0].bytes();

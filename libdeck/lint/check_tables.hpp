@@ -23,9 +23,8 @@ std::span<const Checked> friction_checks();     // pairs of parts of a /FRICTION
 std::span<const Checked> flag_checks();         // legal values of flags
 std::span<const Checked> value_checks();        // ranges of numbers
 std::span<const Checked> bound_checks();        // what schemas allow elsewhere
-std::span<const Checked> code_checks();         // directions and digits of loads
+std::span<const Checked> load_checks();         // loads, walls, particles (SPH)
 std::span<const Checked> limit_checks();        // values of which the solver speaks
-std::span<const Checked> particle_checks();     // particles (SPH)
 std::span<const Checked> line_checks();         // optional lines
 std::span<const Checked> combination_checks();  // fields that contradict
 std::span<const Checked> ignored_checks();      // fields without effect

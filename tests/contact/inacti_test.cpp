@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "contact/small_deck.hpp"
+#include "contact/published.hpp"
 
 namespace deck::test {
 namespace {
@@ -371,23 +371,7 @@ TEST(Type10, OnlyReports) {
   EXPECT_DOUBLE_EQ(c.main.at(0).stiffness, 400) << "Stfac = 1 on the card";
 }
 
-/// Edges of two shells (t = 2 and 1.2), a beam and a brick: the published crossings.
-SmallDeck edges(const std::string& card) {
-  SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 8, 0).node(4, 0, 8, 0);
-  d.node(11, 4, -3, 1.1).node(12, 5, 12, 1.3).node(13, 25, 12, 1.3).node(14, 25, -3, 1.1);
-  d.node(21, 2, -2, 0.7).node(22, 2.5, 9, 0.9).node(23, 3, 15, 0.5);
-  const double x[8] = {0, 2, 2, 0, 0, 2, 2, 0}, y[8] = {0, 0, 2, 2, 0, 0, 2, 2};
-  for (int i = 0; i < 8; ++i) d.node(31 + i, 40 + x[i], y[i], i < 4 ? 0 : 3);
-  d.node(41, 41, -1, 3.05).node(42, 41.2, 3, 3.1);
-  d.shell_part(1, 2).shell_part(2, 1.2).beam_part(3, 4).truss_part(4, 0.09).solid_part(5);
-  d.shell(1, 1, 1, 2, 3, 4).shell(2, 2, 11, 12, 13, 14).bar("BEAM", 3, 3, 21, 22, 23);
-  d.bar("TRUSS", 4, 4, 41, 42).brick(5, 5, {31, 32, 33, 34, 35, 36, 37, 38});
-  d.group("/SURF/PART/1", {1}).group("/SURF/PART/2", {2}).group("/SURF/PART/EXT/5", {5});
-  d.group("/LINE/SURF/1", {1}).group("/LINE/SURF/2", {2}).group("/LINE/SURF/5", {5});
-  d.segments("/LINE/SEG/3", {{21, 22}}).segments("/LINE/SEG/4", {{41, 42}});
-  return d.add(card);
-}
+SmallDeck edges(const std::string& card) { return published_edges().add(card); }
 
 TEST(EdgePair, CrossingsOfThePublishedExample) {
   const Built shells(edges("@/INTER/TYPE11/1 line_IDs=2 line_IDm=1"));

@@ -214,6 +214,13 @@ TEST(SearchThreads, AnyNumberGivesTheSameList) {
   }
 }
 
+std::vector<CandidatePair> sorted(const sweep::Sink& sink) {
+  std::vector<CandidatePair> pairs;
+  sink.for_each([&pairs](const CandidatePair& pair) { pairs.push_back(pair); });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
 TEST(SearchKernels, EveryInstructionSetFindsTheSamePairs) {
   for (int k = 0; k < 10 * scenes::kFamilies; ++k) {
     Dice dice(static_cast<std::uint64_t>(9000 + k));
@@ -227,10 +234,7 @@ TEST(SearchKernels, EveryInstructionSetFindsTheSamePairs) {
     for (const auto& kernels : sweep::all_kernels()) {
       sweep::Sink sink;
       kernels.nodes(w, 0, w.segments.size(), sink);
-      std::vector<CandidatePair> pairs;
-      sink.for_each([&pairs](const CandidatePair& pair) { pairs.push_back(pair); });
-      std::sort(pairs.begin(), pairs.end());
-      EXPECT_EQ(pairs, expected) << kernels.name;
+      EXPECT_EQ(sorted(sink), expected) << kernels.name;
     }
     const EdgeEdgeInput edges = edge_input(mesh);
     const sweep::EdgeSweep e(edges, o, 1);
@@ -238,10 +242,7 @@ TEST(SearchKernels, EveryInstructionSetFindsTheSamePairs) {
     for (const auto& kernels : sweep::all_kernels()) {
       sweep::Sink sink;
       kernels.edges(e, 0, e.mains.size(), sink);
-      std::vector<CandidatePair> pairs;
-      sink.for_each([&pairs](const CandidatePair& pair) { pairs.push_back(pair); });
-      std::sort(pairs.begin(), pairs.end());
-      EXPECT_EQ(pairs, expected_edges) << kernels.name;
+      EXPECT_EQ(sorted(sink), expected_edges) << kernels.name;
     }
   }
 }

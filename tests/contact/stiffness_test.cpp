@@ -3,34 +3,14 @@
 
 #include <cmath>
 
-#include "contact/small_deck.hpp"
+#include "contact/published.hpp"
 
 namespace deck::test {
 namespace {
 
 constexpr double bulk = 500.0 / 3;  // E = 200, nu = 0.3
 
-/// The bricks, tetrahedron and quads of the published example.
-SmallDeck published() {
-  SmallDeck d;
-  const double z[8] = {0, 0, 0, 0, 2, 2, 2, 2};
-  const double x[8] = {0, 2, 2, 0, 0, 2, 2, 0}, y[8] = {0, 0, 2, 2, 0, 0, 2, 2};
-  for (int i = 0; i < 8; ++i) {
-    d.node(1 + i, x[i], y[i], z[i]);
-    d.node(11 + i, 20 + x[i], y[i], i == 6 ? 2.6 : z[i]);
-  }
-  d.node(21, 40, 0, 0).node(22, 43, 0, 0).node(23, 40, 3, 0).node(24, 40, 0, 3);
-  d.node(31, 60, 0, 0).node(32, 70, 0, 0).node(33, 70, 10, 0).node(34, 60, 10, 0);
-  d.node(35, 80, 0, 0).node(36, 80, 10, 0).node(101, 0.7, 0.6, 9);
-  d.shell_part(1, 0.15).solid_part(2).solid_part(3).shell_part(4, 1).shell_part(5, 3);
-  d.brick(2, 1, {1, 2, 3, 4, 5, 6, 7, 8}).brick(2, 2, {11, 12, 13, 14, 15, 16, 17, 18});
-  d.tetra(3, 3, 21, 22, 23, 24).shell(1, 11, 15, 16, 17, 18);
-  d.shell(4, 12, 31, 32, 33, 34).shell(5, 13, 32, 35, 36, 33);
-  d.segments("/SURF/SEG/1", {{5, 6, 7, 8}}).segments("/SURF/SEG/2", {{15, 16, 17, 18}});
-  d.group("/SURF/PART/EXT/3", {2}).group("/SURF/PART/5", {4, 5}).group("/SURF/PART/EXT/7", {3});
-  d.group("/SURF/PART/EXT/6", {1, 2}).group("/GRNOD/NODE/2", {101});
-  return d;
-}
+SmallDeck published() { return published_solids().segments("/SURF/SEG/1", {{5, 6, 7, 8}}); }
 
 TEST(MainStiffness, SolidsOfThePublishedExample) {
   const Built b(published().add("@/INTER/TYPE7/3 surf_IDm=3"));

@@ -7,29 +7,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/small_deck.hpp"
+#include "cycle/plates.hpp"
 #include "deck/report/cycle.hpp"
 
 namespace deck {
 namespace {
 
 using test::Built;
-using test::SmallDeck;
 
-/// A square shell of side 10 in z = 0 and one of side 4 above it, thickness 1, moving across.
 std::unique_ptr<Built> scene_of(const std::string& fields, double distance = 0.6,
                                 const std::string& type = "TYPE7") {
-  SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
-  d.node(11, 1, 5, distance).node(12, 5, 1, distance).node(13, 9, 5, distance);
-  d.node(14, 5, 9, distance);
-  d.shell_part(1, 1.0).shell_part(2, 1.0);
-  d.shell(1, 1, 1, 2, 3, 4).shell(2, 2, 11, 12, 13, 14);
-  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/2", {1});
-  d.add("@/INTER/" + type + "/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 " + fields);
-  SceneOptions o;
-  o.nodal_stiffness = true;
-  return std::make_unique<Built>(d, o);
+  return cycle::testing::plates_in_contact("@/INTER/" + type + "/1 " + fields, distance);
 }
 
 struct Measured {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "contact/small_deck.hpp"
+#include "cycle/plates.hpp"
 #include "deck/report/cycle.hpp"
 #include "deck/text/rule_id.hpp"
 
@@ -14,25 +14,20 @@ namespace {
 
 using deck::test::Built;
 using deck::test::SmallDeck;
-
-/// A square shell of side 10 in z = 0 (part 1) and one of side 4 above it (part 2), thickness 1.
-SmallDeck plates(double distance) {
-  SmallDeck d;
-  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
-  d.node(11, 1, 5, distance).node(12, 5, 1, distance).node(13, 9, 5, distance);
-  d.node(14, 5, 9, distance);
-  d.shell_part(1, 1.0).shell_part(2, 1.0);
-  d.shell(1, 1, 1, 2, 3, 4).shell(2, 2, 11, 12, 13, 14);
-  d.group("/GRNOD/PART/1", {2}).group("/SURF/PART/2", {1});
-  return d;
-}
+using testing::plates;
+using testing::plates_in_contact;
 
 std::unique_ptr<Built> scene_of(const std::string& fields, double distance) {
-  SmallDeck d = plates(distance);
-  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 " + fields);
-  SceneOptions o;
-  o.nodal_stiffness = true;
-  return std::make_unique<Built>(d, o);
+  return plates_in_contact("@/INTER/TYPE7/1 " + fields, distance);
+}
+
+/// The upper plate of 400 degrees above the lower one of 300.
+void exchange_heat(SmallDeck& d) {
+  d.elastic_material(2, 200.0);
+  d.add("/HEAT/MAT/1\n               300.0                 1.0");
+  d.group("/GRNOD/PART/3", {2});
+  d.add("/INITEMP/1\nt\n               400.0         3");
+  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 Ithe=1 Kthe=0.5 Ithe_form=1");
 }
 
 SceneOutcome run(const Built& b, CycleOptions options = {},
@@ -213,11 +208,7 @@ TEST(FirstCycle, PairsBeyondTheMemoryAreNotEvaluated) {
 TEST(FirstCycle, AShellWithAMissingNodeExchangesNoHeat) {
   SmallDeck d = plates(0.6);
   d.shell(2, 3, 11, 12, 13, 999).shell3(2, 4, 11, 12, 998);
-  d.elastic_material(2, 200.0);
-  d.add("/HEAT/MAT/1\n               300.0                 1.0");
-  d.group("/GRNOD/PART/3", {2});
-  d.add("/INITEMP/1\nt\n               400.0         3");
-  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 Ithe=1 Kthe=0.5 Ithe_form=1");
+  exchange_heat(d);
   SceneOptions o;
   o.nodal_stiffness = true;
   const Built b(d, o);
@@ -266,11 +257,7 @@ TEST(EffectLines, NameTheDecidingFieldAndItsLine) {
 
 TEST(FirstCycle, HeatGoesFromTheHotSideToTheCold) {
   SmallDeck d = plates(0.6);
-  d.elastic_material(2, 200.0);
-  d.add("/HEAT/MAT/1\n               300.0                 1.0");
-  d.group("/GRNOD/PART/3", {2});
-  d.add("/INITEMP/1\nt\n               400.0         3");
-  d.add("@/INTER/TYPE7/1 grnd_IDs=1 surf_IDm=2 Gapmin=1 Ithe=1 Kthe=0.5 Ithe_form=1");
+  exchange_heat(d);
   SceneOptions o;
   o.nodal_stiffness = true;
   const Built b(d, o);

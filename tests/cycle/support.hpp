@@ -1,7 +1,5 @@
 // Small helpers of the cycle tests: packets written out by hand, and where the corpus is.
-#ifndef DECK_TESTS_CYCLE_SUPPORT_HPP_
-#define DECK_TESTS_CYCLE_SUPPORT_HPP_
-
+#pragma once
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -239,5 +237,3 @@ inline std::string slurp(const std::filesystem::path& file) {
 }
 
 }  // namespace deck::cycle::testing
-
-#endif  // DECK_TESTS_CYCLE_SUPPORT_HPP_

@@ -1,38 +1,21 @@
 // `deck cycle` on the inflated dummy against the reference solver's first force evaluation, by the
 // corpus' own comparison.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "deck/report/cycle.hpp"
-#include "where.hpp"
+#include "golden/reference.hpp"
 
 namespace deck {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path corpus() { return deck::test::shared_dir(); }
-
-class Scratch {
- public:
-  Scratch() : path_(fs::temp_directory_path() / ("cycle_test_" + std::to_string(getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~Scratch() {
-    std::error_code ec;
-    fs::remove_all(path_, ec);
-  }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
-
-std::string quote(const fs::path& path) { return "'" + path.string() + "'"; }
+using test::corpus;
+using test::quote;
+using test::Scratch;
+using test::shell;
 
 /// The document of `deck cycle --all`.
 std::string document(const fs::path& path, cycle::Model kernel, int threads) {
@@ -68,15 +51,11 @@ TEST(GoldenCycle, EveryPairForceOfTheInflatedDummyAgrees) {
     GTEST_SKIP() << golden << " is not there (DECK_CORPUS)";
   const Scratch scratch;
   const fs::path deck = scratch / "inflated_0000.rad";
-  ASSERT_EQ(std::system(("python3 " + quote(corpus() / "check" / "inflate_gaps.py") + " " +
-                         quote(plain) + " " + quote(deck) + " 2.5 zero > /dev/null")
-                            .c_str()),
-            0);
+  ASSERT_TRUE(test::inflate(plain, deck));
   const std::string json = document(deck, cycle::Model::reference, 2);
   std::ofstream(scratch / "cycle.json", std::ios::binary) << json;
-  EXPECT_EQ(std::system(("python3 " + quote(corpus() / "check" / "compare_cycle.py") + " " +
-                         quote(golden) + " " + quote(scratch / "cycle.json"))
-                            .c_str()),
+  EXPECT_EQ(shell("python3 " + quote(corpus() / "check" / "compare_cycle.py") + " " +
+                  quote(golden) + " " + quote(scratch / "cycle.json")),
             0);
   EXPECT_EQ(document(deck, cycle::Model::robust, 1), document(deck, cycle::Model::robust, 3));
 }
@@ -89,12 +68,11 @@ TEST(GoldenCycle, DocumentsFollowTheirSchema) {
     ASSERT_TRUE(fs::exists(deck)) << deck;
     std::ofstream(scratch / "cycle.json", std::ios::binary)
         << document(deck, cycle::Model::robust, 1);
-    EXPECT_EQ(std::system(("python3 -c 'import json,sys,jsonschema; "
-                           "s=json.load(open(sys.argv[1])); d=json.load(open(sys.argv[2])); "
-                           "jsonschema.Draft7Validator(s).validate(d); "
-                           "sys.exit(0 if d[\"interfaces\"] else 1)' " +
-                           quote(schema) + " " + quote(scratch / "cycle.json"))
-                              .c_str()),
+    EXPECT_EQ(shell("python3 -c 'import json,sys,jsonschema; "
+                    "s=json.load(open(sys.argv[1])); d=json.load(open(sys.argv[2])); "
+                    "jsonschema.Draft7Validator(s).validate(d); "
+                    "sys.exit(0 if d[\"interfaces\"] else 1)' " +
+                    quote(schema) + " " + quote(scratch / "cycle.json")),
               0)
         << name;
   }

@@ -3,9 +3,7 @@
 // skipped where absent.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -13,66 +11,19 @@
 #include <string_view>
 #include <vector>
 
-#include "where.hpp"
+#include "golden/reference.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path corpus() { return deck::test::shared_dir(); }
+using deck::test::corpus;
+using deck::test::deck_for;
+using deck::test::quote;
+using deck::test::Scratch;
+using deck::test::shell;
+using deck::test::text_of;
 
 fs::path binary() { return deck::test::binary_dir() / "tools" / "deck"; }
-
-/// A directory that goes with the test.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "gaps_test_XXXXXX").string();
-    if (mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~Scratch() {
-    std::error_code ec;
-    if (!path_.empty()) fs::remove_all(path_, ec);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
-
-int shell(const std::string& command) { return std::system(command.c_str()); }
-std::string quote(const fs::path& path) { return "'" + path.string() + "'"; }
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// The deck whose reference results are in `golden`; empty if it cannot be found or made.
-fs::path deck_for(const fs::path& golden, const Scratch& scratch) {
-  const std::string stem = golden.filename().string();
-  const std::string name = stem.substr(0, stem.find(".json"));
-  if (golden.parent_path().filename() == "params")
-    return golden.parent_path() / (name + "_0000.rad");
-  const fs::path base = corpus() / "corpus";
-  const std::string tail = "_inflated";
-  if (name.ends_with(tail)) {
-    const fs::path plain =
-        base / "EuroSID_II" / (name.substr(0, name.size() - tail.size()) + "_0000.rad");
-    const fs::path out = scratch / (name + "_0000.rad");
-    const int code = shell("python3 " + quote(corpus() / "check" / "inflate_gaps.py") + " " +
-                           quote(plain) + " " + quote(out) + " 2.5 zero > /dev/null");
-    return code == 0 ? out : fs::path();
-  }
-  for (const auto& entry : fs::recursive_directory_iterator(base)) {
-    if (!entry.is_regular_file()) continue;
-    const fs::path& file = entry.path();
-    if (file.filename() == name + "_0000.rad") return file;
-    if (file.filename() == "model_0000.rad" && file.parent_path().filename() == name) return file;
-  }
-  return {};
-}
 
 class GoldenGaps : public testing::TestWithParam<const char*> {};
 

@@ -1,40 +1,23 @@
 // The effective values of whole decks against what the reference Starter echoed for them. The
 // comparison itself is the corpus' own script; it and the decks are skipped where absent.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "deck/report/params_report.hpp"
-#include "where.hpp"
+#include "golden/reference.hpp"
 
 namespace deck {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path corpus() { return deck::test::shared_dir(); }
-
-/// A directory that goes with the test.
-class Scratch {
- public:
-  Scratch() : path_(fs::temp_directory_path() / ("params_test_" + std::to_string(getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~Scratch() {
-    std::error_code ec;
-    fs::remove_all(path_, ec);
-  }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
-
-int shell(const std::string& command) { return std::system(command.c_str()); }
-std::string quote(const fs::path& path) { return "'" + path.string() + "'"; }
+using test::corpus;
+using test::deck_for;
+using test::quote;
+using test::Scratch;
+using test::shell;
+using test::text_of;
 
 /// The document of `deck params --no-geometry`.
 std::string params_of(const fs::path& path, int threads = 1) {
@@ -47,29 +30,6 @@ std::string params_of(const fs::path& path, int threads = 1) {
   const Model model = build_model(*deck, SchemaSet::built_in(), diagnostics, options);
   const Interfaces interfaces = read_interfaces(*deck, model, diagnostics);
   return params_json({path.string(), &*deck, &model, &interfaces, nullptr});
-}
-
-fs::path deck_for(const fs::path& golden, const Scratch& scratch) {
-  const std::string stem = golden.filename().string();
-  const std::string name = stem.substr(0, stem.find(".json"));
-  if (golden.parent_path().filename() == "params")
-    return golden.parent_path() / (name + "_0000.rad");
-  const fs::path base = corpus() / "corpus";
-  if (name.ends_with("_inflated")) {
-    const fs::path plain = base / "EuroSID_II" / (name.substr(0, name.size() - 9) + "_0000.rad");
-    const fs::path out = scratch / (name + "_0000.rad");
-    const int code = shell("python3 " + quote(corpus() / "check" / "inflate_gaps.py") + " " +
-                           quote(plain) + " " + quote(out) + " 2.5 zero > /dev/null");
-    return code == 0 ? out : fs::path();
-  }
-  for (const auto& entry : fs::recursive_directory_iterator(base)) {
-    if (!entry.is_regular_file()) continue;
-    const std::string file = entry.path().filename().string();
-    if (file == name + "_0000.rad") return entry.path();
-    if (file == "model_0000.rad" && entry.path().parent_path().filename() == name)
-      return entry.path();
-  }
-  return {};
 }
 
 class GoldenParams : public testing::TestWithParam<const char*> {};
@@ -91,8 +51,7 @@ TEST_P(GoldenParams, AgreeWithTheEchoOfTheReferenceSolver) {
     const fs::path report = scratch / "report.txt";
     const int code = shell("python3 " + quote(script) + " " + quote(entry.path()) + " " +
                            quote(json) + " > " + quote(report));
-    std::ifstream text(report);
-    EXPECT_EQ(code, 0) << deck << "\n" << std::string(std::istreambuf_iterator<char>(text), {});
+    EXPECT_EQ(code, 0) << deck << "\n" << text_of(report);
     ++compared;
   }
   EXPECT_GT(compared, 0);

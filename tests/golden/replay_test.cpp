@@ -10,14 +10,13 @@
 
 #include "deck/cycle/adapter.hpp"
 #include "deck/cycle/replay.hpp"
-#include "where.hpp"
+#include "golden/reference.hpp"
 
 namespace deck {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path corpus() { return deck::test::shared_dir(); }
+using test::corpus;
 
 fs::path file_like(const fs::path& dir, const std::string& ending) {
   for (const auto& entry : fs::directory_iterator(dir))

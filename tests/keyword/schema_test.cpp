@@ -16,7 +16,7 @@
 #include "base/embedded.hpp"
 #include "deck/keyword/decode.hpp"
 #include "keyword/older_decks.hpp"
-#include "keyword/schema_json.hpp"
+#include "keyword/schema/json.hpp"
 #include "where.hpp"
 
 namespace deck {

@@ -1,8 +1,6 @@
 // What the stages of one evaluation share: constants derived from the card, the scratch of a block
 // of pairs between geometry and force, and the table of compiled kernels.
-#ifndef DECK_CYCLE_BLOCK_HPP_
-#define DECK_CYCLE_BLOCK_HPP_
-
+#pragma once
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -92,5 +90,3 @@ void apply_criteria(const KernelPlan& plan, const PacketView& view, std::size_t 
                     std::size_t end, PacketResult& out);
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_BLOCK_HPP_

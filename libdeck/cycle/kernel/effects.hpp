@@ -2,9 +2,7 @@
 // card calls for it, the arrays it needs and writes, its constants, its row in the account of a
 // plan, and what it does to a pack of pairs in each stage of the loop. Those of the normal force
 // are in a file of their own; `AllEffects` at the end lists all.
-#ifndef DECK_CYCLE_EFFECTS_HPP_
-#define DECK_CYCLE_EFFECTS_HPP_
-
+#pragma once
 #include <numbers>
 #include <string>
 #include <type_traits>
@@ -446,5 +444,3 @@ using AllEffects = EffectList<Elastic, FixedStiffness, GapReduction, ElasticEner
                               FrictionTemperature, FrictionLaw, FrictionOrthotropic, Filter>;
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_EFFECTS_HPP_

@@ -1,7 +1,5 @@
 // The effects of the normal force: gap reduction, the elastic law and its energy, the dashpot.
-#ifndef DECK_CYCLE_EFFECTS_NORMAL_HPP_
-#define DECK_CYCLE_EFFECTS_NORMAL_HPP_
-
+#pragma once
 #include <cmath>
 
 #include "cycle/kernel/stages.hpp"
@@ -262,5 +260,3 @@ struct Damping : PairEffect {
 };
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_EFFECTS_NORMAL_HPP_

@@ -1,8 +1,6 @@
 // The pair loop: one text for every composition. A fixed set of effects folds to straight code; the
 // generic kernel asks the same questions at run time and so gives the same bits.
-#ifndef DECK_CYCLE_FORCE_HPP_
-#define DECK_CYCLE_FORCE_HPP_
-
+#pragma once
 #include "cycle/kernel/effects.hpp"
 
 namespace deck::cycle::detail {
@@ -98,5 +96,3 @@ DECK_FLATTEN void force_block(const Effects& on, const Constants& shared, const 
 }
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_FORCE_HPP_

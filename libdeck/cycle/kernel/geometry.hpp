@@ -1,9 +1,7 @@
 // Closest points of a packet of pairs: node against the four-triangle fan of a segment, edge
 // against edge. Two versions each: the reference's (absolute floors, blended normal) and a robust
 // one (relative guards, one closest point).
-#ifndef DECK_CYCLE_GEOMETRY_HPP_
-#define DECK_CYCLE_GEOMETRY_HPP_
-
+#pragma once
 #include "cycle/kernel/block.hpp"
 #include "cycle/kernel/pack.hpp"
 
@@ -489,5 +487,3 @@ DECK_FLATTEN void geometry_block(const Constants& shared, const PacketView& view
 }
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_GEOMETRY_HPP_

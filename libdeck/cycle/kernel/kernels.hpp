@@ -1,8 +1,6 @@
 // The table of compiled kernels for packs of W: every composition worth its code, and the generic
 // kernel for the rest. Included by one translation unit per instruction set.
-#ifndef DECK_CYCLE_KERNELS_HPP_
-#define DECK_CYCLE_KERNELS_HPP_
-
+#pragma once
 #include "cycle/kernel/force.hpp"
 #include "cycle/kernel/geometry.hpp"
 
@@ -77,5 +75,3 @@ const KernelTable* find_kernel(ContactKind kind, Model model, EffectSet set, boo
 }
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_KERNELS_HPP_

@@ -1,8 +1,6 @@
 // W doubles side by side, with the arithmetic the pair kernels need. Every operation is the IEEE
 // operation on each lane, so results do not depend on W or on the instruction set.
-#ifndef DECK_CYCLE_PACK_HPP_
-#define DECK_CYCLE_PACK_HPP_
-
+#pragma once
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -221,5 +219,3 @@ V clamp01(const V& t) {
 }
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_PACK_HPP_

@@ -1,8 +1,6 @@
 // What an effect of the pair loop is made of: the state of a pack of pairs, the constants of an
 // evaluation, and the stages that it may take part in.
-#ifndef DECK_CYCLE_STAGES_HPP_
-#define DECK_CYCLE_STAGES_HPP_
-
+#pragma once
 #include <string>
 #include <vector>
 
@@ -120,5 +118,3 @@ inline bool rubs(const ContactCard& card) {
 }
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_STAGES_HPP_

@@ -1,7 +1,5 @@
 // Three-component arithmetic for the stages that work on one pair at a time.
-#ifndef DECK_CYCLE_VECTOR_HPP_
-#define DECK_CYCLE_VECTOR_HPP_
-
+#pragma once
 #include <array>
 #include <cstddef>
 
@@ -49,5 +47,3 @@ struct SegmentAxes {
 };
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_VECTOR_HPP_

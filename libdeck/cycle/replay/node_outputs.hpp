@@ -1,7 +1,5 @@
 // Results that belong to nodes, not to pairs: running values of a cycle after each packet of pairs.
-#ifndef DECK_CYCLE_REPLAY_NODE_OUTPUTS_HPP_
-#define DECK_CYCLE_REPLAY_NODE_OUTPUTS_HPP_
-
+#pragma once
 #include <map>
 #include <string>
 #include <vector>
@@ -47,5 +45,3 @@ class NodeOutputs {
 };
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_REPLAY_NODE_OUTPUTS_HPP_

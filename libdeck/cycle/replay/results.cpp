@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "cycle/adapter_parts.hpp"
+#include "cycle/adapter/parts.hpp"
 #include "cycle/replay/node_outputs.hpp"
 #include "deck/cycle/heat.hpp"
 #include "deck/cycle/kernel.hpp"

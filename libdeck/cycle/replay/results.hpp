@@ -1,7 +1,5 @@
 // What the kernel makes of recorded states: every result column of the record, computed again.
-#ifndef DECK_CYCLE_REPLAY_RESULTS_HPP_
-#define DECK_CYCLE_REPLAY_RESULTS_HPP_
-
+#pragma once
 #include <string>
 #include <vector>
 
@@ -25,5 +23,3 @@ ResultTable compute_results(const ContactCard& card, const Table& table, const s
                             const ReplayOptions& options, std::string& error);
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_REPLAY_RESULTS_HPP_

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "cycle/adapter_parts.hpp"
+#include "cycle/adapter/parts.hpp"
 
 namespace deck::cycle::detail {
 namespace {

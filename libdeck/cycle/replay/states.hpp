@@ -1,8 +1,6 @@
 // Recorded states as the kernel's arrays: which columns are inputs, which of them were recorded as
 // the reference solver used them, and what the deck beside the record adds.
-#ifndef DECK_CYCLE_REPLAY_STATES_HPP_
-#define DECK_CYCLE_REPLAY_STATES_HPP_
-
+#pragma once
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -77,5 +75,3 @@ class States {
 };
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_REPLAY_STATES_HPP_

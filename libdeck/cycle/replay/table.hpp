@@ -1,7 +1,5 @@
 // Columns of numbers by name, read from CSV text, and written as such.
-#ifndef DECK_CYCLE_REPLAY_TABLE_HPP_
-#define DECK_CYCLE_REPLAY_TABLE_HPP_
-
+#pragma once
 #include <array>
 #include <cstddef>
 #include <map>
@@ -53,5 +51,3 @@ struct ResultTable {
 std::string to_csv(const ResultTable& table);
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_REPLAY_TABLE_HPP_

@@ -1,7 +1,5 @@
 // Element quantities that masses and time steps share. Private to the stage.
-#ifndef DECK_CYCLE_STATE_PARTS_HPP_
-#define DECK_CYCLE_STATE_PARTS_HPP_
-
+#pragma once
 #include <optional>
 #include <vector>
 
@@ -97,5 +95,3 @@ class SpringMasses {
 std::optional<AffineMap> fixed_axes(const deck::Model& model, std::int64_t skew);
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_STATE_PARTS_HPP_

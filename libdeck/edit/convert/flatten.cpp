@@ -6,16 +6,16 @@
 
 #include "edit/convert/flatten_parameters.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
+#include "keyword/header_line.hpp"
 #include "keyword/reader.hpp"
 
 namespace deck {
 namespace {
 
+using detail::header_columns;
 using detail::starts_with_nocase;
 using detail::trim;
 using detail::trim_right;
-
-constexpr std::size_t header_columns = 202;  // as the reader cuts them
 
 class Flattener {
  public:

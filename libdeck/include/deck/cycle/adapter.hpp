@@ -1,8 +1,6 @@
 // From a scene to the contact kernel: the card of every elementary contact with effective values,
 // and its pairs with stiffness, gap and initial penetration as the reference solver forms them.
-#ifndef DECK_CYCLE_ADAPTER_HPP_
-#define DECK_CYCLE_ADAPTER_HPP_
-
+#pragma once
 #include <array>
 #include <optional>
 #include <string>
@@ -74,5 +72,3 @@ void add_conductivity(const Scene& scene, const deck::Contact& contact,
                       const std::vector<double>& temperature, ContactPairs& pairs);
 
 }  // namespace deck::cycle
-
-#endif  // DECK_CYCLE_ADAPTER_HPP_

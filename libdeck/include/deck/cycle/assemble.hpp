@@ -1,8 +1,6 @@
 // From nodes to packets and back: gathers nodal arrays into a packet, and adds pair results to the
 // nodes in an order that does not depend on the number of threads.
-#ifndef DECK_CYCLE_ASSEMBLE_HPP_
-#define DECK_CYCLE_ASSEMBLE_HPP_
-
+#pragma once
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -105,5 +103,3 @@ struct StepLimit {
                                    const std::array<double, 3>& main_max);
 
 }  // namespace deck::cycle
-
-#endif  // DECK_CYCLE_ASSEMBLE_HPP_

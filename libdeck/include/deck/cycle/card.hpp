@@ -1,8 +1,6 @@
 // The effective values of one contact interface, as plain numbers: all that the force kernel has
 // to know about the card. Independent of how a deck is read; an adapter fills it.
-#ifndef DECK_CYCLE_CARD_HPP_
-#define DECK_CYCLE_CARD_HPP_
-
+#pragma once
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -140,5 +138,3 @@ struct EffectState {
 [[nodiscard]] bool secondary_stays(int idel, int live_elements);
 
 }  // namespace deck::cycle
-
-#endif  // DECK_CYCLE_CARD_HPP_

@@ -1,8 +1,6 @@
 // Heat of one contact pair in one cycle: conduction or radiation across the gap, and the share of
 // friction work that becomes heat (node-segment pairs; none between edges).
-#ifndef DECK_CYCLE_HEAT_HPP_
-#define DECK_CYCLE_HEAT_HPP_
-
+#pragma once
 #include <array>
 
 #include "deck/cycle/card.hpp"
@@ -60,5 +58,3 @@ struct EdgeHeatState {
 [[nodiscard]] HeatFlow pair_heat(const ContactCard& card, const HeatState& state);
 
 }  // namespace deck::cycle
-
-#endif  // DECK_CYCLE_HEAT_HPP_

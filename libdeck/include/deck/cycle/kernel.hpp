@@ -1,8 +1,6 @@
 // One-cycle contact forces: evaluates a packet of pairs under a plan.
 // Example: auto plan = make_plan(card); PacketResult out; evaluate(plan, view, out);
-#ifndef DECK_CYCLE_KERNEL_HPP_
-#define DECK_CYCLE_KERNEL_HPP_
-
+#pragma once
 #include <vector>
 
 #include "deck/cycle/packet.hpp"
@@ -67,5 +65,3 @@ class RunningTotals {
                                                        double fn);
 
 }  // namespace deck::cycle
-
-#endif  // DECK_CYCLE_KERNEL_HPP_

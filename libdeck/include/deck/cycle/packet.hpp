@@ -1,8 +1,6 @@
 // A packet of contact pairs as structure of arrays: what the kernel reads, what it writes.
 // Arrays belong to the caller; one that no active effect needs may be null.
-#ifndef DECK_CYCLE_PACKET_HPP_
-#define DECK_CYCLE_PACKET_HPP_
-
+#pragma once
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -184,5 +182,3 @@ struct PacketResult {
 };
 
 }  // namespace deck::cycle
-
-#endif  // DECK_CYCLE_PACKET_HPP_

@@ -1,8 +1,6 @@
 // The composition of one interface's force kernel: which effects run, what they read and write,
 // chosen once from the card so that the loop over pairs asks nothing.
-#ifndef DECK_CYCLE_PLAN_HPP_
-#define DECK_CYCLE_PLAN_HPP_
-
+#pragma once
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -70,5 +68,3 @@ struct KernelPlan {
 [[nodiscard]] std::vector<EffectState> effect_plan(const ContactCard& card);
 
 }  // namespace deck::cycle
-
-#endif  // DECK_CYCLE_PLAN_HPP_

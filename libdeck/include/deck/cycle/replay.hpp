@@ -1,8 +1,6 @@
 // Replays recorded contact states: evaluates the kernel on each recorded pair and compares its
 // force (or heat) with the recorded one.
-#ifndef DECK_CYCLE_REPLAY_HPP_
-#define DECK_CYCLE_REPLAY_HPP_
-
+#pragma once
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -74,5 +72,3 @@ struct ReplayOptions {
                                                      std::uint64_t limit = std::uint64_t{1} << 32);
 
 }  // namespace deck::cycle
-
-#endif  // DECK_CYCLE_REPLAY_HPP_

@@ -1,9 +1,7 @@
 // One contact force evaluation of a whole deck: every contact of a scene at the deck's initial
 // state, its forces, energies and time step, and the sums at the nodes.
 // Example: auto r = run_cycle(scene, make_state(scene), {});
-#ifndef DECK_CYCLE_SCENE_CYCLE_HPP_
-#define DECK_CYCLE_SCENE_CYCLE_HPP_
-
+#pragma once
 #include <functional>
 #include <memory>
 #include <string>
@@ -184,5 +182,3 @@ struct InterfaceSummary {
                                                       const SceneOutcome& outcome);
 
 }  // namespace deck::cycle
-
-#endif  // DECK_CYCLE_SCENE_CYCLE_HPP_

@@ -1,9 +1,7 @@
 // One contact point, one force: pairs of neighbouring segments or edges that meet the other side at
 // the same edge or corner share its force instead of adding up. Part of the robust model; works on
 // finished packets, as single pairs know nothing of one another.
-#ifndef DECK_CYCLE_SHARING_HPP_
-#define DECK_CYCLE_SHARING_HPP_
-
+#pragma once
 #include <vector>
 
 #include "deck/cycle/assemble.hpp"
@@ -26,5 +24,3 @@ namespace deck::cycle {
 void apply_shares(const std::vector<double>& share, PacketResult& result);
 
 }  // namespace deck::cycle
-
-#endif  // DECK_CYCLE_SHARING_HPP_

@@ -1,8 +1,6 @@
 // State of a deck at t = 0, node by node: lumped masses, initial velocities and temperatures. And
 // what the structure itself allows as time step.
-#ifndef DECK_CYCLE_STATE_HPP_
-#define DECK_CYCLE_STATE_HPP_
-
+#pragma once
 #include <array>
 #include <cstdint>
 #include <string>
@@ -53,5 +51,3 @@ struct StructureStep {
 [[nodiscard]] StructureStep structure_step(const Scene& scene);
 
 }  // namespace deck::cycle
-
-#endif  // DECK_CYCLE_STATE_HPP_

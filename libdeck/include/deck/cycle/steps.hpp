@@ -1,9 +1,7 @@
 // Several force evaluations in a row on a mesh that moves as told, with all that contacts remember
 // from one to the next. There is no structure: contact forces move nothing.
 // Example: auto r = run_steps(scene, make_state(scene), options, 50);
-#ifndef DECK_CYCLE_STEPS_HPP_
-#define DECK_CYCLE_STEPS_HPP_
-
+#pragma once
 #include <functional>
 #include <vector>
 
@@ -62,5 +60,3 @@ using StepWatch = std::function<void(std::size_t step, const SceneOutcome&, cons
                                      const StepWatch& watch = {});
 
 }  // namespace deck::cycle
-
-#endif  // DECK_CYCLE_STEPS_HPP_

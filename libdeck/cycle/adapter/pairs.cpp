@@ -7,7 +7,7 @@
 #include "contact/rules/removal.hpp"
 #include "contact/scene/scene_parts.hpp"
 #include "contact/scene/sides.hpp"
-#include "cycle/adapter_parts.hpp"
+#include "cycle/adapter/parts.hpp"
 #include "deck/cycle/adapter.hpp"
 #include "deck/cycle/kernel.hpp"
 

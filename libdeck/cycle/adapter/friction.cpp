@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "contact/scene/scene_parts.hpp"
-#include "cycle/adapter_parts.hpp"
+#include "cycle/adapter/parts.hpp"
 #include "cycle/kernel/vector.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/model/selection.hpp"

@@ -1,5 +1,5 @@
 // Looks up the legal words of a keyword.
-#include "keyword/words.hpp"
+#include "keyword/schema/words.hpp"
 
 #include <algorithm>
 

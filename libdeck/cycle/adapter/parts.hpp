@@ -1,8 +1,6 @@
 // What only some effects want to know about a contact's pairs, each filled into ContactPairs on its
 // own. Private to the stage.
-#ifndef DECK_CYCLE_ADAPTER_PARTS_HPP_
-#define DECK_CYCLE_ADAPTER_PARTS_HPP_
-
+#pragma once
 #include "contact/scene/node_elements.hpp"
 #include "cycle/state/state_parts.hpp"
 #include "deck/contact/search_memory.hpp"
@@ -45,5 +43,3 @@ class NodeConductivity {
 };
 
 }  // namespace deck::cycle::detail
-
-#endif  // DECK_CYCLE_ADAPTER_PARTS_HPP_

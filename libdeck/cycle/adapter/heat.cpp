@@ -4,7 +4,7 @@
 #include <map>
 
 #include "contact/scene/scene_parts.hpp"
-#include "cycle/adapter_parts.hpp"
+#include "cycle/adapter/parts.hpp"
 #include "cycle/state/state_parts.hpp"
 
 namespace deck::cycle {

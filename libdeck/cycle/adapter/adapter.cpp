@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "cycle/adapter_parts.hpp"
+#include "cycle/adapter/parts.hpp"
 #include "deck/keyword/decode.hpp"
 
 namespace deck::cycle {

@@ -1,8 +1,6 @@
 // Strict reader of keyword schemas. It is strict because a mistyped key would otherwise become a
 // column that is silently never read.
-// Over 600 lines: one short function a key of the format, and the checks of what the keys say
-// together.
-#include "keyword/schema_json.hpp"
+#include "keyword/schema/json.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +9,8 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <set>
+
+#include "deck/keyword/deck.hpp"
 
 namespace deck::detail {
 namespace {
@@ -110,9 +110,8 @@ void require(const Json& json, const Path& path, const char* key) {
 
 int version_of(const Json& json, const Path& path) {
   const int version = small_of(json, path);
-  const auto& known = known_versions();
-  if (std::find(known.begin(), known.end(), version) == known.end())
-    fail(path, fmt::format("{} is not an input version ({})", version, joined(known)));
+  if (!is_known_version(version))
+    fail(path, fmt::format("{} is not an input version ({})", version, joined(known_versions())));
   return version;
 }
 
@@ -526,193 +525,7 @@ class DuplicateKeys {
   std::vector<std::set<std::string>> open_;
 };
 
-/// Versions from..until in which a field of a card exists.
-struct Range {
-  int from, until;
-  bool meets(const Range& other) const {
-    return std::max(from, other.from) <= std::min(until, other.until);
-  }
-};
-
-Range range_of(const CardSchema& card, const Field& field) {
-  return {std::max(card.from, field.from), std::min(card.until, field.until)};
-}
-
-/// Whether `schema` has, in `version`, an integer (or text) field `name` on the first `cards`
-/// cards.
-bool knows_before(const Schema& schema, std::size_t cards, int version, std::string_view name,
-                  bool text = false) {
-  for (std::size_t i = 0; i < cards; ++i)
-    for (const auto& field : schema.cards[i].fields)
-      if (field.name == name && field.type != FieldType::real &&
-          (field.type == FieldType::text) == text && schema.cards[i].in_version(version) &&
-          field.in_version(version))
-        return true;
-  return false;
-}
-
-/// The first version in which a condition tests a field that is not known yet; 0 if there is none.
-/// A field that comes later only is 0 where it is not there.
-int unknown_in(const Schema& schema, std::size_t cards, Range range, const Condition& condition) {
-  if (condition.field == Condition::data_lines) return 0;
-  for (const int version : known_versions())
-    if (version >= std::max(range.from, schema.from) && version <= range.until &&
-        !knows_before(schema, cards, version, condition.field))
-      return version;
-  return 0;
-}
-
-std::string check_conditions(const Schema& schema, std::size_t index) {
-  const auto& card = schema.cards[index];
-  for (const auto& condition : card.when)
-    if (const int version = unknown_in(schema, index, {card.from, card.until}, condition))
-      return fmt::format(
-          "/cards/{}/when: in version {} no earlier card has an integer field \"{}\"", index,
-          version, condition.field);
-  const auto at_least_once = [&](std::string_view name) {
-    for (const int version : known_versions())
-      if (knows_before(schema, index + 1, version, name)) return true;
-    return name == Condition::data_lines;
-  };
-  for (std::size_t f = 0; f < card.fields.size(); ++f)
-    for (const auto& condition : card.fields[f].when)
-      if (!at_least_once(condition.field))
-        return fmt::format(
-            "/cards/{}/fields/{}/when: neither this nor an earlier card has an integer field "
-            "\"{}\"",
-            index, f, condition.field);
-  const bool number = card.count.find_first_not_of("0123456789") == std::string::npos;
-  if (!number && !at_least_once(card.count))
-    return fmt::format("/cards/{}/count: no earlier card has an integer field \"{}\"", index,
-                       card.count);
-  // A dimension may ask for a cell of any line and version: where it is not, it counts as 0.
-  const auto ever = [&](const Condition& condition) {
-    for (const int version : known_versions())
-      if (knows_before(schema, schema.cards.size(), version, condition.field,
-                       !condition.words.empty()))
-        return true;
-    return condition.field == Condition::data_lines;
-  };
-  for (std::size_t f = 0; f < card.fields.size(); ++f)
-    for (const auto& entry : card.fields[f].dimension_when)
-      for (const auto& condition : entry.first)
-        if (!ever(condition))
-          return fmt::format("/cards/{}/fields/{}/dim_when: no card has {} field \"{}\"", index, f,
-                             condition.words.empty() ? "an integer" : "a text", condition.field);
-  return {};
-}
-
-/// Cells that another cell's unit depends on must be real fields of the schema.
-std::string check_relations(const Schema& schema, std::size_t index) {
-  const auto real = [&](std::string_view name) {
-    for (const auto& card : schema.cards)
-      for (const auto& field : card.fields)
-        if (field.name == name && field.type == FieldType::real) return true;
-    return false;
-  };
-  const auto number = [&](std::string_view name) {
-    for (const auto& card : schema.cards)
-      for (const auto& field : card.fields)
-        if (field.name == name && field.type != FieldType::text) return true;
-    return false;
-  };
-  const auto& card = schema.cards[index];
-  for (std::size_t f = 0; f < card.fields.size(); ++f) {
-    const auto wrong = [&](const char* key, std::string_view name) {
-      return fmt::format("/cards/{}/fields/{}/{}: no card has a {}field \"{}\"", index, f, key,
-                         std::string_view(key) == "unit_for" ? "" : "real ", name);
-    };
-    for (const auto& axis : card.fields[f].axes)
-      for (const auto& name : axis.scales)
-        if (!real(name)) return wrong("axes", name);
-    for (const auto& name : card.fields[f].unit_for)
-      if (!number(name)) return wrong("unit_for", name);
-    if (const auto& over = card.fields[f].over; !over.empty() && !real(over))
-      return wrong("over", over);
-  }
-  return {};
-}
-
-std::string check_columns(const CardSchema& card, std::size_t index) {
-  for (std::size_t j = 0; j < card.fields.size(); ++j) {
-    const auto& field = card.fields[j];
-    const auto range = range_of(card, field);
-    if (range.from > range.until)
-      return fmt::format("/cards/{}/fields/{}: \"{}\" exists in no version of its card", index, j,
-                         field.name);
-    if (range.until < 51 && field.last > 80)
-      return fmt::format("/cards/{}/fields/{}/cols: lines have 80 columns before version 51", index,
-                         j);
-    for (std::size_t i = 0; i < j; ++i) {
-      const auto& other = card.fields[i];
-      const bool alternatives = !field.when.empty() && !other.when.empty();
-      if (!alternatives && range.meets(range_of(card, other)) && field.first <= other.last &&
-          other.first <= field.last)
-        return fmt::format("/cards/{}/fields/{}/cols: {}-{} of \"{}\" overlap {}-{} of \"{}\"",
-                           index, j, field.first, field.last, field.name, other.first, other.last,
-                           other.name);
-    }
-  }
-  return {};
-}
-
-/// Names must be unique within a version, or conditions and look-ups would be ambiguous. Only
-/// alternatives, which conditions tell apart, may share one.
-std::string check_names(const Schema& schema, std::size_t index) {
-  const auto& card = schema.cards[index];
-  for (std::size_t f = 0; f < card.fields.size(); ++f)
-    for (std::size_t c = 0; c <= index; ++c) {
-      const auto& earlier = schema.cards[c];
-      const auto count = c == index ? f : earlier.fields.size();
-      for (std::size_t g = 0; g < count; ++g)
-        if (const bool alternatives = (!earlier.when.empty() || !earlier.fields[g].when.empty()) &&
-                                      (!card.when.empty() || !card.fields[f].when.empty());
-            !alternatives && earlier.fields[g].name == card.fields[f].name &&
-            range_of(earlier, earlier.fields[g]).meets(range_of(card, card.fields[f])))
-          return fmt::format("/cards/{}/fields/{}: the name \"{}\" is already used by card {}",
-                             index, f, card.fields[f].name, c);
-    }
-  return {};
-}
-
-std::string check_repeat(const Schema& schema, std::size_t index) {
-  const auto& card = schema.cards[index];
-  if (card.repeat == Repeat::ids && card.fields.size() != 1)
-    return fmt::format("/cards/{}: an id list has exactly one field", index);
-  if (card.repeat == Repeat::rows && card.fields.empty())
-    return fmt::format("/cards/{}: repeated rows without fields", index);
-  for (std::size_t c = 0; c < index; ++c) {
-    const auto& earlier = schema.cards[c];
-    if (earlier.repeat == Repeat::once || earlier.words || !earlier.count.empty() ||
-        !Range{earlier.from, earlier.until}.meets({card.from, card.until}))
-      continue;
-    if (earlier.repeat != Repeat::group || card.repeat != Repeat::group)
-      return fmt::format("/cards/{}: nothing can follow card {}, which repeats to the end", index,
-                         c);
-  }
-  return {};
-}
-
 }  // namespace
-
-std::string check_schema(const Schema& schema) {
-  for (std::size_t c = 0; c < schema.cards.size(); ++c) {
-    std::string wrong = check_columns(schema.cards[c], c);
-    if (wrong.empty()) wrong = check_names(schema, c);
-    if (wrong.empty()) wrong = check_repeat(schema, c);
-    if (wrong.empty()) wrong = check_conditions(schema, c);
-    if (wrong.empty()) wrong = check_relations(schema, c);
-    if (!wrong.empty()) return wrong;
-  }
-  return {};
-}
-
-const std::vector<int>& known_versions() {
-  static const std::vector<int> versions = {41,   42,   44,   51,   90,   100,  110,
-                                            120,  130,  140,  2017, 2018, 2019, 2020,
-                                            2021, 2022, 2023, 2024, 2025, 2026};
-  return versions;
-}
 
 std::vector<SchemaText> split_schemas(std::string_view text) {
   std::vector<SchemaText> found;

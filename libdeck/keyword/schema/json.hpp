@@ -9,7 +9,7 @@
 
 namespace deck::detail {
 
-/// Input versions that have a layout of their own, ascending.
+/// Input versions that have a layout of their own, ascending: the rows of is_known_version().
 const std::vector<int>& known_versions();
 
 /// Parses one schema file: an object with "keyword", or one with "schemas" (a list of such

@@ -1,5 +1,5 @@
 // SchemaSet: the table of keywords and aliases, and the search for the longest one that begins a
-// header. Reading the JSON is in schema_json.cpp.
+// header; the input versions. Reading the JSON is in json.cpp.
 #include "deck/keyword/schema.hpp"
 
 #include <fmt/format.h>
@@ -11,10 +11,26 @@
 #include <set>
 
 #include "base/embedded.hpp"
+#include "deck/keyword/deck.hpp"
 #include "deck/text/source.hpp"
-#include "keyword/schema_json.hpp"
+#include "keyword/schema/json.hpp"
 
 namespace deck {
+namespace detail {
+
+const std::vector<int>& known_versions() {
+  static const std::vector<int> versions = {41,   42,   44,   51,   90,   100,  110,
+                                            120,  130,  140,  2017, 2018, 2019, 2020,
+                                            2021, 2022, 2023, 2024, 2025, 2026};
+  return versions;
+}
+
+}  // namespace detail
+
+bool is_known_version(int version) {
+  const auto& known = detail::known_versions();
+  return std::binary_search(known.begin(), known.end(), version);
+}
 
 bool Condition::holds(std::int64_t value) const {
   if (!in.empty() && std::find(in.begin(), in.end(), value) == in.end()) return false;
