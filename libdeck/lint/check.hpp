@@ -20,9 +20,6 @@ void each(const LintContext& c, const Rule& rule, F&& f) {
       if (card.type == type) f(card);
 }
 
-/// Values of which the solver speaks (limits.hpp), as far as `rule` reports them.
-void check_limits(const LintContext& c, const Rule& rule, Reporter& r);
-
 /// "/INTER/TYPE7 3"
 inline std::string name_of(const ContactCard& card) {
   return card.decoded.block->schema->keyword + " " + std::to_string(card.block->id.value);

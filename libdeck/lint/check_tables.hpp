@@ -22,9 +22,7 @@ std::span<const Checked> reference_checks();    // what interfaces refer to
 std::span<const Checked> friction_checks();     // pairs of parts of a /FRICTION
 std::span<const Checked> flag_checks();         // legal values of flags
 std::span<const Checked> value_checks();        // ranges of numbers
-std::span<const Checked> bound_checks();        // what schemas allow elsewhere
 std::span<const Checked> load_checks();         // loads, walls, particles (SPH)
-std::span<const Checked> limit_checks();        // values of which the solver speaks
 std::span<const Checked> line_checks();         // optional lines
 std::span<const Checked> combination_checks();  // fields that contradict
 std::span<const Checked> ignored_checks();      // fields without effect
@@ -38,5 +36,17 @@ std::span<const Checked> listing_checks();      // what the solver says in its l
 
 /// All of them, ordered by id.
 const std::vector<Checked>& all_checks();
+
+/// A check of single blocks. Every block is decoded once for all the checks that want its keyword.
+struct BlockChecked {
+  RuleId id;
+  bool (*wants)(const Rule&, const Schema&);
+  void (*check)(const LintContext&, const Rule&, Reporter&, const DecodedBlock&);
+};
+
+std::span<const BlockChecked> limit_checks();  // values of which the solver speaks
+std::span<const BlockChecked> bound_checks();  // what schemas allow elsewhere
+
+const std::vector<BlockChecked>& all_block_checks();
 
 }  // namespace deck::detail

@@ -10,6 +10,8 @@
 #include <map>
 #include <type_traits>
 
+#include "lint/targets.hpp"
+
 namespace deck {
 namespace {
 
@@ -192,6 +194,7 @@ LintContext build_context(const LintInput& input, Diagnostics& sink) {
                       {},
                       {},
                       {},
+                      {},
                       input.engine};
   std::map<const Block*, const InterBase*> typed;
   if (input.interfaces != nullptr)
@@ -221,10 +224,14 @@ LintContext build_context(const LintInput& input, Diagnostics& sink) {
       context.defaults.push_back(std::move(decoded));
     } else if (keyword == "/FRICTION") {
       context.frictions.push_back(std::move(decoded));
-    } else if (!keyword.starts_with("/TH/") && asks_for_targets(*block.schema)) {
+    } else if (keyword.starts_with("/TH/")) {
+      context.histories.push_back(std::move(decoded));
+    } else if (asks_for_targets(*block.schema)) {
       context.loads.push_back(std::move(decoded));
     }
   }
+  context.any_acts = std::any_of(context.loads.begin(), context.loads.end(),
+                                 [&](const DecodedBlock& d) { return acts_on(context, d).second; });
   return context;
 }
 

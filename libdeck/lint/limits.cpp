@@ -3,6 +3,7 @@
 #include "lint/limits.hpp"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/embedded.hpp"
@@ -72,11 +73,16 @@ const std::vector<Limit>& all_limits() {
   return limits;
 }
 
-std::vector<const Limit*> limits_of(const Schema& schema) {
-  std::vector<const Limit*> out;
-  for (const Limit& limit : all_limits())
-    if (limit.keyword == schema.keyword) out.push_back(&limit);
-  return out;
+const std::vector<const Limit*>& limits_of(const Schema& schema) {
+  using ByKeyword = std::map<std::string_view, std::vector<const Limit*>>;
+  static const ByKeyword by_keyword = [] {
+    ByKeyword out;
+    for (const Limit& limit : all_limits()) out[limit.keyword].push_back(&limit);
+    return out;
+  }();
+  static const std::vector<const Limit*> none;
+  const auto it = by_keyword.find(schema.keyword);
+  return it == by_keyword.end() ? none : it->second;
 }
 
 }  // namespace deck::detail

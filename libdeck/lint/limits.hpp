@@ -35,6 +35,7 @@ struct Limit {
 };
 
 const std::vector<Limit>& all_limits();
-std::vector<const Limit*> limits_of(const Schema& schema);
+/// Those of a keyword.
+const std::vector<const Limit*>& limits_of(const Schema& schema);
 
 }  // namespace deck::detail

@@ -299,6 +299,22 @@ std::string fingerprint(const Deck& deck, const Diagnostic& d) {
 
 namespace {
 
+void run_block_checks(const LintOptions& options, const LintContext& context, Reporter& reporter) {
+  std::map<const Schema*, std::vector<const detail::BlockChecked*>> of_keyword;
+  for (const Block& block : context.deck.blocks) {
+    if (block.schema == nullptr || block.opaque || block.schema->bulk) continue;
+    const auto [it, fresh] = of_keyword.try_emplace(block.schema);
+    if (fresh)
+      for (const detail::BlockChecked& c : detail::all_block_checks())
+        if (enabled(options, c.id) && c.wants(rule_of(c.id), *block.schema))
+          it->second.push_back(&c);
+    if (it->second.empty()) continue;
+    const DecodedBlock decoded = decode(context.deck, block);
+    for (const detail::BlockChecked* c : it->second)
+      c->check(context, rule_of(c->id), reporter, decoded);
+  }
+}
+
 /// Skipped where no rule wants to know what they find.
 std::vector<NotChecked> run_extra_checks(const LintInput& input, const LintOptions& options,
                                          const LintContext& context, Reporter& reporter) {
@@ -328,6 +344,7 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
   const LintContext context = detail::build_context(input, own);
   for (const auto& [rule, check] : detail::all_checks())
     if (enabled(options, rule)) check(context, rule_of(rule), reporter);
+  run_block_checks(options, context, reporter);
   std::vector<NotChecked> left_out = run_extra_checks(input, options, context, reporter);
   // Groups that no contact uses have findings too.
   if (input.selections != nullptr) input.selections->resolve_all();

@@ -47,11 +47,20 @@ const std::vector<detail::Checked>& detail::all_checks() {
           physics_checks(), element_checks(), reference_checks(),  friction_checks(),
           flag_checks(),    value_checks(),   line_checks(),       combination_checks(),
           ignored_checks(), manual_checks(),  difference_checks(), companion_checks(),
-          default_checks(), advice_checks(),  engine_checks(),     bound_checks(),
-          listing_checks(), limit_checks()})
+          default_checks(), advice_checks(),  engine_checks(),     listing_checks()})
       out.insert(out.end(), table.begin(), table.end());
     std::sort(out.begin(), out.end(),
               [](const Checked& a, const Checked& b) { return a.id < b.id; });
+    return out;
+  }();
+  return checks;
+}
+
+const std::vector<detail::BlockChecked>& detail::all_block_checks() {
+  static const std::vector<BlockChecked> checks = [] {
+    std::vector<BlockChecked> out;
+    for (const auto table : {bound_checks(), limit_checks()})
+      out.insert(out.end(), table.begin(), table.end());
     return out;
   }();
   return checks;

@@ -78,10 +78,6 @@ std::optional<bool> target_exists(const LintContext& c, std::string_view kind, s
   return all != c.defined.end() && all->second.count(id) > 0;
 }
 
-namespace {
-
-/// The field of a block that names what it acts on, and whether that is there; nullptr: no such
-/// field.
 std::pair<const Field*, bool> acts_on(const LintContext& c, const DecodedBlock& d) {
   const int version = d.block->version;
   for (const CardSchema& card : d.block->schema->cards)
@@ -94,18 +90,13 @@ std::pair<const Field*, bool> acts_on(const LintContext& c, const DecodedBlock& 
   return {nullptr, false};
 }
 
-}  // namespace
-
 const Field* acts_on_nothing(const LintContext& c, const DecodedBlock& d) {
   const auto [field, found] = acts_on(c, d);
   if (field == nullptr || found) return nullptr;
   const Cell* cell = d.find(field->name);
   if (cell == nullptr || cell->integer == 0) return field;
   // One wrong group is an error; without a single node the solver does not look at such blocks.
-  const bool others = std::any_of(c.loads.begin(), c.loads.end(), [&](const DecodedBlock& other) {
-    return acts_on(c, other).second;
-  });
-  return others ? nullptr : field;
+  return c.any_acts ? nullptr : field;
 }
 
 }  // namespace deck::detail

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "deck/lint/lint.hpp"
 
@@ -30,6 +31,10 @@ bool selection_is_empty(const LintContext& c, std::string_view kind, std::int64_
 
 /// Whether the entity exists; nothing: it cannot be said (no model, or a kind nobody counts).
 std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id);
+
+/// The field of a block that names what it acts on, and whether that is there; nullptr: no such
+/// field.
+std::pair<const Field*, bool> acts_on(const LintContext& c, const DecodedBlock& d);
 
 /// The field that names what the block acts on, where the solver passes over the block and checks
 /// nothing of it: its target is 0, or there is none and no such block has any. Else nullptr.

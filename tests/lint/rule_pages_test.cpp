@@ -117,10 +117,11 @@ TEST(RulePage, BytesThatAPageCannotShowAreEscaped) {
   EXPECT_FALSE(with(R"(a\x1)"));
 }
 
-TEST(Checks, ArePerRuleOneForThePagesThatACheckFinds) {
+TEST(Checks, AreThereForThePagesThatACheckFinds) {
   std::set<RuleId> checked, pages;
   for (const detail::Checked& c : detail::all_checks())
     EXPECT_TRUE(checked.insert(c.id).second) << id_text(c.id) << " has two checks";
+  for (const detail::BlockChecked& c : detail::all_block_checks()) checked.insert(c.id);
   for (const Rule& r : all_rules())
     if (r.stage == RuleStage::check) pages.insert(r.id);
   EXPECT_EQ(checked, pages);

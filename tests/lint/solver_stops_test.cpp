@@ -41,6 +41,17 @@ TEST(MissingTarget, ImposedMotionOfNoNodesIsPassedOver) {
   }
 }
 
+/// Each of them would be held against all others if it were asked again whether one acts.
+TEST(MissingTarget, ManyImposedMotionsOfNoNodesAreEachReported) {
+  constexpr int many = 3000;
+  std::string deck;
+  for (int i = 1; i <= many; ++i)
+    deck += "@/IMPVEL/" + std::to_string(i) + " funct_IDT=1 Dir=X grnod_ID=77\n";
+  const Linted run = lint_example(deck);
+  EXPECT_EQ(run.result.counts.at(RuleId::DK138), std::uint64_t{many});
+  EXPECT_FALSE(run.fires(RuleId::DK120));
+}
+
 TEST(Wall, NeedsTwoPointsApart) {
   EXPECT_EQ(message_of(lint_example("@/RWALL/PLANE/1 grnd_ID1=2 XM=1.0 XM1=1.0\n"), RuleId::DK137),
             167);

@@ -49,46 +49,40 @@ std::string legal_instead(const Cell& cell) {
 bool solver_speaks(const Schema& schema, const Cell& cell) {
   const double value =
       cell.field->type == FieldType::real ? cell.real : static_cast<double>(cell.integer);
-  return std::any_of(all_limits().begin(), all_limits().end(), [&](const Limit& limit) {
-    return limit.keyword == schema.keyword && limit.of.field == cell.field->name &&
-           limit.when.empty() && !limit.sum && limit.not_a.empty() && limit.of.holds(value);
+  const auto& limits = limits_of(schema);
+  return std::any_of(limits.begin(), limits.end(), [&](const Limit* limit) {
+    return limit->of.field == cell.field->name && limit->when.empty() && !limit->sum &&
+           limit->not_a.empty() && limit->of.holds(value);
   });
 }
 
-void check_block(const LintContext& c, const Rule& rule, Reporter& r, const Block& block) {
-  const DecodedBlock decoded = decode(c.deck, block);
-  for (const DecodedCard& card : decoded.cards)
+bool has_bounds(const Rule&, const Schema& schema) {
+  return !has_own_rules(schema) &&
+         std::any_of(schema.cards.begin(), schema.cards.end(), [](const CardSchema& card) {
+           return std::any_of(card.fields.begin(), card.fields.end(), bounded);
+         });
+}
+
+void check_bounds(const LintContext&, const Rule& rule, Reporter& r, const DecodedBlock& d) {
+  const Block& block = *d.block;
+  for (const DecodedCard& card : d.cards)
     for (const Cell& cell : card.cells) {
       if (cell.field == nullptr || !bounded(*cell.field)) continue;
       const std::string legal = legal_instead(cell);
       if (legal.empty() || solver_speaks(*block.schema, cell)) continue;
-      Diagnostic* d =
+      Diagnostic* found =
           r.report(rule, block, cell.span,
                    fmt::format("{} of {} {} is {}; legal: {}", cell.field->name,
                                block.schema->keyword, block.id.value, clipped(cell.text), legal));
-      if (d != nullptr && !cell.field->doc.empty())
-        d->help += " " + cell.field->name + ": " + cell.field->doc + ".";
+      if (found != nullptr && !cell.field->doc.empty())
+        found->help += " " + cell.field->name + ": " + cell.field->doc + ".";
     }
-}
-
-void check_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
-  std::map<const Schema*, bool> wanted;
-  for (const Block& block : c.deck.blocks) {
-    const Schema* s = block.schema;
-    if (s == nullptr || block.opaque || s->bulk) continue;
-    const auto [it, fresh] = wanted.try_emplace(s, false);
-    if (fresh && !has_own_rules(*s))
-      it->second = std::any_of(s->cards.begin(), s->cards.end(), [](const CardSchema& card) {
-        return std::any_of(card.fields.begin(), card.fields.end(), bounded);
-      });
-    if (it->second) check_block(c, rule, r, block);
-  }
 }
 
 }  // namespace
 
-std::span<const Checked> bound_checks() {
-  static constexpr Checked all[] = {{RuleId::DK096, check_bounds}};
+std::span<const BlockChecked> bound_checks() {
+  static constexpr BlockChecked all[] = {{RuleId::DK096, has_bounds, check_bounds}};
   return all;
 }
 

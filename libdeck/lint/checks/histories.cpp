@@ -14,14 +14,6 @@
 namespace deck::detail {
 namespace {
 
-std::vector<DecodedBlock> histories_of(const LintContext& c) {
-  std::vector<DecodedBlock> out;
-  for (const Block& block : c.deck.blocks)
-    if (!block.opaque && block.schema != nullptr && block.schema->keyword.starts_with("/TH/"))
-      out.push_back(decode(c.deck, block));
-  return out;
-}
-
 std::string history_name(const DecodedBlock& d) {
   return fmt::format("{} {}", d.block->schema->keyword, d.block->id.value);
 }
@@ -61,7 +53,7 @@ void each_word(const DecodedBlock& d, F&& f) {
 }
 
 void check_variable(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const DecodedBlock& d : histories_of(c)) {
+  for (const DecodedBlock& d : c.histories) {
     const Schema& schema = *d.block->schema;
     if (legal_words(schema).empty()) continue;
     each_word(d, [&](const DecodedCard& card, const Cell& cell) {
@@ -81,7 +73,7 @@ void check_variable(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_no_variable(const LintContext& c, const Rule& rule, Reporter& r) {
-  for (const DecodedBlock& d : histories_of(c)) {
+  for (const DecodedBlock& d : c.histories) {
     const Schema& schema = *d.block->schema;
     const bool described = std::any_of(
         schema.cards.begin(), schema.cards.end(),
@@ -176,15 +168,14 @@ class MissingObjects {
 
 void check_missing_object(const LintContext& c, const Rule& rule, Reporter& r) {
   MissingObjects objects(c, rule, r);
-  for (const DecodedBlock& d : histories_of(c)) objects.check(d);
+  for (const DecodedBlock& d : c.histories) objects.check(d);
 }
 
 /// Parts and subsets belong to one history only.
 void check_two_histories(const LintContext& c, const Rule& rule, Reporter& r) {
-  const std::vector<DecodedBlock> histories = histories_of(c);
   std::map<std::pair<std::string_view, std::int64_t>, const Cell*> seen;
   std::map<const Cell*, const DecodedBlock*> block_of;
-  for (const DecodedBlock& d : histories) {
+  for (const DecodedBlock& d : c.histories) {
     const std::string_view keyword = d.block->schema->keyword;
     if ((keyword != "/TH/PART" && keyword != "/TH/SUBS") || first_id(d) == 0) continue;
     for (const DecodedCard& card : d.cards)

@@ -3,7 +3,6 @@
 #include "lint/limits.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
@@ -138,10 +137,16 @@ bool applies(const LintContext& c, const DecodedBlock& d, const Limit& limit, co
                              : is_other_kind(c, *d.block, limit, at.cell);
 }
 
-void check_block(const LintContext& c, const Rule& rule, Reporter& r, const Block& block,
-                 const std::vector<const Limit*>& limits) {
-  const DecodedBlock d = decode(c.deck, block);
-  for (const Limit* limit : limits)
+bool has_limits(const Rule& rule, const Schema& schema) {
+  const auto& limits = limits_of(schema);
+  return std::any_of(limits.begin(), limits.end(),
+                     [&](const Limit* limit) { return limit->rule == id_text(rule.id); });
+}
+
+void check_limits(const LintContext& c, const Rule& rule, Reporter& r, const DecodedBlock& d) {
+  const Block& block = *d.block;
+  for (const Limit* limit : limits_of(*block.schema)) {
+    if (limit->rule != id_text(rule.id)) continue;
     for (const Reading& at : readings_of(d, *limit)) {
       if (!applies(c, d, *limit, at)) continue;
       const bool placed = at.cell != nullptr && at.cell->span.valid();
@@ -153,25 +158,16 @@ void check_block(const LintContext& c, const Rule& rule, Reporter& r, const Bloc
       found->reference = ReferenceMessage{limit->message, theirs};
       if (!limit->fix.empty()) found->help = limit->fix;
     }
+  }
 }
 
 }  // namespace
 
-void check_limits(const LintContext& c, const Rule& rule, Reporter& r) {
-  std::map<const Schema*, std::vector<const Limit*>> of_rule;
-  for (const Block& block : c.deck.blocks) {
-    if (block.schema == nullptr || block.opaque) continue;
-    const auto [it, fresh] = of_rule.try_emplace(block.schema);
-    if (fresh)
-      for (const Limit* limit : limits_of(*block.schema))
-        if (limit->rule == id_text(rule.id)) it->second.push_back(limit);
-    if (!it->second.empty()) check_block(c, rule, r, block, it->second);
-  }
-}
-
-std::span<const Checked> limit_checks() {
-  static constexpr Checked all[] = {
-      {RuleId::DK640, check_limits}, {RuleId::DK641, check_limits}, {RuleId::DK642, check_limits}};
+std::span<const BlockChecked> limit_checks() {
+  static constexpr BlockChecked all[] = {{RuleId::DK124, has_limits, check_limits},
+                                         {RuleId::DK640, has_limits, check_limits},
+                                         {RuleId::DK641, has_limits, check_limits},
+                                         {RuleId::DK642, has_limits, check_limits}};
   return all;
 }
 

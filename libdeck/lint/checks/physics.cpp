@@ -61,7 +61,6 @@ void check_density(const LintContext& c, const Rule& rule, Reporter& r) {
 }
 
 void check_modulus(const LintContext& c, const Rule& rule, Reporter& r) {
-  check_limits(c, rule, r);
   check_not_positive(c, rule, r, {"E", "E11", "E22"}, computes_with, false);
 }
 

@@ -68,6 +68,7 @@ class LintContext {
   std::vector<ContactCard> contacts;
   std::vector<DecodedBlock> defaults;   ///< /DEFAULT/INTER blocks
   std::vector<DecodedBlock> frictions;  ///< /FRICTION blocks
+  std::vector<DecodedBlock> histories;  ///< /TH blocks
   /// Other blocks with ids whose target the solver asks for (Field::missing, empty, required).
   std::vector<DecodedBlock> loads;
   /// Definitions by kind ("inter", "sensor", "funct", "surf", ...) and id (submodel offset added).
@@ -77,6 +78,7 @@ class LintContext {
   /// Every whole number in blocks whose cards are not described: any of them may be a reference.
   std::unordered_set<std::int64_t> loose_numbers;
   const EngineFiles* engine = nullptr;  ///< nullptr: not looked for
+  bool any_acts = false;  ///< one of `loads` at least acts on something (Field::acts_on)
 
   /// Id of a reference as the model knows it (submodel offset added).
   std::int64_t resolved(const Block& block, std::string_view kind, std::int64_t id) const;
