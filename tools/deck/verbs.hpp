@@ -1,5 +1,5 @@
-// Verbs: how a subcommand announces itself to `deck`. A verb is one file, tools/deck/NAME.cpp,
-// holding one VerbRegistration; no other file is edited.
+// Verbs: how a subcommand announces itself to `deck`. A verb is one file holding one
+// VerbRegistration; no other file is edited.
 //
 //   namespace {
 //   struct Options { deck::cli::CommonOptions common; bool all = false; };

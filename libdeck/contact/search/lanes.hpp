@@ -1,5 +1,5 @@
 // The inner loops of the pair search on vectors of DECK_LANES doubles. No include guard on
-// purpose: search_kernels.cpp includes this text once per instruction set, each time inside a
+// purpose: kernels.cpp includes this text once per instruction set, each time inside a
 // namespace of its own. The arithmetic is that of closest_on_segment, operation by operation, so
 // that every version gives the same bits.
 

@@ -94,7 +94,7 @@ class Sink {
   std::size_t fill_ = kChunk;
 };
 
-// Everything a sweep over the main side reads. Filled by search_nodes.cpp and search_edges.cpp.
+// Everything a sweep over the main side reads. Filled by nodes.cpp and edges.cpp.
 struct NodeSweep {
   const NodeSegmentInput* input = nullptr;
   const SearchOptions* options = nullptr;

@@ -1,5 +1,4 @@
-// Fields that contradict one another. Each check is one rule; the table below holds their pages,
-// which is why the file is long.
+// Fields that contradict one another. Each check is one rule.
 #include <array>
 #include <cmath>
 #include <numbers>

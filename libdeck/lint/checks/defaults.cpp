@@ -1,5 +1,4 @@
 // /DEFAULT/INTER: what it changes, where it changes nothing.
-// The functions that fill the table are as long as their pages.
 #include <algorithm>
 #include <map>
 

@@ -1,5 +1,5 @@
 // What the solver does with options of a contact otherwise than manuals say, without a word in its
-// listing. One check per rule; the table below holds their pages.
+// listing. One check per rule.
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 

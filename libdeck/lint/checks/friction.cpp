@@ -1,5 +1,4 @@
 // Part pairs of /FRICTION, and groups, surfaces, lines and frictions that nothing uses.
-// The functions that fill the table are as long as their pages.
 #include <algorithm>
 #include <map>
 #include <set>

@@ -1,5 +1,4 @@
-// Rules about headers: keywords that nobody reads, types that the solver refuses, versions. The
-// functions that fill the table are as long as their pages.
+// Rules about headers: keywords that nobody reads, types that the solver refuses, versions.
 #include <algorithm>
 #include <array>
 #include <map>

@@ -1,5 +1,4 @@
 // What interfaces and frictions refer to: groups, surfaces, lines, sensors, functions, parts.
-// The functions that fill the table are as long as their pages.
 #include <algorithm>
 #include <array>
 #include <set>

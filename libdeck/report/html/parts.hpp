@@ -35,7 +35,7 @@ class PageNodes {
   std::vector<NodeIndex> list_;
 };
 
-// html_mesh.cpp — the picture
+// mesh.cpp — the picture
 struct MeshGroup {
   ElementKind kind{};
   int corners = 0;                     ///< 2, 3 or 4
@@ -57,7 +57,7 @@ constexpr std::uint64_t given_back_at_once = std::uint64_t{8} << 20;
 // elements.cpp — what is said about an element that is picked
 std::string elements_block(const Model& model, const std::vector<MeshPart>& mesh);
 
-// html_contacts.cpp — what evaluating other settings needs
+// contacts.cpp — what evaluating other settings needs
 struct PageContact {
   std::vector<CandidatePair> pairs;  ///< all pairs nearer than `reach`, sorted
   double reach = 0;                  ///< largest gap for which the pairs are complete
@@ -93,16 +93,16 @@ void write_touches(JsonWriter& json, const std::vector<Touch>& touches);
 /// As SVG: the deepest 60 parts of each side.
 std::string touches_drawing(const HtmlInput& input, const std::vector<Touch>& touches);
 
-// html_cards.cpp — the members "interfaces" and "what_if"
+// cards.cpp — the members "interfaces" and "what_if"
 void write_interfaces(JsonWriter& json, const HtmlInput& input);
 void write_what_if(JsonWriter& json, const std::vector<WhatIf>& all);
 
-// html_cycle.cpp — forces, energies and time steps of the first cycle
+// cycle.cpp — forces, energies and time steps of the first cycle
 void use_nodes(std::span<const cycle::ActedNode> acted, PageNodes& nodes);
 std::string cycle_block(const cycle::SceneOutcome& outcome, std::span<const cycle::ActedNode> acted,
                         const PageNodes& nodes);
 
-// html_crossings.cpp — crossed elements
+// crossings.cpp — crossed elements
 void use_nodes(const std::vector<Crossing>& crossings, PageNodes& nodes);
 std::string crossings_block(const Model& model, const std::vector<Crossing>& crossings,
                             const PageNodes& nodes);

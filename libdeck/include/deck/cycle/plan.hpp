@@ -24,8 +24,7 @@ namespace deck::cycle {
 ///  * the law works with the distance itself, not with gap minus penetration, its energy by log1p;
 ///    under 1e-8 of the gap it continues as its tangent down to 1e-10, where the node is dropped;
 ///  * edge-edge: relative parallel test, parallel edges meet at the middle of their overlap,
-///  crossing
-///    edges have a normal;
+///    crossing edges have a normal;
 ///  * a gap used up by Inacti switches the pair off (no number otherwise);
 ///  * the work of the normal dashpot is booked.
 enum class Model { reference, robust };

@@ -42,10 +42,10 @@ std::string count_text(std::size_t n, std::string_view one);
 /// `list` with at most five items, then how many more.
 std::string list_text(const std::vector<std::int64_t>& list);
 
-void check_penetrations(const GeometryRun& run);     // rules_geometry_penetrations.cpp
-void check_segments(const GeometryRun& run);         // rules_geometry_segments.cpp
-void check_gaps(const GeometryRun& run);             // rules_geometry_gaps.cpp
-void check_manual_geometry(const GeometryRun& run);  // rules_geometry_manual.cpp
+void check_penetrations(const GeometryRun& run);     // penetrations.cpp
+void check_segments(const GeometryRun& run);         // segments.cpp
+void check_gaps(const GeometryRun& run);             // gaps.cpp
+void check_manual_geometry(const GeometryRun& run);  // manual.cpp
 void check_tables(const GeometryRun& run);           // tables.cpp
 /// Also gives the forces that it evaluated.
 cycle::SceneOutcome check_cycle(const GeometryRun& run);
