@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "base/pages.hpp"
 #include "base/parallel.hpp"
@@ -258,8 +259,25 @@ std::vector<Bearers> bearers(const Model& model, const std::vector<std::uint8_t>
   return out;
 }
 
+/// Edges that were looked at a moment ago: an edge belongs to several elements, mostly to
+/// neighbours in the order of the file. Forgets what does not fit.
+class RecentEdges {
+ public:
+  RecentEdges() : slots_(std::size_t{1} << bits, {no_index, no_index}) {}
+  /// False: it is one of them.
+  bool add(const std::array<NodeIndex, 2>& edge) {
+    const std::uint32_t mixed = edge[0] * 0x9e3779b1U ^ edge[1] * 0x85ebca6bU;
+    std::array<NodeIndex, 2>& slot = slots_[mixed >> (32 - bits)];
+    return std::exchange(slot, edge) != edge;
+  }
+
+ private:
+  static constexpr int bits = 13;
+  std::vector<std::array<NodeIndex, 2>> slots_;
+};
+
 /// Edges of these elements between marked nodes that pass through main segments of one contact, in
-/// the order of the elements: an edge comes once for every element that has it.
+/// the order of the elements: an edge comes once at least, with the first element that has it.
 template <class Tree>
 void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const NodeArrays& nodes,
            const Contact& contact, const Tree& tree, int threads, std::vector<Crossing>& out) {
@@ -268,19 +286,23 @@ void cross(const Bearers& bearers, const std::vector<std::uint8_t>& marks, const
   parallel_parts(
       threads, elements.size(), [&](std::size_t part, std::size_t begin, std::size_t end) {
         std::vector<typename Tree::Near> near;
+        std::vector<std::pair<std::array<NodeIndex, 2>, Box>> edges;
+        RecentEdges recent;
         for (std::size_t i = begin; i < end; ++i) {
           const std::uint32_t e = elements[i];
           Box around;
-          marked_edges(*bearers.family, e, marks,
-                       [&](const auto& edge) { around.add(sweep::edge_box(nodes, edge, 0)); });
-          tree.near(around, near);
-          if (near.empty()) continue;
+          edges.clear();
           marked_edges(*bearers.family, e, marks, [&](const auto& edge) {
-            const Box box = sweep::edge_box(nodes, edge, 0);
+            if (!recent.add(edge)) return;
+            edges.emplace_back(edge, sweep::edge_box(nodes, edge, 0));
+            around.add(edges.back().second);
+          });
+          if (edges.empty()) continue;
+          tree.near(around, near);
+          for (const auto& [edge, box] : edges)
             for (const auto& m : near)
               if (meet(m.box, box) && passes_through(nodes, edge, contact.main[m.segment].nodes))
                 found[part].push_back({0, edge, bearers.family->kind, e, m.segment});
-          });
         }
       });
   for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
