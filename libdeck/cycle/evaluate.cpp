@@ -268,21 +268,6 @@ double pair_stiffness(const ContactCard& card, double k_main, double k_secondary
   }
 }
 
-double pair_gap(const ContactCard& card, double gap_secondary, double gap_main,
-                double length_secondary, double length_main) {
-  if (card.igap < 1 || card.igap > 3 || card.kind == ContactKind::tied) return card.gapmin;
-  double g = gap_secondary + gap_main;
-  if (card.igap == 3) g = std::min(card.fscalegap * g, length_secondary + length_main);
-  if (card.kind == ContactKind::node_segment) g = std::min(g, card.gapmax);
-  return std::max(card.gapmin, g);
-}
-
-double initial_residual(const ContactCard& card, double penetration, double gap) {
-  if (penetration <= 0.0 || (card.inacti != 5 && card.inacti != 6)) return 0.0;
-  const double p = penetration * (1.0 + 1e-8);
-  return card.inacti == 5 ? p : p + 0.05 * (gap - p);
-}
-
 double edge_residual(const ContactCard& card, double penetration, double gap) {
   if (card.inacti == 5) return 0.5 * penetration;
   if (card.inacti == 6) return 0.5 * (penetration + 0.05 * (gap - penetration));

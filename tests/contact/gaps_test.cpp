@@ -29,6 +29,16 @@ double pair_gap(const Built& b, const Contact& c, std::int64_t node) {
   return s == nullptr ? NAN : c.gap_rule(s->gap, m.gap, s->length, m.length);
 }
 
+TEST(PairGap, GapminWinsOverGapmax) {
+  const PairGap sum = PairGap::from_igap(1, 0.2, 1.0);
+  EXPECT_EQ(sum(0.3, 0.4), 0.7);
+  EXPECT_EQ(sum(0.8, 0.4), 1.0);
+  EXPECT_EQ(sum(0.05, 0.05), 0.2);
+  EXPECT_EQ(PairGap::from_igap(1, 2.0, 1.0)(0.8, 0.4), 2.0);
+  EXPECT_EQ(PairGap::from_igap(3, 0.1, 1.0)(0.4, 0.2, 0.2, 0.3), 0.5);
+  EXPECT_EQ(PairGap::from_igap(0, 0.1, 1.0)(0.8, 0.4), 0.1);
+}
+
 TEST(VariableGap, SumsHalfThicknessAndHalfSection) {
   const Built b(beam_and_truss().add("@/INTER/TYPE7/1 Igap=1 Gapmin=0.1"));
   const Contact& c = b.contact();

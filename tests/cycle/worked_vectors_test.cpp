@@ -439,8 +439,8 @@ TEST(GapReduction, InactiFiveAndSixFollowThePenetration) {
     ContactCard card = elastic_card();
     card.inacti = inacti;
     Pair pair = triangle_pair({});
-    pair.p0 = initial_residual(card, 0.4, 1.0);
-    expect_digits(pair.p0, inacti == 5 ? 0.4000000040 : 0.4300000038);
+    pair.p0 = 0.4 * (1 + 1e-8);  // what start-up leaves of a penetration of 0.4
+    if (inacti == 6) pair.p0 += 0.05 * (1.0 - pair.p0);
     for (std::size_t c = 0; c < 7; ++c) {
       pair.x[0] = {2, 3, 1.0 - p[c]};
       const Outcome r = run(card, pair);
@@ -480,24 +480,6 @@ TEST(BoundaryRelease, OnlyPenetratingPairsOfType7Release) {
   card.ibc = 5;
   EXPECT_NE(run(card, triangle_pair({2, 3, 0.6})).all.status[0] & status_bc_release, 0);
   EXPECT_EQ(run(card, triangle_pair({2, 3, 1.6})).all.status[0] & status_bc_release, 0);
-}
-
-TEST(PairGap, GapminWinsOverGapmax) {
-  ContactCard card;
-  card.igap = 1;
-  card.gapmax = 1.0;
-  card.gapmin = 0.2;
-  EXPECT_EQ(pair_gap(card, 0.3, 0.4), 0.7);
-  EXPECT_EQ(pair_gap(card, 0.8, 0.4), 1.0);
-  EXPECT_EQ(pair_gap(card, 0.05, 0.05), 0.2);
-  card.gapmin = 2.0;
-  EXPECT_EQ(pair_gap(card, 0.8, 0.4), 2.0);
-  card.igap = 3;
-  card.gapmin = 0.1;
-  card.fscalegap = 0.5;
-  EXPECT_EQ(pair_gap(card, 0.8, 0.4, 0.2, 0.3), 0.5);
-  card.igap = 0;
-  EXPECT_EQ(pair_gap(card, 0.8, 0.4), 0.1);
 }
 
 TEST(PairStiffness, CombinesAndClamps) {

@@ -35,8 +35,6 @@ class PairJudge {
   /// Conventions of closest_between_edges; `x` both nodes of the secondary, then of the main edge.
   PairVerdict judge(const std::array<Point3<double>, 4>& x, double gap);
 
-  /// Whether exact decisions are taken, so that pairs beyond the reference formula's matter.
-  bool is_exact() const { return accuracy_ == Accuracy::robust || accuracy_ == Accuracy::exact; }
   /// Keeps a difference for the report; only the first of them are listed.
   void note(const DecisionDifference& difference);
 

@@ -150,7 +150,6 @@ ContactCard make_card(const Scene& scene, const deck::Contact& contact) {
   c.stmax = contact.stmax;
   c.igap = contact.igap;
   c.gapmin = contact.gapmin;
-  c.gapmax = contact.gapmax;
   c.fpenmax = contact.fpenmax;
   c.inacti = contact.inacti;
   return c;

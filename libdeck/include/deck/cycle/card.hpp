@@ -41,8 +41,6 @@ struct ContactCard {
   // Gap: 0 constant Gapmin, 1 and 2 variable (already scaled), 3 also limited by mesh size.
   int igap = 0;
   double gapmin = 0.0;
-  double gapmax = 1e30;
-  double fscalegap = 1.0;
   double fpenmax = 0.0;  ///< start-up only: nodes deeper than this share of the gap are left out
   int inacti = 0;        ///< 5 and 6 act every cycle; 1, 2, 3 act at start-up only
 

@@ -44,13 +44,6 @@ class RunningTotals {
 [[nodiscard]] double pair_stiffness(const ContactCard& card, double k_main, double k_secondary,
                                     Model model = Model::reference);
 
-/// Pair gap from secondary and main gaps by Igap; lengths limit the gap for Igap 3 only.
-[[nodiscard]] double pair_gap(const ContactCard& card, double gap_secondary, double gap_main,
-                              double length_secondary = 1e30, double length_main = 1e30);
-
-/// Residual penetration P0 that Inacti 5 or 6 gives a pair at start-up; 0 for other values.
-[[nodiscard]] double initial_residual(const ContactCard& card, double penetration, double gap);
-
 /// Edge values for TYPE11's Inacti: what a pair contributes to P_max of both its edges.
 [[nodiscard]] double edge_residual(const ContactCard& card, double penetration, double gap);
 
