@@ -157,36 +157,43 @@ std::vector<ActedNode> acted_nodes(const State& state, const SceneOutcome& outco
   return out;
 }
 
+InterfaceSummary summarize(const std::vector<const ContactOutcome*>& contacts,
+                           const StructureStep& structure) {
+  InterfaceSummary s;
+  s.structure_dt = structure.dt;
+  for (const ContactOutcome* c : contacts) {
+    s.inter = c->contact->inter;
+    s.id = s.inter->id;
+    s.active = s.active || c->active;
+    s.pairs_in_reach += c->pairs_in_reach;
+    s.pairs_with_force += c->pairs_with_force;
+    s.largest_pair_force = std::max(s.largest_pair_force, c->largest_force);
+    s.force_sum += c->totals.total_abs;
+    s.elastic_energy += c->totals.elastic_energy;
+    s.friction_energy += c->totals.friction_energy;
+    s.damping_energy += c->totals.damping_energy;
+    if (s.acceleration_node == no_index || c->largest_acceleration > s.largest_acceleration) {
+      s.largest_acceleration = c->largest_acceleration;
+      s.acceleration_node = c->acceleration_node;
+    }
+    if (c->step.dt < s.contact_dt) {
+      s.contact_dt = c->step.dt;
+      s.contact_dt_source = c->step.source;
+      s.contact_dt_node = c->step_node;
+    }
+    s.gap_closed += c->gap_closed;
+    s.near_singular += c->near_singular_count;
+  }
+  return s;
+}
+
 std::vector<InterfaceSummary> summarize(const Scene& scene, const SceneOutcome& outcome) {
   std::vector<InterfaceSummary> all;
   for (const InterBase* inter : scene.interfaces->ordered) {
-    InterfaceSummary s;
-    s.id = inter->id;
-    s.inter = inter;
-    s.structure_dt = outcome.structure.dt;
-    bool found = false, active = false;
-    for (const ContactOutcome& c : outcome.contacts) {
-      if (c.contact->inter != inter) continue;
-      found = true;
-      active = active || c.active;
-      s.pairs_with_force += c.pairs_with_force;
-      s.largest_pair_force = std::max(s.largest_pair_force, c.largest_force);
-      s.force_sum += c.totals.total_abs;
-      s.elastic_energy += c.totals.elastic_energy;
-      if (c.largest_acceleration > s.largest_acceleration) {
-        s.largest_acceleration = c.largest_acceleration;
-        s.acceleration_node = c.acceleration_node;
-      }
-      if (c.step.dt < s.contact_dt) {
-        s.contact_dt = c.step.dt;
-        s.contact_dt_source = c.step.source;
-        s.contact_dt_node = c.step_node;
-      }
-      s.gap_closed += c.gap_closed;
-      s.near_singular += c.near_singular_count;
-    }
-    s.active = active;
-    if (found) all.push_back(s);
+    std::vector<const ContactOutcome*> contacts;
+    for (const ContactOutcome& c : outcome.contacts)
+      if (c.contact->inter == inter) contacts.push_back(&c);
+    if (!contacts.empty()) all.push_back(summarize(contacts, outcome.structure));
   }
   return all;
 }

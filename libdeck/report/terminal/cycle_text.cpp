@@ -211,41 +211,17 @@ std::string state_words(const cycle::ContactOutcome& o) {
   return text;
 }
 
-/// What several contacts of one interface do together.
-struct ContactSums {
-  std::size_t in_reach = 0, with_force = 0, near_singular = 0;
-  double force = 0, largest_force = 0, elastic = 0, friction = 0, damping = 0;
-  double acceleration = 0, dt = 1e30;
-  NodeIndex acceleration_node = no_index, dt_node = no_index;
-  bool closed = false;
+/// What is to be said of the contacts of one interface; with several each by its role.
+std::string note_of(const std::vector<const cycle::ContactOutcome*>& list) {
   std::string note;
-
-  explicit ContactSums(const std::vector<const cycle::ContactOutcome*>& list) {
-    for (const cycle::ContactOutcome* o : list) {
-      in_reach += o->pairs_in_reach;
-      with_force += o->pairs_with_force;
-      near_singular += o->near_singular_count;
-      force += o->totals.total_abs;
-      largest_force = std::max(largest_force, o->largest_force);
-      elastic += o->totals.elastic_energy;
-      friction += o->totals.friction_energy;
-      damping += o->totals.damping_energy;
-      if (acceleration_node == no_index || o->largest_acceleration > acceleration) {
-        acceleration = o->largest_acceleration;
-        acceleration_node = o->acceleration_node;
-      }
-      if (o->step.dt < dt) {
-        dt = o->step.dt;
-        dt_node = o->step_node;
-      }
-      closed = closed || o->gap_closed > 0;
-      const std::string words = state_words(*o);
-      if (words.empty()) continue;
-      note += note.empty() ? "" : "; ";
-      note += list.size() > 1 ? fmt::format("{}: {}", to_string(o->contact->role), words) : words;
-    }
+  for (const cycle::ContactOutcome* o : list) {
+    const std::string words = state_words(*o);
+    if (words.empty()) continue;
+    note += note.empty() ? "" : "; ";
+    note += list.size() > 1 ? fmt::format("{}: {}", to_string(o->contact->role), words) : words;
   }
-};
+  return note;
+}
 
 /// One row per interface; those without a pair in reach in one line. With `verbose` all of them,
 /// every contact of a TYPE19 in a row of its own below, and more columns.
@@ -259,27 +235,29 @@ std::string contact_table(const CycleInput& input, const CycleTextOptions& optio
           : make_table(
                 {">id", "type", "title", ">pairs", ">sum |F|", ">energy", ">dt", "node", "note"});
   const auto add = [&](const std::vector<const cycle::ContactOutcome*>& list, bool part) {
-    const ContactSums s(list);
+    const cycle::InterfaceSummary s = cycle::summarize(list, input.outcome->structure);
     const Contact& c = *list.front()->contact;
     std::vector<TextTable::Cell> cells = {
         fmt::format("{}", c.inter->id), part ? kind_name(c) : fmt::format("TYPE{}", c.inter->type),
         part ? "" : c.inter->title};
-    if (all) cells.emplace_back(fmt::format("{}", s.in_reach));
-    cells.emplace_back(fmt::format("{}", s.with_force));
-    cells.emplace_back(fmt::format("{:.4g}", s.force));
-    if (all) cells.emplace_back(fmt::format("{:.4g}", s.largest_force));
-    cells.emplace_back(fmt::format("{:.4g}", all ? s.elastic : s.elastic + s.friction + s.damping));
+    if (all) cells.emplace_back(fmt::format("{}", s.pairs_in_reach));
+    cells.emplace_back(fmt::format("{}", s.pairs_with_force));
+    cells.emplace_back(fmt::format("{:.4g}", s.force_sum));
+    if (all) cells.emplace_back(fmt::format("{:.4g}", s.largest_pair_force));
+    cells.emplace_back(
+        fmt::format("{:.4g}", all ? s.elastic_energy
+                                  : s.elastic_energy + s.friction_energy + s.damping_energy));
     if (all) {
-      cells.emplace_back(fmt::format("{:.4g}", s.friction));
-      cells.emplace_back(fmt::format("{:.4g}", s.damping));
-      cells.emplace_back(fmt::format("{:.4g}", s.acceleration));
+      cells.emplace_back(fmt::format("{:.4g}", s.friction_energy));
+      cells.emplace_back(fmt::format("{:.4g}", s.damping_energy));
+      cells.emplace_back(fmt::format("{:.4g}", s.largest_acceleration));
       cells.emplace_back(node_text(model, s.acceleration_node));
     }
-    const bool limits = s.dt < input.outcome->structure.dt;
-    cells.emplace_back(step_text(s.dt), limits ? Tone::yellow : Tone::plain);
-    cells.emplace_back(node_text(model, s.dt_node));
+    const bool limits = s.contact_dt < s.structure_dt;
+    cells.emplace_back(step_text(s.contact_dt), limits ? Tone::yellow : Tone::plain);
+    cells.emplace_back(node_text(model, s.contact_dt_node));
     if (all) cells.emplace_back(fmt::format("{}", s.near_singular));
-    cells.emplace_back(s.note, s.closed ? Tone::red : Tone::plain);
+    cells.emplace_back(note_of(list), s.gap_closed > 0 ? Tone::red : Tone::plain);
     table.row(std::move(cells));
   };
   std::vector<std::int64_t> quiet;

@@ -161,15 +161,15 @@ struct ActedNode {
 /// In the order of nodes. The state must be that of the outcome.
 [[nodiscard]] std::vector<ActedNode> acted_nodes(const State& state, const SceneOutcome& outcome);
 
-/// What lint rules want to know about an interface before the run: its parts together.
+/// What contacts of one interface do together.
 struct InterfaceSummary {
   std::int64_t id = 0;
   const InterBase* inter = nullptr;
-  bool active = true;
-  std::size_t pairs_with_force = 0;
+  bool active = false;  ///< one of them at least
+  std::size_t pairs_in_reach = 0, pairs_with_force = 0;
   double largest_pair_force = 0.0;
   double force_sum = 0.0;  ///< of the sizes of the pair forces
-  double elastic_energy = 0.0;
+  double elastic_energy = 0.0, friction_energy = 0.0, damping_energy = 0.0;
   double largest_acceleration = 0.0;
   NodeIndex acceleration_node = no_index;
   double contact_dt = 1e30, structure_dt = 1e30;
@@ -177,7 +177,10 @@ struct InterfaceSummary {
   NodeIndex contact_dt_node = no_index;
   std::size_t gap_closed = 0, near_singular = 0;
 };
-/// In deck order; interfaces that the scene does not hold are left out.
+/// Of these contacts, which are of one interface; the one sum that every message and table shows.
+[[nodiscard]] InterfaceSummary summarize(const std::vector<const ContactOutcome*>& contacts,
+                                         const StructureStep& structure);
+/// Of every interface, in deck order; interfaces that the scene does not hold are left out.
 [[nodiscard]] std::vector<InterfaceSummary> summarize(const Scene& scene,
                                                       const SceneOutcome& outcome);
 

@@ -150,8 +150,7 @@ void report_deletion(const GeometryRun& run, const Contact& contact, const Inter
 }  // namespace
 
 cycle::SceneOutcome check_cycle(const GeometryRun& run) {
-  cycle::CycleOptions options;
-  options.model = cycle::Model::reference;  // what the solver will do, its double counting included
+  cycle::CycleOptions options;  // those of all verbs: one deck has one first cycle
   options.threads = run.threads;
   cycle::SceneOutcome outcome = cycle::run_cycle(run.scene, cycle::make_state(run.scene), options);
   for (const cycle::ContactOutcome& c : outcome.contacts)
