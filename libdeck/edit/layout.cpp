@@ -163,7 +163,7 @@ Result<TextEdit> set_cell(const Deck& deck, const Block& block, std::string_view
       if (text.size() > width)
         return bad("'" + std::string(text.substr(0, 60)) + "' is longer than the " +
                    std::to_string(width) + " columns of " + std::string(field));
-      return cell_edit(deck.sources, card.line.whole(), columns.first, columns.last, text);
+      return CellWriter::edit(deck.sources, card.line.whole(), columns.first, columns.last, text);
     }
   for (const CardSchema& card : block.schema->cards)
     for (const Field& f : card.fields)

@@ -62,7 +62,8 @@ inline void fix_field(Diagnostic* d, const LintContext& c, const ContactCard& ca
     if (f->span.length == 0) return;
     fix.edits.push_back(blank_edit(f->span));
   } else {
-    fix.edits.push_back(cell_edit(c.deck.sources, f->span, f->field->first, f->field->last, text));
+    fix.edits.push_back(
+        CellWriter::edit(c.deck.sources, f->span, f->field->first, f->field->last, text));
   }
   d->fix = std::move(fix);
 }

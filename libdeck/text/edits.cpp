@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "deck/base/escape.hpp"
+#include "text/columns.hpp"
 
 namespace deck {
 
@@ -161,9 +162,50 @@ std::string unified_diff(std::string_view path, std::string_view before, std::st
   return out;
 }
 
-void CellEdits::set(const SourceSet& sources, Span on_line, int first, int last,
-                    std::string_view text) {
-  const Source& source = sources[on_line.file];
+void CellWriter::put(std::string& line, int first, int last, std::string_view text) {
+  const auto begin = static_cast<std::size_t>(first - 1);
+  const auto width = static_cast<std::size_t>(last - first + 1);
+  // A blank cell behind the end of the line is one already.
+  if (text.empty() && line.size() <= begin) return;
+  if (line.size() < begin) line.resize(begin, ' ');
+  std::string cell(text.size() < width ? width - text.size() : 0, ' ');
+  cell += text;
+  if (text.empty()) cell.resize(std::min(width, line.size() - begin));
+  if (line.size() < begin + cell.size()) line.resize(begin + cell.size(), ' ');
+  line.replace(begin, cell.size(), cell);
+}
+
+TextEdit CellWriter::edit(const SourceSet& sources, Span on_line, int first, int last,
+                          std::string_view text) {
+  CellWriter cells(sources);
+  cells.set(on_line, first, last, text);
+  return cells.finish().front();
+}
+
+TextEdit CellWriter::edit_in_place(const SourceSet& sources, Span on_line, int first, int last,
+                                   std::string_view text) {
+  const std::string_view bytes = sources[on_line.file].bytes();
+  const std::size_t begin = on_line.offset + static_cast<std::size_t>(first - 1);
+  const auto width = static_cast<std::size_t>(last - first + 1);
+  std::size_t end = begin;  // what the line has of the cell, trailing blanks included
+  const auto ends = [&](std::size_t at) {  // a carriage return amid a line is a blank like others
+    if (at >= bytes.size() || bytes[at] == '\n') return true;
+    return bytes[at] == '\r' && (at + 1 == bytes.size() || bytes[at + 1] == '\n');
+  };
+  while (end < begin + width && !ends(end)) ++end;
+  const std::string_view old = bytes.substr(begin, end - begin);
+  const std::string_view token = detail::trim(old);
+  std::size_t right =
+      token.empty() ? width : static_cast<std::size_t>(token.data() - old.data()) + token.size();
+  right = std::max(right, text.size());
+  std::string cell(right - text.size(), ' ');
+  cell += text;
+  if (cell.size() < old.size()) cell.append(old.size() - cell.size(), ' ');
+  return {Span{on_line.file, static_cast<std::uint32_t>(old.size()), begin}, std::move(cell)};
+}
+
+void CellWriter::set(Span on_line, int first, int last, std::string_view text) {
+  const Source& source = (*sources_)[on_line.file];
   const auto start =
       static_cast<std::uint64_t>(source.line_at(on_line.offset).data() - source.bytes().data());
   const auto width = static_cast<std::size_t>(last - first + 1);
@@ -172,11 +214,15 @@ void CellEdits::set(const SourceSet& sources, Span on_line, int first, int last,
   lines_[{on_line.file, start}][first] = {last, std::move(padded)};
 }
 
-std::vector<TextEdit> CellEdits::finish(const SourceSet& sources) const {
+void CellWriter::replace(Span cell, std::string_view text) {
+  free_[{cell.file, cell.offset, cell.length}] = std::string(text);
+}
+
+std::vector<TextEdit> CellWriter::finish() {
   std::vector<TextEdit> edits;
   for (const auto& [place, cells] : lines_) {
     const auto [file, start] = place;
-    const std::size_t size = sources[file].line_at(start).size();
+    const std::size_t size = (*sources_)[file].line_at(start).size();
     std::size_t grown = size;  // with the rest of a cell that the line's end cuts
     std::string tail;          // what the line gets behind that
     for (const auto& [first, target] : cells) {
@@ -193,14 +239,13 @@ std::vector<TextEdit> CellEdits::finish(const SourceSet& sources) const {
     }
     if (!tail.empty()) edits.push_back({Span{file, 0, start + size}, tail});
   }
+  lines_.clear();
+  for (auto& [place, text] : free_) {
+    const auto& [file, offset, length] = place;
+    edits.push_back({Span{file, length, offset}, std::move(text)});
+  }
+  free_.clear();
   return edits;
-}
-
-TextEdit cell_edit(const SourceSet& sources, Span on_line, int first, int last,
-                   std::string_view text) {
-  CellEdits cells;
-  cells.set(sources, on_line, first, last, text);
-  return cells.finish(sources).front();
 }
 
 TextEdit blank_edit(Span span) { return {span, std::string(span.length, ' ')}; }

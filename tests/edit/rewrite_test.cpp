@@ -153,9 +153,9 @@ TEST(SingleFieldEdit, ChangesOnlyItsColumnsAndReadsBackTheSame) {
       const auto integer = static_cast<std::int64_t>(random() % 10000);
       const bool is_real = field.type == FieldType::real;
       e.text = is_real ? format_real(real, width)->text : *format_integer(integer, width);
-      CellEdits edit;
-      edit.set(deck->sources, e.line, e.first, e.last, e.text);
-      const auto changed = apply_edits(deck->sources, edit.finish(deck->sources));
+      CellWriter edit(deck->sources);
+      edit.set(e.line, e.first, e.last, e.text);
+      const auto changed = apply_edits(deck->sources, edit.finish());
       ASSERT_TRUE(changed.ok()) << changed.error().message;
       ReadOptions options;
       options.overlay = &*changed;

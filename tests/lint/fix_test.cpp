@@ -157,25 +157,25 @@ TEST(SafeFixes, WriteNoDefaultIntoABlockOfOtherUnits) {
   EXPECT_TRUE(own.result.diagnostics[0].fix.has_value());
 }
 
-TEST(CellEdit, KeepsTheLengthOfTheLineAndAlignsRight) {
+TEST(CellWriterEdit, KeepsTheLengthOfTheLineAndAlignsRight) {
   const Linted run = lint_text("#RADIOSS STARTER\n/BEGIN\nabcdefghij0123456789tail\n/END\n");
   const SourceSet& sources = run.deck->sources;
   const auto at = static_cast<std::uint64_t>(sources[0].bytes().find("abc"));
-  const TextEdit e = cell_edit(sources, {0, 1, at}, 11, 20, "42");
+  const TextEdit e = CellWriter::edit(sources, {0, 1, at}, 11, 20, "42");
   EXPECT_EQ(e.span.offset, at + 10);
   EXPECT_EQ(e.span.length, 10u);
   EXPECT_EQ(e.text, "        42");
 }
 
-TEST(CellEdit, GrowsALineThatIsTooShort) {
+TEST(CellWriterEdit, GrowsALineThatIsTooShort) {
   const Linted run = lint_text("#RADIOSS STARTER\n/BEGIN\nabc\n/END\n");
   const SourceSet& sources = run.deck->sources;
   const auto at = static_cast<std::uint64_t>(sources[0].bytes().find("abc"));
-  const TextEdit e = cell_edit(sources, {0, 0, at}, 11, 20, "42");
+  const TextEdit e = CellWriter::edit(sources, {0, 0, at}, 11, 20, "42");
   EXPECT_EQ(e.span.offset, at + 3);
   EXPECT_EQ(e.span.length, 0u);
   EXPECT_EQ(e.text, "               42");
-  const TextEdit clipped = cell_edit(sources, {0, 0, at}, 1, 10, "42");
+  const TextEdit clipped = CellWriter::edit(sources, {0, 0, at}, 1, 10, "42");
   EXPECT_EQ(clipped.span.offset, at);
   EXPECT_EQ(clipped.span.length, 3u);
   EXPECT_EQ(clipped.text, "        42");

@@ -43,50 +43,48 @@ TEST(ApplyEdits, RefuseWhatOverlapsAndSayWhere) {
 
 struct Lines {
   explicit Lines(std::string text) { sources.add(source(std::move(text))); }
-  std::string after(const CellEdits& cells) const {
-    return *apply_edits(sources[0], cells.finish(sources));
-  }
+  std::string after(CellWriter& cells) const { return *apply_edits(sources[0], cells.finish()); }
   SourceSet sources;
 };
 
-TEST(CellEdits, GrowAShortLineOnceForSeveralCells) {
+TEST(CellWriter, GrowAShortLineOnceForSeveralCells) {
   const Lines l("ab\nnext\n");
-  CellEdits cells;
-  cells.set(l.sources, {0, 0, 0}, 21, 25, "7");
-  cells.set(l.sources, {0, 0, 0}, 6, 10, "5");
+  CellWriter cells(l.sources);
+  cells.set({0, 0, 0}, 21, 25, "7");
+  cells.set({0, 0, 0}, 6, 10, "5");
   EXPECT_EQ(l.after(cells), "ab       5              7\nnext\n");
 }
 
-TEST(CellEdits, GoOnBehindACellThatTheEndOfTheLineCuts) {
+TEST(CellWriter, GoOnBehindACellThatTheEndOfTheLineCuts) {
   const Lines l("0123456\r\nnext\n");
-  CellEdits cells;
-  cells.set(l.sources, {0, 0, 0}, 6, 10, "5");
-  cells.set(l.sources, {0, 0, 0}, 11, 15, "9");
+  CellWriter cells(l.sources);
+  cells.set({0, 0, 0}, 6, 10, "5");
+  cells.set({0, 0, 0}, 11, 15, "9");
   EXPECT_EQ(l.after(cells), "01234    5    9\r\nnext\n");
 }
 
-TEST(CellEdits, KeepTheLastTextOfACell) {
+TEST(CellWriter, KeepTheLastTextOfACell) {
   const Lines l("0123456789\n");
-  CellEdits cells;
-  cells.set(l.sources, {0, 0, 0}, 1, 5, "1");
-  cells.set(l.sources, {0, 0, 3}, 1, 5, "2");
+  CellWriter cells(l.sources);
+  cells.set({0, 0, 0}, 1, 5, "1");
+  cells.set({0, 0, 3}, 1, 5, "2");
   EXPECT_EQ(l.after(cells), "    256789\n");
 }
 
-TEST(CellEdits, ChangeNothingButTheirColumns) {
+TEST(CellWriter, ChangeNothingButTheirColumns) {
   std::mt19937 random(11);
   for (int round = 0; round < 2000; ++round) {
     std::string line(random() % 60, ' ');
     for (char& c : line) c = static_cast<char>('a' + random() % 26);
     const std::string end = random() % 2 != 0 ? "\n" : "\r\n";
     const Lines l("head" + end + line + end + "tail");
-    CellEdits cells;
+    CellWriter cells(l.sources);
     std::string expected = line;
     for (int cell = 0; cell < 5; ++cell) {
       if (random() % 2 != 0) continue;
       const int first = cell * 10 + 1;
       const std::string text(1 + random() % 10, static_cast<char>('0' + random() % 10));
-      cells.set(l.sources, {0, 0, 4 + end.size()}, first, first + 9, text);
+      cells.set({0, 0, 4 + end.size()}, first, first + 9, text);
       const std::size_t need = static_cast<std::size_t>(first) + 9;
       if (expected.size() < need) expected.resize(need, ' ');
       expected.replace(need - 10, 10, std::string(10 - text.size(), ' ') + text);

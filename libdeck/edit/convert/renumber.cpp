@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "deck/keyword/references.hpp"
+#include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
 #include "edit/convert/renumber_ids.hpp"
 #include "edit/convert/units/unit_system_state.hpp"
@@ -150,7 +151,7 @@ class Renumbering {
     if (static_cast<int>(text.size()) > last - first + 1)
       return undecided(b, cell, std::string(field),
                        "the new id " + text + " does not fit its columns");
-    out_.edits.push_back(detail::column_edit(deck_.sources, line, first, last, text));
+    out_.edits.push_back(CellWriter::edit_in_place(deck_.sources, line.whole(), first, last, text));
   }
 
   void cell(const Block& b, const DecodedCard& card, const Cell& c, std::string_view kind,
@@ -158,10 +159,10 @@ class Renumbering {
     if (c.blank() || c.integer == 0) return;
     const Renamed r = rename(b, kind, c.integer, definition);
     if (!r.changes) return;
-    write_cell(b, card, c, r);
+    set_id(b, card, c, r);
   }
 
-  void write_cell(const Block& b, const DecodedCard& card, const Cell& c, const Renamed& r) {
+  void set_id(const Block& b, const DecodedCard& card, const Cell& c, const Renamed& r) {
     if (c.parameter) return undecided(b, c.span, c.field->name, "the id is made by a parameter");
     if (c.status != NumberStatus::ok)
       return undecided(b, c.span, c.field->name, "the cell holds more than a number");
@@ -308,8 +309,8 @@ class Renumbering {
     }
     if (new_from - offset < 1 || new_to > detail::largest_id)
       return refuse("the new range is not legal");
-    if (new_from != from) write_cell(b, *first.first, *first.second, {true, new_from - offset, {}});
-    if (new_to != to) write_cell(b, *last.first, *last.second, {true, new_to - offset, {}});
+    if (new_from != from) set_id(b, *first.first, *first.second, {true, new_from - offset, {}});
+    if (new_to != to) set_id(b, *last.first, *last.second, {true, new_to - offset, {}});
   }
 
   void grouped(const Block& b, std::string_view kind, const std::vector<Place>& places,

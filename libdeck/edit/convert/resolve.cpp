@@ -15,7 +15,6 @@ namespace {
 
 using detail::cell_text;
 using detail::LineEdits;
-using detail::put_cell;
 
 std::string cell_for(std::int64_t v) { return std::to_string(v); }
 std::string cell_for(const std::string& v) { return v; }
@@ -219,7 +218,7 @@ class Resolver {
     std::string text(card.line.text);
     for (const Field& f : card.schema->fields)
       if (const auto it = texts_.find(&f); it != texts_.end())
-        put_cell(text, f.first, f.last, it->second);
+        CellWriter::put(text, f.first, f.last, it->second);
     return text;
   }
 
@@ -230,21 +229,21 @@ class Resolver {
       const Field& f = *cell.field;
       const int width = f.last - f.first + 1;
       if (cell.text.size() <= static_cast<std::size_t>(width)) {
-        put_cell(text, f.first, f.last, cell.text);
+        CellWriter::put(text, f.first, f.last, cell.text);
         continue;
       }
       const auto shorter = f.type == FieldType::real && !cell.parameter
                                ? format_real(cell.real, width)
                                : std::nullopt;
       if (shorter && shorter->exact)
-        put_cell(text, f.first, f.last, shorter->text);
+        CellWriter::put(text, f.first, f.last, shorter->text);
       else
         out_.refusals.push_back(c_.deck.sources.where(cell.span) + ": " + f.name +
                                 " does not fit its columns; shorten it");
     }
     for (const Field& f : card.schema->fields)
       if (const auto it = texts_.find(&f); it != texts_.end())
-        put_cell(text, f.first, f.last, it->second);
+        CellWriter::put(text, f.first, f.last, it->second);
     return text;
   }
 

@@ -16,9 +16,9 @@
 namespace deck {
 namespace {
 
+using detail::end_of_main;
 using detail::largest_id;
 using detail::LineEdits;
-using detail::put_cell;
 
 using Texts = std::map<std::string, std::string>;
 
@@ -170,7 +170,7 @@ class Expander {
     if (is_new) {
       it->second = take(family, kind);
       std::string line;
-      put_cell(line, 1, 10, std::to_string(written(surface, "surf")));
+      CellWriter::put(line, 1, 10, std::to_string(written(surface, "surf")));
       behind_.push_back(keyword + "/" + std::to_string(it->second));
       behind_.push_back(title);
       behind_.push_back(line);
@@ -402,12 +402,12 @@ class Expander {
         card.missing() || card.free_format ? std::string() : std::string(card.line.text);
     for (const Field& f : card.schema->fields)
       if (f.in_version(block_.version) && texts.count(f.name) == 0 && !columns(line, f).empty())
-        put_cell(line, f.first, f.last, "");
+        CellWriter::put(line, f.first, f.last, "");
     for (const Field& f : target.fields) {
       if (!f.in_version(block_.version)) continue;
       const auto it = texts.find(f.name);
       const std::string want = it == texts.end() ? std::string() : it->second;
-      if (columns(line, f) != want) put_cell(line, f.first, f.last, want);
+      if (columns(line, f) != want) CellWriter::put(line, f.first, f.last, want);
     }
     return line;
   }
@@ -432,25 +432,6 @@ class Expander {
   std::int64_t s_ = 0, m_ = 0;
   std::vector<std::string> behind_;  ///< lines of the new blocks
 };
-
-/// A byte of the line behind which the end of the main file begins; invalid: there is none.
-Span end_of_main(const Deck& deck) {
-  const std::string_view bytes = deck.sources[0].bytes();
-  std::uint64_t end = bytes.size();
-  if (deck.end_seen) {
-    std::uint64_t from = 0;
-    for (const Block& b : deck.blocks)
-      if (b.header_span.file == 0) from = std::max(from, b.header_span.offset);
-    for (std::uint64_t at = bytes.find('\n', from); at < bytes.size(); at = bytes.find('\n', at)) {
-      ++at;
-      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), bytes.size());
-      if (trim(bytes.substr(at, nl - at)) != "/END") continue;
-      end = at;
-      break;
-    }
-  }
-  return end == 0 ? Span{} : Span{0, 1, end - 1};
-}
 
 }  // namespace
 

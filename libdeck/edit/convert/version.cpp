@@ -19,7 +19,6 @@ using detail::cell_of;
 using detail::is_zero_text;
 using detail::LineEdits;
 using detail::NewLine;
-using detail::put_cell;
 using detail::TargetLayout;
 
 constexpr int oldest_source = 100;
@@ -342,7 +341,7 @@ class VersionRewriter {
       });
       if (same != fields.end() && (*same)->first == f.first && (*same)->last == f.last) continue;
       if (cell.blank()) continue;
-      put_cell(text, f.first, f.last, "");
+      CellWriter::put(text, f.first, f.last, "");
       if (compose.findings != nullptr && same == fields.end() &&
           !has_cell(compose, f.name, line.round))
         compose.findings->vanish(compose.block, cell);
@@ -355,7 +354,7 @@ class VersionRewriter {
     const Block& block = compose.block;
     const std::string stray(cell_text(text, field.first, field.last));
     if (stray.empty() || (field.type != FieldType::text && is_zero_text(stray))) return;
-    put_cell(text, field.first, field.last, "");
+    CellWriter::put(text, field.first, field.last, "");
     if (compose.findings == nullptr) return;
     compose.findings->removed(
         block, old.line.columns(field.first, field.last), field.name, stray,
@@ -367,14 +366,14 @@ class VersionRewriter {
     const auto width = static_cast<std::size_t>(field.last - field.first + 1);
     if (cell.blank()) return;
     if (cell.text.size() <= width) {
-      put_cell(text, field.first, field.last, cell.text);
+      CellWriter::put(text, field.first, field.last, cell.text);
       return;
     }
     const auto shorter = field.type == FieldType::real && !cell.parameter
                              ? format_real(cell.real, static_cast<int>(width))
                              : std::nullopt;
     if (shorter && shorter->exact)
-      put_cell(text, field.first, field.last, shorter->text);
+      CellWriter::put(text, field.first, field.last, shorter->text);
     else if (compose.findings != nullptr)
       compose.findings->undecided(compose.block, cell.span, field.name, cell.text,
                                   "the value does not fit its " +

@@ -7,6 +7,7 @@
 
 #include "base/real_text.hpp"
 #include "deck/text/number.hpp"
+#include "text/columns.hpp"
 
 namespace deck::detail {
 
@@ -37,19 +38,6 @@ bool is_zero_text(std::string_view text) {
   return text.find_first_not_of("0.+- \t") == std::string_view::npos;
 }
 
-void put_cell(std::string& line, int first, int last, std::string_view text) {
-  const auto begin = static_cast<std::size_t>(first - 1);
-  const auto width = static_cast<std::size_t>(last - first + 1);
-  // A blank cell behind the end of the line is one already.
-  if (text.empty() && line.size() <= begin) return;
-  if (line.size() < begin) line.resize(begin, ' ');
-  std::string cell(text.size() < width ? width - text.size() : 0, ' ');
-  cell += text;
-  if (text.empty()) cell.resize(std::min(width, line.size() - begin));
-  if (line.size() < begin + cell.size()) line.resize(begin + cell.size(), ' ');
-  line.replace(begin, cell.size(), cell);
-}
-
 std::optional<FormattedReal> cell_text(double value, double factor, int width) {
   const double start = value / factor;
   std::optional<FormattedReal> best = format_real(start, width);
@@ -75,6 +63,24 @@ bool lacks_title(const DecodedBlock& block) {
   const Schema* schema = block.block->schema;
   return schema != nullptr && schema->has_title && block.block->version >= 51 &&
          !block.title_line.valid();
+}
+
+Span end_of_main(const Deck& deck) {
+  const std::string_view bytes = deck.sources[0].bytes();
+  std::uint64_t end = bytes.size();
+  if (deck.end_seen) {
+    std::uint64_t from = 0;
+    for (const Block& b : deck.blocks)
+      if (b.header_span.file == 0) from = std::max(from, b.header_span.offset);
+    for (std::uint64_t at = bytes.find('\n', from); at < bytes.size(); at = bytes.find('\n', at)) {
+      ++at;
+      const std::uint64_t nl = std::min<std::uint64_t>(bytes.find('\n', at), bytes.size());
+      if (trim(bytes.substr(at, nl - at)) != "/END") continue;
+      end = at;
+      break;
+    }
+  }
+  return end == 0 ? Span{} : Span{0, 1, end - 1};
 }
 
 void LineEdits::change(const Line& line, const std::string& text,

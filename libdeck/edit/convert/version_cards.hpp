@@ -10,6 +10,7 @@
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/keyword/decode.hpp"
+#include "deck/text/edits.hpp"
 #include "deck/text/number.hpp"
 
 namespace deck::detail {
@@ -22,8 +23,6 @@ std::string_view canonical_name(std::string_view field);
 double default_number(const Field& field);
 /// Only zeros, points and signs, or nothing.
 bool is_zero_text(std::string_view text);
-/// `text` right-aligned in columns first..last of `line`, which grows if it is too short.
-void put_cell(std::string& line, int first, int last, std::string_view text);
 
 /// The text that gives `value` back when it is read in `width` columns and multiplied by `factor`,
 /// or the closest one there is. nullopt: nothing fits.
@@ -31,6 +30,9 @@ std::optional<FormattedReal> cell_text(double value, double factor, int width);
 
 /// True for a block that ends before its title line: a line put there would be taken for the title.
 bool lacks_title(const DecodedBlock& block);
+
+/// A byte of the line behind which the end of the main file begins; invalid: there is none.
+Span end_of_main(const Deck& deck);
 
 /// Edits of whole lines, collected so that several at one place come out in order.
 class LineEdits {

@@ -177,17 +177,11 @@ Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_
               std::to_string(block.version));
 }
 
-void FieldEdits::set(const FieldPlace& place, std::string_view text) {
-  if (place.free_format)
-    free_.push_back({place.cell.span, std::string(text)});
+void FieldPlace::write(CellWriter& edits, std::string_view text) const {
+  if (free_format)
+    edits.replace(cell.span, text);
   else
-    cells_.set(deck_.sources, place.line.whole(), place.field->first, place.field->last, text);
-}
-
-std::vector<TextEdit> FieldEdits::finish() const {
-  std::vector<TextEdit> out = cells_.finish(deck_.sources);
-  out.insert(out.end(), free_.begin(), free_.end());
-  return out;
+    edits.set(line.whole(), field->first, field->last, text);
 }
 
 namespace {

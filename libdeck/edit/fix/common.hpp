@@ -61,22 +61,10 @@ struct FieldPlace {
   bool free_format = false;
   double factor = 1;  ///< deck units to working units
   int width() const { return field->last - field->first + 1; }
+  void write(CellWriter& edits, std::string_view text) const;
 };
 /// Error: the card of this input version has no such cell, or its line is missing.
 Result<FieldPlace> find_field(const Deck& deck, const Block& block, std::string_view name);
-
-/// Collects changes of fields of any number of cards.
-class FieldEdits {
- public:
-  explicit FieldEdits(const Deck& deck) : deck_(deck) {}
-  void set(const FieldPlace& place, std::string_view text);
-  std::vector<TextEdit> finish() const;
-
- private:
-  const Deck& deck_;
-  CellEdits cells_;
-  std::vector<TextEdit> free_;
-};
 
 /// The largest number of at most `digits` significant digits that is <= `bound` (> 0) and fits
 /// `width` columns; with `below`, also smaller than that. nullopt: none.

@@ -10,6 +10,7 @@
 
 #include "deck/edit/rewrite.hpp"
 #include "deck/keyword/decode.hpp"
+#include "deck/text/edits.hpp"
 
 namespace deck::detail {
 
@@ -21,6 +22,10 @@ class NodeCells {
   /// Why the coordinates of a node that was looked up cannot be changed on its line; empty: they
   /// can.
   const std::string& obstacle(NodeIndex n) const;
+  /// The line of a node that was looked up; invalid: it was not found.
+  Span line(NodeIndex n) const {
+    return known_.at(n).line.valid() ? known_.at(n).line.whole() : Span{};
+  }
 
   /// Coordinate `axis` of a node with `value` printed in its cell: what reading it gives. nullopt:
   /// it does not fit.
@@ -29,6 +34,8 @@ class NodeCells {
     double value = 0;
   };
   std::optional<Printed> print(NodeIndex n, int axis, double value) const;
+  /// Puts the text of a coordinate into its cell.
+  void write(CellWriter& cells, NodeIndex n, int axis, std::string_view text) const;
   /// Edits for new texts per node and axis.
   std::vector<TextEdit> edits(const std::map<std::pair<NodeIndex, int>, std::string>& texts) const;
 

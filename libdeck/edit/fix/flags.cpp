@@ -106,7 +106,7 @@ std::map<std::int64_t, std::uint64_t> stops_with(const EditContext& context,
   return out;
 }
 
-void add_change(PenetrationFix& fix, const InterBase& inter, FieldEdits& edits,
+void add_change(PenetrationFix& fix, const InterBase& inter, CellWriter& edits,
                 const FieldPlace& place, std::string text, double old_value, double new_value) {
   FieldChange change;
   change.field = place.field->name;
@@ -114,7 +114,7 @@ void add_change(PenetrationFix& fix, const InterBase& inter, FieldEdits& edits,
   change.new_text = text;
   change.old_value = old_value;
   change.new_value = new_value;
-  edits.set(place, text);
+  place.write(edits, text);
   interface_entry(fix, inter).changes.push_back(std::move(change));
 }
 
@@ -169,7 +169,7 @@ Result<PenetrationFix> set_inacti(const EditContext& context, const InactiOption
     planned.push_back(w);
   }
   const auto stops = stops_with(context, options, planned);
-  FieldEdits edits(context.deck);
+  CellWriter edits(context.deck.sources);
   for (const InterBase* inter : chosen) {
     if (const auto it = stops.find(inter->id); it != stops.end()) {
       refuse(fix, *inter,
@@ -207,7 +207,7 @@ Result<PenetrationFix> set_fpenmax(const EditContext& context, const FpenmaxOpti
   fix.strategy = "fpenmax";
   const Scene before = fix_scene(context.model, context.interfaces, options, true);
   if (auto why = unevaluated(before, options)) return *why;
-  FieldEdits edits(context.deck);
+  CellWriter edits(context.deck.sources);
   for (const Contact& contact : before.contacts) {
     if (contact.penetrations.empty() || !is_wanted(options, contact.inter->id)) continue;
     const InterBase& inter = *contact.inter;

@@ -97,17 +97,17 @@ class GapReduction {
     return false;
   }
 
-  void write(PenetrationFix& fix, FieldEdits& edits) const {
+  void write(PenetrationFix& fix, CellWriter& edits) const {
     FixedInterface& entry = interface_entry(fix, *inter_);
     for (const Knob* k : {&gapmin_, &scale_, &cap_}) {
       if (!k->text) continue;
-      edits.set(*k->place, k->text->text);
+      k->place->write(edits, k->text->text);
       entry.changes.push_back(
           {k->name, std::string(k->place->cell.text), k->text->text, k->present, k->value});
     }
     if (!needs_igap_2()) return;
     const auto place = find_field(context_->deck, *inter_->block, "Igap");
-    edits.set(*place, "2");
+    place->write(edits, "2");
     entry.changes.push_back({"Igap", std::string(place->cell.text), "2", 1, 2});
   }
 
@@ -243,7 +243,7 @@ Result<PenetrationFix> reduce_gaps(const EditContext& context, const ReduceGapOp
   const Scene before = fix_scene(context.model, context.interfaces, options, false);
   if (auto why = unevaluated(before, options)) return *why;
   const auto counts = count_interfaces(before, options);
-  FieldEdits edits(context.deck);
+  CellWriter edits(context.deck.sources);
   std::size_t done = 0;
   for (const InterBase* inter : context.interfaces.ordered) {
     const auto it = counts.find(inter->id);

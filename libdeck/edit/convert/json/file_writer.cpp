@@ -338,7 +338,7 @@ class FileWriter {
       const std::size_t had = line.text.size();
       if (field.type == FieldType::text && !fresh.empty())
         fresh.resize(static_cast<std::size_t>(width), ' ');
-      put_cell(line.text, field.first, field.last, fresh);
+      CellWriter::put(line.text, field.first, field.last, fresh);
       // Text begins at the left of its columns: what fills them up makes no line longer.
       while (line.text.size() > had && line.text.back() == ' ') line.text.pop_back();
       return;
@@ -375,7 +375,8 @@ class FileWriter {
     for (std::size_t i = first; i < row.size(); ++i, column += width) {
       if (column + width - 1 > static_cast<int>(title_columns))
         fail({&path, {}, i}, "more ids than the line has cells");
-      put_cell(line.text, column, column + width - 1, format(field, row[i], width, {&path, {}, i}));
+      CellWriter::put(line.text, column, column + width - 1,
+                      format(field, row[i], width, {&path, {}, i}));
     }
   }
 

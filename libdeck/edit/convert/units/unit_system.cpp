@@ -104,30 +104,8 @@ void UnitConversion::changed(const Block& block, Span place, std::string_view fi
   out.losses.push_back(std::move(entry));
 }
 
-TextEdit column_edit(const SourceSet& sources, const Line& line, int first, int last,
-                     std::string_view text) {
-  const std::string_view bytes = sources[line.file].bytes();
-  const std::size_t begin = line.offset + static_cast<std::size_t>(first - 1);
-  const auto width = static_cast<std::size_t>(last - first + 1);
-  std::size_t end = begin;  // what the line has of the cell, trailing blanks included
-  const auto ends = [&](std::size_t at) {  // a carriage return amid a line is a blank like others
-    if (at >= bytes.size() || bytes[at] == '\n') return true;
-    return bytes[at] == '\r' && (at + 1 == bytes.size() || bytes[at + 1] == '\n');
-  };
-  while (end < begin + width && !ends(end)) ++end;
-  const std::string_view old = bytes.substr(begin, end - begin);
-  const std::string_view token = trim(old);
-  std::size_t right =
-      token.empty() ? width : static_cast<std::size_t>(token.data() - old.data()) + token.size();
-  right = std::max(right, text.size());
-  std::string cell(right - text.size(), ' ');
-  cell += text;
-  if (cell.size() < old.size()) cell.append(old.size() - cell.size(), ' ');
-  return {Span{line.file, static_cast<std::uint32_t>(old.size()), begin}, std::move(cell)};
-}
-
 void UnitConversion::replace_fixed(const Line& line, int first, int last, std::string_view text) {
-  out.edits.push_back(column_edit(deck.sources, line, first, last, text));
+  out.edits.push_back(CellWriter::edit_in_place(deck.sources, line.whole(), first, last, text));
 }
 
 void UnitConversion::convert_fixed(const Block& block, const Line& line, int first, int last,
@@ -273,8 +251,7 @@ class BlockConverter {
     const auto before = c_.out.edits.size();
     united_ = 0;
     convert_block(b);
-    for (TextEdit& e : grown_.finish(deck_.sources)) c_.out.edits.push_back(std::move(e));
-    grown_ = {};
+    for (TextEdit& e : grown_.finish()) c_.out.edits.push_back(std::move(e));
     if (const auto values = c_.out.edits.size() - before + united_; values > 0) {
       LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
       entry.note = std::to_string(values) + (values == 1 ? " value" : " values") + " converted";
@@ -432,7 +409,7 @@ class BlockConverter {
             c_.undecided(b, {}, name, "blank means 1, which does not fit in the new units");
             continue;
           }
-          detail::put_cell(texts[&card], f.first, f.last, text->text);
+          CellWriter::put(texts[&card], f.first, f.last, text->text);
           LossEntry entry = loss_entry(deck_, Loss::kept, b, b.header_span);
           entry.field = name;
           entry.new_text = text->text;
@@ -698,7 +675,7 @@ class BlockConverter {
     } else if (static_cast<int>(line.text.size()) >= place.first) {
       c_.replace_fixed(line, place.first, place.last, text);
     } else {
-      grown_.set(deck_.sources, line.whole(), place.first, place.last, text);
+      grown_.set(line.whole(), place.first, place.last, text);
     }
     LossEntry entry = loss_entry(deck_, Loss::kept, b, cell.span);
     entry.field = f.name;
@@ -796,10 +773,10 @@ class BlockConverter {
   const Deck& deck_;
   bool own_units_ = false;
   detail::UnitFactors from_working_{{}, {}};
-  std::size_t united_ = 0;         // cells of this block beyond one for each of its edits
-  CellEdits grown_;                // cells behind the end of their line
-  std::set<const Cell*> brought_;  // of this block: blank is 1 and has to be said
-  std::set<std::string> absent_;   // the same, where the block has no line for the cell
+  std::size_t united_ = 0;           // cells of this block beyond one for each of its edits
+  CellWriter grown_{deck_.sources};  // cells behind the end of their line
+  std::set<const Cell*> brought_;    // of this block: blank is 1 and has to be said
+  std::set<std::string> absent_;     // the same, where the block has no line for the cell
 };
 
 void add_notes(UnitConversion& c) {

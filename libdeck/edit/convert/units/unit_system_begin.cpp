@@ -34,11 +34,10 @@ bool refuse(UnitConversion& c, const std::string& why) {
   return false;
 }
 
-void write_codes(CellEdits& cells, const SourceSet& sources, const Line& line,
-                 const UnitSystem& units) {
+void write_codes(CellWriter& cells, const Line& line, const UnitSystem& units) {
   const auto text = codes(units);
   for (int i = 0; i < 3; ++i)
-    cells.set(sources, line.whole(), 20 * i + 1, 20 * i + 20, text[static_cast<std::size_t>(i)]);
+    cells.set(line.whole(), 20 * i + 1, 20 * i + 20, text[static_cast<std::size_t>(i)]);
 }
 
 /// Versions up to 90 name the units in headers: /UNIT/LENGTH/mm.
@@ -93,14 +92,14 @@ bool convert_begin(UnitConversion& c) {
       return refuse(c, "this version names one unit system only; the working units cannot stay");
     return convert_headers(c);
   }
-  CellEdits cells;
-  if (input.valid()) write_codes(cells, sources, input, c.target);
+  CellWriter cells(sources);
+  if (input.valid()) write_codes(cells, input, c.target);
   if (c.working_changes) {
-    if (has_working) write_codes(cells, sources, working, c.target);
+    if (has_working) write_codes(cells, working, c.target);
   } else if (!has_working) {
     // Blank would mean the new input units.
     if (working.valid()) {
-      write_codes(cells, sources, working, begin.working);
+      write_codes(cells, working, begin.working);
     } else {
       const std::string_view bytes = sources[input.file].bytes();
       std::uint64_t end = input.offset + input.text.size();
@@ -110,12 +109,12 @@ bool convert_begin(UnitConversion& c) {
       std::string text = crlf ? "\r\n" : "\n";
       for (const std::string& code : codes(begin.working))
         text.append(20 - std::min<std::size_t>(code.size(), 20), ' ').append(code);
-      for (TextEdit& e : cells.finish(sources)) c.out.edits.push_back(std::move(e));
+      for (TextEdit& e : cells.finish()) c.out.edits.push_back(std::move(e));
       c.out.edits.push_back({Span{input.file, 0, end}, std::move(text)});
       return true;
     }
   }
-  for (TextEdit& e : cells.finish(sources)) c.out.edits.push_back(std::move(e));
+  for (TextEdit& e : cells.finish()) c.out.edits.push_back(std::move(e));
   return true;
 }
 

@@ -115,11 +115,6 @@ void convert_parameters(UnitConversion& conversion);
 /// a copy for each.
 void convert_functions(UnitConversion& conversion);
 
-/// Puts `text` into columns first..last of a fixed-column line, ending where the old text ended if
-/// there is room; nothing else on the line moves.
-TextEdit column_edit(const SourceSet& sources, const Line& line, int first, int last,
-                     std::string_view text);
-
 /// Refusals for includes that could not be read: a rewrite of half a deck is none.
 std::vector<std::string> unread_files(const Deck& deck);
 

@@ -1,9 +1,11 @@
 // Edits: replacing spans of a file's bytes and showing the difference. Everything outside the spans
 // stays byte for byte what it was.
 #pragma once
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,29 +25,42 @@ Result<std::string> apply_edit_pointers(const Source& source, std::vector<const 
 /// is put behind a/ and b/.
 std::string unified_diff(std::string_view path, std::string_view before, std::string_view after);
 
-/// Edit that puts `text` right-aligned into the columns first..last (1-based) of the line that
-/// holds `on_line`. Nothing else on the line moves; a line that is too short grows. `text` longer
-/// than the cell is the caller's mistake.
-TextEdit cell_edit(const SourceSet& sources, Span on_line, int first, int last,
-                   std::string_view text);
-/// New texts for cells of fixed-column lines, several of them on one line if need be: a line that
-/// is too short is then grown once.
-class CellEdits {
+/// Writes texts into cells: columns of a line, or what stands between two commas. The one place
+/// where lines grow, texts are aligned and cells are padded.
+class CellWriter {
  public:
-  /// Puts `text`, right-aligned, into columns first..last (1-based) of the line holding `on_line`.
-  /// Setting a cell twice keeps the last text.
-  void set(const SourceSet& sources, Span on_line, int first, int last, std::string_view text);
-  bool empty() const { return lines_.empty(); }
-  /// In file order.
-  std::vector<TextEdit> finish(const SourceSet& sources) const;
+  explicit CellWriter(const SourceSet& sources) : sources_(&sources) {}
+
+  /// Puts `text`, right-aligned, into columns first..last (1-based) of `line`, a text in memory,
+  /// which grows if it is too short; nothing else on it moves. Empty text blanks the cell.
+  static void put(std::string& line, int first, int last, std::string_view text);
+  /// The edit that does the same to the line of a file that holds `on_line`; the cell becomes as
+  /// wide as its columns. `text` longer than the cell is the caller's mistake.
+  static TextEdit edit(const SourceSet& sources, Span on_line, int first, int last,
+                       std::string_view text);
+  /// The same where the text ends where the one before ended, further right if it is longer.
+  static TextEdit edit_in_place(const SourceSet& sources, Span on_line, int first, int last,
+                                std::string_view text);
+
+  /// Collects such an edit; several on one line grow it once. A cell that is set twice has the last
+  /// text.
+  void set(Span on_line, int first, int last, std::string_view text);
+  /// Collects the edit of a cell of a line in free format: `cell` is what stands there.
+  void replace(Span cell, std::string_view text);
+  bool empty() const { return lines_.empty() && free_.empty(); }
+  /// Fixed cells in file order, then free ones. The writer is empty afterwards.
+  std::vector<TextEdit> finish();
 
  private:
   struct Target {
     int last = 0;
     std::string text;
   };
+  const SourceSet* sources_;
   /// (file, offset of the line) -> first column -> cell
   std::map<std::pair<std::uint32_t, std::uint64_t>, std::map<int, Target>> lines_;
+  /// (file, offset, length) of a cell of a free line -> its text
+  std::map<std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>, std::string> free_;
 };
 
 /// Edit that makes the bytes of `span` blanks.
