@@ -195,6 +195,9 @@ def edit_documents(c, tmp):
         r = c.run("fix", path, "--strategy", "reduce-gap", "--json", "-")
         if c.no_crash("fix --json of " + stem, r, (0, 1)):
             check_document(c, "fix of " + stem, r.out.decode(), fixes)
+        r = c.run("fix", path, "--json", "-")
+        if c.no_crash("fix --json of %s without a strategy" % stem, r, (0, 1)):
+            check_document(c, "proposals for " + stem, r.out.decode(), fixes)
 
 
 def looks(c, tmp):

@@ -150,7 +150,6 @@ TEST_F(Input, EveryWrongCommandLineIsAnErrorOfOneForm) {
            Case{"lint -z x", "unknown option '-z'"},
            Case{"rules foo", "unexpected argument 'foo'"},
            Case{"lint", "DECK is missing"},
-           Case{"fix x", "--strategy STRATEGY is missing"},
            Case{"gaps --threads 5000 x", "--threads: '5000' is not a whole number from 0 to 1024"},
            Case{"gaps --threads a x", "--threads: 'a' is not a whole number from 0 to 1024"},
            Case{"gaps x --threads", "--threads needs a value: N"},

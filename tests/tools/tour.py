@@ -94,6 +94,10 @@ TOUR = {
         "explain /INTER/TYPE19.Gapmin", "explain 611", "explain Gapmim",
     ],
     "fix": [
+        "fix samples/too_close_0000.rad",
+        "fix samples/crash_box_0000.rad",
+        "fix samples/too_close_0000.rad --strategy move-nodes",
+        "fix samples/too_close_0000.rad --strategy untangle",
         "fix samples/too_close_0000.rad --strategy reduce-gap",
         "fix samples/crash_box_0000.rad --strategy inacti",
     ],

@@ -23,7 +23,7 @@ struct Options {
   std::vector<std::string> strategies;  ///< in this order
   std::string html;
   WriteChoice write;
-  bool backup = false;
+  bool backup = false, ties = false;
   std::vector<std::int64_t> interfaces;
   std::size_t rows = 10;
   MoveNodesOptions move;
@@ -65,12 +65,15 @@ class FixRun {
          {check_interfaces(loaded, o_.interfaces, "--interface"),
           check_parts(loaded, o_.move.lock, "--lock"), check_parts(loaded, o_.move.move, "--only")})
       if (!known) return fail(known.error());
-    if (const std::string lead = coverage_lead(coverage_of(loaded.deck, loaded.interfaces));
-        !lead.empty() && !o_.common.quiet)
-      print_note(loaded.path + ": " + lead);
     const auto member = changes_.add(loaded, loaded.path);
     if (!member) return fail(member.error());
-    auto fixed = make(loaded);
+    const Coverage coverage = coverage_of(loaded.deck, loaded.interfaces);
+    if (coverage.nothing()) {
+      report_nothing(loaded, coverage);
+      return exit_findings;
+    }
+    if (o_.strategies.empty()) return propose(loaded, coverage, errors);
+    auto fixed = make(loaded, o_.strategies);
     if (!fixed) return fail(fixed.error());
     const ChangedFiles& changed = fixed->changed;
     const PenetrationFix whole =
@@ -90,8 +93,9 @@ class FixRun {
                                 : o_.write.diff               ? "diff"
                                                               : "no";
     if (json_.wanted())
-      documents_.push_back(fix_json(loaded.path, loaded.deck, whole, written, fixed->fixes));
-    texts_ += report(whole, fixed->fixes, changed, loaded.path);
+      documents_.push_back(
+          fix_json(loaded.path, loaded.deck, coverage, whole, written, fixed->fixes));
+    texts_ += report(whole, fixed->fixes, changed, loaded.path, coverage_tail(coverage));
     // A deck that the solver does not take is not repaired, whatever was done about its contacts.
     return whole.complete && !errors ? exit_clean : exit_findings;
   }
@@ -143,14 +147,106 @@ class FixRun {
     return std::find(o_.strategies.begin(), o_.strategies.end(), strategy) != o_.strategies.end();
   }
 
-  /// All strategies in their order.
-  Result<FixSequence> make(const Loaded& loaded) const {
+  /// Nothing was looked at: no verdict, and nothing that could be fixed.
+  void report_nothing(const Loaded& loaded, const Coverage& coverage) {
+    PenetrationFix nothing;
+    for (const std::string& s : o_.strategies)
+      nothing.strategy += (nothing.strategy.empty() ? "" : ",") + s;
+    if (json_.wanted())
+      documents_.push_back(fix_json(loaded.path, loaded.deck, coverage, nothing, "no"));
+    if (!o_.common.quiet) texts_ += heading(loaded.path) + coverage_lead(coverage) + "\n";
+  }
+
+  /// What each strategy would do, and the command for the best one.
+  int propose(const Loaded& loaded, const Coverage& coverage, bool errors) {
+    std::vector<PenetrationFix> proposals;
+    for (const std::vector<std::string>& strategies : std::vector<std::vector<std::string>>{
+             {"move-nodes"}, {"reduce-gap"}, {"inacti"}, {"fpenmax"}, {"untangle", "move-nodes"}}) {
+      auto made = make(loaded, strategies);
+      if (!made) return fail(made.error());
+      PenetrationFix& first = made->fixes.front();
+      if (made->fixes.size() == 1) {
+        proposals.push_back(std::move(first));
+      } else if (first.crossings_before > 0) {  // by itself, and as the way to move the others
+        proposals.push_back(first);
+        if (score_of(first).solved > 0) proposals.push_back(combined(made->fixes));
+      }
+    }
+    const PenetrationFix now = unchanged(proposals);
+    if (json_.wanted())
+      documents_.push_back(fix_json(loaded.path, loaded.deck, coverage, now, "no", proposals));
+    if (!o_.common.quiet) {
+      FixTextOptions text;
+      text.rows = o_.rows;
+      text.width = text_width();
+      text.color = o_.common.color_on(o_.common.json == "-" ? 2 : 1);
+      texts_ += heading(loaded.path);
+      texts_ += fix_proposals_text(
+          proposals, [&](std::string_view s) { return command(loaded.path, s); }, text);
+      if (const std::string tail = coverage_tail(coverage); !tail.empty())
+        texts_ += "\n" + tail.substr(1) + "\n";
+    }
+    return now.complete && !errors ? exit_clean : exit_findings;
+  }
+
+  /// A word of a command as a shell takes it.
+  static std::string shell_word(const std::string& word) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+,:=@%-";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string out = "'";
+    for (const char c : word) c == '\'' ? out += "'\\''" : out += c;
+    return out + "'";
+  }
+
+  std::string heading(const std::string& path) const {
+    return o_.common.decks.size() > 1 ? terminal_text(path) + "\n" : std::string();
+  }
+
+  /// The call that makes the fix of one strategy, with the options of this one.
+  std::string command(const std::string& path, std::string_view strategy) const {
+    const Options plain;
+    std::string text = fmt::format("deck fix {} --strategy {}", shell_word(path), strategy);
+    const auto add = [&](std::string_view option, const std::string& value,
+                         const std::string& usual) {
+      if (value != usual) text += fmt::format(" {} {}", option, shell_word(value));
+    };
+    const auto ids = [](const std::vector<std::int64_t>& list) {
+      return fmt::format("{}", fmt::join(list, ","));
+    };
+    add("--interface", ids(o_.interfaces), "");
+    if (o_.ties) text += " --ties";
+    if (strategy == "reduce-gap") {
+      add("--min-gap", o_.min_gap, plain.min_gap);
+      add("--digits", std::to_string(o_.digits), std::to_string(plain.digits));
+    } else if (strategy == "inacti") {
+      add("--inacti", std::to_string(o_.inacti), std::to_string(plain.inacti));
+    } else if (strategy == "fpenmax") {
+      add("--fpenmax", o_.fpenmax, plain.fpenmax);
+    } else {
+      add("--lock", ids(o_.move.lock), "");
+      add("--only", ids(o_.move.move), "");
+      add("--max-moved", o_.max_moved, plain.max_moved);
+      add("--max-displacement", o_.max_displacement, "");
+      if (o_.move.lock_rigid_bodies) text += " --lock-rigid-bodies";
+      if (o_.move.lock_boundary_conditions) text += " --lock-boundary-conditions";
+      if (o_.move.secondary_only) text += " --secondary-only";
+      add("--smooth", std::to_string(o_.move.smooth), std::to_string(plain.move.smooth));
+      add("--clearance", fmt::format("{}", o_.move.clearance),
+          fmt::format("{}", plain.move.clearance));
+    }
+    return text + " -o fixed";
+  }
+
+  /// These strategies in their order.
+  Result<FixSequence> make(const Loaded& loaded, const std::vector<std::string>& names) const {
     const EditContext context{loaded.deck, loaded.model, loaded.interfaces, schemas_};
     Progress progress(!o_.common.quiet);
     std::string step;
     FixOptions base;
     base.threads = o_.common.thread_count();
     base.interfaces = o_.interfaces;
+    base.ties = o_.ties;
     base.read.include_paths = o_.common.include_paths;
     base.limits = o_.common.limits;
     base.progress = [&](std::string_view what, std::size_t done, std::size_t total) {
@@ -159,7 +255,7 @@ class FixRun {
     };
     std::vector<FixStep> steps;
     std::vector<MovedNode> moved;  // by the steps before: they count for --max-moved
-    for (const std::string& strategy : o_.strategies)
+    for (const std::string& strategy : names)
       steps.emplace_back([&](const EditContext& here, const ReadOptions& read) {
         FixOptions options = base;
         options.read = read;
@@ -206,15 +302,15 @@ class FixRun {
   }
 
   std::string report(const PenetrationFix& fix, const std::vector<PenetrationFix>& steps,
-                     const ChangedFiles& changed, const std::string& path) const {
+                     const ChangedFiles& changed, const std::string& path,
+                     const std::string& not_examined) const {
     if (o_.common.quiet) return {};
     FixTextOptions text;
     text.rows = o_.rows;
     text.width = text_width();
     const bool to_stderr = o_.write.diff || o_.common.json == "-";
     text.color = o_.common.color_on(to_stderr ? 2 : 1);
-    std::string out;
-    if (o_.common.decks.size() > 1) out += terminal_text(path) + "\n";
+    std::string out = heading(path);
     if (steps.size() > 1) {
       // What each did on what the one before has left, then all of it together.
       for (std::size_t i = 0; i < steps.size(); ++i)
@@ -223,6 +319,7 @@ class FixRun {
     } else {
       out += fix_text(fix, text);
     }
+    if (!not_examined.empty()) out += "\n" + not_examined.substr(1) + "\n";
     if (!changed.empty()) {
       const bool written = o_.write.in_place || !o_.write.directory.empty();
       out += "\n";
@@ -250,6 +347,14 @@ std::string wrong_usage(const Options& o) {
   for (const std::string& s : o.strategies)
     if (std::count(o.strategies.begin(), o.strategies.end(), s) > 1)
       return "--strategy names " + s + " twice";
+  if (o.strategies.empty())
+    for (const auto& [given, option] : {std::pair{o.write.in_place, "--in-place"},
+                                        {!o.write.directory.empty(), "-o"},
+                                        {o.write.diff, "--diff"},
+                                        {!o.html.empty(), "--html"}})
+      if (given)
+        return std::string(option) +
+               " needs --strategy; without these options 'deck fix DECK' says what each would do";
   if (!o.html.empty() && o.common.decks.size() > 1) return "--html takes one deck at a time";
   if (std::string why; !o.html.empty() && !html_available(&why))
     return "--html: this build has no viewer: " + why;
@@ -320,15 +425,18 @@ Action setup(CommandLine& line) {
   Options& o = *options;
   add_common(line, o.common);
   line.option("--strategy", o.strategies,
-              "move-nodes: out of each other's gap; reduce-gap: the largest gap without a "
+              "Without: say what each would do. move-nodes: out of each other's gap; reduce-gap: "
+              "the largest gap without a "
               "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones; "
               "untangle: crossed elements that one node's move takes apart. "
               "Several by commas: each acts on what the one before has left")
-      .required()
       .comma_list()
       .value("STRATEGY")
       .one_of({"move-nodes", "reduce-gap", "inacti", "fpenmax", "untangle"});
   line.option("--interface", o.interfaces, "Only these interface ids").by_commas().value("ID");
+  line.flag("--ties", o.ties,
+            "Treat ties (TYPE10, TYPE7 with ITIED) like other contacts: what is moved out of their "
+            "gap comes loose. By default they are left alone, and nothing that is tied changes");
   line.flag("--diff", o.write.diff,
             "Print the patch (git apply takes it); the report goes to stderr");
   line.option("-o,--output", o.write.directory, "Write the deck with all it includes below DIR")
@@ -358,13 +466,14 @@ Action setup(CommandLine& line) {
   move.flag("--lock-boundary-conditions", o.move.lock_boundary_conditions, "Nodes of /BCS stay");
   move.flag("--secondary-only", o.move.secondary_only, "Main sides do not give way");
   move.option("--max-moved", o.max_moved,
-              "Share of the nodes of a part that may move. With --json FILE, those that an earlier "
+              "Share of the nodes of a part that may move; a part that needs more is left alone. "
+              "With --json FILE, those that an earlier "
               "run moved by the report in FILE count too")
       .show_default()
       .value("SHARE");
   move.option("--max-displacement", o.max_displacement,
-              "Farthest a node may move, working units (default: ten times the deepest "
-              "penetration)")
+              "Farthest a node may move, working units (default: as far as its penetration is "
+              "deep, which it never passes)")
       .value("LENGTH");
   move.option("--smooth", o.move.smooth, "Rings of neighbours that follow the moved nodes")
       .range(0, 20)
@@ -393,7 +502,8 @@ Action setup(CommandLine& line) {
 
 const VerbRegistration registration{
     {"fix", 35, "Repair initial penetrations: move nodes, reduce gaps, set Inacti or Fpenmax",
-     "  deck fix car_0000.rad --strategy move-nodes            what would be done\n"
+     "  deck fix car_0000.rad                                  what each strategy would do\n"
+     "  deck fix car_0000.rad --strategy move-nodes            what this one would do\n"
      "  deck fix car_0000.rad --strategy move-nodes --diff     the same as a patch\n"
      "  deck fix car_0000.rad --strategy move-nodes --max-moved 100% --lock 12,13 --in-place "
      "--backup\n"
@@ -409,8 +519,11 @@ const VerbRegistration registration{
      "pairs that penetrate. Fpenmax takes nodes out of the interface: for a few hopeless ones.\n"
      "\n"
      "Every change is verified before it is shown: the deck is read again with the new values as\n"
-     "printed. Moves never make a new penetration, cross elements, turn one inside out or halve\n"
-     "one of its sides; what cannot be solved that way stays and is listed with its reason.\n"
+     "printed. What would penetrate deeper than before, or come loose, is not written. A node "
+     "moves\n"
+     "along the normal of its penetration and no farther than it is deep. Moves never make a new\n"
+     "penetration, cross elements, turn one inside out or halve one of its sides; what cannot be\n"
+     "solved that way stays and is listed with its reason.\n"
      "Elements that cross already have no right side: untangle takes those apart for which one "
      "node\n"
      "is enough, the others have to be separated by hand (deck gaps --crossings shows them).\n"
@@ -418,7 +531,8 @@ const VerbRegistration registration{
      "Several decks are fixed together: a file that they share is written once, and if they want\n"
      "different texts for it nothing is written (exit code 2).\n"
      "\n"
-     "Exit code: 0 all penetrations treated, 1 some remain, 2 wrong usage, 3 unreadable input.\n",
+     "Exit code: 0 all penetrations treated or none there, 1 some remain, or nothing was examined, "
+     "2 wrong usage, 3 unreadable input.\n",
      setup}};
 
 }  // namespace

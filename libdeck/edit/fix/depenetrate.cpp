@@ -8,10 +8,12 @@
 
 #include "deck/contact/crossings.hpp"
 #include "edit/fix/common.hpp"
+#include "edit/fix/depenetrate_bounds.hpp"
 #include "edit/fix/depenetrate_cells.hpp"
 #include "edit/fix/depenetrate_locks.hpp"
 #include "edit/fix/depenetrate_mesh.hpp"
 #include "edit/fix/depenetrate_rows.hpp"
+#include "edit/fix/harm.hpp"
 #include "edit/fix/movable.hpp"
 
 namespace deck {
@@ -26,7 +28,7 @@ constexpr double largest_step = 0.45;     // of the gap: two sides cannot pass e
 constexpr double least_side = 0.5;        // of the length of an element's side before
 constexpr double least_component = 1e-3;  // of a move along an axis, to be printed
 constexpr double noise = 1e-6;            // of the gap: a vector this short has no direction
-constexpr double deeper = 1 + 1e-9;       // a penetration that grew by less is the same one
+constexpr double least_move = 1e-6;       // of the depth: a shorter one repairs nothing
 
 void put(Nodes& nodes, NodeIndex n, Vec p) {
   nodes.x[n] = p.x;
@@ -52,6 +54,7 @@ class Depenetrator : MovableDeck {
       // Printing leaves small components out, which may cost a little of the clearance.
       if (take_back_harmful() == 0 && (!solved || tasks_left() == 0)) break;
     }
+    settle();
     return finish(before);
   }
 
@@ -67,30 +70,41 @@ class Depenetrator : MovableDeck {
       for (const NodeIndex n : c.edge) hold(n, Hold::crossed);
       for (const NodeIndex n : scene.contacts[c.contact].main[c.main].nodes) hold(n, Hold::crossed);
     }
-    double reach = 0;
+    baseline_ = Baseline(scene, options_);
+    fix_.tied_pairs = baseline_.tied_pairs();
+    fix_.tied_nodes = baseline_.tied_nodes();
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
-      const Contact& contact = scene.contacts[c];
+      if (!is_wanted(options_, *scene.contacts[c].inter)) continue;
       const std::vector<bool> inside = inside_solids(scene, c);  // all false for edges
-      for (const PenetrationRow& row : contact.penetrations) {
-        const PairAt at{c, row.secondary, row.main};
-        double& depth = baseline_[key_of(scene, at)];
-        depth = std::max(depth, row.depth);
-        if (!is_wanted(options_, contact.inter->id)) continue;
-        reach = std::max(reach, row.depth + options_.clearance * row.gap);
-        if (!inside[row.secondary]) {
-          anything_to_do_ = true;
-          continue;
-        }
-        std::string why = why_not_movable(*mesh_, now_, state_of(scene, now_, at));
-        if (why.empty())
-          why =
-              "the node is inside a solid: the way out is not the way to its surface; separate "
-              "the parts first";
-        skipped_[key_of(scene, at)] = std::move(why);
-      }
+      for (const PenetrationRow& row : scene.contacts[c].penetrations)
+        begin_pair(scene, {c, row.secondary, row.main}, row, inside[row.secondary]);
     }
-    limit_ = options_.most_displacement.value_or(10 * reach);
+    for (NodeIndex n = 0; n < holds_.size(); ++n)
+      if (!bounds_.contains(n)) hold(n, Hold::bystander);
     count_earlier();
+  }
+
+  void begin_pair(const Scene& scene, const PairAt& at, const PenetrationRow& row, bool inside) {
+    const PairState state = state_of(scene, now_, at);
+    std::string why = why_not_movable(*mesh_, now_, state);
+    if (why.empty() && inside)
+      why =
+          "the node is inside a solid: the way out is not the way to its surface; separate "
+          "the parts first";
+    if (!why.empty()) {
+      skipped_[key_of(scene, at)] = std::move(why);
+      return;
+    }
+    anything_to_do_ = true;
+    bounds_.add(key_of(scene, at), state, way_out(scene, at, state),
+                row.depth + options_.clearance * row.gap);
+  }
+
+  /// The normal of a pair; at distance 0 the side it belongs on.
+  Vec way_out(const Scene& scene, const PairAt& at, const PairState& state) const {
+    return state.distance > noise * state.gap
+               ? state.normal
+               : direction_on_surface(scene, *mesh_, now_, at, state);
   }
 
   /// Nodes that earlier runs moved and that are where those put them.
@@ -124,7 +138,10 @@ class Depenetrator : MovableDeck {
   }
 
   void hold(NodeIndex n, Hold why) {
-    if (holds_[n] == 0) holds_[n] = static_cast<std::uint8_t>(why);
+    if (holds_[n] == 0 || is_bystander(n)) holds_[n] = static_cast<std::uint8_t>(why);
+  }
+  bool is_bystander(NodeIndex n) const {
+    return holds_[n] == static_cast<std::uint8_t>(Hold::bystander);
   }
 
   // ---- one round ------------------------------------------------------------------------------
@@ -170,15 +187,11 @@ class Depenetrator : MovableDeck {
   }
 
   /// A penetration that should go: of the interfaces asked for, or one that was not there before.
-  bool is_task(const Scene& scene, const PairAt& at) {
+  bool is_task(const Scene& scene, const PairAt& at) const {
     const PairKey key = key_of(scene, at);
+    const InterBase& inter = *scene.contacts[at.contact].inter;
     if (skipped_.contains(key)) return false;
-    if (!is_wanted(options_, scene.contacts[at.contact].inter->id)) return !baseline_.contains(key);
-    if (active_.contains(at) || !baseline_.contains(key)) return true;
-    std::string why = why_not_movable(*mesh_, now_, state_of(scene, now_, at));
-    if (why.empty()) return true;
-    skipped_[key] = std::move(why);
-    return false;
+    return is_wanted(options_, inter) || (!is_tie(inter) && !baseline_.contains(key));
   }
 
   /// Moves nodes once; false if none can move.
@@ -189,6 +202,13 @@ class Depenetrator : MovableDeck {
     for (const Wish& w : wishes)
       nodes.insert(nodes.end(), w.state.nodes.begin(), w.state.nodes.begin() + w.state.count);
     hold_unwritable(nodes);
+    for (;;) {
+      std::map<NodeIndex, Vec> moves = moves_for(wishes);
+      if (admit(moves)) return apply(scene, pairs, moves);
+    }
+  }
+
+  std::map<NodeIndex, Vec> moves_for(const std::vector<Wish>& wishes) {
     std::map<NodeIndex, Vec> moves = solve_wishes(wishes, holds_, sweeps);
     if (options_.smooth > 0) smooth(moves);
     std::map<NodeIndex, double> cap;
@@ -204,9 +224,11 @@ class Depenetrator : MovableDeck {
       const double most = largest_step * it->second, l = norm(move);
       if (l > most) move = (most / l) * move;
     }
-    admit(moves);
-    keep_within_limit(moves);
-    return apply(scene, pairs, moves);
+    keep_within_bounds(moves);
+    std::erase_if(moves, [&](const auto& move) {
+      return norm(move.second) <= least_move * bounds_.reach_of(move.first);
+    });
+    return moves;
   }
 
   /// True if the closest point of a pair lies on nodes that `nearest`, the closest pair of the same
@@ -257,9 +279,7 @@ class Depenetrator : MovableDeck {
     for (const PairNow* pair : order) {
       Wish w;
       w.state = pair->state;
-      w.normal = w.state.distance > noise * w.state.gap
-                     ? w.state.normal
-                     : direction_on_surface(scene, *mesh_, now_, pair->at, w.state);
+      w.normal = way_out(scene, pair->at, w.state);
       const double lack = w.state.depth() + options_.clearance * w.state.gap;
       w.by = lack > 0 ? options_.share * lack : lack;
       w.main_gives_way = !options_.secondary_only;
@@ -281,53 +301,74 @@ class Depenetrator : MovableDeck {
     std::set<NodeIndex> ring;
     for (const auto& [n, move] : moves) ring.insert(n);
     for (int k = 1; k <= options_.smooth; ++k) {
-      std::map<NodeIndex, std::pair<Vec, int>> sums;
+      struct Sum {
+        Vec moves;
+        int count = 0;
+        double reach = 0;
+      };
+      std::map<NodeIndex, Sum> sums;
       for (const NodeIndex n : ring)
         for (const NodeIndex next : mesh_->neighbours(n)) {
           if (moves.contains(next)) continue;
-          auto& [sum, count] = sums[next];
-          sum = sum + moves.at(n);
-          ++count;
+          Sum& sum = sums[next];
+          sum.moves = sum.moves + moves.at(n);
+          ++sum.count;
+          sum.reach = std::max(sum.reach, bounds_.reach_of(n));
         }
       std::vector<NodeIndex> nodes;
       for (const auto& [n, sum] : sums) nodes.push_back(n);
       hold_unwritable(nodes);
       ring.clear();
       for (const auto& [n, sum] : sums) {
-        if (holds_[n] != 0) continue;
+        if (holds_[n] != 0 && !is_bystander(n)) continue;
         const double share = 1 - k / (options_.smooth + 1.0);
-        moves.emplace(n, (share / sum.second) * sum.first);
+        moves.emplace(n, (share / sum.count) * sum.moves);
+        bounds_.follow(n, sum.reach);
         ring.insert(n);
       }
     }
   }
 
-  /// Drops moves of nodes beyond the share of their part; the largest ones go first.
-  void admit(std::map<NodeIndex, Vec>& moves) {
-    std::vector<std::pair<double, NodeIndex>> order;
+  /// Counts the moved nodes of each part. False: parts would pass their share. These are left
+  /// alone as a whole from now on, since a few moved nodes of a part are a dent and no repair.
+  bool admit(const std::map<NodeIndex, Vec>& moves) {
+    std::map<std::uint32_t, std::uint32_t> added;
     for (const auto& [n, move] : moves)
-      if (!moved_.contains(n)) order.emplace_back(-norm(move), n);
-    std::sort(order.begin(), order.end());
-    for (const auto& [size, n] : order) {
-      const std::uint32_t part = mesh_->part_of(n);
-      if (part != no_index && !first_.contains(n)) {
-        if (moved_in_part_[part] + 1 > may_move(part)) {
-          moves.erase(n);
-          hold(n, Hold::share);
-          continue;
-        }
-        ++moved_in_part_[part];
+      if (const std::uint32_t part = mesh_->part_of(n);
+          part != no_index && !moved_.contains(n) && !first_.contains(n))
+        ++added[part];
+    bool fits = true;
+    for (const auto& [part, count] : added)
+      if (moved_in_part_[part] + count > may_move(part)) {
+        leave_alone(part, moved_in_part_[part] + count);
+        fits = false;
       }
-      moved_.insert(n);
-    }
+    if (!fits) return false;
+    for (const auto& [part, count] : added) moved_in_part_[part] += count;
+    for (const auto& [n, move] : moves) moved_.insert(n);
+    return true;
   }
 
-  void keep_within_limit(std::map<NodeIndex, Vec>& moves) {
+  void leave_alone(std::uint32_t part, std::uint32_t needed) {
+    needed_[part] = needed;
+    for (NodeIndex n = 0; n < holds_.size(); ++n)
+      if (mesh_->part_of(n) == part) {
+        take_back(n);
+        hold(n, Hold::share);
+      }
+  }
+
+  /// Out of the penetrations, no farther than they are deep, and within --max-displacement.
+  void keep_within_bounds(std::map<NodeIndex, Vec>& moves) {
     for (auto& [n, move] : moves) {
+      const DepthBounds::Place may = bounds_.allowed(n, at(now_, n) + move - at(start_, n));
+      move = at(start_, n) + may.by - at(now_, n);
+      if (may.at_bound) hold(n, Hold::depth);
+      if (!options_.most_displacement) continue;
       const Vec total = at(now_, n) + move - first(n);
-      const double l = norm(total);
-      if (l <= limit_) continue;
-      move = first(n) + (limit_ / l) * total - at(now_, n);
+      const double l = norm(total), limit = *options_.most_displacement;
+      if (l <= limit) continue;
+      move = first(n) + (limit / l) * total - at(now_, n);
       hold(n, Hold::displacement);
     }
   }
@@ -442,34 +483,62 @@ class Depenetrator : MovableDeck {
     return taken;
   }
 
-  bool take_back(NodeIndex n, Hold why) {
+  /// Puts a node back where it was; false if it has not moved.
+  bool take_back(NodeIndex n) {
     if (moved_.erase(n) == 0) return false;
     place(n, at(start_, n));
     forget(n);
     for (int axis = 0; axis < 3; ++axis) texts_.erase({n, axis});
+    return true;
+  }
+  bool take_back(NodeIndex n, Hold why) {
+    if (!take_back(n)) return false;
     holds_[n] = static_cast<std::uint8_t>(why);
     return true;
   }
 
-  /// Adds the moved nodes of pairs that penetrate and did not, or penetrate deeper than before.
+  /// Takes back what repairs nothing, and what would harm without it, until all moves are needed.
+  void settle() {
+    while (take_back_idle() + take_back_harmful() > 0) {
+    }
+  }
+
+  /// Takes moves back that free none of the pairs they were made for. Returns how many.
+  std::size_t take_back_idle() {
+    if (moved_.empty()) return 0;
+    const Baseline left(evaluate(), options_);
+    std::vector<NodeIndex> idle;
+    for (const NodeIndex n : moved_) {
+      const std::vector<PairKey>& pairs = bounds_.pairs_of(n);
+      const std::span<const NodeIndex> next = mesh_->neighbours(n);
+      const bool needed =
+          pairs.empty() ? std::any_of(next.begin(), next.end(),
+                                      [&](NodeIndex other) { return moved_.contains(other); })
+                        : std::any_of(pairs.begin(), pairs.end(),
+                                      [&](const PairKey& pair) { return !left.contains(pair); });
+      if (!needed) idle.push_back(n);
+    }
+    for (const NodeIndex n : idle) {
+      take_back(n);
+      hold(n, Hold::depth);
+    }
+    return idle.size();
+  }
+
+  /// Adds the moved nodes of pairs that penetrate and did not, or deeper than before, and of ties
+  /// that came or went.
   void blame(const Scene& scene, std::map<NodeIndex, Hold>& bad) const {
-    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
-      for (const PenetrationRow& row : scene.contacts[c].penetrations) {
-        const PairAt pair{c, row.secondary, row.main};
-        const auto it = baseline_.find(key_of(scene, pair));
-        if (it != baseline_.end() && row.depth <= it->second * deeper) continue;
-        const PairState state = state_of(scene, now_, pair);
-        bool found = false;
-        for (int i = 0; i < state.count; ++i) {
-          const NodeIndex n = state.nodes[static_cast<std::size_t>(i)];
-          if (!moved_.contains(n)) continue;
-          bad.emplace(n, Hold::would_penetrate);
-          found = true;
-        }
-        // Nobody of the pair moved: its gap grew, because a default follows the shortest side.
-        if (!found)
-          for (const NodeIndex n : moved_) bad.emplace(n, Hold::would_penetrate);
+    for (const Harm& harm : baseline_.harm(scene)) {
+      const Hold why = harm.tie ? Hold::would_untie : Hold::would_penetrate;
+      bool found = false;
+      for (const NodeIndex n : harm.nodes) {
+        if (!moved_.contains(n)) continue;
+        bad.emplace(n, why);
+        found = true;
       }
+      // Nobody of the pair moved: its gap changed, because a default follows the shortest side.
+      if (!found)
+        for (const NodeIndex n : moved_) bad.emplace(n, why);
     }
   }
 
@@ -486,11 +555,12 @@ class Depenetrator : MovableDeck {
       std::size_t taken = 0;
       for (const auto& [n, why] : bad) taken += take_back(n, why);
       if (taken > 0) {
-        take_back_harmful();
+        settle();
         continue;
       }
-      if (!bad.empty())
-        return Error{Error::Code::internal, "the deck read again differs from the moved model"};
+      const std::vector<Harm> harm = baseline_.harm(after);
+      if (const auto why = harm_text(model_, after, harm))
+        return Error{Error::Code::internal, "the deck read again differs: " + *why};
       fix_.strategy = "move-nodes";
       fix_.crossings_after = find_crossings(after, options_.threads).size();
       set_interfaces(fix_, context_.interfaces, options_, before, after);
@@ -535,7 +605,7 @@ class Depenetrator : MovableDeck {
   void list_refused(const Scene& scene) {
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
       const Contact& contact = scene.contacts[c];
-      if (!is_wanted(options_, contact.inter->id)) continue;
+      if (!is_wanted(options_, *contact.inter)) continue;
       std::map<std::uint32_t, const PenetrationRow*> deepest;
       for (const PenetrationRow& row : contact.penetrations) {
         const PenetrationRow*& best = deepest[row.secondary];
@@ -571,6 +641,7 @@ class Depenetrator : MovableDeck {
       if (why == Hold::none || !side.empty()) continue;
       side = to_string(why);
       if (why == Hold::not_writable) side += ": " + cells_.obstacle(n);
+      if (why == Hold::share) side = share_text(n);
     }
     if (options_.secondary_only && main.empty()) main = "main sides do not give way";
     if (secondary.empty() && main.empty())
@@ -583,21 +654,34 @@ class Depenetrator : MovableDeck {
     return text;
   }
 
+  /// "stopped by --max-moved 10 %: needs 100 % of part 2 (9 of 9 nodes); nothing done"
+  std::string share_text(NodeIndex n) const {
+    std::string text = stopped_by_share(options_);
+    const std::uint32_t part = mesh_->part_of(n);
+    const auto it = needed_.find(part);
+    if (it == needed_.end()) return text;
+    const std::uint32_t all = mesh_->nodes_of_part(part);
+    return text + ": needs " + percent_text(static_cast<double>(it->second) / all) + " of part " +
+           std::to_string(model_.parts[part].id) + " (" + std::to_string(it->second) + " of " +
+           std::to_string(all) + " nodes); nothing done";
+  }
+
   std::optional<FixMesh> mesh_;
   std::vector<std::uint8_t> holds_;
   std::vector<bool> looked_up_;  ///< by cells_
   std::set<NodeIndex> moved_;
-  std::vector<std::uint32_t> moved_in_part_;  ///< by earlier runs too
-  std::map<NodeIndex, Vec> first_;            ///< of nodes that earlier runs moved
-  std::map<NodeIndex, int> strikes_;          ///< how often a move was dropped
-  std::map<NodeIndex, Hold> blocked_;         ///< and why, the last time
-  std::set<PairAt> active_;                   ///< every pair that was ever too close
-  std::map<PairKey, double> baseline_;        ///< depths before
-  std::map<PairKey, std::string> skipped_;    ///< pairs that moving cannot solve, and why
+  std::vector<std::uint32_t> moved_in_part_;       ///< by earlier runs too
+  std::map<NodeIndex, Vec> first_;                 ///< of nodes that earlier runs moved
+  std::map<NodeIndex, int> strikes_;               ///< how often a move was dropped
+  std::map<NodeIndex, Hold> blocked_;              ///< and why, the last time
+  std::set<PairAt> active_;                        ///< every pair that was ever too close
+  Baseline baseline_;                              ///< penetrations and ties before
+  DepthBounds bounds_;                             ///< of the nodes in penetrations
+  std::map<std::uint32_t, std::uint32_t> needed_;  ///< nodes, of parts that are left alone
+  std::map<PairKey, std::string> skipped_;         ///< pairs that moving cannot solve, and why
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_;  ///< before
   std::map<std::pair<NodeIndex, int>, std::string> texts_;
   PenetrationFix fix_;
-  double limit_ = 0;
   std::size_t first_left_ = 0;
   bool anything_to_do_ = false;
 };

@@ -1,6 +1,8 @@
 // Reads boundary conditions, rigid bodies and options for the nodes that have to stay.
 #include "edit/fix/depenetrate_locks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
@@ -79,7 +81,7 @@ const char* to_string(Hold hold) {
     case Hold::not_writable:
       return "coordinates cannot be changed";
     case Hold::share:
-      return "as many nodes of the part moved as may (--max-moved)";
+      return "stopped by --max-moved";
     case Hold::displacement:
       return "moved as far as it may (--max-displacement)";
     case Hold::crossed:
@@ -92,8 +94,21 @@ const char* to_string(Hold hold) {
       return "moving it would make an element side less than half as long";
     case Hold::would_penetrate:
       return "moving it would make or deepen another penetration";
+    case Hold::would_untie:
+      return "moving it would change what is tied";
+    case Hold::depth:
+      return "moving it as far as the penetration is deep does not free it (--clearance adds to "
+             "that)";
+    case Hold::bystander:
+      return "not in a penetration";
   }
   return "";
+}
+
+std::string percent_text(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+std::string stopped_by_share(const MoveNodesOptions& options) {
+  return to_string(Hold::share) + (" " + percent_text(options.most_moved));
 }
 
 Result<std::vector<std::uint8_t>> make_holds(const EditContext& context,

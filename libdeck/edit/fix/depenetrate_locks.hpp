@@ -16,15 +16,22 @@ enum class Hold : std::uint8_t {
   rigid_body,
   boundary,
   not_writable,  ///< NodeCells::obstacle says why
-  share,         ///< as many nodes of the part moved as may
+  share,         ///< its part would need more moved nodes than may
   displacement,  ///< moved as far as it may
   crossed,       ///< belongs to a crossed element already
   would_cross,
   would_invert,
   would_shrink,
   would_penetrate,
+  would_untie,
+  depth,      ///< moved as far as the penetration is deep, or would have to move farther
+  bystander,  ///< in no penetration: stays, or follows its neighbours
 };
 const char* to_string(Hold hold);
+/// "stopped by --max-moved 10 %"
+std::string stopped_by_share(const MoveNodesOptions& options);
+/// 0.1 as "10 %"
+std::string percent_text(double share);
 
 /// Holds from the options. Error: an unknown part, or cards that cannot be read for their nodes.
 Result<std::vector<std::uint8_t>> make_holds(const EditContext& context,

@@ -10,7 +10,7 @@
 namespace deck::detail {
 namespace {
 
-constexpr double least_share = 0.1;  // of a pair's weights, squared, on nodes that may move
+constexpr double least_share = 1e-3;  // of a pair's weights, squared, on nodes that may move
 
 Vec segment_normal(const Coordinates& x, const std::array<NodeIndex, 4>& n) {
   if (n[2] == n[3]) return cross(at(x, n[1]) - at(x, n[0]), at(x, n[2]) - at(x, n[0]));
@@ -163,7 +163,7 @@ std::map<NodeIndex, Vec> solve_wishes(const std::vector<Wish>& wishes,
       rows[r].give[i] = free ? w.state.weights[i] : 0;
       sum += rows[r].give[i] * rows[r].weight[i];
     }
-    // Where only a far corner of a side can give way it would have to go many times the depth.
+    // Where only a far corner of a side can give way nothing it may do moves the pair.
     rows[r].scale = sum > least_share ? 1 / sum : 0;
   }
   // Hildreth's method: a multiplier per wish that may shrink again, but not below 0.

@@ -6,6 +6,7 @@
 
 #include "deck/contact/view.hpp"
 #include "edit/fix/common.hpp"
+#include "edit/fix/harm.hpp"
 
 namespace deck {
 namespace {
@@ -58,9 +59,9 @@ Result<void> evaluate(PenetrationFix& fix, const EditContext& context, const Fix
   std::map<Key, PenetrationAction> earlier;
   for (const Contact& c : before.contacts)
     for (const PenetrationRow& r : c.penetrations)
-      if (is_wanted(options, c.inter->id)) earlier[key(context.model, c, r)] = r.action;
+      if (is_wanted(options, *c.inter)) earlier[key(context.model, c, r)] = r.action;
   for (const Contact& c : after.contacts) {
-    if (!is_wanted(options, c.inter->id)) continue;
+    if (!is_wanted(options, *c.inter)) continue;
     for (const PenetrationRow& r : c.penetrations) {
       FixAction action;
       action.interface_id = c.inter->id;
@@ -91,6 +92,7 @@ Result<void> evaluate(PenetrationFix& fix, const EditContext& context, const Fix
   std::stable_sort(
       fix.refused.begin(), fix.refused.end(),
       [](const FixRefusal& a, const FixRefusal& b) { return a.interface_id < b.interface_id; });
+  verify_harmless(fix, context.interfaces, options, before, after);
   return {};
 }
 
@@ -209,7 +211,7 @@ Result<PenetrationFix> set_fpenmax(const EditContext& context, const FpenmaxOpti
   if (auto why = unevaluated(before, options)) return *why;
   CellWriter edits(context.deck.sources);
   for (const Contact& contact : before.contacts) {
-    if (contact.penetrations.empty() || !is_wanted(options, contact.inter->id)) continue;
+    if (contact.penetrations.empty() || !is_wanted(options, *contact.inter)) continue;
     const InterBase& inter = *contact.inter;
     if (inter.type != 7) {
       if (contact.role == ContactRole::primary || contact.kind == ContactKind::edge_edge)

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "edit/fix/common.hpp"
+#include "edit/fix/harm.hpp"
 
 namespace deck {
 namespace {
@@ -262,6 +263,7 @@ Result<PenetrationFix> reduce_gaps(const EditContext& context, const ReduceGapOp
   set_interfaces(fix, context.interfaces, options, before, after);
   fix.complete = true;
   for (const FixedInterface& i : fix.interfaces) fix.complete &= i.after.pairs == 0;
+  verify_harmless(fix, context.interfaces, options, before, after);
   return fix;
 }
 

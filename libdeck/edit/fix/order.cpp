@@ -33,6 +33,61 @@ Result<FixSequence> fix_in_order(const EditContext& context, const FixOptions& o
   return out;
 }
 
+FixScore score_of(const PenetrationFix& fix) {
+  FixScore out;
+  if (fix.strategy == "untangle") {
+    out.solved = fix.crossings_before - std::min(fix.crossings_before, fix.crossings_after);
+    out.not_treated = fix.crossings_after;
+    return out;
+  }
+  const bool flags = fix.strategy == "inacti" || fix.strategy == "fpenmax";
+  for (const FixedInterface& i : fix.interfaces) {
+    const std::uint64_t before = flags ? i.before.untreated : i.before.pairs;
+    const std::uint64_t after = flags ? i.after.untreated : i.after.pairs;
+    const bool refused = std::any_of(fix.refused.begin(), fix.refused.end(),
+                                     [&](const FixRefusal& r) { return r.interface_id == i.id; });
+    out.solved += before - std::min(before, after);
+    (refused ? out.not_treated : out.left) += after;
+  }
+  return out;
+}
+
+const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals) {
+  const PenetrationFix* best = nullptr;
+  FixScore score;
+  for (const PenetrationFix& fix : proposals) {
+    const FixScore s = score_of(fix);
+    if (s.solved == 0) continue;
+    // Crossed elements are another matter: what takes them apart comes where nothing else helps.
+    if (best != nullptr && fix.strategy == "untangle") continue;
+    if (best != nullptr && s.all() - s.solved >= score.all() - score.solved) continue;
+    best = &fix;
+    score = s;
+  }
+  return best;
+}
+
+PenetrationFix unchanged(const std::vector<PenetrationFix>& proposals) {
+  PenetrationFix out;
+  for (const PenetrationFix& fix : proposals) {
+    out.crossings_before = std::max(out.crossings_before, fix.crossings_before);
+    out.tied_pairs = fix.tied_pairs;
+    out.tied_nodes = fix.tied_nodes;
+    for (const FixedInterface& i : fix.interfaces)
+      if (std::none_of(out.interfaces.begin(), out.interfaces.end(),
+                       [&](const FixedInterface& o) { return o.id == i.id; })) {
+        out.interfaces.push_back(i);
+        out.interfaces.back().changes.clear();
+        out.interfaces.back().after = i.before;
+      }
+  }
+  out.crossings_after = out.crossings_before;
+  std::sort(out.interfaces.begin(), out.interfaces.end(),
+            [](const FixedInterface& a, const FixedInterface& b) { return a.id < b.id; });
+  out.complete = out.interfaces.empty() && out.crossings_before == 0;
+  return out;
+}
+
 PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
   PenetrationFix out;
   const auto append = [](auto& to, const auto& from) {
@@ -77,6 +132,8 @@ PenetrationFix combined(const std::vector<PenetrationFix>& fixes) {
   std::sort(out.moved.begin(), out.moved.end(),
             [](const MovedNode& a, const MovedNode& b) { return a.id < b.id; });
   if (!fixes.empty()) {
+    out.tied_pairs = fixes.front().tied_pairs;
+    out.tied_nodes = fixes.front().tied_nodes;
     out.refused = fixes.back().refused;
     out.actions = fixes.back().actions;
     out.complete = fixes.back().complete;

@@ -10,6 +10,7 @@
 #include "edit/fix/depenetrate_locks.hpp"
 #include "edit/fix/depenetrate_mesh.hpp"
 #include "edit/fix/depenetrate_rows.hpp"
+#include "edit/fix/harm.hpp"
 #include "edit/fix/movable.hpp"
 
 namespace deck {
@@ -17,9 +18,8 @@ namespace {
 
 using namespace detail;
 
-constexpr double least_side = 0.5;   // of the length of an element's side before
-constexpr double deeper = 1 + 1e-9;  // a penetration that grew by less is the same one
-constexpr std::size_t passes = 4;    // a node out of the way may free the next one
+constexpr double least_side = 0.5;  // of the length of an element's side before
+constexpr std::size_t passes = 4;   // a node out of the way may free the next one
 
 using MeshCrossings = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -43,7 +43,9 @@ class Untangler : MovableDeck {
     if (auto why = unevaluated(before, options_)) return *why;
     mesh_.emplace(before);
     moved_in_part_.assign(model_.parts.size(), 0);
-    baseline_ = depths(before);
+    baseline_ = Baseline(before, options_);
+    fix_.tied_pairs = baseline_.tied_pairs();
+    fix_.tied_nodes = baseline_.tied_nodes();
     fix_.strategy = "untangle";
     std::vector<Crossing> left = wanted(before);
     fix_.crossings_before = left.size();
@@ -62,17 +64,7 @@ class Untangler : MovableDeck {
   std::vector<Crossing> wanted(const Scene& scene) const {
     std::vector<Crossing> out;
     for (const Crossing& c : find_crossings(scene, options_.threads))
-      if (is_wanted(options_, scene.contacts[c.contact].inter->id)) out.push_back(c);
-    return out;
-  }
-
-  static std::map<PairKey, double> depths(const Scene& scene) {
-    std::map<PairKey, double> out;
-    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
-      for (const PenetrationRow& row : scene.contacts[c].penetrations) {
-        double& depth = out[key_of(scene, {c, row.secondary, row.main})];
-        depth = std::max(depth, row.depth);
-      }
+      if (is_wanted(options_, *scene.contacts[c.contact].inter)) out.push_back(c);
     return out;
   }
 
@@ -175,7 +167,7 @@ class Untangler : MovableDeck {
     for (auto& [axis, text] : texts) texts_[{n, axis}] = std::move(text);
     moved_.insert(n);
     if (is_new && part != no_index) ++moved_in_part_[part];
-    baseline_ = depths(evaluate());
+    baseline_ = Baseline(evaluate(), options_);
     return true;
   }
 
@@ -194,17 +186,9 @@ class Untangler : MovableDeck {
     for (const NodeIndex next : mesh_->neighbours(n))
       if (distance(now_, n, next) < least_side * distance(start_, n, next))
         return Hold::would_shrink;
-    if (makes_penetrations(evaluate())) return Hold::would_penetrate;
-    return Hold::none;
-  }
-
-  /// True if a penetration is new or deeper.
-  bool makes_penetrations(const Scene& scene) const {
-    const std::map<PairKey, double> now = depths(scene);
-    return std::any_of(now.begin(), now.end(), [&](const auto& pair) {
-      const auto it = baseline_.find(pair.first);
-      return it == baseline_.end() || pair.second > it->second * deeper;
-    });
+    const std::vector<Harm> harm = baseline_.harm(evaluate());
+    if (harm.empty()) return Hold::none;
+    return harm.front().tie ? Hold::would_untie : Hold::would_penetrate;
   }
 
   Result<PenetrationFix> finish(const Scene& before) {
@@ -212,8 +196,8 @@ class Untangler : MovableDeck {
     auto again = read_again(context_, fix_.rewrite, options_);
     if (!again) return again.error();
     const Scene after = fix_scene((*again)->model, (*again)->interfaces, options_, false);
-    if (makes_penetrations(after))
-      return Error{Error::Code::internal, "the deck read again differs from the moved model"};
+    if (const auto why = harm_text(model_, after, baseline_.harm(after)))
+      return Error{Error::Code::internal, "the deck read again differs: " + *why};
     const std::vector<Crossing> left = wanted(after);
     fix_.crossings_after = left.size();
     set_interfaces(fix_, context_.interfaces, options_, before, after);
@@ -257,7 +241,8 @@ class Untangler : MovableDeck {
         why = it->second;
       if (why != Hold::none)
         return std::string("the edge passes through a segment; no single node may undo that: ") +
-               to_string(why) + (why == Hold::not_writable ? ": " + cells_.obstacle(n) : "");
+               (why == Hold::share ? stopped_by_share(options_) : to_string(why)) +
+               (why == Hold::not_writable ? ": " + cells_.obstacle(n) : "");
     }
     return "the edge passes through a segment; no move of a single node undoes that: separate the "
            "parts first";
@@ -268,7 +253,7 @@ class Untangler : MovableDeck {
   std::vector<std::uint32_t> moved_in_part_;
   std::set<NodeIndex> moved_;
   std::map<NodeIndex, Hold> refused_;  ///< why a move of it was not made, the last time
-  std::map<PairKey, double> baseline_;
+  Baseline baseline_;
   std::map<std::pair<NodeIndex, int>, std::string> texts_;
   PenetrationFix fix_;
 };

@@ -56,24 +56,33 @@ void write_step(JsonWriter& j, const PenetrationFix& step) {
   std::vector<std::int64_t> nodes;
   for (const MovedNode& m : step.moved) nodes.push_back(m.id);
   write_ids(j, "moved", nodes);
-  j.field("not_treated", step.refused.size()).end_object();
+  j.field("not_treated", step.refused.size());
+  const FixScore score = score_of(step);
+  j.key("score").begin_object(true).field("solved", score.solved).field("left", score.left);
+  j.field("not_treated", score.not_treated).end_object().end_object();
 }
 
 }  // namespace
 
-std::string fix_json(std::string_view path, const Deck& deck, const PenetrationFix& fix,
-                     std::string_view written, const std::vector<PenetrationFix>& steps) {
+std::string fix_json(std::string_view path, const Deck& deck, const Coverage& coverage,
+                     const PenetrationFix& fix, std::string_view written,
+                     const std::vector<PenetrationFix>& steps) {
   std::string out;
   JsonWriter j(out);
   j.begin_object();
   write_json_head(j, "deck/fix", 1);
   write_json_deck(j, path, deck, nullptr, nullptr);
-  j.field("strategy", fix.strategy).field("written", written).field("complete", fix.complete);
+  write_json_coverage(j, coverage);
+  j.key("strategy");
+  fix.strategy.empty() ? j.null() : j.value(fix.strategy);
+  j.field("written", written).field("complete", fix.complete);
   j.field("iterations", fix.iterations);
+  j.key("tied").begin_object(true).field("pairs", fix.tied_pairs);
+  j.field("nodes", fix.tied_nodes).end_object();
   write_crossings(j, fix);
   write_interfaces(j, fix);
-  if (steps.size() > 1) {
-    j.key("steps").begin_array();
+  if (steps.size() > 1 || fix.strategy.empty()) {
+    j.key(fix.strategy.empty() ? "proposals" : "steps").begin_array();
     for (const PenetrationFix& step : steps) write_step(j, step);
     j.end_array();
   }

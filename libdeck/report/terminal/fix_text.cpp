@@ -115,8 +115,9 @@ std::string moved_text(const PenetrationFix& fix, const FixTextOptions& options)
   return text;
 }
 
-std::string refused_text(const PenetrationFix& fix, const FixTextOptions& options) {
-  if (fix.refused.empty()) return {};
+/// Lines of what was not treated, each behind `lead`.
+std::string refused_lines(const PenetrationFix& fix, const FixTextOptions& options,
+                          const std::string& lead) {
   struct Group {
     std::int64_t interface_id;
     std::string reason;
@@ -138,14 +139,14 @@ std::string refused_text(const PenetrationFix& fix, const FixTextOptions& option
     ++g->count;
     if (g->examples.size() < 5) g->examples.push_back(names(r.nodes));
   }
-  std::string text = "\nnot treated:\n";
+  std::string text;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (i == options.rows) {
       text += fmt::format("  ... and {} more groups (--json lists all)\n", groups.size() - i);
       break;
     }
     const Group& g = groups[i];
-    text += fmt::format("  interface {}", g.interface_id);
+    text += fmt::format("  {}interface {}", lead, g.interface_id);
     if (g.count > 0) text += fmt::format(", {}", count(g.count, "node or edge", "nodes or edges"));
     if (g.deepest > 0) text += fmt::format(", up to {:.4g} deep", g.deepest);
     text += ": " + terminal_text(g.reason);
@@ -158,6 +159,17 @@ std::string refused_text(const PenetrationFix& fix, const FixTextOptions& option
     text += "\n";
   }
   return text;
+}
+
+std::string refused_text(const PenetrationFix& fix, const FixTextOptions& options) {
+  return fix.refused.empty() ? "" : "\nnot treated:\n" + refused_lines(fix, options, "");
+}
+
+/// "64 pairs tied (28 nodes)"; nothing without ties.
+std::string tied_text(const PenetrationFix& fix) {
+  if (fix.tied_pairs == 0) return {};
+  return fmt::format("{} tied ({})", count(fix.tied_pairs, "pair", "pairs"),
+                     count(fix.tied_nodes, "node", "nodes"));
 }
 
 std::string actions_text(const PenetrationFix& fix, const FixTextOptions& options) {
@@ -189,6 +201,7 @@ std::string fix_verdict(const PenetrationFix& fix) {
   const FixCount before = total(fix, &FixedInterface::before),
                  after = total(fix, &FixedInterface::after);
   const bool untangles = fix.strategy == "untangle";
+  if (untangles && fix.crossings_before == 0) return "no crossed elements: nothing to do";
   if (fix.interfaces.empty() && !untangles) return "no initial penetrations: nothing to fix";
   std::string text;
   if (untangles) {
@@ -219,9 +232,72 @@ std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options) {
   const Tone tone = fix.complete ? Tone::green : Tone::yellow;
   std::string text = toned(fix_verdict(fix), tone, options.color) + "\n";
   if (!fix.interfaces.empty()) text += "\n" + interface_table(fix, options);
+  if (fix.tied_pairs > 0) text += "\n" + tied_text(fix) + ", as before\n";
   text += moved_text(fix, options);
   text += actions_text(fix, options);
   text += refused_text(fix, options);
+  return text;
+}
+
+namespace {
+
+/// "Gapmin 1.25 -> 0.9" of one interface or of how many, and how many nodes move how far.
+std::string changes_of(const PenetrationFix& fix) {
+  std::size_t interfaces = 0;
+  std::string first;
+  for (const FixedInterface& i : fix.interfaces) {
+    interfaces += !i.changes.empty();
+    if (!first.empty()) continue;
+    for (const FieldChange& c : i.changes)
+      first += fmt::format("{}{} {} -> {}", first.empty() ? "" : ", ", c.field,
+                           c.old_text.empty() ? fmt::format("({:.6g})", c.old_value) : c.old_text,
+                           c.new_text);
+  }
+  if (interfaces > 1) first += fmt::format(", ... of {} interfaces", interfaces);
+  if (!fix.moved.empty()) {
+    double far = 0;
+    for (const MovedNode& m : fix.moved) far = std::max(far, m.distance);
+    first += fmt::format("{} moved by up to {:.4g}", count(fix.moved.size(), "node", "nodes"), far);
+  }
+  return first.empty() ? "-" : first;
+}
+
+}  // namespace
+
+std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
+                               const std::function<std::string(std::string_view)>& command,
+                               const FixTextOptions& options) {
+  const PenetrationFix now = unchanged(proposals);
+  const FixCount found = total(now, &FixedInterface::before);
+  if (now.complete)
+    return "no initial penetrations: nothing to fix" +
+           (now.tied_pairs > 0 ? "; " + tied_text(now) : std::string()) + "\n";
+  std::string text = count(found.pairs, "penetration", "penetrations");
+  if (found.pairs > 0) text += fmt::format(" (deepest {:.4g})", found.deepest);
+  if (now.crossings_before > 0)
+    text += ", " + count(now.crossings_before, "crossed element", "crossed elements");
+  if (now.tied_pairs > 0) text += "; " + tied_text(now) + ", left alone";
+  text = toned(text, Tone::yellow, options.color) + "\n\nwhat each strategy would do:\n";
+  TextTable table(make_table({"strategy", ">solved", ">left", ">not treated", "changes"}));
+  std::string reasons;
+  FixTextOptions few = options;
+  few.rows = std::min<std::size_t>(options.rows, 3);
+  for (const PenetrationFix& fix : proposals) {
+    const FixScore s = score_of(fix);
+    const Tone tone = s.all() > s.solved ? Tone::yellow : Tone::green;
+    table.row({fix.strategy,
+               fmt::format("{}", s.solved),
+               fmt::format("{}", s.left),
+               {fmt::format("{}", s.not_treated), tone},
+               changes_of(fix)});
+    reasons += refused_lines(fix, few, fix.strategy + ", ");
+  }
+  text += table.fitted(options.width, options.color, 2);
+  if (!reasons.empty()) text += "\nnot treated:\n" + reasons;
+  const PenetrationFix* best = best_of(proposals);
+  text += best == nullptr
+              ? "\nno strategy solves any of them\n"
+              : fmt::format("\nto do it:\n  {}\n", terminal_text(command(best->strategy)));
   return text;
 }
 

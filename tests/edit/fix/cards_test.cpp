@@ -63,7 +63,9 @@ TEST(ReduceGap, FindsTheLargestConstantGap) {
       SCOPED_TRACE(card + (" seed " + std::to_string(seed)));
       const Built before(two_plates(seed, 0.4 + 0.1 * seed, card));
       ASSERT_FALSE(oracle_penetrations(before).empty());
-      const PenetrationFix fix = reduced(before);
+      ReduceGapOptions options;
+      options.ties = before.interfaces.ordered[0]->type == 10;
+      const PenetrationFix fix = reduced(before, options);
       EXPECT_TRUE(fix.complete);
       const std::string text = text_after(before, fix);
       const Built after(text);
@@ -77,6 +79,20 @@ TEST(ReduceGap, FindsTheLargestConstantGap) {
           << "a larger gap would have done";
       EXPECT_TRUE(reduced(after).rewrite.edits.empty());
     }
+}
+
+TEST(ReduceGap, LeavesTiesAlone) {
+  const Built before(two_plates(1, 0.6,
+                                "@/INTER/TYPE10/1 grnd_IDs=1 surf_IDm=1 Gap=1.0\n"
+                                "@/INTER/TYPE7/2 grnd_IDs=1 surf_IDm=1 Gapmin=0.9 ITIED=1\n"
+                                "@/INTER/TYPE7/3 grnd_IDs=1 surf_IDm=1 Gapmin=0.8"));
+  const PenetrationFix fix = reduced(before);
+  EXPECT_TRUE(fix.complete);
+  ASSERT_EQ(fix.interfaces.size(), 1u);
+  EXPECT_EQ(fix.interfaces[0].id, 3);
+  EXPECT_GT(fix.tied_pairs, fix.tied_nodes);
+  EXPECT_GT(fix.tied_nodes, 0u);
+  EXPECT_EQ(changed_lines(before, fix).size(), 1u);
 }
 
 TEST(ReduceGap, WritesAGapWhereTheDefaultWasTooLarge) {
@@ -209,8 +225,9 @@ TEST(ReduceGap, KeepsTheUnitsOfTheCard) {
 
 // ---- inacti -----------------------------------------------------------------------------------
 
-PenetrationFix with_inacti(const Built& b, int value) {
+PenetrationFix with_inacti(const Built& b, int value, bool ties = false) {
   InactiOptions o;
+  o.ties = ties;
   o.inacti = value;
   auto fix = set_inacti(context_of(b), o);
   EXPECT_TRUE(fix.ok()) << fix.error().message;
@@ -264,9 +281,10 @@ TEST(SetInacti, ZeroIsWritten1000WhereADefaultWouldAnswerIt) {
 
 TEST(SetInacti, Type10AndType11AreRefusedWhereItHasNoUse) {
   const Built tied(two_plates(1, 0.6, "@/INTER/TYPE10/1 grnd_IDs=1 surf_IDm=1 Gap=1.0"));
-  EXPECT_THAT(with_inacti(tied, 5).refused.at(0).reason, HasSubstr("1162"));
-  EXPECT_THAT(with_inacti(tied, 6).refused.at(0).reason, HasSubstr("whatever the card says"));
-  EXPECT_TRUE(with_inacti(tied, 6).rewrite.edits.empty());
+  EXPECT_THAT(with_inacti(tied, 5, true).refused.at(0).reason, HasSubstr("1162"));
+  EXPECT_THAT(with_inacti(tied, 6, true).refused.at(0).reason, HasSubstr("whatever the card says"));
+  EXPECT_TRUE(with_inacti(tied, 6, true).rewrite.edits.empty());
+  EXPECT_TRUE(with_inacti(tied, 6).refused.empty()) << "what is tied is no penetration";
   const Built edges(two_plates(1, 0.6, "@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Gapmin=1.0"));
   EXPECT_THAT(with_inacti(edges, 3).refused.at(0).reason, HasSubstr("does nothing"));
   EXPECT_TRUE(with_inacti(edges, 6).complete);
@@ -309,8 +327,9 @@ TEST(SetInacti, OtherValuesAreAnError) {
 
 // ---- fpenmax ----------------------------------------------------------------------------------
 
-PenetrationFix with_fpenmax(const Built& b, std::optional<double> ratio = {}) {
+PenetrationFix with_fpenmax(const Built& b, std::optional<double> ratio = {}, bool ties = false) {
   FpenmaxOptions o;
+  o.ties = ties;
   o.ratio = ratio;
   auto fix = set_fpenmax(context_of(b), o);
   EXPECT_TRUE(fix.ok()) << fix.error().message;
@@ -359,7 +378,7 @@ TEST(SetFpenmax, OtherTypesHaveNone) {
                            "@/INTER/TYPE11/1 line_IDs=1 line_IDm=2 Gapmin=1.0",
                            "@/INTER/TYPE19/1 surf_IDs=1 surf_IDm=2 Gapmin=1.0"}) {
     const Built before(two_plates(1, 0.6, card));
-    const PenetrationFix fix = with_fpenmax(before, 0.5);
+    const PenetrationFix fix = with_fpenmax(before, 0.5, true);
     EXPECT_TRUE(fix.rewrite.edits.empty());
     ASSERT_EQ(fix.refused.size(), 1U);
     EXPECT_THAT(fix.refused[0].reason, HasSubstr("has no Fpenmax"));

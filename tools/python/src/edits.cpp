@@ -190,7 +190,8 @@ EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
   edit->before = d;
   take(*edit, *d, fix->rewrite);
   edit->after = read_again(*d, edit->changed);
-  edit->report = fix_json(d->path, d->loaded.deck(), *fix, "no");
+  edit->report = fix_json(d->path, d->loaded.deck(),
+                          coverage_of(d->loaded.deck(), d->loaded.interfaces()), *fix, "no");
   return edit;
 }
 

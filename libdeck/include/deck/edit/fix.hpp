@@ -20,7 +20,10 @@ namespace deck {
 struct FixOptions {
   int threads = 1;
   std::vector<std::int64_t> interfaces;  ///< ids to treat; empty: all
-  ReadOptions read;                      ///< how the deck was read, overlay included
+  /// TYPE10, and TYPE7 with ITIED, tie what lies within their gap: that is no penetration, and
+  /// untreated unless this is set. No other fix may loosen a tie, or make one.
+  bool ties = false;
+  ReadOptions read;  ///< how the deck was read, overlay included
   Limits limits;
   /// Called with what is being done and (done, total); total 0: unknown. May be empty.
   std::function<void(std::string_view step, std::size_t done, std::size_t total)> progress;
@@ -86,6 +89,7 @@ struct PenetrationFix {
   std::vector<FixRefusal> refused;         ///< by interface, deepest first
   std::vector<FixAction> actions;          ///< Inacti, Fpenmax: by interface, deepest first
   std::uint64_t crossings_before = 0, crossings_after = 0;  ///< move-nodes: crossed elements
+  std::uint64_t tied_pairs = 0, tied_nodes = 0;  ///< of untreated ties: the same before and after
   int iterations = 0;
   bool complete = false;  ///< nothing is left of what the strategy treats
 };
@@ -129,6 +133,21 @@ struct FixSequence {
 /// threads count.
 Result<FixSequence> fix_in_order(const EditContext& context, const FixOptions& options,
                                  const std::vector<FixStep>& steps);
+/// What a fix comes to, in pairs: those that it solves, those that it leaves though it changes
+/// something for them, and those that it does not treat (PenetrationFix::refused says why). For
+/// inacti and fpenmax only pairs without treatment by the solver count; for untangle crossed
+/// elements.
+struct FixScore {
+  std::uint64_t solved = 0, left = 0, not_treated = 0;
+  std::uint64_t all() const { return solved + left + not_treated; }
+};
+FixScore score_of(const PenetrationFix& fix);
+/// The one that leaves least, of equals the first; untangle only where no other solves anything.
+/// nullptr: none does.
+const PenetrationFix* best_of(const std::vector<PenetrationFix>& proposals);
+/// A report of a deck in which nothing is changed: what the proposals found before.
+PenetrationFix unchanged(const std::vector<PenetrationFix>& proposals);
+
 /// Several fixes as one report: strategies by commas, before of the first, after, actions and
 /// what is not treated of the last. Its rewrite is empty.
 PenetrationFix combined(const std::vector<PenetrationFix>& fixes);

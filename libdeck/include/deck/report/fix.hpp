@@ -1,10 +1,12 @@
 // Reports of penetration fixes, as text for people and as JSON. Pure functions.
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 
 #include "deck/edit/fix.hpp"
+#include "deck/model/coverage.hpp"
 
 namespace deck {
 
@@ -19,9 +21,18 @@ std::string fix_verdict(const PenetrationFix& fix);
 /// Verdict, interface table, changed fields, moved nodes, what was not treated and why.
 std::string fix_text(const PenetrationFix& fix, const FixTextOptions& options = {});
 
+/// What each strategy would do, as a table, what each leaves and why, and `command` with the
+/// strategy that leaves least, to be copied. Without penetrations and crossed elements one
+/// sentence.
+std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
+                               const std::function<std::string(std::string_view)>& command,
+                               const FixTextOptions& options = {});
+
 /// The document of `deck fix --json`. `written`: "no", "diff", "in-place" or the directory.
-/// `steps`: of several strategies what each did; `fix` is then all of them combined().
-std::string fix_json(std::string_view path, const Deck& deck, const PenetrationFix& fix,
-                     std::string_view written, const std::vector<PenetrationFix>& steps = {});
+/// `steps`: of several strategies what each did; `fix` is then all of them combined(), or, where
+/// none was asked for, unchanged().
+std::string fix_json(std::string_view path, const Deck& deck, const Coverage& coverage,
+                     const PenetrationFix& fix, std::string_view written,
+                     const std::vector<PenetrationFix>& steps = {});
 
 }  // namespace deck

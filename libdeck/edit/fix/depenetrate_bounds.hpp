@@ -1,0 +1,40 @@
+// How far and which way a node may move: out of the penetrations it is in, along their normals, and
+// by no more than the depth that it repairs there. Private to the stage.
+#pragma once
+#include <map>
+#include <vector>
+
+#include "edit/fix/depenetrate_rows.hpp"
+
+namespace deck::detail {
+
+class DepthBounds {
+ public:
+  /// A penetration as it is before anything moves: `normal` leads from main to secondary, its nodes
+  /// may move by `reach`, the secondary ones along it, the main ones against it.
+  void add(const PairKey& key, const PairState& state, const Vec& normal, double reach);
+  /// A node that is in no penetration but follows its neighbours, by `reach` at most.
+  void follow(NodeIndex n, double reach);
+
+  bool contains(NodeIndex n) const { return nodes_.contains(n); }
+  /// The penetrations that a node is in; none of one that follows.
+  const std::vector<PairKey>& pairs_of(NodeIndex n) const { return nodes_.at(n).pairs; }
+  double reach_of(NodeIndex n) const { return nodes_.at(n).reach; }
+  /// The closest to `wanted` that the node may be away from its place: a sum of shares of its
+  /// normals, none negative, and along none of them farther than its reach.
+  struct Place {
+    Vec by;
+    bool at_bound = false;
+  };
+  Place allowed(NodeIndex n, const Vec& wanted) const;
+
+ private:
+  struct Bound {
+    double reach = 0;
+    std::vector<Vec> directions;  ///< unit, all different
+    std::vector<PairKey> pairs;
+  };
+  std::map<NodeIndex, Bound> nodes_;
+};
+
+}  // namespace deck::detail
