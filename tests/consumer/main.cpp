@@ -1,11 +1,54 @@
-// Prints the effective gap and initial-penetration flag of every TYPE7 of a deck: the smallest
-// useful program on libdeck.
+// The smallest useful programs on libdeck: what holds for every interface of a deck, what
+// penetrates at its start, and another Gapmin written to another directory.
+//   consumer DECK [DIRECTORY]
 #include <cstdio>
+#include <string>
 
 #include <deck/deck.hpp>
 
+namespace {
+
+/// Effective values: those that the card does not say.
+void print_defaults(const deck::LoadedDeck& loaded) {
+  for (const deck::InterBase* inter : loaded.interfaces().ordered)
+    deck::for_each_field(*inter, [&](std::string_view name, const auto& field) {
+      if (field.origin == deck::Origin::card || name != "Inacti") return;
+      std::printf("/INTER/TYPE%d/%lld: %s\n", inter->type, static_cast<long long>(inter->id),
+                  std::string(name).c_str());
+    });
+}
+
+void print_gaps(const deck::LoadedDeck& loaded) {
+  const deck::Scene& scene = loaded.scene();
+  for (const deck::Contact& contact : scene.contacts)
+    std::printf("interface %lld: gaps up to %g, %zu penetrations%s\n",
+                static_cast<long long>(contact.inter->id), contact.max_gap,
+                contact.penetrations.size(), contact.evaluated ? "" : " (not evaluated)");
+}
+
+void print_penetrations(const deck::LoadedDeck& loaded) {
+  const deck::Scene& scene = loaded.scene();
+  for (const deck::NamedPenetration& p : deck::make_view(scene).penetrations) {
+    const deck::PenetrationRow& row = scene.contacts[p.contact].penetrations[p.row];
+    std::printf("node %lld: %g of a gap of %g\n", static_cast<long long>(p.secondary[0]), row.depth,
+                row.gap);
+  }
+}
+
+int set_gap(const deck::LoadedDeck& loaded, const char* directory) {
+  deck::Edit edit(loaded);
+  edit.set(loaded.interfaces().find(1), "Gapmin", 0.8);
+  if (const auto saved = edit.save_to(directory); !saved) {
+    std::fprintf(stderr, "%s\n", saved.error().message.c_str());
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  if (argc != 2) return 2;
+  if (argc < 2) return 2;
   const auto loaded = deck::load(argv[1]);
   if (!loaded) {
     std::fprintf(stderr, "%s\n", loaded.error().message.c_str());
@@ -14,5 +57,8 @@ int main(int argc, char** argv) {
   for (const deck::InterType7& inter : loaded->interfaces().type7)
     std::printf("TYPE7 %lld Gapmin %g Inacti %lld\n", static_cast<long long>(inter.id),
                 inter.Gapmin.value, static_cast<long long>(inter.Inacti.value));
-  return 0;
+  print_defaults(*loaded);
+  print_gaps(*loaded);
+  print_penetrations(*loaded);
+  return argc > 2 ? set_gap(*loaded, argv[2]) : 0;
 }

@@ -272,6 +272,61 @@ def test_sample_scripts_run(script, tmp_path):
     assert run.stdout.strip() and any(name.endswith(".svg") for name in os.listdir(tmp_path))
 
 
+def test_values_are_set_and_written(tmp_path):
+    d = libdeck.load(BOX)
+    inter = d.interfaces[1]
+    before = d.gaps()["summary"]["pairs"]
+    inter.set(Gapmin=0.25, **{"%mesh_size": 0.3})
+    assert (inter.Gapmin.value, inter["%mesh_size"].value) == (0.25, 0.3)
+    assert d.interfaces[1].Gapmin.value == 0.25 and d.gaps()["summary"]["pairs"] <= before
+    inter.set(Inacti=6)
+    inter.set(Gapmin=np.float64(0.5), Igap=np.int32(inter.Igap.value))
+    assert b"+++ b/" in d.diff() and inter.Inacti.value == 6
+    written = d.write(tmp_path / "out")
+    again = libdeck.load(written[0]).interfaces[1]
+    assert (again.Gapmin.value, again.Inacti.value, again["%mesh_size"].value) == (0.5, 6, 0.3)
+    with pytest.raises(FileExistsError):
+        d.write(tmp_path / "out")
+    assert d.write(tmp_path / "out", overwrite=True) == written
+    assert libdeck.load(BOX).interfaces[1].Gapmin.value == 0.5
+
+
+def test_blocks_and_nodes_are_set_in_place(tmp_path):
+    path = tmp_path / os.path.basename(BOX)
+    path.write_bytes(open(BOX, "rb").read())
+    d = libdeck.load(path)
+    d.set("/PROP", d.parts[0].prop_id, Thick=1.75)
+    assert b"1.75" in d.diff()
+    node = int(d.nodes.ids[0])
+    x, y, z = d.nodes.coordinates[0].tolist()
+    d.move_node(node, x, y, z + 0.125)
+    assert d.nodes.z[d.nodes.index(node)] == z + 0.125
+    assert d.save(backup_suffix=".orig") == [str(path)]
+    again = libdeck.load(path)
+    assert again.nodes.z[again.nodes.index(node)] == z + 0.125
+    assert b"1.75" in path.read_bytes()
+    assert open(str(path) + ".orig", "rb").read() == open(BOX, "rb").read()
+    with pytest.raises(libdeck.DeckError):
+        d.save()
+
+
+@pytest.mark.parametrize("values, message", [
+    ({"Gapmin": float("nan")}, "not-a-number"), ({"Gapmin": float("inf")}, "infinity"),
+    ({"Gapmin": np.float64("-inf")}, "infinity"), ({"Igap": 2.5}, "whole number"), ({"Gapmin": "wide"}, "expected a number"),
+    ({"Gapmim": 1.0}, "did you mean Gapmin"), ({"Fric": 0.3, "Gapmin": "&none"}, "parameter")])
+def test_what_a_cell_cannot_hold_is_refused_and_nothing_is_set(values, message):
+    d = libdeck.load(BOX)
+    d.interfaces[1].set(Tstop=0.5)
+    patch = d.diff()
+    with pytest.raises(ValueError, match=message):
+        d.interfaces[1].set(**values)
+    assert d.diff() == patch and d.interfaces[1].Tstop.value == 0.5
+    with pytest.raises(KeyError):
+        d.set("/PROP", 987654, Thick=1.0)
+    with pytest.raises(KeyError):
+        d.move_node(987654, 0.0, 0.0, 0.0)
+
+
 def test_the_manual_is_true(tmp_path, monkeypatch):
     import doctest
     import shutil

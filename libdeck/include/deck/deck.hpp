@@ -10,6 +10,8 @@
 
 #include "deck/contact/resolve.hpp"
 #include "deck/contact/scene.hpp"
+#include "deck/contact/view.hpp"
+#include "deck/edit/edit.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
@@ -31,6 +33,9 @@ class LoadedDeck {
   LoadedDeck& operator=(LoadedDeck&&) noexcept;
   ~LoadedDeck();
 
+  const std::string& path() const;  ///< as given
+  const SchemaSet& schemas() const;
+  const LoadOptions& options() const;
   const Deck& deck() const;
   Deck& deck();  ///< for join_findings(); what was made of it refers to it
   const Model& model() const;
@@ -39,6 +44,7 @@ class LoadedDeck {
   const Diagnostics& findings() const;
 
   /// The contacts of the deck: segments, gaps, stiffness, penetrations. Ends before this does.
+  Scene scene() const;
   Scene scene(Diagnostics& findings, const SceneOptions& options = {}) const;
 
  private:

@@ -128,21 +128,44 @@ class Interface:
     """A contact interface. Its fields are attributes: ``i.Gapmin.value``; names that are no Python names are
     items: ``i["%mesh_size"]``."""
 
-    def __init__(self, deck: Any, at: int, row: Sequence[Any]) -> None:
+    def __init__(self, deck: "Deck", at: int, row: Sequence[Any]) -> None:
         self.id: int = row[0]
         self.type: int = row[1]
         self.title: str = _text(row[2])
-        self.span: Optional[Place] = _place(row[3])
         self._deck, self._at = deck, at
-        self._fields: Optional[Dict[str, Value]] = None
+        self._span: Optional[Place] = _place(row[3])
+        self._fields: Dict[str, Value] = {}
+        self._of: Any = None
+
+    def _read(self) -> None:
+        native = self._deck._native
+        if self._of is not native:
+            self._fields = {r[0]: Value(r[0], r[1], r[2], r[3], _place(r[4]), r[5], r[6])
+                            for r in native.fields(self._at)}
+            if self._of is not None:  # lines may have been added
+                self._span = _place(native.interfaces()[self._at][3])
+            self._of = native
+
+    @property
+    def span(self) -> Optional[Place]:
+        """The header of the card."""
+        self._read()
+        return self._span
 
     @property
     def fields(self) -> Dict[str, Value]:
         """All fields by the manual's names, in the manual's order."""
-        if self._fields is None:
-            self._fields = {r[0]: Value(r[0], r[1], r[2], r[3], _place(r[4]), r[5], r[6])
-                            for r in self._deck.fields(self._at)}
+        self._read()
         return self._fields
+
+    def set(self, **values: Union[int, float, str]) -> None:
+        """Sets fields: ``i.set(Gapmin=0.8, Igap=2)``, ``i.set(**{"%mesh_size": 0.3})``. Numbers are in the deck's working
+        units; a text is put into the cell as it is, in the units of the card (``"&gap"``; ``""`` blanks it).
+
+        The deck has the new values at once; the files change with ``Deck.save`` or ``Deck.write``. ValueError with the
+        place and what was expected; then no value of the call is set.
+        """
+        self._deck._change([("set_interface", self._at, name, _cell(name, v)) for name, v in values.items()])
 
     def __getitem__(self, name: str) -> Value:
         return self.fields[name]
@@ -164,8 +187,9 @@ class Interface:
 class Interfaces(_Mapping):
     """Interfaces by id, in deck order. Of several with one id, ``[id]`` is the first; ``list`` has all."""
 
-    def __init__(self, deck: Any) -> None:
-        self.list: List[Interface] = [Interface(deck, k, row) for k, row in enumerate(deck.interfaces())]
+    def __init__(self, deck: "Deck") -> None:
+        rows = deck._native.interfaces()
+        self.list: List[Interface] = [Interface(deck, k, row) for k, row in enumerate(rows)]
         self._by_id: Dict[int, Interface] = {}
         for i in self.list:
             self._by_id.setdefault(i.id, i)
@@ -381,9 +405,67 @@ class Deck:
     """A deck with everything it includes. ``load`` makes one."""
 
     def __init__(self, native: Any) -> None:
-        self._native = native
+        self._original = self._now = native
+        self._changes: Any = None
+        self._steps: List[Any] = []
         self._interfaces: Optional[Interfaces] = None
         self._nodes: Optional[Nodes] = None
+
+    @property
+    def _native(self) -> Any:
+        """The deck with all that was set, read again where that was not done yet."""
+        if self._now is None:
+            self._now = self._changes.deck()
+        return self._now
+
+    def _change(self, steps: List[Any]) -> None:
+        """Takes all steps or none."""
+        changes = self._changes or _native.change(self._original)
+        try:
+            for method, *values in steps:
+                getattr(changes, method)(*values)
+        except Exception:
+            self._changes = _native.change(self._original) if self._steps else None
+            for method, *values in self._steps:
+                getattr(self._changes, method)(*values)
+            raise
+        self._changes, self._steps = changes, self._steps + steps
+        self._now = self._nodes = None
+
+    def set(self, keyword: str, id: int, occurrence: int = 0, **values: Union[int, float, str]) -> None:
+        """Sets fields of any block: ``d.set("/PROP/SHELL", 2, Thick=1.5)``. ``occurrence``: which cell of that name, from
+        0, where a line repeats. KeyError if there is no such block; else as ``Interface.set``."""
+        self._change([("set_block", keyword, int(id), name, _cell(name, v), int(occurrence))
+                      for name, v in values.items()])
+
+    def move_node(self, node_id: int, x: float, y: float, z: float) -> None:
+        """Puts a node elsewhere, in working units. ValueError where its line does not say where it is (/TRANSFORM)."""
+        self.nodes.index(node_id)
+        self._change([("move_node", int(node_id), _cell("x", float(x)), _cell("y", float(y)), _cell("z", float(z)))])
+
+    @property
+    def notes(self) -> List[str]:
+        """Values that were set and lost digits in their cells."""
+        return self._changes.notes() if self._changes else []
+
+    def diff(self) -> bytes:
+        """What was set, as a patch that ``git apply`` takes."""
+        return (self._changes or _native.change(self._original)).diff()
+
+    def write(self, directory: Any, overwrite: bool = False) -> List[str]:
+        """Writes the whole include tree with what was set below a directory, all files or none; returns their paths.
+
+        FileExistsError where a file is there and ``overwrite`` is False; files of the deck itself are never replaced.
+        """
+        return (self._changes or _native.change(self._original)).write(str(directory), overwrite)
+
+    def save(self, backup_suffix: str = "") -> List[str]:
+        """Replaces the files that change, all of them or none; returns their paths. DeckError where a file is not what was
+        read any more, or another deck of its folder includes it. ``backup_suffix``: keeps the old files (".orig").
+
+        To set more afterwards, load the deck again.
+        """
+        return (self._changes or _native.change(self._original)).save(backup_suffix)
 
     @property
     def path(self) -> str:
@@ -418,7 +500,7 @@ class Deck:
     @property
     def interfaces(self) -> Interfaces:
         if self._interfaces is None:
-            self._interfaces = Interfaces(self._native)
+            self._interfaces = Interfaces(self)
         return self._interfaces
 
     @property
@@ -510,6 +592,18 @@ def load(path: Any, *, threads: int = 0, include_paths: Iterable[str] = (), max_
 
     count = threads or len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else threads or os.cpu_count() or 1
     return Deck(_native.load(os.fspath(path), count, [os.fspath(p) for p in include_paths], max_memory))
+
+
+def _cell(name: str, value: Any) -> Union[int, float, str]:
+    """A value that a cell can be set to."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (int, _np.integer)):
+        return int(value)
+    number = float(value)
+    if not _np.isfinite(number):
+        raise ValueError(f"{name}: infinity and not-a-number are no input")
+    return number
 
 
 def _place(value: Optional[Dict[str, Any]]) -> Optional[Place]:

@@ -202,10 +202,10 @@ void enter(EditSet& set, const PyEdit& edit) {
   set.propose(*member, edit.after->loaded.deck(), edit.changed);
 }
 
-std::vector<std::string> write_tree(const PyEdit& edit, const std::string& directory,
-                                    bool overwrite) {
-  EditSet set;
-  enter(set, edit);
+}  // namespace
+
+std::vector<std::string> write_tree(const EditSet& set, const Deck& before,
+                                    const std::string& directory, bool overwrite) {
   const auto plan = set.tree(directory);
   if (!plan) raise_error(plan.error().message);
   const py::object exists = py::module_::import("os.path").attr("lexists");
@@ -216,10 +216,9 @@ std::vector<std::string> write_tree(const PyEdit& edit, const std::string& direc
                       (f.path + " is there; overwrite=True replaces it").c_str());
       throw py::error_already_set();
     }
-    for (std::uint32_t i = 0; i < edit.before->loaded.deck().sources.size(); ++i)
+    for (std::uint32_t i = 0; i < before.sources.size(); ++i)
       if (py::module_::import("os.path").attr("realpath")(f.path).equal(
-              py::module_::import("os.path").attr("realpath")(
-                  edit.before->loaded.deck().sources[i].path())))
+              py::module_::import("os.path").attr("realpath")(before.sources[i].path())))
         raise_error(f.path + " is a file of the deck itself; write to another directory");
     paths.push_back(f.path);
   }
@@ -233,8 +232,6 @@ std::vector<std::string> write_tree(const PyEdit& edit, const std::string& direc
   if (!done) raise_error(done.error().message);
   return paths;
 }
-
-}  // namespace
 
 void bind_edits(py::module_& m) {
   py::class_<PyEdit, EditPointer>(m, "Edit")
@@ -257,7 +254,11 @@ void bind_edits(py::module_& m) {
              if (!patch) raise_error(patch.error().message);
              return py::bytes(*patch);
            })
-      .def("write", &write_tree);
+      .def("write", [](const PyEdit& e, const std::string& directory, bool overwrite) {
+        EditSet set;
+        enter(set, e);
+        return write_tree(set, e.before->loaded.deck(), directory, overwrite);
+      });
   m.def("convert", &convert_deck);
   m.def("fix", &fix_deck);
 }

@@ -33,8 +33,8 @@ struct PyDeck {
   LoadedDeck loaded;
   LoadOptions options;
   std::uint32_t files;  ///< how many sources are the deck's own
-  EngineFiles engine;  ///< the Engine files beside the deck, for lint
-  bool incomplete;  ///< lacks_includes
+  EngineFiles engine;   ///< the Engine files beside the deck, for lint
+  bool incomplete;      ///< lacks_includes
   /// Groups are resolved on demand, by one thread at a time. Locked without the interpreter's lock.
   std::mutex mutex;
 };
@@ -77,7 +77,13 @@ py::array member_view(const std::vector<Row>& rows, T Row::*member, const py::ob
   }
 }
 
+/// Writes the include tree of `before` as the set has it below a directory; FileExistsError where a
+/// file is there and `overwrite` is false, DeckError where it is one of the deck itself.
+std::vector<std::string> write_tree(const EditSet& set, const Deck& before,
+                                    const std::string& directory, bool overwrite);
+
 void bind_results(py::module_& m);
+void bind_changes(py::module_& m);
 void bind_edits(py::module_& m);
 
 /// ValueError where it is not so.

@@ -168,6 +168,12 @@ struct Interfaces {
   std::vector<Friction> frictions;
   /// All interfaces in deck order.
   std::vector<const InterBase*> ordered;
+  /// The first with this id; nullptr: there is none.
+  const InterBase* find(std::int64_t id) const {
+    for (const InterBase* inter : ordered)
+      if (inter->id == id) return inter;
+    return nullptr;
+  }
   const Friction* friction(std::int64_t id) const;
   /// The default block that interfaces of this type take; nullptr if there is none.
   const DefaultInter* defaults_of(int type) const;

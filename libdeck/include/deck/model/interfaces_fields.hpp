@@ -224,4 +224,10 @@ decltype(auto) visit_interface(const InterBase& base, F&& f) {
   throw std::logic_error("visit_interface: not an element of Interfaces");
 }
 
+/// Calls f(name, field) for every field of an interface of whatever type.
+template <class F>
+void for_each_field(const InterBase& base, F&& f) {
+  visit_interface(base, [&](const auto& inter) { inter.for_each(f); });
+}
+
 }  // namespace deck

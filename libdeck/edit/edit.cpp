@@ -1,0 +1,399 @@
+// Collects the changes of an Edit, reads the deck again where one change decides about the next,
+// and writes.
+#include "deck/edit/edit.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "deck/base/paths.hpp"
+#include "deck/deck.hpp"
+#include "deck/edit/edit_set.hpp"
+#include "deck/edit/include_scan.hpp"
+#include "deck/edit/rewrite.hpp"
+#include "deck/edit/write.hpp"
+#include "deck/keyword/decode.hpp"
+#include "deck/text/number.hpp"
+#include "edit/block_edit.hpp"
+#include "edit/fix/depenetrate_cells.hpp"
+#include "text/columns.hpp"
+
+namespace deck {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error config(std::string why) { return {Error::Code::config, std::move(why)}; }
+
+EditContext context_of(const LoadedDeck& loaded) {
+  return {loaded.deck(), loaded.model(), loaded.interfaces(), loaded.schemas()};
+}
+
+std::optional<FileIdentity> identity_of(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileIdentity{status.st_dev, status.st_ino};
+}
+
+/// The decks in a folder, by their names.
+std::vector<std::string> decks_in(const std::string& folder) {
+  std::vector<std::string> out;
+  std::error_code ec;
+  for (fs::directory_iterator it(folder.empty() ? "." : folder, ec), end; !ec && it != end;
+       it.increment(ec)) {
+    const std::string path = it->path().string();
+    if (path.ends_with("_0000.rad") || path.ends_with("_0000.rad.gz")) out.push_back(path);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+}  // namespace
+
+Result<const Block*> find_block(const Deck& deck, std::string_view keyword, std::int64_t id) {
+  const Schema* wanted = SchemaSet::built_in().find(keyword);
+  const Block* found = nullptr;
+  for (const Block& b : deck.blocks) {
+    const bool same =
+        wanted != nullptr && b.schema != nullptr && b.schema->keyword == wanted->keyword;
+    if (!same && !detail::is_below(b.keyword, keyword)) continue;
+    const std::string_view kind = b.schema != nullptr ? std::string_view(b.schema->kind) : "";
+    if (b.id.present ? b.id.value + deck.offset_of(b, kind) != id : id != 0) continue;
+    if (found != nullptr)
+      return config(deck.sources.where(b.header_span) + ": " + std::string(b.header) +
+                    ": there are several; the first is " + std::string(found->header) + " in " +
+                    deck.sources.where(found->header_span));
+    found = &b;
+  }
+  if (found != nullptr) return found;
+  return config(deck.sources[0].path() + ": there is no " + std::string(keyword) +
+                (id != 0 ? " with id " + std::to_string(id) : ""));
+}
+
+class Edit::State {
+ public:
+  explicit State(const LoadedDeck& loaded) : original(&loaded), cells(loaded.deck().sources) {
+    for (std::size_t i = 0; i < loaded.deck().blocks.size(); ++i) place.push_back(i);
+  }
+
+  const LoadedDeck& now() const { return later ? *later : *original; }
+
+  void fail(Error why) {
+    if (!error) error = std::move(why);
+  }
+
+  /// What became of a block of the original; nullptr with an error: it was erased, or is none.
+  const Block* block_of(const Block* block) {
+    const std::vector<Block>& all = original->deck().blocks;
+    const auto index = static_cast<std::size_t>(block - all.data());
+    if (block == nullptr || index >= all.size()) {
+      fail(config(original->path() + ": there is no such block"));
+      return nullptr;
+    }
+    if (place[index] == erased) {
+      fail(detail::block_error(original->deck(), *block, {}, {}, "it was removed before"));
+      return nullptr;
+    }
+    return &now().deck().blocks[place[index]];
+  }
+
+  void set(const Block* block, std::string_view field, const CellValue& value, int occurrence) {
+    if (error || (read_again && !refresh())) return;
+    const Block* here = block_of(block);
+    if (here == nullptr) return;
+    bool absent = false;
+    auto edit = detail::set_value(now().deck(), *here, field, value, occurrence, cells, absent);
+    if (absent && pending()) {
+      // Another change may have made the cell.
+      if (!refresh()) return;
+      here = block_of(block);
+      edit = detail::set_value(now().deck(), *here, field, value, occurrence, cells, absent);
+    }
+    if (!edit) return fail(edit.error());
+    edits.insert(edits.end(), edit->edits.begin(), edit->edits.end());
+    read_again = read_again || edit->read_again;
+    if (!edit->note.empty()) notes.push_back(edit->note);
+    if (absent && !edit->edits.empty()) look_at_new_line(block, field);
+  }
+
+  /// A line that was added must be read as the one that was meant.
+  void look_at_new_line(const Block* block, std::string_view field) {
+    if (!refresh()) return;
+    const Block* here = block_of(block);
+    for (const DecodedCard& card : decode(now().deck(), *here).cards)
+      for (const Cell& cell : card.cells)
+        if (!card.missing() && cell.field->name == field && !cell.blank()) return;
+    fail(detail::block_error(now().deck(), *here, {}, field,
+                             "its line is missing and cannot be added; add it by hand"));
+  }
+
+  void move_node(std::int64_t id, const Point3<double>& to) {
+    if (error || (read_again && !refresh())) return;
+    const Model& model = now().model();
+    const NodeIndex n = model.find_node(id);
+    if (n == no_index)
+      return fail(config(original->path() + ": there is no node " + std::to_string(id)));
+    if (!nodes) {
+      context.emplace(context_of(now()));
+      nodes.emplace(*context);
+    }
+    nodes->look_up({&n, 1});
+    const auto where = [&] {
+      const Span line = nodes->line(n);
+      return (line.valid() ? now().deck().sources.where(line) : original->path()) + ": node " +
+             std::to_string(id);
+    };
+    if (!nodes->obstacle(n).empty())
+      return fail(config(where() + " cannot be moved: " + nodes->obstacle(n)));
+    const double wanted[3] = {to.x, to.y, to.z};
+    const double is[3] = {model.nodes.x[n], model.nodes.y[n], model.nodes.z[n]};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = wanted[axis];
+      if (!std::isfinite(x))
+        return fail(config(where() + ": infinity and not-a-number are no input"));
+      if (x == is[axis] && !moved.contains({n, axis})) continue;
+      const auto printed = nodes->print(n, axis, x);
+      if (!printed) return fail(config(where() + ": " + shortest(x) + " does not fit its cell"));
+      nodes->write(cells, n, axis, printed->text);
+      moved.insert({n, axis});
+      if (printed->value != x && std::nextafter(x, printed->value) != printed->value)
+        notes.push_back(where() + ": " + shortest(x) + " becomes " + shortest(printed->value) +
+                        ": its cell holds no more digits");
+    }
+  }
+
+  void erase(const Block* block) {
+    if (error || (pending() && !refresh())) return;
+    const Block* here = block_of(block);
+    if (here == nullptr) return;
+    auto removed = detail::erase_block(now().deck(), *here);
+    if (!removed) return fail(removed.error());
+    edits = std::move(*removed);
+    std::size_t& gone = place[static_cast<std::size_t>(block - original->deck().blocks.data())];
+    for (std::size_t& other : place)
+      if (other != erased && other > gone) --other;
+    gone = erased;
+    refresh();
+  }
+
+  void insert(std::string_view blocks) {
+    if (error || (pending() && !refresh())) return;
+    if (!blocks.starts_with('/'))
+      return fail(config(original->path() + ": what is inserted has to begin with a keyword, as '" +
+                         "/FUNCT/7'"));
+    edits = detail::insert_blocks(now().deck(), blocks);
+    refresh();
+  }
+
+  bool pending() const { return !cells.empty() || !edits.empty(); }
+
+  /// The deck with all changes so far, read again; false: an error.
+  bool refresh() {
+    read_again = false;
+    if (error) return false;
+    if (!pending()) return true;
+    std::vector<TextEdit> all = cells.finish();
+    all.insert(all.end(), edits.begin(), edits.end());
+    edits.clear();
+    auto texts = apply_edits(now().deck().sources, all);
+    if (!texts) {
+      fail(texts.error());
+      return false;
+    }
+    if (texts->empty()) return true;
+    for (auto& [path, text] : *texts) changed[path] = std::move(text);
+    auto again = load_changed();
+    if (!again) {
+      fail(again.error());
+      return false;
+    }
+    nodes.reset();
+    context.reset();
+    moved.clear();
+    later.emplace(std::move(*again));
+    cells = CellWriter(later->deck().sources);
+    return true;
+  }
+
+  Result<LoadedDeck> load_changed() const {
+    ChangedFiles texts = changed;
+    const SourceSet& sources = original->deck().sources;
+    for (std::uint32_t f = 0; f < sources.size(); ++f)
+      if (sources[f].inode() == 0) texts.try_emplace(sources[f].path(), sources[f].bytes());
+    LoadOptions options = original->options();
+    options.read.overlay = &texts;
+    auto again = load(sources[0].path(), options);
+    if (again && again->deck().sources.size() < sources.size())
+      return Error{Error::Code::io, original->path() +
+                                        ": a file that it includes could be read before, but not "
+                                        "again; nothing was written"};
+    return again;
+  }
+
+  const LoadedDeck* original;
+  std::optional<LoadedDeck> later;
+  ChangedFiles changed;  ///< what `later` was read with
+  static constexpr std::size_t erased = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> place;  ///< of every block of the original in the deck as it is now
+  CellWriter cells;
+  std::vector<TextEdit> edits;
+  bool read_again = false;  ///< the next change depends on those before
+  std::optional<EditContext> context;
+  std::optional<detail::NodeCells> nodes;
+  std::set<std::pair<NodeIndex, int>> moved;
+  std::vector<std::string> notes;
+  std::optional<Error> error;
+};
+
+Edit::Edit(const LoadedDeck& loaded) : state_(std::make_unique<State>(loaded)) {}
+Edit::Edit(Edit&&) noexcept = default;
+Edit& Edit::operator=(Edit&&) noexcept = default;
+Edit::~Edit() = default;
+
+Edit& Edit::set(const InterBase* inter, std::string_view field, const CellValue& value) {
+  if (inter == nullptr || inter->block == nullptr) {
+    state_->fail(config(state_->original->path() + ": there is no such interface (" +
+                        std::string(field) + " was to be set)"));
+    return *this;
+  }
+  return set(inter->block, field, value);
+}
+
+Edit& Edit::set(const Block* block, std::string_view field, const CellValue& value,
+                int occurrence) {
+  const auto has = [&](std::string_view name) {
+    return block != nullptr && block->schema != nullptr &&
+           block->schema->find_field(name) != nullptr;
+  };
+  // The three flags of a card that effective values give as one text.
+  const auto* flags = std::get_if<std::string>(&value);
+  if (field == "IBC" && !has(field) && has("IBCX") && flags != nullptr && flags->size() == 3) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      state_->set(block, std::string("IBC") + "XYZ"[axis], flags -> substr(axis, 1), occurrence);
+    return *this;
+  }
+  const std::string percent = "%" + std::string(field);
+  state_->set(block, !has(field) && has(percent) ? std::string_view(percent) : field, value,
+              occurrence);
+  return *this;
+}
+
+Edit& Edit::set(std::string_view keyword, std::int64_t id, std::string_view field,
+                const CellValue& value, int occurrence) {
+  const auto block = find_block(state_->original->deck(), keyword, id);
+  if (block) return set(*block, field, value, occurrence);
+  state_->fail(block.error());
+  return *this;
+}
+
+Edit& Edit::move_node(std::int64_t id, const Point3<double>& to) {
+  state_->move_node(id, to);
+  return *this;
+}
+
+Edit& Edit::insert(std::string_view blocks) {
+  state_->insert(blocks);
+  return *this;
+}
+
+Edit& Edit::erase(const Block* block) {
+  state_->erase(block);
+  return *this;
+}
+
+Result<void> Edit::status() const {
+  if (state_->error) return *state_->error;
+  return {};
+}
+
+const std::vector<std::string>& Edit::notes() const { return state_->notes; }
+
+Result<LoadedDeck> Edit::read() {
+  if (!state_->refresh()) return *state_->error;
+  return state_->load_changed();
+}
+
+Result<EditSet> Edit::files() {
+  if (!state_->refresh()) return *state_->error;
+  EditSet set;
+  const Deck& deck = state_->original->deck();
+  const auto member = set.add(deck, state_->original->path());
+  if (!member) return member.error();
+  ChangedFiles changed = state_->changed;
+  for (std::uint32_t f = 0; f < deck.sources.size(); ++f) {
+    const auto it = changed.find(deck.sources[f].path());
+    if (it != changed.end() && it->second == deck.sources[f].bytes()) changed.erase(it);
+  }
+  set.propose(*member, state_->now().deck(), changed);
+  return set;
+}
+
+Result<std::string> Edit::diff() {
+  const auto set = files();
+  if (!set) return set.error();
+  return set->diff();
+}
+
+Result<std::vector<std::string>> Edit::save(const SaveOptions& options) {
+  const auto set = files();
+  if (!set) return set.error();
+  const auto plan = set->in_place();
+  if (!plan) return plan.error();
+  std::set<std::string> others(options.others.begin(), options.others.end());
+  std::vector<std::string> paths;
+  for (const OutputFile& f : plan->files) {
+    paths.push_back(f.path);
+    for (std::string& deck : decks_in(std::string(parent_path(f.path))))
+      others.insert(std::move(deck));
+  }
+  const std::set<FileIdentity> touched = set->changed_files();
+  const auto own = identity_of(set->main_path(0));
+  IncludeScan scan(state_->original->options().read.include_paths);
+  for (const std::string& deck : others) {
+    if (identity_of(deck) == own) continue;
+    for (const IncludeScan::File& f : scan.files(deck))
+      if (touched.contains(f.identity))
+        return config(f.path + " would change for " + state_->original->path() + ", and " + deck +
+                      " includes it as well; nothing was written");
+  }
+  WriteOptions write;
+  write.backup_suffix = options.backup_suffix;
+  if (const auto done = write_files_atomic(plan->files, write); !done) return done.error();
+  return paths;
+}
+
+Result<std::vector<std::string>> Edit::save_to(const std::string& directory, bool overwrite) {
+  const auto set = files();
+  if (!set) return set.error();
+  const auto plan = set->tree(directory);
+  if (!plan) return plan.error();
+  std::set<FileIdentity> own;
+  const SourceSet& sources = state_->original->deck().sources;
+  for (std::uint32_t f = 0; f < sources.size(); ++f)
+    if (sources[f].inode() != 0) own.emplace(sources[f].device(), sources[f].inode());
+  std::vector<std::string> paths;
+  for (const OutputFile& f : plan->files) {
+    paths.push_back(f.path);
+    const auto there = identity_of(f.path);
+    if (!there) continue;
+    if (own.contains(*there))
+      return config(f.path +
+                    " is a file of the deck itself; nothing was written. Name another "
+                    "directory, or save in place");
+    if (overwrite || is_unchanged_output(f.path, f.origin)) continue;
+    const auto old = Source::open(f.path, state_->original->options().read.limits);
+    if (!old || (*old)->on_disk() != f.bytes)
+      return config(f.path + " is there already, with other contents; nothing was written");
+  }
+  const WriteOptions write{"", true, true, true, directory};
+  if (const auto done = write_files_atomic(plan->files, write); !done) return done.error();
+  return paths;
+}
+
+}  // namespace deck

@@ -1,0 +1,363 @@
+// Values set by name: in the cell, in free format, on lines that are not there, in include trees.
+#include "deck/edit/edit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "deck/deck.hpp"
+#include "deck/text/gzip.hpp"
+#include "keyword/reading.hpp"
+
+namespace deck {
+namespace {
+
+using testing_support::Folder;
+
+const std::string mesh =
+    "/NODE\n"
+    "         1                 0.0                 0.0                 0.0\n"
+    "         2                10.0                 0.0                 0.0\n"
+    "         3                10.0                10.0                 0.0\n"
+    "         4                 0.0                10.0                 0.0\n"
+    "         5                 5.0                 5.0                 0.5\n"
+    "/PART/1\nplate\n         2         1\n"
+    "/MAT/LAW1/1\nsteel\n             7.85E-6\n               210.0                 0.3\n"
+    "/PROP/SHELL/2\nshell\n\n\n         5                           1.2\n"
+    "/SHELL/1\n         1         1         2         3         4\n"
+    "/GRNOD/NODE/1\nnodes\n         5\n"
+    "/SURF/PART/1\nplate\n         1\n";
+
+/// A TYPE7 whose lines are all there: flags, gap, stiffness, friction, inactive ones.
+const std::string contact =
+    "/INTER/TYPE7/3\ncontact\n"
+    "         1         1         4                   2\n"
+    "                 1.0                10.0\n"
+    "\n"
+    "                 1.0                 0.1                0.50\n"
+    "                   6                 0.0\n"
+    "         0\n";
+
+std::string all(const std::string& body, const std::string& version = "2024") {
+  return testing_support::deck_of(body, version);
+}
+
+class EditTest : public Folder {
+ protected:
+  LoadedDeck open(const std::string& text) {
+    auto loaded = load(file("car_0000.rad", text));
+    EXPECT_TRUE(loaded.ok());
+    return std::move(*loaded);
+  }
+  /// The lines that a patch takes out and puts in, without its head.
+  static std::string changes(Edit& edit) {
+    const auto patch = edit.diff();
+    if (!patch) return "error: " + patch.error().message;
+    std::string out;
+    for (std::size_t at = 0; at < patch->size();) {
+      const std::size_t nl = std::min(patch->find('\n', at), patch->size() - 1);
+      const std::string line = patch->substr(at, nl - at);
+      if ((line.starts_with('-') && !line.starts_with("---")) ||
+          (line.starts_with('+') && !line.starts_with("+++")))
+        out += line + "\n";
+      at = nl + 1;
+    }
+    return out;
+  }
+  static std::string error_of(const Edit& edit) {
+    return edit.status() ? std::string() : edit.status().error().message;
+  }
+  static double thickness(const LoadedDeck& deck) {
+    return decode(deck.deck(), **find_block(deck.deck(), "/PROP", 2)).real("Thick");
+  }
+  std::string content(const std::string& path) const {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+};
+
+TEST_F(EditTest, ANumberGoesIntoItsCellAndMovesNothingElse) {
+  const LoadedDeck deck = open(all(mesh + contact));
+  Edit edit(deck);
+  edit.set(deck.interfaces().find(3), "Gapmin", 0.8);
+  EXPECT_EQ(changes(edit),
+            "-                 1.0                 0.1                0.50\n"
+            "+                 1.0                 0.1                 0.8\n");
+  const auto after = edit.read();
+  ASSERT_TRUE(after.ok());
+  EXPECT_EQ(after->interfaces().type7[0].Gapmin.value, 0.8);
+  EXPECT_EQ(deck.interfaces().type7[0].Gapmin.value, 0.5) << "the deck itself stays";
+}
+
+TEST_F(EditTest, WhatIsThereAlreadyIsNotWritten) {
+  const LoadedDeck deck = open(all(mesh + contact));
+  Edit edit(deck);
+  edit.set(deck.interfaces().find(3), "Gapmin", 0.5).set("/INTER", 3, "Igap", 2);
+  EXPECT_EQ(changes(edit), "");
+  EXPECT_EQ(error_of(edit), "");
+}
+
+TEST_F(EditTest, TheLastValueOfACellCounts) {
+  const LoadedDeck deck = open(all(mesh + contact));
+  Edit edit(deck);
+  const InterBase* inter = deck.interfaces().find(3);
+  edit.set(inter, "Gapmin", 0.8).set(inter, "Gapmin", 0.9).set(inter, "Gapmin", 0.5);
+  EXPECT_EQ(changes(edit), "");
+  edit.set(inter, "Gapmin", 0.25).set(inter, "Fric", 0.2);
+  EXPECT_EQ(changes(edit),
+            "-                 1.0                 0.1                0.50\n"
+            "+                 1.0                 0.2                0.25\n");
+}
+
+TEST_F(EditTest, LinesThatAreTooShortGrow) {
+  const LoadedDeck deck = open(all(mesh + contact));
+  Edit edit(deck);
+  edit.set("/INTER", 3, "Tstop", 0.25).set("/INTER/TYPE7", 3, "%mesh_size", 0.3);
+  const auto after = edit.read();
+  ASSERT_TRUE(after.ok());
+  EXPECT_EQ(after->interfaces().type7[0].Tstop.value, 0.25);
+  EXPECT_EQ(after->interfaces().type7[0].mesh_size.value, 0.3);
+  EXPECT_EQ(after->interfaces().type7[0].Gapmin.value, 0.5);
+}
+
+TEST_F(EditTest, MissingLinesAreAdded) {
+  const std::string cut = contact.substr(0, contact.find("                   6"));
+  for (const char* end : {"\n", "\r\n"}) {
+    std::string text = all(mesh + cut);
+    if (end[0] == '\r')
+      for (std::size_t at = text.find('\n'); at != text.npos; at = text.find('\n', at + 2))
+        text.insert(at, "\r");
+    const LoadedDeck deck = open(text);
+    Edit edit(deck);
+    edit.set("/INTER", 3, "Ifric", 1).set("/INTER", 3, "Inacti", 6).set("/INTER", 3, "C1", 0.125);
+    EXPECT_EQ(error_of(edit), "");
+    const auto after = edit.read();
+    ASSERT_TRUE(after.ok());
+    const InterType7& inter = after->interfaces().type7[0];
+    EXPECT_EQ(inter.Inacti.value, 6);
+    EXPECT_EQ(inter.Ifric.value, 1);
+    EXPECT_EQ(inter.C1.value, 0.125);
+    EXPECT_EQ(inter.Gapmin.value, 0.5);
+    const std::string written(after->deck().sources[0].bytes());
+    EXPECT_EQ(std::count(written.begin(), written.end(), '\r') > 0, end[0] == '\r');
+  }
+}
+
+TEST_F(EditTest, FreeFormatKeepsItsCommasAndGetsThoseItNeeds) {
+  const LoadedDeck deck =
+      open(all(mesh + "/INTER/TYPE7/3\ncontact\n1,1,4,,2\n1.0,10.0\n\n1.0,0.1,0.5\n"
+                      "                   6                 0.0\n         0\n"));
+  Edit edit(deck);
+  edit.set("/INTER", 3, "Gapmin", 0.8).set("/INTER", 3, "Tstop", 0.25);
+  edit.set("/INTER", 3, "Stfac", 2.0);
+  EXPECT_EQ(changes(edit), "-1.0,0.1,0.5\n+2.,0.1,0.8,,0.25\n");
+  edit.set("/INTER", 3, "Fric", std::string(99, '1'));
+  EXPECT_NE(error_of(edit).find(":38:4: /INTER/TYPE7/3 Fric:"), std::string::npos)
+      << error_of(edit);
+}
+
+TEST_F(EditTest, NumbersAreInWorkingUnits) {
+  const std::string meters =
+      "/UNIT/7\nmeters\n                  kg                   m                   s\n";
+  std::string text = contact;
+  text.replace(0, text.find('\n'), "/INTER/TYPE7/3/7");
+  const LoadedDeck deck = open(all(meters + mesh + text));
+  ASSERT_EQ(deck.interfaces().type7[0].Gapmin.value, 500);
+  Edit edit(deck);
+  edit.set("/INTER", 3, "Gapmin", 0.8);
+  EXPECT_EQ(changes(edit),
+            "-                 1.0                 0.1                0.50\n"
+            "+                 1.0                 0.1              0.0008\n");
+  EXPECT_EQ(edit.read()->interfaces().type7[0].Gapmin.value, 0.8);
+  Edit text_edit(deck);
+  text_edit.set("/INTER", 3, "Gapmin", "0.0008");
+  EXPECT_EQ(*text_edit.diff(), *edit.diff());
+}
+
+TEST_F(EditTest, ErrorsNameThePlaceAndWhatWasExpectedAndNothingIsWritten) {
+  const LoadedDeck deck = open(all(mesh + contact));
+  const double inf = std::numeric_limits<double>::infinity();
+  const struct {
+    const char* field;
+    CellValue value;
+    const char* message;
+  } wrong[] = {
+      {"Gapmin", inf, "car_0000.rad:38:41: /INTER/TYPE7/3 Gapmin: infinity and not-a-number"},
+      {"Gapmin", std::nan(""), "infinity and not-a-number"},
+      {"Gapmin", "0,8", "expected a number, not '0,8'"},
+      {"Gapmin", "&gap", "there is no parameter with a number called gap"},
+      {"Gapmin", std::string(21, '1'), "is longer than the 20 columns"},
+      {"Igap", 2.5, "car_0000.rad:35:41: /INTER/TYPE7/3 Igap: expected a whole number"},
+      {"Igap", 3e9, "expected a whole number of 32 bits"},
+      {"IBCX", 2, "expected 0 or 1"},
+      {"gapmim", 1.0, "did you mean Gapmin?"},
+      {"C1", 1.0, "the card has this cell only if Ifric is"},
+  };
+  for (const auto& w : wrong) {
+    Edit edit(deck);
+    edit.set("/INTER", 3, w.field, w.value).set("/INTER", 3, "Fric", 0.3);
+    EXPECT_NE(error_of(edit).find(w.message), std::string::npos) << w.field << error_of(edit);
+    EXPECT_FALSE(edit.diff().ok());
+    EXPECT_FALSE(edit.save().ok());
+    EXPECT_FALSE(edit.save_to((dir_ / "out").string()).ok());
+  }
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "out"));
+  Edit none(deck);
+  none.set(deck.interfaces().find(4), "Gapmin", 1.0);
+  EXPECT_NE(error_of(none).find("no such interface"), std::string::npos);
+  Edit absent(deck);
+  absent.set("/PROP", 9, "Thick", 1.0);
+  EXPECT_NE(error_of(absent).find("there is no /PROP with id 9"), std::string::npos);
+}
+
+TEST_F(EditTest, AnyBlockIsFoundByKeywordAndId) {
+  const LoadedDeck deck = open(all(mesh + contact));
+  Edit edit(deck);
+  edit.set("/PROP/TYPE1", 2, "Thick", 1.5).set("/MAT", 1, "Rho_I", 7.9e-6);
+  EXPECT_EQ(error_of(edit), "");
+  const auto after = edit.read();
+  ASSERT_TRUE(after.ok());
+  EXPECT_EQ(thickness(*after), 1.5);
+  EXPECT_TRUE(find_block(deck.deck(), "/PROP/SHELL", 2).ok());
+  EXPECT_EQ(find_block(deck.deck(), "/INTER/TYPE1", 3).ok(), false);
+}
+
+TEST_F(EditTest, CellsThatAnotherValueBringsAreThere) {
+  const LoadedDeck deck = open(all(mesh + contact));
+  Edit edit(deck);
+  edit.set("/INTER", 3, "Ifric", 2).set("/INTER", 3, "C6", 0.5).set("/INTER", 3, "C1", 0.25);
+  EXPECT_EQ(error_of(edit), "");
+  const auto after = edit.read();
+  ASSERT_TRUE(after.ok());
+  EXPECT_EQ(after->interfaces().type7[0].C6.value, 0.5);
+  EXPECT_EQ(after->interfaces().type7[0].C1.value, 0.25);
+}
+
+TEST_F(EditTest, FlagsOfBoundaryConditionsAreOneText) {
+  const LoadedDeck deck = open(all(mesh + contact));
+  Edit edit(deck);
+  edit.set(deck.interfaces().find(3), "IBC", "101");
+  const auto after = edit.read();
+  ASSERT_TRUE(after.ok());
+  EXPECT_EQ(after->interfaces().type7[0].IBC.value, "101");
+}
+
+TEST_F(EditTest, NodesMoveAlsoAfterOtherChanges) {
+  const LoadedDeck deck = open(all(mesh + contact));
+  Edit edit(deck);
+  edit.set("/INTER", 3, "Ifric", 2).set("/INTER", 3, "C6", 0.5);
+  edit.move_node(5, {5, 5, 0.75}).move_node(1, {0, 0, 0});
+  const auto after = edit.read();
+  ASSERT_TRUE(after.ok()) << error_of(edit);
+  EXPECT_EQ(after->model().nodes.z[4], 0.75);
+  EXPECT_EQ(after->interfaces().type7[0].C6.value, 0.5);
+  EXPECT_NE(changes(edit).find(
+                "+         5                 5.0                 5.0                0.75\n"),
+            std::string::npos);
+  edit.move_node(77, {});
+  EXPECT_NE(error_of(edit).find("there is no node 77"), std::string::npos);
+}
+
+TEST_F(EditTest, DigitsThatACellCannotHoldAreTold) {
+  const LoadedDeck deck = open(all(mesh + contact));
+  Edit edit(deck);
+  edit.set("/INTER", 3, "Gapmin", -1.2345678901234567e-100);
+  EXPECT_EQ(error_of(edit), "");
+  ASSERT_EQ(edit.notes().size(), 1u);
+  EXPECT_NE(edit.notes()[0].find("20 columns hold no more digits"), std::string::npos)
+      << edit.notes()[0];
+  EXPECT_NEAR(edit.read()->interfaces().type7[0].Gapmin.input, -1.2345678901234567e-100, 1e-112);
+}
+
+TEST_F(EditTest, SavesAnIncludeTreeInPlaceAndElsewhere) {
+  const std::string main = file("car_0000.rad", all(mesh + "#include sub/contact.inc\n"));
+  const std::string included = file("sub/contact.inc", contact);
+  const auto deck = load(main);
+  ASSERT_TRUE(deck.ok());
+  Edit edit(*deck);
+  edit.set(deck->interfaces().find(3), "Gapmin", 0.8);
+  const std::string out = (dir_ / "out").string();
+  const auto written = edit.save_to(out);
+  ASSERT_TRUE(written.ok()) << written.error().message;
+  EXPECT_EQ(written->size(), 2u);
+  EXPECT_EQ(content(out + "/car_0000.rad"), content(main));
+  EXPECT_NE(content(out + "/sub/contact.inc"), content(included));
+  EXPECT_EQ(load(out + "/car_0000.rad")->interfaces().type7[0].Gapmin.value, 0.8);
+  EXPECT_TRUE(edit.save_to(out).ok()) << "written before, and nobody changed it";
+  file("out/sub/contact.inc", "mine\n");
+  EXPECT_NE(edit.save_to(out).error().message.find("is there already"), std::string::npos);
+  EXPECT_EQ(content(out + "/sub/contact.inc"), "mine\n");
+  EXPECT_TRUE(edit.save_to(out, true).ok());
+  EXPECT_FALSE(edit.save_to(dir_.string(), true).ok()) << "files of the deck itself";
+
+  SaveOptions options;
+  options.backup_suffix = ".orig";
+  const auto saved = edit.save(options);
+  ASSERT_TRUE(saved.ok()) << saved.error().message;
+  EXPECT_EQ(*saved, std::vector<std::string>{included});
+  EXPECT_EQ(content(included + ".orig"), contact);
+  EXPECT_EQ(load(main)->interfaces().type7[0].Gapmin.value, 0.8);
+  EXPECT_FALSE(edit.save().ok()) << "the files are no longer what was read";
+}
+
+TEST_F(EditTest, AnIncludeThatAnotherDeckHasIsNotChangedForOne) {
+  const std::string main = file("car_0000.rad", all(mesh + "#include contact.inc\n"));
+  const std::string included = file("contact.inc", contact);
+  const std::string other = file("van_0000.rad", all(mesh + "#include contact.inc\n"));
+  const auto deck = load(main);
+  Edit edit(*deck);
+  edit.set("/INTER", 3, "Gapmin", 0.8);
+  const auto saved = edit.save();
+  ASSERT_FALSE(saved.ok());
+  EXPECT_NE(saved.error().message.find(other), std::string::npos) << saved.error().message;
+  EXPECT_EQ(content(included), contact);
+}
+
+TEST_F(EditTest, AFileIncludedTwiceIsRefused) {
+  const std::string main =
+      file("car_0000.rad", all("#include mat.inc\n" + mesh + "#include mat.inc\n" + contact));
+  file("mat.inc", "/PROP/SHELL/8\nshell\n\n\n         5                           1.2\n");
+  const auto deck = load(main);
+  Edit edit(*deck);
+  for (const Block& b : deck->deck().blocks)
+    if (b.header == "/PROP/SHELL/8") {
+      edit.set(&b, "Thick", 2.0);
+      break;
+    }
+  const auto patch = edit.diff();
+  ASSERT_FALSE(patch.ok());
+  EXPECT_NE(patch.error().message.find("included more than once"), std::string::npos);
+}
+
+TEST_F(EditTest, PackedFilesStayPacked) {
+  const std::string main = file("car_0000.rad", all(mesh + "#include contact.inc.gz\n"));
+  const std::string included = file("contact.inc.gz", gzip(contact));
+  const auto deck = load(main);
+  ASSERT_EQ(deck->interfaces().type7.size(), 1u);
+  Edit edit(*deck);
+  edit.set("/INTER", 3, "Gapmin", 0.8);
+  ASSERT_TRUE(edit.save().ok());
+  EXPECT_EQ(content(included).substr(0, 2), "\x1f\x8b");
+  EXPECT_EQ(load(main)->interfaces().type7[0].Gapmin.value, 0.8);
+}
+
+TEST_F(EditTest, BlocksComeAndGo) {
+  const LoadedDeck deck = open(all(mesh + "# the contact\n" + contact + "# the end\n"));
+  Edit edit(deck);
+  edit.insert("/FUNCT/7\nload\n                 0.0                 1.0\n");
+  edit.erase(deck.interfaces().find(3)->block);
+  edit.set("/PROP", 2, "Thick", 1.5);
+  const auto after = edit.read();
+  ASSERT_TRUE(after.ok()) << error_of(edit);
+  EXPECT_EQ(after->interfaces().ordered.size(), 0u);
+  EXPECT_TRUE(find_block(after->deck(), "/FUNCT", 7).ok());
+  EXPECT_NE(after->deck().sources[0].bytes().find("# the contact\n# the end\n/FUNCT/7\n"),
+            std::string_view::npos);
+  EXPECT_EQ(thickness(*after), 1.5);
+  edit.set(deck.interfaces().find(3), "Gapmin", 1.0);
+  EXPECT_NE(error_of(edit).find("was removed before"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace deck

@@ -1,0 +1,76 @@
+// libdeck._native: values of a deck set by name, kept until somebody writes them.
+#include "deck/edit/edit.hpp"
+
+#include <utility>
+
+#include "deck/edit/edit_set.hpp"
+#include "native.hpp"
+
+namespace deck::python {
+namespace {
+
+/// The changes of one deck, which they keep alive.
+struct PyChanges {
+  explicit PyChanges(DeckPointer deck) : before(std::move(deck)), edit(before->loaded) {}
+  DeckPointer before;
+  Edit edit;
+};
+
+void must_have_worked(const Edit& edit) {
+  if (const auto status = edit.status(); !status) throw py::value_error(status.error().message);
+}
+
+/// What an edit gives, or DeckError.
+template <class Make>
+auto value_of(PyChanges& c, const Make& make) {
+  auto made = [&] {
+    const py::gil_scoped_release free;
+    const std::lock_guard one(c.before->mutex);
+    return make(c.edit);
+  }();
+  if (!made) raise_error(made.error().message);
+  return std::move(*made);
+}
+
+}  // namespace
+
+void bind_changes(py::module_& m) {
+  py::class_<PyChanges, std::shared_ptr<PyChanges>>(m, "Changes")
+      .def("set_interface",
+           [](PyChanges& c, std::size_t at, const std::string& field, const CellValue& value) {
+             c.edit.set(c.before->loaded.interfaces().ordered.at(at), field, value);
+             must_have_worked(c.edit);
+           })
+      .def("set_block",
+           [](PyChanges& c, const std::string& keyword, std::int64_t id, const std::string& field,
+              const CellValue& value, int occurrence) {
+             const auto block = find_block(c.before->loaded.deck(), keyword, id);
+             if (!block) throw py::key_error(block.error().message);
+             c.edit.set(*block, field, value, occurrence);
+             must_have_worked(c.edit);
+           })
+      .def("move_node",
+           [](PyChanges& c, std::int64_t id, double x, double y, double z) {
+             c.edit.move_node(id, {x, y, z});
+             must_have_worked(c.edit);
+           })
+      .def("notes", [](const PyChanges& c) { return c.edit.notes(); })
+      .def("deck",
+           [](PyChanges& c) {
+             LoadedDeck now = value_of(c, [](Edit& e) { return e.read(); });
+             return std::make_shared<PyDeck>(c.before->path, std::move(now), c.before->options);
+           })
+      .def("diff",
+           [](PyChanges& c) { return py::bytes(value_of(c, [](Edit& e) { return e.diff(); })); })
+      .def("save",
+           [](PyChanges& c, const std::string& backup_suffix) {
+             return value_of(c, [&](Edit& e) { return e.save({backup_suffix, {}}); });
+           })
+      .def("write", [](PyChanges& c, const std::string& directory, bool overwrite) {
+        const EditSet set = value_of(c, [](Edit& e) { return e.files(); });
+        return write_tree(set, c.before->loaded.deck(), directory, overwrite);
+      });
+  m.def("change", [](DeckPointer deck) { return std::make_shared<PyChanges>(std::move(deck)); });
+}
+
+}  // namespace deck::python
