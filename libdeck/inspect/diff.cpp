@@ -18,6 +18,7 @@
 #include "inspect/element_cells.hpp"
 #include "inspect/match.hpp"
 #include "keyword/decode/implied_one.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck {
 
@@ -561,16 +562,10 @@ class Differ {
               {"edges", edges(side, g->edges)},
               {"parts", parts(side, g->parts)}};
     }
-    constexpr std::pair<std::string_view, ElementKind> families[] = {
-        {"grshel", ElementKind::shell4}, {"grsh3n", ElementKind::shell3},
-        {"grbric", ElementKind::solid8}, {"grquad", ElementKind::quad},
-        {"grtria", ElementKind::tria},   {"grtrus", ElementKind::truss},
-        {"grbeam", ElementKind::beam},   {"grspri", ElementKind::spring}};
-    for (const auto& [name, family] : families)
-      if (name == kind) {
-        const auto* g = s.element_group(kind, item.id);
-        return {{"elements", g == nullptr ? std::vector<Member>() : items(side, family, *g)}};
-      }
+    if (const auto family = detail::family_of_group(kind)) {
+      const auto* g = s.element_group(kind, item.id);
+      return {{"elements", g == nullptr ? std::vector<Member>() : items(side, *family, *g)}};
+    }
     return {};
   }
 

@@ -1,15 +1,11 @@
-// Element kinds of keywords and the families that the model keeps them in. Private to inspection.
+// Keywords and blocks of the families that the model keeps elements in. Private to inspection.
 #pragma once
-#include <optional>
-#include <string_view>
 #include <vector>
 
-#include "deck/model/model.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 
-/// Family of an element keyword's kind ("shell", "tetra10", "solid" ...); nullopt: no element.
-std::optional<ElementKind> family_of_kind(std::string_view kind);
 /// The block at a position of Model::node_blocks or element_blocks; nullptr: none.
 const Block* bulk_block(const std::vector<BulkBlock>& blocks, std::uint32_t block);
 

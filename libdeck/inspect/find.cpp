@@ -14,20 +14,6 @@ namespace deck {
 
 namespace detail {
 
-std::optional<ElementKind> family_of_kind(std::string_view kind) {
-  constexpr std::pair<std::string_view, ElementKind> kinds[] = {
-      {"shell", ElementKind::shell4},   {"sh3n", ElementKind::shell3},
-      {"brick", ElementKind::solid8},   {"solid", ElementKind::solid8},
-      {"tetra4", ElementKind::solid8},  {"penta6", ElementKind::solid8},
-      {"tetra10", ElementKind::solid8}, {"bric20", ElementKind::solid8},
-      {"shel16", ElementKind::solid8},  {"quad", ElementKind::quad},
-      {"tria", ElementKind::tria},      {"truss", ElementKind::truss},
-      {"beam", ElementKind::beam},      {"spring", ElementKind::spring}};
-  for (const auto& [name, family] : kinds)
-    if (name == kind) return family;
-  return std::nullopt;
-}
-
 const Block* bulk_block(const std::vector<BulkBlock>& blocks, std::uint32_t block) {
   return block < blocks.size() ? blocks[block].block : nullptr;
 }

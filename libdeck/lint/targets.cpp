@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "model/shared/families.hpp"
+
 namespace deck::detail {
 
 std::string_view kind_name(std::string_view kind) {
@@ -15,23 +17,10 @@ std::string_view kind_name(std::string_view kind) {
       Name{"frame", "/FRAME"},       Name{"prop", "/PROP"},     Name{"mat", "/MAT"},
       Name{"friction", "/FRICTION"}, Name{"part", "/PART"},     Name{"node", "node"},
       Name{"subset", "/SUBSET"},     Name{"inter", "/INTER"}};
-  if (element_kind(kind)) return kind;
+  if (family_of_kind(kind)) return kind;
   const auto it =
       std::find_if(names.begin(), names.end(), [&](const Name& n) { return n.first == kind; });
   return it == names.end() ? "/SET" : it->second;
-}
-
-std::optional<ElementKind> element_kind(std::string_view kind) {
-  using Name = std::pair<std::string_view, ElementKind>;
-  static constexpr std::array<Name, 8> names = {
-      Name{"shell", ElementKind::shell4}, Name{"sh3n", ElementKind::shell3},
-      Name{"brick", ElementKind::solid8}, Name{"quad", ElementKind::quad},
-      Name{"tria", ElementKind::tria},    Name{"truss", ElementKind::truss},
-      Name{"beam", ElementKind::beam},    Name{"spring", ElementKind::spring}};
-  const auto it =
-      std::find_if(names.begin(), names.end(), [&](const Name& n) { return n.first == kind; });
-  if (it == names.end()) return std::nullopt;
-  return it->second;
 }
 
 bool selection_exists(const LintContext& c, std::string_view kind, std::int64_t id) {
@@ -69,7 +58,7 @@ std::optional<bool> target_exists(const LintContext& c, std::string_view kind, s
     if (c.model == nullptr) return std::nullopt;
     return c.model->find_node(id) != no_index;
   }
-  if (const auto family = element_kind(kind)) {
+  if (const auto family = family_of_kind(kind)) {
     if (c.model == nullptr) return std::nullopt;
     return c.model->family(*family).map.find(id) != no_index;
   }

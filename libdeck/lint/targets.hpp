@@ -14,9 +14,6 @@ namespace deck::detail {
 /// "/GRNOD" for "grnod", "node" for "node": how people name the kind of an entity.
 std::string_view kind_name(std::string_view kind);
 
-/// Family of elements that ids of this kind ("shell", "brick") are of; nothing: no elements.
-std::optional<ElementKind> element_kind(std::string_view kind);
-
 /// A /GRNOD, /SURF or /LINE (`kind` "grnod", "surf", "line"), or a /SET in its place.
 bool selection_exists(const LintContext& c, std::string_view kind, std::int64_t id);
 

@@ -9,20 +9,6 @@
 
 namespace deck::detail {
 
-std::optional<ElementKind> family_of(std::string_view kind) {
-  constexpr std::pair<std::string_view, ElementKind> kinds[] = {
-      {"shell", ElementKind::shell4},  {"sh3n", ElementKind::shell3},
-      {"brick", ElementKind::solid8},  {"tetra4", ElementKind::solid8},
-      {"penta6", ElementKind::solid8}, {"tetra10", ElementKind::solid8},
-      {"bric20", ElementKind::solid8}, {"shel16", ElementKind::solid8},
-      {"quad", ElementKind::quad},     {"tria", ElementKind::tria},
-      {"truss", ElementKind::truss},   {"beam", ElementKind::beam},
-      {"spring", ElementKind::spring}};
-  for (const auto& [name, family] : kinds)
-    if (name == kind) return family;
-  return std::nullopt;
-}
-
 ItemLines::ItemLines(const Deck& deck, const Block& block)
     : deck_(&deck), block_(&block), cursor_(deck.sources, block) {
   for (const CardSchema& card : block.schema->cards)
@@ -193,7 +179,7 @@ void Extraction::everything() {
 /// `selects`: the reference makes a selection of elements, so what it is made of must stay whole.
 void Extraction::reference(std::string_view kind, std::int64_t id, bool selects, bool touch) {
   if (kind == "node") return keep_node(model_.find_node(id), touch && selects);
-  if (const auto family = family_of(kind)) {
+  if (const auto family = family_of_kind(kind)) {
     if (const std::uint32_t e = model_.family(*family).map.find(id); e != no_index)
       keep_element(*family, e, touch);
     return;
@@ -289,14 +275,8 @@ void Extraction::resolved(const Block& b, bool touch) {
       edges(set->edges);
     }
   } else if (const auto* group = selections_.element_group(kind, id)) {
-    constexpr std::pair<std::string_view, ElementKind> families[] = {
-        {"grshel", ElementKind::shell4}, {"grsh3n", ElementKind::shell3},
-        {"grbric", ElementKind::solid8}, {"grquad", ElementKind::quad},
-        {"grtria", ElementKind::tria},   {"grtrus", ElementKind::truss},
-        {"grbeam", ElementKind::beam},   {"grspri", ElementKind::spring}};
-    for (const auto& [name, family] : families)
-      if (name == kind)
-        for (const std::uint32_t e : *group) keep_element(family, e, touch);
+    if (const auto family = family_of_group(kind))
+      for (const std::uint32_t e : *group) keep_element(*family, e, touch);
   }
 }
 
@@ -349,7 +329,7 @@ void Extraction::clause_ids(const Block& b, std::string_view kind, std::string_v
   if (ref == "node") {
     for (NodeIndex n = 0; n < model_.nodes.size(); ++n)
       if (in_range(model_.nodes.id[n])) keep_node(n, touch);
-  } else if (const auto family = family_of(ref)) {
+  } else if (const auto family = family_of_kind(ref)) {
     const Elements& all = model_.family(*family);
     for (std::uint32_t e = 0; e < all.size(); ++e)
       if (in_range(all.id[e])) keep_element(*family, e, touch);
@@ -434,7 +414,7 @@ void Extraction::neighbours() {
 void Extraction::scan_elements() {
   for (const Block& b : deck_.blocks) {
     if (b.schema == nullptr || !b.schema->bulk) continue;
-    const auto family = family_of(b.schema->kind);
+    const auto family = family_of_kind(b.schema->kind);
     if (!family) continue;
     const auto k = static_cast<std::size_t>(*family);
     const Elements& elements = model_.family(*family);
@@ -520,7 +500,7 @@ void Extraction::materials() {
 void Extraction::submodel_frames() {
   std::vector<std::uint8_t> wanted(deck_.submodels.size(), 0);
   const auto bulk_kept = [&](const Block& b) {
-    const auto family = family_of(b.schema->kind);
+    const auto family = family_of_kind(b.schema->kind);
     ItemLines items(deck_, b);
     while (items.next()) {
       const std::uint32_t i =

@@ -85,7 +85,7 @@ class Writer {
   }
 
   void bulk(const Block& b) {
-    const auto family = detail::family_of(b.schema->kind);
+    const auto family = detail::family_of_kind(b.schema->kind);
     bool open = false;
     ItemLines items(deck_, b);
     while (items.next()) {

@@ -12,13 +12,11 @@
 
 #include "deck/edit/extract.hpp"
 #include "deck/model/selection.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 
 inline constexpr std::size_t element_families = 8;
-
-/// Family of an element keyword's kind ("shell", "tetra10", ...); nullopt: no element.
-std::optional<ElementKind> family_of(std::string_view kind);
 
 /// The data lines of the items of a bulk block: one element may take several.
 class ItemLines {

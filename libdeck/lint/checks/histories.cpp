@@ -10,6 +10,7 @@
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 #include "lint/targets.hpp"
+#include "model/shared/families.hpp"
 
 namespace deck::detail {
 namespace {
@@ -138,7 +139,7 @@ class MissingObjects {
   void check_cell(const DecodedBlock& d, const DecodedCard& card, const Cell& cell) {
     const std::string_view kind = cell.field->ref;
     const std::int64_t id = c_.resolved(*d.block, kind, cell.integer);
-    const bool known = (kind == "node" || element_kind(kind)) ? c_.model != nullptr : true;
+    const bool known = (kind == "node" || family_of_kind(kind)) ? c_.model != nullptr : true;
     if (!known || (id != 0 && history_target_exists(c_, kind, id))) return;
     const bool placed = cell.span.valid() && cell.span.length > 0;
     const Span span = placed ? cell.span : card.line.whole();
