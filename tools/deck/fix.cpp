@@ -65,11 +65,16 @@ class FixRun {
          {check_interfaces(loaded, o_.interfaces, "--interface"),
           check_parts(loaded, o_.move.lock, "--lock"), check_parts(loaded, o_.move.move, "--only")})
       if (!known) return fail(known.error());
+    if (loaded.path == "-" && (o_.write.in_place || !o_.write.directory.empty()))
+      return fail({Error::Code::config,
+                   o_.write.in_place ? "standard input cannot be rewritten; use --diff"
+                                     : "a deck from standard input has no name to write it to"});
     const auto member = changes_.add(loaded, loaded.path);
     if (!member) return fail(member.error());
     const Coverage coverage = coverage_of(loaded.deck, loaded.interfaces);
     if (coverage.nothing()) {
       report_nothing(loaded, coverage);
+      if (!o_.strategies.empty()) changes_.propose(*member, loaded.deck, {});
       return exit_findings;
     }
     if (o_.strategies.empty()) return propose(loaded, coverage, errors);
@@ -78,10 +83,6 @@ class FixRun {
     const ChangedFiles& changed = fixed->changed;
     const PenetrationFix whole =
         fixed->fixes.size() == 1 ? fixed->fixes.front() : combined(fixed->fixes);
-    if (loaded.path == "-" && (o_.write.in_place || !o_.write.directory.empty()))
-      return fail({Error::Code::config,
-                   o_.write.in_place ? "standard input cannot be rewritten; use --diff"
-                                     : "a deck from standard input has no name to write it to"});
     changes_.propose(*member, loaded.deck, changed);
     if (!o_.html.empty()) {
       auto page = fix_page(loaded, schemas_, changed, o_.common);

@@ -27,7 +27,6 @@ constexpr int patience = 8;               // iterations without progress
 constexpr double largest_step = 0.45;     // of the gap: two sides cannot pass each other unseen
 constexpr double least_side = 0.5;        // of the length of an element's side before
 constexpr double least_component = 1e-3;  // of a move along an axis, to be printed
-constexpr double noise = 1e-6;            // of the gap: a vector this short has no direction
 constexpr double least_move = 1e-6;       // of the depth: a shorter one repairs nothing
 
 void put(Nodes& nodes, NodeIndex n, Vec p) {
@@ -96,15 +95,8 @@ class Depenetrator : MovableDeck {
       return;
     }
     anything_to_do_ = true;
-    bounds_.add(key_of(scene, at), state, way_out(scene, at, state),
+    bounds_.add(key_of(scene, at), state, way_out(scene, *mesh_, now_, at, state),
                 row.depth + options_.clearance * row.gap);
-  }
-
-  /// The normal of a pair; at distance 0 the side it belongs on.
-  Vec way_out(const Scene& scene, const PairAt& at, const PairState& state) const {
-    return state.distance > noise * state.gap
-               ? state.normal
-               : direction_on_surface(scene, *mesh_, now_, at, state);
   }
 
   /// Nodes that earlier runs moved and that are where those put them.
@@ -231,22 +223,6 @@ class Depenetrator : MovableDeck {
     return moves;
   }
 
-  /// True if the closest point of a pair lies on nodes that `nearest`, the closest pair of the same
-  /// secondary node, has too: that pair is then the stricter one, and its direction the better.
-  static bool follows(const PairState& pair, const PairState& nearest) {
-    const auto end = nearest.nodes.begin() + nearest.count;
-    for (int i = 1; i < pair.count; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      if (pair.weights[k] != 0 && std::find(nearest.nodes.begin() + 1, end, pair.nodes[k]) == end)
-        return false;
-    }
-    return true;
-  }
-
-  struct PairNow {
-    PairAt at;
-    PairState state;
-  };
   /// Every pair that was ever too close, as it is now; by contact and secondary node.
   std::vector<PairNow> active_pairs(const Scene& scene) const {
     std::vector<PairNow> out;
@@ -256,30 +232,11 @@ class Depenetrator : MovableDeck {
   }
 
   std::vector<Wish> make_wishes(const Scene& scene, const std::vector<PairNow>& pairs) const {
-    std::vector<const PairNow*> order;
-    for (std::size_t i = 0; i < pairs.size();) {
-      std::size_t end = i, nearest = i;
-      for (; end < pairs.size() && pairs[end].at.contact == pairs[i].at.contact &&
-             pairs[end].at.secondary == pairs[i].at.secondary;
-           ++end)
-        if (pairs[end].state.distance < pairs[nearest].state.distance) nearest = end;
-      for (std::size_t k = i; k < end; ++k) {
-        const PairState& state = pairs[k].state;
-        const bool node = state.secondary_count == 1;
-        if (node && k != nearest && follows(state, pairs[nearest].state)) continue;
-        if (state.depth() > -state.gap) order.push_back(&pairs[k]);
-      }
-      i = end;
-    }
-    std::stable_sort(order.begin(), order.end(), [](const PairNow* a, const PairNow* b) {
-      return a->state.depth() > b->state.depth();
-    });
     std::vector<Wish> wishes;
-    wishes.reserve(order.size());
-    for (const PairNow* pair : order) {
+    for (const PairNow* pair : strictest(pairs)) {
       Wish w;
       w.state = pair->state;
-      w.normal = way_out(scene, pair->at, w.state);
+      w.normal = way_out(scene, *mesh_, now_, pair->at, w.state);
       const double lack = w.state.depth() + options_.clearance * w.state.gap;
       w.by = lack > 0 ? options_.share * lack : lack;
       w.main_gives_way = !options_.secondary_only;
@@ -397,8 +354,7 @@ class Depenetrator : MovableDeck {
       std::map<NodeIndex, Hold> bad = harmful_shapes(nodes);
       // Lines and lone nodes have no faces that would cross: they must not change sides.
       for (const auto& [pair, was] : pairs)
-        if (was.distance > noise * was.gap &&
-            dot(state_of(scene, now_, pair).normal, was.normal) < 0)
+        if (has_direction(was) && dot(state_of(scene, now_, pair).normal, was.normal) < 0)
           for (int i = 0; i < was.count; ++i)
             bad.emplace(was.nodes[static_cast<std::size_t>(i)], Hold::would_cross);
       bool changed = false;

@@ -10,6 +10,7 @@
 namespace deck::detail {
 namespace {
 
+constexpr double noise = 1e-6;        // of the gap: a vector this short has no direction
 constexpr double least_share = 1e-3;  // of a pair's weights, squared, on nodes that may move
 
 Vec segment_normal(const Coordinates& x, const std::array<NodeIndex, 4>& n) {
@@ -56,30 +57,7 @@ PairState edge_state(const Contact& c, const Coordinates& x, const PairAt& pair)
   return out;
 }
 
-}  // namespace
-
-PairKey key_of(const Scene& scene, const PairAt& at) {
-  const Contact& c = scene.contacts[at.contact];
-  PairKey key;
-  key.contact = at.contact;
-  if (c.kind == ContactKind::node_segment) {
-    key.secondary = {c.secondary[at.secondary].node, 0};
-    key.main = c.main[at.main].nodes;
-    std::sort(key.main.begin(), key.main.end());
-    return key;
-  }
-  key.secondary = c.secondary_edges[at.secondary].nodes;
-  std::sort(key.secondary.begin(), key.secondary.end());
-  const auto& m = c.main_edges[at.main].nodes;
-  key.main = {std::min(m[0], m[1]), std::max(m[0], m[1]), 0, 0};
-  return key;
-}
-
-PairState state_of(const Scene& scene, const Coordinates& x, const PairAt& at) {
-  const Contact& c = scene.contacts[at.contact];
-  return c.kind == ContactKind::node_segment ? segment_state(c, x, at) : edge_state(c, x, at);
-}
-
+/// A direction for a pair at distance 0.
 Vec direction_on_surface(const Scene& scene, const FixMesh& mesh, const Coordinates& x,
                          const PairAt& place, const PairState& state) {
   const Contact& c = scene.contacts[place.contact];
@@ -106,6 +84,71 @@ Vec direction_on_surface(const Scene& scene, const FixMesh& mesh, const Coordina
       reach += norm(off);
     }
   return side < -1e-6 * reach ? -1.0 * n : n;
+}
+
+/// True if the closest point of a pair lies on nodes that `nearest`, the closest pair of the same
+/// secondary node, has too: that pair is then the stricter one, and its direction the better.
+bool follows(const PairState& pair, const PairState& nearest) {
+  const auto end = nearest.nodes.begin() + nearest.count;
+  for (int i = 1; i < pair.count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (pair.weights[k] != 0 && std::find(nearest.nodes.begin() + 1, end, pair.nodes[k]) == end)
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+PairKey key_of(const Scene& scene, const PairAt& at) {
+  const Contact& c = scene.contacts[at.contact];
+  PairKey key;
+  key.contact = at.contact;
+  if (c.kind == ContactKind::node_segment) {
+    key.secondary = {c.secondary[at.secondary].node, 0};
+    key.main = c.main[at.main].nodes;
+    std::sort(key.main.begin(), key.main.end());
+    return key;
+  }
+  key.secondary = c.secondary_edges[at.secondary].nodes;
+  std::sort(key.secondary.begin(), key.secondary.end());
+  const auto& m = c.main_edges[at.main].nodes;
+  key.main = {std::min(m[0], m[1]), std::max(m[0], m[1]), 0, 0};
+  return key;
+}
+
+PairState state_of(const Scene& scene, const Coordinates& x, const PairAt& at) {
+  const Contact& c = scene.contacts[at.contact];
+  return c.kind == ContactKind::node_segment ? segment_state(c, x, at) : edge_state(c, x, at);
+}
+
+bool has_direction(const PairState& state) { return state.distance > noise * state.gap; }
+
+Vec way_out(const Scene& scene, const FixMesh& mesh, const Coordinates& x, const PairAt& at,
+            const PairState& state) {
+  return has_direction(state) ? state.normal : direction_on_surface(scene, mesh, x, at, state);
+}
+
+std::vector<const PairNow*> strictest(const std::vector<PairNow>& pairs) {
+  std::vector<const PairNow*> order;
+  for (std::size_t i = 0; i < pairs.size();) {
+    std::size_t end = i, nearest = i;
+    for (; end < pairs.size() && pairs[end].at.contact == pairs[i].at.contact &&
+           pairs[end].at.secondary == pairs[i].at.secondary;
+         ++end)
+      if (pairs[end].state.distance < pairs[nearest].state.distance) nearest = end;
+    for (std::size_t k = i; k < end; ++k) {
+      const PairState& state = pairs[k].state;
+      const bool node = state.secondary_count == 1;
+      if (node && k != nearest && follows(state, pairs[nearest].state)) continue;
+      if (state.depth() > -state.gap) order.push_back(&pairs[k]);
+    }
+    i = end;
+  }
+  std::stable_sort(order.begin(), order.end(), [](const PairNow* a, const PairNow* b) {
+    return a->state.depth() > b->state.depth();
+  });
+  return order;
 }
 
 std::string why_not_movable(const FixMesh& mesh, const Coordinates& x, const PairState& state) {

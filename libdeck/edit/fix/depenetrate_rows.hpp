@@ -44,10 +44,22 @@ struct PairState {
 /// Evaluates one pair with the solver's own formulas.
 PairState state_of(const Scene& scene, const Coordinates& x, const PairAt& at);
 
-/// A direction for a pair at distance 0: away from a solid, or to the side where the nodes next to
-/// the secondary one are.
-Vec direction_on_surface(const Scene& scene, const FixMesh& mesh, const Coordinates& x,
-                         const PairAt& at, const PairState& state);
+/// False where the vector of a pair is so short that it is rounding.
+bool has_direction(const PairState& state);
+
+/// The way out of a pair: its normal; at distance 0 away from a solid, or to the side where the
+/// nodes next to the secondary one are.
+Vec way_out(const Scene& scene, const FixMesh& mesh, const Coordinates& x, const PairAt& at,
+            const PairState& state);
+
+/// A pair as it is with the nodes where they are now.
+struct PairNow {
+  PairAt at;
+  PairState state;
+};
+/// Of pairs by contact and secondary node those within two gaps, deepest first, without those that
+/// the closest pair of the same secondary node says better.
+std::vector<const PairNow*> strictest(const std::vector<PairNow>& pairs);
 
 /// Why a pair is no task for moving nodes; empty: it is one.
 std::string why_not_movable(const FixMesh& mesh, const Coordinates& x, const PairState& state);

@@ -572,10 +572,13 @@ class Deck:
 
     def fix(self, strategy: str, interfaces: Iterable[int] = (), min_gap: float = 0.5, inacti: int = 6,
             fpenmax: Optional[float] = None, max_moved: float = 0.1, max_displacement: Optional[float] = None,
-            lock: Iterable[int] = ()) -> Edit:
-        """Repairs initial penetrations: ``"reduce-gap"``, ``"inacti"``, ``"fpenmax"`` or ``"move-nodes"``."""
+            lock: Iterable[int] = (), ties: bool = False) -> Edit:
+        """Repairs initial penetrations: ``"reduce-gap"``, ``"inacti"``, ``"fpenmax"`` or ``"move-nodes"``.
+
+        Ties (TYPE10, TYPE7 with ITIED) are left alone unless ``ties`` is set.
+        """
         return Edit(_native.fix(self._native, strategy, [int(i) for i in interfaces], min_gap, inacti, fpenmax,
-                                max_moved, max_displacement, [int(i) for i in lock]))
+                                max_moved, max_displacement, [int(i) for i in lock], ties))
 
     def __repr__(self) -> str:
         return f"<Deck {self.path}: {len(self.nodes)} nodes, {len(self.interfaces.list)} interfaces>"

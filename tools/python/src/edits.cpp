@@ -136,7 +136,7 @@ EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
                      const std::vector<std::int64_t>& interfaces, double min_gap, int inacti,
                      std::optional<double> fpenmax, double max_moved,
                      std::optional<double> max_displacement,
-                     const std::vector<std::int64_t>& lock) {
+                     const std::vector<std::int64_t>& lock, bool ties) {
   must_be_whole(*d);
   const auto share = [](double x) { return x >= 0 && x <= 1; };
   must_be(share(min_gap), "min_gap is a share from 0 to 1");
@@ -147,6 +147,7 @@ EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
   FixOptions base;
   base.threads = d->options.threads;
   base.interfaces = interfaces;
+  base.ties = ties;
   base.read = d->options.read;
   base.limits = d->options.read.limits;
   const EditContext context = context_of(*d);
