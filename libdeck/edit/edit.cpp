@@ -229,7 +229,7 @@ class Edit::State {
     LoadOptions options = original->options();
     options.read.overlay = &texts;
     auto again = load(sources[0].path(), options);
-    if (again && again->deck().sources.size() < sources.size())
+    if (again && again->deck().includes.size() < original->deck().includes.size())
       return Error{Error::Code::io, original->path() +
                                         ": a file that it includes could be read before, but not "
                                         "again; nothing was written"};

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "deck/deck.hpp"
+#include "deck/keyword/engine_file.hpp"
 #include "deck/text/gzip.hpp"
 #include "keyword/reading.hpp"
 
@@ -328,6 +329,16 @@ TEST_F(EditTest, AFileIncludedTwiceIsRefused) {
   const auto patch = edit.diff();
   ASSERT_FALSE(patch.ok());
   EXPECT_NE(patch.error().message.find("included more than once"), std::string::npos);
+}
+
+TEST_F(EditTest, EngineFilesBesideTheDeckAreNoPartOfIt) {
+  LoadedDeck deck = open(all(mesh + contact));
+  file("car_0001.rad", "/RUN/car/1\n1.0\n");
+  ASSERT_EQ(read_engine_files(deck.deck(), {}).files.size(), 1u);
+  Edit edit(deck);
+  edit.set("/INTER", 3, "Ifric", 2).set("/INTER", 3, "C6", 0.5);
+  EXPECT_EQ(error_of(edit), "");
+  EXPECT_EQ(edit.save_to((dir_ / "out").string())->size(), 1u);
 }
 
 TEST_F(EditTest, PackedFilesStayPacked) {
