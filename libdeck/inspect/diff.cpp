@@ -2,6 +2,7 @@
 // Over 600 lines: one step a kind of entity, all on the same translation of ids and list of
 // changes.
 #include "deck/inspect/diff.hpp"
+#include "deck/verdict.hpp"
 
 #include <fmt/format.h>
 
@@ -87,6 +88,11 @@ class Differ {
         item(pairs_.items_a[i], pairs_.items_b[pairs_.block_to_b[i]]);
     nodes();
     elements();
+    const auto stops = [](const DiffSide& side) {
+      return side.verdict != nullptr && side.verdict->level == VerdictLevel::stops;
+    };
+    out_.stops_a = stops(a_);
+    out_.stops_b = stops(b_);
     if (a_.scene != nullptr && b_.scene != nullptr) penetrations();
     hint();
     return std::move(out_);
@@ -196,9 +202,9 @@ class Differ {
         f.has_input = e.has_input;
         if (e.has_input) f.input = value_of(e.input);
         // Nothing, where the mesh decides and was not asked.
-        const bool geometric = e.origin == Origin::geometry;
-        f.effective = geometric && !inter.resolved ? DiffValue() : value_of(e.value);
-        f.why = geometric ? "geometry" : to_string(e.origin);
+        const bool waits = e.origin == Origin::geometry && !inter.resolved;
+        f.effective = waits ? DiffValue() : value_of(e.value);
+        f.why = to_string(e.origin);
         f.span = e.span;
         if (const Field* field = inter.block->schema->find_field(name)) {
           f.ref = field->type == FieldType::id ? field->ref : "";

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "deck/base/count.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/text/number.hpp"
 
@@ -48,12 +49,7 @@ struct Items {
     const auto edges = static_cast<std::size_t>(
         std::count_if(all.begin(), all.end(), [](const auto& s) { return s[1] != 0; }));
     const std::size_t nodes = all.size() - edges;
-    const auto count = [](std::size_t n, const char* one) {
-      return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
-    };
-    if (edges == 0) return count(nodes, "node");
-    if (nodes == 0) return count(edges, "edge");
-    return count(nodes, "node") + " and " + count(edges, "edge");
+    return nodes_and_edges(nodes, edges);
   }
 };
 

@@ -85,9 +85,10 @@ void write_decisions(JsonWriter& j, const Scene& scene) {
   j.end_array().end_object();
 }
 
-std::string decisions_text(const Scene& scene, std::size_t rows, bool color, std::size_t width) {
+std::string decisions_text(const Scene& scene, std::size_t rows, bool always, bool color,
+                           std::size_t width) {
   const DecisionReport& r = scene.decisions;
-  if (r.pairs == 0) return {};
+  if (r.pairs == 0 || (!always && r.contact_differs == 0)) return {};
   std::string out = fmt::format("Decisions ({}): {} pairs", to_string(r.mode), r.pairs);
   if (!counts_differences(r)) return out + " in plain double.\n";
   out += fmt::format(", {} ({}) needed more than double, {} exact arithmetic.", r.fallback,

@@ -12,7 +12,9 @@ namespace deck {
 /// the solver's arithmetic decides otherwise.
 void write_decisions(JsonWriter& j, const Scene& scene);
 
-/// One sentence, and a table of the first `rows` differences if there are any, fitted to `width`.
-std::string decisions_text(const Scene& scene, std::size_t rows, bool color, std::size_t width);
+/// Where the solver's arithmetic decides otherwise about contact, or with `always`: one sentence,
+/// and a table of the first `rows` differences, fitted to `width`. Else "".
+std::string decisions_text(const Scene& scene, std::size_t rows, bool always, bool color,
+                           std::size_t width);
 
 }  // namespace deck

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "deck/base/count.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/report/accuracy.hpp"
 #include "deck/report/text_table.hpp"
@@ -95,11 +96,10 @@ std::string cost_sentence(const CycleInput& input) {
     out +=
         fmt::format("; with everything that these contacts could do it would be {} ns ({:.2g} x)",
                     nanoseconds(s.all_ns), s.all_ns / s.loop_ns);
-  out += fmt::format(
-      ", with flags asked for inside the loop {} ns ({:.2f} x). Measured over {} pair{} of {} "
-      "contact{}",
-      nanoseconds(s.flags_ns), s.flags_ns / s.loop_ns, s.pairs, s.pairs == 1 ? "" : "s", s.contacts,
-      s.contacts == 1 ? "" : "s");
+  out +=
+      fmt::format(", with flags asked for inside the loop {} ns ({:.2f} x). Measured over {} of {}",
+                  nanoseconds(s.flags_ns), s.flags_ns / s.loop_ns, count(s.pairs, "pair", "pairs"),
+                  count(s.contacts, "contact", "contacts"));
   if (s.wider > 0)
     out += fmt::format(", {} of them with pairs up to five gaps apart, as none is nearer", s.wider);
   return out + ".";

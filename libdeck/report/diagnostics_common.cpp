@@ -5,9 +5,41 @@
 #include <filesystem>
 
 #include "deck/base/paths.hpp"
+#include "deck/lint/gate.hpp"
 #include "text/rule_page.hpp"
 
-namespace deck::detail {
+namespace deck {
+namespace {
+
+/// What was found, without what a gate says: its rules are errors or warnings by their pages.
+LintFacts facts_of(const LintResult& r) {
+  LintFacts facts{r.errors, r.warnings, r.infos, false};
+  for (const RuleId rule : gate_rules) {
+    const auto found = r.counts.find(rule);
+    const auto first = std::find_if(r.diagnostics.begin(), r.diagnostics.end(),
+                                    [&](const Diagnostic& d) { return d.rule == rule; });
+    if (found == r.counts.end() || first == r.diagnostics.end()) continue;
+    (first->severity == Severity::error     ? facts.errors
+     : first->severity == Severity::warning ? facts.warnings
+                                            : facts.remarks) -= found->second;
+  }
+  return facts;
+}
+
+}  // namespace
+
+Verdict lint_verdict(const LintedDeck& linted, std::optional<ContactFacts> contacts,
+                     bool contacts_left_out) {
+  VerdictInput in;
+  in.deck = linted.of_interfaces != nullptr ? linted.of_interfaces : linted.deck;
+  in.interfaces = linted.interfaces;
+  in.lint = facts_of(*linted.result);
+  in.lint->contacts_left_out = contacts_left_out;
+  in.contacts = std::move(contacts);
+  return make_verdict(in);
+}
+
+namespace detail {
 
 Place place_of(const LintedDeck& linted, const Span& span) {
   Place out;
@@ -64,4 +96,5 @@ std::string SourceRoot::place(std::string_view file) const {
   return (below ? relative : whole).generic_string();
 }
 
-}  // namespace deck::detail
+}  // namespace detail
+}  // namespace deck

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/length3.hpp"
+#include "deck/base/count.hpp"
 #include "deck/report/json.hpp"
 
 namespace deck {
@@ -153,7 +154,7 @@ std::string diff_verdict(const DeckDiff& diff) {
                              diff.same_penetrations);
   std::vector<std::string> parts;
   const auto say = [&](std::size_t n, const char* one, const char* many) {
-    if (n > 0) parts.push_back(fmt::format("{} {}", n, n == 1 ? one : many));
+    if (n > 0) parts.push_back(deck::count(n, one, many));
   };
   const auto count = [&](auto&& test) {
     return static_cast<std::size_t>(std::count_if(diff.changes.begin(), diff.changes.end(), test));
@@ -178,6 +179,9 @@ std::string diff_verdict(const DeckDiff& diff) {
   say(diff.worse.size(), "deeper", "deeper");
   say(diff.better.size(), "shallower", "shallower");
   say(diff.gone.size(), "penetration gone", "penetrations gone");
+  if (diff.stops_a != diff.stops_b)
+    parts.insert(parts.begin(), diff.stops_b ? "the solver stops at the second deck"
+                                             : "the solver stops at the first deck");
   std::string out = "Different: ";
   for (std::size_t i = 0; i < parts.size(); ++i) out += (i == 0 ? "" : ", ") + parts[i];
   return out + ".";

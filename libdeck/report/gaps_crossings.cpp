@@ -15,10 +15,10 @@ NodeIndex first_node(const Scene& scene, const NamedPenetration& p) {
   return c.kind == ContactKind::node_segment ? c.secondary[s].node : c.secondary_edges[s].nodes[0];
 }
 
-std::vector<NodeIndex> first_nodes(const Scene& scene, const SceneView& view) {
+std::vector<NodeIndex> first_nodes(const Scene& scene, const std::vector<NamedPenetration>& list) {
   std::vector<NodeIndex> out;
-  out.reserve(view.penetrations.size());
-  for (const NamedPenetration& p : view.penetrations) out.push_back(first_node(scene, p));
+  out.reserve(list.size());
+  for (const NamedPenetration& p : list) out.push_back(first_node(scene, p));
   return out;
 }
 

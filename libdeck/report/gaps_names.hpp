@@ -17,10 +17,10 @@ inline void write_nodes(JsonWriter& j, const Model& model, const NodeIndex* node
   j.end_array();
 }
 
-/// The secondary node of a penetration (edge pairs: the first node of the edge), and those of all
-/// of a view.
+/// The secondary node of a penetration (edge pairs: the first node of the edge), and those of a
+/// list of a view.
 NodeIndex first_node(const Scene& scene, const NamedPenetration& penetration);
-std::vector<NodeIndex> first_nodes(const Scene& scene, const SceneView& view);
+std::vector<NodeIndex> first_nodes(const Scene& scene, const std::vector<NamedPenetration>& list);
 
 /// The element that has the edge of a crossing, and the one behind its segment.
 ElementName edge_element(const Model& model, const Crossing& crossing);

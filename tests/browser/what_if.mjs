@@ -7,8 +7,8 @@ function rowsOf(contact) {
   return contact.penetrations.map((p) => ({
     secondary: p.edge ?? [p.node],
     main: p.main_edge ?? (p.segment[2] === p.segment[3] ? p.segment.slice(0, 3) : p.segment),
-    depth: p.depth ?? p.penetration,
-    gap: p.pair_gap ?? p.gap,
+    depth: p.penetration,
+    gap: p.gap,
     distance: p.distance,
     normal: p.normal,
     on_surface: p.on_surface,

@@ -1,5 +1,6 @@
 // What two decks mean differently, and what makes no difference.
 #include "deck/base/columns.hpp"
+#include "deck/verdict.hpp"
 #include "report/inspected.hpp"
 
 #include <nlohmann/json.hpp>
@@ -87,7 +88,7 @@ TEST(DeckDiff, TheMeshIsTheReasonOfADefaultGap) {
   const DeckDiff diff = compared(plates({.card = ""}), thick);
   const Change* c = change_of(diff, "Gapmin");
   ASSERT_NE(c, nullptr) << diff_verdict(diff);
-  EXPECT_EQ(c->why, "geometry");
+  EXPECT_EQ(c->why, "derived");
   EXPECT_EQ(std::get<double>(c->effective_old), 1.0);
   EXPECT_EQ(std::get<double>(c->effective_new), 2.0);
 }
@@ -273,6 +274,19 @@ TEST(DeckDiff, JsonSaysWhetherTheDecksAreEqual) {
   EXPECT_FALSE(other["equal"]);
   EXPECT_EQ(other["penetrations"]["worse"].size(), 4u);
   EXPECT_EQ(other["changes"][0]["kind"], "moved");
+}
+
+TEST(Diff, ADeckThatStopsIsNotEqualToOneThatDoesNot) {
+  const Inspected a(plates()), b(plates());
+  Verdict stops;
+  stops.level = VerdictLevel::stops;
+  const Verdict clean;
+  DiffSide sa = a.side(), sb = b.side();
+  sa.verdict = &clean;
+  sb.verdict = &stops;
+  const DeckDiff diff = diff_decks(sa, sb, MatchBy::id);
+  EXPECT_FALSE(diff.equal());
+  EXPECT_EQ(diff_verdict(diff), "Different: the solver stops at the second deck.");
 }
 
 }  // namespace

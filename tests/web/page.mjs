@@ -22,7 +22,7 @@ const native = (folder, ...args) => {
   return { exitCode: r.status, stdout: r.stdout, stderr: r.stderr };
 };
 const nativeFindings = (folder, deck) => JSON.parse(native(folder, "lint", deck, "--geometry", "--json", "-", "-q").stdout).diagnostics;
-const nativeVerdict = (folder, deck) => JSON.parse(native(folder, "gaps", deck, "--json", "-", "-q").stdout).verdict;
+const nativeVerdict = (folder, deck) => JSON.parse(native(folder, "gaps", deck, "--json", "-", "-q").stdout).verdict.text;
 
 const browser = await launch();
 

@@ -10,6 +10,7 @@
 #include "accuracy_option.hpp"
 #include "common.hpp"
 #include "deck/accuracy/effect_cost.hpp"
+#include "deck/contact/crossings.hpp"
 #include "deck/report/cycle.hpp"
 #include "deck/report/html.hpp"
 #include "deck/text/gzip.hpp"
@@ -228,8 +229,7 @@ int run(const Options& o) {
     cycle::State state;
     CycleInput input;
     Result<void> written;
-    bool found = false;  // at any step
-    const bool fails = o.fail || o.gate.fails_on("warning");
+    bool pushed = false, undecided = false;  // at any step
     {
       Progress progress(!o.common.quiet);
       progress.step("contacts");
@@ -250,7 +250,7 @@ int run(const Options& o) {
       const auto watch = [&](std::size_t step, const cycle::SceneOutcome& now,
                              const Coordinates& x) {
         for (const cycle::ContactOutcome& c : now.contacts)
-          found = found || (fails && c.pairs_with_force > 0) || !c.complete;
+          pushed = pushed || c.pairs_with_force > 0, undecided = undecided || !c.complete;
         if (!series || !written) return;
         CycleInput one = input;
         one.outcome = &now;
@@ -284,7 +284,8 @@ int run(const Options& o) {
       }
     }
     join_findings(loaded);
-    const SceneView view = make_view(scene);
+    const std::vector<Crossing> crossings = find_crossings(scene, options.threads);
+    const SceneView view = make_view(scene, &crossings, options.threads);
     const GateReport report = gate->look(loaded, scene, view, &steps.last);
     input.view = &view;
     input.gate = &report;
@@ -297,9 +298,9 @@ int run(const Options& o) {
       input.processor = processor_name();
     }
     if (!o.html.empty() && written) written = write_html(o, input, view);
-    found = found || stops_before_pairs(loaded, scene);
-    if (o.gate.fails_on("never")) found = false;
-    found = found || !report.passed();
+    const bool fails = (o.fail || o.gate.fails_on("warning")) && pushed;
+    const bool found = verdict_code(cycle_verdict(input), o.gate, o.common) != exit_clean ||
+                       (!o.gate.fails_on("never") && (fails || undecided)) || !report.passed();
     print_findings(loaded, o.common);
     if (json.wanted())
       json.add([&](const TextDrain& drain) { return cycle_json(input, o.all, drain); });
@@ -370,8 +371,8 @@ Action setup(CommandLine& line) {
               "Every interface, the parts of a TYPE19 in rows of their own, and more columns");
   line.flag("--fail-on-force", options->fail,
             "Exit 1 when any contact pushes, at the start or at any step, as --fail-on warning");
-  add_gate_with_config(line, options->gate, "a contact could not be evaluated",
-                       "any contact pushes");
+  add_gate_with_config(line, options->gate, "the solver stops, or a contact could not be evaluated",
+                       "any contact pushes, or as for gaps");
   return [options] { return run(*options); };
 }
 

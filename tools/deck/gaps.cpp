@@ -220,14 +220,9 @@ int run(const Options& o) {
       first = false;
     }
     const bool accepted = baseline.wanted() || (gate->baseline && o.gate.level().empty());
-    bool found = o.fail || o.gate.fails_on("warning") ? view.total.count.pairs > 0
-                                                      : view.total.solver_errors > 0;
-    found = found && !accepted;
-    for (const Contact& c : scene.contacts) found = found || !c.evaluated;
-    found = found || stops_before_pairs(loaded, scene);
-    if (o.gate.fails_on("never")) found = false;
-    found = found || !report.passed();
-    return static_cast<int>(found ? exit_findings : exit_clean);
+    const int decided =
+        verdict_code(verdict_of(loaded.deck, scene, view), o.gate, o.common, o.fail, accepted);
+    return report.passed() ? decided : static_cast<int>(exit_findings);
   });
   return baseline.finish(json.finish(code));
 }
@@ -264,7 +259,8 @@ Action setup(CommandLine& line) {
       .value("ID:FIELD=VALUE,...");
   line.flag("--fail-on-penetration", options->fail,
             "Exit 1 for any initial penetration, as --fail-on warning");
-  add_gate_with_config(line, options->gate, "the solver stops", "any initial penetration");
+  add_gate_with_config(line, options->gate, "the solver stops",
+                       "any initial penetration, crossed element, or node that is not tied");
   line.option("--baseline", options->gate.baseline,
               "Accept the penetrations in FILE, of the decks listed there: only new and worse ones "
               "exit with 1")

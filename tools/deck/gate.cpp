@@ -186,16 +186,14 @@ void join_findings(Loaded& loaded) {
   join_findings(loaded.deck, loaded.model, std::exchange(loaded.diagnostics, Diagnostics()));
 }
 
-bool stops_before_pairs(const Loaded& loaded, const Scene& scene) {
-  const auto& all = loaded.deck.diagnostics.all();
-  if (std::any_of(all.begin(), all.end(),
-                  [](const Diagnostic& d) { return d.severity == Severity::error; }))
-    return true;
-  return std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) {
-    const Obstacle obstacle = obstacle_of(c);
-    return obstacle == Obstacle::no_gap || obstacle == Obstacle::no_area ||
-           obstacle == Obstacle::no_element;
-  });
+int verdict_code(const Verdict& verdict, const GateOptions& options, const CommonOptions& common,
+                 bool on_warning, bool pairs_accepted) {
+  ExitRules rules;
+  rules.on_warning = on_warning || options.fails_on("warning");
+  rules.never = options.fails_on("never");
+  rules.require_examined = common.require_examined;
+  rules.pairs_accepted = pairs_accepted;
+  return exit_code_of(verdict, rules);
 }
 
 }  // namespace deck::cli

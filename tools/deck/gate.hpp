@@ -11,6 +11,7 @@
 #include "deck/lint/config.hpp"
 #include "deck/lint/gate.hpp"
 #include "deck/report/gate.hpp"
+#include "deck/verdict.hpp"
 
 namespace deck::cli {
 
@@ -45,10 +46,9 @@ Result<LintConfig> config_of(const GateOptions& options, const std::string& deck
 
 /// deck::join_findings with what was found since reading.
 void join_findings(Loaded& loaded);
-/// True if the solver stops before it looks for pairs: an error was found in the deck (a side of a
-/// contact without members among them), a main segment has no area, a segment or edge no element,
-/// or a contact no gap.
-bool stops_before_pairs(const Loaded& loaded, const Scene& scene);
+/// 0 or 1: what the verdict and the options say. Gates come on top of it.
+int verdict_code(const Verdict& verdict, const GateOptions& options, const CommonOptions& common,
+                 bool on_warning = false, bool pairs_accepted = false);
 
 /// What holds for one deck: the bounds, and what the deck is compared with.
 struct DeckGate {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "common.hpp"
+#include "deck/base/count.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/lint/fix.hpp"
@@ -55,6 +56,7 @@ struct Job {
   std::string path, error;
   std::unique_ptr<Loaded> loaded;
   LintResult result;
+  std::optional<Verdict> verdict;
   /// Rule and entity of the entries of the baseline, for those that do not occur any more.
   std::map<FindingKey, std::pair<std::string, std::string>> baseline_names;
 };
@@ -72,6 +74,7 @@ std::string render(std::string_view format, const std::vector<LintedDeck>& decks
   human.color = to_terminal && options.common.color_on(1);
   human.ruler = options.ruler;
   human.group = !options.common.verbose;
+  human.remarks_of_every_deck = options.common.verbose;
   human.per_rule = options.per_rule >= 0 ? options.per_rule : options.common.verbose ? 0 : 10;
   human.width = to_terminal ? text_width() : 0;
   return lint_human(decks, human);
@@ -112,7 +115,8 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
 }
 
 LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptions& options,
-                       const Options& command, Geometry geometry, const DeckGate& gate) {
+                       const Options& command, Geometry geometry, const DeckGate& gate,
+                       std::optional<ContactFacts>& contacts) {
   LintInput input{loaded.deck,
                   schemas,
                   &loaded.model,
@@ -127,16 +131,16 @@ LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptio
           context, reporter,
           {command.common.thread_count(), command.common.limits,
            geometry == Geometry::quick ? std::optional(QuickLook{}) : std::nullopt, &gate.gate,
-           gate.earlier ? &*gate.earlier : nullptr});
+           gate.earlier ? &*gate.earlier : nullptr, [&](const Scene& scene, const SceneView& view) {
+             contacts = contact_facts(scene, view);
+           }});
     });
   return run_lint(input, options);
 }
 
-bool at_or_above(const LintResult& r, std::string_view fail_on) {
-  for (const RuleId rule : gate_rules)
-    if (r.counts.contains(rule)) return true;
-  if (fail_on == "never") return false;
-  return r.errors > 0 || (fail_on == "warning" && r.warnings > 0);
+bool passes_a_gate(const LintResult& r) {
+  return std::any_of(std::begin(gate_rules), std::end(gate_rules),
+                     [&](RuleId rule) { return r.counts.contains(rule); });
 }
 
 class Run {
@@ -230,12 +234,19 @@ class Run {
       code = loaded.error().code == Error::Code::config ? exit_usage : exit_input;
     } else {
       job->loaded = std::move(*loaded);
-      job->result = lint_loaded(*job->loaded, schemas_, *lint, options_, geometry, *gate);
+      std::optional<ContactFacts> contacts;
+      job->result = lint_loaded(*job->loaded, schemas_, *lint, options_, geometry, *gate, contacts);
+      const bool left_out =
+          geometry != Geometry::none && !contacts && !job->loaded->interfaces.ordered.empty();
+      job->verdict = lint_verdict(linted(*job), std::move(contacts), left_out);
       const std::string given = options_.gate.level();
       const std::string fail_on = !given.empty()             ? given
                                   : !config->fail_on.empty() ? config->fail_on
                                                              : "error";
-      if (at_or_above(job->result, fail_on)) code = exit_findings;
+      if (exit_code_of(*job->verdict,
+                       {fail_on == "warning", fail_on == "never", common_.require_examined}) != 0 ||
+          passes_a_gate(job->result))
+        code = exit_findings;
       code = std::max(code, examined_code(*job->loaded, common_));
       if (job->loaded->incomplete()) code = exit_input;
     }
@@ -303,9 +314,8 @@ class Run {
         if (!jobs_[d]->loaded) continue;
         const FixResult& fixed = results[r++];
         if (!common_.quiet && !fixed.files.empty())
-          print_messages(fmt::format("{}: {} fixed in {} file{}\n", terminal_text(jobs_[d]->path),
-                                     fixed.applied, fixed.files.size(),
-                                     fixed.files.size() == 1 ? "" : "s"));
+          print_messages(fmt::format("{}: {} fixed in {}\n", terminal_text(jobs_[d]->path),
+                                     fixed.applied, count(fixed.files.size(), "file", "files")));
       }
       relint_ = true;
     }
@@ -328,23 +338,29 @@ class Run {
                       "with --write-baseline\n",
                       terminal_text(job->path), job->result.stale.size()));
       std::size_t shown = 0;
-      for (const auto& [key, count] : job->result.stale) {
+      for (const auto& [key, n] : job->result.stale) {
         if (shown++ == most) break;
         const auto& [rule, entity] = job->baseline_names.at(key);
-        print_messages(fmt::format("  {} {}{}{}: {} time{}\n", terminal_text(key.first),
+        print_messages(fmt::format("  {} {}{}{}: {}\n", terminal_text(key.first),
                                    terminal_text(rule), entity.empty() ? "" : " ",
-                                   terminal_text(entity), count, count == 1 ? "" : "s"));
+                                   terminal_text(entity), deck::count(n, "time", "times")));
       }
     }
   }
 
   std::vector<LintedDeck> linted() const {
     std::vector<LintedDeck> out;
-    for (const auto& job : jobs_)
-      out.push_back({job->path, job->loaded ? &job->loaded->deck : nullptr,
-                     job->loaded ? &job->result : nullptr, job->error,
-                     job->loaded ? &job->loaded->interfaces : nullptr});
+    for (const auto& job : jobs_) out.push_back(linted(*job));
     return out;
+  }
+  static LintedDeck linted(const Job& job) {
+    return {job.path,
+            job.loaded ? &job.loaded->deck : nullptr,
+            job.loaded ? &job.result : nullptr,
+            job.error,
+            job.loaded ? &job.loaded->interfaces : nullptr,
+            nullptr,
+            job.verdict};
   }
 
   int write() {

@@ -144,17 +144,17 @@ std::uint64_t distinct_nodes(std::vector<NodeIndex>& nodes) {
 class Tally {
  public:
   void add(const Contact& contact, const PenetrationRow& row) {
+    if (row.on_surface && on_surface_error(contact) != 0) stopped_.add(contact, row);
+    if (contact.ties()) return tied_.add(contact, row);
     all_.add(contact, row);
-    if (row.on_surface) {
-      on_segment_.add(contact, row);
-      if (on_surface_error(contact) != 0) stopped_.add(contact, row);
-    }
+    if (row.on_surface) on_segment_.add(contact, row);
     totals_.acted += row.action != PenetrationAction::none;
     totals_.max_depth = std::max(totals_.max_depth, row.depth);
     totals_.max_ratio = std::max(totals_.max_ratio, ratio(row));
   }
   ContactTotals totals() {
     totals_.count = all_.counts();
+    totals_.tied = tied_.counts();
     totals_.on_segment = on_segment_.counts();
     totals_.solver_errors = stopped_.counts().nodes;
     return totals_;
@@ -178,7 +178,7 @@ class Tally {
     }
     ItemCounts counts() { return {pairs, distinct_nodes(nodes), distinct(edges)}; }
   };
-  Items all_, on_segment_, stopped_;
+  Items all_, tied_, on_segment_, stopped_;
   ContactTotals totals_;
 };
 
@@ -243,25 +243,42 @@ PartPair part_pair(const Scene& scene, const SceneView& view, std::int64_t secon
   return pair;
 }
 
+/// A row of the scene.
+struct RowPlace {
+  double depth = 0;
+  std::uint32_t contact = 0, row = 0;
+};
+
+/// All rows: penetrations first, ties behind them; each deepest first, then by contact and row.
+std::vector<RowPlace> rows_by_depth(const Scene& scene, std::size_t& penetrations) {
+  std::vector<RowPlace> places;
+  const auto add = [&](bool ties) {
+    const std::size_t begin = places.size();
+    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
+      if (scene.contacts[c].ties() != ties) continue;
+      for (std::uint32_t r = 0; r < scene.contacts[c].penetrations.size(); ++r)
+        places.push_back({scene.contacts[c].penetrations[r].depth, c, r});
+    }
+    std::stable_sort(places.begin() + static_cast<std::ptrdiff_t>(begin), places.end(),
+                     [](const RowPlace& a, const RowPlace& b) { return a.depth > b.depth; });
+  };
+  add(false);
+  penetrations = places.size();
+  add(true);
+  return places;
+}
+
 }  // namespace
 
 SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, int threads) {
   threads = effective_threads(threads);
   SceneView view;
-  struct Place {
-    double depth = 0;
-    std::uint32_t contact = 0, row = 0;
-  };
-  std::vector<Place> places;  // deepest first, then by contact and row
-  const auto order_places = [&] {
-    for (std::uint32_t c = 0; c < scene.contacts.size(); ++c)
-      for (std::uint32_t r = 0; r < scene.contacts[c].penetrations.size(); ++r)
-        places.push_back({scene.contacts[c].penetrations[r].depth, c, r});
-    std::stable_sort(places.begin(), places.end(),
-                     [](const Place& a, const Place& b) { return a.depth > b.depth; });
-  };
+  std::vector<RowPlace> places;
+  std::size_t penetrations = 0;  // of the places: ties stand behind them
+  const auto order_places = [&] { places = rows_by_depth(scene, penetrations); };
   const auto count = [&] {
     Tally all;
+    std::uint64_t untied = 0;
     for (const Contact& contact : scene.contacts) {
       Tally tally;
       for (const PenetrationRow& row : contact.penetrations) {
@@ -269,8 +286,13 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
         all.add(contact, row);
       }
       view.contacts.push_back(tally.totals());
+      ContactTotals& own = view.contacts.back();
+      if (contact.type == 10 && contact.ties() && contact.evaluated)
+        own.untied = contact.secondary.size() - own.tied.nodes;
+      untied += own.untied;
     }
     view.total = all.totals();
+    view.total.untied = untied;
   };
   parallel_items(threads, 2, [&](std::size_t i) { i == 0 ? order_places() : count(); });
   if (crossings != nullptr) {
@@ -293,12 +315,14 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
   const int namers = places.size() < many ? 1 : threads;
   if (namers > 1)
     for (const ElementKind kind : families_in_view) connectivity.prepare_first(kind, namers);
-  make_room(view.penetrations, places.size(), threads);
-  view.penetrations.resize(places.size());
+  make_room(view.penetrations, penetrations, threads);
+  view.penetrations.resize(penetrations);
+  view.ties.resize(places.size() - penetrations);
   parallel_parts(namers, in_order.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const Place& place = places[in_order[k]];
-      view.penetrations[in_order[k]] = named(scene, connectivity, place.contact, place.row);
+      const std::uint32_t at = in_order[k];
+      (at < penetrations ? view.penetrations[at] : view.ties[at - penetrations]) =
+          named(scene, connectivity, places[at].contact, places[at].row);
     }
   });
   const auto find_deepest = [&] {
@@ -306,8 +330,8 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
     for (const Contact& c : scene.contacts)
       seen.emplace_back(
           c.penetrations.empty() ? 0 : std::max(c.secondary.size(), c.secondary_edges.size()), 0);
-    for (std::uint32_t i = 0; i < places.size(); ++i) {
-      const Place& p = places[i];
+    for (std::uint32_t i = 0; i < penetrations; ++i) {
+      const RowPlace& p = places[i];
       std::uint8_t& known =
           seen[p.contact][scene.contacts[p.contact].penetrations[p.row].secondary];
       if (known == 0) view.deepest_per_node.push_back(i);
@@ -317,7 +341,7 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, 
   const auto pair_parts = [&] {
     std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> pairs;
     auto last = pairs.end();  // rows of a pair of parts mostly follow each other
-    for (std::uint32_t i = 0; i < places.size(); ++i) {
+    for (std::uint32_t i = 0; i < penetrations; ++i) {
       const NamedPenetration& p = view.penetrations[i];
       const std::pair parts(p.secondary_element.part, p.main_element.part);
       if (last == pairs.end() || last->first != parts) last = pairs.try_emplace(parts).first;

@@ -466,7 +466,10 @@ void write_contacts(JsonWriter& j, const HtmlInput& input, const PageContacts& p
     j.field("interface", static_cast<std::int64_t>(std::find(order.begin(), order.end(), c.inter) -
                                                    order.begin()));
     j.field("kind", to_string(c.kind)).field("role", to_string(c.role)).field("type", c.type);
-    j.field("dropped", c.dropped).field("igap", c.igap).field("inacti", c.inacti);
+    j.field("ties", c.ties())
+        .field("dropped", c.dropped)
+        .field("igap", c.igap)
+        .field("inacti", c.inacti);
     j.field("istf", c.istf).field("irem_gap", c.irem_gap).field("itied", c.itied);
     j.field("fpenmax", c.fpenmax).field("gap_scale", c.gap_scale);
     j.field("gapmin", c.gapmin).field("gapmin_from", to_string(c.gapmin_origin));

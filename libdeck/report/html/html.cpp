@@ -7,6 +7,7 @@
 
 #include "deck/base/escape.hpp"
 #include "deck/report/gaps.hpp"
+#include "deck/report/verdict.hpp"
 #include "report/cycle_costs.hpp"
 #include "report/gaps_names.hpp"
 #include "report/html/parts.hpp"
@@ -41,6 +42,12 @@ std::int64_t free_group_id(const Deck& deck) {
   return highest + 1;
 }
 
+/// What is said of the deck: with its forces where the page is about them.
+Verdict verdict_in(const HtmlInput& in) {
+  return in.effects != nullptr ? cycle_verdict(*in.effects)
+                               : verdict_of(*in.deck, *in.scene, *in.view);
+}
+
 std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
                       const std::vector<detail::Touch>& touches) {
   const Model& model = *in.scene->model;
@@ -50,7 +57,7 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   write_json_head(j, "deck/gaps-html", 1);
   j.field("page", in.effects != nullptr ? "cycle" : "gaps");
   write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
-  j.field("verdict", gaps_verdict(*in.deck, *in.scene, *in.view));
+  write_verdict(j, verdict_in(in));
   j.key("summary").begin_object(true);
   write_totals(j, in.view->total);
   j.end_object();
@@ -103,11 +110,14 @@ std::string earlier_json(const HtmlInput& in) {
 /// What a reader without scripts gets: the verdict and a table of the contacts.
 std::string static_body(const HtmlInput& in) {
   std::string out = "<main id=\"static\"><h1>" + html_text(file_name(in.path)) + "</h1>\n";
-  if (in.effects != nullptr)
-    out += "<p>" + html_text(cycle_verdict(*in.effects)) + "</p>\n" + cost_html(*in.effects);
-  out += "<p>" + html_text(gaps_verdict(*in.deck, *in.scene, *in.view)) +
-         "</p>\n<table><thead><tr><th>Interface</th><th>Title</th><th>Part of it</th>"
-         "<th>Gapmin</th><th>Penetrations</th><th>Deepest</th></tr></thead><tbody>\n";
+  const Verdict verdict = verdict_in(in);
+  out += "<p data-level=\"";
+  out += to_string(verdict.level);
+  out += "\">" + html_text(verdict.text) + "</p>\n";
+  if (in.effects != nullptr) out += cost_html(*in.effects);
+  out +=
+      "<table><thead><tr><th>Interface</th><th>Title</th><th>Part of it</th>"
+      "<th>Gapmin</th><th>Penetrations</th><th>Deepest</th></tr></thead><tbody>\n";
   for (std::size_t i = 0; i < in.scene->contacts.size(); ++i) {
     const Contact& c = in.scene->contacts[i];
     const ContactTotals& t = in.view->contacts[i];

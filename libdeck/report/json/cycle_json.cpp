@@ -2,6 +2,7 @@
 #include "deck/report/cycle.hpp"
 #include "deck/report/gate.hpp"
 #include "deck/report/json.hpp"
+#include "deck/report/verdict.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/cycle_costs.hpp"
 #include "report/gaps_names.hpp"
@@ -269,7 +270,7 @@ std::string cycle_json(const CycleInput& input, bool all, const TextDrain& drain
   j.begin_object();
   write_json_head(j, "deck/cycle", 1);
   write_json_deck(j, input.path, *input.deck, &model, input.scene->interfaces);
-  j.field("verdict", cycle_verdict(input));
+  write_verdict(j, cycle_verdict(input));
   if (input.gate != nullptr) write_gate(j, *input.deck, *input.scene, *input.view, *input.gate);
   write_json_coverage(j, coverage_of(*input.deck, *input.scene->interfaces));
   j.field("dt1", input.options.dt1).field("dt12", input.options.dt12);

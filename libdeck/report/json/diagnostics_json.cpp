@@ -1,6 +1,6 @@
 // Findings as the project's own JSON document.
 #include "deck/base/columns.hpp"
-#include "deck/report/json.hpp"
+#include "deck/report/verdict.hpp"
 #include "report/diagnostics_common.hpp"
 
 namespace deck {
@@ -77,6 +77,7 @@ void write_document(JsonWriter& json, const LintedDeck& deck) {
   json.begin_object();
   write_json_head(json, "deck/lint", 1);
   write_json_deck(json, deck.path, *deck.deck, nullptr, nullptr);
+  write_verdict(json, deck.verdict ? *deck.verdict : lint_verdict(deck));
   json.key("diagnostics").begin_array();
   for (std::size_t i = 0; i < r.diagnostics.size(); ++i)
     write_diagnostic(json, deck, r.diagnostics[i], r.fingerprints[i]);

@@ -1,6 +1,7 @@
 // The document of `deck diff --json`.
 #include "deck/report/diff.hpp"
 #include "deck/report/json.hpp"
+#include "deck/report/verdict.hpp"
 
 namespace deck {
 namespace {
@@ -81,10 +82,12 @@ std::string diff_json(const DiffSide& a, const DiffSide& b, const DeckDiff& diff
   write_json_head(json, "deck/diff", 1);
   json.key("a").begin_object();
   write_json_deck(json, a.path, *a.deck, a.model, a.interfaces);
+  if (a.verdict != nullptr) write_verdict(json, *a.verdict);
   json.end_object().key("b").begin_object();
   write_json_deck(json, b.path, *b.deck, b.model, b.interfaces);
+  if (b.verdict != nullptr) write_verdict(json, *b.verdict);
   json.end_object();
-  json.field("equal", diff.equal()).field("verdict", diff_verdict(diff));
+  json.field("equal", diff.equal()).field("text", diff_verdict(diff));
   json.key("notes").begin_array();
   for (const std::string& note : diff.notes) json.value(note);
   json.end_array();

@@ -41,8 +41,8 @@ std::int64_t whole(const Json& v) { return v.is_number_integer() ? v.get<std::in
 /// A document of `gaps --all` is large, and little of it is compared: the rest is not kept.
 bool is_compared(int, Json::parse_event_t event, Json& parsed) {
   static const std::set<std::string, std::less<>> keys = {
-      "at",   "contacts",   "deck", "decks",    "depth",       "edge",         "gap", "id",
-      "node", "interfaces", "path", "pair_gap", "penetration", "penetrations", "role"};
+      "at",   "contacts",   "deck", "decks",       "edge",         "gap",  "id",
+      "node", "interfaces", "path", "penetration", "penetrations", "role", "tie"};
   return event != Json::parse_event_t::key || keys.contains(parsed.get_ref<std::string&>());
 }
 
@@ -51,13 +51,11 @@ EarlierGaps::Row row_of(const Json& p) {
   const auto edge = p.find("edge");
   if (edge != p.end() && edge->is_array() && edge->size() == 2) {
     row.secondary = {whole((*edge)[0]), whole((*edge)[1])};
-    row.depth = number(p, "depth");
-    row.gap = number(p, "pair_gap");
   } else {
     row.secondary = {p.contains("node") ? whole(p["node"]) : 0, 0};
-    row.depth = number(p, "penetration");
-    row.gap = number(p, "gap");
   }
+  row.depth = number(p, "penetration");
+  row.gap = number(p, "gap");
   const auto at = p.find("at");
   if (at != p.end() && at->is_array() && at->size() == 3) {
     row.at.emplace();
@@ -99,6 +97,7 @@ Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
       std::map<std::array<std::int64_t, 2>, std::size_t> deepest;
       for (const Json& p : contact["penetrations"]) {
         if (!p.is_object()) return wrong(out.path, "a penetration is no object");
+        if (const auto tie = p.find("tie"); tie != p.end() && *tie == true) continue;
         EarlierGaps::Row row = row_of(p);
         row.interface_id = id;
         row.role = text(contact, "role");

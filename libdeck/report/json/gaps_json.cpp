@@ -1,9 +1,9 @@
-// The JSON of `deck gaps`. For edge pairs the members "penetration" and "gap" follow what the
-// reference solver stores there — it keeps the square of the pair gap — and "depth" and "pair_gap"
-// give the lengths.
+// The JSON of `deck gaps`. All members of a pair are lengths, for edges as for nodes; what the
+// solver stores of two edges, the square of the gap and what is left of it, stands in "solver".
 #include "deck/report/gaps.hpp"
 #include "deck/report/gate.hpp"
 #include "deck/report/json.hpp"
+#include "deck/report/verdict.hpp"
 #include "model/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
@@ -62,14 +62,33 @@ void write_sides(const Rows& rows, const Model& model, const Contact& c) {
   side("main", c.main_edges);
 }
 
-/// `spans` are the lines of the secondary nodes, parallel to the view's penetrations.
+/// A row of the view, and the line of its secondary node.
+struct PlacedRow {
+  const NamedPenetration* named = nullptr;
+  Span span;
+};
+
+/// Rows of each contact in the solver's order, penetrations and ties.
+std::vector<std::vector<PlacedRow>> rows_of_contacts(const Scene& scene, const SceneView& view) {
+  std::vector<std::vector<PlacedRow>> out(scene.contacts.size());
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c)
+    out[c].resize(scene.contacts[c].penetrations.size());
+  for (const auto* list : {&view.penetrations, &view.ties}) {
+    const std::vector<Span> spans = detail::node_spans(*scene.model, first_nodes(scene, *list));
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const NamedPenetration& p = (*list)[i];
+      out[p.contact][p.row] = {&p, spans[i]};
+    }
+  }
+  return out;
+}
+
 void write_penetrations(const Rows& rows, const Deck& deck, const Scene& scene,
-                        const SceneView& view, const std::vector<Span>& spans,
-                        const std::vector<const NamedPenetration*>& named, const Contact& c) {
+                        const std::vector<PlacedRow>& named, const Contact& c) {
   const Model& model = *scene.model;
   JsonWriter& j = rows.json;
   j.key("penetrations").begin_array();
-  for (const NamedPenetration* p : named) {
+  for (const auto& [p, span] : named) {
     const PenetrationRow& r = c.penetrations[p->row];
     const bool edges = c.kind == ContactKind::edge_edge;
     j.begin_object(true);
@@ -81,15 +100,18 @@ void write_penetrations(const Rows& rows, const Deck& deck, const Scene& scene,
       write_nodes(j, model, s.nodes.data(), 2);
       j.key("main_edge");
       write_nodes(j, model, c.main_edges[r.main].nodes.data(), 2);
-      j.field("penetration", r.gap * r.gap - r.distance).field("gap", r.gap * r.gap);
-      j.field("depth", r.depth).field("pair_gap", r.gap);
     } else {
       first = c.secondary[r.secondary].node;
       j.field("node", model.node_id(first)).key("segment");
       write_nodes(j, model, c.main[r.main].nodes.data(), 4);
-      j.field("penetration", r.depth).field("gap", r.gap);
     }
-    j.field("distance", r.distance).key("normal");
+    j.field("penetration", r.depth).field("gap", r.gap).field("distance", r.distance);
+    if (edges) {
+      j.key("solver").begin_object(true);
+      j.field("penetration", r.gap * r.gap - r.distance).field("gap", r.gap * r.gap).end_object();
+    }
+    if (c.ties()) j.field("tie", true);
+    j.key("normal");
     write_vector(j, r.normal);
     j.field("on_surface", r.on_surface).field("in_contact", r.in_contact);
     j.field("action", to_string(r.action));
@@ -114,7 +136,7 @@ void write_penetrations(const Rows& rows, const Deck& deck, const Scene& scene,
     element("secondary_element", p->secondary_element);
     element("main_element", p->main_element);
     j.key("source");
-    write_json_place(j, deck, spans[static_cast<std::size_t>(p - view.penetrations.data())]);
+    write_json_place(j, deck, span);
     rows.end_row();
   }
   j.end_array();
@@ -154,6 +176,8 @@ void write_on_segment(JsonWriter& j, const ItemCounts& c) {
 
 void write_totals(JsonWriter& j, const ContactTotals& t) {
   j.field("pairs", t.count.pairs).field("nodes", t.count.nodes).field("edges", t.count.edges);
+  j.key("tied").begin_object(true).field("nodes", t.tied.nodes);
+  j.field("pairs", t.tied.pairs).end_object();
   write_on_segment(j, t.on_segment);
   j.key("crossed_elements");
   t.crossed_elements ? j.value(*t.crossed_elements) : j.null();
@@ -170,7 +194,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
   j.begin_object();
   write_json_head(j, "deck/gaps", 1);
   write_json_deck(j, path, deck, scene.model, scene.interfaces);
-  j.field("verdict", gaps_verdict(deck, scene, view));
+  write_verdict(j, verdict_of(deck, scene, view));
   j.key("summary").begin_object(true);
   write_totals(j, view.total);
   j.end_object();
@@ -186,12 +210,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
     j.field("p95_depth", p.p95_depth).field("max_ratio", p.max_ratio).end_object();
   }
   j.end_array();
-  const std::vector<Span> spans = detail::node_spans(*scene.model, first_nodes(scene, view));
-  // The pairs of each contact in the solver's order.
-  std::vector<std::vector<const NamedPenetration*>> named(scene.contacts.size());
-  for (std::size_t c = 0; c < scene.contacts.size(); ++c)
-    named[c].resize(scene.contacts[c].penetrations.size());
-  for (const NamedPenetration& p : view.penetrations) named[p.contact][p.row] = &p;
+  const std::vector<std::vector<PlacedRow>> named = rows_of_contacts(scene, view);
   j.key("interfaces").begin_array();
   for (const InterBase* inter : scene.interfaces->ordered) {
     j.begin_object().field("id", inter->id).field("type", inter->type);
@@ -220,7 +239,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
         write_totals(j, view.contacts[i]);
         j.end_object();
         if (all) write_sides(rows, *scene.model, c);
-        write_penetrations(rows, deck, scene, view, spans, named[i], c);
+        write_penetrations(rows, deck, scene, named[i], c);
         if (crossings != nullptr)
           write_crossings(j, scene, *crossings, static_cast<std::uint32_t>(i));
         j.end_object();

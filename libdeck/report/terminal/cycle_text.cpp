@@ -6,11 +6,10 @@
 #include <initializer_list>
 
 #include "deck/base/escape.hpp"
-#include "deck/model/coverage.hpp"
 #include "deck/report/cycle.hpp"
-#include "deck/report/gaps.hpp"
 #include "deck/report/gate.hpp"
 #include "deck/report/text_table.hpp"
+#include "deck/report/verdict.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/cycle_costs.hpp"
 #include "report/terminal/words.hpp"
@@ -59,14 +58,6 @@ std::string main_text(const Model& model, const Contact& c, const cycle::PairOut
   return text;
 }
 
-std::size_t removed_by_step(const cycle::ContactOutcome& o) {
-  return static_cast<std::size_t>(
-      std::count_if(o.removed.begin(), o.removed.end(), [](const cycle::Removal& r) {
-        return r.because == cycle::Removal::Because::kinematic_step ||
-               r.because == cycle::Removal::Because::nodal_step;
-      }));
-}
-
 /// "node 1, node 2, … and 5 more" of those that leave an interface.
 std::string names_of(const Model& model, const Contact& c, const std::vector<cycle::Removal>& list,
                      std::size_t most) {
@@ -96,9 +87,8 @@ std::string lasting_lines(const CycleInput& input) {
     }
     std::size_t tied = 0, let_go = 0;
     for (const cycle::TieChange& t : o.ties) ++(t.tied ? tied : let_go);
-    if (tied > 0) out += fmt::format("{}{} pair{} tied\n", head, tied, tied == 1 ? " is" : "s are");
-    if (let_go > 0)
-      out += fmt::format("{}{} pair{} go\n", head, let_go, let_go == 1 ? " lets" : "s let");
+    if (tied > 0) out += head + count(tied, "pair is tied\n", "pairs are tied\n");
+    if (let_go > 0) out += head + count(let_go, "pair lets go\n", "pairs let go\n");
     if (!o.released.empty()) {
       out += head + "boundary conditions released (IBC) at ";
       for (std::size_t i = 0; i < std::min<std::size_t>(10, o.released.size()); ++i)
@@ -185,23 +175,13 @@ std::string steps_text(const CycleInput& input, const CycleTextOptions& options)
   return out;
 }
 
-/// The steps at which any pair pushes.
-std::vector<std::size_t> pushing_steps(const cycle::StepsOutcome& s) {
-  std::vector<std::size_t> steps;
-  for (std::size_t k = 0; k < s.lines.size(); ++k)
-    if (std::any_of(s.lines[k].contacts.begin(), s.lines[k].contacts.end(),
-                    [](const cycle::StepContact& c) { return c.pairs_with_force > 0; }))
-      steps.push_back(k);
-  return steps;
-}
-
 std::string state_words(const cycle::ContactOutcome& o) {
   if (o.contact->dropped) return "no edges, dropped";
   if (!o.active) return "not active yet";
   if (!o.complete) return o.notes.empty() ? "too many pairs" : "not evaluated";
   std::string text;
-  const auto add = [&](std::size_t count, const char* what) {
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+  const auto add = [&](std::size_t n, const char* what) {
+    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, what);
   };
   add(o.gap_closed, "at the mid-surface");
   add(removed_by_step(o), "removed by dtmin");
@@ -361,13 +341,6 @@ std::string step_lines(const CycleInput& input) {
 
 }  // namespace
 
-std::string secondary_name(const Model& model, const Contact& contact, std::uint32_t secondary) {
-  cycle::PairOutcome pair;
-  pair.at.secondary = secondary;
-  return (contact.kind == ContactKind::edge_edge ? "edge " : "node ") +
-         secondary_text(model, contact, pair);
-}
-
 const char* to_string(cycle::Removal::Because because) {
   switch (because) {
     case cycle::Removal::Because::kinematic_step:
@@ -381,84 +354,16 @@ const char* to_string(cycle::Removal::Because because) {
   }
 }
 
-std::string cycle_verdict(const CycleInput& input) {
-  const Coverage coverage = coverage_of(*input.deck, *input.scene->interfaces);
-  std::string tail = coverage_tail(coverage);
-  if (const std::string lead = coverage_lead(coverage); !lead.empty()) return lead + tail;
-  tail = stops_text(*input.deck) + tail;
-  const cycle::SceneOutcome& o = *input.outcome;
-  const Model& model = *input.scene->model;
-  std::size_t pairs = 0, closed = 0, by_step = 0, tied = 0;
-  std::string gone;
-  const cycle::ContactOutcome* worst = nullptr;
-  for (const cycle::ContactOutcome& c : o.contacts) {
-    pairs += c.pairs_with_force;
-    closed += c.gap_closed;
-    tied += c.pairs_tied;
-    by_step += removed_by_step(c);
-    if (gone.empty() && removed_by_step(c) > 0) gone = names_of(model, *c.contact, c.removed, 3);
-    if (worst == nullptr || c.largest_acceleration > worst->largest_acceleration) worst = &c;
-  }
-  const std::string when =
-      input.steps == nullptr
-          ? std::string("at the start")
-          : fmt::format("after {} step{} of prescribed motion", input.steps->lines.size() - 1,
-                        input.steps->lines.size() == 2 ? "" : "s");
-  std::string removal;  // and what else must not be missed
-  if (pairs == 0 && input.steps != nullptr)
-    if (const auto pushed = pushing_steps(*input.steps); !pushed.empty())
-      removal = fmt::format(" {} of the {} evaluations before have forces, the first at step {}.",
-                            pushed.size(), input.steps->lines.size() - 1, pushed.front());
-  if (tied > 0) removal += fmt::format(" {} pair{} tied.", tied, tied == 1 ? " is" : "s are");
-  if (by_step > 0)
-    removal += fmt::format(
-        " dtmin is above the time step of {} node{} or edge{} in contact: the solver removes {} "
-        "from "
-        "the interface for good ({}).",
-        by_step, by_step == 1 ? "" : "s", by_step == 1 ? "" : "s", by_step == 1 ? "it" : "them",
-        gone);
-  const auto open = std::count_if(o.contacts.begin(), o.contacts.end(),
-                                  [](const cycle::ContactOutcome& c) { return !c.complete; });
-  if (open > 0)
-    removal += fmt::format(" Not evaluated: {} contact{}, see below.", open, open == 1 ? "" : "s");
-  if (pairs == 0 && closed == 0 && open == static_cast<std::ptrdiff_t>(o.contacts.size()))
-    return "Nothing was evaluated." + removal + tail;
-  const ObstacleText obstacles = obstacle_text(*input.scene);
-  if (pairs == 0 && closed == 0) {
-    const std::size_t examined = o.contacts.size() - obstacles.unexamined;
-    return fmt::format("{}No contact force {} in {} contact{}.{}{}", obstacles.sentences, when,
-                       examined, examined == 1 ? "" : "s", removal, tail);
-  }
-  std::string text =
-      fmt::format("{}{} pair{} push{} {}; largest nodal force {:.4g} at {}.", obstacles.sentences,
-                  pairs, pairs == 1 ? "" : "s", pairs == 1 ? "es" : "", when, o.largest_nodal_force,
-                  node_text(model, o.force_node));
-  text += removal;
-  if (worst != nullptr && worst->acceleration_node != no_index)
-    text += fmt::format(" Largest acceleration {:.4g}: node {}, interface {}.",
-                        worst->largest_acceleration, model.node_id(worst->acceleration_node),
-                        worst->contact->inter->id);
-  if (closed > 0)
-    text +=
-        fmt::format(" {} pair{} at the mid-surface: the solver drops the {}.", closed,
-                    closed == 1 ? " is" : "s are", closed == 1 ? "node or edge" : "nodes or edges");
-  if (o.contact_dt < o.structure.dt && o.structure.dt < 1e30)
-    text += fmt::format(" Contact limits the time step: {:.4g} against {:.4g} of the elements.",
-                        o.contact_dt, o.structure.dt);
-  return text + tail;
-}
-
 std::string cycle_text(const CycleInput& input, const CycleTextOptions& options) {
   const char* bold = options.color ? "\033[1m" : "";
   const char* plain = options.color ? "\033[0m" : "";
-  const std::string verdict =
-      fmt::format("{}{}{}\n", bold, terminal_text(cycle_verdict(input)), plain);
   std::string out;
   if (options.several) out += toned(terminal_text(input.path), Tone::cyan, options.color) + "\n";
-  out += verdict;
-  const std::string gate = input.gate == nullptr ? std::string() : gate_text(*input.gate);
-  if (input.scene->contacts.empty()) return gate.empty() ? out : out + "\n" + gate;
-  out += fmt::format("\n{}Interfaces{}\n{}", bold, plain, contact_table(input, options));
+  const std::string verdict = verdict_text(cycle_verdict(input), options.color) +
+                              (input.gate == nullptr ? std::string() : gate_text(*input.gate));
+  if (input.scene->contacts.empty()) return out + verdict;
+  out += fmt::format("{}{}Interfaces{}\n{}", out.empty() ? "" : "\n", bold, plain,
+                     contact_table(input, options));
   if (const std::string text = lasting_lines(input); !text.empty() && input.steps == nullptr)
     out += fmt::format("\n{}From now on{}\n{}", bold, plain, text);
   if (input.steps != nullptr)
@@ -493,10 +398,11 @@ std::string cycle_text(const CycleInput& input, const CycleTextOptions& options)
       left_out += fmt::format("  interface {} {}: {}\n", o.contact->inter->id,
                               kind_name(*o.contact), terminal_text(text));
   if (!left_out.empty()) out += fmt::format("\n{}Not evaluated{}\n{}", bold, plain, left_out);
-  if (const std::string text = decisions_text(*input.scene, 3, options.color, options.width);
+  if (const std::string text =
+          decisions_text(*input.scene, 3, options.verbose, options.color, options.width);
       !text.empty())
     out += "\n" + text;
-  return out + "\n" + verdict + gate;
+  return out + "\n" + verdict;
 }
 
 }  // namespace deck

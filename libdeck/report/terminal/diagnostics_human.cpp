@@ -52,6 +52,15 @@ std::vector<Glyph> glyphs_of(std::string_view line, std::string_view shown, std:
   return out;
 }
 
+/// Remarks that tell how the solver works rather than what is particular about the deck: nearly
+/// every deck with a contact has them.
+constexpr RuleId of_every_deck[] = {RuleId::DK292, RuleId::DK295, RuleId::DK296, RuleId::DK307};
+bool is_of_every_deck(const Diagnostic& d) {
+  return d.severity == Severity::info &&
+         std::find(std::begin(of_every_deck), std::end(of_every_deck), d.rule) !=
+             std::end(of_every_deck);
+}
+
 int rank(Severity s) { return s == Severity::error ? 0 : s == Severity::warning ? 1 : 2; }
 
 class Human {
@@ -66,6 +75,7 @@ class Human {
     std::vector<const Diagnostic*> all;
     std::map<Kind, std::vector<const Diagnostic*>> of_kind;
     for (const Diagnostic& d : deck_.result->diagnostics) {
+      if (!options_.remarks_of_every_deck && is_of_every_deck(d)) continue;
       all.push_back(&d);
       of_kind[{d.rule, d.severity}].push_back(&d);
     }
@@ -102,9 +112,14 @@ class Human {
 
   std::string summary() {
     const LintResult& r = *deck_.result;
-    std::string out = fmt::format("{}{}{}: ", c_.bold, terminal_text(deck_.path), c_.off);
-    out += count(r.errors, "error", "errors") + ", " + count(r.warnings, "warning", "warnings");
-    if (r.infos > 0) out += fmt::format(", {} info", r.infos);
+    const Verdict verdict = deck_.verdict ? *deck_.verdict : lint_verdict(deck_);
+    std::string out = fmt::format("{}{}{}: ", c_.bold, terminal_text(deck_.path), c_.off), rest;
+    for (const VerdictSentence& s : verdict.sentences) {
+      if (&s == &verdict.sentences.front())
+        out += s.text.substr(0, s.text.size() - 1);  // without its full stop
+      else
+        rest += (rest.empty() ? "" : " ") + s.text;
+    }
     if (r.suppressed > 0) out += fmt::format(", {} suppressed", r.suppressed);
     if (r.baselined > 0) out += fmt::format(", {} in the baseline", r.baselined);
     std::size_t safe = 0, unsafe = 0;
@@ -113,9 +128,7 @@ class Human {
     if (safe > 0) out += fmt::format("; --fix repairs {}", safe);
     if (unsafe > 0) out += fmt::format("{} --unsafe-fixes {} more", safe > 0 ? "," : ";", unsafe);
     out += "\n";
-    if (const auto coverage = detail::coverage_of(deck_))
-      if (const std::string lead = coverage_lead(*coverage); !lead.empty())
-        out += c_.bold + terminal_text(lead) + c_.off + "\n";
+    if (!rest.empty()) out += c_.bold + terminal_text(rest) + c_.off + "\n";
     return out;
   }
 

@@ -6,10 +6,10 @@
 #include <iterator>
 
 #include "deck/base/escape.hpp"
-#include "deck/model/coverage.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/gate.hpp"
 #include "deck/report/text_table.hpp"
+#include "deck/report/verdict.hpp"
 #include "model/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
@@ -46,14 +46,19 @@ std::string obstacle(const Contact& c) {
 
 /// What the solver does about the penetrations of contacts, in a few words.
 std::string action_words(const std::vector<const Contact*>& contacts) {
-  std::size_t by_action[6] = {}, all = 0;
+  std::size_t by_action[6] = {}, all = 0, tied = 0;
   std::string why;
   for (const Contact* c : contacts) {
     if (!c->evaluated) return "not evaluated";
     if (why.empty()) why = obstacle(*c);
+    if (c->ties()) {
+      tied += c->penetrations.size();
+      continue;
+    }
     all += c->penetrations.size();
     for (const PenetrationRow& row : c->penetrations) ++by_action[static_cast<int>(row.action)];
   }
+  if (tied > 0 && all == 0) return count(tied, "pair tied", "pairs tied");
   if (all == 0) return why.empty() ? "-" : why;
   static constexpr const char* words[6] = {
       "nothing",     "nodes switched off", "segments switched off",
@@ -86,6 +91,8 @@ ContactTotals sum_of(const std::vector<ContactTotals>& all) {
     sum.count.pairs += t.count.pairs;
     sum.count.nodes += t.count.nodes;
     sum.count.edges += t.count.edges;
+    sum.tied.pairs += t.tied.pairs;
+    sum.untied += t.untied;
     sum.max_depth = std::max(sum.max_depth, t.max_depth);
     sum.max_ratio = std::max(sum.max_ratio, t.max_ratio);
   }
@@ -120,7 +127,7 @@ class InterfaceTable {
         open = open || !scene_.contacts[i].evaluated || !obstacle(scene_.contacts[i]).empty();
       }
       const ContactTotals sum = sum_of(totals);
-      if (!options_.verbose && !open && sum.count.pairs == 0) {
+      if (!options_.verbose && !open && sum.count.pairs + sum.tied.pairs + sum.untied == 0) {
         clean.push_back(contacts.front()->inter->id);
         continue;
       }
@@ -180,81 +187,6 @@ std::string part_name(const Model& model, std::int64_t id) {
   return title.empty() ? fmt::format("{}", id) : fmt::format("{} {}", id, title);
 }
 
-}  // namespace
-
-namespace {
-
-/// "62 nodes and 12 edges", without what there is none of.
-std::string items_text(const ItemCounts& c) {
-  if (c.edges == 0) return count(c.nodes, "node", "nodes");
-  if (c.nodes == 0) return count(c.edges, "edge", "edges");
-  return count(c.nodes, "node", "nodes") + " and " + count(c.edges, "edge", "edges");
-}
-
-std::string penetration_sentence(const Scene& scene, const SceneView& view) {
-  const ContactTotals& t = view.total;
-  const auto unknown = static_cast<std::size_t>(std::count_if(
-      scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) { return !c.evaluated; }));
-  std::string open = unknown == 0 ? ""
-                                  : fmt::format("{} could not be evaluated, see the findings. ",
-                                                count(unknown, "contact", "contacts"));
-  const ObstacleText obstacles = obstacle_text(scene);
-  const std::size_t idle = obstacles.unexamined;
-  open += obstacles.sentences;
-  if (t.count.pairs == 0)
-    return open + fmt::format("No initial penetration in {}.",
-                              count(scene.contacts.size() - unknown - idle, "contact", "contacts"));
-  // One figure for the deepest pair, one for the largest share of a gap.
-  const PenetrationRow& deepest = row_of(scene, view.penetrations.front());
-  std::string text =
-      open +
-      fmt::format("{} on {}, deepest {:.6g} of a gap of {:.6g}; worst share of a gap {:.1f} %.",
-                  count(t.count.pairs, "initial penetration", "initial penetrations"),
-                  items_text(t.count), deepest.depth, deepest.gap, 100 * t.max_ratio);
-  if (t.solver_errors > 0)
-    text += fmt::format(" The solver will stop: {} exactly on a segment (error 611/612).",
-                        count(t.solver_errors, "node lies", "nodes lie"));
-  else if (t.on_segment.pairs > 0)
-    text += fmt::format(" Exactly on a segment: {}.", items_text(t.on_segment));
-  return text;
-}
-
-}  // namespace
-
-ObstacleText obstacle_text(const Scene& scene) {
-  ObstacleText out;
-  const auto name = [&](const char* what, std::initializer_list<Obstacle> obstacles) {
-    const auto n = static_cast<std::size_t>(
-        std::count_if(scene.contacts.begin(), scene.contacts.end(), [&](const Contact& c) {
-          return c.evaluated &&
-                 std::find(obstacles.begin(), obstacles.end(), obstacle_of(c)) != obstacles.end();
-        }));
-    if (n > 0) out.sentences += fmt::format("{} {}. ", count(n, "contact", "contacts"), what);
-    return n;
-  };
-  out.unexamined += name("with an empty side", {Obstacle::empty_main, Obstacle::empty_secondary});
-  out.unexamined += name("without a gap (error 785/786)", {Obstacle::no_gap});
-  out.unexamined += name("without stiffness on the main side", {Obstacle::no_stiffness});
-  name("with main segments without area (error 558)", {Obstacle::no_area});
-  name("with segments or edges without element (error 481/482)", {Obstacle::no_element});
-  return out;
-}
-
-std::string gaps_verdict(const Deck& deck, const Scene& scene, const SceneView& view) {
-  const Coverage coverage = coverage_of(deck, *scene.interfaces);
-  std::string text = coverage_lead(coverage);
-  if (text.empty()) {
-    text = penetration_sentence(scene, view);
-    if (const std::uint64_t n = view.total.crossed_elements.value_or(0); n > 0)
-      text += fmt::format(" {}: an edge of the secondary side passes through a main segment.",
-                          count(n, "crossed element", "crossed elements"));
-    text += stops_text(deck);
-  }
-  return text + coverage_tail(coverage);
-}
-
-namespace {
-
 std::string part_pairs_text(const Scene& scene, const SceneView& view,
                             const GapsTextOptions& options) {
   const Model& model = *scene.model;
@@ -309,30 +241,28 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
 
 std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
                       const GapsTextOptions& options) {
-  const std::string verdict =
-      toned(terminal_text(gaps_verdict(deck, scene, view)), Tone::bold, options.color) + "\n";
   std::string out;
   if (!options.name.empty())
     out += toned(terminal_text(options.name), Tone::cyan, options.color) + "\n";
-  out += verdict;
   const auto heading = [&](const char* title) {
     return "\n" + toned(title, Tone::bold, options.color) + "\n";
   };
   if (!scene.contacts.empty()) {
-    out += heading("Interfaces") + InterfaceTable(scene, view, options).run();
+    out += (out.empty() ? heading("Interfaces").substr(1) : heading("Interfaces")) +
+           InterfaceTable(scene, view, options).run();
     if (!view.penetrations.empty()) {
       out += heading("Part pairs") + part_pairs_text(scene, view, options);
       out += heading("Deepest, one row per node or edge") + worst_text(deck, scene, view, options);
     }
     if (options.crossings != nullptr) out += crossings_text(scene, *options.crossings, options);
-    if (const std::string text = decisions_text(scene, 5, options.color, options.width);
+    if (const std::string text =
+            decisions_text(scene, 5, options.verbose, options.color, options.width);
         !text.empty())
       out += "\n" + text;
-    out += "\n" + verdict;
+    out += "\n";
   }
-  if (options.gate != nullptr)
-    if (const std::string lines = gate_text(*options.gate); !lines.empty())
-      out += (scene.contacts.empty() ? "\n" : "") + lines;
+  out += verdict_text(verdict_of(deck, scene, view), options.color);
+  if (options.gate != nullptr) out += gate_text(*options.gate);
   return out;
 }
 
@@ -348,7 +278,8 @@ std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view
     for (const char ch : s) q += ch == '"' ? std::string("\"\"") : std::string(1, ch);
     return q + '"';
   };
-  const std::vector<Span> spans = detail::node_spans(*scene.model, first_nodes(scene, view));
+  const std::vector<Span> spans =
+      detail::node_spans(*scene.model, first_nodes(scene, view.penetrations));
   for (std::size_t row = 0; row < view.penetrations.size(); ++row) {
     const NamedPenetration& p = view.penetrations[row];
     const Contact& c = scene.contacts[p.contact];

@@ -10,15 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "deck/base/count.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/report/text_table.hpp"
 
 namespace deck {
-
-/// "1 node", "3 nodes".
-inline std::string count(std::uint64_t n, const char* one, const char* many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
-}
 
 /// "TYPE7", "TYPE19 reversed".
 inline std::string kind_name(const Contact& c) {

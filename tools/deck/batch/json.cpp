@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "deck/report/json.hpp"
 
@@ -12,8 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Listens to a document being parsed and keeps the members of its "summary", its "verdict", what
-/// it says was examined, and the length of its "interfaces".
+/// Listens to a document being parsed and keeps the members of its "summary", its "verdict" whole,
+/// how much it says was examined, and the length of its "interfaces".
 class Facts : public nlohmann::json_sax<Json> {
  public:
   bool null() override { return scalar(nullptr); }
@@ -25,17 +26,16 @@ class Facts : public nlohmann::json_sax<Json> {
   bool binary(binary_t&) override { return false; }
   bool start_object(std::size_t) override {
     if (depth_ == 2 && section_ == "summary") counts[member_] = Json::object();
-    return open();
+    return open(Json::object());
   }
   bool end_object() override { return close(); }
-  bool start_array(std::size_t) override { return open(); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
   bool end_array() override { return close(); }
   bool key(string_t& name) override {
     if (depth_ == 1) section_ = name;
     if (depth_ == 2) member_ = name;
     if (depth_ == 3) inner_ = name;
-    // interfaces[].contacts[].obstacle
-    obstacle_ = depth_ == 5 && section_ == "interfaces" && name == "obstacle";
+    name_ = name;
     return true;
   }
   bool parse_error(std::size_t, const std::string&, const Json::exception&) override {
@@ -43,28 +43,36 @@ class Facts : public nlohmann::json_sax<Json> {
   }
 
   Json counts = Json::object();
-  std::optional<std::string> verdict;
+  Json verdict;
   std::optional<std::uint64_t> examined;
   std::optional<bool> gate;
-  bool others = false;
-  std::size_t free = 0, stuck = 0;  ///< contacts without and with an obstacle
 
  private:
-  bool open() {
+  /// A value of the verdict, in its place there.
+  Json& keep(Json value) {
+    if (building_.empty()) return verdict = std::move(value);
+    Json& in = *building_.back();
+    if (!in.is_array()) return in[name_] = std::move(value);
+    in.push_back(std::move(value));
+    return in.back();
+  }
+  bool in_verdict() const { return depth_ >= 1 && section_ == "verdict"; }
+  bool open(Json empty) {
+    if (in_verdict()) building_.push_back(&keep(std::move(empty)));
     if (depth_ == 1 && section_ == "interfaces") counts["interfaces"] = 0;
     if (depth_ == 2 && section_ == "interfaces")
       counts["interfaces"] = counts["interfaces"].get<std::uint64_t>() + 1;
-    others = others || (depth_ == 2 && section_ == "not_examined");
     ++depth_;
     return true;
   }
   bool close() {
     --depth_;
+    if (!building_.empty()) building_.pop_back();
     return true;
   }
   template <class T>
   bool scalar(const T& value) {
-    if (std::exchange(obstacle_, false)) ++(std::is_same_v<T, string_t> ? stuck : free);
+    if (in_verdict()) keep(value);
     if (depth_ == 2 && section_ == "summary") counts[member_] = value;
     if (depth_ == 3 && section_ == "summary" && counts[member_].is_object())
       counts[member_][inner_] = value;
@@ -72,13 +80,11 @@ class Facts : public nlohmann::json_sax<Json> {
       if (depth_ == 2 && section_ == "gate" && member_ == "passed") gate = value;
     if constexpr (std::is_same_v<T, number_unsigned_t>)
       if (depth_ == 1 && section_ == "examined") examined = value;
-    if constexpr (std::is_same_v<T, string_t>)
-      if (depth_ == 1 && section_ == "verdict") verdict = value;
     return true;
   }
   int depth_ = 0;
-  bool obstacle_ = false;
-  std::string section_, member_, inner_;
+  std::string section_, member_, inner_, name_;
+  std::vector<Json*> building_;  ///< containers of the verdict that are open
 };
 
 void write_value(JsonWriter& json, const Json& v) {
@@ -121,19 +127,12 @@ std::string json_line(const Json& value) {
 std::optional<DocumentFacts> document_facts(std::string_view document) {
   Facts facts;
   if (!Json::sax_parse(document.begin(), document.end(), &facts)) return std::nullopt;
-  const auto some = [&](const char* name) {
-    const auto found = facts.counts.find(name);
-    return found != facts.counts.end() && found->is_number() && *found > 0;
-  };
-  return DocumentFacts{json_line(facts.counts),
-                       facts.verdict,
-                       facts.examined,
-                       facts.others,
-                       some("errors") || some("warnings"),
-                       some("pairs"),
-                       facts.stuck > 0,
-                       facts.stuck > 0 && facts.free == 0,
-                       facts.gate};
+  DocumentFacts out{json_line(facts.counts), {}, {}, facts.examined, facts.gate};
+  if (facts.verdict.is_object()) {
+    out.verdict = json_line(facts.verdict);
+    out.level = facts.verdict.value("level", "");
+  }
+  return out;
 }
 
 }  // namespace deck::cli

@@ -11,14 +11,10 @@ namespace deck::cli {
 
 /// What the summary says of a result.
 struct DocumentFacts {
-  std::string counts;                  ///< JSON object: members of "summary", number of interfaces
-  std::optional<std::string> verdict;  ///< member "verdict"
+  std::string counts;   ///< JSON object: members of "summary", number of interfaces
+  std::string verdict;  ///< JSON object: member "verdict"; empty: there is none
+  std::string level;    ///< of it
   std::optional<std::uint64_t> examined;  ///< member "examined"; nullopt: there is none
-  bool others = false;                    ///< "not_examined" lists something
-  bool errors = false;                    ///< "summary" counts errors or warnings
-  bool penetrations = false;              ///< "summary" counts penetrating pairs
-  bool obstacles = false;                 ///< contacts name an "obstacle"
-  bool nothing = false;                   ///< all contacts do
   std::optional<bool> gate;               ///< "passed" of member "gate"; nullopt: none was set
 };
 /// nullopt: not JSON.

@@ -33,11 +33,16 @@ class EntryReading {
   double penetrations() const { return count("nodes") + count("edges"); }
   /// What was found, in one number: of a geometry the penetrations, of lint errors and warnings.
   double found() const { return penetrations() + count("errors") + count("warnings"); }
-  /// Why it did not get through, else what the result opens with.
+  /// Why it did not get through, else the verdict.
   std::string what() const {
     const std::string error = text("error"), deck = text("deck") + ": ";
     if (error.starts_with(deck)) return error.substr(deck.size());
-    return error.empty() ? text("verdict") : error;
+    return error.empty() ? verdict("text") : error;
+  }
+  /// A member of the verdict: "level" or "text"; "" where there is none.
+  std::string verdict(const char* name) const {
+    const auto found = json_.find("verdict");
+    return found != json_.end() && found->is_object() ? found->value(name, "") : std::string();
   }
   /// 0: clean; the larger, the worse.
   int rank() const {

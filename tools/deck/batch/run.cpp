@@ -20,6 +20,7 @@
 #include <unordered_map>
 
 #include "batch/json.hpp"
+#include "deck/base/count.hpp"
 #include "deck/base/escape.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/report/json.hpp"
@@ -64,22 +65,16 @@ std::vector<std::string> settings_of(const BatchTask& task, const std::string& d
   return paths;
 }
 
-/// A deck is only clean if something was examined and nothing was found, whatever the exit code
-/// lets pass. Lint has rules for decks without any contact.
-std::string_view status_in(const BatchTask& task, int code,
-                           const std::optional<DocumentFacts>& facts) {
-  if (facts && code == exit_clean && facts->nothing) return "not-examined";
-  if (!facts || code > exit_findings || facts->examined.value_or(1) > 0)
-    return code == exit_clean && facts && (facts->errors || facts->penetrations || facts->obstacles)
-               ? status_of(exit_findings)
-               : status_of(code);
-  const bool lint = task.verb.name == "lint";
-  if (lint && (facts->errors || !facts->others)) return status_of(code);
-  const bool required = std::find(task.options.begin(), task.options.end(), "--require-examined") !=
-                        task.options.end();
-  return code == exit_clean || required || task.verb.name == "gaps" || task.verb.name == "cycle"
-             ? "not-examined"
-             : status_of(code);
+/// What the verdict says, whatever the exit code lets pass; without one whether anything was
+/// examined.
+std::string_view status_in(int code, const std::optional<DocumentFacts>& facts) {
+  if (!facts || code > exit_findings) return status_of(code);
+  if (facts->level.empty())
+    return code == exit_clean && facts->examined.value_or(1) == 0 ? "not-examined"
+                                                                  : status_of(code);
+  if (facts->level == "not-examined") return facts->level;
+  const bool clean = facts->level == "clean" || facts->level == "remarks";
+  return clean ? status_of(code) : status_of(exit_findings);
 }
 
 }  // namespace
@@ -475,10 +470,9 @@ std::string Batch::work_on(std::size_t group, Captured& output) const {
     unlink(in_directory(deck.result).c_str());  // a result of earlier would be taken for this one
   }
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  record.entry =
-      summary_entry(deck.path, status_in(task_, record.code, facts), record.result, record.code,
-                    error, facts && facts->verdict ? &*facts->verdict : nullptr,
-                    facts ? facts->counts : "{}", facts ? facts->gate : std::nullopt);
+  record.entry = summary_entry(deck.path, status_in(record.code, facts), record.result, record.code,
+                               error, facts ? facts->verdict : "", facts ? facts->counts : "{}",
+                               facts ? facts->gate : std::nullopt);
   std::string message;
   pack(record, message);
   return message;
@@ -503,8 +497,7 @@ std::vector<Record> Batch::records_of(const JobReport& report) const {
     Record record;
     record.deck = as_utf8(decks_[i].path);
     record.code = code;
-    record.entry =
-        summary_entry(decks_[i].path, status_of(record.code), "", code, why, nullptr, "{}");
+    record.entry = summary_entry(decks_[i].path, status_of(record.code), "", code, why, "", "{}");
     if (!task_.writes || task_.with_documents) unlink(in_directory(decks_[i].result).c_str());
     records.push_back(std::move(record));
   }
@@ -660,9 +653,10 @@ int report_batch(const BatchOptions& o, const Summary& s, std::size_t kept) {
     const std::string skipped = left_out > 0 ? fmt::format("{} skipped, ", left_out) : "";
     std::string text = summary_table(s, text_width(), o.common.color_on(1));
     if (!text.empty()) text += "\n";
-    text += fmt::format("{} decks: {} clean, {} with findings, {}{} unreadable, {}{} failed",
-                        s.entries.size(), s.count("clean"), s.count("findings"), not_examined,
-                        s.count("unreadable"), skipped, s.count("failed"));
+    text +=
+        fmt::format("{}: {} clean, {} with findings, {}{} unreadable, {}{} failed",
+                    count(s.entries.size(), "deck", "decks"), s.count("clean"), s.count("findings"),
+                    not_examined, s.count("unreadable"), skipped, s.count("failed"));
     if (kept > 0) text += fmt::format("; {} were finished before", kept);
     print_lines(text + "; " + terminal_text(o.directory) + "/" + summary_name(s.shard) + "\n");
   }

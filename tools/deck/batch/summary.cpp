@@ -40,7 +40,7 @@ SummaryEntry entry_of(std::string json, int code) {
 }
 
 std::string summary_entry(std::string_view deck, std::string_view status, std::string_view result,
-                          int code, std::string_view error, const std::string* verdict,
+                          int code, std::string_view error, std::string_view verdict,
                           std::string_view counts, std::optional<bool> gate) {
   std::string text;
   JsonWriter json(text);
@@ -55,7 +55,7 @@ std::string summary_entry(std::string_view deck, std::string_view status, std::s
   text_or_null("result", result);
   json.field("exit_code", code);
   text_or_null("error", error);
-  text_or_null("verdict", verdict == nullptr ? std::string_view() : std::string_view(*verdict));
+  json.key("verdict").raw(verdict.empty() ? "null" : verdict);
   text_or_null("gate", !gate ? "" : *gate ? "passed" : "failed");
   json.key("counts").raw(counts.empty() ? "{}" : counts).end_object();
   text.erase(text.find_last_not_of('\n') + 1);

@@ -40,10 +40,10 @@ std::string_view status_of(int code);
 /// An entry from its line.
 SummaryEntry entry_of(std::string json, int code);
 
-/// The line of one deck. `result` empty: there is none; `counts` is a JSON object; `gate` as in
-/// DocumentFacts.
+/// The line of one deck. `result` empty: there is none; `verdict` and `counts` are JSON
+/// objects, no verdict is empty; `gate` as in DocumentFacts.
 std::string summary_entry(std::string_view deck, std::string_view status, std::string_view result,
-                          int code, std::string_view error, const std::string* verdict,
+                          int code, std::string_view error, std::string_view verdict,
                           std::string_view counts, std::optional<bool> gate = std::nullopt);
 
 std::string summary_json(const Summary& summary);

@@ -132,8 +132,8 @@ std::string Batch::write_group(std::size_t group, Captured& output) const {
       const BatchFrame::Deck& deck = frame.decks[paths[k]];
       r.written = true;
       r.code = deck.code;
-      r.entry = summary_entry(paths[k], status_of(r.code), deck.target, r.code, "", nullptr,
-                              counts_of(deck));
+      r.entry =
+          summary_entry(paths[k], status_of(r.code), deck.target, r.code, "", "", counts_of(deck));
       if (k == 0 && task_.verb.name == "convert") r.losses = loss_lists(frame.losses);
       text += record_line(r) + "\n";
     }
@@ -216,7 +216,7 @@ std::string Batch::write_group(std::size_t group, Captured& output) const {
     r.seconds = seconds / static_cast<double>(members.size());
     const std::string& target = facts ? result : deck.target;
     r.entry = summary_entry(paths[k], status, refused ? "" : target, r.code, error,
-                            facts && facts->verdict ? &*facts->verdict : nullptr, counts_of(deck));
+                            facts ? facts->verdict : "", counts_of(deck));
     if (k == 0 && task_.verb.name == "convert" && !frame.written)
       r.losses = loss_lists(frame.losses);  // else they were announced
   }

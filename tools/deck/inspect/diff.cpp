@@ -5,6 +5,8 @@
 #include "deck/contact/resolve.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/model/coverage.hpp"
+#include "deck/verdict.hpp"
+#include "gate.hpp"
 
 namespace deck::cli::verb_diff {
 namespace {
@@ -21,9 +23,11 @@ struct Side {
   std::unique_ptr<Loaded> loaded;
   Scene scene;
   SceneView view;
+  Verdict verdict = {};
 
   DiffSide described(bool geometry) const {
-    DiffSide s{loaded->path, &loaded->deck, &loaded->model, &loaded->interfaces, nullptr, nullptr};
+    DiffSide s{loaded->path, &loaded->deck, &loaded->model, &loaded->interfaces,
+               nullptr,      nullptr,       &verdict};
     if (geometry) {
       s.scene = &scene;
       s.view = &view;
@@ -32,14 +36,27 @@ struct Side {
   }
 };
 
+/// What is said of a side; its findings are joined.
+Verdict verdict_in(Side& side) {
+  join_findings(*side.loaded);
+  VerdictInput in;
+  in.deck = &side.loaded->deck;
+  in.interfaces = &side.loaded->interfaces;
+  if (!side.scene.contacts.empty()) in.contacts = contact_facts(side.scene, side.view);
+  return make_verdict(in);
+}
+
 Result<Side> read_side(const Options& o, const std::string& path, const SchemaSet& schemas) {
   auto loaded = load(path, schemas, o.common);
   if (!loaded) return loaded.error();
-  Side side{std::move(*loaded), {}, {}};
+  Side side{std::move(*loaded), {}, {}, {}};
   if (side.loaded->incomplete())
     return Error{Error::Code::io,
                  coverage_lead(coverage_of(side.loaded->deck, side.loaded->interfaces))};
-  if (o.no_geometry) return side;
+  if (o.no_geometry) {
+    side.verdict = verdict_in(side);
+    return side;
+  }
   Progress progress(!o.common.quiet);
   progress.step("contacts of " + path);
   SceneOptions scene;
@@ -51,6 +68,7 @@ Result<Side> read_side(const Options& o, const std::string& path, const SchemaSe
       build_scene(side.loaded->model, side.loaded->interfaces, side.loaded->diagnostics, scene);
   resolve(side.loaded->interfaces, side.scene);
   side.view = make_view(side.scene);
+  side.verdict = verdict_in(side);
   return side;
 }
 

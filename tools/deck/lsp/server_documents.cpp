@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "deck/contact/join_findings.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/edit/write.hpp"
 #include "deck/keyword/recognise.hpp"
@@ -131,7 +132,7 @@ Report write_report(const std::string& path, const std::map<std::string, std::st
   read.include_paths = settings.include_paths;
   read.limits = settings.limits;
   read.overlay = &texts;
-  const auto deck = read_deck(path, schemas, read);
+  auto deck = read_deck(path, schemas, read);
   if (!deck) return {{}, deck.error().message};
   if (std::string other = no_starter_deck(*deck); !other.empty()) return {{}, std::move(other)};
   Diagnostics findings;
@@ -149,6 +150,7 @@ Report write_report(const std::string& path, const std::map<std::string, std::st
   options.nodal_stiffness = true;
   const Scene scene = build_scene(model, interfaces, findings, options);
   if (stop) return {{}, "cancelled"};
+  join_findings(*deck, model, std::move(findings));
   HtmlInput input;
   input.path = path;
   input.deck = &*deck;

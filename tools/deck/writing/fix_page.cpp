@@ -1,7 +1,10 @@
 // Evaluates the deck before and after, and hands both to the report.
 #include "writing/fix_page.hpp"
 
+#include <utility>
+
 #include "deck/contact/crossings.hpp"
+#include "deck/contact/join_findings.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/json.hpp"
 #include "writing/gap_page.hpp"
@@ -14,10 +17,10 @@ Result<std::string> fix_page(const Loaded& before, const SchemaSet& schemas,
   scene_options.threads = options.thread_count();
   scene_options.limits = options.limits;
   scene_options.nodal_stiffness = true;
-  Diagnostics unused;
+  Diagnostics found;
   std::string was;
   {
-    const Scene scene = build_scene(before.model, before.interfaces, unused, scene_options);
+    const Scene scene = build_scene(before.model, before.interfaces, found, scene_options);
     const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
     was = gaps_json(before.path, before.deck, scene, make_view(scene, &crossings), false);
   }
@@ -31,11 +34,13 @@ Result<std::string> fix_page(const Loaded& before, const SchemaSet& schemas,
   read.overlay = &overlay;
   auto deck = read_deck(main, schemas, read);
   if (!deck) return deck.error();
+  found = Diagnostics();  // what follows is said on the page
   ModelOptions build;
   build.threads = scene_options.threads;
-  const Model model = build_model(*deck, schemas, unused, build);
-  const Interfaces interfaces = read_interfaces(*deck, model, unused);
-  const Scene scene = build_scene(model, interfaces, unused, scene_options);
+  const Model model = build_model(*deck, schemas, found, build);
+  const Interfaces interfaces = read_interfaces(*deck, model, found);
+  const Scene scene = build_scene(model, interfaces, found, scene_options);
+  join_findings(*deck, model, std::move(found));
   HtmlInput input;
   input.path = before.path;
   input.deck = &*deck;

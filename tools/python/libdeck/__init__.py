@@ -279,10 +279,6 @@ class Contact:
         at, on = arrays["secondary"], arrays["main"]
         if self.kind == "edge_edge":
             made = {"edge": lambda: self._ids(s["edge_index"][at]), "main_edge": lambda: self._ids(m["edge_index"][on])}
-            if "normal" in arrays:  # the solver compares the distance of edges with the square of the gap
-                depth, gap = arrays.pop("penetration"), arrays.pop("gap")
-                arrays.update(depth=depth, pair_gap=gap)
-                made.update(penetration=lambda: gap * gap - arrays["distance"], gap=lambda: gap * gap)
         else:
             made = {"node": lambda: self._ids(s["node_index"][at]),
                     "segment": lambda: self._ids(m["segment_index"][on])}
@@ -292,8 +288,7 @@ class Contact:
     def penetrations(self) -> Arrays:
         """``node``, ``segment`` (or ``edge``, ``main_edge``), ``penetration``, ``gap``, ``distance``, ``normal``,
         ``on_surface``, ``action``, ``gap0``, ``p0``; ``secondary`` and ``main`` are positions in the lists of the sides.
-        Edge pairs have ``depth`` and ``pair_gap`` as well: their ``penetration`` and ``gap`` are the figures of the
-        solver's listing, which are no lengths."""
+        All are lengths, of edges as of nodes. Where ``ties`` of the contact is true its pairs are tied."""
         return self._named(self._native.penetrations(self._at))
 
     @property
@@ -317,9 +312,9 @@ class _Results(_Mapping):
         self.contacts: List[Contact] = [Contact(deck, native, k) for k in range(len(native))]
 
     @property
-    def verdict(self) -> str:
-        """One or two sentences."""
-        return self._native.verdict()
+    def verdict(self) -> Dict[str, Any]:
+        """What is said of the deck: ``level``, ``text``, ``sentences`` and ``counts``, as in every document."""
+        return _json.loads(self._native.verdict())
 
     @property
     def json(self) -> Dict[str, Any]:
@@ -338,7 +333,7 @@ class _Results(_Mapping):
         return len(self.json)
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__} of {self.deck.path}: {self.verdict}>"
+        return f"<{type(self).__name__} of {self.deck.path}: {self.verdict['text']}>"
 
 
 class Gaps(_Results):

@@ -11,6 +11,7 @@
 #include "deck/cycle/state.hpp"
 #include "deck/report/cycle.hpp"
 #include "deck/report/gaps.hpp"
+#include "deck/report/verdict.hpp"
 #include "native.hpp"
 
 namespace deck::python {
@@ -100,8 +101,8 @@ ScenePointer contacts_of(const DeckPointer& deck, const std::vector<std::int64_t
   const std::lock_guard one(deck->mutex);
   Diagnostics findings;
   out->scene = loaded.scene(findings, options);
-  if (!forces) out->crossings = find_crossings(out->scene, options.threads);
-  out->view = make_view(out->scene, forces ? nullptr : &out->crossings);
+  out->crossings = find_crossings(out->scene, options.threads);
+  out->view = make_view(out->scene, &out->crossings);
   Deck& read = deck->loaded.deck();
   Diagnostics own = read.diagnostics;
   join_findings(read, loaded.model(), once(loaded.findings(), findings));
@@ -214,6 +215,7 @@ py::dict contact_facts(const PyScene& s, std::size_t k) {
   out["igap"] = c.igap;
   out["inacti"] = c.inacti;
   out["evaluated"] = c.evaluated;
+  out["ties"] = c.ties();
   out["candidates"] = c.candidates;
   return out;
 }
@@ -252,7 +254,7 @@ std::string gaps_verdict_of(const PyScene& s) {
   const py::gil_scoped_release free;
   const std::lock_guard one(s.deck->mutex);
   const Joined joined(s);
-  return gaps_verdict(s.deck->loaded.deck(), s.scene, s.view);
+  return verdict_json(verdict_of(s.deck->loaded.deck(), s.scene, s.view));
 }
 
 CycleInput input_of(const PyCycle& r) {
@@ -263,6 +265,7 @@ CycleInput input_of(const PyCycle& r) {
   input.state = &r.state;
   input.outcome = &r.outcome;
   input.options = r.options;
+  input.view = &r.contacts->view;
   return input;
 }
 
@@ -277,7 +280,7 @@ std::string cycle_verdict_of(const PyCycle& r) {
   const py::gil_scoped_release free;
   const std::lock_guard one(r.contacts->deck->mutex);
   const Joined joined(*r.contacts);
-  return cycle_verdict(input_of(r));
+  return verdict_json(cycle_verdict(input_of(r)));
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ interface Inter {
 }
 /** What `deck cycle --json` writes, as far as it is shown here. */
 export interface CycleDocument {
-  verdict: string;
+  verdict: { level: string; text: string };
   costs: { verdict: string; pairs: number; loop_ns: number; flags_ns: number; all_ns: number; repeats: number; processor: string; compiler: string } | null;
   interfaces: Inter[];
 }
@@ -132,7 +132,7 @@ export function effectsSection(report: Report, doc: CycleDocument, name: string)
   const count = h("span", { class: "muted count" }, `${group(on)} of ${group(doc.interfaces.reduce((n, i) => n + i.effects.length, 0))} run`);
   const drawing = doc.costs && doc.costs.pairs > 0 ? chart(doc) : null;
   const section = h("section", { id: "effects", class: "verdict" },
-    h("p", { class: "verdict-text" }, h("strong", null, doc.costs?.verdict ?? ""), ` ${doc.verdict}`),
+    h("p", { class: "verdict-text" }, h("strong", null, doc.costs?.verdict ?? ""), ` ${doc.verdict.text}`),
     sectionHead(h("h2", null, "Effects", count), drawing && button("Save as SVG", "save", () => save(name, drawing.outerHTML), { class: "small" })),
     drawing && h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Cost of effects" }, drawing),
     h("p", { class: "note" }, "Nanoseconds of processor time per pair, each loop in turn with the one it is held against, answers compared bit for bit. Search and sums at nodes are left out. ",

@@ -141,6 +141,10 @@ export class Tally {
   add(meta: ContactMeta, data: ContactData, result: Result): void {
     const stops = onSurfaceError(meta, result.setting.fpenmax, result.setting.inacti) !== 0;
     const isEdge = meta.kind === "edge_edge";
+    if (meta.ties) { // only what stops the solver counts
+      for (const row of result.rows) if (row.onSurface && stops) this.node(data.secondaryNode[row.secondary], 4);
+      return;
+    }
     for (const row of result.rows) {
       const item = isEdge ? edgeKey(data.secondaryNode[2 * row.secondary], data.secondaryNode[2 * row.secondary + 1]) : data.secondaryNode[row.secondary];
       if (isEdge) this.edges.add(item);

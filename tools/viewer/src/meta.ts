@@ -71,6 +71,7 @@ export interface ContactMeta {
   istf: number;
   irem_gap: number;
   itied: number;
+  ties: boolean; // its pairs are tied: no penetrations
   fpenmax: number;
   gap_scale: number;
   gapmin: number;
@@ -116,7 +117,7 @@ export interface Meta {
     counts: Record<string, number>;
     includes: { path: string; written: string; from: { file: string; line: number } | null }[];
   };
-  verdict: string;
+  verdict: { level: "stops" | "penetrates" | "crossed" | "untied" | "not-examined" | "warnings" | "remarks" | "clean"; text: string; sentences: { what: string; text: string; counts: Record<string, number> }[]; counts: Record<string, number> };
   summary: Totals & { crossed_elements: number | null };
   coverage_lead: string; // in place of a verdict: nothing examined, or files missing
   coverage_tail: string; // behind a verdict: what was not examined

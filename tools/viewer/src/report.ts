@@ -359,6 +359,7 @@ export class Report {
     const seen = new Set<string>();
     this.results.forEach((result, contact) => {
       const meta = this.meta.contacts[contact];
+      if (meta.ties) return;
       const c = this.data.contacts[contact];
       const id = this.meta.interfaces[meta.interface].id;
       const edges = meta.kind === "edge_edge";

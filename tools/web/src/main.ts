@@ -258,9 +258,9 @@ async function refreshValues(): Promise<void> {
 }
 
 async function refreshGaps(): Promise<void> {
-  // What is printed opens with the verdict; the JSON of a large deck would be hundreds of MB.
+  // What is printed ends with the verdict, a paragraph of its own; the JSON of a large deck would be hundreds of MB.
   const r = await run(lanes.gaps, ["gaps", main, "--color", "never"]);
-  if (r) verdict.textContent = text(r.stdout).split("\n", 1)[0];
+  if (r) verdict.textContent = text(r.stdout).trimEnd().split("\n\n").at(-1)!.split("\n", 1)[0];
 }
 
 /* ---- findings, cards, text ---- */

@@ -12,7 +12,7 @@ namespace deck {
 void report_unreadable_cells(const Deck& deck, Diagnostics& out);
 
 /// Joins what cells and the groups of the model were found to lack, and `found` (what building
-/// model and scene had to say), to Deck::diagnostics, where verdicts (stops_text) look for it. To
+/// model and scene had to say), to Deck::diagnostics, where make_verdict looks for it. To
 /// be called once, behind build_scene(), which resolves the groups of contacts.
 void join_findings(Deck& deck, const Model& model, Diagnostics found);
 

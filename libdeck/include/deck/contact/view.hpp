@@ -45,8 +45,10 @@ struct PartPair {
 };
 
 struct ContactTotals {
-  ItemCounts count;                               ///< what penetrates
-  ItemCounts on_segment;                          ///< what of it lies exactly on a segment
+  ItemCounts count;          ///< what penetrates; ties do not
+  ItemCounts tied;           ///< what is tied (Contact::ties)
+  std::uint64_t untied = 0;  ///< nodes of TYPE10 that no segment is within reach of
+  ItemCounts on_segment;     ///< what of it lies exactly on a segment
   std::optional<std::uint64_t> crossed_elements;  ///< crossings listed; nullopt: not looked for
   std::uint64_t solver_errors = 0;                ///< nodes for which the solver stops: 611, 612
   std::uint64_t acted = 0;                        ///< pairs on which Inacti or Fpenmax do something
@@ -54,7 +56,9 @@ struct ContactTotals {
 };
 
 struct SceneView {
-  std::vector<NamedPenetration> penetrations;  ///< deepest first; ties by contact and row
+  /// Without ties; deepest first, equals by contact and row.
+  std::vector<NamedPenetration> penetrations;
+  std::vector<NamedPenetration> ties;  ///< rows of contacts that tie, in the same order
   std::vector<std::uint32_t>
       deepest_per_node;                 ///< indices into penetrations, one per contact side node
   std::vector<PartPair> part_pairs;     ///< deepest first

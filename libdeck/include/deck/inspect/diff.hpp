@@ -22,6 +22,8 @@ enum class MatchBy : std::uint8_t {
              ///< rank
 };
 
+struct Verdict;  // deck/verdict.hpp
+
 /// One side of a comparison; scene and view of the same deck.
 struct DiffSide {
   std::string path;  ///< as given
@@ -30,6 +32,7 @@ struct DiffSide {
   const Interfaces* interfaces = nullptr;
   const Scene* scene = nullptr;
   const SceneView* view = nullptr;
+  const Verdict* verdict = nullptr;  ///< what is said of this deck; nullptr: not asked
 };
 
 enum class ChangeKind : std::uint8_t { added, removed, changed, moved };
@@ -70,9 +73,11 @@ struct DeckDiff {
   /// from a billionth of the gap on.
   std::vector<PenetrationChange> appeared, gone, worse, better;
   std::uint64_t same_penetrations = 0;
-  std::vector<std::string> notes;  ///< for people
+  std::vector<std::string> notes;         ///< for people
+  bool stops_a = false, stops_b = false;  ///< the solver stops at this side, by its verdict
   bool equal() const {
-    return changes.empty() && appeared.empty() && gone.empty() && worse.empty() && better.empty();
+    return stops_a == stops_b && changes.empty() && appeared.empty() && gone.empty() &&
+           worse.empty() && better.empty();
   }
 };
 

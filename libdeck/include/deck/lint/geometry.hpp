@@ -2,10 +2,12 @@
 // gaps against the mesh, segments that cannot work — and DK4xx: forces and time step of the first
 // cycle.
 #pragma once
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "deck/contact/scene.hpp"
+#include "deck/contact/view.hpp"
 #include "deck/lint/gate.hpp"
 #include "deck/lint/lint.hpp"
 
@@ -24,6 +26,8 @@ struct GeometryOptions {
   std::optional<QuickLook> quick = {};  ///< nullopt: all is looked at
   const Gate* gate = nullptr;           ///< what passes over it is reported, too
   const EarlierGaps* earlier = nullptr;
+  /// Called with what was looked at; may be empty.
+  std::function<void(const Scene&, const SceneView&)> seen = {};
 };
 
 /// A check for LintInput::extra_checks; returns what the quick look left out. Does nothing where

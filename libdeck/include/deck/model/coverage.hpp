@@ -35,8 +35,5 @@ std::string not_examined_text(const Coverage& coverage);
 std::string coverage_lead(const Coverage& coverage);
 /// What is added to a verdict: " Not examined: ...", or nothing.
 std::string coverage_tail(const Coverage& coverage);
-/// " The solver stops first: 2 errors in the deck ..." where Deck::diagnostics has errors that are
-/// the solver's own as well; else empty. Empty sides of contacts are left out: verdicts name them.
-std::string stops_text(const Deck& deck);
 
 }  // namespace deck

@@ -12,11 +12,11 @@
 #include "deck/model/interfaces.hpp"
 #include "deck/report/drain.hpp"
 #include "deck/report/vtk.hpp"
+#include "deck/verdict.hpp"
 
 namespace deck {
 
 struct GateReport;  // deck/report/gate.hpp
-struct SceneView;
 
 /// One force evaluation and what it was about.
 struct CycleInput {
@@ -28,7 +28,7 @@ struct CycleInput {
   cycle::CycleOptions options;
   const cycle::StepsOutcome* steps = nullptr;  ///< of several steps; `outcome` is then the last
   const Coordinates* coordinates = nullptr;  ///< where the outcome was computed; null: the scene's
-  const SceneView* view = nullptr;           ///< of the scene, where there is a gate
+  const SceneView* view = nullptr;           ///< of the scene
   const GateReport* gate = nullptr;
   /// Of measure_effects over the same outcome, contact by contact; null: not measured.
   const std::vector<ContactCost>* costs = nullptr;
@@ -60,11 +60,11 @@ struct CycleTextOptions {
 /// The document of `deck cycle --json` (schemas/output/cycle.schema.json). With `all`, every pair
 /// that has a penetration, and every node that contact acts on.
 std::string cycle_json(const CycleInput& input, bool all, const TextDrain& drain = {});
-/// Verdict, table of interfaces, time steps, pairs near the gap singularity, effects, how the
-/// decisions were taken; the verdict again, and the gate.
+/// Table of interfaces, time steps, pairs near the gap singularity, effects, where round-off
+/// decides about a contact; then the verdict, and the gate.
 std::string cycle_text(const CycleInput& input, const CycleTextOptions& options = {});
-/// One or two sentences: forces, the largest acceleration, contact step against structural step.
-std::string cycle_verdict(const CycleInput& input);
+/// What is said of the deck with its forces.
+Verdict cycle_verdict(const CycleInput& input);
 
 /// Two files, always; the outcome must have kept its pairs:
 ///
@@ -88,8 +88,7 @@ std::vector<VtkFile> cycle_vtk(const CycleInput& input, const std::string& suffi
 std::vector<VtkFile> cycle_vtk_series(const cycle::StepsOutcome& steps,
                                       const std::vector<std::string>& suffixes);
 
-/// "node 57" or "edge 1-2" of a contact's secondary side, and why it leaves the interface.
-std::string secondary_name(const Model& model, const Contact& contact, std::uint32_t secondary);
+/// Why a node or edge leaves the interface.
 const char* to_string(cycle::Removal::Because because);
 
 /// What one replay was about.

@@ -1,11 +1,13 @@
 // Writers of lint results: for people, and for the machines that read JSON, SARIF, JUnit, GitHub
 // and GitLab. Pure functions from results to text.
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "deck/lint/lint.hpp"
+#include "deck/verdict.hpp"
 
 namespace deck {
 
@@ -18,14 +20,21 @@ struct LintedDeck {
   const Interfaces* interfaces =
       nullptr;                          ///< nullptr: not formed, so nothing says what was left out
   const Deck* of_interfaces = nullptr;  ///< whose blocks they are of, where it is not `deck`
+  std::optional<Verdict> verdict = {};  ///< nullopt: none was made
 };
+
+/// What lint says of a deck. `contacts`: what its geometry found; `contacts_left_out`: they were
+/// too many for a quick look.
+Verdict lint_verdict(const LintedDeck& deck, std::optional<ContactFacts> contacts = {},
+                     bool contacts_left_out = false);
 
 struct HumanOptions {
   bool color = false;
-  bool ruler = false;     ///< a line with column numbers above the card
-  int per_rule = 10;      ///< findings shown per rule, 0: all
-  bool group = true;      ///< more than three of a rule: the first in full, the others a line each
-  bool quiet = false;     ///< only the findings, no summary and no "not checked"
+  bool ruler = false;  ///< a line with column numbers above the card
+  int per_rule = 10;   ///< findings shown per rule, 0: all
+  bool group = true;   ///< more than three of a rule: the first in full, the others a line each
+  bool remarks_of_every_deck = true;  ///< what nearly every deck with a contact has
+  bool quiet = false;                 ///< only the findings, no summary and no "not checked"
   std::size_t width = 0;  ///< columns of a line; 0: any, card lines are cut all the same
 };
 

@@ -29,20 +29,10 @@ struct GapsTextOptions {
   const GateReport* gate = nullptr;
 };
 
-/// Verdict, interface table, part pairs, worst list, crossed elements, how the decisions were
-/// taken; the verdict again, and the gate.
+/// Interface table, part pairs, worst list, crossed elements, where round-off decides about a
+/// contact; then the verdict, and the gate.
 std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& view,
                       const GapsTextOptions& options = {});
-/// How many, how deep, whether the solver stops, crossed elements, and what was not examined; or
-/// why there is no verdict. The same words in every medium.
-std::string gaps_verdict(const Deck& deck, const Scene& scene, const SceneView& view);
-
-/// What keeps evaluated contacts of a scene from being judged (obstacle_of).
-struct ObstacleText {
-  std::string sentences;       ///< "1 contact with an empty side. "; empty: nothing
-  std::size_t unexamined = 0;  ///< contacts without any pair for that reason
-};
-ObstacleText obstacle_text(const Scene& scene);
 
 /// The document of `deck gaps --json`. With `all`, every secondary node and main segment; with
 /// `crossings`, what find_crossings gave for the scene.
@@ -61,7 +51,7 @@ std::string crossings_text(const Scene& scene, const std::vector<Crossing>& cros
 Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
                                       std::string_view deck_path, bool strict = false);
 
-/// One line per penetration, deepest first, RFC 4180.
+/// One line per penetration, ties left out, deepest first, RFC 4180.
 std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view,
                      const TextDrain& drain = {});
 

@@ -102,6 +102,29 @@ void check_depths(const GeometryRun& run) {
   }
 }
 
+/// Nodes of a TYPE10 that nothing ties at the start.
+void check_untied(const GeometryRun& run, std::uint32_t contact) {
+  const Contact& c = run.scene.contacts[contact];
+  if (run.view.contacts[contact].untied == 0) return;
+  std::vector<bool> tied(c.secondary.size(), false);
+  for (const PenetrationRow& r : c.penetrations) tied[r.secondary] = true;
+  std::vector<std::int64_t> free;
+  NodeIndex first = no_index;
+  for (std::size_t s = 0; s < tied.size(); ++s) {
+    if (tied[s]) continue;
+    if (free.empty()) first = c.secondary[s].node;
+    free.push_back(run.model().node_id(c.secondary[s].node));
+  }
+  std::sort(free.begin(), free.end());
+  Diagnostic* d =
+      run.report(RuleId::DK308, c, "Gap",
+                 fmt::format("{}: {} of {} not tied at the start, no segment is within the gap of "
+                             "{:.6g}: {}",
+                             name_of(run, c), count_text(free.size(), "node"), tied.size(),
+                             c.gapmin, list_text(free)));
+  if (d != nullptr) d->notes.emplace_back(run.model().node_span(first), "one of the nodes");
+}
+
 void check_on_surface(const GeometryRun& run, const Contact& c) {
   if (c.kind == ContactKind::edge_edge) return;
   const auto nodes = nodes_where(run, c, [](const PenetrationRow& r) { return r.on_surface; });
@@ -114,7 +137,7 @@ void check_on_surface(const GeometryRun& run, const Contact& c) {
 }
 
 void check_switched_off(const GeometryRun& run, const Contact& c) {
-  if (c.fpenmax == 0 || c.inacti == 1) return;
+  if (c.fpenmax == 0 || c.inacti == 1 || c.ties()) return;
   const auto nodes = nodes_where(run, c, [](const PenetrationRow& r) {
     return r.action == PenetrationAction::node_stiffness_zero;
   });
@@ -162,7 +185,9 @@ void check_deep_edges(const GeometryRun& run, const Contact& c) {
 
 void check_penetrations(const GeometryRun& run) {
   check_depths(run);
-  for (const Contact& c : run.scene.contacts) {
+  for (std::uint32_t i = 0; i < run.scene.contacts.size(); ++i) {
+    const Contact& c = run.scene.contacts[i];
+    check_untied(run, i);
     check_on_surface(run, c);
     check_switched_off(run, c);
     check_moved_springs(run, c);

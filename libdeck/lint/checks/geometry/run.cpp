@@ -1,6 +1,7 @@
 // Names of contacts, segments, elements and lists as the findings of the geometry checks say them.
 #include <algorithm>
 
+#include "deck/base/count.hpp"
 #include "deck/lint/geometry.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
@@ -40,7 +41,7 @@ std::string element_text(const ElementName& e) {
 }
 
 std::string count_text(std::size_t n, std::string_view one) {
-  return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
+  return count(n, one, std::string(one) + "s");
 }
 
 std::string list_text(const std::vector<std::int64_t>& list) {
@@ -138,7 +139,9 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
       out->notes = d.notes;
     }
   }
-  const SceneView view = make_view(scene);
+  const std::vector<Crossing> crossings = find_crossings(scene, chosen.threads);
+  const SceneView view = make_view(scene, &crossings, chosen.threads);
+  if (chosen.seen) chosen.seen(scene, view);
   const detail::GeometryRun run{context, reporter,       scene,
                                 view,    chosen.threads, chosen.quick ? &left_out : nullptr};
   detail::check_penetrations(run);

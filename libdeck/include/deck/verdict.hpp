@@ -1,0 +1,105 @@
+// The verdict: what is said of a deck, made in one place. Terminal, JSON, page, batch, editor and
+// Python show it and add nothing; exit codes follow from it.
+//
+//   const Verdict v = make_verdict({.deck = &deck, .interfaces = &interfaces,
+//                                   .contacts = contact_facts(scene, view)});
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "deck/contact/view.hpp"
+#include "deck/cycle/scene_cycle.hpp"
+#include "deck/cycle/steps.hpp"
+#include "deck/keyword/deck.hpp"
+#include "deck/model/coverage.hpp"
+
+namespace deck {
+
+/// The first that applies, worst first.
+enum class VerdictLevel : std::uint8_t {
+  stops,       ///< the solver would stop: an error of the deck, a node on a segment, an empty side
+  penetrates,  ///< initial penetrations that are no ties
+  crossed,     ///< crossed elements
+  untied,      ///< nodes of a tie without a segment
+  not_examined,  ///< nothing was examined, or a part of it could not be
+  warnings,      ///< of lint
+  remarks,       ///< of lint: information only
+  clean          ///< examined, and nothing found
+};
+std::string_view to_string(VerdictLevel level);  ///< "stops", ..., "not-examined", ...
+
+/// Numbers by name, in order of what they are about.
+using VerdictCounts = std::vector<std::pair<std::string, std::uint64_t>>;
+
+struct VerdictSentence {
+  std::string what;  ///< "penetrations", "ties", "errors", "forces", ...
+  std::string text;  ///< a whole sentence
+  VerdictCounts counts;
+};
+
+struct Verdict {
+  VerdictLevel level = VerdictLevel::clean;
+  std::string text;  ///< all sentences
+  std::vector<VerdictSentence> sentences;
+  VerdictCounts counts;             ///< of all sentences, and those that are 0
+  bool stops_before_pairs = false;  ///< the deck or a contact as such stops the solver
+  bool undecided = false;           ///< a contact could not be evaluated
+  bool warns = false;               ///< something that --fail-on warning stops at
+
+  /// 0 where there is no such count.
+  std::uint64_t count(std::string_view name) const;
+};
+
+/// What contacts and their penetrations say; the scene is not needed afterwards.
+struct ContactFacts {
+  std::size_t contacts = 0, not_evaluated = 0;
+  std::array<std::size_t, 7> obstacles{};  ///< evaluated contacts by Obstacle
+  ContactTotals total;
+  double deepest = 0, deepest_gap = 0;  ///< of the deepest pair: its depth, and its gap
+};
+ContactFacts contact_facts(const Scene& scene, const SceneView& view);
+
+/// What a run of lint found, gates left out. Where there was one its errors and warnings decide, as
+/// suppressions, baselines and changed severities have them.
+struct LintFacts {
+  std::uint64_t errors = 0, warnings = 0, remarks = 0;
+  bool contacts_left_out = false;  ///< the model was too large for a quick look
+};
+
+/// What a verdict is made from. What is not there was not looked at.
+struct VerdictInput {
+  const Deck* deck = nullptr;  ///< its diagnostics hold all that was found, of the scene as well
+  const Interfaces* interfaces = nullptr;  ///< nullptr: not formed, contacts are not spoken of
+  std::optional<ContactFacts> contacts;
+  const cycle::SceneOutcome* cycle = nullptr;
+  const Model* model = nullptr;                ///< with `cycle`
+  const cycle::StepsOutcome* steps = nullptr;  ///< where `cycle` is the last of several
+  std::optional<LintFacts> lint;
+};
+
+/// The one place where it is decided what is said of a deck.
+Verdict make_verdict(const VerdictInput& input);
+/// The same of a scene: of `deck gaps`, of the page.
+Verdict verdict_of(const Deck& deck, const Scene& scene, const SceneView& view);
+
+/// When a verdict makes an exit code of 1.
+struct ExitRules {
+  bool on_warning = false;        ///< --fail-on warning
+  bool never = false;             ///< --fail-on never
+  bool require_examined = false;  ///< --require-examined
+  bool pairs_accepted = false;    ///< a baseline holds the pairs: they alone stop nothing
+};
+/// 0 or 1. Gates come on top of it.
+int exit_code_of(const Verdict& verdict, const ExitRules& rules = {});
+
+/// "node 57" or "edge 1-2" of a contact's secondary side.
+std::string secondary_name(const Model& model, const Contact& contact, std::uint32_t secondary);
+/// Nodes or edges that dtmin removes from their interface.
+std::size_t removed_by_step(const cycle::ContactOutcome& outcome);
+
+}  // namespace deck

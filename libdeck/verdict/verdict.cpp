@@ -1,0 +1,281 @@
+// Says what is to be said of a deck: sentences, counts, level and exit code.
+#include "deck/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "deck/base/count.hpp"
+#include "deck/text/rule_id.hpp"
+#include "verdict/parts.hpp"
+
+namespace deck {
+namespace {
+
+using detail::Sentences;
+
+std::size_t contacts_with(const ContactFacts& f, std::initializer_list<Obstacle> obstacles) {
+  std::size_t n = 0;
+  for (const Obstacle o : obstacles) n += f.obstacles[static_cast<std::size_t>(o)];
+  return n;
+}
+
+/// Contacts without any pair for the reason that something of them is missing.
+std::size_t idle(const ContactFacts& f) {
+  return contacts_with(f, {Obstacle::empty_main, Obstacle::empty_secondary, Obstacle::no_gap,
+                           Obstacle::no_stiffness});
+}
+
+void say_obstacles(const ContactFacts& f, Sentences& out) {
+  const auto name = [&](const char* what, const char* text,
+                        std::initializer_list<Obstacle> obstacles) {
+    if (const std::size_t n = contacts_with(f, obstacles); n > 0)
+      out.add(what, count(n, "contact ", "contacts ") + text + ".", {{what, n}});
+  };
+  name("empty_sides", "with an empty side", {Obstacle::empty_main, Obstacle::empty_secondary});
+  name("without_gap", "without a gap (error 785/786)", {Obstacle::no_gap});
+  name("without_stiffness", "without stiffness on the main side", {Obstacle::no_stiffness});
+  name("without_area", "with main segments without area (error 558)", {Obstacle::no_area});
+  name("without_element", "with segments or edges without element (error 481/482)",
+       {Obstacle::no_element});
+}
+
+void say_penetrations(const ContactFacts& f, Sentences& out) {
+  const ContactTotals& t = f.total;
+  const VerdictCounts counts = {
+      {"pairs", t.count.pairs}, {"nodes", t.count.nodes}, {"edges", t.count.edges}};
+  if (t.count.pairs == 0)
+    out.add("penetrations",
+            fmt::format("No initial penetration in {}.",
+                        count(f.contacts - f.not_evaluated - idle(f), "contact", "contacts")),
+            counts);
+  else  // One figure for the deepest pair, one for the largest share of a gap.
+    out.add("penetrations",
+            fmt::format("{} on {}, deepest {:.6g} of a gap of {:.6g}; worst share of a gap {:.1f} "
+                        "%.",
+                        count(t.count.pairs, "initial penetration", "initial penetrations"),
+                        nodes_and_edges(t.count.nodes, t.count.edges), f.deepest, f.deepest_gap, 100 * t.max_ratio),
+            counts);
+  if (t.solver_errors > 0)
+    out.add("on_segment",
+            fmt::format("The solver will stop: {} exactly on a segment (error 611/612).",
+                        count(t.solver_errors, "node lies", "nodes lie")),
+            {{"solver_errors", t.solver_errors}});
+  else if (t.on_segment.pairs > 0)
+    out.add("on_segment", fmt::format("Exactly on a segment: {}.", nodes_and_edges(t.on_segment.nodes, t.on_segment.edges)),
+            {{"on_segment", t.on_segment.nodes + t.on_segment.edges}});
+  if (t.tied.pairs > 0)
+    out.add("ties",
+            fmt::format("{} tied ({}).", count(t.tied.pairs, "pair", "pairs"),
+                        count(t.tied.nodes, "node", "nodes")),
+            {{"tied_pairs", t.tied.pairs}, {"tied_nodes", t.tied.nodes}});
+  if (t.untied > 0)
+    out.add("untied",
+            fmt::format("{} not tied: no segment is within reach.",
+                        count(t.untied, "node of a TYPE10 is", "nodes of a TYPE10 are")),
+            {{"untied_nodes", t.untied}});
+  if (const std::uint64_t n = t.crossed_elements.value_or(0); n > 0)
+    out.add("crossed",
+            fmt::format("{}: an edge of the secondary side passes through a main segment.",
+                        count(n, "crossed element", "crossed elements")),
+            {{"crossed_elements", n}});
+}
+
+void say_contacts(const ContactFacts& f, Sentences& out) {
+  if (f.not_evaluated > 0)
+    out.add("not_evaluated",
+            fmt::format("{} could not be evaluated, see the findings.",
+                        count(f.not_evaluated, "contact", "contacts")),
+            {{"not_evaluated", f.not_evaluated}});
+  say_obstacles(f, out);
+  say_penetrations(f, out);
+}
+
+/// Errors of the deck: all, those that the solver has as well, and those that it has not. Empty
+/// sides are named by themselves.
+struct DeckErrors {
+  std::uint64_t all = 0, solver = 0, own = 0;
+};
+
+DeckErrors errors_of(const Deck& deck) {
+  DeckErrors out;
+  for (const Diagnostic& d : deck.diagnostics.all()) {
+    if (d.severity != Severity::error) continue;
+    ++out.all;
+    if (d.rule == RuleId::DK172 || d.rule == RuleId::DK173) continue;
+    ++(d.reference && d.reference->severity == Severity::error ? out.solver : out.own);
+  }
+  return out;
+}
+
+void say_errors(const DeckErrors& errors, Sentences& out) {
+  if (errors.solver > 0)
+    out.add("errors",
+            fmt::format("The solver stops first: {} in the deck ('deck lint' explains).",
+                        count(errors.solver, "error", "errors")),
+            {{"errors", errors.all}});
+  if (errors.own > 0)
+    out.add(
+        "deck_errors",
+        fmt::format("{} in the deck ('deck lint' explains).", count(errors.own, "error", "errors")),
+        {{"errors", errors.all}});
+}
+
+/// What lint found, in front of all else.
+VerdictSentence lint_sentence(const LintFacts& lint, VerdictLevel level) {
+  VerdictSentence out{
+      "lint",
+      {},
+      {{"errors", lint.errors}, {"warnings", lint.warnings}, {"remarks", lint.remarks}}};
+  const std::string remarks = count(lint.remarks, "remark", "remarks");
+  if (level == VerdictLevel::clean || level == VerdictLevel::remarks)
+    out.text = lint.remarks > 0 ? "clean (" + remarks + ": -v)." : "clean.";
+  else
+    out.text = count(lint.errors, "error", "errors") + ", " +
+               count(lint.warnings, "warning", "warnings") +
+               (lint.remarks > 0 ? ", " + remarks : std::string()) + ".";
+  return out;
+}
+
+/// Adds a count unless a sentence has it already.
+void note(VerdictCounts& counts, const char* name, std::uint64_t n) {
+  const auto known = [&](const auto& c) { return c.first == name; };
+  if (std::none_of(counts.begin(), counts.end(), known)) counts.emplace_back(name, n);
+}
+
+VerdictCounts all_counts(const VerdictInput& in, const Coverage& coverage, std::uint64_t errors,
+                         const Sentences& sentences) {
+  VerdictCounts out;
+  std::uint64_t left_out = 0;
+  for (const NotExamined& n : coverage.not_examined) left_out += n.ids.size();
+  if (in.interfaces != nullptr) {
+    note(out, "interfaces", coverage.examined);
+    note(out, "interfaces_not_examined", left_out);
+  }
+  if (in.contacts) {
+    const ContactTotals& t = in.contacts->total;
+    note(out, "contacts", in.contacts->contacts);
+    note(out, "not_evaluated", in.contacts->not_evaluated);
+    note(out, "pairs", t.count.pairs);
+    note(out, "nodes", t.count.nodes);
+    note(out, "edges", t.count.edges);
+    note(out, "solver_errors", t.solver_errors);
+    note(out, "tied_pairs", t.tied.pairs);
+    note(out, "tied_nodes", t.tied.nodes);
+    note(out, "untied_nodes", t.untied);
+    if (t.crossed_elements) note(out, "crossed_elements", *t.crossed_elements);
+  }
+  note(out, "errors", errors);
+  if (in.lint) {
+    note(out, "warnings", in.lint->warnings);
+    note(out, "remarks", in.lint->remarks);
+  }
+  for (const VerdictSentence& s : sentences.all)
+    for (const auto& [name, n] : s.counts) note(out, name.c_str(), n);
+  return out;
+}
+
+VerdictLevel level_of(const VerdictInput& in, const Coverage& coverage, const Verdict& v,
+                      bool stops) {
+  if (stops) return VerdictLevel::stops;
+  if (v.count("pairs") > 0) return VerdictLevel::penetrates;
+  if (v.count("crossed_elements") > 0) return VerdictLevel::crossed;
+  if (v.count("untied_nodes") > 0) return VerdictLevel::untied;
+  const bool left_out = in.contacts ? in.contacts->not_evaluated > 0 || idle(*in.contacts) > 0
+                                    : in.lint && in.lint->contacts_left_out;
+  // A run of lint that was told not to look at contacts says nothing about them, and lint has rules
+  // for decks without any.
+  const bool looked = in.contacts || (coverage.nothing() && !in.lint);
+  if (!coverage.complete() || left_out || (looked && coverage.nothing()) ||
+      ((looked || coverage.nothing()) && !coverage.not_examined.empty()))
+    return VerdictLevel::not_examined;
+  if (v.count("warnings") > 0) return VerdictLevel::warnings;
+  return v.count("remarks") > 0 ? VerdictLevel::remarks : VerdictLevel::clean;
+}
+
+}  // namespace
+
+std::string_view to_string(VerdictLevel level) {
+  static constexpr std::string_view names[] = {"stops",        "penetrates", "crossed", "untied",
+                                               "not-examined", "warnings",   "remarks", "clean"};
+  return names[static_cast<std::size_t>(level)];
+}
+
+std::uint64_t Verdict::count(std::string_view name) const {
+  for (const auto& [known, n] : counts)
+    if (known == name) return n;
+  return 0;
+}
+
+ContactFacts contact_facts(const Scene& scene, const SceneView& view) {
+  ContactFacts out;
+  out.contacts = scene.contacts.size();
+  for (const Contact& c : scene.contacts) {
+    out.not_evaluated += !c.evaluated;
+    if (c.evaluated) ++out.obstacles[static_cast<std::size_t>(obstacle_of(c))];
+  }
+  out.total = view.total;
+  if (!view.penetrations.empty()) {
+    const NamedPenetration& p = view.penetrations.front();
+    const PenetrationRow& row = scene.contacts[p.contact].penetrations[p.row];
+    out.deepest = row.depth;
+    out.deepest_gap = row.gap;
+  }
+  return out;
+}
+
+Verdict make_verdict(const VerdictInput& in) {
+  Coverage coverage;
+  if (in.interfaces != nullptr) coverage = coverage_of(*in.deck, *in.interfaces);
+  const DeckErrors errors = errors_of(*in.deck);
+  Verdict v;
+  Sentences say;
+  const std::string lead = in.interfaces == nullptr ? "" : coverage_lead(coverage);
+  if (!lead.empty())
+    say.add(coverage.complete() ? "nothing_examined" : "no_verdict", lead, {});
+  else if (in.contacts)
+    say_contacts(*in.contacts, say);
+  if (!in.lint && coverage.complete()) say_errors(errors, say);
+  if (lead.empty() && in.cycle != nullptr) detail::say_forces(in, say);
+  if (const std::string tail = coverage_tail(coverage);
+      !tail.empty() && (in.contacts || !lead.empty()))
+    say.add("not_examined", tail.substr(1), {});
+  if (in.lint && in.lint->contacts_left_out)
+    say.add("left_out", "The contacts were not examined: too large for a quick look (--geometry).",
+            {});
+  const std::uint64_t all_errors = in.lint ? in.lint->errors : errors.all;
+  v.counts = all_counts(in, coverage, all_errors, say);
+  v.stops_before_pairs =
+      all_errors > 0 || (!in.lint && in.contacts &&
+                         contacts_with(*in.contacts, {Obstacle::no_gap, Obstacle::no_area,
+                                                      Obstacle::no_element}) > 0);
+  v.undecided = !in.lint && in.contacts && in.contacts->not_evaluated > 0;
+  v.level =
+      level_of(in, coverage, v, v.stops_before_pairs || (!in.lint && v.count("solver_errors") > 0));
+  v.warns = in.lint ? in.lint->warnings > 0
+                    : v.count("pairs") + v.count("crossed_elements") + v.count("untied_nodes") > 0;
+  if (in.lint) say.all.insert(say.all.begin(), lint_sentence(*in.lint, v.level));
+  v.sentences = std::move(say.all);
+  for (const VerdictSentence& s : v.sentences) v.text += (v.text.empty() ? "" : " ") + s.text;
+  return v;
+}
+
+Verdict verdict_of(const Deck& deck, const Scene& scene, const SceneView& view) {
+  VerdictInput in;
+  in.deck = &deck;
+  in.interfaces = scene.interfaces;
+  in.contacts = contact_facts(scene, view);
+  return make_verdict(in);
+}
+
+int exit_code_of(const Verdict& v, const ExitRules& rules) {
+  if (rules.require_examined && v.level == VerdictLevel::not_examined) return 1;
+  if (rules.never) return 0;
+  const bool stops = v.level == VerdictLevel::stops;
+  const bool found = (stops && (v.stops_before_pairs || !rules.pairs_accepted)) ||
+                     (rules.on_warning && v.warns && !rules.pairs_accepted) || v.undecided;
+  return found ? 1 : 0;
+}
+
+}  // namespace deck

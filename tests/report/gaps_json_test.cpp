@@ -1,0 +1,96 @@
+// The JSON of `deck gaps`: lengths of pairs, ties, the verdict.
+#include <nlohmann/json.hpp>
+
+#include "deck/report/gaps.hpp"
+#include "deck/verdict.hpp"
+#include "report/inspected.hpp"
+
+namespace deck::test {
+namespace {
+
+nlohmann::json document_of(const std::string& text) {
+  const Inspected d(text);
+  return nlohmann::json::parse(gaps_json("test_0000.rad", d.deck, d.scene, d.view, false));
+}
+
+/// Two crossing lines 0.25 apart.
+std::string edges() {
+  Plates p;
+  p.card = "Gapmin=0.1\n@/INTER/TYPE11/3 line_IDs=4 line_IDm=3 Gapmin=0.5";
+  p.card += "\n/LINE/SURF/3\nlower\n         1\n/LINE/SURF/4\nupper\n         2";
+  p.card += "\n/SURF/PART/2\nupper\n         2";
+  p.height = 0.25;
+  return plates(p);
+}
+
+/// Nodes of the upper plate tied to the lower one.
+std::string tied() {
+  Plates p;
+  p.card = "Gapmin=0.1\n@/INTER/TYPE10/3 grnd_IDs=2 surf_IDm=1 Gap=0.5";
+  return plates(p);
+}
+
+TEST(GapsJson, FiguresOfEdgePairsAreLengths) {
+  std::size_t rows = 0;
+  const auto all = document_of(edges());
+  for (const auto& inter : all["interfaces"])
+    for (const auto& contact : inter["contacts"])
+      for (const auto& p : contact["penetrations"]) {
+        if (!p.contains("edge")) continue;
+        ++rows;
+        const double gap = p["gap"], distance = p["distance"];
+        EXPECT_EQ(gap, 0.5);
+        EXPECT_EQ(p["penetration"].get<double>(), gap - distance);
+        EXPECT_EQ(p["solver"]["gap"].get<double>(), gap * gap);
+        EXPECT_EQ(p["solver"]["penetration"].get<double>(), gap * gap - distance);
+      }
+  EXPECT_GT(rows, 0u) << all.dump(1);
+}
+
+TEST(GapsJson, TiesAreListedAndCountedAsTies) {
+  const auto all = document_of(tied());
+  EXPECT_EQ(all["summary"]["pairs"], 0);
+  EXPECT_EQ(all["summary"]["tied"]["pairs"], 4);
+  EXPECT_EQ(all["summary"]["tied"]["nodes"], 4);
+  for (const auto& inter : all["interfaces"])
+    for (const auto& contact : inter["contacts"]) {
+      const bool ties = inter["type"] == 10;
+      EXPECT_EQ(contact["penetrations"].size(), ties ? 4u : 0u);
+      for (const auto& p : contact["penetrations"]) EXPECT_EQ(p["tie"], true);
+    }
+}
+
+TEST(GapsJson, AnEarlierDocumentHasNoTiesToCompareWith) {
+  const Inspected d(tied());
+  const std::string json = gaps_json("test_0000.rad", d.deck, d.scene, d.view, false);
+  const auto earlier = read_earlier_gaps("old.json", json, "test_0000.rad");
+  ASSERT_TRUE(earlier.ok());
+  EXPECT_EQ(earlier->rows.size(), 0u);
+}
+
+TEST(GapsJson, AnEarlierDocumentHasTheDepthOfEdges) {
+  const Inspected d(edges());
+  const std::string json = gaps_json("test_0000.rad", d.deck, d.scene, d.view, false);
+  const auto earlier = read_earlier_gaps("old.json", json, "test_0000.rad");
+  ASSERT_TRUE(earlier.ok());
+  for (const EarlierGaps::Row& r : earlier->rows) {
+    EXPECT_EQ(r.gap, 0.5);
+  }
+  for (const GapsComparison::Row& r : compare_gaps(*earlier, d.scene, d.view).rows) {
+    EXPECT_EQ(r.trend, Trend::same);
+  }
+  EXPECT_FALSE(earlier->rows.empty());
+}
+
+TEST(GapsJson, HasTheVerdict) {
+  const Inspected d(tied());
+  const Verdict v = verdict_of(d.deck, d.scene, d.view);
+  const auto all = document_of(tied());
+  EXPECT_EQ(all["verdict"]["level"], std::string(to_string(v.level)));
+  EXPECT_EQ(all["verdict"]["text"], v.text);
+  EXPECT_EQ(all["verdict"]["sentences"].size(), v.sentences.size());
+  EXPECT_EQ(all["verdict"]["counts"]["tied_pairs"], 4);
+}
+
+}  // namespace
+}  // namespace deck::test

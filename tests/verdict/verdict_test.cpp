@@ -1,0 +1,137 @@
+// The verdict of a deck: its level, its sentences, its counts, and the exit code that follows.
+#include "deck/verdict.hpp"
+
+#include "deck/contact/join_findings.hpp"
+#include "report/inspected.hpp"
+
+namespace deck::test {
+namespace {
+
+/// A plate of one element, and three free nodes over it, of which `apart` are further away.
+std::string tie(const std::string& card, double height = 0.4, double far = 0.4) {
+  SmallDeck d;
+  d.node(1, 0, 0, 0).node(2, 10, 0, 0).node(3, 10, 10, 0).node(4, 0, 10, 0);
+  d.node(11, 3, 3, height).node(12, 6, 3, height).node(13, 3, 6, far);
+  d.shell_part(1, 1.0).shell(1, 1, 1, 2, 3, 4);
+  d.group("/SURF/PART/1", {1}).group("/GRNOD/NODE/2", {11, 12, 13});
+  return d.add("@/INTER/" + card).text();
+}
+
+Verdict of(const std::string& text) {
+  Inspected d(text);
+  join_findings(d.deck, d.model, std::move(d.diagnostics));
+  return verdict_of(d.deck, d.scene, d.view);
+}
+
+std::string text_of(const Verdict& v, std::string_view what) {
+  for (const VerdictSentence& s : v.sentences)
+    if (s.what == what) return s.text;
+  return {};
+}
+
+TEST(Verdict, PenetrationsThatAreNoTies) {
+  const Verdict v = of(plates());
+  EXPECT_EQ(v.level, VerdictLevel::penetrates) << v.text;
+  EXPECT_EQ(v.count("pairs"), 4u);
+  EXPECT_EQ(v.count("nodes"), 4u);
+  EXPECT_EQ(v.count("tied_pairs"), 0u);
+}
+
+TEST(Verdict, NothingFoundIsClean) {
+  Plates p;
+  p.card = "Gapmin=0.1";
+  const Verdict v = of(plates(p));
+  EXPECT_EQ(v.level, VerdictLevel::clean) << v.text;
+  EXPECT_EQ(v.text, "No initial penetration in 1 contact.");
+}
+
+TEST(Verdict, PairsOfType10AreTied) {
+  const Verdict v = of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1"));
+  EXPECT_EQ(v.level, VerdictLevel::clean) << v.text;
+  EXPECT_EQ(v.count("pairs"), 0u);
+  EXPECT_EQ(v.count("tied_pairs"), 3u);
+  EXPECT_EQ(v.count("tied_nodes"), 3u);
+  EXPECT_EQ(text_of(v, "ties"), "3 pairs tied (3 nodes).");
+}
+
+TEST(Verdict, PairsOfType7WithItiedAreTied) {
+  const Verdict v = of(tie("TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1 ITIED=1"));
+  EXPECT_EQ(v.count("pairs"), 0u) << v.text;
+  EXPECT_EQ(v.count("tied_pairs"), 3u);
+}
+
+TEST(Verdict, NodesOfATieThatNothingIsWithinReachOf) {
+  const Verdict v = of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 0.4, 1.5));
+  EXPECT_EQ(v.level, VerdictLevel::untied) << v.text;
+  EXPECT_EQ(v.count("untied_nodes"), 1u);
+  EXPECT_EQ(v.count("tied_nodes"), 2u);
+}
+
+TEST(Verdict, ANodeOnASegmentStopsTheSolverTiedOrNot) {
+  for (const char* card :
+       {"TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", "TYPE7/1 grnd_IDs=2 surf_IDm=1 Gapmin=1"}) {
+    const Verdict v = of(tie(card, 0.4, 0));
+    EXPECT_EQ(v.level, VerdictLevel::stops) << v.text;
+    EXPECT_EQ(v.count("solver_errors"), 1u);
+    EXPECT_EQ(exit_code_of(v), 1);
+  }
+}
+
+TEST(Verdict, AnErrorOfTheDeckStopsTheSolver) {
+  const Verdict v = of(plates() + "");
+  EXPECT_NE(v.level, VerdictLevel::stops);
+  Plates p;
+  p.card = "Gapmin=0.5 Stfac=l.0";
+  const Verdict bad = of(plates(p));
+  EXPECT_EQ(bad.level, VerdictLevel::stops) << bad.text;
+  EXPECT_TRUE(bad.stops_before_pairs);
+}
+
+TEST(Verdict, AnInterfaceThatIsNotExaminedIsSaid) {
+  Plates p;
+  p.card = "Gapmin=0.1\n/INTER/TYPE25/9\nother\n         1         2";
+  const Verdict v = of(plates(p));
+  EXPECT_EQ(v.level, VerdictLevel::not_examined) << v.text;
+  EXPECT_EQ(v.count("interfaces_not_examined"), 1u);
+  EXPECT_EQ(exit_code_of(v), 0);
+  EXPECT_EQ(exit_code_of(v, {.require_examined = true}), 1);
+}
+
+TEST(Verdict, TheTextIsItsSentences) {
+  const Verdict v = of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 0.4, 0));
+  std::string all;
+  for (const VerdictSentence& s : v.sentences) all += (all.empty() ? "" : " ") + s.text;
+  EXPECT_EQ(v.text, all);
+}
+
+TEST(Verdict, LintDecidesByItsOwnErrorsAndWarnings) {
+  Inspected d(plates());
+  VerdictInput in;
+  in.deck = &d.deck;
+  in.interfaces = &d.interfaces;
+  in.lint = LintFacts{0, 2, 1, false};
+  EXPECT_EQ(make_verdict(in).level, VerdictLevel::warnings);
+  EXPECT_EQ(make_verdict(in).text, "0 errors, 2 warnings, 1 remark.");
+  in.lint = LintFacts{1, 0, 0, false};
+  EXPECT_EQ(make_verdict(in).level, VerdictLevel::stops);
+  in.lint = LintFacts{0, 0, 3, false};
+  EXPECT_EQ(make_verdict(in).level, VerdictLevel::remarks);
+  EXPECT_EQ(make_verdict(in).text, "clean (3 remarks: -v).");
+}
+
+TEST(Verdict, ExitCodesFollowFromTheLevel) {
+  const Verdict penetrates = of(plates());
+  EXPECT_EQ(exit_code_of(penetrates), 0);
+  EXPECT_EQ(exit_code_of(penetrates, {.on_warning = true}), 1);
+  EXPECT_EQ(exit_code_of(penetrates, {.on_warning = true, .pairs_accepted = true}), 0);
+  const Verdict untied = of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 0.4, 1.5));
+  EXPECT_EQ(exit_code_of(untied), 0);
+  EXPECT_EQ(exit_code_of(untied, {.on_warning = true}), 1);
+  const Verdict tied = of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1"));
+  EXPECT_EQ(exit_code_of(tied, {.on_warning = true}), 0);
+  const Verdict stops = of(tie("TYPE10/1 grnd_IDs=2 surf_IDm=1 Gap=1", 0.4, 0));
+  EXPECT_EQ(exit_code_of(stops, {.never = true}), 0);
+}
+
+}  // namespace
+}  // namespace deck::test
