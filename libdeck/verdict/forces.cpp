@@ -66,9 +66,8 @@ void say_pushing_steps(const cycle::StepsOutcome& s, Sentences& out) {
   }
   if (pushing > 0)
     out.add("steps_with_force",
-            fmt::format("{} of the {} before {} forces, the first at step {}.", pushing,
-                        count(s.lines.size() - 1, "evaluation", "evaluations"),
-                        pushing == 1 ? "has" : "have", first),
+            fmt::format("{} of {} before had forces, the first at step {}.", pushing,
+                        count(s.lines.size() - 1, "evaluation", "evaluations"), first),
             {{"steps_with_force", pushing}});
 }
 

@@ -13,11 +13,11 @@ nlohmann::json document_of(const std::string& text) {
   return nlohmann::json::parse(gaps_json("test_0000.rad", d.deck, d.scene, d.view, false));
 }
 
-/// Two crossing lines 0.25 apart.
+/// The border of a plate against that of a larger one below it, 2 to the side and 0.25 up.
 std::string edges() {
   Plates p;
-  p.card = "Gapmin=0.1\n@/INTER/TYPE11/3 line_IDs=4 line_IDm=3 Gapmin=0.5";
-  p.card += "\n/LINE/SURF/3\nlower\n         1\n/LINE/SURF/4\nupper\n         2";
+  p.card = "Gapmin=0.1\n@/INTER/TYPE11/3 line_IDs=4 line_IDm=3 Gapmin=2.5";
+  p.card += "\n/LINE/EDGE/3\nlower\n         1\n/LINE/EDGE/4\nupper\n         2";
   p.card += "\n/SURF/PART/2\nupper\n         2";
   p.height = 0.25;
   return plates(p);
@@ -39,7 +39,7 @@ TEST(GapsJson, FiguresOfEdgePairsAreLengths) {
         if (!p.contains("edge")) continue;
         ++rows;
         const double gap = p["gap"], distance = p["distance"];
-        EXPECT_EQ(gap, 0.5);
+        EXPECT_EQ(gap, 2.5);
         EXPECT_EQ(p["penetration"].get<double>(), gap - distance);
         EXPECT_EQ(p["solver"]["gap"].get<double>(), gap * gap);
         EXPECT_EQ(p["solver"]["penetration"].get<double>(), gap * gap - distance);
@@ -74,7 +74,7 @@ TEST(GapsJson, AnEarlierDocumentHasTheDepthOfEdges) {
   const auto earlier = read_earlier_gaps("old.json", json, "test_0000.rad");
   ASSERT_TRUE(earlier.ok());
   for (const EarlierGaps::Row& r : earlier->rows) {
-    EXPECT_EQ(r.gap, 0.5);
+    EXPECT_EQ(r.gap, 2.5);
   }
   for (const GapsComparison::Row& r : compare_gaps(*earlier, d.scene, d.view).rows) {
     EXPECT_EQ(r.trend, Trend::same);

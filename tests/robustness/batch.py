@@ -427,7 +427,7 @@ def overview(c, tmp):
     card = plates[plates.index(b"/INTER/TYPE7/1"):plates.index(b"/END")].replace(b"TYPE7/1", b"TYPE7/2")
     nobody = b"/GRNOD/PART/77\nnobody\n        77\n" + card.replace(b"         2         1         4", b"        77         1         4")
     for name, text, status in (("all contacts", plates.replace(card.replace(b"TYPE7/2", b"TYPE7/1"), nobody), "not-examined"),
-                               ("one of two contacts", plates.replace(b"/END", nobody + b"/END"), "findings")):
+                               ("one of two contacts", plates.replace(b"/END", nobody + b"/END"), "not-examined")):
         with open(hollow, "wb") as f:
             f.write(text)
         r = c.run("batch", "-o", "hollow", "hollow_0000.rad", cwd=tmp)
@@ -556,7 +556,7 @@ def usage(c, tmp):
     deck = SAMPLES[0]
     out = os.path.join(tmp, "usage")
     for name, args in (("no decks", ()), ("standard input as a deck", ("-",)), ("a shard outside", (deck, "--shard", "3/2")),
-                       ("a shard that is none", (deck, "--shard", "half")), ("an unknown verb", (deck, "--verb", "fix")),
+                       ("a shard that is none", (deck, "--shard", "half")), ("an unknown verb", (deck, "--verb", "fixes")),
                        ("an option the verb does not have", (deck, "--verb", "gaps --alll")), ("a file for all decks", (deck, "--verb", "gaps --csv x.csv")),
                        ("a patch", (deck, "--verb", "lint --diff")), ("a deck in --verb", (deck, "--verb", "gaps other.rad")),
                        ("a manifest that is not there", ("--manifest", os.path.join(tmp, "none.txt"))), ("merging with decks", (deck, "--merge")),

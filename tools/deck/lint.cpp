@@ -236,8 +236,11 @@ class Run {
       job->loaded = std::move(*loaded);
       std::optional<ContactFacts> contacts;
       job->result = lint_loaded(*job->loaded, schemas_, *lint, options_, geometry, *gate, contacts);
-      const bool left_out =
-          geometry != Geometry::none && !contacts && !job->loaded->interfaces.ordered.empty();
+      const auto& skipped = job->result.not_checked;
+      const bool left_out = geometry != Geometry::none &&
+                            std::any_of(skipped.begin(), skipped.end(), [](const NotChecked& n) {
+                              return n.what == geometry_rules;
+                            });
       job->verdict = lint_verdict(linted(*job), std::move(contacts), left_out);
       const std::string given = options_.gate.level();
       const std::string fail_on = !given.empty()             ? given

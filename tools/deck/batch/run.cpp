@@ -67,11 +67,15 @@ std::vector<std::string> settings_of(const BatchTask& task, const std::string& d
 
 /// What the verdict says, whatever the exit code lets pass; without one whether anything was
 /// examined.
-std::string_view status_in(int code, const std::optional<DocumentFacts>& facts) {
+std::string_view status_in(const BatchTask& task, int code,
+                           const std::optional<DocumentFacts>& facts) {
   if (!facts || code > exit_findings) return status_of(code);
-  if (facts->level.empty())
-    return code == exit_clean && facts->examined.value_or(1) == 0 ? "not-examined"
-                                                                  : status_of(code);
+  if (facts->level.empty()) {
+    const bool required = std::find(task.options.begin(), task.options.end(),
+                                    "--require-examined") != task.options.end();
+    return facts->examined.value_or(1) == 0 && (code == exit_clean || required) ? "not-examined"
+                                                                                : status_of(code);
+  }
   if (facts->level == "not-examined") return facts->level;
   const bool clean = facts->level == "clean" || facts->level == "remarks";
   return clean ? status_of(code) : status_of(exit_findings);
@@ -470,9 +474,9 @@ std::string Batch::work_on(std::size_t group, Captured& output) const {
     unlink(in_directory(deck.result).c_str());  // a result of earlier would be taken for this one
   }
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  record.entry = summary_entry(deck.path, status_in(record.code, facts), record.result, record.code,
-                               error, facts ? facts->verdict : "", facts ? facts->counts : "{}",
-                               facts ? facts->gate : std::nullopt);
+  record.entry = summary_entry(deck.path, status_in(task_, record.code, facts), record.result,
+                               record.code, error, facts ? facts->verdict : "",
+                               facts ? facts->counts : "{}", facts ? facts->gate : std::nullopt);
   std::string message;
   pack(record, message);
   return message;
