@@ -4,8 +4,10 @@
 #include "deck/report/html.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "deck/base/escape.hpp"
+#include "deck/report/cycle.hpp"
 #include "deck/report/gaps.hpp"
 #include "report/cycle_costs.hpp"
 #include "report/gaps_names.hpp"
@@ -41,6 +43,52 @@ std::int64_t free_group_id(const Deck& deck) {
   return highest + 1;
 }
 
+/// Beyond ten times the model's size a gap is no gap: the page calls it unbounded and leaves it out
+/// of its scales.
+double largest_gap(const Model& model) {
+  double square = 0;
+  for (const std::vector<double>* x : {&model.nodes.x, &model.nodes.y, &model.nodes.z}) {
+    if (x->empty()) continue;
+    const auto [low, high] = std::minmax_element(x->begin(), x->end());
+    square += (*high - *low) * (*high - *low);
+  }
+  return square > 0 && square < 1e60 ? 10 * std::sqrt(square) : 1e30;
+}
+
+/// Level, sentences and counts of what is said of the deck.
+void write_verdict(JsonWriter& j, const HtmlInput& in) {
+  const Coverage coverage = coverage_of(*in.deck, *in.scene->interfaces);
+  const ContactTotals& total = in.view->total;
+  std::uint64_t errors = 0;
+  for (const Diagnostic& d : in.deck->diagnostics.all()) errors += d.severity == Severity::error;
+  const std::uint64_t crossed =
+      in.crossings != nullptr ? in.crossings->size() : total.crossed_elements.value_or(0);
+  const std::string said = gaps_verdict(*in.deck, *in.scene, *in.view);
+  const bool examined = coverage_lead(coverage).empty() && coverage_tail(coverage).empty();
+  const char* level = errors + total.solver_errors > 0 ? "stops"
+                      : total.count.pairs > 0          ? "penetrates"
+                      : crossed > 0                    ? "crossed"
+                      : !examined                      ? "not-examined"
+                                                       : "clean";
+  std::uint64_t pushing = 0;
+  if (in.cycle != nullptr)
+    for (const cycle::ContactOutcome& c : in.cycle->contacts) pushing += c.pairs_with_force;
+  const std::string forces = in.effects != nullptr ? cycle_verdict(*in.effects) : std::string();
+  j.key("verdict").begin_object().field("level", level);
+  j.field("text", forces.empty() ? said : forces + " " + said).key("sentences").begin_array();
+  const auto sentence = [&](const char* what, const std::string& text) {
+    j.begin_object(true).field("what", what).field("text", text).key("counts");
+    j.begin_object(true).end_object().end_object();
+  };
+  if (!forces.empty()) sentence("forces", forces);
+  sentence("penetrations", said);
+  j.end_array().key("counts").begin_object(true).field("errors", errors);
+  j.field("pairs", total.count.pairs).field("solver_errors", total.solver_errors);
+  j.field("crossed_elements", crossed);
+  if (in.effects != nullptr) j.field("pairs_with_force", pushing);
+  j.end_object().end_object();
+}
+
 std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
                       const std::vector<detail::Touch>& touches) {
   const Model& model = *in.scene->model;
@@ -50,13 +98,16 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   write_json_head(j, "deck/gaps-html", 1);
   j.field("page", in.effects != nullptr ? "cycle" : "gaps");
   write_json_deck(j, in.path, *in.deck, &model, in.scene->interfaces);
-  j.field("verdict", gaps_verdict(*in.deck, *in.scene, *in.view));
+  write_verdict(j, in);
   j.key("summary").begin_object(true);
   write_totals(j, in.view->total);
   j.end_object();
   const Coverage coverage = coverage_of(*in.deck, *in.scene->interfaces);
   write_json_coverage(j, coverage);
-  j.field("coverage_lead", coverage_lead(coverage)).field("coverage_tail", coverage_tail(coverage));
+  std::uint64_t bytes = 0;
+  for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f)
+    bytes += in.deck->sources[f].on_disk().size();
+  j.field("bytes", bytes).field("largest_gap", largest_gap(model));
   j.key("files").begin_array();
   for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f) j.value(in.deck->sources[f].path());
   j.end_array().key("parts").begin_array();
