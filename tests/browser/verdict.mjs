@@ -91,5 +91,7 @@ export async function scalesFit(p, name) {
       rows: report.hits.filter((x) => !(x.row.gap <= report.meta.largest_gap)).length };
   });
   check(`${name}: the legend ends below the model's size`, seen.top <= 10 * seen.size && seen.deepest <= 10 * seen.size, JSON.stringify(seen));
+  const shown = await p.$$eval(".interfaces-table .vt-row", (rows) => rows.filter((r) => r.textContent.includes("unbounded")).length);
+  same(`${name}: an interface with an unbounded gap says so, at the top`, shown > 0, seen.rows > 0);
   same(`${name}: unbounded gaps are counted`, seen.unbounded, seen.rows);
 }

@@ -153,7 +153,10 @@ export class Tally {
         if (stops && !isEdge) this.node(item, 4);
       }
       if (row.action !== "none") this.t.acted++;
-      if (row.gap > this.largestGap) continue;
+      if (row.gap > this.largestGap) {
+        this.t.unbounded = (this.t.unbounded ?? 0) + 1;
+        continue;
+      }
       this.t.max_depth = Math.max(this.t.max_depth, row.depth);
       this.t.max_ratio = Math.max(this.t.max_ratio, ratioOf(row));
     }

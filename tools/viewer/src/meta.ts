@@ -10,6 +10,7 @@ export interface Totals {
   acted: number;
   max_depth: number;
   max_ratio: number;
+  unbounded?: number; // pairs that are left out of the two above
 }
 
 export interface Cell {

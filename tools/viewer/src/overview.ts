@@ -41,7 +41,7 @@ export function interfaces(report: Report): HTMLElement {
   const head = (r: ContactRow): ContactRow => (r.part ? { inter: r.inter, contacts: report.contactsOf(r.inter), part: false } : r);
   const changedCell = (text: string, was: string) =>
     text === was ? text : h("span", { class: "changed", title: `deck: ${was}` }, text);
-  const deepest = (t: Totals) => (t.pairs ? lengthText(report, t.max_depth) : "–");
+  const deepest = (t: Totals) => (t.unbounded ? "unbounded" : t.pairs ? lengthText(report, t.max_depth) : "–");
   const prefix = commonStart(report.meta.interfaces.map((i) => i.title));
   const fold = (r: ContactRow) => {
     const on = open.has(r.inter);
@@ -80,9 +80,9 @@ export function interfaces(report: Report): HTMLElement {
       count("pairs", "Pairs", "Penetrating pairs"),
       count("nodes", "Nodes", "Distinct secondary nodes", 3),
       count("edges", "Edges", "Distinct secondary edges", 4),
-      { key: "depth", title: "Deepest", kind: "number", value: (r) => totals(head(r)).max_depth, text: (r) => deepest(totals(r)),
+      { key: "depth", title: "Deepest", kind: "number", value: (r) => (totals(head(r)).unbounded ? Infinity : totals(head(r)).max_depth), text: (r) => deepest(totals(r)),
         cell: (r) => changedCell(deepest(totals(r)), deepest(totals(r, "base"))) },
-      { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => totals(head(r)).max_ratio, text: (r) => (totals(r).pairs ? percent(totals(r).max_ratio) : "–") },
+      { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => totals(head(r)).max_ratio, text: (r) => (totals(r).pairs && !totals(r).unbounded ? percent(totals(r).max_ratio) : "–") },
       { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 1, value: (r) => actionsText(report, head(r).contacts), text: (r) => actionsText(report, r.contacts),
         cell: (r) => {
           const text = actionsText(report, r.contacts);

@@ -50,7 +50,7 @@ export function printing(report: Report, viewport: Viewport): void {
       filter !== "" && worst(report, report.filtered),
       h("h2", { class: "second" }, "Interfaces"),
       table(["Id", "Title", "Kind", "Gapmin", "Pairs", "Nodes", "Edges", "Deepest", "Of gap"],
-        all.slice(0, most).map(({ inter, contacts, t }) => [inter.id, inter.title, `TYPE${inter.type}`, lengthText(report, report.results[contacts[0]].setting.gapmin), group(t.pairs), group(t.nodes), group(t.edges), t.pairs ? lengthText(report, t.max_depth) : "–", t.pairs ? percent(t.max_ratio) : "–"])),
+        all.slice(0, most).map(({ inter, contacts, t }) => [inter.id, inter.title, `TYPE${inter.type}`, lengthText(report, report.results[contacts[0]].setting.gapmin), group(t.pairs), group(t.nodes), group(t.edges), t.unbounded ? "unbounded" : t.pairs ? lengthText(report, t.max_depth) : "–", t.pairs && !t.unbounded ? percent(t.max_ratio) : "–"])),
       all.length > most && h("p", { class: "note" }, `… and ${group(all.length - most)} with shallower penetrations or none`),
       h("p", { class: "paper-foot" },
         `deck ${meta.tool.version} · ${new Date().toISOString().slice(0, 10)} · ${deckCommand(report)} · ${plural(meta.files.length, "file", "files")}, ${plural(meta.bytes, "byte", "bytes")}`));
