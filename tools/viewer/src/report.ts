@@ -144,7 +144,7 @@ export class Report {
       return (
         this.meta.what_if.length > 0 ||
         !c.complete ||
-        (Object.keys(t) as (keyof Totals)[]).every((k) => JSON.stringify(t[k]) === JSON.stringify(c.totals[k]))
+        (Object.keys(t) as (keyof Totals)[]).every((k) => (t.unbounded && (k === "unbounded" || k.startsWith("max_"))) || JSON.stringify(t[k]) === JSON.stringify(c.totals[k]))
       );
     });
   }
