@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "deck/base/count.hpp"
@@ -41,6 +42,12 @@ void say_obstacles(const ContactFacts& f, Sentences& out) {
        {Obstacle::no_element});
 }
 
+/// One figure for the deepest pair; the share of a gap is another pair's, as a rule.
+std::string deepest_text(const ContactFacts& f) {
+  if (f.deepest_gap == 0) return {};
+  return fmt::format(", deepest {:.6g} of a gap of {:.6g}", f.deepest, f.deepest_gap);
+}
+
 void say_penetrations(const ContactFacts& f, Sentences& out) {
   const ContactTotals& t = f.total;
   const VerdictCounts counts = {
@@ -50,20 +57,27 @@ void say_penetrations(const ContactFacts& f, Sentences& out) {
             fmt::format("No initial penetration in {}.",
                         count(f.contacts - f.not_evaluated - idle(f), "contact", "contacts")),
             counts);
-  else  // One figure for the deepest pair, one for the largest share of a gap.
+  else
     out.add("penetrations",
-            fmt::format("{} on {}, deepest {:.6g} of a gap of {:.6g}; worst share of a gap {:.1f} "
-                        "%.",
+            fmt::format("{} on {}{}; worst share of a gap {:.1f} %.",
                         count(t.count.pairs, "initial penetration", "initial penetrations"),
-                        nodes_and_edges(t.count.nodes, t.count.edges), f.deepest, f.deepest_gap, 100 * t.max_ratio),
+                        nodes_and_edges(t.count.nodes, t.count.edges), deepest_text(f),
+                        100 * t.max_ratio),
             counts);
+  if (f.unbounded > 0)
+    out.add("unbounded",
+            count(f.unbounded, "pair has", "pairs have") +
+                " an unbounded gap, beyond ten times the model's size.",
+            {{"unbounded", f.unbounded}});
   if (t.solver_errors > 0)
     out.add("on_segment",
             fmt::format("The solver will stop: {} exactly on a segment (error 611/612).",
                         count(t.solver_errors, "node lies", "nodes lie")),
             {{"solver_errors", t.solver_errors}});
   else if (t.on_segment.pairs > 0)
-    out.add("on_segment", fmt::format("Exactly on a segment: {}.", nodes_and_edges(t.on_segment.nodes, t.on_segment.edges)),
+    out.add("on_segment",
+            fmt::format("Exactly on a segment: {}.",
+                        nodes_and_edges(t.on_segment.nodes, t.on_segment.edges)),
             {{"on_segment", t.on_segment.nodes + t.on_segment.edges}});
   if (t.tied.pairs > 0)
     out.add("ties",
@@ -115,9 +129,9 @@ void say_errors(const DeckErrors& errors, Sentences& out) {
             fmt::format("The solver stops first: {} in the deck ('deck lint' explains).",
                         count(errors.solver, "error", "errors")),
             {{"errors", errors.all}});
-  if (errors.own > 0)
+  else if (errors.own > 0)
     out.add(
-        "deck_errors",
+        "errors",
         fmt::format("{} in the deck ('deck lint' explains).", count(errors.own, "error", "errors")),
         {{"errors", errors.all}});
 }
@@ -208,6 +222,16 @@ std::uint64_t Verdict::count(std::string_view name) const {
   return 0;
 }
 
+double largest_gap(const Model& model) {
+  double square = 0;
+  for (const std::vector<double>* x : {&model.nodes.x, &model.nodes.y, &model.nodes.z}) {
+    if (x->empty()) continue;
+    const auto [low, high] = std::minmax_element(x->begin(), x->end());
+    square += (*high - *low) * (*high - *low);
+  }
+  return square > 0 && square < 1e60 ? 10 * std::sqrt(square) : 1e30;
+}
+
 ContactFacts contact_facts(const Scene& scene, const SceneView& view) {
   ContactFacts out;
   out.contacts = scene.contacts.size();
@@ -216,11 +240,15 @@ ContactFacts contact_facts(const Scene& scene, const SceneView& view) {
     if (c.evaluated) ++out.obstacles[static_cast<std::size_t>(obstacle_of(c))];
   }
   out.total = view.total;
-  if (!view.penetrations.empty()) {
-    const NamedPenetration& p = view.penetrations.front();
+  const double largest = largest_gap(*scene.model);
+  for (const NamedPenetration& p : view.penetrations) {  // deepest first
     const PenetrationRow& row = scene.contacts[p.contact].penetrations[p.row];
-    out.deepest = row.depth;
-    out.deepest_gap = row.gap;
+    if (!(row.gap <= largest)) {
+      ++out.unbounded;
+    } else if (out.deepest_gap == 0) {
+      out.deepest = row.depth;
+      out.deepest_gap = row.gap;
+    }
   }
   return out;
 }

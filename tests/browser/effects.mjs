@@ -4,13 +4,16 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { accessible, reachable } from "./axe.mjs";
 import { check, deck, open, run, same, sample, settled } from "./support.mjs";
+import { banner, leads } from "./verdict.mjs";
 
 const widths = [390, 768, 1024, 1280, 1440, 1920];
 
 /** What is drawn against what was measured. */
 async function costs(p, data) {
-  const said = await p.$eval("#effects .verdict-text", (e) => e.textContent);
-  check("the sentence is that of the JSON", said.startsWith(data.costs.verdict) && said.includes(data.verdict.text), said);
+  await banner(p, "first cycle");
+  await leads(p);
+  await p.click("#effects details.costs summary");
+  same("the sentence of the costs is that of the JSON", await p.$eval("#effects .costs-text", (e) => e.textContent), data.costs.verdict);
   const round = (v) => `${Math.abs(v) < 10 ? v.toFixed(1) : v.toFixed(0)} ns`;
   const contacts = data.interfaces.flatMap((i) => i.contacts.map((c) => c.cost)).filter((c) => c.problem === "");
   check("some loops were timed", contacts.length > 0 && contacts.every((c) => c.loop_ns > 0 && c.flags_ns > 0));

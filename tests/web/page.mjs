@@ -109,6 +109,10 @@ check("the policy allows nothing by default and no connections", policy.includes
   const p = await open(browser, PAGE, { acceptDownloads: true });
   await give(p, [sample("two_surfaces")]);
   await p.click("#tab-values");
+  // Every value is the text of `deck params`: ids whole, no figure formed anew.
+  const printed = (await p.evaluate(([name, text]) => window.deck(["params", name, "--json", "-", "-q"], { [name]: text }), [basename(sample("two_surfaces")), readFileSync(sample("two_surfaces"), "latin1")])).stdout;
+  const texts = await p.$$eval("#panel-values tbody tr td:nth-child(3)", (cells) => cells.map((c) => c.textContent));
+  same("values are those of deck params, text by text", texts.filter((t) => t !== "–" && !printed.includes(`"value": ${t},`) && !printed.includes(`"value": "${t}",`)), []);
   await p.click('#panel-values tr:has(td:text-is("Gapmin")) button');
   await p.waitForSelector('input.cell[data-field="Gapmin"]');
   // Names stand over their columns: as the card says.

@@ -61,7 +61,10 @@ struct ContactFacts {
   std::array<std::size_t, 7> obstacles{};  ///< evaluated contacts by Obstacle
   ContactTotals total;
   double deepest = 0, deepest_gap = 0;  ///< of the deepest pair: its depth, and its gap
+  std::uint64_t unbounded = 0;          ///< pairs that are left out of these: beyond largest_gap
 };
+/// Ten times the model's size: a gap beyond it is no gap, but unbounded.
+double largest_gap(const Model& model);
 ContactFacts contact_facts(const Scene& scene, const SceneView& view);
 
 /// What a run of lint found, gates left out. Where there was one its errors and warnings decide, as

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "deck/base/escape.hpp"
+#include "deck/report/cycle.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/verdict.hpp"
 #include "report/cycle_costs.hpp"
@@ -61,9 +62,11 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   j.key("summary").begin_object(true);
   write_totals(j, in.view->total);
   j.end_object();
-  const Coverage coverage = coverage_of(*in.deck, *in.scene->interfaces);
-  write_json_coverage(j, coverage);
-  j.field("coverage_lead", coverage_lead(coverage)).field("coverage_tail", coverage_tail(coverage));
+  write_json_coverage(j, coverage_of(*in.deck, *in.scene->interfaces));
+  std::uint64_t bytes = 0;
+  for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f)
+    bytes += in.deck->sources[f].on_disk().size();
+  j.field("bytes", bytes).field("largest_gap", largest_gap(model));
   j.key("files").begin_array();
   for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f) j.value(in.deck->sources[f].path());
   j.end_array().key("parts").begin_array();

@@ -1,5 +1,5 @@
 // What is known about the selected row, and what every Inacti would do to this node.
-import { button, fileName, group, h, num, percent, replace } from "./dom";
+import { button, fileName, group, h, lengthText, num, percent, replace } from "./dom";
 import { onSurfaceError, outcomeOf, type Row } from "./core";
 import type { Hit, Report } from "./report";
 import { actionLong, inactiWords } from "./words";
@@ -32,8 +32,8 @@ export function detail(report: Report, fly: (hit: Hit) => void): HTMLElement {
         h("span", { class: "buttons" }, button("Fly there", "fit", () => fly(x), { class: "small", title: "Enter" }), button("", "close", () => report.select(null), { "aria-label": "Close", title: "Esc", class: "tool" }))),
       h("div", { class: "detail-grid" },
         h("dl", null,
-          ...item("Depth", h("b", null, num(x.depth, 6)), String(x.depth)),
-          ...item("Pair gap", `${num(r.gap, 6)} (${percent(x.ratio)} used)`, String(r.gap)),
+          ...item("Depth", h("b", null, lengthText(report, x.depth, 6)), String(x.depth)),
+          ...item("Pair gap", `${lengthText(report, r.gap, 6)} (${percent(x.ratio)} used)`, String(r.gap)),
           ...item("Distance left", num(r.distance, 6), String(r.distance)),
           ...item("Gap formed by", gapWords(report, x)),
           ...item("Normal", r.onSurface ? "none: exactly on the surface" : r.normal.map((v) => v.toFixed(3)).join("  ")),

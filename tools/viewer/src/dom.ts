@@ -81,11 +81,16 @@ export function sectionHead(title: Node, ...tools: Child[]): HTMLElement {
 /** Four significant digits as an engineer writes them; the full value belongs into a title. */
 export function num(v: number, digits = 4): string {
   if (v === 0) return "0";
-  if (!Number.isFinite(v)) return v > 0 ? "∞" : String(v);
+  if (!(Math.abs(v) < 1e30)) return "unbounded"; // what the solver takes for "no limit"
   const a = Math.abs(v);
   if (a >= 1e6 || a < 1e-4) return v.toExponential(Math.max(0, digits - 2)).replace("e+", "e");
   const t = v.toPrecision(digits);
   return t.includes(".") && !t.includes("e") ? t.replace(/\.?0+$/, "") : String(Number(t));
+}
+
+/** A length; beyond all that a model can need it is no length. */
+export function lengthText(report: { unbounded(v: number): boolean }, v: number, digits = 4): string {
+  return report.unbounded(v) ? "unbounded" : num(v, digits);
 }
 
 export function percent(ratio: number): string {

@@ -1,7 +1,7 @@
-// Which effects run in which interface and why, and what each costs on this deck: the document of `deck cycle --json` as one
-// sentence, a chart, a matrix and one effect in words.
+// Which effects run in which interface and why, and what each costs on this deck: the document of `deck cycle --json` as a
+// matrix, one effect in words, and folded the chart of costs.
 import { blockText } from "./data";
-import { button, fileName, group, h, num, plural, replace, sectionHead, svg } from "./dom";
+import { button, fileName, group, h, num, plural, replace, svg } from "./dom";
 import { save } from "./exports";
 import type { Report } from "./report";
 
@@ -41,7 +41,6 @@ interface Inter {
 }
 /** What `deck cycle --json` writes, as far as it is shown here. */
 export interface CycleDocument {
-  verdict: { level: string; text: string };
   costs: { verdict: string; pairs: number; loop_ns: number; flags_ns: number; all_ns: number; repeats: number; processor: string; compiler: string } | null;
   interfaces: Inter[];
 }
@@ -131,19 +130,21 @@ export function effectsSection(report: Report, doc: CycleDocument, name: string)
   const on = doc.interfaces.reduce((n, i) => n + i.effects.filter((e) => e.on).length, 0);
   const count = h("span", { class: "muted count" }, `${group(on)} of ${group(doc.interfaces.reduce((n, i) => n + i.effects.length, 0))} run`);
   const drawing = doc.costs && doc.costs.pairs > 0 ? chart(doc) : null;
-  const section = h("section", { id: "effects", class: "verdict" },
-    h("p", { class: "verdict-text" }, h("strong", null, doc.costs?.verdict ?? ""), ` ${doc.verdict.text}`),
-    sectionHead(h("h2", null, "Effects", count), drawing && button("Save as SVG", "save", () => save(name, drawing.outerHTML), { class: "small" })),
-    drawing && h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Cost of effects" }, drawing),
-    h("p", { class: "note" }, "Nanoseconds of processor time per pair, each loop in turn with the one it is held against, answers compared bit for bit. Search and sums at nodes are left out. ",
-      doc.costs ? `${doc.costs.repeats} timings; ${doc.costs.processor}; ${doc.costs.compiler}.` : ""),
+  const section = h("section", { id: "effects", "aria-label": "Effects" },
+    h("h2", null, "Effects", count),
     h("div", { class: "scroll effects-scroll", tabindex: -1 }, matrix(doc, (i, e) => {
       show(detail, i, e);
       const at = report.meta.interfaces.findIndex((x) => x.id === i.id);
       if (at >= 0 && report.filter.interface !== at) report.setFilter({ interface: at, pair: null });
     })),
     h("p", { class: "note" }, "Filled: runs, with what it adds per pair in ns (~0: less than can be told); a dot: runs outside the loop. Choose a cell to see the field that decides."),
-    detail);
+    detail,
+    doc.costs && h("details", { class: "costs" }, h("summary", null, "What the effects cost"),
+      h("p", { class: "costs-text" }, doc.costs.verdict),
+      drawing && h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Cost of effects" }, drawing),
+      h("p", { class: "note" }, "Nanoseconds of processor time per pair, each loop in turn with the one it is held against, answers compared bit for bit. Search and sums at nodes are left out. ",
+        `${doc.costs.repeats} timings; ${doc.costs.processor}; ${doc.costs.compiler}.`),
+      drawing && button("Save as SVG", "save", () => save(name, drawing.outerHTML), { class: "small" })));
   return section;
 }
 

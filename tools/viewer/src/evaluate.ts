@@ -100,7 +100,7 @@ export class Evaluator {
         ? needed <= meta.reach
         : sameGaps(meta, setting) && meta.totals.pairs === this.data.contacts[i].pairMain.length;
     }
-    const tally = new Tally(this.data.exactOf.length);
+    const tally = new Tally(this.data.exactOf.length, this.meta.largest_gap);
     tally.add(meta, this.data.contacts[i], result);
     result.totals = tally.totals();
     return result;
@@ -129,7 +129,7 @@ export class Tally {
   private readonly edges = new Set<number>();
   private readonly onEdges = new Set<number>();
 
-  constructor(private readonly pageNodes: number) {}
+  constructor(private readonly pageNodes: number, private readonly largestGap: number) {}
 
   private node(n: number, mark: 1 | 2 | 4): void {
     if (this.marks.length === 0) this.marks = new Uint8Array(this.pageNodes);
@@ -157,6 +157,10 @@ export class Tally {
         if (stops && !isEdge) this.node(item, 4);
       }
       if (row.action !== "none") this.t.acted++;
+      if (row.gap > this.largestGap) {
+        this.t.unbounded = (this.t.unbounded ?? 0) + 1;
+        continue;
+      }
       this.t.max_depth = Math.max(this.t.max_depth, row.depth);
       this.t.max_ratio = Math.max(this.t.max_ratio, ratioOf(row));
     }

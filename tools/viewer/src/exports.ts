@@ -110,10 +110,15 @@ export function allChangedCards(report: Report): string {
 
 /** The command that evaluates the settings of the page outside of it. */
 export function whatIfCommand(report: Report): string {
+  return deckCommand(report, "gaps");
+}
+
+/** The command of a page, with its settings under test. */
+export function deckCommand(report: Report, verb: string = report.meta.page): string {
   const parts = report.meta.interfaces.flatMap((inter, i) => {
     const fields = Object.entries(report.overrides[i]).map(([k, v]) => `${k}=${k.startsWith("I") ? v : shortest(v)}`);
     return fields.length > 0 ? [`--what-if ${inter.id}:${fields.join(",")}`] : [];
   });
   const path = report.meta.deck.path;
-  return ["deck gaps", /[^\w./-]/.test(path) ? `'${path.replace(/'/g, `'\\''`)}'` : path, ...parts].join(" ");
+  return [`deck ${verb}`, /[^\w./-]/.test(path) ? `'${path.replace(/'/g, `'\\''`)}'` : path, ...parts].join(" ");
 }

@@ -1,6 +1,6 @@
 // Part pairs as table and matrix, distributions, and the list of penetrations.
 import { colorAt, cssColor, inkOn } from "./scene/colormap";
-import { button, fileName, group, h, num, percent, plural, replace, sectionHead, svg } from "./dom";
+import { button, fileName, group, h, lengthText, num, percent, plural, replace, sectionHead, svg } from "./dom";
 import type { Look } from "./look";
 import type { Hit, Report } from "./report";
 import { openMenu, rowItems } from "./menu";
@@ -168,9 +168,9 @@ function ticks(top: number): number[] {
 }
 
 function histogram(report: Report, look: Look, field: "depth" | "ratio", title: string): HTMLElement {
-  const values = report.around(field);
+  const values = report.bounded(report.around(field));
   let all = 0;
-  for (const x of report.hits) if (x[field] > all) all = x[field];
+  for (const x of report.bounded(report.hits)) if (x[field] > all) all = x[field];
   const top = field === "ratio" ? Math.max(1, all) : all || 1;
   const bins = 24;
   const count = new Array<number>(bins).fill(0);
@@ -215,12 +215,12 @@ export function listSection(report: Report, open: (hit: Hit) => void, exportsMen
   const interfaceId = (x: Hit) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id;
   const action = (x: Hit) => {
     const error = report.solverError(x.row);
-    return error ? `error ${error}` : x.row.gap0 !== null ? `gap to ${num(x.row.gap0)}` : actionWords[x.row.action];
+    return error ? `error ${error}` : x.row.gap0 !== null ? `gap to ${lengthText(report, x.row.gap0)}` : actionWords[x.row.action];
   };
   const place = (x: Hit) => report.place(x.row);
   const columns: Column<Hit>[] = [
-    { key: "depth", title: "Depth", kind: "number", value: (x) => x.depth, text: (x) => num(x.depth, 5) },
-    { key: "gap", title: "Gap", kind: "number", rank: 3, value: (x) => x.row.gap, text: (x) => num(x.row.gap) },
+    { key: "depth", title: "Depth", kind: "number", value: (x) => x.depth, text: (x) => lengthText(report, x.depth, 5) },
+    { key: "gap", title: "Gap", kind: "number", rank: 3, value: (x) => x.row.gap, text: (x) => lengthText(report, x.row.gap) },
     { key: "ratio", title: "Of gap", kind: "number", rank: 4, value: (x) => x.ratio, text: (x) => percent(x.ratio) },
     { key: "distance", title: "Distance", hint: "Residual distance of node and segment, or of the two edges", kind: "number", rank: 8, value: (x) => x.row.distance, text: (x) => num(x.row.distance) },
     { key: "inter", title: "Int.", hint: "Interface id", kind: "id", value: interfaceId, text: (x) => String(interfaceId(x)) },

@@ -6,17 +6,19 @@ import { loadCrossed, loadCycle, loadEarlier, loadMeta, unpack } from "./data";
 import { loadModel } from "./decode/client";
 import type { Model } from "./decode/model";
 import { detail, notChecked } from "./detail";
-import { button, fileName, group, h, num, percent, replace } from "./dom";
+import { button, fileName, group, h } from "./dom";
 import { allChangedCards, copyText, csv, grnodBlock, plainNodes, save, tclMarks } from "./exports";
 import { distribution, exportMenu, listSection, pairsSection } from "./lists";
 import type { ContourKind, Look } from "./look";
 import type { FieldName, Overrides } from "./meta";
-import { interfaces, verdict } from "./overview";
+import { interfaces } from "./overview";
+import { printing } from "./paper";
 import { effectsSection, loadCycleDocument } from "./effects";
 import { findBox } from "./find";
 import { openMenu, rowItems } from "./menu";
 import { ViewState } from "./state";
 import { touchesSection } from "./touches";
+import { verdict } from "./verdict";
 import { Report, type Hit } from "./report";
 import type { WebGLRenderer } from "three";
 import { drawsInSoftware } from "./scene/machine";
@@ -117,13 +119,15 @@ function build(model: Model & { beside: boolean }, software: boolean, machine: W
       { label: "List (CSV), the columns in sight", run: () => save(`${stem}_list.csv`, list.table.csv()) },
       { label: "Table (CSV), all columns", run: () => save(`${stem}_penetrations.csv`, csv(report, report.filtered)) },
       { label: "Changed cards", hint: "Cards of all interfaces with settings under test", run: () => save(`${stem}_cards.inc`, allChangedCards(report)) },
-      { label: "Picture (PNG)", run: () => viewport.savePicture() },
+      { label: "Picture (PNG)", run: () => viewport.savePicture(false) },
+      { label: "Picture (PNG), white ground", run: () => viewport.savePicture(true) },
+      { label: "Picture to the clipboard", run: () => void viewport.copyPicture() },
     ], "export");
     const list = listSection(report, fly, exports, () => state?.note());
     const nav = h("nav", { "aria-label": "Sections" },
-      ...([["effects", "Effects"], ["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["notes", "About"]] as const)
+      ...([["verdict", "Verdict"], ["interfaces", "Interfaces"], ["pairs", "Part pairs"], ["touches", "Contacts"], ["distribution", "Distribution"], ["worst", "Worst first"], ["crossed", "Crossed"], ["cycle", "First cycle"], ["effects", "Effects"], ["notes", "About"]] as const)
         .map(([id, name]) => h("a", { href: `#${id}` }, name)));
-    const sections = [nav, doc && effectsSection(report, doc, `${stem}_effects.svg`), doc && cycleSection(report), verdict(report), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, crossedSection(report, (points) => viewport.openPoints(points)), !doc && cycleSection(report), notChecked(report)];
+    const sections = [nav, verdict(report), doc && cycleSection(report), doc && effectsSection(report, doc, `${stem}_effects.svg`), interfaces(report), pairsSection(report, look), touchesSection(report, `${stem}_contacts.svg`, pictured), distribution(report, look), list.element, crossedSection(report, (points) => viewport.openPoints(points)), !doc && cycleSection(report), notChecked(report)];
     left.append(...sections.filter((s) => !!s));
     for (const a of nav.querySelectorAll<HTMLAnchorElement>("a")) a.hidden = left.querySelector<HTMLElement>(a.hash)?.hidden ?? true;
     // Sections are scrolled to; the address belongs to the state of the page.
@@ -292,32 +296,6 @@ function keys(report: Report, viewport: Viewport, list: { move(by: number): void
       action();
       e.preventDefault();
     }
-  });
-}
-
-/** Two pages of paper: verdict, picture, the ten worst, the interfaces. */
-function printing(report: Report, viewport: Viewport): void {
-  const most = 30; // interfaces that the second page has room for
-  const paper = h("div", { class: "paper" });
-  document.querySelector(".left")!.append(paper);
-  const table = (titles: string[], rows: (string | number)[][]) =>
-    h("table", { class: "plain" }, h("thead", null, h("tr", null, ...titles.map((t) => h("th", null, t)))),
-      h("tbody", null, ...rows.map((r) => h("tr", null, ...r.map((t) => h("td", null, t))))));
-  const id = (contact: number) => report.meta.interfaces[report.meta.contacts[contact].interface].id;
-  window.addEventListener("beforeprint", () => {
-    const all = report.meta.interfaces
-      .map((inter, i) => ({ inter, contacts: report.contactsOf(i), t: report.totals("now", i) }))
-      .filter((x) => x.contacts.length > 0)
-      .sort((a, b) => b.t.max_depth - a.t.max_depth);
-    replace(paper,
-      viewport.view && h("img", { alt: "The picture", src: viewport.view.picture(1.5) }),
-      h("h2", null, "Ten worst"),
-      table(["Depth", "Gap", "Interface", "Node / edge", "Segment / edge", "Part", "Main part", "Action"],
-        report.filtered.slice(0, 10).map((x) => [num(x.depth, 5), num(x.row.gap), id(x.contact), report.secondaryText(x.row), report.mainText(x.row), report.partShort(x.secondaryPart), report.partShort(x.mainPart), x.row.action])),
-      h("h2", { class: "second" }, "Interfaces"),
-      table(["Id", "Title", "Kind", "Gapmin", "Pairs", "Nodes", "Edges", "Deepest", "Of gap"],
-        all.slice(0, most).map(({ inter, contacts, t }) => [inter.id, inter.title, `TYPE${inter.type}`, num(report.results[contacts[0]].setting.gapmin), group(t.pairs), group(t.nodes), group(t.edges), num(t.max_depth), percent(t.max_ratio)])),
-      all.length > most && h("p", { class: "note" }, `… and ${group(all.length - most)} with shallower penetrations or none`));
   });
 }
 

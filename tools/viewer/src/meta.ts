@@ -10,6 +10,7 @@ export interface Totals {
   acted: number;
   max_depth: number;
   max_ratio: number;
+  unbounded?: number; // pairs that are left out of the two above
 }
 
 export interface Cell {
@@ -106,6 +107,14 @@ export interface Units {
   time: string;
 }
 
+/** Made by the program: contract of all its documents. */
+export interface Verdict {
+  level: "stops" | "penetrates" | "crossed" | "untied" | "not-examined" | "warnings" | "remarks" | "clean";
+  text: string;
+  sentences: { what: string; text: string; counts: Record<string, number> }[];
+  counts: Record<string, number>;
+}
+
 export interface Meta {
   page: "gaps" | "cycle"; // which verb wrote it
   tool: { name: string; version: string };
@@ -117,11 +126,11 @@ export interface Meta {
     counts: Record<string, number>;
     includes: { path: string; written: string; from: { file: string; line: number } | null }[];
   };
-  verdict: { level: "stops" | "penetrates" | "crossed" | "untied" | "not-examined" | "warnings" | "remarks" | "clean"; text: string; sentences: { what: string; text: string; counts: Record<string, number> }[]; counts: Record<string, number> };
+  verdict: Verdict;
   summary: Totals & { crossed_elements: number | null };
-  coverage_lead: string; // in place of a verdict: nothing examined, or files missing
-  coverage_tail: string; // behind a verdict: what was not examined
   files: string[];
+  bytes: number; // of all of them
+  largest_gap: number; // beyond it a gap is unbounded: shown as that word, left out of scales
   parts: { id: number; title: string; prop: number; mat: number; prop_type?: string; thickness?: number }[];
   free_group_id: number;
   what_if: (Overrides & { interface: number; "%mesh_size"?: number; Irem_gap?: number })[];

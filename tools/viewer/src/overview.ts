@@ -1,6 +1,6 @@
-// The upper part of the report: verdict, interfaces, settings under test.
+// The table of interfaces and the settings under test.
 import { cardText, changedCard } from "./card";
-import { button, group, h, num, percent, plural, replace, sectionHead } from "./dom";
+import { button, group, h, lengthText, num, percent, plural, replace, sectionHead } from "./dom";
 import { copyText, whatIfCommand } from "./exports";
 import type { FieldName, Totals } from "./meta";
 import type { Result } from "./evaluate";
@@ -8,80 +8,6 @@ import type { Report } from "./report";
 import { commonStart, named } from "./table/names";
 import { VirtualTable } from "./table/table";
 import { actionWords, flagText } from "./words";
-
-/** "62 nodes and 12 edges", without what there is none of. */
-function itemsText(c: { nodes: number; edges: number }): string {
-  const nodes = plural(c.nodes, "node", "nodes");
-  const edges = plural(c.edges, "edge", "edges");
-  return c.edges === 0 ? nodes : c.nodes === 0 ? edges : `${nodes} and ${edges}`;
-}
-
-function countsText(t: { nodes: number; edges: number }): string {
-  return `${group(t.nodes)}, ${group(t.edges)}`;
-}
-
-export function verdict(report: Report): HTMLElement {
-  const sentence = h("p", { class: "verdict-text" });
-  const tiles = h("div", { class: "tiles" });
-  const compare = h("div", { class: "compare" });
-  const element = h("section", { class: "verdict", id: "verdict", "aria-label": "Verdict" }, sentence, tiles, compare);
-  const draw = () => {
-    const now = report.totals("now", null);
-    const base = report.totals("base", null);
-    const changed = report.anyChanged;
-    const stops = now.solver_errors > 0;
-    element.dataset.level = report.meta.coverage_lead ? "warning" : stops ? "error" : now.pairs > 0 ? "warning" : "good";
-    const crossed = report.crossed?.total ?? 0;
-    const outcome = stops
-      ? `. The solver will stop: ${plural(now.solver_errors, "node lies", "nodes lie")} exactly on a segment (error 611/612).`
-      : now.on_segment.pairs > 0
-        ? `. Exactly on a segment: ${itemsText(now.on_segment)}.`
-        : ".";
-    const lead = report.meta.coverage_lead;
-    replace(
-      sentence,
-      h("strong", null, lead || (now.pairs === 0 ? "No initial penetration" : plural(now.pairs, "initial penetration", "initial penetrations"))),
-      lead ? "" : now.pairs === 0 ? ` in ${plural(report.meta.contacts.length, "contact", "contacts")}.` : ` on ${itemsText(now)}${outcome}`,
-      !lead && crossed > 0 ? ` ${plural(crossed, "crossed element", "crossed elements")}.` : "",
-      report.meta.coverage_tail,
-      changed ? h("span", { class: "tag test" }, "with settings under test") : null,
-    );
-    const deepest = report.hits[0];
-    const tile = (name: string, value: string, note: string, old: string | null) =>
-      h("div", { class: "tile" }, h("div", { class: "tile-name" }, name), h("div", { class: "tile-value" }, value),
-        h("div", { class: "tile-note" }, old !== null && changed && old !== value ? `deck: ${old}` : note));
-    replace(
-      tiles,
-      tile("Penetrations", group(now.pairs), `in ${plural(report.meta.contacts.length, "contact", "contacts")}`, group(base.pairs)),
-      tile("Nodes, edges", countsText(now), now.acted > 0 ? `${group(now.acted)} pairs acted on` : "none acted on", countsText(base)),
-      tile("Deepest", deepest ? num(deepest.depth) : "–", deepest ? `of a gap of ${num(deepest.row.gap)}` : "", num(base.max_depth)),
-      tile("Depth ÷ gap", now.pairs ? percent(now.max_ratio) : "–", "at worst", percent(base.max_ratio)),
-      tile("Solver errors", group(now.solver_errors), now.on_segment.pairs > 0 ? `${itemsText(now.on_segment)} on a segment` : "none on a segment", group(base.solver_errors)),
-    );
-    if (report.earlier) drawCompare(report, compare);
-  };
-  report.on("results", draw);
-  report.on("filter", () => report.earlier && drawCompare(report, compare));
-  draw();
-  return element;
-}
-
-function drawCompare(report: Report, element: HTMLElement): void {
-  const count = { new: 0, worse: 0, better: 0, same: 0 };
-  for (const x of report.hits) if (x.status && x.status !== "solved") count[x.status]++;
-  const chip = (status: "new" | "worse" | "better" | "same" | "solved", n: number) =>
-    h("button", {
-      type: "button", class: `chip ${status}${report.filter.status === status ? " on" : ""}`, disabled: n === 0,
-      "aria-pressed": report.filter.status === status ? "true" : "false",
-      onclick: () => report.setFilter({ status: report.filter.status === status ? null : status, perNode: true }),
-    }, h("b", null, group(n)), ` ${status}`);
-  replace(
-    element,
-    h("span", { class: "muted" }, `Compared with ${report.earlier!.path}:`),
-    chip("new", count.new), chip("worse", count.worse), chip("better", count.better), chip("same", count.same),
-    chip("solved", report.solved.length),
-  );
-}
 
 /** An interface with all its contacts, or one of several contacts of it. */
 interface ContactRow {
@@ -115,7 +41,7 @@ export function interfaces(report: Report): HTMLElement {
   const head = (r: ContactRow): ContactRow => (r.part ? { inter: r.inter, contacts: report.contactsOf(r.inter), part: false } : r);
   const changedCell = (text: string, was: string) =>
     text === was ? text : h("span", { class: "changed", title: `deck: ${was}` }, text);
-  const deepest = (t: Totals) => (t.pairs ? num(t.max_depth) : "–");
+  const deepest = (t: Totals) => (t.unbounded ? "unbounded" : t.pairs ? lengthText(report, t.max_depth) : "–");
   const prefix = commonStart(report.meta.interfaces.map((i) => i.title));
   const fold = (r: ContactRow) => {
     const on = open.has(r.inter);
@@ -144,19 +70,19 @@ export function interfaces(report: Report): HTMLElement {
       { key: "kind", title: "Kind", kind: "text", rank: 6, value: (r) => kind(head(r)), text: kind },
       { key: "igap", title: "Igap", kind: "number", rank: 7, value: (r) => setting(head(r), report.results).igap, text: (r) => String(setting(r, report.results).igap),
         cell: (r) => changedCell(String(setting(r, report.results).igap), String(setting(r, report.base).igap)) },
-      { key: "gapmin", title: "Gapmin", hint: "Smallest pair gap, and where it comes from", kind: "number", rank: 5, value: (r) => setting(head(r), report.results).gapmin, text: (r) => `${num(setting(r, report.results).gapmin)} *`,
+      { key: "gapmin", title: "Gapmin", hint: "Smallest pair gap, and where it comes from", kind: "number", rank: 5, value: (r) => setting(head(r), report.results).gapmin, text: (r) => `${lengthText(report, setting(r, report.results).gapmin)} *`,
         cell: (r) => {
           const s = setting(r, report.results);
           const was = setting(r, report.base).gapmin;
           return h("span", { class: s.gapmin !== was ? "changed" : "", title: `${s.gapmin} (${s.gapminFrom})` },
-            num(s.gapmin), s.gapminFrom === "card" ? null : h("i", { class: "derived" }, " *"));
+            lengthText(report, s.gapmin), s.gapminFrom === "card" ? null : h("i", { class: "derived" }, " *"));
         } },
       count("pairs", "Pairs", "Penetrating pairs"),
       count("nodes", "Nodes", "Distinct secondary nodes", 3),
       count("edges", "Edges", "Distinct secondary edges", 4),
-      { key: "depth", title: "Deepest", kind: "number", value: (r) => totals(head(r)).max_depth, text: (r) => deepest(totals(r)),
+      { key: "depth", title: "Deepest", kind: "number", value: (r) => (totals(head(r)).unbounded ? Infinity : totals(head(r)).max_depth), text: (r) => deepest(totals(r)),
         cell: (r) => changedCell(deepest(totals(r)), deepest(totals(r, "base"))) },
-      { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => totals(head(r)).max_ratio, text: (r) => (totals(r).pairs ? percent(totals(r).max_ratio) : "–") },
+      { key: "ratio", title: "Of gap", kind: "number", rank: 2, value: (r) => totals(head(r)).max_ratio, text: (r) => (totals(r).pairs && !totals(r).unbounded ? percent(totals(r).max_ratio) : "–") },
       { key: "action", title: "Action", hint: "What the solver does about it at start-up", kind: "text", rank: 1, value: (r) => actionsText(report, head(r).contacts), text: (r) => actionsText(report, r.contacts),
         cell: (r) => {
           const text = actionsText(report, r.contacts);

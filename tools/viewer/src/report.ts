@@ -144,7 +144,7 @@ export class Report {
       return (
         this.meta.what_if.length > 0 ||
         !c.complete ||
-        (Object.keys(t) as (keyof Totals)[]).every((k) => JSON.stringify(t[k]) === JSON.stringify(c.totals[k]))
+        (Object.keys(t) as (keyof Totals)[]).every((k) => (t.unbounded && (k === "unbounded" || k.startsWith("max_"))) || JSON.stringify(t[k]) === JSON.stringify(c.totals[k]))
       );
     });
   }
@@ -193,7 +193,7 @@ export class Report {
       const own = this.meta.contacts.flatMap((c, i) => (inter === null || c.interface === inter ? [i] : []));
       if (own.length === 1) found = list[own[0]].totals;
       else {
-        const tally = new Tally(this.mesh.nodeId.length);
+        const tally = new Tally(this.mesh.nodeId.length, this.meta.largest_gap);
         for (const i of own) tally.add(this.meta.contacts[i], this.data.contacts[i], list[i]);
         found = tally.totals();
       }
@@ -385,6 +385,8 @@ export class Report {
       }
     });
     this.hits = deepestFirst(this.hits); // those of a contact follow one another
+    this.unboundedRows = this.hits.reduce((n, x) => n + Number(this.unbounded(x.row.gap)), 0);
+    this.deepest = this.hits.find((x) => !this.unbounded(x.row.gap)) ?? null;
     this.findPrefix();
     // The earlier report has one row per node, so only its deepest row can be compared.
     if (this.earlierRows) {
@@ -408,8 +410,7 @@ export class Report {
   }
 
   /** Hits that pass all filters but the one named; `perNode`: of a node or edge only the deepest. */
-  passing(except: keyof Filter | null, perNode = this.filter.perNode && except !== "perNode"): Hit[] {
-    const f = this.filter;
+  passing(except: keyof Filter | null, perNode = this.filter.perNode && except !== "perNode", f = this.filter): Hit[] {
     const of = <K extends keyof Filter>(k: K): Filter[K] | null => (except === k ? null : f[k]);
     const [inter, pair, depth, ratio, status] = [of("interface"), of("pair"), of("depth"), of("ratio"), of("status")];
     const text = (of("text") ?? "").trim().toLowerCase();
@@ -432,6 +433,22 @@ export class Report {
     }
     return out;
   }
+
+  /** Deepest first, of a node or edge only the deepest, whatever the filters are. */
+  worst(): Hit[] {
+    return this.passing(null, true, { interface: null, pair: null, depth: null, ratio: null, status: null, text: "", perNode: true });
+  }
+
+  /** A length that no model of this size can need. */
+  unbounded(v: number): boolean {
+    return !(Math.abs(v) <= this.meta.largest_gap);
+  }
+  /** What scales, sums and histograms are made of. */
+  bounded(hits: Hit[]): Hit[] {
+    return this.unboundedRows === 0 ? hits : hits.filter((x) => !this.unbounded(x.row.gap));
+  }
+  unboundedRows = 0;
+  deepest: Hit | null = null;
 
   /** The same of a filter that may not be set: then it is the list. */
   around(filter: "interface" | "pair" | "depth" | "ratio" | "status" | "text"): Hit[] {

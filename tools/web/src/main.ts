@@ -1,6 +1,6 @@
 // The page: files come in, `deck` runs over them in threads, what it says is drawn. Nothing is
 // sent and nothing is kept.
-import { button, h, num, plural, replace } from "../../viewer/src/dom";
+import { button, h, plural, replace } from "../../viewer/src/dom";
 import { drawCards, type Card, type Cell, type Shown } from "./card";
 import { Cancelled, deck, engine, KeptLane, Lane } from "./client";
 import type { Result } from "./engine";
@@ -175,9 +175,14 @@ function stopAll(): void {
   say("Cancelled. What is shown may be out of date; “Undo”, another change or another file starts again.");
 }
 
-function parsed<T>(r: Result): T | null {
+/** Values as the program printed them: ids whole, no figure formed anew. */
+function asPrinted(key: string, v: unknown, at?: { source?: string }): unknown {
+  return (key === "value" || key === "input") && typeof v === "number" ? (at?.source ?? String(v)) : v;
+}
+
+function parsed<T>(r: Result, reviver?: (key: string, v: unknown) => unknown): T | null {
   try {
-    return JSON.parse(text(r.stdout)) as T;
+    return JSON.parse(text(r.stdout), reviver) as T;
   } catch {
     say(text(r.stderr).trim() || `deck ended with exit code ${r.exitCode} and said nothing`);
     return null;
@@ -243,7 +248,7 @@ function askForMissing(): void {
 
 async function refreshValues(): Promise<void> {
   const r = await run(lanes.values, ["params", main, "--json", "-", "-q"]);
-  const document = r && parsed<ParamsDocument>(r);
+  const document = r && parsed<ParamsDocument>(r, asPrinted);
   if (!document) return;
   replace(
     values,
@@ -252,7 +257,7 @@ async function refreshValues(): Promise<void> {
       h("details", { open: document.interfaces.length < 4 }, h("summary", null, `TYPE${i.type} ${i.id} `, h("span", { class: "muted" }, i.title)),
         h("table", { class: "plain" }, h("thead", null, h("tr", null, ...["Field", "Card", "Value", "Origin", "Place"].map((t) => h("th", { scope: "col" }, t)))),
           h("tbody", null, ...Object.entries(i.parameters).map(([name, p]) =>
-            h("tr", null, h("td", null, name), h("td", null, p.input === null ? "–" : String(p.input)), h("td", null, typeof p.value === "number" ? num(p.value, 8) : JSON.stringify(p.value)), h("td", null, p.origin),
+            h("tr", null, h("td", null, name), h("td", null, p.input === null ? "–" : String(p.input)), h("td", null, p.value === null ? "–" : typeof p.value === "string" ? p.value : JSON.stringify(p.value)), h("td", null, p.origin),
               h("td", null, p.source ? button(`${p.source.file}:${p.source.line}`, null, () => goTo(p.source as Mark & { file: string; end_column: number }, `/INTER/TYPE${i.type}`, i.id), { class: "link" }) : "")))))))
   );
 }

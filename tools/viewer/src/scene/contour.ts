@@ -32,15 +32,16 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
   const pick = kind === "ratio" ? (x: Hit) => x.ratio : kind === "gap" ? (x: Hit) => x.row.gap : (x: Hit) => x.depth;
   if (kind === "none" || kind === "depth" || kind === "ratio") {
     let top = 0;
-    for (const x of hits) {
+    const sure = report.bounded(hits);
+    for (const x of sure) {
       const v = pick(x);
       if (v > top) top = v;
     }
     top ||= 1;
-    const of = (x: Hit) => pick(x) / top;
+    const of = (x: Hit) => Math.min(1, pick(x) / top);
     if (kind === "none") return { values: null, top, of, tick: scale(top) };
     const values = new Float32Array(n).fill(NaN);
-    for (const x of hits) {
+    for (const x of sure) {
       const v = pick(x) / top;
       const { secondaryNode, mainNode } = report.data.contacts[x.contact];
       const { secondary, main } = x.row;
@@ -54,8 +55,9 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
   }
   const raw = new Float32Array(n).fill(NaN);
   const position = report.nodePositions;
+  const most = kind === "gap" ? report.meta.largest_gap : Infinity;
   const set = (node: number, v: number) => {
-    if (!(raw[node] >= v)) raw[node] = v;
+    if (v <= most && !(raw[node] >= v)) raw[node] = v;
   };
   report.meta.contacts.forEach((meta, i) => {
     if (report.filter.interface !== null && meta.interface !== report.filter.interface) return;
@@ -76,6 +78,7 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
       const length = at >= 0 ? limits[at] : Infinity;
       const gap = pairGap(s, gsTop, gm[m], meta.longest_node || Infinity, length);
       const nodes = data.mainNode.subarray(width * m, width * m + width);
+      if (report.unbounded(gap)) continue;
       const v = kind === "gap" ? gap : gap / shortestSide(position, nodes);
       if (Number.isFinite(v)) for (const node of nodes) set(node, v);
     }
@@ -90,7 +93,7 @@ export function contourOf(report: Report, kind: ContourKind, hits: Hit[]): Conto
   top = top || 1;
   const values = raw.map((v) => v / top);
   const rowValue = (x: Hit) => {
-    if (kind === "gap") return x.row.gap / top;
+    if (kind === "gap") return Math.min(1, x.row.gap / top);
     const side = shortestSide(position, Uint32Array.from(report.mainNodes(x.row)));
     return Math.min(1, x.row.gap / side / top);
   };

@@ -277,20 +277,26 @@ export class View3D {
     return this.renderer.info.render.triangles;
   }
 
-  /** PNG of the view as it is, as a data address. */
-  picture(scale = 1): string {
+  /** The view as it is, larger by `scale`, for as long as `use` runs; `ground`: in place of its own. */
+  pictured<T>(scale: number, ground: string | null, use: (canvas: HTMLCanvasElement) => T): T {
     this.setCoarse(false);
     const { clientWidth: w, clientHeight: h } = this.container;
     const ratio = this.renderer.getPixelRatio();
+    const own = this.scene.background;
     this.renderer.setPixelRatio(ratio * scale);
     this.renderer.setSize(w, h, false);
+    if (ground !== null) this.scene.background = new Color(ground);
     this.control.update(performance.now());
     this.render();
-    const url = this.canvas.toDataURL("image/png");
+    const out = use(this.canvas);
+    this.scene.background = own;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(w, h, false);
     this.request();
-    return url;
+    return out;
+  }
+  picture(scale = 1): string {
+    return this.pictured(scale, null, (canvas) => canvas.toDataURL("image/png"));
   }
 
   private resize(): void {

@@ -4,8 +4,9 @@ import { Color, Vector3, type WebGLRenderer } from "three";
 import { colorAt, cssColor, mapNames, type MapName } from "./colormap";
 import { contourOf, type Contour } from "./contour";
 import { segmentOf } from "./crossed";
-import { button, fileName, h, icon, num, replace, svg } from "../dom";
+import { button, fileName, h, icon, lengthText, num, plural, replace, svg } from "../dom";
 import { saveDataUrl } from "../exports";
+import { framed } from "./framed";
 import { frameOf } from "../find";
 import { contourNames, ofCycle, type ContourKind, type Look } from "../look";
 import { loadElements, kindNames, type ElementOrigin } from "../data";
@@ -150,7 +151,7 @@ export class Viewport {
       h("span", { class: "bar" },
         axis("X", [1, 0, 0], [0, 0, 1]), axis("Y", [0, -1, 0], [0, 0, 1]), axis("Z", [0, 0, 1], [0, 1, 0]),
         button("", "fit", () => this.fit(), { "aria-label": "Fit (f)", title: "Fit (f)", class: "tool" }),
-        button("", "camera", () => this.savePicture(), { "aria-label": "Save a PNG", title: "Save a PNG", class: "tool" })));
+        button("", "camera", () => this.savePicture(false), { "aria-label": "Save a PNG", title: "Save a PNG", class: "tool" })));
   }
 
   private press(key: string, on: boolean): void {
@@ -283,8 +284,37 @@ export class Viewport {
   fit(): void {
     this.view?.fit();
   }
-  savePicture(): void {
-    if (this.view) saveDataUrl("penetrations.png", this.view.picture(2));
+  /** The picture with title, legend and axes; the view has to be there. */
+  pictured(scale: number, white: boolean): HTMLCanvasElement {
+    const { meta, filter } = this.report;
+    const legend = this.legendText();
+    const inter = filter.interface === null ? plural(meta.interfaces.length, "interface", "interfaces") : `interface ${this.report.interfaceName(filter.interface)}`;
+    return this.view!.pictured(scale, white ? "#ffffff" : null, (canvas) =>
+      framed(canvas, {
+        title: fileName(meta.deck.path), about: `${inter} · ${contourNames[this.look.contour]}`, white: white || !this.look.dark,
+        scale: canvas.width / this.view!.canvas.clientWidth, turned: this.view!.control.camera.quaternion,
+        legend: legend && { ...legend, color: (t) => this.color(t) },
+      }));
+  }
+  /** DECK_INTERFACE_depth.png: what it is of. */
+  private pictureName(): string {
+    const inter = this.report.filter.interface;
+    const stem = fileName(this.report.meta.deck.path).replace(/\.rad$/i, "");
+    return `${stem}_${inter === null ? "all" : this.report.meta.interfaces[inter].id}_${this.look.contour === "none" ? "parts" : this.look.contour}.png`;
+  }
+  savePicture(white: boolean): void {
+    if (this.view) saveDataUrl(this.pictureName(), this.pictured(2, white).toDataURL("image/png"));
+  }
+  async copyPicture(): Promise<void> {
+    if (!this.view) return;
+    const canvas = this.pictured(2, false);
+    const png = new Promise<Blob>((done, fail) => canvas.toBlob((b) => (b ? done(b) : fail(new Error("no picture")))));
+    try {
+      await navigator.clipboard.write([new ClipboardItem({ "image/png": png })]);
+      this.showTip("The picture is in the clipboard");
+    } catch {
+      this.showTip("This browser lets no page write pictures into the clipboard: save it instead");
+    }
   }
 
   // ---- found and linked ---------------------------------------------------------------------
@@ -583,10 +613,18 @@ export class Viewport {
     this.view?.flyTo(hit);
   }
 
-  private drawLegend(): void {
+  /** What the colours stand for; null: there are none. */
+  private legendText(): { title: string; tick: (t: number) => string } | null {
     const c = this.contour;
-    this.legend.hidden = !c || (ofCycle(this.look.contour) ? !this.report.acted?.length : !["gap", "edge"].includes(this.look.contour) && this.report.filtered.length === 0);
-    if (!c) return;
+    const kind = this.look.contour;
+    if (!c || (ofCycle(kind) ? !this.report.acted?.length : !["gap", "edge"].includes(kind) && this.report.filtered.length === 0)) return null;
+    const unit = this.report.meta.deck.units.working?.length;
+    return { title: contourNames[kind === "none" ? "depth" : kind] + (unit && ["none", "depth", "gap"].includes(kind) ? ` (${unit})` : ""), tick: c.tick };
+  }
+  private drawLegend(): void {
+    const legend = this.legendText();
+    this.legend.hidden = !legend;
+    if (!legend) return;
     const stops = Array.from({ length: 33 }, (_, i) => {
       const [r, g, b] = this.color(Math.min(i / 32, 0.9999));
       return `rgb(${r} ${g} ${b}) ${(100 * i) / 32}%`;
@@ -594,13 +632,10 @@ export class Viewport {
     const maps = h("select", { "aria-label": "Colour map", title: "Colour map", onchange: () => this.changeLook({ map: maps.value as MapName }) },
       ...mapNames.map((m) => h("option", { value: m, selected: m === this.look.map }, m)));
     const bands = h("input", { type: "checkbox", checked: this.look.bands > 0, onchange: () => this.changeLook({ bands: bands.checked ? 8 : 0 }) });
-    const name = contourNames[this.look.contour === "none" ? "depth" : this.look.contour];
-    const unit = this.report.meta.deck.units.working?.length;
-    const lengthUnit = unit && ["none", "depth", "gap"].includes(this.look.contour) ? ` (${unit})` : "";
     replace(this.legend,
-      h("div", { class: "legend-title" }, name + lengthUnit),
+      h("div", { class: "legend-title" }, legend.title),
       h("div", { class: "legend-scale" }, h("div", { class: "legend-bar", style: `background:linear-gradient(to top, ${stops.join(",")})` }),
-        h("div", { class: "legend-ticks" }, ...[1, 0.75, 0.5, 0.25, 0].map((t) => h("span", null, c.tick(t))))),
+        h("div", { class: "legend-ticks" }, ...[1, 0.75, 0.5, 0.25, 0].map((t) => h("span", null, legend.tick(t))))),
       h("div", { class: "legend-options" }, maps, h("label", { class: "check" }, bands, "steps")));
     this.legend.style.setProperty("--low", cssColor(this.look.map, 0));
   }
@@ -627,7 +662,7 @@ export class Viewport {
       this.label.dataset.key = x.key + x.depth;
       replace(this.label,
         h("b", null, `${this.report.isEdge(x.row) ? "edge" : "node"} ${this.report.secondaryText(x.row)}`),
-        h("span", null, `depth ${num(x.depth, 5)} · gap ${num(x.row.gap)} · distance ${num(x.row.distance)}`));
+        h("span", null, `depth ${lengthText(this.report, x.depth, 5)} · gap ${lengthText(this.report, x.row.gap)} · distance ${num(x.row.distance)}`));
     }
     const left = Math.min(Math.max(at.x - r.left + 28, 8), r.width - this.label.offsetWidth - 8);
     const top = Math.min(Math.max(at.y - r.top - 74, 52), r.height - this.label.offsetHeight - 8);

@@ -1,0 +1,58 @@
+// Two pages of paper: verdict, picture with its legend, the ten worst of all, those of a filter, the interfaces.
+import { deckCommand } from "./exports";
+import { group, h, lengthText, num, percent, plural, replace } from "./dom";
+import type { Hit, Report } from "./report";
+import type { Viewport } from "./scene/viewport";
+
+const most = 30; // interfaces that the second page has room for
+
+/** What narrows the list down, in words; "": nothing does. */
+export function filterText(report: Report): string {
+  const f = report.filter;
+  const between = (name: string, range: [number, number] | null) => range && `${name} from ${num(range[0])} to ${num(range[1])}`;
+  return [
+    f.interface !== null && `interface ${report.interfaceName(f.interface)}`,
+    f.pair && `parts ${report.partText(f.pair[0])} and ${report.partText(f.pair[1])}`,
+    between("depth", f.depth), between("depth ÷ gap", f.ratio),
+    f.status && `${f.status} against ${report.earlier?.path}`,
+    f.text.trim() && `"${f.text.trim()}"`,
+  ].filter((t) => t).join(", ");
+}
+
+function table(titles: string[], rows: (string | number)[][]): HTMLElement {
+  return h("table", { class: "plain" }, h("thead", null, h("tr", null, ...titles.map((t) => h("th", null, t)))),
+    h("tbody", null, ...rows.map((r) => h("tr", null, ...r.map((t) => h("td", null, t))))));
+}
+
+function worst(report: Report, hits: Hit[]): HTMLElement {
+  const id = (x: Hit) => report.meta.interfaces[report.meta.contacts[x.contact].interface].id;
+  return table(["Depth", "Gap", "Interface", "Node / edge", "Segment / edge", "Part", "Main part", "Action"],
+    hits.slice(0, 10).map((x) => [lengthText(report, x.depth, 5), lengthText(report, x.row.gap), id(x), report.secondaryText(x.row), report.mainText(x.row), report.partShort(x.secondaryPart), report.partShort(x.mainPart), x.row.action]));
+}
+
+export function printing(report: Report, viewport: Viewport): void {
+  const paper = h("div", { class: "paper" });
+  document.querySelector(".left")!.append(paper);
+  let picture = ""; // the last that could be drawn: on paper itself the view has no room
+  window.addEventListener("beforeprint", () => {
+    if (viewport.view && viewport.element.clientWidth > 0) picture = viewport.pictured(1.5, true).toDataURL("image/png");
+    const { meta } = report;
+    const all = meta.interfaces
+      .map((inter, i) => ({ inter, contacts: report.contactsOf(i), t: report.totals("now", i) }))
+      .filter((x) => x.contacts.length > 0)
+      .sort((a, b) => b.t.max_depth - a.t.max_depth);
+    const filter = filterText(report);
+    replace(paper,
+      picture !== "" && h("img", { alt: "The picture", src: picture }),
+      h("h2", null, "Ten worst of all"),
+      worst(report, report.worst()),
+      filter !== "" && h("h2", { class: "selection" }, `Ten worst of the selection: ${filter}`),
+      filter !== "" && worst(report, report.filtered),
+      h("h2", { class: "second" }, "Interfaces"),
+      table(["Id", "Title", "Kind", "Gapmin", "Pairs", "Nodes", "Edges", "Deepest", "Of gap"],
+        all.slice(0, most).map(({ inter, contacts, t }) => [inter.id, inter.title, `TYPE${inter.type}`, lengthText(report, report.results[contacts[0]].setting.gapmin), group(t.pairs), group(t.nodes), group(t.edges), t.unbounded ? "unbounded" : t.pairs ? lengthText(report, t.max_depth) : "–", t.pairs && !t.unbounded ? percent(t.max_ratio) : "–"])),
+      all.length > most && h("p", { class: "note" }, `… and ${group(all.length - most)} with shallower penetrations or none`),
+      h("p", { class: "paper-foot" },
+        `deck ${meta.tool.version} · ${new Date().toISOString().slice(0, 10)} · ${deckCommand(report)} · ${plural(meta.files.length, "file", "files")}, ${plural(meta.bytes, "byte", "bytes")}`));
+  });
+}

@@ -1,0 +1,83 @@
+// The verdict above everything: sentences and level as the program made them, tiles with numbers that follow the settings.
+import { group, h, lengthText, num, percent, plural, replace } from "./dom";
+import type { Verdict } from "./meta";
+import type { Report } from "./report";
+
+/** Colour of a level: red where the solver would stop, green only where nothing was found. */
+export function colourOf(verdict: Verdict): "error" | "warning" | "good" {
+  if (verdict.level === "stops") return "error";
+  // Pairs that are tied push without penetrating.
+  if ((verdict.counts.pairs_with_force ?? 0) > 0) return "warning";
+  return verdict.level === "clean" || verdict.level === "remarks" ? "good" : "warning";
+}
+
+/** What happens in the first cycle stands first on its page. */
+const physics = ["forces", "time_step", "acceleration", "removed"];
+
+function sentencesOf(report: Report): string[] {
+  const all = report.meta.verdict.sentences;
+  if (report.meta.page !== "cycle") return all.map((s) => s.text);
+  const rank = (what: string) => (physics.includes(what) ? physics.indexOf(what) : physics.length);
+  return [...all].sort((a, b) => rank(a.what) - rank(b.what)).map((s) => s.text);
+}
+
+function itemsText(c: { nodes: number; edges: number }): string {
+  const nodes = plural(c.nodes, "node", "nodes");
+  const edges = plural(c.edges, "edge", "edges");
+  return c.edges === 0 ? nodes : c.nodes === 0 ? edges : `${nodes} and ${edges}`;
+}
+
+export function verdict(report: Report): HTMLElement {
+  const { verdict: said, contacts } = report.meta;
+  const [first, ...rest] = sentencesOf(report);
+  const test = h("span", { class: "tag test", hidden: true }, "numbers below: with settings under test");
+  const tiles = h("div", { class: "tiles" });
+  const compare = h("div", { class: "compare" });
+  const element = h("section", { class: "verdict", id: "verdict", "aria-label": "Verdict", "data-level": colourOf(said), "data-verdict": said.level },
+    h("p", { class: "verdict-text" }, h("strong", null, first ?? ""), ...rest.map((t) => ` ${t}`), test), tiles, compare);
+  const errors = said.counts.errors ?? 0;
+  const crossed = report.crossed?.total ?? said.counts.crossed_elements ?? null;
+  const draw = () => {
+    const now = report.totals("now", null);
+    const base = report.totals("base", null);
+    test.hidden = !report.anyChanged;
+    const deepest = report.deepest;
+    const beyond = report.unboundedRows;
+    const tile = (name: string, value: string, note: string, old: string | null, bad = false) =>
+      h("div", { class: "tile", "data-tile": name, "data-bad": bad }, h("div", { class: "tile-name" }, name), h("div", { class: "tile-value" }, value),
+        h("div", { class: "tile-note" }, old !== null && report.anyChanged && old !== value ? `deck: ${old}` : note));
+    const counts = (t: { nodes: number; edges: number }) => `${group(t.nodes)}, ${group(t.edges)}`;
+    const ratio = deepest || now.pairs === 0 ? (t: { pairs: number; max_ratio: number }) => (t.pairs ? percent(t.max_ratio) : "–") : () => "–";
+    replace(tiles,
+      tile("Penetrations", group(now.pairs), `in ${plural(contacts.length, "contact", "contacts")}`, group(base.pairs)),
+      tile("Nodes, edges", counts(now), now.acted > 0 ? `${group(now.acted)} pairs acted on` : "none acted on", counts(base)),
+      tile("Deepest", deepest ? num(deepest.depth) : beyond > 0 ? "unbounded" : "–",
+        beyond > 0 ? `${plural(beyond, "pair has", "pairs have")} an unbounded gap` : deepest ? `of a gap of ${lengthText(report, deepest.row.gap)}` : "", deepest ? num(base.max_depth) : null),
+      tile("Depth ÷ gap", ratio(now), "at worst", ratio(base)),
+      tile("Solver stops", group(errors + now.solver_errors), [errors > 0 && plural(errors, "error in the deck", "errors in the deck"), now.solver_errors > 0 && `${plural(now.solver_errors, "node", "nodes")} on a segment`,
+        errors + now.solver_errors === 0 && (now.on_segment.pairs > 0 ? `${itemsText(now.on_segment)} on a segment` : "no reason known")].filter((t) => t).join(", "), group(errors + base.solver_errors), errors + now.solver_errors > 0),
+      crossed !== null && crossed > 0 && tile("Crossed", group(crossed), "elements pass through segments", null));
+    if (report.earlier) drawCompare(report, compare);
+  };
+  report.on("results", draw);
+  report.on("filter", () => report.earlier && drawCompare(report, compare));
+  draw();
+  return element;
+}
+
+function drawCompare(report: Report, element: HTMLElement): void {
+  const count = { new: 0, worse: 0, better: 0, same: 0 };
+  for (const x of report.hits) if (x.status && x.status !== "solved") count[x.status]++;
+  const chip = (status: "new" | "worse" | "better" | "same" | "solved", n: number) =>
+    h("button", {
+      type: "button", class: `chip ${status}${report.filter.status === status ? " on" : ""}`, disabled: n === 0,
+      "aria-pressed": report.filter.status === status ? "true" : "false",
+      onclick: () => report.setFilter({ status: report.filter.status === status ? null : status, perNode: true }),
+    }, h("b", null, group(n)), ` ${status}`);
+  replace(
+    element,
+    h("span", { class: "muted" }, `Compared with ${report.earlier!.path}:`),
+    chip("new", count.new), chip("worse", count.worse), chip("better", count.better), chip("same", count.same),
+    chip("solved", report.solved.length),
+  );
+}
