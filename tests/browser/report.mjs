@@ -99,7 +99,7 @@ async function crashBox() {
     const { report } = window.deckReport;
     const red = () => [...document.querySelectorAll("#touches .touch:has(.deep)")].map((e) => `${e.dataset.s} ${e.dataset.m}${/; \d+ penetration/.test(e.textContent)}`).sort();
     const wanted = () => [...new Set(report.hits.map((x) => `${x.secondaryPart} ${x.mainPart}true`))].sort();
-    report.setOverrides(report.meta.interfaces.map((_, i) => ({ Gapmin: 1e-9, Gapmax: 1e-9 })));
+    report.setOverrides(report.meta.interfaces.map((_, i) => ({ Gapmin: 1e-9, Igap: 0 })));
     const out = { red: red(), wanted: wanted(), plain: document.querySelectorAll("#touches .near").length, pairs: report.hits.length };
     report.clearOverrides(null);
     return { ...out, again: report.hits.length };
