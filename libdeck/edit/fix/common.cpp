@@ -8,7 +8,6 @@
 
 #include "base/real_text.hpp"
 #include "deck/contact/view.hpp"
-#include "edit/fix/harm.hpp"
 
 namespace deck::detail {
 
@@ -63,7 +62,7 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const FixOptio
 
 std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options) {
   for (const Contact& contact : scene.contacts)
-    if (!contact.evaluated && is_wanted(options, *contact.inter))
+    if (!contact.evaluated && is_wanted(options, contact))
       return Error{
           Error::Code::limit,
           "the penetrations of interface " + std::to_string(contact.inter->id) +
@@ -72,10 +71,10 @@ std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options) 
   return std::nullopt;
 }
 
-bool is_wanted(const FixOptions& options, const InterBase& inter) {
+bool is_wanted(const FixOptions& options, const Contact& contact) {
   const auto& list = options.interfaces;
-  if (is_tie(inter) && !options.ties) return false;
-  return list.empty() || std::find(list.begin(), list.end(), inter.id) != list.end();
+  if (contact.ties() && !options.ties) return false;
+  return list.empty() || std::find(list.begin(), list.end(), contact.inter->id) != list.end();
 }
 
 bool is_untreated(const Contact& contact, const PenetrationRow& row) {
@@ -86,7 +85,7 @@ bool is_untreated(const Contact& contact, const PenetrationRow& row) {
 std::map<std::int64_t, FixCount> count_interfaces(const Scene& scene, const FixOptions& options) {
   std::map<std::int64_t, FixCount> out;
   for (const Contact& contact : scene.contacts) {
-    if (contact.penetrations.empty() || !is_wanted(options, *contact.inter)) continue;
+    if (contact.penetrations.empty() || !is_wanted(options, contact)) continue;
     FixCount& count = out[contact.inter->id];
     std::set<std::uint32_t> nodes;
     for (const PenetrationRow& row : contact.penetrations) {

@@ -32,8 +32,8 @@ Scene fix_scene(const Model& model, const Interfaces& interfaces, const FixOptio
 /// Why nothing can be said about a wanted interface; nothing: all were evaluated.
 std::optional<Error> unevaluated(const Scene& scene, const FixOptions& options);
 
-/// True if the options ask for this interface; for a tie only with FixOptions::ties.
-bool is_wanted(const FixOptions& options, const InterBase& inter);
+/// True if the options ask for the interface of a contact; for a tie only with FixOptions::ties.
+bool is_wanted(const FixOptions& options, const Contact& contact);
 
 /// True if the solver does nothing about the pair, or stops at it.
 bool is_untreated(const Contact& contact, const PenetrationRow& row);

@@ -73,7 +73,7 @@ class Depenetrator : MovableDeck {
     fix_.tied_pairs = baseline_.tied_pairs();
     fix_.tied_nodes = baseline_.tied_nodes();
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
-      if (!is_wanted(options_, *scene.contacts[c].inter)) continue;
+      if (!is_wanted(options_, scene.contacts[c])) continue;
       const std::vector<bool> inside = inside_solids(scene, c);  // all false for edges
       for (const PenetrationRow& row : scene.contacts[c].penetrations)
         begin_pair(scene, {c, row.secondary, row.main}, row, inside[row.secondary]);
@@ -181,9 +181,9 @@ class Depenetrator : MovableDeck {
   /// A penetration that should go: of the interfaces asked for, or one that was not there before.
   bool is_task(const Scene& scene, const PairAt& at) const {
     const PairKey key = key_of(scene, at);
-    const InterBase& inter = *scene.contacts[at.contact].inter;
+    const Contact& contact = scene.contacts[at.contact];
     if (skipped_.contains(key)) return false;
-    return is_wanted(options_, inter) || (!is_tie(inter) && !baseline_.contains(key));
+    return is_wanted(options_, contact) || (!contact.ties() && !baseline_.contains(key));
   }
 
   /// Moves nodes once; false if none can move.
@@ -561,7 +561,7 @@ class Depenetrator : MovableDeck {
   void list_refused(const Scene& scene) {
     for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
       const Contact& contact = scene.contacts[c];
-      if (!is_wanted(options_, *contact.inter)) continue;
+      if (!is_wanted(options_, contact)) continue;
       std::map<std::uint32_t, const PenetrationRow*> deepest;
       for (const PenetrationRow& row : contact.penetrations) {
         const PenetrationRow*& best = deepest[row.secondary];

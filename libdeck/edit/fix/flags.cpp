@@ -59,9 +59,9 @@ Result<void> evaluate(PenetrationFix& fix, const EditContext& context, const Fix
   std::map<Key, PenetrationAction> earlier;
   for (const Contact& c : before.contacts)
     for (const PenetrationRow& r : c.penetrations)
-      if (is_wanted(options, *c.inter)) earlier[key(context.model, c, r)] = r.action;
+      if (is_wanted(options, c)) earlier[key(context.model, c, r)] = r.action;
   for (const Contact& c : after.contacts) {
-    if (!is_wanted(options, *c.inter)) continue;
+    if (!is_wanted(options, c)) continue;
     for (const PenetrationRow& r : c.penetrations) {
       FixAction action;
       action.interface_id = c.inter->id;
@@ -211,7 +211,7 @@ Result<PenetrationFix> set_fpenmax(const EditContext& context, const FpenmaxOpti
   if (auto why = unevaluated(before, options)) return *why;
   CellWriter edits(context.deck.sources);
   for (const Contact& contact : before.contacts) {
-    if (contact.penetrations.empty() || !is_wanted(options, *contact.inter)) continue;
+    if (contact.penetrations.empty() || !is_wanted(options, contact)) continue;
     const InterBase& inter = *contact.inter;
     if (inter.type != 7) {
       if (contact.role == ContactRole::primary || contact.kind == ContactKind::edge_edge)

@@ -22,18 +22,11 @@ std::vector<NodeIndex> nodes_of(const Scene& scene, const PairKey& key) {
 
 }  // namespace
 
-bool is_tie(const InterBase& inter) {
-  if (inter.type == InterType10::traits.type) return true;
-  if (inter.type != InterType7::traits.type) return false;
-  const std::int64_t itied = static_cast<const InterType7&>(inter).ITIED.value;
-  return itied != 0 && itied != 1000;
-}
-
 Baseline::Baseline(const Scene& scene, const FixOptions& options) : options_(&options) {
   for (std::uint32_t c = 0; c < scene.contacts.size(); ++c) {
-    const InterBase& inter = *scene.contacts[c].inter;
-    const bool tie = is_tie(inter) && !is_wanted(options, inter);
-    for (const PenetrationRow& row : scene.contacts[c].penetrations) {
+    const Contact& contact = scene.contacts[c];
+    const bool tie = contact.ties() && !is_wanted(options, contact);
+    for (const PenetrationRow& row : contact.penetrations) {
       Row& kept = rows_[key_of(scene, {c, row.secondary, row.main})];
       kept.depth = std::max(kept.depth, row.depth);
       kept.tie = tie;

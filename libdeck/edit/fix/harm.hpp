@@ -12,10 +12,6 @@
 
 namespace deck::detail {
 
-/// True if pairs of the interface that are within the gap are tied: TYPE10, and others with ITIED.
-/// The one place that knows it.
-bool is_tie(const InterBase& inter);
-
 /// A pair for which a scene is worse than the one before.
 struct Harm {
   PairKey pair;

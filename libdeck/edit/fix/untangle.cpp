@@ -64,7 +64,7 @@ class Untangler : MovableDeck {
   std::vector<Crossing> wanted(const Scene& scene) const {
     std::vector<Crossing> out;
     for (const Crossing& c : find_crossings(scene, options_.threads))
-      if (is_wanted(options_, *scene.contacts[c.contact].inter)) out.push_back(c);
+      if (is_wanted(options_, scene.contacts[c.contact])) out.push_back(c);
     return out;
   }
 
