@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "common.hpp"
 #include "convert_steps.hpp"
@@ -108,6 +110,11 @@ int verify(Conversion& c, const Loaded& again, const ConvertStep& step,
   relation.new_ids = step.option == "--renumber";
   relation.extract = step.option == "--extract-contacts";
   relation.expanded = step.option == "--expand-type19";
+  relation.cells =
+      (step.option == "--units" || step.option == "--version") &&
+      std::none_of(losses.begin(), losses.end(), [](const LossEntry& e) {
+        return (e.loss == Loss::dropped || e.loss == Loss::undecided) && !e.without_effect;
+      });
   const auto difference = first_difference(*c.behaviour, *after, relation);
   c.behaviour = std::move(after);
   progress.clear();
@@ -125,6 +132,7 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
   const EditContext context{c.now->deck, c.now->model, c.now->interfaces, schemas};
   progress.step(c.now->path + ": " + step.option);
   Rewrite rewrite = step.run(context);
+  if (step.engine && rewrite.refusals.empty()) step.engine(c.now->deck, c.now->engine, rewrite);
   // With a batch the values that only changed are left out: its report holds all decks.
   if (!options.report.empty()) add_changed_values(context, step.option, rewrite);
   progress.clear();
@@ -167,25 +175,55 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
   return code;
 }
 
-/// Counts for people; what was lost or waits for a decision line by line.
+/// Engine files that no conversion has to do with are written beside the deck as they are.
+void tell_of_copies(Conversion& c) {
+  for (const EngineFile& file : c.now->engine.files) {
+    const std::string& path = c.now->deck.sources[file.file].path();
+    if (std::any_of(c.losses.begin(), c.losses.end(),
+                    [&](const LossEntry& e) { return e.file == path; }))
+      continue;
+    LossEntry entry;
+    entry.file = path;
+    entry.line = 1;
+    entry.note = "Engine file: copied unchanged";
+    c.losses.push_back(std::move(entry));
+  }
+}
+
+bool of_engine_file(const LossEntry& e) { return !starter_of_engine_file(e.file).empty(); }
+
+std::string loss_line(const LossEntry& e) {
+  constexpr std::string_view names[] = {"kept", "approximated", "dropped", "undecided"};
+  return fmt::format(
+      "{}:{}: {}: {}{} {}{}{}{}{}", e.file, e.line, names[static_cast<std::size_t>(e.loss)],
+      e.keyword, of_engine_file(e) ? "" : fmt::format("/{}", e.id), e.field,
+      e.old_text.empty() ? "" : " " + e.old_text, e.new_text.empty() ? "" : " -> " + e.new_text,
+      e.note.empty() ? "" : ": ", e.note);
+}
+
+/// Counts for people; what was lost or waits for a decision line by line. Values without effect of
+/// one field are one line.
 void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& common) {
   if (common.quiet || losses.empty()) return;
   std::size_t count[4] = {};
+  std::map<std::string, std::size_t> alike;  // without effect, by keyword, field and reason
+  const auto kind = [](const LossEntry& e) { return e.keyword + " " + e.field + ": " + e.note; };
+  for (const LossEntry& e : losses) {
+    ++count[static_cast<std::size_t>(e.loss)];
+    if (e.without_effect) ++alike[kind(e)];
+  }
   constexpr std::size_t most = 40;
   std::size_t shown = 0, hidden = 0;
   for (const LossEntry& e : losses) {
-    ++count[static_cast<std::size_t>(e.loss)];
-    if (e.loss == Loss::kept) continue;
+    std::size_t* same = e.without_effect ? &alike[kind(e)] : nullptr;
+    if (e.loss == Loss::kept || (same != nullptr && *same == 0)) continue;
+    const std::size_t others = same == nullptr ? 0 : std::exchange(*same, 0) - 1;
     if (shown++ >= most) {
-      ++hidden;
+      hidden += 1 + others;
       continue;
     }
-    constexpr std::string_view names[] = {"kept", "approximated", "dropped", "undecided"};
-    const std::string line = fmt::format(
-        "{}:{}: {}: {}/{} {}{}{}{}{}", e.file, e.line, names[static_cast<std::size_t>(e.loss)],
-        e.keyword, e.id, e.field, e.old_text.empty() ? "" : " " + e.old_text,
-        e.new_text.empty() ? "" : " -> " + e.new_text, e.note.empty() ? "" : ": ", e.note);
-    print_messages(terminal_text(line) + "\n");
+    print_messages(terminal_text(loss_line(e)) +
+                   (others == 0 ? "\n" : fmt::format(" (and {} more of these)\n", others)));
   }
   if (hidden > 0) print_messages(fmt::format("... and {} more; --report FILE lists all\n", hidden));
   print_messages(fmt::format("deck: kept {}, approximated {}, dropped {}, undecided {}\n", count[0],
@@ -363,6 +401,7 @@ int convert(Run& run, const std::string& name, std::unique_ptr<Loaded> loaded, O
     code = apply(c, step, schemas, options, run.progress);
     if (code != exit_clean) break;
   }
+  if (code == exit_clean && !options.write.directory.empty()) tell_of_copies(c);
   if (code == exit_clean) print_losses(c.losses, options.common);
   if (BatchFrame* frame = batch_frame())
     for (const LossEntry& e : c.losses) ++frame->decks[name].losses[static_cast<int>(e.loss)];
@@ -551,6 +590,7 @@ Action setup(CommandLine& line) {
   line.existing("decks").describe("Starter decks, or directories: all *_0000.rad below them");
   return [options] {
     options->write.read_back = options->verifies();
+    options->common.engine_files = options->to == "rad" && options->from == "rad";
     options->common.rewrites = options->write.in_place;
     std::optional<SharedMeshes> meshes;
     if (names_several(options->common.decks)) meshes.emplace();
