@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -17,8 +18,11 @@
 #include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
 #include "inspect/element_cells.hpp"
+#include "inspect/equal_numbers.hpp"
+#include "inspect/function_uses.hpp"
 #include "inspect/match.hpp"
 #include "keyword/decode/implied_one.hpp"
+#include "model/constant_stiffness.hpp"
 #include "model/shared/families.hpp"
 
 namespace deck {
@@ -42,9 +46,13 @@ namespace {
 using detail::Counterparts;
 using detail::Item;
 
-/// Products of unit factors are equal up to their rounding.
-bool same_number(double x, double y, bool rounded) {
-  return x == y || (rounded && std::abs(x - y) <= 1e-12 * std::max(std::abs(x), std::abs(y)));
+/// Largest coordinate of a model.
+double extent_of(const Nodes& nodes) {
+  double extent = 0;
+  for (const auto* axis : {&nodes.x, &nodes.y, &nodes.z})
+    for (const double x : *axis)
+      if (std::isfinite(x)) extent = std::max(extent, std::abs(x));
+  return extent;
 }
 
 constexpr std::string_view selections[] = {"grnod",  "surf",   "line",   "set",    "grpart",
@@ -65,14 +73,17 @@ std::string group_of_kind(std::string_view kind) {
 
 class Differ {
  public:
-  Differ(const DiffSide& a, const DiffSide& b, MatchBy match)
+  Differ(const DiffSide& a, const DiffSide& b, MatchBy match, double tolerance)
       : a_(a),
         b_(b),
         units_a_(a.deck->begin.working),
         units_b_(b.deck->begin.working),
         other_units_(!(units_a_ == units_b_)),
         length_(conversion_factor(units_a_, units_b_, length_dimension)),
-        pairs_(detail::find_counterparts(a, b, match, length_)) {}
+        extent_(std::max(extent_of(a.model->nodes), extent_of(b.model->nodes) / length_)),
+        equal_(tolerance),
+        pairs_(detail::find_counterparts(a, b, match, length_)),
+        functions_(a, b, pairs_, tolerance) {}
 
   DeckDiff run() {
     if (other_units_)
@@ -95,6 +106,7 @@ class Differ {
     out_.stops_b = stops(b_);
     if (a_.scene != nullptr && b_.scene != nullptr) penetrations();
     hint();
+    tell_of_numbers();
     return std::move(out_);
   }
 
@@ -120,14 +132,28 @@ class Differ {
     for (std::size_t i = 0; i < pairs_.items_a.size(); ++i) {
       if (pairs_.block_to_b[i] != no_index)
         used[pairs_.block_to_b[i]] = 1;
-      else
+      else if (!only_a_copy(a_, pairs_.items_a[i]))
         add(ChangeKind::removed, pairs_.items_a[i], nullptr, "").a =
             pairs_.items_a[i].block->header_span;
     }
     for (std::size_t i = 0; i < pairs_.items_b.size(); ++i)
-      if (used[i] == 0)
+      if (used[i] == 0 && !only_a_copy(b_, pairs_.items_b[i]))
         add(ChangeKind::added, pairs_.items_b[i], nullptr, "").b =
             pairs_.items_b[i].block->header_span;
+  }
+
+  static bool is_function(const Block& b) {
+    return b.schema != nullptr && (b.schema->kind == "funct" || b.schema->keyword == "/MOVE_FUNCT");
+  }
+
+  static std::int64_t function_id(const DiffSide& side, const Block& b) {
+    return b.id.value + side.deck->offset_of(b, "funct");
+  }
+
+  /// A function that only one deck has, for uses that the other gives the same curve by another.
+  bool only_a_copy(const DiffSide& side, const Item& item) const {
+    return is_function(*item.block) &&
+           functions_.only_a_copy(function_id(side, *item.block), &side == &b_);
   }
 
   // ---- one entity -----------------------------------------------------------------------------
@@ -152,6 +178,9 @@ class Differ {
       c.b = b.block->header_span;
       return;
     }
+    if (is_function(*a.block) &&
+        functions_.same_points(function_id(a_, *a.block), function_id(b_, *b.block)))
+      return;
     const InterBase* ia = inter_of(a_, *a.block);
     const InterBase* ib = inter_of(b_, *b.block);
     if (ia != nullptr && ib != nullptr && ia->type == ib->type) return contact(a, b, *ia, *ib);
@@ -208,7 +237,11 @@ class Differ {
         f.span = e.span;
         if (const Field* field = inter.block->schema->find_field(name)) {
           f.ref = field->type == FieldType::id ? field->ref : "";
-          if (field->type == FieldType::real) f.dimension = dimension_of(*field, d);
+          if (field->type == FieldType::real)
+            f.dimension = name == "Stfac" && detail::constant_stiffness(inter)
+                              ? detail::stiffness_dimension
+                          : name == "Stfac" ? Dimension{}
+                                            : dimension_of(*field, d);
           const Cell* cell = d.find(name);
           const bool scale = !field->unit_for.empty() || is_scale(*inter.block->schema, name);
           f.counts = scale ? ones.cells.contains(cell) || ones.absent.contains(field->name)
@@ -227,8 +260,11 @@ class Differ {
     return v;
   }
 
-  bool same_value(const DiffValue& x, const DiffValue& y, std::string_view ref,
-                  bool rounded) const {
+  /// What values of a dimension are measured against: lengths against the model.
+  double size_of(const Dimension& d) const { return d == length_dimension ? extent_ : 0; }
+
+  bool same_value(const DiffValue& x, const DiffValue& y, std::string_view ref, double size,
+                  bool rounded) {
     if (!ref.empty()) {
       const auto* i = std::get_if<std::int64_t>(&x);
       const auto* j = std::get_if<std::int64_t>(&y);
@@ -236,7 +272,7 @@ class Differ {
     }
     const double* u = std::get_if<double>(&x);
     const double* v = std::get_if<double>(&y);
-    return u != nullptr && v != nullptr ? same_number(*u, *v, rounded) : x == y;
+    return u != nullptr && v != nullptr ? equal_(*u, *v, size, rounded) : x == y;
   }
 
   bool same_id(std::string_view kind, std::int64_t x, std::int64_t y) const {
@@ -253,7 +289,9 @@ class Differ {
       const DiffValue input = in_first_units(fb[i].input, fb[i].dimension);
       const DiffValue effective = in_first_units(fb[i].effective, fb[i].dimension);
       // Values from the mesh are sums that may have another order.
-      if (same_value(fa[i].effective, effective, fa[i].ref, true)) continue;
+      if (same_value(fa[i].effective, effective, fa[i].ref, size_of(fa[i].dimension), true))
+        continue;
+      if (functions_.same_cell(*a.block, {fa[i].name, 0, 0})) continue;
       // A built-in bound such as 1e30 is that in every unit system, and what nothing is measured by
       // is 1 in all of them.
       const bool on_card = fa[i].why == "card" || fb[i].why == "card";
@@ -279,8 +317,11 @@ class Differ {
     std::string ref;
     Span span;
     bool rounded = false;
+    double size = 0;                ///< what the number is measured against
+    std::optional<double> product;  ///< with what the solver multiplies it by
+    const Field* field = nullptr;
   };
-  using CellKey = std::tuple<std::string, int, std::string, int>;  // card, round, field, which
+  using CellKey = detail::CellKey;
   struct Contents {
     std::map<CellKey, CellValue> cells;
     std::vector<CellKey> order;
@@ -323,10 +364,11 @@ class Differ {
         one.field = &f;
         one.real = 1;
         const double x = working_value(*side.deck, d, one);
-        CellKey key{card.name, 0, f.name, 0};
+        CellKey key{f.name, 0, 0};
         CellValue v;
         v.span = d.block->header_span;
         v.rounded = rounded;
+        v.field = &f;
         v.value = &side == &b_ ? in_first_units(x, dimension_of(f, d)) : DiffValue(x);
         out.order.push_back(key);
         out.cells.emplace(std::move(key), std::move(v));
@@ -346,14 +388,13 @@ class Differ {
     const UnitSystem* units = deck.units_of(block);
     const bool rounded = other_units_ || (units != nullptr && !(*units == deck.begin.working));
     const detail::ImpliedOnes ones = detail::implied_ones(d);
+    const auto keys = detail::cell_keys(d);
     for (const DecodedCard& card : d.cards) {
       const bool list = card.schema->repeat == Repeat::ids;
-      std::map<std::string, int> which;
       for (const Cell& cell : card.cells) {
         const Field& f = *cell.field;
         const bool ordered = f.type == FieldType::real || f.type == FieldType::text ||
                              f.ref == "funct" || f.ref == "table";
-        const int place = which[f.name]++;
         if (list && !ordered && &f == &card.schema->fields.back()) {
           const std::int64_t sign = cell.integer < 0 ? -1 : 1;
           if (cell.integer != 0)
@@ -364,11 +405,15 @@ class Differ {
         }
         CellValue v;
         v.span = cell.span;
+        v.field = &f;
         if (f.type == FieldType::real) {
           const double x = real_of(deck, d, card, cell, ones.cells.contains(&cell));
           if (x == 0) continue;  // the same as blank
           v.rounded = rounded;
-          v.value = &side == &b_ ? in_first_units(x, dimension_of(f, d, &card)) : DiffValue(x);
+          const Dimension dimension = dimension_of(f, d, &card);
+          v.size = size_of(dimension);
+          v.value = &side == &b_ ? in_first_units(x, dimension) : DiffValue(x);
+          v.product = product_of(d, card, cell, std::get<double>(v.value));
         } else if (f.type == FieldType::text) {
           if (cell.text.empty()) continue;
           v.value = std::string(cell.text);
@@ -378,9 +423,9 @@ class Differ {
           v.ref = f.type == FieldType::id ? f.ref : "";
           v.value = cell.integer + (v.ref.empty() ? 0 : sign * deck.offset_of(block, f.ref));
         }
-        CellKey key{card.schema->name, card.round, f.name, place};
+        const CellKey& key = keys.at(&cell);
         out.order.push_back(key);
-        out.cells.emplace(std::move(key), std::move(v));
+        out.cells.emplace(key, std::move(v));
       }
       if (!block.schema->layout_known() && card.cells.empty() && !card.missing())
         words_of(card.line, out);
@@ -390,12 +435,47 @@ class Differ {
     return out;
   }
 
+  /// A number that the solver multiplies by that of another cell, with it (Field::over).
+  static std::optional<double> product_of(const DecodedBlock& d, const DecodedCard& card,
+                                          const Cell& cell, double value) {
+    const Field& f = *cell.field;
+    if (f.over.empty() || !holds(f.over_when, d, &card)) return std::nullopt;
+    const Cell* scale = detail::cell_beside(d, card, cell, f.over);
+    return scale == nullptr || scale->real == 0 ? value : value * scale->real;
+  }
+
   static std::string field_name(const CellKey& key) {
-    const auto& [card, round, field, which] = key;
+    const auto& [field, round, which] = key;
     std::string out = field;
     if (round > 1) out += fmt::format(" [{}]", round);
     if (which > 0) out += fmt::format(" ({})", which + 1);
     return out;
+  }
+
+  /// The version of the block has no such cell.
+  static bool has_no_cell(const CellValue& v, const Block& other) {
+    return v.field != nullptr && !detail::has_field(other, v.field->name);
+  }
+
+  /// The number that the solver uses where nothing is written.
+  static bool is_default(const CellValue& v) {
+    const auto number = detail::ordinary_default(*v.field);
+    const auto* i = std::get_if<std::int64_t>(&v.value);
+    const auto* x = std::get_if<double>(&v.value);
+    return number && ((i != nullptr && static_cast<double>(*i) == *number) ||
+                      (x != nullptr && *x == *number));
+  }
+
+  bool same_cell(const CellValue& x, const CellValue& y, const Block& in_a, const Block& in_b) {
+    const bool rounded = x.rounded || y.rounded;
+    const std::string& ref = x.ref.empty() ? y.ref : x.ref;
+    const double size = std::max(x.size, y.size);
+    if (x.product && y.product) return equal_(*x.product, *y.product, size, true);
+    if (same_value(x.value, y.value, ref, size, rounded)) return true;
+    const bool ignored = x.field != nullptr ? x.field->ignored : y.field->ignored;
+    if (ignored) ++ignored_;
+    return ignored || (y.field == nullptr && has_no_cell(x, in_b) && is_default(x)) ||
+           (x.field == nullptr && has_no_cell(y, in_a) && is_default(y));
   }
 
   void cells(const Item& a, const Item& b) {
@@ -409,11 +489,11 @@ class Differ {
       const CellValue none;
       const CellValue& va = x == ca.cells.end() ? none : x->second;
       const CellValue& vb = y == cb.cells.end() ? none : y->second;
-      const std::string& ref = va.ref.empty() ? vb.ref : va.ref;
-      if (same_value(va.value, vb.value, ref, va.rounded || vb.rounded)) return;
+      if (same_cell(va, vb, *a.block, *b.block) || functions_.same_cell(*a.block, key)) return;
       Change& c = add(ChangeKind::changed, a, &b, field_name(key));
-      c.old_value = va.value;
-      c.new_value = vb.value;
+      const bool shown_alike = va.value == vb.value && va.product && vb.product;
+      c.old_value = shown_alike ? DiffValue(*va.product) : va.value;
+      c.new_value = shown_alike ? DiffValue(*vb.product) : vb.value;
       c.a = place(ca, key, a);
       c.b = place(cb, key, b);
     };
@@ -426,7 +506,7 @@ class Differ {
     for (const std::string& name : names) id_lists(a, b, name, ca, cb);
     const bool same =
         std::equal(ca.words.begin(), ca.words.end(), cb.words.begin(), cb.words.end(),
-                   [](const auto& x, const auto& y) { return same_word(x.first, y.first); });
+                   [&](const auto& x, const auto& y) { return same_word(x.first, y.first); });
     if (same) return;
     std::size_t at = 0;
     while (at < ca.words.size() && at < cb.words.size() &&
@@ -439,13 +519,13 @@ class Differ {
     if (at < cb.words.size()) c.new_value = cb.words[at].first;
   }
 
-  static bool same_word(const std::string& x, const std::string& y) {
+  bool same_word(const std::string& x, const std::string& y) {
     if (x == y) return true;
     const RealCell u = read_real(x), v = read_real(y);
     const auto number = [](const RealCell& n) {
       return n.status == NumberStatus::ok || n.status == NumberStatus::implicit_exponent;
     };
-    return number(u) && number(v) && u.value == v.value;
+    return number(u) && number(v) && equal_(u.value, v.value, 0, false);
   }
 
   void id_lists(const Item& a, const Item& b, const std::string& name, const Contents& ca,
@@ -629,9 +709,8 @@ class Differ {
         continue;
       }
       used[m] = 1;
-      const bool same = same_number(na.x[n] * length_, nb.x[m], other_units_) &&
-                        same_number(na.y[n] * length_, nb.y[m], other_units_) &&
-                        same_number(na.z[n] * length_, nb.z[m], other_units_);
+      const bool same = same_length(na.x[n], nb.x[m]) && same_length(na.y[n], nb.y[m]) &&
+                        same_length(na.z[n], nb.z[m]);
       if (same) continue;
       Change& c = loose(ChangeKind::moved, "node", "/NODE", na.id[n]);
       if (nb.id[m] != na.id[n]) c.id_b = nb.id[m];
@@ -653,6 +732,11 @@ class Differ {
     c.new_value = static_cast<std::int64_t>(nb.size());
     c.lost = std::move(lost);
     c.gained = std::move(gained);
+  }
+
+  /// A length of either deck, each in its own units.
+  bool same_length(double x, double y) {
+    return equal_(x * length_, y, extent_ * length_, other_units_);
   }
 
   struct Tolerance {
@@ -678,7 +762,7 @@ class Differ {
   void tolerances() {
     const auto ta = tolerances_of(a_), tb = tolerances_of(b_);
     for (std::size_t i = 0; i < ta.size() && i < tb.size(); ++i) {
-      if (same_number(ta[i].length, tb[i].length, true)) continue;
+      if (equal_(ta[i].length, tb[i].length, extent_, true)) continue;
       Change& c = loose(ChangeKind::changed, "node", "/CNODE", 0);
       c.field = "tolerance";
       c.old_value = ta[i].length;
@@ -754,8 +838,7 @@ class Differ {
     }
   }
 
-  bool same_element(const Elements& fa, std::uint32_t e, const Elements& fb,
-                    std::uint32_t f) const {
+  bool same_element(const Elements& fa, std::uint32_t e, const Elements& fb, std::uint32_t f) {
     for (int i = 0; i < fa.width; ++i)
       if (to_b(fa.of(e)[i]) != fb.of(f)[i]) return false;
     if (!fa.shape.empty() && (fa.shape[e] != fb.shape[f] || !same_mid_nodes(fa, e, fb, f)))
@@ -763,7 +846,7 @@ class Differ {
     const auto thickness = [](const Elements& x, std::uint32_t i) {
       return i < x.thickness.size() ? x.thickness[i] : 0;
     };
-    return same_number(thickness(fa, e) * length_, thickness(fb, f), other_units_);
+    return same_length(thickness(fa, e), thickness(fb, f));
   }
 
   bool same_mid_nodes(const Elements& fa, std::uint32_t e, const Elements& fb,
@@ -789,10 +872,10 @@ class Differ {
   }
 
   /// Angles and directions have no dimension.
-  bool same_cells(const RowCells& x, const RowCells& y) const {
+  bool same_cells(const RowCells& x, const RowCells& y) {
     return std::equal(x.begin(), x.end(), y.begin(), y.end(),
                       [&](const detail::ElementCell& u, const detail::ElementCell& v) {
-                        return u.field->name == v.field->name && u.real == v.real &&
+                        return u.field->name == v.field->name && equal_(u.real, v.real, 0, false) &&
                                same_id(u.field->ref, u.id, v.id);
                       });
   }
@@ -832,8 +915,11 @@ class Differ {
 
   void penetrations() {
     const auto before = deepest(a_), now = deepest(b_);
+    // Depths are differences of coordinates.
+    const double nothing = equal_.tolerance() * extent_ * length_;
     for (const auto& [key, d] : before) {
       const auto it = now.find(key);
+      if (it == now.end() && d.depth * length_ <= nothing) continue;
       if (it == now.end()) {
         out_.gone.push_back({d.interface_id, std::get<1>(key), d.secondary, d.depth, 0, d.gap, 0});
         continue;
@@ -842,7 +928,7 @@ class Differ {
       const double was = d.depth * length_;
       PenetrationChange p{n.interface_id, std::get<1>(key), n.secondary, d.depth, n.depth, d.gap,
                           n.gap};
-      const double noise = 1e-9 * std::max(d.gap * length_, n.gap);
+      const double noise = std::max(nothing, 1e-9 * std::max(d.gap * length_, n.gap));
       if (n.depth > was + noise)
         out_.worse.push_back(p);
       else if (n.depth < was - noise)
@@ -851,7 +937,7 @@ class Differ {
         ++out_.same_penetrations;
     }
     for (const auto& [key, n] : now)
-      if (!before.contains(key))
+      if (!before.contains(key) && n.depth > nothing)
         out_.appeared.push_back(
             {n.interface_id, std::get<1>(key), n.secondary, 0, n.depth, 0, n.gap});
     const auto sort = [](std::vector<PenetrationChange>& list, auto&& depth) {
@@ -875,6 +961,26 @@ class Differ {
                       lost, pairs_.node_to_b.size()));
   }
 
+  void tell_of_numbers() {
+    const auto values = [](std::size_t n) {
+      return fmt::format("{} {}", n, n == 1 ? "value differs" : "values differ");
+    };
+    const std::size_t within = equal_.used() + functions_.within_tolerance();
+    if (within > 0)
+      out_.notes.push_back(fmt::format(
+          "{} by less than {:g} of its size (coordinates and lengths: of the model's size) and "
+          "count as equal (--tolerance)",
+          values(within), equal_.tolerance()));
+    if (equal_.nearly_equal() > 0)
+      out_.notes.push_back(
+          fmt::format("{0} by less than {1:g} of its size; with --tolerance {1:g} they count as "
+                      "equal",
+                      values(equal_.nearly_equal()), detail::EqualNumbers::nearly));
+    if (ignored_ > 0)
+      out_.notes.push_back(fmt::format(
+          "{} that the reference solver does not use: no difference in itself", values(ignored_)));
+  }
+
   static constexpr std::size_t most_places =
       1000;  ///< lines of moved nodes: found by reading again
 
@@ -884,15 +990,19 @@ class Differ {
   const UnitSystem& units_b_;
   bool other_units_;
   double length_;
+  double extent_;  ///< of both models, in working units of the first
+  detail::EqualNumbers equal_;
   Counterparts pairs_;
+  detail::FunctionUses functions_;
+  std::size_t ignored_ = 0;  ///< values that differ and are not used
   std::size_t placed_ = 0;
   DeckDiff out_;
 };
 
 }  // namespace
 
-DeckDiff diff_decks(const DiffSide& a, const DiffSide& b, MatchBy match) {
-  return Differ(a, b, match).run();
+DeckDiff diff_decks(const DiffSide& a, const DiffSide& b, MatchBy match, double tolerance) {
+  return Differ(a, b, match, tolerance).run();
 }
 
 }  // namespace deck

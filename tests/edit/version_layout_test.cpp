@@ -272,5 +272,26 @@ TEST(VersionLayout, AFactorMovesToItsNewColumns) {
   EXPECT_THAT(after, HasSubstr("         0" + std::string(27, ' ') + "0.5\n"));
 }
 
+TEST(VersionLayout, CardsStayBelowTheirOwnComments) {
+  const std::string text = deck_of_version(
+      110, "/FAIL/TAB/1\n#CARD1\n         1         1         1\n#CARD2\n" + std::string(17, ' ') +
+               "1.1" + std::string(17, ' ') + "0.2" + std::string(17, ' ') +
+               "3.0\n#CARD3\n         5" + std::string(17, ' ') + "1.0\n");
+  const std::string after = convert(text, 2026);
+  EXPECT_THAT(after, HasSubstr("#CARD2\n" + std::string(17, ' ') + "1.1")) << after;
+  EXPECT_THAT(after, HasSubstr("#CARD3\n         5")) << after;
+}
+
+TEST(VersionLayout, WhatIsRemovedIsListedAsDropped) {
+  const auto before = open_text(deck_of_version(
+      110, "/FAIL/TAB/1\n         1         1         0" + std::string(17, ' ') + "0.4\n"));
+  const Rewrite rewrite = to_version(before->context(), 2026);
+  const auto dropped = losses_of(rewrite, Loss::dropped);
+  ASSERT_EQ(dropped.size(), 1u);
+  EXPECT_EQ(dropped[0].old_text, "0.4");
+  EXPECT_TRUE(dropped[0].without_effect);
+  for (const LossEntry& e : losses_of(rewrite, Loss::kept)) EXPECT_NE(e.old_text, "0.4");
+}
+
 }  // namespace
 }  // namespace deck::test

@@ -217,6 +217,57 @@ TEST_F(ConvertTwoFiles, BrokenJsonIsUnreadableInput) {
   EXPECT_FALSE(fs::exists(dir_ / "back"));
 }
 
+const std::string engine_file =
+    "# runs\n/RUN/m/1\n 2.5\n/TFILE\n0.01\n/ANIM/DT\n0. 0.5\n/DT/NODA/CST\n0.9 1e-4\n"
+    "/RFILE/1\n 5000\n/MON/ON\n";
+const std::string engine_file_in_ms =
+    "# runs\n/RUN/m/1\n 2500.0\n/TFILE\n10.0\n/ANIM/DT\n0. 500.0\n/DT/NODA/CST\n0.9 1e-1\n"
+    "/RFILE/1\n 5000\n/MON/ON\n";
+
+class ConvertWithEngine : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    write(dir_ / "run/m_0000.rad", std::string(begin) + "/END\n");
+    write(dir_ / "run/m_0001.rad", engine_file);
+  }
+};
+
+TEST_F(ConvertWithEngine, TimesAreConvertedAlong) {
+  ASSERT_EQ(deck("convert run/m_0000.rad --units Mg,mm,ms -o new --report r.json"), 0) << err();
+  EXPECT_EQ(read(dir_ / "new/m_0001.rad"), engine_file_in_ms);
+  EXPECT_NE(read(dir_ / "r.json").find("Engine file: 4 times converted"), std::string::npos);
+  ASSERT_EQ(deck("convert run -o tree --units Mg,mm,ms --verify"), 0) << err();
+  EXPECT_EQ(read(dir_ / "tree/m_0001.rad"), engine_file_in_ms);
+  ASSERT_EQ(deck("batch run -o all --verb 'convert --units Mg,mm,ms'"), 0) << out() << err();
+  EXPECT_EQ(count_files(dir_ / "all") > 0, true);
+  bool found = false;
+  for (const auto& e : fs::recursive_directory_iterator(dir_ / "all"))
+    found = found || (e.path().filename() == "m_0001.rad" && read(e.path()) == engine_file_in_ms);
+  EXPECT_TRUE(found);
+  ASSERT_EQ(deck("convert run/m_0000.rad --units Mg,mm,ms --in-place"), 0) << err();
+  EXPECT_EQ(read(dir_ / "run/m_0001.rad"), engine_file_in_ms);
+}
+
+TEST_F(ConvertWithEngine, WithTheSameWorkingUnitsTheyAreCopied) {
+  ASSERT_EQ(deck("convert run/m_0000.rad --version 2026 -o new --report r.json"), 0) << err();
+  EXPECT_EQ(read(dir_ / "new/m_0001.rad"), engine_file);
+  EXPECT_NE(read(dir_ / "r.json").find("Engine file: copied unchanged"), std::string::npos);
+  ASSERT_EQ(deck("convert run/m_0000.rad --units Mg,mm,ms --keep-working-units -o same"), 0)
+      << err();
+  EXPECT_EQ(read(dir_ / "same/m_0001.rad"), engine_file);
+}
+
+TEST_F(ConvertWithEngine, AKeywordWhoseCellsAreNotKnownIsRefusedWithItsPlace) {
+  write(dir_ / "run/m_0002.rad", "/RUN/m/2\n5.0\n/DAMP\n1 2 0.3\n/NOLINES\n");
+  EXPECT_EQ(deck("convert run/m_0000.rad --units Mg,mm,ms -o new"), 1);
+  EXPECT_NE(err().find("m_0002.rad:3:1: /DAMP"), std::string::npos) << err();
+  EXPECT_FALSE(fs::exists(dir_ / "new"));
+  EXPECT_EQ(deck("convert run/m_0000.rad --units Mg,mm,ms -o new --allow-loss"), 1);
+  EXPECT_NE(err().find("undecided: /DAMP"), std::string::npos) << err();
+  EXPECT_EQ(read(dir_ / "new/m_0002.rad"), "/RUN/m/2\n5000.0\n/DAMP\n1 2 0.3\n/NOLINES\n");
+}
+
 TEST_F(Convert, LsDynaContactsBecomeAnIncludeFile) {
   const std::string dyna =
       "*KEYWORD\n*CONTACT_AUTOMATIC_NODES_TO_SURFACE_ID\n         3nodes on surface\n"

@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <tuple>
 
 #include "common.hpp"
+#include "convert_losses.hpp"
 #include "convert_steps.hpp"
-#include "deck/base/escape.hpp"
 #include "deck/base/paths.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/edit/changed_values.hpp"
@@ -21,7 +22,6 @@
 #include "deck/report/deck_json.hpp"
 #include "deck/report/losses.hpp"
 #include "deck/text/gzip.hpp"
-#include "deck/text/number.hpp"
 #include "writing/changes.hpp"
 #include "writing/library.hpp"
 #include "writing/meshes.hpp"
@@ -59,38 +59,6 @@ void print_refusals(const CommonOptions& common, const std::vector<std::string>&
     print_error(common, fmt::format("... and {} more", refusals.size() - most));
 }
 
-/// A refusal ("file:line:column: /KEYWORD/id field: why") as an entry of the report.
-LossEntry refused_entry(const std::string& refusal) {
-  LossEntry entry;
-  entry.loss = Loss::undecided;
-  entry.note = refusal;
-  const auto end = refusal.find(": /");
-  const auto column = end == refusal.npos || end == 0 ? end : refusal.rfind(':', end - 1);
-  const auto line = column == refusal.npos || column == 0 ? column : refusal.rfind(':', column - 1);
-  if (line == refusal.npos) return entry;
-  const IntegerCell number =
-      read_integer(std::string_view(refusal).substr(line + 1, column - line - 1));
-  if (number.status != NumberStatus::ok || number.value < 0) return entry;
-  entry.file = refusal.substr(0, line);
-  entry.line = static_cast<std::uint64_t>(number.value);
-  const auto keyword = end + 2, colon = refusal.find(": ", keyword);
-  if (colon == refusal.npos) return entry;
-  entry.note = refusal.substr(colon + 2);
-  std::string what = refusal.substr(keyword, colon - keyword);
-  if (const auto blank = what.find(' '); blank != what.npos) {
-    entry.field = what.substr(blank + 1);
-    what.resize(blank);
-  }
-  const auto slash = what.rfind('/');
-  const IntegerCell id = read_integer(std::string_view(what).substr(slash + 1));
-  if (slash > 0 && id.status == NumberStatus::ok) {
-    entry.id = id.value;
-    what.resize(slash);
-  }
-  entry.keyword = what;
-  return entry;
-}
-
 std::unique_ptr<Behaviour> behaviour_of(const Loaded& loaded, const SchemaSet& schemas,
                                         const CommonOptions& common, SearchMemory* searches) {
   return std::make_unique<Behaviour>(
@@ -108,6 +76,11 @@ int verify(Conversion& c, const Loaded& again, const ConvertStep& step,
   relation.new_ids = step.option == "--renumber";
   relation.extract = step.option == "--extract-contacts";
   relation.expanded = step.option == "--expand-type19";
+  relation.cells =
+      (step.option == "--units" || step.option == "--version") &&
+      std::none_of(losses.begin(), losses.end(), [](const LossEntry& e) {
+        return (e.loss == Loss::dropped || e.loss == Loss::undecided) && !e.without_effect;
+      });
   const auto difference = first_difference(*c.behaviour, *after, relation);
   c.behaviour = std::move(after);
   progress.clear();
@@ -125,6 +98,7 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
   const EditContext context{c.now->deck, c.now->model, c.now->interfaces, schemas};
   progress.step(c.now->path + ": " + step.option);
   Rewrite rewrite = step.run(context);
+  if (step.engine && rewrite.refusals.empty()) step.engine(c.now->deck, c.now->engine, rewrite);
   // With a batch the values that only changed are left out: its report holds all decks.
   if (!options.report.empty()) add_changed_values(context, step.option, rewrite);
   progress.clear();
@@ -167,29 +141,19 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
   return code;
 }
 
-/// Counts for people; what was lost or waits for a decision line by line.
-void print_losses(const std::vector<LossEntry>& losses, const CommonOptions& common) {
-  if (common.quiet || losses.empty()) return;
-  std::size_t count[4] = {};
-  constexpr std::size_t most = 40;
-  std::size_t shown = 0, hidden = 0;
-  for (const LossEntry& e : losses) {
-    ++count[static_cast<std::size_t>(e.loss)];
-    if (e.loss == Loss::kept) continue;
-    if (shown++ >= most) {
-      ++hidden;
+/// Engine files that no conversion has to do with are written beside the deck as they are.
+void tell_of_copies(Conversion& c) {
+  for (const EngineFile& file : c.now->engine.files) {
+    const std::string& path = c.now->deck.sources[file.file].path();
+    if (std::any_of(c.losses.begin(), c.losses.end(),
+                    [&](const LossEntry& e) { return e.file == path; }))
       continue;
-    }
-    constexpr std::string_view names[] = {"kept", "approximated", "dropped", "undecided"};
-    const std::string line = fmt::format(
-        "{}:{}: {}: {}/{} {}{}{}{}{}", e.file, e.line, names[static_cast<std::size_t>(e.loss)],
-        e.keyword, e.id, e.field, e.old_text.empty() ? "" : " " + e.old_text,
-        e.new_text.empty() ? "" : " -> " + e.new_text, e.note.empty() ? "" : ": ", e.note);
-    print_messages(terminal_text(line) + "\n");
+    LossEntry entry;
+    entry.file = path;
+    entry.line = 1;
+    entry.note = "Engine file: copied unchanged";
+    c.losses.push_back(std::move(entry));
   }
-  if (hidden > 0) print_messages(fmt::format("... and {} more; --report FILE lists all\n", hidden));
-  print_messages(fmt::format("deck: kept {}, approximated {}, dropped {}, undecided {}\n", count[0],
-                             count[1], count[2], count[3]));
 }
 
 /// A deck in JSON; `below_root` is its place where the call mirrors a tree.
@@ -363,6 +327,7 @@ int convert(Run& run, const std::string& name, std::unique_ptr<Loaded> loaded, O
     code = apply(c, step, schemas, options, run.progress);
     if (code != exit_clean) break;
   }
+  if (code == exit_clean && !options.write.directory.empty()) tell_of_copies(c);
   if (code == exit_clean) print_losses(c.losses, options.common);
   if (BatchFrame* frame = batch_frame())
     for (const LossEntry& e : c.losses) ++frame->decks[name].losses[static_cast<int>(e.loss)];
@@ -551,6 +516,7 @@ Action setup(CommandLine& line) {
   line.existing("decks").describe("Starter decks, or directories: all *_0000.rad below them");
   return [options] {
     options->write.read_back = options->verifies();
+    options->common.engine_files = options->to == "rad" && options->from == "rad";
     options->common.rewrites = options->write.in_place;
     std::optional<SharedMeshes> meshes;
     if (names_several(options->common.decks)) meshes.emplace();

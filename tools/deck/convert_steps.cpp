@@ -56,7 +56,8 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
       .value("N");
   line.flag("--allow-loss", steps.allow_loss,
             "With --version: drop values that the other version has no cell for. With "
-            "--resolve-defaults: leave to the default card what the card has no cell for")
+            "--resolve-defaults: leave to the default card what the card has no cell for. With "
+            "--units: leave keywords of Engine files whose cells are not known as they are")
       .heading(group);
   line.option("--units", steps.units,
               "Unit system to write, mass,length,time: kg,mm,ms or Mg,mm,s or numbers (factors "
@@ -108,11 +109,16 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps, bool seve
     const auto target = parse_unit_system(steps.units);
     if (!target) return Error{Error::Code::config, "--units: " + target.error().message};
     const auto rows = several_decks ? make_shared_rows() : nullptr;
-    all.push_back({"--units",
-                   [&steps, system = *target, rows](const EditContext& c) {
-                     return to_units(c, system, {steps.partial, steps.keep_working, rows});
-                   },
-                   "--partial converts what is known and lists the rest"});
+    all.push_back(
+        {"--units",
+         [&steps, system = *target, rows](const EditContext& c) {
+           return to_units(c, system, {steps.partial, steps.keep_working, rows});
+         },
+         "--partial converts what is known and lists the rest",
+         [&steps, system = *target](const Deck& deck, const EngineFiles& engine, Rewrite& out) {
+           engine_to_units(deck, engine, system, {steps.partial, steps.keep_working, nullptr},
+                           steps.partial || steps.allow_loss, out);
+         }});
   }
   if (!steps.renumber.empty()) {
     RenumberOptions renumbering;
@@ -126,8 +132,9 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps, bool seve
                    [renumbering](const EditContext& c) { return renumber(c, renumbering); },
                    "--partial renumbers what is known and lists the rest"});
   }
-  if (steps.allow_loss && steps.version == 0 && !steps.resolve_defaults)
-    return Error{Error::Code::config, "--allow-loss goes with --version or --resolve-defaults"};
+  if (steps.allow_loss && steps.version == 0 && !steps.resolve_defaults && steps.units.empty())
+    return Error{Error::Code::config,
+                 "--allow-loss goes with --version, --units or --resolve-defaults"};
   if (steps.keep_working && steps.units.empty())
     return Error{Error::Code::config, "--keep-working-units goes with --units"};
   if (steps.partial && steps.units.empty() && steps.renumber.empty())

@@ -29,6 +29,8 @@ struct ConvertStep {
   std::string option;  ///< as on the command line, for messages
   std::function<Rewrite(const EditContext&)> run;
   std::string way_out;  ///< what to do about a refusal; may be empty
+  /// What the Engine files beside the deck need; may be empty.
+  std::function<void(const Deck&, const EngineFiles&, Rewrite&)> engine = {};
 };
 
 /// Those asked for, in the order they are done. Error: an option that makes no sense.

@@ -235,14 +235,19 @@ class VersionRewriter {
     std::ptrdiff_t place = -1;  // of the last old line that stayed where it was
     for (const NewLine& line : lines) {
       const std::string text = text_of(compose, line);
-      const bool there = line.old != nullptr && !line.old->missing();
-      const std::ptrdiff_t k = line.old == nullptr ? -1 : line.old - decoded.cards.data();
+      const DecodedCard* old = line.old != nullptr ? line.old : donor(compose, line, stays);
+      const bool there = old != nullptr && !old->missing();
+      const std::ptrdiff_t k = old == nullptr ? -1 : old - decoded.cards.data();
       if (there && k > place) {
-        lines_.change(line.old->line, text, out_.edits);
+        if (line.old == nullptr) leave_card(compose, *old);
+        lines_.change(old->line, text, out_.edits);
         stays[static_cast<std::size_t>(k)] = true;
         place = k;
-        anchor = line.old->line.whole();
+        anchor = old->line.whole();
       } else {
+        if (line.old != nullptr && there)
+          for (const Line& comment : comments_above(line.old->line))
+            lines_.insert_after(anchor, std::string(comment.text));
         lines_.insert_after(anchor, text);
         inserted = true;
       }
@@ -252,13 +257,60 @@ class VersionRewriter {
       if (card.missing() || stays[k]) continue;
       const bool moved =
           std::any_of(lines.begin(), lines.end(), [&](const NewLine& l) { return l.old == &card; });
-      if (!moved)
-        for (const Cell& cell : card.cells)
-          if (!has_cell(compose, cell.field->name, card.round)) vanish(block, cell);
+      if (moved)
+        for (const Line& comment : comments_above(card.line)) lines_.remove(comment, out_.edits);
+      else
+        leave_card(compose, card);
       lines_.remove(card.line, out_.edits);
     }
     if (lines.size() < all.size()) remove_extra(block, decoded);
     return inserted || out_.edits.size() != before;
+  }
+
+  /// An old line that no new line continues, and whose cells the new line takes over: its place,
+  /// and the comments above it, are the new line's. nullptr: none.
+  static const DecodedCard* donor(const Compose& compose, const NewLine& line,
+                                  const std::vector<bool>& taken) {
+    const auto fields = compose.layout.fields(*line.card, line.round);
+    const auto& cards = compose.decoded.cards;
+    for (std::size_t k = 0; k < cards.size(); ++k) {
+      const DecodedCard& card = cards[k];
+      if (taken[k] || card.missing() || card.free_format || card.round != line.round ||
+          card.schema->repeat == Repeat::ids ||
+          std::any_of(compose.lines->begin(), compose.lines->end(),
+                      [&](const NewLine& l) { return l.old == &card; }))
+        continue;
+      if (std::any_of(fields.begin(), fields.end(),
+                      [&](const Field* f) { return cell_of(card, f->name) != nullptr; }))
+        return &card;
+    }
+    return nullptr;
+  }
+
+  /// What is told of a line whose cells go elsewhere or nowhere.
+  void leave_card(const Compose& compose, const DecodedCard& card) {
+    for (const Cell& cell : card.cells)
+      if (!has_cell(compose, cell.field->name, card.round)) vanish(compose.block, cell);
+  }
+
+  /// The comments that belong to a line: those right above it.
+  std::vector<Line> comments_above(const Line& line) const {
+    std::vector<Line> out;
+    const std::string_view bytes = c_.deck.sources[line.file].bytes();
+    for (std::uint64_t at = line.offset; at > 0;) {
+      const auto before = at < 2 ? bytes.npos : bytes.rfind('\n', at - 2);
+      const std::uint64_t begin = before == bytes.npos ? 0 : before + 1;
+      std::string_view text = bytes.substr(begin, at - 1 - begin);
+      if (!text.starts_with('#') || text.starts_with("#include") || text.starts_with("#RADIOSS"))
+        break;
+      if (text.ends_with('\r')) text.remove_suffix(1);
+      Line comment = line;
+      comment.offset = begin;
+      comment.text = text;
+      out.insert(out.begin(), comment);
+      at = begin;
+    }
+    return out;
   }
 
   /// Lines behind the last one that is read would become cells where the new layout has more lines.

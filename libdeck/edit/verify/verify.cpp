@@ -9,6 +9,7 @@
 #include "contact/scene/scene_parts.hpp"
 #include "cycle/contact_run.hpp"
 #include "cycle/state/state_parts.hpp"
+#include "deck/inspect/diff.hpp"
 #include "edit/verify/verify_parts.hpp"
 
 namespace deck {
@@ -178,6 +179,23 @@ DeckComparison::Difference DeckComparison::time_steps() const {
                 unit);
 }
 
+/// Every cell, function and member of a group, as `deck diff` compares them.
+DeckComparison::Difference DeckComparison::cells() const {
+  if (!relation.cells) return {};
+  const auto side = [](const EditContext& c) {
+    return DiffSide{c.deck.sources[0].path(), &c.deck, &c.model, &c.interfaces, nullptr, nullptr};
+  };
+  const DeckDiff diff = diff_decks(side(before.context), side(after.context), MatchBy::id,
+                                   relation.rounded ? tolerance : diff_tolerance);
+  if (diff.changes.empty()) return {};
+  const Change& c = diff.changes.front();
+  const std::string others =
+      diff.changes.size() == 1 ? "" : fmt::format(" ({} differences in all)", diff.changes.size());
+  if (c.field.empty())
+    return fmt::format("{}/{} is {}{}", c.keyword, c.id, to_string(c.kind), others);
+  return fmt::format("{} of {}/{} means something else{}", c.field, c.keyword, c.id, others);
+}
+
 }  // namespace detail
 
 std::optional<std::string> first_difference(const Behaviour& before, const Behaviour& after,
@@ -189,7 +207,8 @@ std::optional<std::string> first_difference(const Behaviour& before, const Behav
     return cause ? cause : d;
   }
   if (auto d = c.masses()) return d;
-  return c.time_steps();
+  if (auto d = c.time_steps()) return d;
+  return c.cells();
 }
 
 }  // namespace deck

@@ -54,6 +54,7 @@ struct DeckComparison {
   Difference contacts() const;
   Difference masses() const;
   Difference time_steps() const;
+  Difference cells() const;
 
  private:
   std::vector<NodeIndex> old_nodes_;  ///< empty: the same indices

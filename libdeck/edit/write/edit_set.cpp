@@ -160,8 +160,10 @@ void EditSet::propose(std::size_t deck, const Deck& now, const ChangedFiles& cha
         use.text = static_cast<std::size_t>(same - file.texts.begin());
   }
   member.order.clear();
-  for (std::uint32_t f = 0; f < now.sources.size(); ++f)
-    member.order.push_back(now.sources[f].path());
+  // Files beside the deck are not read back with it.
+  std::set<std::uint32_t> included = {0};
+  for (const IncludeEdge& e : now.includes) included.insert(e.file);
+  for (const std::uint32_t f : included) member.order.push_back(now.sources[f].path());
   for (const IncludeEdge& e : now.includes)
     member.edges.push_back({now.sources[e.parent].path(), e.written, now.sources[e.file].path()});
   std::optional<fs::path> folder;

@@ -47,6 +47,14 @@ std::vector<fs::path> relative_places(const Deck& deck, Layout& layout) {
     place[e.file] = normal_path((base / written).native());
     known[e.file] = true;
   }
+  // What no directive names lies beside the main file and belongs to it: Engine files.
+  std::vector<bool> included(deck.sources.size(), false);
+  for (const IncludeEdge& e : deck.includes) included[e.file] = true;
+  for (std::uint32_t f = 1; f < deck.sources.size(); ++f) {
+    const std::string& path = deck.sources[f].path();
+    if (!included[f] && parent_path(path) == parent_path(deck.sources[0].path()))
+      place[f] = fs::path(path).filename();
+  }
   return place;
 }
 

@@ -1,5 +1,5 @@
 // What the Engine files beside a deck ask for: the run they name, its times, the ids they list.
-#include "deck/keyword/engine_file.hpp"
+#include "deck/keyword/engine_layout.hpp"
 
 #include <algorithm>
 #include <map>
@@ -40,8 +40,9 @@ std::optional<double> final_time(const LintContext& c, const EngineFile& file) {
   const EngineBlock* run = run_of(file);
   if (run == nullptr || run->part(0) != "RUN") return std::nullopt;
   const std::vector<double> numbers = numbers_of(c, *run);
-  if (numbers.empty() || !(numbers[0] > 0)) return std::nullopt;
-  return numbers[0];
+  const auto end = engine_layout(*run)->find(EngineCell::end);
+  if (!end || numbers.size() <= *end || !(numbers[*end] > 0)) return std::nullopt;
+  return numbers[*end];
 }
 
 /// Place of a finding about what a file does not have: its first line.
@@ -218,12 +219,14 @@ void check_outputs(const LintContext& c, const Rule& rule, Reporter& r) {
       const bool history = b.part(0) == "TFILE" && b.part(1).size() <= 1;
       if (!states && !history) continue;
       const std::vector<double> n = numbers_of(c, b);
-      if (n.size() < (states ? 2U : 1U)) continue;
-      const double interval = n[states ? 1 : 0];
-      if (states && n[0] > *end)
+      const EngineLayout layout = engine_layout(b).value();
+      const auto first = layout.find(EngineCell::first), every = layout.find(EngineCell::interval);
+      if (!every || n.size() <= *every) continue;
+      const double interval = n[*every];
+      if (first && n[*first] > *end)
         r.report(rule, b.lines[0],
                  fmt::format("{} begins at {}, the run ends at {}", clipped(b.keyword),
-                             number_text(n[0]), number_text(*end)));
+                             number_text(n[*first]), number_text(*end)));
       else if (interval > *end - begin) {
         Diagnostic* d =
             r.report(rule, b.lines[0],

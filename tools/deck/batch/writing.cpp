@@ -14,6 +14,7 @@
 #include "batch/json.hpp"
 #include "batch/run.hpp"
 #include "deck/base/paths.hpp"
+#include "deck/keyword/engine_file.hpp"
 #include "deck/report/json.hpp"
 #include "deck/report/losses.hpp"
 #include "deck/text/source.hpp"
@@ -109,7 +110,8 @@ std::string Batch::write_group(std::size_t group, Captured& output) const {
       const auto seen = task_.seen.find(path);
       if (seen == task_.seen.end()) continue;
       for (const FileState& f : notes.read[path])
-        if (!seen->second.contains(absolute_path(f.path)))
+        if (!seen->second.contains(absolute_path(f.path)) &&
+            absolute_path(starter_of_engine_file(f.path)) != absolute_path(path))
           return Error{Error::Code::config, f.path + ", a file of " + path +
                                                 ", was not there when the decks were grouped by "
                                                 "what they share; run the same command again"};

@@ -16,6 +16,7 @@ struct Options {
   std::string match = "id", format = "human";
   bool markdown = false, no_geometry = false;
   std::size_t rows = 20;
+  double tolerance = diff_tolerance;
 };
 
 /// A deck with its contacts.
@@ -96,7 +97,8 @@ int run(const Options& o) {
   const DeckDiff diff = diff_decks(sa, sb,
                                    o.match == "title"      ? MatchBy::title
                                    : o.match == "position" ? MatchBy::position
-                                                           : MatchBy::id);
+                                                           : MatchBy::id,
+                                   o.tolerance);
   const int code = diff.equal() ? exit_clean : exit_findings;
   if (!o.common.json.empty())
     if (auto written = write_output(o.common.json, diff_json(sa, sb, diff)); !written) {
@@ -135,6 +137,12 @@ Action setup(CommandLine& line) {
       .show_default();
   line.flag("--markdown", options->markdown, "Short for --format markdown: for a review comment");
   line.option("--rows", options->rows, "Rows of a table; 0: all").value("N").show_default();
+  line.option("--tolerance", options->tolerance,
+              "Numbers that differ by less than this share of their size are equal (coordinates "
+              "and lengths: of the size of the model)")
+      .range(0, 1)
+      .value("X")
+      .show_default();
   line.flag("--no-geometry", options->no_geometry,
             "Do not evaluate contacts: no penetrations, no default gaps");
   return [options] { return run(*options); };
@@ -145,6 +153,7 @@ const VerbRegistration registration{
      "  deck diff old_0000.rad new_0000.rad\n"
      "  deck diff old_0000.rad new_0000.rad --markdown > comment.md\n"
      "  deck diff old_0000.rad renumbered_0000.rad --match position\n"
+     "  deck diff old_0000.rad new_0000.rad --tolerance 1e-9       without round-off\n"
      "\n"
      "Exit code 0: equal in meaning, 1: different.\n",
      setup}};

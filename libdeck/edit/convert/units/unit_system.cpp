@@ -7,6 +7,7 @@
 #include <bitset>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "base/bits.hpp"
@@ -19,6 +20,7 @@
 #include "keyword/decode/implied_one.hpp"
 #include "keyword/line_check.hpp"
 #include "keyword/reader.hpp"
+#include "model/constant_stiffness.hpp"
 
 namespace deck {
 
@@ -540,9 +542,9 @@ class BlockConverter {
         continue;
       }
       if (keeps_number(d, f.name)) continue;
-      const bool working = stiffness_in_working_units(d, cell);
-      const Dimension dimension =
-          working ? Dimension{1, 0, -2, 0} : effective_dimension(d, card, cell);
+      const std::optional<Dimension> stfac = stfac_dimension(d, cell);
+      const bool working = stfac && !(*stfac == Dimension{});
+      const Dimension dimension = stfac ? *stfac : effective_dimension(d, card, cell);
       if (zero && !cell.parameter) {
         if (brought && own_units_ && f.solver_dimension && !f.solver_dimension->dimensionless())
           c_.undecided(b, cell.span, f.name,
@@ -607,19 +609,20 @@ class BlockConverter {
     }
   }
 
-  /// Stfac is a stiffness that the solver takes as it is, whatever the units of the block, where
-  /// the card does not say so by Istf = 1: negative values, and Istf = 1 from /DEFAULT/INTER.
-  bool stiffness_in_working_units(const DecodedBlock& d, const Cell& cell) const {
-    if (!c_.working_changes || cell.field->name != "Stfac" || d.integer("Istf") == 1) return false;
-    if (cell.real < 0) return true;
-    if (d.integer("Istf") != 0) return false;
-    for (const DefaultInter& block : c_.context.interfaces.defaults) {
-      const auto* istf = block.find("Istf");
-      if (istf != nullptr && istf->value == 1 &&
-          d.block->keyword == "/INTER/TYPE" + std::to_string(block.type))
-        return true;
-    }
-    return false;
+  /// The power of the units with which the number of Stfac changes, in an interface whose effective
+  /// Istf says whether it is a stiffness. The solver brings it from the units of the block to
+  /// working units where the card itself has Istf 1, and takes it as it is elsewhere.
+  std::optional<Dimension> stfac_dimension(const DecodedBlock& d, const Cell& cell) const {
+    if (cell.field->name != "Stfac" || cell.real == 0) return std::nullopt;
+    for (const InterBase* inter : c_.context.interfaces.ordered)
+      if (inter->block == d.block) {
+        const Dimension stiffness = detail::stiffness_dimension;
+        const Dimension physical = detail::constant_stiffness(*inter) ? stiffness : Dimension{};
+        const Dimension solver = d.integer("Istf") == 1 ? stiffness : Dimension{};
+        if (own_units_) return minus(physical, solver);
+        return c_.working_changes ? physical : solver;
+      }
+    return std::nullopt;
   }
 
   /// A blank scale is 1 in the units of the block: written out when these change.

@@ -14,6 +14,13 @@
 
 namespace deck::detail {
 
+/// The working units follow the input units: everything that is in working units gets new numbers.
+inline bool working_units_change(const Deck& deck, const UnitSystem& target,
+                                 const UnitsOptions& options) {
+  return !options.keep_working && deck.begin.input == deck.begin.working &&
+         !(deck.begin.working == target);
+}
+
 struct UnitConversion {
   UnitConversion(const EditContext& c, const UnitSystem& t, const UnitsOptions& o)
       : context(c),
@@ -21,8 +28,7 @@ struct UnitConversion {
         target(t),
         options(o),
         factors(c.deck.begin.input, t),
-        working_changes(!o.keep_working && c.deck.begin.input == c.deck.begin.working &&
-                        !(c.deck.begin.working == t)) {}
+        working_changes(working_units_change(c.deck, t, o)) {}
 
   const EditContext& context;
   const Deck& deck;

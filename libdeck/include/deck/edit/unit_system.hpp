@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "deck/edit/rewrite.hpp"
+#include "deck/keyword/engine_file.hpp"
 
 namespace deck {
 namespace detail {
@@ -43,5 +44,11 @@ Result<UnitSystem> parse_unit_system(std::string_view text);
 ///   that are used with several dimensions or made by expressions, functions in working units.
 Rewrite to_units(const EditContext& context, const UnitSystem& target,
                  const UnitsOptions& options = {});
+
+/// Adds to `out` what becomes of the Engine files beside the deck, whose times are in working
+/// units: the edits, one `kept` entry a file, and a refusal (`undecided`, if `accept`) for every
+/// keyword whose cells are not known.
+void engine_to_units(const Deck& deck, const EngineFiles& engine, const UnitSystem& target,
+                     const UnitsOptions& options, bool accept, Rewrite& out);
 
 }  // namespace deck

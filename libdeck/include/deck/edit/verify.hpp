@@ -43,6 +43,8 @@ struct VerifyRelation {
   bool rounded = false;   ///< cells of the second hold fewer digits than it takes
   std::set<std::int64_t> lossy;  ///< interfaces of which a value was given up, and that is accepted
   bool lossy_defaults = false;   ///< the same of /DEFAULT/INTER
+  bool cells =
+      false;  ///< the same deck in other units or columns: all other cells are compared, too
 };
 /// Of one conversion, by what it reports.
 VerifyRelation relation_of(const std::vector<LossEntry>& losses);

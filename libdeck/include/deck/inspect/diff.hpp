@@ -81,6 +81,11 @@ struct DeckDiff {
   }
 };
 
-DeckDiff diff_decks(const DiffSide& a, const DiffSide& b, MatchBy match);
+/// Numbers within this share of the larger one are equal, and coordinates and lengths within this
+/// share of the size of the model.
+inline constexpr double diff_tolerance = 1e-12;
+
+DeckDiff diff_decks(const DiffSide& a, const DiffSide& b, MatchBy match,
+                    double tolerance = diff_tolerance);
 
 }  // namespace deck
