@@ -135,8 +135,8 @@ EditPointer convert_deck(const DeckPointer& d, const std::vector<std::int64_t>& 
 EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
                      const std::vector<std::int64_t>& interfaces, double min_gap, int inacti,
                      std::optional<double> fpenmax, double max_moved,
-                     std::optional<double> max_displacement,
-                     const std::vector<std::int64_t>& lock, bool ties) {
+                     std::optional<double> max_displacement, const std::vector<std::int64_t>& lock,
+                     bool ties) {
   must_be_whole(*d);
   const auto share = [](double x) { return x >= 0 && x <= 1; };
   must_be(share(min_gap), "min_gap is a share from 0 to 1");

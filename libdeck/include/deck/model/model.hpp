@@ -265,7 +265,7 @@ struct Model : ModelData {
   const Elements& family(ElementKind kind) const {
     return this->*families[static_cast<std::size_t>(kind)];
   }
-  /// Node id for people; "?" problems never occur because indices are valid by construction.
+  /// Node id for people; 0 for no node.
   std::int64_t node_id(NodeIndex n) const { return n == no_index ? 0 : nodes.id[n]; }
   /// The line that defines a node or element (re-read from the source when a person asks).
   Span node_span(NodeIndex n) const;
