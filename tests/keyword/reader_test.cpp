@@ -265,7 +265,7 @@ TEST(ReaderBegin, ABlankUnitIsThatOfTheOtherSystem) {
   const Deck neither = read(head + part + part + "/END\n");
   EXPECT_EQ(neither.begin.input.length, 1);
   EXPECT_EQ(count(neither.diagnostics, RuleId::DK015), 2u);
-  EXPECT_THAT(first(neither.diagnostics, RuleId::DK015)->message, HasSubstr("taken for 1"));
+  EXPECT_THAT(first(neither.diagnostics, RuleId::DK015)->message, HasSubstr("takes it as 1"));
 }
 
 TEST(ReaderBegin, TextBehindANumberOfAUnitIsDropped) {

@@ -538,7 +538,7 @@ def thousand(c, tmp):
         done = read(journal).count(b"\n")
         c.check("%s in the middle" % name, p.returncode == -how and 100 <= done < 1000, "exit code %s, %d done" % (p.returncode, done))
         if how != signal.SIGKILL:
-            c.check("%s: it says how to go on" % name, b"run the same command to go on" in err, err.decode()[-200:])
+            c.check("%s: it says how to go on" % name, b"run the same command to continue" in err, err.decode()[-200:])
         time.sleep(0.3)
         c.check("%s: no worker is left" % name, not any(alive(w) for w in workers), str(workers))
         now = visible(out)

@@ -135,7 +135,7 @@ export function effectsSection(report: Report, doc: CycleDocument, name: string)
     h("p", { class: "verdict-text" }, h("strong", null, doc.costs?.verdict ?? ""), ` ${doc.verdict}`),
     sectionHead(h("h2", null, "Effects", count), drawing && button("Save as SVG", "save", () => save(name, drawing.outerHTML), { class: "small" })),
     drawing && h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Cost of effects" }, drawing),
-    h("p", { class: "note" }, "Nanoseconds of processor time per pair, each loop in turn with the one it is held against, answers compared bit for bit. Search and sums at nodes are left out. ",
+    h("p", { class: "note" }, "Nanoseconds of processor time per pair, loops that are compared run in turns, and their answers are equal bit for bit. Search and sums at nodes are left out. ",
       doc.costs ? `${doc.costs.repeats} timings; ${doc.costs.processor}; ${doc.costs.compiler}.` : ""),
     h("div", { class: "scroll effects-scroll", tabindex: -1 }, matrix(doc, (i, e) => {
       show(detail, i, e);
