@@ -111,7 +111,7 @@ Result<void> detail::refuse_empty(const Source& source) {
   const std::string_view bytes = source.bytes();
   if (!std::all_of(bytes.begin(), bytes.end(), detail::is_blank)) return {};
   return Error{Error::Code::syntax, source.path() + ": is empty (" + std::to_string(bytes.size()) +
-                                        " bytes of nothing but blanks); expected a Starter deck "
+                                        " bytes, all blank); expected a Starter deck "
                                         "with /BEGIN … /END"};
 }
 
