@@ -556,7 +556,7 @@ def usage(c, tmp):
     deck = SAMPLES[0]
     out = os.path.join(tmp, "usage")
     for name, args in (("no decks", ()), ("standard input as a deck", ("-",)), ("a shard outside", (deck, "--shard", "3/2")),
-                       ("a shard that is none", (deck, "--shard", "half")), ("an unknown verb", (deck, "--verb", "fix")),
+                       ("a shard that is none", (deck, "--shard", "half")), ("an unknown verb", (deck, "--verb", "replay")),
                        ("an option the verb does not have", (deck, "--verb", "gaps --alll")), ("a file for all decks", (deck, "--verb", "gaps --csv x.csv")),
                        ("a patch", (deck, "--verb", "lint --diff")), ("a deck in --verb", (deck, "--verb", "gaps other.rad")),
                        ("a manifest that is not there", ("--manifest", os.path.join(tmp, "none.txt"))), ("merging with decks", (deck, "--merge")),
