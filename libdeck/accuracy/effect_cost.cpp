@@ -162,7 +162,7 @@ std::string outside_the_loop(const std::string& name) {
     return "the loop itself";
   if (name == "stiffness-combination" || name == "variable-gap" ||
       name == "initial-penetration-action" || name == "penetration-limit")
-    return "acts when pairs are found, not in the loop";
+    return "acts in the search, not in the loop over pairs";
   return "acts outside the loop over pairs";
 }
 
@@ -182,12 +182,12 @@ std::optional<Other> other_card(const cycle::ContactCard& card, const cycle::Eff
   }
   if (card.kind == cycle::ContactKind::tied ||
       (card.kind == cycle::ContactKind::edge_edge && !s->edges))
-    why_not = "contacts of this kind have no such effect";
+    why_not = "contacts of this type do not have this effect";
   else if (s->give == nullptr)
     why_not = "needs a /FRICTION, which the deck does not name here";
   else if (friction && e.name.rfind("friction-", 0) == 0 &&
            (e.name == "friction-viscous" || e.name == "friction-incremental"))
-    why_not = "the other form of friction runs";
+    why_not = "the other friction formulation is used";
   else if (e.name == "time-step-deletion" && card.itied != 0)
     why_not = "ITIED ties instead";
   else
@@ -352,13 +352,13 @@ std::optional<Loop> proven(const cycle::ContactCard& card, const cycle::CycleOpt
                            const PacketView& view, std::string& why_not) {
   Loop composed(card, options, false, view), flags(card, options, true, view);
   if (!composed.can_run() || !flags.can_run()) {
-    why_not = "needs data that the deck does not give";
+    why_not = "needs data that the deck does not have";
     return std::nullopt;
   }
   composed.run();
   flags.run();
   if (!same_answers(composed.result(), flags.result())) {
-    why_not = "the loop and the one with flags do not give the same answer";
+    why_not = "the loop and the loop with flags do not give the same result";
     return std::nullopt;
   }
   return composed;
@@ -393,7 +393,7 @@ class Measure {
       effect(card, e, friction, *base, out.effects.back());
     }
     if (!same_answers(first, base->result()))
-      out.problem = "the loop does not repeat its own answer";
+      out.problem = "the loop does not repeat its own result";
   }
 
  private:

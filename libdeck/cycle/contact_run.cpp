@@ -444,7 +444,7 @@ NodeStiffness run_contact(const RunContext& run, ContactMemory& m, ContactOutcom
   if (!sane(out.card, contact))
     return refuse("the card has values out of range: nothing was evaluated");
   if (!contact.evaluated)
-    return refuse("start-up could not be evaluated, see the findings: no forces either");
+    return refuse("the start-up could not be evaluated (see the findings), so there are no forces");
   if (const std::string why = curvature_problem(run.scene, contact, out.card); !why.empty())
     return refuse(why);
   out.active = is_active(out.card, options.time);

@@ -103,11 +103,10 @@ std::string curvature_problem(const Scene& scene, const Contact& contact, const 
     if (scene.model->nodes.map.find(id[static_cast<std::size_t>(k)]) == no_index)
       return "node_ID" + std::to_string(k + 1) + " = " +
              std::to_string(id[static_cast<std::size_t>(k)]) +
-             " is no node: the curved surface has no place, nothing was evaluated";
+             " is not a node: the place of the curved surface is not known, nothing was evaluated";
   if (card.icurv == 2 && card.curv_node1 == card.curv_node2)
-    return "node_ID1 and node_ID2 are one point: a cylinder (Icurv = 2) has no axis then, nothing "
-           "was "
-           "evaluated";
+    return "node_ID1 and node_ID2 are at one place: the cylinder (Icurv = 2) has no axis, nothing "
+           "was evaluated";
   return {};
 }
 

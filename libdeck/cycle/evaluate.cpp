@@ -218,7 +218,7 @@ void RunningTotals::add(const PacketView& view, const PacketResult& r) {
     t.elastic_energy += r.elastic_energy[i];
     t.friction_energy += r.friction_energy[i];
     t.damping_energy += r.damping_energy[i];
-    // Booked in full, also the main side's share that Ithe_form 0 gives to nobody.
+    // Booked in full, with the main side's share, which is lost for Ithe_form 0.
     if (card.ithe > 0) t.friction_heat += (card.fheats + card.fheatm) * r.friction_heat[i];
     if (r.dt_kinematic[i] < t.dt_kinematic) {
       t.dt_kinematic = r.dt_kinematic[i];

@@ -28,7 +28,7 @@ std::string directions(int bits) {
   return text;
 }
 
-/// Who gets the heat of friction, or why nobody does.
+/// Which side gets the heat of friction, or why neither does.
 struct RubHeat {
   bool on = false;
   std::string reason;
@@ -37,9 +37,9 @@ RubHeat rub_heat(const ContactCard& card) {
   const bool main = card.fheatm != 0.0 && card.ithe_form == 1;
   const std::string shares =
       field_text("Fheats", card.fheats) + ", " + field_text("Fheatm", card.fheatm);
-  const std::string lost = card.fheatm != 0.0 && !main ? field_text("Fheatm", card.fheatm) +
-                                                             " goes to nobody: Ithe_form = 0"
-                                                       : std::string();
+  const std::string lost = card.fheatm != 0.0 && !main
+                               ? field_text("Fheatm", card.fheatm) + " is lost: Ithe_form = 0"
+                               : std::string();
   if (card.fct_idk && card.ithe_form != 1 && (card.fheats != 0.0 || card.fheatm != 0.0))
     return {false, shares + ": lost with fct_IDK and Ithe_form = 0"};
   if (card.fheats == 0.0 && !main) return {false, lost.empty() ? shares : lost};
@@ -92,7 +92,8 @@ void account_rest(const ContactCard& card, Account& out) {
   const bool never = card.itied != 0 && node_segment(card) && !(card.dtmin > 0.0);
   row(out, "tie-on-time-step", card.itied != 0 && node_segment(card) && !never,
       never ? "dtmin" : "ITIED",
-      field_text("ITIED", card.itied) + (never ? ", but dtmin = 0: no step is ever below it" : ""));
+      field_text("ITIED", card.itied) +
+          (never ? ", but dtmin = 0, and no time step is below 0" : ""));
   const bool ibc = card.ibc != 0 && node_segment(card);
   row(out, "boundary-release", ibc, "IBC",
       card.ibc == 0 ? "IBC = 000"

@@ -144,7 +144,7 @@ class Finder {
     }
     std::string why = kind == "inter" ? fmt::format("there is no interface {}", id)
                       : known         ? fmt::format("there is no {} {}", kind, id)
-                                      : fmt::format("the deck has nothing of kind '{}'", kind);
+                                      : fmt::format("the deck has no entity of kind '{}'", kind);
     if (!known) why += meant(kind, of_schemas(&Schema::kind));
     if (const std::string others = with_id(id); !others.empty())
       why += fmt::format("; {} is the id of {}", id, others);

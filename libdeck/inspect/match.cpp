@@ -29,7 +29,7 @@ std::vector<Item> items_of(const Deck& deck) {
     Item item;
     item.block = &b;
     if (b.schema == nullptr) {
-      // Ids of keywords that nobody describes may stand anywhere in the header.
+      // Ids of keywords without a schema may be anywhere in the header.
       item.space = b.id.present ? std::string(b.keyword) : std::string(b.header);
       item.id = b.id.value;
     } else {

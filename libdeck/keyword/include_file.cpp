@@ -75,7 +75,7 @@ std::string include_hint(std::string written, bool backslash,
   }
   for (const std::string& path : candidates)
     if (const std::string other = file_in_other_case(path); !other.empty())
-      return "the case of letters counts in file names: '" + other + "' is there";
+      return "upper and lower case matter in file names: '" + other + "' is there";
   for (const std::string& path : candidates)
     if (const std::string other = similar_file(path); !other.empty())
       return "did you mean '" + other + "'?";

@@ -79,10 +79,11 @@ class Reader {
     const auto end = std::min(start.find('\n'), start.size());
     const std::string_view first = bytes.substr(0, std::min<std::size_t>(end, header_columns));
     if (const auto cr = start.find('\r'); cr < end && end == start.size() && cr + 1 < end)
-      report(RuleId::DK057, make_span(0, cr, cr + 1), "the lines end with a carriage return alone");
+      report(RuleId::DK057, make_span(0, cr, cr + 1),
+             "the lines end with carriage returns without line feeds");
     if (mark && trim(first.substr(3)).starts_with("#RADIOSS STARTER"))
       report(RuleId::DK001, make_span(0, 0, end),
-             "the first line is '#RADIOSS STARTER' behind a UTF-8 byte order mark (bytes EF BB BF, "
+             "the first line is '#RADIOSS STARTER' after a UTF-8 byte order mark (bytes EF BB BF, "
              "which editors do not show)",
              {.solver = "Official builds stop: the line does not begin with the banner.",
               .fix = "remove the mark: save the file as UTF-8 without BOM"});
@@ -193,7 +194,7 @@ class Reader {
     report(
         RuleId::DK378, directive,
         other_name ? "'" + written + "' is not there; '" + source.path() +
-                         "', packed with gzip, was read for it"
+                         "', packed with gzip, was read instead"
                    : "the included file '" + written + "' is packed with gzip; it was unpacked",
         {.solver = other_name ? "Not known. It would not find the file."
                               : "Not known. It would take the packed bytes as lines of the deck.",
@@ -390,7 +391,7 @@ class Reader {
     const bool keyword_behind_mark = text.offset == 0 && bytes.starts_with(byte_order_mark) &&
                                      trim(bytes.substr(byte_order_mark.size(), 1)).starts_with('/');
     std::string message = std::to_string(lines) + (lines == 1 ? " line" : " lines") +
-                          " of this included file stand before its first keyword and are dropped";
+                          " of this included file precede its first keyword and are ignored";
     if (open_block_ >= 0 && !keyword_behind_mark)
       message += ": they do not continue " +
                  std::string(deck_.blocks[static_cast<std::size_t>(open_block_)].header) +
@@ -399,7 +400,7 @@ class Reader {
     if (!data && !keyword_behind_mark) {
       report(RuleId::DK051, text, std::move(message),
              {.severity = Severity::info,
-              .fix = "Nothing to do if the lines are remarks; make them comments to be clear."});
+              .fix = "Nothing to do if the lines are remarks; better make them comments."});
       return;
     }
     report(RuleId::DK051, text, std::move(message),
@@ -517,8 +518,8 @@ class Reader {
                "the units of /BEGIN in an included file (" + here.mass_code + " " +
                    here.length_code + " " + here.time_code + ") differ from those of the deck (" +
                    counts.mass_code + " " + counts.length_code + " " + counts.time_code +
-                   "), which are taken for its values",
-               {.solver = "it takes the units of a /BEGIN for a submodel only",
+                   "), which are used for its values",
+               {.solver = "it uses the units of such a /BEGIN only inside a submodel",
                 .fix = "put the #include between //SUBMODEL and //ENDSUB, give the blocks of the "
                        "file a /UNIT, or convert it"});
     }

@@ -172,15 +172,15 @@ void fill_begin_units(Deck& deck, const ReaderNotes& notes) {
   if (!begin.has_input && begin.has_working) begin.input = begin.working;
   if (begin.has_input && !begin.has_working) begin.working = begin.input;
   if (notes.begin_count == 0) return;
-  // /UNIT/LENGTH, MASS and TIME count up to version 90 only.
+  // /UNIT/LENGTH, MASS and TIME are read up to version 90 only.
   if (!units_in_begin && (global == nullptr || deck.version > 90))
     report(deck, RuleId::DK016, begin.span,
            global == nullptr ? "/BEGIN names neither input nor working units"
                              : "/BEGIN of version " + std::to_string(deck.version) +
                                    " names no units; those of " + std::string(global->header) +
-                                   " count up to version 90 only",
-           {.solver =
-                global == nullptr ? "it stops with an error" : "it stops with an error, or hangs"});
+                                   " are read up to version 90 only",
+           {.solver = global == nullptr ? "it stops with an error"
+                                        : "it stops with an error, or does not end"});
   else if (const auto lacks = trim(missing); global != nullptr && !lacks.empty())
     report(deck, RuleId::DK016, begin.span,
            "there is no /UNIT/" + std::string(lacks.substr(0, lacks.find(' '))) +
@@ -212,7 +212,7 @@ void check_begin(Deck& deck) {
     for (Line line = cursor.next(); line.valid(); line = cursor.next()) {
       if (++have <= 4 || line.text.empty()) continue;
       report(deck, RuleId::DK030, line.whole(),
-             "/BEGIN is complete after four lines; this line is one too many",
+             "/BEGIN is complete after four lines; this line is extra",
              {.fix = "delete the line, or add the keyword it belongs to"});
     }
   }
@@ -253,13 +253,11 @@ void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSyste
     if (!(units.*cell.code).empty()) continue;
     const std::string what = std::string("the ") + cell.name + " unit of the " + which;
     if ((other.*cell.code).empty()) {
-      report(
-          deck, RuleId::DK015, begin,
-          what +
-              " is blank or 0, and so is that of the other one; here it is taken for 1 in kg, m, s",
-          {.severity = Severity::warning,
-           .message = 0,
-           .solver = "it goes on; with which unit is open"});
+      report(deck, RuleId::DK015, begin,
+             what + " is blank or 0 in both systems; deck takes it as 1 in kg, m, s",
+             {.severity = Severity::warning,
+              .message = 0,
+              .solver = "it continues; the unit that it uses is not known"});
       continue;
     }
     units.*cell.code = other.*cell.code;
@@ -268,8 +266,8 @@ void fill_blank_units(Deck& deck, Span begin, UnitSystem& units, const UnitSyste
            what + " is blank or 0; '" + units.*cell.code + "' of the other one is taken",
            {.severity = Severity::warning,
             .message = 0,
-            .solver = "it goes on with the unit of the other system",
-            .fix = "write all three units of both lines"});
+            .solver = "it continues with the unit of the other system",
+            .fix = "write all three units on both lines"});
   }
 }
 
@@ -344,7 +342,7 @@ void finish_deck(Deck& deck, ReaderNotes& notes, const ReadOptions& options) {
   if (!deck.end_seen) {
     const bool open_line = main_size > 0 && deck.sources[0].bytes().back() != '\n';
     report(deck, RuleId::DK010, make_span(0, main_size, main_size),
-           open_line ? "the main file has no /END and ends amid a line: is it complete?"
+           open_line ? "the main file has no /END and ends within a line: is it complete?"
                      : "the main file has no /END");
   }
   read_parameters(deck, options.limits);

@@ -96,7 +96,7 @@ std::string text_kind(const Deck& deck, std::string_view head) {
       first.starts_with("begin bulk") || first.starts_with("cend") || first.starts_with("sol "))
     return "a deck of Nastran (it begins with " + shown + ")";
   if (!deck.blocks.empty() && small.find("\n/begin\n") != std::string::npos)
-    return "one whose keywords are not in capitals: it has " +
+    return "a deck whose keywords are not in capitals: it has " +
            std::string(deck.blocks.front().header.substr(0, 60)) + "; write /BEGIN and so on";
   if (!deck.blocks.empty())
     return "a part of one: it has " + std::string(deck.blocks.front().header.substr(0, 60)) +
@@ -111,7 +111,7 @@ Result<void> detail::refuse_empty(const Source& source) {
   const std::string_view bytes = source.bytes();
   if (!std::all_of(bytes.begin(), bytes.end(), detail::is_blank)) return {};
   return Error{Error::Code::syntax, source.path() + ": is empty (" + std::to_string(bytes.size()) +
-                                        " bytes of nothing but blanks); expected a Starter deck "
+                                        " bytes, all blank); expected a Starter deck "
                                         "with /BEGIN … /END"};
 }
 
@@ -145,9 +145,10 @@ std::string no_starter_deck(const Deck& deck) {
   if (more && (begin || (banner && keywords))) return {};
   if (mostly_binary(head)) return is("binary data");
   if (one_line && std::count(head.begin(), head.end(), '\r') > 1)
-    return "is one line only: its lines end with a carriage return alone; save it with line feeds";
+    return "is one line only: its lines end with carriage returns without line feeds; save it with "
+           "line feeds";
   if (banner && !keywords)
-    return "is no Starter deck: behind '#RADIOSS STARTER' there is no keyword";
+    return "is not a Starter deck: there is no keyword after '#RADIOSS STARTER'";
   if (one_line) return is("a single line of text; expected /BEGIN ... /END");
   return is(text_kind(deck, head));
 }

@@ -126,7 +126,7 @@ void make_fix(const LintContext& context, Diagnostic& d) {
     const bool zeros = context.text(d.span).find_first_not_of("0.+- ") == std::string_view::npos;
     d.fix = Fix{"blank the text that is not read", zeros, {blank_edit(d.span)}};
   } else if (d.rule == RuleId::DK030) {
-    d.fix = remove_line(deck, d.span, false, "delete the line that is one too many");
+    d.fix = remove_line(deck, d.span, false, "delete the extra line");
   } else if (d.rule == RuleId::DK091) {
     // Another deck may include the file and need it.
     d.fix = remove_line(deck, d.span, d.span.file == 0, "delete the unused suppression");

@@ -301,7 +301,7 @@ Unreadable unreadable_line(std::string_view text) {
     } else if (ch == '=' || ch == '[' || ch == '{' || ch == ',') {
       dots = 0;
     } else if (static_cast<unsigned char>(ch) >= 0x80) {
-      return {line, "a character that is not ASCII stands outside of quotes"};
+      return {line, "a character that is not ASCII is outside of quotes"};
     }
   }
   return {};
@@ -322,8 +322,8 @@ Result<LintConfig> parse_lint_config(std::string_view text, const std::string& p
     if (auto done = read_key(key.str(), node, config); !done) return done.error();
   return config;
 } catch (const ParserLost&) {
-  return config_error(path, 0,
-                      "is no TOML: a table or a key starts with what no key can start with");
+  return config_error(
+      path, 0, "is not TOML: a table or key begins with a character that is not allowed there");
 }
 
 Result<std::string> read_config_file(const std::string& path, std::uint64_t most) {
@@ -389,8 +389,8 @@ Result<Baseline> parse_baseline(std::string_view text, const std::string& path) 
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (json.is_object() && json.contains("schema") && json["schema"] == "deck.baseline/1")
     return bad_baseline(path,
-                        "a baseline of an older version, which does not say which deck a finding "
-                        "is of; write it again with --write-baseline");
+                        "a baseline of an older version, which does not name the deck of a "
+                        "finding; write it again with --write-baseline");
   if (!json.is_object() || !json.contains("schema") || json["schema"] != "deck.baseline/2" ||
       !json.contains("decks") || !json["decks"].is_object())
     return bad_baseline(path,

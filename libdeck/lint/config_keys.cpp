@@ -9,20 +9,19 @@ namespace deck {
 const std::vector<ConfigKey>& config_keys() {
   static const std::vector<ConfigKey> keys = {
       {"", "select", R"(["DK0", "DK1", "DK2"])", "all rules",
-       "only these rules: ids or how ids begin (\"DK2\"); see 'deck rules'"},
-      {"", "ignore", R"(["DK9"])", "none", "not these rules, whoever selected them"},
+       "only these rules: ids or beginnings of ids (\"DK2\"); see 'deck rules'"},
+      {"", "ignore", R"(["DK9"])", "none", "not these rules, even if selected"},
       {"", "fail-on", R"("warning")", "\"error\"",
        "exit code 1 at or above: \"error\", \"warning\" or \"never\""},
       {"", "baseline", R"("lint-baseline.json")", "none",
        "findings that are known and accepted: a file of 'deck lint --write-baseline', relative to "
        "this one"},
       {"", "geometry", "false", "as far as it is quick",
-       "look at geometry (rules DK3, DK4): true however large the deck is, false not at all"},
+       "check geometry (rules DK3, DK4): true for decks of any size, false never"},
       {"severity", "DK9", R"("warning")", "that of the rule",
-       "severity of rules: \"error\", \"warning\" or \"info\"; the longest selector that fits "
-       "wins"},
+       "severity of rules: \"error\", \"warning\" or \"info\"; the longest matching selector wins"},
       {"per-file-ignores", R"("legacy/**/*.inc")", R"(["DK2"])", "none",
-       "not these rules in files that the pattern fits, included ones too"},
+       "not these rules in files that match the pattern, included ones too"},
       {"gate", "max-depth", "0.5", "no bound", "deepest penetration, in the deck's units"},
       {"gate", "max-ratio", "0.5", "no bound", "largest share of its gap that a pair penetrates"},
       {"gate", "max-count", "0", "no bound", "penetrating nodes and edges of the deck, each once"},
@@ -31,20 +30,20 @@ const std::vector<ConfigKey>& config_keys() {
       {"gate", "compare", R"("gaps.json")", "none",
        "an earlier 'deck gaps --json' to compare with, relative to this file"},
       {"gate", "fail-on", R"(["new", "worse"])", "none",
-       "stop at penetrations that the earlier run did not have, or that are deeper now"},
+       "errors for penetrations that the earlier run did not have, or that are deeper now"},
       {"gate", "baseline", R"("gaps-baseline.json")", "none",
-       "penetrations that are accepted, as 'deck gaps --write-baseline' wrote them, relative to "
-       "this file: only new and worse ones stop"},
+       "accepted penetrations, a file of 'deck gaps --write-baseline', relative to this file: only "
+       "new and worse ones are errors"},
       {"gate.interface", "match", R"("bumper*")", "", "id or title of an interface"},
       {"gate.interface", "max-depth", "1.0", "that of [gate]", "bound for these interfaces"},
       {"gate.interface", "max-ratio", "0.8", "that of [gate]", "bound for these interfaces"},
-      {"gate.interface", "max-count", "12", "no bound", "beside that of the whole deck"},
+      {"gate.interface", "max-count", "12", "no bound", "in addition to that of the whole deck"},
       {"gate.interface", "max-dt-loss", "0.2", "that of [gate]", "bound for these interfaces"},
       {"gate.part-pair", "match", R"(["rail *", "1004"])", "",
-       "ids or titles of two parts, either way round"},
+       "ids or titles of two parts, in any order"},
       {"gate.part-pair", "max-depth", "1.0", "that of the interface", "bound for these parts"},
       {"gate.part-pair", "max-ratio", "0.8", "that of the interface", "bound for these parts"},
-      {"gate.part-pair", "max-count", "3", "no bound", "beside that of the whole deck"},
+      {"gate.part-pair", "max-count", "3", "no bound", "in addition to that of the whole deck"},
   };
   return keys;
 }
@@ -70,9 +69,9 @@ std::string config_template() {
   std::string out =
       "# Settings of deck lint, and of the gate of deck gaps and deck cycle, for the decks in "
       "this\n"
-      "# directory and below it. Every key is here as a comment, with an example: take away the\n"
-      "# '# ' in front of a line (and of the [table] above it) to use it.\n"
-      "# 'deck lint --show-config DECK' says what holds, and where it comes from.\n";
+      "# directory and below it. Every key is here as a comment, with an example: remove the\n"
+      "# '# ' before a line (and before the [table] above it) to use it.\n"
+      "# 'deck lint --show-config DECK' shows all settings and where they come from.\n";
   std::string_view table;
   for (const ConfigKey& k : config_keys()) {
     out += "\n";

@@ -137,7 +137,7 @@ std::string number_text(double value) {
 
 namespace {
 
-/// Whole numbers of a block that nobody decodes, as written and with the submodel's offset.
+/// Whole numbers of a block that is not decoded, as written and with the submodel's offset.
 void collect_numbers(const Deck& deck, const Block& block, std::unordered_set<std::int64_t>& out) {
   const std::int64_t offset = deck.offset_of(block, "");
   LineCursor cursor(deck.sources, block);

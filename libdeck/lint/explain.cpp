@@ -263,7 +263,7 @@ std::string explain_keyword(const Schema& schema, std::string_view field, std::s
                        card.repeat == Repeat::once ? ""
                        : card.count.empty()        ? "; repeats"
                                                    : "; repeats, count " + card.count);
-    if (card.blank()) out += "  holds nothing, whatever stands on it, but the line counts\n";
+    if (card.blank()) out += "  must be blank: its text is not read, but the line counts\n";
     for (const Field& f : card.fields) {
       constexpr std::size_t margin = 26;
       std::string text = f.doc;

@@ -95,8 +95,8 @@ class Check {
     for (const InterBase* inter : scene_.interfaces->ordered) {
       for (const auto& [bound, items] : deep[inter])
         report(RuleId::DK370, inter,
-               fmt::format("{}: {} deeper than the {} of the gate; deepest {}", name_of(inter),
-                           items.text(), bound, pair_text(items.deepest)));
+               fmt::format("{}: {} deeper than the {} that the gate allows; deepest {}",
+                           name_of(inter), items.text(), bound, pair_text(items.deepest)));
       for (const auto& [bound, items] : large[inter])
         report(RuleId::DK371, inter,
                fmt::format("{}: {} deeper than the {} of the gap that the gate allows; deepest {}",
@@ -148,7 +148,7 @@ class Check {
     for (const InterBase* inter : scene_.interfaces->ordered) {
       if (const auto it = fresh.find(inter); gate_.on_fresh && it != fresh.end())
         report(RuleId::DK374, inter,
-               fmt::format("{}: {} penetrate that did not in {}; deepest {}", name_of(inter),
+               fmt::format("{}: {} penetrate now that did not in {}; deepest {}", name_of(inter),
                            it->second.text(), earlier.path, pair_text(it->second.deepest)));
       if (const auto it = worse.find(inter); gate_.on_worse && it != worse.end())
         report(RuleId::DK375, inter,
@@ -169,7 +169,7 @@ class Check {
   std::string pair_text(std::uint32_t at) const {
     const NamedPenetration& p = view_.penetrations[at];
     const PenetrationRow& row = scene_.contacts[p.contact].penetrations[p.row];
-    return fmt::format("{} by {:.6g} of a gap of {:.6g}",
+    return fmt::format("{} by {:.6g} (gap {:.6g})",
                        p.secondary[1] == 0
                            ? fmt::format("node {}", p.secondary[0])
                            : fmt::format("edge {}-{}", p.secondary[0], p.secondary[1]),

@@ -365,7 +365,7 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
   result.not_checked = not_checked(input, options, pool.kept, std::move(left_out));
   if (!absences.empty())
     result.not_checked.push_back({"what seems to be absent: " + joined(absences),
-                                  "a file that could not be read may hold it"});
+                                  "it may be in a file that could not be read"});
   FileIgnores file_ignores(deck, options);
   const auto hidden = [&](const Diagnostic& d) {
     if (file_ignores.ignore(d)) return true;

@@ -75,7 +75,7 @@ std::vector<Suppression> find_suppressions(const Deck& deck, const BlockIndex& i
       if (s.whole_file) {
         if (!index.before_first_header(file, begin)) {
           reporter.report(malformed, s.span,
-                          "ignore-file must stand above the first keyword of its file");
+                          "ignore-file must be above the first keyword of its file");
           continue;
         }
       } else {

@@ -23,10 +23,10 @@ std::string selection_name(const LintContext& c, std::string_view kind, std::int
 /// Nodes, segments or edges of such a selection.
 std::size_t selection_size(const LintContext& c, std::string_view kind, std::int64_t id);
 
-/// Not where members were left out (DK332): nobody knows then.
+/// False if members were left out (DK332): the selection may have members.
 bool selection_is_empty(const LintContext& c, std::string_view kind, std::int64_t id);
 
-/// Whether the entity exists; nothing: it cannot be said (no model, or a kind nobody counts).
+/// Whether the entity exists; no value: not known (no model, or a kind without a table).
 std::optional<bool> target_exists(const LintContext& c, std::string_view kind, std::int64_t id);
 
 /// The field of a block that names what it acts on, and whether that is there; nullptr: no such

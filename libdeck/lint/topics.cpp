@@ -121,9 +121,13 @@ std::string rule_family(const std::string& topic, std::size_t width) {
     ++count;
   }
   if (count == 0) return {};
-  return fmt::format("{}: {} {} ({})\n\n{}\nThe page of one: deck explain {}\n", topic, count,
-                     count == 1 ? "rule" : "rules", topic == "DK" ? "all" : family_of(first), list,
-                     id_text(first));
+  return fmt::format(
+      "{}: {} {} ({})\n"
+      "\n"
+      "{}\n"
+      "Show one of them: deck explain {}\n",
+      topic, count, count == 1 ? "rule" : "rules", topic == "DK" ? "all" : family_of(first), list,
+      id_text(first));
 }
 
 /// "/INTER": the keywords that begin with it, one line each.
@@ -143,8 +147,12 @@ std::string keywords_below(const std::string& capitals, const SchemaSet& schemas
             : head.size() > margin ? fmt::format("  {}\n", s->keyword) + text
                                    : head + text.substr(margin);
   }
-  return fmt::format("Keywords that begin with {}\n\n{}\nThe page of one: deck explain {}\n", above,
-                     list, below.front()->keyword);
+  return fmt::format(
+      "Keywords that begin with {}\n"
+      "\n"
+      "{}\n"
+      "Show one of them: deck explain {}\n",
+      above, list, below.front()->keyword);
 }
 
 bool names_message(std::string_view text, const std::string& number) {
@@ -193,14 +201,18 @@ std::string solver_message(const std::string& digits, const SchemaSet& schemas, 
           if (n && *n == number)
             cells += wrapped(fmt::format("{}.{}: {}", s->keyword, f.name, why), 2, width);
         };
-        says(f.missing, "what the id names does not exist");
-        says(f.empty, "what the id names has no member");
+        says(f.missing, "the named entity does not exist");
+        says(f.empty, "the named entity has no members");
         says(f.required, "the cell is 0 or blank");
       }
   }
   if (rules.empty() && cells.empty()) return {};
   std::string out = fmt::format("Message {} of the reference solver\n", digits) + rules;
-  if (!cells.empty()) out += "\nCells of which it says this\n" + cells;
+  if (!cells.empty())
+    out +=
+        "\n"
+        "Cells with this message\n" +
+        cells;
   return out;
 }
 

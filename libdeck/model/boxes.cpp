@@ -84,7 +84,7 @@ const Box* Selections::Impl::box(std::int64_t id, const Block& from, int missing
             from.id.value,
             {.severity = goes_on ? Severity::warning : Severity::error,
              .message = goes_on ? 690 : missing_number,
-             .solver = goes_on ? "It ignores the entry, and warns if the group is empty then."
+             .solver = goes_on ? "It ignores the entry, and warns if the group becomes empty."
                                : "it stops with an error"}});
     return nullptr;
   }

@@ -115,10 +115,11 @@ void read_run_options(BuildContext& c) {
       const Cell* seed = d.find("Seed");
       const bool other_seed = seed != nullptr && seed->real != 0;
       if (other_seed || block.header.starts_with("/RANDOM/GRNOD"))
-        report(c.diagnostics, {RuleId::DK119, block.header_span,
-                               other_seed ? "/RANDOM with a seed: the noise is not reproduced"
-                                          : "/RANDOM of a node group: the noise is not reproduced",
-                               "/RANDOM"});
+        report(c.diagnostics,
+               {RuleId::DK119, block.header_span,
+                other_seed ? "/RANDOM with a seed: deck does not reproduce the noise"
+                           : "/RANDOM of a node group: deck does not reproduce the noise",
+                "/RANDOM"});
       else {
         m.has_random = true;
         m.random_noise = noise;

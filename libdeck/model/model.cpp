@@ -136,8 +136,8 @@ void check_units(BuildContext& c) {
             block.id.value,
             {.severity = stops ? Severity::error : Severity::warning,
              .message = *message,
-             .solver = stops ? "it stops with an error; here the values are taken in working units"
-                             : "it goes on: it does not look the unit system up here"}});
+             .solver = stops ? "it stops with an error; deck takes the values in working units"
+                             : "it continues: it does not look up the unit system here"}});
   }
 }
 

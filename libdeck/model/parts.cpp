@@ -51,7 +51,7 @@ void report_node_twice(BuildContext& c, const Elements& family, const char* what
          {RuleId::DK136,
           c.model.element_span(family.kind, found.first),
           plural(found.count, what) + " of part " + std::to_string(part) +
-              (found.count == 1 ? " names" : " name") + " a node twice; first is element " +
+              (found.count == 1 ? " names" : " name") + " a node twice; the first is element " +
               std::to_string(family.id[found.first]),
           "/PART",
           part,
@@ -106,8 +106,9 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
       Diagnostic d =
           make_diagnostic({RuleId::DK106, m.element_span(shells.kind, thin[p].first),
                            plural(thin[p].count, what) + " of part " + std::to_string(part.id) +
-                               " have no thickness: neither on the element nor in property " +
-                               std::to_string(part.prop_id) + "; first is element " +
+                               (thin[p].count == 1 ? " has" : " have") +
+                               " no thickness: neither on the element nor in property " +
+                               std::to_string(part.prop_id) + "; the first is element " +
                                std::to_string(shells.id[thin[p].first]),
                            "/PART", part.id});
       d.notes.emplace_back(m.properties[part.prop].span, "the property");
@@ -118,7 +119,8 @@ void check_shells(BuildContext& c, const Elements& shells, const char* what) {
       report(c.diagnostics,
              {RuleId::DK107, m.element_span(shells.kind, collapsed[p].first),
               plural(collapsed[p].count, what) + " of part " + std::to_string(part.id) +
-                  " have the same third and fourth node; first is element " +
+                  (collapsed[p].count == 1 ? " has" : " have") +
+                  " the same third and fourth node; the first is element " +
                   std::to_string(shells.id[collapsed[p].first]),
               "/PART", part.id});
   }
@@ -200,7 +202,7 @@ void link_parts(BuildContext& c) {
       report(c.diagnostics,
              {RuleId::DK103, part.span,
               "part " + std::to_string(part.id) +
-                  (part.mat_id == 0 ? " has elements and names no material"
+                  (part.mat_id == 0 ? " has elements but names no material"
                                     : " refers to material " + std::to_string(part.mat_id) +
                                           ", which does not exist"),
               "/PART", part.id});

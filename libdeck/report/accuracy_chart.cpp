@@ -212,7 +212,7 @@ std::string marks(const Panel& panel) {
                 standard ? "class='dk-label dk-strong'" : "class='dk-label'");
   }
   return out + text(kRight, kBottom + 38, "end",
-                    "hollow: another one is as fast and not worse on this axis");
+                    "hollow: another tier is as fast and not worse on this axis");
 }
 
 constexpr std::string_view kChartStyle =

@@ -88,13 +88,13 @@ Result<std::string> gunzip(std::string_view bytes, std::uint64_t most) {
                    "is packed with gzip, and its " + std::to_string(bytes.size()) +
                        " bytes unpack to more than the limit of " + std::to_string(most)};
     case Unpacked::cut_off:
-      return Error{Error::Code::syntax, "is packed with gzip and cut off" + so_far() +
+      return Error{Error::Code::syntax, "is packed with gzip and incomplete" + so_far() +
                                             "the data ends too early; copy the file again"};
     case Unpacked::damaged:
       break;
   }
   return Error{Error::Code::syntax, "is packed with gzip and damaged" + so_far() +
-                                        "the data is not what was packed; copy the file again"};
+                                        "the data are damaged; copy the file again"};
 }
 
 std::string gunzip_head(std::string_view bytes, std::size_t most) {

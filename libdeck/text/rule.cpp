@@ -15,7 +15,7 @@ const std::vector<Rule>& all_rules() {
     std::vector<Rule> out;
     for (const auto& file : detail::embedded_rules()) {
       Result<Rule> rule = detail::parse_rule_page(file.name, file.text);
-      // The tests parse every page: this is a library that nobody has tested.
+      // The tests parse every page, so a tested library never comes here.
       if (!rule) throw std::logic_error(rule.error().message);
       out.push_back(std::move(*rule));
     }
@@ -44,7 +44,7 @@ const Rule& rule_of(RuleId id) {
 ReferenceMessage Rule::message(int number) const {
   const auto it = std::find_if(messages.begin(), messages.end(),
                                [&](const ReferenceMessage& m) { return m.number == number; });
-  assert(it != messages.end() && "a message that the page does not name");
+  assert(it != messages.end() && "a message that its page does not list");
   return it != messages.end() ? *it : ReferenceMessage{number, severity()};
 }
 
@@ -70,7 +70,7 @@ Diagnostic finding_of(RuleId id, Span span, std::string message, Case particular
   d.severity = particular.severity.value_or(rule.severity());
   assert(std::find(rule.severities.begin(), rule.severities.end(), d.severity) !=
              rule.severities.end() &&
-         "a severity that the page does not name");
+         "a severity that its page does not list");
   d.span = span;
   d.message = std::move(message);
   d.reference_behaviour =

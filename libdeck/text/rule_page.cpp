@@ -70,14 +70,14 @@ class PageReader {
 
   Result<Rule> read() {
     rule_.id = id_of(name_);
-    if (rule_.id == RuleId::none) return error("a page of a rule is called DKnnn.md");
+    if (rule_.id == RuleId::none) return error("the page of a rule must be named DKnnn.md");
     read_front_matter();
     for (const Section& section : sections) {
       if (section.optional && next_heading() != section.heading) continue;
       read_section(section);
     }
     skip_blank();
-    if (!done()) fail("text behind the last section");
+    if (!done()) fail("text after the last section");
     if (rule_.bad.empty() != rule_.good.empty()) fail("one example without the other");
     if (!problem_.empty()) return error(problem_);
     return std::move(rule_);
@@ -118,7 +118,7 @@ class PageReader {
       const std::string_view line = next();
       const auto colon = line.find(": ");
       if (colon == std::string_view::npos) {
-        fail("expected 'key: value', '---' behind the last one");
+        fail("expected 'key: value', '---' after the last one");
         return;
       }
       const std::string_view key = line.substr(0, colon), value = trimmed(line.substr(colon + 2));

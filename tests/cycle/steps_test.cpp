@@ -300,7 +300,7 @@ TEST(Account, EffectsThatNeverActAreOffWithTheReason) {
   card.ithe = 1;
   card.fheatm = 0.5;
   EXPECT_FALSE(row("friction-heat").on);
-  EXPECT_NE(row("friction-heat").reason.find("nobody"), std::string::npos);
+  EXPECT_NE(row("friction-heat").reason.find("is lost"), std::string::npos);
   card.ithe_form = 1;
   EXPECT_TRUE(row("friction-heat").on);
   card.ifiltr = 3;

@@ -216,7 +216,7 @@ TEST(LsDyna, LinesBehindTheLastCardAreLeftToAPersonTenOfThemAtMost) {
     for (int k = 0; k < lines; ++k) text += card({std::to_string(7000 + k)});
     int undecided = 0;
     for (const LossEntry& e : converted(text).losses)
-      undecided += e.note == "a line behind the last optional card";
+      undecided += e.note == "a line after the last optional card";
     EXPECT_GE(undecided, std::min(lines, 10) - 1) << lines;
     EXPECT_LE(undecided, 10);
   }

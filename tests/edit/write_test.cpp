@@ -455,7 +455,8 @@ TEST_F(InterruptedSet, IsNotFinishedWithoutTheDecksOfAllItsFiles) {
   const auto finished = finish_interrupted_write(at("a.rad"), {at("a.rad")});
   ASSERT_TRUE(finished);
   EXPECT_EQ(finished->files, 0u);
-  EXPECT_NE(finished->refused.find("b.inc, which is no file of the decks"), std::string::npos);
+  EXPECT_NE(finished->refused.find("b.inc, which is not a file of the given decks"),
+            std::string::npos);
   EXPECT_EQ(get("b.inc"), "old b");
   EXPECT_EQ(entries(), 5u);
 }
@@ -470,12 +471,12 @@ TEST_F(InterruptedSet, ANoteThatLeadsOutOfTheDeckIsNotObeyed) {
   fs::create_directories(dir_ / "home");
   put("home/thesis.txt", "precious");
   plant(at("home/thesis.txt"), at("x"));
-  expect_left_alone("no file of the decks");
+  expect_left_alone("not a file of the given decks");
   plant(at("home/thesis.txt"), at("b.inc"));
   expect_left_alone("another directory");
   put("payload", "content of an attacker");
   plant(at("payload"), at("b.inc"));
-  expect_left_alone("not a name that such files have");
+  expect_left_alone("not a valid name for such a file");
   fs::create_symlink(at("home/thesis.txt"), at(".b.inc.7-7.tmp"));
   plant(at(".b.inc.7-7.tmp"), at("b.inc"));
   expect_left_alone("not a file of yours");

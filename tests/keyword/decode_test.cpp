@@ -586,7 +586,7 @@ TEST(BlankLines, WithoutThemADefaultBlockIsAnErrorAndNothingElse) {
   EXPECT_EQ(d.rule, RuleId::DK511);
   EXPECT_EQ(d.severity, Severity::error);
   EXPECT_THAT(d.message,
-              HasSubstr("lacks 3 lines without content, so its values are lost: Istf = 4, "));
+              HasSubstr("lacks 3 lines that must be blank, so its values are lost: Istf = 4, "));
   ASSERT_TRUE(d.fix);
   EXPECT_TRUE(d.fix->safe);
 }

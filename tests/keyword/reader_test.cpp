@@ -265,7 +265,7 @@ TEST(ReaderBegin, ABlankUnitIsThatOfTheOtherSystem) {
   const Deck neither = read(head + part + part + "/END\n");
   EXPECT_EQ(neither.begin.input.length, 1);
   EXPECT_EQ(count(neither.diagnostics, RuleId::DK015), 2u);
-  EXPECT_THAT(first(neither.diagnostics, RuleId::DK015)->message, HasSubstr("taken for 1"));
+  EXPECT_THAT(first(neither.diagnostics, RuleId::DK015)->message, HasSubstr("takes it as 1"));
 }
 
 TEST(ReaderBegin, TextBehindANumberOfAUnitIsDropped) {
@@ -571,7 +571,7 @@ TEST_F(ReaderInclude, ADamagedPackedIncludeCannotBeReadAndSaysWhy) {
   file("a.inc.gz", packed.substr(0, packed.size() - 3));
   const Deck d = read_file(file("m_0000.rad", deck_of("#include a.inc.gz\n")));
   ASSERT_EQ(count(d.diagnostics, RuleId::DK004), 1u);
-  EXPECT_THAT(first(d.diagnostics, RuleId::DK004)->message, HasSubstr("cut off"));
+  EXPECT_THAT(first(d.diagnostics, RuleId::DK004)->message, HasSubstr("incomplete"));
 }
 
 TEST_F(ReaderInclude, PackedIncludesTogetherStayBelowTheLimit) {

@@ -200,7 +200,7 @@ TEST(MissingEnd, IsAppendedSafelyOnlyBehindAWholeLine) {
   EXPECT_TRUE(fixed(cut, false).empty());
   ASSERT_EQ(fixed(cut, true).size(), 1u) << cut.list();
   EXPECT_EQ(fixed(cut, true).front().text, deck + "\n/END\n");
-  EXPECT_NE(cut.find(RuleId::DK010)->message.find("amid a line"), std::string::npos);
+  EXPECT_NE(cut.find(RuleId::DK010)->message.find("within a line"), std::string::npos);
 }
 
 TEST(ApplyFixes, ComeToAnEndOnEverySample) {

@@ -333,7 +333,7 @@ TEST(MissingId, ShowsWhatStandsInItsPlace) {
                                id + "\ntitle\n         1\n/END\n");
     const Diagnostic* d = r.find(RuleId::DK049);
     ASSERT_NE(d, nullptr) << id << '\n' << r.list();
-    EXPECT_EQ(d->message, "'" + id + "' in the header of /SURF/PART is no id");
+    EXPECT_EQ(d->message, "'" + id + "' in the header of /SURF/PART is not an id");
     EXPECT_EQ(r.deck->sources.text(d->span), id);
   }
 }

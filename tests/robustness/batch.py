@@ -538,7 +538,7 @@ def thousand(c, tmp):
         done = read(journal).count(b"\n")
         c.check("%s in the middle" % name, p.returncode == -how and 100 <= done < 1000, "exit code %s, %d done" % (p.returncode, done))
         if how != signal.SIGKILL:
-            c.check("%s: it says how to go on" % name, b"run the same command to go on" in err, err.decode()[-200:])
+            c.check("%s: it says how to go on" % name, b"run the same command to continue" in err, err.decode()[-200:])
         time.sleep(0.3)
         c.check("%s: no worker is left" % name, not any(alive(w) for w in workers), str(workers))
         now = visible(out)
@@ -556,7 +556,7 @@ def usage(c, tmp):
     deck = SAMPLES[0]
     out = os.path.join(tmp, "usage")
     for name, args in (("no decks", ()), ("standard input as a deck", ("-",)), ("a shard outside", (deck, "--shard", "3/2")),
-                       ("a shard that is none", (deck, "--shard", "half")), ("an unknown verb", (deck, "--verb", "fixes")),
+                       ("a shard that is none", (deck, "--shard", "half")), ("an unknown verb", (deck, "--verb", "replay")),
                        ("an option the verb does not have", (deck, "--verb", "gaps --alll")), ("a file for all decks", (deck, "--verb", "gaps --csv x.csv")),
                        ("a patch", (deck, "--verb", "lint --diff")), ("a deck in --verb", (deck, "--verb", "gaps other.rad")),
                        ("a manifest that is not there", ("--manifest", os.path.join(tmp, "none.txt"))), ("merging with decks", (deck, "--merge")),

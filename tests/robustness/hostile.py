@@ -164,7 +164,7 @@ def usage_words(c, folder):
     for args, code, words in ((("gaps", good, "--worst", "-1"), 2, b"--worst: '-1' is below 0"),
                               (("accuracy", good, "--seed", "-1"), 2, b"--seed: '-1' is below 0"),
                               (("gaps", good, "--baseline", folder), 2, b"is a directory, not a file"),
-                              (("batch", "gaps", good, "-o", os.path.join(folder, "b")), 2, b"the verb is named with --verb gaps"),
+                              (("batch", "gaps", good, "-o", os.path.join(folder, "b")), 2, b"name the verb with --verb gaps"),
                               (("lint", small), 3, b"not in capitals: it has /begin")):
         r = c.run(*args)
         c.check("deck %s says %r" % (" ".join(map(os.path.basename, args)), words), r.code == code and words in r.err, "%s %s" % (r.code, r.err))

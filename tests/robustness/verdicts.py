@@ -48,7 +48,7 @@ def no_decks():
     rng = random.Random(4)
     yield "empty", b"", "empty"
     yield "blank", b"  \n\n", "empty"
-    yield "packed and cut off", gzip.compress(deck)[:-100], "cut off"
+    yield "packed and cut off", gzip.compress(deck)[:-100], "incomplete"
     yield "packed and damaged", gzip.compress(deck)[:200] + b"damage" + gzip.compress(deck)[206:], "damaged"
     yield "packed twice", gzip.compress(gzip.compress(deck)), "packed twice"
     yield "a bomb", gzip.compress(bytes(100 << 20)), "limit"

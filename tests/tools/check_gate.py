@@ -192,11 +192,11 @@ class Gate:
                      (("other_0000.rad", ()), (DECK, ()), ("other_0000.rad", ("--quiet",)))]
             self.c.check("%s says that a baseline holds nothing of a deck, and of which it does" % args[0],
                          ["note: " in n for n in notes] == [True, False, False] and
-                         "other_0000.rad: note: base.json holds nothing of this deck, but of %s" % DECK in notes[0].replace(self.folder + "/", ""), str(notes))
+                         "other_0000.rad: note: base.json has no entry for this deck, but of %s" % DECK in notes[0].replace(self.folder + "/", ""), str(notes))
         os.remove(os.path.join(self.folder, ".decklint.toml"))
         self.run("lint", DECK, "--write-baseline", "lint.json", "--quiet")
         notes = [self.run("lint", deck, "--baseline", "lint.json").err.decode() for deck in ("other_0000.rad", DECK)]
-        self.c.check("so says lint", "note: lint.json holds nothing of this deck" in notes[0] and DECK in notes[0] and not notes[1], str(notes))
+        self.c.check("so says lint", "note: lint.json has no entry for this deck" in notes[0] and DECK in notes[0] and not notes[1], str(notes))
         self.expect("several decks have one baseline", 0, "gaps", DECK, "other_0000.rad", "--write-baseline", "both.json")
         self.expect("of which each has its own", 0, "gaps", "other_0000.rad", DECK, "--baseline", "both.json")
         self.expect("a bound counts all the same", 1, "gaps", DECK, "--baseline", "base.json", "--max-depth", "0.1", rules=["DK370"])

@@ -40,7 +40,7 @@ TEST_F(Input, ADamagedPackedDeckIsUnreadableAndSaysWhy) {
   const std::string packed = gzip(sample_);
   write(dir_ / "x_0000.rad.gz", packed.substr(0, packed.size() / 2));
   EXPECT_EQ(deck("lint x_0000.rad.gz"), 3);
-  EXPECT_THAT(err(), HasSubstr("x_0000.rad.gz: is packed with gzip and cut off: after "));
+  EXPECT_THAT(err(), HasSubstr("x_0000.rad.gz: is packed with gzip and incomplete: after "));
 }
 
 TEST_F(Input, ARewrittenPackedDeckIsPackedAgain) {
@@ -154,13 +154,13 @@ TEST_F(Input, EveryWrongCommandLineIsAnErrorOfOneForm) {
            Case{"gaps --threads a x", "--threads: 'a' is not a whole number from 0 to 1024"},
            Case{"gaps x --threads", "--threads needs a value: N"},
            Case{"lint x --format json --format sarif",
-                "--format takes one value, and is given more than once"},
+                "--format takes one value but is given more than once"},
            Case{"lint --color AUTO x",
-                "'AUTO' is none of auto, always, never; did you mean 'auto'?"},
+                "'AUTO' is not one of auto, always, never; did you mean 'auto'?"},
            Case{"fix x --strategy movenodes", "did you mean 'move-nodes'?"},
-           Case{"fix x --strategy inacti --inacti 4", "'4' is none of 0, 1, 2, 3, 5, 6, 1000"},
+           Case{"fix x --strategy inacti --inacti 4", "'4' is not one of 0, 1, 2, 3, 5, 6, 1000"},
            Case{"fix x --strategy inacti --step nan", "'nan' is not a number from 0.05 to 1"},
-           Case{"gaps --max-memory much x", "'much' is no number of bytes, such as 500MB or 2GB"},
+           Case{"gaps --max-memory much x", "'much' is not a number of bytes, such as 500MB or 2GB"},
            Case{"gaps --interface 3a x", "--interface: '3a' is not a number"},
            Case{"show x", "expected DECK WHAT"},
        }) {

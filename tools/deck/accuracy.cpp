@@ -112,10 +112,10 @@ Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
   line.existing("decks").required(false).any_number().describe(
-      "Starter decks (*_0000.rad) whose candidate pairs are measured; none: the "
-      "built-in hard cases");
+      "Starter decks (*_0000.rad) whose candidate pairs are measured; without: the built-in hard "
+      "cases");
   line.option("--samples", options->samples,
-              "Pairs per family of hard cases; of a deck, 40 times as many in all")
+              "Pairs per family of hard cases; for a deck, 40 times as many in total")
       .range(std::size_t{1}, std::size_t{10000000})
       .show_default();
   line.option("--seed", options->seed, "Seed of the hard cases").show_default();

@@ -11,8 +11,8 @@ namespace deck::cli {
 /// Adds --accuracy; `value` keeps the word.
 inline void add_accuracy(CommandLine& line, std::string& value) {
   line.option("--accuracy", value,
-              "What decides that a pair is in contact: fast (plain double), reference (the "
-              "solver's formula), robust (never wrong, filtered), exact (rationals)")
+              "How contact of a pair is decided: fast (plain double), reference (the solver's "
+              "formula), robust (never wrong, filtered), exact (rationals)")
       .one_of({"fast", "reference", "robust", "exact"})
       .show_default();
 }

@@ -81,7 +81,7 @@ Option& Option::one_of(std::initializer_list<const char*> values) {
   const std::vector<std::string> all(values.begin(), values.end());
   option_->check(described_by(CLI::IsMember(all), [all](std::string& text) -> std::string {
     if (std::find(all.begin(), all.end(), text) != all.end()) return {};
-    return fmt::format("'{}' is none of {}{}", text, fmt::join(all, ", "), did_you_mean(text, all));
+    return fmt::format("'{}' is not one of {}{}", text, fmt::join(all, ", "), did_you_mean(text, all));
   }));
   return *this;
 }
@@ -92,7 +92,7 @@ Option& Option::one_of(std::initializer_list<int> values) {
     if (cell.status == NumberStatus::ok &&
         std::find(all.begin(), all.end(), cell.value) != all.end())
       return {};
-    return fmt::format("'{}' is none of {}", text, fmt::join(all, ", "));
+    return fmt::format("'{}' is not one of {}", text, fmt::join(all, ", "));
   }));
   return *this;
 }
@@ -178,7 +178,7 @@ Option CommandLine::bytes(const std::string& names, std::function<void(std::uint
       if (size(text).empty()) return {};
     } catch (const CLI::ValidationError&) {  // a unit that it does not know
     }
-    return "'" + given + "' is no number of bytes, such as 500MB or 2GB";
+    return "'" + given + "' is not a number of bytes, such as 500MB or 2GB";
   }));
   return Option(option);
 }
@@ -254,7 +254,7 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
                                    : (value.empty() ? name : value) + " is missing";
   if (text.find(": At Most 1 required") != text.npos && option != nullptr &&
       option->nonpositional())
-    return name + " takes one value, and is given more than once";
+    return name + " takes one value but is given more than once";
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && option != nullptr)
     return option->nonpositional() ? name + " needs a value: " + value : "expected " + value;
   return text;

@@ -82,7 +82,7 @@ std::size_t text_width() {
 void add_common_without_decks(CommandLine& line, CommonOptions& options) {
   line.option("--json", options.json, "Write JSON to FILE; '-' is standard output").value("FILE");
   line.flag("-q,--quiet", options.quiet, "Print nothing but errors");
-  line.option("--color", options.color, "Colours: auto, always or never (NO_COLOR is honoured)")
+  line.option("--color", options.color, "Colours: auto, always or never (NO_COLOR is respected)")
       .one_of({"auto", "always", "never"})
       .value("WHEN");
   line.option("--schemas", options.schema_dirs, "Add the keyword schemas (*.json) of DIR")
@@ -96,9 +96,7 @@ void add_common(CommandLine& line, CommonOptions& options, bool with_json) {
       .value("DECK");
   add_common_without_decks(line, options);
   if (!with_json) line.remove("--json");
-  line.option("--threads", options.threads, "Threads; 0 takes all processors")
-      .range(0, 1024)
-      .value("N");
+  line.option("--threads", options.threads, "Threads; 0: all processors").range(0, 1024).value("N");
   line.bytes(
           "--max-memory",
           [&options](std::uint64_t bytes) {
@@ -108,14 +106,14 @@ void add_common(CommandLine& line, CommonOptions& options, bool with_json) {
           "(default 4GB); a contact that needs more is not evaluated, with a finding")
       .value("SIZE");
   line.option("--include-path", options.include_paths,
-              "Search included files in DIR as well (repeatable)")
+              "Also search included files in DIR (repeatable)")
       .value("DIR")
       .one_each();
 }
 
 void add_require_examined(CommandLine& line, CommonOptions& options) {
   line.flag("--require-examined", options.require_examined,
-            "Exit 1 if the deck has no interface of a type that is examined (TYPE7, 10, 11, 19)");
+            "Exit 1 if the deck has no interface of an examined type (TYPE7, 10, 11, 19)");
 }
 
 void add_verbose(CommandLine& line, CommonOptions& options, const std::string& what) {
@@ -187,9 +185,8 @@ Result<bool> settle_interrupted(const Deck& deck, const SchemaSet& schemas,
   if (!options.rewrites) {
     if (!options.quiet)
       print_messages(fmt::format(
-          "deck: note: a rewriting of {} was interrupted ({}): some of its files may be "
-          "old and some new; the next convert --in-place, fix --in-place or lint --fix of "
-          "it finishes that\n",
+          "deck: note: writing {} was interrupted ({}): some of its files may be old and some new; "
+          "the next convert --in-place, fix --in-place or lint --fix of it finishes this\n",
           terminal_text(files.front()), terminal_text(*unfinished_note(files.front()))));
     return false;
   }
@@ -208,7 +205,7 @@ Result<bool> settle_interrupted(const Deck& deck, const SchemaSet& schemas,
   }
   if (finished > 0 && !options.quiet)
     print_messages(
-        fmt::format("deck: note: an interrupted rewriting of {} was finished: {} file{}\n",
+        fmt::format("deck: note: the interrupted writing of {} was finished: {} file{}\n",
                     terminal_text(files.front()), finished, finished == 1 ? "" : "s"));
   return finished > 0;
 }

@@ -87,7 +87,7 @@ int verify(Conversion& c, const Loaded& again, const ConvertStep& step,
   if (!difference) return exit_clean;
   print_error(common, c.now->path + ": " + step.option +
                           ": the result is not the same model: " + *difference +
-                          "; nothing was written. --no-verify writes it all the same");
+                          "; nothing was written. --no-verify writes it nevertheless");
   return exit_findings;
 }
 
@@ -260,7 +260,7 @@ std::string document_difference(const std::string& document, const Deck& deck,
   for (const DeckFile& f : *back) ++texts[f.text];
   for (std::uint32_t f = 0; f < deck.sources.size(); ++f)
     if (!texts.contains(deck.sources[f].bytes()))
-      return deck.sources[f].path() + " does not come back byte for byte";
+      return deck.sources[f].path() + " is not the same byte for byte when read back";
   return {};
 }
 
@@ -402,7 +402,7 @@ int check(const Options& options) {
       std::count(options.common.decks.begin(), options.common.decks.end(), std::string("-")) > 0)
     return refuse("standard input cannot be rewritten; without --in-place the deck is printed");
   if (places == 0 && options.to == "rad" && options.from != "lsdyna" && !only_standard_input)
-    return refuse("say where to write: -o DIR, --in-place, or --diff to look at it first");
+    return refuse("say where to write: -o DIR, --in-place, or --diff to see the changes first");
   if (options.to == "json" && (options.write.in_place || options.write.diff))
     return refuse("--to json writes a new file: use -o, or standard output");
   if (options.from != "rad" && (options.write.in_place || options.write.diff))
@@ -493,10 +493,9 @@ Action setup(CommandLine& line) {
               "Directory to write to; made if missing. The include tree keeps its relative "
               "names. With --to json also FILE.json")
       .value("DIR");
-  line.flag(
-      "--overwrite", options->write.overwrite,
-      "With -o: replace decks and includes that lie in DIR already and differ (results of the "
-      "same files that nobody has changed since are made anew without it)");
+  line.flag("--overwrite", options->write.overwrite,
+            "With -o: replace decks and includes in DIR that differ (earlier results of the same "
+            "files, if unchanged since, are replaced without it)");
   line.flag("--in-place", options->write.in_place, "Change the files of the deck");
   line.flag("--backup{.orig}", options->write.backup_suffix,
             "With --in-place: keep the old file under its name plus .orig (--backup=SUFFIX); a "
@@ -504,13 +503,13 @@ Action setup(CommandLine& line) {
   line.flag("--diff", options->write.diff,
             "Write nothing; print the changes as a unified diff that git apply takes");
   line.option("--report", options->report,
-              "Loss report (JSON): every value that changed with its place, and what was kept, "
-              "approximated, dropped, left undecided")
+              "Loss report (JSON): every changed value with its place, and what was kept, "
+              "approximated, dropped or undecided")
       .value("FILE");
   line.flag("--verify", options->verify,
             "Read the result back and compare: effective values, gaps, penetrations, actions, "
-            "forces of the first cycle, masses, time steps; what differs is not written");
-  line.flag("--no-verify", options->no_verify, "In a batch: leave that out");
+            "forces of the first cycle, masses, time steps; a result that differs is not written");
+  line.flag("--no-verify", options->no_verify, "In a batch: do not verify");
   add_dependent_options(line, options->write);
   add_step_options(line, options->steps);
   line.existing("decks").describe("Starter decks, or directories: all *_0000.rad below them");
@@ -537,11 +536,12 @@ const VerbRegistration registration{
      "\n"
      "Conversions are done in the order of their options above, whatever their order on the\n"
      "command line. A conversion that would lose a value is refused with the place of the value\n"
-     "(exit code 1); nothing is written then. What was written and is left for somebody to decide\n"
-     "gives exit code 1 as well.\n"
-     "Several decks are converted together: a file that they share is read and written once, and\n"
-     "if they want different texts for it nothing is written (exit code 2). Nothing is written\n"
-     "either where a file was changed by somebody else since it was read.\n"
+     "(exit code 1), and nothing is written. If something was written but must be decided by "
+     "hand,\n"
+     "the exit code is 1 too.\n"
+     "Several decks are converted together: a file that they share is read and written once. If\n"
+     "they need different texts for it, nothing is written (exit code 2). Nothing is written\n"
+     "if another program changed a file after it was read.\n"
      "Files that are included from above the deck's directory (#include ../common/x.inc) keep\n"
      "their place too: the deck is then written one or more directories further down.\n",
      setup}};

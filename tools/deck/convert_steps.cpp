@@ -36,18 +36,17 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
             "and is reported");
   const std::string group = "Conversions, in this order";
   line.option("--extract-contacts", steps.extract,
-              "A small deck of one file with these interfaces and all that they need")
+              "A small deck of one file with these interfaces and everything they need")
       .heading(group)
       .comma_list()
       .value("ID[,ID...]");
-  line.flag("--flatten", steps.flatten, "One file: every #include replaced by what it holds")
+  line.flag("--flatten", steps.flatten, "One file: every #include replaced by its content")
       .heading(group);
   line.flag("--expand-type19", steps.expand_type19,
             "Every TYPE19 as the TYPE7 and TYPE11 that the solver makes of it")
       .heading(group);
   line.flag("--resolve-defaults", steps.resolve_defaults,
-            "Write effective values onto the contact cards: no longer any need of "
-            "/DEFAULT/INTER")
+            "Write effective values onto the contact cards, so /DEFAULT/INTER is no longer needed")
       .heading(group);
   line.option("--version", steps.version,
               "Input version to write: 110, 120, 130, 140, 2017 ... 2026. Rewrites every block "
@@ -55,9 +54,9 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
       .heading(group)
       .value("N");
   line.flag("--allow-loss", steps.allow_loss,
-            "With --version: drop values that the other version has no cell for. With "
-            "--resolve-defaults: leave to the default card what the card has no cell for. With "
-            "--units: leave keywords of Engine files whose cells are not known as they are")
+            "With --version: drop values without a cell in the other version. With "
+            "--resolve-defaults: leave values without a cell to the default card. With --units: "
+            "leave keywords of Engine files unchanged whose cells are not known")
       .heading(group);
   line.option("--units", steps.units,
               "Unit system to write, mass,length,time: kg,mm,ms or Mg,mm,s or numbers (factors "
@@ -74,8 +73,8 @@ void add_step_options(CommandLine& line, ConvertSteps& steps) {
       .comma_list()
       .value("RULE");
   line.flag("--partial", steps.partial,
-            "With --units or --renumber: convert what is known although the deck holds what no "
-            "schema describes, and list that as undecided")
+            "With --units or --renumber: convert the known values and list blocks that no schema "
+            "describes as undecided")
       .heading(group);
 }
 
@@ -97,7 +96,7 @@ Result<std::vector<ConvertStep>> make_steps(const ConvertSteps& steps, bool seve
   if (steps.version != 0 && !is_target_version(steps.version))
     return Error{Error::Code::config,
                  "--version " + std::to_string(steps.version) +
-                     ": no version that can be written; 110 to 140 and 2017 to " +
+                     ": not a version that can be written; 110 to 140 and 2017 to " +
                      std::to_string(newest_version) + " are"};
   if (steps.version != 0)
     all.push_back({"--version",

@@ -144,7 +144,7 @@ Result<void> write_html(const Options& o, const CycleInput& cycle, const SceneVi
 Result<void> check_page(const Options& o) {
   if (o.measures() && o.steps > 1)
     return Error{Error::Code::config, std::string(o.html.empty() ? "--costs" : "--html") +
-                                          " is about one evaluation: leave out --steps"};
+                                          " shows one evaluation: leave out --steps"};
   if (o.html.empty()) return {};
   if (std::string why; !html_available(&why))
     return Error{Error::Code::config, "--html: this build has no viewer: " + why};
@@ -350,8 +350,8 @@ Action setup(CommandLine& line) {
       .number(0, 1e30)
       .value("DT");
   line.option("--steps", options->steps,
-              "Evaluations, --dt apart, while nodes keep their velocities: prescribed motion only, "
-              "no structure answers")
+              "Evaluations, --dt apart, with prescribed motion: nodes keep their velocities, "
+              "forces do not move them")
       .range(1, 1000)
       .value("N")
       .show_default();
@@ -368,7 +368,7 @@ Action setup(CommandLine& line) {
   line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
   add_require_examined(line, options->common);
   add_verbose(line, options->common,
-              "Every interface, the parts of a TYPE19 in rows of their own, and more columns");
+              "Every interface, the parts of a TYPE19 in separate rows, and more columns");
   line.flag("--fail-on-force", options->fail,
             "Exit 1 when any contact pushes, at the start or at any step, as --fail-on warning");
   add_gate_with_config(line, options->gate, "the solver stops, or a contact could not be evaluated",

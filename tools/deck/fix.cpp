@@ -430,7 +430,7 @@ Action setup(CommandLine& line) {
               "the largest gap without a "
               "penetration; inacti: let the solver treat them; fpenmax: switch off deep ones; "
               "untangle: crossed elements that one node's move takes apart. "
-              "Several by commas: each acts on what the one before has left")
+              "Several with commas: each acts on what the previous one left")
       .comma_list()
       .value("STRATEGY")
       .one_of({"move-nodes", "reduce-gap", "inacti", "fpenmax", "untangle"});
@@ -446,10 +446,9 @@ Action setup(CommandLine& line) {
   line.flag("--backup", o.backup,
             "With --in-place: keep each old file as FILE.orig (a backup is never replaced: then "
             "FILE.orig.2)");
-  line.flag(
-      "--overwrite", o.write.overwrite,
-      "With -o: replace decks and includes that lie in DIR already and differ (results of the "
-      "same files that nobody has changed since are made anew without it)");
+  line.flag("--overwrite", o.write.overwrite,
+            "With -o: replace decks and includes in DIR that differ (earlier results of the same "
+            "files, if unchanged since, are replaced without it)");
   add_dependent_options(line, o.write);
   line.option("--html", o.html,
               "Write a report with the deck as it is fixed, compared with before, to FILE")
@@ -465,7 +464,7 @@ Action setup(CommandLine& line) {
       .value("PART");
   move.flag("--lock-rigid-bodies", o.move.lock_rigid_bodies, "Nodes of /RBODY stay");
   move.flag("--lock-boundary-conditions", o.move.lock_boundary_conditions, "Nodes of /BCS stay");
-  move.flag("--secondary-only", o.move.secondary_only, "Main sides do not give way");
+  move.flag("--secondary-only", o.move.secondary_only, "Nodes of main sides do not move");
   move.option("--max-moved", o.max_moved,
               "Share of the nodes of a part that may move; a part that needs more is left alone. "
               "With --json FILE, those that an earlier "

@@ -238,7 +238,7 @@ Action setup(CommandLine& line) {
   line.flag("--crossings", options->crossings,
             "List the crossed elements: edges of the secondary side through main segments");
   line.option("--svg", options->svg,
-              "Draw who touches whom into FILE: parts against parts, red where they penetrate")
+              "Draw the parts and their contacts to FILE, red if they penetrate")
       .value("FILE");
   line.option("--vtk", options->vtk,
               "Write the contacts and penetrations as VTK files into DIR, with a script that opens "
@@ -252,7 +252,7 @@ Action setup(CommandLine& line) {
   line.option("--interface", options->only, "Only these interface ids").by_commas().value("ID");
   add_require_examined(line, options->common);
   add_verbose(line, options->common,
-              "Every interface, the parts of a TYPE19 in rows of their own, and more columns");
+              "Every interface, the parts of a TYPE19 in separate rows, and more columns");
   line.option("--what-if", options->what_if,
               "Evaluate an interface with other values, e.g. 3:Gapmin=2,Inacti=6 (repeatable); "
               "the deck is not changed")

@@ -67,8 +67,8 @@ void add_gate(CommandLine& line, GateOptions& o) {
       .number(0, 1)
       .value("R");
   gate.option("--compare", o.compare,
-              "An earlier 'deck gaps --json' FILE: what is new, worse, better, solved; --fail-on "
-              "new,worse stops at it")
+              "An earlier 'deck gaps --json' FILE: lists what is new, worse, better, solved; with "
+              "--fail-on new,worse these exit with 1")
       .value("FILE");
 }
 
@@ -92,7 +92,7 @@ Result<void> check_fail_on(const GateOptions& o) {
     levels += level;
     if (!level && word != "new" && word != "worse")
       return Error{Error::Code::config,
-                   "--fail-on: '" + word + "' is none of new, worse, error, warning, never"};
+                   "--fail-on: '" + word + "' is not one of new, worse, error, warning, never"};
   }
   if (levels > 1)
     return Error{Error::Code::config, "--fail-on takes one of error, warning and never"};
@@ -141,8 +141,8 @@ Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
     out.earlier = std::move(*read);
   } else if (out.gate.on_fresh || out.gate.on_worse) {
     return Error{Error::Code::config,
-                 "what is new or worse needs something to compare with: --compare FILE, or "
-                 "'compare' in [gate], with an earlier 'deck gaps --json'"};
+                 "new and worse need an earlier run: --compare FILE, or 'compare' in [gate], with "
+                 "an earlier 'deck gaps --json'"};
   }
   return out;
 }
@@ -155,7 +155,7 @@ void note_not_in_baseline(const CommonOptions& options, const std::string& deck_
   for (std::size_t i = 0; i < std::min(held.size(), most); ++i)
     names += (i == 0 ? "" : ", ") + held[i];
   if (held.size() > most) names += " and " + std::to_string(held.size() - most) + " more";
-  print_messages(terminal_text(deck_path + ": note: " + baseline + " holds nothing of this deck" +
+  print_messages(terminal_text(deck_path + ": note: " + baseline + " has no entry for this deck" +
                                (held.empty() ? "" : ", but of " + names) +
                                ": everything counts as new") +
                  "\n");

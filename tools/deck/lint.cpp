@@ -291,13 +291,13 @@ class Run {
     for (std::size_t i = 0; i < std::min(most, agreed.withheld.size()) && !common_.quiet; ++i) {
       const WithheldFix& w = agreed.withheld[i];
       print_messages(fmt::format(
-          "{}: note: not fixed ({}): {} includes this file, too, and needs it as it is\n",
+          "{}: note: not fixed ({}): {} includes this file too and needs it unchanged\n",
           terminal_text(jobs[w.deck]->loaded->deck.sources.where(w.diagnostic->span)),
           id_text(w.diagnostic->rule), terminal_text(jobs[w.other]->path)));
     }
     if (agreed.withheld.size() > most && !common_.quiet)
       print_note(
-          fmt::format("{} more were not fixed for that reason", agreed.withheld.size() - most));
+          fmt::format("{} more were not fixed for this reason", agreed.withheld.size() - most));
     return changed;
   }
 
@@ -337,8 +337,8 @@ class Run {
       if (!job->loaded || job->result.stale.empty() || common_.quiet) continue;
       constexpr std::size_t most = 10;
       print_messages(
-          fmt::format("{}: note: {} entries of the baseline do not occur any more; write it again "
-                      "with --write-baseline\n",
+          fmt::format("{}: note: {} entries of the baseline no longer occur; write it again with "
+                      "--write-baseline\n",
                       terminal_text(job->path), job->result.stale.size()));
       std::size_t shown = 0;
       for (const auto& [key, n] : job->result.stale) {
@@ -466,7 +466,7 @@ Action setup(CommandLine& line) {
   line.option("--format", o.format, "What to print: human, json, sarif, github, junit, gitlab")
       .one_of(formats)
       .value("FORMAT");
-  line.option("-o,--output", o.outputs, "Write FORMAT to FILE as well (repeatable)")
+  line.option("-o,--output", o.outputs, "Also write FORMAT to FILE (repeatable)")
       .value("FORMAT=FILE")
       .one_each();
   line.option("--select", o.select, "Only these rules: ids or prefixes (DK2), comma-separated")
@@ -481,31 +481,30 @@ Action setup(CommandLine& line) {
   line.existing("decks").required(false).describe(
       "Starter decks (*_0000.rad); '-' is standard input. With --changed any files");
   line.flag("--changed", o.changed,
-            "The files are what a change touches: lint the decks among them, and all decks of the "
+            "The files are the files of a change: lint the decks among them, and all decks of the "
             "git work tree (or --root) that include one of the others");
   line.flag("--init", o.init,
             "Write .decklint.toml with every key as a comment, into the current or the given "
             "directory, unless there is one");
   line.flag("--show-config", o.show_config,
-            "Print every setting that holds for the deck, and where it comes from");
+            "Print every setting of the deck, and where it comes from");
   add_require_examined(line, o.common);
   add_gate_with_config(line, o.gate, "an error", "an error or a warning");
   line.flag("--geometry", o.geometry,
-            "Check geometry and first cycle (rules DK3, DK4) however large the deck is: "
-            "penetrations, gaps against the mesh, segments, contact forces and time step at the "
-            "start. By default a deck that would take long is left out, and the report says so");
+            "Check geometry and first cycle (rules DK3, DK4) of decks of any size: penetrations, "
+            "gaps against the mesh, segments, contact forces and time step at the start. By "
+            "default this is left out for a deck that would take long, and the report says so");
   line.flag("--no-geometry", o.no_geometry, "Do not check geometry and first cycle");
   line.flag("--fix", o.fix,
-            "Apply safe fixes: the reference solver does the same with the deck (DK511 apart: the "
-            "values of a default block come into force). Decks are fixed together: a file that "
-            "they share only as all of them want it");
+            "Apply safe fixes: they change nothing for the reference solver (except DK511: the "
+            "values of a default block take effect). A file that several decks share is fixed only "
+            "if all of them need the same text");
   line.flag("--unsafe-fixes", o.unsafe_fixes, "Apply the other fixes too");
   line.flag("--diff", o.diff,
             "Print the fixes as a patch (findings on standard error), write nothing");
   add_dependent_options(line, o.write);
   line.flag("--ruler", o.ruler, "Show column numbers above each card line");
-  add_verbose(line, o.common,
-              "Show every finding in full: no rule's findings are grouped or left out");
+  add_verbose(line, o.common, "Show every finding in full, without grouping");
   line.flag("--no-group", o.common.verbose, "The same");
   line.option("--per-rule", o.per_rule, "Findings shown per rule; 0 shows all (default: 10)")
       .range(0, 1000000)

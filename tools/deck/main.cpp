@@ -29,7 +29,7 @@ void on_bus_error(int) {
 
 /// What no handler is left for, such as an exception where none may pass.
 [[noreturn]] void on_terminate() {
-  constexpr char text[] = "deck: internal error: no way to go on (out of memory?)\n";
+  constexpr char text[] = "deck: internal error: cannot continue (out of memory?)\n";
   [[maybe_unused]] const auto written = write(2, text, sizeof text - 1);
   _exit(exit_internal);
 }

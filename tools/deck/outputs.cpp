@@ -117,7 +117,7 @@ Result<void> check_output(const std::string& path, const OutputRules& rules,
   if (rules.deck_tree)
     return Error{Error::Code::config,
                  path +
-                     " is there already, with other contents; nothing was written. Name another "
+                     " already exists with other contents; nothing was written. Name another "
                      "directory, or add --overwrite to replace it"};
   return refused(path, "it begins as a deck");
 }

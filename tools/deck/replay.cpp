@@ -102,8 +102,7 @@ Action setup(CommandLine& line) {
       .show_default();
   line.option("--csv", options->csv,
               "Writes every result column of STATES as computed here, one line per state of the "
-              "interface, with the 0-based number of its data line in front (- for standard "
-              "output)")
+              "interface, preceded by the 0-based number of its data line (- for standard output)")
       .value("FILE");
   return [options] { return run(*options); };
 }

@@ -99,7 +99,7 @@ std::string Doubts::unplaced_node(const Contact& contact) const {
       for (const NodeIndex n : e.nodes) look(n);
   if (found == no_index) return {};
   return "node " + std::to_string(model_.nodes.id[found]) +
-         " is moved by a /TRANSFORM that is not evaluated here";
+         " is moved by a /TRANSFORM that deck does not evaluate";
 }
 
 std::string Doubts::about(const Contact& contact) {
@@ -107,7 +107,7 @@ std::string Doubts::about(const Contact& contact) {
   if (block != nullptr) {
     if (contact.inter->type == 7 && block->version >= 2026 &&
         decode(*model_.deck, *block).integer("Ists") != 0)
-      return "with Ists its secondary side is a smoothed surface, which is not evaluated here";
+      return "with Ists its secondary side is a smoothed surface, which deck does not evaluate";
     if (std::string why = partial_group(*block); !why.empty()) return why;
   }
   return unplaced_node(contact);

@@ -1,5 +1,5 @@
-// Many nodes at one place, as a part that was exported at the origin has them: said once, because
-// every node is then on every segment of the others.
+// Many nodes at one place, as a part that was exported at the origin has them: reported once,
+// because every node is then on every segment of the others.
 #include <fmt/format.h>
 
 #include <algorithm>

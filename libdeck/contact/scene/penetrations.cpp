@@ -53,11 +53,9 @@ void give_up(SceneContext& c, Contact& contact) {
   const double edge = mean_main_edge(c, contact);
   Diagnostic d = finding_of(
       RuleId::DK390, contact.inter->span,
-      fmt::format("/INTER/TYPE{} {}: so many pairs are within the gap that their list would take "
-                  "more than {} "
-                  "MB; penetrations of this interface were not evaluated. Its largest gap is "
-                  "{:.6g}, {:.3g} "
-                  "times the mean edge of its main side ({:.6g})",
+      fmt::format("/INTER/TYPE{} {}: the list of pairs within the gap would need more than {} MB; "
+                  "penetrations of this interface were not evaluated. Its largest gap is {:.6g}, "
+                  "{:.3g} times the mean edge of its main side ({:.6g})",
                   contact.inter->type, contact.inter->id, c.options.limits.pair_bytes >> 20, gap,
                   edge > 0 ? gap / edge : 0.0, edge));
   d.keyword = "/INTER/TYPE" + std::to_string(contact.inter->type);

@@ -264,7 +264,7 @@ class Builder {
   }
 
   /// A contact without pairs is no clean one: the solver stops, but for a node group that is there.
-  /// Where members were left out (DK332), nobody knows whether a side is empty.
+  /// If members were left out (DK332), it is not known whether a side is empty.
   void report_empty_sides(const Contact& contact) {
     if (!selections_.complete()) return;
     if (contact.main_empty()) report_empty_side(contact, RuleId::DK173, "main", Severity::error);
@@ -318,7 +318,7 @@ class Builder {
   bool computable(Contact& contact) {
     if (const std::string why = doubts_.about(contact); !why.empty()) {
       contact.evaluated = false;
-      if (told_.insert(contact.inter).second) report_unevaluated(contact, why, Severity::warning);
+      if (reported_.insert(contact.inter).second) report_unevaluated(contact, why, Severity::warning);
       return false;
     }
     const Coordinates& x = c_.scene.coordinates;
@@ -339,9 +339,9 @@ class Builder {
     contact.evaluated = lost == no_index && !endless && selections_.complete();
     if (contact.evaluated || (lost == no_index && !endless)) return contact.evaluated;
     report_unevaluated(contact,
-                       lost == no_index ? std::string("the gap is no finite number")
+                       lost == no_index ? std::string("the gap is not a finite number")
                                         : "node " + std::to_string(c_.model.nodes.id[lost]) +
-                                              " has a coordinate that is no finite number",
+                                              " has a coordinate that is not a finite number",
                        Severity::error);
     return false;
   }
@@ -373,7 +373,7 @@ class Builder {
   Selections& selections_;
   int threads_;
   detail::Doubts doubts_;
-  std::set<const InterBase*> told_;  ///< interfaces whose doubt was reported
+  std::set<const InterBase*> reported_;  ///< interfaces whose doubt was reported
 };
 
 void copy_coordinates(const Nodes& nodes, Coordinates& out, int threads) {

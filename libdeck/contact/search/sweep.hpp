@@ -83,7 +83,7 @@ class Sink {
         allowance_->fetch_sub(static_cast<std::int64_t>(kChunk)) <
             static_cast<std::int64_t>(kChunk))
       full_ = true;
-    if (full_) return;  // what comes now overwrites: nobody reads a full sink
+    if (full_) return;  // further pairs overwrite: a full sink is not read
     chunks_.push_back(std::make_unique<CandidatePair[]>(kChunk));
     last_ = chunks_.back().get();
   }

@@ -75,7 +75,7 @@ DECK_FLATTEN void force_block(const Effects& on, const Constants& shared, const 
   const std::size_t last = view.size - V::width;
   for (std::size_t slot = 0, i = begin; slot < n; slot += V::width, i += V::width) {
     if (i > last) i = last;  // the last pack steps back, see pack_start
-    PairState<V> s{};        // zeros where an effect is off; those nobody reads cost nothing
+    PairState<V> s{};        // zeros where an effect is off; unread ones cost nothing
     const PackAt<Effects> at{on, k, view, i};
     load_geometry(view, i, g, slot, s);
     pass_on(s, i, out);

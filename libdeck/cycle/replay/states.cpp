@@ -147,7 +147,7 @@ States::States(const Table& table, const std::string& kind, const RecordedDeck& 
   if (const double* dtmin = table.column("dtmin"); dtmin != nullptr && table.rows() > 0) {
     card_.dtmin = dtmin[0];
     if (!std::all_of(dtmin, dtmin + table.rows(), [&](double v) { return v == dtmin[0]; }))
-      error = "column dtmin changes: states of one card have one value";
+      error = "column dtmin changes, but all states of one card must have the same value";
   }
   if (card_.iadm == 0 && table.has("R_seg")) {
     // Recorded criteria: the run had adaptive meshing, which the deck beside it does not say.

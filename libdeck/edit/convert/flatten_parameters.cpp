@@ -52,7 +52,7 @@ Places find_places(const Deck& deck) {
   return places;
 }
 
-/// A name of the same length that nobody uses.
+/// An unused name of the same length.
 std::optional<std::string> free_name(const std::string& name, std::set<std::string>& taken) {
   const auto accept = [&](std::string candidate) -> std::optional<std::string> {
     if (!taken.insert(candidate).second) return std::nullopt;

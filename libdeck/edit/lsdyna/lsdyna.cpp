@@ -337,7 +337,8 @@ class Converter {
             "percent of critical; Radioss damps relative to its own stiffness");
     else if (real("VDC"))
       cell(Loss::approximated, "VDC", "VISs = 0.05",
-           "no damping is asked for, but 0 means 0.05 there; write a small VISs if that matters");
+           "no damping is asked for, but 0 means 0.05 in Radioss; write a small VISs if that "
+           "matters");
   }
 
   void tied_gap() {
@@ -345,8 +346,8 @@ class Converter {
     if (sst || mst) {
       const double a = std::fabs(sst.value_or(0)), b = std::fabs(mst.value_or(0));
       const std::string note =
-          "distance within which nodes are tied; LS-DYNA applies a factor of "
-          "its own, so compare the tied nodes";
+          "distance within which nodes are tied; LS-DYNA applies its own factor: compare the tied "
+          "nodes";
       if (a + b > 0) write("Gap", (a + b) / 2, Loss::approximated, sst ? "SST" : "MST", note);
       for (const char* name : {"SST", "MST"})
         if (real(name))
@@ -354,9 +355,8 @@ class Converter {
                a + b > 0 ? "in Gap" : "none");
     } else {
       add(Loss::approximated, "SST", "", "Gap = 0",
-          "blank: nodes are tied within the gap that the solver takes for 0, LS-DYNA has a "
-          "distance "
-          "of its own; compare the tied nodes or write a Gap");
+          "blank: the solver ties nodes within its default gap, LS-DYNA within its own distance: "
+          "compare the tied nodes or write a Gap");
     }
     for (const char* name : {"SFST", "SFMT"})
       if (const auto value = real(name))
@@ -378,9 +378,8 @@ class Converter {
       for (const char* name : {"SST", "MST"})
         if (real(name))
           cell(Loss::undecided, name, "",
-               a < 0 || b < 0
-                   ? "a negative thickness has no meaning here"
-                   : "one side has a thickness of its own: write it into /PART, or both");
+               a < 0 || b < 0 ? "a negative thickness has no meaning here"
+                              : "one side has its own thickness: write it into /PART");
     } else {
       for (const char* name : {"SST", "MST"})
         if (real(name)) cell(Loss::kept, name, "", "true thickness");
@@ -512,7 +511,7 @@ class Converter {
           ordinary ? "the default" : std::string(detail::why_dropped(cell_of.name)), cell_of.line);
     }
     for (std::size_t i = 0; i < c.extra.size(); ++i)
-      add(Loss::undecided, "", c.extra[i], "", "a line behind the last optional card",
+      add(Loss::undecided, "", c.extra[i], "", "a line after the last optional card",
           c.extra_line + i);
   }
 

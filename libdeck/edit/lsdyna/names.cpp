@@ -55,8 +55,8 @@ std::string_view target_note(DynaKind kind, int type) {
   if (is_tied(kind))
     return type == 10 ? "ties nodes when they touch instead of constraining them from the start; "
                         "consider /INTER/TYPE2"
-                      : "a contact that ties nothing was asked for";
-  if (type == 10) return "a contact that ties what it touches was asked for";
+                      : "a contact that does not tie was asked for";
+  if (type == 10) return "a contact that ties nodes when they touch was asked for";
   if (type == 11) return "edges only";
   if (kind == DynaKind::surface_to_surface)
     return type == 19 ? "both ways as in LS-DYNA, and edge to edge in addition"

@@ -121,7 +121,7 @@ const DynaSet* DynaSets::find(DynaSetKind kind, std::int64_t id) {
   for (const std::int64_t other : set.sets) {
     const DynaSet* added = find(kind, other);
     if (added == nullptr)
-      set.unread = "set " + std::to_string(other) + ", which it adds, is missing or adds this one";
+      set.unread = "set " + std::to_string(other) + ", which it adds, is missing or adds this set";
     else
       append(set, *added);
   }

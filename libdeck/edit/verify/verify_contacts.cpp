@@ -83,7 +83,7 @@ class ContactComparison {
                          a.size());
     for (std::size_t i = 0; i < a.size(); ++i)
       if (c_.old_node(b[i]) != a[i])
-        return fmt::format("the {} side of {}: {} stands where another was", which, name_,
+        return fmt::format("the {} side of {}: {} is in the place of another one", which, name_,
                            c_.node_name(b[i]));
     return {};
   }
@@ -173,7 +173,7 @@ class ContactComparison {
       if (b == now.end() || (a != was.end() && pair_of(*a) < pair_of(*b))) {
         const PenetrationRow& row = **a++;
         if (row.depth * length_ > slack(row.gap * length_))
-          return fmt::format("{}: a pair that penetrated by {:.9g} does not any more", name_,
+          return fmt::format("{}: a pair that penetrated by {:.9g} no longer penetrates", name_,
                              row.depth);
       } else if (a == was.end() || pair_of(*b) < pair_of(*a)) {
         const PenetrationRow& row = **b++;

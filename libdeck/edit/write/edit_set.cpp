@@ -213,7 +213,7 @@ Error EditSet::conflict(const File& file, const Use& a, const Use& b,
     units =
         " (" + of_a.name + " is in " + of_a.units + ", " + of_b.name + " in " + of_b.units + ")";
   return refuse(where + ":" + std::to_string(d.line) +
-                ": the decks want different texts for this file: " + wants(a, d.a) + ", " +
+                ": the decks need different texts for this file: " + wants(a, d.a) + ", " +
                 wants(b, d.b) + units +
                 "; nothing was written. Give each of the decks a file of its own, or convert them "
                 "one at a time into different directories");
@@ -236,8 +236,8 @@ Result<std::vector<std::pair<const EditSet::File*, std::size_t>>> EditSet::chang
     if (!file.outsider.empty())
       return refuse(first.path + " would change for " + decks_[first.deck].name + ", and " +
                     file.outsider +
-                    " includes it as well; nothing was written. --with-dependents changes all "
-                    "decks that include it, --split-includes gives the deck a copy of its own");
+                    " includes it too; nothing was written. --with-dependents changes all decks "
+                    "that include it, --split-includes gives the deck its own copy");
     out.emplace_back(&file, first.text);
   }
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) {

@@ -100,7 +100,7 @@ Result<void> EditSet::split_includes() {
       if (file.uses.empty()) continue;
       const bool kept = !file.outsider.empty();
       if (!(kept && file.uses.front().text != 0) && odd_use(file) == nullptr) continue;
-      // The file keeps the text that somebody outside needs, or a deck that changes nothing.
+      // The file keeps the text that a deck outside of the set, or one without changes, needs.
       std::size_t stays = kept ? 0 : file.uses.front().text;
       for (const Use& use : file.uses)
         if (use.text == 0) stays = 0;

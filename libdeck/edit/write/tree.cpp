@@ -82,7 +82,7 @@ Result<Layout> lay_out(const Deck& deck, const std::optional<fs::path>& folder) 
     if (climbs(target) > 0)
       return Error{Error::Code::config, deck.sources[f].path() +
                                             " lies above the directory whose tree is written; " +
-                                            "name a directory that holds it as well"};
+                                            "name a directory that also contains it"};
     const auto [it, is_new] = layout.files.emplace(target, f);
     if (!is_new && deck.sources[it->second].bytes() != deck.sources[f].bytes())
       return Error{Error::Code::config,

@@ -72,7 +72,7 @@ bool has_bytes(int fd, std::string_view bytes) {
 
 Error changed_since(const std::string& path) {
   return {Error::Code::config, path +
-                                   " was changed by somebody else since it was read; nothing was "
+                                   " was changed by another program after it was read; nothing was "
                                    "written. Run the command again"};
 }
 
@@ -117,7 +117,7 @@ class DirectoryLocks {
     for (const int fd : held_) close(fd);
   }
 
-  /// Always in the same order, so that nobody waits for the other for ever.
+  /// Always in the same order, so that two programs cannot wait for each other for ever.
   Result<void> take(const std::set<std::string>& directories) {
     std::map<std::pair<dev_t, ino_t>, int> by_identity;
     for (const std::string& d : directories) {
@@ -129,10 +129,10 @@ class DirectoryLocks {
     }
     for (const auto& [identity, fd] : by_identity)
       if (!wait_for(fd))
-        return Error{Error::Code::config,
-                     "somebody else is writing to " + *directories.begin() +
-                         " (or another directory of these decks) and does not come to an end; "
-                         "nothing was written"};
+        return Error{
+            Error::Code::config,
+            "another program is writing to " + *directories.begin() +
+                " (or another directory of these decks) and does not finish; nothing was written"};
     return {};
   }
 
@@ -170,7 +170,7 @@ class Transaction {
     for (const std::string& p : plans_) unlink(p.c_str());
     if (plan_ >= 0) close(plan_);
     if (committed_) return;
-    // Of the directories made, deepest first; one that somebody uses by now stays.
+    // Of the directories made, deepest first; one that is used in the meantime stays.
     for (auto d = made_.rbegin(); d != made_.rend(); ++d) rmdir(d->c_str());
   }
 
@@ -399,7 +399,7 @@ Result<void> Transaction::lay_plan() {
   temporaries_.push_back(*name);
   if (auto written = write_all(plan_, text, first); !written) return written;
   if (options_.sync && !flush(plan_)) return io_error("cannot flush", *name, errno);
-  // Without locks nobody could tell a plan that was left from one that is being carried out.
+  // Without locks an abandoned plan could not be told from one that is being carried out.
   if (!lock_file(plan_)) return {};
   for (const Step& s : steps) {
     const auto second =

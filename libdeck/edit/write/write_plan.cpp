@@ -139,7 +139,7 @@ std::optional<struct stat> look(const std::string& path) {
 
 enum class StepState { pending, placed, overtaken };
 
-/// Overtaken: somebody changed the file since, and what the plan says is no longer wanted.
+/// Outdated: another program changed the file since, so the plan must not be carried out.
 StepState state_of(const Step& s) {
   const auto target = look(s.target), temporary = look(s.temporary);
   if (target && target->st_ino == s.fresh) return StepState::placed;
@@ -157,12 +157,12 @@ std::string distrust(const Step& s, const std::set<std::string>& tree) {
   const fs::path temporary(s.temporary), target(s.target);
   const std::string place = canonical_place(s.target);
   if (!target.is_absolute() || place.empty() || !tree.contains(place))
-    return "it would write " + s.target + ", which is no file of the decks given";
+    return "it would write " + s.target + ", which is not a file of the given decks";
   if (canonical_place(s.temporary) !=
       (fs::path(place).parent_path() / temporary.filename()).string())
     return "it would move " + s.temporary + " to another directory";
   if (!is_temporary_of(temporary.filename().string(), target.filename().string()))
-    return s.temporary + " is not a name that such files have";
+    return s.temporary + " is not a valid name for such a file";
   const auto there = look(s.temporary);
   if (there && !is_file_of_user(*there)) return s.temporary + " is not a file of yours";
   return {};
@@ -192,7 +192,7 @@ Result<std::vector<Step>> read_plan(int fd, const struct stat& status,
                                     const std::set<std::string>& tree) {
   const auto refuse = [](std::string why) { return Error{Error::Code::config, std::move(why)}; };
   if (!is_file_of_user(status)) return refuse("it is not a file of yours");
-  if ((status.st_mode & 07777) != plan_mode) return refuse("its mode is not that of such notes");
+  if ((status.st_mode & 07777) != plan_mode) return refuse("its mode is not that of such a note");
   if (status.st_size > longest_plan) return refuse("it is too long");
   std::string text(static_cast<std::size_t>(status.st_size), '\0');
   std::size_t have = 0;

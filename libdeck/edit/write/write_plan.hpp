@@ -44,7 +44,7 @@ std::optional<std::string> take_temporary(const std::string& path, Make make) {
   return std::nullopt;
 }
 
-/// A lock on the whole file; false if somebody else has it or there are no locks.
+/// A lock on the whole file; false if another program has it or there are no locks.
 bool lock_file(int fd);
 
 /// Where a path leads if its last part is a symbolic link (or several); the target need not exist.

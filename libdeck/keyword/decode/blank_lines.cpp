@@ -40,15 +40,14 @@ class BlankLines {
     for (const auto& [before, n] : meant.left_out) lines += n;
     Diagnostic* d = findings.keep(
         RuleId::DK511, block_.header_span,
-        fmt::format("{} lacks {} without content, so its values are lost: {}",
+        fmt::format("{} lacks {} that must be blank, so its values are lost: {}",
                     block_.schema->keyword, lines == 1 ? "a line" : fmt::format("{} lines", lines),
                     lost(meant.block)));
     const bool one_way = std::all_of(all.begin(), all.end(), [&](const Reading& other) {
       return values_of(other.block) == values_of(meant.block);
     });
     std::vector<TextEdit> edits = insertions(meant);
-    if (one_way && !edits.empty())
-      d->fix = Fix{"insert the lines without content", true, std::move(edits)};
+    if (one_way && !edits.empty()) d->fix = Fix{"insert the blank lines", true, std::move(edits)};
     return true;
   }
 

@@ -193,7 +193,7 @@ class BlockDecoder {
       if (const Cell* cause = out_.find(c.field))
         d->notes.emplace_back(cause->span, c.field + " asks for the line");
     if (round != nullptr)
-      d->notes.emplace_back(round->line.whole(), "what is cut short begins here");
+      d->notes.emplace_back(round->line.whole(), "the incomplete part begins here");
   }
 
   /// True if a round has a line with text: blank lines at the end of a block begin none.
@@ -240,7 +240,7 @@ class BlockDecoder {
     const auto more = out_.extra.end() - first - std::count_if(first, out_.extra.end(), blank) - 1;
     findings_.keep(
         RuleId::DK030, first->whole(),
-        std::string(block_.keyword) + " is complete; this line is one too many" +
+        std::string(block_.keyword) + " is complete; this line is extra" +
             (more > 0 ? ", and " + std::to_string(more) + " more follow" : ""),
         {.fix =
              "check the flags that ask for optional lines, then delete the line or set the flag"});

@@ -89,7 +89,7 @@ void report_number(Findings& findings, const Cell& cell) {
       keep((is_hexadecimal(cell) ? ", a hexadecimal number; it is read as "
                                  : ": text follows the number; it is read as ") +
                (real ? shown(cell.real) : std::to_string(cell.integer)),
-           {.solver = "It reads the same, silently."});
+           {.solver = "It reads the same value, silently."});
       break;
     case LineRule::range:
       keep(": the number is out of range", {.message = real ? 100104 : 100103});
@@ -98,11 +98,11 @@ void report_number(Findings& findings, const Cell& cell) {
       if (cell.status == NumberStatus::underflow)
         keep(": the number is too small and becomes 0", {.solver = "it reads 0"});
       else
-        keep(": the number is subnormal and slows every operation on it",
+        keep(": the number is subnormal, and every operation on it is slow",
              {.solver = "it computes with it"});
       break;
     case LineRule::not_finite:
-      keep(": infinity and not-a-number are no input",
+      keep(": infinity and not-a-number are not valid input",
            {.solver = "it accepts the text and computes with it", .fix = "write a finite number"});
       break;
     case LineRule::letterless:
@@ -185,9 +185,9 @@ void check_blank(Findings& findings, const Line& line) {
   const std::string_view text = trim(line.text);
   if (text.find_first_not_of("0.+-, ") == std::string_view::npos) return;
   findings.report(RuleId::DK028, line.whole(),
-                  "text " + quoted(text) + " stands on a line without content",
-                  {.solver = "It reads nothing on this line, but the line counts.",
-                   .fix = "Move the value to its line. Leave the line itself: it counts."});
+                  "text " + quoted(text) + " is on a line that must be blank",
+                  {.solver = "It does not read the text of this line, but counts the line.",
+                   .fix = "Move the value to its line. Keep this line, but blank."});
 }
 
 /// Text outside every cell of this version: between cells, and after the last one.
@@ -202,13 +202,13 @@ void check_gaps(Findings& findings, const CardSchema& card, int version, const L
         "text " + quoted(line.text.substr(static_cast<std::size_t>(first - 1),
                                           static_cast<std::size_t>(last - first + 1)));
     if (after)
-      findings.keep(detail::id_of(rule), line.columns(first, last),
-                    text + " stands after the last cell of this line (column " +
-                        std::to_string(map.last) + ")");
+      findings.keep(
+          detail::id_of(rule), line.columns(first, last),
+          text + " is after the last cell of this line (column " + std::to_string(map.last) + ")");
     else
       findings.keep(
           detail::id_of(rule), line.columns(first, last),
-          text + " stands in columns that version " + std::to_string(version) + " leaves blank",
+          text + " is in columns that version " + std::to_string(version) + " leaves blank",
           {.severity = zero ? Severity::info : Severity::warning,
            .solver = "It ignores the text.",
            .fix = "delete it, or check whether the card was written for another input version"});
@@ -384,7 +384,8 @@ void read_free(const Deck& deck, const Block& block, Findings& findings, const L
     out.cells.push_back(read_cell(deck, findings, f, text, span));
   };
   // Columns that stay blank between two cells of this version are a cell of the format, too: its
-  // text is dropped. Where the schema tells some cells only, nobody knows what lies between them.
+  // text is dropped. If the schema describes only some cells, the columns between them are not
+  // known.
   const bool gaps = !list && (block.schema == nullptr || block.schema->layout_known());
   std::vector<const Field*> fields;
   for (const Field& f : card.fields)

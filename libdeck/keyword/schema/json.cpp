@@ -386,7 +386,7 @@ Field field_of(const Json& json, const Path& path) {
 void read_count(const Json& json, const Path& path, CardSchema& card) {
   if (const auto it = json.find("count"); it != json.end()) {
     if (card.repeat == Repeat::once || card.words)
-      fail(at(path, "count"), "only what repeats is counted");
+      fail(at(path, "count"), "only repeated cards can have a count");
     card.count = it->is_number_integer() ? std::to_string(integer_of(*it, at(path, "count")))
                                          : text_of(*it, at(path, "count"));
   }
@@ -429,7 +429,8 @@ CardSchema card_of(const Json& json, const Path& path) {
   const auto here = at(path, "fields");
   for (const auto& item : expect_array(json["fields"], here))
     card.fields.push_back(field_of(item, at(here, card.fields.size())));
-  if (card.fields.empty()) fail(here, "the list is empty; a line that holds nothing is \"blank\"");
+  if (card.fields.empty())
+    fail(here, "the list is empty; for a line without fields write \"blank\"");
   return card;
 }
 
@@ -486,7 +487,7 @@ Schema schema_of(const Json& json, const Path& path, std::string_view source) {
   read(json, path, "opaque_tail", schema.opaque_tail);
   read(json, path, "full_layout", schema.full_layout);
   if (schema.full_layout && !schema.opaque_tail)
-    fail(at(path, "full_layout"), "a schema without opaque_tail describes everything anyway");
+    fail(at(path, "full_layout"), "without opaque_tail a schema already describes everything");
   if (json.contains("from")) schema.from = version_of(json["from"], at(path, "from"));
   std::string older = "oldest layout";
   read(json, path, "older", older);

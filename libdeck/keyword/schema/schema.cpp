@@ -144,9 +144,8 @@ Result<void> SchemaSet::add_json(std::string_view name, std::string_view text) {
       // Without cards nothing of the keyword is read, so nothing of it is checked either.
       if (!it->second->get().cards.empty() && !described.contains(added->keyword))
         return Error{Error::Code::config,
-                     fmt::format("{}: {} replaces a schema with cards ({}) and has none itself; "
-                                 "describe its lines, or write \"cards\": [] if nothing of it is "
-                                 "to be read",
+                     fmt::format("{}: {} replaces a schema with cards ({}) but has none; describe "
+                                 "its lines, or write \"cards\": [] if its lines need not be read",
                                  name, added->keyword, it->second->source)};
       std::erase_if(table, [old = it->second](const auto& entry) { return entry.second == old; });
     }

@@ -79,7 +79,7 @@ void check_edge_removal(const LintContext& c, const Rule& rule, Reporter& r) {
     if (card.flag("Irem_gap") != 2) return;
     if (card.type == 7 && card.flag("Igap") != 3) return;
     const char* const where = card.type == 7    ? " with Igap = 3"
-                              : card.type == 19 ? ", which its edge contact gets as well"
+                              : card.type == 19 ? ", which its edge contact gets too"
                                                 : "";
     note_field(report_at(r, rule, card, "Irem_gap", name_of(card) + " has Irem_gap = 2" + where),
                card, "Igap");

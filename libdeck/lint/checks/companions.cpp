@@ -183,8 +183,8 @@ void check_edge_companion(const LintContext& c, const Rule& rule, Reporter& r) {
   });
   if (first == nullptr) return;
   report_at(r, rule, *first, "surf_IDm",
-            fmt::format("the main surface of {} has {} free edge{}{}, and no interface of the deck "
-                        "sees edges (TYPE11, TYPE19)",
+            fmt::format("the main surface of {} has {} free edge{}{}, but the deck has no "
+                        "interface for edges (TYPE11, TYPE19)",
                         name_of(*first), free, free == 1 ? "" : "s",
                         interfaces == 1 ? ""
                                         : fmt::format(" (as have those of {} more interfaces)",

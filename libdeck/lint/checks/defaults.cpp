@@ -143,7 +143,7 @@ void check_all_zero(const LintContext& c, const Rule& rule, Reporter& r) {
     for (const Line& line : block.extra) look_at(line);
     if (!any)
       r.report(rule, *block.block, block.span(),
-               block.block->schema->keyword + " changes nothing: every field is 0");
+               block.block->schema->keyword + " has no effect: every field is 0");
   }
 }
 

@@ -1,5 +1,4 @@
-// What the solver does with options of a contact otherwise than manuals say, without a word in its
-// listing. One check per rule.
+// Options of a contact for which the solver silently differs from its manuals. One check per rule.
 #include "lint/check.hpp"
 #include "lint/check_tables.hpp"
 
@@ -22,8 +21,8 @@ void check_sensor_times(const LintContext& c, const Rule& rule, Reporter& r) {
     for (const std::string_view field : {"Tstart", "Tstop"})
       if (card.given(field))
         note_field(report_at(r, rule, card, field,
-                             fmt::format("{}: {} holds beside the sensor: contact acts only while "
-                                         "both allow it",
+                             fmt::format("{}: {} applies in addition to the sensor: contact acts "
+                                         "only while both allow it",
                                          name_of(card), card.show(field))),
                    card, "sens_ID");
   });
@@ -65,7 +64,7 @@ void check_main_share(const LintContext& c, const Rule& rule, Reporter& r) {
       const bool secondary = field == "Fheats";
       if (!card.given(field) || (secondary && !card.given("fct_IDK"))) continue;
       note_field(report_at(r, rule, card, field,
-                           fmt::format("{}: {} reaches nobody with Ithe_form 0{}", name_of(card),
+                           fmt::format("{}: {} is lost with Ithe_form 0{}", name_of(card),
                                        card.show(field), secondary ? " and fct_IDK" : "")),
                  card, "Ithe_form");
     }
@@ -86,10 +85,11 @@ void check_function_form1(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (!card.given("fct_IDF") || card.given("fric_ID")) return;
     if (card.input("Ithe") != 1 || card.input("Ithe_form") != 1) return;
-    note_field(report_at(r, rule, card, "fct_IDF",
-                         name_of(card) + ": with Ithe_form 1 the temperature that fct_IDF is read "
-                                         "at is not that of the pair"),
-               card, "Ithe_form");
+    note_field(
+        report_at(r, rule, card, "fct_IDF",
+                  name_of(card) +
+                      ": with Ithe_form 1 fct_IDF is evaluated at the temperature of another pair"),
+        card, "Ithe_form");
   });
 }
 
@@ -177,10 +177,10 @@ void check_half_bounds(const LintContext& c, const Rule& rule, Reporter& r) {
   note_field(
       report_at(
           r, rule, *first, field,
-          fmt::format("{}: {} bounds the stored stiffness; the bound of the one that acts is "
-                      "{}{}",
+          fmt::format("{}: {} bounds the stored stiffness; half of it acts, so the acting "
+                      "stiffness is bounded by {}{}",
                       name_of(*first), first->show(field), number_text(0.5 * first->value(field)),
-                      others == 0 ? "" : fmt::format(" ({} more interfaces alike)", others))),
+                      others == 0 ? "" : fmt::format(" (and {} more interfaces)", others))),
       *first, "Istf");
 }
 
@@ -197,7 +197,7 @@ void check_edge_limits(const LintContext& c, const Rule& rule, Reporter& r) {
       if (card.type == 19 && card.given(field) &&
           !(field == "fric_ID" && plain_friction(c, card))) {
         report_at(r, rule, card, field,
-                  fmt::format("{}: {} does not reach its edge contact, which knows Fric = {} only",
+                  fmt::format("{}: {} has no effect in its edge contact, which uses only Fric = {}",
                               name_of(card), card.show(field), number_text(card.value("Fric"))));
         break;
       }
@@ -227,7 +227,7 @@ void check_tie_trigger(const LintContext& c, const Rule& rule, Reporter& r) {
     if (!card.given("ITIED") || card.input("dtmin") > 0) return;
     note_field(report_at(r, rule, card, "ITIED",
                          name_of(card) + ": " + card.show("ITIED") +
-                             " never ties anything, because dtmin is " +
+                             " never ties a node, because dtmin is " +
                              (card.given("dtmin") ? "not above 0" : "blank")),
                card, "dtmin");
   });

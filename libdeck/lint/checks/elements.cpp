@@ -194,7 +194,7 @@ void check_curves(const LintContext& c, const Rule& rule, Reporter& r) {
       if (x.blank() && card.cells[1].blank()) continue;
       if (last != nullptr && !(x.real > last->real)) {
         r.report(rule, block, x.span.valid() ? x.span : block.header_span,
-                 fmt::format("abscissa of {} {} is {}, and the one before it is {}",
+                 fmt::format("abscissa {2} of {0} {1} is not above the previous one, {3}",
                              block.schema->keyword, block.id.value, number_text(x.real),
                              number_text(last->real)));
         break;

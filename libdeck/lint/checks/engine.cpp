@@ -70,7 +70,7 @@ void check_run_name(const LintContext& c, const Rule& rule, Reporter& r) {
     const EngineBlock* run = run_of(file);
     if (run == nullptr || run->part(1) == c.engine->run) return;
     r.report(rule, run->header,
-             fmt::format("{} is not a run of this deck, whose name is {}", clipped(run->keyword),
+             fmt::format("{} is not a run of this deck, which is named {}", clipped(run->keyword),
                          clipped(c.engine->run)));
   });
 }
@@ -247,7 +247,7 @@ void check_late_interfaces(const LintContext& c, const Rule& rule, Reporter& r) 
   Span place;
   for (const EngineFile& file : c.engine->files) {
     const std::optional<double> end = final_time(c, file);
-    if (!end) return;  // nobody knows when it ends
+    if (!end) return;  // the end of the run is not known
     if (!last || *end > *last) {
       last = end;
       place = run_of(file)->lines[0];

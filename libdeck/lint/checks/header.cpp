@@ -1,4 +1,4 @@
-// Rules about headers: keywords that nobody reads, types that the solver refuses, versions.
+// Rules about headers: keywords that are not read, types that the solver refuses, versions.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -82,7 +82,7 @@ void check_engine(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& b : c.deck.blocks)
     if (b.schema != nullptr && b.schema->kind == "engine")
       r.report(rule, b, b.header_span,
-               std::string(b.keyword) + " belongs into the Engine file (*_0001.rad)");
+               std::string(b.keyword) + " belongs in the Engine file (*_0001.rad)");
 }
 
 void check_obsolete(const LintContext& c, const Rule& rule, Reporter& r) {
@@ -126,18 +126,18 @@ void check_newer_keyword(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& b : c.deck.blocks)
     if (b.schema != nullptr && b.schema->from > b.version && reads_lines(*b.schema, b.version))
       r.report(rule, b, b.header_span,
-               fmt::format("{} came with version {}, and its lines are read as in that version; "
-                           "this deck is of version {}",
+               fmt::format("{} exists from version {} on, and its lines are read as in that "
+                           "version; this deck is of version {}",
                            b.schema->keyword, b.schema->from, b.version));
 }
 
 void check_unread_keyword(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const Block& b : c.deck.blocks)
     if (b.schema != nullptr && !reads_lines(*b.schema, b.version))
-      r.report(rule, b, b.header_span,
-               fmt::format("{} {}: decks before version {} get none of its lines; this deck is of "
-                           "version {}",
-                           b.schema->keyword, b.id.value, b.schema->from, b.version));
+      r.report(
+          rule, b, b.header_span,
+          fmt::format("{} {}: its lines are read from version {} on; this deck is of version {}",
+                      b.schema->keyword, b.id.value, b.schema->from, b.version));
 }
 
 /// A triple of /GEN_INCR without its third number.
@@ -214,7 +214,7 @@ void check_missing_id(const LintContext& c, const Rule& rule, Reporter& r) {
       r.report(rule, b,
                Span{b.header_span.file, static_cast<std::uint32_t>(text.size()),
                     b.header_span.offset + static_cast<std::size_t>(text.data() - b.header.data())},
-               fmt::format("'{}' in the header of {} is no id", clipped(text), keyword));
+               fmt::format("'{}' in the header of {} is not an id", clipped(text), keyword));
   }
 }
 
@@ -236,8 +236,8 @@ void check_next_version_field(const LintContext& c, const Rule& rule, Reporter& 
         const bool later = f.from > card.block->version;
         Diagnostic* d = r.report(
             rule, *card.block, span,
-            fmt::format("'{}' stands where version {} has {}; version {} has no field there", text,
-                        later ? f.from : f.until, f.name, card.block->version));
+            fmt::format("'{}' is in columns where version {} has {}; version {} has no field there",
+                        text, later ? f.from : f.until, f.name, card.block->version));
         const bool between = std::any_of(
             line.schema->fields.begin(), line.schema->fields.end(),
             [&](const Field& g) { return g.in_version(card.block->version) && g.first > f.last; });
@@ -250,7 +250,7 @@ void check_old_layout(const LintContext& c, const Rule& rule, Reporter& r) {
   if (c.deck.begin.version_known && c.deck.version < 90)
     r.report(rule, c.deck.begin.version_span,
              "input version " + std::to_string(c.deck.version) +
-                 " has other columns and hardly any checks");
+                 " has other columns, and deck checks little of it");
 }
 
 }  // namespace

@@ -94,19 +94,18 @@ void check_coefficients(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (card.given("fric_ID")) return;
     if (card.input("Ifric") == 3)
-      ignored(c, rule, r, card, {"Fric"}, "Ifric",
-              "the law Ifric 3 (Renard) is given by C1 to C6 alone", false);
+      ignored(c, rule, r, card, {"Fric"}, "Ifric", "the law Ifric 3 (Renard) uses C1 to C6 only",
+              false);
     if (card.input("Ifric") == 4)
       ignored(c, rule, r, card, {"C3", "C4", "C5", "C6"}, "Ifric",
-              "the law Ifric 4 has C1 and C2 only", false);
+              "the law Ifric 4 uses C1 and C2 only", false);
   });
 }
 
 void check_never_read(const LintContext& c, const Rule& rule, Reporter& r) {
   for (const ContactCard& card : c.contacts) {
     if (rule.id == RuleId::DK275)
-      ignored(c, rule, r, card, {"Multimp"}, "", "the size of the impact list is found by itself",
-              true);
+      ignored(c, rule, r, card, {"Multimp"}, "", "the solver sizes its impact list itself", true);
     else if (card.type == 19)
       ignored(c, rule, r, card, {"Iedge"}, "", "the solver never reads this cell", true);
   }
@@ -116,7 +115,7 @@ void check_function_scale(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (card.input("AscaleF") != 1)
       ignored(c, rule, r, card, {"AscaleF"}, "fct_IDF",
-              card.given("fct_IDF") ? "the solver reads fct_IDF at the plain temperature"
+              card.given("fct_IDF") ? "the solver evaluates fct_IDF at the unscaled temperature"
                                     : "there is no fct_IDF",
               false);
     if (!card.given("fct_IDK") && card.input("AscaleK") != 1)
@@ -135,7 +134,7 @@ void check_tint(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_drad(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (!card.given("Frad"))
-      ignored(c, rule, r, card, {"Drad"}, "Frad", "Frad is 0, nothing radiates", false);
+      ignored(c, rule, r, card, {"Drad"}, "Frad", "Frad is 0, so nothing radiates", false);
   });
 }
 

@@ -156,8 +156,7 @@ void check_extra(const LintContext& c, const Rule& rule, Reporter& r) {
                   o.flag + " = " + std::to_string(o.wants);
     if (causes.empty()) continue;
     r.report(rule, *card.block, card.decoded.extra.front().whole(),
-             fmt::format("{} has {} line{} too many; optional lines that its flags do not ask for: "
-                         "{}",
+             fmt::format("{} has {} extra line{}; optional lines that its flags do not ask for: {}",
                          name_of(card), extra, extra > 1 ? "s" : "", causes));
   }
 }
@@ -184,11 +183,11 @@ void check_shift(const LintContext& c, const Rule& rule, Reporter& r) {
                                                    : card.decoded.extra.front();
     const bool below = looks_like_flags(next) == Look::yes;
     if (!above && !below && looks_like_flags(flags->card->line) == Look::maybe) return;
-    std::string message = fmt::format("the line read as '{}' of {} does not look like it: ",
+    std::string message = fmt::format("the line read as '{}' of {} does not look like that line: ",
                                       flags->card->schema->name, name_of(card));
-    message += above   ? "the one above does, so a line is missing further up"
-               : below ? "the one below does, so there is a line too many further up"
-                       : "data stands in columns 1-7 or 11-30";
+    message += above   ? "the line above does, so a line is missing before it"
+               : below ? "the line below does, so there is an extra line before it"
+                       : "there are data in columns 1-7 or 11-30";
     Diagnostic* d = r.report(rule, *card.block, flags->card->line.whole(), std::move(message));
     for (const Optional& o : optional_cards(card))
       if (o.present && above) note_field(d, card, o.flag);

@@ -68,11 +68,10 @@ void check_global_integration(const LintContext& c, const Rule& rule, Reporter& 
   each_shell_pair(c, [&](const Property& p, const Material& mat, const DecodedBlock& d) {
     const bool has_it = mat.law <= 1 || mat.law == 91 || mat.law == 136;
     if (has_it || d.integer("N") != 0 || !seen.emplace(&p, mat.law).second) return;
-    Diagnostic* found =
-        r.report(rule, *p.block, place_of(d, "N"),
-                 fmt::format("{} {} has N = 0, which law {} of material {} does not have; three "
-                             "integration points are used",
-                             p.type, p.id, mat.law, mat.id));
+    Diagnostic* found = r.report(rule, *p.block, place_of(d, "N"),
+                                 fmt::format("{} {} has N = 0, which law {} of material {} does "
+                                             "not support; three integration points are used",
+                                             p.type, p.id, mat.law, mat.id));
     if (found != nullptr) found->notes.emplace_back(mat.span, "the material");
   });
 }
@@ -179,7 +178,7 @@ void check_reference_file(const LintContext& c, const Rule& rule, Reporter& r) {
     std::error_code ec;
     if (std::filesystem::exists(file.starts_with('/') ? file : folder + "/" + file, ec)) return;
     r.report(rule, b, name->span,
-             fmt::format("the reference state file '{}' is not there", clipped(file)));
+             fmt::format("the reference state file '{}' does not exist", clipped(file)));
   });
 }
 

@@ -26,7 +26,8 @@ void check_type19_idel(const LintContext& c, const Rule& rule, Reporter& r) {
 void check_type19_igap(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Igap") == 4)
-      report_at(r, rule, card, "Igap", name_of(card) + " has Igap = 4, which no manual describes");
+      report_at(r, rule, card, "Igap",
+                name_of(card) + " has Igap = 4, which manuals do not describe");
   });
 }
 
@@ -34,7 +35,7 @@ void check_type19_edges(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Igap") == 2)
       report_at(r, rule, card, "Igap",
-                name_of(card) + ": the gap scale of Igap = 2 does not reach its edge contact");
+                name_of(card) + ": its edge contact does not use the gap scale of Igap = 2");
   });
 }
 
@@ -50,14 +51,14 @@ void check_inacti(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Inacti") == 4)
       report_at(r, rule, card, "Inacti",
-                name_of(card) + ": " + card.show("Inacti") + " is described in no manual");
+                name_of(card) + ": " + card.show("Inacti") + " is not described in manuals");
   });
 }
 
 void check_ifric(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (card.input("Ifric") == 4)
-      report_at(r, rule, card, "Ifric", name_of(card) + ": Ifric = 4 is described in no manual");
+      report_at(r, rule, card, "Ifric", name_of(card) + ": Ifric = 4 is not described in manuals");
   });
 }
 
@@ -105,8 +106,8 @@ void check_edge_istf(const LintContext& c, const Rule& rule, Reporter& r) {
   each(c, rule, [&](const ContactCard& card) {
     if (card.flag("Istf") != 1 || !card.given("Stfac")) return;
     note_field(report_at(r, rule, card, "Stfac",
-                         fmt::format("{}: Stfac = {} is the stiffness of each line{}, that of a "
-                                     "pair of lines is {}, and half of it acts",
+                         fmt::format("{}: Stfac = {} is the stiffness of each line{}; a pair of "
+                                     "lines has {}, and half of it acts",
                                      name_of(card), number_text(card.input("Stfac")),
                                      card.type == 19 ? " of its edge contact" : "",
                                      number_text(card.input("Stfac") / 2))),

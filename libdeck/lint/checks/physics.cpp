@@ -19,7 +19,7 @@ bool needs_density(int law) {
   return law > 0 && std::find(without.begin(), without.end(), law) == without.end();
 }
 
-/// Laws that compute with this modulus, of which nobody has seen the solver stop without it. Where
+/// Laws that compute with this modulus; no recorded run stops without it. Where
 /// it does, the schema has a limit.
 bool computes_with(int law, std::string_view field) {
   static constexpr std::array isotropic = {22, 23, 27, 32, 43, 44, 48, 52, 57, 60, 63,

@@ -152,7 +152,7 @@ void negative_reference(Reporter& r, const Rule& rule, const ContactCard& card,
   if (f.field->ref != "funct" && f.field->ref != "friction") return;
   d->severity = Severity::warning;
   d->reference.reset();
-  d->reference_behaviour = "It continues silently, as if no id were given.";
+  d->reference_behaviour = "It continues silently, as if the cell were blank.";
 }
 
 void check_negative(const LintContext& c, const Rule& rule, Reporter& r) {

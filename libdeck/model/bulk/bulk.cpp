@@ -347,11 +347,11 @@ struct ElementSink : ChunkRows<ElementRows> {
 /// The reference solver converts an own thickness only in the first shell after a change of units.
 void report_thickness(const Block& block, Diagnostics& diagnostics) {
   if (!diagnostics.wants(RuleId::DK039)) return;
-  Diagnostic d = finding_of(
-      RuleId::DK039, block.header_span,
-      std::string(block.header) +
-          ": own thicknesses are converted to working units, which the reference solver does "
-          "only for the first element after a change of the unit system");
+  Diagnostic d =
+      finding_of(RuleId::DK039, block.header_span,
+                 std::string(block.header) +
+                     ": deck converts the thicknesses of elements to working units; the reference "
+                     "solver does so only for the first element after a change of the unit system");
   d.keyword = std::string(block.keyword);
   d.id = block.id.value;
   diagnostics.add(std::move(d));

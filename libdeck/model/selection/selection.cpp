@@ -223,7 +223,7 @@ bool Selections::Impl::recursive(std::string_view kind, std::int64_t id, const B
               " contains itself, directly or through others",
           std::string(from.keyword),
           from.id.value,
-          {.message = number, .fix = "break the circle of references"}});
+          {.message = number, .fix = "remove one of these references"}});
   return true;
 }
 
@@ -239,7 +239,7 @@ bool Selections::Impl::fits(std::size_t count, std::size_t size, const Block& bl
                 (sensible ? ": the members of all groups, surfaces, lines and sets together would "
                             "take more than " +
                                 std::to_string(limits.selection_bytes >> 20) + " MB"
-                          : " lists the members of the model over and over: more than " +
+                          : " lists the same members many times: more than " +
                                 std::to_string(most_members)) +
                 "; from here on members are left out, and so are contacts that use them",
             std::string(block.keyword), block.id.value});

@@ -75,7 +75,7 @@ void Selections::Impl::report_unread(const Block& block, const Indices& parts) {
   report({RuleId::DK164, block.header_span,
           std::string(block.keyword) + " " + std::to_string(block.id.value) + ": part " +
               std::to_string(model->parts[*hit].id) +
-              " has particles (/SPHCEL) or strands (/XELEM), which are not evaluated here",
+              " has particles (/SPHCEL) or strands (/XELEM), which deck does not evaluate",
           std::string(block.keyword), block.id.value});
 }
 

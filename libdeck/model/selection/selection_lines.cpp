@@ -129,7 +129,7 @@ std::vector<Edge> Selections::Impl::resolve_line(const Definition& def, const De
   }
   report({RuleId::DK165,
           block.header_span,
-          std::string(block.header) + " is no combination that defines a line",
+          std::string(block.header) + " is not a combination that defines a line",
           std::string(block.keyword),
           block.id.value,
           {.message = 688}});

@@ -73,7 +73,7 @@ std::vector<Segment> Selections::Impl::resolve_surface(const Definition& def, co
   analytical = type == "PLANE" || type == "ELLIPS" || type == "MDELLIPS";
   if (!analytical)
     report({RuleId::DK165, block.header_span,
-            std::string(block.header) + " is no combination that defines a surface",
+            std::string(block.header) + " is not a combination that defines a surface",
             std::string(block.keyword), block.id.value});
   return {};
 }
@@ -198,10 +198,8 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
         {RuleId::DK155,
          block.header_span,
          std::string(block.keyword) + " " + std::to_string(block.id.value) + " selects " +
-             std::to_string(members.size()) +
-             " solids but does not say which faces; first is "
-             "solid " +
-             std::to_string(solids.id[e]) +
+             std::to_string(members.size()) + (members.size() == 1 ? " solid" : " solids") +
+             " but does not say which faces; the first is solid " + std::to_string(solids.id[e]) +
              (p == no_index ? std::string() : " of part " + std::to_string(model->parts[p].id)),
          std::string(block.keyword),
          block.id.value,
@@ -217,8 +215,8 @@ void Selections::Impl::add_solids(const Block& block, std::string_view option, I
   if (quadratic != members.end()) {
     report({RuleId::DK156, block.header_span,
             std::string(block.keyword) + " " + std::to_string(block.id.value) +
-                " selects solids with 20 or 16 nodes, whose faces have mid-side nodes; first is "
-                "solid " +
+                " selects solids with 20 or 16 nodes, whose faces have mid-side nodes; the first "
+                "is solid " +
                 std::to_string(solids.id[*quadratic]),
             std::string(block.keyword), block.id.value});
     std::erase_if(members, [&](std::uint32_t e) {
@@ -261,13 +259,13 @@ void Selections::Impl::report_lost_faces(const Block& block,
        block.header_span,
        std::string(block.keyword) + " " + std::to_string(block.id.value) + " lacks " +
            (lost.size() == 1 ? "1 face" : std::to_string(lost.size()) + " faces") +
-           " of its solids; first is the face of solid " + std::to_string(model->solid8.id[solid]) +
-           " under shell " + std::to_string(shells.id[shell.element]) + " of part " +
-           std::to_string(skin),
+           " of its solids; the first is the face of solid " +
+           std::to_string(model->solid8.id[solid]) + " under shell " +
+           std::to_string(shells.id[shell.element]) + " of part " + std::to_string(skin),
        std::string(block.keyword),
        block.id.value,
        {.fix = "name " + body + " in a /SURF/PART/EXT; with part " + std::to_string(skin) +
-               " beside it the shells take the place of the faces"}});
+               " added, the shells replace the faces"}});
   d.notes.emplace_back(model->element_span(ElementKind::solid8, solid), "the solid");
   d.notes.emplace_back(
       model->element_span(shell.four ? ElementKind::shell4 : ElementKind::shell3, shell.element),

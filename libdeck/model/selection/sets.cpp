@@ -178,7 +178,7 @@ class ClauseReader {
     } else if (kind == "PLANE" || kind == "ELLIPS") {
       // Analytical surfaces have neither nodes nor segments.
     } else if (kind == "RBODY") {
-      unsupported("clauses of rigid bodies are not evaluated here");
+      unsupported("deck does not evaluate clauses of rigid bodies");
     } else {
       all_.report({RuleId::DK160, clause_.span, "'" + std::string(kind) + "' is no clause of a set",
                    std::string(block_.keyword), block_.id.value});
@@ -214,7 +214,7 @@ class ClauseReader {
       } else if (option == 'E') {
         group().external = true;
       } else if (option == 'B' || option == 'C') {
-        unsupported(fmt::format("option {} is not evaluated here", option));
+        unsupported(fmt::format("deck does not evaluate option {}", option));
       }
     }
   }

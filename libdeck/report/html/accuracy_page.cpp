@@ -198,9 +198,9 @@ std::string time_shares(const AccuracyReport& r) {
         k, html_text(s.name), words[std::min<std::size_t>(k, 2)], s.pairs,
         percent(static_cast<double>(s.pairs), pairs), s.ns_per_pair, percent(spent, time));
   }
-  return "<p class=\"note\">Of the robust decision. A pair counts where its decision ends, with "
-         "its time from the "
-         "beginning.</p>\nShare of the pairs<div class=\"share\">" +
+  return "<p class=\"note\">Of the robust decision. Each pair is counted in the stage that decides "
+         "it, with its whole time.</p>\n"
+         "Share of the pairs<div class=\"share\">" +
          bars[0] + "</div>Share of the time<div class=\"share\">" + bars[1] +
          "</div>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
          "aria-label=\"Figures\"><table><thead><tr><th class=\"l\">Ends in</th><th "

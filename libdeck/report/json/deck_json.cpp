@@ -76,8 +76,8 @@ class DeckWriter {
       const auto [it, is_new] = first.emplace(places_[f], f);
       if (is_new) carried.push_back(f);
       if (!is_new && deck_.sources[it->second].bytes() != deck_.sources[f].bytes())
-        return Error{Error::Code::config, "two different files would stand at " + places_[f] +
-                                              ": " + deck_.sources[it->second].path() + " and " +
+        return Error{Error::Code::config, "two different files would be at " + places_[f] + ": " +
+                                              deck_.sources[it->second].path() + " and " +
                                               deck_.sources[f].path()};
     }
     if (in_.interfaces != nullptr)

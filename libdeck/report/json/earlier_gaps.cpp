@@ -96,7 +96,7 @@ Result<EarlierGaps> read_earlier_gaps(std::string path, std::string_view json,
         return wrong(out.path, "a contact has no list \"penetrations\"");
       std::map<std::array<std::int64_t, 2>, std::size_t> deepest;
       for (const Json& p : contact["penetrations"]) {
-        if (!p.is_object()) return wrong(out.path, "a penetration is no object");
+        if (!p.is_object()) return wrong(out.path, "a penetration is not an object");
         if (const auto tie = p.find("tie"); tie != p.end() && *tie == true) continue;
         EarlierGaps::Row row = row_of(p);
         row.interface_id = id;

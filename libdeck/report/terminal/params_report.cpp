@@ -11,6 +11,7 @@
 #include "deck/report/json.hpp"
 #include "deck/report/text_table.hpp"
 #include "deck/text/number.hpp"
+#include "report/terminal/words.hpp"
 
 namespace deck {
 namespace {
@@ -292,8 +293,8 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
     table.row(std::move(cells));
   }
   std::string out = table.fitted(options.width, options.color, 0, 1);
-  out += fmt::format("\n{}: {} interfaces; (value): not on the card; -: no such field{}\n",
-                     terminal_text(in.path), m.rows.size(),
+  out += fmt::format("\n{}: {}; (value): not on the card; -: no such field{}\n",
+                     terminal_text(in.path), count(m.rows.size(), "interface", "interfaces"),
                      options.changed_only ? "; .: the default" : "");
   return out;
 }
@@ -360,7 +361,8 @@ std::string params_text(const ParamsInput& in, const ParamsTextOptions& options)
     out += params_table(in, *inter, options).fitted(options.width, options.color, 2) + "\n";
   }
   const auto& all = *in.interfaces;
-  out += fmt::format("{}: {} interfaces (", terminal_text(in.path), all.ordered.size());
+  out += fmt::format("{}: {} (", terminal_text(in.path),
+                     count(all.ordered.size(), "interface", "interfaces"));
   const char* separator = "";
   all.each_list([&]<class Inter>(const std::vector<Inter>& list) {
     out +=

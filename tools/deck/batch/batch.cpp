@@ -40,7 +40,8 @@ Result<void> parse_writing(BatchTask& task, const CommandLine& line) {
     const std::string from = value_among(task.words, "--from"),
                       to = value_among(task.words, "--to");
     if (from == "lsdyna")
-      return Error{Error::Code::config, "--from lsdyna is not for a batch: it makes no decks"};
+      return Error{Error::Code::config,
+                   "--from lsdyna cannot be used in a batch: it writes no decks"};
     if (from == "json") task.ending = document_ending;
     task.from_json = from == "json";
     task.to_json = to == "json";
@@ -77,7 +78,7 @@ Result<BatchTask> parse_task(const BatchOptions& o, const std::vector<Verb>& all
   if (const auto parsed = line.parse(arguments); !parsed) return refuse(parsed.error().message);
   for (const std::string& name : not_in_a_batch)
     if (line.given(name)) return refuse(name + " is not for a batch");
-  if (line.existing("decks").count() != 1) return refuse("decks are named behind the options");
+  if (line.existing("decks").count() != 1) return refuse("decks are named after the options");
   if (const auto writing = parse_writing(task, line); !writing)
     return refuse(writing.error().message);
   for (const std::string& dir : o.common.include_paths)
@@ -170,7 +171,7 @@ int run(const BatchOptions& o) {
   if (const int bad = check_outputs(o.common, {o.common.json}); bad != exit_clean) return bad;
   if (o.merge) {
     if (!o.common.decks.empty() || !o.manifest.empty() || o.shard != "1/1")
-      return usage("--merge takes no decks: it puts together the summaries that are in DIR");
+      return usage("--merge takes no decks: it merges the summaries in DIR");
     const auto parts = read_shard_summaries(o.directory);
     if (!parts) return usage(parts.error().message);
     const auto merged = merge_summaries(*parts);
@@ -190,10 +191,10 @@ int run(const BatchOptions& o) {
     if (std::find(verbs_of_a_batch.begin(), verbs_of_a_batch.end(), first) !=
             verbs_of_a_batch.end() &&
         !std::filesystem::exists(first, ec))
-      return usage("'" + first +
-                   "' is taken for a deck, and there is none of that name; the verb "
-                   "is named with --verb " +
-                   first);
+      return usage(
+          "'" + first +
+          "' is read as the name of a deck, which does not exist; name the verb with --verb " +
+          first);
   }
   auto list =
       list_decks(o.common.decks, o.manifest, task->ending, o.directory, o.common.include_paths);
@@ -202,7 +203,7 @@ int run(const BatchOptions& o) {
   if (list->decks.empty())
     return usage(list->includes.empty()
                      ? "no decks: name some, or a directory, or a --manifest"
-                     : "no decks among what was found: " + list->includes.front().path + " " +
+                     : "no decks among the files found: " + list->includes.front().path + " " +
                            list->includes.front().why);
   if (const auto schemas = load_schemas(o.common); !schemas) return usage(schemas.error().message);
   std::vector<std::vector<std::size_t>> groups;
@@ -219,8 +220,9 @@ Action setup(CommandLine& line) {
   add_common(line, o.common);
   line.existing("decks").required(false).describe(
       "Starter decks, directories (all *_0000.rad below them) or patterns ('models/*/a*.rad')");
-  line.existing("--json").describe("Write the summary to FILE as well; '-' is standard output");
-  line.existing("--threads").describe("Threads of each worker; 0 shares out the processors");
+  line.existing("--json").describe("Write the summary to FILE too; '-' is standard output");
+  line.existing("--threads")
+      .describe("Threads of each worker; 0 divides the processors among them");
   line.option("-o,--output", o.directory, "Directory of the results; made if missing")
       .required()
       .value("DIR");
@@ -235,9 +237,9 @@ Action setup(CommandLine& line) {
   line.option("-j,--jobs", o.jobs, "Decks at the same time; 0 takes all processors")
       .range(0, 4096)
       .value("N");
-  line.option("--timeout", o.timeout,
-              "Give a deck (decks that are written together: all of them) up after SECONDS "
-              "(default 3600); 0: never")
+  line.option(
+          "--timeout", o.timeout,
+          "Stop a deck (or decks that are written together) after SECONDS (default 3600); 0: never")
       .number(0, 1e9)
       .value("SECONDS");
   line.option("--shard", o.shard,
@@ -245,9 +247,9 @@ Action setup(CommandLine& line) {
               "together")
       .value("i/n");
   add_require_examined(line, o.common);
-  line.flag("--merge", o.merge, "Put the summaries of all shards in DIR together");
+  line.flag("--merge", o.merge, "Merge the summaries of all shards in DIR");
   line.flag("--force", o.force, "Do finished decks again");
-  line.flag("--no-mpi", o.no_mpi, "Under mpirun: do not share the decks among the ranks");
+  line.flag("--no-mpi", o.no_mpi, "Under mpirun: do not divide the decks among the ranks");
   return [options] { return run(*options); };
 }
 
@@ -262,12 +264,13 @@ const VerbRegistration registration{
      "  mpirun -n 16 deck batch -o results models/\n"
      "\n"
      "DIR/NAME.json is what 'deck VERB NAME.rad --json' writes, DIR/summary.json lists all decks.\n"
-     "Decks of the same name get that of their directory before it: left--car_0000.json.\n"
-     "convert and fix write the decks below DIR as they lie below the directory that holds all of\n"
-     "them (or in place, with --in-place among the options of the verb); decks that share files\n"
-     "are written together or not at all, and every result is verified (--no-verify).\n"
-     "Run the same command again to go on after a kill: decks are done again only if a file they\n"
-     "read, the options or the program changed, or if they failed.\n",
+     "Decks of the same name get the name of their directory as prefix: left--car_0000.json.\n"
+     "convert and fix write the decks below DIR, with their paths relative to the directory that\n"
+     "holds all of them (or in place, with --in-place among the options of the verb). Decks that\n"
+     "share files are written together or not at all; every result is verified (--no-verify).\n"
+     "After an interruption run the same command again: a deck is done again only if a file that "
+     "it\n"
+     "reads, the options or the program changed, or if it failed.\n",
      setup}};
 
 }  // namespace

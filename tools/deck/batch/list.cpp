@@ -155,7 +155,7 @@ std::vector<IncludeFile> take_includes(
     } else if (needed) {
       includes.push_back({found[i], "included by " + includer.at(trees[i].front().identity)});
     } else {
-      includes.push_back({found[i], "has neither the head of a deck nor /BEGIN"});
+      includes.push_back({found[i], "has neither '#RADIOSS STARTER' nor /BEGIN"});
     }
   }
   found = std::move(decks);
@@ -176,7 +176,7 @@ Result<BatchList> list_decks(const std::vector<std::string>& given, const std::s
   }
   if (std::find(named.begin(), named.end(), "-") != named.end())
     return Error{Error::Code::config,
-                 "standard input cannot be one of many decks; --manifest - reads the list there"};
+                 "standard input cannot be one of many decks; --manifest - reads the list from it"};
   auto found = expand_decks(named, ending, output);
   if (!found) return found.error();
   BatchList list;

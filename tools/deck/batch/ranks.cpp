@@ -97,9 +97,9 @@ Result<Summary> Ranks::collect(Summary own, std::chrono::seconds patience) {
         changed = Clock::now();
       }
       if (Clock::now() - changed > patience)
-        return Error{Error::Code::io, "rank " + std::to_string(r) +
-                                          " does not answer any more; finished decks are kept, "
-                                          "run the same command again"};
+        return Error{Error::Code::io,
+                     "rank " + std::to_string(r) +
+                         " no longer answers; finished decks are kept, run the same command again"};
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     auto part = parse_summary(file_text(part_file(r)));
@@ -108,7 +108,7 @@ Result<Summary> Ranks::collect(Summary own, std::chrono::seconds patience) {
   }
   auto merged = merge_summaries(parts);
   std::error_code ec;
-  fs::remove_all(place_, ec);  // nobody needs it any more
+  fs::remove_all(place_, ec);  // no longer needed
   return merged;
 }
 

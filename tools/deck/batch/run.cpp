@@ -199,7 +199,7 @@ Result<void> make_own_directory(const std::string& path) {
   if (ec) return Error{Error::Code::io, "cannot make " + path + ": " + ec.message()};
   if (fs::symlink_status(path, ec).type() == fs::file_type::directory) return {};
   return Error{Error::Code::config,
-               path + " is a link, not a directory: it would lead out of the results; remove it"};
+               path + " is a link, not a directory, and leads outside of the results; remove it"};
 }
 
 namespace {
@@ -322,7 +322,7 @@ Result<void> Batch::prepare() {
   whole.l_whence = SEEK_SET;
   if (fcntl(lock_, F_SETLK, &whole) != 0 && (errno == EAGAIN || errno == EACCES))
     return Error{Error::Code::config, "another deck batch is writing to " + o_.directory +
-                                          "; give it parts by --shard, or another directory"};
+                                          "; use --shard, or another directory"};
   if (!ranks_.single())
     if (auto opened = ranks_.open(in_directory(".batch")); !opened) return opened;
   if (auto claimed = claim_directory(); !claimed) return claimed;
@@ -672,7 +672,7 @@ int Batch::run() {
   const auto signal = work();
   if (!signal) return fail(signal.error().message);
   if (*signal != 0) {
-    print_error(o_.common, "stopped; finished decks are kept, run the same command to go on");
+    print_error(o_.common, "stopped; finished decks are kept, run the same command to continue");
     ::signal(*signal, SIG_DFL);
     raise(*signal);
   }

@@ -151,12 +151,12 @@ Result<Summary> merge_summaries(const std::vector<Summary>& parts) {
     if (p.all != merged.all) return refuse(name + " had another list of decks than shard 1");
     for (std::size_t k = 0; k < p.entries.size(); ++k)
       if (!whole.emplace(p.positions[k], p.entries[k]).second)
-        return refuse(name + " has a deck that another shard has as well");
+        return refuse(name + " has a deck that another shard has too");
   }
   if (whole.size() != merged.all)
     return refuse(
-        "the shards do not have all of the decks: something in the list or in the files "
-        "that the decks share has changed between them; run them again");
+        "the shards do not have all decks: the list, or files that the decks share, changed "
+        "between the runs; run them again");
   for (auto& [position, entry] : whole) {
     merged.positions.push_back(position);
     merged.entries.push_back(std::move(entry));
@@ -190,7 +190,7 @@ Result<std::vector<Summary>> read_shard_summaries(const std::string& directory) 
   if (sets.size() > 1)
     return refuse(directory + " has summaries of " + std::to_string(sets.begin()->first) +
                   " and of " + std::to_string(sets.rbegin()->first) +
-                  " shards; remove those that do not count");
+                  " shards; remove those that do not belong to this run");
   auto& [count, set] = *sets.begin();
   std::string missing;
   for (std::size_t i = 1; i <= count; ++i)

@@ -112,9 +112,10 @@ std::string Batch::write_group(std::size_t group, Captured& output) const {
       for (const FileState& f : notes.read[path])
         if (!seen->second.contains(absolute_path(f.path)) &&
             absolute_path(starter_of_engine_file(f.path)) != absolute_path(path))
-          return Error{Error::Code::config, f.path + ", a file of " + path +
-                                                ", was not there when the decks were grouped by "
-                                                "what they share; run the same command again"};
+          return Error{
+              Error::Code::config,
+              f.path + ", a file of " + path +
+                  ", did not exist when the decks were grouped; run the same command again"};
     }
     const std::string directory(parent_path(absolute_path(o_.directory + "/index.html")));
     for (const OutputFile& f : files) {
@@ -148,8 +149,8 @@ std::string Batch::write_group(std::size_t group, Captured& output) const {
   if (overtaken) {
     code = exit_usage;
     broken =
-        "these decks share files, and some were written in place before and changed since, or "
-        "others joined them; --force does them again as they are now";
+        "these decks share files; some were already written in place and then edited, or new decks "
+        "share the files; --force converts their present texts";
   } else {
     batch_frame() = &frame;
     try {

@@ -151,8 +151,8 @@ std::string program_page(const std::vector<VerbInfo>& all) {
           italic("DECK") + "...\n";
   text += ".SH DESCRIPTION\n" +
           line(
-              "Reads Radioss Starter decks (*_0000.rad) with their includes and says what their "
-              "contact interfaces (TYPE7, TYPE10, TYPE11, TYPE19) really do.");
+              "Reads Radioss Starter decks (*_0000.rad) with their includes and shows what their "
+              "contact interfaces (TYPE7, TYPE10, TYPE11, TYPE19) will do.");
   text += ".SH VERBS\n";
   for (const VerbInfo& v : all)
     text += ".TP\n.BR deck\\-" + plain(v.name) + " (1)\n" + line(v.summary + ".");

@@ -195,14 +195,12 @@ Result<std::string> write_settings_file(const std::string& directory) {
   std::error_code ec;
   const std::string path = (fs::path(directory) / ".decklint.toml").string();
   if (!directory.empty() && !fs::is_directory(directory, ec))
-    return Error{Error::Code::config, directory +
-                                          " is no directory; --init takes the one that "
-                                          "gets .decklint.toml"};
-  if (fs::symlink_status(path, ec).type() != fs::file_type::not_found)
     return Error{Error::Code::config,
-                 path +
-                     " is there already and was left as it is; 'deck lint --show-config' says "
-                     "what it sets"};
+                 directory + " is not a directory; --init takes the directory for .decklint.toml"};
+  if (fs::symlink_status(path, ec).type() != fs::file_type::not_found)
+    return Error{
+        Error::Code::config,
+        path + " already exists and was not changed; 'deck lint --show-config' shows its settings"};
   if (auto written = write_file_atomic(path, config_template()); !written) return written.error();
   return path;
 }

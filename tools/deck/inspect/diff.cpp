@@ -127,7 +127,7 @@ Action setup(CommandLine& line) {
   line.existing("decks").takes(2, "DECK DECK").describe("The old and the new Starter deck");
   line.option("--match", options->match,
               "Counterparts: id; title (nodes and elements by id); position (for renumbered decks: "
-              "nodes by coordinates, elements by nodes, the rest by title, then by rank)")
+              "nodes by coordinates, elements by nodes, the rest by title, then by order)")
       .one_of({"id", "title", "position"})
       .value("HOW")
       .show_default();
@@ -149,7 +149,8 @@ Action setup(CommandLine& line) {
 }
 
 const VerbRegistration registration{
-    {"diff", 24, "What two decks mean differently, whatever their comments, order and format",
+    {"diff", 24,
+     "Differences in meaning between two decks; comments, order and format do not count",
      "  deck diff old_0000.rad new_0000.rad\n"
      "  deck diff old_0000.rad new_0000.rad --markdown > comment.md\n"
      "  deck diff old_0000.rad renumbered_0000.rad --match position\n"

@@ -76,14 +76,14 @@ Action setup(CommandLine& line) {
   line.flag("--changed", options->changed,
             "Show only fields that are written on the card and are not the default");
   line.flag("--filled-in", options->filled_in,
-            "Show only fields whose effective value is not what the card says");
+            "Show only fields whose effective value is not the value on the card");
   line.option("--csv", options->csv,
               "Write one line per interface and field (with --matrix: per interface) to FILE ('-': "
               "standard output)")
       .value("FILE");
   add_require_examined(line, options->common);
   line.flag("--no-geometry", options->no_geometry,
-            "Do not derive default gaps from the mesh; such values are left open");
+            "Do not derive default gaps from the mesh; such values are shown as 0");
   return [options] { return run(*options); };
 }
 
@@ -91,9 +91,10 @@ const VerbRegistration registration{
     {"params", 20, "Effective values of every interface, and where each came from",
      "  deck params car_0000.rad\n"
      "  deck params car_0000.rad --matrix          one row per interface\n"
-     "  deck params car_0000.rad --changed         only what somebody wrote that is not the "
+     "  deck params car_0000.rad --changed         only values on the card that are not the "
      "default\n"
-     "  deck params car_0000.rad --filled-in       only what the solver fills in or overrules\n"
+     "  deck params car_0000.rad --filled-in       only values that the solver fills in or "
+     "replaces\n"
      "  deck params car_0000.rad --interface 3,4 --csv params.csv\n"
      "  deck params car_0000.rad --json params.json\n"
      "\n"

@@ -51,7 +51,7 @@ Action setup(CommandLine& line) {
       .describe(
           "Starter deck (*_0000.rad), and what to show of it: the id of an interface, "
           "KEYWORD/ID or KIND:ID");
-  line.flag("--all", options->all, "Every line and every user, however many");
+  line.flag("--all", options->all, "Every line and every user");
   line.flag("--no-geometry", options->no_geometry,
             "Do not derive default gaps from the mesh; such values are left open");
   return [options] { return run(*options); };

@@ -22,10 +22,9 @@ int run(const Options& o) {
     return exit_usage;
   }
   if (isatty(0) == 1) {
-    print_error(
-        o.common,
-        "deck lsp is started by an editor and speaks the Language Server Protocol; there is "
-        "nothing to type here");
+    print_error(o.common,
+                "deck lsp is started by an editor and speaks the Language Server Protocol; do not "
+                "type here");
     return exit_usage;
   }
   // A client that is gone shows in what write() says.
@@ -43,7 +42,7 @@ Action setup(CommandLine& line) {
   auto options = std::make_shared<Options>();
   add_common(line, options->common);
   for (const char* no : {"decks", "--json", "--quiet", "--color"}) line.remove(no);
-  line.flag("--stdio", options->stdio, "Use standard input and output; there is nothing else");
+  line.flag("--stdio", options->stdio, "Use standard input and output (the only way)");
   return [options] { return run(*options); };
 }
 

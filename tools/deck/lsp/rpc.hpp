@@ -27,7 +27,7 @@ class Connection {
 
   /// The content of the next message; nullopt: the other side has closed, or sends no frames.
   std::optional<std::string> read();
-  /// Sends a message; one at a time, from any thread. False: nobody takes it any more.
+  /// Sends a message; one at a time, from any thread. False: the client no longer reads.
   bool write(const Json& message);
 
  private:

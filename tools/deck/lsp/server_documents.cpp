@@ -91,7 +91,7 @@ void Server::did_save(const Json& params) {
   if (geometry_on_save_) start_geometry(*deck);
 }
 
-/// Files that nobody has open, as far as the client watches them.
+/// Files that are not open, as far as the client watches them.
 void Server::files_changed(const Json&) {
   workspace_.changed();
   for (auto& [root, deck] : workspace_.decks()) due_[root] = Clock::now();

@@ -51,7 +51,7 @@ class Workspace {
   const std::map<std::string, std::string>& texts() const { return texts_; }
   /// The client's name of a file, whether it is open or not.
   std::string uri(const std::string& path) const;
-  /// Files changed, nobody knows which: whatever was read is old.
+  /// Unknown files changed: everything that was read is old.
   void changed() { everything_ = ++generation_; }
   /// The text of one file changed: decks without it stay as they are.
   void changed(const std::string& path) { touched_[path] = ++generation_; }

@@ -26,11 +26,11 @@ void add_dependent_options(CommandLine& line, WriteChoice& choice) {
       .heading(group)
       .value("DIR");
   line.flag("--with-dependents", choice.with_dependents,
-            "Change those decks, too: all that include a file of these decks")
+            "Also change all other decks that include a file of these decks")
       .heading(group);
   line.flag("--split-includes", choice.split_includes,
-            "Give the deck a copy of its own of a file that others need as it is (also with -o: "
-            "where decks of the call want different texts)")
+            "Give the deck its own copy of a file that others need unchanged (also with -o: if "
+            "decks of the call need different texts)")
       .heading(group);
 }
 
@@ -146,7 +146,8 @@ Result<std::string> Changes::diff() {
   for (const FileIdentity& file : set_.changed_files())
     if (const auto other = outsiders_.find(file); other != outsiders_.end()) {
       if (!common_.quiet && !choice_.split_includes)
-        print_note(other->second + " includes a file that changes, too: --in-place refuses that " +
+        print_note(other->second +
+                   " also includes a file that would change: --in-place refuses this " +
                    "without --with-dependents or --split-includes");
       break;
     }

@@ -161,8 +161,8 @@ std::string Dependents::where() const {
   if (!guessed) return {};
   std::string list;
   for (const std::string& root : roots) list += (list.empty() ? "" : ", ") + root;
-  return "other decks that include these files were looked for below " + list +
-         "; --root DIR names another place";
+  return "searched for other decks that include these files below " + list +
+         "; --root DIR sets another folder";
 }
 
 Result<Dependents> find_dependents(const std::vector<std::string>& decks, const std::string& root,

@@ -29,7 +29,7 @@ __version__: str = _native.version
 
 @dataclass(frozen=True)
 class Place:
-    """Where something stands: 1-based line and columns of a file, as an editor shows them (columns count bytes)."""
+    """A place in a file: 1-based line and columns, as an editor shows them (columns count bytes)."""
     file: str
     line: int
     column: int
@@ -44,17 +44,17 @@ class Value:
     """One field of an interface."""
     name: str
     value: Union[int, float, str]
-    """What the solver uses."""
+    """The value that the solver uses."""
     input: Union[int, float, str, None]
-    """What the card says; None for a blank cell, or where this input version has no such cell."""
+    """The value on the card; None for a blank cell, or if this input version has no such cell."""
     origin: str
     """"card", "default-block", "built-in" or "derived" (follows from other values or from the mesh)."""
     span: Optional[Place]
-    """The columns on the card; None where nothing is written."""
+    """The columns on the card; None if nothing is written."""
     dimension: str
     """For example "mass length^-2"; empty for flags, ids and ratios."""
     doc: str
-    """What the field is, one line."""
+    """Description of the field, one line."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class Nodes:
         return len(self.ids)
 
     def index(self, node_id: int) -> int:
-        """Position of a node id in the arrays; KeyError if there is none."""
+        """Position of a node id in the arrays; KeyError if it does not exist."""
         at = self._deck.node_index(int(node_id))
         if at is None:
             raise KeyError(f"no node {node_id}")
@@ -120,12 +120,12 @@ class Part:
     prop_id: int
     mat_id: int
     thickness: float
-    """Contact thickness, 0 where there is none; working units."""
+    """Contact thickness, 0 if there is none; working units."""
     span: Optional[Place]
 
 
 class Interface:
-    """A contact interface. Its fields are attributes: ``i.Gapmin.value``; names that are no Python names are
+    """A contact interface. Its fields are attributes: ``i.Gapmin.value``; names that are not Python names are
     items: ``i["%mesh_size"]``."""
 
     def __init__(self, deck: "Deck", at: int, row: Sequence[Any]) -> None:
@@ -185,7 +185,7 @@ class Interface:
 
 
 class Interfaces(_Mapping):
-    """Interfaces by id, in deck order. Of several with one id, ``[id]`` is the first; ``list`` has all."""
+    """Interfaces by id, in deck order. If several have one id, ``[id]`` is the first; ``list`` has all."""
 
     def __init__(self, deck: "Deck") -> None:
         rows = deck._native.interfaces()
@@ -205,7 +205,7 @@ class Interfaces(_Mapping):
 
 
 class Arrays(_Mapping):
-    """Named arrays of equal length. Those that exist in the library are not copied; ids are looked up when asked for."""
+    """Named arrays of equal length. Arrays of the library are not copied; ids are computed at each access."""
 
     def __init__(self, arrays: Dict[str, Any], made: Dict[str, Any]) -> None:
         self._arrays, self._made = arrays, made
@@ -362,7 +362,7 @@ class Edit:
 
     @property
     def deck(self) -> "Deck":
-        """The deck as it would be."""
+        """The deck with the changes."""
         return Deck(self._native.deck)
 
     @property
@@ -385,11 +385,11 @@ class Edit:
         return _json.loads(self._native.report_json) if self._native.report_json else None
 
     def diff(self) -> bytes:
-        """A patch that ``git apply`` takes."""
+        """A patch for ``git apply``."""
         return self._native.diff()
 
     def write(self, directory: Any, overwrite: bool = False) -> List[str]:
-        """Writes the whole include tree below a directory, all files or none; returns their paths.
+        """Writes the whole include tree below a directory, all files or none, and returns their paths.
 
         FileExistsError where a file is there and ``overwrite`` is False; files of the deck itself are never replaced.
         """
@@ -500,7 +500,7 @@ class Deck:
 
     @property
     def findings(self) -> List[Finding]:
-        """What reading had to say; ``lint`` says much more."""
+        """Findings of reading the deck; ``lint`` has many more."""
         return [Finding(**f) for f in self._native.findings()]
 
     def _complete(self) -> None:

@@ -1,4 +1,4 @@
-// libdeck._native: conversions and repairs of a deck, kept in memory until somebody writes them.
+// libdeck._native: conversions and repairs of a deck, kept in memory until they are written.
 #include <cmath>
 #include <functional>
 #include <map>
@@ -214,7 +214,7 @@ std::vector<std::string> write_tree(const EditSet& set, const Deck& before,
   for (const OutputFile& f : plan->files) {
     if (!overwrite && exists(f.path).cast<bool>()) {
       PyErr_SetString(PyExc_FileExistsError,
-                      (f.path + " is there; overwrite=True replaces it").c_str());
+                      (f.path + " exists; overwrite=True replaces it").c_str());
       throw py::error_already_set();
     }
     for (std::uint32_t i = 0; i < before.sources.size(); ++i)

@@ -38,7 +38,7 @@ export function changedCard(inter: InterfaceMeta, overrides: Overrides): Changed
       continue;
     }
     if (cell.free) {
-      out.notes.push(`${name} stands on a line with commas: change it by hand.`);
+      out.notes.push(`${name} is on a line with commas: change it by hand.`);
       continue;
     }
     const text = newText(cell, value);

@@ -35,5 +35,5 @@ export const actionLong: Record<string, string> = {
   "segment-stiffness-zero": "The segment's stiffness is set to zero: nothing will ever be stopped by this segment.",
   "node-moved": "The node is moved along the normal to the edge of the gap. The mesh changes.",
   "gap-reduced": "The gap of this pair is reduced so that the run starts (nearly) without force; it grows back as the node leaves.",
-  "edge-stiffness-zero": "The stiffness of the edge is set to zero: it takes no part in this interface any more.",
+  "edge-stiffness-zero": "The stiffness of the edge is set to zero: it no longer takes part in this interface.",
 };

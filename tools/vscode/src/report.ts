@@ -112,7 +112,7 @@ export class Report implements vscode.Disposable {
         break;
       case "shown":
         this.chosen = m.chosen;
-        vscode.window.setStatusBarMessage(m.what ? `$(link) ${m.what}` : "Nothing of the report stands on this line", 4000);
+        vscode.window.setStatusBarMessage(m.what ? `$(link) ${m.what}` : "The report has nothing on this line", 4000);
         break;
     }
   }

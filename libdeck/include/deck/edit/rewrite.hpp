@@ -25,7 +25,7 @@ enum class Loss : std::uint8_t {
   kept,          ///< the same meaning in the new text
   approximated,  ///< close: fewer digits, or the nearest option there is
   dropped,       ///< the new text cannot hold it
-  undecided,     ///< somebody has to choose
+  undecided,     ///< must be decided by hand
 };
 
 /// One line of the loss report.

@@ -13,7 +13,7 @@
 
 namespace deck {
 
-/// How much is looked at where nobody asks for all of it. Counts that are known from the deck
+/// How much is checked by default. Counts that are known from the deck
 /// decide, no clock: a deck has the same findings on every machine.
 struct QuickLook {
   std::uint64_t items = 1'000'000;  ///< nodes, elements and members of the sides of all contacts

@@ -24,7 +24,7 @@ struct ParamsInput {
 
 struct ParamsTextOptions {
   bool color = false;
-  /// Only fields that somebody wrote on the card and that are not the default.
+  /// Only fields that are on the card and not the default.
   bool changed_only = false;
   bool filled_in_only = false;     ///< only fields whose value does not stand on the card
   std::vector<std::int64_t> only;  ///< interface ids; empty: all

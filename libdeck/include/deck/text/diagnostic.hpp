@@ -1,5 +1,5 @@
 // Diagnostic: one finding about the input, with its place. Everything the library has to say about
-// a deck is one of these; printing them is somebody else's job.
+// a deck is one of these; they are printed elsewhere.
 #pragma once
 #include <cstdint>
 #include <map>

@@ -108,7 +108,7 @@ void report_singular(const GeometryRun& run, const Contact& contact, const Inter
                     count_text(s.near_singular, "pair"), pair_text(run.model(), *where, *worst),
                     worst->gap - worst->penetration, worst->gap, 100 * least);
   if (s.gap_closed > 0)
-    message += fmt::format("{} {} at the end of the gap already, without any force",
+    message += fmt::format("{} {} already at the end of the gap, without a force",
                            worst != nullptr ? ";" : "", count_text(s.gap_closed, "pair"));
   run.report(RuleId::DK403, contact, gap_field(contact), std::move(message));
 }
@@ -138,7 +138,7 @@ void report_deletion(const GeometryRun& run, const Contact& contact, const Inter
   if (card != nullptr && card->given("dtmin")) return;
   Diagnostic* d = run.report(
       RuleId::DK808, contact, "dtmin",
-      fmt::format("{}: time step {:.4g} from {}{}, and /DT/INTER/DEL removes what is below {:.4g}",
+      fmt::format("{}: time step {:.4g} from {}{}, and /DT/INTER/DEL removes nodes below {:.4g}",
                   summary_name(s), s.contact_dt, element_of(s.contact_dt_source),
                   s.contact_dt_node == no_index
                       ? std::string()

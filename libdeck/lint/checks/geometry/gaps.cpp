@@ -68,7 +68,7 @@ void report_apart(const GeometryRun& run, const Contact& c) {
   if (!(c.shortest_side > 0) || !(c.max_gap > 0.5 * c.shortest_side)) return;
   Diagnostic* d = run.report(RuleId::DK310, c, gap_field(c),
                              fmt::format("{}: the largest gap {:.6g} is more than half of the "
-                                         "shortest main side {:.6g}, which is at another place",
+                                         "shortest main side {:.6g}, but at another place",
                                          name_of(run, c), c.max_gap, c.shortest_side));
   if (d == nullptr) return;
   d->severity = Severity::info;

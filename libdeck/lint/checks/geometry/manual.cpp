@@ -32,9 +32,8 @@ void check_part_defaults(const GeometryRun& run) {
     std::string list;
     for (const Contact* o : it->second)
       list += fmt::format("{}{} {:.6g}", list.empty() ? "" : ", ", to_string(o->role), o->gapmin);
-    run.report(
-        RuleId::DK316, c, "Gapmin",
-        fmt::format("{}: its parts have default gaps of their own: {}", name_of(run, c), list));
+    run.report(RuleId::DK316, c, "Gapmin",
+               fmt::format("{}: its parts have different default gaps: {}", name_of(run, c), list));
   }
 }
 

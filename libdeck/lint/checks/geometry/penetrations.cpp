@@ -51,13 +51,13 @@ const char* treatment(const Contact& c) {
       return c.kind == ContactKind::edge_edge ? "the main edges are switched off"
                                               : "the segments are switched off";
     case 3:
-      return c.kind == ContactKind::edge_edge ? "nothing is done about them"
+      return c.kind == ContactKind::edge_edge ? "the solver does nothing about them"
                                               : "the nodes are moved";
     case 5:
     case 6:
       return "their gaps are reduced";
     default:
-      return "nothing is done about them: they start with contact forces";
+      return "the solver does nothing about them: they start with contact forces";
   }
 }
 

@@ -98,7 +98,7 @@ std::uint64_t items_of(const LintContext& context) {
 
 NotChecked too_many_pairs(const std::string& contact, std::string_view what) {
   return {fmt::format("{}: {}", contact, what),
-          "too many pairs are within its gap for a quick look; --geometry looks at them all"};
+          "too many pairs are within its gap for a quick check; --geometry checks all of them"};
 }
 
 }  // namespace detail
@@ -113,7 +113,7 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
       chosen.quick && items > chosen.quick->items)
     return {{std::string(geometry_rules),
              fmt::format("the model and the sides of its contacts have {} nodes, elements and "
-                         "segments, more than {}; --geometry looks at all of them",
+                         "segments, more than {}; --geometry checks all of them",
                          items, chosen.quick->items)}};
   Diagnostics found;
   SceneOptions options;

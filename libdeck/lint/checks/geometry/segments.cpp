@@ -75,11 +75,10 @@ void check_shape(const GeometryRun& run, const Contact& c) {
                fmt::format("{}: {} with a node given twice, taken for triangles", name_of(run, c),
                            count_text(static_cast<std::size_t>(c.repaired_segments), "segment")));
   if (c.reoriented_segments > 0)
-    run.report(
-        RuleId::DK325, c, main_field(c),
-        fmt::format("{}: {} of {} turned so that they look out of their solids", name_of(run, c),
-                    count_text(static_cast<std::size_t>(c.reoriented_segments), "segment"),
-                    c.main.size()));
+    run.report(RuleId::DK325, c, main_field(c),
+               fmt::format("{}: {} of {} turned to face outward from their solids", name_of(run, c),
+                           count_text(static_cast<std::size_t>(c.reoriented_segments), "segment"),
+                           c.main.size()));
 }
 
 void check_duplicates(const GeometryRun& run, const Contact& c) {
@@ -107,7 +106,7 @@ void check_duplicates(const GeometryRun& run, const Contact& c) {
 void check_dropped(const GeometryRun& run, const Contact& c) {
   if (!c.dropped) return;
   run.report(RuleId::DK327, c, "Iedge",
-             fmt::format("{}: no edges on one of its sides; edges against edges are left out",
+             fmt::format("{}: one of its sides has no edges, so it has no contact between edges",
                          name_of(run, c)));
 }
 

@@ -248,7 +248,7 @@ Answer rename(const View& view, const Json& params) {
   RenumberRule rule;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), rule.value);
   if (error != std::errc() || end != name.data() + name.size())
-    throw Refusal{"'" + name + "' is no id: a whole number is needed"};
+    throw Refusal{"'" + name + "' is not an id: a whole number is needed"};
   rule.only = id->id;
   // A set may stand where a group is asked for.
   rule.kind = id->kind;

@@ -208,7 +208,7 @@ CellText describe(const View& view, const Block& block, const DecodedCard& card,
   }
   if (const std::string range = range_text(f); !range.empty()) out.rest += "Legal: " + range + "\n";
   if (!f.default_text.empty()) out.rest += "0 or blank: " + f.default_text + "\n";
-  if (f.ignored) out.rest += "The solver reads it and does nothing with it.\n";
+  if (f.ignored) out.rest += "The solver reads it, but it has no effect.\n";
   if (!f.from_manual.empty()) out.rest += "Manual: " + f.from_manual + "\n";
   out.help = field_help(f, view.schemas(), 100);
   return out;

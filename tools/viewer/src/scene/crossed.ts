@@ -45,6 +45,6 @@ export function crossedSection(report: Report, open: (points: number[][]) => voi
   table.setRows(crossed.rows);
   table.element.style.setProperty("--rows", String(Math.min(crossed.rows.length, 8)));
   section.append(table.element, h("p", { class: "note" }, crossed.rows.length < crossed.total ? `The first ${crossed.rows.length} are listed. ` : "",
-    "A crossed pair gets tangled whatever the gap: repair crossings before depths. The reference solver does not look for them."));
+    "Crossed parts stay entangled with any gap: repair crossings before depths. The reference solver does not check them."));
   return section;
 }
