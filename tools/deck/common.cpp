@@ -139,8 +139,8 @@ bool Loaded::incomplete() const {
          counts.contains(RuleId::DK006);
 }
 
-Scene resolve_geometry(Loaded& loaded, const CommonOptions& options) {
-  if (!waits_for_geometry(loaded.interfaces)) return {};
+Scene resolve_geometry(LoadedDeck& loaded, const CommonOptions& options) {
+  if (!waits_for_geometry(loaded.interfaces())) return {};
   Progress progress(!options.quiet);
   progress.step("deriving gaps from the geometry");
   SceneOptions scene_options;
@@ -148,8 +148,8 @@ Scene resolve_geometry(Loaded& loaded, const CommonOptions& options) {
   scene_options.candidates = false;
   scene_options.penetrations = false;
   scene_options.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
-  Scene scene = build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
-  resolve(loaded.interfaces, scene);
+  Scene scene = build_scene(loaded.model(), loaded.interfaces(), loaded.diagnostics, scene_options);
+  resolve(loaded.interfaces(), scene);
   return scene;
 }
 
@@ -288,25 +288,25 @@ Result<std::unique_ptr<Loaded>> load(const std::string& given, const SchemaSet& 
   if (const std::string other = no_starter_deck(*deck); !other.empty())
     return Error{Error::Code::syntax, path + ": " + other};
   auto loaded = std::make_unique<Loaded>();
-  loaded->path = path;
+  loaded->path() = path;
   loaded->diagnostics = Diagnostics(options.limits.diagnostics_per_rule);
-  loaded->deck = std::move(*deck);
-  loaded->engine = std::move(engine);
-  if (load_observer()) load_observer()(loaded->deck);
+  loaded->deck() = std::move(*deck);
+  loaded->engine_files() = std::move(engine);
+  if (load_observer()) load_observer()(loaded->deck());
   if (stage == Stage::blocks) return loaded;
   progress.step("building the model of " + path);
   ModelOptions build;
   build.threads = options.thread_count();
   build.limits = read.limits;
-  loaded->model = build_model(loaded->deck, schemas, loaded->diagnostics, build, shared_meshes());
-  loaded->model.selections->set_limits(options.limits);
+  loaded->model() = build_model(loaded->deck(), schemas, loaded->diagnostics, build, shared_meshes());
+  loaded->model().selections->set_limits(options.limits);
   if (stage == Stage::model) return loaded;
-  loaded->interfaces = read_interfaces(loaded->deck, loaded->model, loaded->diagnostics);
+  loaded->interfaces() = read_interfaces(loaded->deck(), loaded->model(), loaded->diagnostics);
   return loaded;
 }
 
 int for_each_deck(const CommonOptions& options, Stage stage,
-                  const std::function<int(Loaded&)>& body) {
+                  const std::function<int(LoadedDeck&)>& body) {
   const auto schemas = load_schemas(options);
   if (!schemas) {
     print_error(options, schemas.error().message);
@@ -332,9 +332,9 @@ int for_each_deck(const CommonOptions& options, Stage stage,
   return worst;
 }
 
-int examined_code(const Loaded& loaded, const CommonOptions& options) {
+int examined_code(const LoadedDeck& loaded, const CommonOptions& options) {
   if (!options.require_examined) return exit_clean;
-  const bool nothing = coverage_of(loaded.deck, loaded.interfaces).nothing();
+  const bool nothing = coverage_of(loaded.deck(), loaded.interfaces()).nothing();
   return nothing ? exit_findings : exit_clean;
 }
 
@@ -356,16 +356,16 @@ std::string list_of(const std::vector<std::int64_t>& ids, std::int64_t wanted) {
 
 }  // namespace
 
-Result<void> check_interfaces(const Loaded& loaded, const std::vector<std::int64_t>& ids,
+Result<void> check_interfaces(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
                               std::string_view option) {
   std::vector<std::int64_t> known;
-  for (const InterBase* i : loaded.interfaces.ordered) known.push_back(i->id);
+  for (const InterBase* i : loaded.interfaces().ordered) known.push_back(i->id);
   std::sort(known.begin(), known.end());
   for (const std::int64_t id : ids) {
     if (std::binary_search(known.begin(), known.end(), id)) continue;
     std::string text = fmt::format("{} {}: {} has no interface {} of TYPE7, 10, 11 or 19", option,
-                                   id, loaded.path, id);
-    for (const NotExamined& n : coverage_of(loaded.deck, loaded.interfaces).not_examined)
+                                   id, loaded.path(), id);
+    for (const NotExamined& n : coverage_of(loaded.deck(), loaded.interfaces()).not_examined)
       if (std::find(n.ids.begin(), n.ids.end(), id) != n.ids.end())
         text += fmt::format("; {}/{} is of a type that is not examined", n.keyword, id);
     text += known.empty() ? "; it has none at all" : "; it has " + list_of(known, id);
@@ -374,16 +374,16 @@ Result<void> check_interfaces(const Loaded& loaded, const std::vector<std::int64
   return {};
 }
 
-Result<void> check_parts(const Loaded& loaded, const std::vector<std::int64_t>& ids,
+Result<void> check_parts(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
                          std::string_view option) {
   for (const std::int64_t id : ids) {
-    if (loaded.model.part_of_id.contains(id)) continue;
+    if (loaded.model().part_of_id.contains(id)) continue;
     std::vector<std::int64_t> known;
-    for (const Part& p : loaded.model.parts) known.push_back(p.id);
+    for (const Part& p : loaded.model().parts) known.push_back(p.id);
     std::sort(known.begin(), known.end());
     return Error{
         Error::Code::config,
-        fmt::format("{} {}: {} has no part {}; {}", option, id, loaded.path, id,
+        fmt::format("{} {}: {} has no part {}; {}", option, id, loaded.path(), id,
                     known.empty() ? "it has none at all" : "it has " + list_of(known, id))};
   }
   return {};
@@ -426,11 +426,11 @@ void print_error(const CommonOptions& options, std::string_view message) {
   if (BatchFrame* frame = batch_frame()) frame->note_error(message);
 }
 
-std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options, bool errors_only,
+std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options, bool errors_only,
                              std::size_t limit) {
   const bool color = options.color_on(2);
   std::uint64_t errors = 0, shown = 0, hidden = 0;
-  for (const Diagnostics* list : {&loaded.deck.diagnostics, &loaded.diagnostics}) {
+  for (const Diagnostics* list : {&loaded.deck().diagnostics, &loaded.diagnostics}) {
     for (const Diagnostic& d : list->all()) {
       if (d.severity == Severity::error) ++errors;
       // What a verdict calls not evaluated, or what makes it wrong, is explained in any case.
@@ -442,7 +442,7 @@ std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options,
         continue;
       }
       ++shown;
-      const std::string where = d.span.valid() ? loaded.deck.sources.where(d.span) : loaded.path;
+      const std::string where = d.span.valid() ? loaded.deck().sources.where(d.span) : loaded.path();
       print_messages(fmt::format(
           "{}: {}{}:{} {} [{}]\n", terminal_text(where), color ? color_of(d.severity) : "",
           name_of(d.severity), color ? "\x1b[0m" : "", terminal_text(d.message), id_text(d.rule)));
@@ -450,7 +450,7 @@ std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options,
   }
   if (hidden > 0)
     print_messages(fmt::format("{}: {} more like these; 'deck lint {}' shows them all\n",
-                               terminal_text(loaded.path), hidden, terminal_text(loaded.path)));
+                               terminal_text(loaded.path()), hidden, terminal_text(loaded.path())));
   return errors;
 }
 

@@ -98,7 +98,7 @@ struct Loaded {
 
 /// Fills in the values of the interfaces that follow from the mesh. The scene holds the parts of
 /// the interfaces, without penetrations; it is empty where nothing waits for the mesh.
-Scene resolve_geometry(Loaded& loaded, const CommonOptions& options);
+Scene resolve_geometry(LoadedDeck& loaded, const CommonOptions& options);
 
 /// Contents that files are taken to have, by path; see ReadOptions::overlay.
 using Overlay = std::map<std::string, std::string>;
@@ -122,22 +122,22 @@ void observe_loading(std::function<void(const Deck&)> observer);
 /// Loads the decks one after the other and calls `body`; returns the worst exit code. What cannot
 /// be read is reported and counts as exit_input; a missing include too, after `body` has run.
 int for_each_deck(const CommonOptions& options, Stage stage,
-                  const std::function<int(Loaded&)>& body);
+                  const std::function<int(LoadedDeck&)>& body);
 
 /// exit_findings if --require-examined is given and nothing was examined, else exit_clean.
-int examined_code(const Loaded& loaded, const CommonOptions& options);
+int examined_code(const LoadedDeck& loaded, const CommonOptions& options);
 
 /// Refuses ids that are no interface of the deck of TYPE7, 10, 11 or 19. The error lists those that
 /// there are. `option` is what the ids were given to.
-Result<void> check_interfaces(const Loaded& loaded, const std::vector<std::int64_t>& ids,
+Result<void> check_interfaces(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
                               std::string_view option);
 /// The same for parts.
-Result<void> check_parts(const Loaded& loaded, const std::vector<std::int64_t>& ids,
+Result<void> check_parts(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
                          std::string_view option);
 
 /// Prints findings of reading and building on standard error, one line each: errors only, or all.
 /// At most `limit`, then how many more there are. Returns the number of errors.
-std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options,
+std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options,
                              bool errors_only = true, std::size_t limit = 20);
 
 /// "deck: error: ..." on standard error. The message is one line, whatever it quotes.

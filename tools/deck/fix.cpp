@@ -55,31 +55,31 @@ class FixRun {
   /// With directories expanded and, where asked for, the decks that include the same files.
   Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks, deck_ending); }
 
-  int one(Loaded& loaded) {
+  int one(LoadedDeck& loaded) {
     const bool errors = print_findings(loaded, o_.common) > 0;
     if (loaded.incomplete()) {
-      print_error(o_.common, loaded.path + ": not fixed, the include tree is not complete");
+      print_error(o_.common, loaded.path() + ": not fixed, the include tree is not complete");
       return exit_input;
     }
     for (const auto& known :
          {check_interfaces(loaded, o_.interfaces, "--interface"),
           check_parts(loaded, o_.move.lock, "--lock"), check_parts(loaded, o_.move.move, "--only")})
       if (!known) return fail(known.error());
-    if (const std::string lead = coverage_lead(coverage_of(loaded.deck, loaded.interfaces));
+    if (const std::string lead = coverage_lead(coverage_of(loaded.deck(), loaded.interfaces()));
         !lead.empty() && !o_.common.quiet)
-      print_note(loaded.path + ": " + lead);
-    const auto member = changes_.add(loaded, loaded.path);
+      print_note(loaded.path() + ": " + lead);
+    const auto member = changes_.add(loaded, loaded.path());
     if (!member) return fail(member.error());
     auto fixed = make(loaded);
     if (!fixed) return fail(fixed.error());
     const ChangedFiles& changed = fixed->changed;
     const PenetrationFix whole =
         fixed->fixes.size() == 1 ? fixed->fixes.front() : combined(fixed->fixes);
-    if (loaded.path == "-" && (o_.write.in_place || !o_.write.directory.empty()))
+    if (loaded.path() == "-" && (o_.write.in_place || !o_.write.directory.empty()))
       return fail({Error::Code::config,
                    o_.write.in_place ? "standard input cannot be rewritten; use --diff"
                                      : "a deck from standard input has no name to write it to"});
-    changes_.propose(*member, loaded.deck, changed);
+    changes_.propose(*member, loaded.deck(), changed);
     if (!o_.html.empty()) {
       auto page = fix_page(loaded, schemas_, changed, o_.common);
       if (!page) return fail(page.error());
@@ -90,8 +90,8 @@ class FixRun {
                                 : o_.write.diff               ? "diff"
                                                               : "no";
     if (json_.wanted())
-      documents_.push_back(fix_json(loaded.path, loaded.deck, whole, written, fixed->fixes));
-    texts_ += report(whole, fixed->fixes, changed, loaded.path);
+      documents_.push_back(fix_json(loaded.path(), loaded.deck(), whole, written, fixed->fixes));
+    texts_ += report(whole, fixed->fixes, changed, loaded.path());
     // A deck that the solver does not take is not repaired, whatever was done about its contacts.
     return whole.complete && !errors ? exit_clean : exit_findings;
   }
@@ -144,8 +144,8 @@ class FixRun {
   }
 
   /// All strategies in their order.
-  Result<FixSequence> make(const Loaded& loaded) const {
-    const EditContext context{loaded.deck, loaded.model, loaded.interfaces, schemas_};
+  Result<FixSequence> make(const LoadedDeck& loaded) const {
+    const EditContext context{loaded.deck(), loaded.model(), loaded.interfaces(), schemas_};
     Progress progress(!o_.common.quiet);
     std::string step;
     FixOptions base;
@@ -163,7 +163,7 @@ class FixRun {
       steps.emplace_back([&](const EditContext& here, const ReadOptions& read) {
         FixOptions options = base;
         options.read = read;
-        auto fix = one_step(strategy, here, options, loaded.path, moved);
+        auto fix = one_step(strategy, here, options, loaded.path(), moved);
         if (fix) moved.insert(moved.end(), fix->moved.begin(), fix->moved.end());
         return fix;
       });
@@ -290,7 +290,7 @@ int run(const Options& o) {
   CommonOptions common = o.common;
   common.decks = *decks;
   const int code =
-      for_each_deck(common, Stage::interfaces, [&](Loaded& loaded) { return fix.one(loaded); });
+      for_each_deck(common, Stage::interfaces, [&](LoadedDeck& loaded) { return fix.one(loaded); });
   return json.finish(fix.finish(code));
 }
 

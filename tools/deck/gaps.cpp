@@ -33,12 +33,12 @@ struct Options {
 };
 
 /// Refuses --interface and --what-if that do not fit the deck.
-Result<void> check_options(const Options& o, const Loaded& loaded,
+Result<void> check_options(const Options& o, const LoadedDeck& loaded,
                            const std::vector<WhatIf>& what_if) {
   if (auto known = check_interfaces(loaded, o.only, "--interface"); !known) return known;
   for (const WhatIf& w : what_if) {
     if (auto known = check_interfaces(loaded, {w.interface_id}, "--what-if"); !known) return known;
-    for (const InterBase* inter : loaded.interfaces.ordered)
+    for (const InterBase* inter : loaded.interfaces().ordered)
       if (inter->id == w.interface_id)
         if (auto fits = check_what_if(w, *inter); !fits) return fits;
   }
@@ -46,11 +46,11 @@ Result<void> check_options(const Options& o, const Loaded& loaded,
 }
 
 /// Writes the VTK files: into the directory itself, or one below it per deck if there are several.
-Result<void> write_vtk(const Options& o, const Loaded& loaded, const Scene& scene,
+Result<void> write_vtk(const Options& o, const LoadedDeck& loaded, const Scene& scene,
                        const SceneView& view) {
   namespace fs = std::filesystem;
   fs::path directory = o.vtk;
-  if (o.common.decks.size() > 1) directory /= fs::path(without_gz(loaded.path)).stem();
+  if (o.common.decks.size() > 1) directory /= fs::path(without_gz(loaded.path())).stem();
   const std::vector<VtkFile> written = gaps_vtk(scene, view);
   std::vector<OutputFile> files;
   for (const VtkFile& f : written) files.push_back({(directory / f.name).string(), f.bytes});
@@ -60,11 +60,11 @@ Result<void> write_vtk(const Options& o, const Loaded& loaded, const Scene& scen
 }
 
 /// What page and drawing are made from.
-HtmlInput page_input(const Loaded& loaded, const Scene& scene, const SceneView& view,
+HtmlInput page_input(const LoadedDeck& loaded, const Scene& scene, const SceneView& view,
                      const SceneOptions& scene_options) {
   HtmlInput input;
-  input.path = loaded.path;
-  input.deck = &loaded.deck;
+  input.path = loaded.path();
+  input.deck = &loaded.deck();
   input.scene = &scene;
   input.view = &view;
   input.what_if = scene_options.what_if;
@@ -74,7 +74,7 @@ HtmlInput page_input(const Loaded& loaded, const Scene& scene, const SceneView& 
 }
 
 /// Writes the HTML report; what can be wrong is wrong usage or a file.
-Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& scene,
+Result<void> write_html(const Options& o, const LoadedDeck& loaded, const Scene& scene,
                         const SceneView& view, const std::vector<Crossing>& crossings,
                         const SceneOptions& scene_options, const GateReport& gate) {
   cycle::CycleOptions cycle_options;
@@ -140,19 +140,19 @@ int run(const Options& o) {
     gate_options.no_config = true;
   }
   bool first = true;
-  int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
+  int code = for_each_deck(o.common, Stage::interfaces, [&](LoadedDeck& loaded) {
     if (auto fits = check_options(o, loaded, scene_options.what_if); !fits) {
       print_error(o.common, fits.error().message);
       return static_cast<int>(exit_usage);
     }
-    auto config = config_of(gate_options, loaded.path);
+    auto config = config_of(gate_options, loaded.path());
     auto gate =
-        config ? gate_of(gate_options, *config, loaded.path) : Result<DeckGate>(config.error());
+        config ? gate_of(gate_options, *config, loaded.path()) : Result<DeckGate>(config.error());
     if (!gate) {
       print_error(o.common, gate.error().message);
       return static_cast<int>(exit_usage);
     }
-    gate->note_baseline(o.common, loaded.path);
+    gate->note_baseline(o.common, loaded.path());
     Scene scene;
     {
       Progress progress(!o.common.quiet);
@@ -162,7 +162,7 @@ int run(const Options& o) {
       scene_options.progress = [&](std::size_t done, std::size_t total) {
         progress.update(done, total);
       };
-      scene = build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
+      scene = build_scene(loaded.model(), loaded.interfaces(), loaded.diagnostics, scene_options);
     }
     join_findings(loaded);
     const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
@@ -177,16 +177,16 @@ int run(const Options& o) {
     print_findings(loaded, o.common);
     if (json.wanted())
       json.add([&](const TextDrain& drain) {
-        return gaps_json(loaded.path, loaded.deck, scene, view, o.all,
+        return gaps_json(loaded.path(), loaded.deck(), scene, view, o.all,
                          o.crossings ? &crossings : nullptr, &report, drain);
       });
     if (baseline.wanted())
-      baseline.add(gaps_json(name_in_baseline(loaded.path, o.write_baseline), loaded.deck, scene,
+      baseline.add(gaps_json(name_in_baseline(loaded.path(), o.write_baseline), loaded.deck(), scene,
                              view, false));
     if (!o.csv.empty())
       if (auto r = write_output(
               o.csv,
-              [&](const TextDrain& drain) { return gaps_csv(loaded.deck, scene, view, drain); });
+              [&](const TextDrain& drain) { return gaps_csv(loaded.deck(), scene, view, drain); });
           !r) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
@@ -213,10 +213,10 @@ int run(const Options& o) {
       text.color = o.common.color_on(1);
       text.verbose = o.common.verbose;
       text.width = text_width();
-      if (o.common.decks.size() > 1) text.name = loaded.path;
+      if (o.common.decks.size() > 1) text.name = loaded.path();
       if (o.crossings) text.crossings = &crossings;
       text.gate = &report;
-      print_lines((first ? "" : "\n") + gaps_text(loaded.deck, scene, view, text));
+      print_lines((first ? "" : "\n") + gaps_text(loaded.deck(), scene, view, text));
       first = false;
     }
     const bool accepted = baseline.wanted() || (gate->baseline && o.gate.level().empty());

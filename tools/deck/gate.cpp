@@ -166,7 +166,7 @@ void DeckGate::note_baseline(const CommonOptions& options, const std::string& de
     note_not_in_baseline(options, deck_path, earlier->path, earlier->decks);
 }
 
-GateReport DeckGate::look(Loaded& loaded, const Scene& scene, const SceneView& view,
+GateReport DeckGate::look(LoadedDeck& loaded, const Scene& scene, const SceneView& view,
                           const cycle::SceneOutcome* forces) const {
   GateReport report;
   report.asked = gate.any();
@@ -182,12 +182,12 @@ GateReport DeckGate::look(Loaded& loaded, const Scene& scene, const SceneView& v
   return report;
 }
 
-void join_findings(Loaded& loaded) {
-  join_findings(loaded.deck, loaded.model, std::exchange(loaded.diagnostics, Diagnostics()));
+void join_findings(LoadedDeck& loaded) {
+  join_findings(loaded.deck(), loaded.model(), std::exchange(loaded.diagnostics, Diagnostics()));
 }
 
-bool stops_before_pairs(const Loaded& loaded, const Scene& scene) {
-  const auto& all = loaded.deck.diagnostics.all();
+bool stops_before_pairs(const LoadedDeck& loaded, const Scene& scene) {
+  const auto& all = loaded.deck().diagnostics.all();
   if (std::any_of(all.begin(), all.end(),
                   [](const Diagnostic& d) { return d.severity == Severity::error; }))
     return true;

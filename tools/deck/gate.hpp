@@ -44,11 +44,11 @@ Result<void> check_fail_on(const GateOptions& options);
 Result<LintConfig> config_of(const GateOptions& options, const std::string& deck_path);
 
 /// deck::join_findings with what was found since reading.
-void join_findings(Loaded& loaded);
+void join_findings(LoadedDeck& loaded);
 /// True if the solver stops before it looks for pairs: an error was found in the deck (a side of a
 /// contact without members among them), a main segment has no area, a segment or edge no element,
 /// or a contact no gap.
-bool stops_before_pairs(const Loaded& loaded, const Scene& scene);
+bool stops_before_pairs(const LoadedDeck& loaded, const Scene& scene);
 
 /// What holds for one deck: the bounds, and what the deck is compared with.
 struct DeckGate {
@@ -59,7 +59,7 @@ struct DeckGate {
   /// Says so where the baseline is one of other decks.
   void note_baseline(const CommonOptions& options, const std::string& deck_path) const;
   /// Looks, and adds what it finds to the deck's findings. `forces` may be nullptr.
-  GateReport look(Loaded& loaded, const Scene& scene, const SceneView& view,
+  GateReport look(LoadedDeck& loaded, const Scene& scene, const SceneView& view,
                   const cycle::SceneOutcome* forces) const;
 };
 /// Says that a baseline holds nothing of a deck, but of `held`, so that everything counts as new.

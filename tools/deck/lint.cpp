@@ -111,16 +111,16 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
   return out;
 }
 
-LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptions& options,
+LintResult lint_loaded(LoadedDeck& loaded, const SchemaSet& schemas, const LintOptions& options,
                        const Options& command, Geometry geometry, const DeckGate& gate) {
-  LintInput input{loaded.deck,
+  LintInput input{loaded.deck(),
                   schemas,
-                  &loaded.model,
-                  &loaded.interfaces,
-                  loaded.model.selections.get(),
+                  &loaded.model(),
+                  &loaded.interfaces(),
+                  loaded.model().selections.get(),
                   {&loaded.diagnostics},
                   {},
-                  &loaded.engine};
+                  &loaded.engine_files()};
   if (geometry != Geometry::none)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
       return check_geometry(
@@ -250,13 +250,13 @@ class Run {
     std::vector<const Job*> jobs;
     for (const auto& job : jobs_)
       if (job->loaded) {
-        decks.push_back({&job->loaded->deck.sources, &job->result.diagnostics});
+        decks.push_back({&job->loaded->deck().sources, &job->result.diagnostics});
         jobs.push_back(job.get());
       }
     const AgreedFixes agreed = agree_on_fixes(decks, options_.unsafe_fixes);
     std::size_t changed = 0;
     for (std::size_t d = 0; d < decks.size(); ++d) {
-      const Deck& deck = jobs[d]->loaded->deck;
+      const Deck& deck = jobs[d]->loaded->deck();
       const auto member = set.add(*jobs[d]->loaded, jobs[d]->path);
       if (!member) return member.error();
       results.push_back(apply_fixes(deck.sources, agreed.wanted[d]));
@@ -278,7 +278,7 @@ class Run {
       const WithheldFix& w = agreed.withheld[i];
       print_messages(fmt::format(
           "{}: note: not fixed ({}): {} includes this file, too, and needs it as it is\n",
-          terminal_text(jobs[w.deck]->loaded->deck.sources.where(w.diagnostic->span)),
+          terminal_text(jobs[w.deck]->loaded->deck().sources.where(w.diagnostic->span)),
           id_text(w.diagnostic->rule), terminal_text(jobs[w.other]->path)));
     }
     if (agreed.withheld.size() > most && !common_.quiet)
@@ -341,9 +341,9 @@ class Run {
   std::vector<LintedDeck> linted() const {
     std::vector<LintedDeck> out;
     for (const auto& job : jobs_)
-      out.push_back({job->path, job->loaded ? &job->loaded->deck : nullptr,
+      out.push_back({job->path, job->loaded ? &job->loaded->deck() : nullptr,
                      job->loaded ? &job->result : nullptr, job->error,
-                     job->loaded ? &job->loaded->interfaces : nullptr});
+                     job->loaded ? &job->loaded->interfaces() : nullptr});
     return out;
   }
 
@@ -363,7 +363,7 @@ class Run {
     if (!options_.write_baseline.empty()) {
       std::vector<BaselinedDeck> baselined;
       for (const auto& job : jobs_)
-        if (job->loaded) baselined.push_back({job->path, &job->loaded->deck, &job->result});
+        if (job->loaded) baselined.push_back({job->path, &job->loaded->deck(), &job->result});
       put(options_.write_baseline, deck::write_baseline(baselined, options_.write_baseline));
     }
     report_stale();

@@ -23,7 +23,7 @@ struct Side {
   SceneView view;
 
   DiffSide described(bool geometry) const {
-    DiffSide s{loaded->path, &loaded->deck, &loaded->model, &loaded->interfaces, nullptr, nullptr};
+    DiffSide s{loaded->path(), &loaded->deck(), &loaded->model(), &loaded->interfaces(), nullptr, nullptr};
     if (geometry) {
       s.scene = &scene;
       s.view = &view;
@@ -38,7 +38,7 @@ Result<Side> read_side(const Options& o, const std::string& path, const SchemaSe
   Side side{std::move(*loaded), {}, {}};
   if (side.loaded->incomplete())
     return Error{Error::Code::io,
-                 coverage_lead(coverage_of(side.loaded->deck, side.loaded->interfaces))};
+                 coverage_lead(coverage_of(side.loaded->deck(), side.loaded->interfaces()))};
   if (o.no_geometry) return side;
   Progress progress(!o.common.quiet);
   progress.step("contacts of " + path);
@@ -48,8 +48,8 @@ Result<Side> read_side(const Options& o, const std::string& path, const SchemaSe
   scene.limits = o.common.limits;
   scene.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
   side.scene =
-      build_scene(side.loaded->model, side.loaded->interfaces, side.loaded->diagnostics, scene);
-  resolve(side.loaded->interfaces, side.scene);
+      build_scene(side.loaded->model(), side.loaded->interfaces(), side.loaded->diagnostics, scene);
+  resolve(side.loaded->interfaces(), side.scene);
   side.view = make_view(side.scene);
   return side;
 }
@@ -72,7 +72,7 @@ int run(const Options& o) {
     for (const Contact& c : side->scene.contacts)
       if (!c.evaluated)
         print_note("penetrations of interface " + std::to_string(c.inter->id) + " of " +
-                   side->loaded->path + " were not evaluated and are not compared");
+                   side->loaded->path() + " were not evaluated and are not compared");
   }
   const DiffSide sa = a->described(!o.no_geometry), sb = b->described(!o.no_geometry);
   const DeckDiff diff = diff_decks(sa, sb,

@@ -8,7 +8,7 @@
 
 namespace deck::cli {
 
-Result<std::string> fix_page(const Loaded& before, const SchemaSet& schemas,
+Result<std::string> fix_page(const LoadedDeck& before, const SchemaSet& schemas,
                              const ChangedFiles& changed, const CommonOptions& options) {
   SceneOptions scene_options;
   scene_options.threads = options.thread_count();
@@ -17,15 +17,15 @@ Result<std::string> fix_page(const Loaded& before, const SchemaSet& schemas,
   Diagnostics unused;
   std::string was;
   {
-    const Scene scene = build_scene(before.model, before.interfaces, unused, scene_options);
+    const Scene scene = build_scene(before.model(), before.interfaces(), unused, scene_options);
     const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
-    was = gaps_json(before.path, before.deck, scene, make_view(scene, &crossings), false);
+    was = gaps_json(before.path(), before.deck(), scene, make_view(scene, &crossings), false);
   }
-  const auto earlier = read_earlier_gaps("as it was", was, before.path);
+  const auto earlier = read_earlier_gaps("as it was", was, before.path());
   if (!earlier) return earlier.error();
   Overlay overlay(changed.begin(), changed.end());
-  const std::string& main = before.deck.sources[0].path();
-  overlay.try_emplace(main, before.deck.sources[0].bytes());  // standard input is no file
+  const std::string& main = before.deck().sources[0].path();
+  overlay.try_emplace(main, before.deck().sources[0].bytes());  // standard input is no file
   ReadOptions read;
   read.include_paths = options.include_paths;
   read.overlay = &overlay;
@@ -37,7 +37,7 @@ Result<std::string> fix_page(const Loaded& before, const SchemaSet& schemas,
   const Interfaces interfaces = read_interfaces(*deck, model, unused);
   const Scene scene = build_scene(model, interfaces, unused, scene_options);
   HtmlInput input;
-  input.path = before.path;
+  input.path = before.path();
   input.deck = &*deck;
   input.scene = &scene;
   input.earlier = &*earlier;

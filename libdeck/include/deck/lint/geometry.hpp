@@ -19,15 +19,13 @@ struct QuickLook {
 };
 
 struct GeometryOptions {
-  int threads = 1;  ///< changes no finding
-  Limits limits = {};
   std::optional<QuickLook> quick = {};  ///< nullopt: all is looked at
   const Gate* gate = nullptr;           ///< what passes over it is reported, too
   const EarlierGaps* earlier = nullptr;
 };
 
 /// A check for LintInput::extra_checks; returns what the quick look left out. Does nothing where
-/// the context has no model or interfaces.
+/// the context has no LoadedDeck, whose threads and limits it takes.
 ///
 ///   input.extra_checks.push_back(
 ///       [](const LintContext& c, Reporter& r) { return check_geometry(c, r); });

@@ -105,9 +105,7 @@ NotChecked too_many_pairs(const std::string& contact, std::string_view what) {
 std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& reporter,
                                        const GeometryOptions& chosen) {
   std::vector<NotChecked> left_out;
-  if (context.model == nullptr || context.interfaces == nullptr || context.selections == nullptr ||
-      context.interfaces->ordered.empty())
-    return left_out;
+  if (context.loaded == nullptr || context.interfaces->ordered.empty()) return left_out;
   if (const std::uint64_t items = chosen.quick ? detail::items_of(context) : 0;
       chosen.quick && items > chosen.quick->items)
     return {{std::string(geometry_rules),
@@ -115,14 +113,11 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
                          "segments, more than {}; --geometry looks at all of them",
                          items, chosen.quick->items)}};
   Diagnostics found;
-  SceneOptions options;
-  options.threads = chosen.threads;
-  options.limits = chosen.limits;
+  SceneOptions options = context.loaded->scene_options();
   if (chosen.quick)
     options.limits.pair_bytes = std::min(options.limits.pair_bytes, chosen.quick->pair_bytes);
   options.candidates = false;
-  options.nodal_stiffness = true;  // the forces of Istf 2 to 5 need it
-  const Scene scene = build_scene(*context.model, *context.interfaces, found, options);
+  const Scene scene = context.loaded->scene_with(options, found);
   for (const Diagnostic& d : found.all()) {
     // The check of references says it with the cell and the reason.
     if (d.rule == RuleId::DK172 || d.rule == RuleId::DK173) continue;
@@ -140,7 +135,7 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
   }
   const SceneView view = make_view(scene);
   const detail::GeometryRun run{context, reporter,       scene,
-                                view,    chosen.threads, chosen.quick ? &left_out : nullptr};
+                                view,    options.threads, chosen.quick ? &left_out : nullptr};
   detail::check_penetrations(run);
   detail::check_gaps(run);
   detail::check_segments(run);
