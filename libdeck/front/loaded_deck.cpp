@@ -7,6 +7,7 @@
 #include "contact/scene/scene_parts.hpp"
 #include "cycle/contact_run.hpp"
 #include "deck/model/mesh_memory.hpp"
+#include "deck/text/rule_id.hpp"
 #include "front/findings.hpp"
 
 namespace deck {
@@ -32,7 +33,7 @@ struct LoadedDeck::Parts {
   Interfaces& cards();
   const Interfaces& values();
   const Scene& the_scene();
-  const Scene& mesh_values();
+  const Scene& mesh_values(const Progress& progress);
   const FirstCycle& the_cycle();
   void find(Stage until);
   Scene build(const SceneOptions& wanted, Diagnostics& to) {
@@ -52,6 +53,7 @@ struct LoadedDeck::Parts {
   std::optional<EngineFiles> engine;
   std::optional<Model> model;
   std::optional<Interfaces> interfaces;
+  bool joined = false;    ///< Deck::diagnostics is all that was found
   bool resolved = false;  ///< the interfaces have the values that follow from the mesh
   SceneOptions scene_options;
   std::optional<Scene> mesh, scene, cycle_scene;  ///< the last only where `scene` will not do
@@ -86,7 +88,7 @@ const Scene& LoadedDeck::Parts::the_scene() {
   return *scene;
 }
 
-const Scene& LoadedDeck::Parts::mesh_values() {
+const Scene& LoadedDeck::Parts::mesh_values(const Progress& progress) {
   if (!holds_values() && !mesh) {
     mesh.emplace();
     if (waits_for_geometry(cards())) {
@@ -94,7 +96,7 @@ const Scene& LoadedDeck::Parts::mesh_values() {
       sides.threads = options.threads;
       sides.limits = options.read.limits;
       sides.candidates = sides.penetrations = false;
-      sides.progress = scene_options.progress;
+      sides.progress = progress;
       mesh = build(sides, found.of_mesh());
     }
   }
@@ -124,7 +126,7 @@ const Interfaces& LoadedDeck::Parts::values() {
   cards();
   if (options.geometry && !resolved) {
     const bool kept = mesh.has_value();
-    mesh_values();
+    mesh_values({});
     if (!kept) mesh.reset();
   }
   return *interfaces;
@@ -153,6 +155,18 @@ LoadedDeck LoadedDeck::from(Deck&& deck, const LoadOptions& options) {
   return out;
 }
 
+Result<LoadedDeck> LoadedDeck::with(const std::map<std::string, std::string>& changed) const {
+  std::map<std::string, std::string> texts = changed;
+  const SourceSet& sources = deck().sources;
+  for (std::uint32_t f = 0; f < sources.size(); ++f)
+    if (sources[f].inode() == 0) texts.try_emplace(sources[f].path(), sources[f].bytes());
+  LoadOptions how = options();
+  how.read.overlay = &texts;
+  auto out = load(sources[0].path(), how);
+  if (out) out->parts_->path = path();
+  return out;
+}
+
 const std::string& LoadedDeck::path() const { return parts_->path; }
 const SchemaSet& LoadedDeck::schemas() const { return parts_->schemas; }
 const LoadOptions& LoadedDeck::options() const { return parts_->options; }
@@ -175,16 +189,24 @@ bool LoadedDeck::incomplete() const {
 
 const Interfaces& LoadedDeck::interfaces() const { return parts_->values(); }
 
-const Scene& LoadedDeck::mesh_values() const { return parts_->mesh_values(); }
+const Scene& LoadedDeck::mesh_values(const Progress& progress) const {
+  return parts_->mesh_values(progress);
+}
+
 const SceneOptions& LoadedDeck::scene_options() const { return parts_->scene_options; }
 
-void LoadedDeck::set_scene_options(const SceneOptions& options) {
+void LoadedDeck::drop_scene() {
   Parts& p = *parts_;
   p.cycle.reset();
   p.cycle_scene.reset();
   p.scene.reset();
   p.found.forget_scene();
-  p.scene_options = options;
+  p.joined = false;
+}
+
+void LoadedDeck::set_scene_options(const SceneOptions& options) {
+  drop_scene();
+  parts_->scene_options = options;
 }
 
 const Scene& LoadedDeck::scene() const { return parts_->the_scene(); }
@@ -193,7 +215,8 @@ const FirstCycle& LoadedDeck::cycle() const { return parts_->the_cycle(); }
 const Diagnostics& LoadedDeck::findings() const {
   Parts& p = *parts_;
   p.the_scene();
-  p.deck.diagnostics = findings_with(p.found.of(Stage::scene));
+  if (!std::exchange(p.joined, true))
+    p.deck.diagnostics = findings_with(p.found.of(Stage::scene));
   return p.deck.diagnostics;
 }
 
@@ -208,10 +231,28 @@ Diagnostics LoadedDeck::findings_with(const Diagnostics& of_scene) const {
   return parts_->found.joined(parts_->the_model(), of_scene);
 }
 
-void LoadedDeck::report(Diagnostic finding) { parts_->found.add(std::move(finding)); }
+const Diagnostics& LoadedDeck::found_by(Stage stage) const {
+  if (stage >= Stage::scene) parts_->the_scene();
+  parts_->find(stage);
+  return parts_->found.of(stage);
+}
+
+void LoadedDeck::report(Diagnostic finding) {
+  parts_->found.add(std::move(finding));
+  parts_->joined = false;
+}
 
 Scene LoadedDeck::scene_with(const SceneOptions& options, Diagnostics& found) const {
   return parts_->build(options, found);
+}
+
+Stage LoadedDeck::reached() const {
+  const Parts& p = *parts_;
+  return p.scene                   ? Stage::scene
+         : !p.found.wants_cells()  ? Stage::cells
+         : p.interfaces            ? Stage::interfaces
+         : p.model                 ? Stage::model
+                                   : Stage::deck;
 }
 
 void LoadedDeck::observe(std::function<void(Stage)> observer) {

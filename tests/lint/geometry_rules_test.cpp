@@ -227,9 +227,9 @@ TEST(QuickLook, SaysThatItLeavesOutAContactWithManyPairs) {
   const Linted run = lint_geometry(text, {.quick = QuickLook{.pair_bytes = 1}});
   EXPECT_FALSE(run.fires(RuleId::DK390)) << run.list();
   EXPECT_EQ(not_checked(run).front(), "/INTER/TYPE7 1: penetrations and forces");
-  GeometryOptions all;
-  all.limits.pair_bytes = 1;
-  EXPECT_TRUE(lint_geometry(text, all).fires(RuleId::DK390)) << "where all is asked for";
+  Limits limits;
+  limits.pair_bytes = 1;
+  EXPECT_TRUE(lint_geometry(text, {}, limits).fires(RuleId::DK390)) << "where all is asked for";
 }
 
 TEST(QuickLook, NeedsNoContactInADeckWithoutAny) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""A stage of the library includes only stages to its left: base, text, keyword, model, contact, cycle, accuracy; edit reads
-those and is read by lint and report only; report is read by none of them.
+"""A stage of the library includes only stages to its left: base, text, keyword, model, contact, cycle, accuracy; front (deck.hpp)
+reads them up to cycle; edit reads all those and is read by lint and report only; report is read by none of them. And everybody
+comes in through front: who builds a model, a scene or a first cycle for himself is listed here with his reason.
 
     python3 tests/tools/check_stages.py"""
 import os
@@ -10,13 +11,27 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 ROW = ["base", "text", "keyword", "model", "contact", "cycle", "accuracy"]
 MAY = {stage: set(ROW[:i + 1]) for i, stage in enumerate(ROW)}
-MAY["edit"] = {*ROW, "edit"}
-MAY["lint"] = {*ROW, "edit", "lint"}
-MAY["report"] = {*ROW, "edit", "lint", "report"}
+MAY["front"] = {*ROW[:ROW.index("cycle") + 1], "front"}
+MAY["edit"] = {*ROW, "front", "edit"}
+MAY["lint"] = {*ROW, "front", "edit", "lint"}
+MAY["report"] = {*ROW, "front", "edit", "lint", "report"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+"(?:deck/)?([a-z]+)/', re.M)
+FRONT_HEADER = "libdeck/include/deck/deck.hpp"
+
+BUILDS = re.compile(r"\b(build_model|read_interfaces|build_scene|run_cycle)\(")
+BUILDERS = ("libdeck/front/", "libdeck/model/", "libdeck/contact/", "libdeck/cycle/", "libdeck/include/deck/")
+FOR_THEMSELVES = {
+    "libdeck/edit/fix/common.cpp": "contacts of a model whose nodes are being moved",
+    "libdeck/edit/fix/movable.cpp": "a model whose nodes are moved",
+    "libdeck/lint/checks/geometry/cycle.cpp": "the first cycle as the solver computes it, double counting included",
+    "tools/deck/lsp/analysis.cpp": "the interfaces of a model that outlives edits of its text",
+    "tools/deck/lsp/analyst.cpp": "a model that outlives edits of its text",
+    "tools/python/src/results.cpp": "a first cycle with velocities, times and a model of forces of its own",
+}
 
 
 def stage_files():
+    yield "front", os.path.join(ROOT, FRONT_HEADER)
     for top in ("libdeck", "libdeck/include/deck"):
         for stage in MAY:
             for folder, _, names in os.walk(os.path.join(ROOT, top, stage)):
@@ -25,15 +40,39 @@ def stage_files():
                         yield stage, os.path.join(folder, name)
 
 
+def builders():
+    """Files that build what front has, but for those that front is made of."""
+    for top in ("libdeck", "tools"):
+        for folder, _, names in os.walk(os.path.join(ROOT, top)):
+            for name in sorted(names):
+                path = os.path.relpath(os.path.join(folder, name), ROOT)
+                if not name.endswith((".cpp", ".hpp")) or path.startswith((*BUILDERS, "tools/bench/")):
+                    continue
+                with open(os.path.join(ROOT, path), encoding="utf-8") as f:
+                    code = re.sub(r"//.*", "", f.read())
+                if BUILDS.search(code):
+                    yield path
+
+
 def main():
     files = failed = 0
     for stage, path in stage_files():
         files += 1
         with open(path, encoding="utf-8") as f:
-            wrong = sorted({s for s in INCLUDE.findall(f.read()) if s in MAY and s not in MAY[stage]})
+            read = {"front" if s == "deck" else s for s in INCLUDE.findall(f.read())}
+        wrong = sorted(s for s in read if s in MAY and s not in MAY[stage])
         if wrong:
             failed += 1
             print("FAILED  %s, of stage %s, includes %s" % (os.path.relpath(path, ROOT), stage, ", ".join(wrong)))
+    found = set(builders())
+    for path in sorted(found | set(FOR_THEMSELVES)):
+        files += 1
+        if path not in FOR_THEMSELVES:
+            failed += 1
+            print("FAILED  %s builds a model, a scene or a first cycle: it belongs to LoadedDeck (deck/deck.hpp)" % path)
+        elif path not in found:
+            failed += 1
+            print("FAILED  %s is listed here and builds nothing for itself any more" % path)
     if files < 300:
         failed += 1
         print("FAILED  only %d files were found" % files)

@@ -193,7 +193,7 @@ int run(const Options& o) {
   options.keep_pairs = (o.all && json.wanted()) || !o.vtk.empty() || !o.html.empty();
   std::vector<std::int64_t> parts;
   for (const cycle::PartVelocity& v : velocities) parts.push_back(v.part);
-  const int code = for_each_deck(o.common, Stage::interfaces, [&](LoadedDeck& loaded) {
+  const int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
     for (const auto& known : {check_interfaces(loaded, o.only, "--interface"),
                               check_parts(loaded, parts, "--velocity")})
       if (!known) {
@@ -223,7 +223,6 @@ int run(const Options& o) {
     scene_options.only = o.only;
     scene_options.accuracy = accuracy_of(o.accuracy);
     scene_options.limits = o.common.limits;
-    Scene scene;
     cycle::StepsOutcome steps;
     cycle::State state;
     CycleInput input;
@@ -237,7 +236,8 @@ int run(const Options& o) {
         progress.update(done, total);
       };
       scene_options.progress = update;
-      scene = build_scene(loaded.model(), loaded.interfaces(), loaded.diagnostics, scene_options);
+      loaded.set_scene_options(scene_options);
+      const Scene& scene = loaded.scene();
       progress.step("forces");
       state = cycle::make_state(scene, velocities);
       options.progress = update;
@@ -283,7 +283,8 @@ int run(const Options& o) {
         written = write_vtk(o, loaded.path(), files, paraview_script(files));
       }
     }
-    join_findings(loaded);
+    loaded.findings();
+    const Scene& scene = loaded.scene();
     const SceneView view = make_view(scene);
     const GateReport report = gate->look(loaded, scene, view, &steps.last);
     input.view = &view;

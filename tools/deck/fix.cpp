@@ -81,7 +81,7 @@ class FixRun {
                                      : "a deck from standard input has no name to write it to"});
     changes_.propose(*member, loaded.deck(), changed);
     if (!o_.html.empty()) {
-      auto page = fix_page(loaded, schemas_, changed, o_.common);
+      auto page = fix_page(loaded, changed, o_.common);
       if (!page) return fail(page.error());
       page_ = std::move(*page);
     }
@@ -145,7 +145,6 @@ class FixRun {
 
   /// All strategies in their order.
   Result<FixSequence> make(const LoadedDeck& loaded) const {
-    const EditContext context{loaded.deck(), loaded.model(), loaded.interfaces(), schemas_};
     Progress progress(!o_.common.quiet);
     std::string step;
     FixOptions base;
@@ -167,7 +166,7 @@ class FixRun {
         if (fix) moved.insert(moved.end(), fix->moved.begin(), fix->moved.end());
         return fix;
       });
-    return fix_in_order(context, base, steps);
+    return fix_in_order(loaded, base, steps);
   }
 
   Result<PenetrationFix> one_step(const std::string& strategy, const EditContext& context,
@@ -290,7 +289,7 @@ int run(const Options& o) {
   CommonOptions common = o.common;
   common.decks = *decks;
   const int code =
-      for_each_deck(common, Stage::interfaces, [&](LoadedDeck& loaded) { return fix.one(loaded); });
+      for_each_deck(common, [&](LoadedDeck& loaded) { return fix.one(loaded); });
   return json.finish(fix.finish(code));
 }
 

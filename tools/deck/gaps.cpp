@@ -60,34 +60,24 @@ Result<void> write_vtk(const Options& o, const LoadedDeck& loaded, const Scene& 
 }
 
 /// What page and drawing are made from.
-HtmlInput page_input(const LoadedDeck& loaded, const Scene& scene, const SceneView& view,
-                     const SceneOptions& scene_options) {
+HtmlInput page_input(const LoadedDeck& loaded, const SceneView& view) {
   HtmlInput input;
   input.path = loaded.path();
   input.deck = &loaded.deck();
-  input.scene = &scene;
+  input.scene = &loaded.scene();
   input.view = &view;
-  input.what_if = scene_options.what_if;
-  input.only = scene_options.only;
-  input.threads = scene_options.threads;
+  input.what_if = loaded.scene_options().what_if;
+  input.only = loaded.scene_options().only;
+  input.threads = loaded.options().threads;
   return input;
 }
 
 /// Writes the HTML report; what can be wrong is wrong usage or a file.
-Result<void> write_html(const Options& o, const LoadedDeck& loaded, const Scene& scene,
-                        const SceneView& view, const std::vector<Crossing>& crossings,
-                        const SceneOptions& scene_options, const GateReport& gate) {
-  cycle::CycleOptions cycle_options;
-  cycle_options.threads = scene_options.threads;
-  cycle_options.keep_pairs = true;
-  cycle::State state = cycle::make_state(scene);
-  cycle::SceneOutcome forces = cycle::run_cycle(scene, state, cycle_options);
-  HtmlInput input = page_input(loaded, scene, view, scene_options);
-  input.cycle = &forces;
-  input.acted = acted_in_page(state, forces);
-  // Nodes may be many, and the page asks for no more of them.
-  state = {};
-  forces.nodes = {};
+Result<void> write_html(const Options& o, const LoadedDeck& loaded, const SceneView& view,
+                        const std::vector<Crossing>& crossings, const GateReport& gate) {
+  HtmlInput input = page_input(loaded, view);
+  input.cycle = &loaded.cycle().outcome;
+  input.acted = acted_in_page(loaded.cycle().state, loaded.cycle().outcome);
   input.crossings = &crossings;
   input.earlier = gate.earlier;
   auto page = gaps_html(input);
@@ -140,7 +130,7 @@ int run(const Options& o) {
     gate_options.no_config = true;
   }
   bool first = true;
-  int code = for_each_deck(o.common, Stage::interfaces, [&](LoadedDeck& loaded) {
+  int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
     if (auto fits = check_options(o, loaded, scene_options.what_if); !fits) {
       print_error(o.common, fits.error().message);
       return static_cast<int>(exit_usage);
@@ -153,7 +143,6 @@ int run(const Options& o) {
       return static_cast<int>(exit_usage);
     }
     gate->note_baseline(o.common, loaded.path());
-    Scene scene;
     {
       Progress progress(!o.common.quiet);
       progress.step("contacts");
@@ -162,18 +151,14 @@ int run(const Options& o) {
       scene_options.progress = [&](std::size_t done, std::size_t total) {
         progress.update(done, total);
       };
-      scene = build_scene(loaded.model(), loaded.interfaces(), loaded.diagnostics, scene_options);
+      loaded.set_scene_options(scene_options);
+      loaded.findings();
     }
-    join_findings(loaded);
+    const Scene& scene = loaded.scene();
     const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
     const SceneView view = make_view(scene, &crossings, scene_options.threads);
-    std::optional<cycle::SceneOutcome> forces;
-    if (gate->gate.needs_forces()) {
-      cycle::CycleOptions cycle_options;
-      cycle_options.threads = scene_options.threads;
-      forces = cycle::run_cycle(scene, cycle::make_state(scene), cycle_options);
-    }
-    const GateReport report = gate->look(loaded, scene, view, forces ? &*forces : nullptr);
+    const GateReport report = gate->look(
+        loaded, scene, view, gate->gate.needs_forces() ? &loaded.cycle().outcome : nullptr);
     print_findings(loaded, o.common);
     if (json.wanted())
       json.add([&](const TextDrain& drain) {
@@ -197,12 +182,12 @@ int run(const Options& o) {
         return static_cast<int>(exit_usage);
       }
     if (!o.html.empty())
-      if (auto r = write_html(o, loaded, scene, view, crossings, scene_options, report); !r) {
+      if (auto r = write_html(o, loaded, view, crossings, report); !r) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }
     if (!o.svg.empty())
-      if (auto r = write_output(o.svg, touches_svg(page_input(loaded, scene, view, scene_options)));
+      if (auto r = write_output(o.svg, touches_svg(page_input(loaded, view)));
           !r) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "deck/base/paths.hpp"
-#include "deck/contact/join_findings.hpp"
 #include "deck/report/gaps.hpp"
 
 namespace deck::cli {
@@ -178,12 +177,8 @@ GateReport DeckGate::look(LoadedDeck& loaded, const Scene& scene, const SceneVie
   report.undecided = static_cast<std::size_t>(std::count_if(
       scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) { return !c.evaluated; }));
   report.findings = check_gate(gate, scene, view, forces, report.earlier);
-  for (const Diagnostic& d : report.findings) loaded.diagnostics.report(d);
+  for (const Diagnostic& d : report.findings) loaded.report(d);
   return report;
-}
-
-void join_findings(LoadedDeck& loaded) {
-  join_findings(loaded.deck(), loaded.model(), std::exchange(loaded.diagnostics, Diagnostics()));
 }
 
 bool stops_before_pairs(const LoadedDeck& loaded, const Scene& scene) {

@@ -43,8 +43,6 @@ Result<void> check_fail_on(const GateOptions& options);
 /// The configuration that holds for a deck: --config, or the nearest .decklint.toml.
 Result<LintConfig> config_of(const GateOptions& options, const std::string& deck_path);
 
-/// deck::join_findings with what was found since reading.
-void join_findings(LoadedDeck& loaded);
 /// True if the solver stops before it looks for pairs: an error was found in the deck (a side of a
 /// contact without members among them), a main segment has no area, a segment or edge no element,
 /// or a contact no gap.

@@ -53,7 +53,7 @@ constexpr std::initializer_list<const char*> formats = {"human",  "json",  "sari
 /// One deck of the run, kept until everything is written.
 struct Job {
   std::string path, error;
-  std::unique_ptr<Loaded> loaded;
+  std::optional<LoadedDeck> loaded;
   LintResult result;
   /// Rule and entity of the entries of the baseline, for those that do not occur any more.
   std::map<FindingKey, std::pair<std::string, std::string>> baseline_names;
@@ -111,25 +111,22 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
   return out;
 }
 
-LintResult lint_loaded(LoadedDeck& loaded, const SchemaSet& schemas, const LintOptions& options,
-                       const Options& command, Geometry geometry, const DeckGate& gate) {
-  LintInput input{loaded.deck(),
-                  schemas,
-                  &loaded.model(),
-                  &loaded.interfaces(),
-                  loaded.model().selections.get(),
-                  {&loaded.diagnostics},
-                  {},
-                  &loaded.engine_files()};
+LintResult lint_loaded(LoadedDeck& loaded, const LintOptions& options, Geometry geometry,
+                       const DeckGate& gate) {
+  SceneOptions contacts = loaded.scene_options();
+  contacts.candidates = false;
+  loaded.set_scene_options(contacts);
+  LintInput input(loaded);
   if (geometry != Geometry::none)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
       return check_geometry(
           context, reporter,
-          {command.common.thread_count(), command.common.limits,
-           geometry == Geometry::quick ? std::optional(QuickLook{}) : std::nullopt, &gate.gate,
+          {geometry == Geometry::quick ? std::optional(QuickLook{}) : std::nullopt, &gate.gate,
            gate.earlier ? &*gate.earlier : nullptr});
     });
-  return run_lint(input, options);
+  LintResult result = run_lint(input, options);
+  loaded.drop_scene();
+  return result;
 }
 
 bool at_or_above(const LintResult& r, std::string_view fail_on) {
@@ -222,15 +219,15 @@ class Run {
     gate->note_baseline(common_, path);
     const auto lint = lint_options(options_, *config, *job);
     if (!lint) return usage(lint.error().message);
-    auto loaded = load(path, schemas_, common_, Stage::interfaces);
+    auto loaded = load(path, schemas_, common_);
     int code = exit_clean;
     if (!loaded) {
       job->error = loaded.error().message;
       print_error(common_, job->error);
       code = loaded.error().code == Error::Code::config ? exit_usage : exit_input;
     } else {
-      job->loaded = std::move(*loaded);
-      job->result = lint_loaded(*job->loaded, schemas_, *lint, options_, geometry, *gate);
+      job->loaded.emplace(std::move(*loaded));
+      job->result = lint_loaded(*job->loaded, *lint, geometry, *gate);
       const std::string given = options_.gate.level();
       const std::string fail_on = !given.empty()             ? given
                                   : !config->fail_on.empty() ? config->fail_on

@@ -209,9 +209,9 @@ class Untangler : MovableDeck {
 
   Result<PenetrationFix> finish(const Scene& before) {
     fix_.rewrite.edits = cells_.edits(texts_);
-    auto again = read_again(context_, fix_.rewrite, options_);
+    auto again = read_again(context_, fix_.rewrite);
     if (!again) return again.error();
-    const Scene after = fix_scene((*again)->model, (*again)->interfaces, options_, false);
+    const Scene after = fix_scene(again->model(), again->interfaces(), options_, false);
     if (makes_penetrations(after))
       return Error{Error::Code::internal, "the deck read again differs from the moved model"};
     const std::vector<Crossing> left = wanted(after);

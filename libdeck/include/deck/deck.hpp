@@ -8,6 +8,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -55,8 +56,14 @@ struct FirstCycle {
 /// moved. For one thread at a time: what is asked for first is made then, const or not.
 class LoadedDeck {
  public:
+  /// Called with (contacts done, contacts in all).
+  using Progress = std::function<void(std::size_t, std::size_t)>;
+
   /// Of a deck that was read already: of changed texts, or of text in memory.
   static LoadedDeck from(Deck&& deck, const LoadOptions& options = {});
+  /// This deck with other texts of some of its files, by their paths as it opened them, read again
+  /// as it was read. Texts that never lay on a disk are kept.
+  Result<LoadedDeck> with(const std::map<std::string, std::string>& changed) const;
   LoadedDeck(LoadedDeck&&) noexcept;
   LoadedDeck& operator=(LoadedDeck&&) noexcept;
   ~LoadedDeck();
@@ -79,7 +86,7 @@ class LoadedDeck {
   /// Contacts without penetrations, where an interface has values that follow from the mesh; else
   /// an empty scene. interfaces() has these values from now on, whatever was asked for. Good until
   /// scene() is made.
-  const Scene& mesh_values() const;
+  const Scene& mesh_values(const Progress& progress = {}) const;
 
   /// How scene() is made: with threads and limits of loading, and with the nodal stiffness that
   /// forces need.
@@ -88,15 +95,21 @@ class LoadedDeck {
   void set_scene_options(const SceneOptions& options);
   /// The contacts of the deck: segments, gaps, stiffness, penetrations.
   const Scene& scene() const;
+  /// Ends the scene and what was made of it, to be made anew where it is asked for again: for who
+  /// keeps many decks.
+  void drop_scene();
   /// Forces of the first cycle, with every pair. At rest but for the initial velocities of the deck.
   const FirstCycle& cycle() const;
 
-  /// All that was found wrong: in reading, in the model, its interfaces, the cells that contacts
+  /// All that was found wrong up to now: in reading, in the model, its interfaces, the cells that contacts
   /// depend on, contacts and their groups, and what was added; in this order, each once. Makes the
-  /// scene. Of the groups' findings only errors, which can stop the solver.
+  /// scene. Of the groups' findings only errors, which can stop the solver. Good until report() or
+  /// another scene.
   const Diagnostics& findings() const;
   /// The same without what later stages find.
   Diagnostics findings(Stage until) const;
+  /// What one stage has found, alone.
+  const Diagnostics& found_by(Stage stage) const;
   /// Adds to findings() what others have found.
   void report(Diagnostic finding);
 
@@ -106,6 +119,8 @@ class LoadedDeck {
   /// findings() with what such a scene has met instead of what scene() has.
   Diagnostics findings_with(const Diagnostics& of_scene) const;
 
+  /// The last stage that was made.
+  Stage reached() const;
   /// Called with every stage when it is made, before its work begins; may be empty.
   void observe(std::function<void(Stage)> observer);
 

@@ -33,17 +33,11 @@ struct PyEdit {
 };
 using EditPointer = std::shared_ptr<PyEdit>;
 
-EditContext context_of(const PyDeck& d) {
-  return {d.loaded.deck(), d.loaded.model(), d.loaded.interfaces(), SchemaSet::built_in()};
-}
-
 /// The deck as it is with the changed files.
 DeckPointer read_again(const PyDeck& d, const ChangedFiles& changed) {
-  LoadOptions options = d.loaded.options();
-  options.read.overlay = &changed;
   auto loaded = [&] {
     const py::gil_scoped_release free;
-    return load(d.path, options);
+    return d.loaded.with(changed);
   }();
   if (!loaded) raise_error(loaded.error().message);
   const py::gil_scoped_release free;
@@ -111,17 +105,15 @@ EditPointer convert_deck(const DeckPointer& d, const std::vector<std::int64_t>& 
     Rewrite rewrite = [&] {
       const py::gil_scoped_release free;
       const std::lock_guard one(edit->after->mutex);
-      return step(context_of(*edit->after));
+      return step(edit->after->loaded);
     }();
     take(*edit, *edit->after, rewrite);
     if (verify) {
       const DeckPointer next = read_again(*d, edit->changed);
-      const VerifyOptions options{d->loaded.options().threads, d->loaded.options().read.limits};
       const auto why = [&] {
         const py::gil_scoped_release free;
         const std::lock_guard one(edit->after->mutex);
-        const Behaviour before(context_of(*edit->after), options),
-            after(context_of(*next), options);
+        const Behaviour before(edit->after->loaded), after(next->loaded);
         return first_difference(before, after, relation_of(rewrite.losses));
       }();
       if (why) raise_error("the converted deck is not the same: " + *why);
@@ -150,7 +142,7 @@ EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
   base.interfaces = interfaces;
   base.read = d->loaded.options().read;
   base.limits = d->loaded.options().read.limits;
-  const EditContext context = context_of(*d);
+  const EditContext context = d->loaded;
   const auto with = [&]<class Options>(Options options) {
     static_cast<FixOptions&>(options) = base;
     return options;

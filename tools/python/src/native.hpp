@@ -23,6 +23,9 @@ struct PyDeck {
       : path(std::move(deck_path)), loaded(std::move(read)), files(loaded.deck().sources.size()) {
     loaded.interfaces();
     loaded.engine_files();
+    SceneOptions contacts = loaded.scene_options();
+    contacts.candidates = false;  // scenes that count them are made by the way
+    loaded.set_scene_options(contacts);
   }
   std::string path;
   LoadedDeck loaded;

@@ -24,8 +24,9 @@ struct GeometryOptions {
   const EarlierGaps* earlier = nullptr;
 };
 
-/// A check for LintInput::extra_checks; returns what the quick look left out. Does nothing where
-/// the context has no LoadedDeck, whose threads and limits it takes.
+/// A check for LintInput::extra_checks, of the scene that the LoadedDeck of the context has, but for
+/// a quick look; returns what that left out. Does nothing without a LoadedDeck. The number of
+/// candidates is not looked at.
 ///
 ///   input.extra_checks.push_back(
 ///       [](const LintContext& c, Reporter& r) { return check_geometry(c, r); });

@@ -112,12 +112,16 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
              fmt::format("the model and the sides of its contacts have {} nodes, elements and "
                          "segments, more than {}; --geometry looks at all of them",
                          items, chosen.quick->items)}};
-  Diagnostics found;
-  SceneOptions options = context.loaded->scene_options();
-  if (chosen.quick)
+  Diagnostics of_quick;
+  std::optional<Scene> smaller;
+  if (chosen.quick) {
+    SceneOptions options = context.loaded->scene_options();
     options.limits.pair_bytes = std::min(options.limits.pair_bytes, chosen.quick->pair_bytes);
-  options.candidates = false;
-  const Scene scene = context.loaded->scene_with(options, found);
+    options.candidates = false;
+    smaller = context.loaded->scene_with(options, of_quick);
+  }
+  const Scene& scene = smaller ? *smaller : context.loaded->scene();
+  const Diagnostics& found = smaller ? of_quick : context.loaded->found_by(Stage::scene);
   for (const Diagnostic& d : found.all()) {
     // The check of references says it with the cell and the reason.
     if (d.rule == RuleId::DK172 || d.rule == RuleId::DK173) continue;
@@ -134,8 +138,9 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
     }
   }
   const SceneView view = make_view(scene);
-  const detail::GeometryRun run{context, reporter,       scene,
-                                view,    options.threads, chosen.quick ? &left_out : nullptr};
+  const detail::GeometryRun run{
+      context, reporter, scene, view, context.loaded->options().threads,
+      chosen.quick ? &left_out : nullptr};
   detail::check_penetrations(run);
   detail::check_gaps(run);
   detail::check_segments(run);
