@@ -81,12 +81,12 @@ Diagnostics Findings::joined(const Model& model, const Diagnostics& of_scene) co
     out.take(lists_[static_cast<std::size_t>(stage)]);
   out.take(mesh_);
   out.take(of_scene);
-  out.take(added_);
   out.take(lists_[static_cast<std::size_t>(Stage::cells)]);
   // The scene has reported DK332 itself.
   if (model.selections != nullptr)
     for (const Diagnostic& d : model.selections->diagnostics().all())
       if (d.severity == Severity::error && d.rule != RuleId::DK332) out.take(d);
+  out.take(added_);
   return out.finish();
 }
 

@@ -1,4 +1,4 @@
-// Makes each stage of a deck once, when it is asked for, with the limits that were given on loading.
+// Makes each stage of a deck once, when it is asked for, within the limits of loading.
 #include "deck/deck.hpp"
 
 #include <optional>
@@ -84,6 +84,7 @@ const Scene& LoadedDeck::Parts::the_scene() {
     begin(Stage::scene);
     mesh.reset();
     scene = build(scene_options, found.of(Stage::scene));
+    scene_options.progress = nullptr;  // who asked for it may be gone when another is made
   }
   return *scene;
 }
@@ -215,8 +216,7 @@ const FirstCycle& LoadedDeck::cycle() const { return parts_->the_cycle(); }
 const Diagnostics& LoadedDeck::findings() const {
   Parts& p = *parts_;
   p.the_scene();
-  if (!std::exchange(p.joined, true))
-    p.deck.diagnostics = findings_with(p.found.of(Stage::scene));
+  if (!std::exchange(p.joined, true)) p.deck.diagnostics = findings_with(p.found.of(Stage::scene));
   return p.deck.diagnostics;
 }
 
@@ -248,11 +248,11 @@ Scene LoadedDeck::scene_with(const SceneOptions& options, Diagnostics& found) co
 
 Stage LoadedDeck::reached() const {
   const Parts& p = *parts_;
-  return p.scene                   ? Stage::scene
-         : !p.found.wants_cells()  ? Stage::cells
-         : p.interfaces            ? Stage::interfaces
-         : p.model                 ? Stage::model
-                                   : Stage::deck;
+  return p.scene                  ? Stage::scene
+         : !p.found.wants_cells() ? Stage::cells
+         : p.interfaces           ? Stage::interfaces
+         : p.model                ? Stage::model
+                                  : Stage::deck;
 }
 
 void LoadedDeck::observe(std::function<void(Stage)> observer) {

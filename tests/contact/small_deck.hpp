@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/deck.hpp"
 #include "deck/contact/view.hpp"
+#include "deck/deck.hpp"
 #include "deck/lint/example.hpp"
 
 namespace deck::test {
@@ -138,9 +138,7 @@ struct Built {
   }
   Built(const Built&) = delete;
   Built& operator=(const Built&) = delete;
-  void build(const SceneOptions& options) {
-    scene = loaded.scene_with(options, diagnostics);
-  }
+  void build(const SceneOptions& options) { scene = loaded.scene_with(options, diagnostics); }
 
   const Contact& contact(std::int64_t id = 1, ContactRole role = ContactRole::primary) const {
     for (const Contact& c : scene.contacts)

@@ -24,7 +24,8 @@ class BoundsOfASchema : public testing::Test {
         example_deck("/WINCH/3\nfront\n" + std::string(line) + "\n", SchemaSet::built_in()).main;
     auto deck = read_deck_text("deck_0000.rad", text, schemas);
     EXPECT_TRUE(deck);
-    const LintResult result = run_lint(LintInput(linted(std::move(*deck), {.schemas = &schemas}).loaded));
+    const LintResult result =
+        run_lint(LintInput(linted(std::move(*deck), {.schemas = &schemas}).loaded));
     for (const Diagnostic& d : result.diagnostics)
       if (d.rule == RuleId::DK096) return d.message;
     return {};

@@ -134,8 +134,7 @@ Result<LoadedSchemas> load_schemas(const CommonOptions& options) {
 const Scene& resolve_geometry(const LoadedDeck& loaded, const CommonOptions& options) {
   Progress progress(!options.quiet);
   if (waits_for_geometry(loaded.interfaces())) progress.step("deriving gaps from the geometry");
-  return loaded.mesh_values(
-      [&](std::size_t done, std::size_t all) { progress.update(done, all); });
+  return loaded.mesh_values([&](std::size_t done, std::size_t all) { progress.update(done, all); });
 }
 
 namespace {
@@ -408,8 +407,8 @@ void print_error(const CommonOptions& options, std::string_view message) {
   if (BatchFrame* frame = batch_frame()) frame->note_error(message);
 }
 
-std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options, bool errors_only,
-                             std::size_t limit) {
+std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options,
+                             bool errors_only, std::size_t limit) {
   const bool color = options.color_on(2);
   std::uint64_t errors = 0, shown = 0, hidden = 0;
   const Diagnostics found = loaded.findings(loaded.reached());
@@ -425,9 +424,9 @@ std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& opti
     }
     ++shown;
     const std::string where = d.span.valid() ? loaded.deck().sources.where(d.span) : loaded.path();
-    print_messages(fmt::format(
-        "{}: {}{}:{} {} [{}]\n", terminal_text(where), color ? color_of(d.severity) : "",
-        name_of(d.severity), color ? "\x1b[0m" : "", terminal_text(d.message), id_text(d.rule)));
+    print_messages(fmt::format("{}: {}{}:{} {} [{}]\n", terminal_text(where),
+                               color ? color_of(d.severity) : "", name_of(d.severity),
+                               color ? "\x1b[0m" : "", terminal_text(d.message), id_text(d.rule)));
   }
   if (hidden > 0)
     print_messages(fmt::format("{}: {} more like these; 'deck lint {}' shows them all\n",

@@ -39,7 +39,7 @@ struct CommonOptions {
   std::vector<std::string> include_paths, schema_dirs;
   /// The verb will change files of the decks in place. Set by the verb, not by an option.
   bool rewrites = false;
-  bool engine_files = false;  ///< the verb looks at the Engine files beside the decks, too
+  bool engine_files = false;         ///< the verb looks at the Engine files beside the decks, too
   SearchMemory* searches = nullptr;  ///< of all decks of the call; set by the verb
   Limits limits;
 
@@ -117,8 +117,8 @@ Result<void> check_interfaces(const LoadedDeck& loaded, const std::vector<std::i
 Result<void> check_parts(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
                          std::string_view option);
 
-/// Prints what the stages that were made have found on standard error, one line each: errors only, or all.
-/// At most `limit`, then how many more there are. Returns the number of errors.
+/// Prints what the stages that were made have found on standard error, one line each: errors only,
+/// or all. At most `limit`, then how many more there are. Returns the number of errors.
 std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options,
                              bool errors_only = true, std::size_t limit = 20);
 

@@ -144,8 +144,7 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
     return exit_findings;
   }
   if (files->empty()) return exit_clean;
-  if (options.verifies() && !c.behaviour)
-    c.behaviour = behaviour_of(c.now);
+  if (options.verifies() && !c.behaviour) c.behaviour = behaviour_of(c.now);
   if (c.now.path() == "-" && !c.changed.contains("-"))  // it cannot be read twice
     c.changed["-"] = std::string(c.now.deck().sources[0].bytes());
   for (auto& [path, text] : *files) c.changed[path] = std::move(text);
@@ -159,8 +158,7 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
     print_error(common, c.now.path() + ": not written, a file could be read before, but not again");
     return exit_input;
   }
-  const int code =
-      c.behaviour ? verify(c, *again, step, losses, common, progress) : exit_clean;
+  const int code = c.behaviour ? verify(c, *again, step, losses, common, progress) : exit_clean;
   c.now = std::move(*again);
   return code;
 }
@@ -304,7 +302,8 @@ int add_document(Run& run, const Conversion& c, const SchemaSet& schemas) {
   if (!document) return fail(run, document.error());
   if (run.options.verifies())
     if (const std::string why = document_difference(*document, c.now.deck(), schemas); !why.empty())
-      return fail(run, {Error::Code::internal, c.now.path() + ": the JSON is not the deck: " + why});
+      return fail(run,
+                  {Error::Code::internal, c.now.path() + ": the JSON is not the deck: " + why});
   Document made{c.now.path(), std::move(*document), {}};
   fs::path name =
       made.deck == "-" ? "stdin.json" : fs::path(without_gz(made.deck)).stem().string() + ".json";
@@ -381,10 +380,9 @@ void unite(std::vector<LossEntry>& losses) {
 }
 
 /// The deck of one command line argument, whatever it is written in.
-Result<std::pair<LoadedDeck, Overlay>> open_input(const std::string& path,
-                                                               const Options& options,
-                                                               const SchemaSet& schemas, bool whole,
-                                                               std::vector<LossEntry>& losses) {
+Result<std::pair<LoadedDeck, Overlay>> open_input(const std::string& path, const Options& options,
+                                                  const SchemaSet& schemas, bool whole,
+                                                  std::vector<LossEntry>& losses) {
   Overlay overlay;
   std::string main = path;
   if (options.from == "json") {

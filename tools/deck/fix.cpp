@@ -288,8 +288,7 @@ int run(const Options& o) {
   }
   CommonOptions common = o.common;
   common.decks = *decks;
-  const int code =
-      for_each_deck(common, [&](LoadedDeck& loaded) { return fix.one(loaded); });
+  const int code = for_each_deck(common, [&](LoadedDeck& loaded) { return fix.one(loaded); });
   return json.finish(fix.finish(code));
 }
 

@@ -166,8 +166,8 @@ int run(const Options& o) {
                          o.crossings ? &crossings : nullptr, &report, drain);
       });
     if (baseline.wanted())
-      baseline.add(gaps_json(name_in_baseline(loaded.path(), o.write_baseline), loaded.deck(), scene,
-                             view, false));
+      baseline.add(gaps_json(name_in_baseline(loaded.path(), o.write_baseline), loaded.deck(),
+                             scene, view, false));
     if (!o.csv.empty())
       if (auto r = write_output(
               o.csv,
@@ -187,8 +187,7 @@ int run(const Options& o) {
         return static_cast<int>(exit_usage);
       }
     if (!o.svg.empty())
-      if (auto r = write_output(o.svg, touches_svg(page_input(loaded, view)));
-          !r) {
+      if (auto r = write_output(o.svg, touches_svg(page_input(loaded, view))); !r) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }

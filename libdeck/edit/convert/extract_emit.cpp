@@ -152,8 +152,8 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
                     [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
-void compare(const EditContext& whole, const LoadedDeck& small, const std::vector<std::int64_t>& ids,
-             Rewrite& out) {
+void compare(const EditContext& whole, const LoadedDeck& small,
+             const std::vector<std::int64_t>& ids, Rewrite& out) {
   const auto differs = [&](std::int64_t id, std::string field, std::string before,
                            std::string after) {
     for (const InterBase* inter : whole.interfaces.ordered) {

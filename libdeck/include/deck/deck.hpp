@@ -98,13 +98,13 @@ class LoadedDeck {
   /// Ends the scene and what was made of it, to be made anew where it is asked for again: for who
   /// keeps many decks.
   void drop_scene();
-  /// Forces of the first cycle, with every pair. At rest but for the initial velocities of the deck.
+  /// Forces of the first cycle, with every pair. At rest but for initial velocities of the deck.
   const FirstCycle& cycle() const;
 
-  /// All that was found wrong up to now: in reading, in the model, its interfaces, the cells that contacts
-  /// depend on, contacts and their groups, and what was added; in this order, each once. Makes the
-  /// scene. Of the groups' findings only errors, which can stop the solver. Good until report() or
-  /// another scene.
+  /// All that was found wrong: in reading, in the model, its interfaces, contacts, the cells that
+  /// contacts depend on, groups (errors only: they can stop the solver), and what was added; in
+  /// this order, each once. Makes the scene. Groups that are resolved later do not count. Good
+  /// until report() or another scene.
   const Diagnostics& findings() const;
   /// The same without what later stages find.
   Diagnostics findings(Stage until) const;

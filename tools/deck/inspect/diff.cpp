@@ -21,7 +21,8 @@ struct Side {
   SceneView view;
 
   DiffSide described(bool geometry) const {
-    DiffSide s{loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces(), nullptr, nullptr};
+    DiffSide s{loaded.path(),        &loaded.deck(), &loaded.model(),
+               &loaded.interfaces(), nullptr,        nullptr};
     if (geometry) {
       s.scene = &loaded.scene();
       s.view = &view;

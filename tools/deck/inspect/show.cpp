@@ -23,10 +23,11 @@ int run(Options& o) {
       print_error(o.common, loaded.path() + ": " + entity.error().message);
       return static_cast<int>(exit_usage);
     }
-    const EntityView view = view_entity(loaded.deck(), loaded.model(), loaded.interfaces(), *entity);
-    ParamsInput params{loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces(), nullptr};
-    if (!o.no_geometry && view.inter != nullptr)
-      params.scene = &resolve_geometry(loaded, o.common);
+    const EntityView view =
+        view_entity(loaded.deck(), loaded.model(), loaded.interfaces(), *entity);
+    ParamsInput params{loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces(),
+                       nullptr};
+    if (!o.no_geometry && view.inter != nullptr) params.scene = &resolve_geometry(loaded, o.common);
     if (json.wanted()) json.add(show_json(params, view));
     if (o.common.wants_text()) {
       ShowTextOptions text;

@@ -142,8 +142,7 @@ std::shared_ptr<const Geometry> examine(
   const bool wanted = !config || config->geometry.value_or(true);
   if (wanted)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
-      return check_geometry(context, reporter,
-                            {std::nullopt, &gate, nullptr});
+      return check_geometry(context, reporter, {std::nullopt, &gate, nullptr});
     });
   LintResult result = run_lint(input, *options);
   for (Diagnostic& d : result.diagnostics) {

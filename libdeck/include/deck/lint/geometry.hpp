@@ -24,8 +24,8 @@ struct GeometryOptions {
   const EarlierGaps* earlier = nullptr;
 };
 
-/// A check for LintInput::extra_checks, of the scene that the LoadedDeck of the context has, but for
-/// a quick look; returns what that left out. Does nothing without a LoadedDeck. The number of
+/// A check for LintInput::extra_checks, of the scene that the LoadedDeck of the context has, but
+/// for a quick look; returns what that left out. Does nothing without a LoadedDeck. The number of
 /// candidates is not looked at.
 ///
 ///   input.extra_checks.push_back(

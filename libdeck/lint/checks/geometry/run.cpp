@@ -138,9 +138,12 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
     }
   }
   const SceneView view = make_view(scene);
-  const detail::GeometryRun run{
-      context, reporter, scene, view, context.loaded->options().threads,
-      chosen.quick ? &left_out : nullptr};
+  const detail::GeometryRun run{context,
+                                reporter,
+                                scene,
+                                view,
+                                context.loaded->options().threads,
+                                chosen.quick ? &left_out : nullptr};
   detail::check_penetrations(run);
   detail::check_gaps(run);
   detail::check_segments(run);

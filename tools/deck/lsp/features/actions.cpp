@@ -259,7 +259,8 @@ Answer rename(const View& view, const Json& params) {
   if (std::find(std::begin(solids), std::end(solids), rule.kind) != std::end(solids))
     rule.kind = "solid";
   const auto texts = view.workspace.texts();
-  const auto loaded = load(view.open.path, load_options(view.workspace.settings(), texts, view.schemas()));
+  const auto loaded =
+      load(view.open.path, load_options(view.workspace.settings(), texts, view.schemas()));
   if (!loaded) throw Refusal{loaded.error().message};
   RenumberOptions wanted;
   wanted.rules = {rule};
