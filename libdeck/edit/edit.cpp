@@ -31,10 +31,6 @@ namespace fs = std::filesystem;
 
 Error config(std::string why) { return {Error::Code::config, std::move(why)}; }
 
-EditContext context_of(const LoadedDeck& loaded) {
-  return {loaded.deck(), loaded.model(), loaded.interfaces(), loaded.schemas()};
-}
-
 std::optional<FileIdentity> identity_of(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) return std::nullopt;
@@ -140,7 +136,7 @@ class Edit::State {
     if (n == no_index)
       return fail(config(original->path() + ": there is no node " + std::to_string(id)));
     if (!nodes) {
-      context.emplace(context_of(now()));
+      context.emplace(now());
       nodes.emplace(*context);
     }
     nodes->look_up({&n, 1});
@@ -222,13 +218,7 @@ class Edit::State {
   }
 
   Result<LoadedDeck> load_changed() const {
-    ChangedFiles texts = changed;
-    const SourceSet& sources = original->deck().sources;
-    for (std::uint32_t f = 0; f < sources.size(); ++f)
-      if (sources[f].inode() == 0) texts.try_emplace(sources[f].path(), sources[f].bytes());
-    LoadOptions options = original->options();
-    options.read.overlay = &texts;
-    auto again = load(sources[0].path(), options);
+    auto again = original->with(changed);
     if (again && again->deck().includes.size() < original->deck().includes.size())
       return Error{Error::Code::io, original->path() +
                                         ": a file that it includes could be read before, but not "

@@ -243,7 +243,7 @@ std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& o
       missing.insert(std::string(detail::trim(input.deck.sources.text(d.span))));
   for (const std::string& m : missing)
     out.push_back({"the files behind '" + m + "'", "they could not be read"});
-  if (input.model == nullptr || input.selections == nullptr)
+  if (input.model == nullptr)
     out.push_back({"references between entities", "the model was not built"});
   if (input.interfaces == nullptr)
     out.push_back({"effective values of the interfaces", "they were not formed"});
@@ -332,10 +332,17 @@ std::vector<NotChecked> run_extra_checks(const LintInput& input, const LintOptio
 
 }  // namespace
 
+LintInput::LintInput(const LoadedDeck& of)
+    : LintInput(of.deck(), of.schemas(), &of.model(), &of.interfaces()) {
+  loaded = &of;
+  engine = &of.engine_files();
+}
+
 LintResult run_lint(const LintInput& input, const LintOptions& options) {
   const Deck& deck = input.deck;
   Pool pool{input.schemas};
-  pool.take(deck.diagnostics, options);
+  pool.take(input.loaded != nullptr ? input.loaded->findings(Stage::interfaces) : deck.diagnostics,
+            options);
   for (const Diagnostics* d : input.earlier)
     if (d != nullptr) pool.take(*d, options);
 
@@ -347,8 +354,10 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
   run_block_checks(options, context, reporter);
   std::vector<NotChecked> left_out = run_extra_checks(input, options, context, reporter);
   // Groups that no contact uses have findings too.
-  if (input.selections != nullptr) input.selections->resolve_all();
-  if (input.selections != nullptr) pool.take(input.selections->diagnostics(), options);
+  if (context.selections != nullptr) {
+    context.selections->resolve_all();
+    pool.take(context.selections->diagnostics(), options);
+  }
 
   const BlockIndex index(deck);
   std::vector<detail::Suppression> suppressions = detail::find_suppressions(deck, index, reporter);
@@ -418,19 +427,6 @@ LintResult run_lint(const LintInput& input, const LintOptions& options) {
                                            : result.infos) += count;
   }
   return result;
-}
-
-LintResult lint_deck(const Deck& deck, const SchemaSet& schemas, const LintOptions& options,
-                     int threads, const EngineFiles* engine) {
-  Diagnostics of_model, of_interfaces;
-  ModelOptions model_options;
-  model_options.threads = threads;
-  const Model model = build_model(deck, schemas, of_model, model_options);
-  const Interfaces interfaces = read_interfaces(deck, model, of_interfaces);
-  LintInput input{
-      deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces},
-      {},   engine};
-  return run_lint(input, options);
 }
 
 }  // namespace deck

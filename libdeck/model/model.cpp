@@ -207,7 +207,7 @@ Model build_model(const Deck& deck, const SchemaSet& schemas, Diagnostics& diagn
   detail::link_parts(context);
   detail::check_duplicates(context);
   detail::check_elements(context);
-  model.selections = std::make_shared<Selections>(model, schemas);
+  model.selections = std::make_shared<Selections>(model, schemas, options.limits);
   detail::apply_group_transforms(context);
   detail::apply_random_noise(context);
   detail::check_coordinates(context);

@@ -23,7 +23,7 @@ TEST(Resolve, GivesABlankGapminTheDefaultGapOfTheMesh) {
   EXPECT_EQ(gapmin.origin, Origin::geometry);
   EXPECT_EQ(gapmin.value, 0);
   EXPECT_TRUE(waits_for_geometry(b.interfaces));
-  resolve(b.interfaces, b.scene);
+  b.loaded.mesh_values();
   EXPECT_EQ(gapmin.value, 2);
   EXPECT_EQ(gapmin.before_geometry(), 0);
   EXPECT_TRUE(b.interfaces.type7.at(0).resolved);
@@ -32,14 +32,14 @@ TEST(Resolve, GivesABlankGapminTheDefaultGapOfTheMesh) {
 
 TEST(Resolve, GivesTheTiedGapItsDefault) {
   Built b(plate("@/INTER/TYPE10/1"));
-  resolve(b.interfaces, b.scene);
+  b.loaded.mesh_values();
   EXPECT_EQ(b.interfaces.type10.at(0).Gap.value, 2);
 }
 
 TEST(Resolve, LeavesAGapOfTheCardAlone) {
   Built b(plate("@/INTER/TYPE7/1 Gapmin=0.5"));
   EXPECT_FALSE(waits_for_geometry(b.interfaces));
-  resolve(b.interfaces, b.scene);
+  b.loaded.mesh_values();
   EXPECT_EQ(b.interfaces.type7.at(0).Gapmin.value, 0.5);
   EXPECT_EQ(b.interfaces.type7.at(0).Gapmin.origin, Origin::card);
   EXPECT_EQ(b.interfaces.type7.at(0).Gapmin.before_geometry(), 0.5);
@@ -47,7 +47,7 @@ TEST(Resolve, LeavesAGapOfTheCardAlone) {
 
 TEST(Resolve, TellsThePartsOfAType19Apart) {
   Built b(plate("@/INTER/TYPE19/1 Edge_scale_gap=0.5"));
-  resolve(b.interfaces, b.scene);
+  b.loaded.mesh_values();
   const InterType19& inter = b.interfaces.type19.at(0);
   EXPECT_EQ(inter.Gapmin.value, geometry_value(*first_contact(b.scene, inter), "Gapmin"));
   EXPECT_EQ(first_contact(b.scene, inter)->role, ContactRole::primary);
@@ -55,7 +55,7 @@ TEST(Resolve, TellsThePartsOfAType19Apart) {
 
 TEST(Resolve, ASecondSceneOfResolvedInterfacesIsTheFirst) {
   Built b(plate("@/INTER/TYPE7/1 Igap=2 Fscalegap=0.7"));
-  resolve(b.interfaces, b.scene);
+  b.loaded.mesh_values();
   Diagnostics findings;
   const Scene again = build_scene(b.model, b.interfaces, findings);
   EXPECT_EQ(again.contacts.at(0).gapmin, b.contact().gapmin);
@@ -66,11 +66,12 @@ TEST(Resolve, InterfacesOutsideTheSceneStayOpen) {
   Built b(plate("@/INTER/TYPE7/1\n@/INTER/TYPE7/2"));
   SceneOptions options;
   options.only = {2};
-  b.build(options);
-  resolve(b.interfaces, b.scene);
-  EXPECT_FALSE(b.interfaces.type7.at(0).resolved);
-  EXPECT_TRUE(b.interfaces.type7.at(1).resolved);
-  EXPECT_TRUE(waits_for_geometry(b.interfaces));
+  Diagnostics ignored;
+  Interfaces interfaces = read_interfaces(b.deck, b.model, ignored);
+  resolve(interfaces, build_scene(b.model, interfaces, ignored, options));
+  EXPECT_FALSE(interfaces.type7.at(0).resolved);
+  EXPECT_TRUE(interfaces.type7.at(1).resolved);
+  EXPECT_TRUE(waits_for_geometry(interfaces));
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/contact/scene.hpp"
 #include "deck/contact/view.hpp"
+#include "deck/deck.hpp"
 #include "deck/lint/example.hpp"
 
 namespace deck::test {
@@ -131,19 +131,14 @@ class SmallDeck {
 struct Built {
   explicit Built(const SmallDeck& small, const SceneOptions& options = {})
       : Built(small.text(), options) {}
-  explicit Built(const std::string& text, const SceneOptions& options = {}) {
-    auto read = read_deck_text("small_0000.rad", text, SchemaSet::built_in());
-    EXPECT_TRUE(read.ok());
-    deck = std::move(*read);
-    model = build_model(deck, SchemaSet::built_in(), diagnostics);
-    interfaces = read_interfaces(deck, model, diagnostics);
+  explicit Built(const std::string& text, const SceneOptions& options = {}) : loaded(read(text)) {
+    diagnostics = loaded.found_by(Stage::model);
+    diagnostics.merge(Diagnostics(loaded.found_by(Stage::interfaces)));
     build(options);
   }
   Built(const Built&) = delete;
   Built& operator=(const Built&) = delete;
-  void build(const SceneOptions& options) {
-    scene = build_scene(model, interfaces, diagnostics, options);
-  }
+  void build(const SceneOptions& options) { scene = loaded.scene_with(options, diagnostics); }
 
   const Contact& contact(std::int64_t id = 1, ContactRole role = ContactRole::primary) const {
     for (const Contact& c : scene.contacts)
@@ -190,11 +185,21 @@ struct Built {
   }
 
   static constexpr std::size_t any = static_cast<std::size_t>(-1);
-  Deck deck;
-  Diagnostics diagnostics;
-  Model model;
-  Interfaces interfaces;
+  LoadedDeck loaded;
+  const Deck& deck = loaded.deck();
+  const Model& model = loaded.model();
+  const Interfaces& interfaces = loaded.interfaces();
+  Diagnostics diagnostics;  ///< of model, interfaces and scene
   Scene scene;
+
+ private:
+  static LoadedDeck read(const std::string& text) {
+    auto read = read_deck_text("small_0000.rad", text, SchemaSet::built_in());
+    EXPECT_TRUE(read.ok());
+    LoadOptions options;
+    options.geometry = false;
+    return LoadedDeck::from(std::move(*read), options);
+  }
 };
 
 }  // namespace deck::test

@@ -120,14 +120,18 @@ TEST(Threads, ANodeWithoutAPlaceIsTheSameOneForAnyNumber) {
   for (const int threads : {1, 3}) {
     SceneOptions options;
     options.threads = threads;
-    Built b(SmallDeck(d).add("@/INTER/TYPE7/1 Gapmin=0.1"), options);
-    for (const NodeIndex lost : {100u, 3000u, 72u * 72u - 1}) b.model.nodes.x[lost] = NAN;
-    b.diagnostics = Diagnostics();
-    b.build(options);
-    EXPECT_FALSE(b.contact().evaluated);
-    ASSERT_EQ(b.diagnostics.all().size(), 1u);
-    EXPECT_NE(b.diagnostics.all()[0].message.find("node 5184 has a coordinate"), std::string::npos)
-        << b.diagnostics.all()[0].message;
+    const std::string text = SmallDeck(d).add("@/INTER/TYPE7/1 Gapmin=0.1").text();
+    const auto deck = read_deck_text("small_0000.rad", text, SchemaSet::built_in());
+    ASSERT_TRUE(deck.ok());
+    Diagnostics found;
+    Model model = build_model(*deck, SchemaSet::built_in(), found);
+    const Interfaces interfaces = read_interfaces(*deck, model, found);
+    for (const NodeIndex lost : {100u, 3000u, 72u * 72u - 1}) model.nodes.x[lost] = NAN;
+    const Scene scene = build_scene(model, interfaces, found, options);
+    EXPECT_FALSE(scene.contacts.at(0).evaluated);
+    ASSERT_EQ(found.all().size(), 1u);
+    EXPECT_NE(found.all()[0].message.find("node 5184 has a coordinate"), std::string::npos)
+        << found.all()[0].message;
   }
 }
 

@@ -88,8 +88,8 @@ TEST(CycleRules, RoundingsAreNoForce) {
 }
 
 TEST(CycleRules, FindingsDoNotDependOnThreads) {
-  EXPECT_EQ(lint_geometry("@/INTER/TYPE7/1 Gapmin=4\n", {.threads = 1}).list(),
-            lint_geometry("@/INTER/TYPE7/1 Gapmin=4\n", {.threads = 3}).list());
+  EXPECT_EQ(lint_geometry("@/INTER/TYPE7/1 Gapmin=4\n", {}, with_threads(1)).list(),
+            lint_geometry("@/INTER/TYPE7/1 Gapmin=4\n", {}, with_threads(3)).list());
 }
 
 TEST(CycleRules, TiedContactsMayTouch) {

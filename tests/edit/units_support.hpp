@@ -16,28 +16,29 @@
 
 namespace deck::edit_test {
 
-/// A deck read from disk or from texts by path, with model and interfaces. Stays where it is.
+/// A deck read from disk or from texts by path. Stays where it is.
 struct Whole {
   using Files = std::map<std::string, std::string>;
 
+  Whole(LoadedDeck&& read, Files with) : files(std::move(with)), loaded(std::move(read)) {
+    diagnostics = loaded.found_by(Stage::model);
+    diagnostics.merge(Diagnostics(loaded.found_by(Stage::interfaces)));
+  }
+
   static std::unique_ptr<Whole> read(const std::string& path, Files files = {}) {
-    auto whole = std::make_unique<Whole>();
-    whole->files = std::move(files);
-    ReadOptions options;
-    options.overlay = &whole->files;
-    auto deck = read_deck(path, SchemaSet::built_in(), options);
-    EXPECT_TRUE(deck.ok()) << (deck.ok() ? "" : deck.error().message);
-    if (!deck) return whole;
-    whole->deck = std::move(*deck);
-    whole->model = build_model(whole->deck, SchemaSet::built_in(), whole->diagnostics);
-    whole->interfaces = read_interfaces(whole->deck, whole->model, whole->diagnostics);
-    return whole;
+    LoadOptions options;
+    options.read.overlay = &files;
+    options.geometry = false;
+    auto read = load(path, options);
+    EXPECT_TRUE(read.ok()) << (read.ok() ? "" : read.error().message);
+    if (!read) read = LoadedDeck::from(Deck());
+    return std::make_unique<Whole>(std::move(*read), std::move(files));
   }
   static std::unique_ptr<Whole> text(const std::string& main) {
     return read("memory_0000.rad", {{"memory_0000.rad", main}});
   }
 
-  EditContext context() const { return {deck, model, interfaces, SchemaSet::built_in()}; }
+  const LoadedDeck& context() const { return loaded; }
 
   /// The deck after a rewrite.
   std::unique_ptr<Whole> after(const Rewrite& rewrite) const {
@@ -56,10 +57,11 @@ struct Whole {
   }
 
   Files files;
-  Deck deck;
-  Diagnostics diagnostics;
-  Model model;
-  Interfaces interfaces;
+  LoadedDeck loaded;
+  const Deck& deck = loaded.deck();
+  const Model& model = loaded.model();
+  const Interfaces& interfaces = loaded.interfaces();
+  Diagnostics diagnostics;  ///< of model and interfaces
 };
 
 /// (keyword, id, field, value) of every real cell, bulk blocks included, in deck order.

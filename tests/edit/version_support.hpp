@@ -20,25 +20,31 @@ using Files = std::map<std::string, std::string>;
 
 /// A deck with its model and interfaces. Not movable: the parts point to one another.
 struct Opened {
-  explicit Opened(const std::string& path, const Files& overlay = {}) : files(overlay) {
-    ReadOptions options;
-    options.overlay = &files;
-    auto read = read_deck(path, SchemaSet::built_in(), options);
-    EXPECT_TRUE(read.ok()) << (read ? "" : read.error().message);
-    if (!read) return;
-    deck = std::move(*read);
-    model = build_model(deck, SchemaSet::built_in(), diagnostics);
-    interfaces = read_interfaces(deck, model, diagnostics);
+  explicit Opened(const std::string& path, const Files& overlay = {})
+      : files(overlay), loaded(read(path)) {
+    diagnostics = loaded.found_by(Stage::model);
+    diagnostics.merge(Diagnostics(loaded.found_by(Stage::interfaces)));
   }
   Opened(const Opened&) = delete;
   Opened& operator=(const Opened&) = delete;
-  EditContext context() const { return {deck, model, interfaces, SchemaSet::built_in()}; }
+  const LoadedDeck& context() const { return loaded; }
 
   Files files;
-  Deck deck;
-  Diagnostics diagnostics;
-  Model model;
-  Interfaces interfaces;
+  LoadedDeck loaded;
+  const Deck& deck = loaded.deck();
+  const Model& model = loaded.model();
+  const Interfaces& interfaces = loaded.interfaces();
+  Diagnostics diagnostics;  ///< of model and interfaces
+
+ private:
+  LoadedDeck read(const std::string& path) const {
+    LoadOptions options;
+    options.read.overlay = &files;
+    options.geometry = false;
+    auto read = load(path, options);
+    EXPECT_TRUE(read.ok()) << (read ? "" : read.error().message);
+    return read ? std::move(*read) : LoadedDeck::from(Deck());
+  }
 };
 
 inline std::unique_ptr<Opened> open_text(const std::string& text,

@@ -16,10 +16,7 @@ using namespace deck;
 using fuzz::require;
 
 LintResult lint(fuzz::Whole& whole, bool geometry) {
-  Selections& selections = *whole.model.selections;
-  selections.resolve_all();
-  LintInput input{whole.deck, SchemaSet::built_in(), &whole.model, &whole.interfaces, &selections};
-  input.earlier = {&whole.diagnostics, &selections.diagnostics()};
+  LintInput input(whole.loaded);
   if (geometry)
     input.extra_checks.push_back(
         [](const LintContext& c, Reporter& r) { return check_geometry(c, r); });

@@ -45,15 +45,16 @@ inline std::string without_includes(std::string text) {
 
 using Files = std::map<std::string, std::string>;
 
-/// A deck with its model and interfaces. Never moved: the parts point to one another.
+/// A deck with its texts. Never moved: the parts point to one another.
 struct Whole {
   Files files;
-  Deck deck;
-  Model model;
-  Interfaces interfaces;
-  Diagnostics diagnostics;
+  LoadedDeck loaded;
+  const Deck& deck = loaded.deck();
+  const Model& model = loaded.model();
+  const Interfaces& interfaces = loaded.interfaces();
+  Diagnostics diagnostics = loaded.findings(Stage::interfaces);
 
-  EditContext context() const { return {deck, model, interfaces, SchemaSet::built_in()}; }
+  const LoadedDeck& context() const { return loaded; }
   std::string_view bytes(std::uint32_t file = 0) const { return deck.sources[file].bytes(); }
 };
 
@@ -67,16 +68,13 @@ inline ReadOptions read_options(const Files& files) {
 
 /// Reads the file `main` of `files`; nullptr: not a deck.
 inline std::unique_ptr<Whole> read_files(Files files, const std::string& main, int threads = 1) {
-  auto whole = std::make_unique<Whole>();
-  whole->files = std::move(files);
-  auto deck = read_deck(main, SchemaSet::built_in(), read_options(whole->files));
-  if (!deck) return nullptr;
-  whole->deck = std::move(*deck);
-  ModelOptions options;
+  LoadOptions options;
+  options.read = read_options(files);
   options.threads = threads;
-  whole->model = build_model(whole->deck, SchemaSet::built_in(), whole->diagnostics, options);
-  whole->interfaces = read_interfaces(whole->deck, whole->model, whole->diagnostics);
-  return whole;
+  options.geometry = false;
+  auto loaded = load(main, options);
+  if (!loaded) return nullptr;
+  return std::unique_ptr<Whole>(new Whole{std::move(files), std::move(*loaded)});
 }
 
 inline constexpr const char* main_name = "fuzz_0000.rad";

@@ -22,9 +22,10 @@ class BoundsOfASchema : public testing::Test {
     EXPECT_TRUE(schemas.add_directory(folder_.path()));
     const std::string text =
         example_deck("/WINCH/3\nfront\n" + std::string(line) + "\n", SchemaSet::built_in()).main;
-    const auto deck = read_deck_text("deck_0000.rad", text, schemas);
+    auto deck = read_deck_text("deck_0000.rad", text, schemas);
     EXPECT_TRUE(deck);
-    const LintResult result = lint_deck(*deck, schemas);
+    const LintResult result =
+        run_lint(LintInput(test::linted(std::move(*deck), test::with_schemas(schemas)).loaded));
     for (const Diagnostic& d : result.diagnostics)
       if (d.rule == RuleId::DK096) return d.message;
     return {};

@@ -105,11 +105,13 @@ TEST(InitialPenetrations, OneFindingPerPairOfPartsWithTheDeepestNodes) {
   ASSERT_EQ(messages.size(), 2u);
   EXPECT_EQ(messages[0],
             "/INTER/TYPE7 1: 3 nodes of part 3 within the gap of part 1 (3 pairs), deepest 3 of a "
-            "gap of 4 between node 23 and segment 1 2 3 4; the solver does nothing about them: they start "
+            "gap of 4 between node 23 and segment 1 2 3 4; the solver does nothing about them: "
+            "they start "
             "with contact forces");
   EXPECT_EQ(messages[1],
             "/INTER/TYPE7 1: 4 nodes of part 2 within the gap of part 1 (4 pairs), deepest 1 of a "
-            "gap of 4 between node 11 and segment 1 2 3 4; the solver does nothing about them: they start "
+            "gap of 4 between node 11 and segment 1 2 3 4; the solver does nothing about them: "
+            "they start "
             "with contact forces");
   const Diagnostic* d = run.find(RuleId::DK301);
   for (const Diagnostic& each : run.result.diagnostics) {
@@ -203,7 +205,8 @@ TEST(CrossedElements, OneFindingPerTwoPartsHoweverManyInterfacesHaveThem) {
 
 TEST(GeometryRules, SameFindingsForAnyNumberOfThreads) {
   const std::string_view text = "@/INTER/TYPE19/1 surf_IDs=2 surf_IDm=1 Gapmin=6 Inacti=6\n";
-  EXPECT_EQ(lint_geometry(text, {.threads = 1}).list(), lint_geometry(text, {.threads = 2}).list());
+  EXPECT_EQ(lint_geometry(text, {}, with_threads(1)).list(),
+            lint_geometry(text, {}, with_threads(2)).list());
 }
 
 std::vector<std::string> not_checked(const Linted& run) {
@@ -227,9 +230,9 @@ TEST(QuickLook, SaysThatItLeavesOutAContactWithManyPairs) {
   const Linted run = lint_geometry(text, {.quick = QuickLook{.pair_bytes = 1}});
   EXPECT_FALSE(run.fires(RuleId::DK390)) << run.list();
   EXPECT_EQ(not_checked(run).front(), "/INTER/TYPE7 1: penetrations and forces");
-  GeometryOptions all;
-  all.limits.pair_bytes = 1;
-  EXPECT_TRUE(lint_geometry(text, all).fires(RuleId::DK390)) << "where all is asked for";
+  LoadOptions how;
+  how.read.limits.pair_bytes = 1;
+  EXPECT_TRUE(lint_geometry(text, {}, how).fires(RuleId::DK390)) << "where all is asked for";
 }
 
 TEST(QuickLook, NeedsNoContactInADeckWithoutAny) {

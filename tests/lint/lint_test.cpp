@@ -123,7 +123,7 @@ class Baselines : public testing::Test {
     std::vector<BaselinedDeck> decks;
     for (const std::string& path : paths) linted.push_back(lint(path));
     for (std::size_t i = 0; i < paths.size(); ++i)
-      decks.push_back({paths[i], linted[i].deck.get(), &linted[i].result});
+      decks.push_back({paths[i], linted[i].deck, &linted[i].result});
     return write_baseline(decks, file_);
   }
   Folder folder_;
@@ -255,7 +255,7 @@ TEST(ExtraChecks, ReportThroughTheEngine) {
   const ExampleDeck example = example_deck("@/INTER/TYPE7/1\n", SchemaSet::built_in());
   auto deck = read_deck_text("x", example.main, SchemaSet::built_in());
   ASSERT_TRUE(deck);
-  LintInput input{*deck, SchemaSet::built_in()};
+  LintInput input(*deck, SchemaSet::built_in());
   input.extra_checks.push_back([](const LintContext& c, Reporter& r) {
     r.report(rule_of(RuleId::DK390), *c.contacts.at(0).block, c.contacts[0].block->header_span,
              "many");
@@ -272,7 +272,7 @@ TEST(ExtraChecks, AreNotRunWhereNoRuleOfTheirsIsWanted) {
   const ExampleDeck example = example_deck("@/INTER/TYPE7/1\n", SchemaSet::built_in());
   auto deck = read_deck_text("x", example.main, SchemaSet::built_in());
   ASSERT_TRUE(deck);
-  LintInput input{*deck, SchemaSet::built_in()};
+  LintInput input(*deck, SchemaSet::built_in());
   int runs = 0;
   input.extra_checks.push_back([&](const LintContext&, Reporter&) {
     ++runs;

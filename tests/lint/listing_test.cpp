@@ -151,7 +151,7 @@ bag
 TEST(ManyRemarksOfAKind, AreOneLineWithTheirNumber) {
   const auto run = lint_example(sheet(5, 3, 1) + sheet(6, 3, 1) + sheet(7, 3, 1));
   ASSERT_EQ(run.count(RuleId::DK601), 4u) << run.list();  // and the sheets of the example
-  const std::vector<LintedDeck> decks = {{"deck_0000.rad", run.deck.get(), &run.result, {}}};
+  const std::vector<LintedDeck> decks = {{"deck_0000.rad", run.deck, &run.result, {}}};
   const std::string text = lint_human(decks, {});
   EXPECT_NE(text.find("info[DK601]: 4 places: elastic shells fall back to global integration "
                       "(solver: warning 1084)"),

@@ -12,7 +12,7 @@ namespace deck::test {
 namespace {
 
 std::vector<LintedDeck> one(const Linted& run) {
-  return {{"deck_0000.rad", run.deck.get(), &run.result, ""}};
+  return {{"deck_0000.rad", run.deck, &run.result, ""}};
 }
 
 LintOptions only(std::string rule) {

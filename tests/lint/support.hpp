@@ -50,7 +50,10 @@ class Folder {
 
 /// A deck with its lint result. Keeps the deck alive, which the result points into.
 struct Linted {
-  std::unique_ptr<Deck> deck;
+  explicit Linted(LoadedDeck&& read) : loaded(std::move(read)), deck(&loaded.deck()) {}
+
+  LoadedDeck loaded;
+  const Deck* deck;
   LintResult result;
 
   bool fires(RuleId rule) const { return find(rule) != nullptr; }
@@ -73,15 +76,20 @@ struct Linted {
   }
 };
 
+inline Linted linted(Deck&& deck, LoadOptions how = {}) {
+  how.geometry = false;
+  return Linted(LoadedDeck::from(std::move(deck), how));
+}
+
 inline Linted lint_file(const std::string& path, const LintOptions& options = {},
                         const ReadOptions& read = {}) {
-  const SchemaSet& schemas = SchemaSet::built_in();
-  auto deck = read_deck(path, schemas, read);
-  if (!deck) throw std::runtime_error(deck.error().message);
-  Linted out;
-  out.deck = std::make_unique<Deck>(std::move(*deck));
-  const EngineFiles engine = read_engine_files(*out.deck);
-  out.result = lint_deck(*out.deck, schemas, options, 1, &engine);
+  LoadOptions how;
+  how.read = read;
+  how.geometry = false;
+  auto loaded = load(path, how);
+  if (!loaded) throw std::runtime_error(loaded.error().message);
+  Linted out(std::move(*loaded));
+  out.result = run_lint(LintInput(out.loaded), options);
   return out;
 }
 
@@ -89,9 +97,8 @@ inline Linted lint_text(const std::string& text, const LintOptions& options = {}
   const SchemaSet& schemas = SchemaSet::built_in();
   auto deck = read_deck_text("deck_0000.rad", text, schemas);
   if (!deck) throw std::runtime_error(deck.error().message);
-  Linted out;
-  out.deck = std::make_unique<Deck>(std::move(*deck));
-  out.result = lint_deck(*out.deck, schemas, options);
+  Linted out = linted(std::move(*deck));
+  out.result = run_lint(LintInput(out.loaded), options);
   return out;
 }
 
@@ -107,18 +114,25 @@ inline Linted lint_example(std::string_view example, const LintOptions& options 
   return lint_file(folder.write("deck_0000.rad", deck.main), options, read);
 }
 
+/// LoadOptions with other schemas.
+inline LoadOptions with_schemas(const SchemaSet& schemas) {
+  LoadOptions how;
+  how.schemas = &schemas;
+  return how;
+}
+
+/// LoadOptions with this many threads.
+inline LoadOptions with_threads(int threads) {
+  LoadOptions how;
+  how.threads = threads;
+  return how;
+}
+
 /// Lints a deck with the geometry checks.
-inline Linted lint_geometry_of(Deck deck, const GeometryOptions& geometry = {}) {
-  const SchemaSet& schemas = SchemaSet::built_in();
-  Linted out;
-  out.deck = std::make_unique<Deck>(std::move(deck));
-  Diagnostics of_model, of_interfaces;
-  const Model model = build_model(*out.deck, schemas, of_model);
-  const Interfaces interfaces = read_interfaces(*out.deck, model, of_interfaces);
-  const EngineFiles engine = read_engine_files(*out.deck);
-  LintInput input{
-      *out.deck, schemas, &model, &interfaces, model.selections.get(), {&of_model, &of_interfaces},
-      {},        &engine};
+inline Linted lint_geometry_of(Deck deck, const GeometryOptions& geometry = {},
+                               const LoadOptions& how = {}) {
+  Linted out = linted(std::move(deck), how);
+  LintInput input(out.loaded);
   input.extra_checks.push_back(
       [&](const LintContext& c, Reporter& r) { return check_geometry(c, r, geometry); });
   out.result = run_lint(input);
@@ -126,14 +140,15 @@ inline Linted lint_geometry_of(Deck deck, const GeometryOptions& geometry = {}) 
 }
 
 /// Lints an example with the geometry checks.
-inline Linted lint_geometry(std::string_view example, const GeometryOptions& geometry = {}) {
+inline Linted lint_geometry(std::string_view example, const GeometryOptions& geometry = {},
+                            const LoadOptions& how = {}) {
   const SchemaSet& schemas = SchemaSet::built_in();
   const ExampleDeck written = example_deck(example, schemas);
   Folder folder;
   for (const auto& [name, text] : written.files) folder.write(name, text);
   auto deck = read_deck(folder.write("deck_0000.rad", written.main), schemas);
   if (!deck) throw std::runtime_error(deck.error().message);
-  return lint_geometry_of(std::move(*deck), geometry);
+  return lint_geometry_of(std::move(*deck), geometry, how);
 }
 
 }  // namespace deck::test

@@ -163,7 +163,7 @@ TEST(GapsText, AContactWithoutStiffnessOnTheMainSideIsNoCleanOne) {
 TEST(GapsText, AnEmptySideIsAnErrorUnlessItIsANodeGroupThatIsThere) {
   const Inspected d(one_sided());
   std::vector<std::pair<std::int64_t, Severity>> found;
-  for (const Diagnostic& f : d.diagnostics.all())
+  for (const Diagnostic& f : d.loaded.findings().all())
     if (f.rule == RuleId::DK172 || f.rule == RuleId::DK173) found.emplace_back(f.id, f.severity);
   EXPECT_EQ(found, (std::vector<std::pair<std::int64_t, Severity>>{
                        {3, Severity::error}, {4, Severity::error}, {5, Severity::warning}}));

@@ -17,13 +17,8 @@ namespace deck::test {
 /// A deck with model, interfaces and contacts. Stays at its address.
 struct Inspected {
   explicit Inspected(const std::string& text)
-      : deck(std::move(*read_deck_text("test_0000.rad", text, SchemaSet::built_in()))),
-        model(build_model(deck, SchemaSet::built_in(), diagnostics)),
-        interfaces(read_interfaces(deck, model, diagnostics)),
-        scene(build_scene(model, interfaces, diagnostics)),
-        view(make_view(scene)) {
-    resolve(interfaces, scene);
-  }
+      : loaded(LoadedDeck::from(
+            std::move(*read_deck_text("test_0000.rad", text, SchemaSet::built_in())))) {}
   Inspected(const Inspected&) = delete;
   Inspected& operator=(const Inspected&) = delete;
 
@@ -35,12 +30,12 @@ struct Inspected {
     return view_entity(deck, model, interfaces, entity.ok() ? *entity : Entity{});
   }
 
-  Diagnostics diagnostics;
-  Deck deck;
-  Model model;
-  Interfaces interfaces;
-  Scene scene;
-  SceneView view;
+  LoadedDeck loaded;
+  const Deck& deck = loaded.deck();
+  const Model& model = loaded.model();
+  const Scene& scene = loaded.scene();
+  const Interfaces& interfaces = loaded.interfaces();
+  SceneView view = make_view(scene);
 };
 
 /// What the plates differ in.

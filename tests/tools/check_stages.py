@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""A stage of the library includes only stages to its left: base, text, keyword, model, contact, cycle, accuracy; inspect
-stands beside cycle; edit reads the row and is read by lint and report only; report is read by none of them. Files that comments
-name are there.
+"""A stage of the library includes only stages to its left: base, text, keyword, model, contact, cycle, accuracy; front (deck.hpp)
+reads them up to cycle; inspect stands beside cycle and is read by edit and report; edit reads the row and is read by lint and
+report only; report is read by none of them. Everybody comes in through front: who builds a model, a scene or a first cycle without
+it is listed here with the reason. Files that comments name are there.
 
     python3 tests/tools/check_stages.py"""
 import os
@@ -11,18 +12,32 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 ROW = ["base", "text", "keyword", "model", "contact", "cycle", "accuracy"]
 MAY = {stage: set(ROW[:i + 1]) for i, stage in enumerate(ROW)}
+MAY["front"] = {*ROW[:ROW.index("cycle") + 1], "front"}
 MAY["inspect"] = {*ROW[:ROW.index("contact") + 1], "inspect"}
-MAY["edit"] = {*ROW, "edit"}
-MAY["lint"] = {*ROW, "edit", "lint"}
+MAY["edit"] = {*ROW, "front", "inspect", "edit"}
+MAY["lint"] = {*ROW, "front", "edit", "lint"}
 MAY["verdict"] = {*ROW, "verdict"}
-MAY["report"] = {*ROW, "inspect", "edit", "lint", "verdict", "report"}
+MAY["report"] = {*ROW, "front", "inspect", "edit", "lint", "verdict", "report"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+"(?:deck/)?([a-z]+)/', re.M)
 COMMENT = re.compile(r"(?:^|\s)(//.*|/?\*.*)$", re.M)
 FILE_NAME = re.compile(r"(?<![\w./<*-])((?:\w[\w-]*/)*\w[\w-]*\.(?:cpp|hpp))\b")
 GENERATED = {"rule_id.hpp"}
+FRONT_HEADER = "libdeck/include/deck/deck.hpp"
+
+BUILDS = re.compile(r"\b(build_model|read_interfaces|build_scene|run_cycle)\(")
+BUILDERS = ("libdeck/front/", "libdeck/model/", "libdeck/contact/", "libdeck/cycle/", "libdeck/include/deck/")
+FOR_THEMSELVES = {
+    "libdeck/edit/fix/common.cpp": "contacts of a model whose nodes are being moved",
+    "libdeck/edit/fix/movable.cpp": "a model whose nodes are moved",
+    "libdeck/lint/checks/geometry/cycle.cpp": "the first cycle of the scene of a quick look",
+    "tools/deck/lsp/analysis.cpp": "the interfaces of a model that outlives edits of its text",
+    "tools/deck/lsp/analyst.cpp": "a model that outlives edits of its text",
+    "tools/python/src/results.cpp": "a first cycle with velocities, times and a model of forces of its own",
+}
 
 
 def stage_files():
+    yield "front", os.path.join(ROOT, FRONT_HEADER)
     for top in ("libdeck", "libdeck/include/deck"):
         for stage in MAY:
             for folder, _, names in os.walk(os.path.join(ROOT, top, stage)):
@@ -52,6 +67,18 @@ def unknown_names(paths):
                 for name in FILE_NAME.findall(comment):
                     if name not in known and os.path.basename(name) not in GENERATED:
                         yield os.path.relpath(path, ROOT), name
+def builders():
+    """Files that build what front has, but for those that front is made of."""
+    for top in ("libdeck", "tools"):
+        for folder, _, names in os.walk(os.path.join(ROOT, top)):
+            for name in sorted(names):
+                path = os.path.relpath(os.path.join(folder, name), ROOT)
+                if not name.endswith((".cpp", ".hpp")) or path.startswith((*BUILDERS, "tools/bench/")):
+                    continue
+                with open(os.path.join(ROOT, path), encoding="utf-8") as f:
+                    code = re.sub(r"//.*", "", f.read())
+                if BUILDS.search(code):
+                    yield path
 
 
 def main():
@@ -63,10 +90,20 @@ def main():
     for stage, path in stage_files():
         files += 1
         with open(path, encoding="utf-8") as f:
-            wrong = sorted({s for s in INCLUDE.findall(f.read()) if s in MAY and s not in MAY[stage]})
+            read = {"front" if s == "deck" else s for s in INCLUDE.findall(f.read())}
+        wrong = sorted(s for s in read if s in MAY and s not in MAY[stage])
         if wrong:
             failed += 1
             print("FAILED  %s, of stage %s, includes %s" % (os.path.relpath(path, ROOT), stage, ", ".join(wrong)))
+    found = set(builders())
+    for path in sorted(found | set(FOR_THEMSELVES)):
+        files += 1
+        if path not in FOR_THEMSELVES:
+            failed += 1
+            print("FAILED  %s builds a model, a scene or a first cycle: it belongs to LoadedDeck (deck/deck.hpp)" % path)
+        elif path not in found:
+            failed += 1
+            print("FAILED  %s is listed here and builds nothing for itself any more" % path)
     if files < 300:
         failed += 1
         print("FAILED  only %d files were found" % files)

@@ -1,7 +1,6 @@
 // The verdict of a deck: its level, its sentences, its counts, and the exit code that follows.
 #include "deck/verdict.hpp"
 
-#include "deck/contact/join_findings.hpp"
 #include "report/inspected.hpp"
 
 namespace deck::test {
@@ -18,8 +17,8 @@ std::string tie(const std::string& card, double height = 0.4, double far = 0.4) 
 }
 
 Verdict of(const std::string& text) {
-  Inspected d(text);
-  join_findings(d.deck, d.model, std::move(d.diagnostics));
+  const Inspected d(text);
+  d.loaded.findings();
   return verdict_of(d.deck, d.scene, d.view);
 }
 

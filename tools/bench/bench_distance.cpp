@@ -98,10 +98,10 @@ bool race(const std::string& title, const std::vector<PairSample>& samples, int 
 std::vector<PairSample> pairs_of(const std::string& path) {
   const auto loaded = deck::load(path);
   if (!loaded) return {};
-  deck::Diagnostics findings;
-  deck::SceneOptions options;
+  deck::Diagnostics ignored;
+  deck::SceneOptions options = loaded->scene_options();
   options.penetrations = options.candidates = false;
-  return deck::scene_pairs(loaded->scene(findings, options), 40000);
+  return deck::scene_pairs(loaded->scene_with(options, ignored), 40000);
 }
 
 Settings parse(int argc, char** argv) {

@@ -32,15 +32,13 @@ void time_gaps(const Options& o, const std::string& path, AccuracyReport& report
   if (!schemas) return;
   measure_gaps(
       [&](Accuracy accuracy) {
-        Scene scene;
-        auto loaded = load(path, *schemas, quiet);
-        if (!loaded) return scene;
-        SceneOptions options;
-        options.threads = quiet.thread_count();
+        const auto loaded = load(path, *schemas, quiet);
+        if (!loaded) return Scene();
+        SceneOptions options = loaded->scene_options();
         options.accuracy = accuracy;
-        scene =
-            build_scene((*loaded)->model, (*loaded)->interfaces, (*loaded)->diagnostics, options);
-        return scene;
+        options.nodal_stiffness = false;
+        Diagnostics ignored;
+        return loaded->scene_with(options, ignored);
       },
       o.repeats, report);
 }
@@ -88,21 +86,19 @@ int run(const Options& o) {
     print_error(o.common, "--csv, --svg and --html take one deck at a time");
     return exit_usage;
   }
-  const int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
+  const int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
     print_findings(loaded, o.common);
-    SceneOptions scene_options;
-    scene_options.threads = o.common.thread_count();
-    scene_options.limits = o.common.limits;
-    scene_options.penetrations = scene_options.candidates = false;
-    const Scene scene =
-        build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
+    SceneOptions scene_options = loaded.scene_options();
+    scene_options.penetrations = scene_options.candidates = scene_options.nodal_stiffness = false;
+    loaded.set_scene_options(scene_options);
+    const Scene& scene = loaded.scene();
     // As many pairs as the hard cases would have.
     const std::size_t limit = 40 * o.samples;
     const auto pairs = scene_pairs(scene, limit, scene_options.threads);
-    context.path = loaded.path;
-    context.deck = &loaded.deck;
+    context.path = loaded.path();
+    context.deck = &loaded.deck();
     AccuracyReport report = measure_accuracy(pairs, accuracy);
-    if (!pairs.empty()) time_gaps(o, loaded.path, report);
+    if (!pairs.empty()) time_gaps(o, loaded.path(), report);
     return show(o, report, context, json);
   });
   return json.finish(code);

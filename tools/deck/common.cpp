@@ -20,7 +20,6 @@
 #include "deck/contact/resolve.hpp"
 #include "deck/keyword/recognise.hpp"
 #include "deck/model/coverage.hpp"
-#include "deck/model/selection.hpp"
 #include "deck/report/json.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule_id.hpp"
@@ -130,25 +129,10 @@ Result<LoadedSchemas> load_schemas(const CommonOptions& options) {
   return LoadedSchemas(std::move(set));
 }
 
-bool Loaded::incomplete() const {
-  const auto& counts = deck.diagnostics.counts();
-  // Included files that are missing, form a cycle or exceed the limits.
-  return counts.contains(RuleId::DK004) || counts.contains(RuleId::DK005) ||
-         counts.contains(RuleId::DK006);
-}
-
-Scene resolve_geometry(Loaded& loaded, const CommonOptions& options) {
-  if (!waits_for_geometry(loaded.interfaces)) return {};
+const Scene& resolve_geometry(const LoadedDeck& loaded, const CommonOptions& options) {
   Progress progress(!options.quiet);
-  progress.step("deriving gaps from the geometry");
-  SceneOptions scene_options;
-  scene_options.threads = options.thread_count();
-  scene_options.candidates = false;
-  scene_options.penetrations = false;
-  scene_options.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
-  Scene scene = build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
-  resolve(loaded.interfaces, scene);
-  return scene;
+  if (waits_for_geometry(loaded.interfaces())) progress.step("deriving gaps from the geometry");
+  return loaded.mesh_values([&](std::size_t done, std::size_t all) { progress.update(done, all); });
 }
 
 namespace {
@@ -260,18 +244,29 @@ void note_found(const std::string& given, const std::string& path, const CommonO
   if (path != given && !options.quiet) print_note(given + " is not there; reading " + path);
 }
 
-Result<std::unique_ptr<Loaded>> load(const std::string& given, const SchemaSet& schemas,
-                                     const CommonOptions& options, Stage stage,
-                                     const Overlay* overlay) {
+LoadOptions load_options(const CommonOptions& options, const SchemaSet& schemas,
+                         const Overlay* overlay) {
+  LoadOptions out;
+  out.read.include_paths = options.include_paths;
+  out.read.overlay = overlay;
+  out.read.limits = options.limits;
+  out.threads = options.thread_count();
+  out.geometry = false;
+  out.engine_files = options.engine_files;
+  out.schemas = &schemas;
+  out.meshes = shared_meshes();
+  out.searches = options.searches;
+  return out;
+}
+
+Result<LoadedDeck> load(const std::string& given, const SchemaSet& schemas,
+                        const CommonOptions& options, Stage stage, const Overlay* overlay) {
   const std::string path = overlay == nullptr ? find_deck(given) : given;
   note_found(given, path, options);
   Progress progress(!options.quiet);
   progress.step("reading " + path);
-  ReadOptions read;
-  read.include_paths = options.include_paths;
-  read.overlay = overlay;
-  read.limits = options.limits;
-  auto deck = read_settled(path, schemas, options, read);
+  const LoadOptions how = load_options(options, schemas, overlay);
+  auto deck = read_settled(path, schemas, options, how.read);
   if (!deck) {
     Error error = deck.error();
     if (std::error_code ec; path != "-" && !std::filesystem::exists(path, ec))
@@ -279,31 +274,18 @@ Result<std::unique_ptr<Loaded>> load(const std::string& given, const SchemaSet& 
         error.message += "; did you mean '" + close + "'?";
     return error;
   }
-  EngineFiles engine;
-  if (options.engine_files) engine = read_engine_files(*deck, options.limits);
-  remember_read(deck->sources);
-  if (const std::string other = no_starter_deck(*deck); !other.empty())
+  LoadedDeck loaded = LoadedDeck::from(std::move(*deck), how);
+  remember_read(loaded.deck().sources);
+  if (const std::string other = no_starter_deck(loaded.deck()); !other.empty())
     return Error{Error::Code::syntax, path + ": " + other};
-  auto loaded = std::make_unique<Loaded>();
-  loaded->path = path;
-  loaded->diagnostics = Diagnostics(options.limits.diagnostics_per_rule);
-  loaded->deck = std::move(*deck);
-  loaded->engine = std::move(engine);
-  if (load_observer()) load_observer()(loaded->deck);
-  if (stage == Stage::blocks) return loaded;
+  if (load_observer()) load_observer()(loaded.deck());
+  if (stage < Stage::model) return loaded;
   progress.step("building the model of " + path);
-  ModelOptions build;
-  build.threads = options.thread_count();
-  build.limits = read.limits;
-  loaded->model = build_model(loaded->deck, schemas, loaded->diagnostics, build, shared_meshes());
-  loaded->model.selections->set_limits(options.limits);
-  if (stage == Stage::model) return loaded;
-  loaded->interfaces = read_interfaces(loaded->deck, loaded->model, loaded->diagnostics);
+  loaded.interfaces();
   return loaded;
 }
 
-int for_each_deck(const CommonOptions& options, Stage stage,
-                  const std::function<int(Loaded&)>& body) {
+int for_each_deck(const CommonOptions& options, const std::function<int(LoadedDeck&)>& body) {
   const auto schemas = load_schemas(options);
   if (!schemas) {
     print_error(options, schemas.error().message);
@@ -315,13 +297,12 @@ int for_each_deck(const CommonOptions& options, Stage stage,
   for (const std::string& path : options.decks) {
     if (BatchFrame* frame = batch_frame()) frame->begin(path);
     int code = exit_clean;
-    if (auto loaded = load(path, *schemas, options, stage); !loaded) {
+    if (auto loaded = load(path, *schemas, options); !loaded) {
       print_error(options, loaded.error().message);
       code = loaded.error().code == Error::Code::config ? exit_usage : exit_input;
     } else {
-      code = body(**loaded);
-      if (stage == Stage::interfaces) code = std::max(code, examined_code(**loaded, options));
-      if ((*loaded)->incomplete()) code = std::max<int>(code, exit_input);
+      code = std::max(body(*loaded), examined_code(*loaded, options));
+      if (loaded->incomplete()) code = std::max<int>(code, exit_input);
     }
     if (BatchFrame* frame = batch_frame()) frame->end(code);
     worst = std::max(worst, code);
@@ -329,9 +310,9 @@ int for_each_deck(const CommonOptions& options, Stage stage,
   return worst;
 }
 
-int examined_code(const Loaded& loaded, const CommonOptions& options) {
+int examined_code(const LoadedDeck& loaded, const CommonOptions& options) {
   if (!options.require_examined) return exit_clean;
-  const bool nothing = coverage_of(loaded.deck, loaded.interfaces).nothing();
+  const bool nothing = coverage_of(loaded.deck(), loaded.interfaces()).nothing();
   return nothing ? exit_findings : exit_clean;
 }
 
@@ -353,16 +334,16 @@ std::string list_of(const std::vector<std::int64_t>& ids, std::int64_t wanted) {
 
 }  // namespace
 
-Result<void> check_interfaces(const Loaded& loaded, const std::vector<std::int64_t>& ids,
+Result<void> check_interfaces(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
                               std::string_view option) {
   std::vector<std::int64_t> known;
-  for (const InterBase* i : loaded.interfaces.ordered) known.push_back(i->id);
+  for (const InterBase* i : loaded.interfaces().ordered) known.push_back(i->id);
   std::sort(known.begin(), known.end());
   for (const std::int64_t id : ids) {
     if (std::binary_search(known.begin(), known.end(), id)) continue;
     std::string text = fmt::format("{} {}: {} has no interface {} of TYPE7, 10, 11 or 19", option,
-                                   id, loaded.path, id);
-    for (const NotExamined& n : coverage_of(loaded.deck, loaded.interfaces).not_examined)
+                                   id, loaded.path(), id);
+    for (const NotExamined& n : coverage_of(loaded.deck(), loaded.interfaces()).not_examined)
       if (std::find(n.ids.begin(), n.ids.end(), id) != n.ids.end())
         text += fmt::format("; {}/{} is of a type that is not examined", n.keyword, id);
     text += known.empty() ? "; it has none at all" : "; it has " + list_of(known, id);
@@ -371,16 +352,16 @@ Result<void> check_interfaces(const Loaded& loaded, const std::vector<std::int64
   return {};
 }
 
-Result<void> check_parts(const Loaded& loaded, const std::vector<std::int64_t>& ids,
+Result<void> check_parts(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
                          std::string_view option) {
   for (const std::int64_t id : ids) {
-    if (loaded.model.part_of_id.contains(id)) continue;
+    if (loaded.model().part_of_id.contains(id)) continue;
     std::vector<std::int64_t> known;
-    for (const Part& p : loaded.model.parts) known.push_back(p.id);
+    for (const Part& p : loaded.model().parts) known.push_back(p.id);
     std::sort(known.begin(), known.end());
     return Error{
         Error::Code::config,
-        fmt::format("{} {}: {} has no part {}; {}", option, id, loaded.path, id,
+        fmt::format("{} {}: {} has no part {}; {}", option, id, loaded.path(), id,
                     known.empty() ? "it has none at all" : "it has " + list_of(known, id))};
   }
   return {};
@@ -423,31 +404,30 @@ void print_error(const CommonOptions& options, std::string_view message) {
   if (BatchFrame* frame = batch_frame()) frame->note_error(message);
 }
 
-std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options, bool errors_only,
-                             std::size_t limit) {
+std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options,
+                             bool errors_only, std::size_t limit) {
   const bool color = options.color_on(2);
   std::uint64_t errors = 0, shown = 0, hidden = 0;
-  for (const Diagnostics* list : {&loaded.deck.diagnostics, &loaded.diagnostics}) {
-    for (const Diagnostic& d : list->all()) {
-      if (d.severity == Severity::error) ++errors;
-      // What a verdict calls not evaluated, or what makes it wrong, is explained in any case.
-      const bool vital = d.severity == Severity::error || d.rule == RuleId::DK334 ||
-                         d.rule == RuleId::DK336 || d.rule == RuleId::DK380;
-      if (errors_only && !vital) continue;
-      if (shown == limit) {
-        ++hidden;
-        continue;
-      }
-      ++shown;
-      const std::string where = d.span.valid() ? loaded.deck.sources.where(d.span) : loaded.path;
-      print_messages(fmt::format(
-          "{}: {}{}:{} {} [{}]\n", terminal_text(where), color ? color_of(d.severity) : "",
-          name_of(d.severity), color ? "\x1b[0m" : "", terminal_text(d.message), id_text(d.rule)));
+  const Diagnostics found = loaded.findings(loaded.reached());
+  for (const Diagnostic& d : found.all()) {
+    if (d.severity == Severity::error) ++errors;
+    // What a verdict calls not evaluated, or what makes it wrong, is explained in any case.
+    const bool vital = d.severity == Severity::error || d.rule == RuleId::DK334 ||
+                       d.rule == RuleId::DK336 || d.rule == RuleId::DK380;
+    if (errors_only && !vital) continue;
+    if (shown == limit) {
+      ++hidden;
+      continue;
     }
+    ++shown;
+    const std::string where = d.span.valid() ? loaded.deck().sources.where(d.span) : loaded.path();
+    print_messages(fmt::format("{}: {}{}:{} {} [{}]\n", terminal_text(where),
+                               color ? color_of(d.severity) : "", name_of(d.severity),
+                               color ? "\x1b[0m" : "", terminal_text(d.message), id_text(d.rule)));
   }
   if (hidden > 0)
     print_messages(fmt::format("{}: {} more like these; 'deck lint {}' shows them all\n",
-                               terminal_text(loaded.path), hidden, terminal_text(loaded.path)));
+                               terminal_text(loaded.path()), hidden, terminal_text(loaded.path())));
   return errors;
 }
 

@@ -12,17 +12,11 @@
 
 #include "command_line.hpp"
 #include "deck/base/limits.hpp"
+#include "deck/deck.hpp"
 #include "deck/edit/write.hpp"
-#include "deck/keyword/engine_file.hpp"
-#include "deck/model/interfaces.hpp"
-#include "deck/model/model.hpp"
 #include "deck/report/drain.hpp"
 #include "progress.hpp"
 #include "verbs.hpp"
-
-namespace deck {
-struct Scene;
-}
 
 namespace deck::cli {
 
@@ -45,7 +39,8 @@ struct CommonOptions {
   std::vector<std::string> include_paths, schema_dirs;
   /// The verb will change files of the decks in place. Set by the verb, not by an option.
   bool rewrites = false;
-  bool engine_files = false;  ///< the verb looks at the Engine files beside the decks, too
+  bool engine_files = false;         ///< the verb looks at the Engine files beside the decks, too
+  SearchMemory* searches = nullptr;  ///< of all decks of the call; set by the verb
   Limits limits;
 
   int thread_count() const;
@@ -80,37 +75,25 @@ void add_require_examined(CommandLine& line, CommonOptions& options);
 /// Adds -v, for verbs whose text folds things.
 void add_verbose(CommandLine& line, CommonOptions& options, const std::string& what);
 
-/// How far to read.
-enum class Stage { blocks, model, interfaces };
-
-/// A deck with what was made of it. Never moved: the parts point to one another.
-struct Loaded {
-  std::string path;    ///< as given
-  Deck deck;           ///< with the findings of reading in deck.diagnostics
-  EngineFiles engine;  ///< where they were asked for
-  Model model;
-  Interfaces interfaces;
-  Diagnostics diagnostics;  ///< findings of the model and interface stages
-
-  /// True if a file of the include tree could not be read.
-  bool incomplete() const;
-};
-
-/// Fills in the values of the interfaces that follow from the mesh. The scene holds the parts of
-/// the interfaces, without penetrations; it is empty where nothing waits for the mesh.
-Scene resolve_geometry(Loaded& loaded, const CommonOptions& options);
+/// LoadedDeck::mesh_values() with progress on the terminal.
+const Scene& resolve_geometry(const LoadedDeck& loaded, const CommonOptions& options);
 
 /// Contents that files are taken to have, by path; see ReadOptions::overlay.
 using Overlay = std::map<std::string, std::string>;
 
-/// Reads one deck. Error: the main file cannot be read, or is no Starter deck; the message says
-/// what it is. `schemas` must outlive it.
+/// How the options have a deck read, and what is made of it.
+LoadOptions load_options(const CommonOptions& options, const SchemaSet& schemas,
+                         const Overlay* overlay = nullptr);
+
+/// Reads one deck and makes of it what comes up to `stage`. Error: the main file cannot be read, or
+/// is no Starter deck; the message says what it is. `schemas` must outlive it. Values that follow
+/// from the mesh are open until resolve_geometry().
 /// Where the deck is to be rewritten in place (options.rewrites), an interrupted writing of its
 /// files is finished first; a verb that only reads says that there is one and changes nothing.
 /// A name without its ending is found (see find_deck), with a note.
-Result<std::unique_ptr<Loaded>> load(const std::string& given, const SchemaSet& schemas,
-                                     const CommonOptions& options, Stage stage = Stage::interfaces,
-                                     const Overlay* overlay = nullptr);
+Result<LoadedDeck> load(const std::string& given, const SchemaSet& schemas,
+                        const CommonOptions& options, Stage stage = Stage::interfaces,
+                        const Overlay* overlay = nullptr);
 
 /// Says that another file is read than the one that was named, if that is so.
 void note_found(const std::string& given, const std::string& path, const CommonOptions& options);
@@ -121,23 +104,22 @@ void observe_loading(std::function<void(const Deck&)> observer);
 
 /// Loads the decks one after the other and calls `body`; returns the worst exit code. What cannot
 /// be read is reported and counts as exit_input; a missing include too, after `body` has run.
-int for_each_deck(const CommonOptions& options, Stage stage,
-                  const std::function<int(Loaded&)>& body);
+int for_each_deck(const CommonOptions& options, const std::function<int(LoadedDeck&)>& body);
 
 /// exit_findings if --require-examined is given and nothing was examined, else exit_clean.
-int examined_code(const Loaded& loaded, const CommonOptions& options);
+int examined_code(const LoadedDeck& loaded, const CommonOptions& options);
 
 /// Refuses ids that are no interface of the deck of TYPE7, 10, 11 or 19. The error lists those that
 /// there are. `option` is what the ids were given to.
-Result<void> check_interfaces(const Loaded& loaded, const std::vector<std::int64_t>& ids,
+Result<void> check_interfaces(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
                               std::string_view option);
 /// The same for parts.
-Result<void> check_parts(const Loaded& loaded, const std::vector<std::int64_t>& ids,
+Result<void> check_parts(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
                          std::string_view option);
 
-/// Prints findings of reading and building on standard error, one line each: errors only, or all.
-/// At most `limit`, then how many more there are. Returns the number of errors.
-std::uint64_t print_findings(const Loaded& loaded, const CommonOptions& options,
+/// Prints what the stages that were made have found on standard error, one line each: errors only,
+/// or all. At most `limit`, then how many more there are. Returns the number of errors.
+std::uint64_t print_findings(const LoadedDeck& loaded, const CommonOptions& options,
                              bool errors_only = true, std::size_t limit = 20);
 
 /// "deck: error: ..." on standard error. The message is one line, whatever it quotes.

@@ -14,7 +14,7 @@
 #include "convert_losses.hpp"
 #include "convert_steps.hpp"
 #include "deck/base/paths.hpp"
-#include "deck/contact/scene.hpp"
+#include "deck/contact/search_memory.hpp"
 #include "deck/edit/changed_values.hpp"
 #include "deck/edit/from_json.hpp"
 #include "deck/edit/rewrite.hpp"
@@ -44,11 +44,10 @@ struct Options {
 
 /// A deck on its way through the conversions.
 struct Conversion {
-  std::unique_ptr<Loaded> now;
+  LoadedDeck now;
   Overlay changed;  ///< contents that differ from the files on disk
   std::vector<LossEntry> losses;
   std::unique_ptr<Behaviour> behaviour;  ///< of `now`, if it is to be verified
-  SearchMemory* searches;                ///< of all decks of the call
 };
 
 void print_refusals(const CommonOptions& common, const std::vector<std::string>& refusals) {
@@ -59,19 +58,18 @@ void print_refusals(const CommonOptions& common, const std::vector<std::string>&
     print_error(common, fmt::format("... and {} more", refusals.size() - most));
 }
 
-std::unique_ptr<Behaviour> behaviour_of(const Loaded& loaded, const SchemaSet& schemas,
-                                        const CommonOptions& common, SearchMemory* searches) {
-  return std::make_unique<Behaviour>(
-      EditContext{loaded.deck, loaded.model, loaded.interfaces, schemas},
-      VerifyOptions{common.thread_count(), common.limits, searches});
+std::unique_ptr<Behaviour> behaviour_of(LoadedDeck& loaded) {
+  SceneOptions contacts = loaded.scene_options();
+  contacts.candidates = false;
+  loaded.set_scene_options(contacts);
+  return std::make_unique<Behaviour>(loaded);
 }
 
 /// Compares the deck with what it was before a step. An exit code if it is another one.
-int verify(Conversion& c, const Loaded& again, const ConvertStep& step,
-           const std::vector<LossEntry>& losses, const SchemaSet& schemas,
-           const CommonOptions& common, Progress& progress) {
-  progress.step(c.now->path + ": comparing the result of " + step.option + " with the deck");
-  auto after = behaviour_of(again, schemas, common, c.searches);
+int verify(Conversion& c, LoadedDeck& again, const ConvertStep& step,
+           const std::vector<LossEntry>& losses, const CommonOptions& common, Progress& progress) {
+  progress.step(c.now.path() + ": comparing the result of " + step.option + " with the deck");
+  auto after = behaviour_of(again);
   VerifyRelation relation = relation_of(losses);
   relation.new_ids = step.option == "--renumber";
   relation.extract = step.option == "--extract-contacts";
@@ -85,7 +83,7 @@ int verify(Conversion& c, const Loaded& again, const ConvertStep& step,
   c.behaviour = std::move(after);
   progress.clear();
   if (!difference) return exit_clean;
-  print_error(common, c.now->path + ": " + step.option +
+  print_error(common, c.now.path() + ": " + step.option +
                           ": the result is not the same model: " + *difference +
                           "; nothing was written. --no-verify writes it nevertheless");
   return exit_findings;
@@ -95,10 +93,10 @@ int verify(Conversion& c, const Loaded& again, const ConvertStep& step,
 int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, const Options& options,
           Progress& progress) {
   const CommonOptions& common = options.common;
-  const EditContext context{c.now->deck, c.now->model, c.now->interfaces, schemas};
-  progress.step(c.now->path + ": " + step.option);
+  const EditContext context(c.now);
+  progress.step(c.now.path() + ": " + step.option);
   Rewrite rewrite = step.run(context);
-  if (step.engine && rewrite.refusals.empty()) step.engine(c.now->deck, c.now->engine, rewrite);
+  if (step.engine && rewrite.refusals.empty()) step.engine(c.now.deck(), c.now.engine_files(), rewrite);
   // With a batch the values that only changed are left out: its report holds all decks.
   if (!options.report.empty()) add_changed_values(context, step.option, rewrite);
   progress.clear();
@@ -107,44 +105,42 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
   if (!rewrite.refusals.empty()) {
     print_refusals(common, rewrite.refusals);
     for (const std::string& r : rewrite.refusals) c.losses.push_back(refused_entry(r));
-    print_error(common, c.now->path + ": " + step.option + " was not done; nothing was written" +
+    print_error(common, c.now.path() + ": " + step.option + " was not done; nothing was written" +
                             (step.way_out.empty() || rewrite.misasked ? "" : ". " + step.way_out));
     return rewrite.misasked ? exit_usage : exit_findings;
   }
   if (!common.quiet)
     for (const std::string& note : rewrite.notes)
       print_note(std::string(step.option) + ": " + note);
-  auto files = apply_rewrite(c.now->deck.sources, rewrite);
+  auto files = apply_rewrite(c.now.deck().sources, rewrite);
   if (!files) {
     print_error(common, files.error().message);
     return exit_findings;
   }
   if (files->empty()) return exit_clean;
-  if (options.verifies() && !c.behaviour)
-    c.behaviour = behaviour_of(*c.now, schemas, common, c.searches);
-  if (c.now->path == "-" && !c.changed.contains("-"))  // it cannot be read twice
-    c.changed["-"] = std::string(c.now->deck.sources[0].bytes());
+  if (options.verifies() && !c.behaviour) c.behaviour = behaviour_of(c.now);
+  if (c.now.path() == "-" && !c.changed.contains("-"))  // it cannot be read twice
+    c.changed["-"] = std::string(c.now.deck().sources[0].bytes());
   for (auto& [path, text] : *files) c.changed[path] = std::move(text);
-  auto again = load(c.now->path, schemas, common, Stage::interfaces, &c.changed);
+  auto again = load(c.now.path(), schemas, common, Stage::interfaces, &c.changed);
   if (!again) {
     print_error(common, again.error().message);
     return exit_internal;
   }
-  if ((*again)->incomplete()) {
-    print_findings(**again, common);
-    print_error(common, c.now->path + ": not written, a file could be read before, but not again");
+  if (again->incomplete()) {
+    print_findings(*again, common);
+    print_error(common, c.now.path() + ": not written, a file could be read before, but not again");
     return exit_input;
   }
-  const int code =
-      c.behaviour ? verify(c, **again, step, losses, schemas, common, progress) : exit_clean;
+  const int code = c.behaviour ? verify(c, *again, step, losses, common, progress) : exit_clean;
   c.now = std::move(*again);
   return code;
 }
 
 /// Engine files that no conversion has to do with are written beside the deck as they are.
 void tell_of_copies(Conversion& c) {
-  for (const EngineFile& file : c.now->engine.files) {
-    const std::string& path = c.now->deck.sources[file.file].path();
+  for (const EngineFile& file : c.now.engine_files().files) {
+    const std::string& path = c.now.deck().sources[file.file].path();
     if (std::any_of(c.losses.begin(), c.losses.end(),
                     [&](const LossEntry& e) { return e.file == path; }))
       continue;
@@ -170,7 +166,6 @@ struct Run {
   Progress progress;
   std::vector<Document> documents = {};
   std::vector<LossEntry> losses = {};
-  SearchMemory searches = SearchMemory();
   bool refused = false;  ///< nothing may be written
 };
 
@@ -266,13 +261,14 @@ std::string document_difference(const std::string& document, const Deck& deck,
 
 /// The deck in JSON, kept until all decks of the call are ready.
 int add_document(Run& run, const Conversion& c, const SchemaSet& schemas) {
-  resolve_geometry(*c.now, run.options.common);
-  auto document = deck_to_json({c.now->path, &c.now->deck, &c.now->model, &c.now->interfaces});
+  resolve_geometry(c.now, run.options.common);
+  auto document = deck_to_json({c.now.path(), &c.now.deck(), &c.now.model(), &c.now.interfaces()});
   if (!document) return fail(run, document.error());
   if (run.options.verifies())
-    if (const std::string why = document_difference(*document, c.now->deck, schemas); !why.empty())
-      return fail(run, {Error::Code::internal, c.now->path + ": the JSON is not the deck: " + why});
-  Document made{c.now->path, std::move(*document), {}};
+    if (const std::string why = document_difference(*document, c.now.deck(), schemas); !why.empty())
+      return fail(run,
+                  {Error::Code::internal, c.now.path() + ": the JSON is not the deck: " + why});
+  Document made{c.now.path(), std::move(*document), {}};
   fs::path name =
       made.deck == "-" ? "stdin.json" : fs::path(without_gz(made.deck)).stem().string() + ".json";
   if (!run.changes.root().empty())
@@ -289,9 +285,9 @@ int add_document(Run& run, const Conversion& c, const SchemaSet& schemas) {
 int add_result(Run& run, std::size_t member, Conversion& c, const SchemaSet& schemas) {
   const Options& options = run.options;
   if (options.to == "json") return add_document(run, c, schemas);
-  if (c.now->path == "-" && options.from == "rad" && !options.write.diff) {
-    if (c.now->deck.sources.size() == 1 && options.write.directory.empty()) {
-      print_contents(c.now->deck.sources[0].bytes());
+  if (c.now.path() == "-" && options.from == "rad" && !options.write.diff) {
+    if (c.now.deck().sources.size() == 1 && options.write.directory.empty()) {
+      print_contents(c.now.deck().sources[0].bytes());
       return exit_clean;
     }
     print_error(options.common,
@@ -299,29 +295,25 @@ int add_result(Run& run, std::size_t member, Conversion& c, const SchemaSet& sch
                 "file goes to standard output");
     return exit_usage;
   }
-  run.changes.propose(member, c.now->deck, c.changed);
+  run.changes.propose(member, c.now.deck(), c.changed);
   return exit_clean;
 }
 
-int convert(Run& run, const std::string& name, std::unique_ptr<Loaded> loaded, Overlay overlay,
+int convert(Run& run, const std::string& name, LoadedDeck loaded, Overlay overlay,
             const std::vector<LossEntry>& losses, const SchemaSet& schemas) {
   const Options& options = run.options;
-  if (loaded->incomplete()) {
+  if (loaded.incomplete()) {
     run.refused = true;
-    print_findings(*loaded, options.common);
-    print_error(options.common, loaded->path + ": not written, the include tree is not complete");
+    print_findings(loaded, options.common);
+    print_error(options.common, loaded.path() + ": not written, the include tree is not complete");
     return exit_input;
   }
-  const auto member = run.changes.add(*loaded, name);
+  const auto member = run.changes.add(loaded, name);
   if (!member) {
     run.refused = true;
     return fail(run, member.error());
   }
-  Conversion c;
-  c.now = std::move(loaded);
-  c.changed = std::move(overlay);
-  c.losses = losses;
-  c.searches = &run.searches;
+  Conversion c{std::move(loaded), std::move(overlay), losses, nullptr};
   int code = exit_clean;
   for (const ConvertStep& step : run.steps) {
     code = apply(c, step, schemas, options, run.progress);
@@ -353,10 +345,9 @@ void unite(std::vector<LossEntry>& losses) {
 }
 
 /// The deck of one command line argument, whatever it is written in.
-Result<std::pair<std::unique_ptr<Loaded>, Overlay>> open_input(const std::string& path,
-                                                               const Options& options,
-                                                               const SchemaSet& schemas, bool whole,
-                                                               std::vector<LossEntry>& losses) {
+Result<std::pair<LoadedDeck, Overlay>> open_input(const std::string& path, const Options& options,
+                                                  const SchemaSet& schemas, bool whole,
+                                                  std::vector<LossEntry>& losses) {
   Overlay overlay;
   std::string main = path;
   if (options.from == "json") {
@@ -365,7 +356,7 @@ Result<std::pair<std::unique_ptr<Loaded>, Overlay>> open_input(const std::string
     main = files->main;
     overlay = std::move(files->contents);
   }
-  auto loaded = load(main, schemas, options.common, whole ? Stage::interfaces : Stage::blocks,
+  auto loaded = load(main, schemas, options.common, whole ? Stage::interfaces : Stage::deck,
                      options.from == "json" ? &overlay : nullptr);
   if (!loaded) return loaded.error();
   return std::pair(std::move(*loaded), std::move(overlay));
@@ -422,8 +413,10 @@ int check(const Options& options) {
   return exit_clean;
 }
 
-int run(const Options& options) {
+int run(Options& options) {
   if (const int bad = check(options); bad != exit_clean) return bad;
+  SearchMemory searches;
+  options.common.searches = &searches;
   const auto schemas = load_schemas(options.common);
   if (!schemas) {
     print_error(options.common, schemas.error().message);

@@ -194,23 +194,23 @@ int run(const Options& o) {
   options.keep_pairs = (o.all && json.wanted()) || !o.vtk.empty() || !o.html.empty();
   std::vector<std::int64_t> parts;
   for (const cycle::PartVelocity& v : velocities) parts.push_back(v.part);
-  const int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
+  const int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
     for (const auto& known : {check_interfaces(loaded, o.only, "--interface"),
                               check_parts(loaded, parts, "--velocity")})
       if (!known) {
         print_error(o.common, known.error().message);
         return static_cast<int>(exit_usage);
       }
-    auto config = config_of(o.gate, loaded.path);
-    auto gate = config ? gate_of(o.gate, *config, loaded.path) : Result<DeckGate>(config.error());
+    auto config = config_of(o.gate, loaded.path());
+    auto gate = config ? gate_of(o.gate, *config, loaded.path()) : Result<DeckGate>(config.error());
     if (!gate) {
       print_error(o.common, gate.error().message);
       return static_cast<int>(exit_usage);
     }
-    gate->note_baseline(o.common, loaded.path);
+    gate->note_baseline(o.common, loaded.path());
     options.dead.clear();
     for (const std::string& text : o.gone) {
-      auto dead = parse_gone(loaded.model, text);
+      auto dead = parse_gone(loaded.model(), text);
       if (!dead) {
         print_error(o.common, dead.error().message);
         return static_cast<int>(exit_usage);
@@ -224,7 +224,6 @@ int run(const Options& o) {
     scene_options.only = o.only;
     scene_options.accuracy = accuracy_of(o.accuracy);
     scene_options.limits = o.common.limits;
-    Scene scene;
     cycle::StepsOutcome steps;
     cycle::State state;
     CycleInput input;
@@ -237,12 +236,13 @@ int run(const Options& o) {
         progress.update(done, total);
       };
       scene_options.progress = update;
-      scene = build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
+      loaded.set_scene_options(scene_options);
+      const Scene& scene = loaded.scene();
       progress.step("forces");
       state = cycle::make_state(scene, velocities);
       options.progress = update;
-      input.path = loaded.path;
-      input.deck = &loaded.deck;
+      input.path = loaded.path();
+      input.deck = &loaded.deck();
       input.scene = &scene;
       input.state = &state;
       input.options = options;
@@ -255,7 +255,7 @@ int run(const Options& o) {
         CycleInput one = input;
         one.outcome = &now;
         one.coordinates = &x;
-        written = write_vtk(o, loaded.path, cycle_vtk(one, suffix_of(step)));
+        written = write_vtk(o, loaded.path(), cycle_vtk(one, suffix_of(step)));
       };
       // Beyond this the squares of distances are no numbers any more.
       constexpr double farthest = 1e150;
@@ -277,13 +277,14 @@ int run(const Options& o) {
         std::vector<std::string> suffixes;
         for (std::size_t k = 0; k < steps.lines.size(); ++k) suffixes.push_back(suffix_of(k));
         const std::vector<VtkFile> collections = cycle_vtk_series(steps, suffixes);
-        written = write_vtk(o, loaded.path, collections, paraview_script(collections));
+        written = write_vtk(o, loaded.path(), collections, paraview_script(collections));
       } else if (!o.vtk.empty() && written) {
         const std::vector<VtkFile> files = cycle_vtk(input);
-        written = write_vtk(o, loaded.path, files, paraview_script(files));
+        written = write_vtk(o, loaded.path(), files, paraview_script(files));
       }
     }
-    join_findings(loaded);
+    loaded.findings();
+    const Scene& scene = loaded.scene();
     const std::vector<Crossing> crossings = find_crossings(scene, options.threads);
     const SceneView view = make_view(scene, &crossings, options.threads);
     const GateReport report = gate->look(loaded, scene, view, &steps.last);

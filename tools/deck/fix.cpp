@@ -55,26 +55,26 @@ class FixRun {
   /// With directories expanded and, where asked for, the decks that include the same files.
   Result<std::vector<std::string>> decks() { return changes_.decks(o_.common.decks, deck_ending); }
 
-  int one(Loaded& loaded) {
+  int one(LoadedDeck& loaded) {
     const bool errors = print_findings(loaded, o_.common) > 0;
     if (loaded.incomplete()) {
-      print_error(o_.common, loaded.path + ": not fixed, the include tree is not complete");
+      print_error(o_.common, loaded.path() + ": not fixed, the include tree is not complete");
       return exit_input;
     }
     for (const auto& known :
          {check_interfaces(loaded, o_.interfaces, "--interface"),
           check_parts(loaded, o_.move.lock, "--lock"), check_parts(loaded, o_.move.move, "--only")})
       if (!known) return fail(known.error());
-    if (loaded.path == "-" && (o_.write.in_place || !o_.write.directory.empty()))
+    if (loaded.path() == "-" && (o_.write.in_place || !o_.write.directory.empty()))
       return fail({Error::Code::config,
                    o_.write.in_place ? "standard input cannot be rewritten; use --diff"
                                      : "a deck from standard input has no name to write it to"});
-    const auto member = changes_.add(loaded, loaded.path);
+    const auto member = changes_.add(loaded, loaded.path());
     if (!member) return fail(member.error());
-    const Coverage coverage = coverage_of(loaded.deck, loaded.interfaces);
+    const Coverage coverage = coverage_of(loaded.deck(), loaded.interfaces());
     if (coverage.nothing()) {
       report_nothing(loaded, coverage);
-      if (!o_.strategies.empty()) changes_.propose(*member, loaded.deck, {});
+      if (!o_.strategies.empty()) changes_.propose(*member, loaded.deck(), {});
       return exit_findings;
     }
     if (o_.strategies.empty()) return propose(loaded, coverage, errors);
@@ -83,9 +83,9 @@ class FixRun {
     const ChangedFiles& changed = fixed->changed;
     const PenetrationFix whole =
         fixed->fixes.size() == 1 ? fixed->fixes.front() : combined(fixed->fixes);
-    changes_.propose(*member, loaded.deck, changed);
+    changes_.propose(*member, loaded.deck(), changed);
     if (!o_.html.empty()) {
-      auto page = fix_page(loaded, schemas_, changed, o_.common);
+      auto page = fix_page(loaded, changed, o_.common);
       if (!page) return fail(page.error());
       page_ = std::move(*page);
     }
@@ -95,8 +95,8 @@ class FixRun {
                                                               : "no";
     if (json_.wanted())
       documents_.push_back(
-          fix_json(loaded.path, loaded.deck, coverage, whole, written, fixed->fixes));
-    texts_ += report(whole, fixed->fixes, changed, loaded.path, coverage_tail(coverage));
+          fix_json(loaded.path(), loaded.deck(), coverage, whole, written, fixed->fixes));
+    texts_ += report(whole, fixed->fixes, changed, loaded.path(), coverage_tail(coverage));
     // A deck that the solver does not take is not repaired, whatever was done about its contacts.
     return whole.complete && !errors ? exit_clean : exit_findings;
   }
@@ -149,17 +149,17 @@ class FixRun {
   }
 
   /// Nothing was looked at: no verdict, and nothing that could be fixed.
-  void report_nothing(const Loaded& loaded, const Coverage& coverage) {
+  void report_nothing(const LoadedDeck& loaded, const Coverage& coverage) {
     PenetrationFix nothing;
     for (const std::string& s : o_.strategies)
       nothing.strategy += (nothing.strategy.empty() ? "" : ",") + s;
     if (json_.wanted())
-      documents_.push_back(fix_json(loaded.path, loaded.deck, coverage, nothing, "no"));
-    if (!o_.common.quiet) texts_ += heading(loaded.path) + coverage_lead(coverage) + "\n";
+      documents_.push_back(fix_json(loaded.path(), loaded.deck(), coverage, nothing, "no"));
+    if (!o_.common.quiet) texts_ += heading(loaded.path()) + coverage_lead(coverage) + "\n";
   }
 
   /// What each strategy would do, and the command for the best one.
-  int propose(const Loaded& loaded, const Coverage& coverage, bool errors) {
+  int propose(const LoadedDeck& loaded, const Coverage& coverage, bool errors) {
     std::vector<PenetrationFix> proposals;
     for (const std::vector<std::string>& strategies : std::vector<std::vector<std::string>>{
              {"move-nodes"}, {"reduce-gap"}, {"inacti"}, {"fpenmax"}, {"untangle", "move-nodes"}}) {
@@ -175,15 +175,15 @@ class FixRun {
     }
     const PenetrationFix now = unchanged(proposals);
     if (json_.wanted())
-      documents_.push_back(fix_json(loaded.path, loaded.deck, coverage, now, "no", proposals));
+      documents_.push_back(fix_json(loaded.path(), loaded.deck(), coverage, now, "no", proposals));
     if (!o_.common.quiet) {
       FixTextOptions text;
       text.rows = o_.rows;
       text.width = text_width();
       text.color = o_.common.color_on(o_.common.json == "-" ? 2 : 1);
-      texts_ += heading(loaded.path);
+      texts_ += heading(loaded.path());
       texts_ += fix_proposals_text(
-          proposals, [&](std::string_view s) { return command(loaded.path, s); }, text);
+          proposals, [&](std::string_view s) { return command(loaded.path(), s); }, text);
       if (const std::string tail = coverage_tail(coverage); !tail.empty())
         texts_ += "\n" + tail.substr(1) + "\n";
     }
@@ -240,8 +240,7 @@ class FixRun {
   }
 
   /// These strategies in their order.
-  Result<FixSequence> make(const Loaded& loaded, const std::vector<std::string>& names) const {
-    const EditContext context{loaded.deck, loaded.model, loaded.interfaces, schemas_};
+  Result<FixSequence> make(const LoadedDeck& loaded, const std::vector<std::string>& names) const {
     Progress progress(!o_.common.quiet);
     std::string step;
     FixOptions base;
@@ -260,11 +259,11 @@ class FixRun {
       steps.emplace_back([&](const EditContext& here, const ReadOptions& read) {
         FixOptions options = base;
         options.read = read;
-        auto fix = one_step(strategy, here, options, loaded.path, moved);
+        auto fix = one_step(strategy, here, options, loaded.path(), moved);
         if (fix) moved.insert(moved.end(), fix->moved.begin(), fix->moved.end());
         return fix;
       });
-    return fix_in_order(context, base, steps);
+    return fix_in_order(loaded, base, steps);
   }
 
   Result<PenetrationFix> one_step(const std::string& strategy, const EditContext& context,
@@ -395,8 +394,7 @@ int run(const Options& o) {
   }
   CommonOptions common = o.common;
   common.decks = *decks;
-  const int code =
-      for_each_deck(common, Stage::interfaces, [&](Loaded& loaded) { return fix.one(loaded); });
+  const int code = for_each_deck(common, [&](LoadedDeck& loaded) { return fix.one(loaded); });
   return json.finish(fix.finish(code));
 }
 

@@ -33,12 +33,12 @@ struct Options {
 };
 
 /// Refuses --interface and --what-if that do not fit the deck.
-Result<void> check_options(const Options& o, const Loaded& loaded,
+Result<void> check_options(const Options& o, const LoadedDeck& loaded,
                            const std::vector<WhatIf>& what_if) {
   if (auto known = check_interfaces(loaded, o.only, "--interface"); !known) return known;
   for (const WhatIf& w : what_if) {
     if (auto known = check_interfaces(loaded, {w.interface_id}, "--what-if"); !known) return known;
-    for (const InterBase* inter : loaded.interfaces.ordered)
+    for (const InterBase* inter : loaded.interfaces().ordered)
       if (inter->id == w.interface_id)
         if (auto fits = check_what_if(w, *inter); !fits) return fits;
   }
@@ -46,11 +46,11 @@ Result<void> check_options(const Options& o, const Loaded& loaded,
 }
 
 /// Writes the VTK files: into the directory itself, or one below it per deck if there are several.
-Result<void> write_vtk(const Options& o, const Loaded& loaded, const Scene& scene,
+Result<void> write_vtk(const Options& o, const LoadedDeck& loaded, const Scene& scene,
                        const SceneView& view) {
   namespace fs = std::filesystem;
   fs::path directory = o.vtk;
-  if (o.common.decks.size() > 1) directory /= fs::path(without_gz(loaded.path)).stem();
+  if (o.common.decks.size() > 1) directory /= fs::path(without_gz(loaded.path())).stem();
   const std::vector<VtkFile> written = gaps_vtk(scene, view);
   std::vector<OutputFile> files;
   for (const VtkFile& f : written) files.push_back({(directory / f.name).string(), f.bytes});
@@ -60,34 +60,24 @@ Result<void> write_vtk(const Options& o, const Loaded& loaded, const Scene& scen
 }
 
 /// What page and drawing are made from.
-HtmlInput page_input(const Loaded& loaded, const Scene& scene, const SceneView& view,
-                     const SceneOptions& scene_options) {
+HtmlInput page_input(const LoadedDeck& loaded, const SceneView& view) {
   HtmlInput input;
-  input.path = loaded.path;
-  input.deck = &loaded.deck;
-  input.scene = &scene;
+  input.path = loaded.path();
+  input.deck = &loaded.deck();
+  input.scene = &loaded.scene();
   input.view = &view;
-  input.what_if = scene_options.what_if;
-  input.only = scene_options.only;
-  input.threads = scene_options.threads;
+  input.what_if = loaded.scene_options().what_if;
+  input.only = loaded.scene_options().only;
+  input.threads = loaded.options().threads;
   return input;
 }
 
 /// Writes the HTML report; what can be wrong is wrong usage or a file.
-Result<void> write_html(const Options& o, const Loaded& loaded, const Scene& scene,
-                        const SceneView& view, const std::vector<Crossing>& crossings,
-                        const SceneOptions& scene_options, const GateReport& gate) {
-  cycle::CycleOptions cycle_options;
-  cycle_options.threads = scene_options.threads;
-  cycle_options.keep_pairs = true;
-  cycle::State state = cycle::make_state(scene);
-  cycle::SceneOutcome forces = cycle::run_cycle(scene, state, cycle_options);
-  HtmlInput input = page_input(loaded, scene, view, scene_options);
-  input.cycle = &forces;
-  input.acted = acted_in_page(state, forces);
-  // Nodes may be many, and the page asks for no more of them.
-  state = {};
-  forces.nodes = {};
+Result<void> write_html(const Options& o, const LoadedDeck& loaded, const SceneView& view,
+                        const std::vector<Crossing>& crossings, const GateReport& gate) {
+  HtmlInput input = page_input(loaded, view);
+  input.cycle = &loaded.cycle().outcome;
+  input.acted = acted_in_page(loaded.cycle().state, loaded.cycle().outcome);
   input.crossings = &crossings;
   input.earlier = gate.earlier;
   auto page = gaps_html(input);
@@ -140,20 +130,19 @@ int run(const Options& o) {
     gate_options.no_config = true;
   }
   bool first = true;
-  int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
+  int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
     if (auto fits = check_options(o, loaded, scene_options.what_if); !fits) {
       print_error(o.common, fits.error().message);
       return static_cast<int>(exit_usage);
     }
-    auto config = config_of(gate_options, loaded.path);
+    auto config = config_of(gate_options, loaded.path());
     auto gate =
-        config ? gate_of(gate_options, *config, loaded.path) : Result<DeckGate>(config.error());
+        config ? gate_of(gate_options, *config, loaded.path()) : Result<DeckGate>(config.error());
     if (!gate) {
       print_error(o.common, gate.error().message);
       return static_cast<int>(exit_usage);
     }
-    gate->note_baseline(o.common, loaded.path);
-    Scene scene;
+    gate->note_baseline(o.common, loaded.path());
     {
       Progress progress(!o.common.quiet);
       progress.step("contacts");
@@ -162,31 +151,27 @@ int run(const Options& o) {
       scene_options.progress = [&](std::size_t done, std::size_t total) {
         progress.update(done, total);
       };
-      scene = build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
+      loaded.set_scene_options(scene_options);
+      loaded.findings();
     }
-    join_findings(loaded);
+    const Scene& scene = loaded.scene();
     const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
     const SceneView view = make_view(scene, &crossings, scene_options.threads);
-    std::optional<cycle::SceneOutcome> forces;
-    if (gate->gate.needs_forces()) {
-      cycle::CycleOptions cycle_options;
-      cycle_options.threads = scene_options.threads;
-      forces = cycle::run_cycle(scene, cycle::make_state(scene), cycle_options);
-    }
-    const GateReport report = gate->look(loaded, scene, view, forces ? &*forces : nullptr);
+    const GateReport report = gate->look(
+        loaded, scene, view, gate->gate.needs_forces() ? &loaded.cycle().outcome : nullptr);
     print_findings(loaded, o.common);
     if (json.wanted())
       json.add([&](const TextDrain& drain) {
-        return gaps_json(loaded.path, loaded.deck, scene, view, o.all,
+        return gaps_json(loaded.path(), loaded.deck(), scene, view, o.all,
                          o.crossings ? &crossings : nullptr, &report, drain);
       });
     if (baseline.wanted())
-      baseline.add(gaps_json(name_in_baseline(loaded.path, o.write_baseline), loaded.deck, scene,
-                             view, false));
+      baseline.add(gaps_json(name_in_baseline(loaded.path(), o.write_baseline), loaded.deck(),
+                             scene, view, false));
     if (!o.csv.empty())
       if (auto r = write_output(
               o.csv,
-              [&](const TextDrain& drain) { return gaps_csv(loaded.deck, scene, view, drain); });
+              [&](const TextDrain& drain) { return gaps_csv(loaded.deck(), scene, view, drain); });
           !r) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
@@ -197,13 +182,12 @@ int run(const Options& o) {
         return static_cast<int>(exit_usage);
       }
     if (!o.html.empty())
-      if (auto r = write_html(o, loaded, scene, view, crossings, scene_options, report); !r) {
+      if (auto r = write_html(o, loaded, view, crossings, report); !r) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }
     if (!o.svg.empty())
-      if (auto r = write_output(o.svg, touches_svg(page_input(loaded, scene, view, scene_options)));
-          !r) {
+      if (auto r = write_output(o.svg, touches_svg(page_input(loaded, view))); !r) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }
@@ -213,15 +197,15 @@ int run(const Options& o) {
       text.color = o.common.color_on(1);
       text.verbose = o.common.verbose;
       text.width = text_width();
-      if (o.common.decks.size() > 1) text.name = loaded.path;
+      if (o.common.decks.size() > 1) text.name = loaded.path();
       if (o.crossings) text.crossings = &crossings;
       text.gate = &report;
-      print_lines((first ? "" : "\n") + gaps_text(loaded.deck, scene, view, text));
+      print_lines((first ? "" : "\n") + gaps_text(loaded.deck(), scene, view, text));
       first = false;
     }
     const bool accepted = baseline.wanted() || (gate->baseline && o.gate.level().empty());
     const int decided =
-        verdict_code(verdict_of(loaded.deck, scene, view), o.gate, o.common, o.fail, accepted);
+        verdict_code(verdict_of(loaded.deck(), scene, view), o.gate, o.common, o.fail, accepted);
     return report.passed() ? decided : static_cast<int>(exit_findings);
   });
   return baseline.finish(json.finish(code));

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "deck/base/paths.hpp"
-#include "deck/contact/join_findings.hpp"
 #include "deck/report/gaps.hpp"
 
 namespace deck::cli {
@@ -166,7 +165,7 @@ void DeckGate::note_baseline(const CommonOptions& options, const std::string& de
     note_not_in_baseline(options, deck_path, earlier->path, earlier->decks);
 }
 
-GateReport DeckGate::look(Loaded& loaded, const Scene& scene, const SceneView& view,
+GateReport DeckGate::look(LoadedDeck& loaded, const Scene& scene, const SceneView& view,
                           const cycle::SceneOutcome* forces) const {
   GateReport report;
   report.asked = gate.any();
@@ -178,12 +177,8 @@ GateReport DeckGate::look(Loaded& loaded, const Scene& scene, const SceneView& v
   report.undecided = static_cast<std::size_t>(std::count_if(
       scene.contacts.begin(), scene.contacts.end(), [](const Contact& c) { return !c.evaluated; }));
   report.findings = check_gate(gate, scene, view, forces, report.earlier);
-  for (const Diagnostic& d : report.findings) loaded.diagnostics.report(d);
+  for (const Diagnostic& d : report.findings) loaded.report(d);
   return report;
-}
-
-void join_findings(Loaded& loaded) {
-  join_findings(loaded.deck, loaded.model, std::exchange(loaded.diagnostics, Diagnostics()));
 }
 
 int verdict_code(const Verdict& verdict, const GateOptions& options, const CommonOptions& common,

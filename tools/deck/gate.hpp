@@ -44,8 +44,6 @@ Result<void> check_fail_on(const GateOptions& options);
 /// The configuration that holds for a deck: --config, or the nearest .decklint.toml.
 Result<LintConfig> config_of(const GateOptions& options, const std::string& deck_path);
 
-/// deck::join_findings with what was found since reading.
-void join_findings(Loaded& loaded);
 /// 0 or 1: what the verdict and the options say. Gates come on top of it.
 int verdict_code(const Verdict& verdict, const GateOptions& options, const CommonOptions& common,
                  bool on_warning = false, bool pairs_accepted = false);
@@ -59,7 +57,7 @@ struct DeckGate {
   /// Says so where the baseline is one of other decks.
   void note_baseline(const CommonOptions& options, const std::string& deck_path) const;
   /// Looks, and adds what it finds to the deck's findings. `forces` may be nullptr.
-  GateReport look(Loaded& loaded, const Scene& scene, const SceneView& view,
+  GateReport look(LoadedDeck& loaded, const Scene& scene, const SceneView& view,
                   const cycle::SceneOutcome* forces) const;
 };
 /// Says that a baseline holds nothing of a deck, but of `held`, so that everything counts as new.

@@ -54,7 +54,7 @@ constexpr std::initializer_list<const char*> formats = {"human",  "json",  "sari
 /// One deck of the run, kept until everything is written.
 struct Job {
   std::string path, error;
-  std::unique_ptr<Loaded> loaded;
+  std::optional<LoadedDeck> loaded;
   LintResult result;
   std::optional<Verdict> verdict;
   /// Rule and entity of the entries of the baseline, for those that do not occur any more.
@@ -114,28 +114,24 @@ Result<LintOptions> lint_options(const Options& options, const LintConfig& confi
   return out;
 }
 
-LintResult lint_loaded(Loaded& loaded, const SchemaSet& schemas, const LintOptions& options,
-                       const Options& command, Geometry geometry, const DeckGate& gate,
-                       std::optional<ContactFacts>& contacts) {
-  LintInput input{loaded.deck,
-                  schemas,
-                  &loaded.model,
-                  &loaded.interfaces,
-                  loaded.model.selections.get(),
-                  {&loaded.diagnostics},
-                  {},
-                  &loaded.engine};
+LintResult lint_loaded(LoadedDeck& loaded, const LintOptions& options, Geometry geometry,
+                       const DeckGate& gate, std::optional<ContactFacts>& contacts) {
+  SceneOptions wanted = loaded.scene_options();
+  wanted.candidates = false;
+  loaded.set_scene_options(wanted);
+  LintInput input(loaded);
   if (geometry != Geometry::none)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
       return check_geometry(
           context, reporter,
-          {command.common.thread_count(), command.common.limits,
-           geometry == Geometry::quick ? std::optional(QuickLook{}) : std::nullopt, &gate.gate,
+          {geometry == Geometry::quick ? std::optional(QuickLook{}) : std::nullopt, &gate.gate,
            gate.earlier ? &*gate.earlier : nullptr, [&](const Scene& scene, const SceneView& view) {
              contacts = contact_facts(scene, view);
            }});
     });
-  return run_lint(input, options);
+  LintResult result = run_lint(input, options);
+  loaded.drop_scene();
+  return result;
 }
 
 bool passes_a_gate(const LintResult& r) {
@@ -226,16 +222,16 @@ class Run {
     gate->note_baseline(common_, path);
     const auto lint = lint_options(options_, *config, *job);
     if (!lint) return usage(lint.error().message);
-    auto loaded = load(path, schemas_, common_, Stage::interfaces);
+    auto loaded = load(path, schemas_, common_);
     int code = exit_clean;
     if (!loaded) {
       job->error = loaded.error().message;
       print_error(common_, job->error);
       code = loaded.error().code == Error::Code::config ? exit_usage : exit_input;
     } else {
-      job->loaded = std::move(*loaded);
+      job->loaded.emplace(std::move(*loaded));
       std::optional<ContactFacts> contacts;
-      job->result = lint_loaded(*job->loaded, schemas_, *lint, options_, geometry, *gate, contacts);
+      job->result = lint_loaded(*job->loaded, *lint, geometry, *gate, contacts);
       const auto& skipped = job->result.not_checked;
       const bool left_out = geometry != Geometry::none &&
                             std::any_of(skipped.begin(), skipped.end(), [](const NotChecked& n) {
@@ -264,13 +260,13 @@ class Run {
     std::vector<const Job*> jobs;
     for (const auto& job : jobs_)
       if (job->loaded) {
-        decks.push_back({&job->loaded->deck.sources, &job->result.diagnostics});
+        decks.push_back({&job->loaded->deck().sources, &job->result.diagnostics});
         jobs.push_back(job.get());
       }
     const AgreedFixes agreed = agree_on_fixes(decks, options_.unsafe_fixes);
     std::size_t changed = 0;
     for (std::size_t d = 0; d < decks.size(); ++d) {
-      const Deck& deck = jobs[d]->loaded->deck;
+      const Deck& deck = jobs[d]->loaded->deck();
       const auto member = set.add(*jobs[d]->loaded, jobs[d]->path);
       if (!member) return member.error();
       results.push_back(apply_fixes(deck.sources, agreed.wanted[d]));
@@ -292,7 +288,7 @@ class Run {
       const WithheldFix& w = agreed.withheld[i];
       print_messages(fmt::format(
           "{}: note: not fixed ({}): {} includes this file too and needs it unchanged\n",
-          terminal_text(jobs[w.deck]->loaded->deck.sources.where(w.diagnostic->span)),
+          terminal_text(jobs[w.deck]->loaded->deck().sources.where(w.diagnostic->span)),
           id_text(w.diagnostic->rule), terminal_text(jobs[w.other]->path)));
     }
     if (agreed.withheld.size() > most && !common_.quiet)
@@ -358,10 +354,10 @@ class Run {
   }
   static LintedDeck linted(const Job& job) {
     return {job.path,
-            job.loaded ? &job.loaded->deck : nullptr,
+            job.loaded ? &job.loaded->deck() : nullptr,
             job.loaded ? &job.result : nullptr,
             job.error,
-            job.loaded ? &job.loaded->interfaces : nullptr,
+            job.loaded ? &job.loaded->interfaces() : nullptr,
             nullptr,
             job.verdict};
   }
@@ -382,7 +378,7 @@ class Run {
     if (!options_.write_baseline.empty()) {
       std::vector<BaselinedDeck> baselined;
       for (const auto& job : jobs_)
-        if (job->loaded) baselined.push_back({job->path, &job->loaded->deck, &job->result});
+        if (job->loaded) baselined.push_back({job->path, &job->loaded->deck(), &job->result});
       put(options_.write_baseline, deck::write_baseline(baselined, options_.write_baseline));
     }
     report_stale();

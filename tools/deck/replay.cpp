@@ -23,20 +23,19 @@ const Contact* contact_of(const Scene& scene, bool edges) {
   return nullptr;
 }
 
-int run_deck(const Options& o, std::string_view csv, Loaded& loaded, JsonOutput& json) {
-  const auto& all = loaded.interfaces.ordered;
+int run_deck(const Options& o, std::string_view csv, LoadedDeck& loaded, JsonOutput& json) {
+  const auto& all = loaded.interfaces().ordered;
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&](const InterBase* i) { return i->id == o.interface_id; });
   if (auto known = check_interfaces(loaded, {o.interface_id}, "--interface"); !known) {
     print_error(o.common, known.error().message);
     return exit_usage;
   }
-  SceneOptions scene_options;
-  scene_options.threads = o.common.thread_count();
+  SceneOptions scene_options = loaded.scene_options();
   scene_options.only = {o.interface_id};
-  scene_options.penetrations = scene_options.candidates = false;
-  const Scene scene =
-      build_scene(loaded.model, loaded.interfaces, loaded.diagnostics, scene_options);
+  scene_options.penetrations = scene_options.candidates = scene_options.nodal_stiffness = false;
+  loaded.set_scene_options(scene_options);
+  const Scene& scene = loaded.scene();
   const std::string_view header = std::string_view(csv).substr(0, csv.find('\n'));
   const bool edges = header.find("hs1") != std::string_view::npos;  // also in heat of edges
   const Contact* contact = contact_of(scene, edges);
@@ -65,7 +64,7 @@ int run_deck(const Options& o, std::string_view csv, Loaded& loaded, JsonOutput&
       print_error(o.common, r.error().message);
       return exit_usage;
     }
-  const ReplayInput input{loaded.path, o.states, &loaded.deck, *found, options.model};
+  const ReplayInput input{loaded.path(), o.states, &loaded.deck(), *found, options.model};
   if (json.wanted()) json.add(replay_json(input, report));
   if (o.common.wants_text() && o.csv != "-") print_lines(replay_text(input, report));
   return exit_clean;
@@ -81,7 +80,7 @@ int run(Options& o) {
   }
   remember_read(**source);
   JsonOutput json(o.common, "deck/replay", 1);
-  const int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
+  const int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
     print_findings(loaded, o.common);
     return run_deck(o, (*source)->bytes(), loaded, json);
   });

@@ -16,27 +16,13 @@ namespace {
 using detail::Extraction;
 using detail::ItemLines;
 
-/// The deck an extraction works on: the deck itself, or its flat form.
-struct Flat {
-  Deck deck;
-  Diagnostics diagnostics;
-  Model model;
-  Interfaces interfaces;
-
-  static std::unique_ptr<Flat> read(const std::string& path, std::string text,
-                                    const SchemaSet& schemas, std::string& why) {
-    auto out = std::make_unique<Flat>();
-    auto deck = read_deck_text(path, std::move(text), schemas);
-    if (!deck) {
-      why = deck.error().message;
-      return nullptr;
-    }
-    out->deck = std::move(*deck);
-    out->model = build_model(out->deck, schemas, out->diagnostics);
-    out->interfaces = read_interfaces(out->deck, out->model, out->diagnostics);
-    return out;
-  }
-};
+/// The text of an extraction as a deck, read as `whole` was.
+Result<LoadedDeck> read_small(const LoadedDeck& whole, std::string text) {
+  auto deck = read_deck_text(whole.deck().sources[0].path(), std::move(text), whole.schemas(),
+                             whole.options().read);
+  if (!deck) return deck.error();
+  return LoadedDeck::from(std::move(*deck), whole.options());
+}
 
 /// A file without includes, cut down to what stays.
 class Writer {
@@ -166,8 +152,8 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
                     [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
-void compare(const EditContext& whole, const Flat& small, const std::vector<std::int64_t>& ids,
-             Rewrite& out) {
+void compare(const EditContext& whole, const LoadedDeck& small,
+             const std::vector<std::int64_t>& ids, Rewrite& out) {
   const auto differs = [&](std::int64_t id, std::string field, std::string before,
                            std::string after) {
     for (const InterBase* inter : whole.interfaces.ordered) {
@@ -182,26 +168,24 @@ void compare(const EditContext& whole, const Flat& small, const std::vector<std:
     }
   };
   for (const std::int64_t id : ids) {
-    const auto a = values_of(whole.interfaces, id), b = values_of(small.interfaces, id);
+    const auto a = values_of(whole.interfaces, id), b = values_of(small.interfaces(), id);
     for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
       if (a[i].second != b[i].second) differs(id, a[i].first, a[i].second, b[i].second);
     if (a.size() != b.size()) differs(id, "", "", "the interface is not read");
   }
-  SceneOptions options;
+  SceneOptions options = whole.loaded.scene_options();
   options.only = ids;
-  options.penetrations = false;
-  options.candidates = false;
-  options.nodal_stiffness = true;
+  options.penetrations = options.candidates = false;
   Diagnostics ignored;
-  const Scene before = build_scene(whole.model, whole.interfaces, ignored, options);
-  const Scene after = build_scene(small.model, small.interfaces, ignored, options);
+  const Scene before = whole.loaded.scene_with(options, ignored);
+  const Scene after = small.scene_with(options, ignored);
   for (std::size_t i = 0; i < before.contacts.size(); ++i) {
     const Contact& x = before.contacts[i];
     if (i >= after.contacts.size() || after.contacts[i].inter->id != x.inter->id) {
       differs(x.inter->id, to_string(x.role), "", "no such contact");
       continue;
     }
-    const auto a = numbers_of(whole.model, x), b = numbers_of(small.model, after.contacts[i]);
+    const auto a = numbers_of(whole.model, x), b = numbers_of(small.model(), after.contacts[i]);
     for (const auto& [what, numbers] : a) {
       const auto it = b.find(what);
       if (it == b.end() || !same(numbers, it->second))
@@ -285,10 +269,9 @@ Rewrite extract_flat(const EditContext& c, const std::vector<std::int64_t>& ids)
   about += " of " + c.deck.sources[0].path() + " and what they need";
   std::erase_if(about, [](char ch) { return static_cast<unsigned char>(ch) < ' '; });
   std::string text = Writer(c.deck, c.model, kept).run(about);
-  std::string why;
-  const auto small = Flat::read(c.deck.sources[0].path(), text, c.schemas, why);
-  if (small == nullptr) {
-    out.refusals.push_back(why);
+  const auto small = read_small(c.loaded, text);
+  if (!small) {
+    out.refusals.push_back(small.error().message);
     return out;
   }
   remarks(c, ids, out);
@@ -325,14 +308,12 @@ Rewrite extract_contacts(const EditContext& context, std::span<const std::int64_
 
   Rewrite flat = flatten(context, {.mark = false});
   if (!flat.refusals.empty()) return flat;
-  std::string why;
-  const auto one =
-      Flat::read(context.deck.sources[0].path(), std::move(*flat.new_text), context.schemas, why);
-  if (one == nullptr) {
-    out.refusals.push_back(why);
+  const auto one = read_small(context.loaded, std::move(*flat.new_text));
+  if (!one) {
+    out.refusals.push_back(one.error().message);
     return out;
   }
-  out = extract_flat({one->deck, one->model, one->interfaces, context.schemas}, ids);
+  out = extract_flat(*one, ids);
   // Lines of the flat form mean nothing to anybody: name the block in its own file.
   for (LossEntry& entry : out.losses)
     for (const Block& b : context.deck.blocks)

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <set>
 
 #include "base/real_text.hpp"
@@ -11,33 +10,15 @@
 
 namespace deck::detail {
 
-Result<std::unique_ptr<Reread>> read_again(const EditContext& context, const Rewrite& rewrite,
-                                           const FixOptions& options) {
-  auto changed = apply_rewrite(context.deck.sources, rewrite);
+Result<LoadedDeck> read_again(const EditContext& context, const Rewrite& rewrite) {
+  const auto changed = apply_rewrite(context.deck.sources, rewrite);
   if (!changed) return changed.error();
-  auto out = std::make_unique<Reread>();
-  if (options.read.overlay != nullptr) out->overlay = *options.read.overlay;
-  for (auto& [path, text] : *changed) out->overlay[path] = std::move(text);
-  // A deck that was never a file is read from memory again.
-  const Source& main = context.deck.sources[0];
-  std::error_code ec;
-  if (!std::filesystem::exists(main.path(), ec))
-    out->overlay.try_emplace(main.path(), main.bytes());
-  ReadOptions read = options.read;
-  read.overlay = &out->overlay;
-  auto deck = read_deck(main.path(), context.schemas, read);
-  if (!deck) return deck.error();
-  if (deck->sources.size() < context.deck.sources.size())
-    return Error{Error::Code::io, main.path() +
+  auto again = context.loaded.with(*changed);
+  if (again && again->deck().includes.size() < context.deck.includes.size())
+    return Error{Error::Code::io, context.deck.sources[0].path() +
                                       ": a file that it includes could be read before, "
                                       "but not again; nothing was fixed"};
-  out->deck = std::move(*deck);
-  ModelOptions build;
-  build.threads = options.threads;
-  build.limits = read.limits;
-  out->model = build_model(out->deck, context.schemas, out->diagnostics, build);
-  out->interfaces = read_interfaces(out->deck, out->model, out->diagnostics);
-  return out;
+  return again;
 }
 
 Scene fix_scene(const Model& model, const Interfaces& interfaces, const FixOptions& options,

@@ -12,16 +12,8 @@
 
 namespace deck::detail {
 
-/// A deck read again with some files changed. Never moved: the parts point to one another.
-struct Reread {
-  std::map<std::string, std::string> overlay;
-  Deck deck;
-  Diagnostics diagnostics;
-  Model model;
-  Interfaces interfaces;
-};
-Result<std::unique_ptr<Reread>> read_again(const EditContext& context, const Rewrite& rewrite,
-                                           const FixOptions& options);
+/// The deck as a rewrite makes it. Error: it cannot be read whole any more.
+Result<LoadedDeck> read_again(const EditContext& context, const Rewrite& rewrite);
 
 /// The scene as the solver's own treatment would see it, or (`as_written` false) with Inacti 0
 /// everywhere, so that every node stands where the deck puts it.

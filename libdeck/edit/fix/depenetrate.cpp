@@ -503,9 +503,9 @@ class Depenetrator : MovableDeck {
   Result<PenetrationFix> finish(const Scene& before) {
     for (;;) {
       fix_.rewrite.edits = cells_.edits(texts_);
-      auto again = read_again(context_, fix_.rewrite, options_);
+      auto again = read_again(context_, fix_.rewrite);
       if (!again) return again.error();
-      const Scene after = fix_scene((*again)->model, (*again)->interfaces, options_, false);
+      const Scene after = fix_scene(again->model(), again->interfaces(), options_, false);
       std::map<NodeIndex, Hold> bad;
       blame(after, bad);
       std::size_t taken = 0;

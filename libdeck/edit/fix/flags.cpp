@@ -46,9 +46,9 @@ std::string left_over(const PenetrationFix& fix, std::int64_t interface_id) {
 /// Reads the deck again and fills in what became of every penetration.
 Result<void> evaluate(PenetrationFix& fix, const EditContext& context, const FixOptions& options,
                       const Scene& before) {
-  auto again = read_again(context, fix.rewrite, options);
+  auto again = read_again(context, fix.rewrite);
   if (!again) return again.error();
-  const Scene after = fix_scene((*again)->model, (*again)->interfaces, options, true);
+  const Scene after = fix_scene(again->model(), again->interfaces(), options, true);
   set_interfaces(fix, context.interfaces, options, before, after);
 
   using Key = std::tuple<std::int64_t, int, std::vector<std::int64_t>, std::vector<std::int64_t>>;
@@ -65,11 +65,11 @@ Result<void> evaluate(PenetrationFix& fix, const EditContext& context, const Fix
     for (const PenetrationRow& r : c.penetrations) {
       FixAction action;
       action.interface_id = c.inter->id;
-      action.secondary = secondary_ids((*again)->model, c, r);
-      action.main = main_ids((*again)->model, c, r);
+      action.secondary = secondary_ids(again->model(), c, r);
+      action.main = main_ids(again->model(), c, r);
       action.depth = r.depth;
       action.gap = r.gap;
-      const auto it = earlier.find(key((*again)->model, c, r));
+      const auto it = earlier.find(key(again->model(), c, r));
       if (it != earlier.end()) action.before = it->second;
       action.after = r.action;
       action.stops = r.on_surface && on_surface_error(c) != 0;

@@ -257,9 +257,9 @@ Result<PenetrationFix> reduce_gaps(const EditContext& context, const ReduceGapOp
       fix.refused.push_back({inter->id, {}, it->second.deepest, reduction.why});
   }
   fix.rewrite.edits = edits.finish();
-  auto again = read_again(context, fix.rewrite, options);
+  auto again = read_again(context, fix.rewrite);
   if (!again) return again.error();
-  const Scene after = fix_scene((*again)->model, (*again)->interfaces, options, false);
+  const Scene after = fix_scene(again->model(), again->interfaces(), options, false);
   set_interfaces(fix, context.interfaces, options, before, after);
   fix.complete = true;
   for (const FixedInterface& i : fix.interfaces) fix.complete &= i.after.pairs == 0;

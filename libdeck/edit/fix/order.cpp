@@ -1,7 +1,7 @@
 // Several strategies one after the other, each on the deck that the one before has left.
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <optional>
 
 #include "base/length3.hpp"
 #include "edit/fix/common.hpp"
@@ -11,22 +11,19 @@ namespace deck {
 Result<FixSequence> fix_in_order(const EditContext& context, const FixOptions& options,
                                  const std::vector<FixStep>& steps) {
   FixSequence out;
-  std::unique_ptr<detail::Reread> now;  // nullptr: the deck as given
+  std::optional<LoadedDeck> now;  // nullopt: the deck as given
   for (const FixStep& step : steps) {
-    const EditContext here =
-        now ? EditContext{now->deck, now->model, now->interfaces, context.schemas} : context;
-    FixOptions reading = options;
-    if (now) reading.read.overlay = &now->overlay;
-    auto fix = step(here, reading.read);
+    const EditContext here = now ? EditContext(*now) : context;
+    auto fix = step(here, options.read);
     if (!fix) return fix.error();
     auto changed = apply_rewrite(here.deck.sources, fix->rewrite);
     if (!changed) return changed.error();
     for (auto& [path, text] : *changed) out.changed[path] = std::move(text);
     const bool more = out.fixes.size() + 1 < steps.size();
     if (more && !changed->empty()) {
-      auto again = detail::read_again(here, fix->rewrite, reading);
+      auto again = detail::read_again(here, fix->rewrite);
       if (!again) return again.error();
-      now = std::move(*again);
+      now.emplace(std::move(*again));
     }
     out.fixes.push_back(std::move(*fix));
   }

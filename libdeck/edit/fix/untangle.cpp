@@ -193,9 +193,9 @@ class Untangler : MovableDeck {
 
   Result<PenetrationFix> finish(const Scene& before) {
     fix_.rewrite.edits = cells_.edits(texts_);
-    auto again = read_again(context_, fix_.rewrite, options_);
+    auto again = read_again(context_, fix_.rewrite);
     if (!again) return again.error();
-    const Scene after = fix_scene((*again)->model, (*again)->interfaces, options_, false);
+    const Scene after = fix_scene(again->model(), again->interfaces(), options_, false);
     if (const auto why = harm_text(model_, after, baseline_.harm(after)))
       return Error{Error::Code::internal, "the deck read again differs: " + *why};
     const std::vector<Crossing> left = wanted(after);

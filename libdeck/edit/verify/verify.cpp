@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/scene/scene_parts.hpp"
-#include "cycle/contact_run.hpp"
 #include "cycle/state/state_parts.hpp"
 #include "deck/inspect/diff.hpp"
 #include "edit/verify/verify_parts.hpp"
@@ -34,21 +32,10 @@ std::vector<double> part_masses(const Scene& scene) {
 
 }  // namespace
 
-Behaviour::Behaviour(const EditContext& context, const VerifyOptions& options)
-    : parts_(new Parts{context, {}, {}, {}, {}, {}, 0}) {
+Behaviour::Behaviour(const LoadedDeck& deck)
+    : parts_(new Parts{deck, deck.scene(), deck.cycle().state, deck.cycle().outcome, {}, {}, 0}) {
   Parts& p = *parts_;
-  Diagnostics diagnostics;
-  SceneOptions scene;
-  scene.threads = options.threads;
-  scene.candidates = false;
-  scene.nodal_stiffness = true;
-  scene.limits = options.limits;
-  p.scene =
-      detail::build_scene(context.model, context.interfaces, diagnostics, scene, options.searches);
-  p.state = cycle::make_state(p.scene);
-  cycle::CycleOptions cycle;
-  cycle.threads = options.threads;
-  p.cycle = cycle::detail::run_cycle(p.scene, p.state, cycle, options.searches);
+  const EditContext& context = p.context;
   for (std::size_t k = 0; k < detail::verified_kinds.size(); ++k) {
     const ElementKind kind = detail::verified_kinds[k];
     const cycle::detail::ElementSteps step(p.scene, kind);

@@ -14,9 +14,9 @@ namespace deck {
 
 struct Behaviour::Parts {
   const EditContext context;
-  Scene scene;
-  cycle::State state;
-  cycle::SceneOutcome cycle;
+  const Scene& scene;
+  const cycle::State& state;
+  const cycle::SceneOutcome& cycle;
   std::array<std::vector<double>, 5> steps;  ///< of shell4, shell3, solid8, truss, beam
   std::vector<double> part_mass;             ///< of the elements of each part
   double extent = 0;                         ///< largest coordinate

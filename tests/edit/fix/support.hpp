@@ -178,9 +178,7 @@ inline std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> oracle_cro
 
 // ---- fixing -------------------------------------------------------------------------------------
 
-inline EditContext context_of(const Built& b) {
-  return {b.deck, b.model, b.interfaces, SchemaSet::built_in()};
-}
+inline const LoadedDeck& context_of(const Built& b) { return b.loaded; }
 
 /// The main file's text after the fix.
 inline std::string text_after(const Built& b, const PenetrationFix& fix) {

@@ -2,7 +2,6 @@
 
 #include "deck/report/diff.hpp"
 #include "common.hpp"
-#include "deck/contact/resolve.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/model/coverage.hpp"
 #include "deck/verdict.hpp"
@@ -21,16 +20,15 @@ struct Options {
 
 /// A deck with its contacts.
 struct Side {
-  std::unique_ptr<Loaded> loaded;
-  Scene scene;
+  LoadedDeck loaded;
   SceneView view;
   Verdict verdict = {};
 
   DiffSide described(bool geometry) const {
-    DiffSide s{loaded->path, &loaded->deck, &loaded->model, &loaded->interfaces,
-               nullptr,      nullptr,       &verdict};
+    DiffSide s{loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces(),
+               nullptr,       nullptr,        &verdict};
     if (geometry) {
-      s.scene = &scene;
+      s.scene = &loaded.scene();
       s.view = &view;
     }
     return s;
@@ -38,38 +36,35 @@ struct Side {
 };
 
 /// What is said of a side; its findings are joined.
-Verdict verdict_in(Side& side) {
-  join_findings(*side.loaded);
+Verdict verdict_in(Side& side, bool geometry) {
+  if (geometry) side.loaded.findings();
   VerdictInput in;
-  in.deck = &side.loaded->deck;
-  in.interfaces = &side.loaded->interfaces;
-  if (!side.scene.contacts.empty()) in.contacts = contact_facts(side.scene, side.view);
+  in.deck = &side.loaded.deck();
+  in.interfaces = &side.loaded.interfaces();
+  if (geometry) in.contacts = contact_facts(side.loaded.scene(), side.view);
   return make_verdict(in);
 }
 
 Result<Side> read_side(const Options& o, const std::string& path, const SchemaSet& schemas) {
   auto loaded = load(path, schemas, o.common);
   if (!loaded) return loaded.error();
-  Side side{std::move(*loaded), {}, {}, {}};
-  if (side.loaded->incomplete())
+  Side side{std::move(*loaded), {}, {}};
+  if (side.loaded.incomplete())
     return Error{Error::Code::io,
-                 coverage_lead(coverage_of(side.loaded->deck, side.loaded->interfaces))};
+                 coverage_lead(coverage_of(side.loaded.deck(), side.loaded.interfaces()))};
   if (o.no_geometry) {
-    side.verdict = verdict_in(side);
+    side.verdict = verdict_in(side, false);
     return side;
   }
   Progress progress(!o.common.quiet);
   progress.step("contacts of " + path);
-  SceneOptions scene;
-  scene.threads = o.common.thread_count();
-  scene.candidates = false;
-  scene.limits = o.common.limits;
+  SceneOptions scene = side.loaded.scene_options();
+  scene.candidates = scene.nodal_stiffness = false;
   scene.progress = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
-  side.scene =
-      build_scene(side.loaded->model, side.loaded->interfaces, side.loaded->diagnostics, scene);
-  resolve(side.loaded->interfaces, side.scene);
-  side.view = make_view(side.scene);
-  side.verdict = verdict_in(side);
+  side.loaded.set_scene_options(scene);
+  side.view = make_view(side.loaded.scene());
+  side.loaded.mesh_values();
+  side.verdict = verdict_in(side, true);
   return side;
 }
 
@@ -87,11 +82,12 @@ int run(const Options& o) {
     return exit_input;
   }
   for (const Side* side : {&*a, &*b}) {
-    print_findings(*side->loaded, o.common);
-    for (const Contact& c : side->scene.contacts)
+    print_findings(side->loaded, o.common);
+    if (o.no_geometry) continue;
+    for (const Contact& c : side->loaded.scene().contacts)
       if (!c.evaluated)
         print_note("penetrations of interface " + std::to_string(c.inter->id) + " of " +
-                   side->loaded->path + " were not evaluated and are not compared");
+                   side->loaded.path() + " were not evaluated and are not compared");
   }
   const DiffSide sa = a->described(!o.no_geometry), sb = b->described(!o.no_geometry);
   const DeckDiff diff = diff_decks(sa, sb,

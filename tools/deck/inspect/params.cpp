@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "common.hpp"
-#include "deck/contact/join_findings.hpp"
 #include "deck/report/params_report.hpp"
 #include "gate.hpp"
 
@@ -35,18 +34,15 @@ int run(const Options& options) {
   if (const int bad = check_outputs(common, {common.json, options.csv}); bad != exit_clean)
     return bad;
   JsonOutput json(common, "deck/params", 1);
-  const int code = for_each_deck(common, Stage::interfaces, [&](Loaded& loaded) {
+  const int code = for_each_deck(common, [&](LoadedDeck& loaded) {
     if (auto known = check_interfaces(loaded, options.only, "--interface"); !known) {
       print_error(common, known.error().message);
       return static_cast<int>(exit_usage);
     }
-    ParamsInput input{loaded.path, &loaded.deck, &loaded.model, &loaded.interfaces, nullptr};
-    Scene scene;
-    if (!options.no_geometry) {
-      scene = resolve_geometry(loaded, common);
-      input.scene = &scene;
-    }
-    report_unreadable_cells(loaded.deck, loaded.diagnostics);
+    ParamsInput input{loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces(),
+                      nullptr};
+    if (!options.no_geometry) input.scene = &resolve_geometry(loaded, common);
+    loaded.findings(Stage::cells);
     const auto errors = print_findings(loaded, common);
     if (json.wanted()) json.add(params_json(input, options.only));
     ParamsTextOptions text;

@@ -17,19 +17,17 @@ int run(Options& o) {
   o.what = o.common.decks.back();
   o.common.decks.pop_back();
   JsonOutput json(o.common, "deck/show", 1);
-  const int code = for_each_deck(o.common, Stage::interfaces, [&](Loaded& loaded) {
-    const auto entity = find_entity(loaded.deck, loaded.model, o.what);
+  const int code = for_each_deck(o.common, [&](LoadedDeck& loaded) {
+    const auto entity = find_entity(loaded.deck(), loaded.model(), o.what);
     if (!entity) {
-      print_error(o.common, loaded.path + ": " + entity.error().message);
+      print_error(o.common, loaded.path() + ": " + entity.error().message);
       return static_cast<int>(exit_usage);
     }
-    const EntityView view = view_entity(loaded.deck, loaded.model, loaded.interfaces, *entity);
-    ParamsInput params{loaded.path, &loaded.deck, &loaded.model, &loaded.interfaces, nullptr};
-    Scene scene;
-    if (!o.no_geometry && view.inter != nullptr) {
-      scene = resolve_geometry(loaded, o.common);
-      params.scene = &scene;
-    }
+    const EntityView view =
+        view_entity(loaded.deck(), loaded.model(), loaded.interfaces(), *entity);
+    ParamsInput params{loaded.path(), &loaded.deck(), &loaded.model(), &loaded.interfaces(),
+                       nullptr};
+    if (!o.no_geometry && view.inter != nullptr) params.scene = &resolve_geometry(loaded, o.common);
     if (json.wanted()) json.add(show_json(params, view));
     if (o.common.wants_text()) {
       ShowTextOptions text;

@@ -6,7 +6,6 @@
 #include "deck/contact/resolve.hpp"
 #include "deck/keyword/recognise.hpp"
 #include "deck/lint/geometry.hpp"
-#include "deck/model/selection.hpp"
 #include "deck/text/number.hpp"
 #include "deck/text/rule.hpp"
 
@@ -51,14 +50,19 @@ Result<LintOptions> lint_options(const LintConfig& config, const std::string& pa
   return out;
 }
 
-ModelOptions model_options(const Settings& settings) {
-  ModelOptions options;
-  options.threads = settings.threads;
-  options.limits = settings.limits;
-  return options;
-}
-
 }  // namespace
+
+LoadOptions load_options(const Settings& settings, const std::map<std::string, std::string>& texts,
+                         const SchemaSet& schemas) {
+  LoadOptions out;
+  out.read.include_paths = settings.include_paths;
+  out.read.limits = settings.limits;
+  out.read.overlay = &texts;
+  out.threads = settings.threads;
+  out.geometry = false;
+  out.schemas = &schemas;
+  return out;
+}
 
 void find(Semantics& out, const EngineFiles& engine, const SchemaSet& schemas,
           const Settings& settings) {
@@ -73,14 +77,9 @@ void find(Semantics& out, const EngineFiles& engine, const SchemaSet& schemas,
     out.config_error = options.error().message;
     options = LintOptions{};
   }
-  LintInput input{deck,
-                  schemas,
-                  out.model.get(),
-                  &out.interfaces,
-                  out.model->selections.get(),
-                  {out.model_findings.get(), &findings},
-                  {},
-                  &engine};
+  LintInput input(deck, schemas, out.model.get(), &out.interfaces,
+                  {out.model_findings.get(), &findings});
+  input.engine = &engine;
   out.lint = run_lint(input, *options);
   for (Diagnostic& d : out.lint.diagnostics) out.slacks.make_real(deck.sources, d);
 }
@@ -122,47 +121,34 @@ std::shared_ptr<const Geometry> examine(
     const std::string& path, const std::map<std::string, std::string>& texts,
     const SchemaSet& schemas, const Settings& settings,
     const std::function<void(std::size_t, std::size_t)>& progress, const std::atomic<bool>& stop) {
-  ReadOptions read;
-  read.include_paths = settings.include_paths;
-  read.limits = settings.limits;
-  read.overlay = &texts;
-  auto deck = read_deck(path, schemas, read);
-  if (!deck || stop || !no_starter_deck(*deck).empty()) return nullptr;
-  const EngineFiles engine = read_engine_files(*deck, settings.limits);
-  Diagnostics findings(settings.limits.diagnostics_per_rule);
-  const Model model = build_model(*deck, schemas, findings, model_options(settings));
+  auto loaded = load(path, load_options(settings, texts, schemas));
+  if (!loaded || stop || !no_starter_deck(loaded->deck()).empty()) return nullptr;
+  loaded->interfaces();
   if (stop) return nullptr;
-  model.selections->set_limits(settings.limits);
-  const Interfaces interfaces = read_interfaces(*deck, model, findings);
+  SceneOptions contacts = loaded->scene_options();
+  contacts.candidates = false;
+  contacts.progress = progress;
+  loaded->set_scene_options(contacts);
   auto out = std::make_shared<Geometry>();
-  {
-    SceneOptions options;
-    options.threads = settings.threads;
-    options.limits = settings.limits;
-    options.candidates = false;
-    options.progress = progress;
-    const Scene scene = build_scene(model, interfaces, findings, options);
-    if (stop) return nullptr;
-    note_contacts(interfaces, scene, make_view(scene), *out);
-  }
+  const Scene& scene = loaded->scene();
+  if (stop) return nullptr;
+  note_contacts(loaded->interfaces(), scene, make_view(scene), *out);
   const auto config = find_lint_config(path);
   auto options = lint_options(config ? *config : LintConfig{}, path, settings.limits);
   if (!options) options = LintOptions{};
   Gate gate = config ? config->gate : Gate{};
   gate.on_fresh = gate.on_worse = false;  // there is no earlier run here
-  LintInput input{*deck,       schemas, &model, &interfaces, model.selections.get(),
-                  {&findings}, {},      &engine};
+  LintInput input(*loaded);
   const bool wanted = !config || config->geometry.value_or(true);
   if (wanted)
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
-      return check_geometry(context, reporter,
-                            {settings.threads, settings.limits, std::nullopt, &gate, nullptr});
+      return check_geometry(context, reporter, {std::nullopt, &gate, nullptr});
     });
   LintResult result = run_lint(input, *options);
   for (Diagnostic& d : result.diagnostics) {
     const RuleStage stage = rule_of(d.rule).stage;
     if ((stage != RuleStage::extra && stage != RuleStage::gate) || !d.span.valid()) continue;
-    const Source& source = deck->sources[d.span.file];
+    const Source& source = loaded->deck().sources[d.span.file];
     d.notes.clear();  // their places are of a text that may have changed
     const std::string_view line = source.line_at(d.span.offset);
     out->findings.push_back(

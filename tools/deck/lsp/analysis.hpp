@@ -10,16 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "deck/contact/scene.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/keyword/deck.hpp"
-#include "deck/keyword/engine_file.hpp"
+#include "deck/deck.hpp"
 #include "deck/keyword/place.hpp"
 #include "deck/keyword/references.hpp"
 #include "deck/lint/config.hpp"
 #include "deck/lint/lint.hpp"
-#include "deck/model/interfaces.hpp"
-#include "deck/model/model.hpp"
 #include "lsp/slack.hpp"
 #include "lsp/text.hpp"
 
@@ -100,6 +95,10 @@ struct Settings {
   int threads = 1;
   Limits limits;
 };
+
+/// How a deck with these texts over its files is loaded.
+LoadOptions load_options(const Settings& settings, const std::map<std::string, std::string>& texts,
+                         const SchemaSet& schemas);
 
 /// Fills in interfaces and findings, by the rules as `deck lint` has them, with the configuration
 /// beside the deck. Needs deck, slacks and model.

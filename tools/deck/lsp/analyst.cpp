@@ -204,7 +204,6 @@ void Analyst::build(Semantics& out, const std::optional<Edit>& edit, const Schem
     model->selections->rebind(*model);
     out.kept = last_->kept;  // whose blocks the definitions are
   } else {
-    model->selections->set_limits(settings.limits);
     out.kept = out.deck;
   }
   out.model_deck = out.deck;

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "deck/contact/join_findings.hpp"
 #include "deck/contact/scene.hpp"
 #include "deck/edit/write.hpp"
 #include "deck/keyword/recognise.hpp"
@@ -128,36 +127,20 @@ struct Report {
 Report write_report(const std::string& path, const std::map<std::string, std::string>& texts,
                     const SchemaSet& schemas, const Settings& settings,
                     const std::vector<std::int64_t>& only, const std::atomic<bool>& stop) {
-  ReadOptions read;
-  read.include_paths = settings.include_paths;
-  read.limits = settings.limits;
-  read.overlay = &texts;
-  auto deck = read_deck(path, schemas, read);
-  if (!deck) return {{}, deck.error().message};
-  if (std::string other = no_starter_deck(*deck); !other.empty()) return {{}, std::move(other)};
-  Diagnostics findings;
-  ModelOptions build;
-  build.threads = settings.threads;
-  build.limits = settings.limits;
-  const Model model = build_model(*deck, schemas, findings, build);
-  model.selections->set_limits(settings.limits);
-  const Interfaces interfaces = read_interfaces(*deck, model, findings);
+  auto loaded = load(path, load_options(settings, texts, schemas));
+  if (!loaded) return {{}, loaded.error().message};
+  if (std::string other = no_starter_deck(loaded->deck()); !other.empty())
+    return {{}, std::move(other)};
+  loaded->interfaces();
   if (stop) return {{}, "cancelled"};
-  SceneOptions options;
-  options.threads = settings.threads;
-  options.limits = settings.limits;
+  SceneOptions options = loaded->scene_options();
   options.only = only;
-  options.nodal_stiffness = true;
-  const Scene scene = build_scene(model, interfaces, findings, options);
+  loaded->set_scene_options(options);
+  loaded->scene();
   if (stop) return {{}, "cancelled"};
-  join_findings(*deck, model, std::move(findings));
   HtmlInput input;
   input.path = path;
-  input.deck = &*deck;
-  input.scene = &scene;
-  input.only = only;
-  input.threads = settings.threads;
-  auto page = cli::gap_page(input, &stop);
+  auto page = cli::gap_page(*loaded, input, &stop);
   if (!page) return {{}, page.error().message};
   return {std::move(*page), {}};
 }

@@ -86,8 +86,8 @@ Result<std::vector<std::string>> Changes::decks(const std::vector<std::string>& 
   return all;
 }
 
-Result<std::size_t> Changes::add(const Loaded& loaded, const std::string& name) {
-  auto deck = set_.add(loaded.deck, name);
+Result<std::size_t> Changes::add(const LoadedDeck& loaded, const std::string& name) {
+  auto deck = set_.add(loaded.deck(), name);
   if (deck) names_.push_back(name);
   return deck;
 }

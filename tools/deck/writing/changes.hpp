@@ -35,7 +35,7 @@ class Changes {
   const std::string& root() const { return root_; }
 
   /// See EditSet.
-  Result<std::size_t> add(const Loaded& loaded, const std::string& name);
+  Result<std::size_t> add(const LoadedDeck& loaded, const std::string& name);
   void propose(std::size_t deck, const Deck& now, const ChangedFiles& changed);
 
   /// Writes all, or prints the patch, and lists the files if `list` says so. Error: nothing was

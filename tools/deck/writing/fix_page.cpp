@@ -4,50 +4,31 @@
 #include <utility>
 
 #include "deck/contact/crossings.hpp"
-#include "deck/contact/join_findings.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/json.hpp"
 #include "writing/gap_page.hpp"
 
 namespace deck::cli {
 
-Result<std::string> fix_page(const Loaded& before, const SchemaSet& schemas,
-                             const ChangedFiles& changed, const CommonOptions& options) {
-  SceneOptions scene_options;
-  scene_options.threads = options.thread_count();
-  scene_options.limits = options.limits;
-  scene_options.nodal_stiffness = true;
-  Diagnostics found;
-  std::string was;
-  {
-    const Scene scene = build_scene(before.model, before.interfaces, found, scene_options);
-    const std::vector<Crossing> crossings = find_crossings(scene, scene_options.threads);
-    was = gaps_json(before.path, before.deck, scene, make_view(scene, &crossings), false);
-  }
-  const auto earlier = read_earlier_gaps("as it was", was, before.path);
+Result<std::string> fix_page(const LoadedDeck& before, const ChangedFiles& changed,
+                             const CommonOptions& options) {
+  const std::string was = [&] {
+    Diagnostics ignored;
+    const Scene scene = before.scene_with(before.scene_options(), ignored);
+    const std::vector<Crossing> crossings = find_crossings(scene, options.thread_count());
+    return gaps_json(before.path(), before.deck(), scene, make_view(scene, &crossings), false);
+  }();
+  const auto earlier = read_earlier_gaps("as it was", was, before.path());
   if (!earlier) return earlier.error();
   Overlay overlay(changed.begin(), changed.end());
-  const std::string& main = before.deck.sources[0].path();
-  overlay.try_emplace(main, before.deck.sources[0].bytes());  // standard input is no file
-  ReadOptions read;
-  read.include_paths = options.include_paths;
-  read.overlay = &overlay;
-  auto deck = read_deck(main, schemas, read);
-  if (!deck) return deck.error();
-  found = Diagnostics();  // what follows is said on the page
-  ModelOptions build;
-  build.threads = scene_options.threads;
-  const Model model = build_model(*deck, schemas, found, build);
-  const Interfaces interfaces = read_interfaces(*deck, model, found);
-  const Scene scene = build_scene(model, interfaces, found, scene_options);
-  join_findings(*deck, model, std::move(found));
+  const std::string& main = before.deck().sources[0].path();
+  overlay.try_emplace(main, before.deck().sources[0].bytes());  // standard input is no file
+  const auto after = load(main, load_options(options, before.schemas(), &overlay));
+  if (!after) return after.error();
   HtmlInput input;
-  input.path = before.path;
-  input.deck = &*deck;
-  input.scene = &scene;
+  input.path = before.path();
   input.earlier = &*earlier;
-  input.threads = scene_options.threads;
-  return gap_page(input);
+  return gap_page(*after, input);
 }
 
 }  // namespace deck::cli

@@ -9,7 +9,7 @@ namespace deck::cli {
 
 /// The page of `deck gaps --html --compare` of the deck with `changed` texts, against the deck as
 /// it was read. Error: it cannot be read again, or the viewer is not there.
-Result<std::string> fix_page(const Loaded& before, const SchemaSet& schemas,
-                             const ChangedFiles& changed, const CommonOptions& options);
+Result<std::string> fix_page(const LoadedDeck& before, const ChangedFiles& changed,
+                             const CommonOptions& options);
 
 }  // namespace deck::cli

@@ -1,23 +1,26 @@
-// Adds crossings and forces to a scene and hands it to the report.
+// Adds crossings and forces to the scene of a deck and hands it to the report.
 #include "writing/gap_page.hpp"
 
 #include "deck/contact/crossings.hpp"
-#include "deck/contact/view.hpp"
-#include "deck/cycle/scene_cycle.hpp"
 
 namespace deck::cli {
 
-Result<std::string> gap_page(HtmlInput input, const std::atomic<bool>* stop) {
-  const std::vector<Crossing> crossings = find_crossings(*input.scene, input.threads);
-  const SceneView view = make_view(*input.scene, &crossings);
-  cycle::CycleOptions options;
-  options.threads = input.threads;
-  options.keep_pairs = true;
-  const cycle::SceneOutcome forces =
-      cycle::run_cycle(*input.scene, cycle::make_state(*input.scene), options);
+Result<std::string> gap_page(const LoadedDeck& loaded, HtmlInput input,
+                             const std::atomic<bool>* stop) {
+  loaded.findings();  // the page says where the solver stops before its contacts
+  const Scene& scene = loaded.scene();
+  input.deck = &loaded.deck();
+  input.scene = &scene;
+  input.what_if = loaded.scene_options().what_if;
+  input.only = loaded.scene_options().only;
+  input.threads = loaded.options().threads;
+  const std::vector<Crossing> crossings = find_crossings(scene, input.threads);
+  const SceneView view = make_view(scene, &crossings);
+  const FirstCycle& forces = loaded.cycle();
   if (stop != nullptr && *stop) return Error{Error::Code::config, "cancelled"};
   input.view = &view;
-  input.cycle = &forces;
+  input.cycle = &forces.outcome;
+  input.acted = acted_in_page(forces.state, forces.outcome);
   input.crossings = &crossings;
   return gaps_html(input);
 }

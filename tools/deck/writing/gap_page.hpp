@@ -3,13 +3,15 @@
 #include <atomic>
 #include <string>
 
+#include "deck/deck.hpp"
 #include "deck/report/html.hpp"
 
 namespace deck::cli {
 
-/// The page with crossings and forces of the first cycle. `input` has path, deck, scene and
-/// threads, and what else the page shall know; view, crossings and forces are made here. Error: the
-/// viewer is not there, or `stop` was set meanwhile ("cancelled").
-Result<std::string> gap_page(HtmlInput input, const std::atomic<bool>* stop = nullptr);
+/// The page of a deck with crossings and forces of the first cycle. `input` has the path and what
+/// else the page shall know beside the deck. Error: the viewer is not there, or `stop` was set
+/// meanwhile ("cancelled").
+Result<std::string> gap_page(const LoadedDeck& loaded, HtmlInput input,
+                             const std::atomic<bool>* stop = nullptr);
 
 }  // namespace deck::cli

@@ -58,7 +58,7 @@ void bind_changes(py::module_& m) {
       .def("deck",
            [](PyChanges& c) {
              LoadedDeck now = value_of(c, [](Edit& e) { return e.read(); });
-             return std::make_shared<PyDeck>(c.before->path, std::move(now), c.before->options);
+             return std::make_shared<PyDeck>(c.before->path, std::move(now));
            })
       .def("diff",
            [](PyChanges& c) { return py::bytes(value_of(c, [](Edit& e) { return e.diff(); })); })

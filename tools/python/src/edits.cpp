@@ -33,20 +33,15 @@ struct PyEdit {
 };
 using EditPointer = std::shared_ptr<PyEdit>;
 
-EditContext context_of(const PyDeck& d) {
-  return {d.loaded.deck(), d.loaded.model(), d.loaded.interfaces(), SchemaSet::built_in()};
-}
-
 /// The deck as it is with the changed files.
 DeckPointer read_again(const PyDeck& d, const ChangedFiles& changed) {
-  LoadOptions options = d.options;
-  options.read.overlay = &changed;
   auto loaded = [&] {
     const py::gil_scoped_release free;
-    return load(d.path, options);
+    return d.loaded.with(changed);
   }();
   if (!loaded) raise_error(loaded.error().message);
-  return std::make_shared<PyDeck>(d.path, std::move(*loaded), d.options);
+  const py::gil_scoped_release free;
+  return std::make_shared<PyDeck>(d.path, std::move(*loaded));
 }
 
 /// Adds what a rewrite does to `edit`; `now` is the deck that it was made for.
@@ -67,7 +62,7 @@ void take(PyEdit& edit, const PyDeck& now, const Rewrite& rewrite) {
 }
 
 void must_be_whole(const PyDeck& d) {
-  if (d.incomplete)
+  if (d.loaded.incomplete())
     raise_error(d.path + ": the include tree is not complete", &d.loaded.deck(),
                 &d.loaded.deck().diagnostics.all());
 }
@@ -110,17 +105,15 @@ EditPointer convert_deck(const DeckPointer& d, const std::vector<std::int64_t>& 
     Rewrite rewrite = [&] {
       const py::gil_scoped_release free;
       const std::lock_guard one(edit->after->mutex);
-      return step(context_of(*edit->after));
+      return step(edit->after->loaded);
     }();
     take(*edit, *edit->after, rewrite);
     if (verify) {
       const DeckPointer next = read_again(*d, edit->changed);
-      const VerifyOptions options{d->options.threads, d->options.read.limits};
       const auto why = [&] {
         const py::gil_scoped_release free;
         const std::lock_guard one(edit->after->mutex);
-        const Behaviour before(context_of(*edit->after), options),
-            after(context_of(*next), options);
+        const Behaviour before(edit->after->loaded), after(next->loaded);
         return first_difference(before, after, relation_of(rewrite.losses));
       }();
       if (why) raise_error("the converted deck is not the same: " + *why);
@@ -145,12 +138,12 @@ EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
   must_be(!max_displacement || (*max_displacement > 0 && std::isfinite(*max_displacement)),
           "max_displacement is a finite length above 0");
   FixOptions base;
-  base.threads = d->options.threads;
+  base.threads = d->loaded.options().threads;
   base.interfaces = interfaces;
   base.ties = ties;
-  base.read = d->options.read;
-  base.limits = d->options.read.limits;
-  const EditContext context = context_of(*d);
+  base.read = d->loaded.options().read;
+  base.limits = d->loaded.options().read.limits;
+  const EditContext context = d->loaded;
   const auto with = [&]<class Options>(Options options) {
     static_cast<FixOptions&>(options) = base;
     return options;

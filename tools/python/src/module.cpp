@@ -53,12 +53,6 @@ void raise_error(const std::string& message, const Deck* deck,
   throw py::error_already_set();
 }
 
-bool lacks_includes(const Deck& deck) {
-  const auto& counts = deck.diagnostics.counts();
-  return counts.contains(RuleId::DK004) || counts.contains(RuleId::DK005) ||
-         counts.contains(RuleId::DK006);
-}
-
 namespace {
 
 /// "mass length^-2", empty for numbers.
@@ -107,7 +101,8 @@ DeckPointer load_deck(const std::string& path, int threads,
   if (!loaded) raise_error(loaded.error().message);
   if (const std::string other = no_starter_deck(loaded->deck()); !other.empty())
     raise_error(path + ": " + other, &loaded->deck(), &loaded->deck().diagnostics.all());
-  return std::make_shared<PyDeck>(path, std::move(*loaded), options);
+  const py::gil_scoped_release free;
+  return std::make_shared<PyDeck>(path, std::move(*loaded));
 }
 
 /// `geometry`: nothing, a quick look (as `deck lint` without an option) or all.
@@ -117,19 +112,11 @@ std::string lint_text(PyDeck& d, std::optional<bool> geometry,
   const py::gil_scoped_release free;
   const std::lock_guard one(d.mutex);
   const LoadedDeck& l = d.loaded;
-  LintInput input{l.deck(),
-                  SchemaSet::built_in(),
-                  &l.model(),
-                  &l.interfaces(),
-                  l.model().selections.get(),
-                  {&l.findings()},
-                  {},
-                  &d.engine};
+  LintInput input(l);
   if (geometry.value_or(true))
     input.extra_checks.push_back([&](const LintContext& context, Reporter& reporter) {
       return check_geometry(context, reporter,
-                            {d.options.threads, d.options.read.limits,
-                             geometry ? std::nullopt : std::optional(QuickLook{})});
+                            {geometry ? std::nullopt : std::optional(QuickLook{})});
     });
   LintOptions options;
   options.select = select;
@@ -192,7 +179,7 @@ PYBIND11_MODULE(_native, m) {
                                  out.emplace_back(d.loaded.deck().sources[i].path());
                                return out;
                              })
-      .def_readonly("incomplete", &PyDeck::incomplete)
+      .def_property_readonly("incomplete", [](const PyDeck& d) { return d.loaded.incomplete(); })
       .def("nodes",
            [](const DeckPointer& d) {
              const Nodes& n = d->loaded.model().nodes;
@@ -219,14 +206,13 @@ PYBIND11_MODULE(_native, m) {
       .def("fields", &interface_fields)
       .def("findings",
            [](PyDeck& d) {
-             const Diagnostics read = [&] {  // a verdict may hold them
+             const Diagnostics found = [&] {
                const py::gil_scoped_release free;
                const std::lock_guard one(d.mutex);
-               return std::as_const(d.loaded).deck().diagnostics;
+               return d.loaded.findings(Stage::cells);
              }();
              py::list out;
-             for (const Diagnostics* list : {&read, &d.loaded.findings()})
-               for (const Diagnostic& f : list->all()) out.append(finding_of(d.loaded.deck(), f));
+             for (const Diagnostic& f : found.all()) out.append(finding_of(d.loaded.deck(), f));
              return out;
            })
       .def("lint_json", &lint_text)
@@ -238,12 +224,7 @@ PYBIND11_MODULE(_native, m) {
         input.deck = &d.loaded.deck();
         input.model = &d.loaded.model();
         input.interfaces = &d.loaded.interfaces();
-        SceneOptions options;
-        options.threads = d.options.threads;
-        options.candidates = options.penetrations = false;
-        Diagnostics ignored;
-        const Scene scene = d.loaded.scene(ignored, options);
-        input.scene = &scene;
+        input.scene = &d.loaded.mesh_values();
         return params_json(input);
       });
   m.def("load", &load_deck);

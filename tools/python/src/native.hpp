@@ -11,30 +11,25 @@
 #include <vector>
 
 #include "deck/deck.hpp"
-#include "deck/keyword/engine_file.hpp"
 
 namespace deck::python {
 
 namespace py = pybind11;
 
-/// True if a file of the include tree could not be read.
-bool lacks_includes(const Deck& deck);
-
 /// A deck in Python. Arrays over it have it as their base, so that it lives as long as they do.
 struct PyDeck {
-  PyDeck(std::string deck_path, LoadedDeck&& read, LoadOptions how)
-      : path(std::move(deck_path)),
-        loaded(std::move(read)),
-        options(std::move(how)),
-        files(loaded.deck().sources.size()),
-        engine(read_engine_files(loaded.deck(), options.read.limits)),
-        incomplete(lacks_includes(loaded.deck())) {}
+  /// Reads what Python asks for without the mutex: all but contacts.
+  PyDeck(std::string deck_path, LoadedDeck&& read)
+      : path(std::move(deck_path)), loaded(std::move(read)), files(loaded.deck().sources.size()) {
+    loaded.interfaces();
+    loaded.engine_files();
+    SceneOptions contacts = loaded.scene_options();
+    contacts.candidates = false;  // scenes that count them are made by the way
+    loaded.set_scene_options(contacts);
+  }
   std::string path;
   LoadedDeck loaded;
-  LoadOptions options;
   std::uint32_t files;  ///< how many sources are the deck's own
-  EngineFiles engine;   ///< the Engine files beside the deck, for lint
-  bool incomplete;      ///< lacks_includes
   /// Groups are resolved on demand, by one thread at a time. Locked without the interpreter's lock.
   std::mutex mutex;
 };

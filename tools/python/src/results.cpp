@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "deck/contact/crossings.hpp"
-#include "deck/contact/join_findings.hpp"
 #include "deck/contact/view.hpp"
 #include "deck/contact/what_if_text.hpp"
 #include "deck/cycle/scene_cycle.hpp"
@@ -43,18 +42,6 @@ class Joined {
   Diagnostics kept_;
 };
 
-/// Each finding once: contacts are built when a deck is loaded, too.
-Diagnostics once(const Diagnostics& first, const Diagnostics& second) {
-  Diagnostics out = first;
-  for (const Diagnostic& d : second.all())
-    if (std::none_of(first.all().begin(), first.all().end(), [&](const Diagnostic& o) {
-          return o.rule == d.rule && o.span.file == d.span.file && o.span.offset == d.span.offset &&
-                 o.message == d.message;
-        }))
-      out.report(d);
-  return out;
-}
-
 /// One force evaluation.
 struct PyCycle {
   ScenePointer contacts;
@@ -74,13 +61,10 @@ ScenePointer contacts_of(const DeckPointer& deck, const std::vector<std::int64_t
                          const std::string& accuracy, const std::vector<std::string>& what_if,
                          bool forces) {
   const LoadedDeck& loaded = deck->loaded;
-  SceneOptions options;
-  options.threads = deck->options.threads;
-  options.limits = deck->options.read.limits;
+  SceneOptions options = loaded.scene_options();
   options.only = only;
   options.accuracy = accuracy_of(accuracy);
   options.candidates = !forces;
-  options.nodal_stiffness = true;
   const auto known = [&](std::int64_t id) -> const InterBase* {
     for (const InterBase* i : loaded.interfaces().ordered)
       if (i->id == id) return i;
@@ -100,13 +84,10 @@ ScenePointer contacts_of(const DeckPointer& deck, const std::vector<std::int64_t
   const py::gil_scoped_release free;
   const std::lock_guard one(deck->mutex);
   Diagnostics findings;
-  out->scene = loaded.scene(findings, options);
+  out->scene = loaded.scene_with(options, findings);
   out->crossings = find_crossings(out->scene, options.threads);
   out->view = make_view(out->scene, &out->crossings);
-  Deck& read = deck->loaded.deck();
-  Diagnostics own = read.diagnostics;
-  join_findings(read, loaded.model(), once(loaded.findings(), findings));
-  out->joined = std::exchange(read.diagnostics, std::move(own));
+  out->joined = loaded.findings_with(findings);
   return out;
 }
 
@@ -139,7 +120,7 @@ CyclePointer forces_of(const DeckPointer& deck, const std::vector<std::int64_t>&
   out->options.model = model == "reference" ? cycle::Model::reference : cycle::Model::robust;
   out->options.dt1 = out->options.dt12 = dt;
   out->options.time = time;
-  out->options.threads = deck->options.threads;
+  out->options.threads = deck->loaded.options().threads;
   out->options.keep_pairs = true;
   const py::gil_scoped_release free;
   const std::lock_guard one(deck->mutex);

@@ -29,14 +29,7 @@ class Checker {
  public:
   Checker(const Json& root, const std::vector<DeckFile>& files, const SchemaSet& schemas,
           bool round)
-      : root_(root), schemas_(schemas), round_(round) {
-    for (const DeckFile& f : files) contents_[f.path] = f.text;
-    ReadOptions options;
-    options.overlay = &contents_;
-    auto read = read_deck(files.front().path, schemas, options);
-    if (!read) fail(top_, read.error().message);
-    deck_ = std::move(*read);
-  }
+      : root_(root), schemas_(schemas), round_(round), loaded_(loaded(files)) {}
 
   void run() {
     collect();
@@ -49,6 +42,17 @@ class Checker {
   }
 
  private:
+  LoadedDeck loaded(const std::vector<DeckFile>& files) const {
+    std::map<std::string, std::string> contents;
+    for (const DeckFile& f : files) contents[f.path] = f.text;
+    LoadOptions options;
+    options.read.overlay = &contents;
+    options.schemas = &schemas_;
+    auto read = load(files.front().path, options);
+    if (!read) fail(top_, read.error().message);
+    return std::move(*read);
+  }
+
   struct Stretch {
     std::uint64_t begin = 0, end = 0;
     std::size_t block = 0;
@@ -370,16 +374,7 @@ class Checker {
   // ---- what follows from the cards ------------------------------------------------------------
 
   const InterBase* interface_of(const Block& block) {
-    if (!interfaces_) {
-      model_ = build_model(deck_, schemas_, diagnostics_);
-      interfaces_.emplace(read_interfaces(deck_, model_, diagnostics_));
-      if (waits_for_geometry(*interfaces_)) {
-        SceneOptions options;
-        options.candidates = options.penetrations = false;
-        resolve(*interfaces_, build_scene(model_, *interfaces_, diagnostics_, options));
-      }
-    }
-    for (const InterBase* i : interfaces_->ordered)
+    for (const InterBase* i : loaded_.interfaces().ordered)
       if (i->block == &block) return i;
     return nullptr;
   }
@@ -464,11 +459,8 @@ class Checker {
   const SchemaSet& schemas_;
   const bool round_;
   const Path top_{};
-  std::map<std::string, std::string> contents_;
-  Deck deck_;
-  Diagnostics diagnostics_;
-  Model model_;
-  std::optional<Interfaces> interfaces_;
+  const LoadedDeck loaded_;
+  const Deck& deck_ = loaded_.deck();
   DecodedBlock decoded_;
   std::vector<std::unordered_map<std::uint64_t, std::size_t>> headers_;  ///< by start of the line
   std::vector<std::vector<Stretch>> stretches_;

@@ -8,12 +8,20 @@
 #include <string_view>
 #include <vector>
 
-#include "deck/model/interfaces.hpp"
+#include "deck/deck.hpp"
 
 namespace deck {
 
 /// What a conversion reads. All of it must outlive the Rewrite.
 struct EditContext {
+  /// The model and the interfaces are made here, where they were not yet.
+  EditContext(const LoadedDeck& of)
+      : loaded(of),
+        deck(of.deck()),
+        model(of.model()),
+        interfaces(of.interfaces()),
+        schemas(of.schemas()) {}
+  const LoadedDeck& loaded;
   const Deck& deck;
   const Model& model;
   const Interfaces& interfaces;

@@ -6,24 +6,15 @@
 #include <set>
 #include <string>
 
-#include "deck/base/limits.hpp"
-#include "deck/contact/search_memory.hpp"
 #include "deck/edit/rewrite.hpp"
 
 namespace deck {
-
-struct VerifyOptions {
-  int threads = 1;
-  Limits limits;
-  /// Of decks that share their meshes; may be null.
-  SearchMemory* searches = nullptr;
-};
 
 /// What a deck is at its start: effective values, contacts, forces of the first cycle, nodal
 /// masses, time steps of the elements. Points into the deck it was made of.
 class Behaviour {
  public:
-  explicit Behaviour(const EditContext& context, const VerifyOptions& options = {});
+  explicit Behaviour(const LoadedDeck& deck);
   ~Behaviour();
   Behaviour(const Behaviour&) = delete;
   Behaviour& operator=(const Behaviour&) = delete;
@@ -53,7 +44,7 @@ VerifyRelation relation_of(const std::vector<LossEntry>& losses);
 /// deck are taken in the working units of the second. A pair that is within rounding of its gap may
 /// penetrate in one deck only.
 ///
-///     Behaviour before(context), after(context_of_result);
+///     Behaviour before(deck), after(result);
 ///     if (auto why = first_difference(before, after, relation_of(rewrite.losses))) refuse(*why);
 std::optional<std::string> first_difference(const Behaviour& before, const Behaviour& after,
                                             const VerifyRelation& relation);

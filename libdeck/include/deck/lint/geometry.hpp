@@ -21,8 +21,6 @@ struct QuickLook {
 };
 
 struct GeometryOptions {
-  int threads = 1;  ///< changes no finding
-  Limits limits = {};
   std::optional<QuickLook> quick = {};  ///< nullopt: all is looked at
   const Gate* gate = nullptr;           ///< what passes over it is reported, too
   const EarlierGaps* earlier = nullptr;
@@ -30,8 +28,9 @@ struct GeometryOptions {
   std::function<void(const Scene&, const SceneView&)> seen = {};
 };
 
-/// A check for LintInput::extra_checks; returns what the quick look left out. Does nothing where
-/// the context has no model or interfaces.
+/// A check for LintInput::extra_checks, of the scene that the LoadedDeck of the context has, but
+/// for a quick look; returns what that left out. Does nothing without a LoadedDeck. The number of
+/// candidates is not looked at.
 ///
 ///   input.extra_checks.push_back(
 ///       [](const LintContext& c, Reporter& r) { return check_geometry(c, r); });

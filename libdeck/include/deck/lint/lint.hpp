@@ -10,6 +10,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "deck/deck.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/keyword/engine_file.hpp"
 #include "deck/lint/rule.hpp"
@@ -65,6 +66,7 @@ class LintContext {
   const Model* model;            ///< nullptr: model rules are skipped
   const Interfaces* interfaces;  ///< nullptr: likewise
   Selections* selections;        ///< nullptr: likewise
+  const LoadedDeck* loaded;      ///< nullptr: checks that need contacts are skipped
   std::vector<ContactCard> contacts;
   std::vector<DecodedBlock> defaults;   ///< /DEFAULT/INTER blocks
   std::vector<DecodedBlock> frictions;  ///< /FRICTION blocks
@@ -123,16 +125,21 @@ inline constexpr std::string_view geometry_rules =
 /// Reports rules of RuleStage::extra (geometry), and returns what it did not look at.
 using ExtraCheck = std::function<std::vector<NotChecked>(const LintContext&, Reporter&)>;
 
-/// Input of a run. `earlier` are the collectors of the model, the selections and the interfaces;
-/// what reading said is taken from the deck itself. `extra_checks` is where later stages (geometry)
-/// hook in.
+/// Input of a run. `extra_checks` is where later stages (geometry) hook in.
 struct LintInput {
+  /// All that the rules look at without contacts, which check_geometry adds.
+  explicit LintInput(const LoadedDeck& loaded);
+  /// The parts one by one, where there is no LoadedDeck: a model that outlives edits of its text.
+  LintInput(const Deck& of, const SchemaSet& by, const Model* made = nullptr,
+            const Interfaces* cards = nullptr, std::vector<const Diagnostics*> found = {})
+      : deck(of), schemas(by), model(made), interfaces(cards), earlier(std::move(found)) {}
+
+  const LoadedDeck* loaded = nullptr;
   const Deck& deck;
   const SchemaSet& schemas;
   const Model* model = nullptr;
   const Interfaces* interfaces = nullptr;
-  Selections* selections = nullptr;
-  std::vector<const Diagnostics*> earlier = {};
+  std::vector<const Diagnostics*> earlier;  ///< what making them found; of a LoadedDeck: empty
   std::vector<ExtraCheck> extra_checks = {};
   const EngineFiles* engine = nullptr;  ///< those beside the deck; nullptr: not looked for
 };
@@ -149,10 +156,6 @@ struct LintResult {
 };
 
 LintResult run_lint(const LintInput& input, const LintOptions& options = {});
-
-/// Reads nothing but the deck: builds the model, the selections and the interfaces, then run_lint.
-LintResult lint_deck(const Deck& deck, const SchemaSet& schemas, const LintOptions& options = {},
-                     int threads = 1, const EngineFiles* engine = nullptr);
 
 /// Rule, entity and the text of the card with runs of blanks made one: stays the same when lines
 /// move. Sixteen hexadecimal digits.

@@ -106,24 +106,23 @@ NotChecked too_many_pairs(const std::string& contact, std::string_view what) {
 std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& reporter,
                                        const GeometryOptions& chosen) {
   std::vector<NotChecked> left_out;
-  if (context.model == nullptr || context.interfaces == nullptr || context.selections == nullptr ||
-      context.interfaces->ordered.empty())
-    return left_out;
+  if (context.loaded == nullptr || context.interfaces->ordered.empty()) return left_out;
   if (const std::uint64_t items = chosen.quick ? detail::items_of(context) : 0;
       chosen.quick && items > chosen.quick->items)
     return {{std::string(geometry_rules),
              fmt::format("the model and the sides of its contacts have {} nodes, elements and "
                          "segments, more than {}; --geometry checks all of them",
                          items, chosen.quick->items)}};
-  Diagnostics found;
-  SceneOptions options;
-  options.threads = chosen.threads;
-  options.limits = chosen.limits;
-  if (chosen.quick)
+  Diagnostics of_quick;
+  std::optional<Scene> smaller;
+  if (chosen.quick) {
+    SceneOptions options = context.loaded->scene_options();
     options.limits.pair_bytes = std::min(options.limits.pair_bytes, chosen.quick->pair_bytes);
-  options.candidates = false;
-  options.nodal_stiffness = true;  // the forces of Istf 2 to 5 need it
-  const Scene scene = build_scene(*context.model, *context.interfaces, found, options);
+    options.candidates = false;
+    smaller = context.loaded->scene_with(options, of_quick);
+  }
+  const Scene& scene = smaller ? *smaller : context.loaded->scene();
+  const Diagnostics& found = smaller ? of_quick : context.loaded->found_by(Stage::scene);
   for (const Diagnostic& d : found.all()) {
     // The check of references says it with the cell and the reason.
     if (d.rule == RuleId::DK172 || d.rule == RuleId::DK173) continue;
@@ -139,11 +138,12 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
       out->notes = d.notes;
     }
   }
-  const std::vector<Crossing> crossings = find_crossings(scene, chosen.threads);
-  const SceneView view = make_view(scene, &crossings, chosen.threads);
+  const int threads = context.loaded->options().threads;
+  const std::vector<Crossing> crossings = find_crossings(scene, threads);
+  const SceneView view = make_view(scene, &crossings, threads);
   if (chosen.seen) chosen.seen(scene, view);
-  const detail::GeometryRun run{context, reporter,       scene,
-                                view,    chosen.threads, chosen.quick ? &left_out : nullptr};
+  const detail::GeometryRun run{context, reporter, scene,
+                                view,    threads,  chosen.quick ? &left_out : nullptr};
   detail::check_penetrations(run);
   detail::check_gaps(run);
   detail::check_segments(run);

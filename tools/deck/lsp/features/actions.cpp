@@ -258,14 +258,13 @@ Answer rename(const View& view, const Json& params) {
                                          "tetra10", "bric20", "shel16"};
   if (std::find(std::begin(solids), std::end(solids), rule.kind) != std::end(solids))
     rule.kind = "solid";
-  Diagnostics ignored;
-  ModelOptions options;
-  options.limits = view.workspace.settings().limits;
-  const Model model = build_model(view.deck, view.schemas(), ignored, options);
-  const Interfaces interfaces = read_interfaces(view.deck, model, ignored);
+  const auto texts = view.workspace.texts();
+  const auto loaded =
+      load(view.open.path, load_options(view.workspace.settings(), texts, view.schemas()));
+  if (!loaded) throw Refusal{loaded.error().message};
   RenumberOptions wanted;
   wanted.rules = {rule};
-  const Rewrite rewrite = renumber({view.deck, model, interfaces, view.schemas()}, wanted);
+  const Rewrite rewrite = renumber(EditContext(*loaded), wanted);
   if (!rewrite.refusals.empty()) throw Refusal{rewrite.refusals.front()};
   return view.workspace_edit(rewrite.edits);
 }

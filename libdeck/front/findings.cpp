@@ -1,0 +1,93 @@
+// Joins the findings of all stages, each once, and reads the cells that contacts depend on.
+#include "front/findings.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string_view>
+#include <tuple>
+
+#include "deck/keyword/decode.hpp"
+#include "deck/keyword/schema.hpp"
+#include "deck/model/selection.hpp"
+#include "deck/text/rule_id.hpp"
+
+namespace deck::detail {
+namespace {
+
+/// Takes findings that are not there yet. Those that were counted only are counted on.
+class Joiner {
+ public:
+  explicit Joiner(int per_rule) : out_(per_rule) {}
+
+  void take(const Diagnostics& list) {
+    std::map<RuleId, std::uint64_t> kept;
+    for (const Diagnostic& d : list.all()) {
+      ++kept[d.rule];
+      take(d);
+    }
+    for (const auto& [rule, count] : list.counts()) out_.count(rule, count - kept[rule]);
+  }
+  void take(const Diagnostic& d) {
+    if (known_.emplace(d.rule, d.span.file, d.span.offset, d.message).second) out_.report(d);
+  }
+  Diagnostics finish() { return std::move(out_); }
+
+ private:
+  Diagnostics out_;
+  std::set<std::tuple<RuleId, std::uint32_t, std::uint64_t, std::string>> known_;
+};
+
+}  // namespace
+
+Findings::Findings(const Diagnostics& of_reading, int per_rule)
+    : per_rule_(per_rule), mesh_(per_rule), added_(per_rule) {
+  for (Diagnostics& list : lists_) list = Diagnostics(per_rule);
+  of(Stage::deck) = of_reading;
+}
+
+void Findings::forget_scene() { of(Stage::scene) = Diagnostics(per_rule_); }
+
+void Findings::read_cells(const Deck& deck) {
+  constexpr std::string_view kinds[] = {
+      "inter",  "default_inter", "friction", "grnod",  "surf",   "line",   "set",       "box",
+      "skew",   "grshel",        "grsh3n",   "grbric", "grquad", "grtria", "grtrus",    "grbeam",
+      "grspri", "grpart",        "part",     "prop",   "mat",    "subset", "transform", "unit"};
+  Diagnostics found;
+  for (const Block& b : deck.blocks)
+    if (b.schema != nullptr && !b.schema->bulk && !b.opaque &&
+        std::find(std::begin(kinds), std::end(kinds), b.schema->kind) != std::end(kinds))
+      decode(deck, b, &found);
+  for (const Diagnostic& d : found.all())
+    if (d.severity == Severity::error) of(Stage::cells).report(d);
+  cells_read_ = true;
+}
+
+Diagnostics Findings::joined(Stage until) const {
+  Joiner out(per_rule_);
+  for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces, Stage::cells}) {
+    if (stage > until) break;
+    if (stage == Stage::cells) out.take(mesh_);
+    out.take(lists_[static_cast<std::size_t>(stage)]);
+  }
+  out.take(added_);
+  return out.finish();
+}
+
+Diagnostics Findings::joined(const Model& model, const Diagnostics& of_scene) const {
+  Joiner out(per_rule_);
+  for (const Stage stage : {Stage::deck, Stage::model, Stage::interfaces})
+    out.take(lists_[static_cast<std::size_t>(stage)]);
+  out.take(mesh_);
+  out.take(of_scene);
+  out.take(lists_[static_cast<std::size_t>(Stage::cells)]);
+  // The scene has reported DK332 itself.
+  if (model.selections != nullptr)
+    for (const Diagnostic& d : model.selections->diagnostics().all())
+      if (d.severity == Severity::error && d.rule != RuleId::DK332) out.take(d);
+  out.take(added_);
+  return out.finish();
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,271 @@
+// Makes each stage of a deck once, when it is asked for, within the limits of loading.
+#include "deck/deck.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "contact/scene/scene_parts.hpp"
+#include "cycle/contact_run.hpp"
+#include "deck/model/mesh_memory.hpp"
+#include "deck/text/rule_id.hpp"
+#include "front/findings.hpp"
+
+namespace deck {
+
+/// In the order of life: each refers to those above it.
+struct LoadedDeck::Parts {
+  Parts(Deck&& read, LoadOptions how)
+      : options(std::move(how)),
+        schemas(options.schemas != nullptr ? *options.schemas : SchemaSet::built_in()),
+        deck(std::move(read)),
+        found(deck.diagnostics, options.read.limits.diagnostics_per_rule) {
+    options.read.overlay = nullptr;  // which was for reading, and may end
+    path = deck.sources.size() > 0 ? deck.sources[0].path() : "";
+    scene_options.threads = options.threads;
+    scene_options.limits = options.read.limits;
+    scene_options.nodal_stiffness = true;
+  }
+
+  void begin(Stage stage) const {
+    if (observer) observer(stage);
+  }
+  const Model& the_model();
+  Interfaces& cards();
+  const Interfaces& values();
+  const Scene& the_scene();
+  const Scene& mesh_values(const Progress& progress);
+  const FirstCycle& the_cycle();
+  void find(Stage until);
+  Scene build(const SceneOptions& wanted, Diagnostics& to) {
+    return detail::build_scene(the_model(), cards(), to, wanted, options.searches);
+  }
+  /// The first contacts of all interfaces are in it, with the values of the deck.
+  bool holds_values() const {
+    return scene && scene_options.only.empty() && scene_options.what_if.empty();
+  }
+
+  std::string path;
+  LoadOptions options;
+  const SchemaSet& schemas;
+  std::function<void(Stage)> observer;
+  Deck deck;
+  detail::Findings found;
+  std::optional<EngineFiles> engine;
+  std::optional<Model> model;
+  std::optional<Interfaces> interfaces;
+  bool joined = false;    ///< Deck::diagnostics is all that was found
+  bool resolved = false;  ///< the interfaces have the values that follow from the mesh
+  SceneOptions scene_options;
+  std::optional<Scene> mesh, scene, cycle_scene;  ///< the last only where `scene` will not do
+  std::optional<FirstCycle> cycle;
+};
+
+const Model& LoadedDeck::Parts::the_model() {
+  if (!model) {
+    begin(Stage::model);
+    model = build_model(deck, schemas, found.of(Stage::model),
+                        {options.threads, options.read.limits}, options.meshes);
+  }
+  return *model;
+}
+
+Interfaces& LoadedDeck::Parts::cards() {
+  if (!interfaces) {
+    const Model& of = the_model();
+    begin(Stage::interfaces);
+    interfaces = read_interfaces(deck, of, found.of(Stage::interfaces));
+  }
+  return *interfaces;
+}
+
+const Scene& LoadedDeck::Parts::the_scene() {
+  if (!scene) {
+    cards();
+    begin(Stage::scene);
+    mesh.reset();
+    scene = build(scene_options, found.of(Stage::scene));
+    scene_options.progress = nullptr;  // who asked for it may be gone when another is made
+  }
+  return *scene;
+}
+
+const Scene& LoadedDeck::Parts::mesh_values(const Progress& progress) {
+  if (!holds_values() && !mesh) {
+    mesh.emplace();
+    if (waits_for_geometry(cards())) {
+      SceneOptions sides;
+      sides.threads = options.threads;
+      sides.limits = options.read.limits;
+      sides.candidates = sides.penetrations = false;
+      sides.progress = progress;
+      mesh = build(sides, found.of_mesh());
+    }
+  }
+  const Scene& values = holds_values() ? *scene : *mesh;
+  if (!std::exchange(resolved, true) && waits_for_geometry(cards())) resolve(cards(), values);
+  return values;
+}
+
+const FirstCycle& LoadedDeck::Parts::the_cycle() {
+  if (cycle) return *cycle;
+  const Scene* of = &the_scene();
+  if (!scene_options.nodal_stiffness || !scene_options.penetrations) {
+    SceneOptions wanted = scene_options;
+    wanted.nodal_stiffness = wanted.penetrations = true;
+    Diagnostics known;  // scene() has met the same
+    of = &cycle_scene.emplace(build(wanted, known));
+  }
+  cycle::CycleOptions how;
+  how.threads = options.threads;
+  how.keep_pairs = true;
+  FirstCycle out{cycle::make_state(*of), {}};
+  out.outcome = cycle::detail::run_cycle(*of, out.state, how, options.searches);
+  return cycle.emplace(std::move(out));
+}
+
+const Interfaces& LoadedDeck::Parts::values() {
+  cards();
+  if (options.geometry && !resolved) {
+    const bool kept = mesh.has_value();
+    mesh_values({});
+    if (!kept) mesh.reset();
+  }
+  return *interfaces;
+}
+
+void LoadedDeck::Parts::find(Stage until) {
+  if (until >= Stage::model) the_model();
+  if (until >= Stage::interfaces) cards();
+  if (until >= Stage::cells) {
+    values();
+    if (found.wants_cells()) {
+      begin(Stage::cells);
+      found.read_cells(deck);
+    }
+  }
+}
+
+LoadedDeck::LoadedDeck(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+LoadedDeck::LoadedDeck(LoadedDeck&&) noexcept = default;
+LoadedDeck& LoadedDeck::operator=(LoadedDeck&&) noexcept = default;
+LoadedDeck::~LoadedDeck() = default;
+
+LoadedDeck LoadedDeck::from(Deck&& deck, const LoadOptions& options) {
+  LoadedDeck out(std::make_unique<Parts>(std::move(deck), options));
+  if (options.engine_files) out.engine_files();
+  return out;
+}
+
+Result<LoadedDeck> LoadedDeck::with(const std::map<std::string, std::string>& changed) const {
+  std::map<std::string, std::string> texts = changed;
+  const SourceSet& sources = deck().sources;
+  for (std::uint32_t f = 0; f < sources.size(); ++f)
+    if (sources[f].inode() == 0) texts.try_emplace(sources[f].path(), sources[f].bytes());
+  LoadOptions how = options();
+  how.read.overlay = &texts;
+  auto out = load(sources[0].path(), how);
+  if (out) out->parts_->path = path();
+  return out;
+}
+
+const std::string& LoadedDeck::path() const { return parts_->path; }
+const SchemaSet& LoadedDeck::schemas() const { return parts_->schemas; }
+const LoadOptions& LoadedDeck::options() const { return parts_->options; }
+const Deck& LoadedDeck::deck() const { return parts_->deck; }
+Deck& LoadedDeck::deck() { return parts_->deck; }
+const Model& LoadedDeck::model() const { return parts_->the_model(); }
+
+const EngineFiles& LoadedDeck::engine_files() const {
+  Parts& p = *parts_;
+  if (!p.engine) p.engine = read_engine_files(p.deck, p.options.read.limits);
+  return *p.engine;
+}
+
+bool LoadedDeck::incomplete() const {
+  const auto& counts = parts_->found.of(Stage::deck).counts();
+  // Included files that are missing, form a cycle or exceed the limits.
+  return counts.contains(RuleId::DK004) || counts.contains(RuleId::DK005) ||
+         counts.contains(RuleId::DK006);
+}
+
+const Interfaces& LoadedDeck::interfaces() const { return parts_->values(); }
+
+const Scene& LoadedDeck::mesh_values(const Progress& progress) const {
+  return parts_->mesh_values(progress);
+}
+
+const SceneOptions& LoadedDeck::scene_options() const { return parts_->scene_options; }
+
+void LoadedDeck::drop_scene() {
+  Parts& p = *parts_;
+  p.cycle.reset();
+  p.cycle_scene.reset();
+  p.scene.reset();
+  p.found.forget_scene();
+  p.joined = false;
+}
+
+void LoadedDeck::set_scene_options(const SceneOptions& options) {
+  drop_scene();
+  parts_->scene_options = options;
+}
+
+const Scene& LoadedDeck::scene() const { return parts_->the_scene(); }
+const FirstCycle& LoadedDeck::cycle() const { return parts_->the_cycle(); }
+
+const Diagnostics& LoadedDeck::findings() const {
+  Parts& p = *parts_;
+  p.the_scene();
+  if (!std::exchange(p.joined, true)) p.deck.diagnostics = findings_with(p.found.of(Stage::scene));
+  return p.deck.diagnostics;
+}
+
+Diagnostics LoadedDeck::findings(Stage until) const {
+  if (until >= Stage::scene) return findings();
+  parts_->find(until);
+  return parts_->found.joined(until);
+}
+
+Diagnostics LoadedDeck::findings_with(const Diagnostics& of_scene) const {
+  parts_->find(Stage::cells);
+  return parts_->found.joined(parts_->the_model(), of_scene);
+}
+
+const Diagnostics& LoadedDeck::found_by(Stage stage) const {
+  if (stage >= Stage::scene) parts_->the_scene();
+  parts_->find(stage);
+  return parts_->found.of(stage);
+}
+
+void LoadedDeck::report(Diagnostic finding) {
+  parts_->found.add(std::move(finding));
+  parts_->joined = false;
+}
+
+Scene LoadedDeck::scene_with(const SceneOptions& options, Diagnostics& found) const {
+  return parts_->build(options, found);
+}
+
+Stage LoadedDeck::reached() const {
+  const Parts& p = *parts_;
+  return p.scene                  ? Stage::scene
+         : !p.found.wants_cells() ? Stage::cells
+         : p.interfaces           ? Stage::interfaces
+         : p.model                ? Stage::model
+                                  : Stage::deck;
+}
+
+void LoadedDeck::observe(std::function<void(Stage)> observer) {
+  parts_->observer = std::move(observer);
+}
+
+Result<LoadedDeck> load(const std::string& path, const LoadOptions& options) {
+  const SchemaSet& schemas = options.schemas != nullptr ? *options.schemas : SchemaSet::built_in();
+  auto deck = read_deck(path, schemas, options.read);
+  if (!deck) return deck.error();
+  LoadedDeck out = LoadedDeck::from(std::move(*deck), options);
+  out.parts_->path = path;
+  return out;
+}
+
+}  // namespace deck
