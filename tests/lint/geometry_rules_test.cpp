@@ -105,11 +105,13 @@ TEST(InitialPenetrations, OneFindingPerPairOfPartsWithTheDeepestNodes) {
   ASSERT_EQ(messages.size(), 2u);
   EXPECT_EQ(messages[0],
             "/INTER/TYPE7 1: 3 nodes of part 3 within the gap of part 1 (3 pairs), deepest 3 of a "
-            "gap of 4 between node 23 and segment 1 2 3 4; the solver does nothing about them: they start "
+            "gap of 4 between node 23 and segment 1 2 3 4; the solver does nothing about them: "
+            "they start "
             "with contact forces");
   EXPECT_EQ(messages[1],
             "/INTER/TYPE7 1: 4 nodes of part 2 within the gap of part 1 (4 pairs), deepest 1 of a "
-            "gap of 4 between node 11 and segment 1 2 3 4; the solver does nothing about them: they start "
+            "gap of 4 between node 11 and segment 1 2 3 4; the solver does nothing about them: "
+            "they start "
             "with contact forces");
   const Diagnostic* d = run.find(RuleId::DK301);
   for (const Diagnostic& each : run.result.diagnostics) {

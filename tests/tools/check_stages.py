@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A stage of the library includes only stages to its left: base, text, keyword, model, contact, cycle, accuracy; inspect
-stands beside cycle; edit reads the row and is read by lint and report only; report is read by none of them. Files that comments
-name are there.
+stands beside cycle and is read by edit and report; edit reads the row and is read by lint and report only; report is read by none
+of them. Files that comments name are there.
 
     python3 tests/tools/check_stages.py"""
 import os
@@ -12,7 +12,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 ROW = ["base", "text", "keyword", "model", "contact", "cycle", "accuracy"]
 MAY = {stage: set(ROW[:i + 1]) for i, stage in enumerate(ROW)}
 MAY["inspect"] = {*ROW[:ROW.index("contact") + 1], "inspect"}
-MAY["edit"] = {*ROW, "edit"}
+MAY["edit"] = {*ROW, "inspect", "edit"}
 MAY["lint"] = {*ROW, "edit", "lint"}
 MAY["verdict"] = {*ROW, "verdict"}
 MAY["report"] = {*ROW, "inspect", "edit", "lint", "verdict", "report"}
