@@ -160,7 +160,8 @@ TEST_F(Input, EveryWrongCommandLineIsAnErrorOfOneForm) {
            Case{"fix x --strategy movenodes", "did you mean 'move-nodes'?"},
            Case{"fix x --strategy inacti --inacti 4", "'4' is not one of 0, 1, 2, 3, 5, 6, 1000"},
            Case{"fix x --strategy inacti --step nan", "'nan' is not a number from 0.05 to 1"},
-           Case{"gaps --max-memory much x", "'much' is not a number of bytes, such as 500MB or 2GB"},
+           Case{"gaps --max-memory much x",
+                "'much' is not a number of bytes, such as 500MB or 2GB"},
            Case{"gaps --interface 3a x", "--interface: '3a' is not a number"},
            Case{"show x", "expected DECK WHAT"},
        }) {

@@ -81,7 +81,8 @@ Option& Option::one_of(std::initializer_list<const char*> values) {
   const std::vector<std::string> all(values.begin(), values.end());
   option_->check(described_by(CLI::IsMember(all), [all](std::string& text) -> std::string {
     if (std::find(all.begin(), all.end(), text) != all.end()) return {};
-    return fmt::format("'{}' is not one of {}{}", text, fmt::join(all, ", "), did_you_mean(text, all));
+    return fmt::format("'{}' is not one of {}{}", text, fmt::join(all, ", "),
+                       did_you_mean(text, all));
   }));
   return *this;
 }

@@ -318,7 +318,8 @@ class Builder {
   bool computable(Contact& contact) {
     if (const std::string why = doubts_.about(contact); !why.empty()) {
       contact.evaluated = false;
-      if (reported_.insert(contact.inter).second) report_unevaluated(contact, why, Severity::warning);
+      if (reported_.insert(contact.inter).second)
+        report_unevaluated(contact, why, Severity::warning);
       return false;
     }
     const Coordinates& x = c_.scene.coordinates;
