@@ -13,11 +13,11 @@
 #include <utility>
 
 #include "deck/base/paths.hpp"
-#include "deck/deck.hpp"
 #include "deck/edit/edit_set.hpp"
 #include "deck/edit/include_scan.hpp"
 #include "deck/edit/rewrite.hpp"
 #include "deck/edit/write.hpp"
+#include "deck/front/loaded_deck.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/text/number.hpp"
 #include "edit/block_edit.hpp"

@@ -1,5 +1,5 @@
 // Makes each stage of a deck once, when it is asked for, within the limits of loading.
-#include "deck/deck.hpp"
+#include "deck/front/loaded_deck.hpp"
 
 #include <optional>
 #include <utility>

@@ -10,6 +10,7 @@
 #include <map>
 #include <type_traits>
 
+#include "deck/base/length_text.hpp"
 #include "lint/targets.hpp"
 
 namespace deck {
@@ -132,7 +133,7 @@ namespace detail {
 std::string number_text(double value) {
   if (value == std::floor(value) && std::fabs(value) < 1e15)
     return std::to_string(static_cast<std::int64_t>(value));
-  return fmt::format("{:.6g}", value);
+  return length_text(value);
 }
 
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "deck/base/count.hpp"
-#include "deck/text/rule_id.hpp"
+#include "deck/text/rule.hpp"
 #include "verdict/parts.hpp"
 
 namespace deck {
@@ -115,7 +115,7 @@ struct DeckErrors {
 DeckErrors errors_of(const Deck& deck) {
   DeckErrors out;
   for (const Diagnostic& d : deck.diagnostics.all()) {
-    if (d.severity != Severity::error) continue;
+    if (d.severity != Severity::error || is_gate_rule(d.rule)) continue;
     ++out.all;
     if (d.rule == RuleId::DK172 || d.rule == RuleId::DK173) continue;
     ++(d.reference && d.reference->severity == Severity::error ? out.solver : out.own);
@@ -222,16 +222,6 @@ std::uint64_t Verdict::count(std::string_view name) const {
   return 0;
 }
 
-double largest_gap(const Model& model) {
-  double square = 0;
-  for (const std::vector<double>* x : {&model.nodes.x, &model.nodes.y, &model.nodes.z}) {
-    if (x->empty()) continue;
-    const auto [low, high] = std::minmax_element(x->begin(), x->end());
-    square += (*high - *low) * (*high - *low);
-  }
-  return square > 0 && square < 1e60 ? 10 * std::sqrt(square) : 1e30;
-}
-
 ContactFacts contact_facts(const Scene& scene, const SceneView& view) {
   ContactFacts out;
   out.contacts = scene.contacts.size();
@@ -240,7 +230,7 @@ ContactFacts contact_facts(const Scene& scene, const SceneView& view) {
     if (c.evaluated) ++out.obstacles[static_cast<std::size_t>(obstacle_of(c))];
   }
   out.total = view.total;
-  const double largest = largest_gap(*scene.model);
+  const double largest = largest_bounded_gap(*scene.model);
   for (const NamedPenetration& p : view.penetrations) {  // deepest first
     const PenetrationRow& row = scene.contacts[p.contact].penetrations[p.row];
     if (!(row.gap <= largest)) {
@@ -287,6 +277,14 @@ Verdict make_verdict(const VerdictInput& in) {
   v.sentences = std::move(say.all);
   for (const VerdictSentence& s : v.sentences) v.text += (v.text.empty() ? "" : " ") + s.text;
   return v;
+}
+
+Verdict verdict_of(const LoadedDeck& loaded) {
+  loaded.findings();
+  const Scene& scene = loaded.scene();
+  const int threads = loaded.scene_options().threads;
+  const std::vector<Crossing> crossed = find_crossings(scene, threads);
+  return verdict_of(loaded.deck(), scene, make_view(scene, &crossed, threads));
 }
 
 Verdict verdict_of(const Deck& deck, const Scene& scene, const SceneView& view) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "deck/contact/view.hpp"
-#include "deck/deck.hpp"
+#include "deck/front/loaded_deck.hpp"
 #include "deck/lint/example.hpp"
 
 namespace deck::test {

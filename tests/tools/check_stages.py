@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A stage of the library includes only stages to its left: base, text, keyword, model, contact, cycle, accuracy; front (deck.hpp)
+"""A stage of the library includes only stages to its left: base, text, keyword, model, contact, cycle, accuracy; front
 reads them up to cycle; inspect stands beside cycle and is read by edit and report; edit reads the row and is read by lint and
 report only; report is read by none of them. Everybody comes in through front: who builds a model, a scene or a first cycle without
 it is listed here with the reason. Files that comments name are there.
@@ -12,17 +12,19 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 ROW = ["base", "text", "keyword", "model", "contact", "cycle", "accuracy"]
 MAY = {stage: set(ROW[:i + 1]) for i, stage in enumerate(ROW)}
+# Headers that lie above the folders: what brings all, and the verdict.
+TOP = {"libdeck/include/deck/deck.hpp": "all", "libdeck/include/deck/verdict.hpp": "verdict"}
 MAY["front"] = {*ROW[:ROW.index("cycle") + 1], "front"}
-MAY["inspect"] = {*ROW[:ROW.index("contact") + 1], "inspect"}
+MAY["inspect"] = {*ROW[:ROW.index("contact") + 1], "inspect", "verdict"}
 MAY["edit"] = {*ROW, "front", "inspect", "edit"}
 MAY["lint"] = {*ROW, "front", "edit", "lint"}
-MAY["verdict"] = {*ROW, "verdict"}
+MAY["verdict"] = {*ROW, "front", "verdict"}
 MAY["report"] = {*ROW, "front", "inspect", "edit", "lint", "verdict", "report"}
-INCLUDE = re.compile(r'^\s*#\s*include\s+"(?:deck/)?([a-z]+)/', re.M)
+MAY["all"] = set(MAY["report"])
+INCLUDE = re.compile(r'^\s*#\s*include\s+"(?:deck/)?([a-z_]+)(?:/|\.hpp)', re.M)
 COMMENT = re.compile(r"(?:^|\s)(//.*|/?\*.*)$", re.M)
 FILE_NAME = re.compile(r"(?<![\w./<*-])((?:\w[\w-]*/)*\w[\w-]*\.(?:cpp|hpp))\b")
 GENERATED = {"rule_id.hpp"}
-FRONT_HEADER = "libdeck/include/deck/deck.hpp"
 
 BUILDS = re.compile(r"\b(build_model|read_interfaces|build_scene|run_cycle)\(")
 BUILDERS = ("libdeck/front/", "libdeck/model/", "libdeck/contact/", "libdeck/cycle/", "libdeck/include/deck/")
@@ -37,7 +39,8 @@ FOR_THEMSELVES = {
 
 
 def stage_files():
-    yield "front", os.path.join(ROOT, FRONT_HEADER)
+    for path, stage in TOP.items():
+        yield stage, os.path.join(ROOT, path)
     for top in ("libdeck", "libdeck/include/deck"):
         for stage in MAY:
             for folder, _, names in os.walk(os.path.join(ROOT, top, stage)):
@@ -90,7 +93,7 @@ def main():
     for stage, path in stage_files():
         files += 1
         with open(path, encoding="utf-8") as f:
-            read = {"front" if s == "deck" else s for s in INCLUDE.findall(f.read())}
+            read = {"all" if s == "deck" else s for s in INCLUDE.findall(f.read())}
         wrong = sorted(s for s in read if s in MAY and s not in MAY[stage])
         if wrong:
             failed += 1
@@ -100,7 +103,7 @@ def main():
         files += 1
         if path not in FOR_THEMSELVES:
             failed += 1
-            print("FAILED  %s builds a model, a scene or a first cycle: it belongs to LoadedDeck (deck/deck.hpp)" % path)
+            print("FAILED  %s builds a model, a scene or a first cycle: it belongs to LoadedDeck (deck/front/loaded_deck.hpp)" % path)
         elif path not in found:
             failed += 1
             print("FAILED  %s is listed here and builds nothing for itself any more" % path)

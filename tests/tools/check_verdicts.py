@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """One verdict: gaps, lint, cycle, batch, fix, the page and Python say the same of every sample: the same level where the same
-was looked at, and the same counts."""
+was looked at, and the same counts. With folders: of every deck in them instead.
+
+    check_verdicts.py build/dev/tools/deck [FOLDER ...]"""
+import glob
 import json
 import os
 import re
@@ -75,14 +78,35 @@ def compare(c, deck, folder):
     fix = c.run("fix", deck, "--strategy", "reduce-gap", "--json", "-", "-q")
     if fix.code in (0, 1) and fix.out:
         before = sum(i["before"]["pairs"] for i in json.loads(fix.out)["interfaces"])
+        c.check("%s: fix has the verdict of gaps" % name, json.loads(fix.out)["verdict"] == gaps, "%s, gaps %s" % (json.loads(fix.out)["verdict"], gaps))
         c.check("%s: fix begins with the pairs of gaps" % name, before == gaps["counts"].get("pairs", 0), "%s, gaps %s" % (before, gaps["counts"]))
+
+
+NO_NUMBER = re.compile(r"\b(?:inf|nan)\b|e\+30[0-9]", re.I)
+QUOTED = re.compile(r"^ *\d* *\|.*$|'[^']*'", re.M)  # lines of the deck, and cells as they are written
+
+
+def no_such_number(c, deck, folder):
+    """A gap beyond all bounds is 'unbounded' in words and absent in JSON and CSV."""
+    csv = os.path.join(folder, "pairs.csv")
+    for args in (["gaps", "-v"], ["gaps", "--all", "--json", "-"], ["gaps", "--csv", csv], ["cycle", "-v"], ["cycle", "--json", "-"],
+                 ["lint", "--geometry"], ["params", "-v"], ["params", "--json", "-"]):
+        out = c.run(args[0], deck, *args[1:]).out.decode()
+        if csv in args:
+            with open(csv, encoding="utf-8") as f:
+                out = f.read()
+        found = NO_NUMBER.search(QUOTED.sub("", out))
+        c.check("%s: %s prints no nan, inf or e+308" % (os.path.basename(deck), " ".join(args[:3])), found is None,
+                found and out[max(0, found.start() - 80):found.end() + 20])
 
 
 def main():
     c = Checks()
-    for deck in SAMPLES:
+    decks = sorted(d for folder in sys.argv[2:] for d in glob.glob(os.path.join(folder, "**", "*_0000.rad"), recursive=True))
+    for deck in decks or SAMPLES:
         with tempfile.TemporaryDirectory() as folder:
             compare(c, deck, folder)
+            no_such_number(c, deck, folder)
     c.finish()
 
 

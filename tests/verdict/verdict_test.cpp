@@ -76,6 +76,18 @@ TEST(Verdict, ANodeOnASegmentStopsTheSolverTiedOrNot) {
   }
 }
 
+TEST(Verdict, WhatAGateFindsIsNoErrorOfTheDeck) {
+  Inspected d(plates());
+  for (const RuleId rule : gate_rules) {
+    Diagnostic finding;
+    finding.rule = rule;
+    finding.severity = Severity::error;
+    d.loaded.report(finding);
+  }
+  EXPECT_EQ(d.loaded.findings().counts().size(), std::size(gate_rules));
+  EXPECT_EQ(verdict_of(d.deck, d.scene, d.view).count("errors"), 0u);
+}
+
 TEST(Verdict, AnErrorOfTheDeckStopsTheSolver) {
   const Verdict v = of(plates() + "");
   EXPECT_NE(v.level, VerdictLevel::stops);

@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "accuracy/tiers.hpp"
-#include "deck/deck.hpp"
+#include "deck/front/loaded_deck.hpp"
 
 namespace {
 

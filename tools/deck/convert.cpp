@@ -96,7 +96,8 @@ int apply(Conversion& c, const ConvertStep& step, const SchemaSet& schemas, cons
   const EditContext context(c.now);
   progress.step(c.now.path() + ": " + step.option);
   Rewrite rewrite = step.run(context);
-  if (step.engine && rewrite.refusals.empty()) step.engine(c.now.deck(), c.now.engine_files(), rewrite);
+  if (step.engine && rewrite.refusals.empty())
+    step.engine(c.now.deck(), c.now.engine_files(), rewrite);
   // With a batch the values that only changed are left out: its report holds all decks.
   if (!options.report.empty()) add_changed_values(context, step.option, rewrite);
   progress.clear();

@@ -93,9 +93,7 @@ class FixRun {
                                 : !o_.write.directory.empty() ? o_.write.directory
                                 : o_.write.diff               ? "diff"
                                                               : "no";
-    if (json_.wanted())
-      documents_.push_back(
-          fix_json(loaded.path(), loaded.deck(), coverage, whole, written, fixed->fixes));
+    if (json_.wanted()) documents_.push_back(fix_json(loaded, whole, written, fixed->fixes));
     texts_ += report(whole, fixed->fixes, changed, loaded.path(), coverage_tail(coverage));
     // A deck that the solver does not take is not repaired, whatever was done about its contacts.
     return whole.complete && !errors ? exit_clean : exit_findings;
@@ -153,8 +151,7 @@ class FixRun {
     PenetrationFix nothing;
     for (const std::string& s : o_.strategies)
       nothing.strategy += (nothing.strategy.empty() ? "" : ",") + s;
-    if (json_.wanted())
-      documents_.push_back(fix_json(loaded.path(), loaded.deck(), coverage, nothing, "no"));
+    if (json_.wanted()) documents_.push_back(fix_json(loaded, nothing, "no"));
     if (!o_.common.quiet) texts_ += heading(loaded.path()) + coverage_lead(coverage) + "\n";
   }
 
@@ -174,8 +171,7 @@ class FixRun {
       }
     }
     const PenetrationFix now = unchanged(proposals);
-    if (json_.wanted())
-      documents_.push_back(fix_json(loaded.path(), loaded.deck(), coverage, now, "no", proposals));
+    if (json_.wanted()) documents_.push_back(fix_json(loaded, now, "no", proposals));
     if (!o_.common.quiet) {
       FixTextOptions text;
       text.rows = o_.rows;

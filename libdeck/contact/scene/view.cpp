@@ -270,6 +270,16 @@ std::vector<RowPlace> rows_by_depth(const Scene& scene, std::size_t& penetration
 
 }  // namespace
 
+double largest_bounded_gap(const Model& model) {
+  double square = 0;
+  for (const std::vector<double>* x : {&model.nodes.x, &model.nodes.y, &model.nodes.z}) {
+    if (x->empty()) continue;
+    const auto [low, high] = std::minmax_element(x->begin(), x->end());
+    square += (*high - *low) * (*high - *low);
+  }
+  return square > 0 && square < 1e60 ? 10 * std::sqrt(square) : 1e30;
+}
+
 SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings, int threads) {
   threads = effective_threads(threads);
   SceneView view;

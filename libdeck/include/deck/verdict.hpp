@@ -1,8 +1,7 @@
 // The verdict: what is said of a deck, made in one place. Terminal, JSON, page, batch, editor and
 // Python show it and add nothing; exit codes follow from it.
 //
-//   const Verdict v = make_verdict({.deck = &deck, .interfaces = &interfaces,
-//                                   .contacts = contact_facts(scene, view)});
+//   const deck::Verdict verdict = deck::verdict_of(*deck::load("car_0000.rad"));
 #pragma once
 #include <array>
 #include <cstdint>
@@ -15,6 +14,7 @@
 #include "deck/contact/view.hpp"
 #include "deck/cycle/scene_cycle.hpp"
 #include "deck/cycle/steps.hpp"
+#include "deck/front/loaded_deck.hpp"
 #include "deck/keyword/deck.hpp"
 #include "deck/model/coverage.hpp"
 
@@ -61,10 +61,8 @@ struct ContactFacts {
   std::array<std::size_t, 7> obstacles{};  ///< evaluated contacts by Obstacle
   ContactTotals total;
   double deepest = 0, deepest_gap = 0;  ///< of the deepest pair: its depth, and its gap
-  std::uint64_t unbounded = 0;          ///< pairs that are left out of these: beyond largest_gap
+  std::uint64_t unbounded = 0;  ///< pairs that are left out of these: beyond largest_bounded_gap
 };
-/// Ten times the model's size: a gap beyond it is no gap, but unbounded.
-double largest_gap(const Model& model);
 ContactFacts contact_facts(const Scene& scene, const SceneView& view);
 
 /// What a run of lint found, gates left out. Where there was one its errors and warnings decide, as
@@ -87,7 +85,9 @@ struct VerdictInput {
 
 /// The one place where it is decided what is said of a deck.
 Verdict make_verdict(const VerdictInput& input);
-/// The same of a scene: of `deck gaps`, of the page.
+/// Of a deck with its contacts, crossed elements included, as `deck gaps` says it.
+Verdict verdict_of(const LoadedDeck& loaded);
+/// The same of another scene of the deck, whose diagnostics hold all that was found.
 Verdict verdict_of(const Deck& deck, const Scene& scene, const SceneView& view);
 
 /// When a verdict makes an exit code of 1.

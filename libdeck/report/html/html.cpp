@@ -66,7 +66,7 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   std::uint64_t bytes = 0;
   for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f)
     bytes += in.deck->sources[f].on_disk().size();
-  j.field("bytes", bytes).field("largest_gap", largest_gap(model));
+  j.field("bytes", bytes).field("largest_gap", largest_bounded_gap(model));
   j.key("files").begin_array();
   for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f) j.value(in.deck->sources[f].path());
   j.end_array().key("parts").begin_array();

@@ -1,6 +1,7 @@
 // The result of `deck fix` as a JSON document.
 #include "deck/report/fix.hpp"
 #include "deck/report/json.hpp"
+#include "deck/report/verdict.hpp"
 
 namespace deck {
 namespace {
@@ -64,15 +65,15 @@ void write_step(JsonWriter& j, const PenetrationFix& step) {
 
 }  // namespace
 
-std::string fix_json(std::string_view path, const Deck& deck, const Coverage& coverage,
-                     const PenetrationFix& fix, std::string_view written,
+std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::string_view written,
                      const std::vector<PenetrationFix>& steps) {
   std::string out;
   JsonWriter j(out);
   j.begin_object();
   write_json_head(j, "deck/fix", 1);
-  write_json_deck(j, path, deck, nullptr, nullptr);
-  write_json_coverage(j, coverage);
+  write_json_deck(j, loaded.path(), loaded.deck(), nullptr, nullptr);
+  write_json_coverage(j, coverage_of(loaded.deck(), loaded.interfaces()));
+  write_verdict(j, verdict_of(loaded));
   j.key("strategy");
   fix.strategy.empty() ? j.null() : j.value(fix.strategy);
   j.field("written", written).field("complete", fix.complete);

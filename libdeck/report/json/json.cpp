@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "deck/base/length_text.hpp"
+
 namespace deck {
 
 std::string_view library_version() { return DECK_VERSION; }
@@ -58,7 +60,7 @@ JsonWriter& JsonWriter::value(std::string_view text) {
 }
 
 JsonWriter& JsonWriter::value(double number) {
-  return raw(std::isfinite(number) ? shortest(number) : std::string("null"));
+  return raw(is_unbounded(number) ? std::string("null") : shortest(number));
 }
 
 JsonWriter& JsonWriter::value(bool b) { return raw(b ? "true" : "false"); }

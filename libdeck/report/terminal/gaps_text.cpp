@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "deck/base/escape.hpp"
+#include "deck/base/length_text.hpp"
 #include "deck/report/gaps.hpp"
 #include "deck/report/gate.hpp"
 #include "deck/report/text_table.hpp"
@@ -150,7 +151,7 @@ class InterfaceTable {
     add(part ? kind_name(c) : fmt::format("TYPE{}", c.inter->type));
     add(part ? "" : c.inter->title);
     if (options_.verbose) add(fmt::format("{}", c.igap));
-    add(fmt::format("{:.6g}", c.gapmin));
+    add(length_text(c.gapmin, 6, largest_));
     if (options_.verbose) {
       const bool one = contacts.size() == 1, edges = c.kind == ContactKind::edge_edge;
       std::uint64_t reach = 0;
@@ -167,7 +168,7 @@ class InterfaceTable {
     };
     add(has(ContactKind::node_segment) ? number(t.count.nodes) : "-");
     add(has(ContactKind::edge_edge) ? number(t.count.edges) : "-");
-    add(t.count.pairs ? fmt::format("{:.6g}", t.max_depth) : "-");
+    add(t.count.pairs ? length_text(t.max_depth, 6, largest_) : "-");
     add(t.count.pairs ? fmt::format("{:.0f} %", 100 * t.max_ratio) : "-");
     add(action_words(contacts));
     table_.row(std::move(cells));
@@ -176,6 +177,7 @@ class InterfaceTable {
   const Scene& scene_;
   const SceneView& view_;
   const GapsTextOptions& options_;
+  const double largest_ = largest_bounded_gap(*scene_.model);
   TextTable table_;
 };
 
@@ -192,13 +194,14 @@ std::string part_pairs_text(const Scene& scene, const SceneView& view,
   const Model& model = *scene.model;
   TextTable pairs = make_table(
       {"secondary", "main", ">pairs", ">nodes", ">edges", ">deepest", ">mean", ">p95", ">of gap"});
+  const double largest = largest_bounded_gap(model);
   const std::size_t shown = std::min(options.part_pairs, view.part_pairs.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const PartPair& p = view.part_pairs[i];
     pairs.row({part_name(model, p.secondary), part_name(model, p.main),
                fmt::format("{}", p.count.pairs), fmt::format("{}", p.count.nodes),
-               fmt::format("{}", p.count.edges), fmt::format("{:.6g}", p.max_depth),
-               fmt::format("{:.4g}", p.mean_depth), fmt::format("{:.4g}", p.p95_depth),
+               fmt::format("{}", p.count.edges), length_text(p.max_depth, 6, largest),
+               length_text(p.mean_depth, 4, largest), length_text(p.p95_depth, 4, largest),
                fmt::format("{:.0f} %", 100 * p.max_ratio)});
   }
   std::string out = pairs.fitted(options.width, options.color, 2, 2);
@@ -212,6 +215,7 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
   TextTable worst = make_table({">interface", "node/edge", ">depth", ">gap", ">distance",
                                 "segment/edge", "elements", "action", "position", "defined at"});
   const std::size_t rows = std::min(options.worst, view.deepest_per_node.size());
+  const double largest = largest_bounded_gap(*scene.model);
   std::vector<NodeIndex> nodes;
   for (std::size_t i = 0; i < rows; ++i)
     nodes.push_back(first_node(scene, view.penetrations[view.deepest_per_node[i]]));
@@ -223,9 +227,11 @@ std::string worst_text(const Deck& deck, const Scene& scene, const SceneView& vi
     const bool stops = row.on_surface && on_surface_error(c) != 0;
     std::string action =
         stops ? fmt::format("error {}", on_surface_error(c)) : to_string(row.action);
-    if (!stops && row.has_gap0) action += fmt::format(" to {:.4g}", row.gap0);
-    worst.row({fmt::format("{}", c.inter->id), secondary_text(p), fmt::format("{:.6g}", row.depth),
-               fmt::format("{:.6g}", row.gap), fmt::format("{:.6g}", row.distance), segment_text(p),
+    if (!stops && row.has_gap0 && !is_unbounded(row.gap0))
+      action += fmt::format(" to {:.4g}", row.gap0);
+    worst.row({fmt::format("{}", c.inter->id), secondary_text(p),
+               length_text(row.depth, 6, largest), length_text(row.gap, 6, largest),
+               fmt::format("{:.6g}", row.distance), segment_text(p),
                fmt::format("{} / {}", p.secondary_element.id, p.main_element.id), action,
                fmt::format("({:.5g}, {:.5g}, {:.5g})", p.at[0], p.at[1], p.at[2]),
                deck.sources.where(spans[i])});
@@ -285,17 +291,19 @@ std::string gaps_csv(const Deck& deck, const Scene& scene, const SceneView& view
     const Contact& c = scene.contacts[p.contact];
     const PenetrationRow& r = row_of(scene, p);
     const Span& span = spans[row];
+    const auto length = [](double v) { return is_unbounded(v) ? "" : fmt::format("{}", v); };
     const auto id = [](std::int64_t v) { return v == 0 ? std::string() : fmt::format("{}", v); };
     fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},",
                    c.inter->id, c.inter->type, to_string(c.role), to_string(c.kind), p.secondary[0],
-                   id(p.secondary[1]), p.main[0], p.main[1], id(p.main[2]), id(p.main[3]), r.depth,
-                   r.gap, r.distance, r.gap > 0 ? r.depth / r.gap : 0.0);
+                   id(p.secondary[1]), p.main[0], p.main[1], id(p.main[2]), id(p.main[3]),
+                   length(r.depth), length(r.gap), length(r.distance),
+                   r.gap > 0 ? r.depth / r.gap : 0.0);
     fmt::format_to(
         std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", r.normal[0],
         r.normal[1], r.normal[2], r.on_surface ? 1 : 0, to_string(r.action),
-        r.has_gap0 ? fmt::format("{}", r.gap0) : "", r.has_gap0 ? fmt::format("{}", r.p0) : "",
-        p.at[0], p.at[1], p.at[2], id(p.secondary_element.id), id(p.secondary_element.part),
-        id(p.main_element.id), id(p.main_element.part),
+        r.has_gap0 ? length(r.gap0) : "", r.has_gap0 ? length(r.p0) : "", p.at[0], p.at[1], p.at[2],
+        id(p.secondary_element.id), id(p.secondary_element.part), id(p.main_element.id),
+        id(p.main_element.part),
         span.valid() ? quote(terminal_text(deck.sources[span.file].path())) : std::string(),
         span.valid() ? fmt::format("{}", deck.sources.position(span).line) : "");
     drain_text(drain, out);

@@ -5,6 +5,7 @@
 
 #include "batch/reading.hpp"
 #include "deck/base/escape.hpp"
+#include "deck/base/length_text.hpp"
 #include "deck/report/text_table.hpp"
 
 namespace deck::cli {
@@ -36,8 +37,9 @@ std::vector<Field> fields_of(const std::vector<EntryReading>& entries) {
                         return e.counted("pairs") ? fmt::format("{:.0f}", e.penetrations()) : "-";
                       }});
     fields.push_back({{"deepest", Align::right}, [](const EntryReading& e) {
-                        return e.count("pairs") > 0 ? fmt::format("{:.6g}", e.count("max_depth"))
-                                                    : "-";
+                        if (!(e.count("pairs") > 0)) return std::string("-");
+                        return e.counted("max_depth") ? length_text(e.count("max_depth"))
+                                                      : std::string("unbounded");
                       }});
     fields.push_back({{"of gap", Align::right}, [](const EntryReading& e) {
                         return e.count("pairs") > 0

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/deck.hpp"
+#include "deck/front/loaded_deck.hpp"
 #include "deck/keyword/place.hpp"
 #include "deck/keyword/references.hpp"
 #include "deck/lint/config.hpp"

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <string>
 
-#include "deck/deck.hpp"
+#include "deck/front/loaded_deck.hpp"
 #include "deck/report/html.hpp"
 
 namespace deck::cli {

@@ -184,8 +184,7 @@ EditPointer fix_deck(const DeckPointer& d, const std::string& strategy,
   edit->before = d;
   take(*edit, *d, fix->rewrite);
   edit->after = read_again(*d, edit->changed);
-  edit->report = fix_json(d->path, d->loaded.deck(),
-                          coverage_of(d->loaded.deck(), d->loaded.interfaces()), *fix, "no");
+  edit->report = fix_json(d->loaded, *fix, "no");
   return edit;
 }
 

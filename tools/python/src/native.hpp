@@ -10,7 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "deck/deck.hpp"
+#include "deck/front/loaded_deck.hpp"
+
+namespace deck {
+class EditSet;
+}
 
 namespace deck::python {
 

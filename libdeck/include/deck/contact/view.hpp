@@ -75,6 +75,9 @@ SceneView make_view(const Scene& scene, const std::vector<Crossing>* crossings =
 /// The element behind a segment or edge; not valid for carriers without an element.
 ElementName carrier_name(const Model& model, Carrier carrier, std::uint32_t element);
 
+/// Ten times the model's size: a gap beyond it is no gap, but unbounded. Working units.
+double largest_bounded_gap(const Model& model);
+
 /// Why a contact without penetrations is no clean one.
 enum class Obstacle {
   none,

@@ -13,10 +13,6 @@
 
 namespace deck {
 
-/// Whatever --fail-on says, a finding of these ends with 1: the bound was asked for.
-inline constexpr RuleId gate_rules[] = {RuleId::DK370, RuleId::DK371, RuleId::DK372,
-                                        RuleId::DK373, RuleId::DK374, RuleId::DK375};
-
 /// Bounds; what is not set does not bound.
 struct GateLimits {
   std::optional<double> max_depth;         ///< of a penetration, working units

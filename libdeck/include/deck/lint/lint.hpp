@@ -10,7 +10,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "deck/deck.hpp"
+#include "deck/front/loaded_deck.hpp"
 #include "deck/keyword/decode.hpp"
 #include "deck/keyword/engine_file.hpp"
 #include "deck/lint/rule.hpp"

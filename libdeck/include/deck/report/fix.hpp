@@ -28,11 +28,10 @@ std::string fix_proposals_text(const std::vector<PenetrationFix>& proposals,
                                const std::function<std::string(std::string_view)>& command,
                                const FixTextOptions& options = {});
 
-/// The document of `deck fix --json`. `written`: "no", "diff", "in-place" or the directory.
-/// `steps`: of several strategies what each did; `fix` is then all of them combined(), or, where
-/// none was asked for, unchanged().
-std::string fix_json(std::string_view path, const Deck& deck, const Coverage& coverage,
-                     const PenetrationFix& fix, std::string_view written,
+/// The document of `deck fix --json`, with the verdict of the deck as it was read. `written`: "no",
+/// "diff", "in-place" or the directory. `steps`: of several strategies what each did; `fix` is then
+/// all of them combined(), or, where none was asked for, unchanged().
+std::string fix_json(const LoadedDeck& loaded, const PenetrationFix& fix, std::string_view written,
                      const std::vector<PenetrationFix>& steps = {});
 
 }  // namespace deck

@@ -73,4 +73,14 @@ struct Case {
 /// A finding with what the page of its rule says.
 Diagnostic finding_of(RuleId id, Span span, std::string message, Case particular = {});
 
+/// The rules of a gate: bounds that a team sets. Whatever --fail-on says, a finding of these ends
+/// with 1, and none of them is an error of the deck.
+inline constexpr RuleId gate_rules[] = {RuleId::DK370, RuleId::DK371, RuleId::DK372,
+                                        RuleId::DK373, RuleId::DK374, RuleId::DK375};
+constexpr bool is_gate_rule(RuleId rule) {
+  for (const RuleId gate : gate_rules)
+    if (gate == rule) return true;
+  return false;
+}
+
 }  // namespace deck

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "deck/base/length_text.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {
@@ -38,9 +39,9 @@ struct ShortSide {
 
 /// "Gapmin = 2 (card)", "the gap 2 (mean thickness ...)"
 std::string gap_text(const Contact& c, double gap) {
-  if (gap != c.gapmin) return fmt::format("the variable gap {:.6g}", gap);
+  if (gap != c.gapmin) return "the variable gap " + length_text(gap);
   return fmt::format(
-      "{} = {:.6g} ({})", gap_field(c), gap,
+      "{} = {} ({})", gap_field(c), length_text(gap),
       c.gapmin_origin == GapminOrigin::card ? "from the card" : to_string(c.gapmin_origin));
 }
 

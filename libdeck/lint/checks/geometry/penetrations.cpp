@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "deck/base/length_text.hpp"
 #include "lint/checks/geometry/geometry.hpp"
 
 namespace deck::detail {
@@ -83,20 +84,21 @@ void check_depths(const GeometryRun& run) {
     const bool edges = c.kind == ContactKind::edge_edge;
     Diagnostic* d = run.report(
         RuleId::DK301, c, "Inacti",
-        fmt::format("{}: {} of {} within the gap of {} ({}), deepest {:.6g} of a gap of {:.6g} "
+        fmt::format("{}: {} of {} within the gap of {} ({}), deepest {} of a gap of {} "
                     "between {} and {}; {}",
                     name_of(run, c), count_text(group.distinct.size(), edges ? "edge" : "node"),
-                    part_text(from), part_text(to), count_text(group.rows.size(), "pair"), r.depth,
-                    r.gap, secondary_text(worst), main_text(worst), treatment(c)));
+                    part_text(from), part_text(to), count_text(group.rows.size(), "pair"),
+                    length_text(r.depth), length_text(r.gap), secondary_text(worst),
+                    main_text(worst), treatment(c)));
     if (d == nullptr) continue;
     if (edges) d->reference = rule_of(RuleId::DK301).message(499);
     std::set<std::uint32_t> named;
     for (const std::uint32_t i : group.rows) {
       const PenetrationRow& row = row_of(run, run.view.penetrations[i]);
       if (!named.insert(row.secondary).second) continue;
-      d->notes.emplace_back(
-          run.model().node_span(node_of(c, row)),
-          fmt::format("{} is {:.6g} deep", secondary_text(run.view.penetrations[i]), row.depth));
+      d->notes.emplace_back(run.model().node_span(node_of(c, row)),
+                            fmt::format("{} is {} deep", secondary_text(run.view.penetrations[i]),
+                                        length_text(row.depth)));
       if (named.size() == 3) break;
     }
   }

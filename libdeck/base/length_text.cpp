@@ -1,0 +1,15 @@
+// Lengths as text.
+#include "deck/base/length_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace deck {
+
+std::string length_text(double length, int digits, double largest) {
+  if (is_unbounded(length) || std::fabs(length) > largest) return "unbounded";
+  return fmt::format("{:.{}g}", length, digits);
+}
+
+}  // namespace deck

@@ -1,0 +1,138 @@
+// The way in: a deck with all that is made of it, each thing once, when it is first asked for.
+//
+//   const auto loaded = deck::load("car_0000.rad");
+//   if (!loaded) ...loaded.error().message
+//   for (const deck::InterType7& inter : loaded->interfaces().type7) ...inter.Gapmin.value
+//   for (const deck::Contact& contact : loaded->scene().contacts) ...contact.penetrations
+//   for (const deck::Diagnostic& finding : loaded->findings().all()) ...finding.message
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "deck/contact/resolve.hpp"
+#include "deck/contact/scene.hpp"
+#include "deck/contact/view.hpp"
+#include "deck/cycle/scene_cycle.hpp"
+#include "deck/keyword/deck.hpp"
+#include "deck/keyword/engine_file.hpp"
+#include "deck/model/interfaces.hpp"
+#include "deck/model/model.hpp"
+
+namespace deck {
+
+class MeshMemory;
+class SearchMemory;
+
+/// What is made of a deck, in this order; each needs those before it.
+enum class Stage : std::uint8_t {
+  deck,        ///< the text, cut into blocks
+  model,       ///< nodes, elements, parts ...
+  interfaces,  ///< the cards of the interfaces with what holds in place of blanks
+  cells,       ///< all cells that contacts depend on have been read
+  scene,       ///< contacts, and with them the groups that they are made from
+};
+
+struct LoadOptions {
+  ReadOptions read;  ///< its limits hold for all that is made of the deck
+  int threads = 1;   ///< changes no result
+  /// interfaces() has the values that follow from the mesh.
+  bool geometry = true;
+  bool engine_files = false;  ///< read with the deck; else when engine_files() is asked for them
+  const SchemaSet* schemas = nullptr;  ///< nullptr: the built-in ones; must outlive what is loaded
+  MeshMemory* meshes = nullptr;        ///< of decks that share their meshes; must outlive it, too
+  SearchMemory* searches = nullptr;    ///< likewise
+};
+
+/// The first force evaluation of all contacts.
+struct FirstCycle {
+  cycle::State state;
+  cycle::SceneOutcome outcome;
+};
+
+/// A deck and what was made of it. References to its parts stay good until it ends, also when it is
+/// moved. For one thread at a time: what is asked for first is made then, const or not.
+class LoadedDeck {
+ public:
+  /// Called with (contacts done, contacts in all).
+  using Progress = std::function<void(std::size_t, std::size_t)>;
+
+  /// Of a deck that was read already: of changed texts, or of text in memory.
+  static LoadedDeck from(Deck&& deck, const LoadOptions& options = {});
+  /// This deck with other texts of some of its files, by their paths as it opened them, read again
+  /// as it was read. Texts that never lay on a disk are kept.
+  Result<LoadedDeck> with(const std::map<std::string, std::string>& changed) const;
+  LoadedDeck(LoadedDeck&&) noexcept;
+  LoadedDeck& operator=(LoadedDeck&&) noexcept;
+  ~LoadedDeck();
+
+  const std::string& path() const;  ///< as given
+  const SchemaSet& schemas() const;
+  const LoadOptions& options() const;
+  const Limits& limits() const { return options().read.limits; }
+
+  /// The text and its blocks. Deck::diagnostics holds all of findings() once these were asked for.
+  const Deck& deck() const;
+  Deck& deck();  ///< what was made of it refers to it
+  /// The Engine files beside the deck; their texts are added to the sources of the deck.
+  const EngineFiles& engine_files() const;
+  /// True if a file of the include tree could not be read.
+  bool incomplete() const;
+  const Model& model() const;
+  /// Effective values; with LoadOptions::geometry also those that follow from the mesh.
+  const Interfaces& interfaces() const;
+  /// Contacts without penetrations, where an interface has values that follow from the mesh; else
+  /// an empty scene. interfaces() has these values from now on, whatever was asked for. Good until
+  /// scene() is made.
+  const Scene& mesh_values(const Progress& progress = {}) const;
+
+  /// How scene() is made: with threads and limits of loading, and with the nodal stiffness that
+  /// forces need.
+  const SceneOptions& scene_options() const;
+  /// Another way. A scene that was made before ends, and what was made of it.
+  void set_scene_options(const SceneOptions& options);
+  /// The contacts of the deck: segments, gaps, stiffness, penetrations.
+  const Scene& scene() const;
+  /// Ends the scene and what was made of it, to be made anew where it is asked for again: for who
+  /// keeps many decks.
+  void drop_scene();
+  /// Forces of the first cycle, with every pair. At rest but for initial velocities of the deck.
+  const FirstCycle& cycle() const;
+
+  /// All that was found wrong: in reading, in the model, its interfaces, contacts, the cells that
+  /// contacts depend on, groups (errors only: they can stop the solver), and what was added; in
+  /// this order, each once. Makes the scene. Groups that are resolved later do not count. Good
+  /// until report() or another scene.
+  const Diagnostics& findings() const;
+  /// The same without what later stages find.
+  Diagnostics findings(Stage until) const;
+  /// What one stage has found, alone.
+  const Diagnostics& found_by(Stage stage) const;
+  /// Adds to findings() what others have found.
+  void report(Diagnostic finding);
+
+  /// Contacts with other settings, bounds or accuracy than those of scene(), best made of
+  /// scene_options(). What they meet goes to `found`. Ends before this does.
+  Scene scene_with(const SceneOptions& options, Diagnostics& found) const;
+  /// findings() with what such a scene has met instead of what scene() has.
+  Diagnostics findings_with(const Diagnostics& of_scene) const;
+
+  /// The last stage that was made.
+  Stage reached() const;
+  /// Called with every stage when it is made, before its work begins; may be empty.
+  void observe(std::function<void(Stage)> observer);
+
+ private:
+  struct Parts;
+  explicit LoadedDeck(std::unique_ptr<Parts> parts);
+  friend Result<LoadedDeck> load(const std::string& path, const LoadOptions& options);
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Reads a deck with everything it includes. Only a main file that cannot be read is an error; all
+/// else is a finding.
+Result<LoadedDeck> load(const std::string& path, const LoadOptions& options = {});
+
+}  // namespace deck
