@@ -14,15 +14,16 @@
 namespace deck {
 
 /// Whatever --fail-on says, a finding of these ends with 1: the bound was asked for.
-inline constexpr RuleId gate_rules[] = {RuleId::DK370, RuleId::DK371, RuleId::DK372,
-                                        RuleId::DK373, RuleId::DK374, RuleId::DK375};
+inline constexpr RuleId gate_rules[] = {RuleId::DK370, RuleId::DK371, RuleId::DK372, RuleId::DK373,
+                                        RuleId::DK374, RuleId::DK375, RuleId::DK376};
 
 /// Bounds; what is not set does not bound.
 struct GateLimits {
-  std::optional<double> max_depth;         ///< of a penetration, working units
-  std::optional<double> max_ratio;         ///< penetration over gap
-  std::optional<double> max_dt_loss;       ///< 1 - contact step / step of the mesh
-  std::optional<std::uint64_t> max_count;  ///< penetrating nodes and edges, each once
+  std::optional<double> max_depth;          ///< of a penetration, working units
+  std::optional<double> max_ratio;          ///< penetration over gap
+  std::optional<double> max_dt_loss;        ///< 1 - contact step / step of the mesh
+  std::optional<std::uint64_t> max_count;   ///< penetrating nodes and edges, each once
+  std::optional<std::uint64_t> max_untied;  ///< nodes of /INTER/TYPE2 that are not tied
 };
 
 /// Bounds for some interfaces, or for some pairs of parts, instead of the general ones.
@@ -32,7 +33,7 @@ struct GateScope {
 };
 
 struct Gate {
-  GateLimits general;                 ///< max_count: of the whole deck
+  GateLimits general;                 ///< max_count, max_untied: of the whole deck
   std::vector<GateScope> interfaces;  ///< [[gate.interface]]; the last that matches holds
   std::vector<GateScope> part_pairs;  ///< [[gate.part-pair]], either way round; before interfaces
   bool on_fresh = false, on_worse = false;  ///< --fail-on new, worse: against an earlier run
