@@ -107,6 +107,12 @@ class Deck:
         for i in range(0, len(values), 10):
             self.raw("".join("%10s" % v for v in values[i:i + 10]) + "\n")
 
+    def type2(self, iid, title, grnd, surf, Ignore=None, Spotflag=None, Level=None, Isearch=None, Idel2=None, dsearch=None):
+        self.block("/INTER/TYPE2/%d" % iid, title,
+                   cells(*ints(1, ("grnd_IDs", grnd), ("surf_IDm", surf), ("Ignore", Ignore), ("Spotflag", Spotflag),
+                               ("Level", Level), ("Isearch", Isearch), ("Idel2", Idel2)), (81, 100, "dsearch", dsearch)),
+                   *([cells(*reals(1, ("Stfac", 1.0), ("Visc", 0.05)), (61, 70, "Istf", 2))] if Spotflag in (25, 26, 27, 28) else []))
+
     def type7(self, iid, title, grnd, surf, Istf=None, Ithe=None, Igap=None, Ibag=None, Idel=None, Icurv=None, Iadm=None,
               Fscalegap=None, Gapmax=None, Fpenmax=None, ITIED=None, Stmin=None, Stmax=None, mesh=None,
               dtmin=None, Irem_gap=None, Irem_i2=None, Stfac=None, Fric=None, Gapmin=None, Tstart=None,
@@ -328,6 +334,52 @@ def tied_layer():
     d.ids("/GRNOD/PART/1", "strip", [3])
     d.type10(1, "tied for good, gap given", 1, 1, Idel=2, Stfac=0.2, Gap=1.5, ITIED=1, VISs=0.05, Bumult=0.2)
     d.type10(2, "rebound allowed, gap by default", 1, 1, Idel=2, Stfac=0.2, ITIED=0, VISs=0.05, Bumult=0.2)
+    return d.end()
+
+
+def welds():
+    d = Deck("welds", "TYPE2: a tie for every way to lose a node")
+    d.note("""Brackets, studs and a block on one panel. Interface 1 holds. Interface 2 loses two nodes that are raised and two
+              beyond the rim (1157). Interface 3 has no dsearch and Ignore 3: it looks no farther than the sheets are thick (1071).
+              Interface 4 drops a stud although Ignore is 1000 (1158). Interface 6 repeats ties of interface 5 (1630).
+              Interface 7 ties one node from beyond the rim (1079) and one from 7 mm away in line with a mesh line, without
+              a word. Interface 8 leaves out condensed mid nodes (1209). Interface 9 has a node too far with Ignore 1000:
+              the solver stops (1078).""")
+    d.elastic(1, "steel")
+    d.shell_prop(1, "panel", 1.6)
+    d.shell_prop(2, "bracket", 1.0)
+    d.block("/PROP/SOLID/3", "block",
+            cells((1, 10, "Isolid", 0), (41, 50, "Itetra10", 2)), cells((1, 20, "qa", 0.0)), cells((1, 20, "dt_min", 0.0)))
+    for pid, name, prop in ((1, "panel", 1), (2, "bracket that holds", 2), (3, "bracket that loses nodes", 2), (4, "clip", 2), (5, "block", 3)):
+        d.part(pid, name, prop, 1)
+    panel, p = plate(1, 1, 6, 4, 10.0, 10.0, lambda u, v: (u, v, 0.0))
+    good, g = plate(101, 101, 2, 1, 8.0, 6.0, lambda u, v: (u + 3.0, v + 2.0, 1.3))
+    poor, q = plate(201, 201, 4, 1, 10.0, 6.0, lambda u, v: (u + 27.0, v + 2.0, 3.2 if u == 20.0 else 1.3))
+    clip, c = plate(301, 301, 1, 1, 6.0, 6.0, lambda u, v: (u + 3.0, v + 22.0, 1.3 + 0.2 * u))
+    corners = [(20.0, 22.0, 1.0), (24.0, 22.0, 1.0), (20.0, 26.0, 1.0), (20.0, 22.0, 5.0)]
+    middle = [tuple(0.5 * (a + b) for a, b in zip(corners[i], corners[j])) for i, j in ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))]
+    block = [(401 + i, x) for i, x in enumerate(corners + middle)]
+    studs = [(501, (72.0, 25.0, 1.0)), (502, (61.0, 25.0, 1.0)), (503, (50.0, 47.0, 0.5)), (504, (35.0, 35.0, 6.0))]
+    d.nodes(panel + good + poor + clip + block + studs)
+    for pid, quads in ((1, p), (2, g), (3, q), (4, c)):
+        d.elements("SHELL", pid, quads)
+    d.raw("/TETRA10/5\n       401\n" + "".join("%10d" % n for n, _ in block) + "\n")
+    d.ids("/SURF/PART/1", "panel", [1])
+    for pid, name in ((2, "bracket that holds"), (3, "bracket that loses nodes"), (4, "clip")):
+        d.ids("/GRNOD/PART/%d" % pid, name, [pid])
+    d.ids("/GRNOD/NODE/5", "foot of the block", [401, 402, 403, 405, 406, 407])
+    d.ids("/GRNOD/NODE/6", "stud beside the panel", [501])
+    d.ids("/GRNOD/NODE/7", "studs at the rim", [502, 503])
+    d.ids("/GRNOD/NODE/8", "stud above the panel", [504])
+    d.type2(1, "holds", 2, 1, Ignore=1, Spotflag=5, dsearch=2.0)
+    d.type2(2, "raised or beyond the rim", 3, 1, Ignore=1, Spotflag=5, dsearch=2.0)
+    d.type2(3, "no farther than the sheets are thick", 4, 1, Ignore=3, Spotflag=5)
+    d.type2(4, "dropped in spite of Ignore", 6, 1, Ignore=1000, Spotflag=28, dsearch=30.0)
+    d.type2(5, "first", 2, 1, Ignore=1, Spotflag=27, dsearch=2.0)
+    d.type2(6, "the same again", 2, 1, Ignore=1, Spotflag=27, dsearch=2.0)
+    d.type2(7, "tied from afar", 7, 1, Ignore=1, Spotflag=5)
+    d.type2(8, "mid nodes", 5, 1, Ignore=1, Spotflag=5, dsearch=2.0)
+    d.type2(9, "too far", 8, 1, Ignore=1000, Spotflag=5, dsearch=4.0)
     return d.end()
 
 
@@ -598,7 +650,7 @@ def crash_box():
     return d.end()
 
 
-ALL = (clean_plates, too_close, inacti_variants, crossing_edges, two_surfaces, tied_layer, variable_gap, include_tree,
+ALL = (clean_plates, too_close, inacti_variants, crossing_edges, two_surfaces, tied_layer, welds, variable_gap, include_tree,
        units_and_parameters, solid_and_skin, hot_contact, sets_and_friction, crash_box)
 
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contact/scene/scene_parts.hpp"
+#include "contact/tied/parts.hpp"
 #include "cycle/contact_run.hpp"
 #include "deck/model/mesh_memory.hpp"
 #include "deck/text/rule_id.hpp"
@@ -34,6 +35,7 @@ struct LoadedDeck::Parts {
   const Interfaces& values();
   const Scene& the_scene();
   const Scene& mesh_values(const Progress& progress);
+  const std::vector<Tie>& the_ties();
   const FirstCycle& the_cycle();
   void find(Stage until);
   Scene build(const SceneOptions& wanted, Diagnostics& to) {
@@ -57,6 +59,7 @@ struct LoadedDeck::Parts {
   bool resolved = false;  ///< the interfaces have the values that follow from the mesh
   SceneOptions scene_options;
   std::optional<Scene> mesh, scene, cycle_scene;  ///< the last only where `scene` will not do
+  std::optional<std::vector<Tie>> ties;           ///< where `scene` was made without
   std::optional<FirstCycle> cycle;
 };
 
@@ -104,6 +107,13 @@ const Scene& LoadedDeck::Parts::mesh_values(const Progress& progress) {
   const Scene& values = holds_values() ? *scene : *mesh;
   if (!std::exchange(resolved, true) && waits_for_geometry(cards())) resolve(cards(), values);
   return values;
+}
+
+const std::vector<Tie>& LoadedDeck::Parts::the_ties() {
+  const Scene& of = the_scene();
+  if (scene_options.ties) return of.ties;
+  if (!ties) ties = detail::find_ties(of, scene_options);
+  return *ties;
 }
 
 const FirstCycle& LoadedDeck::Parts::the_cycle() {
@@ -200,6 +210,7 @@ void LoadedDeck::drop_scene() {
   Parts& p = *parts_;
   p.cycle.reset();
   p.cycle_scene.reset();
+  p.ties.reset();
   p.scene.reset();
   p.found.forget_scene();
   p.joined = false;
@@ -211,6 +222,7 @@ void LoadedDeck::set_scene_options(const SceneOptions& options) {
 }
 
 const Scene& LoadedDeck::scene() const { return parts_->the_scene(); }
+const std::vector<Tie>& LoadedDeck::ties() const { return parts_->the_ties(); }
 const FirstCycle& LoadedDeck::cycle() const { return parts_->the_cycle(); }
 
 const Diagnostics& LoadedDeck::findings() const {

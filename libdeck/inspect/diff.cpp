@@ -188,7 +188,7 @@ class Differ {
   }
 
   static const InterBase* inter_of(const DiffSide& side, const Block& block) {
-    for (const InterBase* i : side.interfaces->ordered)
+    for (const InterBase* i : side.interfaces->all)
       if (i->block == &block) return i;
     return nullptr;
   }
@@ -224,7 +224,7 @@ class Differ {
     std::vector<FieldValue> out;
     const DecodedBlock d = decode(*side.deck, *inter.block);
     const detail::ImpliedOnes ones = detail::implied_ones(d);
-    visit_interface(inter, [&](const auto& t) {
+    visit_any_interface(inter, [&](const auto& t) {
       t.for_each([&](std::string_view name, const auto& e) {
         FieldValue f;
         f.name = name;

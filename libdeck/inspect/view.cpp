@@ -22,7 +22,7 @@ class Viewer {
   Viewer(const Deck& deck, const Model& model, const Interfaces& interfaces, const Entity& entity)
       : deck_(deck), model_(model), selections_(*model.selections), definitions_(deck) {
     view_.entity = entity;
-    for (const InterBase* inter : interfaces.ordered)
+    for (const InterBase* inter : interfaces.all)
       if (inter->block == entity.block) view_.inter = inter;
   }
 

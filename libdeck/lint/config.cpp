@@ -103,11 +103,13 @@ Result<void> read_severity(const toml::node& node, LintConfig& config) {
 /// A bound of the gate; false: `name` is none.
 Result<bool> read_bound(std::string_view name, const toml::node& node, const std::string& path,
                         GateLimits& limits) {
-  if (name == "max-count") {
+  if (name == "max-count" || name == "max-untied") {
     const auto count = node.value<std::int64_t>();
     if (!node.is_integer() || *count < 0)
-      return config_error(path, line_of(node), "'max-count' is a whole number, 0 or more");
-    limits.max_count = static_cast<std::uint64_t>(*count);
+      return config_error(path, line_of(node),
+                          "'" + std::string(name) + "' is a whole number, 0 or more");
+    (name == "max-count" ? limits.max_count : limits.max_untied) =
+        static_cast<std::uint64_t>(*count);
     return true;
   }
   std::optional<double>* bound = name == "max-depth"     ? &limits.max_depth

@@ -57,15 +57,18 @@ class Check {
  public:
   Check(const Gate& gate, const Scene& scene, const SceneView& view)
       : gate_(gate), scene_(scene), view_(view) {
-    for (const InterBase* inter : scene.interfaces->ordered) {
+    for (const InterBase* inter : scene.interfaces->all) {
       GateLimits limits = gate.general;
-      limits.max_count.reset();  // that of the deck is another bound than that of an interface
+      // Those of the deck are other bounds than those of an interface.
+      limits.max_count.reset();
+      limits.max_untied.reset();
       const GateScope* scope = nullptr;
       for (const GateScope& s : gate.interfaces)
         if (matches(s.match[0], inter->id, inter->title)) scope = &s;
       if (scope != nullptr) {
         override_by(limits, scope->limits);
         limits.max_count = scope->limits.max_count;
+        limits.max_untied = scope->limits.max_untied;
       }
       limits_.emplace(inter, limits);
     }
@@ -119,6 +122,22 @@ class Check {
              fmt::format("the deck: {} penetrate, the gate allows {}", of_deck.text(), *most));
   }
 
+  void ties() {
+    std::set<NodeIndex> of_deck;
+    for (const Tie& tie : scene_.ties) {
+      std::size_t lost = 0;
+      for (const TiedNode& n : tie.nodes)
+        if (n.lost()) {
+          ++lost;
+          of_deck.insert(n.node);
+        }
+      if (const auto most = limits_.at(tie.inter).max_untied; most && lost > *most)
+        report(RuleId::DK376, tie.inter, untied_text(name_of(tie.inter), lost, *most));
+    }
+    if (const auto most = gate_.general.max_untied; most && of_deck.size() > *most)
+      report(RuleId::DK376, nullptr, untied_text("the deck", of_deck.size(), *most));
+  }
+
   void time_steps(const cycle::SceneOutcome& forces) {
     for (const cycle::InterfaceSummary& s : cycle::summarize(scene_, forces)) {
       const auto most = limits_.at(s.inter).max_dt_loss;
@@ -163,6 +182,11 @@ class Check {
  private:
   static std::string name_of(const InterBase* inter) {
     return fmt::format("/INTER/TYPE{} {}", inter->type, inter->id);
+  }
+
+  static std::string untied_text(const std::string& of, std::size_t lost, std::uint64_t most) {
+    return fmt::format("{}: {} not tied, the gate allows {}", of,
+                       count(lost, "node is", "nodes are"), most);
   }
 
   /// "node 57 by 0.4 of a gap of 1.2"
@@ -215,7 +239,7 @@ class Check {
 };
 
 bool any_limit(const GateLimits& l) {
-  return l.max_depth || l.max_ratio || l.max_dt_loss || l.max_count;
+  return l.max_depth || l.max_ratio || l.max_dt_loss || l.max_count || l.max_untied;
 }
 
 template <class F>
@@ -238,6 +262,7 @@ std::vector<Diagnostic> check_gate(const Gate& gate, const Scene& scene, const S
                                    const cycle::SceneOutcome* forces, const EarlierGaps* earlier) {
   Check check(gate, scene, view);
   check.penetrations();
+  check.ties();
   if (forces != nullptr && gate.needs_forces()) check.time_steps(*forces);
   if (earlier != nullptr) check.trends(*earlier);
   return std::move(check.found);

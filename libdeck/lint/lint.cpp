@@ -232,9 +232,10 @@ std::vector<NotChecked> not_checked(const LintInput& input, const LintOptions& o
     out.push_back({"blocks of " + std::to_string(unknown.size()) + " keywords: " + joined(unknown),
                    "no schema describes their cards; --schemas DIR adds some"});
   if (input.interfaces != nullptr)
-    if (const auto text = not_examined_text(coverage_of(input.deck, *input.interfaces));
+    if (const auto text = not_examined_text(
+            coverage_of(input.deck, *input.interfaces, Examined::contacts_and_ties));
         !text.empty())
-      out.push_back({text, "only types 7, 10, 11 and 19 have rules"});
+      out.push_back({text, "only types 2, 7, 10, 11 and 19 have rules"});
   if (!opaque.empty())
     out.push_back({"encrypted blocks: " + joined(opaque), "their cards cannot be read"});
   std::set<std::string> missing;

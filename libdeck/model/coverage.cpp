@@ -33,11 +33,12 @@ std::string ids_text(const std::vector<std::int64_t>& ids) {
 
 }  // namespace
 
-Coverage coverage_of(const Deck& deck, const Interfaces& interfaces) {
+Coverage coverage_of(const Deck& deck, const Interfaces& interfaces, Examined examined) {
   Coverage out;
-  out.examined = interfaces.ordered.size();
+  const auto& looked_at = examined == Examined::contacts ? interfaces.ordered : interfaces.all;
+  out.examined = looked_at.size();
   std::set<const Block*> known;
-  for (const InterBase* i : interfaces.ordered) known.insert(i->block);
+  for (const InterBase* i : looked_at) known.insert(i->block);
   std::map<std::string, std::vector<std::int64_t>> left;
   for (const Block& b : deck.blocks) {
     // /INTER/SUB asks for the output of a part of an interface; it is no interface.

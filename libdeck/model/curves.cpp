@@ -132,6 +132,8 @@ void read_run_options(BuildContext& c) {
       m.has_ale = true;
     } else if (header_starts(block, "/ADMESH")) {
       m.has_adaptive_mesh = true;
+    } else if (header_starts(block, "/CAA")) {
+      m.has_acoustics = true;
     }
   }
 }

@@ -46,6 +46,36 @@ class Rules {
   Rules(const Model& model, const Interfaces& all, const DefaultInter* defaults)
       : model_(model), all_(all), defaults_(defaults) {}
 
+  void apply(InterType2& t) const {
+    default_flag(t.Ignore, "Ignore", nothing);
+    default_flag(t.Spotflag, "Spotflag", model_.has_acoustics ? 4 : 5);
+    default_flag(t.Isearch, "Isearch", 2);
+    default_flag(t.Idel2, "Idel", nothing);
+    // 1000 beats the block and is the solver's own value.
+    if (t.Spotflag.value == nothing) settle<std::int64_t>(t.Spotflag, 5);
+    if (t.Isearch.value == nothing) settle<std::int64_t>(t.Isearch, 2);
+    const std::int64_t f = t.Spotflag.value;
+    const bool penalty = f >= 25 && f <= 28, rupture = f >= 20 && f <= 22;
+    if (f != 0 && f != 5 && f != 1 && !penalty) settle<std::int64_t>(t.Idel2, nothing);
+    if (penalty) {
+      settle<std::int64_t>(t.Level, 0);
+      fallback(t.Stfac, 1.0);
+      fallback(t.Visc, 0.05);
+      default_flag(t.Istf, "Istf", 2);
+      if (t.Istf.value == nothing) settle<std::int64_t>(t.Istf, 2);
+    }
+    if (rupture) {
+      fallback<std::int64_t>(t.Rupt, 2);
+      fallback(t.Max_N_Dist, 1e20);
+      fallback(t.Max_T_Dist, 1e20);
+      if (t.Ifiltr.value == 1) {
+        fallback(t.Alpha, 1.0);
+        settle(t.Alpha, std::clamp(t.Alpha.value, 0.0, 1.0));
+      }
+    }
+    fallback<std::int64_t>(t.Iproj, 1);
+  }
+
   void apply(InterType7& t) const {
     default_flag(t.Istf, "Istf", nothing);
     tied_nodes(t.Irem_i2);
@@ -265,6 +295,26 @@ class Rules {
   const DefaultInter* defaults_;
 };
 
+/// 0 and blank mean 1 in the unit that the card is written in.
+void unit_scales(const Deck& deck, const InterfaceCard& card, InterType2& t) {
+  const std::pair<std::string_view, EffectiveReal*> scales[] = {
+      {"Fscalestress", &t.Fscalestress},
+      {"Fscalestr_rate", &t.Fscalestr_rate},
+      {"Fscaledist", &t.Fscaledist}};
+  const DecodedBlock& block = card.decoded();
+  const UnitSystem* units = deck.units_of(*block.block);
+  const bool rupture = t.Spotflag.value >= 20 && t.Spotflag.value <= 22;
+  for (const auto& [name, field] : scales) {
+    if (field->value != 0) continue;
+    const Cell* cell = block.find(name);
+    if (cell != nullptr && units != nullptr)
+      settle(*field,
+             conversion_factor(*units, deck.begin.working, dimension_of(*cell->field, block)));
+    else if (cell != nullptr || rupture)
+      settle(*field, 1.0);
+  }
+}
+
 int type_of(const Block& block) {
   if (block.schema == nullptr) return 0;
   for (const InterfaceTraits* t : interface_types)
@@ -303,6 +353,14 @@ Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& di
   out.frictions = detail::read_frictions(deck);
   std::vector<std::pair<int, std::size_t>> order;
   for (const Block& block : deck.blocks) {
+    if (block.schema != nullptr && block.schema->keyword == InterType2::traits.keyword) {
+      const InterfaceCard card(deck, block);
+      const Rules rules(model, out, out.defaults_of(InterType2::traits.type));
+      order.emplace_back(InterType2::traits.type, out.type2.size());
+      out.type2.push_back(read_one<InterType2>(card, InterType2::traits.type, rules));
+      unit_scales(deck, card, out.type2.back());
+      continue;
+    }
     const int type = type_of(block);
     if (type == 0) continue;
     const InterfaceCard card(deck, block);
@@ -315,10 +373,17 @@ Interfaces read_interfaces(const Deck& deck, const Model& model, Diagnostics& di
     if (type == 7) check_smoothing(card, out.type7.back(), diagnostics);
   }
   // Only now do the lists stay where they are.
-  for (const auto& [type, i] : order)
+  for (const auto& [type, i] : order) {
+    if (type == InterType2::traits.type) {
+      out.all.push_back(&out.type2[i]);
+      continue;
+    }
     out.each_list([&, type = type, i = i]<class Inter>(std::vector<Inter>& list) {
-      if (Inter::traits.type == type) out.ordered.push_back(&list[i]);
+      if (Inter::traits.type != type) return;
+      out.ordered.push_back(&list[i]);
+      out.all.push_back(&list[i]);
     });
+  }
   return out;
 }
 

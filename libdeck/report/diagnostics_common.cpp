@@ -82,7 +82,7 @@ std::string details(const Diagnostic& d) {
 std::optional<Coverage> coverage_of(const LintedDeck& linted) {
   if (linted.deck == nullptr || linted.interfaces == nullptr) return std::nullopt;
   const Deck* const deck = linted.of_interfaces != nullptr ? linted.of_interfaces : linted.deck;
-  return deck::coverage_of(*deck, *linted.interfaces);
+  return deck::coverage_of(*deck, *linted.interfaces, Examined::contacts_and_ties);
 }
 
 std::string SourceRoot::place(std::string_view file) const {

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "deck/base/count.hpp"
+#include "deck/contact/tie_text.hpp"
 #include "deck/text/rule.hpp"
 #include "verdict/parts.hpp"
 
@@ -52,6 +54,7 @@ void say_penetrations(const ContactFacts& f, Sentences& out) {
   const ContactTotals& t = f.total;
   const VerdictCounts counts = {
       {"pairs", t.count.pairs}, {"nodes", t.count.nodes}, {"edges", t.count.edges}};
+  if (f.contacts == 0 && f.ties && f.ties->ties > 0) return;
   if (t.count.pairs == 0)
     out.add("penetrations",
             fmt::format("No initial penetration in {}.",
@@ -88,12 +91,56 @@ void say_penetrations(const ContactFacts& f, Sentences& out) {
     out.add("untied",
             fmt::format("{} not tied: no segment is within reach.",
                         count(t.untied, "node of a TYPE10 is", "nodes of a TYPE10 are")),
-            {{"untied_nodes", t.untied}});
+            {});
   if (const std::uint64_t n = t.crossed_elements.value_or(0); n > 0)
     out.add("crossed",
             fmt::format("{}: an edge of the secondary side passes through a main segment.",
                         count(n, "crossed element", "crossed elements")),
             {{"crossed_elements", n}});
+}
+
+/// "TYPE2 7", "3 TYPE2 (7, 8, 9)"
+std::string names_of(const std::vector<TieFacts::Losses>& losses) {
+  constexpr std::size_t most = 5;
+  if (losses.size() == 1) return fmt::format("TYPE2 {}", losses.front().id);
+  std::string ids;
+  for (std::size_t i = 0; i < std::min(most, losses.size()); ++i)
+    ids += fmt::format("{}{}", i == 0 ? "" : ", ", losses[i].id);
+  if (losses.size() > most) ids += fmt::format(" and {} more", losses.size() - most);
+  return fmt::format("{} TYPE2 ({})", losses.size(), ids);
+}
+
+void say_ties(const TieFacts& f, Sentences& out) {
+  if (f.ties == 0) return;
+  if (f.not_evaluated > 0)
+    out.add("ties_not_evaluated",
+            fmt::format("The nodes of {} could not be looked at.",
+                        count(f.not_evaluated, "TYPE2", "TYPE2")),
+            {{"ties_not_evaluated", f.not_evaluated}});
+  if (f.untied > 0) {
+    std::uint64_t of = 0;
+    for (const TieFacts::Losses& l : f.losses) of += l.nodes;
+    out.add("untied_type2",
+            fmt::format("{} of {} of {} {} not tied.", f.untied, count(of, "node", "nodes"),
+                        names_of(f.losses), f.untied == 1 ? "is" : "are"),
+            {{"untied_type2_nodes", f.untied}});
+  } else if (f.nodes > 0 && f.not_evaluated < f.ties) {
+    out.add("tied_type2",
+            fmt::format("{} of {} tied.", count(f.tied, "node", "nodes"),
+                        count(f.ties, "TYPE2", "TYPE2")),
+            {{"tied_type2_nodes", f.tied}});
+  }
+  if (f.solver_errors > 0)
+    out.add("ties_stop",
+            fmt::format("The solver will stop: {} without a main segment (error 1078).",
+                        count(f.solver_errors, "node is", "nodes are")),
+            {{"tie_errors", f.solver_errors}});
+  if (f.main_and_tied > 0)
+    out.add("main_and_tied",
+            fmt::format("The solver will stop: {} tied (error 556).",
+                        count(f.main_and_tied, "main node of a tie is itself",
+                              "main nodes of ties are themselves")),
+            {{"main_and_tied", f.main_and_tied}});
 }
 
 void say_contacts(const ContactFacts& f, Sentences& out) {
@@ -104,6 +151,7 @@ void say_contacts(const ContactFacts& f, Sentences& out) {
             {{"not_evaluated", f.not_evaluated}});
   say_obstacles(f, out);
   say_penetrations(f, out);
+  if (f.ties) say_ties(*f.ties, out);
 }
 
 /// Errors of the deck: all, those that the solver has as well, and those that it has not. Empty
@@ -177,7 +225,7 @@ VerdictCounts all_counts(const VerdictInput& in, const Coverage& coverage, std::
     note(out, "solver_errors", t.solver_errors);
     note(out, "tied_pairs", t.tied.pairs);
     note(out, "tied_nodes", t.tied.nodes);
-    note(out, "untied_nodes", t.untied);
+    note(out, "untied_nodes", t.untied + (in.contacts->ties ? in.contacts->ties->untied : 0));
     if (t.crossed_elements) note(out, "crossed_elements", *t.crossed_elements);
   }
   note(out, "errors", errors);
@@ -196,8 +244,11 @@ VerdictLevel level_of(const VerdictInput& in, const Coverage& coverage, const Ve
   if (v.count("pairs") > 0) return VerdictLevel::penetrates;
   if (v.count("crossed_elements") > 0) return VerdictLevel::crossed;
   if (v.count("untied_nodes") > 0) return VerdictLevel::untied;
-  const bool left_out = in.contacts ? in.contacts->not_evaluated > 0 || idle(*in.contacts) > 0
-                                    : in.lint && in.lint->contacts_left_out;
+  const bool ties_left_out =
+      in.contacts && in.contacts->ties && in.contacts->ties->not_evaluated > 0;
+  const bool left_out =
+      in.contacts ? in.contacts->not_evaluated > 0 || idle(*in.contacts) > 0 || ties_left_out
+                  : in.lint && in.lint->contacts_left_out;
   // A run of lint that was told not to look at contacts says nothing about them, and lint has rules
   // for decks without any.
   const bool looked = in.contacts || (coverage.nothing() && !in.lint);
@@ -230,6 +281,7 @@ ContactFacts contact_facts(const Scene& scene, const SceneView& view) {
     if (c.evaluated) ++out.obstacles[static_cast<std::size_t>(obstacle_of(c))];
   }
   out.total = view.total;
+  if (scene.examined == Examined::contacts_and_ties) out.ties = tie_facts(scene.ties);
   const double largest = largest_bounded_gap(*scene.model);
   for (const NamedPenetration& p : view.penetrations) {  // deepest first
     const PenetrationRow& row = scene.contacts[p.contact].penetrations[p.row];
@@ -243,9 +295,32 @@ ContactFacts contact_facts(const Scene& scene, const SceneView& view) {
   return out;
 }
 
+TieFacts tie_facts(const std::vector<Tie>& ties) {
+  TieFacts out;
+  out.ties = ties.size();
+  std::set<NodeIndex> main_and_tied;
+  for (const Tie& tie : ties) {
+    out.not_evaluated += !tie.not_evaluated.empty();
+    if (!tie.not_evaluated.empty()) continue;
+    const TieCounts counts = count_ties(tie);
+    out.nodes += counts.nodes;
+    out.tied += counts.tied;
+    const std::uint64_t lost = counts.lost();
+    out.untied += lost;
+    if (lost > 0) out.losses.push_back({tie.inter->id, counts.nodes, lost});
+    for (const TiedNode& n : tie.nodes) out.solver_errors += n.message == 1078;
+    main_and_tied.insert(tie.main_and_tied.begin(), tie.main_and_tied.end());
+  }
+  out.main_and_tied = main_and_tied.size();
+  return out;
+}
+
 Verdict make_verdict(const VerdictInput& in) {
   Coverage coverage;
-  if (in.interfaces != nullptr) coverage = coverage_of(*in.deck, *in.interfaces);
+  const bool with_ties = in.lint || (in.contacts && in.contacts->ties);
+  if (in.interfaces != nullptr)
+    coverage = coverage_of(*in.deck, *in.interfaces,
+                           with_ties ? Examined::contacts_and_ties : Examined::contacts);
   const DeckErrors errors = errors_of(*in.deck);
   Verdict v;
   Sentences say;
@@ -269,8 +344,11 @@ Verdict make_verdict(const VerdictInput& in) {
                          contacts_with(*in.contacts, {Obstacle::no_gap, Obstacle::no_area,
                                                       Obstacle::no_element}) > 0);
   v.undecided = !in.lint && in.contacts && in.contacts->not_evaluated > 0;
-  v.level =
-      level_of(in, coverage, v, v.stops_before_pairs || (!in.lint && v.count("solver_errors") > 0));
+  v.level = level_of(
+      in, coverage, v,
+      v.stops_before_pairs ||
+          (!in.lint &&
+           v.count("solver_errors") + v.count("tie_errors") + v.count("main_and_tied") > 0));
   v.warns = in.lint ? in.lint->warnings > 0
                     : v.count("pairs") + v.count("crossed_elements") + v.count("untied_nodes") > 0;
   if (in.lint) say.all.insert(say.all.begin(), lint_sentence(*in.lint, v.level));

@@ -126,6 +126,8 @@ void examples(Seeds& seeds) {
       const std::string name =
           std::string(id_text(rule.id)) + (text == rule.bad ? "_bad" : "_good");
       if (example.main.size() > 12000) continue;
+      if (text.find("/INTER/TYPE2/") != std::string_view::npos)
+        seeds.put("fuzz_ties", name, std::string(text));
       std::string tree = example.main;
       for (const auto& [file, content] : example.files) tree += "=== " + file + "\n" + content;
       if (!example.files.empty()) seeds.put("fuzz_includes", name, tree);

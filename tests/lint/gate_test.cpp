@@ -30,6 +30,7 @@ struct Measured {
     out->interfaces = read_interfaces(out->deck, out->model, out->found);
     SceneOptions options;
     options.nodal_stiffness = true;
+    options.ties = true;
     out->scene = build_scene(out->model, out->interfaces, out->found, options);
     out->view = make_view(out->scene);
     out->forces = cycle::run_cycle(out->scene, cycle::make_state(out->scene));
@@ -52,7 +53,7 @@ struct Measured {
 /// A gate that asks for everything: bounds that the bad examples pass over and the good ones keep.
 Gate strict() {
   Gate gate;
-  gate.general = {0.9, 0.2, 0.5, 3};
+  gate.general = {0.9, 0.2, 0.5, 3, 3};
   gate.on_fresh = gate.on_worse = true;
   return gate;
 }

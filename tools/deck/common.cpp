@@ -312,7 +312,8 @@ int for_each_deck(const CommonOptions& options, const std::function<int(LoadedDe
 
 int examined_code(const LoadedDeck& loaded, const CommonOptions& options) {
   if (!options.require_examined) return exit_clean;
-  const bool nothing = coverage_of(loaded.deck(), loaded.interfaces()).nothing();
+  const bool nothing =
+      coverage_of(loaded.deck(), loaded.interfaces(), Examined::contacts_and_ties).nothing();
   return nothing ? exit_findings : exit_clean;
 }
 
@@ -335,15 +336,17 @@ std::string list_of(const std::vector<std::int64_t>& ids, std::int64_t wanted) {
 }  // namespace
 
 Result<void> check_interfaces(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
-                              std::string_view option) {
+                              std::string_view option, Examined which) {
   std::vector<std::int64_t> known;
-  for (const InterBase* i : loaded.interfaces().ordered) known.push_back(i->id);
+  const bool ties = which == Examined::contacts_and_ties;
+  for (const InterBase* i : ties ? loaded.interfaces().all : loaded.interfaces().ordered)
+    known.push_back(i->id);
   std::sort(known.begin(), known.end());
   for (const std::int64_t id : ids) {
     if (std::binary_search(known.begin(), known.end(), id)) continue;
-    std::string text = fmt::format("{} {}: {} has no interface {} of TYPE7, 10, 11 or 19", option,
-                                   id, loaded.path(), id);
-    for (const NotExamined& n : coverage_of(loaded.deck(), loaded.interfaces()).not_examined)
+    std::string text = fmt::format("{} {}: {} has no interface {} of TYPE{}7, 10, 11 or 19", option,
+                                   id, loaded.path(), id, ties ? "2, " : "");
+    for (const NotExamined& n : coverage_of(loaded.deck(), loaded.interfaces(), which).not_examined)
       if (std::find(n.ids.begin(), n.ids.end(), id) != n.ids.end())
         text += fmt::format("; {}/{} is of a type that is not examined", n.keyword, id);
     text += known.empty() ? "; it has none at all" : "; it has " + list_of(known, id);

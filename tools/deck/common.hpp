@@ -112,7 +112,7 @@ int examined_code(const LoadedDeck& loaded, const CommonOptions& options);
 /// Refuses ids that are no interface of the deck of TYPE7, 10, 11 or 19. The error lists those that
 /// there are. `option` is what the ids were given to.
 Result<void> check_interfaces(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
-                              std::string_view option);
+                              std::string_view option, Examined which = Examined::contacts);
 /// The same for parts.
 Result<void> check_parts(const LoadedDeck& loaded, const std::vector<std::int64_t>& ids,
                          std::string_view option);

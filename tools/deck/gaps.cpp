@@ -26,7 +26,7 @@ struct Options {
   bool fail = false;
   bool crossings = false;
   std::size_t worst = 20;
-  std::string csv, html, svg, vtk, write_baseline, accuracy = "robust";
+  std::string csv, ties_csv, html, svg, vtk, write_baseline, accuracy = "robust";
   GateOptions gate;
   std::vector<std::int64_t> only;
   std::vector<std::string> what_if;
@@ -35,7 +35,9 @@ struct Options {
 /// Refuses --interface and --what-if that do not fit the deck.
 Result<void> check_options(const Options& o, const LoadedDeck& loaded,
                            const std::vector<WhatIf>& what_if) {
-  if (auto known = check_interfaces(loaded, o.only, "--interface"); !known) return known;
+  if (auto known = check_interfaces(loaded, o.only, "--interface", Examined::contacts_and_ties);
+      !known)
+    return known;
   for (const WhatIf& w : what_if) {
     if (auto known = check_interfaces(loaded, {w.interface_id}, "--what-if"); !known) return known;
     for (const InterBase* inter : loaded.interfaces().ordered)
@@ -103,8 +105,8 @@ int run(const Options& o) {
     print_error(o.common, "--html and --svg take one deck at a time");
     return exit_usage;
   }
-  if (const int bad =
-          check_outputs(o.common, {o.common.json, o.csv, o.html, o.svg, o.write_baseline});
+  if (const int bad = check_outputs(
+          o.common, {o.common.json, o.csv, o.ties_csv, o.html, o.svg, o.write_baseline});
       bad != exit_clean)
     return bad;
   SceneOptions scene_options;
@@ -112,6 +114,7 @@ int run(const Options& o) {
   scene_options.only = o.only;
   scene_options.accuracy = accuracy_of(o.accuracy);
   scene_options.limits = o.common.limits;
+  scene_options.ties = true;
   for (const std::string& text : o.what_if) {
     auto w = parse_what_if(text);
     if (!w) {
@@ -176,6 +179,14 @@ int run(const Options& o) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }
+    if (!o.ties_csv.empty())
+      if (auto r = write_output(
+              o.ties_csv,
+              [&](const TextDrain& drain) { return ties_csv(loaded.deck(), scene, drain); });
+          !r) {
+        print_error(o.common, r.error().message);
+        return static_cast<int>(exit_usage);
+      }
     if (!o.vtk.empty())
       if (auto r = write_vtk(o, loaded, scene, view); !r) {
         print_error(o.common, r.error().message);
@@ -191,7 +202,8 @@ int run(const Options& o) {
         print_error(o.common, r.error().message);
         return static_cast<int>(exit_usage);
       }
-    if (o.common.wants_text() && o.csv != "-" && o.html != "-" && o.svg != "-") {
+    if (o.common.wants_text() && o.csv != "-" && o.ties_csv != "-" && o.html != "-" &&
+        o.svg != "-") {
       GapsTextOptions text;
       text.worst = o.worst;
       text.color = o.common.color_on(1);
@@ -218,6 +230,9 @@ Action setup(CommandLine& line) {
             "JSON with every secondary node, main segment and edge, not only penetrations");
   line.option("--csv", options->csv,
               "Write one line per penetration to FILE ('-': standard output)")
+      .value("FILE");
+  line.option("--ties-csv", options->ties_csv,
+              "Write one line per secondary node of every TYPE2 to FILE ('-': standard output)")
       .value("FILE");
   line.flag("--crossings", options->crossings,
             "List the crossed elements: edges of the secondary side through main segments");

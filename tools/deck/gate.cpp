@@ -46,7 +46,8 @@ std::string GateOptions::level() const {
 
 bool GateOptions::given() const {
   return max_depth >= 0 || max_ratio >= 0 || max_dt_loss >= 0 || max_count >= 0 ||
-         !compare.empty() || !baseline.empty() || fails_on("new") || fails_on("worse");
+         max_untied >= 0 || !compare.empty() || !baseline.empty() || fails_on("new") ||
+         fails_on("worse");
 }
 
 void add_gate(CommandLine& line, GateOptions& o) {
@@ -59,6 +60,10 @@ void add_gate(CommandLine& line, GateOptions& o) {
       .number(0, 1)
       .value("R");
   gate.option("--max-count", o.max_count, "Penetrating nodes and edges of the deck, each once")
+      .range(0, INT_MAX)
+      .value("N");
+  gate.option("--max-untied", o.max_untied,
+              "Nodes of /INTER/TYPE2 in the deck that are not tied, each once")
       .range(0, INT_MAX)
       .value("N");
   gate.option("--max-dt-loss", o.max_dt_loss,
@@ -119,6 +124,7 @@ Result<DeckGate> gate_of(const GateOptions& o, const LintConfig& config,
   set(out.gate.general.max_ratio, o.max_ratio);
   set(out.gate.general.max_dt_loss, o.max_dt_loss);
   if (o.max_count >= 0) out.gate.general.max_count = static_cast<std::uint64_t>(o.max_count);
+  if (o.max_untied >= 0) out.gate.general.max_untied = static_cast<std::uint64_t>(o.max_untied);
   out.gate.on_fresh |= o.fails_on("new");
   out.gate.on_worse |= o.fails_on("worse");
   // What the command line names goes before both of the configuration.

@@ -18,7 +18,7 @@ namespace deck::cli {
 struct GateOptions {
   // Below zero: not given.
   double max_depth = -1, max_ratio = -1, max_dt_loss = -1;
-  int max_count = -1;
+  int max_count = -1, max_untied = -1;
   std::vector<std::string> fail_on;  ///< words: new, worse, error, warning, never
   std::string compare;               ///< an earlier `deck gaps --json`
   std::string baseline;              ///< accepted penetrations; of `deck gaps` alone
@@ -32,7 +32,8 @@ struct GateOptions {
   bool given() const;
 };
 
-/// Adds --max-depth, --max-ratio, --max-count, --max-dt-loss and --compare under a heading.
+/// Adds --max-depth, --max-ratio, --max-count, --max-untied, --max-dt-loss and --compare under a
+/// heading.
 void add_gate(CommandLine& line, GateOptions& options);
 /// Adds --fail-on, --config and --no-config as well, for verbs that do not have them for
 /// themselves. `error` and `warning` say in the help what these words stop at.

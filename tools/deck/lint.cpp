@@ -118,6 +118,7 @@ LintResult lint_loaded(LoadedDeck& loaded, const LintOptions& options, Geometry 
                        const DeckGate& gate, std::optional<ContactFacts>& contacts) {
   SceneOptions wanted = loaded.scene_options();
   wanted.candidates = false;
+  wanted.ties = geometry != Geometry::none;
   loaded.set_scene_options(wanted);
   LintInput input(loaded);
   if (geometry != Geometry::none)

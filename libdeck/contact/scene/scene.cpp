@@ -10,6 +10,7 @@
 #include "contact/rules/gaps.hpp"
 #include "contact/scene/doubts.hpp"
 #include "contact/scene/scene_parts.hpp"
+#include "contact/tied/parts.hpp"
 #include "deck/text/rule.hpp"
 
 namespace deck {
@@ -447,6 +448,10 @@ Scene detail::build_scene(const Model& model, const Interfaces& interfaces,
   Connectivity connectivity(model);
   SceneContext context{model, connectivity, scene, diagnostics, options, searches};
   Builder(context, *model.selections).build();
+  if (options.ties) {
+    scene.ties = find_ties(context);
+    scene.examined = Examined::contacts_and_ties;
+  }
   return scene;
 }
 

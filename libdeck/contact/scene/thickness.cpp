@@ -82,7 +82,7 @@ double solid_volume(const Coordinates& x, const NodeIndex* n) {
   const Vec c = at(x, n[4]) - at(x, n[2]), d = at(x, n[5]) - at(x, n[3]);
   const Vec ad = a + d, bc = b + c;
   const Vec j1 = ad - bc;
-  const Vec j2 = (a + b) - (c + d);
+  const Vec j2 = a + b - c - d;  // in this order: search distances of ties hang on its last bit
   const Vec j3 = ad + bc;
   return std::fabs(dot(j1, cross(j2, j3))) / 64;
 }

@@ -43,7 +43,7 @@ class Resolver {
         out_(out) {}
 
   void run() {
-    visit_interface(inter_, [&](const auto& t) {
+    visit_any_interface(inter_, [&](const auto& t) {
       t.for_each([&](std::string_view name, const auto& e) { field(name, e); });
     });
     keep_meaning();
@@ -262,8 +262,7 @@ class Resolver {
 Rewrite resolve_defaults(const EditContext& context, const ResolveOptions& options) {
   Rewrite out;
   LineEdits lines(context.deck.sources);
-  for (const InterBase* inter : context.interfaces.ordered)
-    Resolver(context, *inter, lines, out).run();
+  for (const InterBase* inter : context.interfaces.all) Resolver(context, *inter, lines, out).run();
   lines.finish(out.edits);
   for (const LossEntry& e : out.losses)
     if (e.loss == Loss::undecided && !options.allow_loss)

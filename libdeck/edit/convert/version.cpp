@@ -39,7 +39,7 @@ class VersionRewriter {
  public:
   VersionRewriter(const EditContext& context, int target, const VersionOptions& options)
       : c_(context), target_(target), options_(options), lines_(context.deck.sources) {
-    for (const InterBase* inter : c_.interfaces.ordered) inter_of_.emplace(inter->block, inter);
+    for (const InterBase* inter : c_.interfaces.all) inter_of_.emplace(inter->block, inter);
   }
 
   Rewrite run() {

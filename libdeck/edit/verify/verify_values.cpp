@@ -42,7 +42,7 @@ NamedValue named_value(std::string_view name, const Effective<T>& field) {
 
 void values_of(const InterBase& inter, std::vector<NamedValue>& out) {
   out.clear();
-  visit_interface(inter, [&](const auto& typed) {
+  visit_any_interface(inter, [&](const auto& typed) {
     typed.for_each(
         [&](std::string_view name, const auto& field) { out.push_back(named_value(name, field)); });
   });
@@ -70,10 +70,10 @@ std::vector<Dimension> dimensions_of(const Field* field) {
 }  // namespace
 
 DeckComparison::Difference DeckComparison::values() const {
-  const auto &was = before.context.interfaces.ordered, &now = after.context.interfaces.ordered;
+  const auto &was = before.context.interfaces.all, &now = after.context.interfaces.all;
   const bool by_place = !relation.extract && !relation.expanded;
   if (by_place && was.size() != now.size())
-    return fmt::format("the deck has {} interfaces of TYPE7, 10, 11 and 19, expected {}",
+    return fmt::format("the deck has {} interfaces of TYPE2, 7, 10, 11 and 19, expected {}",
                        now.size(), was.size());
   std::vector<NamedValue> a, b;
   for (std::size_t i = 0; i < now.size(); ++i) {

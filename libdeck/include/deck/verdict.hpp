@@ -55,6 +55,20 @@ struct Verdict {
   std::uint64_t count(std::string_view name) const;
 };
 
+/// What the ties of /INTER/TYPE2 say.
+struct TieFacts {
+  struct Losses {
+    std::int64_t id = 0;  ///< of the interface
+    std::uint64_t nodes = 0, untied = 0;
+  };
+  std::size_t ties = 0, not_evaluated = 0;  ///< interfaces
+  std::uint64_t nodes = 0, tied = 0;
+  std::uint64_t untied = 0;         ///< nodes that no tie of their interface holds and none should
+  std::uint64_t solver_errors = 0;  ///< of those: the solver stops (1078)
+  std::uint64_t main_and_tied = 0;  ///< main nodes that are tied themselves: it stops (556)
+  std::vector<Losses> losses;       ///< interfaces that lose nodes
+};
+
 /// What contacts and their penetrations say; the scene is not needed afterwards.
 struct ContactFacts {
   std::size_t contacts = 0, not_evaluated = 0;
@@ -62,8 +76,10 @@ struct ContactFacts {
   ContactTotals total;
   double deepest = 0, deepest_gap = 0;  ///< of the deepest pair: its depth, and its gap
   std::uint64_t unbounded = 0;  ///< pairs that are left out of these: beyond largest_bounded_gap
+  std::optional<TieFacts> ties;  ///< nullopt: not looked for
 };
 ContactFacts contact_facts(const Scene& scene, const SceneView& view);
+TieFacts tie_facts(const std::vector<Tie>& ties);
 
 /// What a run of lint found, gates left out. Where there was one its errors and warnings decide, as
 /// suppressions, baselines and changed severities have them.

@@ -20,7 +20,8 @@ constexpr FlagRule flag_rules[] = {
     {RuleId::DK207, "Inacti"},    {RuleId::DK208, "Ifric"},    {RuleId::DK209, "Ifiltr"},
     {RuleId::DK210, "Iform"},     {RuleId::DK211, "Irem_gap"}, {RuleId::DK212, "Irem_i2"},
     {RuleId::DK213, "Ithe"},      {RuleId::DK214, "ITIED"},    {RuleId::DK215, "Iedge"},
-    {RuleId::DK216, "Ithe_form"}, {RuleId::DK218, "Idir"},
+    {RuleId::DK216, "Ithe_form"}, {RuleId::DK218, "Idir"},     {RuleId::DK352, "Spotflag"},
+    {RuleId::DK353, "Ignore"},    {RuleId::DK354, "Isearch"},  {RuleId::DK355, "Idel2"},
 };
 
 /// Values with a rule of their own.
@@ -81,6 +82,8 @@ std::span<const Checked> flag_checks() {
       {RuleId::DK210, check_flag}, {RuleId::DK211, check_flag}, {RuleId::DK212, check_flag},
       {RuleId::DK213, check_flag}, {RuleId::DK214, check_flag}, {RuleId::DK215, check_flag},
       {RuleId::DK216, check_flag}, {RuleId::DK217, check_ibc},  {RuleId::DK218, check_flag},
+      {RuleId::DK352, check_flag}, {RuleId::DK353, check_flag}, {RuleId::DK354, check_flag},
+      {RuleId::DK355, check_flag},
   };
   return all;
 }

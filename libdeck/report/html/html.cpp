@@ -62,7 +62,7 @@ std::string meta_json(const HtmlInput& in, const detail::PageContacts& page,
   j.key("summary").begin_object(true);
   write_totals(j, in.view->total);
   j.end_object();
-  write_json_coverage(j, coverage_of(*in.deck, *in.scene->interfaces));
+  write_json_coverage(j, coverage_of(*in.deck, *in.scene->interfaces, in.scene->examined));
   std::uint64_t bytes = 0;
   for (std::uint32_t f = 0; f < in.deck->sources.size(); ++f)
     bytes += in.deck->sources[f].on_disk().size();

@@ -81,7 +81,7 @@ class DeckWriter {
                                               deck_.sources[f].path()};
     }
     if (in_.interfaces != nullptr)
-      for (const InterBase* i : in_.interfaces->ordered) inter_of_.emplace(i->block, i);
+      for (const InterBase* i : in_.interfaces->all) inter_of_.emplace(i->block, i);
     collect_stretches();
     out_.reserve(3 * deck_.total_bytes + 10000);
     json_.begin_object();
@@ -418,7 +418,7 @@ class DeckWriter {
     json_.key("effective");
     const std::size_t begin = out_.size();
     json_.begin_object();
-    visit_interface(*it->second, [&](const auto& t) {
+    visit_any_interface(*it->second, [&](const auto& t) {
       t.for_each([&](std::string_view name, const auto& e) {
         json_.key(name).begin_object(true).key("input");
         if (e.has_input)

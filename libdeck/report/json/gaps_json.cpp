@@ -7,6 +7,7 @@
 #include "model/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
+#include "report/json/ties_json.hpp"
 
 namespace deck {
 namespace {
@@ -199,7 +200,7 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
   write_totals(j, view.total);
   j.end_object();
   if (gate != nullptr) write_gate(j, deck, scene, view, *gate);
-  write_json_coverage(j, coverage_of(deck, *scene.interfaces));
+  write_json_coverage(j, coverage_of(deck, *scene.interfaces, scene.examined));
   write_decisions(j, scene);
   j.key("part_pairs").begin_array();
   for (const PartPair& p : view.part_pairs) {
@@ -247,7 +248,9 @@ std::string gaps_json(std::string_view path, const Deck& deck, const Scene& scen
     }
     j.end_array().end_object();
   }
-  j.end_array().end_object();
+  j.end_array();
+  detail::write_ties(j, scene, all);
+  j.end_object();
   out += '\n';
   return out;
 }

@@ -14,6 +14,7 @@
 #include "model/item_spans.hpp"
 #include "report/accuracy_decisions.hpp"
 #include "report/gaps_names.hpp"
+#include "report/terminal/ties_text.hpp"
 #include "report/terminal/words.hpp"
 
 namespace deck {
@@ -265,6 +266,12 @@ std::string gaps_text(const Deck& deck, const Scene& scene, const SceneView& vie
             decisions_text(scene, 5, options.verbose, options.color, options.width);
         !text.empty())
       out += "\n" + text;
+    out += "\n";
+  }
+  if (!scene.ties.empty()) {
+    out += heading("Ties").substr(1) + detail::tie_table(scene, options);
+    if (const std::string untied = detail::untied_text(deck, scene, options); !untied.empty())
+      out += heading("Nodes that are not tied") + untied;
     out += "\n";
   }
   out += verdict_text(verdict_of(deck, scene, view), options.color);

@@ -52,7 +52,7 @@ std::vector<const Block*> not_evaluated(const ParamsInput& in) {
   std::vector<const Block*> out;
   for (const Block& b : in.deck->blocks) {
     if (!b.header.starts_with("/INTER/")) continue;
-    const bool known = std::any_of(in.interfaces->ordered.begin(), in.interfaces->ordered.end(),
+    const bool known = std::any_of(in.interfaces->all.begin(), in.interfaces->all.end(),
                                    [&](const InterBase* i) { return i->block == &b; });
     if (!known) out.push_back(&b);
   }
@@ -180,7 +180,7 @@ TextTable params_table(const ParamsInput& in, const InterBase& inter,
                    {"value", Align::right},
                    {"origin", Align::left},
                    {"place", Align::left}});
-  visit_interface(inter, [&](const auto& t) {
+  visit_any_interface(inter, [&](const auto& t) {
     t.for_each([&](std::string_view name, const auto& e) {
       if (!wanted(in, inter, name, e, options)) return;
       table.row({std::string(name),
@@ -210,7 +210,7 @@ using MatrixRow = std::vector<std::pair<std::string, MatrixCell>>;
 
 MatrixRow matrix_row(const ParamsInput& in, const InterBase& inter) {
   MatrixRow row;
-  visit_interface(inter, [&](const auto& t) {
+  visit_any_interface(inter, [&](const auto& t) {
     t.for_each([&](std::string_view name, const auto& e) {
       MatrixCell cell;
       cell.present = true;
@@ -238,7 +238,7 @@ struct Matrix {
 
 Matrix matrix_of(const ParamsInput& in, const ParamsTextOptions& options) {
   Matrix m;
-  for (const InterBase* inter : in.interfaces->ordered) {
+  for (const InterBase* inter : in.interfaces->all) {
     if (!wanted(options, *inter)) continue;
     m.interfaces.push_back(inter);
     m.rows.push_back(matrix_row(in, *inter));
@@ -301,9 +301,9 @@ std::string params_matrix(const ParamsInput& in, const ParamsTextOptions& option
 
 std::string params_csv(const ParamsInput& in, const ParamsTextOptions& options) {
   std::string out = "deck,interface,type,title,field,card,value,origin,file,line,column\r\n";
-  for (const InterBase* inter : in.interfaces->ordered) {
+  for (const InterBase* inter : in.interfaces->all) {
     if (!wanted(options, *inter)) continue;
-    visit_interface(*inter, [&](const auto& t) {
+    visit_any_interface(*inter, [&](const auto& t) {
       t.for_each([&](std::string_view name, const auto& e) {
         if (!wanted(in, *inter, name, e, options)) return;
         const Position p = e.span.valid() ? in.deck->sources.position(e.span) : Position{};
@@ -337,7 +337,7 @@ std::string params_matrix_csv(const ParamsInput& in, const ParamsTextOptions& op
 
 void write_json_parameters(JsonWriter& json, const ParamsInput& in, const InterBase& inter) {
   json.key("parameters").begin_object();
-  visit_interface(inter, [&](const auto& t) {
+  visit_any_interface(inter, [&](const auto& t) {
     t.for_each([&](std::string_view name, const auto& e) { json_field(json, in, inter, name, e); });
   });
   // No such cell on the card; its node-to-surface parts have the field all the same.
@@ -346,11 +346,11 @@ void write_json_parameters(JsonWriter& json, const ParamsInput& in, const InterB
 }
 
 std::string params_text(const ParamsInput& in, const ParamsTextOptions& options) {
-  const Coverage coverage = coverage_of(*in.deck, *in.interfaces);
+  const Coverage coverage = coverage_of(*in.deck, *in.interfaces, Examined::contacts_and_ties);
   std::string out;
   if (const std::string lead = coverage_lead(coverage); !lead.empty())
     out += toned(terminal_text(lead), Tone::bold, options.color) + "\n";
-  for (const InterBase* inter : in.interfaces->ordered) {
+  for (const InterBase* inter : in.interfaces->all) {
     if (!wanted(options, *inter)) continue;
     out +=
         toned(fmt::format("/INTER/TYPE{}/{}", inter->type, inter->id), Tone::bold, options.color);
@@ -362,8 +362,10 @@ std::string params_text(const ParamsInput& in, const ParamsTextOptions& options)
   }
   const auto& all = *in.interfaces;
   out += fmt::format("{}: {} (", terminal_text(in.path),
-                     count(all.ordered.size(), "interface", "interfaces"));
+                     count(all.all.size(), "interface", "interfaces"));
   const char* separator = "";
+  if (!all.type2.empty())
+    out += fmt::format("{}TYPE2 {}", std::exchange(separator, ", "), all.type2.size());
   all.each_list([&]<class Inter>(const std::vector<Inter>& list) {
     out +=
         fmt::format("{}TYPE{} {}", std::exchange(separator, ", "), Inter::traits.type, list.size());
@@ -380,11 +382,11 @@ std::string params_json(const ParamsInput& in, const std::vector<std::int64_t>& 
   json.begin_object();
   write_json_head(json, "deck/params", 1);
   write_json_deck(json, in.path, *in.deck, in.model, in.interfaces);
-  write_json_coverage(json, coverage_of(*in.deck, *in.interfaces));
+  write_json_coverage(json, coverage_of(*in.deck, *in.interfaces, Examined::contacts_and_ties));
   json.key("interfaces").begin_array();
   ParamsTextOptions options;
   options.only = only;
-  for (const InterBase* inter : in.interfaces->ordered) {
+  for (const InterBase* inter : in.interfaces->all) {
     if (!wanted(options, *inter)) continue;
     json.begin_object();
     json.field("id", inter->id).field("type", inter->type).field("title", inter->title);

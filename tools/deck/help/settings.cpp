@@ -121,6 +121,12 @@ class Settings {
     else
       add_key("gate." + key, configured ? number(*configured) : "");
   }
+  void whole(const std::string& key, int option, const std::optional<std::uint64_t>& configured) {
+    if (option >= 0)
+      add("gate." + key, std::to_string(option), "--" + key);
+    else
+      add_key("gate." + key, configured ? std::to_string(*configured) : "");
+  }
   static std::string scope_text(const GateScope& scope) {
     std::string out =
         "match = " + (scope.match.size() == 1 ? in_quotes(scope.match[0]) : list_text(scope.match));
@@ -130,6 +136,7 @@ class Settings {
     limit("max-depth", scope.limits.max_depth);
     limit("max-ratio", scope.limits.max_ratio);
     limit("max-count", scope.limits.max_count);
+    limit("max-untied", scope.limits.max_untied);
     limit("max-dt-loss", scope.limits.max_dt_loss);
     return out;
   }
@@ -145,10 +152,8 @@ class Settings {
     const GateOptions& o = given_.gate;
     bound("max-depth", o.max_depth, limits.max_depth);
     bound("max-ratio", o.max_ratio, limits.max_ratio);
-    if (o.max_count >= 0)
-      add("gate.max-count", std::to_string(o.max_count), "--max-count");
-    else
-      add_key("gate.max-count", limits.max_count ? std::to_string(*limits.max_count) : "");
+    whole("max-count", o.max_count, limits.max_count);
+    whole("max-untied", o.max_untied, limits.max_untied);
     bound("max-dt-loss", o.max_dt_loss, limits.max_dt_loss);
     one("gate.compare", o.compare, config_.compare, "--compare");
     one("gate.baseline", o.baseline, config_.accepted, "--baseline");

@@ -35,7 +35,9 @@ int run(const Options& options) {
     return bad;
   JsonOutput json(common, "deck/params", 1);
   const int code = for_each_deck(common, [&](LoadedDeck& loaded) {
-    if (auto known = check_interfaces(loaded, options.only, "--interface"); !known) {
+    if (auto known =
+            check_interfaces(loaded, options.only, "--interface", Examined::contacts_and_ties);
+        !known) {
       print_error(common, known.error().message);
       return static_cast<int>(exit_usage);
     }

@@ -127,6 +127,7 @@ std::shared_ptr<const Geometry> examine(
   if (stop) return nullptr;
   SceneOptions contacts = loaded->scene_options();
   contacts.candidates = false;
+  contacts.ties = true;
   contacts.progress = progress;
   loaded->set_scene_options(contacts);
   auto out = std::make_shared<Geometry>();

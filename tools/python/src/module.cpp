@@ -72,10 +72,10 @@ std::string dimension_of(const Field* field) {
 /// Every field of an interface: (name, value, input or None, origin, place, dimension, meaning).
 py::list interface_fields(const PyDeck& d, std::size_t at) {
   const Deck& deck = d.loaded.deck();
-  const InterBase& inter = *d.loaded.interfaces().ordered.at(at);
+  const InterBase& inter = *d.loaded.interfaces().all.at(at);
   const Schema* const schema = inter.block != nullptr ? inter.block->schema : nullptr;
   py::list out;
-  visit_interface(inter, [&](const auto& typed) {
+  visit_any_interface(inter, [&](const auto& typed) {
     typed.for_each([&](std::string_view name, const auto& e) {
       const Field* const field = schema != nullptr ? schema->find_field(name) : nullptr;
       out.append(py::make_tuple(std::string(name), e.value,
@@ -198,7 +198,7 @@ PYBIND11_MODULE(_native, m) {
       .def("interfaces",
            [](const PyDeck& d) {
              py::list out;
-             for (const InterBase* i : d.loaded.interfaces().ordered)
+             for (const InterBase* i : d.loaded.interfaces().all)
                out.append(py::make_tuple(i->id, i->type, py::bytes(i->title),
                                          place_of(d.loaded.deck(), i->span)));
              return out;

@@ -374,7 +374,7 @@ class Checker {
   // ---- what follows from the cards ------------------------------------------------------------
 
   const InterBase* interface_of(const Block& block) {
-    for (const InterBase* i : loaded_.interfaces().ordered)
+    for (const InterBase* i : loaded_.interfaces().all)
       if (i->block == &block) return i;
     return nullptr;
   }
@@ -388,7 +388,7 @@ class Checker {
     const InterBase* inter = interface_of(block);
     if (inter == nullptr || !stated->is_object())
       fail(place, "this block is no interface with effective values; take the member out");
-    visit_interface(*inter, [&](const auto& t) {
+    visit_any_interface(*inter, [&](const auto& t) {
       std::vector<std::string> known;
       t.for_each([&](std::string_view name, const auto& e) {
         known.emplace_back(name);

@@ -12,7 +12,9 @@
 #include "deck/contact/pair_gap.hpp"
 #include "deck/contact/penetration.hpp"
 #include "deck/contact/search.hpp"
+#include "deck/contact/ties.hpp"
 #include "deck/contact/what_if.hpp"
+#include "deck/model/coverage.hpp"
 #include "deck/model/interfaces.hpp"
 #include "deck/model/model.hpp"
 
@@ -138,14 +140,17 @@ struct Scene {
   const Interfaces* interfaces = nullptr;
   Coordinates coordinates;        ///< after Inacti 3 moved nodes
   std::vector<Contact> contacts;  ///< in the solver's processing order
-  DecisionReport decisions;       ///< of the penetrations
-  Limits limits;                  ///< of SceneOptions, for what is made of the scene
+  std::vector<Tie> ties;          ///< of /INTER/TYPE2, where SceneOptions::ties asks for them
+  Examined examined = Examined::contacts;  ///< with ties: they were asked for
+  DecisionReport decisions;                ///< of the penetrations
+  Limits limits;                           ///< of SceneOptions, for what is made of the scene
 };
 
 struct SceneOptions {
   int threads = 1;
   bool candidates = true;  ///< also count candidates (needs the wider search)
   bool penetrations = true;
+  bool ties = false;                     ///< also find the ties of /INTER/TYPE2
   Accuracy accuracy = Accuracy::robust;  ///< of the contact decisions
   bool nodal_stiffness = false;    ///< fill SecondaryNode::nodal_stiffness (needed for forces)
   std::vector<std::int64_t> only;  ///< interface ids to build; empty: all

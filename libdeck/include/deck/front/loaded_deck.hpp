@@ -95,6 +95,9 @@ class LoadedDeck {
   void set_scene_options(const SceneOptions& options);
   /// The contacts of the deck: segments, gaps, stiffness, penetrations.
   const Scene& scene() const;
+  /// Where the nodes of every /INTER/TYPE2 end up: those of scene() if it was made with them
+  /// (SceneOptions::ties), else found when first asked for.
+  const std::vector<Tie>& ties() const;
   /// Ends the scene and what was made of it, to be made anew where it is asked for again: for who
   /// keeps many decks.
   void drop_scene();

@@ -15,10 +15,11 @@ namespace deck {
 
 /// Bounds; what is not set does not bound.
 struct GateLimits {
-  std::optional<double> max_depth;         ///< of a penetration, working units
-  std::optional<double> max_ratio;         ///< penetration over gap
-  std::optional<double> max_dt_loss;       ///< 1 - contact step / step of the mesh
-  std::optional<std::uint64_t> max_count;  ///< penetrating nodes and edges, each once
+  std::optional<double> max_depth;          ///< of a penetration, working units
+  std::optional<double> max_ratio;          ///< penetration over gap
+  std::optional<double> max_dt_loss;        ///< 1 - contact step / step of the mesh
+  std::optional<std::uint64_t> max_count;   ///< penetrating nodes and edges, each once
+  std::optional<std::uint64_t> max_untied;  ///< nodes of /INTER/TYPE2 that are not tied
 };
 
 /// Bounds for some interfaces, or for some pairs of parts, instead of the general ones.
@@ -28,7 +29,7 @@ struct GateScope {
 };
 
 struct Gate {
-  GateLimits general;                 ///< max_count: of the whole deck
+  GateLimits general;                 ///< max_count, max_untied: of the whole deck
   std::vector<GateScope> interfaces;  ///< [[gate.interface]]; the last that matches holds
   std::vector<GateScope> part_pairs;  ///< [[gate.part-pair]], either way round; before interfaces
   bool on_fresh = false, on_worse = false;  ///< --fail-on new, worse: against an earlier run

@@ -17,7 +17,7 @@ struct NotExamined {
 };
 
 struct Coverage {
-  std::size_t examined = 0;               ///< interfaces of TYPE7, 10, 11 and 19
+  std::size_t examined = 0;               ///< contacts and, where they are examined, ties
   std::vector<NotExamined> not_examined;  ///< by keyword
   std::vector<std::string> missing;       ///< included files that were not read, as written
 
@@ -25,7 +25,10 @@ struct Coverage {
   bool nothing() const { return examined == 0; }
 };
 
-Coverage coverage_of(const Deck& deck, const Interfaces& interfaces);
+/// What was looked at: contacts alone, or the ties of /INTER/TYPE2 as well.
+enum class Examined : std::uint8_t { contacts, contacts_and_ties };
+Coverage coverage_of(const Deck& deck, const Interfaces& interfaces,
+                     Examined examined = Examined::contacts);
 
 /// "3 interfaces of TYPE25 (ids 4, 5, 6), 1 interface of TYPE2 (id 9)"; empty: nothing was left
 /// out.

@@ -1,5 +1,5 @@
 // The contact interfaces as plain structs of effective values: what the solver will use for every
-// field of /INTER/TYPE7, 10, 11, 19, where each value came from, and what the card said.
+// field of /INTER/TYPE2, 7, 10, 11, 19, where each value came from, and what the card said.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -30,11 +30,29 @@ struct InterfaceTraits {
 /// What every interface has.
 struct InterBase {
   std::int64_t id = 0;
-  int type = 0;  ///< 7, 10, 11, 19
+  int type = 0;  ///< 2, 7, 10, 11, 19
   std::string title;
   const Block* block = nullptr;
   Span span;              ///< header
   bool resolved = false;  ///< values of Origin::geometry are filled in (deck/contact/resolve.hpp)
+};
+
+/// A tie. Its fields mean something else than those of contacts, so it is in no list with them.
+struct InterType2 : InterBase {
+  static constexpr InterfaceTraits traits{
+      2, "/INTER/TYPE2", {"grnd_IDs", "grnod"}, {"surf_IDm", "surf"}, "dsearch"};
+  EffectiveInt grnd_IDs, surf_IDm, Ignore, Spotflag, Level, Isearch, Idel2, surf_IDs;
+  EffectiveReal dsearch;
+  EffectiveInt Rupt, Ifiltr, fct_IDsr, fct_IDsn, fct_IDst, Isym;
+  EffectiveReal Max_N_Dist, Max_T_Dist, Fscalestress, Fscalestr_rate, Fscaledist, Alpha, Area;
+  EffectiveReal Stfac, Visc;
+  EffectiveInt Istf, Ithe;
+  EffectiveReal Kthe;
+  EffectiveInt Iproj;
+  template <class F>
+  void for_each(F&& f);
+  template <class F>
+  void for_each(F&& f) const;
 };
 
 /// The fields common to types 7, 11 and 19. IBC is "xyz", one digit each.
@@ -157,20 +175,23 @@ struct Friction {
   Span span;
 };
 
-/// The contact interfaces of a deck. `ordered` points into the lists, so it can be moved, not
-/// copied.
+/// The contacts and ties of a deck. `ordered` and `all` point into the lists, so it can be moved,
+/// not copied.
 struct Interfaces {
   std::vector<InterType7> type7;
   std::vector<InterType10> type10;
   std::vector<InterType11> type11;
   std::vector<InterType19> type19;
+  std::vector<InterType2> type2;       ///< ties, in deck order; not in `ordered`
   std::vector<DefaultInter> defaults;  ///< honoured ones only, at most one of a type
   std::vector<Friction> frictions;
-  /// All interfaces in deck order.
+  /// All contacts in deck order.
   std::vector<const InterBase*> ordered;
-  /// The first with this id; nullptr: there is none.
+  /// The same with ties: all whose cards are read as values.
+  std::vector<const InterBase*> all;
+  /// The first with this id, contact or tie; nullptr: there is none.
   const InterBase* find(std::int64_t id) const {
-    for (const InterBase* inter : ordered)
+    for (const InterBase* inter : all)
       if (inter->id == id) return inter;
     return nullptr;
   }
@@ -185,7 +206,7 @@ struct Interfaces {
   Interfaces& operator=(const Interfaces&) = delete;
   ~Interfaces() = default;
 
-  /// Calls f(list) for the list of every interface type.
+  /// Calls f(list) for the list of every type of contact.
   template <class F>
   void each_list(F&& f) {
     f(type7), f(type10), f(type11), f(type19);

@@ -10,6 +10,39 @@ namespace deck {
 namespace detail {
 
 template <class Self, class F>
+requires std::is_same_v<std::remove_const_t<Self>, InterType2>
+void visit_fields(Self& s, F& f) {
+  f("grnd_IDs", s.grnd_IDs);
+  f("surf_IDm", s.surf_IDm);
+  f("Ignore", s.Ignore);
+  f("Spotflag", s.Spotflag);
+  f("Level", s.Level);
+  f("Isearch", s.Isearch);
+  f("Idel2", s.Idel2);
+  f("surf_IDs", s.surf_IDs);
+  f("dsearch", s.dsearch);
+  f("Rupt", s.Rupt);
+  f("Ifiltr", s.Ifiltr);
+  f("fct_IDsr", s.fct_IDsr);
+  f("fct_IDsn", s.fct_IDsn);
+  f("fct_IDst", s.fct_IDst);
+  f("Isym", s.Isym);
+  f("Max_N_Dist", s.Max_N_Dist);
+  f("Max_T_Dist", s.Max_T_Dist);
+  f("Fscalestress", s.Fscalestress);
+  f("Fscalestr_rate", s.Fscalestr_rate);
+  f("Fscaledist", s.Fscaledist);
+  f("Alpha", s.Alpha);
+  f("Area", s.Area);
+  f("Stfac", s.Stfac);
+  f("Visc", s.Visc);
+  f("Istf", s.Istf);
+  f("Ithe", s.Ithe);
+  f("Kthe", s.Kthe);
+  f("Iproj", s.Iproj);
+}
+
+template <class Self, class F>
 requires std::is_same_v<std::remove_const_t<Self>, InterType7>
 void visit_fields(Self& s, F& f) {
   f("grnd_IDs", s.grnd_IDs);
@@ -182,6 +215,14 @@ void visit_fields(Self& s, F& f) {
 }  // namespace detail
 
 template <class F>
+void InterType2::for_each(F&& f) {
+  detail::visit_fields(*this, f);
+}
+template <class F>
+void InterType2::for_each(F&& f) const {
+  detail::visit_fields(*this, f);
+}
+template <class F>
 void InterType7::for_each(F&& f) {
   detail::visit_fields(*this, f);
 }
@@ -214,7 +255,7 @@ void InterType19::for_each(F&& f) const {
   detail::visit_fields(*this, f);
 }
 
-/// Calls f(interface) with the interface as its own type; `base` must be an element of Interfaces.
+/// Calls f(contact) with the contact as its own type; `base` must be in Interfaces::ordered.
 template <class F>
 decltype(auto) visit_interface(const InterBase& base, F&& f) {
   if (base.type == InterType7::traits.type) return f(static_cast<const InterType7&>(base));
@@ -224,10 +265,17 @@ decltype(auto) visit_interface(const InterBase& base, F&& f) {
   throw std::logic_error("visit_interface: not an element of Interfaces");
 }
 
-/// Calls f(name, field) for every field of an interface of whatever type.
+/// The same for contacts and ties: an element of Interfaces::all.
+template <class F>
+decltype(auto) visit_any_interface(const InterBase& base, F&& f) {
+  if (base.type == InterType2::traits.type) return f(static_cast<const InterType2&>(base));
+  return visit_interface(base, std::forward<F>(f));
+}
+
+/// Calls f(name, field) for every field of a contact or tie of whatever type.
 template <class F>
 void for_each_field(const InterBase& base, F&& f) {
-  visit_interface(base, [&](const auto& inter) { inter.for_each(f); });
+  visit_any_interface(base, [&](const auto& inter) { inter.for_each(f); });
 }
 
 }  // namespace deck

@@ -239,7 +239,7 @@ struct ModelData {
   bool two_dimensional = false;  ///< /ANALY N2D != 0
   bool implicit = false;
   bool has_monitored_volume = false, has_ale = false, has_sol2sph = false,
-       has_adaptive_mesh = false;
+       has_adaptive_mesh = false, has_acoustics = false;
   bool has_thermal_material = false;
   double random_noise = 0;  ///< /RANDOM amplitude, working units
   bool has_random = false;

@@ -75,8 +75,8 @@ Diagnostic finding_of(RuleId id, Span span, std::string message, Case particular
 
 /// The rules of a gate: bounds that a team sets. Whatever --fail-on says, a finding of these ends
 /// with 1, and none of them is an error of the deck.
-inline constexpr RuleId gate_rules[] = {RuleId::DK370, RuleId::DK371, RuleId::DK372,
-                                        RuleId::DK373, RuleId::DK374, RuleId::DK375};
+inline constexpr RuleId gate_rules[] = {RuleId::DK370, RuleId::DK371, RuleId::DK372, RuleId::DK373,
+                                        RuleId::DK374, RuleId::DK375, RuleId::DK376};
 constexpr bool is_gate_rule(RuleId rule) {
   for (const RuleId gate : gate_rules)
     if (gate == rule) return true;

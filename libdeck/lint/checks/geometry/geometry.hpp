@@ -15,6 +15,7 @@ struct GeometryRun {
   Reporter& reporter;
   const Scene& scene;
   const SceneView& view;
+  const std::vector<Tie>& ties;  ///< of the scene, or found beside it
   int threads = 1;
   /// Takes contacts that are too large for a quick look; nullptr: those are findings.
   std::vector<NotChecked>* left_out = nullptr;
@@ -47,6 +48,7 @@ void check_segments(const GeometryRun& run);         // segments.cpp
 void check_gaps(const GeometryRun& run);             // gaps.cpp
 void check_manual_geometry(const GeometryRun& run);  // manual.cpp
 void check_tables(const GeometryRun& run);           // tables.cpp
+void check_ties(const GeometryRun& run);             // ties.cpp
 /// Also gives the forces that it evaluated.
 cycle::SceneOutcome check_cycle(const GeometryRun& run);
 

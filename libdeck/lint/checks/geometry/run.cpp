@@ -68,8 +68,12 @@ std::uint64_t edges_of(Selections& selections, std::int64_t id) {
 /// Members of the sides of an interface.
 std::uint64_t members_of(Selections& selections, const InterBase& inter) {
   std::uint64_t out = 0;
-  visit_interface(inter, [&](const auto& i) {
-    if constexpr (requires { i.line_IDs; })
+  visit_any_interface(inter, [&](const auto& i) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(i)>, InterType2>) {
+      const NodeSet* group = selections.node_group(i.grnd_IDs.value);
+      out = segments_of(selections, i.surf_IDm.value) + segments_of(selections, i.surf_IDs.value) +
+            (group ? group->nodes.size() : 0);
+    } else if constexpr (requires { i.line_IDs; })
       out = edges_of(selections, i.line_IDs.value) + edges_of(selections, i.line_IDm.value);
     else if constexpr (requires { i.surf_IDs; })  // both ways round, and edges
       out = 4 *
@@ -89,7 +93,7 @@ std::uint64_t items_of(const LintContext& context) {
   for (const Elements* e :
        {&m.shell4, &m.shell3, &m.solid8, &m.quad, &m.tria, &m.truss, &m.beam, &m.spring})
     out += e->size();
-  for (const InterBase* inter : context.interfaces->ordered)
+  for (const InterBase* inter : context.interfaces->all)
     out += members_of(*context.selections, *inter);
   return out;
 }
@@ -106,7 +110,7 @@ NotChecked too_many_pairs(const std::string& contact, std::string_view what) {
 std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& reporter,
                                        const GeometryOptions& chosen) {
   std::vector<NotChecked> left_out;
-  if (context.loaded == nullptr || context.interfaces->ordered.empty()) return left_out;
+  if (context.loaded == nullptr || context.interfaces->all.empty()) return left_out;
   if (const std::uint64_t items = chosen.quick ? detail::items_of(context) : 0;
       chosen.quick && items > chosen.quick->items)
     return {{std::string(geometry_rules),
@@ -119,6 +123,7 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
     SceneOptions options = context.loaded->scene_options();
     options.limits.pair_bytes = std::min(options.limits.pair_bytes, chosen.quick->pair_bytes);
     options.candidates = false;
+    options.ties = true;
     smaller = context.loaded->scene_with(options, of_quick);
   }
   const Scene& scene = smaller ? *smaller : context.loaded->scene();
@@ -142,13 +147,20 @@ std::vector<NotChecked> check_geometry(const LintContext& context, Reporter& rep
   const std::vector<Crossing> crossings = find_crossings(scene, threads);
   const SceneView view = make_view(scene, &crossings, threads);
   if (chosen.seen) chosen.seen(scene, view);
-  const detail::GeometryRun run{context, reporter, scene,
-                                view,    threads,  chosen.quick ? &left_out : nullptr};
+  const bool with_ties = scene.examined == Examined::contacts_and_ties;
+  const detail::GeometryRun run{context,
+                                reporter,
+                                scene,
+                                view,
+                                with_ties ? scene.ties : context.loaded->ties(),
+                                threads,
+                                chosen.quick ? &left_out : nullptr};
   detail::check_penetrations(run);
   detail::check_gaps(run);
   detail::check_segments(run);
   detail::check_manual_geometry(run);
   detail::check_tables(run);
+  detail::check_ties(run);
   const cycle::SceneOutcome forces = detail::check_cycle(run);
   if (chosen.gate == nullptr) return left_out;
   for (const Diagnostic& d : check_gate(*chosen.gate, scene, view, &forces, chosen.earlier))

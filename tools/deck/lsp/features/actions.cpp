@@ -299,7 +299,7 @@ Answer code_lenses(const View& view, const Json&) {
         block.header_span.file != view.file)
       continue;
     const InterBase* inter = view.interface_of(block);
-    if (inter == nullptr) continue;
+    if (inter == nullptr || traits_of(inter->type) == nullptr) continue;  // ties have no report
     const Geometry::Interface* g =
         view.open.geometry == nullptr ? nullptr : view.open.geometry->find(inter->id, inter->type);
     const Json range = view.range(block.header_span);

@@ -29,7 +29,7 @@ EffectiveValue effective(const View& view, const Block& block, std::string_view 
   const Semantics& s = *view.semantics();
   const ParamsInput params{s.deck->sources[0].path(), s.deck.get(), s.model.get(), &s.interfaces,
                            nullptr};
-  visit_interface(*inter, [&](const auto& typed) {
+  visit_any_interface(*inter, [&](const auto& typed) {
     typed.for_each([&](std::string_view name, const auto& e) {
       if (name != value_name(field)) return;
       out.known = true;

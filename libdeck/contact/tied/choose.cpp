@@ -1,0 +1,304 @@
+// Which segment each secondary node of a tie gets, and what becomes of the node.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "base/parallel.hpp"
+#include "contact/tied/parts.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr double beyond = 1.5;  // largest |s|, |t| that a search with Ignore 1 to 3 accepts
+
+/// How far nodes look for a segment.
+class Reach {
+ public:
+  Reach(SceneContext& context, TieThickness& thickness, const Tie& tie)
+      : x_(context.scene.coordinates), tie_(tie) {
+    if (tie.search_distance != 0) return;
+    const bool solids = tie.ignore == 2;
+    std::vector<NodeIndex> nodes;
+    for (const TiedNode& n : tie.nodes) {
+      nodes.push_back(n.node);
+      at_node_.push_back(thickness.of_node(n.node));
+      range_at_node_.push_back(thickness.range_at(n.node));
+    }
+    double thickest = 0, longest = 0;
+    for (const Corners& c : tie.main) {
+      of_segment_.push_back(thickness.of_segment(c, solids));
+      thickest = std::max(thickest, of_segment_.back());
+      longest = std::max(longest, distance(x_, c[0], c[2]));
+    }
+    largest_ = thickness.largest_at(nodes);
+    if (tie.ignore < 4) return;
+    stored_ = tie.inter->dsearch.value;
+    if (stored_ == 0)
+      stored_ = std::max(0.05 * longest, static_cast<double>(0.6F) * (thickest + largest_));
+  }
+
+  bool per_pair() const { return tie_.search_distance == 0; }
+  double of_pair(std::size_t node, std::size_t segment) const {
+    if (!per_pair()) return tie_.search_distance;
+    return std::max(of_diagonals(segment), 0.6 * (at_node_[node] + of_segment_[segment]));
+  }
+  /// The same, had the solver taken the thinnest or the thickest shell at the node.
+  std::pair<double, double> range_of_pair(std::size_t node, std::size_t segment) const {
+    if (!per_pair()) return {tie_.search_distance, tie_.search_distance};
+    const auto [least, most] = range_at_node_[node];
+    const auto with = [&](double t) {
+      return std::max(of_diagonals(segment), 0.6 * (t + of_segment_[segment]));
+    };
+    return {with(least), with(most)};
+  }
+  /// Bounds whose sum no reach of a pair exceeds.
+  double share_of_node(std::size_t node) const { return per_pair() ? 0.6 * at_node_[node] : 0; }
+  double share_of_segment(std::size_t segment) const {
+    return per_pair() ? std::max(of_diagonals(segment), 0.6 * of_segment_[segment])
+                      : tie_.search_distance;
+  }
+  /// What the box of a segment is widened by.
+  double widening(std::size_t segment) const {
+    const Corners& c = tie_.main[segment];
+    const double longer = std::max(distance(x_, c[0], c[2]), distance(x_, c[1], c[3]));
+    if (!per_pair()) return tie_.search_distance;
+    if (tie_.ignore >= 4) return std::max(stored_, longer);
+    return std::max(0.05 * longer, 0.6 * (of_segment_[segment] + largest_));
+  }
+  /// The distance that the solver stores for a pair is measured from this one.
+  double stored(double of_pair) const { return tie_.ignore >= 4 ? stored_ : of_pair; }
+
+ private:
+  double of_diagonals(std::size_t segment) const {
+    const Corners& c = tie_.main[segment];
+    return 0.05 * std::min(distance(x_, c[0], c[2]), distance(x_, c[1], c[3]));
+  }
+  const Coordinates& x_;
+  const Tie& tie_;
+  std::vector<double> at_node_, of_segment_;
+  std::vector<std::pair<double, double>> range_at_node_;
+  double largest_ = 0, stored_ = 0;
+};
+
+struct SegmentBox {
+  Vec low, high;
+  bool holds(const Vec& p, double wider) const {
+    return p.x >= low.x - wider && p.x <= high.x + wider && p.y >= low.y - wider &&
+           p.y <= high.y + wider && p.z >= low.z - wider && p.z <= high.z + wider;
+  }
+};
+
+SegmentBox box_of(const Coordinates& x, const Corners& c) {
+  SegmentBox b{at(x, c[0]), at(x, c[0])};
+  for (const NodeIndex n : c) {
+    const Vec p = at(x, n);
+    b.low = {std::min(b.low.x, p.x), std::min(b.low.y, p.y), std::min(b.low.z, p.z)};
+    b.high = {std::max(b.high.x, p.x), std::max(b.high.y, p.y), std::max(b.high.z, p.z)};
+  }
+  return b;
+}
+
+/// A sub-triangle has so little area that the solver's distance may be less than the true one.
+bool collapsed(const Coordinates& x, const Corners& c) {
+  const Vec centre = 0.25 * (at(x, c[0]) + at(x, c[1]) + at(x, c[2]) + at(x, c[3]));
+  const auto thin = [](const Vec& a, const Vec& b, const Vec& d) {
+    const double longest = std::max({norm(b - a), norm(d - a), norm(d - b)});
+    constexpr double share = 1e-6;  // of a right angle's area: far above what rounding reaches
+    return norm(cross(b - a, d - a)) <= share * longest * longest;
+  };
+  if (is_triangle(c)) return thin(at(x, c[2]), at(x, c[0]), at(x, c[1]));
+  for (std::size_t k = 0; k < 4; ++k)
+    if (thin(centre, at(x, c[k]), at(x, c[(k + 1) % 4]))) return true;
+  return false;
+}
+
+/// Every node in the widened boxes of collapsed segments.
+void add_pairs_by_box(const Coordinates& x, const Tie& tie, const Reach& reach,
+                      std::vector<CandidatePair>& pairs) {
+  std::vector<std::pair<double, std::uint32_t>> along;
+  for (std::uint32_t m = 0; m < tie.main.size(); ++m) {
+    if (!collapsed(x, tie.main[m])) continue;
+    if (along.empty()) {
+      for (std::uint32_t i = 0; i < tie.nodes.size(); ++i)
+        along.emplace_back(x.x[tie.nodes[i].node], i);
+      std::sort(along.begin(), along.end());
+    }
+    const SegmentBox box = box_of(x, tie.main[m]);
+    const double wider = reach.widening(m);
+    for (auto it = std::lower_bound(along.begin(), along.end(), std::pair(box.low.x - wider, 0U));
+         it != along.end() && it->first <= box.high.x + wider; ++it) {
+      const NodeIndex node = tie.nodes[it->second].node;
+      if (std::find(tie.main[m].begin(), tie.main[m].end(), node) != tie.main[m].end()) continue;
+      if (box.holds(at(x, node), wider)) pairs.push_back({it->second, m});
+    }
+  }
+}
+
+/// Pairs that may be within reach, by node, then segment. False: there are too many.
+bool candidates(SceneContext& c, const Tie& tie, const Reach& reach,
+                std::vector<CandidatePair>& out) {
+  const Coordinates& x = c.scene.coordinates;
+  std::vector<std::uint32_t> nodes;
+  std::vector<double> of_nodes, of_segments;
+  double farthest = 0;
+  for (std::size_t i = 0; i < tie.nodes.size(); ++i) {
+    const NodeIndex n = tie.nodes[i].node;
+    nodes.push_back(n);
+    of_nodes.push_back(reach.share_of_node(i));
+    farthest = std::max({farthest, std::fabs(x.x[n]), std::fabs(x.y[n]), std::fabs(x.z[n])});
+  }
+  for (std::size_t m = 0; m < tie.main.size(); ++m)
+    of_segments.push_back(reach.share_of_segment(m));
+  SearchOptions options;
+  options.gap.rule = GapRule::sum;
+  options.form = Form::robust;
+  options.threads = c.options.threads;
+  // The distances of both sides are rounded; what is wrongly taken is judged again.
+  options.margin = 1e-12 * farthest;
+  options.max_pairs = c.options.limits.pair_bytes / sizeof(CandidatePair);
+  const NodeSegmentInput input{{x.x, x.y, x.z}, nodes,       of_nodes, {}, {},
+                               tie.main,        of_segments, {},       {}};
+  SearchResult found = find_node_segment_pairs(input, options);
+  if (!found.complete) return false;
+  out = std::move(found.pairs);
+  add_pairs_by_box(x, tie, reach, out);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return true;
+}
+
+/// How good a place on a segment is, where two segments are equally far.
+struct Rank {
+  bool inside = true;
+  double off_centre = 0;
+};
+
+Rank rank_by_weights(const Projection& p, bool triangle) {
+  if (!triangle) return {std::fabs(p.s) <= 1 && std::fabs(p.t) <= 1, p.s * p.s + p.t * p.t};
+  constexpr double third = 1.0 / 3;
+  return {p.s >= 0 && p.t >= 0 && 1 - p.s - p.t >= 0,
+          (p.s - third) * (p.s - third) + (p.t - third) * (p.t - third)};
+}
+
+double largest_place(const Projection& p) { return std::max(std::fabs(p.s), std::fabs(p.t)); }
+
+/// True if `a` replaces `b`, which is equally far and came earlier.
+bool replaces(const Projection& a, bool a_triangle, const Projection& b, bool b_triangle,
+              bool weights) {
+  if (!weights || (!a_triangle && !b_triangle)) return largest_place(a) < largest_place(b);
+  const Rank mine = rank_by_weights(a, a_triangle), other = rank_by_weights(b, b_triangle);
+  if (mine.inside != other.inside) return mine.inside;
+  return mine.off_centre < other.off_centre;
+}
+
+void choose(const Coordinates& x, const Tie& tie, const Reach& reach,
+            std::span<const CandidatePair> pairs, TiedNode& out) {
+  const bool bounded = tie.ignore >= 1 && tie.ignore <= 3;
+  const bool weights = tie.spotflag == 27;
+  Projection best;
+  for (const CandidatePair& pair : pairs) {
+    const Corners& corners = tie.main[pair.main];
+    const bool in_box = box_of(x, corners).holds(at(x, out.node), reach.widening(pair.main));
+    const double within = reach.of_pair(pair.secondary, pair.main);
+    const Projection p = project(x, out.node, corners, within, weights);
+    if (!(p.depth > 0)) continue;
+    if (bounded && !(std::fabs(p.s) < beyond && std::fabs(p.t) < beyond)) continue;
+    if (!in_box) {
+      out.missed = true;  // unless another segment is found
+      continue;
+    }
+    const double stored = reach.stored(within) - p.depth;
+    if (out.segment != no_index) {
+      if (stored > out.distance) continue;
+      if (stored == out.distance &&
+          !replaces(p, is_triangle(corners), best, is_triangle(tie.main[out.segment]), weights))
+        continue;
+    }
+    best = p;
+    out.segment = pair.main;
+    out.s = p.s;
+    out.t = p.t;
+    out.distance = stored;
+    out.search = within;
+  }
+  if (out.segment != no_index) out.missed = false;
+}
+
+/// For the reader, not the solver: what is nearest to nodes that found nothing, and what hangs on
+/// the shell that gives a node its thickness.
+void explain(const Reach& reach, const NearestSegments* nearest, std::size_t i, TiedNode& n) {
+  if (n.segment == no_index && nearest != nullptr) {
+    const NearestSegments::Found found = nearest->of(n.node);
+    n.nearest = found.segment;
+    n.nearest_distance = found.distance;
+    if (found.segment != no_index) n.search = reach.of_pair(i, found.segment);
+  }
+  const std::uint32_t segment = n.segment != no_index ? n.segment : n.nearest;
+  if (segment != no_index)
+    std::tie(n.least_search, n.most_search) = reach.range_of_pair(i, segment);
+}
+
+/// What becomes of a node: the first rule that applies.
+void classify(const Tie& tie, TiedNode& n) {
+  const int f = tie.spotflag;
+  if (n.segment == no_index) {
+    n.message = tie.ignore == 0                                    ? 1078
+                : tie.ignore < 0                                   ? 1079
+                : tie.ignore >= 2 && tie.inter->dsearch.value == 0 ? 1071
+                                                                   : 1157;
+    return;
+  }
+  const bool triangle = is_triangle(tie.main[n.segment]);
+  const double off = std::max(std::fabs(n.s), std::fabs(n.t));
+  const auto outside_by = [&](double share) {
+    return n.s < -share || n.t < -share || n.s + n.t > 1 + share;
+  };
+  n.tied = true;
+  if (f == 27 && triangle) {
+    if (outside_by(0.25)) {
+      n.message = 1872;
+      n.tied = false;
+    } else if (outside_by(0.01)) {
+      n.message = 1873;
+    }
+  } else if (off > 1.5 && f >= 25 && f <= 28) {
+    n.message = 1158;
+    n.tied = false;
+  } else if (off > 1.02) {
+    n.message = 1079;
+  }
+}
+
+}  // namespace
+
+void search_ties(SceneContext& c, TieThickness& thickness, Tie& tie) {
+  const Reach reach(c, thickness, tie);
+  std::vector<CandidatePair> pairs;
+  if (!candidates(c, tie, reach, pairs)) {
+    tie.not_evaluated = "too many pairs of nodes and segments are within its search distance";
+    return;
+  }
+  const Coordinates& x = c.scene.coordinates;
+  const int threads = effective_threads(c.options.threads);
+  parallel_parts(threads, tie.nodes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    auto next = std::lower_bound(pairs.begin(), pairs.end(),
+                                 CandidatePair{static_cast<std::uint32_t>(begin), 0});
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto first = next;
+      while (next != pairs.end() && next->secondary == i) ++next;
+      choose(x, tie, reach, {first, next}, tie.nodes[i]);
+      classify(tie, tie.nodes[i]);
+    }
+  });
+  std::optional<NearestSegments> nearest;
+  if (std::any_of(tie.nodes.begin(), tie.nodes.end(),
+                  [](const TiedNode& n) { return n.segment == no_index; }))
+    nearest.emplace(x, tie.main);
+  parallel_parts(threads, tie.nodes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      explain(reach, nearest ? &*nearest : nullptr, i, tie.nodes[i]);
+  });
+}
+
+}  // namespace deck::detail

@@ -1,0 +1,127 @@
+// Distance of a node from a main segment of a tie, with the solver's own choice of cases: it
+// decides which nodes are tied, also where it is not the true distance.
+#include <algorithm>
+#include <cmath>
+
+#include "contact/tied/parts.hpp"
+
+namespace deck::detail {
+namespace {
+
+constexpr double smallest = 1e-20;  // the solver's guard against division by zero
+
+struct EdgeFoot {
+  double at = 0;  ///< from the first end (0) to the second (1)
+  double distance = 0;
+};
+
+EdgeFoot foot_on_edge(const Vec& p, const Vec& u, const Vec& v) {
+  const Vec along = v - u;
+  const double a = std::clamp(dot(p - u, along) / std::max(smallest, dot(along, along)), 0.0, 1.0);
+  // The foot as a point of the model: its rounding decides between segments that share the edge.
+  const Vec foot = u + a * along;
+  return {a, norm(p - foot)};
+}
+
+/// One sub-triangle with apex a: distance and the weights of b and c.
+struct Part {
+  double distance = 0, beta = 0, gamma = 0;
+};
+
+Part project_on_part(const Vec& p, const Vec& a, const Vec& b, const Vec& c, bool quad) {
+  Vec n = cross(b - a, c - a);
+  const double size = std::max(smallest, norm(n));
+  n = {n.x / size, n.y / size, n.z / size};
+  const double height = dot(n, p - a);
+  const Vec foot = p - height * n;
+  Part out;
+  out.beta = dot(n, cross(c - foot, a - foot)) / size;
+  out.gamma = dot(n, cross(a - foot, b - foot)) / size;
+  const double alpha = 1 - out.beta - out.gamma;
+  if (alpha < 0) {
+    out.distance = foot_on_edge(p, b, c).distance;
+  } else if (out.beta < 0) {
+    const EdgeFoot e = foot_on_edge(p, c, a);
+    out.distance = e.distance;
+    if (quad) {
+      out.beta = 0;
+      out.gamma = 1 - e.at;
+    }
+  } else if (out.gamma < 0) {
+    const EdgeFoot e = foot_on_edge(p, a, b);
+    out.distance = e.distance;
+    if (quad) {
+      out.beta = e.at;
+      out.gamma = 0;
+    }
+  } else {
+    out.distance = std::fabs(height);
+  }
+  return out;
+}
+
+Projection on_triangle(const Vec& p, const std::array<Vec, 4>& x, double reach, bool weights) {
+  const Part part = project_on_part(p, x[2], x[0], x[1], false);
+  Projection out;
+  out.depth = std::max(0.0, reach - part.distance);
+  if (weights) {
+    out.s = part.beta;
+    out.t = part.gamma;
+    return out;
+  }
+  constexpr double near_corner = 1e-10;
+  out.t = 1 - 2 * part.beta - 2 * part.gamma;
+  if (out.t < 1 - near_corner)
+    out.s = (part.gamma - part.beta) / (part.gamma + part.beta);
+  else if (part.beta < -near_corner)
+    out.s = 2;
+  else if (part.gamma < -near_corner)
+    out.s = -2;
+  return out;
+}
+
+Projection on_quad(const Vec& p, const std::array<Vec, 4>& x, double reach) {
+  const Vec centre = 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  Projection out;
+  bool first = true;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Part part = project_on_part(p, centre, x[k], x[(k + 1) % 4], true);
+    const double depth = std::max(0.0, reach - part.distance);
+    if (!first && depth <= out.depth) continue;
+    first = false;
+    out.depth = depth;
+    const double b = part.beta, c = part.gamma;
+    const std::array<double, 2> place[] = {
+        {c - b, -b - c}, {b + c, c - b}, {b - c, b + c}, {-b - c, b - c}};
+    out.s = place[k][0];
+    out.t = place[k][1];
+  }
+  return out;
+}
+
+std::array<Vec, 4> corners_of(const Coordinates& x, const Corners& c) {
+  return {at(x, c[0]), at(x, c[1]), at(x, c[2]), at(x, c[3])};
+}
+
+}  // namespace
+
+double distance_from(const Coordinates& x, NodeIndex node, const Corners& segment) {
+  const std::array<Vec, 4> c = corners_of(x, segment);
+  const Vec p = at(x, node);
+  if (is_triangle(segment)) return project_on_part(p, c[2], c[0], c[1], false).distance;
+  const Vec centre = 0.25 * (c[0] + c[1] + c[2] + c[3]);
+  double least = project_on_part(p, centre, c[0], c[1], true).distance;
+  for (std::size_t k = 1; k < 4; ++k)
+    least = std::min(least, project_on_part(p, centre, c[k], c[(k + 1) % 4], true).distance);
+  return least;
+}
+
+Projection project(const Coordinates& x, NodeIndex node, const Corners& segment, double reach,
+                   bool weights) {
+  const std::array<Vec, 4> corners = corners_of(x, segment);
+  const Vec p = at(x, node);
+  return is_triangle(segment) ? on_triangle(p, corners, reach, weights)
+                              : on_quad(p, corners, reach);
+}
+
+}  // namespace deck::detail

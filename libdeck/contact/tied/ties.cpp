@@ -1,0 +1,131 @@
+// The ties of a scene: sides of every /INTER/TYPE2, search distance, and the steps in their order.
+#include "deck/contact/ties.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/tied/parts.hpp"
+#include "deck/text/rule.hpp"
+
+namespace deck::detail {
+namespace {
+
+bool is_penalty(int spotflag) { return spotflag >= 25 && spotflag <= 28; }
+
+/// The segments of a surface as the solver turns them.
+std::vector<Corners> segments_of(SceneContext& c, std::int64_t surface) {
+  std::vector<Corners> out;
+  const auto outline = c.model.selections->outline(surface);
+  if (!outline) return out;
+  Contact room;
+  room.type = 2;
+  make_main_segments(c, outline->segments, room);
+  for (const MainSegment& m : room.main) out.push_back(m.nodes);
+  return out;
+}
+
+/// Root of the mean square of all edges; a triangle has a fourth one of length 0.
+double mean_edge(const Coordinates& x, const std::vector<Corners>& segments) {
+  double sum = 0;
+  const auto square = [&](NodeIndex a, NodeIndex b) {
+    const Vec d = at(x, b) - at(x, a);
+    return dot(d, d);
+  };
+  for (const Corners& c : segments)
+    sum += square(c[0], c[1]) + square(c[0], c[3]) + square(c[1], c[2]) + square(c[2], c[3]);
+  return segments.empty() ? 0 : std::sqrt(sum / (4.0 * static_cast<double>(segments.size())));
+}
+
+void set_sides(SceneContext& c, Tie& tie) {
+  const InterType2& i = *tie.inter;
+  // A surface that is not there leaves the group of nodes in force (1725).
+  if (is_penalty(tie.spotflag) && c.model.selections->outline(i.surf_IDs.value)) {
+    join_surfaces(c.scene.coordinates, i.dsearch.value, segments_of(c, i.surf_IDm.value),
+                  segments_of(c, i.surf_IDs.value), tie);
+    return;
+  }
+  tie.main = segments_of(c, i.surf_IDm.value);
+  const NodeSet* group = c.model.selections->node_group(i.grnd_IDs.value);
+  if (group == nullptr) return;
+  for (const NodeIndex n : group->nodes)
+    if (n != no_index) tie.nodes.push_back({n});
+  const auto& ids = c.model.nodes.id;
+  const auto id = [&](const TiedNode& n) { return ids[n.node]; };
+  std::sort(tie.nodes.begin(), tie.nodes.end(),
+            [&](const TiedNode& a, const TiedNode& b) { return id(a) < id(b); });
+  tie.nodes.erase(
+      std::unique(tie.nodes.begin(), tie.nodes.end(),
+                  [](const TiedNode& a, const TiedNode& b) { return a.node == b.node; }),
+      tie.nodes.end());
+}
+
+bool finite(const Coordinates& x, NodeIndex n) {
+  return std::isfinite(x.x[n]) && std::isfinite(x.y[n]) && std::isfinite(x.z[n]);
+}
+
+/// Why nothing can be looked for; empty: it can.
+std::string hindrance(SceneContext& c, const Tie& tie) {
+  if (!c.model.selections->complete()) return "members of its sides were left out";
+  if (c.model.two_dimensional) return "the deck is two-dimensional";
+  if (tie.inter->Isearch.value != 1 && tie.inter->Isearch.value != 2)
+    return "Isearch is neither 1 nor 2";
+  const Coordinates& x = c.scene.coordinates;
+  for (const TiedNode& n : tie.nodes)
+    if (!finite(x, n.node)) return "a secondary node has a coordinate that is no finite number";
+  for (const Corners& s : tie.main)
+    for (const NodeIndex n : s)
+      if (!finite(x, n)) return "a main node has a coordinate that is no finite number";
+  return {};
+}
+
+Tie find_tie(SceneContext& c, TieThickness& thickness, const InterType2& inter) {
+  Tie tie;
+  tie.inter = &inter;
+  tie.spotflag = inter.Spotflag.value == 5 ? 0 : static_cast<int>(inter.Spotflag.value);
+  tie.ignore = inter.Ignore.value == 1000 ? 0 : static_cast<int>(inter.Ignore.value);
+  set_sides(c, tie);
+  tie.not_evaluated = hindrance(c, tie);
+  if (!tie.not_evaluated.empty()) return tie;
+  if (inter.Isearch.value == 1) {
+    search_ties_by_nearest_node(c.model, c.scene.coordinates, tie);
+  } else {
+    const double d = inter.dsearch.value;
+    const bool of_pairs = tie.ignore >= 4 || (tie.ignore >= 2 && d == 0);
+    if (!of_pairs) tie.search_distance = d != 0 ? d : mean_edge(c.scene.coordinates, tie.main);
+    search_ties(c, thickness, tie);
+  }
+  for (TiedNode& n : tie.nodes) n.penalty = n.tied && (tie.spotflag == 25 || tie.spotflag == 26);
+  return tie;
+}
+
+}  // namespace
+
+std::vector<Tie> find_ties(SceneContext& c) {
+  std::vector<Tie> out;
+  if (c.scene.interfaces->type2.empty()) return out;
+  TieThickness thickness(c);
+  for (const InterType2& inter : c.scene.interfaces->type2)
+    out.push_back(find_tie(c, thickness, inter));
+  settle_ties(c, out);
+  // Only now: ties that nobody asked for act on the others.
+  const std::vector<std::int64_t>& only = c.options.only;
+  if (!only.empty())
+    std::erase_if(out, [&](const Tie& tie) {
+      return std::find(only.begin(), only.end(), tie.inter->id) == only.end();
+    });
+  return out;
+}
+
+std::vector<Tie> find_ties(const Scene& scene, const SceneOptions& options) {
+  if (scene.interfaces->type2.empty()) return {};
+  Scene room;
+  room.model = scene.model;
+  room.interfaces = scene.interfaces;
+  room.coordinates = scene.coordinates;
+  Connectivity connectivity(*scene.model);
+  Diagnostics known;  // of the sides: the references of the cards are checked elsewhere
+  SceneContext context{*scene.model, connectivity, room, known, options};
+  return find_ties(context);
+}
+
+}  // namespace deck::detail

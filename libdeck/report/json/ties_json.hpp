@@ -1,0 +1,11 @@
+// The member "ties" of deck/gaps documents.
+#pragma once
+#include "deck/contact/scene.hpp"
+#include "deck/report/json.hpp"
+
+namespace deck::detail {
+
+/// `all`: every secondary node; else those that are not tied, or tied from outside their segment.
+void write_ties(JsonWriter& json, const Scene& scene, bool all);
+
+}  // namespace deck::detail

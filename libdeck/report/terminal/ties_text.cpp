@@ -1,0 +1,107 @@
+// Tables of ties and of their untied nodes on the terminal.
+#include "report/terminal/ties_text.hpp"
+
+#include <algorithm>
+
+#include "contact/scene/element_names.hpp"
+#include "deck/contact/tie_text.hpp"
+#include "deck/model/connectivity.hpp"
+#include "model/item_spans.hpp"
+#include "report/terminal/words.hpp"
+
+namespace deck::detail {
+namespace {
+
+std::string segment_text(const Model& model, const Tie& tie, std::uint32_t segment) {
+  if (segment == no_index) return "-";
+  const auto& c = tie.main[segment];
+  std::string out;
+  for (std::size_t k = 0; k < (c[2] == c[3] ? 3U : 4U); ++k)
+    out += fmt::format("{}{}", k == 0 ? "" : " ", model.node_id(c[k]));
+  return out;
+}
+
+std::string what_happens(const Tie& tie, const TieCounts& n) {
+  if (!tie.not_evaluated.empty()) return "not evaluated: " + tie.not_evaluated;
+  std::string out;
+  const auto add = [&](std::size_t of, const std::string& text) {
+    if (of > 0) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", of, text);
+  };
+  add(n.not_found, tie.ignore == 0 ? "not found: the solver stops" : "not found");
+  add(n.dropped, "dropped");
+  add(n.elsewhere, "held elsewhere");
+  add(n.outside, "tied beyond a rim");
+  add(tie.main_and_tied.size(), "main nodes tied: the solver stops");
+  return out.empty() ? "-" : out;
+}
+
+struct Untied {
+  const Tie* tie;
+  const TiedNode* node;
+};
+
+std::vector<Untied> untied_of(const Scene& scene) {
+  std::vector<Untied> out;
+  for (const Tie& tie : scene.ties)
+    for (const TiedNode& n : tie.nodes)
+      if (tie.not_evaluated.empty() && n.lost()) out.push_back({&tie, &n});
+  return out;
+}
+
+}  // namespace
+
+std::string tie_table(const Scene& scene, const GapsTextOptions& options) {
+  TextTable table = make_table({">id", "type", "title", ">nodes", ">tied", ">not tied",
+                                ">search distance", ">farthest", "what happens"});
+  std::vector<std::int64_t> clean;
+  for (const Tie& tie : scene.ties) {
+    const TieCounts n = count_ties(tie);
+    const std::string happens = what_happens(tie, n);
+    if (!options.verbose && happens == "-" && n.nodes > 0) {
+      clean.push_back(tie.inter->id);
+      continue;
+    }
+    double farthest = 0;
+    for (const TiedNode& node : tie.nodes)
+      if (node.tied) farthest = std::max(farthest, node.distance);
+    table.row({fmt::format("{}", tie.inter->id), "TYPE2", tie.inter->title,
+               fmt::format("{}", n.nodes), fmt::format("{}", n.tied), fmt::format("{}", n.lost()),
+               tie.search_distance != 0 ? fmt::format("{:.6g}", tie.search_distance) : "by pair",
+               n.tied > 0 ? fmt::format("{:.6g}", farthest) : "-", happens});
+  }
+  std::string out;
+  if (table.size() > 0) out = table.fitted(options.width, options.color, 2);
+  return out + folded_ids(clean, "tie that holds", "ties that hold");
+}
+
+std::string untied_text(const Deck& deck, const Scene& scene, const GapsTextOptions& options) {
+  const Model& model = *scene.model;
+  const std::vector<Untied> all = untied_of(scene);
+  const std::size_t rows = std::min(options.worst, all.size());
+  TextTable table = make_table({">interface", ">node", ">part", "nearest segment", ">distance",
+                                ">search distance", "why", "defined at"});
+  std::vector<NodeIndex> nodes;
+  for (std::size_t i = 0; i < rows; ++i) nodes.push_back(all[i].node->node);
+  const std::vector<Span> spans = node_spans(model, nodes);
+  Connectivity connectivity(model);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const Tie& tie = *all[i].tie;
+    const TiedNode& n = *all[i].node;
+    const bool found = n.segment != no_index;
+    const std::uint32_t segment = found ? n.segment : n.nearest;
+    const double distance = found ? n.distance : n.nearest_distance;
+    const double search = n.search != 0 ? n.search : tie.search_distance;
+    const std::int64_t part = element_at(model, connectivity, n.node).part;
+    table.row({fmt::format("{}", tie.inter->id), fmt::format("{}", model.node_id(n.node)),
+               part == 0 ? "-" : fmt::format("{}", part), segment_text(model, tie, segment),
+               segment == no_index ? "-" : fmt::format("{:.6g}", distance),
+               search == 0 ? "-" : fmt::format("{:.6g}", search), short_reason(tie, n),
+               deck.sources.where(spans[i])});
+  }
+  std::string out = rows == 0 ? std::string() : table.fitted(options.width, options.color, 2, 1);
+  if (rows < all.size())
+    out += fmt::format("  … and {} more (--worst N, --json)\n", all.size() - rows);
+  return out;
+}
+
+}  // namespace deck::detail
